@@ -1,0 +1,32 @@
+// Preconditioned conjugate gradients for an operator given as a function.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+/// y = A x for a symmetric operator; must not keep references to its arguments.
+using LinearOperator = std::function<void(std::span<const double> x, std::span<double> y)>;
+
+struct CgResult {
+  int iterations = 0;
+  double residual = 0.0;  ///< |b - A x|_2, by recurrence
+  bool converged = false;
+};
+
+/// Conjugate gradients with a diagonal (Jacobi) preconditioner (Saad, Iterative Methods for Sparse Linear Systems,
+/// 2nd ed., algorithm 9.1). The work vectors are kept between calls: no allocation after the first.
+class ConjugateGradients {
+ public:
+  /// Solves A x = b from the start value in x until |b - A x|_2 <= max(absolute, relative |b|_2).
+  /// inverse_diagonal: 1 / diag(A). Breakdown (A not positive definite, NaN) returns converged = false.
+  CgResult solve(const LinearOperator& A, std::span<const double> inverse_diagonal, std::span<const double> b,
+                 std::span<double> x, double relative, double absolute, int max_iterations);
+
+ private:
+  std::vector<double> r_, z_, p_, Ap_;
+};
+
+}  // namespace carom

@@ -1,0 +1,22 @@
+// Largest eigenvalue of a symmetric operator by Lanczos iteration.
+#pragma once
+
+#include <cstddef>
+
+#include "linalg/conjugate_gradients.hpp"
+
+namespace carom {
+
+struct EigenvalueEstimate {
+  double value = 0.0;        ///< Ritz value: a lower bound of the largest eigenvalue
+  double upper = 0.0;        ///< Ritz value + residual norm: above the eigenvalue the iteration has found
+  int iterations = 0;
+};
+
+/// Largest eigenvalue of the symmetric positive semi-definite operator A of size n, by Lanczos iteration (Golub and Van
+/// Loan, Matrix Computations, 4th ed., section 10.1) from a fixed pseudo-random start vector, until the residual bound
+/// |beta_k s_k| is below `tolerance` times the value or max_iterations is reached. Same bits for any thread count.
+EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, std::size_t n, double tolerance = 1e-3,
+                                      int max_iterations = 300);
+
+}  // namespace carom

@@ -1,0 +1,23 @@
+#include "math/time_function.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace carom {
+
+double TimeFunction::operator()(double t) const {
+  const auto next = std::upper_bound(time.begin(), time.end(), t);
+  if (next == time.begin()) return value.front();
+  if (next == time.end()) return value.back();
+  const auto i = static_cast<std::size_t>(next - time.begin());
+  return value[i - 1] + (value[i] - value[i - 1]) * (t - time[i - 1]) / (time[i] - time[i - 1]);
+}
+
+double TimeFunction::derivative(double t) const {
+  const auto next = std::upper_bound(time.begin(), time.end(), t);
+  if (next == time.begin() || next == time.end()) return 0.0;
+  const auto i = static_cast<std::size_t>(next - time.begin());
+  return (value[i] - value[i - 1]) / (time[i] - time[i - 1]);
+}
+
+}  // namespace carom

@@ -1,0 +1,20 @@
+// Functions of time for loads and imposed motions.
+#pragma once
+
+#include <vector>
+
+namespace carom {
+
+/// Piecewise linear table; constant before the first and after the last entry. Two entries at the same time make a
+/// step: the value jumps there (right-continuous). A single entry is a constant. Times must not decrease.
+struct TimeFunction {
+  std::vector<double> time{0.0};
+  std::vector<double> value{1.0};
+
+  /// Value at t; right-continuous at a jump.
+  double operator()(double t) const;
+  /// First derivative at t (from the right at a kink; jumps do not count).
+  double derivative(double t) const;
+};
+
+}  // namespace carom

@@ -1,0 +1,78 @@
+// The mesh: coordinates, cells by type and named groups; immutable once read.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace carom {
+
+/// Cell types that the readers know. Local node order is Gmsh's for linear cells (VTK's and Abaqus' HEXA8 are the same).
+enum class CellType : std::uint8_t {
+  point1, line2, line3, tria3, tria6, quad4, quad8, quad9, tetra4, tetra10, pyra5, pyra13, penta6, penta15, hexa8,
+  hexa20, hexa27
+};
+
+/// Number of nodes of one cell, e.g. 8 for hexa8.
+int node_count(CellType type);
+/// Topological dimension: 0 points, 1 lines, 2 faces, 3 solids.
+int dimension(CellType type);
+/// "HEXA8", "QUAD4", ... (upper case, the field's usual names).
+std::string_view name(CellType type);
+
+/// All cells of one type. connectivity has node_count(type) local node indices per cell.
+struct CellBlock {
+  CellType type{};
+  std::vector<Index> connectivity;
+  std::vector<std::int64_t> file_numbers;  ///< the number of each cell in the file the user wrote
+
+  std::size_t size() const { return file_numbers.size(); }
+};
+
+/// One cell: block (index into Mesh::blocks) and position in that block.
+struct CellRef {
+  Index block = 0;
+  Index cell = 0;
+  friend bool operator==(const CellRef&, const CellRef&) = default;
+  friend auto operator<=>(const CellRef&, const CellRef&) = default;
+};
+
+/// What the reader mended or noticed, for `carom mesh` and the log.
+struct MeshReport {
+  std::string source;       ///< path of the file or "structured block"
+  std::string format;       ///< e.g. "Gmsh 2.2 ASCII", "MED 3.3", "block"
+  std::size_t turned = 0;   ///< solid cells whose node order was turned because their Jacobian was negative
+  double worst_jacobian = 0.0;  ///< smallest over cells of (min det J at the corners / max det J at the corners), solids only
+  std::int64_t worst_cell = 0;  ///< file number of that cell
+  std::vector<std::string> notes;
+};
+
+/// Coordinates (m or the case's unit), cells and groups. Nodes and cells are numbered for locality;
+/// the file's numbers are kept in node_numbers and CellBlock::file_numbers. A group's entries are sorted and unique.
+/// A name may denote a node group and a cell group at once. Cells of zero thickness (HEXA8 whose two opposite faces
+/// coincide) are allowed and kept as they stand.
+struct Mesh {
+  std::vector<Vec3> coordinates;
+  std::vector<std::int64_t> node_numbers;
+  std::vector<CellBlock> blocks;  ///< at most one per type
+  std::map<std::string, std::vector<Index>> node_groups;
+  std::map<std::string, std::vector<CellRef>> cell_groups;  ///< points, lines, faces and solids alike
+  MeshReport report;
+
+  std::size_t node_count() const { return coordinates.size(); }
+  /// The block of this type or nullptr.
+  const CellBlock* block(CellType type) const;
+  /// Nodes of a group: the node group of that name united with the nodes of the cell group of that name; sorted, unique.
+  /// Empty when there is neither.
+  std::vector<Index> nodes_of(const std::string& group) const;
+  bool has_group(const std::string& group) const;
+  /// All group names, for messages with a near spelling.
+  std::vector<std::string> group_names() const;
+};
+
+}  // namespace carom

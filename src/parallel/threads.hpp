@@ -1,0 +1,38 @@
+// The one door to threads and to reductions. Results do not depend on the number of threads.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace carom {
+
+/// Sets the number of threads used from here on (0: all cores the process may use). Returns the number chosen.
+int set_threads(int count);
+int thread_count();
+
+/// Calls body(begin, end) on contiguous ranges that cover [0, n), in any order and at the same time. The ranges have
+/// `grain` entries (the last may be shorter) whatever the number of threads.
+template <class Body>
+void parallel_for(std::size_t n, std::size_t grain, const Body& body) {
+  const auto chunks = static_cast<std::ptrdiff_t>((n + grain - 1) / grain);
+#pragma omp parallel for schedule(static) if (chunks > 1)
+  for (std::ptrdiff_t c = 0; c < chunks; ++c) {
+    const std::size_t begin = static_cast<std::size_t>(c) * grain;
+    body(begin, begin + grain < n ? begin + grain : n);
+  }
+}
+
+/// Sum of term(i) over [0, n), by blocks of fixed size added in a fixed order: the same bits for any thread count.
+template <class Term>
+double parallel_sum(std::size_t n, const Term& term);
+
+/// Largest term(i) over [0, n), or `lowest` when n == 0.
+template <class Term>
+double parallel_max(std::size_t n, double lowest, const Term& term);
+
+/// a . b
+double dot(std::span<const double> a, std::span<const double> b);
+
+}  // namespace carom
+
+#include "parallel/threads_impl.hpp"
