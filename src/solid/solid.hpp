@@ -40,6 +40,8 @@ class Solid {
   /// f = F(u) = sum over cells of the integral of B^T sigma(B u); overwrites f. Threaded in coloured chunks, the same
   /// bits for any thread count. Does not allocate.
   void internal_force(std::span<const double> u, std::span<double> f) const;
+  /// Adds to f the internal force of the listed solid cells alone (positions in cells()); for section forces.
+  void add_internal_force_of(std::span<const Index> cells, std::span<const double> u, std::span<double> f) const;
   /// y = K(u) x; overwrites y. As internal_force.
   void tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y) const;
   /// Assembled K(u), 3 nodes x 3 nodes.
