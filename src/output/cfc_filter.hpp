@@ -1,0 +1,19 @@
+// Low-pass filter of impact tests: SAE J211-1 channel frequency classes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace carom {
+
+/// Phaseless 4-pole low-pass of channel frequency class `cfc` (60, 180, 600, 1000; any positive number in Hz): a 2-pole
+/// Butterworth filter run forwards and backwards (SAE J211-1, appendix C; ISO 6487, annex A).
+/// T = dt: wd = 2 pi cfc 2.0775, wa = tan(wd T / 2), a0 = wa^2 / (1 + sqrt(2) wa + wa^2), a1 = 2 a0, a2 = a0,
+/// b1 = -2 (wa^2 - 1) / (1 + sqrt(2) wa + wa^2), b2 = (-1 + sqrt(2) wa - wa^2) / (1 + sqrt(2) wa + wa^2),
+/// Y(i) = a0 X(i) + a1 X(i-1) + a2 X(i-2) + b1 Y(i-1) + b2 Y(i-2).
+/// The ends are continued by point reflection so that the filter starts without a transient.
+/// samples: equally spaced by dt in seconds. Throws std::invalid_argument when cfc or dt is not positive, or when the
+/// sampling frequency is below 10 cfc (J211's minimum).
+std::vector<double> cfc_filter(std::span<const double> samples, double dt, double cfc);
+
+}  // namespace carom

@@ -1,0 +1,53 @@
+// What a run shows while it goes on.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace carom {
+
+/// automatic: live on a terminal, else lines. live: one line rewritten in place, at most 10 times per second.
+/// lines: a plain line every 5 percent of the time. quiet: nothing at all.
+enum class ProgressMode : std::uint8_t { automatic, live, lines, quiet };
+
+/// One finished step.
+struct ProgressUpdate {
+  double t = 0.0;
+  std::int64_t step = 0;
+  double dt = 0.0;
+  int iterations = 0;         ///< of the step's solver; 0 for explicit schemes
+  double energy_error = 0.0;  ///< imbalance relative to the initial and supplied energy
+};
+
+/// Shows how far a run from 0 to t_end has come. Costs a clock reading per update when nothing is due.
+class Progress {
+ public:
+  Progress(std::FILE* stream, double t_end, ProgressMode mode);
+
+  void update(const ProgressUpdate& now);
+  /// Clears the live line and writes `message` on a line of its own (nothing when it is empty or the mode is quiet).
+  void finish(std::string_view message);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void show_live(const ProgressUpdate& now);
+  void show_line(const ProgressUpdate& now);
+  void clear_live();
+
+  std::FILE* stream_;
+  double t_end_;
+  ProgressMode mode_;
+  Clock::time_point begin_, last_shown_;
+  double next_line_ = 0.05;  ///< fraction of t_end at which the next plain line is due
+  bool live_shown_ = false;  ///< a live line stands on the terminal
+};
+
+/// The text of one progress line, at most `width` columns: bar, percentage, t, step, dt, iterations, energy error, time
+/// left. What does not fit is left out from the right, the bar shrinks first.
+std::string progress_line(const ProgressUpdate& now, double t_end, double elapsed_seconds, int width);
+
+}  // namespace carom

@@ -1,0 +1,118 @@
+// summary.json: what was run, what it cost and whether its results can be trusted (docs/results.md).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace carom {
+
+struct NamedValue {
+  std::string name;
+  double value = 0.0;
+};
+
+struct ProgramSummary {
+  std::string version;   ///< of carom
+  std::string compiler;  ///< name and version
+  std::string isa;       ///< instruction set of the kernels: "v2", "v3", "v4"
+  int threads = 1;
+};
+
+struct CaseSummary {
+  std::string file;
+  std::string title;
+  std::string units;  ///< label: "SI", "mm-t-s", "mm-kg-ms"
+};
+
+struct MeshSummary {
+  struct Group {
+    std::string name;
+    std::size_t nodes = 0;
+    std::size_t cells = 0;
+  };
+  std::size_t nodes = 0;
+  std::size_t cells = 0;  ///< solid cells
+  std::vector<Group> groups;
+};
+
+struct SchemeSummary {
+  std::string name;    ///< e.g. "Newmark beta 0.25 gamma 0.5"
+  std::string solver;  ///< e.g. "CG", "CHOLMOD"; "" when there is none
+  double dt_smallest = 0.0, dt_largest = 0.0;
+  std::int64_t steps = 0;
+  double time_end = 0.0;      ///< asked for
+  double time_reached = 0.0;  ///< less when the run was stopped
+};
+
+struct CostSummary {
+  double wall_seconds = 0.0, cpu_seconds = 0.0;
+  std::vector<NamedValue> phases;  ///< wall seconds by phase, e.g. "setup", "steps", "output"
+  std::size_t peak_memory_bytes = 0;
+};
+
+/// Momentum at the beginning and the end against the impulse of all external forces.
+/// error: largest |p(t) - p(0) - impulse(t)| over the run, relative to the largest |p| or impulse.
+struct MomentumSummary {
+  Vec3 begin{}, end{}, impulse{};
+  double error = 0.0;
+};
+
+enum class ToleranceKind : std::uint8_t { relative, absolute };
+
+struct CheckSummary {
+  std::string name;      ///< how the report calls it, e.g. "B.displacement_z"
+  std::string quantity;  ///< e.g. "displacement_z", "energy.ENER_CIN"
+  std::string place;     ///< probe or contact; "" for global quantities
+  double time = 0.0;
+  double value = 0.0, reference = 0.0;
+  double difference = 0.0;  ///< value - reference
+  double tolerance = 0.0;
+  ToleranceKind tolerance_kind{};  ///< relative: to |reference|
+  bool pass = false;
+  std::string source;  ///< where the reference value comes from
+};
+
+/// pass means value <= limit.
+struct VerdictItem {
+  std::string name;
+  double value = 0.0, limit = 0.0;
+  bool pass = false;
+  std::string explanation;
+};
+
+/// good: every check and verdict item passed; failed: one did not; stopped: interrupted by the user; error: the run
+/// could not go on.
+enum class Outcome : std::uint8_t { good, failed, stopped, error };
+
+/// "good", "failed", "stopped", "error".
+std::string_view to_string(Outcome outcome);
+
+struct Summary {
+  ProgramSummary program;
+  CaseSummary case_info;
+  MeshSummary mesh;
+  SchemeSummary scheme;
+  CostSummary cost;
+  std::vector<NamedValue> ledger;      ///< totals at the end by term, in the order of energy.csv
+  std::vector<NamedValue> code_aster;  ///< ENER_CIN, ENER_TOT, TRAV_EXT, TRAV_AMOR, TRAV_LIAI, DISS_SCH at the end
+  MomentumSummary linear_momentum, angular_momentum;
+  std::vector<CheckSummary> checks;
+  std::vector<VerdictItem> verdict;
+  Outcome outcome = Outcome::error;
+  std::string message;  ///< one sentence for the banner; the error's text when there is one
+};
+
+/// Writes JSON; replaces an older file at once, never leaving half a file. NaN and infinities become null.
+/// Throws OutputError.
+void write_summary(const std::string& path, const Summary& summary);
+
+/// Reads what write_summary wrote; null numbers become NaN. Throws std::runtime_error naming the path when the file is
+/// missing, not JSON, or lacks a field.
+Summary read_summary(const std::string& path);
+
+}  // namespace carom

@@ -1,0 +1,28 @@
+// Names of units for headers and axes. Nothing is ever converted.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace carom {
+
+/// Unit names of a consistent system.
+struct Units {
+  std::string length, time, mass, force, stress, energy;
+};
+
+/// Unit names of "SI", "mm-t-s" or "mm-kg-ms"; empty names for any other label.
+Units units_of(std::string_view label);
+
+/// "units: m, s, kg, N, Pa, J" (length, time, mass, force, stress, energy): the comment line of every table.
+std::string units_comment(const Units& units);
+
+/// The reverse of units_comment, or nothing when the line (without "# ") is not one.
+std::optional<Units> parse_units_comment(std::string_view comment);
+
+/// Unit of a column of energy.csv, contact.csv or probes.csv by its name, e.g. "m/s" for "B.velocity_z" in SI; "" for
+/// numbers without a unit.
+std::string unit_of_column(const Units& units, std::string_view column);
+
+}  // namespace carom
