@@ -11,13 +11,15 @@ namespace carom {
 /// A = L L^T of a symmetric positive definite matrix; factored once, solved many times.
 class Cholesky {
  public:
-  /// Throws std::runtime_error naming the row when A is not positive definite or memory runs out.
+  /// Reads the lower triangle of A. Throws std::runtime_error when an entry is not finite, when A is not positive
+  /// definite (names the 0-based row) or when memory runs out.
   explicit Cholesky(const CsrMatrix& A);
   ~Cholesky();
   Cholesky(Cholesky&&) noexcept;
   Cholesky& operator=(Cholesky&&) noexcept;
 
   /// Solves A X = B in place for `columns` right-hand sides stored one after the other (column-major, n x columns).
+  /// The workspace is kept between calls, so one object must not solve from several threads at once.
   void solve(std::span<double> b, int columns = 1) const;
   /// Entries of L.
   double factor_entries() const;
@@ -29,9 +31,10 @@ class Cholesky {
   std::unique_ptr<Impl> impl_;
 };
 
-/// OpenBLAS 0.3.21 takes new processors for an old one unless OPENBLAS_CORETYPE is in the environment before the
-/// library loads. If it is unset and the processor has AVX2 or AVX-512, sets it (HASWELL, SKYLAKEX), fixes the number
-/// of BLAS threads to 1 (results must not depend on it) and executes the program again. To be called first in main.
+/// OpenBLAS 0.3.21 takes processors it does not know for an old one unless OPENBLAS_CORETYPE is in the environment
+/// before the library loads. If it is unset and the library chose kernels below the AVX2 or AVX-512 this processor has,
+/// sets it (HASWELL, SKYLAKEX) and executes the program again; when that fails, goes on. Also fixes the number of BLAS
+/// threads to 1 (results must not depend on it). To be called first in main.
 void prepare_blas_environment(char** argv);
 
 }  // namespace carom

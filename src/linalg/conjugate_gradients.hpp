@@ -17,16 +17,17 @@ struct CgResult {
 };
 
 /// Conjugate gradients with a diagonal (Jacobi) preconditioner (Saad, Iterative Methods for Sparse Linear Systems,
-/// 2nd ed., algorithm 9.1). The work vectors are kept between calls: no allocation after the first.
+/// 2nd ed., algorithm 9.1). The work vectors are kept between calls: no vector is allocated after the first.
 class ConjugateGradients {
  public:
   /// Solves A x = b from the start value in x until |b - A x|_2 <= max(absolute, relative |b|_2).
   /// inverse_diagonal: 1 / diag(A). Breakdown (A not positive definite, NaN) returns converged = false.
+  /// Same bits for any thread count.
   CgResult solve(const LinearOperator& A, std::span<const double> inverse_diagonal, std::span<const double> b,
                  std::span<double> x, double relative, double absolute, int max_iterations);
 
  private:
-  std::vector<double> r_, z_, p_, Ap_;
+  std::vector<double> r_, p_, Ap_;
 };
 
 }  // namespace carom

@@ -8,8 +8,8 @@
 namespace carom {
 
 struct EigenvalueEstimate {
-  double value = 0.0;        ///< Ritz value: a lower bound of the largest eigenvalue
-  double upper = 0.0;        ///< Ritz value + residual norm: above the eigenvalue the iteration has found
+  double value = 0.0;  ///< Ritz value: a lower bound of the largest eigenvalue
+  double upper = 0.0;  ///< Ritz value + residual norm: above the eigenvalue the iteration has found
   int iterations = 0;
 };
 

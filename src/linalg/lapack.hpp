@@ -1,0 +1,20 @@
+// The few BLAS/LAPACK routines in use (Fortran symbols, 32-bit integers; every argument by address, column-major).
+#pragma once
+
+extern "C" {
+/// A = P L U
+void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* pivot, int* info);
+/// Solves A X = B or A^T X = B from dgetrf's factors.
+void dgetrs_(const char* trans, const int* n, const int* nrhs, const double* a, const int* lda, const int* pivot,
+             double* b, const int* ldb, int* info);
+/// 1 / (|A| |A^-1|) in the 1-norm or the infinity norm from dgetrf's factors.
+void dgecon_(const char* norm, const int* n, const double* a, const int* lda, const double* anorm, double* rcond,
+             double* work, int* iwork, int* info);
+/// Chosen eigenvalues and eigenvectors of a symmetric tridiagonal matrix.
+void dstevx_(const char* jobz, const char* range, const int* n, double* d, double* e, const double* vl,
+             const double* vu, const int* il, const int* iu, const double* abstol, int* m, double* w, double* z,
+             const int* ldz, double* work, int* iwork, int* ifail, int* info);
+void openblas_set_num_threads(int count);
+/// Name of the processor family whose kernels OpenBLAS uses.
+char* openblas_get_corename();
+}
