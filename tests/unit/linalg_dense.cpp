@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "linalg/dense.hpp"
+#include "linalg_problems.hpp"
+
+namespace carom {
+namespace {
+
+TEST(DenseLu, SolvesRandomUnsymmetricSystems) {
+  for (const int n : {1, 2, 7, 60}) {
+    const auto size = static_cast<std::size_t>(n);
+    const std::vector<double> A = test::random_vector(size * size, 20u + static_cast<unsigned>(n));
+    const std::vector<double> b = test::random_vector(size, 21);
+    std::vector<double> x = b;
+    DenseLu(A, n).solve(x);
+    double largest = 0.0;
+    for (const double value : x) largest = std::max(largest, std::abs(value));
+    // Backward stability: |A x - b| <= 3 n^2 growth eps |A| |x| (Higham, Accuracy and Stability, theorem 9.5), entries
+    // of A at most 1; the growth of partial pivoting on random matrices is about n^(2/3), at most 16 here.
+    EXPECT_LT(test::largest_difference(test::product(A, x), b), 3.0 * n * n * 16 * 1.2e-16 * n * largest) << n;
+  }
+}
+
+TEST(DenseLu, TakesRowsNotColumns) {
+  std::vector<double> b{5, 6};
+  DenseLu({1, 2, 0, 3}, 2).solve(b);  // x + 2 y = 5, 3 y = 6
+  EXPECT_EQ(b, (std::vector<double>{1, 2}));
+}
+
+TEST(DenseLu, PivotsOnAZeroDiagonal) {
+  std::vector<double> b{2, 3};
+  DenseLu({0, 1, 1, 0}, 2).solve(b);
+  EXPECT_EQ(b, (std::vector<double>{3, 2}));
+}
+
+TEST(DenseLu, RefusesSingularMatrices) {
+  EXPECT_THROW(DenseLu({1, 2, 2, 4}, 2), std::runtime_error);
+  EXPECT_THROW(DenseLu({0}, 1), std::runtime_error);
+  // Rows equal up to rounding: exact elimination leaves a pivot of one unit in the last place.
+  EXPECT_THROW(DenseLu({1, 1, 1, 1 + 2.2e-16}, 2), std::runtime_error);
+  EXPECT_THROW(DenseLu({1, NAN, 2, 4}, 2), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace carom
