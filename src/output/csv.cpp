@@ -1,0 +1,84 @@
+#include "output/csv.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <iterator>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "output/file_writer.hpp"
+
+namespace carom {
+
+namespace {
+constexpr std::chrono::milliseconds kFlushInterval{500};
+constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
+}  // namespace
+
+CsvFile::CsvFile(std::string path, const std::vector<std::string>& columns, const std::vector<std::string>& comments)
+    : path_(std::move(path)), columns_(columns.size()), last_flush_(std::chrono::steady_clock::now()) {
+  for (const std::string& comment : comments) fmt::format_to(std::back_inserter(buffer_), "# {}\n", comment);
+  fmt::format_to(std::back_inserter(buffer_), "{}\n", fmt::join(columns, ","));
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) throw OutputError(path_, std::strerror(errno));
+}
+
+CsvFile::CsvFile(CsvFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      columns_(other.columns_),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      written_(other.written_),
+      buffer_(std::exchange(other.buffer_, {})),
+      last_flush_(other.last_flush_) {}
+
+CsvFile::~CsvFile() {
+  if (descriptor_ < 0) return;
+  try {
+    close();
+  } catch (const OutputError&) {
+    // reported by close() where the run ends in order
+  }
+}
+
+void CsvFile::append(std::span<const double> row) {
+  assert(row.size() == columns_);
+  fmt::format_to(std::back_inserter(buffer_), "{}\n", fmt::join(row, ","));
+  if (buffer_.size() > kBufferBytes || std::chrono::steady_clock::now() - last_flush_ > kFlushInterval) flush();
+}
+
+void CsvFile::flush() {
+  last_flush_ = std::chrono::steady_clock::now();
+  const std::size_t done = write_all(descriptor_, buffer_.data(), buffer_.size());
+  if (done == buffer_.size()) {
+    written_ += done;
+    buffer_.clear();
+    return;
+  }
+  const int reason = errno;
+  const std::size_t end_of_row = buffer_.rfind('\n', done > 0 ? done - 1 : 0);
+  const std::size_t kept = done > 0 && end_of_row != std::string::npos ? end_of_row + 1 : 0;
+  // A full device may refuse this too; the error below is thrown either way.
+  [[maybe_unused]] const int truncated = ::ftruncate(descriptor_, static_cast<off_t>(written_ + kept));
+  buffer_.clear();
+  throw OutputError(path_, std::strerror(reason));
+}
+
+void CsvFile::close() {
+  if (descriptor_ < 0) return;
+  std::exception_ptr failure;
+  try {
+    flush();
+  } catch (const OutputError&) {
+    failure = std::current_exception();
+  }
+  const int closed = ::close(std::exchange(descriptor_, -1));
+  if (failure) std::rethrow_exception(failure);
+  if (closed != 0) throw OutputError(path_, std::strerror(errno));
+}
+
+}  // namespace carom

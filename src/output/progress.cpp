@@ -1,0 +1,121 @@
+#include "output/progress.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+constexpr std::chrono::milliseconds kLiveInterval{100};
+constexpr double kLineEvery = 0.05;
+constexpr int kDefaultWidth = 80;
+
+int terminal_width(std::FILE* stream) {
+  winsize size{};
+  if (::ioctl(::fileno(stream), TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefaultWidth;
+  return size.ws_col;
+}
+
+double fraction_done(double t, double t_end) {
+  if (!(t_end > 0.0) || !std::isfinite(t)) return 0.0;
+  return std::clamp(t / t_end, 0.0, 1.0);
+}
+
+std::string duration(double seconds) {
+  if (!std::isfinite(seconds)) return "?";
+  if (seconds < 59.5) return fmt::format("{:.0f} s", seconds);
+  const auto whole = static_cast<long>(std::lround(seconds));
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+/// Unicode eighths of a block; `width` columns, three bytes each.
+std::string bar(double fraction, int width) {
+  const auto full = static_cast<int>(fraction * width);
+  std::string text;
+  for (int i = 0; i < width; ++i) text += i < full ? "█" : "░";
+  return text;
+}
+
+/// What stands beside the bar, most important first; every character is one column.
+std::vector<std::string> entries(const ProgressUpdate& now, double t_end, double elapsed_seconds) {
+  const double fraction = fraction_done(now.t, t_end);
+  std::vector<std::string> list{fmt::format("{:3.0f} %", std::floor(100.0 * fraction)), fmt::format("t {:.4g}", now.t)};
+  if (fraction > 0.0) list.push_back("left " + duration(elapsed_seconds * (1.0 - fraction) / fraction));
+  list.push_back(fmt::format("step {}", now.step));
+  list.push_back(fmt::format("dt {:.3g}", now.dt));
+  if (now.iterations > 0) list.push_back(fmt::format("it {}", now.iterations));
+  list.push_back(fmt::format("energy error {:.1e}", now.energy_error));
+  return list;
+}
+
+}  // namespace
+
+std::string progress_line(const ProgressUpdate& now, double t_end, double elapsed_seconds, int width) {
+  constexpr int kShortestBar = 8, kLongestBar = 30;
+  std::string text;
+  for (const std::string& entry : entries(now, t_end, elapsed_seconds)) {
+    const std::string longer = text.empty() ? entry : text + "  " + entry;
+    if (static_cast<int>(longer.size()) > width) break;
+    text = longer;
+  }
+  const int room = std::min(width - static_cast<int>(text.size()) - 1, kLongestBar);
+  if (room < kShortestBar) return text;
+  return bar(fraction_done(now.t, t_end), room) + " " + text;
+}
+
+Progress::Progress(std::FILE* stream, double t_end, ProgressMode mode)
+    : stream_(stream), t_end_(t_end), mode_(mode), begin_(Clock::now()), last_shown_(begin_ - kLiveInterval) {
+  if (mode_ == ProgressMode::automatic) {
+    mode_ = ::isatty(::fileno(stream)) != 0 ? ProgressMode::live : ProgressMode::lines;
+  }
+}
+
+void Progress::update(const ProgressUpdate& now) {
+  if (mode_ == ProgressMode::live) {
+    show_live(now);
+  } else if (mode_ == ProgressMode::lines) {
+    show_line(now);
+  }
+}
+
+void Progress::show_live(const ProgressUpdate& now) {
+  const Clock::time_point time = Clock::now();
+  if (time - last_shown_ < kLiveInterval) return;
+  last_shown_ = time;
+  const double elapsed = std::chrono::duration<double>(time - begin_).count();
+  // The last column stays free: a full line would wrap on some terminals.
+  fmt::print(stream_, "\r{}\x1b[K", progress_line(now, t_end_, elapsed, terminal_width(stream_) - 1));
+  std::fflush(stream_);
+  live_shown_ = true;
+}
+
+void Progress::show_line(const ProgressUpdate& now) {
+  const double fraction = fraction_done(now.t, t_end_);
+  if (fraction < next_line_ - 1e-9) return;
+  next_line_ = kLineEvery * (std::floor(fraction / kLineEvery + 1e-9) + 1.0);
+  const double elapsed = std::chrono::duration<double>(Clock::now() - begin_).count();
+  fmt::print(stream_, "{}\n", fmt::join(entries(now, t_end_, elapsed), "  "));
+  std::fflush(stream_);
+}
+
+void Progress::clear_live() {
+  if (!live_shown_) return;
+  fmt::print(stream_, "\r\x1b[K");
+  live_shown_ = false;
+}
+
+void Progress::finish(std::string_view message) {
+  if (mode_ == ProgressMode::quiet) return;
+  clear_live();
+  if (!message.empty()) fmt::print(stream_, "{}\n", message);
+  std::fflush(stream_);
+}
+
+}  // namespace carom

@@ -1,0 +1,100 @@
+#include "output/vtu.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cassert>
+#include <cstdint>
+#include <iterator>
+#include <vector>
+
+#include "output/file_writer.hpp"
+#include "output/xml.hpp"
+
+namespace carom {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "raw appended data is written as little endian");
+static_assert(sizeof(Vec3) == 3 * sizeof(double));
+
+constexpr std::uint8_t kVtkHexahedron = 12;
+constexpr std::int32_t kHexa8Nodes = 8;
+
+/// One array of the appended section: in the header with its offset, after it as a byte count and the bytes.
+struct AppendedArray {
+  const void* data;
+  std::uint64_t bytes;
+};
+
+class VtuHeader {
+ public:
+  explicit VtuHeader(std::vector<AppendedArray>& arrays) : arrays_(arrays) {}
+
+  void line(std::string_view text) { text_.append(text).push_back('\n'); }
+
+  template <class T>
+  void array(std::string_view type, std::string_view name, int components, std::span<const T> values) {
+    fmt::format_to(std::back_inserter(text_),
+                   "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
+                   type, xml_escape(name), components, offset_);
+    arrays_.push_back({values.data(), values.size_bytes()});
+    offset_ += sizeof(std::uint64_t) + values.size_bytes();
+  }
+
+  void fields(std::string_view section, std::span<const VtuField> fields, [[maybe_unused]] std::size_t entries) {
+    line(fmt::format("<{}>", section));
+    for (const VtuField& field : fields) {
+      assert(field.values.size() == entries * static_cast<std::size_t>(field.components));
+      array("Float64", field.name, field.components, field.values);
+    }
+    line(fmt::format("</{}>", section));
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  std::vector<AppendedArray>& arrays_;
+  std::string text_;
+  std::uint64_t offset_ = 0;
+};
+
+}  // namespace
+
+void write_vtu(const std::string& path, std::span<const Vec3> points, std::span<const Index> hexa8,
+               std::span<const VtuField> point_fields, std::span<const VtuField> cell_fields) {
+  assert(hexa8.size() % kHexa8Nodes == 0);
+  const std::size_t cells = hexa8.size() / kHexa8Nodes;
+  std::vector<std::int64_t> ends(cells);
+  for (std::size_t c = 0; c < cells; ++c) ends[c] = static_cast<std::int64_t>(c + 1) * kHexa8Nodes;
+  const std::vector<std::uint8_t> types(cells, kVtkHexahedron);
+  const std::span<const double> coordinates(points.empty() ? nullptr : points.front().data(), 3 * points.size());
+
+  std::vector<AppendedArray> arrays;
+  VtuHeader header(arrays);
+  header.line("<?xml version=\"1.0\"?>");
+  header.line("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">");
+  header.line("<UnstructuredGrid>");
+  header.line(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", points.size(), cells));
+  header.fields("PointData", point_fields, points.size());
+  header.fields("CellData", cell_fields, cells);
+  header.line("<Points>");
+  header.array("Float64", "Points", 3, coordinates);
+  header.line("</Points>\n<Cells>");
+  header.array("Int32", "connectivity", 1, hexa8);
+  header.array("Int64", "offsets", 1, std::span<const std::int64_t>(ends));
+  header.array("UInt8", "types", 1, std::span<const std::uint8_t>(types));
+  header.line("</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">");
+
+  FileWriter file(path);
+  file.write(header.text());
+  file.write("_");
+  for (const AppendedArray& array : arrays) {
+    file.write(&array.bytes, sizeof array.bytes);
+    file.write(array.data, array.bytes);
+  }
+  file.write("\n</AppendedData>\n</VTKFile>\n");
+  file.commit();
+}
+
+}  // namespace carom
