@@ -26,12 +26,13 @@ function(carom_library folder)
   endif()
 endfunction()
 
-# carom_test(name folder... ): tests/<kind>/<name>.cpp becomes a ctest entry per gtest case.
+# carom_test(name folder... ): tests/<kind>/<name>.cpp becomes a ctest entry per gtest case, labelled <kind>.
 function(carom_test name)
   add_executable(${name} ${CMAKE_CURRENT_SOURCE_DIR}/${name}.cpp)
   list(TRANSFORM ARGN PREPEND carom_ OUTPUT_VARIABLE folders)
   target_link_libraries(${name} PRIVATE ${folders} GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE CAROM_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+  get_filename_component(kind ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300 LABELS ${kind})
 endfunction()

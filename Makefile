@@ -1,0 +1,36 @@
+# The commands of the project; `make help` lists them. The work itself is done by CMake presets and the scripts of tools/.
+.DEFAULT_GOAL := help
+.PHONY: help demo build test verify bench format lint clean
+
+help:    ## this list
+	@awk -F ':.*## ' '/^[a-z]+: .*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+
+demo: build ## install what is missing, build, run SDNV100, print its tables, leave out/sdnv100/report.html
+	@tools/demo
+
+build:   ## the program alone: build/release/carom
+	@tools/setup build
+	@tools/build release carom
+
+test:    ## the same set-up, then all tests through ctest
+	@tools/setup build test
+	@tools/build release all
+	@ctest --preset release -j "$$(nproc)"
+
+verify: build ## long verification cases, one by one and resumable; writes docs/verification.md
+	@tools/verify
+
+bench:   ## kernel benchmarks (elements per second) with STREAM triad beside them
+	@tools/setup build bench
+	@tools/bench
+
+format:  ## rewrite all sources as .clang-format says
+	@tools/setup ci
+	@tools/sources | xargs clang-format-14 -i
+
+lint:    ## formatting, layers, sizes, words, clang-tidy
+	@tools/setup build test ci
+	@tools/lint
+
+clean:   ## remove build/ and out/
+	@rm -rf build out

@@ -1,0 +1,58 @@
+"""tools/check_layers.py finds every kind of forbidden include, and passes allowed ones."""
+
+import unittest
+
+from tool_test import TOOLS, ToolTest
+
+
+class CheckLayers(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.write("docs/layers.md", (TOOLS.parent / "docs/layers.md").read_text())
+        self.write("src/base/errors.hpp", "#include <string>\n")
+        self.write("src/solid/CMakeLists.txt", "carom_library(solid DEPENDS base math mesh\n  LIBRARIES some::library)\n")
+        self.write("src/solid/solid.cpp", '#include "solid/mass.hpp"\n#include "base/errors.hpp"\n')
+        self.write("src/contact/CMakeLists.txt", "carom_library(contact DEPENDS base)\n")
+
+    def assert_offence(self, text):
+        code, output = self.run_tool("check_layers.py")
+        self.assertEqual(code, 1)
+        self.assertIn(text, output)
+
+    def test_passes_downward_includes(self):
+        code, output = self.run_tool("check_layers.py")
+        self.assertEqual((code, output), (0, "layers: includes point down\n"))
+
+    def test_upward_include(self):
+        self.write("src/base/log.cpp", '\n#include "mesh/mesh.hpp"\n')
+        self.assert_offence("src/base/log.cpp:2: base (level 0) may not include mesh (level 4)")
+
+    def test_sideways_include(self):
+        self.write("src/contact/rows.hpp", '#include "solid/solid.hpp"\n')
+        self.assert_offence("src/contact/rows.hpp:1: contact (level 6) may not include solid (level 6)")
+
+    def test_include_that_cmake_does_not_name(self):
+        self.write("src/contact/rows.cpp", '#include "base/errors.hpp"\n#include "mesh/mesh.hpp"\n')
+        self.assert_offence("src/contact/rows.cpp:2: contact includes mesh, which its CMakeLists.txt does not name")
+
+    def test_upward_link(self):
+        self.write("src/contact/CMakeLists.txt", "carom_library(contact DEPENDS base schemes)\n")
+        self.assert_offence("src/contact/CMakeLists.txt: links schemes, which is not below it")
+
+    def test_confined_header(self):
+        self.write("src/solid/case.cpp", "#include <toml++/toml.h>\n")
+        self.assert_offence("src/solid/case.cpp:1: <toml++/toml.h> belongs behind casefile, not in solid")
+
+    def test_folder_without_level(self):
+        self.write("src/misc/a.hpp", "\n")
+        self.assert_offence("src/misc: folder without a level")
+
+    def test_every_folder_of_the_project_has_a_level(self):
+        for folder in (TOOLS.parent / "src").iterdir():
+            if folder.is_dir():
+                self.write(f"src/{folder.name}/x.hpp", "\n")
+        self.assertEqual(self.run_tool("check_layers.py")[0], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
