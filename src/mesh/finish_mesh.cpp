@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "mesh/orientation.hpp"
+#include "mesh/renumber.hpp"
+
 namespace carom {
 
 namespace {
@@ -18,7 +21,8 @@ void sort_unique(std::vector<T>& entries) {
 Mesh finished(Mesh mesh) {
   for (auto& [name, nodes] : mesh.node_groups) sort_unique(nodes);
   for (auto& [name, cells] : mesh.cell_groups) sort_unique(cells);
-  return mesh;
+  orient_cells(mesh);
+  return renumbered(std::move(mesh));
 }
 
 }  // namespace carom

@@ -12,10 +12,26 @@
 
 namespace carom {
 
-/// Cell types that the readers know. Local node order is Gmsh's for linear cells (VTK's and Abaqus' HEXA8 are the same).
+/// Cell types that the readers know. Local node order is Gmsh's for linear cells (VTK's and Abaqus' HEXA8 are the
+/// same).
 enum class CellType : std::uint8_t {
-  point1, line2, line3, tria3, tria6, quad4, quad8, quad9, tetra4, tetra10, pyra5, pyra13, penta6, penta15, hexa8,
-  hexa20, hexa27
+  point1,
+  line2,
+  line3,
+  tria3,
+  tria6,
+  quad4,
+  quad8,
+  quad9,
+  tetra4,
+  tetra10,
+  pyra5,
+  pyra13,
+  penta6,
+  penta15,
+  hexa8,
+  hexa20,
+  hexa27
 };
 
 /// Number of nodes of one cell, e.g. 8 for hexa8.
@@ -44,10 +60,11 @@ struct CellRef {
 
 /// What the reader mended or noticed, for `carom mesh` and the log.
 struct MeshReport {
-  std::string source;       ///< path of the file or "structured block"
-  std::string format;       ///< e.g. "Gmsh 2.2 ASCII", "MED 3.3", "block"
-  std::size_t turned = 0;   ///< solid cells whose node order was turned because their Jacobian was negative
-  double worst_jacobian = 0.0;  ///< smallest over cells of (min det J at the corners / max det J at the corners), solids only
+  std::string source;      ///< path of the file or "structured block"
+  std::string format;      ///< e.g. "Gmsh 2.2 ASCII", "MED 3.3", "block"
+  std::size_t turned = 0;  ///< solid cells whose node order was turned because their Jacobian was negative
+  double worst_jacobian =
+      0.0;  ///< smallest over cells of (min det J at the corners / max det J at the corners), solids only
   std::int64_t worst_cell = 0;  ///< file number of that cell
   std::vector<std::string> notes;
 };
@@ -67,8 +84,8 @@ struct Mesh {
   std::size_t node_count() const { return coordinates.size(); }
   /// The block of this type or nullptr.
   const CellBlock* block(CellType type) const;
-  /// Nodes of a group: the node group of that name united with the nodes of the cell group of that name; sorted, unique.
-  /// Empty when there is neither.
+  /// Nodes of a group: the node group of that name united with the nodes of the cell group of that name; sorted,
+  /// unique. Empty when there is neither.
   std::vector<Index> nodes_of(const std::string& group) const;
   bool has_group(const std::string& group) const;
   /// All group names, for messages with a near spelling.

@@ -1,0 +1,128 @@
+#include "mesh/orientation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+
+#include "base/errors.hpp"
+#include "math/vec3.hpp"
+#include "mesh/cell_topology.hpp"
+
+namespace carom {
+
+namespace {
+
+/// Triple products at the corners: the extremes, and how many are clearly positive or negative.
+struct CornerJacobians {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+  std::size_t positive = 0, negative = 0;
+};
+
+const Vec3& position(const Mesh& mesh, std::span<const Index> nodes, LocalNode local) {
+  return mesh.coordinates[static_cast<std::size_t>(nodes[local])];
+}
+
+/// A Jacobian counts as zero below 1e-10 of the product of the three edge lengths: far above round-off, far below any
+/// cell that could be computed with.
+CornerJacobians corner_jacobians(const Mesh& mesh, CellType type, std::span<const Index> nodes) {
+  constexpr double kFlat2 = 1e-20;
+  CornerJacobians J;
+  for (const CornerFrame& frame : corner_frames(type)) {
+    const Vec3& origin = position(mesh, nodes, frame.corner);
+    const Vec3 a = subtract(position(mesh, nodes, frame.a), origin);
+    const Vec3 b = subtract(position(mesh, nodes, frame.b), origin);
+    const Vec3 c = subtract(position(mesh, nodes, frame.c), origin);
+    const double det = dot(cross(a, b), c);
+    J.min = std::min(J.min, det);
+    J.max = std::max(J.max, det);
+    const bool clear = det * det > kFlat2 * dot(a, a) * dot(b, b) * dot(c, c);
+    if (clear && det > 0) ++J.positive;
+    if (clear && det < 0) ++J.negative;
+  }
+  return J;
+}
+
+bool has_repeated_nodes(std::span<const Index> nodes) {
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (std::find(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(i), nodes[i]) !=
+        nodes.begin() + static_cast<std::ptrdiff_t>(i))
+      return true;
+  return false;
+}
+
+[[noreturn]] void refuse(const Mesh& mesh, const CellBlock& block, std::size_t cell, std::span<const Index> nodes,
+                         const CornerJacobians& J) {
+  Vec3 centroid{};
+  for (const Index n : nodes)
+    centroid =
+        add(centroid, scaled(mesh.coordinates[static_cast<std::size_t>(n)], 1.0 / static_cast<double>(nodes.size())));
+  std::string what;
+  if (has_repeated_nodes(nodes))
+    what = "a node that occurs twice in the cell";
+  else if (J.positive > 0 && J.negative > 0)
+    what = fmt::format("Jacobians of both signs at the corners (from {:.3g} to {:.3g})", J.min, J.max);
+  else
+    what = fmt::format("no volume at a corner (Jacobians from {:.3g} to {:.3g})", J.min, J.max);
+  throw CaseError({mesh.report.source, 0, 0}, fmt::format("cell {} ({})", block.file_numbers[cell], name(block.type)),
+                  fmt::format("{}, at ({:.6g}, {:.6g}, {:.6g})", what, centroid[0], centroid[1], centroid[2]),
+                  "a cell with volume, not folded, over distinct nodes",
+                  "Mesh the place again, or write the node order of this cell anew.");
+}
+
+}  // namespace
+
+bool has_zero_thickness(const Mesh& mesh, CellType type, std::span<const Index> nodes) {
+  constexpr double kCoincident = 1e-6;
+  Vec3 low = position(mesh, nodes, 0), high = low;
+  for (const Index n : nodes)
+    for (std::size_t c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], mesh.coordinates[static_cast<std::size_t>(n)][c]);
+      high[c] = std::max(high[c], mesh.coordinates[static_cast<std::size_t>(n)][c]);
+    }
+  const double size = norm(subtract(high, low));
+  const auto coincide = [&](const std::array<LocalNode, 2>& pair) {
+    return norm(subtract(position(mesh, nodes, pair[0]), position(mesh, nodes, pair[1]))) <= kCoincident * size;
+  };
+  const auto faces_coincide = [&](std::span<const std::array<LocalNode, 2>> pairs) {
+    return std::all_of(pairs.begin(), pairs.end(), coincide);
+  };
+  const auto pairings = opposite_faces(type);
+  const auto collapsed = std::count_if(pairings.begin(), pairings.end(), faces_coincide);
+  return collapsed == 1 && !has_repeated_nodes(nodes);
+}
+
+void orient_cells(Mesh& mesh) {
+  MeshReport& report = mesh.report;
+  report.turned = 0;
+  bool any = false;
+  for (CellBlock& block : mesh.blocks) {
+    const auto mirror = mirrored_order(block.type);
+    const std::size_t corners = corner_frames(block.type).size(), n = static_cast<std::size_t>(node_count(block.type));
+    if (corners == 0) continue;
+    for (std::size_t cell = 0; cell < block.size(); ++cell) {
+      const std::span<Index> nodes(&block.connectivity[cell * n], n);
+      const CornerJacobians J = corner_jacobians(mesh, block.type, nodes);
+      if (J.positive != corners && J.negative != corners) {
+        if (has_zero_thickness(mesh, block.type, nodes)) continue;
+        refuse(mesh, block, cell, nodes, J);
+      }
+      if (J.negative == corners) {
+        std::array<Index, 27> old{};
+        std::copy(nodes.begin(), nodes.end(), old.begin());
+        for (std::size_t i = 0; i < n; ++i) nodes[i] = old[mirror[i]];
+        ++report.turned;
+      }
+      const double ratio = J.negative == corners ? J.max / J.min : J.min / J.max;
+      if (any && ratio >= report.worst_jacobian) continue;
+      any = true;
+      report.worst_jacobian = ratio;
+      report.worst_cell = block.file_numbers[cell];
+    }
+  }
+}
+
+}  // namespace carom

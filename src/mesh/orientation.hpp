@@ -1,0 +1,20 @@
+// Orientation of solid cells: turned where the Jacobian is negative, refused where nothing helps.
+#pragma once
+
+#include <span>
+
+#include "mesh/mesh.hpp"
+
+namespace carom {
+
+/// Turns every solid cell whose corner Jacobians are all negative (mirrored_order), counts the turned ones and finds
+/// the worst Jacobian ratio; fills MeshReport.turned, worst_jacobian, worst_cell. Interfaces of zero thickness are
+/// kept as they stand and do not count. Throws CaseError, naming cell and centroid, for a cell with repeated nodes,
+/// without volume, or with Jacobians of both signs.
+void orient_cells(Mesh& mesh);
+
+/// True when two opposite faces of this hexahedron or pentahedron coincide: each pair of their corners is at most
+/// 1e-6 of the cell's size apart (coordinates written in single precision still coincide) and the nodes are distinct.
+bool has_zero_thickness(const Mesh& mesh, CellType type, std::span<const Index> nodes);
+
+}  // namespace carom

@@ -1,0 +1,236 @@
+#include "mesh/renumber.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "math/vec3.hpp"
+
+namespace carom {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Nodes of the cells of highest dimension, and for each node the cells it belongs to (compressed rows).
+class Connections {
+ public:
+  explicit Connections(const Mesh& mesh) : node_begin_(mesh.node_count() + 1, 0) {
+    int highest = 1;
+    for (const CellBlock& block : mesh.blocks) highest = std::max(highest, dimension(block.type));
+    for (const CellBlock& block : mesh.blocks)
+      if (dimension(block.type) == highest) append(block);
+    for (const Index n : cell_nodes_) ++node_begin_[at(n) + 1];
+    std::partial_sum(node_begin_.begin(), node_begin_.end(), node_begin_.begin());
+    node_cells_.resize(cell_nodes_.size());
+    std::vector<std::size_t> next(node_begin_.begin(), node_begin_.end() - 1);
+    for (std::size_t cell = 0; cell < cell_count(); ++cell)
+      for (const Index n : nodes(static_cast<Index>(cell))) node_cells_[next[at(n)]++] = static_cast<Index>(cell);
+  }
+
+  std::size_t cell_count() const { return cell_begin_.size() - 1; }
+  std::span<const Index> nodes(Index cell) const {
+    return {cell_nodes_.data() + cell_begin_[at(cell)], cell_nodes_.data() + cell_begin_[at(cell) + 1]};
+  }
+  std::span<const Index> cells(Index node) const {
+    return {node_cells_.data() + node_begin_[at(node)], node_cells_.data() + node_begin_[at(node) + 1]};
+  }
+
+ private:
+  void append(const CellBlock& block) {
+    cell_nodes_.insert(cell_nodes_.end(), block.connectivity.begin(), block.connectivity.end());
+    const auto n = static_cast<std::size_t>(node_count(block.type));
+    for (std::size_t cell = 0; cell < block.size(); ++cell) cell_begin_.push_back(cell_begin_.back() + n);
+  }
+
+  std::vector<std::size_t> cell_begin_{0}, node_begin_;
+  std::vector<Index> cell_nodes_, node_cells_;
+};
+
+/// Orders the nodes of one connected body after another.
+class LevelOrder {
+ public:
+  explicit LevelOrder(const Mesh& mesh)
+      : mesh_(mesh),
+        connections_(mesh),
+        seen_node_(mesh.node_count(), 0),
+        placed_(mesh.node_count(), 0),
+        seen_cell_(connections_.cell_count(), 0),
+        expanded_(connections_.cell_count(), 0),
+        weight_(mesh.node_count(), {0.0, 0}) {
+    order_.reserve(mesh.node_count());
+  }
+
+  /// order[new index] = old index
+  std::vector<Index> compute() {
+    for (std::size_t n = 0; n < mesh_.node_count(); ++n) {
+      if (placed_[n] != 0) continue;
+      std::vector<Index> level = start_level(body_of(static_cast<Index>(n)));
+      while (!level.empty()) {
+        order_.insert(order_.end(), level.begin(), level.end());
+        level = next_level(level);
+      }
+    }
+    return std::move(order_);
+  }
+
+ private:
+  std::vector<Index> body_of(Index seed) {
+    std::vector<Index> body{seed};
+    seen_node_[at(seed)] = 1;
+    for (std::size_t i = 0; i < body.size(); ++i)
+      for (const Index cell : connections_.cells(body[i])) {
+        if (std::exchange(seen_cell_[at(cell)], char{1}) != 0) continue;
+        for (const Index n : connections_.nodes(cell))
+          if (std::exchange(seen_node_[at(n)], char{1}) == 0) body.push_back(n);
+      }
+    return body;
+  }
+
+  /// Nodes at the lower end of the longest side, row by row; places nearer than 1e-6 of that side count as equal.
+  std::vector<Index> start_level(const std::vector<Index>& body) {
+    Vec3 low = mesh_.coordinates[at(body.front())], high = low;
+    for (const Index n : body)
+      for (std::size_t c = 0; c < 3; ++c) {
+        low[c] = std::min(low[c], mesh_.coordinates[at(n)][c]);
+        high[c] = std::max(high[c], mesh_.coordinates[at(n)][c]);
+      }
+    const Vec3 size = subtract(high, low);
+    std::array<std::size_t, 3> axes{2, 1, 0};  // longest first; of equal ones z, then y
+    std::stable_sort(axes.begin(), axes.end(),
+                     [&](std::size_t a, std::size_t b) { return size[a] > size[b] * (1 + 1e-9); });
+    const double step = size[axes[0]] > 0 ? 1e-6 * size[axes[0]] : 1.0;
+    const auto place = [&](Index n, std::size_t axis) {
+      return std::round((mesh_.coordinates[at(n)][axis] - low[axis]) / step);
+    };
+    std::vector<Index> level;
+    std::copy_if(body.begin(), body.end(), std::back_inserter(level), [&](Index n) { return place(n, axes[0]) <= 0; });
+    std::sort(level.begin(), level.end(), [&](Index a, Index b) {
+      return std::tuple(place(a, axes[1]), place(a, axes[2]), a) < std::tuple(place(b, axes[1]), place(b, axes[2]), b);
+    });
+    for (const Index n : level) placed_[at(n)] = 1;
+    return level;
+  }
+
+  /// Unplaced neighbours of `level`, sorted by the mean index in `level` of the neighbours they have there.
+  std::vector<Index> next_level(const std::vector<Index>& level) {
+    for (std::size_t i = 0; i < level.size(); ++i) weight_[at(level[i])] = {static_cast<double>(i), -1};
+    std::vector<Index> next;
+    for (const Index node : level)
+      for (const Index cell : connections_.cells(node))
+        if (std::exchange(expanded_[at(cell)], char{1}) == 0) expand(cell, next);
+    std::vector<std::pair<double, Index>> keys;
+    keys.reserve(next.size());
+    for (const Index n : next) keys.emplace_back(weight_[at(n)].first / weight_[at(n)].second, n);
+    std::sort(keys.begin(), keys.end());
+    for (std::size_t i = 0; i < next.size(); ++i) next[i] = keys[i].second;
+    for (const Index n : level) weight_[at(n)].second = 0;
+    return next;
+  }
+
+  /// Adds the unplaced nodes of a cell to `next` and the places of its nodes in the level to their means.
+  void expand(Index cell, std::vector<Index>& next) {
+    double sum = 0;
+    int count = 0;
+    for (const Index n : connections_.nodes(cell))
+      if (weight_[at(n)].second < 0) {
+        sum += weight_[at(n)].first;
+        ++count;
+      }
+    for (const Index n : connections_.nodes(cell)) {
+      if (weight_[at(n)].second < 0) continue;
+      if (std::exchange(placed_[at(n)], char{1}) == 0) {
+        next.push_back(n);
+        weight_[at(n)] = {0.0, 0};
+      }
+      weight_[at(n)].first += sum;
+      weight_[at(n)].second += count;
+    }
+  }
+
+  const Mesh& mesh_;
+  Connections connections_;
+  std::vector<char> seen_node_, placed_, seen_cell_, expanded_;
+  std::vector<std::pair<double, int>> weight_;  ///< (index, -1) in the current level, else (sum, count) of the means
+  std::vector<Index> order_;
+};
+
+/// order[new] = old turned into new_index[old]
+std::vector<Index> inverse(const std::vector<Index>& order) {
+  std::vector<Index> result(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) result[at(order[i])] = static_cast<Index>(i);
+  return result;
+}
+
+/// Sorts the cells of a block by smallest node, then by the sum of nodes; returns order[new] = old.
+std::vector<Index> sort_cells(CellBlock& block) {
+  const auto n = static_cast<std::size_t>(node_count(block.type));
+  struct Key {
+    Index smallest;
+    Index cell;
+    std::int64_t sum;
+  };
+  std::vector<Key> keys(block.size());
+  for (std::size_t cell = 0; cell < block.size(); ++cell) {
+    const std::span<const Index> nodes(&block.connectivity[cell * n], n);
+    keys[cell] = {*std::min_element(nodes.begin(), nodes.end()), static_cast<Index>(cell),
+                  std::accumulate(nodes.begin(), nodes.end(), std::int64_t{0})};
+  }
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+    return std::tie(a.smallest, a.sum, a.cell) < std::tie(b.smallest, b.sum, b.cell);
+  });
+  CellBlock sorted{block.type, {}, {}};
+  sorted.connectivity.reserve(block.connectivity.size());
+  sorted.file_numbers.reserve(block.size());
+  std::vector<Index> order;
+  order.reserve(block.size());
+  for (const Key& key : keys) {
+    const auto first = block.connectivity.begin() + static_cast<std::ptrdiff_t>(at(key.cell) * n);
+    sorted.connectivity.insert(sorted.connectivity.end(), first, first + static_cast<std::ptrdiff_t>(n));
+    sorted.file_numbers.push_back(block.file_numbers[at(key.cell)]);
+    order.push_back(key.cell);
+  }
+  block = std::move(sorted);
+  return order;
+}
+
+void renumber_nodes(Mesh& mesh, const std::vector<Index>& order) {
+  const std::vector<Index> new_index = inverse(order);
+  std::vector<Vec3> coordinates(order.size());
+  std::vector<std::int64_t> numbers(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    coordinates[i] = mesh.coordinates[at(order[i])];
+    numbers[i] = mesh.node_numbers[at(order[i])];
+  }
+  mesh.coordinates = std::move(coordinates);
+  mesh.node_numbers = std::move(numbers);
+  for (CellBlock& block : mesh.blocks)
+    for (Index& n : block.connectivity) n = new_index[at(n)];
+  for (auto& [name, nodes] : mesh.node_groups) {
+    for (Index& n : nodes) n = new_index[at(n)];
+    std::sort(nodes.begin(), nodes.end());
+  }
+}
+
+}  // namespace
+
+Mesh renumbered(Mesh mesh) {
+  renumber_nodes(mesh, LevelOrder(mesh).compute());
+  std::vector<std::vector<Index>> new_cell;
+  for (CellBlock& block : mesh.blocks) new_cell.push_back(inverse(sort_cells(block)));
+  for (auto& [name, cells] : mesh.cell_groups) {
+    for (CellRef& ref : cells) ref.cell = new_cell[at(ref.block)][at(ref.cell)];
+    std::sort(cells.begin(), cells.end());
+  }
+  return mesh;
+}
+
+}  // namespace carom
