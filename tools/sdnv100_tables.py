@@ -12,7 +12,7 @@ import math
 import pathlib
 import sys
 
-WIDTH = 95
+WIDTH = 97
 
 # quantity, time [s], reference of the manual, Code_Aster in the manual, marks on (Code_Aster, time)
 POINTS = [
@@ -85,7 +85,7 @@ def verdict_line(folder):
 def table_line(name, time, reference, aster, carom, differences):
     """A reference or a value of Code_Aster may carry a mark: "5.92346e-01[3]"."""
     texts = [text + ("" if text.endswith("]") else "   ") for text in (reference, aster)]
-    return (f"{name:<14}{time:>9}{texts[0]:>16}{texts[1]:>17}{carom:>17}"
+    return (f"{name:<14}{time:>9}{texts[0]:>16}{texts[1]:>18}{carom:>18}"
             + "".join(f"{difference:>11}" for difference in differences))
 
 
