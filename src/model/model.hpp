@@ -1,4 +1,5 @@
-// The model: physics on groups of the mesh. No degrees of freedom are numbered here: dof 3 n + c is component c of node n.
+// The model: physics on groups of the mesh. No degrees of freedom are numbered here: dof 3 n + c is component c of node
+// n.
 #pragma once
 
 #include <array>

@@ -10,7 +10,9 @@ int set_threads(int count) {
   return thread_count();
 }
 
-int thread_count() { return omp_get_max_threads(); }
+int thread_count() {
+  return omp_get_max_threads();
+}
 
 double dot(std::span<const double> a, std::span<const double> b) {
   return parallel_sum(a.size(), [&](std::size_t i) { return a[i] * b[i]; });

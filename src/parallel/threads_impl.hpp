@@ -18,7 +18,8 @@ double parallel_sum(std::size_t n, const Term& term) {
   };
   if (n <= reduction_block) return sum_range(0, n);
   std::vector<double> partial((n + reduction_block - 1) / reduction_block);
-  parallel_for(n, reduction_block, [&](std::size_t b, std::size_t e) { partial[b / reduction_block] = sum_range(b, e); });
+  parallel_for(n, reduction_block,
+               [&](std::size_t b, std::size_t e) { partial[b / reduction_block] = sum_range(b, e); });
   double s = 0.0;
   for (const double p : partial) s += p;
   return s;

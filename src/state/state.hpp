@@ -15,9 +15,9 @@ struct RowHistory {
 /// Everything that decides the next step. v and a are always those at time t. Copying a State is a checkpoint.
 struct State {
   double t = 0.0;
-  std::vector<double> q;  ///< displacement
-  std::vector<double> v;  ///< velocity
-  std::vector<double> a;  ///< acceleration
+  std::vector<double> q;            ///< displacement
+  std::vector<double> v;            ///< velocity
+  std::vector<double> a;            ///< acceleration
   std::vector<RowHistory> contact;  ///< one entry per contact row
 
   friend bool operator==(const State&, const State&) = default;

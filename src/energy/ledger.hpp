@@ -1,0 +1,134 @@
+// The energy ledger: typed increments of every energy, closed at every step.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "base/types.hpp"
+
+namespace carom {
+
+/// Energies (or their increments over a step), in the unit of energy.
+/// Stored: kinetic, strain, contact_stored are functions of the state. Dissipated: friction, damping.
+/// Supplied: external_work (loads), support_work (reactions of imposed motions), by the trapezoidal rule.
+/// algorithmic: what the scheme takes out by its own identity. quadrature: trapezoidal work of internal and contact
+/// forces minus the change of what they store and dissipate: zero for linear bodies without a change of contact.
+struct EnergyTerms {
+  double kinetic = 0.0;
+  double strain = 0.0;
+  double contact_stored = 0.0;
+  double friction = 0.0;
+  double damping = 0.0;
+  double external_work = 0.0;
+  double support_work = 0.0;
+  double algorithmic = 0.0;
+  double quadrature = 0.0;
+
+  EnergyTerms& operator+=(const EnergyTerms& o) {
+    kinetic += o.kinetic;
+    strain += o.strain;
+    contact_stored += o.contact_stored;
+    friction += o.friction;
+    damping += o.damping;
+    external_work += o.external_work;
+    support_work += o.support_work;
+    algorithmic += o.algorithmic;
+    quadrature += o.quadrature;
+    return *this;
+  }
+
+  /// What the bodies and the contact springs hold.
+  double mechanical() const { return kinetic + strain + contact_stored; }
+  double supplied() const { return external_work + support_work; }
+  /// Residual of the balance of powers; zero when forces, solves and formulas agree.
+  double imbalance() const { return mechanical() + friction + damping + algorithmic + quadrature - supplied(); }
+};
+
+/// The same books in Code_Aster's terms (U4.84 ENERGIE), accumulated from zero at the start.
+struct AsterTerms {
+  double ENER_CIN = 0.0;   ///< sum of v_bar . M dv
+  double ENER_TOT = 0.0;   ///< sum of F_int_bar . du
+  double TRAV_EXT = 0.0;   ///< sum of F_ext_bar . du, reactions of imposed motions included
+  double TRAV_AMOR = 0.0;  ///< work of structural damping
+  double TRAV_LIAI = 0.0;  ///< work of contact forces, counted on the internal side
+
+  AsterTerms& operator+=(const AsterTerms& o) {
+    ENER_CIN += o.ENER_CIN;
+    ENER_TOT += o.ENER_TOT;
+    TRAV_EXT += o.TRAV_EXT;
+    TRAV_AMOR += o.TRAV_AMOR;
+    TRAV_LIAI += o.TRAV_LIAI;
+    return *this;
+  }
+  /// Dissipated by the scheme: TRAV_EXT - ENER_CIN - ENER_TOT - TRAV_AMOR - TRAV_LIAI.
+  double DISS_SCH() const { return TRAV_EXT - ENER_CIN - ENER_TOT - TRAV_AMOR - TRAV_LIAI; }
+};
+
+/// Linear momentum, and angular momentum about the origin with the reference positions (small displacements).
+struct Momentum {
+  Vec3 linear{};
+  Vec3 angular{};
+};
+
+/// What one step adds to the books.
+struct LedgerIncrement {
+  EnergyTerms energy;
+  AsterTerms aster;
+  Momentum impulse;  ///< of external, contact and support forces, in the scheme's weights
+};
+
+/// The running totals of a run.
+class EnergyLedger {
+ public:
+  /// initial: stored energies and momentum at the start; the other terms start at zero.
+  EnergyLedger(const EnergyTerms& initial, const Momentum& momentum)
+      : initial_(initial), initial_momentum_(momentum), momentum_(momentum) {}
+
+  /// Adds a step; `momentum` is that of the new state.
+  void add(const LedgerIncrement& step, const Momentum& momentum) {
+    total_ += step.energy;
+    aster_ += step.aster;
+    for (std::size_t c = 0; c < 3; ++c) {
+      impulse_.linear[c] += step.impulse.linear[c];
+      impulse_.angular[c] += step.impulse.angular[c];
+    }
+    momentum_ = momentum;
+    supplied_peak_ = std::fmax(supplied_peak_, std::fabs(total_.supplied()));
+  }
+
+  /// Stored energies as they stand, and the sums of all others.
+  EnergyTerms now() const {
+    EnergyTerms terms = total_;
+    terms.kinetic += initial_.kinetic;
+    terms.strain += initial_.strain;
+    terms.contact_stored += initial_.contact_stored;
+    return terms;
+  }
+  const EnergyTerms& initial() const { return initial_; }
+  const AsterTerms& aster() const { return aster_; }
+  const Momentum& momentum() const { return momentum_; }
+
+  /// Residual of the balance of powers since the start.
+  double imbalance() const { return total_.imbalance(); }
+  /// The larger of the initial energy and the largest supplied energy so far: what errors are compared with.
+  double scale() const { return std::fmax(initial_.mechanical(), supplied_peak_); }
+  /// Mechanical energy above what was there and what was supplied.
+  double growth() const { return total_.mechanical() - total_.supplied(); }
+  /// Change of momentum minus the impulses.
+  Momentum momentum_error() const {
+    Momentum error;
+    for (std::size_t c = 0; c < 3; ++c) {
+      error.linear[c] = momentum_.linear[c] - initial_momentum_.linear[c] - impulse_.linear[c];
+      error.angular[c] = momentum_.angular[c] - initial_momentum_.angular[c] - impulse_.angular[c];
+    }
+    return error;
+  }
+
+ private:
+  EnergyTerms initial_, total_;
+  AsterTerms aster_;
+  Momentum initial_momentum_, momentum_, impulse_;
+  double supplied_peak_ = 0.0;
+};
+
+}  // namespace carom

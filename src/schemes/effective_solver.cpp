@@ -1,0 +1,260 @@
+#include "schemes/effective_solver.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <optional>
+
+#include "linalg/cholesky.hpp"
+#include "linalg/conjugate_gradients.hpp"
+#include "linalg/dense.hpp"
+#include "parallel/threads.hpp"
+
+namespace carom {
+
+namespace {
+
+bool acts(const RowTangent& D) {
+  return std::any_of(D.begin(), D.end(), [](double d) { return d != 0.0; });
+}
+
+Vec3 multiply(const RowTangent& D, const Vec3& w) {
+  return {D[0] * w[0] + D[1] * w[1] + D[2] * w[2], D[3] * w[0] + D[4] * w[1] + D[5] * w[2],
+          D[6] * w[0] + D[7] * w[1] + D[8] * w[2]};
+}
+
+/// Jacobi-preconditioned conjugate gradients on the whole operator, contact rows included.
+class CgSolver final : public EffectiveSolver {
+ public:
+  explicit CgSolver(const System& system)
+      : system_(system),
+        zero_(system.solid.dof_count(), 0.0),
+        stiffness_diagonal_(system.solid.tangent_diagonal(zero_)),
+        inverse_diagonal_(zero_.size()),
+        work_(zero_.size()) {}
+
+  void prepare(double s) override { s_ = s; }
+
+  LinearSolveReport solve(std::span<const double> b, const std::vector<RowTangent>& D, double absolute,
+                          std::span<double> x) override {
+    set_diagonal(D);
+    std::fill(x.begin(), x.end(), 0.0);
+    const LinearOperator A = [&](std::span<const double> in, std::span<double> out) { apply(D, in, out); };
+    const int most = 1000 + static_cast<int>(10.0 * std::sqrt(static_cast<double>(x.size())));
+    const CgResult result = cg_.solve(A, inverse_diagonal_, b, x, 1e-14, absolute, most);
+    return {result.converged, result.iterations, result.residual};
+  }
+
+  std::string name() const override { return "conjugate gradients"; }
+
+ private:
+  void apply(const std::vector<RowTangent>& D, std::span<const double> x, std::span<double> y) {
+    const std::vector<bool>& fixed = system_.supports.fixed();
+    system_.solid.tangent_action(zero_, x, y);
+    system_.mass.apply(x, work_);
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] = work_[i] + s_ * y[i];
+    const ConstraintRows& rows = system_.contact.rows();
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (acts(D[r])) rows.scatter(r, multiply(D[r], rows.relative(r, x)), y);
+    }
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      if (fixed[i]) y[i] = x[i];
+    }
+  }
+
+  void set_diagonal(const std::vector<RowTangent>& D) {
+    const std::vector<double>& m = system_.mass.node_diagonal();
+    const std::vector<bool>& fixed = system_.supports.fixed();
+    for (std::size_t i = 0; i < inverse_diagonal_.size(); ++i) {
+      inverse_diagonal_[i] = m[i / 3] + s_ * stiffness_diagonal_[i];
+    }
+    const ConstraintRows& rows = system_.contact.rows();
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      for (Index k = rows.begin[r]; k < rows.begin[r + 1]; ++k) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          const Vec3 frame{rows.normal[r][c], rows.tangent_1[r][c], rows.tangent_2[r][c]};
+          const Vec3 s = multiply(D[r], frame);
+          inverse_diagonal_[3 * static_cast<std::size_t>(rows.node[k]) + c] +=
+              rows.weight[k] * rows.weight[k] * (frame[0] * s[0] + frame[1] * s[1] + frame[2] * s[2]);
+        }
+      }
+    }
+    for (std::size_t i = 0; i < inverse_diagonal_.size(); ++i) {
+      inverse_diagonal_[i] = fixed[i] ? 1.0 : 1.0 / inverse_diagonal_[i];
+    }
+  }
+
+  const System& system_;
+  std::vector<double> zero_, stiffness_diagonal_, inverse_diagonal_, work_;
+  double s_ = 0.0;
+  ConjugateGradients cg_;
+};
+
+/// One component of one row: a column of G^T.
+struct RowComponent {
+  std::size_t row;
+  std::size_t component;
+};
+
+/// A = M + s K factored once; contact by the Schur complement on its active rows:
+///   x = A^-1 b - Y D w,  (1 + S D) w = G A^-1 b,  Y = A^-1 G^T,  S = G Y  (Woodbury),
+/// where a column of Y is solved for when its row first becomes active.
+class CholeskySolver final : public EffectiveSolver {
+ public:
+  explicit CholeskySolver(const System& system) : system_(system), column_of_(3 * system.contact.rows().size(), -1) {
+    const std::vector<bool>& fixed = system.supports.fixed();
+    compressed_of_.assign(fixed.size(), -1);
+    for (std::size_t i = 0; i < fixed.size(); ++i) {
+      if (fixed[i]) continue;
+      compressed_of_[i] = static_cast<Index>(free_.size());
+      free_.push_back(i);
+    }
+    const std::vector<double> zero(fixed.size(), 0.0);
+    stiffness_ = system.solid.tangent(zero);
+  }
+
+  void prepare(double s) override {
+    if (factor_ && s == s_) return;
+    s_ = s;
+    factor_.emplace(assemble());
+    columns_.clear();
+    std::fill(column_of_.begin(), column_of_.end(), -1);
+  }
+
+  LinearSolveReport solve(std::span<const double> b, const std::vector<RowTangent>& D, double /*absolute*/,
+                          std::span<double> x) override {
+    std::vector<double> y(free_.size());
+    for (std::size_t i = 0; i < free_.size(); ++i) y[i] = b[free_[i]];
+    factor_->solve(y);
+    std::fill(x.begin(), x.end(), 0.0);
+    for (std::size_t i = 0; i < free_.size(); ++i) x[free_[i]] = y[i];
+    correct_for_contact(D, x);
+    return {true, 1, 0.0};
+  }
+
+  std::string name() const override { return "Cholesky factorisation"; }
+
+ private:
+  CsrMatrix assemble() const;
+  void add_columns(const std::vector<RowComponent>& active);
+  void correct_for_contact(const std::vector<RowTangent>& D, std::span<double> x);
+
+  const System& system_;
+  CsrMatrix stiffness_;
+  std::vector<std::size_t> free_;     ///< dof of each unknown
+  std::vector<Index> compressed_of_;  ///< unknown of each dof, -1 when fixed
+  std::optional<Cholesky> factor_;
+  std::vector<std::vector<double>> columns_;  ///< columns of Y, on all dofs
+  std::vector<int> column_of_;                ///< column of each row component, -1 when not solved for yet
+  double s_ = 0.0;
+};
+
+CsrMatrix CholeskySolver::assemble() const {
+  const CsrMatrix& M = system_.mass.node_matrix();
+  CsrMatrix A;
+  A.size = static_cast<Index>(free_.size());
+  A.row_begin.push_back(0);
+  for (const std::size_t i : free_) {
+    std::int64_t m = M.row_begin[i / 3];
+    for (std::int64_t k = stiffness_.row_begin[i]; k < stiffness_.row_begin[i + 1]; ++k) {
+      const auto j = static_cast<std::size_t>(stiffness_.column[k]);
+      if (compressed_of_[j] < 0) continue;
+      double value = s_ * stiffness_.value[k];
+      if (j % 3 == i % 3) {
+        while (m < M.row_begin[i / 3 + 1] && static_cast<std::size_t>(M.column[m]) < j / 3) ++m;
+        if (m < M.row_begin[i / 3 + 1] && static_cast<std::size_t>(M.column[m]) == j / 3) value += M.value[m];
+      }
+      A.column.push_back(compressed_of_[j]);
+      A.value.push_back(value);
+    }
+    A.row_begin.push_back(static_cast<std::int64_t>(A.column.size()));
+  }
+  return A;
+}
+
+void CholeskySolver::add_columns(const std::vector<RowComponent>& active) {
+  std::vector<RowComponent> missing;
+  for (const RowComponent& rc : active) {
+    if (column_of_[3 * rc.row + rc.component] < 0) missing.push_back(rc);
+  }
+  if (missing.empty()) return;
+  const std::size_t n = free_.size();
+  std::vector<double> full(system_.solid.dof_count());
+  constexpr std::size_t most = 32;  // columns per call: enough for the matrix-matrix kernels of the solver
+  for (std::size_t first = 0; first < missing.size(); first += most) {
+    const std::size_t count = std::min(most, missing.size() - first);
+    std::vector<double> block(n * count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const RowComponent& rc = missing[first + k];
+      std::fill(full.begin(), full.end(), 0.0);
+      Vec3 unit{};
+      unit[rc.component] = 1.0;
+      system_.contact.rows().scatter(rc.row, unit, full);
+      for (std::size_t i = 0; i < n; ++i) block[k * n + i] = full[free_[i]];
+    }
+    factor_->solve(block, static_cast<int>(count));
+    for (std::size_t k = 0; k < count; ++k) {
+      std::fill(full.begin(), full.end(), 0.0);
+      for (std::size_t i = 0; i < n; ++i) full[free_[i]] = block[k * n + i];
+      column_of_[3 * missing[first + k].row + missing[first + k].component] = static_cast<int>(columns_.size());
+      columns_.push_back(full);
+    }
+  }
+}
+
+void CholeskySolver::correct_for_contact(const std::vector<RowTangent>& D, std::span<double> x) {
+  const ConstraintRows& rows = system_.contact.rows();
+  std::vector<RowComponent> active;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (!acts(D[r])) continue;
+    const std::size_t components = D[r][4] != 0.0 || D[r][8] != 0.0 || D[r][3] != 0.0 || D[r][6] != 0.0 ? 3 : 1;
+    for (std::size_t c = 0; c < components; ++c) active.push_back({r, c});
+  }
+  if (active.empty()) return;
+  add_columns(active);
+  const std::size_t m = active.size();
+  const auto column = [&](const RowComponent& rc) -> const std::vector<double>& {
+    return columns_[static_cast<std::size_t>(column_of_[3 * rc.row + rc.component])];
+  };
+  std::vector<double> S(m * m), matrix(m * m, 0.0), w(m);
+  for (std::size_t i = 0; i < m; ++i) {
+    w[i] = rows.relative(active[i].row, x)[active[i].component];
+    for (std::size_t j = 0; j < m; ++j)
+      S[i * m + j] = rows.relative(active[i].row, column(active[j]))[active[i].component];
+  }
+  // matrix = 1 + S D; D couples the components of one row only, and these stand side by side in `active`.
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t k = 0; k < m; ++k) {
+      for (std::size_t j = k - active[k].component; j < m && active[j].row == active[k].row; ++j) {
+        matrix[i * m + j] += S[i * m + k] * D[active[k].row][3 * active[k].component + active[j].component];
+      }
+    }
+    matrix[i * m + i] += 1.0;
+  }
+  DenseLu(std::move(matrix), static_cast<int>(m)).solve(w);
+  for (std::size_t k = 0; k < m; ++k) {
+    double force = 0.0;
+    for (std::size_t j = k - active[k].component; j < m && active[j].row == active[k].row; ++j) {
+      force += D[active[k].row][3 * active[k].component + active[j].component] * w[j];
+    }
+    const std::vector<double>& y = column(active[k]);
+    parallel_for(x.size(), 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) x[i] -= force * y[i];
+    });
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind, double s,
+                                                       double omega_max_squared) {
+  if (kind == SolverKind::automatic) {
+    const double iterations = 0.5 * std::sqrt(1.0 + s * omega_max_squared) * std::log(2.0 / 1e-12);
+    const bool large = system.solid.dof_count() > 2'000'000;
+    kind = iterations <= 60.0 || large ? SolverKind::conjugate_gradients : SolverKind::cholesky;
+  }
+  if (kind == SolverKind::cholesky) return std::make_unique<CholeskySolver>(system);
+  return std::make_unique<CgSolver>(system);
+}
+
+}  // namespace carom

@@ -1,0 +1,35 @@
+// Prescribed motions as degrees of freedom.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace carom {
+
+/// One dof whose motion is imposed.
+struct PrescribedDof {
+  Index dof = 0;
+  MotionKind kind = MotionKind::displacement;
+  TimeFunction function;
+};
+
+/// All dofs that do not follow M a = force: prescribed ones, and those of nodes that carry no mass.
+class Supports {
+ public:
+  /// has_mass: one flag per node. Throws std::invalid_argument when two supports impose different motions on one dof,
+  /// naming both and the node.
+  Supports(const Model& model, const std::vector<bool>& has_mass);
+
+  const std::vector<PrescribedDof>& prescribed() const { return prescribed_; }
+  /// One flag per dof: prescribed or without mass.
+  const std::vector<bool>& fixed() const { return fixed_; }
+  bool is_prescribed(Index dof) const { return prescribed_flag_[static_cast<std::size_t>(dof)]; }
+
+ private:
+  std::vector<PrescribedDof> prescribed_;
+  std::vector<bool> fixed_, prescribed_flag_;
+};
+
+}  // namespace carom
