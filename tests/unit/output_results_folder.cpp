@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "base/errors.hpp"
+#include "output/pvd.hpp"
+#include "output/results_folder.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ResultsFolder : public testing::Test {
+ protected:
+  void TearDown() override { fs::remove_all(base_); }
+  static void touch(const fs::path& path) { std::ofstream(path) << "x"; }
+
+  fs::path base_ = fs::temp_directory_path() / fmt::format("carom_results_{}", ::getpid());
+};
+
+TEST_F(ResultsFolder, IsMadeWithItsParents) {
+  prepare_results_folder((base_ / "a" / "b").string());
+  EXPECT_TRUE(fs::is_directory(base_ / "a" / "b" / "fields"));
+}
+
+TEST_F(ResultsFolder, OnlyFilesOfAnEarlierRunAreRemoved) {
+  prepare_results_folder(base_.string());
+  const auto ours = {"summary.json", "energy.csv",         "contact.csv", "probes.csv",       "exact.csv",
+                     "fields.pvd",   "case.resolved.toml", "mesh.txt",    "summary.json.tmp", "report.html"};
+  const auto others = {"notes.txt", "case.toml", "fields/step_x.vtu", "fields/step_000001.vtu.bak", "fields/mine.vtu"};
+  for (const char* name : ours) touch(base_ / name);
+  for (const char* name : others) touch(base_ / name);
+  touch(base_ / frame_file(10));
+  prepare_results_folder(base_.string());
+  for (const char* name : ours) EXPECT_FALSE(fs::exists(base_ / name)) << name;
+  for (const char* name : others) EXPECT_TRUE(fs::exists(base_ / name)) << name;
+  EXPECT_FALSE(fs::exists(base_ / frame_file(10)));
+}
+
+TEST_F(ResultsFolder, AFileInItsPlaceIsAnError) {
+  touch(base_);
+  EXPECT_THROW(prepare_results_folder(base_.string()), OutputError);
+}
+
+TEST_F(ResultsFolder, UnwritableIsAnErrorThatNamesThePath) {
+  // /proc takes no folders, not even from root.
+  try {
+    prepare_results_folder("/proc/carom");
+    FAIL() << "no error";
+  } catch (const OutputError& error) {
+    EXPECT_EQ(error.path(), "/proc/carom");
+  }
+}
+
+}  // namespace
+}  // namespace carom

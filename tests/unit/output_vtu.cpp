@@ -1,0 +1,120 @@
+// The .vtu and .pvd files as VTK's own reader sees them (vtu_read.py).
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "base/errors.hpp"
+#include "output/pvd.hpp"
+#include "output/results_folder.hpp"
+#include "output/vtu.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_text(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// nx x ny x nz unit cubes, points numbered x fastest; the Python script builds the same numbers by itself.
+struct Grid {
+  explicit Grid(int nx, int ny, int nz) {
+    const auto point = [&](int i, int j, int k) { return static_cast<Index>(i + (nx + 1) * (j + (ny + 1) * k)); };
+    for (int k = 0; k <= nz; ++k)
+      for (int j = 0; j <= ny; ++j)
+        for (int i = 0; i <= nx; ++i) points.push_back({double(i), double(j), double(k)});
+    for (int k = 0; k < nz; ++k)
+      for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i)
+          for (const Index n :
+               {point(i, j, k), point(i + 1, j, k), point(i + 1, j + 1, k), point(i, j + 1, k), point(i, j, k + 1),
+                point(i + 1, j, k + 1), point(i + 1, j + 1, k + 1), point(i, j + 1, k + 1)})
+            hexa8.push_back(n);
+  }
+  std::size_t cells() const { return hexa8.size() / 8; }
+  std::vector<Vec3> points;
+  std::vector<Index> hexa8;
+};
+
+/// Entry i of a field is scale * (i + 1/3): not exact in decimal, so a loss of digits shows.
+std::vector<double> values(std::size_t count, double scale) {
+  std::vector<double> v(count);
+  for (std::size_t i = 0; i < count; ++i) v[i] = scale * (static_cast<double>(i) + 1.0 / 3.0);
+  return v;
+}
+
+class VtuTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const char* name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::temp_directory_path() / fmt::format("carom_vtu_{}_{}", name, ::getpid());
+    prepare_results_folder(folder_.string());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write_frame(const Grid& grid, int step, double scale) const {
+    const std::vector<double> displacement = values(3 * grid.points.size(), scale);
+    const std::vector<double> stress = values(6 * grid.cells(), -scale);
+    const std::vector<double> energy = values(grid.cells(), 2 * scale);
+    const std::vector<VtuField> on_points{{"displacement", 3, displacement}};
+    const std::vector<VtuField> on_cells{{"stress", 6, stress}, {"energy <&\"> density", 1, energy}};
+    write_vtu((folder_ / frame_file(step)).string(), grid.points, grid.hexa8, on_points, on_cells);
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(VtuTest, VtkReadsEveryPointCellAndFieldExactly) {
+  const Grid grid(3, 2, 2);
+  PvdCollection pvd((folder_ / "fields.pvd").string());
+  for (const int step : {0, 10}) {
+    write_frame(grid, step, step + 1.0);
+    pvd.add(0.1 * step, frame_file(step));
+  }
+  const std::string command = fmt::format("/usr/bin/python3 \"{}/tests/unit/vtu_read.py\" \"{}\" 3 2 2 0 10",
+                                          CAROM_SOURCE_DIR, folder_.string());
+  EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+TEST_F(VtuTest, VtkReadsMoreThanOneBuffer) {
+  // 24,000 cells: every array is larger than the writer's buffer of 256 KiB except the cell types.
+  const Grid grid(40, 30, 20);
+  PvdCollection pvd((folder_ / "fields.pvd").string());
+  write_frame(grid, 123456, 123457.0);
+  pvd.add(0.1 * 123456, frame_file(123456));
+  const std::string command = fmt::format("/usr/bin/python3 \"{}/tests/unit/vtu_read.py\" \"{}\" 40 30 20 123456",
+                                          CAROM_SOURCE_DIR, folder_.string());
+  EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+TEST_F(VtuTest, CollectionIsWholeAfterEveryFrame) {
+  PvdCollection pvd((folder_ / "fields.pvd").string());
+  EXPECT_NE(read_text(folder_ / "fields.pvd").find("</VTKFile>"), std::string::npos);
+  pvd.add(0.1, frame_file(7));
+  const std::string text = read_text(folder_ / "fields.pvd");
+  EXPECT_NE(text.find("timestep=\"0.1\" group=\"\" part=\"0\" file=\"fields/step_000007.vtu\""), std::string::npos);
+  EXPECT_NE(text.find("</VTKFile>"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "fields.pvd.tmp"));
+}
+
+TEST_F(VtuTest, MissingFolderIsAnErrorThatNamesThePath) {
+  const Grid grid(1, 1, 1);
+  const std::string path = (folder_ / "absent" / "a.vtu").string();
+  try {
+    write_vtu(path, grid.points, grid.hexa8, {}, {});
+    FAIL() << "no error";
+  } catch (const OutputError& error) {
+    EXPECT_EQ(error.what(), "cannot write " + path + ": No such file or directory");
+  }
+}
+
+}  // namespace
+}  // namespace carom
