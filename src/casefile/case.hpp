@@ -10,6 +10,7 @@
 
 #include "base/errors.hpp"
 #include "base/types.hpp"
+#include "base/units.hpp"
 #include "math/time_function.hpp"
 
 namespace carom {
@@ -23,9 +24,6 @@ struct Located {
   const T& operator*() const { return value; }
   const T* operator->() const { return &value; }
 };
-
-/// Labels and plausibility only; nothing is ever converted.
-enum class UnitSystem : std::uint8_t { si, mm_t_s, mm_kg_ms };
 
 /// Structured block of HEXA8 aligned with the axes. Faces xmin, xmax, ymin, ymax, zmin, zmax may be named as groups
 /// (their QUAD4 faces and nodes); all cells are in the group `cells`.
@@ -69,9 +67,10 @@ struct CasePart {
 /// [[support]]: what is imposed on a group of nodes.
 struct CaseSupport {
   Location where;
-  Located<std::string> nodes;                ///< node or cell group, or "all"
-  std::optional<Located<std::string>> symmetry;  ///< "x", "y" or "z": normal of the symmetry plane; blocks that component
-  std::array<bool, 3> blocked{};             ///< blocked = ["x", "y"]
+  Located<std::string> nodes;  ///< node or cell group, or "all"
+  std::optional<Located<std::string>>
+      symmetry;                   ///< "x", "y" or "z": normal of the symmetry plane; blocks that component
+  std::array<bool, 3> blocked{};  ///< blocked = ["x", "y"]
   enum class Kind : std::uint8_t { displacement, velocity, acceleration };
   struct Motion {
     Kind kind{};
@@ -87,8 +86,8 @@ struct CaseLoad {
   Location where;
   enum class Kind : std::uint8_t { force, pressure, gravity };
   Kind kind{};
-  std::optional<Located<std::string>> group;     ///< nodes (force) or faces (pressure)
-  Vec3 vector{};                                 ///< force on each node, or acceleration of gravity
+  std::optional<Located<std::string>> group;  ///< nodes (force) or faces (pressure)
+  Vec3 vector{};                              ///< force on each node, or acceleration of gravity
   double pressure = 0.0;
   std::optional<Located<std::string>> function;  ///< key of [functions]; constant 1 when absent
 };
@@ -107,15 +106,15 @@ struct CaseContact {
   Located<std::string> name;
   enum class Kind : std::uint8_t { interface, plane, stop };
   Kind kind{};
-  Located<std::string> group;  ///< cells (interface), faces or nodes (plane), nodes (stop)
-  Located<double> stiffness;   ///< eps_N: stress per length (interface, plane per_area), force per length (else)
-  bool per_node = false;       ///< plane: measure = "node" instead of "area"
+  Located<std::string> group;         ///< cells (interface), faces or nodes (plane), nodes (stop)
+  Located<double> stiffness;          ///< eps_N: stress per length (interface, plane per_area), force per length (else)
+  bool per_node = false;              ///< plane: measure = "node" instead of "area"
   double tangential_stiffness = 0.0;  ///< interface, plane
   double friction = 0.0;              ///< Coulomb mu
-  Vec3 point{};                ///< plane
-  Located<Vec3> normal;        ///< plane: towards the body; stop: direction from the stop to the node. Normalised on reading
-  double gap = 0.0;            ///< stop
-  double damping = 0.0;        ///< stop
+  Vec3 point{};                       ///< plane
+  Located<Vec3> normal;  ///< plane: towards the body; stop: direction from the stop to the node. Normalised on reading
+  double gap = 0.0;      ///< stop
+  double damping = 0.0;  ///< stop
 };
 
 struct CaseFunction {
@@ -128,7 +127,7 @@ struct CaseScheme {
   Location where;
   enum class Kind : std::uint8_t { newmark, central_differences };
   Kind kind{};
-  double beta = 0.25, gamma = 0.5;                       ///< newmark
+  double beta = 0.25, gamma = 0.5;  ///< newmark
   enum class Mass : std::uint8_t { consistent, lumped };
   Mass mass{};  ///< default: consistent for newmark, lumped for central differences
 };
@@ -149,7 +148,8 @@ struct CaseSolver {
 
 struct CaseOutput {
   Location where;
-  std::vector<Located<std::string>> fields;  ///< of displacement, velocity, acceleration, stress
+  /// Of displacement, velocity, acceleration, stress.
+  std::vector<Located<std::string>> fields{{"displacement", {}}, {"velocity", {}}, {"stress", {}}};
   int fields_every = 0;  ///< steps; 0: about 50 times over the run
   int curves_every = 1;  ///< steps between rows of the .csv files
 };
@@ -158,19 +158,19 @@ struct CaseOutput {
 struct CaseProbe {
   Location where;
   Located<std::string> name;
-  std::optional<Located<std::int64_t>> node;   ///< file number
-  std::optional<Located<Vec3>> point;          ///< nearest node
-  std::optional<Located<std::string>> group;   ///< mean over its nodes; for `stress` the cells that touch them;
-                                               ///< for `section_force` the cells that touch them on the side `side`
+  std::optional<Located<std::int64_t>> node;     ///< file number
+  std::optional<Located<Vec3>> point;            ///< nearest node
+  std::optional<Located<std::string>> group;     ///< mean over its nodes; for `stress` the cells that touch them;
+                                                 ///< for `section_force` the cells that touch them on the side `side`
   std::vector<Located<std::string>> quantities;  ///< displacement, velocity, acceleration, stress, section_force
-  std::optional<Vec3> side;                    ///< section_force: direction to the cells whose forces are summed
-  std::optional<double> cfc;                   ///< SAE J211 channel frequency class
+  std::optional<Vec3> side;                      ///< section_force: direction to the cells whose forces are summed
+  std::optional<double> cfc;                     ///< SAE J211 channel frequency class
 };
 
 /// [[check]]
 struct CaseCheck {
   Location where;
-  Located<std::string> quantity;  ///< "displacement_z", "energy.ENER_CIN", "contact.force_z", ...
+  Located<std::string> quantity;              ///< "displacement_z", "energy.ENER_CIN", "contact.force_z", ...
   std::optional<Located<std::string>> place;  ///< probe, contact or nothing for global quantities
   std::optional<Located<double>> time;        ///< default: the end
   std::optional<Located<double>> value;       ///< reference value; or
@@ -185,7 +185,7 @@ struct CaseExact {
   Location where;
   Located<std::string> solution;  ///< "bar_on_rigid_wall" or "bar_on_penalty_wall"
   double length = 0.0, area = 0.0, modulus = 0.0, density = 0.0, speed = 0.0, gap = 0.0;
-  double stiffness = 0.0;         ///< penalty wall: stress per length
+  double stiffness = 0.0;             ///< penalty wall: stress per length
   double initial_displacement = 0.0;  ///< added to displacements (SDNV100 counts its initial +2 mm)
   int axis = 2;
 };

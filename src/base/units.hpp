@@ -1,0 +1,41 @@
+// The three unit systems of a case: labels and plausibility only; nothing is ever converted.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace carom {
+
+enum class UnitSystem : std::uint8_t { si, mm_t_s, mm_kg_ms };
+
+inline constexpr std::array unit_systems{UnitSystem::si, UnitSystem::mm_t_s, UnitSystem::mm_kg_ms};
+
+/// Physical dimension of a number in a case file.
+enum class Dimension : std::uint8_t {
+  none,
+  length,
+  area,
+  mass,
+  time,
+  force,
+  stress,
+  energy,
+  density,
+  velocity,
+  acceleration,
+  stress_per_length,  ///< penalty stiffness per area
+  force_per_length,   ///< penalty stiffness of a node or stop
+  damping             ///< force per velocity
+};
+
+/// "SI", "mm-t-s", "mm-kg-ms": the values of the key `units`.
+std::string_view name(UnitSystem system);
+/// "stress", "density", ...; "" for none.
+std::string_view name(Dimension dimension);
+/// Name of the unit, e.g. "MPa" for stress in mm-t-s; "" for a number without dimension.
+std::string_view unit_name(Dimension dimension, UnitSystem system);
+/// How many SI units one unit of the system is: 1 MPa = 1e6 Pa gives 1e6. 1 for a number without dimension.
+double si_factor(Dimension dimension, UnitSystem system);
+
+}  // namespace carom

@@ -1,0 +1,129 @@
+#include "casefile/cross_references.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "casefile/document.hpp"
+
+namespace carom {
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+std::string entry_path(const char* section, std::size_t i, const char* key) {
+  return fmt::format("{}[{}].{}", section, i, key);
+}
+
+/// CaseError unless `name` is one of `names`; `what` says what they are, e.g. "the name of a [materials.NAME]".
+void check_known(const Located<std::string>& name, const Names& names, const std::string& path,
+                 const std::string& what) {
+  if (std::find(names.begin(), names.end(), *name) != names.end()) return;
+  const std::string known = names.empty() ? "there is none" : fmt::format("{}", fmt::join(names, ", "));
+  const std::string near = nearest(*name, names);
+  throw CaseError(name.where, path, fmt::format("the unknown name {}", toml_string(*name)),
+                  fmt::format("{} ({})", what, known),
+                  near.empty() ? "" : fmt::format("Did you mean {}?", toml_string(near)));
+}
+
+struct NamedPlace {
+  Located<std::string> name;
+  std::string path;
+};
+
+void check_unique(const std::vector<NamedPlace>& names) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (*names[i].name != *names[j].name) continue;
+      throw CaseError(names[i].name.where, names[i].path,
+                      fmt::format("the name {} a second time", toml_string(*names[i].name)), "a name of its own",
+                      fmt::format("The first is {} at line {}.", names[j].path, names[j].name.where.line));
+    }
+  }
+}
+
+template <class Section>
+void add_places(const std::vector<Section>& sections, const char* path, std::vector<NamedPlace>& places) {
+  for (std::size_t i = 0; i < sections.size(); ++i) places.push_back({sections[i].name, entry_path(path, i, "name")});
+}
+
+/// A check names probes and contacts alike, so they share their names.
+void check_unique_names(const Case& given) {
+  std::vector<NamedPlace> parts;
+  add_places(given.parts, "part", parts);
+  check_unique(parts);
+  std::vector<NamedPlace> places;
+  add_places(given.contacts, "contact", places);
+  add_places(given.probes, "probe", places);
+  check_unique(places);
+}
+
+template <class Sections>
+Names names_of(const Sections& sections) {
+  Names names;
+  for (const auto& section : sections) {
+    if constexpr (requires { section.name.value; })
+      names.push_back(*section.name);
+    else
+      names.push_back(section.name);
+  }
+  return names;
+}
+
+void check_functions(const Case& given) {
+  const Names functions = names_of(given.functions);
+  const std::string what = "the name of a [functions.NAME]";
+  constexpr std::array kinds{"displacement", "velocity", "acceleration"};
+  for (std::size_t i = 0; i < given.supports.size(); ++i) {
+    for (const CaseSupport::Motion& motion : given.supports[i].motions) {
+      if (!motion.function) continue;
+      const char* kind = kinds.at(static_cast<std::size_t>(motion.kind));
+      check_known(*motion.function, functions, entry_path("support", i, kind) + ".function", what);
+    }
+  }
+  for (std::size_t i = 0; i < given.loads.size(); ++i) {
+    const auto& function = given.loads[i].function;
+    if (function) check_known(*function, functions, entry_path("load", i, "function"), what);
+  }
+}
+
+void check_checks(const Case& given) {
+  Names places = names_of(given.probes);
+  const Names contacts = names_of(given.contacts);
+  places.insert(places.end(), contacts.begin(), contacts.end());
+  for (std::size_t i = 0; i < given.checks.size(); ++i) {
+    const CaseCheck& check = given.checks[i];
+    if (check.place)
+      check_known(*check.place, places, entry_path("check", i, "place"), "the name of a [[probe]] or [[contact]]");
+    if (check.time && **check.time > *given.time.end) {
+      throw CaseError(check.time->where, entry_path("check", i, "time"), fmt::format("{}", **check.time),
+                      fmt::format("a time of at most time.end = {}", *given.time.end));
+    }
+    if (check.exact && !given.exact) {
+      throw CaseError(check.where, entry_path("check", i, "reference"), "\"exact\" without a section [exact]",
+                      "a section [exact] that says which solution", "Add [exact], or give value instead of reference.");
+    }
+  }
+}
+
+}  // namespace
+
+void check_references(const Case& given) {
+  check_unique_names(given);
+  const Names materials = names_of(given.materials);
+  for (std::size_t i = 0; i < given.parts.size(); ++i) {
+    check_known(given.parts[i].material, materials, entry_path("part", i, "material"),
+                "the name of a [materials.NAME]");
+  }
+  const Names parts = names_of(given.parts);
+  for (std::size_t i = 0; i < given.initial.size(); ++i) {
+    if (given.initial[i].part) {
+      check_known(*given.initial[i].part, parts, entry_path("initial", i, "part"), "the name of a [[part]]");
+    }
+  }
+  check_functions(given);
+  check_checks(given);
+}
+
+}  // namespace carom

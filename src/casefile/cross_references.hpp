@@ -1,0 +1,12 @@
+// Names in a case that refer to other sections of the same case.
+#pragma once
+
+#include "casefile/case.hpp"
+
+namespace carom {
+
+/// Checks that names are unique and that every material, function, part, probe and contact that is named exists, that
+/// checks lie within the run, and that nothing needs an [exact] that is not there. Throws CaseError.
+void check_references(const Case& given);
+
+}  // namespace carom

@@ -1,0 +1,18 @@
+// Reading a case file.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "casefile/case.hpp"
+
+namespace carom {
+
+/// Reads and checks the case at `path`. All that can be checked without the mesh is checked: keys, types, ranges,
+/// alternatives, and names that refer to other sections. Throws CaseError with file, line, column and dotted key.
+Case read_case(const std::string& path);
+
+/// The same for a text in memory; `name` stands for the file in messages and in Case::file.
+Case parse_case(std::string_view text, const std::string& name);
+
+}  // namespace carom

@@ -1,0 +1,77 @@
+#include "casefile/read_toml.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace carom {
+
+namespace {
+
+class Converter {
+ public:
+  explicit Converter(std::string file) : file_(std::move(file)) {}
+
+  Node node(const toml::node& from) const {
+    Node to;
+    to.where = place(from.source());
+    if (const auto* boolean = from.as_boolean())
+      to.value = boolean->get();
+    else if (const auto* integer = from.as_integer())
+      to.value = integer->get();
+    else if (const auto* number = from.as_floating_point())
+      to.value = number->get();
+    else if (const auto* text = from.as_string())
+      to.value = text->get();
+    else if (const auto* list = from.as_array())
+      to.value = list_of(*list);
+    else if (const auto* table = from.as_table())
+      to.value = table_of(*table);
+    else
+      to.value = Date{};
+    return to;
+  }
+
+  Location place(const toml::source_region& region) const {
+    return {file_, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+  }
+
+ private:
+  List list_of(const toml::array& from) const {
+    List to;
+    to.reserve(from.size());
+    for (const toml::node& entry : from) to.push_back(node(entry));
+    return to;
+  }
+
+  /// In the order of the text: toml++ keeps tables sorted by name.
+  Table table_of(const toml::table& from) const {
+    Table to;
+    to.members.reserve(from.size());
+    for (const auto& [key, value] : from)
+      to.members.push_back({std::string(key.str()), place(key.source()), node(value)});
+    std::stable_sort(to.members.begin(), to.members.end(), [](const Member& a, const Member& b) {
+      return std::tie(a.where.line, a.where.column) < std::tie(b.where.line, b.where.column);
+    });
+    return to;
+  }
+
+  std::string file_;
+};
+
+}  // namespace
+
+Node read_toml(std::string_view text, const std::string& name) {
+  const Converter converter(name);
+  try {
+    Node root = converter.node(toml::parse(text, name));
+    root.where = {name, 1, 1};
+    return root;
+  } catch (const toml::parse_error& error) {
+    throw CaseError(converter.place(error.source()), "", "a syntax error (" + std::string(error.description()) + ")",
+                    "TOML", "Texts stand in quotes, tables of the same name as [[name]], decimal points as 1.0.");
+  }
+}
+
+}  // namespace carom

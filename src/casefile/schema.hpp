@@ -1,0 +1,14 @@
+// What is written from the declaration of the case format.
+#pragma once
+
+#include <string>
+
+namespace carom {
+
+/// JSON Schema (draft 2020-12) of the case format.
+std::string json_schema();
+
+/// Markdown documentation of the case format (docs/case_format.md).
+std::string case_documentation();
+
+}  // namespace carom

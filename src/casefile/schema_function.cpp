@@ -1,0 +1,66 @@
+#include "casefile/case_schema.hpp"
+#include "casefile/section_rules.hpp"
+
+namespace carom {
+
+namespace {
+
+using Need = KeyOptions::Need;
+
+const std::vector<std::string> table{"table"};
+const std::vector<std::string> step{"step"};
+
+/// The kind decides how the function is written; what is kept is the table it makes.
+void add_kind(Section<CaseFunction>& s) {
+  const KeyDescription key{"kind",
+                           Shape::text,
+                           "A table, linear between its entries, or a step from one value to another.",
+                           {.choices = {"table", "step"}},
+                           Node{std::string("table"), {}},
+                           {}};
+  Section<CaseFunction>::Handlers handlers;
+  handlers.read = [](CaseFunction&, const Node&, const ReadContext&) {};  // already judged as the selector
+  handlers.write = [](const CaseFunction&, const Node&) { return Node{std::string("table"), {}}; };
+  s.add(key, handlers);
+}
+
+/// A number of a step; written as a table, so there is nothing to write here.
+template <class Store>
+void add_step_number(Section<CaseFunction>& s, const KeyDescription& key, Store store) {
+  Section<CaseFunction>::Handlers handlers;
+  handlers.read = [key, store](CaseFunction& f, const Node& node, const ReadContext& at) {
+    double number = 0.0;
+    decode(node, key, at, number);
+    store(f.function, number);
+  };
+  handlers.write = [](const CaseFunction&, const Node&) { return std::nullopt; };
+  s.add(key, handlers);
+}
+
+}  // namespace
+
+Section<CaseFunction> function_section() {
+  const KeyOptions number{.kinds = step, .need = Need::required};
+  const KeyOptions time{.unit = Dimension::time, .kinds = step, .need = Need::required};
+  Section<CaseFunction> s("A function of time for loads and imposed motions.");
+  s.description.selector = "kind";
+  s.description.default_kind = "table";
+  add_kind(s);
+  s.key_by(
+      "time", [](auto& f) -> auto& { return f.function.time; },
+      "Times in increasing order; the same time twice makes a jump. The first and last values hold before and after.",
+      {.unit = Dimension::time, .kinds = table, .need = Need::required});
+  s.key_by("value", [](auto& f) -> auto& { return f.function.value; }, "One value for each time.",
+           {.kinds = table, .need = Need::required});
+  add_step_number(s, {"time", Shape::number, "Time of the jump.", time, {}, {}}, [](TimeFunction& f, double t) {
+    f = {{t, t}, {0.0, 0.0}};
+  });
+  add_step_number(s, {"before", Shape::number, "Value before it.", number, {}, {}},
+                  [](TimeFunction& f, double value) { f.value[0] = value; });
+  add_step_number(s, {"after", Shape::number, "Value from it on.", number, {}, {}},
+                  [](TimeFunction& f, double value) { f.value[1] = value; });
+  s.finish = check_function;
+  return s;
+}
+
+}  // namespace carom

@@ -1,0 +1,66 @@
+#include "casefile/case_schema.hpp"
+
+namespace carom {
+
+namespace {
+
+/// A key that also says what kind of load it is.
+template <class Access>
+void add_kind(Section<CaseLoad>& s, const KeyDescription& key, CaseLoad::Kind kind, Access access) {
+  Section<CaseLoad>::Handlers handlers;
+  handlers.read = [=](CaseLoad& load, const Node& node, const ReadContext& at) {
+    decode(node, key, at, access(load));
+    load.kind = kind;
+  };
+  handlers.write = [=](const CaseLoad& load, const Node&) -> std::optional<Node> {
+    if (load.kind != kind) return std::nullopt;
+    return encode(access(load), key.options);
+  };
+  s.add(key, handlers);
+}
+
+void check_group(CaseLoad& load, const Node& node, const ReadContext& at) {
+  const bool gravity = load.kind == CaseLoad::Kind::gravity;
+  if (load.group.has_value() != gravity) return;
+  const std::string path = at.at("group").path;
+  if (gravity) {
+    throw CaseError(load.group->where, path, toml_string(**load.group), "no group", "Gravity acts on all parts.");
+  }
+  const bool force = load.kind == CaseLoad::Kind::force;
+  throw CaseError(node.where, path, "nothing",
+                  force ? "the group of nodes that the force acts on" : "the group of faces that the pressure acts on");
+}
+
+}  // namespace
+
+Section<CaseLoad> load_section() {
+  const auto vector = [](auto& load) -> auto& {
+    return load.vector;
+  };
+  const auto pressure = [](auto& load) -> auto& {
+    return load.pressure;
+  };
+  Section<CaseLoad> s("A load: a force on each node of a group, a pressure on faces, or gravity.");
+  add_kind(s, {"force", Shape::vector, "Force on each node of the group.", {.unit = Dimension::force}, {}, {}},
+           CaseLoad::Kind::force, vector);
+  add_kind(s,
+           {"pressure",
+            Shape::number,
+            "Pressure on the faces of the group; positive pushes against the face.",
+            {.unit = Dimension::stress},
+            {},
+            {}},
+           CaseLoad::Kind::pressure, pressure);
+  add_kind(
+      s,
+      {"gravity", Shape::vector, "Acceleration of gravity, on all parts.", {.unit = Dimension::acceleration}, {}, {}},
+      CaseLoad::Kind::gravity, vector);
+  s.key("group", &CaseLoad::group, "Group of nodes (force) or faces (pressure).");
+  s.key("function", &CaseLoad::function, "NAME of a [functions.NAME] that multiplies the load.",
+        {.default_phrase = "constant 1"});
+  s.description.alternatives = {{Alternatives::Count::exactly_one, {"force", "pressure", "gravity"}}};
+  s.finish = check_group;
+  return s;
+}
+
+}  // namespace carom

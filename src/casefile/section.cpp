@@ -1,0 +1,145 @@
+#include "casefile/section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace carom {
+
+namespace {
+
+/// The declaration of a key: the one of this kind where there are several; nullptr for an unknown key.
+const KeyDescription* declared_key(const SectionDescription& section, const std::string& name,
+                                   const std::string& kind) {
+  const KeyDescription* other_kind = nullptr;
+  for (const KeyDescription& key : section.keys) {
+    if (key.key != name) continue;
+    if (applies(key, kind)) return &key;
+    other_kind = &key;
+  }
+  return other_kind;
+}
+
+std::vector<std::string> all_names(const SectionDescription& section) {
+  std::vector<std::string> names;
+  for (const KeyDescription& key : section.keys) {
+    if (std::find(names.begin(), names.end(), key.key) == names.end()) names.push_back(key.key);
+  }
+  return names;
+}
+
+std::vector<std::string> names_for(const SectionDescription& section, const std::string& kind) {
+  std::vector<std::string> names;
+  for (const KeyDescription& key : section.keys) {
+    if (applies(key, kind)) names.push_back(key.key);
+  }
+  return names;
+}
+
+std::string plain_list(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+[[noreturn]] void unknown_key(const Member& member, const SectionDescription& section, const ReadContext& at) {
+  const std::vector<std::string> names = all_names(section);
+  const std::string near = nearest(member.key, names);
+  throw CaseError(member.where, join(at.path, member.key), "an unknown key", "one of " + plain_list(names),
+                  near.empty() ? "" : fmt::format("Did you mean {}?", near));
+}
+
+[[noreturn]] void wrong_kind(const Member& member, const KeyDescription& key, const SectionDescription& section,
+                             const std::string& kind, const ReadContext& at) {
+  throw CaseError(member.where, join(at.path, member.key),
+                  fmt::format("a key that {} = {} does not take", section.selector, toml_string(kind)),
+                  fmt::format("one of {}", plain_list(names_for(section, kind))),
+                  fmt::format("It belongs to {} = {}.", section.selector, quoted_list(key.options.kinds)));
+}
+
+[[noreturn]] void missing_key(const Node& node, const KeyDescription& key, const ReadContext& at) {
+  const bool has_sections = key.section != nullptr;
+  throw CaseError(node.where, join(at.path, key.key), "nothing", expected_text(key, at.units),
+                  has_sections ? "Add the section: " + key.doc : "Add the key: " + key.doc);
+}
+
+/// The kind as written; the value of a selector must be one of its choices before anything else is judged by it.
+std::string find_kind(const Node& node, const SectionDescription& section, const ReadContext& at) {
+  if (section.selector.empty()) return "";
+  const bool elsewhere = section.selector.find('.') != std::string::npos;
+  const Node* value = find(elsewhere ? at.root : node, section.selector);
+  if (elsewhere) {
+    const auto* text = value != nullptr ? std::get_if<std::string>(&value->value) : nullptr;
+    return text != nullptr ? *text : "";
+  }
+  const auto key = std::find_if(section.keys.begin(), section.keys.end(),
+                                [&section](const KeyDescription& k) { return k.key == section.selector; });
+  if (value != nullptr) return key->options.choices.at(decode_choice(*value, *key, at.at(key->key)));
+  if (section.default_kind.empty()) missing_key(node, *key, at);
+  return section.default_kind;
+}
+
+void check_alternatives(const Node& node, const Alternatives& alternatives, const ReadContext& at) {
+  const Table& table = std::get<Table>(node.value);
+  std::vector<std::string> given;
+  for (const std::string& key : alternatives.keys) {
+    if (table.find(key) != nullptr) given.push_back(key);
+  }
+  const bool exactly_one = alternatives.count == Alternatives::Count::exactly_one;
+  if (given.size() == 1 || (!exactly_one && !given.empty())) return;
+  throw CaseError(given.empty() ? node.where : table.find(given.back())->where, at.path,
+                  given.empty() ? "none of " + plain_list(alternatives.keys)
+                                : fmt::format("{} together", fmt::join(given, " and ")),
+                  fmt::format("{} of {}", exactly_one ? "exactly one" : "at least one", plain_list(alternatives.keys)));
+}
+
+}  // namespace
+
+std::string check_section(const Node& node, const SectionDescription& section, const ReadContext& at) {
+  const auto* table = std::get_if<Table>(&node.value);
+  if (table == nullptr) throw CaseError(node.where, at.path, describe(node), "a table of keys");
+  for (const Member& member : table->members) {
+    if (declared_key(section, member.key, "") == nullptr) unknown_key(member, section, at);
+  }
+  const std::string kind = find_kind(node, section, at);
+  for (const Member& member : table->members) {
+    const KeyDescription* key = declared_key(section, member.key, kind);
+    if (!applies(*key, kind)) wrong_kind(member, *key, section, kind, at);
+  }
+  for (const Alternatives& alternatives : section.alternatives) check_alternatives(node, alternatives, at);
+  for (const KeyDescription& key : section.keys) {
+    if (required(key, kind) && table->find(key.key) == nullptr) missing_key(node, key, at);
+  }
+  return kind;
+}
+
+const List& entries_of(const Node& node, const KeyDescription& key, const ReadContext& at) {
+  const auto* list = std::get_if<List>(&node.value);
+  const auto is_table = [](const Node& entry) { return std::holds_alternative<Table>(entry.value); };
+  if (list == nullptr || !std::all_of(list->begin(), list->end(), is_table) ||
+      (list->empty() && key.options.need == KeyOptions::Need::required)) {
+    throw CaseError(node.where, at.path, describe(node), expected_text(key, at.units),
+                    "Write the name in double brackets, once for each entry.");
+  }
+  return *list;
+}
+
+const Table& members_of(const Node& node, const KeyDescription& key, const ReadContext& at) {
+  const auto* table = std::get_if<Table>(&node.value);
+  if (table == nullptr || (table->members.empty() && key.options.need == KeyOptions::Need::required)) {
+    throw CaseError(node.where, at.path, describe(node), expected_text(key, at.units));
+  }
+  return *table;
+}
+
+std::string written_kind(const Node& node, const Node& root, const SectionDescription& section) {
+  if (section.selector.empty()) return "";
+  const bool elsewhere = section.selector.find('.') != std::string::npos;
+  const Node* value = find(elsewhere ? root : node, section.selector);
+  return value != nullptr ? std::get<std::string>(value->value) : section.default_kind;
+}
+
+bool is_empty_text(const Node& node) {
+  const auto* text = std::get_if<std::string>(&node.value);
+  return text != nullptr && text->empty();
+}
+
+}  // namespace carom

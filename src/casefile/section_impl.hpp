@@ -1,0 +1,156 @@
+// Member templates of Section; include casefile/section.hpp.
+#pragma once
+
+#include "casefile/section.hpp"
+
+namespace carom {
+
+/// The kind of a section that is being written: from its own key, from the case written so far, or the default.
+std::string written_kind(const Node& node, const Node& root, const SectionDescription& section);
+
+/// True for "".
+bool is_empty_text(const Node& node);
+
+template <class S>
+void place_section(S& s, const Location& where) {
+  if constexpr (requires { s.where; }) s.where = where;
+}
+
+template <class S>
+template <class Access>
+void Section<S>::key_by(const std::string& name, Access access, const std::string& doc, KeyOptions options) {
+  using Member = std::remove_cvref_t<decltype(access(std::declval<S&>()))>;
+  KeyDescription described{name, shape_of<Member>(options), doc, std::move(options), {}, {}};
+  const S defaults{};
+  const std::optional<Node> initial = encode(access(defaults), described.options);
+  const bool starts_empty = !initial || is_empty_text(*initial);
+  if (described.options.need == KeyOptions::Need::optional && described.options.required_for.empty() &&
+      described.options.default_phrase.empty() && !starts_empty) {
+    described.default_value = initial;
+  }
+  Handlers handlers;
+  handlers.read = [access, described](S& s, const Node& node, const ReadContext& at) {
+    decode(node, described, at, access(s));
+  };
+  handlers.write = [access, described, starts_empty](const S& s, const Node&) {
+    std::optional<Node> node = encode(access(s), described.options);
+    if (node && starts_empty && is_empty_text(*node)) node.reset();
+    return node;
+  };
+  handlers.absent = [access](S& s, const ReadContext&, const Location& where) { place_default(access(s), where); };
+  add(std::move(described), std::move(handlers));
+}
+
+template <class S>
+KeyDescription Section<S>::describe_section(const std::string& name, Shape shape, const SectionDescription& sub,
+                                            KeyOptions options) const {
+  return {name, shape, sub.doc, std::move(options), {}, std::make_shared<const SectionDescription>(sub)};
+}
+
+template <class S>
+template <class Sub>
+void Section<S>::table(const std::string& name, Sub S::*member, const Section<Sub>& sub, KeyOptions options) {
+  Handlers handlers;
+  handlers.read = [member, sub](S& s, const Node& node, const ReadContext& at) {
+    place_section(s.*member, node.where);
+    sub.read(s.*member, node, at);
+  };
+  handlers.write = [member, sub](const S& s, const Node& root) { return sub.write(s.*member, &root); };
+  handlers.absent = [read = handlers.read](S& s, const ReadContext& at, const Location& where) {
+    read(s, Node{Table{}, where}, at);
+  };
+  add(describe_section(name, Shape::section, sub.description, std::move(options)), std::move(handlers));
+}
+
+template <class S>
+template <class Sub>
+void Section<S>::table(const std::string& name, std::optional<Sub> S::*member, const Section<Sub>& sub) {
+  Handlers handlers;
+  handlers.read = [member, sub](S& s, const Node& node, const ReadContext& at) {
+    Sub& value = (s.*member).emplace();
+    place_section(value, node.where);
+    sub.read(value, node, at);
+  };
+  handlers.write = [member, sub](const S& s, const Node& root) -> std::optional<Node> {
+    if (!(s.*member)) return std::nullopt;
+    return sub.write(*(s.*member), &root);
+  };
+  add(describe_section(name, Shape::section, sub.description, {}), std::move(handlers));
+}
+
+template <class S>
+template <class Sub>
+void Section<S>::tables(const std::string& name, std::vector<Sub> S::*member, const Section<Sub>& sub,
+                        KeyOptions options) {
+  const KeyDescription described = describe_section(name, Shape::sections, sub.description, std::move(options));
+  Handlers handlers;
+  handlers.read = [member, sub, described](S& s, const Node& node, const ReadContext& at) {
+    const List& entries = entries_of(node, described, at);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      Sub& value = (s.*member).emplace_back();
+      place_section(value, entries[i].where);
+      sub.read(value, entries[i], at.entry(i));
+    }
+  };
+  handlers.write = [member, sub](const S& s, const Node& root) -> std::optional<Node> {
+    List entries;
+    for (const Sub& value : s.*member) entries.push_back(sub.write(value, &root));
+    if (entries.empty()) return std::nullopt;
+    return Node{std::move(entries), {}};
+  };
+  add(described, std::move(handlers));
+}
+
+template <class S>
+template <class Sub>
+void Section<S>::named_tables(const std::string& name, std::vector<Sub> S::*member, const Section<Sub>& sub,
+                              KeyOptions options) {
+  const KeyDescription described = describe_section(name, Shape::named_sections, sub.description, std::move(options));
+  Handlers handlers;
+  handlers.read = [member, sub, described](S& s, const Node& node, const ReadContext& at) {
+    for (const Member& m : members_of(node, described, at).members) {
+      Sub& value = (s.*member).emplace_back();
+      value.name = m.key;
+      place_section(value, m.value.where);
+      sub.read(value, m.value, at.at(m.key));
+    }
+  };
+  handlers.write = [member, sub](const S& s, const Node& root) -> std::optional<Node> {
+    Table table;
+    for (const Sub& value : s.*member) table.members.push_back({value.name, {}, sub.write(value, &root)});
+    if (table.members.empty()) return std::nullopt;
+    return Node{std::move(table), {}};
+  };
+  add(described, std::move(handlers));
+}
+
+template <class S>
+void Section<S>::read(S& s, const Node& node, const ReadContext& at) const {
+  const std::string kind = check_section(node, description, at);
+  const Table& table = std::get<Table>(node.value);
+  for (std::size_t i = 0; i < handlers_.size(); ++i) {
+    const KeyDescription& declared = description.keys[i];
+    if (!applies(declared, kind)) continue;
+    const Node* value = table.find(declared.key);
+    if (value != nullptr)
+      handlers_[i].read(s, *value, at.at(declared.key));
+    else
+      handlers_[i].absent(s, at.at(declared.key), node.where);
+  }
+  finish(s, node, at);
+}
+
+template <class S>
+Node Section<S>::write(const S& s, const Node* root) const {
+  Node node{Table{}, {}};
+  const Node& whole = root != nullptr ? *root : node;
+  for (std::size_t i = 0; i < handlers_.size(); ++i) {
+    const KeyDescription& declared = description.keys[i];
+    if (!applies(declared, written_kind(node, whole, description))) continue;
+    std::optional<Node> value = handlers_[i].write(s, whole);
+    if (value) std::get<Table>(node.value).members.push_back({declared.key, {}, std::move(*value)});
+  }
+  return node;
+}
+
+}  // namespace carom

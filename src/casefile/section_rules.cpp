@@ -1,0 +1,108 @@
+#include "casefile/section_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+/// The place of a key that may not be written: its own, or that of the section.
+Location place_of(const Node& section, const std::string& key) {
+  const Node* node = find(section, key);
+  return node != nullptr ? node->where : section.where;
+}
+
+double norm(const Vec3& v) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+/// A unit vector is left as it is, so that a case written and read again is the same to the last bit.
+void normalise(Vec3& v) {
+  const double length = norm(v);
+  constexpr double round_off = 1e-14;
+  if (std::abs(length - 1.0) <= round_off) return;
+  for (double& component : v) component /= length;
+}
+
+}  // namespace
+
+void check_name(const Located<std::string>& name, const std::string& path) {
+  const auto forbidden = [](unsigned char c) { return c < 0x20 || c == 0x7f || c == ',' || c == '"'; };
+  if (!name->empty() && std::none_of(name->begin(), name->end(), forbidden)) return;
+  throw CaseError(name.where, path, toml_string(*name), "a name without commas, quotes and control characters");
+}
+
+void check_contact(CaseContact& contact, const Node& node, const ReadContext& at) {
+  check_name(contact.name, at.at("name").path);
+  const bool mu = contact.friction > 0.0;
+  const bool eps_T = contact.tangential_stiffness > 0.0;
+  if (mu && !eps_T) {
+    throw CaseError(place_of(node, "friction"), at.at("friction").path,
+                    fmt::format("{} without a tangential_stiffness", contact.friction),
+                    "tangential_stiffness > 0 beside friction > 0",
+                    "Add tangential_stiffness; a value near stiffness is a fair start.");
+  }
+  if (eps_T && !mu) {
+    throw CaseError(place_of(node, "tangential_stiffness"), at.at("tangential_stiffness").path,
+                    fmt::format("{} without friction", contact.tangential_stiffness),
+                    "friction > 0 beside tangential_stiffness > 0", "Add friction, or remove tangential_stiffness.");
+  }
+  if (contact.kind == CaseContact::Kind::interface) return;
+  const double length = norm(*contact.normal);
+  if (!(length > 0.0) || !std::isfinite(length)) {
+    throw CaseError(contact.normal.where, at.at("normal").path, fmt::format("a vector of length {}", length),
+                    "a direction, such as [0, 0, 1]");
+  }
+  normalise(contact.normal.value);
+}
+
+void check_function(CaseFunction& function, const Node& node, const ReadContext& at) {
+  const std::vector<double>& time = function.function.time;
+  const std::size_t values = function.function.value.size();
+  if (values != time.size()) {
+    throw CaseError(place_of(node, "value"), at.at("value").path, fmt::format("{} values", values),
+                    fmt::format("{}, one for each time", time.size()));
+  }
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    const bool third = i >= 2 && time[i] == time[i - 2];
+    if (time[i] >= time[i - 1] && !third) continue;
+    throw CaseError(std::get<List>(find(node, "time")->value)[i].where, at.at("time").entry(i).path,
+                    fmt::format("{} after {}", time[i], time[i - 1]),
+                    "times in increasing order, the same time at most twice");
+  }
+}
+
+void check_probe(CaseProbe& probe, const Node& node, const ReadContext& at) {
+  check_name(probe.name, at.at("name").path);
+  if (probe.quantities.empty()) {
+    throw CaseError(place_of(node, "quantities"), at.at("quantities").path, "an empty list", "at least one quantity");
+  }
+  const auto force = std::find_if(probe.quantities.begin(), probe.quantities.end(),
+                                  [](const Located<std::string>& q) { return *q == "section_force"; });
+  if (force == probe.quantities.end()) {
+    if (!probe.side) return;
+    throw CaseError(place_of(node, "side"), at.at("side").path, "a side without section_force",
+                    "side only where quantities have \"section_force\"");
+  }
+  if (!probe.group || !probe.side) {
+    throw CaseError(force->where, at.at("quantities").path,
+                    fmt::format("\"section_force\" without {}", probe.group ? "side" : "group"),
+                    "a group of nodes on the section and the side whose cells are summed",
+                    "Add for example side = [0, 0, 1].");
+  }
+  if (!(norm(*probe.side) > 0.0)) {
+    throw CaseError(place_of(node, "side"), at.at("side").path, "a vector of length 0",
+                    "a direction, such as [0, 0, 1]");
+  }
+}
+
+void check_check(CaseCheck& check, const Node&, const ReadContext& at) {
+  if (!check.value || **check.value != 0.0 || check.absolute) return;
+  throw CaseError(check.value->where, at.at("value").path, "0 with a relative tolerance", "absolute = true",
+                  "A difference relative to 0 means nothing; give the tolerance in the unit of the quantity.");
+}
+
+}  // namespace carom
