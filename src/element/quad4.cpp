@@ -1,0 +1,48 @@
+#include "element/quad4.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace carom::quad4 {
+namespace {
+
+constexpr std::array<std::array<double, 2>, 4> corner{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+
+}  // namespace
+
+std::array<double, 4> shape(double xi, double eta) {
+  std::array<double, 4> N{};
+  for (std::size_t a = 0; a < 4; ++a) N[a] = 0.25 * (1.0 + xi * corner[a][0]) * (1.0 + eta * corner[a][1]);
+  return N;
+}
+
+Vec3 area_normal(const std::array<Vec3, 4>& x, double xi, double eta) {
+  Vec3 s{}, t{};
+  for (std::size_t a = 0; a < 4; ++a) {
+    const double dxi = 0.25 * corner[a][0] * (1.0 + eta * corner[a][1]);
+    const double deta = 0.25 * corner[a][1] * (1.0 + xi * corner[a][0]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      s[i] += dxi * x[a][i];
+      t[i] += deta * x[a][i];
+    }
+  }
+  return {s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]};
+}
+
+std::array<FacePoint, 4> face_points(const std::array<Vec3, 4>& x) {
+  const double g = 1.0 / std::sqrt(3.0);
+  std::array<FacePoint, 4> points{};
+  for (std::size_t p = 0; p < 4; ++p) {
+    const double xi = g * corner[p][0], eta = g * corner[p][1];
+    points[p] = {shape(xi, eta), area_normal(x, xi, eta)};
+  }
+  return points;
+}
+
+double area(const std::array<Vec3, 4>& x) {
+  double sum = 0.0;
+  for (const FacePoint& p : face_points(x)) sum += std::hypot(p.normal_dA[0], p.normal_dA[1], p.normal_dA[2]);
+  return sum;
+}
+
+}  // namespace carom::quad4

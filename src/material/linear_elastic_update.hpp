@@ -1,0 +1,37 @@
+// Batch update of isotropic linear elasticity over a number type.
+#pragma once
+
+#include "material/point_batch.hpp"
+#include "math/pack.hpp"
+
+// Internal linkage throughout: see math/pack.hpp.
+namespace carom {
+
+/// Lame parameter lambda and shear modulus G (stress).
+struct LameParameters {
+  double lambda = 0.0;
+  double G = 0.0;
+};
+
+/// sigma = lambda tr(eps) 1 + 2 G eps, stored energy density sigma : eps / 2. parameters: const LameParameters*.
+template <class Real>
+static void linear_elastic_update(const void* parameters, const PointBatch& batch) {
+  const double lambda = static_cast<const LameParameters*>(parameters)->lambda;
+  const double G = static_cast<const LameParameters*>(parameters)->G;
+  constexpr int n = lanes<Real>;
+  for (int p = 0; p < batch.points; ++p) {
+    const double* strain = batch.strain + 6 * p * n;
+    double* stress = batch.stress + 6 * p * n;
+    Real e[6], s[6];
+    for (int c = 0; c < 6; ++c) e[c] = load<Real>(strain + c * n);
+    const Real pressure_part = lambda * (e[0] + e[1] + e[2]);
+    for (int c = 0; c < 3; ++c) s[c] = pressure_part + (2.0 * G) * e[c];
+    for (int c = 3; c < 6; ++c) s[c] = G * e[c];
+    for (int c = 0; c < 6; ++c) store(stress + c * n, s[c]);
+    if (batch.energy == nullptr) continue;
+    store(batch.energy + p * n,
+          Real(0.5 * (s[0] * e[0] + s[1] * e[1] + s[2] * e[2] + s[3] * e[3] + s[4] * e[4] + s[5] * e[5])));
+  }
+}
+
+}  // namespace carom

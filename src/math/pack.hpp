@@ -1,0 +1,34 @@
+// Number types of the batch kernels: SIMD packs of doubles, one lane per cell, and plain double as the reference.
+#pragma once
+
+#include <type_traits>
+
+#include "base/types.hpp"
+
+// Kernels are compiled once per instruction set. Everything here has internal linkage, so that the linker can never
+// give code made for one instruction set to a unit made for another.
+namespace carom {
+
+using Pack2 = double __attribute__((vector_size(16)));
+using Pack4 = double __attribute__((vector_size(32)));
+using Pack8 = double __attribute__((vector_size(64)));
+
+/// Number of doubles in a Real: 1, 2, 4 or 8.
+template <class Real>
+inline constexpr int lanes = static_cast<int>(sizeof(Real) / sizeof(double));
+
+/// The `lanes<Real>` consecutive doubles at p (no alignment asked).
+template <class Real>
+[[gnu::always_inline]] static inline Real load(const double* p) {
+  Real r;
+  __builtin_memcpy(&r, p, sizeof(Real));
+  return r;
+}
+
+/// Writes the lanes of r to consecutive doubles at p.
+template <class Real>
+[[gnu::always_inline]] static inline void store(double* p, const Real& r) {
+  __builtin_memcpy(p, &r, sizeof(Real));
+}
+
+}  // namespace carom

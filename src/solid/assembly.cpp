@@ -1,0 +1,71 @@
+#include "solid/assembly.hpp"
+
+#include <algorithm>
+
+namespace carom {
+namespace {
+
+std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Cells of each node: begin offsets and cell positions.
+struct NodeCells {
+  std::vector<std::size_t> begin;
+  std::vector<Index> cells;
+};
+
+NodeCells cells_of_nodes(const Mesh& mesh, const SolidCells& solid) {
+  NodeCells result{std::vector<std::size_t>(mesh.node_count() + 1, 0), std::vector<Index>(8 * solid.cells.size())};
+  for (const Index cell : solid.cells)
+    for (const Index n : cell_nodes(mesh, cell)) ++result.begin[at(n) + 1];
+  for (std::size_t n = 0; n < mesh.node_count(); ++n) result.begin[n + 1] += result.begin[n];
+  std::vector<std::size_t> next(result.begin.begin(), result.begin.end() - 1);
+  for (const Index cell : solid.cells)
+    for (const Index n : cell_nodes(mesh, cell)) result.cells[next[at(n)]++] = cell;
+  return result;
+}
+
+}  // namespace
+
+CsrMatrix node_graph(const Mesh& mesh, const SolidCells& solid) {
+  const NodeCells incident = cells_of_nodes(mesh, solid);
+  CsrMatrix graph;
+  graph.size = static_cast<Index>(mesh.node_count());
+  graph.row_begin.assign(1, 0);
+  std::vector<Index> row;
+  for (std::size_t n = 0; n < mesh.node_count(); ++n) {
+    row.clear();
+    for (std::size_t k = incident.begin[n]; k < incident.begin[n + 1]; ++k)
+      for (const Index m : cell_nodes(mesh, incident.cells[k])) row.push_back(m);
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    graph.column.insert(graph.column.end(), row.begin(), row.end());
+    graph.row_begin.push_back(static_cast<std::int64_t>(graph.column.size()));
+  }
+  graph.value.assign(graph.column.size(), 0.0);
+  return graph;
+}
+
+CsrMatrix dof_graph(const CsrMatrix& nodes) {
+  CsrMatrix graph;
+  graph.size = 3 * nodes.size;
+  graph.row_begin.assign(1, 0);
+  graph.column.reserve(9 * nodes.column.size());
+  for (Index n = 0; n < nodes.size; ++n)
+    for (int i = 0; i < 3; ++i) {
+      for (std::int64_t k = nodes.row_begin[at(n)]; k < nodes.row_begin[at(n) + 1]; ++k)
+        for (Index j = 0; j < 3; ++j) graph.column.push_back(3 * nodes.column[at(k)] + j);
+      graph.row_begin.push_back(static_cast<std::int64_t>(graph.column.size()));
+    }
+  graph.value.assign(graph.column.size(), 0.0);
+  return graph;
+}
+
+std::size_t entry(const CsrMatrix& matrix, Index row, Index column) {
+  const auto first = matrix.column.begin() + matrix.row_begin[at(row)];
+  const auto last = matrix.column.begin() + matrix.row_begin[at(row) + 1];
+  return static_cast<std::size_t>(std::lower_bound(first, last, column) - matrix.column.begin());
+}
+
+}  // namespace carom

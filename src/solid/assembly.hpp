@@ -1,0 +1,18 @@
+// Sparse matrices from cell matrices.
+#pragma once
+
+#include "linalg/csr_matrix.hpp"
+#include "solid/blocks.hpp"
+
+namespace carom {
+
+/// Empty matrix (zero values) whose entries are the pairs of nodes that share a solid cell.
+CsrMatrix node_graph(const Mesh& mesh, const SolidCells& solid);
+
+/// The same graph with 3 x 3 entries per pair of nodes; row 3 n + i is component i of node n.
+CsrMatrix dof_graph(const CsrMatrix& nodes);
+
+/// Position in `matrix` of the entry (row, column), which must exist.
+std::size_t entry(const CsrMatrix& matrix, Index row, Index column);
+
+}  // namespace carom

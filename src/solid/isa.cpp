@@ -1,0 +1,62 @@
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "solid/solid.hpp"
+
+namespace carom {
+namespace {
+
+bool available(Isa isa) {
+  switch (isa) {
+    case Isa::reference:
+      return true;
+    case Isa::x86_64_v2:
+      return __builtin_cpu_supports("x86-64-v2") != 0;
+    case Isa::x86_64_v3:
+      return __builtin_cpu_supports("x86-64-v3") != 0;
+    case Isa::x86_64_v4:
+      return __builtin_cpu_supports("x86-64-v4") != 0;
+  }
+  return false;
+}
+
+constexpr Isa best_first[] = {Isa::x86_64_v4, Isa::x86_64_v3, Isa::x86_64_v2, Isa::reference};
+
+Isa best() {
+  for (const Isa isa : best_first)
+    if (available(isa)) return isa;
+  return Isa::reference;
+}
+
+}  // namespace
+
+std::string_view name(Isa isa) {
+  switch (isa) {
+    case Isa::reference:
+      return "reference";
+    case Isa::x86_64_v2:
+      return "v2";
+    case Isa::x86_64_v3:
+      return "v3";
+    case Isa::x86_64_v4:
+      return "v4";
+  }
+  return "";
+}
+
+Isa chosen_isa() {
+  const char* wish = std::getenv("CAROM_ISA");
+  if (wish == nullptr || *wish == '\0') return best();
+  for (const Isa isa : best_first) {
+    if (name(isa) != wish) continue;
+    if (available(isa)) return isa;
+    throw std::runtime_error("CAROM_ISA=" + std::string(wish) + ": this processor lacks x86-64-" + wish +
+                             "; the best it has is " + std::string(name(best())));
+  }
+  throw std::runtime_error("CAROM_ISA=" + std::string(wish) +
+                           ": no such instruction set; expected reference, v2, v3 or v4, or leave it unset");
+}
+
+}  // namespace carom

@@ -1,0 +1,10 @@
+#include "solid/hexa8_batch.hpp"
+
+namespace carom {
+
+const KernelTable& kernels_reference() {
+  static constexpr KernelTable table = make_kernels<double>();
+  return table;
+}
+
+}  // namespace carom

@@ -1,0 +1,10 @@
+#include "solid/hexa8_batch.hpp"
+
+namespace carom {
+
+const KernelTable& kernels_v3() {
+  static constexpr KernelTable table = make_kernels<Pack4>();
+  return table;
+}
+
+}  // namespace carom

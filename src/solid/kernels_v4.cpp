@@ -1,0 +1,10 @@
+#include "solid/hexa8_batch.hpp"
+
+namespace carom {
+
+const KernelTable& kernels_v4() {
+  static constexpr KernelTable table = make_kernels<Pack8>();
+  return table;
+}
+
+}  // namespace carom
