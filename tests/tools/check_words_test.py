@@ -23,7 +23,7 @@ class CheckWords(ToolTest):
             self.assert_offence(f'path = "/{folder}/x"')
 
     def test_registry_addresses(self):
-        for host in ("pypi." + "org", "registry.npmjs." + "org", "deb.debian." + "org"):
+        for host in ("pypi." + "org", "registry.npm" + "js.org", "deb.debian." + "org"):
             self.assert_offence(f"https://{host}/thing")
 
     def test_looks_at_what_git_lists(self):
