@@ -38,7 +38,7 @@ ENERGIES = [
 ]
 FOOTNOTES = [
     "[1] Misprint of the manual: -9.999e+2 stands for -9.999e+1.",
-    "[2] Misprint of the manual, probably of the time: the stated data give these velocities at 1.32e-4 s.",
+    "[2] Misprint of the manual, probably of the time: its data give these velocities at 1.32e-4 s.",
     "[3] Misprint of the manual: the sign was lost; the work is negative.",
 ]
 
@@ -129,7 +129,7 @@ def tables(out):
         *point_lines(published, MENDED_POINTS),
         verdict_line(published),
         "-" * WIDTH,
-        "Table 2. Full beam, nu = 0, 1e10 N/m under each foot node: the model behind the manual's energies.",
+        "Table 2. Full beam, nu = 0, 1e10 N/m under each foot node: the model of the manual's energies.",
         "",
         *energy_lines(current),
         verdict_line(current),
