@@ -29,6 +29,21 @@ enum class Dimension : std::uint8_t {
   damping             ///< force per velocity
 };
 
+/// All dimensions that have units.
+inline constexpr std::array dimensions{Dimension::length,
+                                       Dimension::area,
+                                       Dimension::mass,
+                                       Dimension::time,
+                                       Dimension::force,
+                                       Dimension::stress,
+                                       Dimension::energy,
+                                       Dimension::density,
+                                       Dimension::velocity,
+                                       Dimension::acceleration,
+                                       Dimension::stress_per_length,
+                                       Dimension::force_per_length,
+                                       Dimension::damping};
+
 /// "SI", "mm-t-s", "mm-kg-ms": the values of the key `units`.
 std::string_view name(UnitSystem system);
 /// "stress", "density", ...; "" for none.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,7 +35,7 @@ struct Bound {
 
 /// Allowed numbers; for lists and vectors each entry. All numbers must be finite, whatever the range.
 struct Range {
-  std::optional<Bound> low, high;
+  std::optional<Bound> low{}, high{};
 
   bool contains(double number) const;
 };
@@ -48,12 +47,12 @@ Range between_open(double low, double high);
 /// The optional part of a declaration.
 struct KeyOptions {
   Dimension unit = Dimension::none;
-  Range range;
-  std::vector<std::string> choices;  ///< for an enumeration in the order of its enumerators
-  std::vector<std::string> kinds;    ///< values of the section's selector for which the key is taken; empty: all
+  Range range{};
+  std::vector<std::string> choices{};  ///< for an enumeration in the order of its enumerators
+  std::vector<std::string> kinds{};    ///< values of the section's selector for which the key is taken; empty: all
   enum class Need : std::uint8_t { optional, required } need = Need::optional;
-  std::vector<std::string> required_for;  ///< kinds for which an otherwise optional key is required
-  std::string default_phrase;             ///< the default in words, where it is not one value
+  std::vector<std::string> required_for{};  ///< kinds for which an otherwise optional key is required
+  std::string default_phrase{};             ///< the default in words, where it is not one value
 };
 
 struct SectionDescription;

@@ -19,8 +19,8 @@ void place_section(S& s, const Location& where) {
 template <class S>
 template <class Access>
 void Section<S>::key_by(const std::string& name, Access access, const std::string& doc, KeyOptions options) {
-  using Member = std::remove_cvref_t<decltype(access(std::declval<S&>()))>;
-  KeyDescription described{name, shape_of<Member>(options), doc, std::move(options), {}, {}};
+  using Value = std::remove_cvref_t<decltype(access(std::declval<S&>()))>;
+  KeyDescription described{name, shape_of<Value>(options), doc, std::move(options), {}, {}};
   const S defaults{};
   const std::optional<Node> initial = encode(access(defaults), described.options);
   const bool starts_empty = !initial || is_empty_text(*initial);
