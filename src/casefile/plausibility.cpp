@@ -1,0 +1,158 @@
+#include "casefile/plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "casefile/document.hpp"
+
+namespace carom {
+
+namespace {
+
+/// Orders of magnitude in SI between which a quantity of engineering is taken for plausible.
+struct Plausible {
+  Dimension dimension;
+  const char* what;
+  double low, high;
+  const char* example;
+  double example_value;
+};
+
+// Polymer foam to tungsten and osmium (22600 kg/m3); soft gel to diamond (1.2e12 Pa); sound in rubber foam to diamond
+// (axial wave about 1.75e4 m/s); impacts beyond 5 km/s need laws of state, not elasticity.
+constexpr Plausible density{Dimension::density, "density", 50.0, 25000.0, "steel", 7850.0};
+constexpr Plausible modulus{Dimension::stress, "Young's modulus", 1e5, 1.5e12, "steel", 2.1e11};
+constexpr Plausible wave_speed{Dimension::velocity, "wave speed sqrt(E/rho)", 10.0, 15000.0, "steel", 5170.0};
+constexpr Plausible speed{Dimension::velocity, "speed", 0.0, 5000.0, "sound in steel", 5170.0};
+constexpr double standard_gravity = 9.80665;
+
+bool within(double value, const Plausible& range, UnitSystem units) {
+  const double in_si = value * si_factor(range.dimension, units);
+  return in_si >= range.low && in_si <= range.high;
+}
+
+/// Do these properties make sense together in this unit system?
+bool plausible(const CaseMaterial& m, UnitSystem units) {
+  return within(*m.rho, density, units) && within(*m.E, modulus, units) &&
+         within(std::sqrt(*m.E / *m.rho), wave_speed, units);
+}
+
+std::string place(const Location& where) {
+  return to_string({where.file, where.line, 0});
+}
+
+class Lint {
+ public:
+  explicit Lint(const Case& given) : case_(given) {}
+
+  std::vector<std::string> run() {
+    for (const CaseMaterial& m : case_.materials) check_material(m);
+    check_speeds();
+    for (const CaseLoad& load : case_.loads) check_gravity(load);
+    check_scheme();
+    return std::move(lines_);
+  }
+
+ private:
+  void say(const Location& where, const std::string& text) { lines_.push_back(place(where) + ": " + text); }
+
+  std::string with_unit(double value, Dimension dimension) const {
+    return fmt::format("{:.4g} {}", value, unit_name(dimension, case_.units));
+  }
+
+  std::string did_you_mean(UnitSystem other) const {
+    return fmt::format("did you mean units = {}?", toml_string(name(other)));
+  }
+
+  void check_material(const CaseMaterial& m) {
+    if (plausible(m, case_.units)) return;
+    std::string hint;
+    for (const UnitSystem other : unit_systems) {
+      if (other != case_.units && plausible(m, other))
+        hint = fmt::format("it would fit {}: {}", name(other), did_you_mean(other));
+    }
+    const std::size_t before = lines_.size();
+    check_value(m, m.rho.where, *m.rho, density, hint);
+    check_value(m, m.E.where, *m.E, modulus, hint);
+    if (lines_.size() == before) check_value(m, m.E.where, std::sqrt(*m.E / *m.rho), wave_speed, hint);
+  }
+
+  void check_value(const CaseMaterial& m, const Location& where, double value, const Plausible& range,
+                   const std::string& hint) {
+    if (within(value, range, case_.units)) return;
+    const double ratio = value * si_factor(range.dimension, case_.units) / range.example_value;
+    const std::string distance =
+        ratio < 1.0 ? fmt::format("{:.2g} times below", 1.0 / ratio) : fmt::format("{:.2g} times above", ratio);
+    say(where, fmt::format("materials.{}: {} {} is {} that of {}{}", toml_key(m.name), range.what,
+                           with_unit(value, range.dimension), distance, range.example,
+                           hint.empty() ? "; is it meant?" : "; " + hint));
+  }
+
+  void check_speed(const Location& where, const std::string& key, double value) {
+    if (within(value, speed, case_.units)) return;
+    std::string hint;
+    for (const UnitSystem other : unit_systems) {
+      const bool materials_fit = std::all_of(case_.materials.begin(), case_.materials.end(),
+                                             [other](const CaseMaterial& m) { return plausible(m, other); });
+      if (other != case_.units && within(value, speed, other) && materials_fit) hint = "; " + did_you_mean(other);
+    }
+    say(where,
+        fmt::format("{}: {} is {:.4g} m/s, faster than elastic impact makes sense{}", key,
+                    with_unit(value, Dimension::velocity), value * si_factor(Dimension::velocity, case_.units), hint));
+  }
+
+  void check_speeds() {
+    for (const CaseInitial& initial : case_.initial) {
+      if (!initial.velocity) continue;
+      const Vec3& v = *initial.velocity;
+      check_speed(initial.where, "initial.velocity", std::hypot(v[0], v[1], v[2]));
+    }
+    for (const CaseSupport& support : case_.supports) {
+      for (const CaseSupport::Motion& motion : support.motions) {
+        if (motion.kind != CaseSupport::Kind::velocity) continue;
+        check_speed(motion.amplitude.where, "support.velocity", std::abs(*motion.amplitude));
+      }
+    }
+  }
+
+  /// Is the magnitude that of the earth's gravity in another unit system, and not in this one?
+  void check_gravity(const CaseLoad& load) {
+    if (load.kind != CaseLoad::Kind::gravity) return;
+    const double value = std::hypot(load.vector[0], load.vector[1], load.vector[2]);
+    const auto is_earth = [value](UnitSystem units) {
+      constexpr double loosely = 0.02;  // 9.81, 9.8 and 10 are all meant as g
+      return std::abs(value * si_factor(Dimension::acceleration, units) / standard_gravity - 1.0) <= loosely;
+    };
+    if (is_earth(case_.units)) return;
+    for (const UnitSystem other : unit_systems) {
+      if (!is_earth(other)) continue;
+      const double here = standard_gravity / si_factor(Dimension::acceleration, case_.units);
+      say(load.where, fmt::format("load.gravity: {} is the earth's gravity in {}, but in {} that is {}",
+                                  with_unit(value, Dimension::acceleration), name(other), name(case_.units),
+                                  with_unit(here, Dimension::acceleration)));
+      return;
+    }
+  }
+
+  void check_scheme() {
+    const CaseScheme& scheme = case_.scheme;
+    constexpr double round_off = 1e-12;
+    if (scheme.kind != CaseScheme::Kind::newmark || 2.0 * scheme.beta >= scheme.gamma - round_off) return;
+    say(scheme.where, fmt::format("scheme: Newmark with beta = {} and gamma = {} is stable for small steps only; with "
+                                  "2 beta >= gamma it is stable for any step",
+                                  scheme.beta, scheme.gamma));
+  }
+
+  const Case& case_;
+  std::vector<std::string> lines_;
+};
+
+}  // namespace
+
+std::vector<std::string> plausibility_warnings(const Case& given) {
+  return Lint(given).run();
+}
+
+}  // namespace carom
