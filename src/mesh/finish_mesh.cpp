@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/errors.hpp"
 #include "mesh/orientation.hpp"
 #include "mesh/renumber.hpp"
 
@@ -19,6 +20,9 @@ void sort_unique(std::vector<T>& entries) {
 }  // namespace
 
 Mesh finished(Mesh mesh) {
+  if (mesh.blocks.empty())
+    throw CaseError({mesh.report.source, 0, 0}, "", "a mesh without cells", "at least one cell",
+                    "Save the mesh after meshing, with all its cells.");
   for (auto& [name, nodes] : mesh.node_groups) sort_unique(nodes);
   for (auto& [name, cells] : mesh.cell_groups) sort_unique(cells);
   orient_cells(mesh);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 
 #include "base/errors.hpp"
 
@@ -19,6 +20,12 @@ constexpr bool is_space(char c) {
 }
 constexpr bool is_printable(char c) {
   return c >= 32 && c < 127;
+}
+
+/// Text where binary data stand wants another advice than a wrong word.
+std::string advice(std::string_view found, std::string otherwise) {
+  if (std::all_of(found.begin(), found.end(), is_printable)) return otherwise;
+  return "These are binary data; the second number of the header must be 1 for a binary file and 0 for text.";
 }
 
 }  // namespace
@@ -112,9 +119,7 @@ std::int64_t GmshCursor::integer(std::string_view what) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc{} && end == text.data() + text.size()) return value;
-  const bool binary = !std::all_of(text.begin(), text.end(), is_printable);
-  fail(printable(text), fmt::format("{}, an integer", what),
-       binary ? "The header says text (0) but these are binary data; a binary file has 1 there." : "");
+  fail(printable(text), fmt::format("{}, an integer", what), advice(text, ""));
 }
 
 double GmshCursor::real(std::string_view what) {
@@ -123,7 +128,8 @@ double GmshCursor::real(std::string_view what) {
   const char* begin = text.data() + (text.starts_with("+") ? 1 : 0);
   const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
   if (error == std::errc{} && end == text.data() + text.size()) return value;
-  if (error == std::errc::result_out_of_range && end == text.data() + text.size()) return 0.0 * value;
+  if (error == std::errc::result_out_of_range && end == text.data() + text.size())
+    return std::strtod(std::string(text).c_str(), nullptr);  // 0 or infinity
   fail(printable(text), fmt::format("{}, a number", what));
 }
 

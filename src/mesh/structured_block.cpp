@@ -132,7 +132,7 @@ Mesh make_structured_blocks(const std::vector<StructuredBlock>& blocks) {
       if (!blocks[b].face_groups[s].empty()) add_faces(blocks[b], lattices[b], s, mesh);
     for (const StructuredBlock::Point& point : blocks[b].points) add_point(blocks[b], point, lattices[b], mesh);
   }
-  if (mesh.blocks[1].size() == 0) mesh.blocks.pop_back();
+  std::erase_if(mesh.blocks, [](const CellBlock& cells) { return cells.size() == 0; });
   return finished(std::move(mesh));
 }
 

@@ -1,0 +1,257 @@
+#include "mesh/med_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "mesh/cell_topology.hpp"
+#include "mesh/node_numbers.hpp"
+
+namespace carom {
+
+namespace {
+
+struct MedType {
+  std::string_view code;
+  CellType type;
+};
+
+constexpr std::array<MedType, 16> kTypes{{{"PO1", CellType::point1},
+                                          {"SE2", CellType::line2},
+                                          {"SE3", CellType::line3},
+                                          {"TR3", CellType::tria3},
+                                          {"TR6", CellType::tria6},
+                                          {"QU4", CellType::quad4},
+                                          {"QU8", CellType::quad8},
+                                          {"QU9", CellType::quad9},
+                                          {"TE4", CellType::tetra4},
+                                          {"T10", CellType::tetra10},
+                                          {"PY5", CellType::pyra5},
+                                          {"P13", CellType::pyra13},
+                                          {"PE6", CellType::penta6},
+                                          {"P15", CellType::penta15},
+                                          {"HE8", CellType::hexa8},
+                                          {"H20", CellType::hexa20}}};
+
+using Families = std::map<std::int64_t, std::vector<std::string>>;
+
+/// Names of the groups directly below `path`.
+std::vector<std::string> children(const Hdf5Tree& tree, const std::string& path) {
+  std::vector<std::string> names;
+  const std::string prefix = path + "/";
+  for (auto it = tree.groups.lower_bound(prefix); it != tree.groups.end() && it->starts_with(prefix); ++it)
+    if (it->find('/', prefix.size()) == std::string::npos) names.push_back(it->substr(prefix.size()));
+  return names;
+}
+
+class MedReader {
+ public:
+  MedReader(const Hdf5Tree& tree, const std::string& source) : tree_(tree), source_(source) {}
+
+  Mesh run() {
+    mesh_.report.source = source_;
+    mesh_.report.format = "MED " + version();
+    const std::string name = only_mesh();
+    const std::string step = first_step("/ENS_MAA/" + name);
+    families_ = read_families("/FAS/" + name);
+    read_nodes(step + "/NOE", space_dimension(name));
+    read_cells(step + "/MAI");
+    return std::move(mesh_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& path, std::string found, std::string expected,
+                         std::string suggestion = {}) const {
+    throw CaseError({source_, 0, 0}, path, std::move(found), std::move(expected), std::move(suggestion));
+  }
+
+  std::int64_t attribute(const std::string& path, const std::string& name) const {
+    const auto found = tree_.attributes.find(path + "@" + name);
+    if (found == tree_.attributes.end())
+      fail(path, "no attribute " + name, "one, as in every MED file", "Write the mesh again as MED 3 or 4.");
+    return found->second;
+  }
+
+  std::string version() const {
+    if (tree_.groups.count("/INFOS_GENERALES") == 0)
+      fail("/INFOS_GENERALES", "an HDF5 file without this group", "a MED file",
+           "Export the mesh as MED (Salome, Code_Aster) or as Gmsh 2.2 or 4.1.");
+    const std::int64_t major = attribute("/INFOS_GENERALES", "MAJ"), minor = attribute("/INFOS_GENERALES", "MIN");
+    if (major < 3 || major > 4)
+      fail("/INFOS_GENERALES", fmt::format("MED {}.{}", major, minor), "MED 3 or 4",
+           "Convert the file (medimport), or write it again.");
+    return fmt::format("{}.{}", major, minor);
+  }
+
+  std::string only_mesh() const {
+    const std::vector<std::string> names = children(tree_, "/ENS_MAA");
+    if (names.size() != 1)
+      fail("/ENS_MAA", names.empty() ? "no mesh" : fmt::format("{} meshes ({})", names.size(), fmt::join(names, ", ")),
+           "one mesh", "Write the mesh that is wanted alone into a file.");
+    if (attribute("/ENS_MAA/" + names[0], "TYP") != 0)
+      fail("/ENS_MAA/" + names[0], "a structured mesh", "an unstructured one", "Convert it to cells with nodes.");
+    return names[0];
+  }
+
+  std::string first_step(const std::string& mesh) {
+    const std::vector<std::string> steps = children(tree_, mesh);
+    if (steps.empty()) fail(mesh, "no computing step", "one with NOE and MAI", "Write the mesh again as MED 3 or 4.");
+    if (steps.size() > 1)
+      mesh_.report.notes.push_back(fmt::format("the first of {} computing steps is read", steps.size()));
+    return mesh + "/" + steps[0];
+  }
+
+  std::size_t space_dimension(const std::string& name) const {
+    const std::int64_t dimension = attribute("/ENS_MAA/" + name, "ESP");
+    if (dimension < 1 || dimension > 3)
+      fail("/ENS_MAA/" + name, fmt::format("space dimension {}", dimension), "1, 2 or 3");
+    return static_cast<std::size_t>(dimension);
+  }
+
+  template <class T>
+  const std::vector<T>* find(const std::string& path) const {
+    const auto found = tree_.data_sets.find(path);
+    if (found == tree_.data_sets.end()) return nullptr;
+    const auto* values = std::get_if<std::vector<T>>(&found->second.values);
+    if (values == nullptr) fail(path, "values of another kind", "integers (numbers) or reals (coordinates)");
+    return values;
+  }
+
+  template <class T>
+  const std::vector<T>& require(const std::string& path) const {
+    const auto* values = find<T>(path);
+    if (values == nullptr) fail(path, "nothing", "this data set", "Write the mesh again as MED 3 or 4.");
+    return *values;
+  }
+
+  /// One integer per entity, or nullptr when the file has none.
+  const std::vector<std::int64_t>* per_entity(const std::string& path, std::size_t count) const {
+    const auto* values = find<std::int64_t>(path);
+    if (values != nullptr && values->size() != count)
+      fail(path, fmt::format("{} values", values->size()), fmt::format("{}, one for each entity", count),
+           "The file is damaged; write it again.");
+    return values;
+  }
+
+  Families read_families(const std::string& path) const {
+    Families families;
+    for (const char* kind : {"/NOEUD", "/ELEME"})
+      for (const std::string& name : children(tree_, path + kind)) {
+        const std::string family = path + kind + "/" + name;
+        families[attribute(family, "NUM")] = group_names(family + "/GRO/NOM");
+      }
+    return families;
+  }
+
+  /// Names of 80 characters each, filled up with blanks or zeros.
+  std::vector<std::string> group_names(const std::string& path) const {
+    const auto found = tree_.data_sets.find(path);
+    if (found == tree_.data_sets.end()) return {};
+    const std::vector<std::int64_t>& letters = require<std::int64_t>(path);
+    const std::uint64_t length = found->second.extents.empty() ? 0 : found->second.extents.back();
+    std::vector<std::string> names;
+    for (std::size_t begin = 0; length > 0 && begin + length <= letters.size(); begin += length) {
+      std::string name;
+      for (std::size_t i = begin; i < begin + length && letters[i] != 0; ++i) name += static_cast<char>(letters[i]);
+      name.erase(name.find_last_not_of(' ') + 1);
+      if (!name.empty()) names.push_back(std::move(name));
+    }
+    return names;
+  }
+
+  const std::vector<std::string>& groups_of(std::int64_t family, const std::string& path) const {
+    static const std::vector<std::string> none;
+    if (family == 0) return none;
+    const auto found = families_.find(family);
+    if (found == families_.end())
+      fail(path, fmt::format("family {}", family), "a family below /FAS", "The file is damaged; write it again.");
+    return found->second;
+  }
+
+  void read_nodes(const std::string& path, std::size_t dimension) {
+    const std::vector<double>& values = require<double>(path + "/COO");
+    const std::size_t count = values.size() / dimension;
+    if (count * dimension != values.size() || count > std::numeric_limits<Index>::max())
+      fail(path + "/COO", fmt::format("{} coordinates", values.size()),
+           fmt::format("{} for each of at most 2147483647 nodes", dimension));
+    mesh_.coordinates.assign(count, Vec3{});
+    for (std::size_t i = 0; i < values.size(); ++i) mesh_.coordinates[i % count][i / count] = values[i];
+    const auto* numbers = per_entity(path + "/NUM", count);
+    const auto* family = per_entity(path + "/FAM", count);
+    NodeNumbers seen(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3& x = mesh_.coordinates[i];
+      mesh_.node_numbers.push_back(numbers != nullptr ? (*numbers)[i] : static_cast<std::int64_t>(i) + 1);
+      if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+        fail(path + "/COO", fmt::format("node {} at ({}, {}, {})", mesh_.node_numbers[i], x[0], x[1], x[2]),
+             "finite coordinates", "Write the mesh again; a coordinate overflowed or was never set.");
+      if (!seen.insert(mesh_.node_numbers[i], static_cast<Index>(i)))
+        fail(path + "/NUM", fmt::format("node number {} a second time", mesh_.node_numbers[i]),
+             "every node number once", "Renumber the nodes.");
+      if (family == nullptr) continue;
+      for (const std::string& group : groups_of((*family)[i], path + "/FAM"))
+        mesh_.node_groups[group].push_back(static_cast<Index>(i));
+    }
+  }
+
+  void read_cells(const std::string& path) {
+    std::int64_t next_number = 1;
+    for (const std::string& code : children(tree_, path)) {
+      const auto type = std::find_if(kTypes.begin(), kTypes.end(), [&](const MedType& t) { return t.code == code; });
+      if (type == kTypes.end())
+        fail(path + "/" + code, "cell type " + code,
+             "PO1, SE2, SE3, TR3, TR6, QU4, QU8, QU9, TE4, T10, PY5, P13, PE6, P15, HE8 or H20",
+             "Mesh with cells of these types.");
+      read_block(path + "/" + code, type->type, next_number);
+    }
+  }
+
+  /// NOD holds the first node of all cells, then the second of all, and so on.
+  void read_block(const std::string& path, CellType type, std::int64_t& next_number) {
+    const std::vector<std::int64_t>& nodes = require<std::int64_t>(path + "/NOD");
+    const auto per_cell = static_cast<std::size_t>(node_count(type));
+    const std::size_t count = nodes.size() / per_cell;
+    if (count * per_cell != nodes.size() || count > std::numeric_limits<Index>::max())
+      fail(path + "/NOD", fmt::format("{} node numbers", nodes.size()),
+           fmt::format("{} for each of at most 2147483647 cells", per_cell));
+    const auto* numbers = per_entity(path + "/NUM", count);
+    const auto* family = per_entity(path + "/FAM", count);
+    const auto mirror = mirrored_order(type);
+    CellBlock block{type, {}, {}};
+    block.connectivity.reserve(nodes.size());
+    for (std::size_t cell = 0; cell < count; ++cell) {
+      block.file_numbers.push_back(numbers != nullptr ? (*numbers)[cell] : next_number);
+      ++next_number;
+      for (std::size_t i = 0; i < per_cell; ++i) {
+        const std::int64_t node = nodes[(mirror.empty() ? i : mirror[i]) * count + cell];
+        if (node < 1 || node > static_cast<std::int64_t>(mesh_.node_count()))
+          fail(path + "/NOD", fmt::format("node {} in cell {}", node, block.file_numbers[cell]),
+               fmt::format("1 to {}", mesh_.node_count()), "The file is damaged; write it again.");
+        block.connectivity.push_back(static_cast<Index>(node - 1));
+      }
+      if (family == nullptr) continue;
+      for (const std::string& group : groups_of((*family)[cell], path + "/FAM"))
+        mesh_.cell_groups[group].push_back({static_cast<Index>(mesh_.blocks.size()), static_cast<Index>(cell)});
+    }
+    if (count > 0) mesh_.blocks.push_back(std::move(block));
+  }
+
+  const Hdf5Tree& tree_;
+  const std::string& source_;
+  Families families_;
+  Mesh mesh_;
+};
+
+}  // namespace
+
+Mesh med_mesh(const Hdf5Tree& tree, const std::string& source) {
+  return MedReader(tree, source).run();
+}
+
+}  // namespace carom
