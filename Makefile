@@ -28,7 +28,7 @@ format:  ## rewrite all sources as .clang-format says
 	@tools/setup ci
 	@tools/sources | xargs clang-format-14 -i
 
-lint:    ## formatting, layers, sizes, words, clang-tidy
+lint:    ## formatting, layers, sizes, words, links, clang-tidy
 	@tools/setup build test ci
 	@tools/lint
 
