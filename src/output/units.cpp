@@ -5,6 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "base/units.hpp"
+
 namespace carom {
 
 namespace {
@@ -18,23 +20,15 @@ std::string per(const std::string& a, const std::string& b) {
   return a.empty() || b.empty() ? std::string() : a + "/" + b;
 }
 
-/// The part of a column name that says what it holds: "B.displacement_z" -> "displacement".
-std::string_view quantity_of(std::string_view column) {
-  const std::size_t dot = column.rfind('.');
-  if (dot != std::string_view::npos) column.remove_prefix(dot + 1);
-  for (const std::string_view tail :
-       {"_x", "_y", "_z", "_xx", "_yy", "_zz", "_xy", "_yz", "_xz", "_zx", "_yx", "_zy"}) {
-    if (column.ends_with(tail)) return column.substr(0, column.size() - tail.size());
-  }
-  return column;
-}
-
 }  // namespace
 
 Units units_of(std::string_view label) {
-  if (label == "SI") return {"m", "s", "kg", "N", "Pa", "J"};
-  if (label == "mm-t-s") return {"mm", "s", "t", "N", "MPa", "mJ"};
-  if (label == "mm-kg-ms") return {"mm", "ms", "kg", "kN", "GPa", "J"};
+  for (const UnitSystem system : unit_systems) {
+    if (name(system) != label) continue;
+    const auto unit = [system](Dimension dimension) { return std::string(unit_name(dimension, system)); };
+    return {unit(Dimension::length), unit(Dimension::time),   unit(Dimension::mass),
+            unit(Dimension::force),  unit(Dimension::stress), unit(Dimension::energy)};
+  }
   return {};
 }
 
@@ -59,8 +53,23 @@ std::optional<Units> parse_units_comment(std::string_view comment) {
   return Units{names[0], names[1], names[2], names[3], names[4], names[5]};
 }
 
+ColumnName parse_column(std::string_view column) {
+  ColumnName name{{}, column, {}};
+  if (const std::size_t dot = column.rfind('.'); dot != std::string_view::npos) {
+    name.place = column.substr(0, dot);
+    name.quantity = column.substr(dot + 1);
+  }
+  const std::size_t bar = name.quantity.rfind('_');
+  if (bar == std::string_view::npos) return name;
+  const std::string_view tail = name.quantity.substr(bar + 1);
+  if (tail.empty() || tail.size() > 2 || tail.find_first_not_of("xyz") != std::string_view::npos) return name;
+  name.component = tail;
+  name.quantity = name.quantity.substr(0, bar);
+  return name;
+}
+
 std::string unit_of_column(const Units& units, std::string_view column) {
-  const std::string_view quantity = quantity_of(column);
+  const std::string_view quantity = parse_column(column).quantity;
   const std::string velocity = per(units.length, units.time);
   if (quantity == "time" || quantity == "dt") return units.time;
   if (quantity == "displacement" || quantity == "penetration") return units.length;

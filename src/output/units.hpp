@@ -21,6 +21,13 @@ std::string units_comment(const Units& units);
 /// The reverse of units_comment, or nothing when the line (without "# ") is not one.
 std::optional<Units> parse_units_comment(std::string_view comment);
 
+/// What a column of a table holds: "B.displacement_z" is {"B", "displacement", "z"}, "dt" is {"", "dt", ""}. The views
+/// point into the name.
+struct ColumnName {
+  std::string_view place, quantity, component;
+};
+ColumnName parse_column(std::string_view column);
+
 /// Unit of a column of energy.csv, contact.csv or probes.csv by its name, e.g. "m/s" for "B.velocity_z" in SI; "" for
 /// numbers without a unit.
 std::string unit_of_column(const Units& units, std::string_view column);

@@ -1,0 +1,150 @@
+// Draws the charts of the page with dygraphs. All of them share the time axis: zooming one zooms all.
+(function () {
+  "use strict";
+  const data = JSON.parse(document.getElementById("charts").textContent);
+  const printing = window.matchMedia("print");
+  const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const superscript = (n) => String(n).replace(/[-0-9]/g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);
+
+  // Power of ten, a multiple of three, that brings the largest magnitude between 1 and 1000.
+  function exponent(values) {
+    let largest = 0;
+    for (const v of values) largest = Math.max(largest, Math.abs(v));
+    if (largest === 0 || (largest >= 0.1 && largest < 10000)) return 0;
+    return 3 * Math.floor(Math.log10(largest) / 3);
+  }
+
+  function axisTitle(name, unit, power) {
+    const scale = power === 0 ? "" : "10" + superscript(power);
+    const inside = [scale, unit].filter((s) => s !== "").join(" ");
+    return inside === "" ? name : name + " [" + inside + "]";
+  }
+
+  function short(value) {
+    return value === null || value === undefined ? "" : String(Number(value.toPrecision(7)));
+  }
+
+  // Values of one curve at the times of all curves, straight between its own points as the line is drawn.
+  function resample(curve, times) {
+    const out = [];
+    let i = 0;
+    for (const t of times) {
+      while (i < curve.t.length && curve.t[i] < t) i++;
+      if (i === curve.t.length || (i === 0 && curve.t[0] > t)) out.push(null);
+      else if (curve.t[i] === t) out.push(curve.y[i]);
+      else {
+        const w = (t - curve.t[i - 1]) / (curve.t[i] - curve.t[i - 1]);
+        out.push(curve.y[i - 1] + w * (curve.y[i] - curve.y[i - 1]));
+      }
+    }
+    return out;
+  }
+
+  function rows(chart) {
+    const times = [...new Set(chart.curves.flatMap((c) => c.t))].sort((a, b) => a - b);
+    const columns = chart.curves.map((c) => resample(c, times));
+    return times.map((t, i) => [t, ...columns.map((c) => c[i])]);
+  }
+
+  // An exact curve has the colour of the curve before it.
+  function colours(chart) {
+    let own = 0;
+    return chart.curves.map((c) => css("--curve-" + (c.exact ? ((own + 7) % 8) + 1 : (own++ % 8) + 1)));
+  }
+
+  function makeLegend(element, chart) {
+    return chart.curves.map((curve, k) => {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.setAttribute("aria-pressed", "true");
+      const line = document.createElement("i");
+      if (curve.exact) line.className = "dashed";
+      const value = document.createElement("output");
+      button.append(line, curve.name, value);
+      element.append(button);
+      return { button, line, value, k };
+    });
+  }
+
+  const drawn = [];
+  let syncing = false;
+
+  function follow(source, window_) {
+    if (syncing) return;
+    syncing = true;
+    for (const d of drawn) if (d.graph !== source) d.graph.updateOptions({ dateWindow: window_, valueRange: null });
+    syncing = false;
+  }
+
+  const allTimes = data.charts.flatMap((c) => c.curves.flatMap((k) => [k.t[0], k.t[k.t.length - 1]]));
+  const timePower = exponent(allTimes.filter((t) => t !== undefined));
+  const tick = (power) => (v) => String(Number((v / Math.pow(10, power)).toPrecision(6)));
+
+  function draw(element) {
+    const chart = data.charts[Number(element.dataset.chart)];
+    const legend = makeLegend(element.parentElement.querySelector(".legend"), chart);
+    const power = exponent(chart.curves.flatMap((c) => c.y));
+    const labels = ["t", ...chart.curves.map((c, k) => k + " " + c.name)];
+    const series = {};
+    chart.curves.forEach((c, k) => {
+      series[labels[k + 1]] = c.exact ? { strokePattern: [7, 5], strokeWidth: 2.4 } : { strokeWidth: 1.6 };
+    });
+    const show = (t, row) => {
+      for (const l of legend) l.value.textContent = row === null ? "" : short(row[l.k + 1]);
+      element.title = "";
+      time.textContent = t === null ? "" : "t = " + short(t) + " " + data.time_unit;
+    };
+    const time = document.createElement("output");
+    const content = rows(chart);
+    const graph = new Dygraph(element, content, {
+      labels, series, legend: "never", connectSeparatedPoints: true, animatedZooms: false, rightGap: 12,
+      xlabel: axisTitle("time", data.time_unit, timePower), ylabel: axisTitle(chart.label, chart.unit, power),
+      xLabelHeight: 18, yLabelWidth: 18, highlightCircleSize: 3, labelsKMB: false, includeZero: false,
+      axes: {
+        x: { axisLabelFormatter: tick(timePower), pixelsPerLabel: 70 },
+        y: { axisLabelFormatter: tick(power), axisLabelWidth: 52, pixelsPerLabel: 36 },
+      },
+      highlightCallback: (event, x, points, row) => show(x, content[row]),
+      unhighlightCallback: () => show(null, null),
+      drawCallback: (g, first) => {
+        if (!first) follow(g, g.isZoomed("x") ? g.xAxisRange() : null);
+      },
+      ...theme(chart),
+    });
+    element.parentElement.querySelector(".legend").append(time);
+    for (const l of legend) {
+      l.button.addEventListener("click", () => {
+        const on = l.button.getAttribute("aria-pressed") !== "true";
+        l.button.setAttribute("aria-pressed", String(on));
+        graph.setVisibility(l.k, on);
+      });
+    }
+    drawn.push({ graph, chart, legend });
+    paint(drawn[drawn.length - 1]);
+  }
+
+  function theme(chart) {
+    return { colors: colours(chart), gridLineColor: css("--grid"), axisLineColor: css("--line") };
+  }
+
+  function paint(d) {
+    const own = colours(d.chart);
+    for (const l of d.legend) l.line.style.borderColor = own[l.k];
+  }
+
+  function repaint() {
+    syncing = true;
+    for (const d of drawn) {
+      d.graph.updateOptions(theme(d.chart));
+      d.graph.resize();
+      paint(d);
+    }
+    syncing = false;
+  }
+
+  for (const element of document.querySelectorAll("[data-chart]")) draw(element);
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
+  printing.addEventListener("change", repaint);
+  window.addEventListener("beforeprint", repaint);
+  window.addEventListener("afterprint", repaint);
+})();

@@ -1,0 +1,171 @@
+#include "report/page_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <string_view>
+
+#include "output/xml.hpp"
+
+namespace carom {
+
+namespace {
+
+std::string number(double value, int digits) {
+  return std::isnan(value) ? "–" : fmt::format("{:.{}g}", value, digits);
+}
+
+std::string with_unit(const std::string& text, const std::string& unit) {
+  return unit.empty() ? text : fmt::format("{} {}", text, unit);
+}
+
+std::string mark(bool pass) {
+  return pass ? "<td class=\"mark pass\">✓ pass</td>" : "<td class=\"mark fail\">✗ fail</td>";
+}
+
+/// A number cell: right-aligned, figures of equal width.
+std::string cell(const std::string& text) {
+  return fmt::format("<td class=\"number\">{}</td>", xml_escape(text));
+}
+
+std::string text_cell(std::string_view text) {
+  return fmt::format("<td>{}</td>", xml_escape(text));
+}
+
+/// Difference in percent of the reference, or as it is where the reference is zero or the tolerance absolute.
+std::string difference(const CheckSummary& check) {
+  if (check.tolerance_kind == ToleranceKind::absolute || check.reference == 0.0) return number(check.difference, 3);
+  return number(100.0 * check.difference / std::abs(check.reference), 3) + " %";
+}
+
+std::string tolerance(const CheckSummary& check) {
+  if (check.tolerance_kind == ToleranceKind::absolute) return "± " + number(check.tolerance, 3);
+  return fmt::format("± {} %", number(100.0 * check.tolerance, 3));
+}
+
+std::string value_table(std::string_view title, const std::vector<NamedValue>& values, const std::string& unit) {
+  if (values.empty()) return {};
+  std::string html = fmt::format(
+      "<div class=\"scroll\"><table><thead><tr><th>{}</th><th class=\"number\">{}</th></tr></thead><tbody>\n", title,
+      xml_escape(with_unit("energy", unit.empty() ? "" : "[" + unit + "]")));
+  for (const NamedValue& entry : values) {
+    std::string name = entry.name;
+    if (name.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") != 0) {
+      for (char& c : name) c = c == '_' ? ' ' : c;
+    }
+    html += fmt::format("<tr>{}{}</tr>\n", text_cell(name), cell(number(entry.value, 9)));
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+std::string vector_cell(const Vec3& v) {
+  return cell(fmt::format("({}, {}, {})", number(v[0], 5), number(v[1], 5), number(v[2], 5)));
+}
+
+std::string momentum_table(const Summary& summary, const Units& units) {
+  std::string html =
+      "<div class=\"scroll\"><table><thead><tr><th>Momentum balance</th><th class=\"number\">at the beginning</th>"
+      "<th class=\"number\">at the end</th><th class=\"number\">impulse from outside</th>"
+      "<th class=\"number\">largest error, relative</th></tr></thead><tbody>\n";
+  const auto row = [&html](const std::string& name, const MomentumSummary& m) {
+    html += fmt::format("<tr>{}{}{}{}{}</tr>\n", text_cell(name), vector_cell(m.begin), vector_cell(m.end),
+                        vector_cell(m.impulse), cell(number(m.error, 2)));
+  };
+  const auto name = [&units](const std::string& text, std::string_view column) {
+    const std::string unit = unit_of_column(units, column);
+    return unit.empty() ? text : fmt::format("{} [{}]", text, unit);
+  };
+  row(name("linear", "momentum_x"), summary.linear_momentum);
+  row(name("angular", "angular_momentum_x"), summary.angular_momentum);
+  return html + "</tbody></table></div>\n";
+}
+
+std::string phases(const CostSummary& cost) {
+  std::string text;
+  for (const NamedValue& phase : cost.phases) {
+    fmt::format_to(std::back_inserter(text), "{}{} {} s", text.empty() ? "" : ", ", phase.name, number(phase.value, 3));
+  }
+  return text;
+}
+
+std::string groups(const MeshSummary& mesh) {
+  std::string text;
+  for (const MeshSummary::Group& group : mesh.groups) {
+    fmt::format_to(std::back_inserter(text), "{}{} ({} nodes, {} cells)", text.empty() ? "" : ", ", group.name,
+                   group.nodes, group.cells);
+  }
+  return text;
+}
+
+std::string steps(const SchemeSummary& scheme, const Units& units) {
+  const std::string smallest = with_unit(number(scheme.dt_smallest, 6), units.time);
+  if (scheme.dt_smallest == scheme.dt_largest) return fmt::format("{} of {}", scheme.steps, smallest);
+  return fmt::format("{} of {} to {}", scheme.steps, smallest, with_unit(number(scheme.dt_largest, 6), units.time));
+}
+
+}  // namespace
+
+std::string verdict_table(const Summary& summary) {
+  if (summary.verdict.empty()) return {};
+  std::string html =
+      "<section>\n<h2>Verdict</h2>\n<div class=\"scroll\"><table><thead><tr><th>Item</th><th "
+      "class=\"number\">value</th>"
+      "<th class=\"number\">limit</th><th></th><th>meaning</th></tr></thead><tbody>\n";
+  for (const VerdictItem& item : summary.verdict) {
+    html += fmt::format("<tr>{}{}{}{}{}</tr>\n", text_cell(item.name), cell(number(item.value, 3)),
+                        cell("≤ " + number(item.limit, 3)), mark(item.pass), text_cell(item.explanation));
+  }
+  return html + "</tbody></table></div>\n</section>\n";
+}
+
+std::string checks_table(const Summary& summary, const Units& units) {
+  if (summary.checks.empty()) return {};
+  std::string html = fmt::format(
+      "<section>\n<h2>Checks</h2>\n<div class=\"scroll\"><table><thead><tr><th>Quantity</th>"
+      "<th class=\"number\">time{}</th><th class=\"number\">value</th><th class=\"number\">reference</th><th>unit</th>"
+      "<th class=\"number\">difference</th><th class=\"number\">tolerance</th><th></th><th>source</th></tr></thead>"
+      "<tbody>\n",
+      units.time.empty() ? "" : fmt::format(" [{}]", xml_escape(units.time)));
+  for (const CheckSummary& check : summary.checks) {
+    html += fmt::format("<tr>{}{}{}{}{}{}{}{}{}</tr>\n", text_cell(check.name), cell(number(check.time, 6)),
+                        cell(number(check.value, 9)), cell(number(check.reference, 9)),
+                        text_cell(unit_of_column(units, check.quantity)), cell(difference(check)),
+                        cell(tolerance(check)), mark(check.pass), text_cell(check.source));
+  }
+  return html + "</tbody></table></div>\n</section>\n";
+}
+
+std::string ledger_tables(const Summary& summary, const Units& units) {
+  return "<section>\n<h2>Energy and momentum at the end</h2>\n<div class=\"columns\">\n" +
+         value_table("Energy ledger", summary.ledger, units.energy) +
+         value_table("In Code_Aster's terms", summary.code_aster, units.energy) + "</div>\n" +
+         momentum_table(summary, units) + "</section>\n";
+}
+
+std::string run_table(const Summary& summary, const Units& units) {
+  std::string html = "<section>\n<h2>What was run</h2>\n<dl>\n";
+  const auto entry = [&html](std::string_view name, const std::string& text) {
+    if (!text.empty()) html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, xml_escape(text));
+  };
+  const SchemeSummary& scheme = summary.scheme;
+  entry("Case", summary.case_info.file);
+  entry("Units", with_unit(summary.case_info.units, "(" + units_comment(units).substr(7) + ")"));
+  entry("Mesh", fmt::format("{} nodes, {} cells", summary.mesh.nodes, summary.mesh.cells));
+  entry("Groups", groups(summary.mesh));
+  entry("Scheme", scheme.name);
+  entry("Linear solver", scheme.solver);
+  entry("Steps", steps(scheme, units));
+  entry("Time",
+        fmt::format("{} of {}", number(scheme.time_reached, 6), with_unit(number(scheme.time_end, 6), units.time)));
+  entry("Program",
+        fmt::format("carom {}, {}, kernels {}, {} thread{}", summary.program.version, summary.program.compiler,
+                    summary.program.isa, summary.program.threads, summary.program.threads == 1 ? "" : "s"));
+  entry("Wall clock", number(summary.cost.wall_seconds, 3) + " s");
+  entry("Processor", number(summary.cost.cpu_seconds, 3) + " s");
+  entry("Phases", phases(summary.cost));
+  entry("Memory", fmt::format("{:.1f} MiB at most", static_cast<double>(summary.cost.peak_memory_bytes) / 1048576.0));
+  return html + "</dl>\n</section>\n";
+}
+
+}  // namespace carom

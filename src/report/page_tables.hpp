@@ -1,0 +1,20 @@
+// The tables of the report page as HTML sections.
+#pragma once
+
+#include <string>
+
+#include "output/summary.hpp"
+#include "output/units.hpp"
+
+namespace carom {
+
+/// Items of the verdict with value, limit and explanation.
+std::string verdict_table(const Summary& summary);
+/// Checks with value, reference, difference, tolerance and source; "" when the case has none.
+std::string checks_table(const Summary& summary, const Units& units);
+/// Energies at the end by term, the same in Code_Aster's terms, and the momentum balances.
+std::string ledger_tables(const Summary& summary, const Units& units);
+/// Case, mesh, scheme, program and cost.
+std::string run_table(const Summary& summary, const Units& units);
+
+}  // namespace carom
