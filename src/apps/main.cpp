@@ -1,1 +1,111 @@
-int main() { return 0; }
+// The program `carom`: command line and exit codes, nothing else.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <exception>
+#include <filesystem>
+
+#include "base/errors.hpp"
+#include "base/version.hpp"
+#include "casefile/schema.hpp"
+#include "casefile/read_case.hpp"
+#include "linalg/cholesky.hpp"
+#include "mesh/mesh_summary.hpp"
+#include "mesh/read_mesh.hpp"
+#include "parallel/threads.hpp"
+#include "run/lint.hpp"
+#include "run/run_case.hpp"
+#include "run/simulation.hpp"
+
+namespace {
+
+using carom::ExitCode;
+
+std::atomic<bool> stop_requested{false};
+
+extern "C" void request_stop(int /*signal*/) {
+  stop_requested.store(true);
+  std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends the process at once
+}
+
+struct Arguments {
+  std::string case_file, mesh_file, folder;
+  int threads = 0;
+  bool quiet = false;
+};
+
+ExitCode run(const Arguments& arguments) {
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+  carom::RunOptions options;
+  options.folder = arguments.folder.empty()
+                       ? (std::filesystem::path("out") / std::filesystem::path(arguments.case_file).stem()).string()
+                       : arguments.folder;
+  options.threads = arguments.threads;
+  options.progress = arguments.quiet ? carom::ProgressMode::quiet : carom::ProgressMode::automatic;
+  return carom::run_case(arguments.case_file, options, stop_requested);
+}
+
+ExitCode check(const Arguments& arguments) {
+  carom::set_threads(arguments.threads);
+  const carom::Case given = carom::read_case(arguments.case_file);
+  const carom::Simulation simulation(given);
+  fmt::print("{}", carom::check_summary(simulation));
+  for (const std::string& note : simulation.notes()) fmt::print("note: {}\n", note);
+  const std::vector<std::string> warnings = carom::lint_warnings(simulation);
+  for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
+  fmt::print("{}\n", warnings.empty() ? "ready to run" : fmt::format("{} warning(s)", warnings.size()));
+  return warnings.empty() ? ExitCode::good : ExitCode::verdict_failed;
+}
+
+ExitCode mesh(const Arguments& arguments) {
+  fmt::print("{}", carom::mesh_summary(carom::read_mesh(arguments.mesh_file)));
+  return ExitCode::good;
+}
+
+ExitCode dispatch(const CLI::App& app, const Arguments& arguments) {
+  if (app.got_subcommand("run")) return run(arguments);
+  if (app.got_subcommand("check")) return check(arguments);
+  if (app.got_subcommand("mesh")) return mesh(arguments);
+  fmt::print("{}\n", carom::json_schema());
+  return ExitCode::good;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  carom::prepare_blas_environment(argv);
+  CLI::App app{"Impact dynamics of deformable solids."};
+  app.set_version_flag("--version", fmt::format("carom {} ({})", carom::version(), carom::compiler()));
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 good; 1 a check or the verdict failed, or `check` has warnings; 2 the case or its mesh is wrong;\n"
+      "3 the run failed (what was computed is kept).");
+  Arguments arguments;
+  CLI::App* run_command = app.add_subcommand("run", "Run a case and write its results folder and report");
+  run_command->add_option("case", arguments.case_file, "Case file (TOML)")->required();
+  run_command->add_option("--out", arguments.folder, "Results folder (default: out/<name of the case>)");
+  run_command->add_option("--threads", arguments.threads, "Threads (default: all cores)")->check(CLI::Range(0, 1024));
+  run_command->add_flag("--quiet", arguments.quiet, "Print errors only");
+  CLI::App* check_command = app.add_subcommand("check", "Read, resolve and examine a case without running it");
+  check_command->add_option("case", arguments.case_file, "Case file (TOML)")->required();
+  CLI::App* mesh_command = app.add_subcommand("mesh", "Describe a mesh file");
+  mesh_command->add_option("file", arguments.mesh_file, "Mesh file (Gmsh 2.2 or 4.1, MED)")->required();
+  app.add_subcommand("schema", "Print the JSON Schema of the case format");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::case_wrong);
+  }
+  try {
+    return static_cast<int>(dispatch(app, arguments));
+  } catch (const carom::CaseError& e) {
+    fmt::print(stderr, "error: {}\n", e.what());
+    return static_cast<int>(ExitCode::case_wrong);
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "error: {}\n", e.what());
+    return static_cast<int>(ExitCode::run_failed);
+  }
+}

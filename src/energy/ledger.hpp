@@ -80,9 +80,10 @@ struct LedgerIncrement {
 /// The running totals of a run.
 class EnergyLedger {
  public:
-  /// initial: stored energies and momentum at the start; the other terms start at zero.
-  EnergyLedger(const EnergyTerms& initial, const Momentum& momentum)
-      : initial_(initial), initial_momentum_(momentum), momentum_(momentum) {}
+  /// initial: stored energies and momentum at the start; the other terms start at zero. reach: largest distance of a
+  /// node from the origin, the arm with which errors of angular momentum are judged.
+  EnergyLedger(const EnergyTerms& initial, const Momentum& momentum, double reach)
+      : initial_(initial), initial_momentum_(momentum), momentum_(momentum), reach_(reach) {}
 
   /// Adds a step; `momentum` is that of the new state.
   void add(const LedgerIncrement& step, const Momentum& momentum) {
@@ -107,6 +108,9 @@ class EnergyLedger {
   const EnergyTerms& initial() const { return initial_; }
   const AsterTerms& aster() const { return aster_; }
   const Momentum& momentum() const { return momentum_; }
+  const Momentum& initial_momentum() const { return initial_momentum_; }
+  const Momentum& impulse() const { return impulse_; }
+  double reach() const { return reach_; }
 
   /// Residual of the balance of powers since the start.
   double imbalance() const { return total_.imbalance(); }
@@ -128,6 +132,7 @@ class EnergyLedger {
   EnergyTerms initial_, total_;
   AsterTerms aster_;
   Momentum initial_momentum_, momentum_, impulse_;
+  double reach_ = 0.0;
   double supplied_peak_ = 0.0;
 };
 

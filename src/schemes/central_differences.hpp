@@ -19,6 +19,7 @@ class CentralDifferences final : public Scheme {
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
   const Forces& forces() const override { return now_; }
+  double end_weight() const override { return 0.5; }
   std::string solver_name() const override;
 
  private:

@@ -30,6 +30,7 @@ class Newmark final : public Scheme {
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
   const Forces& forces() const override { return now_; }
+  double end_weight() const override { return parameters_.gamma; }
   std::string solver_name() const override { return solver_->name(); }
 
  private:

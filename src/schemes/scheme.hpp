@@ -32,6 +32,8 @@ class Scheme {
   virtual StepReport step(const State& begin, const StepRequest& request, State& end) = 0;
   /// Forces of the last started or converged state.
   virtual const Forces& forces() const = 0;
+  /// Weight of the force at the end of a step in its impulse, 1 minus that of the force at its beginning.
+  virtual double end_weight() const = 0;
   /// Name of the linear solver that serves the scheme, for the log.
   virtual std::string solver_name() const = 0;
 };

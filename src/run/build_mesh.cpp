@@ -1,0 +1,25 @@
+#include "run/build_mesh.hpp"
+
+#include <filesystem>
+
+#include "mesh/read_mesh.hpp"
+#include "mesh/structured_block.hpp"
+
+namespace carom {
+
+Mesh build_mesh(const Case& given) {
+  if (!given.mesh.file->empty()) {
+    const std::filesystem::path file = *given.mesh.file;
+    const auto folder = std::filesystem::path(given.file).parent_path();
+    return read_mesh((file.is_absolute() ? file : folder / file).string());
+  }
+  std::vector<StructuredBlock> blocks;
+  for (const CaseBlock& b : given.mesh.blocks) {
+    StructuredBlock block{b.where, b.origin, b.size, b.divisions, b.cells_group, b.face_groups, {}};
+    for (const CaseBlock::Point& p : b.points) block.points.push_back({p.name, p.position, p.where});
+    blocks.push_back(std::move(block));
+  }
+  return make_structured_blocks(blocks);
+}
+
+}  // namespace carom

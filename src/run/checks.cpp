@@ -1,0 +1,104 @@
+#include "run/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carom {
+
+namespace {
+
+/// energy.csv has plain column names, the other tables have place.quantity.
+std::string column_name(const CaseCheck& check) {
+  constexpr std::string_view energy = "energy.", contact = "contact.";
+  std::string quantity = *check.quantity;
+  if (quantity.starts_with(energy)) return quantity.substr(energy.size());
+  if (quantity.starts_with(contact)) quantity = quantity.substr(contact.size());
+  return check.place ? **check.place + "." + quantity : quantity;
+}
+
+}  // namespace
+
+Checks::Checks(const Simulation& simulation, const std::vector<const Table*>& tables, const ExactCurves* exact)
+    : case_(simulation.given()) {
+  for (const CaseCheck& check : case_.checks) watches_.push_back(watch(check, tables, exact));
+}
+
+Checks::Watch Checks::watch(const CaseCheck& check, const std::vector<const Table*>& tables,
+                            const ExactCurves* exact) const {
+  const std::string name = column_name(check);
+  Watch w;
+  w.name = name;
+  w.time = check.time ? **check.time : *case_.time.end;
+  w.reference = check.value ? **check.value : 0.0;
+  std::vector<std::string> all;
+  for (const Table* table : tables) {
+    all.insert(all.end(), table->columns.begin() + 1, table->columns.end());
+    const auto column = table->find(name);
+    if (!column) continue;
+    w.table = table;
+    w.column = *column;
+  }
+  if (w.table == nullptr) {
+    const std::string near = nearest(name, all);
+    throw CaseError(check.quantity.where, "check.quantity",
+                    fmt::format("\"{}\", which no table of this run holds", name),
+                    "a column of probes.csv or contact.csv (with `place`), or energy.<term>",
+                    near.empty() ? "" : fmt::format("Did you mean \"{}\"?", near));
+  }
+  if (w.time < 0.0 || w.time > *case_.time.end * (1.0 + 1e-12)) {
+    throw CaseError(check.time->where, "check.time", fmt::format("{:.6g}", w.time),
+                    fmt::format("a time between 0 and the end, {:.6g}", *case_.time.end));
+  }
+  if (check.exact) {
+    const std::optional<double> reference = exact == nullptr ? std::nullopt : exact->value(name, w.time);
+    if (!reference) {
+      throw CaseError(check.where, "check.reference", fmt::format("no exact value of \"{}\"", name),
+                      "a quantity that [exact] covers: displacement, velocity or stress along its axis, contact force, "
+                      "energy.kinetic, energy.strain, energy.contact_stored");
+    }
+    w.reference = *reference;
+  }
+  return w;
+}
+
+void Checks::sample(double t) {
+  for (Watch& w : watches_) {
+    if (w.value) continue;
+    const double now = w.table->row[w.column];
+    const double slack = 1e-9 * *case_.time.end;  // far below any step, far above the round-off of a time
+    if (std::abs(t - w.time) <= slack) {
+      w.value = now;
+    } else if (t > w.time) {
+      w.value = w.last_value + (now - w.last_value) * (w.time - w.last_time) / (t - w.last_time);
+    }
+    w.last_time = t;
+    w.last_value = now;
+  }
+}
+
+std::vector<CheckSummary> Checks::results() const {
+  std::vector<CheckSummary> results;
+  for (std::size_t i = 0; i < watches_.size(); ++i) {
+    const Watch& w = watches_[i];
+    const CaseCheck& check = case_.checks[i];
+    CheckSummary r;
+    r.name = w.name;
+    r.quantity = *check.quantity;
+    r.place = check.place ? **check.place : "";
+    r.time = w.time;
+    r.value = w.value.value_or(std::numeric_limits<double>::quiet_NaN());
+    r.reference = w.reference;
+    r.difference = r.value - r.reference;
+    r.tolerance = check.tolerance;
+    r.tolerance_kind = check.absolute ? ToleranceKind::absolute : ToleranceKind::relative;
+    r.pass = std::abs(r.difference) <= check.tolerance * (check.absolute ? 1.0 : std::abs(r.reference));
+    r.source = check.exact && check.source.empty() ? "exact solution " + *case_.exact->solution : check.source;
+    results.push_back(std::move(r));
+  }
+  return results;
+}
+
+}  // namespace carom

@@ -1,0 +1,41 @@
+// The checks of a case: its own test.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "output/summary.hpp"
+#include "run/curves.hpp"
+#include "run/exact_curves.hpp"
+
+namespace carom {
+
+/// Watches the columns that the checks name; a value between two samples is interpolated linearly.
+class Checks {
+ public:
+  /// Throws CaseError where a check names something that no table holds, a time outside the run, or an exact value that
+  /// [exact] does not cover.
+  Checks(const Simulation& simulation, const std::vector<const Table*>& tables, const ExactCurves* exact);
+
+  /// To be called after the tables have been sampled.
+  void sample(double t);
+  /// Results so far; a check whose time has not been reached fails with a value of NaN.
+  std::vector<CheckSummary> results() const;
+
+ private:
+  struct Watch {
+    const Table* table = nullptr;
+    std::size_t column = 0;
+    std::string name;
+    double time = 0.0;
+    double reference = 0.0;
+    double last_time = 0.0, last_value = 0.0;
+    std::optional<double> value;
+  };
+  Watch watch(const CaseCheck& check, const std::vector<const Table*>& tables, const ExactCurves* exact) const;
+
+  const Case& case_;
+  std::vector<Watch> watches_;
+};
+
+}  // namespace carom

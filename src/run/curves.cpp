@@ -1,0 +1,253 @@
+#include "run/curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "math/vec3.hpp"
+#include "run/groups.hpp"
+
+namespace carom {
+
+std::optional<std::size_t> Table::find(const std::string& column) const {
+  const auto found = std::find(columns.begin(), columns.end(), column);
+  if (found == columns.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+EnergyCurves::EnergyCurves() {
+  table_.columns = {"time",
+                    "step",
+                    "dt",
+                    "iterations",
+                    "kinetic",
+                    "strain",
+                    "contact_stored",
+                    "friction",
+                    "damping",
+                    "external_work",
+                    "support_work",
+                    "algorithmic",
+                    "quadrature",
+                    "imbalance",
+                    "ENER_CIN",
+                    "ENER_TOT",
+                    "TRAV_EXT",
+                    "TRAV_AMOR",
+                    "TRAV_LIAI",
+                    "DISS_SCH",
+                    "momentum_x",
+                    "momentum_y",
+                    "momentum_z",
+                    "angular_momentum_x",
+                    "angular_momentum_y",
+                    "angular_momentum_z",
+                    "momentum_error",
+                    "angular_momentum_error"};
+}
+
+void EnergyCurves::sample(const StepView& view) {
+  const EnergyTerms e = view.ledger.now();
+  const AsterTerms& a = view.ledger.aster();
+  const Momentum &p = view.ledger.momentum(), error = view.ledger.momentum_error();
+  table_.row = {view.state.t,
+                static_cast<double>(view.step),
+                view.dt,
+                static_cast<double>(view.iterations),
+                e.kinetic,
+                e.strain,
+                e.contact_stored,
+                e.friction,
+                e.damping,
+                e.external_work,
+                e.support_work,
+                e.algorithmic,
+                e.quadrature,
+                view.ledger.imbalance(),
+                a.ENER_CIN,
+                a.ENER_TOT,
+                a.TRAV_EXT,
+                a.TRAV_AMOR,
+                a.TRAV_LIAI,
+                a.DISS_SCH(),
+                p.linear[0],
+                p.linear[1],
+                p.linear[2],
+                p.angular[0],
+                p.angular[1],
+                p.angular[2],
+                norm(error.linear),
+                norm(error.angular)};
+}
+
+ContactCurves::ContactCurves(const Simulation& simulation)
+    : contact_(simulation.contact()), contacts_(simulation.given().contacts.size()) {
+  table_.columns = {"time"};
+  for (const CaseContact& contact : simulation.given().contacts) {
+    for (const char* name :
+         {"force_x", "force_y", "force_z", "impulse_x", "impulse_y", "impulse_z", "penetration", "closed"}) {
+      table_.columns.push_back(fmt::format("{}.{}", *contact.name, name));
+    }
+  }
+  force_.resize(contacts_);
+  impulse_.resize(contacts_);
+  const std::vector<double>& lengths = simulation.solid().cell_lengths();
+  cell_length_ = *std::min_element(lengths.begin(), lengths.end());
+}
+
+void ContactCurves::sample(const StepView& view, double end_weight) {
+  const ConstraintRows& rows = contact_.rows();
+  std::vector<Vec3> force(contacts_);
+  std::vector<double> penetration(contacts_, 0.0), closed(contacts_, 0.0);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (view.forces.rows.status[r] == RowStatus::open) continue;
+    const auto c = static_cast<std::size_t>(rows.source[r]);
+    const Vec3& s = view.forces.rows.force[r];
+    for (std::size_t i = 0; i < 3; ++i) {
+      force[c][i] += s[0] * rows.normal[r][i] + s[1] * rows.tangent_1[r][i] + s[2] * rows.tangent_2[r][i];
+    }
+    penetration[c] = std::max(penetration[c], -(rows.gap[r] + rows.relative(r, view.state.q)[0]));
+    closed[c] += 1.0;
+  }
+  table_.row = {view.state.t};
+  for (std::size_t c = 0; c < contacts_; ++c) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      impulse_[c][i] += view.dt * ((1.0 - end_weight) * force_[c][i] + end_weight * force[c][i]);
+    }
+    table_.row.insert(table_.row.end(), {force[c][0], force[c][1], force[c][2], impulse_[c][0], impulse_[c][1],
+                                         impulse_[c][2], penetration[c], closed[c]});
+    worst_penetration_ = std::max(worst_penetration_, penetration[c]);
+  }
+  force_ = force;
+}
+
+namespace {
+
+constexpr const char* axis_names[] = {"x", "y", "z"};
+constexpr const char* stress_names[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+
+}  // namespace
+
+ProbeCurves::ProbeCurves(const Simulation& simulation) : simulation_(simulation) {
+  table_.columns = {"time"};
+  for (const CaseProbe& given : simulation.given().probes) {
+    Probe probe;
+    locate(given, probe);
+    Vec3 position{};
+    for (const Index n : probe.nodes) {
+      position = add(position, scaled(simulation.mesh().coordinates[static_cast<std::size_t>(n)],
+                                      1.0 / static_cast<double>(probe.nodes.size())));
+    }
+    for (const auto& quantity : given.quantities) probe.quantities.push_back(*quantity);
+    find_cells(given, position, probe);
+    add_columns(*given.name, probe);
+    positions_.push_back(position);
+    probes_.push_back(std::move(probe));
+  }
+}
+
+void ProbeCurves::locate(const CaseProbe& given, Probe& probe) const {
+  const Mesh& mesh = simulation_.mesh();
+  if (given.group) {
+    probe.nodes = Groups(mesh).nodes(*given.group, "probe.group");
+  } else if (given.node) {
+    const auto found = std::find(mesh.node_numbers.begin(), mesh.node_numbers.end(), **given.node);
+    if (found == mesh.node_numbers.end()) {
+      const auto [least, most] = std::minmax_element(mesh.node_numbers.begin(), mesh.node_numbers.end());
+      throw CaseError(given.node->where, "probe.node", fmt::format("{}, which the mesh does not have", **given.node),
+                      fmt::format("a node number of the mesh ({} to {})", *least, *most));
+    }
+    probe.nodes = {static_cast<Index>(found - mesh.node_numbers.begin())};
+  } else {
+    Index nearest_node = 0;
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < mesh.node_count(); ++n) {
+      const double distance = norm(subtract(mesh.coordinates[n], **given.point));
+      if (distance >= best) continue;
+      best = distance;
+      nearest_node = static_cast<Index>(n);
+    }
+    probe.nodes = {nearest_node};
+  }
+}
+
+void ProbeCurves::find_cells(const CaseProbe& given, const Vec3& position, Probe& probe) const {
+  const auto asks = [&](const char* q) {
+    return std::find(probe.quantities.begin(), probe.quantities.end(), q) != probe.quantities.end();
+  };
+  if (!asks("stress") && !asks("section_force")) return;
+  const Mesh& mesh = simulation_.mesh();
+  const std::vector<Index>& cells = simulation_.solid().cells();
+  const std::vector<Index>& connectivity = mesh.block(CellType::hexa8)->connectivity;
+  std::vector<bool> is_member(mesh.node_count(), false);
+  for (const Index n : probe.nodes) is_member[static_cast<std::size_t>(n)] = true;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    bool touches = false;
+    Vec3 centre{};
+    for (std::size_t a = 0; a < 8; ++a) {
+      const auto n = static_cast<std::size_t>(connectivity[8 * static_cast<std::size_t>(cells[k]) + a]);
+      touches = touches || is_member[n];
+      centre = add(centre, scaled(mesh.coordinates[n], 0.125));
+    }
+    if (!touches) continue;
+    probe.cells.push_back(static_cast<Index>(k));
+    if (given.side && dot(subtract(centre, position), *given.side) > 0.0)
+      probe.section_cells.push_back(static_cast<Index>(k));
+  }
+  const bool nothing_to_sum = asks("section_force") && probe.section_cells.empty();
+  if (probe.cells.empty() || nothing_to_sum) {
+    throw CaseError(
+        given.where, "probe",
+        fmt::format("no solid cell that touches probe \"{}\"{}", *given.name, nothing_to_sum ? " on that side" : ""),
+        "a probe on nodes of a part", nothing_to_sum ? "Turn `side` to where the cells are." : "");
+  }
+}
+
+void ProbeCurves::add_columns(const std::string& name, const Probe& probe) {
+  for (const std::string& quantity : probe.quantities) {
+    const bool is_tensor = quantity == "stress";
+    for (std::size_t c = 0; c < (is_tensor ? 6U : 3U); ++c) {
+      table_.columns.push_back(fmt::format("{}.{}_{}", name, quantity, is_tensor ? stress_names[c] : axis_names[c]));
+    }
+  }
+}
+
+void ProbeCurves::sample(const StepView& view) {
+  table_.row = {view.state.t};
+  const auto append_mean = [&](const Probe& probe, const std::vector<double>& x) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      double sum = 0.0;
+      for (const Index n : probe.nodes) sum += x[3 * static_cast<std::size_t>(n) + c];
+      table_.row.push_back(sum / static_cast<double>(probe.nodes.size()));
+    }
+  };
+  std::vector<std::array<double, 6>> stress;
+  for (const Probe& probe : probes_) {
+    for (const std::string& quantity : probe.quantities) {
+      if (quantity == "displacement") append_mean(probe, view.state.q);
+      if (quantity == "velocity") append_mean(probe, view.state.v);
+      if (quantity == "acceleration") append_mean(probe, view.state.a);
+      if (quantity == "stress") {
+        if (stress.empty()) stress = simulation_.solid().cell_stress(view.state.q);
+        for (std::size_t c = 0; c < 6; ++c) {
+          double sum = 0.0;
+          for (const Index k : probe.cells) sum += stress[static_cast<std::size_t>(k)][c];
+          table_.row.push_back(sum / static_cast<double>(probe.cells.size()));
+        }
+      }
+      if (quantity == "section_force") {
+        section_work_.assign(view.state.q.size(), 0.0);
+        simulation_.solid().add_internal_force_of(probe.section_cells, view.state.q, section_work_);
+        for (std::size_t c = 0; c < 3; ++c) {
+          double sum = 0.0;
+          for (const Index n : probe.nodes) sum -= section_work_[3 * static_cast<std::size_t>(n) + c];
+          table_.row.push_back(sum);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace carom

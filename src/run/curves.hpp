@@ -1,0 +1,94 @@
+// The curves of a run: one row of named numbers per finished step.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "energy/ledger.hpp"
+#include "run/simulation.hpp"
+
+namespace carom {
+
+/// What is known at the end of a step.
+struct StepView {
+  long long step = 0;
+  double dt = 0.0;
+  int iterations = 0;
+  const State& state;
+  const Forces& forces;
+  const EnergyLedger& ledger;
+};
+
+/// Names and values of one table; the first column is always `time`.
+struct Table {
+  std::vector<std::string> columns;
+  std::vector<double> row;
+
+  /// Position of a column, if there is one.
+  std::optional<std::size_t> find(const std::string& column) const;
+};
+
+/// energy.csv: ledger, Code_Aster's terms, momentum.
+class EnergyCurves {
+ public:
+  EnergyCurves();
+  void sample(const StepView& view);
+  const Table& table() const { return table_; }
+
+ private:
+  Table table_;
+};
+
+/// contact.csv: for each contact the resultant force on the body, its impulse, the largest penetration, closed rows.
+class ContactCurves {
+ public:
+  explicit ContactCurves(const Simulation& simulation);
+  /// Resultants at this state; before the first step and after each one. `end_weight` is the scheme's weight of the
+  /// force at the end of the step in its impulse (gamma of Newmark).
+  void sample(const StepView& view, double end_weight);
+  const Table& table() const { return table_; }
+  /// Largest penetration over all contacts and steps, relative to the cell it belongs to.
+  double worst_relative_penetration() const { return worst_penetration_ / cell_length_; }
+
+ private:
+  const Penalty& contact_;
+  std::size_t contacts_;
+  Table table_;
+  std::vector<Vec3> force_, impulse_;
+  double cell_length_ = 0.0;
+  double worst_penetration_ = 0.0;
+};
+
+/// probes.csv: displacement, velocity, acceleration and stress at the probes, and section forces: what the cells on the
+/// probe's side pull the section with (minus their internal force on its nodes).
+class ProbeCurves {
+ public:
+  /// Throws CaseError for nodes and groups that do not exist.
+  explicit ProbeCurves(const Simulation& simulation);
+  void sample(const StepView& view);
+  const Table& table() const { return table_; }
+  /// Mean reference position of each probe, in the order of Case::probes.
+  const std::vector<Vec3>& positions() const { return positions_; }
+
+ private:
+  struct Probe {
+    std::vector<Index> nodes;
+    std::vector<Index> cells;          ///< positions in Solid::cells() of the cells that touch the nodes
+    std::vector<Index> section_cells;  ///< those of them on the probe's side
+    std::vector<std::string> quantities;
+  };
+  void locate(const CaseProbe& given, Probe& probe) const;
+  void find_cells(const CaseProbe& given, const Vec3& position, Probe& probe) const;
+  void add_columns(const std::string& name, const Probe& probe);
+
+  const Simulation& simulation_;
+  std::vector<Probe> probes_;
+  std::vector<Vec3> positions_;
+  Table table_;
+  std::vector<double> section_work_;
+};
+
+}  // namespace carom

@@ -1,0 +1,185 @@
+#include "run/lint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/units.hpp"
+#include "casefile/plausibility.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+
+namespace {
+
+/// Mass, kinetic energy and momentum of one part, by the lumped shares of its cells (exact for a common velocity).
+struct PartSummary {
+  double mass = 0.0, kinetic = 0.0;
+  Vec3 momentum{};
+};
+
+PartSummary summarise(const Simulation& s, const Part& part, const State& state) {
+  PartSummary sum;
+  const std::vector<Index>& connectivity = s.mesh().block(CellType::hexa8)->connectivity;
+  const double rho = std::visit([](const auto& material) { return material.rho; }, part.material);
+  const std::vector<Index>& cells = s.solid().cells();
+  std::vector<double> volume_of(s.mesh().block(CellType::hexa8)->size(), 0.0);
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    volume_of[static_cast<std::size_t>(cells[k])] = s.solid().cell_volumes()[k];
+  for (const Index cell : part.cells) {
+    const double share = rho * volume_of[static_cast<std::size_t>(cell)] / 8.0;
+    for (std::size_t a = 0; a < 8; ++a) {
+      const auto n = static_cast<std::size_t>(connectivity[8 * static_cast<std::size_t>(cell) + a]);
+      const Vec3 v{state.v[3 * n], state.v[3 * n + 1], state.v[3 * n + 2]};
+      sum.mass += share;
+      sum.kinetic += 0.5 * share * dot(v, v);
+      sum.momentum = add(sum.momentum, scaled(v, share));
+    }
+  }
+  return sum;
+}
+
+/// Smallest gap, and the earliest time at which a row closes when everything keeps its initial velocity.
+struct Approach {
+  double gap = std::numeric_limits<double>::infinity();
+  double speed = 0.0;  ///< largest closing speed
+  double first_touch = std::numeric_limits<double>::infinity();
+  double stiffness = 0.0, measure = 0.0;  ///< sums over the rows
+};
+
+Approach approach(const Simulation& s, std::size_t contact, const State& state) {
+  const ConstraintRows& rows = s.contact().rows();
+  Approach a;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (static_cast<std::size_t>(rows.source[r]) != contact) continue;
+    const double gap = rows.gap[r] + rows.relative(r, state.q)[0], closing = -rows.relative(r, state.v)[0];
+    a.gap = std::min(a.gap, gap);
+    a.speed = std::max(a.speed, closing);
+    if (closing > 0.0) a.first_touch = std::min(a.first_touch, std::max(gap, 0.0) / closing);
+    a.stiffness += s.contact().parameters()[r].eps_N;
+    a.measure += rows.measure[r];
+  }
+  return a;
+}
+
+double smallest_cell(const Simulation& s) {
+  const std::vector<double>& lengths = s.solid().cell_lengths();
+  return *std::min_element(lengths.begin(), lengths.end());
+}
+
+/// Fastest wave and largest impedance over the materials.
+struct Waves {
+  double speed = 0.0, impedance = 0.0, modulus = 0.0;
+};
+
+Waves waves(const Simulation& s) {
+  Waves w;
+  for (const Part& part : s.model().parts) {
+    const auto& m = std::get<LinearElastic>(part.material);
+    const double c = std::sqrt(m.p_wave_modulus() / m.rho);
+    w.speed = std::max(w.speed, c);
+    w.impedance = std::max(w.impedance, m.rho * c);
+    w.modulus = std::max(w.modulus, m.p_wave_modulus());
+  }
+  return w;
+}
+
+void lint_contact(const Simulation& s, std::size_t c, const State& state, std::vector<std::string>& out) {
+  const CaseContact& contact = s.given().contacts[c];
+  const std::string at = fmt::format("{}: contact \"{}\"", to_string(contact.where), *contact.name);
+  const Approach a = approach(s, c, state);
+  const double end = *s.given().time.end, h = smallest_cell(s);
+  if (a.speed > 0.0 && a.first_touch > end) {
+    out.push_back(fmt::format(
+        "{} is not reached before the end: gap {:.4g} at speed {:.4g} closes at t = {:.4g}, the run ends at {:.4g}", at,
+        a.gap, a.speed, a.first_touch, end));
+  }
+  if (a.speed <= 0.0 && a.gap > 0.0 && s.model().loads.empty()) {
+    out.push_back(
+        fmt::format("{}: nothing moves towards it (is the sign of the velocity or of the normal right?)", at));
+  }
+  if (contact.kind == CaseContact::Kind::stop || a.stiffness <= 0.0) return;
+  const Waves w = waves(s);
+  // A plane wave presses with rho c v; the stiffness per area is that of the rows over the area they stand for.
+  const double area = contact.per_node ? 0.0 : a.measure;
+  if (area <= 0.0) return;
+  const double per_area = a.stiffness / area, penetration = w.impedance * a.speed / per_area;
+  if (penetration > 0.01 * h) {
+    out.push_back(
+        fmt::format("{} is soft: impact at {:.4g} will penetrate by about {:.3g}, {:.3g} of a cell; stiffness {:.3g} "
+                    "would keep it below 1 %",
+                    at, a.speed, penetration, penetration / h, w.impedance * a.speed / (0.01 * h)));
+  }
+  if (per_area > 20.0 * w.modulus / h) {
+    out.push_back(
+        fmt::format("{} is {:.3g} times stiffer than a cell (modulus / cell length = {:.3g}): more stiffness brings "
+                    "noise and, in explicit runs, a smaller step, not accuracy",
+                    at, per_area * h / w.modulus, w.modulus / h));
+  }
+}
+
+void lint_scheme(const Simulation& s, std::vector<std::string>& out) {
+  const CaseScheme& scheme = s.given().scheme;
+  if (scheme.kind != CaseScheme::Kind::newmark) return;
+  const double courant = waves(s).speed * s.dt() / smallest_cell(s);
+  if (courant > 20.0) {
+    out.push_back(
+        fmt::format("{}: Courant number {:.3g}: waves cross {:.3g} cells in a step; contact forces and wave fronts "
+                    "will be smeared (step {:.3g} gives Courant number 1)",
+                    to_string(s.given().time.where), courant, courant, s.dt() / courant));
+  }
+}
+
+std::string format_vector(const Vec3& v) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0], v[1], v[2]);
+}
+
+}  // namespace
+
+std::vector<std::string> lint_warnings(const Simulation& s) {
+  std::vector<std::string> out = plausibility_warnings(s.given());
+  const State state = s.initial_state();
+  for (std::size_t c = 0; c < s.given().contacts.size(); ++c) lint_contact(s, c, state, out);
+  lint_scheme(s, out);
+  return out;
+}
+
+std::string check_summary(const Simulation& s) {
+  const UnitSystem units = s.given().units;
+  const auto unit = [&](Dimension d) { return unit_name(d, units); };
+  const State state = s.initial_state();
+  const double h = smallest_cell(s), c = waves(s).speed;
+  std::string text = fmt::format("{}\n  units     {}\n  mesh      {} nodes, {} solid cells, smallest cell {:.4g} {}\n",
+                                 s.given().title, name(units), s.mesh().node_count(), s.solid().cell_count(), h,
+                                 unit(Dimension::length));
+  for (const Part& part : s.model().parts) {
+    const PartSummary p = summarise(s, part, state);
+    text += fmt::format("  part      \"{}\": {} cells, mass {:.6g} {}, kinetic energy {:.6g} {}, momentum {}\n",
+                        part.name, part.cells.size(), p.mass, unit(Dimension::mass), p.kinetic, unit(Dimension::energy),
+                        format_vector(p.momentum));
+  }
+  for (std::size_t i = 0; i < s.given().contacts.size(); ++i) {
+    const Approach a = approach(s, i, state);
+    const std::string touch =
+        std::isfinite(a.first_touch) ? fmt::format("first touch at t = {:.6g}", a.first_touch) : "no approach";
+    text += fmt::format("  contact   \"{}\": gap {:.6g} {}, closing speed {:.6g}, {}\n", *s.given().contacts[i].name,
+                        a.gap, unit(Dimension::length), a.speed, touch);
+  }
+  const std::vector<double> bounds = s.solid().cell_frequency_bounds();
+  const double estimate = 2.0 / std::sqrt(*std::max_element(bounds.begin(), bounds.end()));
+  text += fmt::format(
+      "  scheme    {}\n  step      {:.6g} {}, {} steps to t = {:.6g}; Courant number {:.3g} (fastest wave {:.5g})\n",
+      s.scheme_name(), s.dt(), unit(Dimension::time), s.steps(), *s.given().time.end, c * s.dt() / h, c);
+  text += fmt::format("  stable    explicit step {:.4g} with contact, {:.4g} without; element estimate {:.4g}\n",
+                      s.stable().dt, s.stable().dt_free, estimate);
+  // 1 million cell-steps per second and core explicit, ten times that work per implicit step: orders of magnitude only.
+  const bool implicit_scheme = s.given().scheme.kind == CaseScheme::Kind::newmark;
+  const double work =
+      static_cast<double>(s.solid().cell_count()) * static_cast<double>(s.steps()) * (implicit_scheme ? 30.0 : 1.0);
+  text += fmt::format("  cost      about {:.1g} s on one core\n", std::max(0.01, work / 2e6));
+  return text;
+}
+
+}  // namespace carom

@@ -1,0 +1,148 @@
+#include "run/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/units.hpp"
+#include "output/cfc_filter.hpp"
+#include "output/file_writer.hpp"
+#include "output/results_folder.hpp"
+#include "output/units.hpp"
+#include "output/vtu.hpp"
+
+namespace carom {
+
+namespace {
+
+std::string prepared(const std::string& folder) {
+  prepare_results_folder(folder);
+  return folder;
+}
+
+std::vector<std::string> comments(const Simulation& simulation, const std::string& what) {
+  return {fmt::format("{} - {}", simulation.given().title, what),
+          units_comment(units_of(name(simulation.given().units)))};
+}
+
+std::optional<ExactCurves> make_exact(const Simulation& simulation, const ProbeCurves& probes) {
+  if (!simulation.given().exact) return std::nullopt;
+  return std::optional<ExactCurves>(std::in_place, simulation, probes);
+}
+
+bool wants_filter(const Case& given) {
+  return std::any_of(given.probes.begin(), given.probes.end(), [](const CaseProbe& p) { return p.cfc.has_value(); });
+}
+
+}  // namespace
+
+Recorder::Recorder(const Simulation& simulation, std::string folder)
+    : simulation_(simulation),
+      folder_(std::move(folder)),
+      contact_(simulation),
+      probes_(simulation),
+      exact_(make_exact(simulation, probes_)),
+      checks_(simulation, {&energy_.table(), &contact_.table(), &probes_.table()}, exact_ ? &*exact_ : nullptr),
+      energy_file_(prepared(folder_) + "/energy.csv", energy_.table().columns, comments(simulation, "energies")),
+      contact_file_(folder_ + "/contact.csv", contact_.table().columns,
+                    comments(simulation, "contact forces on the body")),
+      probes_file_(folder_ + "/probes.csv", probes_.table().columns, comments(simulation, "probes")),
+      frames_(folder_ + "/fields.pvd"),
+      frame_every_(simulation.given().output.fields_every > 0 ? simulation.given().output.fields_every
+                                                              : std::max(1LL, (simulation.steps() + 49) / 50)) {
+  if (exact_) {
+    exact_file_.emplace(folder_ + "/exact.csv", exact_->table().columns, comments(simulation, "exact solution"));
+  }
+}
+
+void Recorder::record(const StepView& view, double end_weight, Moment moment) {
+  contact_.sample(view, end_weight);  // every step: the impulses are sums
+  const bool last = moment == Moment::last;
+  if (last || view.step % simulation_.given().output.curves_every == 0) {
+    energy_.sample(view);
+    probes_.sample(view);
+    checks_.sample(view.state.t);
+    energy_file_.append(energy_.table().row);
+    contact_file_.append(contact_.table().row);
+    probes_file_.append(probes_.table().row);
+    if (wants_filter(simulation_.given())) filtered_rows_.push_back(probes_.table().row);
+    if (exact_) {
+      exact_->sample(view.state.t);
+      exact_file_->append(exact_->table().row);
+    }
+  }
+  if ((last || view.step % frame_every_ == 0) && view.step != last_frame_) record_frame(view);
+}
+
+void Recorder::record_frame(const StepView& view) {
+  const Simulation& s = simulation_;
+  const CaseOutput& output = s.given().output;
+  if (output.fields.empty()) return;
+  last_frame_ = view.step;
+  const std::vector<Index>& all = s.mesh().block(CellType::hexa8)->connectivity;
+  std::vector<Index> connectivity;
+  connectivity.reserve(8 * s.solid().cell_count());
+  for (const Index cell : s.solid().cells()) {
+    const auto first = all.begin() + 8 * static_cast<std::ptrdiff_t>(cell);
+    connectivity.insert(connectivity.end(), first, first + 8);
+  }
+  std::vector<std::array<double, 6>> stress;
+  std::vector<VtuField> point_fields, cell_fields;
+  for (const auto& field : output.fields) {
+    if (*field == "displacement") point_fields.push_back({*field, 3, view.state.q});
+    if (*field == "velocity") point_fields.push_back({*field, 3, view.state.v});
+    if (*field == "acceleration") point_fields.push_back({*field, 3, view.state.a});
+    if (*field == "stress") {
+      stress = s.solid().cell_stress(view.state.q);
+      cell_fields.push_back({*field, 6, std::span<const double>(stress.data()->data(), 6 * stress.size())});
+    }
+  }
+  const std::string file = frame_file(static_cast<int>(view.step));
+  write_vtu(folder_ + "/" + file, s.mesh().coordinates, connectivity, point_fields, cell_fields);
+  frames_.add(view.state.t, file);
+}
+
+/// Probes with a channel frequency class, filtered after the run: probes_filtered.csv, the classes in its header.
+void Recorder::write_filtered() const {
+  if (filtered_rows_.size() < 3) return;
+  const Case& given = simulation_.given();
+  const double seconds = si_factor(Dimension::time, given.units);
+  const double dt = filtered_rows_[1][0] - filtered_rows_[0][0];
+  std::vector<std::string> columns{"time"}, header = comments(simulation_, "filtered probes");
+  std::vector<std::vector<double>> values;
+  for (const CaseProbe& probe : given.probes) {
+    if (!probe.cfc) continue;
+    for (std::size_t c = 1; c < probes_.table().columns.size(); ++c) {
+      if (!probes_.table().columns[c].starts_with(*probe.name + ".")) continue;
+      std::vector<double> raw;
+      for (const auto& row : filtered_rows_) raw.push_back(row[c]);
+      try {
+        values.push_back(cfc_filter(raw, dt * seconds, *probe.cfc));
+      } catch (const std::invalid_argument& e) {
+        header.push_back(fmt::format("{}: not filtered: {}", probes_.table().columns[c], e.what()));
+        continue;
+      }
+      columns.push_back(probes_.table().columns[c]);
+      header.push_back(fmt::format("{}: SAE J211 CFC {:g}", columns.back(), *probe.cfc));
+    }
+  }
+  CsvFile file(folder_ + "/probes_filtered.csv", columns, header);
+  for (std::size_t i = 0; i < filtered_rows_.size(); ++i) {
+    std::vector<double> row{filtered_rows_[i][0]};
+    for (const auto& column : values) row.push_back(column[i]);
+    file.append(row);
+  }
+  file.close();
+}
+
+void Recorder::close() {
+  energy_file_.close();
+  contact_file_.close();
+  probes_file_.close();
+  if (exact_file_) exact_file_->close();
+  write_filtered();
+}
+
+}  // namespace carom

@@ -1,0 +1,51 @@
+// Writes the results folder while the run goes on.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/csv.hpp"
+#include "output/pvd.hpp"
+#include "run/checks.hpp"
+#include "run/curves.hpp"
+#include "run/exact_curves.hpp"
+
+namespace carom {
+
+/// Samples the curves, the checks and the fields at the steps where they are due.
+class Recorder {
+ public:
+  /// Prepares the folder and opens its files. Throws OutputError, and CaseError for probes and checks.
+  Recorder(const Simulation& simulation, std::string folder);
+
+  /// To be called for the initial state and after every step; `last` forces everything out.
+  enum class Moment : std::uint8_t { during, last };
+  void record(const StepView& view, double end_weight, Moment moment);
+  /// Writes the filtered curves and closes all files.
+  void close();
+
+  std::vector<CheckSummary> checks() const { return checks_.results(); }
+  double worst_relative_penetration() const { return contact_.worst_relative_penetration(); }
+
+ private:
+  void record_frame(const StepView& view);
+  void write_filtered() const;
+
+  const Simulation& simulation_;
+  std::string folder_;
+  EnergyCurves energy_;
+  ContactCurves contact_;
+  ProbeCurves probes_;
+  std::optional<ExactCurves> exact_;
+  Checks checks_;
+  CsvFile energy_file_, contact_file_, probes_file_;
+  std::optional<CsvFile> exact_file_;
+  PvdCollection frames_;
+  long long frame_every_;
+  long long last_frame_ = -1;
+  std::vector<std::vector<double>> filtered_rows_;  ///< rows of probes.csv, kept when a probe asks for a filter
+};
+
+}  // namespace carom

@@ -1,0 +1,304 @@
+#include "run/run_case.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "base/version.hpp"
+#include "casefile/plausibility.hpp"
+#include "casefile/read_case.hpp"
+#include "casefile/resolved_case.hpp"
+#include "math/vec3.hpp"
+#include "mesh/mesh_summary.hpp"
+#include "output/file_writer.hpp"
+#include "output/summary.hpp"
+#include "parallel/threads.hpp"
+#include "report/report.hpp"
+#include "run/recorder.hpp"
+#include "run/simulation.hpp"
+#include "run/step_control.hpp"
+#include "run/verdict.hpp"
+
+namespace carom {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+double cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+double reach(const Mesh& mesh) {
+  double r = 0.0;
+  for (const Vec3& x : mesh.coordinates) r = std::max(r, norm(x));
+  return r;
+}
+
+/// The node that moves fastest (or the first whose motion is not finite) and a solid cell that holds it.
+std::string worst_place(const Simulation& s, const State& state) {
+  std::size_t worst = 0;
+  double fastest = -1.0;
+  for (std::size_t n = 0; n < s.mesh().node_count(); ++n) {
+    const double speed = norm({state.v[3 * n], state.v[3 * n + 1], state.v[3 * n + 2]});
+    if (speed <= fastest) continue;
+    worst = n;
+    fastest = speed;
+    if (!std::isfinite(speed)) break;
+  }
+  const Vec3& x = s.mesh().coordinates[worst];
+  std::string text = fmt::format("worst node {} at ({:.4g}, {:.4g}, {:.4g}), speed {:.4g}",
+                                 s.mesh().node_numbers[worst], x[0], x[1], x[2], fastest);
+  const CellBlock& hexas = *s.mesh().block(CellType::hexa8);
+  for (const Index cell : s.solid().cells()) {
+    const auto first = hexas.connectivity.begin() + 8 * static_cast<std::ptrdiff_t>(cell);
+    if (std::find(first, first + 8, static_cast<Index>(worst)) == first + 8) continue;
+    return text + fmt::format(", in cell {}", hexas.file_numbers[static_cast<std::size_t>(cell)]);
+  }
+  return text;
+}
+
+/// One run: what the loop needs and what the summary is made from.
+class Run {
+ public:
+  Run(const Simulation& simulation, const RunOptions& options)
+      : s_(simulation),
+        recorder_(simulation, options.folder),
+        scheme_(simulation.make_scheme()),
+        control_(simulation.dt(), simulation.steps(),
+                 simulation.given().time.fixed || simulation.given().scheme.kind != CaseScheme::Kind::newmark
+                     ? StepControl::Halving::forbidden
+                     : StepControl::Halving::allowed),
+        progress_(stderr, *simulation.given().time.end, options.progress),
+        state_(simulation.initial_state()) {}
+
+  void loop(const std::atomic<bool>& stop);
+  void fill(Summary& summary) const;
+  Recorder& recorder() { return recorder_; }
+  Progress& progress() { return progress_; }
+  Outcome outcome() const { return outcome_; }
+  const std::string& message() const { return message_; }
+
+ private:
+  void start();
+  bool advance();
+  void record(Recorder::Moment moment, double dt, int iterations);
+
+  const Simulation& s_;
+  Recorder recorder_;
+  std::unique_ptr<Scheme> scheme_;
+  StepControl control_;
+  Progress progress_;
+  State state_, next_;
+  std::optional<EnergyLedger> ledger_;
+  std::optional<RunMonitor> monitor_;
+  long long step_ = 0;
+  double dt_smallest_ = 0.0, dt_largest_ = 0.0;
+  Outcome outcome_ = Outcome::good;
+  std::string message_;
+};
+
+void Run::start() {
+  try {
+    scheme_->start(state_, s_.dt());
+  } catch (const std::runtime_error& e) {
+    throw RunError(0, 0.0, e.what());
+  }
+  ledger_.emplace(stored_energies(s_.system(), state_, scheme_->forces()), momentum_of(s_.system(), scheme_->forces()),
+                  reach(s_.mesh()));
+  monitor_.emplace(*ledger_);
+  record(Recorder::Moment::during, 0.0, 0);
+}
+
+void Run::record(Recorder::Moment moment, double dt, int iterations) {
+  recorder_.record({step_, dt, iterations, state_, scheme_->forces(), *ledger_}, scheme_->end_weight(), moment);
+}
+
+/// One accepted step. Returns false when the run cannot go on; message_ says why.
+bool Run::advance() {
+  StepReport report;
+  double dt = 0.0;
+  for (;;) {
+    dt = control_.dt();
+    // A hundredth of the ledger's bound (1e-10 of the energy), shared out over the time of the run; what a step leaves
+    // unbooked is at most its residual's work.
+    const double tolerance = 1e-12 * ledger_->scale() * dt / *s_.given().time.end;
+    report = scheme_->step(state_, {control_.t_end_of_step(), dt, tolerance}, next_);
+    if (report.converged) break;
+    if (control_.halve()) continue;
+    message_ = fmt::format("step {} from t = {:.6g} failed: {}{}", step_ + 1, state_.t, report.failure,
+                           s_.given().time.fixed ? "; the case fixes the step, so it was not halved" : "");
+    outcome_ = Outcome::error;
+    return false;
+  }
+  std::swap(state_, next_);
+  control_.accept();
+  ++step_;
+  dt_smallest_ = step_ == 1 ? dt : std::min(dt_smallest_, dt);
+  dt_largest_ = std::max(dt_largest_, dt);
+  ledger_->add(report.books, momentum_of(s_.system(), scheme_->forces()));
+  monitor_->update();
+  const std::string alarm = monitor_->alarm();
+  const bool last = control_.at_end() || !alarm.empty();
+  const int iterations = std::max(report.iterations, report.linear_iterations);
+  record(last ? Recorder::Moment::last : Recorder::Moment::during, dt, iterations);
+  progress_.update({state_.t, step_, dt, iterations, monitor_->relative_imbalance()});
+  if (alarm.empty()) return true;
+  message_ = fmt::format("stopped after step {}, t = {:.6g}: {}; {}", step_, state_.t, alarm, worst_place(s_, state_));
+  outcome_ = Outcome::error;
+  return false;
+}
+
+void Run::loop(const std::atomic<bool>& stop) {
+  start();
+  while (!control_.at_end()) {
+    if (!advance()) return;
+    if (!stop.load() || control_.at_end()) continue;
+    record(Recorder::Moment::last, 0.0, 0);
+    outcome_ = Outcome::stopped;
+    message_ = fmt::format("interrupted after step {}, t = {:.6g} of {:.6g}", step_, state_.t, *s_.given().time.end);
+    return;
+  }
+}
+
+void Run::fill(Summary& summary) const {
+  summary.scheme = {s_.scheme_name(), scheme_->solver_name(), dt_smallest_, dt_largest_, step_, *s_.given().time.end,
+                    state_.t};
+  if (!ledger_) return;
+  const EnergyTerms e = ledger_->now();
+  summary.ledger = {{"kinetic", e.kinetic},
+                    {"strain", e.strain},
+                    {"contact_stored", e.contact_stored},
+                    {"friction", e.friction},
+                    {"damping", e.damping},
+                    {"external_work", e.external_work},
+                    {"support_work", e.support_work},
+                    {"algorithmic", e.algorithmic},
+                    {"quadrature", e.quadrature},
+                    {"imbalance", ledger_->imbalance()}};
+  const AsterTerms& a = ledger_->aster();
+  summary.code_aster = {{"ENER_CIN", a.ENER_CIN},   {"ENER_TOT", a.ENER_TOT},   {"TRAV_EXT", a.TRAV_EXT},
+                        {"TRAV_AMOR", a.TRAV_AMOR}, {"TRAV_LIAI", a.TRAV_LIAI}, {"DISS_SCH", a.DISS_SCH()}};
+  const Momentum begin = ledger_->initial_momentum(), end = ledger_->momentum(), impulse = ledger_->impulse();
+  summary.linear_momentum = {begin.linear, end.linear, impulse.linear, monitor_->linear_momentum_error()};
+  summary.angular_momentum = {begin.angular, end.angular, impulse.angular, monitor_->angular_momentum_error()};
+  summary.checks = recorder_.checks();
+  summary.verdict = monitor_->items(recorder_.worst_relative_penetration());
+}
+
+Summary summary_of(const Simulation& s) {
+  Summary summary;
+  summary.program = {version(), compiler(), std::string(name(s.solid().isa())), thread_count()};
+  summary.case_info = {s.given().file, s.given().title, std::string(name(s.given().units))};
+  summary.mesh.nodes = s.mesh().node_count();
+  summary.mesh.cells = s.solid().cell_count();
+  for (const std::string& group : s.mesh().group_names()) {
+    const auto cells = s.mesh().cell_groups.find(group);
+    summary.mesh.groups.push_back(
+        {group, s.mesh().nodes_of(group).size(), cells == s.mesh().cell_groups.end() ? 0 : cells->second.size()});
+  }
+  return summary;
+}
+
+/// Fails what did not pass; "good" and "failed" only for runs that reached the end.
+void judge(Summary& summary) {
+  const auto failed = [](const auto& list) {
+    return std::count_if(list.begin(), list.end(), [](const auto& item) { return !item.pass; });
+  };
+  const auto checks = failed(summary.checks), items = failed(summary.verdict);
+  if (summary.outcome != Outcome::good) return;
+  if (checks + items > 0) summary.outcome = Outcome::failed;
+  summary.message = fmt::format("{} of {} checks and {} of {} verdict items passed",
+                                summary.checks.size() - static_cast<std::size_t>(checks), summary.checks.size(),
+                                summary.verdict.size() - static_cast<std::size_t>(items), summary.verdict.size());
+}
+
+void print_verdict(const Summary& summary, const std::string& folder) {
+  for (const VerdictItem& item : summary.verdict) {
+    if (!item.pass)
+      fmt::print(stderr, "FAILED  {}: {:.3g}, limit {:.3g} ({})\n", item.name, item.value, item.limit,
+                 item.explanation);
+  }
+  for (const CheckSummary& check : summary.checks) {
+    if (!check.pass) {
+      fmt::print(stderr, "FAILED  check {} at t = {:.6g}: {:.10g}, reference {:.10g}, difference {:.3g} ({})\n",
+                 check.name, check.time, check.value, check.reference, check.difference, check.source);
+    }
+  }
+  fmt::print(stderr, "{}: {}\n", to_string(summary.outcome), summary.message);
+  fmt::print(stderr, "{} steps in {:.3g} s; results in {}, open {}/report.html\n", summary.scheme.steps,
+             summary.cost.wall_seconds, folder, folder);
+}
+
+ExitCode exit_code(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::good:
+      return ExitCode::good;
+    case Outcome::failed:
+      return ExitCode::verdict_failed;
+    case Outcome::stopped:
+    case Outcome::error:
+      break;
+  }
+  return ExitCode::run_failed;
+}
+
+}  // namespace
+
+ExitCode run_case(const std::string& case_file, const RunOptions& options, const std::atomic<bool>& stop) {
+  const Clock::time_point begin = Clock::now();
+  set_threads(options.threads);
+  const Case given = read_case(case_file);
+  const bool quiet = options.progress == ProgressMode::quiet;
+  const Simulation simulation(given);
+  if (!quiet) {
+    for (const std::string& warning : plausibility_warnings(given)) fmt::print(stderr, "warning: {}\n", warning);
+    for (const std::string& note : simulation.notes()) fmt::print(stderr, "note: {}\n", note);
+  }
+  Run run(simulation, options);
+  write_file(options.folder + "/case.resolved.toml", resolved_toml(given));
+  write_file(options.folder + "/mesh.txt", mesh_summary(simulation.mesh()));
+  Summary summary = summary_of(simulation);
+  const double setup_seconds = seconds_since(begin);
+  const Clock::time_point stepping = Clock::now();
+  summary.outcome = Outcome::error;
+  try {
+    run.loop(stop);
+    summary.outcome = run.outcome();
+    summary.message = run.message();
+  } catch (const RunError& e) {
+    summary.message = e.what();
+  }
+  const double step_seconds = seconds_since(stepping);
+  run.progress().finish("");
+  run.recorder().close();
+  run.fill(summary);
+  summary.cost = {
+      seconds_since(begin), cpu_seconds(), {{"setup", setup_seconds}, {"steps", step_seconds}}, peak_memory()};
+  judge(summary);
+  write_summary(options.folder + "/summary.json", summary);
+  write_report(options.folder);
+  if (!quiet) print_verdict(summary, options.folder);
+  return exit_code(summary.outcome);
+}
+
+}  // namespace carom

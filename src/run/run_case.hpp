@@ -1,0 +1,26 @@
+// From a case file to its results folder.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+#include "output/progress.hpp"
+
+namespace carom {
+
+struct RunOptions {
+  std::string folder;  ///< of the results
+  int threads = 0;     ///< 0: all cores
+  ProgressMode progress = ProgressMode::automatic;
+};
+
+/// What the process tells the shell.
+enum class ExitCode : std::uint8_t { good = 0, verdict_failed = 1, case_wrong = 2, run_failed = 3 };
+
+/// Reads, builds, runs, writes the results and the report, and prints the verdict. Sets of results stay readable when
+/// the run fails or `stop` becomes true (checked after every step). Throws CaseError before anything is run and
+/// OutputError when results cannot be written.
+ExitCode run_case(const std::string& case_file, const RunOptions& options, const std::atomic<bool>& stop);
+
+}  // namespace carom

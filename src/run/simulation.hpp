@@ -1,0 +1,69 @@
+// The discrete problem of a case, ready to be stepped.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casefile/case.hpp"
+#include "contact/penalty.hpp"
+#include "energy/ledger.hpp"
+#include "model/model.hpp"
+#include "schemes/scheme.hpp"
+#include "schemes/stable_step.hpp"
+#include "schemes/supports.hpp"
+#include "solid/solid.hpp"
+
+namespace carom {
+
+/// Owns everything between the case and the scheme; not movable, since the parts refer to each other. Building it finds
+/// every error that can be found without stepping (CaseError).
+class Simulation {
+ public:
+  /// The case must outlive the simulation.
+  explicit Simulation(const Case& given);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  const Case& given() const { return case_; }
+  const Mesh& mesh() const { return *mesh_; }
+  const Model& model() const { return model_; }
+  const Solid& solid() const { return solid_; }
+  const Mass& mass() const { return mass_; }
+  const Penalty& contact() const { return contact_; }
+  const System& system() const { return system_; }
+  const StableStep& stable() const { return stable_; }
+  /// What was mended or noticed while building.
+  const std::vector<std::string>& notes() const { return notes_; }
+
+  /// The usual step and the number of steps of that length that reach the end exactly.
+  double dt() const { return dt_; }
+  long long steps() const { return steps_; }
+
+  /// The state of the case's [[initial]] sections, before Scheme::start.
+  State initial_state() const;
+  std::unique_ptr<Scheme> make_scheme() const;
+  /// "Newmark beta 0.28 gamma 0.55, consistent mass"
+  std::string scheme_name() const;
+
+ private:
+  void refuse_massless_contact() const;
+  void refuse_initial_penetration() const;
+  void choose_step();
+
+  const Case& case_;
+  std::shared_ptr<const Mesh> mesh_;
+  Model model_;
+  Solid solid_;
+  Mass mass_;
+  std::vector<std::string> notes_;
+  Penalty contact_;
+  Supports supports_;
+  System system_;
+  StableStep stable_;
+  double dt_ = 0.0;
+  long long steps_ = 0;
+};
+
+}  // namespace carom

@@ -1,0 +1,83 @@
+#include "run/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/vec3.hpp"
+
+namespace carom {
+
+namespace {
+
+double ratio(double error, double scale) {
+  return scale > 0.0 ? error / scale : 0.0;
+}
+
+}  // namespace
+
+void RunMonitor::update() {
+  const EnergyTerms now = ledger_.now();
+  imbalance_ = std::max(imbalance_, std::abs(ledger_.imbalance()));
+  quadrature_ = std::max(quadrature_, std::abs(now.quadrature));
+  algorithmic_ = std::max(algorithmic_, std::abs(now.algorithmic));
+  const Momentum error = ledger_.momentum_error(), impulse = ledger_.impulse();
+  const Momentum &momentum = ledger_.momentum(), &begin = ledger_.initial_momentum();
+  linear_error_ = std::max(linear_error_, norm(error.linear));
+  angular_error_ = std::max(angular_error_, norm(error.angular));
+  linear_scale_ = std::max({linear_scale_, norm(begin.linear), norm(momentum.linear), norm(impulse.linear)});
+  // Moments are compared with what the forces would do at the far end of the bodies, not with a sum that may vanish by
+  // symmetry.
+  angular_scale_ = std::max({angular_scale_, norm(begin.angular), norm(momentum.angular), norm(impulse.angular),
+                             linear_scale_ * ledger_.reach()});
+}
+
+std::string RunMonitor::alarm() const {
+  constexpr double limit = 0.05;
+  const double scale = ledger_.scale();
+  if (!std::isfinite(ledger_.now().mechanical())) return "the energy is not finite";
+  if (ledger_.growth() > limit * scale) {
+    return fmt::format(
+        "the mechanical energy has grown by {:.3g} of the initial and supplied energy; the limit is {:g}",
+        ratio(ledger_.growth(), scale), limit);
+  }
+  if (std::abs(ledger_.imbalance()) > limit * scale) {
+    return fmt::format("the balance of powers is off by {:.3g} of the initial and supplied energy; the limit is {:g}",
+                       relative_imbalance(), limit);
+  }
+  return {};
+}
+
+double RunMonitor::relative_imbalance() const {
+  return ratio(std::abs(ledger_.imbalance()), ledger_.scale());
+}
+double RunMonitor::linear_momentum_error() const {
+  return ratio(linear_error_, linear_scale_);
+}
+double RunMonitor::angular_momentum_error() const {
+  return ratio(angular_error_, angular_scale_);
+}
+
+std::vector<VerdictItem> RunMonitor::items(double worst_relative_penetration) const {
+  const double scale = ledger_.scale();
+  const auto item = [](const char* name, double value, double limit, const char* explanation) {
+    return VerdictItem{name, value, limit, value <= limit, explanation};
+  };
+  return {
+      item("energy balance", ratio(imbalance_, scale), 1e-10,
+           "largest imbalance of powers over the run, relative to the larger of initial and supplied energy: forces, "
+           "solves and formulas agree"),
+      item("quadrature", ratio(quadrature_, scale), 0.05,
+           "work of internal and contact forces that the trapezoidal rule misplaces: is the step fine enough for the "
+           "contact?"),
+      item("algorithmic dissipation", ratio(algorithmic_, scale), 0.1,
+           "energy that the time scheme takes out (or adds)"),
+      item("linear momentum", linear_momentum_error(), 1e-9, "change of momentum against the impulses"),
+      item("angular momentum", angular_momentum_error(), 1e-9, "change of angular momentum against the impulses"),
+      item("penetration", worst_relative_penetration, 0.05,
+           "largest penetration relative to the smallest cell: is the penalty stiff enough?"),
+  };
+}
+
+}  // namespace carom

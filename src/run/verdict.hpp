@@ -1,0 +1,36 @@
+// Can the numbers be trusted?
+#pragma once
+
+#include <vector>
+
+#include "energy/ledger.hpp"
+#include "output/summary.hpp"
+
+namespace carom {
+
+/// Largest errors over a run, collected step by step, each relative to what it is an error of.
+class RunMonitor {
+ public:
+  explicit RunMonitor(const EnergyLedger& ledger) : ledger_(ledger) {}
+
+  void update();
+
+  /// Why the run must stop now: mechanical energy grown, or the balance of powers off, by more than 5 % of the larger
+  /// of initial and supplied energy; "" while all is well.
+  std::string alarm() const;
+
+  /// balance of powers, quadrature, algorithmic, linear and angular momentum, penetration.
+  std::vector<VerdictItem> items(double worst_relative_penetration) const;
+  double linear_momentum_error() const;
+  double angular_momentum_error() const;
+  /// Imbalance now, relative to the energy scale.
+  double relative_imbalance() const;
+
+ private:
+  const EnergyLedger& ledger_;
+  double imbalance_ = 0.0, quadrature_ = 0.0, algorithmic_ = 0.0;  ///< largest so far, energies
+  double linear_error_ = 0.0, angular_error_ = 0.0;                ///< largest so far, momenta
+  double linear_scale_ = 0.0, angular_scale_ = 0.0;                ///< largest momentum or impulse so far
+};
+
+}  // namespace carom
