@@ -117,7 +117,7 @@ class Tables(unittest.TestCase):
         columns = ",".join(["time", *energies])
         (folder / "energy.csv").write_text(f"{columns}\n1.4e-4,{','.join(map(repr, energies.values()))}\n",
                                            encoding="utf-8")
-        (folder / "summary.json").write_text('{"checks": [{"pass": true}, {"pass": false}], "verdict": "failed"}',
+        (folder / "summary.json").write_text('{"outcome": "failed", "message": "1 of 2 checks passed"}',
                                              encoding="utf-8")
 
     def test_lines(self):
@@ -132,7 +132,7 @@ class Tables(unittest.TestCase):
         self.assertRegex(text, r"DZ at B +8.00e-05 +-1.000e-03 +-9.870e-04 +-9.872984101e-04 +\+1.270 +-0.030")
         self.assertRegex(text, r"VZ at B +4.00e-05 +-1.000e\+02 +-9.999e\+02\[1\] +-9.999508808e\+01")
         self.assertRegex(text, r"TRAV_LIAI +1.40e-04 +5.92346e-01\[3\] *-0.59234613044 +-0.59234624921 +-200.000")
-        self.assertIn("checks passed: 1 of 2; verdict: failed", text)
+        self.assertIn("outcome: failed; 1 of 2 checks passed", text)
 
     def test_missing_results_are_named(self):
         with tempfile.TemporaryDirectory() as name:
