@@ -14,10 +14,14 @@ Section<CaseMaterial> material_section() {
   Section<CaseMaterial> s("A material; NAME is what [[part]] refers to.");
   s.key("law", &CaseMaterial::law, "Material law.", {.choices = {"linear_elastic"}, .need = Need::required});
   s.key("E", &CaseMaterial::E, "Young's modulus.",
-        {.unit = Dimension::stress, .range = greater_than(0.0), .need = Need::required});
-  s.key("nu", &CaseMaterial::nu, "Poisson's ratio.", {.range = between_open(-1.0, 0.5), .need = Need::required});
+        {.unit = Dimension::stress,
+         .range = greater_than(0.0),
+         .need = Need::required,
+         .aliases = {"young", "youngs_modulus", "modulus"}});
+  s.key("nu", &CaseMaterial::nu, "Poisson's ratio.",
+        {.range = between_open(-1.0, 0.5), .need = Need::required, .aliases = {"poisson", "poissons_ratio"}});
   s.key("rho", &CaseMaterial::rho, "Density.",
-        {.unit = Dimension::density, .range = greater_than(0.0), .need = Need::required});
+        {.unit = Dimension::density, .range = greater_than(0.0), .need = Need::required, .aliases = {"density"}});
   return s;
 }
 
@@ -67,11 +71,12 @@ Section<CaseTime> time_section() {
   Section<CaseTime> s("Duration and time step.");
   s.description.selector = "scheme.kind";
   s.key("end", &CaseTime::end, "The run goes from 0 to here.",
-        {.unit = Dimension::time, .range = greater_than(0.0), .need = Need::required});
+        {.unit = Dimension::time, .range = greater_than(0.0), .need = Need::required, .aliases = {"duration"}});
   s.key("step", &CaseTime::step, "Time step.",
         {.unit = Dimension::time,
          .range = greater_than(0.0),
          .required_for = {"newmark"},
+         .aliases = {"dt"},
          .default_phrase = "newmark: required; central_differences: from the stable step"});
   s.key("fixed", &CaseTime::fixed, "Never halve the step: a step that fails ends the run.", {.kinds = {"newmark"}});
   s.key("safety", &CaseTime::safety, "Fraction of the stable step.",

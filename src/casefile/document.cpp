@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
 
 namespace carom {
 
@@ -21,7 +23,7 @@ std::string counted(std::size_t n, std::string_view what) {
 struct Describe {
   std::string operator()(bool value) const { return value ? "true" : "false"; }
   std::string operator()(std::int64_t value) const { return fmt::format("{}", value); }
-  std::string operator()(double value) const { return fmt::format("{}", value); }
+  std::string operator()(double value) const { return toml_number(value); }
   std::string operator()(const std::string& value) const {
     constexpr std::size_t longest = 60;
     return toml_string(value.size() > longest ? value.substr(0, longest) + "..." : value);
@@ -76,7 +78,9 @@ std::string toml_string(std::string_view text) {
 }
 
 std::string toml_number(double number) {
-  std::string text = fmt::format("{}", number);
+  std::array<char, 32> digits{};  // the longest double needs 24
+  const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+  std::string text(digits.data(), written.ptr);
   if (text.find_first_of(".en") == std::string::npos) text += ".0";
   return text;
 }

@@ -20,7 +20,7 @@ std::string form(const KeyDescription& key) {
 std::string default_text(const KeyDescription& key) {
   if (!key.options.default_phrase.empty()) return key.options.default_phrase;
   if (key.options.need == KeyOptions::Need::required) return "**required**";
-  return key.default_value ? "`" + toml_value(*key.default_value) + "`" : "";
+  return key.default_value ? fmt::format("`{}`", toml_value(*key.default_value)) : "";
 }
 
 std::string meaning(const KeyDescription& key, const SectionDescription& section) {

@@ -54,7 +54,7 @@ std::string shape_text(const KeyDescription& key) {
     case Shape::named_vectors:
       return "a table { NAME = [x, y, z], ... }";
     case Shape::section:
-      return "a table of keys";
+      return "a section [" + key.key + "]";
     case Shape::sections:
       return "sections [[" + key.key + "]]";
     case Shape::named_sections:

@@ -52,6 +52,7 @@ struct KeyOptions {
   std::vector<std::string> kinds{};    ///< values of the section's selector for which the key is taken; empty: all
   enum class Need : std::uint8_t { optional, required } need = Need::optional;
   std::vector<std::string> required_for{};  ///< kinds for which an otherwise optional key is required
+  std::vector<std::string> aliases{};       ///< other names that people try; only to suggest the key
   std::string default_phrase{};             ///< the default in words, where it is not one value
 };
 

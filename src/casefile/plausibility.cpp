@@ -73,10 +73,26 @@ class Lint {
       if (other != case_.units && plausible(m, other))
         hint = fmt::format("it would fit {}: {}", name(other), did_you_mean(other));
     }
+    if (hint.empty()) hint = mixed_units_hint(m);
     const std::size_t before = lines_.size();
     check_value(m, m.rho.where, *m.rho, density, hint);
     check_value(m, m.E.where, *m.E, modulus, hint);
     if (lines_.size() == before) check_value(m, m.E.where, std::sqrt(*m.E / *m.rho), wave_speed, hint);
+  }
+
+  /// Is one of the two values in the unit of another system?
+  std::string mixed_units_hint(const CaseMaterial& m) const {
+    for (const UnitSystem other : unit_systems) {
+      const double E_factor = si_factor(Dimension::stress, other) / si_factor(Dimension::stress, case_.units);
+      const double rho_factor = si_factor(Dimension::density, other) / si_factor(Dimension::density, case_.units);
+      CaseMaterial with_E = m;
+      with_E.E.value *= E_factor;
+      if (plausible(with_E, case_.units)) return fmt::format("is E in {}?", unit_name(Dimension::stress, other));
+      CaseMaterial with_rho = m;
+      with_rho.rho.value *= rho_factor;
+      if (plausible(with_rho, case_.units)) return fmt::format("is rho in {}?", unit_name(Dimension::density, other));
+    }
+    return "";
   }
 
   void check_value(const CaseMaterial& m, const Location& where, double value, const Plausible& range,

@@ -69,8 +69,11 @@ Node read_toml(std::string_view text, const std::string& name) {
     root.where = {name, 1, 1};
     return root;
   } catch (const toml::parse_error& error) {
-    throw CaseError(converter.place(error.source()), "", "a syntax error (" + std::string(error.description()) + ")",
-                    "TOML", "Texts stand in quotes, tables of the same name as [[name]], decimal points as 1.0.");
+    const std::string reason(error.description());
+    const bool repeated = reason.find("redefine") != std::string::npos;
+    throw CaseError(converter.place(error.source()), "", "a syntax error (" + reason + ")", "TOML",
+                    repeated ? "A name may be given once; sections that repeat are written [[name]]."
+                             : "Check quotes, brackets and commas here.");
   }
 }
 

@@ -8,7 +8,11 @@ namespace {
 using Need = KeyOptions::Need;
 
 KeyOptions stiffness_options(Dimension unit, std::vector<std::string> kinds) {
-  return {.unit = unit, .range = greater_than(0.0), .kinds = std::move(kinds), .need = Need::required};
+  return {.unit = unit,
+          .range = greater_than(0.0),
+          .kinds = std::move(kinds),
+          .need = Need::required,
+          .aliases = {"penalty", "eps_N", "E_n"}};
 }
 
 void add_stiffness(Section<CaseContact>& s) {
@@ -30,18 +34,19 @@ Section<CaseContact> contact_section() {
       "Penalty contact: interface cells of zero thickness, a rigid plane, or discrete stops on nodes.");
   s.description.selector = "kind";
   s.key("name", &CaseContact::name, "Name in results and in [[check]].", {.need = Need::required});
-  s.key("kind", &CaseContact::kind, "Which keys below are taken.",
+  s.key("kind", &CaseContact::kind, "What touches; decides which of the other keys are taken.",
         {.choices = {"interface", "plane", "stop"}, .need = Need::required});
   s.key("group", &CaseContact::group, "Group of cells (interface), of faces or nodes (plane), of nodes (stop).",
         {.need = Need::required});
   add_stiffness(s);
   s.key("measure", &CaseContact::per_node, "What the stiffness is counted per: area of the faces, or node.",
         {.choices = {"area", "node"}, .kinds = {"plane"}});
-  s.key("tangential_stiffness", &CaseContact::tangential_stiffness,
-        "As stiffness, for the sliding that Coulomb friction resists.",
-        {.unit = Dimension::stress_per_length, .range = at_least(0.0), .kinds = frictional});
+  s.key(
+      "tangential_stiffness", &CaseContact::tangential_stiffness,
+      "As stiffness, for the sliding that Coulomb friction resists.",
+      {.unit = Dimension::stress_per_length, .range = at_least(0.0), .kinds = frictional, .aliases = {"eps_T", "E_t"}});
   s.key("friction", &CaseContact::friction, "Coulomb's coefficient of friction mu.",
-        {.range = at_least(0.0), .kinds = frictional});
+        {.range = at_least(0.0), .kinds = frictional, .aliases = {"mu"}});
   s.key("point", &CaseContact::point, "A point of the plane.",
         {.unit = Dimension::length, .kinds = {"plane"}, .need = Need::required});
   s.key("normal", &CaseContact::normal,

@@ -36,13 +36,22 @@ std::vector<std::string> names_for(const SectionDescription& section, const std:
   return names;
 }
 
+/// The key that the user may have meant, by its name or by another name of the same thing; "" for none.
+std::string suggested_key(const std::string& word, const SectionDescription& section) {
+  std::string near = nearest(word, all_names(section));
+  for (const KeyDescription& key : section.keys) {
+    if (near.empty() && !nearest(word, key.options.aliases).empty()) near = key.key;
+  }
+  return near;
+}
+
 std::string plain_list(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
 [[noreturn]] void unknown_key(const Member& member, const SectionDescription& section, const ReadContext& at) {
   const std::vector<std::string> names = all_names(section);
-  const std::string near = nearest(member.key, names);
+  const std::string near = suggested_key(member.key, section);
   throw CaseError(member.where, join(at.path, member.key), "an unknown key", "one of " + plain_list(names),
                   near.empty() ? "" : fmt::format("Did you mean {}?", near));
 }
@@ -56,9 +65,8 @@ std::string plain_list(const std::vector<std::string>& words) {
 }
 
 [[noreturn]] void missing_key(const Node& node, const KeyDescription& key, const ReadContext& at) {
-  const bool has_sections = key.section != nullptr;
   throw CaseError(node.where, join(at.path, key.key), "nothing", expected_text(key, at.units),
-                  has_sections ? "Add the section: " + key.doc : "Add the key: " + key.doc);
+                  fmt::format("Add {}: {}", key.key, key.doc));
 }
 
 /// The kind as written; the value of a selector must be one of its choices before anything else is judged by it.

@@ -47,6 +47,13 @@ int small_integer(const Node& node, const KeyDescription& key, const ReadContext
   return static_cast<int>(found);
 }
 
+/// What the entries of a list take.
+KeyDescription entry_of(const KeyDescription& key, Shape shape) {
+  KeyDescription entry = key;
+  entry.shape = shape;
+  return entry;
+}
+
 const List& list(const Node& node, const KeyDescription& key, const ReadContext& at) {
   const auto* found = std::get_if<List>(&node.value);
   if (found == nullptr) refuse(node, key, at);
@@ -102,26 +109,28 @@ void decode(const Node& node, const KeyDescription& key, const ReadContext& at, 
 
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, Vec3& value) {
   const List& entries = triple(node, key, at);
-  for (std::size_t i = 0; i < 3; ++i) value[i] = number(entries[i], key, at.entry(i));
+  for (std::size_t i = 0; i < 3; ++i) value[i] = number(entries[i], entry_of(key, Shape::number), at.entry(i));
 }
 
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::array<int, 3>& value) {
   const List& entries = triple(node, key, at);
-  for (std::size_t i = 0; i < 3; ++i) value[i] = small_integer(entries[i], key, at.entry(i));
+  for (std::size_t i = 0; i < 3; ++i) value[i] = small_integer(entries[i], entry_of(key, Shape::integer), at.entry(i));
 }
 
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::array<bool, 3>& axes) {
   const List& entries = list(node, key, at);
   if (entries.empty()) refuse(node, key, at);
   axes = {};
-  for (std::size_t i = 0; i < entries.size(); ++i) axes[decode_choice(entries[i], key, at.entry(i))] = true;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    axes[decode_choice(entries[i], entry_of(key, Shape::text), at.entry(i))] = true;
 }
 
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::vector<double>& value) {
   const List& entries = list(node, key, at);
   if (entries.empty()) refuse(node, key, at);
   value.clear();
-  for (std::size_t i = 0; i < entries.size(); ++i) value.push_back(number(entries[i], key, at.entry(i)));
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    value.push_back(number(entries[i], entry_of(key, Shape::number), at.entry(i)));
 }
 
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at,
@@ -129,7 +138,8 @@ void decode(const Node& node, const KeyDescription& key, const ReadContext& at,
   const List& entries = list(node, key, at);
   value.clear();
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const std::string& choice = key.options.choices.at(decode_choice(entries[i], key, at.entry(i)));
+    const std::string& choice =
+        key.options.choices.at(decode_choice(entries[i], entry_of(key, Shape::text), at.entry(i)));
     const auto same = [&choice](const Located<std::string>& other) { return *other == choice; };
     if (std::any_of(value.begin(), value.end(), same)) {
       throw CaseError(entries[i].where, at.entry(i).path, toml_string(choice) + " a second time", "each name once");

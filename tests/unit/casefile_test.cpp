@@ -1,0 +1,313 @@
+// Reading cases: values, defaults, places, and what is written from the declared format.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "casefile/case_schema.hpp"
+#include "casefile/plausibility.hpp"
+#include "casefile/read_case.hpp"
+#include "casefile/resolved_case.hpp"
+#include "casefile/schema.hpp"
+
+namespace carom {
+namespace {
+
+const std::string complete_path = std::string(CAROM_SOURCE_DIR) + "/tests/data/case_complete.toml";
+
+/// The least that a case needs.
+const std::string minimal = R"(
+[mesh]
+file = "bar.msh"
+[materials.steel]
+law = "linear_elastic"
+E = 2.1e11
+nu = 0.3
+rho = 7850
+[[part]]
+name = "bar"
+cells = "BAR"
+material = "steel"
+[scheme]
+kind = "newmark"
+[time]
+end = 1e-3
+step = 1e-6
+)";
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+Case complete() {
+  return read_case(complete_path);
+}
+
+TEST(Casefile, DefaultsOfAMinimalCase) {
+  const Case c = parse_case(minimal, "minimal.toml");
+  EXPECT_EQ(c.file, "minimal.toml");
+  EXPECT_EQ(c.units, UnitSystem::si);
+  EXPECT_EQ(*c.mesh.file, "bar.msh");
+  EXPECT_EQ(c.scheme.beta, 0.25);
+  EXPECT_EQ(c.scheme.gamma, 0.5);
+  EXPECT_EQ(c.scheme.mass, CaseScheme::Mass::consistent);
+  EXPECT_FALSE(c.time.fixed);
+  EXPECT_EQ(c.solver.kind, CaseSolver::Kind::automatic);
+  EXPECT_EQ(c.solver.max_contact_iterations, 50);
+  ASSERT_EQ(c.output.fields.size(), 3U);
+  EXPECT_EQ(*c.output.fields[2], "stress");
+  EXPECT_EQ(c.output.curves_every, 1);
+  EXPECT_FALSE(c.exact.has_value());
+}
+
+TEST(Casefile, EveryValueKnowsItsPlace) {
+  const Case c = parse_case(minimal, "minimal.toml");
+  // Lines counted in `minimal`, whose first line is empty; columns of the values.
+  EXPECT_EQ(to_string(c.materials[0].E.where), "minimal.toml:6:5");
+  EXPECT_EQ(to_string(c.parts[0].material.where), "minimal.toml:12:12");
+  EXPECT_EQ(to_string(c.time.step->where), "minimal.toml:17:8");
+  EXPECT_EQ(c.materials[0].where.line, 4);
+  EXPECT_EQ(c.parts[0].where.line, 9);
+}
+
+TEST(Casefile, MassDefaultsToLumpedForCentralDifferences) {
+  const std::string text = with(minimal, "newmark", "central_differences");
+  EXPECT_EQ(parse_case(text, "c").scheme.mass, CaseScheme::Mass::lumped);
+  const std::string consistent =
+      with(text, "\"central_differences\"", "\"central_differences\"\nmass = \"consistent\"");
+  EXPECT_EQ(parse_case(consistent, "c").scheme.mass, CaseScheme::Mass::consistent);
+}
+
+TEST(Casefile, CentralDifferencesNeedNoStep) {
+  const std::string text = with(with(minimal, "newmark", "central_differences"), "step = 1e-6", "");
+  const Case c = parse_case(text, "c");
+  EXPECT_FALSE(c.time.step.has_value());
+  EXPECT_EQ(c.time.safety, 0.9);
+}
+
+TEST(Casefile, BlocksAndMaterials) {
+  const Case c = complete();
+  EXPECT_EQ(c.title, "A \"complete\" case");
+  EXPECT_EQ(c.units, UnitSystem::mm_t_s);
+  ASSERT_EQ(c.mesh.blocks.size(), 2U);
+  const CaseBlock& block = c.mesh.blocks[0];
+  EXPECT_EQ(block.divisions, (std::array{2, 2, 20}));
+  EXPECT_EQ(block.cells_group, "BAR");
+  EXPECT_EQ(block.face_groups, (std::array<std::string, 6>{"XMIN", "", "YMIN", "YMAX", "FOOT", "ZMAX"}));
+  ASSERT_EQ(block.points.size(), 1U);
+  EXPECT_EQ(block.points[0].name, "TIP");
+  EXPECT_EQ(block.points[0].position, (Vec3{10.0, 10.0, 100.0}));
+  EXPECT_EQ(c.mesh.blocks[1].cells_group, "BLOCK");
+  ASSERT_EQ(c.materials.size(), 2U);
+  EXPECT_EQ(c.materials[1].name, "soft rubber");
+  EXPECT_EQ(*c.materials[0].E, 210000.0);
+  EXPECT_EQ(*c.parts[1].material, "soft rubber");
+}
+
+TEST(Casefile, SupportsLoadsAndInitialState) {
+  const Case c = complete();
+  ASSERT_EQ(c.supports.size(), 3U);
+  EXPECT_EQ(**c.supports[0].symmetry, "x");
+  EXPECT_EQ(c.supports[1].blocked, (std::array{true, true, false}));
+  ASSERT_EQ(c.supports[1].motions.size(), 1U);
+  EXPECT_EQ(c.supports[1].motions[0].kind, CaseSupport::Kind::velocity);
+  EXPECT_EQ(c.supports[1].motions[0].component, 2);
+  EXPECT_EQ(*c.supports[1].motions[0].amplitude, -2.0);
+  EXPECT_EQ(**c.supports[1].motions[0].function, "ramp");
+  ASSERT_EQ(c.supports[2].motions.size(), 3U);
+  EXPECT_FALSE(c.supports[2].motions[1].function.has_value());
+  EXPECT_EQ(c.supports[2].motions[2].kind, CaseSupport::Kind::acceleration);
+  ASSERT_EQ(c.loads.size(), 3U);
+  EXPECT_EQ(c.loads[0].kind, CaseLoad::Kind::force);
+  EXPECT_EQ(c.loads[0].vector, (Vec3{0.0, 1.0, 0.0}));
+  EXPECT_EQ(c.loads[1].pressure, 2.5);
+  EXPECT_EQ(c.loads[2].kind, CaseLoad::Kind::gravity);
+  EXPECT_EQ((*c.initial[0].velocity)[2], -5000.0);
+  EXPECT_FALSE(c.initial[0].displacement.has_value());
+}
+
+TEST(Casefile, ContactsAndFunctions) {
+  const Case c = complete();
+  ASSERT_EQ(c.contacts.size(), 4U);
+  EXPECT_EQ(*c.contacts[0].normal, (Vec3{0.0, 0.6, 0.8}));  // [0, 3, 4] / 5
+  EXPECT_FALSE(c.contacts[0].per_node);
+  EXPECT_TRUE(c.contacts[1].per_node);
+  EXPECT_EQ(c.contacts[2].kind, CaseContact::Kind::interface);
+  EXPECT_EQ(c.contacts[3].damping, 0.1);
+  ASSERT_EQ(c.functions.size(), 2U);
+  const TimeFunction& jump = c.functions[1].function;
+  EXPECT_EQ(jump(4.9e-5), 0.0);
+  EXPECT_EQ(jump(5e-5), 1.0);  // right-continuous, as TimeFunction says
+  const TimeFunction& ramp = c.functions[0].function;
+  EXPECT_EQ(ramp(0.5e-4), 0.5);
+  EXPECT_EQ(ramp(1e-4), 0.5);
+}
+
+TEST(Casefile, ProbesChecksAndExact) {
+  const Case c = complete();
+  ASSERT_EQ(c.probes.size(), 3U);
+  EXPECT_EQ(**c.probes[0].node, 42);
+  EXPECT_EQ(*c.probes[0].cfc, 1000.0);
+  EXPECT_EQ(*c.probes[2].side, (Vec3{0.0, 0.0, 1.0}));
+  ASSERT_EQ(c.checks.size(), 2U);
+  EXPECT_TRUE(c.checks[0].exact);
+  EXPECT_FALSE(c.checks[0].value.has_value());
+  EXPECT_TRUE(c.checks[1].absolute);
+  ASSERT_TRUE(c.exact.has_value());
+  EXPECT_EQ(c.exact->stiffness, 1e6);
+  EXPECT_EQ(c.exact->axis, 2);
+}
+
+TEST(Casefile, ResolvedCaseReadsBackToItself) {
+  for (const std::string& text : {resolved_toml(complete()), resolved_toml(parse_case(minimal, "minimal"))}) {
+    EXPECT_EQ(resolved_toml(parse_case(text, "resolved")), text);
+  }
+}
+
+TEST(Casefile, ResolvedCaseKeepsEveryValueAndShowsDefaults) {
+  const Case again = parse_case(resolved_toml(complete()), "resolved");
+  const Case c = complete();
+  EXPECT_EQ(again.contacts[1].normal.value, c.contacts[1].normal.value);  // bits: a unit vector is not scaled again
+  EXPECT_EQ(again.functions[1].function.time, c.functions[1].function.time);
+  EXPECT_EQ(again.supports[2].motions.size(), c.supports[2].motions.size());
+  EXPECT_EQ(again.mesh.blocks[0].face_groups, c.mesh.blocks[0].face_groups);
+  const std::string text = resolved_toml(parse_case(minimal, "minimal"));
+  for (const char* line : {"units = \"SI\"", "beta = 0.25", "mass = \"consistent\"", "kind = \"auto\"",
+                           "max_contact_iterations = 50", "fields = [\"displacement\", \"velocity\", \"stress\"]"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line;
+  }
+  EXPECT_EQ(text.find("safety"), std::string::npos);  // not a key of newmark
+}
+
+TEST(Casefile, AnEmptyListOfFieldsStaysEmpty) {
+  const Case c = parse_case(minimal + "[output]\nfields = []\n", "c");
+  EXPECT_TRUE(c.output.fields.empty());
+  EXPECT_TRUE(parse_case(resolved_toml(c), "resolved").output.fields.empty());
+}
+
+TEST(Casefile, CasesOfTheRepositoryAreRead) {
+  const Case c = read_case(std::string(CAROM_SOURCE_DIR) + "/cases/sdnv100/as_published.toml");
+  EXPECT_EQ(resolved_toml(parse_case(resolved_toml(c), "resolved")), resolved_toml(c));
+  EXPECT_EQ(c.scheme.gamma, 0.55);  // SDNV100: DELTA = 0.55
+  EXPECT_TRUE(plausibility_warnings(c).empty());
+}
+
+/// Every key of the declaration is a property of the JSON Schema, at its place.
+void expect_listed(const SectionDescription& section, const nlohmann::json& schema, const std::string& path) {
+  for (const KeyDescription& key : section.keys) {
+    const std::string child = join(path, key.key);
+    ASSERT_TRUE(schema["properties"].contains(key.key)) << child;
+    const nlohmann::json& property = schema["properties"][key.key];
+    ASSERT_TRUE(property.contains("description") || property.contains("anyOf")) << child;
+    if (key.shape == Shape::section) expect_listed(*key.section, property, child);
+    if (key.shape == Shape::sections) expect_listed(*key.section, property["items"], child);
+    if (key.shape == Shape::named_sections) expect_listed(*key.section, property["additionalProperties"], child);
+  }
+}
+
+TEST(Casefile, JsonSchemaListsEveryKey) {
+  const nlohmann::json schema = nlohmann::json::parse(json_schema());
+  expect_listed(case_schema().description, schema, "");
+  const nlohmann::json& material = schema["properties"]["materials"]["additionalProperties"];
+  EXPECT_EQ(material["properties"]["nu"]["exclusiveMaximum"], 0.5);
+  EXPECT_EQ(material["additionalProperties"], false);
+  EXPECT_EQ(schema["required"], (nlohmann::json{"mesh", "materials", "part", "scheme", "time"}));
+  EXPECT_EQ(schema["properties"]["time"]["properties"]["safety"]["default"], 0.9);
+}
+
+TEST(Casefile, JsonSchemaKnowsWhatEachKindTakes) {
+  const nlohmann::json schema = nlohmann::json::parse(json_schema());
+  const nlohmann::json& rules = schema["properties"]["contact"]["items"]["allOf"];
+  ASSERT_EQ(rules.size(), 3U);
+  EXPECT_EQ(rules[0]["if"]["properties"]["kind"]["const"], "interface");
+  EXPECT_EQ(rules[0]["then"]["properties"]["gap"], false);
+  EXPECT_FALSE(rules[0]["then"]["properties"].contains("stiffness"));
+  const nlohmann::json& plane_needs = rules[1]["then"]["required"];
+  EXPECT_NE(std::find(plane_needs.begin(), plane_needs.end(), "normal"), plane_needs.end());
+  // [time] depends on scheme.kind: newmark needs a step and takes no safety.
+  const nlohmann::json& newmark = schema["allOf"][0];
+  EXPECT_EQ(newmark["if"]["properties"]["scheme"]["properties"]["kind"]["const"], "newmark");
+  EXPECT_EQ(newmark["then"]["properties"]["time"]["required"], nlohmann::json{"step"});
+  EXPECT_EQ(newmark["then"]["properties"]["time"]["properties"]["safety"], false);
+}
+
+TEST(Casefile, DocumentationInTheRepositoryIsCurrent) {
+  std::ifstream file(std::string(CAROM_SOURCE_DIR) + "/docs/case_format.md");
+  const std::string committed{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(committed, case_documentation()) << "write it anew: carom schema --markdown > docs/case_format.md";
+}
+
+TEST(Units, FactorsFollowFromTheBaseUnits) {
+  // 1 MPa = 1e6 Pa, 1 t/mm3 = 1e12 kg/m3, 1 kN = 1e3 N, 1 kg/mm3 = 1e9 kg/m3, 1 mm/ms = 1 m/s by definition.
+  const double round_off = 1e-15;  // pow(10, n) may err in the last bit
+  const auto factor = [](Dimension d, UnitSystem u) { return si_factor(d, u); };
+  EXPECT_NEAR(factor(Dimension::stress, UnitSystem::mm_t_s) / 1e6, 1.0, round_off);
+  EXPECT_NEAR(factor(Dimension::density, UnitSystem::mm_t_s) / 1e12, 1.0, round_off);
+  EXPECT_NEAR(factor(Dimension::force, UnitSystem::mm_t_s), 1.0, round_off);
+  EXPECT_NEAR(factor(Dimension::energy, UnitSystem::mm_t_s) / 1e-3, 1.0, round_off);
+  EXPECT_NEAR(factor(Dimension::force, UnitSystem::mm_kg_ms) / 1e3, 1.0, round_off);
+  EXPECT_NEAR(factor(Dimension::stress, UnitSystem::mm_kg_ms) / 1e9, 1.0, round_off);
+  EXPECT_NEAR(factor(Dimension::density, UnitSystem::mm_kg_ms) / 1e9, 1.0, round_off);
+  EXPECT_NEAR(factor(Dimension::velocity, UnitSystem::mm_kg_ms), 1.0, round_off);
+  EXPECT_NEAR(factor(Dimension::damping, UnitSystem::mm_kg_ms) / 1e3, 1.0, round_off);
+  EXPECT_EQ(factor(Dimension::none, UnitSystem::mm_t_s), 1.0);
+  EXPECT_EQ(unit_name(Dimension::stress_per_length, UnitSystem::mm_kg_ms), "GPa/mm");
+}
+
+TEST(Plausibility, SteelInSiIsFine) {
+  EXPECT_TRUE(plausibility_warnings(parse_case(minimal, "c.toml")).empty());
+}
+
+TEST(Plausibility, NamesTheUnitSystemThatWouldFit) {
+  const std::string text = with(with(minimal, "7850", "7.85e-9"), "2.1e11", "210000");
+  const auto lines = plausibility_warnings(parse_case(text, "c.toml"));
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(
+      lines[0],
+      "c.toml:8: materials.steel: density 7.85e-09 kg/m3 is 1e+12 times below that of steel; it would fit mm-t-s: "
+      "did you mean units = \"mm-t-s\"?");
+}
+
+TEST(Plausibility, NamesTheValueInAnotherUnit) {
+  const auto lines = plausibility_warnings(parse_case(with(minimal, "2.1e11", "210000"), "c.toml"));
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(
+      lines[0],
+      "c.toml:6: materials.steel: wave speed sqrt(E/rho) 5.172 m/s is 1e+03 times below that of steel; is E in MPa?");
+}
+
+TEST(Plausibility, SteelInSiUnderMillimetres) {
+  const auto lines = plausibility_warnings(parse_case("units = \"mm-t-s\"" + minimal, "c.toml"));
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_NE(lines[0].find("density 7850 t/mm3 is 1e+12 times above that of steel"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[1].find("did you mean units = \"SI\"?"), std::string::npos) << lines[1];
+}
+
+TEST(Plausibility, SpeedsBeyondElasticImpact) {
+  const auto lines =
+      plausibility_warnings(parse_case(minimal + "[[initial]]\npart = \"bar\"\nvelocity = [0, 0, -10000]\n", "c.toml"));
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0], "c.toml:18: initial.velocity: 1e+04 m/s is 1e+04 m/s, faster than elastic impact makes sense");
+}
+
+TEST(Plausibility, GravityOfAnotherUnitSystem) {
+  const auto lines = plausibility_warnings(parse_case(minimal + "[[load]]\ngravity = [0, 0, -9810]\n", "c.toml"));
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0],
+            "c.toml:18: load.gravity: 9810 m/s2 is the earth's gravity in mm-t-s, but in SI that is 9.807 m/s2");
+}
+
+TEST(Plausibility, ConditionallyStableNewmark) {
+  const auto lines = plausibility_warnings(
+      parse_case(with(minimal, "kind = \"newmark\"", "kind = \"newmark\"\nbeta = 0.1"), "c.toml"));
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NE(lines[0].find("c.toml:13: scheme: Newmark with beta = 0.1 and gamma = 0.5"), std::string::npos) << lines[0];
+}
+
+}  // namespace
+}  // namespace carom
