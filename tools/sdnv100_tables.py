@@ -40,6 +40,8 @@ FOOTNOTES = [
     "[1] Misprint of the manual: -9.999e+2 stands for -9.999e+1.",
     "[2] Misprint of the manual, probably of the time: its data give these velocities at 1.32e-4 s.",
     "[3] Misprint of the manual: the sign was lost; the work is negative.",
+    "Code_Aster's mesh file is rounded to single precision; on it (cases/sdnv100/current_msh.toml) Carom",
+    "gives all the digits of its energies.",
 ]
 
 
