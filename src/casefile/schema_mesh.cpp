@@ -84,7 +84,7 @@ Section<CaseBlock> block_section() {
 }  // namespace
 
 Section<CaseMesh> mesh_section() {
-  Section<CaseMesh> s("The mesh: a file, or structured blocks.");
+  Section<CaseMesh> s("Where the mesh comes from: a file, or structured blocks.");
   s.key("file", &CaseMesh::file, "Gmsh (.msh) or MED (.med) file, relative to the folder of the case file.");
   s.tables("block", &CaseMesh::blocks, block_section());
   s.description.alternatives = {{Alternatives::Count::exactly_one, {"file", "block"}}};

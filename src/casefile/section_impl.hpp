@@ -23,9 +23,9 @@ void Section<S>::key_by(const std::string& name, Access access, const std::strin
   KeyDescription described{name, shape_of<Value>(options), doc, std::move(options), {}, {}};
   const S defaults{};
   const std::optional<Node> initial = encode(access(defaults), described.options);
-  const bool starts_empty = !initial || is_empty_text(*initial);
+  const bool starts_empty = initial && is_empty_text(*initial);  // then "" is as good as no key
   if (described.options.need == KeyOptions::Need::optional && described.options.required_for.empty() &&
-      described.options.default_phrase.empty() && !starts_empty) {
+      described.options.default_phrase.empty() && initial && !starts_empty) {
     described.default_value = initial;
   }
   Handlers handlers;

@@ -167,7 +167,6 @@ std::optional<Node> encode(double value, const KeyOptions&) {
 }
 
 std::optional<Node> encode(const std::string& value, const KeyOptions&) {
-  if (value.empty()) return std::nullopt;
   return Node{value, {}};
 }
 

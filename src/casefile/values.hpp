@@ -59,7 +59,7 @@ void decode(const Node& node, const KeyDescription& key, const ReadContext& at, 
   decode(node, key, at, value.emplace());
 }
 
-// encode: value -> node; nothing for an absent value and for an empty text.
+// encode: value -> node; nothing for an absent value.
 std::optional<Node> encode(bool value, const KeyOptions& options);
 std::optional<Node> encode(int value, const KeyOptions& options);
 std::optional<Node> encode(std::int64_t value, const KeyOptions& options);
