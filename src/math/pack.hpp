@@ -1,10 +1,6 @@
 // Number types of the batch kernels: SIMD packs of doubles, one lane per cell, and plain double as the reference.
 #pragma once
 
-#include <type_traits>
-
-#include "base/types.hpp"
-
 // Kernels are compiled once per instruction set. Everything here has internal linkage, so that the linker can never
 // give code made for one instruction set to a unit made for another.
 namespace carom {
@@ -17,18 +13,22 @@ using Pack8 = double __attribute__((vector_size(64)));
 template <class Real>
 inline constexpr int lanes = static_cast<int>(sizeof(Real) / sizeof(double));
 
+/// Real as it may stand anywhere in an array of doubles.
+template <class Real>
+struct InArray {
+  using type [[gnu::aligned(alignof(double)), gnu::may_alias]] = Real;
+};
+
 /// The `lanes<Real>` consecutive doubles at p (no alignment asked).
 template <class Real>
 [[gnu::always_inline]] static inline Real load(const double* p) {
-  Real r;
-  __builtin_memcpy(&r, p, sizeof(Real));
-  return r;
+  return *reinterpret_cast<const typename InArray<Real>::type*>(p);
 }
 
 /// Writes the lanes of r to consecutive doubles at p.
 template <class Real>
 [[gnu::always_inline]] static inline void store(double* p, const Real& r) {
-  __builtin_memcpy(p, &r, sizeof(Real));
+  *reinterpret_cast<typename InArray<Real>::type*>(p) = r;
 }
 
 }  // namespace carom

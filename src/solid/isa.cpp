@@ -8,7 +8,17 @@
 namespace carom {
 namespace {
 
-bool available(Isa isa) {
+constexpr Isa best_first[] = {Isa::x86_64_v4, Isa::x86_64_v3, Isa::x86_64_v2, Isa::reference};
+
+Isa best() {
+  for (const Isa isa : best_first)
+    if (supported(isa)) return isa;
+  return Isa::reference;
+}
+
+}  // namespace
+
+bool supported(Isa isa) {
   switch (isa) {
     case Isa::reference:
       return true;
@@ -21,16 +31,6 @@ bool available(Isa isa) {
   }
   return false;
 }
-
-constexpr Isa best_first[] = {Isa::x86_64_v4, Isa::x86_64_v3, Isa::x86_64_v2, Isa::reference};
-
-Isa best() {
-  for (const Isa isa : best_first)
-    if (available(isa)) return isa;
-  return Isa::reference;
-}
-
-}  // namespace
 
 std::string_view name(Isa isa) {
   switch (isa) {
@@ -51,7 +51,7 @@ Isa chosen_isa() {
   if (wish == nullptr || *wish == '\0') return best();
   for (const Isa isa : best_first) {
     if (name(isa) != wish) continue;
-    if (available(isa)) return isa;
+    if (supported(isa)) return isa;
     throw std::runtime_error("CAROM_ISA=" + std::string(wish) + ": this processor lacks x86-64-" + wish +
                              "; the best it has is " + std::string(name(best())));
   }

@@ -20,6 +20,8 @@ enum class Isa : std::uint8_t { reference, x86_64_v2, x86_64_v3, x86_64_v4 };
 /// (reference, v2, v3, v4). Throws std::runtime_error for an unknown name or one the processor lacks.
 Isa chosen_isa();
 std::string_view name(Isa isa);
+/// True when this processor has the instruction set.
+bool supported(Isa isa);
 
 /// HEXA8 solids, 2 x 2 x 2 Gauss points, small strain. Dof 3 n + c is component c of node n; dof vectors have
 /// 3 x node_count entries. All cells of all parts take part; interface cells of contact do not.

@@ -83,10 +83,9 @@ inline std::vector<double> affine(const Mesh& mesh, const std::array<Vec3, 3>& g
 
 /// Instruction sets of this processor, the reference first.
 inline std::vector<Isa> available_isas() {
-  std::vector<Isa> isas{Isa::reference};
-  if (__builtin_cpu_supports("x86-64-v2")) isas.push_back(Isa::x86_64_v2);
-  if (__builtin_cpu_supports("x86-64-v3")) isas.push_back(Isa::x86_64_v3);
-  if (__builtin_cpu_supports("x86-64-v4")) isas.push_back(Isa::x86_64_v4);
+  std::vector<Isa> isas;
+  for (const Isa isa : {Isa::reference, Isa::x86_64_v2, Isa::x86_64_v3, Isa::x86_64_v4})
+    if (supported(isa)) isas.push_back(isa);
   return isas;
 }
 

@@ -1,0 +1,100 @@
+// Internal force of linear elastic HEXA8 with gather and scatter, in cells per second, for each instruction set.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "mesh/renumber.hpp"
+#include "mesh/structured_block.hpp"
+#include "parallel/threads.hpp"
+#include "solid/solid.hpp"
+
+namespace carom {
+namespace {
+
+/// Cube of n^3 cells numbered naturally, inner nodes moved by up to a tenth of an edge so that no two cells are alike.
+Mesh natural_cube(int n) {
+  StructuredBlock block;
+  block.size = {1.0, 1.0, 1.0};
+  block.divisions = {n, n, n};
+  block.face_groups = {};
+  Mesh mesh = make_structured_blocks({block});
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<double> move(-0.1 / n, 0.1 / n);
+  for (Vec3& x : mesh.coordinates)
+    for (double& component : x)
+      if (component > 0.0 && component < 1.0) component += move(generator);
+  return mesh;
+}
+
+/// The same mesh with nodes and cells in random order.
+Mesh shuffled(Mesh mesh) {
+  std::mt19937 generator(2);
+  const auto random_order = [&](std::size_t n) {
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::shuffle(order.begin(), order.end(), generator);
+    return order;
+  };
+  const auto node = random_order(mesh.node_count()), cell = random_order(mesh.blocks[0].size());
+  Mesh result = mesh;
+  for (std::size_t n = 0; n < node.size(); ++n) result.coordinates[node[n]] = mesh.coordinates[n];
+  for (std::size_t c = 0; c < cell.size(); ++c)
+    for (std::size_t a = 0; a < 8; ++a)
+      result.blocks[0].connectivity[8 * cell[c] + a] =
+          static_cast<Index>(node[static_cast<std::size_t>(mesh.blocks[0].connectivity[8 * c + a])]);
+  result.node_groups.clear();
+  result.cell_groups.clear();
+  return result;
+}
+
+Model one_part(Mesh mesh) {
+  Model model;
+  Part part{.name = "cube", .cells = {}, .material = LinearElastic{.E = 2.0e11, .nu = 0.3, .rho = 7800.0}};
+  part.cells.resize(mesh.blocks[0].size());
+  std::iota(part.cells.begin(), part.cells.end(), Index{0});
+  model.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  model.parts.push_back(std::move(part));
+  return model;
+}
+
+void internal_force(benchmark::State& state, const Model& model, Isa isa) {
+  const Solid solid(model, isa);
+  std::vector<double> u(solid.dof_count()), f(solid.dof_count());
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> value(-1e-3, 1e-3);
+  for (double& entry : u) entry = value(generator);
+  for (auto _ : state) {
+    solid.internal_force(u, f);
+    benchmark::DoNotOptimize(f.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(solid.cell_count()));
+}
+
+void add_benchmarks(const std::string& mesh_name, const std::shared_ptr<const Model>& model) {
+  for (const Isa isa : {Isa::reference, Isa::x86_64_v2, Isa::x86_64_v3, Isa::x86_64_v4}) {
+    if (!supported(isa)) continue;
+    benchmark::RegisterBenchmark(("internal_force/" + mesh_name + "/" + std::string(name(isa))).c_str(),
+                                 [model, isa](benchmark::State& state) { internal_force(state, *model, isa); });
+  }
+}
+
+}  // namespace
+}  // namespace carom
+
+int main(int argc, char** argv) {
+  using namespace carom;
+  benchmark::Initialize(&argc, argv);
+  set_threads(1);
+  add_benchmarks("12^3 in cache", std::make_shared<Model>(one_part(natural_cube(12))));
+  add_benchmarks("64^3 natural", std::make_shared<Model>(one_part(natural_cube(64))));
+  add_benchmarks("64^3 shuffled, renumbered",
+                 std::make_shared<Model>(one_part(renumbered(shuffled(natural_cube(64))))));
+  benchmark::RunSpecifiedBenchmarks();
+}
