@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <iterator>
 #include <utility>
 
@@ -22,7 +24,11 @@ constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 
 CsvFile::CsvFile(std::string path, const std::vector<std::string>& columns, const std::vector<std::string>& comments)
     : path_(std::move(path)), columns_(columns.size()), last_flush_(std::chrono::steady_clock::now()) {
-  for (const std::string& comment : comments) fmt::format_to(std::back_inserter(buffer_), "# {}\n", comment);
+  for (std::string comment : comments) {
+    std::replace_if(
+        comment.begin(), comment.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    fmt::format_to(std::back_inserter(buffer_), "# {}\n", comment);
+  }
   fmt::format_to(std::back_inserter(buffer_), "{}\n", fmt::join(columns, ","));
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0) throw OutputError(path_, std::strerror(errno));

@@ -9,9 +9,10 @@
 
 namespace carom {
 
-/// A comma-separated table: comment lines (each after "# "), one line of column names, then rows. Numbers are written
-/// with the fewest digits that give the same double back. Only whole rows reach the disk, at most half a second late,
-/// so an interrupted run leaves whole rows. Every failure to write is an OutputError with the path and the reason.
+/// A comma-separated table: comment lines (each after "# ", ends of line in them become spaces), one line of column
+/// names, then rows. Numbers are written with the fewest digits that give the same double back. Only whole rows reach
+/// the disk, at most half a second late, so an interrupted run leaves whole rows. Every failure to write is an
+/// OutputError with the path and the reason.
 class CsvFile {
  public:
   CsvFile(std::string path, const std::vector<std::string>& columns, const std::vector<std::string>& comments = {});

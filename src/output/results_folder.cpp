@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> kFiles{"summary.json", "energy.csv",         "contact.csv",
-                                                 "probes.csv",   "exact.csv",          "fields.pvd",
-                                                 "mesh.txt",     "case.resolved.toml", "report.html"};
+constexpr std::array<std::string_view, 10> kFiles{"probes_filtered.csv", "summary.json", "energy.csv", "contact.csv",
+                                                  "probes.csv",          "exact.csv",    "fields.pvd", "mesh.txt",
+                                                  "case.resolved.toml",  "report.html"};
 
 /// step_<digits>.vtu, as frame_file() names them, or what an interrupted write of one left.
 bool is_frame(std::string_view name) {

@@ -9,7 +9,7 @@
 namespace carom {
 
 /// One field: `components` values per point or cell, entry after entry. 3 components are a vector, 6 a symmetric tensor
-/// in VTK's order xx, yy, zz, xy, yz, xz.
+/// in VTK's order xx, yy, zz, xy, yz, zx.
 struct VtuField {
   std::string name;
   int components = 1;

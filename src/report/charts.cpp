@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::size_t kIntervals = 1000;
 constexpr double kNegligible = 1e-9;
+constexpr std::array<std::string_view, 3> kKinds{"\"computed\"", "\"filtered\"", "\"exact\""};
 
 /// A chart before its curves are cut down: columns of one table that belong together.
 struct Group {
@@ -31,9 +33,9 @@ double largest_magnitude(const std::vector<double>& values) {
   return largest;
 }
 
-Curve make_curve(const CsvTable& table, const std::vector<double>& values, std::string name, bool exact) {
+Curve make_curve(const CsvTable& table, const std::vector<double>& values, std::string name, CurveKind kind) {
   const std::vector<double>& time = table.values.front();
-  Curve curve{std::move(name), {}, {}, exact};
+  Curve curve{std::move(name), {}, {}, kind};
   for (const std::size_t row : decimate(time, values, kIntervals)) {
     curve.time.push_back(time[row]);
     curve.values.push_back(values[row]);
@@ -49,9 +51,22 @@ std::string curve_name(const std::string& column) {
   return column.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") == 0 && name.place.empty() ? column : text;
 }
 
+/// A column of another table that is laid over the computed one of the same name.
+struct Overlay {
+  const std::optional<CsvTable>& table;
+  CurveKind kind;
+  std::string_view word;
+};
+
+void add_overlay(Chart& chart, const std::string& column, const Overlay& overlay) {
+  const auto* values = overlay.table ? overlay.table->column(column) : nullptr;
+  if (values == nullptr) return;
+  chart.curves.push_back(
+      make_curve(*overlay.table, *values, fmt::format("{}, {}", curve_name(column), overlay.word), overlay.kind));
+}
+
 /// The chart of a group, or nothing when none of its columns is there or all are zero.
-std::optional<Chart> make_chart(const Group& group, const CsvTable& table, const std::optional<CsvTable>& exact,
-                                const Units& units) {
+std::optional<Chart> make_chart(const Group& group, const CsvTable& table, const Tables& tables, const Units& units) {
   double scale = 0.0;
   for (const std::string& column : group.columns) {
     if (const auto* values = table.column(column)) scale = std::max(scale, largest_magnitude(*values));
@@ -62,18 +77,16 @@ std::optional<Chart> make_chart(const Group& group, const CsvTable& table, const
   for (const std::string& column : group.columns) {
     const auto* values = table.column(column);
     if (values == nullptr) continue;
-    const auto* solution = exact ? exact->column(column) : nullptr;
-    if (largest_magnitude(*values) < kNegligible * scale && solution == nullptr) {
+    if (largest_magnitude(*values) < kNegligible * scale) {
       left_out.push_back(curve_name(column));
       continue;
     }
-    chart.curves.push_back(make_curve(table, *values, curve_name(column), false));
-    if (solution != nullptr)
-      chart.curves.push_back(make_curve(*exact, *solution, curve_name(column) + ", exact", true));
+    chart.curves.push_back(make_curve(table, *values, curve_name(column), CurveKind::computed));
+    add_overlay(chart, column, {tables.probes_filtered, CurveKind::filtered, "filtered"});
+    add_overlay(chart, column, {tables.exact, CurveKind::exact, "exact"});
   }
   if (!left_out.empty()) {
-    chart.note =
-        fmt::format("Not drawn, zero or below {:g} of the largest: {}.", kNegligible, fmt::join(left_out, ", "));
+    chart.note = fmt::format("Not drawn, zero or below 1e-9 of the largest: {}.", fmt::join(left_out, ", "));
   }
   return chart;
 }
@@ -87,7 +100,8 @@ std::string with_spaces(std::string_view text) {
 std::vector<Group> energy_groups(const CsvTable& table) {
   std::vector<Group> groups{
       {"Energies", "Energies and work", "energy", {}},
-      {"Energies", "Balance of powers", "energy", {"imbalance", "quadrature", "algorithmic"}},
+      {"Energies", "Numerical energies", "energy", {"quadrature", "algorithmic"}},
+      {"Energies", "Imbalance of powers", "energy", {"imbalance"}},
       {"Energies",
        "In Code_Aster's terms",
        "energy",
@@ -97,7 +111,8 @@ std::vector<Group> energy_groups(const CsvTable& table) {
        "Angular momentum",
        "angular momentum",
        {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"}},
-      {"Momentum", "Momentum balance", "error", {"momentum_error", "angular_momentum_error"}},
+      {"Momentum", "Imbalance of linear momentum", "momentum", {"momentum_error"}},
+      {"Momentum", "Imbalance of angular momentum", "angular momentum", {"angular_momentum_error"}},
       {"Time steps", "Time step", "dt", {"dt"}},
       {"Time steps", "Iterations per step", "iterations", {"iterations"}},
   };
@@ -131,11 +146,11 @@ std::vector<Group> place_groups(const CsvTable& table, const std::string& sectio
 }
 
 void add_charts(std::vector<Chart>& charts, const std::vector<Group>& groups, const CsvTable& table,
-                const std::optional<CsvTable>& exact, const Units& units) {
+                const Tables& tables, const Units& units) {
   if (table.rows() == 0) return;
   for (const Group& group : groups) {
     if (group.columns.empty()) continue;
-    if (auto chart = make_chart(group, table, exact, units)) charts.push_back(std::move(*chart));
+    if (auto chart = make_chart(group, table, tables, units)) charts.push_back(std::move(*chart));
   }
 }
 
@@ -163,13 +178,11 @@ std::string json_numbers(const std::vector<double>& values) {
 
 }  // namespace
 
-std::vector<Chart> make_charts(const std::optional<CsvTable>& energy, const std::optional<CsvTable>& contact,
-                               const std::optional<CsvTable>& probes, const std::optional<CsvTable>& exact,
-                               const Units& units) {
+std::vector<Chart> make_charts(const Tables& tables, const Units& units) {
   std::vector<Chart> charts;
-  if (probes) add_charts(charts, place_groups(*probes, "Probes"), *probes, exact, units);
-  if (contact) add_charts(charts, place_groups(*contact, "Contact"), *contact, exact, units);
-  if (energy) add_charts(charts, energy_groups(*energy), *energy, exact, units);
+  if (tables.probes) add_charts(charts, place_groups(*tables.probes, "Probes"), *tables.probes, tables, units);
+  if (tables.contact) add_charts(charts, place_groups(*tables.contact, "Contact"), *tables.contact, tables, units);
+  if (tables.energy) add_charts(charts, energy_groups(*tables.energy), *tables.energy, tables, units);
   return charts;
 }
 
@@ -179,8 +192,9 @@ std::string charts_json(const std::vector<Chart>& charts, const Units& units) {
     fmt::format_to(std::back_inserter(text), "\n{{\"label\":{},\"unit\":{},\"curves\":[", json_string(chart.label),
                    json_string(chart.unit));
     for (const Curve& curve : chart.curves) {
-      fmt::format_to(std::back_inserter(text), "{{\"name\":{},\"exact\":{},\"t\":{},\"y\":{}}},",
-                     json_string(curve.name), curve.exact, json_numbers(curve.time), json_numbers(curve.values));
+      fmt::format_to(std::back_inserter(text), "{{\"name\":{},\"kind\":{},\"t\":{},\"y\":{}}},",
+                     json_string(curve.name), kKinds.at(static_cast<std::size_t>(curve.kind)), json_numbers(curve.time),
+                     json_numbers(curve.values));
     }
     if (text.back() == ',') text.pop_back();
     text += "]},";

@@ -1,6 +1,7 @@
 // Which curves the report shows and how they are grouped.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,10 +11,13 @@
 
 namespace carom {
 
+/// How a curve is drawn: the exact solution is dashed over the computed curve before it.
+enum class CurveKind : std::uint8_t { computed, filtered, exact };
+
 struct Curve {
   std::string name;
   std::vector<double> time, values;
-  bool exact = false;  ///< the exact solution of the curve before it: drawn dashed in the same colour
+  CurveKind kind{};
 };
 
 /// One picture: curves of one unit over time.
@@ -25,12 +29,15 @@ struct Chart {
   std::string note;  ///< what is not drawn and why
 };
 
-/// Charts of energy.csv, contact.csv and probes.csv with the columns of the same name in exact.csv laid over them.
+/// The tables of a results folder, as far as they are there.
+struct Tables {
+  std::optional<CsvTable> energy{}, contact{}, probes{}, probes_filtered{}, exact{};
+};
+
+/// Charts of probes, contact and energies; columns of the same name in probes_filtered.csv and exact.csv are laid over.
 /// Components below 1e-9 of the largest of their chart are named in its note instead of drawn; charts that are zero
 /// throughout are left out.
-std::vector<Chart> make_charts(const std::optional<CsvTable>& energy, const std::optional<CsvTable>& contact,
-                               const std::optional<CsvTable>& probes, const std::optional<CsvTable>& exact,
-                               const Units& units);
+std::vector<Chart> make_charts(const Tables& tables, const Units& units);
 
 /// The charts as JSON for curves.js, safe inside a <script> element.
 std::string charts_json(const std::vector<Chart>& charts, const Units& units);

@@ -46,10 +46,10 @@
     return times.map((t, i) => [t, ...columns.map((c) => c[i])]);
   }
 
-  // An exact curve has the colour of the curve before it.
+  // Exact curves are dashes in the colour of text: they lie over the computed curve of any colour.
   function colours(chart) {
     let own = 0;
-    return chart.curves.map((c) => css("--curve-" + (c.exact ? ((own + 7) % 8) + 1 : (own++ % 8) + 1)));
+    return chart.curves.map((c) => css(c.kind === "exact" ? "--ink" : "--curve-" + ((own++ % 8) + 1)));
   }
 
   function makeLegend(element, chart) {
@@ -58,7 +58,7 @@
       button.type = "button";
       button.setAttribute("aria-pressed", "true");
       const line = document.createElement("i");
-      if (curve.exact) line.className = "dashed";
+      if (curve.kind === "exact") line.className = "dashed";
       const value = document.createElement("output");
       button.append(line, curve.name, value);
       element.append(button);
@@ -66,13 +66,16 @@
     });
   }
 
+  const stroke = {
+    computed: { strokeWidth: 2 }, filtered: { strokeWidth: 2 }, exact: { strokePattern: [6, 5], strokeWidth: 1.3 },
+  };
   const drawn = [];
   let syncing = false;
 
   function follow(source, window_) {
     if (syncing) return;
     syncing = true;
-    for (const d of drawn) if (d.graph !== source) d.graph.updateOptions({ dateWindow: window_, valueRange: null });
+    for (const d of drawn) if (d.graph !== source) d.graph.updateOptions({ dateWindow: window_ });
     syncing = false;
   }
 
@@ -87,17 +90,16 @@
     const labels = ["t", ...chart.curves.map((c, k) => k + " " + c.name)];
     const series = {};
     chart.curves.forEach((c, k) => {
-      series[labels[k + 1]] = c.exact ? { strokePattern: [7, 5], strokeWidth: 2.4 } : { strokeWidth: 1.6 };
+      series[labels[k + 1]] = stroke[c.kind];
     });
     const show = (t, row) => {
       for (const l of legend) l.value.textContent = row === null ? "" : short(row[l.k + 1]);
-      element.title = "";
       time.textContent = t === null ? "" : "t = " + short(t) + " " + data.time_unit;
     };
     const time = document.createElement("output");
     const content = rows(chart);
     const graph = new Dygraph(element, content, {
-      labels, series, legend: "never", connectSeparatedPoints: true, animatedZooms: false, rightGap: 12,
+      labels, series, legend: "never", connectSeparatedPoints: true, animatedZooms: false, rightGap: 12, yRangePad: 8,
       xlabel: axisTitle("time", data.time_unit, timePower), ylabel: axisTitle(chart.label, chart.unit, power),
       xLabelHeight: 18, yLabelWidth: 18, highlightCircleSize: 3, labelsKMB: false, includeZero: false,
       axes: {
@@ -124,7 +126,7 @@
   }
 
   function theme(chart) {
-    return { colors: colours(chart), gridLineColor: css("--grid"), axisLineColor: css("--line") };
+    return { colors: colours(chart), gridLineColor: css("--grid"), gridLineWidth: 0.6, axisLineColor: css("--line") };
   }
 
   function paint(d) {

@@ -40,7 +40,7 @@ std::string difference(const CheckSummary& check) {
 }
 
 std::string tolerance(const CheckSummary& check) {
-  if (check.tolerance_kind == ToleranceKind::absolute) return "± " + number(check.tolerance, 3);
+  if (check.tolerance_kind == ToleranceKind::absolute) return fmt::format("± {}", number(check.tolerance, 3));
   return fmt::format("± {} %", number(100.0 * check.tolerance, 3));
 }
 
@@ -48,7 +48,7 @@ std::string value_table(std::string_view title, const std::vector<NamedValue>& v
   if (values.empty()) return {};
   std::string html = fmt::format(
       "<div class=\"scroll\"><table><thead><tr><th>{}</th><th class=\"number\">{}</th></tr></thead><tbody>\n", title,
-      xml_escape(with_unit("energy", unit.empty() ? "" : "[" + unit + "]")));
+      xml_escape(unit.empty() ? "energy" : fmt::format("energy [{}]", unit)));
   for (const NamedValue& entry : values) {
     std::string name = entry.name;
     if (name.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") != 0) {
@@ -114,7 +114,7 @@ std::string verdict_table(const Summary& summary) {
       "<th class=\"number\">limit</th><th></th><th>meaning</th></tr></thead><tbody>\n";
   for (const VerdictItem& item : summary.verdict) {
     html += fmt::format("<tr>{}{}{}{}{}</tr>\n", text_cell(item.name), cell(number(item.value, 3)),
-                        cell("≤ " + number(item.limit, 3)), mark(item.pass), text_cell(item.explanation));
+                        cell(fmt::format("≤ {}", number(item.limit, 3))), mark(item.pass), text_cell(item.explanation));
   }
   return html + "</tbody></table></div>\n</section>\n";
 }
@@ -150,7 +150,7 @@ std::string run_table(const Summary& summary, const Units& units) {
   };
   const SchemeSummary& scheme = summary.scheme;
   entry("Case", summary.case_info.file);
-  entry("Units", with_unit(summary.case_info.units, "(" + units_comment(units).substr(7) + ")"));
+  entry("Units", fmt::format("{} ({})", summary.case_info.units, units_comment(units).substr(7)));
   entry("Mesh", fmt::format("{} nodes, {} cells", summary.mesh.nodes, summary.mesh.cells));
   entry("Groups", groups(summary.mesh));
   entry("Scheme", scheme.name);

@@ -62,14 +62,16 @@ void write_report(const std::string& results_folder) {
   ReportData data;
   data.folder = results_folder;
   data.summary = read_summary_if_whole(folder, data.notes);
-  const auto energy = read_table(folder, "energy.csv", data.notes);
-  const auto contact = read_table(folder, "contact.csv", data.notes);
-  const auto probes = read_table(folder, "probes.csv", data.notes);
-  const auto exact = read_table(folder, "exact.csv", data.notes);
-  if (!energy) data.notes.emplace_back("energy.csv is missing.");
+  Tables tables;
+  tables.energy = read_table(folder, "energy.csv", data.notes);
+  tables.contact = read_table(folder, "contact.csv", data.notes);
+  tables.probes = read_table(folder, "probes.csv", data.notes);
+  tables.probes_filtered = read_table(folder, "probes_filtered.csv", data.notes);
+  tables.exact = read_table(folder, "exact.csv", data.notes);
+  if (!tables.energy) data.notes.emplace_back("energy.csv is missing.");
   data.case_text = read_case(folder, data.notes);
-  data.units = find_units(data.summary, {&energy, &contact, &probes});
-  data.charts = make_charts(energy, contact, probes, exact, data.units);
+  data.units = find_units(data.summary, {&tables.energy, &tables.contact, &tables.probes});
+  data.charts = make_charts(tables, data.units);
   write_file((folder / "report.html").string(), make_page(data));
 }
 

@@ -45,11 +45,12 @@ std::string message_of(const auto& action) {
 
 TEST(Csv, HeaderCommentsAndRows) {
   const fs::path path = scratch("a.csv");
-  CsvFile file(path.string(), {"time", "B.displacement_z"}, {"units: m, s, kg, N, Pa, J", "second"});
+  CsvFile file(path.string(), {"time", "B.displacement_z"}, {"units: m, s, kg, N, Pa, J", "second\nline"});
   file.append(std::vector{0.0, 0.002});
   file.append(std::vector{1e-5, -1.5});
   file.close();
-  EXPECT_EQ(read_text(path), "# units: m, s, kg, N, Pa, J\n# second\ntime,B.displacement_z\n0,0.002\n1e-05,-1.5\n");
+  EXPECT_EQ(read_text(path),
+            "# units: m, s, kg, N, Pa, J\n# second line\ntime,B.displacement_z\n0,0.002\n1e-05,-1.5\n");
   fs::remove(path);
 }
 

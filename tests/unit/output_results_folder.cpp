@@ -30,8 +30,9 @@ TEST_F(ResultsFolder, IsMadeWithItsParents) {
 
 TEST_F(ResultsFolder, OnlyFilesOfAnEarlierRunAreRemoved) {
   prepare_results_folder(base_.string());
-  const auto ours = {"summary.json", "energy.csv",         "contact.csv", "probes.csv",       "exact.csv",
-                     "fields.pvd",   "case.resolved.toml", "mesh.txt",    "summary.json.tmp", "report.html"};
+  const auto ours = {"summary.json", "energy.csv",          "contact.csv", "probes.csv",
+                     "exact.csv",    "probes_filtered.csv", "fields.pvd",  "case.resolved.toml",
+                     "mesh.txt",     "summary.json.tmp",    "report.html"};
   const auto others = {"notes.txt", "case.toml", "fields/step_x.vtu", "fields/step_000001.vtu.bak", "fields/mine.vtu"};
   for (const char* name : ours) touch(base_ / name);
   for (const char* name : others) touch(base_ / name);

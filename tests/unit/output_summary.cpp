@@ -182,6 +182,7 @@ TEST(Units, OfColumns) {
   EXPECT_EQ(unit_of_column(si, "TRAV_LIAI"), "J");
   EXPECT_EQ(unit_of_column(si, "momentum_x"), "kg m/s");
   EXPECT_EQ(unit_of_column(si, "angular_momentum_x"), "kg m²/s");
+  EXPECT_EQ(unit_of_column(si, "momentum_error"), "kg m/s");
   EXPECT_EQ(unit_of_column(si, "wall.closed"), "");
   EXPECT_EQ(unit_of_column(units_of("unknown"), "B.velocity_z"), "");
 }

@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+
+#include "base/errors.hpp"
+#include "report/assets.hpp"
+#include "report/report.hpp"
+#include "report_sample.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ReportPage : public testing::Test {
+ protected:
+  void SetUp() override { write_sample_results(folder_, 3000); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string page() const {
+    write_report(folder_.string());
+    std::ifstream stream(folder_ / "report.html", std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  /// The page without the library and its licence, which mention addresses and markup of their own.
+  std::string own_page() const {
+    std::string text = page();
+    for (const std::string_view asset : {assets::dygraph_js, assets::dygraph_css}) {
+      const std::size_t at = text.find(asset);
+      EXPECT_NE(at, std::string::npos);
+      if (at != std::string::npos) text.erase(at, asset.size());
+    }
+    return text;
+  }
+
+  static nlohmann::json charts(const std::string& page) {
+    const std::string begin = "<script type=\"application/json\" id=\"charts\">";
+    const std::size_t at = page.find(begin) + begin.size();
+    return nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / fmt::format("carom_report_{}", ::getpid());
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(ReportPage, ShowsVerdictChecksLedgerAndCase) {
+  const std::string html = page();
+  EXPECT_TRUE(contains(html, "<strong>Failed</strong><span>1 of 3 checks did not pass: B.velocity_z at t = 4e-05."));
+  EXPECT_TRUE(contains(html, "<td>energy balance</td><td class=\"number\">3.9e-15</td><td class=\"number\">≤ 1e-10"));
+  // 101.2 against 100: 1.2 % above, tolerance 1e-3.
+  EXPECT_TRUE(contains(html,
+                       "<td class=\"number\">101.2</td><td class=\"number\">100</td><td>m/s</td>"
+                       "<td class=\"number\">1.2 %</td><td class=\"number\">± 0.1 %</td>"
+                       "<td class=\"mark fail\">✗ fail</td><td>exact solution of the bar</td>"));
+  // An absolute tolerance with reference 0 has no percent.
+  EXPECT_TRUE(contains(html, "<td class=\"number\">-1.3e-09</td><td class=\"number\">± 1e-06</td>"));
+  EXPECT_TRUE(contains(html, "<td>contact stored</td>"));
+  EXPECT_TRUE(contains(html, "<td>TRAV_LIAI</td><td class=\"number\">0.002</td>"));
+  EXPECT_TRUE(contains(html, "file = &quot;bar.msh&quot;"));
+  EXPECT_TRUE(contains(html, "88 nodes, 21 cells"));
+  EXPECT_TRUE(contains(html, "SI (m, s, kg, N, Pa, J)"));
+}
+
+TEST_F(ReportPage, TextOfTheUserStaysText) {
+  const std::string html = own_page();
+  EXPECT_FALSE(contains(html, "<script>alert"));
+  EXPECT_TRUE(contains(html, "<h1>Elastic bar on a rigid wall &lt;script&gt;alert(&quot;x&quot;)&lt;/script&gt;"));
+}
+
+TEST_F(ReportPage, NeedsNoNetwork) {
+  const std::string html = own_page();
+  const std::regex reference("(src|href)\\s*=\\s*\"(?!data:)[^\"]*\"|url\\(|@import|fetch\\(|XMLHttpRequest");
+  EXPECT_FALSE(std::regex_search(html, reference));
+  EXPECT_FALSE(contains(page(), "sourceMappingURL"));
+}
+
+TEST_F(ReportPage, HoldsTheLibraryAndItsLicence) {
+  const std::string html = page();
+  EXPECT_GT(assets::dygraph_js.size(), 100000U);  // dygraph.min.js 2.2.1 has 131 kB
+  EXPECT_TRUE(contains(html, "Permission is hereby granted, free of charge"));
+}
+
+TEST_F(ReportPage, EveryChartHasItsData) {
+  const std::string html = page();
+  const auto json = charts(html);
+  ASSERT_GE(json["charts"].size(), 10U);
+  for (std::size_t i = 0; i < json["charts"].size(); ++i) {
+    EXPECT_TRUE(contains(html, fmt::format("data-chart=\"{}\"", i)));
+  }
+  EXPECT_FALSE(contains(html, fmt::format("data-chart=\"{}\"", json["charts"].size())));
+  EXPECT_EQ(json["charts"][0]["label"], "displacement");
+  EXPECT_EQ(json["charts"][0]["curves"][1]["name"], "z, exact");
+}
+
+TEST_F(ReportPage, LongRunsStaySmall) {
+  write_sample_results(folder_, 100000);
+  const auto json = charts(page());
+  for (const auto& chart : json["charts"]) {
+    for (const auto& curve : chart["curves"]) EXPECT_LE(curve["t"].size(), 2003U);
+  }
+}
+
+TEST_F(ReportPage, InterruptedRunStillHasAReport) {
+  fs::remove(folder_ / "summary.json");
+  fs::remove(folder_ / "case.resolved.toml");
+  fs::remove(folder_ / "exact.csv");
+  fs::resize_file(folder_ / "probes.csv", fs::file_size(folder_ / "probes.csv") / 2 + 1);
+  const std::string html = page();
+  EXPECT_TRUE(contains(html, "<strong>No verdict</strong>"));
+  EXPECT_TRUE(contains(html, "<li>summary.json is missing.</li>"));
+  EXPECT_TRUE(contains(html, "<li>case.resolved.toml is missing.</li>"));
+  EXPECT_TRUE(contains(html, "is not a whole row; it and what follows were left out.</li>"));
+  const auto json = charts(html);
+  EXPECT_EQ(json["time_unit"], "s");  // from the tables' comments
+  EXPECT_EQ(json["charts"][0]["unit"], "m");
+}
+
+TEST_F(ReportPage, EmptyOrDamagedFolderStillHasAReport) {
+  std::ofstream(folder_ / "summary.json") << "{\"outcome\": \"go";
+  for (const char* name : {"energy.csv", "contact.csv", "probes.csv", "exact.csv"}) std::ofstream(folder_ / name) << "";
+  const std::string html = page();
+  EXPECT_TRUE(contains(html, "summary.json is damaged"));
+  EXPECT_TRUE(contains(html, "<li>energy.csv: the file is empty.</li>"));
+  EXPECT_TRUE(charts(html)["charts"].empty());
+}
+
+TEST_F(ReportPage, MissingFolderIsAnErrorThatNamesThePage) {
+  try {
+    write_report("/proc/absent");
+    FAIL() << "no error";
+  } catch (const OutputError& error) {
+    EXPECT_EQ(error.path(), "/proc/absent/report.html");
+  }
+}
+
+}  // namespace
+}  // namespace carom
