@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "math/vec3.hpp"
+#include "mesh/cell_topology.hpp"
 
 namespace carom {
 
@@ -36,6 +37,7 @@ class Connections {
       for (const Index n : nodes(static_cast<Index>(cell))) node_cells_[next[at(n)]++] = static_cast<Index>(cell);
   }
 
+  CellType type(Index cell) const { return types_[at(cell)]; }
   std::size_t cell_count() const { return cell_begin_.size() - 1; }
   std::span<const Index> nodes(Index cell) const {
     return {cell_nodes_.data() + cell_begin_[at(cell)], cell_nodes_.data() + cell_begin_[at(cell) + 1]};
@@ -49,10 +51,22 @@ class Connections {
     cell_nodes_.insert(cell_nodes_.end(), block.connectivity.begin(), block.connectivity.end());
     const auto n = static_cast<std::size_t>(node_count(block.type));
     for (std::size_t cell = 0; cell < block.size(); ++cell) cell_begin_.push_back(cell_begin_.back() + n);
+    types_.insert(types_.end(), block.size(), block.type);
   }
 
   std::vector<std::size_t> cell_begin_{0}, node_begin_;
   std::vector<Index> cell_nodes_, node_cells_;
+  std::vector<CellType> types_;
+};
+
+struct Mean {
+  double sum = 0;
+  int count = 0;
+  void add(double value) {
+    sum += value;
+    ++count;
+  }
+  double value() const { return sum / count; }
 };
 
 /// Orders the nodes of one connected body after another.
@@ -65,7 +79,9 @@ class LevelOrder {
         placed_(mesh.node_count(), 0),
         seen_cell_(connections_.cell_count(), 0),
         expanded_(connections_.cell_count(), 0),
-        weight_(mesh.node_count(), {0.0, 0}) {
+        place_(mesh.node_count(), -1),
+        by_edges_(mesh.node_count()),
+        by_cells_(mesh.node_count()) {
     order_.reserve(mesh.node_count());
   }
 
@@ -120,46 +136,45 @@ class LevelOrder {
     return level;
   }
 
-  /// Unplaced neighbours of `level`, sorted by the mean index in `level` of the neighbours they have there.
+  /// Unplaced neighbours of `level`, sorted by the mean place in `level` of the neighbours they have there.
   std::vector<Index> next_level(const std::vector<Index>& level) {
-    for (std::size_t i = 0; i < level.size(); ++i) weight_[at(level[i])] = {static_cast<double>(i), -1};
+    for (std::size_t i = 0; i < level.size(); ++i) place_[at(level[i])] = static_cast<Index>(i);
     std::vector<Index> next;
     for (const Index node : level)
       for (const Index cell : connections_.cells(node))
         if (std::exchange(expanded_[at(cell)], char{1}) == 0) expand(cell, next);
     std::vector<std::pair<double, Index>> keys;
     keys.reserve(next.size());
-    for (const Index n : next) keys.emplace_back(weight_[at(n)].first / weight_[at(n)].second, n);
+    for (const Index n : next)
+      keys.emplace_back(by_edges_[at(n)].count > 0 ? by_edges_[at(n)].value() : by_cells_[at(n)].value(), n);
     std::sort(keys.begin(), keys.end());
     for (std::size_t i = 0; i < next.size(); ++i) next[i] = keys[i].second;
-    for (const Index n : level) weight_[at(n)].second = 0;
+    for (const Index n : level) place_[at(n)] = -1;
     return next;
   }
 
-  /// Adds the unplaced nodes of a cell to `next` and the places of its nodes in the level to their means.
+  /// Adds the unplaced nodes of a cell to `next`, and to their means the places that they reach in the level.
   void expand(Index cell, std::vector<Index>& next) {
-    double sum = 0;
-    int count = 0;
-    for (const Index n : connections_.nodes(cell))
-      if (weight_[at(n)].second < 0) {
-        sum += weight_[at(n)].first;
-        ++count;
-      }
-    for (const Index n : connections_.nodes(cell)) {
-      if (weight_[at(n)].second < 0) continue;
-      if (std::exchange(placed_[at(n)], char{1}) == 0) {
-        next.push_back(n);
-        weight_[at(n)] = {0.0, 0};
-      }
-      weight_[at(n)].first += sum;
-      weight_[at(n)].second += count;
+    const std::span<const Index> nodes = connections_.nodes(cell);
+    Mean level;
+    for (const Index n : nodes)
+      if (place_[at(n)] >= 0) level.add(place_[at(n)]);
+    for (const Index n : nodes) {
+      if (place_[at(n)] >= 0) continue;
+      if (std::exchange(placed_[at(n)], char{1}) == 0) next.push_back(n);
+      by_cells_[at(n)].add(level.value());
     }
+    for (const CornerFrame& frame : corner_frames(connections_.type(cell)))
+      for (const LocalNode end : {frame.a, frame.b, frame.c})
+        if (place_[at(nodes[frame.corner])] < 0 && place_[at(nodes[end])] >= 0)
+          by_edges_[at(nodes[frame.corner])].add(place_[at(nodes[end])]);
   }
 
   const Mesh& mesh_;
   Connections connections_;
   std::vector<char> seen_node_, placed_, seen_cell_, expanded_;
-  std::vector<std::pair<double, int>> weight_;  ///< (index, -1) in the current level, else (sum, count) of the means
+  std::vector<Index> place_;               ///< in the current level, or -1
+  std::vector<Mean> by_edges_, by_cells_;  ///< of the places of the neighbours one level before
   std::vector<Index> order_;
 };
 

@@ -1,0 +1,174 @@
+// Structured blocks, groups, the skin and the summary.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "base/errors.hpp"
+#include "math/vec3.hpp"
+#include "mesh/cell_topology.hpp"
+#include "mesh/mesh_summary.hpp"
+#include "mesh/skin.hpp"
+#include "mesh/structured_block.hpp"
+#include "mesh_fixture.hpp"
+
+namespace carom {
+namespace {
+
+const Vec3& node(const Mesh& mesh, Index i) {
+  return mesh.coordinates[static_cast<std::size_t>(i)];
+}
+
+std::string message_of(const StructuredBlock& block) {
+  try {
+    make_structured_blocks({block});
+  } catch (const CaseError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(MeshBlock, HasTheNodesCellsAndGroupsThatCountingGives) {
+  const Mesh mesh = test::sample_block();
+  EXPECT_EQ(mesh.node_count(), 4u * 3u * 5u);
+  ASSERT_NE(mesh.block(CellType::hexa8), nullptr);
+  EXPECT_EQ(mesh.block(CellType::hexa8)->size(), 3u * 2u * 4u);
+  EXPECT_EQ(mesh.block(CellType::quad4)->size(), 2u * (2 * 4 + 3 * 4 + 3 * 2));
+  EXPECT_EQ(mesh.cell_groups.at("BLOCK").size(), 24u);
+  EXPECT_EQ(mesh.cell_groups.at("XMIN").size(), 8u);
+  EXPECT_EQ(mesh.cell_groups.at("YMAX").size(), 12u);
+  EXPECT_EQ(mesh.cell_groups.at("ZMIN").size(), 6u);
+  EXPECT_EQ(mesh.nodes_of("XMAX").size(), 15u);
+  EXPECT_EQ(mesh.nodes_of("ZMAX").size(), 12u);
+  EXPECT_EQ(mesh.nodes_of("A"), mesh.nodes_of("ORIGIN"));
+  EXPECT_TRUE(mesh.nodes_of("NONE").empty());
+  EXPECT_FALSE(mesh.has_group("NONE"));
+  EXPECT_EQ(mesh.block(CellType::tetra4), nullptr);
+}
+
+TEST(MeshBlock, FacesLieOnTheirSideWithOutwardNormals) {
+  const Mesh mesh = test::sample_block();
+  const Vec3 low{0.1, -0.2, 0.3}, high{0.4, 0.0, 1.1};
+  const std::array<std::string, 6> names{"XMIN", "XMAX", "YMIN", "YMAX", "ZMIN", "ZMAX"};
+  const CellBlock& quads = *mesh.block(CellType::quad4);
+  for (std::size_t s = 0; s < 6; ++s)
+    for (const CellRef& ref : mesh.cell_groups.at(names[s])) {
+      ASSERT_EQ(mesh.blocks[static_cast<std::size_t>(ref.block)].type, CellType::quad4);
+      const Index* n = &quads.connectivity[4 * static_cast<std::size_t>(ref.cell)];
+      for (int i = 0; i < 4; ++i) EXPECT_NEAR(node(mesh, n[i])[s / 2], s % 2 == 0 ? low[s / 2] : high[s / 2], 1e-15);
+      const Vec3 normal =
+          cross(subtract(node(mesh, n[1]), node(mesh, n[0])), subtract(node(mesh, n[2]), node(mesh, n[0])));
+      EXPECT_GT(s % 2 == 0 ? -normal[s / 2] : normal[s / 2], 0.0) << names[s];
+    }
+}
+
+TEST(MeshBlock, VolumesSumToTheBlock) {
+  const Mesh mesh = test::sample_block();
+  double volume = 0;
+  for (std::size_t c = 0; c < 24; ++c) volume += test::hexa_volume(mesh, mesh.blocks[0], c);
+  EXPECT_NEAR(volume, 0.3 * 0.2 * 0.8, 1e-15);  // 24 round-offs of numbers of size 2e-3
+  EXPECT_EQ(mesh.report.turned, 0u);
+  EXPECT_NEAR(mesh.report.worst_jacobian, 1.0, 1e-12);
+}
+
+TEST(MeshBlock, SeveralBlocksKeepTheirNodesAndUniteGroups) {
+  StructuredBlock lower, upper;
+  lower.size = upper.size = {1, 1, 1};
+  lower.divisions = upper.divisions = {2, 2, 2};
+  upper.origin = {0, 0, 1};
+  upper.cells_group = "UPPER";
+  const Mesh mesh = make_structured_blocks({lower, upper});
+  EXPECT_EQ(mesh.node_count(), 2u * 27u);
+  EXPECT_EQ(mesh.cell_groups.at("BLOCK").size(), 8u);
+  EXPECT_EQ(mesh.cell_groups.at("UPPER").size(), 8u);
+  EXPECT_EQ(mesh.cell_groups.at("ZMIN").size(), 8u);
+  EXPECT_EQ(mesh.nodes_of("ZMIN").size(), 18u);
+}
+
+TEST(MeshBlock, WithoutFaceGroupsThereAreNoFaces) {
+  StructuredBlock block;
+  block.size = {1, 1, 1};
+  block.face_groups = {};
+  const Mesh mesh = make_structured_blocks({block});
+  EXPECT_EQ(mesh.blocks.size(), 1u);
+  EXPECT_EQ(mesh.group_names(), std::vector<std::string>{"BLOCK"});
+}
+
+TEST(MeshBlock, MessagesSayWhatIsWrong) {
+  StructuredBlock block;
+  block.where = {"case.toml", 7, 1};
+  block.size = {1, 1, 0};
+  EXPECT_NE(message_of(block).find("case.toml:7:1: block: found origin 0 and size 0 along z"), std::string::npos);
+  block.size = {1, 1, 1};
+  block.divisions = {1, 0, 1};
+  EXPECT_NE(message_of(block).find("found 0 divisions along y; expected 1 to 1000000"), std::string::npos);
+  block.divisions = {100000, 100000, 100000};
+  EXPECT_NE(message_of(block).find("expected at most 2147483647"), std::string::npos);
+  block.divisions = {1, 1, 1};
+  block.points = {{"P", {0.5, 0, 0}, {"case.toml", 9, 2}}};
+  EXPECT_NE(message_of(block).find("case.toml:9:2: point P: found (0.5, 0, 0), 0.5 away from the nearest node"),
+            std::string::npos);
+  block.points[0].position[0] = std::nan("");
+  EXPECT_NE(message_of(block).find("point P: found (nan, 0, 0)"), std::string::npos);
+}
+
+/// Faces with an odd number of owners by comparing every pair of faces of all cells.
+std::vector<std::array<Index, 4>> skin_by_brute_force(const Mesh& mesh) {
+  const CellBlock& hexas = *mesh.block(CellType::hexa8);
+  std::vector<std::array<Index, 4>> faces, sorted, outer;
+  for (std::size_t c = 0; c < hexas.size(); ++c)
+    for (const auto& local : hexa8_faces) {
+      std::array<Index, 4> face{};
+      for (std::size_t i = 0; i < 4; ++i) face[i] = hexas.connectivity[8 * c + local[i]];
+      faces.push_back(face);
+      std::sort(face.begin(), face.end());
+      sorted.push_back(face);
+    }
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (std::count(sorted.begin(), sorted.end(), sorted[i]) == 1) outer.push_back(faces[i]);
+  return outer;
+}
+
+TEST(MeshSkin, AgreesWithBruteForceOnBlocksWithHoles) {
+  std::mt19937 random(20261121);
+  for (int round = 0; round < 5; ++round) {
+    StructuredBlock block;
+    block.size = {1, 2, 3};
+    block.divisions = {4, 5, 6};
+    Mesh mesh = make_structured_blocks({block});
+    CellBlock& hexas = mesh.blocks[0];  // a mesh of our own from here on: every third cell taken out at random
+    for (std::size_t c = hexas.size(); c-- > 0;)
+      if (random() % 3 == 0) {
+        const auto first = hexas.connectivity.begin() + static_cast<std::ptrdiff_t>(8 * c);
+        hexas.connectivity.erase(first, first + 8);
+        hexas.file_numbers.erase(hexas.file_numbers.begin() + static_cast<std::ptrdiff_t>(c));
+      }
+    const auto faces = skin(mesh);
+    EXPECT_EQ(faces, skin_by_brute_force(mesh));
+    Vec3 area{};
+    double volume = 0, expected_volume = 0;
+    for (const auto& f : faces) {  // divergence theorem: sum of area vectors is 0, sum of x . n dA / 3 is the volume
+      const Vec3 a = scaled(
+          cross(subtract(node(mesh, f[2]), node(mesh, f[0])), subtract(node(mesh, f[3]), node(mesh, f[1]))), 0.5);
+      area = add(area, a);
+      volume += dot(a, add(add(node(mesh, f[0]), node(mesh, f[1])), add(node(mesh, f[2]), node(mesh, f[3])))) / 12;
+    }
+    for (std::size_t c = 0; c < hexas.size(); ++c) expected_volume += test::hexa_volume(mesh, hexas, c);
+    EXPECT_NEAR(norm(area), 0.0, 1e-12);  // some hundred round-offs of areas below 1
+    EXPECT_NEAR(volume, expected_volume, 1e-12);
+  }
+}
+
+TEST(MeshSummary, NamesWhatTheMeshHolds) {
+  const std::string text = mesh_summary(test::sample_block());
+  for (const char* part :
+       {"nodes     60, numbered 1 to 60", "HEXA8            24", "QUAD4            52",
+        "z from          0.3 to          1.1, length 0.8", "worst Jacobian ratio 1 in cell", "0 cells turned",
+        "BLOCK          60  HEXA8 24", "ZMAX           12  QUAD4 6", "ORIGIN          1  (node group)"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,116 @@
+// MED files of Code_Aster's validation base, and the child process that reads them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <csignal>
+
+#include "base/errors.hpp"
+#include "mesh/cell_topology.hpp"
+#include "mesh/isolated_process.hpp"
+#include "mesh/read_mesh.hpp"
+#include "mesh_fixture.hpp"
+
+namespace carom {
+namespace {
+
+const std::string kMeshes = CAROM_SOURCE_DIR "/cases/sdnv100/meshes/";
+
+TEST(MeshMed, AgreesWithTheGmshFileOfTheSameMesh) {
+  const Mesh med = read_mesh(kMeshes + "sdnv100a.med"), msh = read_mesh(kMeshes + "sdnv100a.msh");
+  const test::ByFileNumbers a = test::by_file_numbers(med), b = test::by_file_numbers(msh);
+  ASSERT_EQ(a.nodes.size(), b.nodes.size());
+  double largest = 0;
+  for (const auto& [number, x] : a.nodes)
+    for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, std::abs(x[c] - b.nodes.at(number)[c]));
+  EXPECT_LE(largest, 1e-12);  // 15 digits are printed in the Gmsh file: coordinates of 0.2 differ by 1e-16 at most
+  EXPECT_EQ(a.node_groups, b.node_groups);
+  ASSERT_EQ(med.cell_groups.size(), msh.cell_groups.size());
+  for (const auto& [group, cells] : msh.cell_groups) {
+    ASSERT_EQ(med.cell_groups.count(group), 1u) << group;
+    EXPECT_EQ(med.cell_groups.at(group).size(), cells.size()) << group;
+    EXPECT_EQ(med.nodes_of(group).size(), msh.nodes_of(group).size()) << group;
+  }
+  std::multiset<std::set<std::int64_t>> med_cells, msh_cells;  // the files number cells differently
+  for (const auto& [number, nodes] : a.cells.at("HEXA8")) med_cells.emplace(nodes.begin(), nodes.end());
+  for (const auto& [number, nodes] : b.cells.at("HEXA8")) msh_cells.emplace(nodes.begin(), nodes.end());
+  EXPECT_EQ(med_cells, msh_cells);
+}
+
+TEST(MeshMed, TurnsTheCellsOfMixedOrientation) {
+  const Mesh mesh = read_mesh(kMeshes + "sdnv100a.med");
+  EXPECT_EQ(mesh.report.format, "MED 3.3");
+  EXPECT_EQ(mesh.report.turned, 4u);  // the block VSOL; the beam is written as MED's manual asks
+  const CellBlock& hexas = *mesh.block(CellType::hexa8);
+  ASSERT_EQ(hexas.size(), 24u);
+  // Beam 0.02 x 0.02 x 0.2 in 20 cells, block 0.04 x 0.04 x 0.01 in 4: all 4e-6, with z in single precision (6e-8 of
+  // 0.2, on edges of 0.01).
+  for (std::size_t c = 0; c < 24; ++c) EXPECT_NEAR(test::hexa_volume(mesh, hexas, c), 4e-6, 4e-6 * 2e-6);
+  EXPECT_GT(mesh.report.worst_jacobian, 0.999);
+}
+
+TEST(MeshMed, KeepsFileNumbersOfCells) {
+  const Mesh mesh = read_mesh(kMeshes + "sdnv100a.med");
+  const auto& hexas = test::by_file_numbers(mesh).cells.at("HEXA8");
+  EXPECT_EQ(hexas.begin()->first, 126);  // MAI/HE8/NUM of the file runs from 126 to 149
+  EXPECT_EQ(hexas.rbegin()->first, 149);
+}
+
+TEST(MeshMed, ReadsQuadraticCellsAndFamiliesOfSeveralGroups) {
+  const Mesh mesh = read_mesh(kMeshes + "sdnv100f.med");
+  EXPECT_EQ(mesh.node_count(), 256u);
+  const CellBlock& hexas = *mesh.block(CellType::hexa20);
+  ASSERT_EQ(hexas.size(), 20u);
+  EXPECT_EQ(mesh.cell_groups.at("BARRE"), mesh.cell_groups.at("VOLU"));  // one family names both
+  EXPECT_EQ(mesh.cell_groups.at("PLANSYMX").size(), 20u);
+  EXPECT_EQ(mesh.node_groups.at("P1").size(), 1u);
+  EXPECT_TRUE(std::includes(mesh.node_groups.at("PLANSYMX").begin(), mesh.node_groups.at("PLANSYMX").end(),
+                            mesh.node_groups.at("P1").begin(), mesh.node_groups.at("P1").end()));
+  constexpr std::array<std::array<std::size_t, 2>, 12> edges{
+      {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+  for (std::size_t c = 0; c < 20; ++c) {
+    const auto x = [&](std::size_t i) {
+      return mesh.coordinates[static_cast<std::size_t>(hexas.connectivity[20 * c + i])];
+    };
+    EXPECT_NEAR(test::hexa_volume(mesh, hexas, c), 1e-6, 1e-6 * 2e-6);  // 0.01 x 0.01 x 0.01, single precision
+    for (std::size_t e = 0; e < 12; ++e)
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(x(8 + e)[k], (x(edges[e][0])[k] + x(edges[e][1])[k]) / 2, 2e-8);  // single precision of 0.2
+  }
+}
+
+TEST(MeshMed, BothFilesOfTheRepositoryAreReadWhateverTheyAreCalled) {
+  const std::string bytes = test::bytes_of(kMeshes + "sdnv100a.med");
+  EXPECT_EQ(read_mesh(bytes, "misnamed.msh").node_count(), 102u);
+}
+
+constexpr IsolationLimits kLimits{.memory_bytes = 1 << 28, .output_bytes = 1000, .cpu_seconds = 1};
+
+TEST(IsolatedProcess, HandsBackWhatTheWorkWrites) {
+  const IsolatedResult result = run_isolated(kLimits, [](int fd) { write_all(fd, "carom", 5); });
+  EXPECT_EQ(result.output, "carom");
+  EXPECT_EQ(result.failure, "");
+}
+
+TEST(IsolatedProcess, SurvivesCrashesExceptionsEndlessLoopsAndFloods) {
+  EXPECT_EQ(run_isolated(kLimits, [](int) { std::raise(SIGSEGV); }).failure,
+            "it was stopped by the signal 'Segmentation fault'");
+  EXPECT_EQ(run_isolated(kLimits, [](int) { throw 1; }).failure, "it ended early");
+  EXPECT_EQ(run_isolated(kLimits,
+                         [](int) {
+                           std::atomic<int> turns = 0;
+                           for (;;) ++turns;
+                         })
+                .failure,
+            "it did not end within 1 s");
+  EXPECT_EQ(run_isolated(kLimits,
+                         [](int fd) {
+                           for (;;) write_all(fd, "flood", 5);
+                         })
+                .failure,
+            "it holds more data than its size allows");
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,150 @@
+// Numbering for locality: what it must keep and what it must reach.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <random>
+
+#include "mesh/finish_mesh.hpp"
+#include "mesh/renumber.hpp"
+#include "mesh/structured_block.hpp"
+#include "mesh_fixture.hpp"
+
+namespace carom {
+namespace {
+
+/// The same mesh with node and cell indices permuted at random.
+Mesh shuffled(const Mesh& mesh, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<Index> place(mesh.node_count());
+  std::iota(place.begin(), place.end(), 0);
+  std::shuffle(place.begin(), place.end(), random);
+  Mesh result = mesh;
+  for (std::size_t i = 0; i < mesh.node_count(); ++i) {
+    result.coordinates[static_cast<std::size_t>(place[i])] = mesh.coordinates[i];
+    result.node_numbers[static_cast<std::size_t>(place[i])] = mesh.node_numbers[i];
+  }
+  for (auto& [name, nodes] : result.node_groups)
+    for (Index& n : nodes) n = place[static_cast<std::size_t>(n)];
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const CellBlock& from = mesh.blocks[b];
+    CellBlock& to = result.blocks[b];
+    const auto n = static_cast<std::size_t>(node_count(from.type));
+    std::vector<Index> cell_place(from.size());
+    std::iota(cell_place.begin(), cell_place.end(), 0);
+    std::shuffle(cell_place.begin(), cell_place.end(), random);
+    for (std::size_t c = 0; c < from.size(); ++c) {
+      const auto at = static_cast<std::size_t>(cell_place[c]);
+      to.file_numbers[at] = from.file_numbers[c];
+      for (std::size_t i = 0; i < n; ++i)
+        to.connectivity[at * n + i] = place[static_cast<std::size_t>(from.connectivity[c * n + i])];
+    }
+    for (auto& [name, cells] : result.cell_groups)
+      for (CellRef& ref : cells)
+        if (static_cast<std::size_t>(ref.block) == b) ref.cell = cell_place[static_cast<std::size_t>(ref.cell)];
+  }
+  return result;
+}
+
+/// Mean over the HEXA8 of the largest minus the smallest node: what a cell spans in memory.
+double mean_span(const Mesh& mesh) {
+  const CellBlock& hexas = *mesh.block(CellType::hexa8);
+  double sum = 0;
+  for (std::size_t c = 0; c < hexas.size(); ++c) {
+    const auto first = hexas.connectivity.begin() + static_cast<std::ptrdiff_t>(8 * c);
+    const auto [low, high] = std::minmax_element(first, first + 8);
+    sum += *high - *low;
+  }
+  return sum / static_cast<double>(hexas.size());
+}
+
+/// Mean distance of the smallest nodes of consecutive cells.
+double mean_stride(const Mesh& mesh) {
+  const CellBlock& hexas = *mesh.block(CellType::hexa8);
+  double sum = 0;
+  for (std::size_t c = 0; c + 1 < hexas.size(); ++c)
+    sum += std::abs(hexas.connectivity[8 * c] - hexas.connectivity[8 * (c + 1)]);
+  return sum / static_cast<double>(hexas.size());
+}
+
+/// The most chunks (of `size` consecutive cells) that any chunk shares nodes with on one side.
+Index reach_of_chunks(const Mesh& mesh, std::size_t size) {
+  const CellBlock& hexas = *mesh.block(CellType::hexa8);
+  std::vector<Index> first(mesh.node_count(), -1);
+  Index reach = 0;
+  for (std::size_t c = 0; c < hexas.size(); ++c)
+    for (std::size_t i = 0; i < 8; ++i) {
+      Index& seen = first[static_cast<std::size_t>(hexas.connectivity[8 * c + i])];
+      const auto chunk = static_cast<Index>(c / size);
+      if (seen < 0) seen = chunk;
+      reach = std::max(reach, chunk - seen);
+    }
+  return reach;
+}
+
+Mesh block_mesh(std::array<int, 3> divisions, Vec3 size) {
+  StructuredBlock block;
+  block.size = size;
+  block.divisions = divisions;
+  return make_structured_blocks({block});
+}
+
+TEST(MeshRenumber, KeepsFileNumbersGroupsAndCells) {
+  const Mesh mesh = test::sample_block();
+  for (unsigned seed = 1; seed <= 5; ++seed)
+    EXPECT_EQ(test::by_file_numbers(renumbered(shuffled(mesh, seed))), test::by_file_numbers(mesh)) << "seed " << seed;
+}
+
+TEST(MeshRenumber, LeavesANaturallyNumberedCubeAsItIs) {
+  const Mesh mesh = block_mesh({6, 6, 6}, {1, 1, 1});
+  for (std::size_t i = 0; i < mesh.node_count(); ++i) EXPECT_EQ(mesh.node_numbers[i], static_cast<std::int64_t>(i) + 1);
+  for (std::size_t c = 0; c < 216; ++c) EXPECT_EQ(mesh.blocks[0].file_numbers[c], static_cast<std::int64_t>(c) + 1);
+}
+
+TEST(MeshRenumber, AShuffledCubeOf64ComesOutAsLocalAsANaturalOne) {
+  const Mesh natural = block_mesh({64, 64, 64}, {1, 1, 1});
+  EXPECT_EQ(mean_span(natural), 65 * 65 + 65 + 1);  // node (i+1, j+1, k+1) minus node (i, j, k)
+  const Mesh random = shuffled(natural, 7);
+  EXPECT_GT(mean_span(random), 20 * mean_span(natural)) << "the shuffle must spoil the numbering to test anything";
+  const Mesh again = renumbered(random);
+  EXPECT_EQ(again.blocks[0].connectivity, natural.blocks[0].connectivity);
+  EXPECT_LE(mean_stride(again), 1.1 * mean_stride(natural));
+}
+
+TEST(MeshRenumber, LevelsRunAlongTheLongestSide) {
+  const Mesh bar = renumbered(shuffled(block_mesh({80, 4, 4}, {20, 1, 1}), 3));
+  EXPECT_LE(mean_span(bar), 5 * 5 + 5 + 1);
+}
+
+TEST(MeshRenumber, ChunksOfALayerShareNodesWithTheirNeighboursOnly) {
+  const Mesh mesh = renumbered(shuffled(block_mesh({12, 12, 40}, {1, 1, 4}), 11));
+  EXPECT_EQ(reach_of_chunks(mesh, 12 * 12), 1);
+}
+
+TEST(MeshRenumber, AnIrregularMeshStaysLocal) {
+  Mesh mesh = block_mesh({16, 16, 32}, {1, 1, 2});
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> shift(-0.2 / 16, 0.2 / 16);  // a fifth of a cell: no plane of nodes is left
+  for (Vec3& x : mesh.coordinates)
+    for (double& component : x) component += shift(random);
+  const double natural = mean_span(mesh);
+  // Without planes the first level is a single node and fronts are shells; three layers' worth is what they span.
+  EXPECT_LE(mean_span(renumbered(shuffled(mesh, 13))), 3 * natural);
+}
+
+TEST(MeshRenumber, SeparateBodiesAndLooseNodesAreAllNumbered) {
+  StructuredBlock a, b;
+  a.size = b.size = {1, 1, 1};
+  a.divisions = b.divisions = {3, 3, 3};
+  b.origin = {5, 0, 0};
+  Mesh mesh = make_structured_blocks({a, b});
+  mesh.coordinates.push_back({9, 9, 9});
+  mesh.node_numbers.push_back(1000);
+  const Mesh again = renumbered(shuffled(mesh, 17));
+  EXPECT_EQ(test::by_file_numbers(again), test::by_file_numbers(mesh));
+  EXPECT_EQ(mean_span(again), 4 * 4 + 4 + 1);
+}
+
+}  // namespace
+}  // namespace carom
