@@ -14,7 +14,7 @@ PAGE = """<!DOCTYPE html>
 <title>SDNV100 by Carom</title>
 <style>
 :root {{ color-scheme: light dark; }}
-body {{ margin: 0 auto; max-width: 76rem; padding: 1.5rem; font: 1rem/1.5 system-ui, sans-serif; }}
+body {{ margin: 0 auto; max-width: 86rem; padding: 1.5rem; font: 1rem/1.5 system-ui, sans-serif; }}
 pre {{ overflow-x: auto; font-size: .85rem; line-height: 1.35; }}
 iframe {{ width: 100%; height: 60rem; border: 1px solid #8886; border-radius: .5rem; }}
 </style></head><body>
