@@ -1,5 +1,6 @@
 #include "contact/penalty.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -31,12 +32,14 @@ Penalty::RowForce Penalty::row_force(std::size_t r, std::span<const double> x_be
   RowForce out;
   const Vec3 w = rows_.relative(r, x);
   const double gap = rows_.gap[r] + w[0];
-  if (gap >= 0.0) return out;
-  out.penetration = -gap;
-  out.pressure = row.eps_N * out.penetration;
-  if (row.damping > 0.0) out.pressure -= row.damping * rows_.relative(r, v)[0];
-  out.damper_acts = out.pressure > 0.0;
-  if (!out.damper_acts) out.pressure = 0.0;
+  const bool damped = row.damping > 0.0 && rows_.gap[r] + rows_.relative(r, x_begin)[0] < 0.0;
+  out.penetration = std::max(0.0, -gap);
+  const double pressure =
+      damped ? -row.eps_N * gap - row.damping * rows_.relative(r, v)[0] : row.eps_N * out.penetration;
+  out.normal_slope_acts = pressure > 0.0;
+  out.damping = damped ? row.damping : 0.0;
+  out.pressure = std::max(0.0, pressure);
+  if (gap >= 0.0 && out.pressure == 0.0) return out;
   out.status = RowStatus::stick;
   const double limit = rows_.mu[r] * out.pressure;
   if (row.eps_T == 0.0) return out;
@@ -91,7 +94,7 @@ RowTangent Penalty::tangent(std::size_t r, std::span<const double> x_begin, std:
   const RowForce out = row_force(r, x_begin, x, v, history[r]);
   RowTangent D{};
   if (out.status == RowStatus::open) return D;
-  if (out.damper_acts) D[0] = row.eps_N + row.damping * dv_dx;
+  if (out.normal_slope_acts) D[0] = row.eps_N + out.damping * dv_dx;
   if (out.status == RowStatus::stick) {
     D[4] = D[8] = row.eps_T;
     return D;

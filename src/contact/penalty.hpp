@@ -36,7 +36,8 @@ struct PenaltyResponse {
 using RowTangent = std::array<double, 9>;
 
 /// The penalty port of contact (Wriggers, Computational Contact Mechanics, 2nd ed., sections 5.2 and 10.5):
-///   p = max(0, eps_N <-g> - c dg/dt) while g < 0, else 0;
+///   p = eps_N <-g>, and with a damper p = max(0, -eps_N g - c dg/dt) in the steps that begin with the row closed: a
+///   damper that acted at first touch would make the force jump within an implicit step, which then has no solution;
 ///   trial t = eps_T (s_e + w_T(x) - w_T(x_begin)), returned to |t| <= mu p; open rows forget their slip.
 class Penalty {
  public:

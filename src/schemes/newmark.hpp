@@ -46,7 +46,7 @@ class Newmark final : public Scheme {
   std::unique_ptr<EffectiveSolver> solver_;
   MassSolver mass_solver_;
   Forces now_, next_;
-  std::vector<double> u_predicted_, v_predicted_, residual_, correction_;
+  std::vector<double> u_predicted_, v_predicted_, residual_, correction_, stiffness_diagonal_;
   std::vector<RowTangent> tangents_;
 };
 
