@@ -12,10 +12,11 @@ namespace carom {
 /// Everything about one row at one configuration, from which force, energies and tangent are read.
 struct Penalty::RowForce {
   RowStatus status = RowStatus::open;
-  double penetration = 0.0;       ///< <-g>
-  bool damper_acts = false;       ///< the damped force is compressive, so that the damper has its slope
-  double pressure = 0.0;          ///< normal force
-  std::array<double, 2> trial{};  ///< trial tangential force (on the obstacle's side: eps_T x slip)
+  double penetration = 0.0;        ///< <-g>
+  bool normal_slope_acts = false;  ///< the normal force is compressive, so that it has a slope
+  double damping = 0.0;            ///< slope of the normal force in the velocity
+  double pressure = 0.0;           ///< normal force
+  std::array<double, 2> trial{};   ///< trial tangential force (on the obstacle's side: eps_T x slip)
   double trial_norm = 0.0;
   std::array<double, 2> elastic_slip{};
   double slip_work = 0.0;
