@@ -2,7 +2,6 @@
 (function () {
   "use strict";
   const data = JSON.parse(document.getElementById("charts").textContent);
-  const printing = window.matchMedia("print");
   const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const superscript = (n) => String(n).replace(/[-0-9]/g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);
 
@@ -138,15 +137,18 @@
     syncing = true;
     for (const d of drawn) {
       d.graph.updateOptions(theme(d.chart));
-      d.graph.resize();
       paint(d);
     }
     syncing = false;
   }
 
   for (const element of document.querySelectorAll("[data-chart]")) draw(element);
-  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
-  printing.addEventListener("change", repaint);
-  window.addEventListener("beforeprint", repaint);
-  window.addEventListener("afterprint", repaint);
+  const dark = window.matchMedia("(prefers-color-scheme: dark)");
+  // A canvas cannot be drawn again while the page is printed: the style turns dark ones light (page.css).
+  const mark = () => document.documentElement.classList.toggle("drawn-dark", dark.matches);
+  dark.addEventListener("change", () => {
+    repaint();
+    mark();
+  });
+  mark();
 })();
