@@ -172,8 +172,10 @@ std::string check_summary(const Simulation& s) {
   text += fmt::format(
       "  scheme    {}\n  step      {:.6g} {}, {} steps to t = {:.6g}; Courant number {:.3g} (fastest wave {:.5g})\n",
       s.scheme_name(), s.dt(), unit(Dimension::time), s.steps(), *s.given().time.end, c * s.dt() / h, c);
-  text += fmt::format("  stable    explicit step {:.4g} with contact, {:.4g} without; element estimate {:.4g}\n",
-                      s.stable().dt, s.stable().dt_free, estimate);
+  const StableStep stable = s.stable();
+  text += fmt::format(
+      "  stable    explicit step {:.4g} with contact, {:.4g} without; element estimate (lumped mass) {:.4g}\n",
+      stable.dt, stable.dt_free, estimate);
   // 1 million cell-steps per second and core explicit, ten times that work per implicit step: orders of magnitude only.
   const bool implicit_scheme = s.given().scheme.kind == CaseScheme::Kind::newmark;
   const double work =

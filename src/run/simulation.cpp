@@ -62,7 +62,6 @@ Simulation::Simulation(const Case& given)
       system_{*mesh_, solid_, mass_, contact_, supports_} {
   refuse_massless_contact();
   refuse_initial_penetration();
-  stable_ = stable_step(system_);
   choose_step();
 }
 
@@ -113,14 +112,14 @@ void Simulation::refuse_initial_penetration() const {
 
 void Simulation::choose_step() {
   const double end = *case_.time.end;
-  const bool explicit_scheme = !is_newmark(case_);
-  double wanted = explicit_scheme ? case_.time.safety * stable_.dt : 0.0;
-  if (case_.time.step) {
-    wanted = **case_.time.step;
-    if (explicit_scheme && wanted > stable_.dt) {
+  double wanted = is_newmark(case_) ? **case_.time.step : 0.0;
+  if (!is_newmark(case_)) {
+    const StableStep stable = stable_step(system_);
+    wanted = case_.time.step ? **case_.time.step : case_.time.safety * stable.dt;
+    if (wanted > stable.dt) {
       throw CaseError(
           case_.time.step->where, "time.step", fmt::format("{:.6g}", wanted),
-          fmt::format("at most the stable step {:.6g} (contact included; {:.6g} without)", stable_.dt, stable_.dt_free),
+          fmt::format("at most the stable step {:.6g} (contact included; {:.6g} without)", stable.dt, stable.dt_free),
           "Lower the step, or leave it out to have it chosen.");
     }
   }
@@ -163,7 +162,8 @@ std::unique_ptr<Scheme> Simulation::make_scheme() const {
   parameters.gamma = case_.scheme.gamma;
   parameters.max_iterations = case_.solver.max_contact_iterations;
   parameters.solver = kinds[static_cast<int>(case_.solver.kind)];
-  return std::make_unique<Newmark>(system_, parameters, dt_, stable_.omega_max_squared_free);
+  const std::vector<double> bounds = solid_.cell_frequency_bounds();
+  return std::make_unique<Newmark>(system_, parameters, dt_, *std::max_element(bounds.begin(), bounds.end()));
 }
 
 std::string Simulation::scheme_name() const {

@@ -24,7 +24,7 @@ struct NewmarkParameters {
 /// so that the kinematic relations, and with them the energy identity of newmark_books, hold on every dof.
 class Newmark final : public Scheme {
  public:
-  /// omega_max_squared: upper end of the spectrum of M^-1 K, for the choice of the solver; dt: the usual step.
+  /// omega_max_squared: a bound of the spectrum of M^-1 K, for the choice of the solver; dt: the usual step.
   Newmark(const System& system, const NewmarkParameters& parameters, double dt, double omega_max_squared);
 
   void start(State& state, double dt) override;
