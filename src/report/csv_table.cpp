@@ -52,7 +52,7 @@ std::optional<CsvTable> read_csv(const std::string& path) {
   for (std::size_t number = 1; std::getline(stream, line); ++number) {
     const bool cut = stream.eof();  // the last line has no end
     if (line.starts_with("#")) {
-      const std::size_t text = line.find_first_not_of(" ", 1);
+      const std::size_t text = line.find_first_not_of(' ', 1);
       table.comments.push_back(text == std::string::npos ? "" : line.substr(text));
       if (auto units = parse_units_comment(table.comments.back())) table.units = units;
     } else if (table.columns.empty()) {
