@@ -1,6 +1,7 @@
 // The one door to threads and to reductions. Results do not depend on the number of threads.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -25,6 +26,10 @@ void parallel_for(std::size_t n, std::size_t grain, const Body& body) {
 /// Sum of term(i) over [0, n), by blocks of fixed size added in a fixed order: the same bits for any thread count.
 template <class Term>
 double parallel_sum(std::size_t n, const Term& term);
+
+/// N sums in one pass: add(i, sums) adds the terms of entry i. Same order of summation as parallel_sum.
+template <std::size_t N, class Add>
+std::array<double, N> parallel_sums(std::size_t n, const Add& add);
 
 /// Largest term(i) over [0, n), or `lowest` when n == 0.
 template <class Term>

@@ -25,6 +25,24 @@ double parallel_sum(std::size_t n, const Term& term) {
   return s;
 }
 
+template <std::size_t N, class Add>
+std::array<double, N> parallel_sums(std::size_t n, const Add& add) {
+  const auto sum_range = [&add](std::size_t begin, std::size_t end) {
+    std::array<double, N> s{};
+    for (std::size_t i = begin; i < end; ++i) add(i, s);
+    return s;
+  };
+  if (n <= reduction_block) return sum_range(0, n);
+  std::vector<std::array<double, N>> partial((n + reduction_block - 1) / reduction_block);
+  parallel_for(n, reduction_block,
+               [&](std::size_t b, std::size_t e) { partial[b / reduction_block] = sum_range(b, e); });
+  std::array<double, N> s{};
+  for (const auto& p : partial) {
+    for (std::size_t k = 0; k < N; ++k) s[k] += p[k];
+  }
+  return s;
+}
+
 template <class Term>
 double parallel_max(std::size_t n, double lowest, const Term& term) {
   std::vector<double> partial((n + reduction_block - 1) / reduction_block, lowest);

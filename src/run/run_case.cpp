@@ -123,8 +123,7 @@ void Run::start() {
   } catch (const std::runtime_error& e) {
     throw RunError(0, 0.0, e.what());
   }
-  ledger_.emplace(stored_energies(s_.system(), state_, scheme_->forces()), momentum_of(s_.system(), scheme_->forces()),
-                  reach(s_.mesh()));
+  ledger_.emplace(scheme_->forces().stored, scheme_->forces().total_momentum, reach(s_.mesh()));
   monitor_.emplace(*ledger_);
   record(Recorder::Moment::during, 0.0, 0);
 }
@@ -155,7 +154,7 @@ bool Run::advance() {
   ++step_;
   dt_smallest_ = step_ == 1 ? dt : std::min(dt_smallest_, dt);
   dt_largest_ = std::max(dt_largest_, dt);
-  ledger_->add(report.books, momentum_of(s_.system(), scheme_->forces()));
+  ledger_->add(report.books, scheme_->forces().total_momentum);
   monitor_->update();
   const std::string alarm = monitor_->alarm();
   const bool last = control_.at_end() || !alarm.empty();

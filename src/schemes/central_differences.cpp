@@ -73,7 +73,7 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
   }
   for (std::size_t i = 0; i < n; ++i) end.v[i] = v_half_[i] + 0.5 * h * end.a[i];
   end.contact = next_.rows.history;
-  complete_forces(system_, end.a, end.v, next_);
+  complete_forces(system_, end, next_);
   report.books = newmark_books(system_, begin, now_, end, next_, 0.0, 0.5, h);
   report.converged = true;
   std::swap(now_, next_);

@@ -33,7 +33,7 @@ void start_accelerations(const System& system, MassSolver& solver, State& state,
   std::vector<double> rhs(state.a.size());
   force_sum(forces, rhs);
   if (solver.solve(rhs, state.a) < 0) throw std::runtime_error("the initial accelerations cannot be solved for");
-  complete_forces(system, state.a, state.v, forces);
+  complete_forces(system, state, forces);
 }
 
 }  // namespace carom

@@ -89,10 +89,11 @@ Newmark::Residual Newmark::residual(const State& begin, const StepRequest& reque
   out.work = parallel_sum(residual_.size(), [&](std::size_t i) { return std::abs(residual_[i]) * du(i); });
   // A displacement is known to a relative 1e-16 only, which the stiffness of a node turns into a force.
   constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
-  out.round_off = precision * parallel_sum(residual_.size(), [&](std::size_t i) {
-    return du(i) * (std::abs(next_.external[i]) + std::abs(next_.internal[i]) + std::abs(next_.contact[i]) +
-                    std::abs(next_.inertia[i]) + stiffness_diagonal_[i] * std::abs(end.q[i]));
-  });
+  out.round_off =
+      precision * parallel_sum(residual_.size(), [&](std::size_t i) {
+        return du(i) * (std::abs(next_.external[i]) + std::abs(next_.internal[i]) + std::abs(next_.contact[i]) +
+                        std::abs(next_.inertia[i]) + stiffness_diagonal_[i] * std::abs(end.q[i]));
+      });
   out.displacement = std::sqrt(parallel_sum(residual_.size(), [&](std::size_t i) { return du(i) * du(i); }));
   return out;
 }
@@ -143,7 +144,7 @@ StepReport Newmark::step(const State& begin, const StepRequest& request, State& 
     for (std::size_t i = 0; i < end.a.size(); ++i) end.a[i] += correction_[i];
   }
   end.contact = next_.rows.history;
-  complete_forces(system_, end.a, end.v, next_);
+  complete_forces(system_, end, next_);
   report.books = newmark_books(system_, begin, now_, end, next_, parameters_.beta, parameters_.gamma, h);
   report.converged = true;
   std::swap(now_, next_);

@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
 namespace carom {
@@ -20,48 +19,18 @@ void evaluate_forces(const System& system, double t, std::span<const double> u_b
   system.contact.add_force(forces.rows, forces.contact);
 }
 
-void complete_forces(const System& system, std::span<const double> a, std::span<const double> v, Forces& forces) {
-  const std::size_t n = system.solid.dof_count();
-  forces.inertia.resize(n);
-  forces.momentum.resize(n);
-  forces.reaction.assign(n, 0.0);
-  system.mass.apply(a, forces.inertia);
-  system.mass.apply(v, forces.momentum);
-  for (const PrescribedDof& p : system.supports.prescribed()) {
-    const auto i = static_cast<std::size_t>(p.dof);
-    forces.reaction[i] = forces.inertia[i] + forces.internal[i] - forces.external[i] - forces.contact[i];
-  }
-}
-
-EnergyTerms stored_energies(const System& system, const State& state, const Forces& forces) {
-  EnergyTerms terms;
-  terms.kinetic = 0.5 * dot(state.v, forces.momentum);
-  terms.strain = system.solid.is_linear() ? 0.5 * dot(state.q, forces.internal) : system.solid.strain_energy(state.q);
-  terms.contact_stored = forces.rows.stored;
-  return terms;
-}
-
 namespace {
 
-/// Sum over the nodes of a nodal vector and of its moment about the origin, by components in a fixed order.
-template <class NodalVector>
-Momentum sum_with_moment(const Mesh& mesh, const NodalVector& at) {
-  Momentum sum;
-  for (std::size_t c = 0; c < 3; ++c) {
-    sum.linear[c] = parallel_sum(mesh.node_count(), [&](std::size_t n) { return at(n)[c]; });
-    sum.angular[c] = parallel_sum(mesh.node_count(), [&](std::size_t n) {
-      const std::size_t d = (c + 1) % 3, e = (c + 2) % 3;
-      const Vec3 p = at(n);
-      return mesh.coordinates[n][d] * p[e] - mesh.coordinates[n][e] * p[d];
-    });
-  }
-  return sum;
+/// Adds component c of a nodal force or momentum at dof 3 n + c, and its moment about the origin, to six sums.
+void add_with_moment(const Vec3& x, std::size_t c, double p, double* sums) {
+  const std::size_t d = (c + 1) % 3, e = (c + 2) % 3;
+  sums[c] += p;
+  sums[3 + d] += x[e] * p;  // (x cross p)_d = x_e p_c - x_c p_e
+  sums[3 + e] -= x[d] * p;
 }
 
-/// Work of the mean of a force at both ends over the displacement of the step.
-double mean_work(std::span<const double> f_begin, std::span<const double> f_end, const State& begin, const State& end) {
-  return parallel_sum(f_begin.size(),
-                      [&](std::size_t i) { return 0.5 * (f_begin[i] + f_end[i]) * (end.q[i] - begin.q[i]); });
+Momentum momentum_from(const double* sums) {
+  return {{sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5]}};
 }
 
 double damping_work(const Penalty& contact, const State& begin, const Forces& forces_begin, const State& end,
@@ -75,60 +44,66 @@ double damping_work(const Penalty& contact, const State& begin, const Forces& fo
   return work;
 }
 
-double algorithmic_energy(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
-                          double beta, double gamma, double h) {
-  const double kappa = h * h * (beta - 0.5 * gamma);
-  const double half_aMa_change = 0.5 * (dot(end.a, forces_end.inertia) - dot(begin.a, forces_begin.inertia));
-  if (gamma == 0.5) return kappa * half_aMa_change;
-  const double defect = parallel_sum(end.q.size(), [&](std::size_t i) {
-    const double dMa = forces_end.inertia[i] - forces_begin.inertia[i];
-    return (end.q[i] - begin.q[i] - kappa * (end.a[i] - begin.a[i])) * dMa;
-  });
-  return kappa * half_aMa_change - (gamma - 0.5) * defect;
-}
-
-Momentum impulse_of(const Mesh& mesh, const Forces& f0, const Forces& f1, double gamma, double h) {
-  return sum_with_moment(mesh, [&](std::size_t n) {
-    Vec3 p;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t i = 3 * n + c;
-      p[c] = h * ((1.0 - gamma) * (f0.external[i] + f0.contact[i] + f0.reaction[i]) +
-                  gamma * (f1.external[i] + f1.contact[i] + f1.reaction[i]));
-    }
-    return p;
-  });
-}
-
 }  // namespace
 
-Momentum momentum_of(const System& system, const Forces& forces) {
-  return sum_with_moment(system.mesh, [&](std::size_t n) {
-    return Vec3{forces.momentum[3 * n], forces.momentum[3 * n + 1], forces.momentum[3 * n + 2]};
+void complete_forces(const System& system, const State& state, Forces& forces) {
+  const std::size_t n = system.solid.dof_count();
+  forces.inertia.resize(n);
+  forces.momentum.resize(n);
+  forces.reaction.assign(n, 0.0);
+  system.mass.apply(state.a, forces.inertia);
+  system.mass.apply(state.v, forces.momentum);
+  for (const PrescribedDof& p : system.supports.prescribed()) {
+    const auto i = static_cast<std::size_t>(p.dof);
+    forces.reaction[i] = forces.inertia[i] + forces.internal[i] - forces.external[i] - forces.contact[i];
+  }
+  // v.Mv, u.F, a.Ma, momentum and its moment
+  const auto sums = parallel_sums<9>(n, [&](std::size_t i, std::array<double, 9>& s) {
+    s[0] += state.v[i] * forces.momentum[i];
+    s[1] += state.q[i] * forces.internal[i];
+    s[2] += state.a[i] * forces.inertia[i];
+    add_with_moment(system.mesh.coordinates[i / 3], i % 3, forces.momentum[i], s.data() + 3);
   });
+  forces.stored.kinetic = 0.5 * sums[0];
+  forces.stored.strain = system.solid.is_linear() ? 0.5 * sums[1] : system.solid.strain_energy(state.q);
+  forces.stored.contact_stored = forces.rows.stored;
+  forces.inertia_power = sums[2];
+  forces.total_momentum = momentum_from(sums.data() + 3);
 }
 
-LedgerIncrement newmark_books(const System& system, const State& begin, const Forces& forces_begin, const State& end,
-                              const Forces& forces_end, double beta, double gamma, double h) {
-  const EnergyTerms e0 = stored_energies(system, begin, forces_begin), e1 = stored_energies(system, end, forces_end);
-  const double internal_work = mean_work(forces_begin.internal, forces_end.internal, begin, end);
-  const double contact_work = mean_work(forces_begin.contact, forces_end.contact, begin, end);
+LedgerIncrement newmark_books(const System& system, const State& begin, const Forces& f0, const State& end,
+                              const Forces& f1, double beta, double gamma, double h) {
+  const double kappa = h * h * (beta - 0.5 * gamma);
+  // Works of internal, contact, external and support forces, the defect of the inertia, impulses and their moments.
+  const auto sums = parallel_sums<11>(end.q.size(), [&](std::size_t i, std::array<double, 11>& s) {
+    const double du = end.q[i] - begin.q[i];
+    s[0] += 0.5 * (f0.internal[i] + f1.internal[i]) * du;
+    s[1] += 0.5 * (f0.contact[i] + f1.contact[i]) * du;
+    s[2] += 0.5 * (f0.external[i] + f1.external[i]) * du;
+    s[3] += 0.5 * (f0.reaction[i] + f1.reaction[i]) * du;
+    s[4] += (du - kappa * (end.a[i] - begin.a[i])) * (f1.inertia[i] - f0.inertia[i]);
+    const double impulse = h * ((1.0 - gamma) * (f0.external[i] + f0.contact[i] + f0.reaction[i]) +
+                                gamma * (f1.external[i] + f1.contact[i] + f1.reaction[i]));
+    add_with_moment(system.mesh.coordinates[i / 3], i % 3, impulse, s.data() + 5);
+  });
+  const double internal_work = sums[0], contact_work = sums[1];
   LedgerIncrement step;
   EnergyTerms& energy = step.energy;
-  energy.kinetic = e1.kinetic - e0.kinetic;
-  energy.strain = e1.strain - e0.strain;
-  energy.contact_stored = e1.contact_stored - e0.contact_stored;
-  energy.friction = forces_end.rows.slip_work;
-  energy.damping = damping_work(system.contact, begin, forces_begin, end, forces_end);
-  energy.external_work = mean_work(forces_begin.external, forces_end.external, begin, end);
-  energy.support_work = mean_work(forces_begin.reaction, forces_end.reaction, begin, end);
-  energy.algorithmic = algorithmic_energy(begin, forces_begin, end, forces_end, beta, gamma, h);
+  energy.kinetic = f1.stored.kinetic - f0.stored.kinetic;
+  energy.strain = f1.stored.strain - f0.stored.strain;
+  energy.contact_stored = f1.stored.contact_stored - f0.stored.contact_stored;
+  energy.friction = f1.rows.slip_work;
+  energy.damping = damping_work(system.contact, begin, f0, end, f1);
+  energy.external_work = sums[2];
+  energy.support_work = sums[3];
+  energy.algorithmic = 0.5 * kappa * (f1.inertia_power - f0.inertia_power) - (gamma - 0.5) * sums[4];
   energy.quadrature =
       internal_work - energy.strain - contact_work - energy.contact_stored - energy.friction - energy.damping;
   step.aster.ENER_CIN = energy.kinetic;
   step.aster.ENER_TOT = internal_work;
   step.aster.TRAV_EXT = energy.external_work + energy.support_work;
   step.aster.TRAV_LIAI = -contact_work;
-  step.impulse = impulse_of(system.mesh, forces_begin, forces_end, gamma, h);
+  step.impulse = momentum_from(sums.data() + 5);
   return step;
 }
 

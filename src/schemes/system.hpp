@@ -28,6 +28,9 @@ struct Forces {
   std::vector<double> inertia;   ///< M a
   std::vector<double> momentum;  ///< M v
   PenaltyResponse rows;
+  EnergyTerms stored;          ///< kinetic, strain, contact_stored of the state
+  Momentum total_momentum;     ///< of the state
+  double inertia_power = 0.0;  ///< a . M a
 };
 
 /// Fills internal, external and contact forces at time t, displacement u, velocity v; the contact history stands at
@@ -36,14 +39,9 @@ void evaluate_forces(const System& system, double t, std::span<const double> u_b
                      std::span<const RowHistory> history, std::span<const double> u, std::span<const double> v,
                      Forces& forces);
 
-/// Fills inertia, momentum and reaction from accelerations and velocities. evaluate_forces has been called before.
-void complete_forces(const System& system, std::span<const double> a, std::span<const double> v, Forces& forces);
-
-/// Stored energies of a state whose forces are known.
-EnergyTerms stored_energies(const System& system, const State& state, const Forces& forces);
-
-/// Momentum of a state whose forces are known; angular momentum about the origin on the reference positions.
-Momentum momentum_of(const System& system, const Forces& forces);
+/// Fills what the accelerations and velocities of the state add: inertia, momentum, reactions, stored energies and
+/// total momentum (angular momentum about the origin on the reference positions). evaluate_forces has been called.
+void complete_forces(const System& system, const State& state, Forces& forces);
 
 /// Books of one step of the Newmark family (central differences: beta = 0, gamma = 1/2). With x_bar the mean and dx the
 /// difference of both ends of the step, h the step, kappa = beta - gamma/2, the kinematics give
