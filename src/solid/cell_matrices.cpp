@@ -31,6 +31,25 @@ void add_node_pair(const NodeMatrix& B, const NodeMatrix& DB, std::size_t a, std
       for (std::size_t j = 0; j < 3; ++j) K[3 * a + i][3 * b + j] += B[c][i] * DB[c][j];
 }
 
+double largest_row_sum(const CellStiffness& A) {
+  double largest = 0.0;
+  for (const auto& row : A) {
+    double sum = 0.0;
+    for (const double entry : row) sum += std::abs(entry);
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
+/// A A of a symmetric A
+CellStiffness square(const CellStiffness& A) {
+  CellStiffness result{};
+  for (std::size_t r = 0; r < 24; ++r)
+    for (std::size_t k = 0; k < 24; ++k)
+      for (std::size_t s = 0; s < 24; ++s) result[r][s] += A[r][k] * A[k][s];
+  return result;
+}
+
 }  // namespace
 
 CellStiffness cell_stiffness(const std::array<Vec3, 8>& x, const VoigtMatrix& D) {
@@ -72,13 +91,15 @@ std::array<double, 8> lumped(const CellMass& mass) {
 }
 
 double frequency_bound(const CellStiffness& K, const std::array<double, 8>& m) {
-  double bound = 0.0;
-  for (std::size_t r = 0; r < 24; ++r) {
-    double row = 0.0;
-    for (std::size_t s = 0; s < 24; ++s) row += std::abs(K[r][s]) / std::sqrt(m[r / 3] * m[s / 3]);
-    bound = std::max(bound, row);
-  }
-  return bound;
+  CellStiffness A{};
+  for (std::size_t r = 0; r < 24; ++r)
+    for (std::size_t s = 0; s < 24; ++s) A[r][s] = K[r][s] / std::sqrt(m[r / 3] * m[s / 3]);
+  const double gershgorin = largest_row_sum(A);
+  if (!(gershgorin > 0.0)) return gershgorin;
+  for (auto& row : A)
+    for (double& entry : row) entry /= gershgorin;  // no power of it overflows
+  for (int i = 0; i < 3; ++i) A = square(A);
+  return gershgorin * std::pow(largest_row_sum(A), 1.0 / 8.0);
 }
 
 }  // namespace carom

@@ -24,8 +24,9 @@ CellMass cell_mass(const std::array<Vec3, 8>& x, double rho);
 /// Eng. Struct. Dyn. 4, 1976).
 std::array<double, 8> lumped(const CellMass& mass);
 
-/// Upper bound of the largest eigenvalue omega^2 of K_e with the lumped node masses m: the largest absolute row sum of
-/// M^-1/2 K_e M^-1/2 (Gershgorin).
+/// Upper bound of the largest eigenvalue omega^2 of K_e with the lumped node masses m: |A^8|^(1/8) with the largest
+/// absolute row sum as norm and A = M^-1/2 K_e M^-1/2. Any power bounds the spectral radius (Gelfand; the first is
+/// Gershgorin's bound); the eighth is at most 24^(1/16) = 1.22 times too large.
 double frequency_bound(const CellStiffness& K, const std::array<double, 8>& m);
 
 }  // namespace carom

@@ -55,8 +55,9 @@ class Solid {
 
   Mass mass(MassKind kind) const;
 
-  /// Upper bound of omega^2 per cell: max row sum of |M_e^-1 K_e| with the lumped mass of the cell (Gershgorin).
-  /// One entry per solid cell, in the order of cells().
+  /// Upper bound of omega^2 per cell: |A^8|^(1/8) of A = M_e^-1/2 K_e M_e^-1/2 with the lumped mass of the cell, in the
+  /// largest-row-sum norm (a power sharpens Gershgorin's bound). The largest over the cells bounds the omega^2 of the
+  /// whole body with lumped mass (Irons). One entry per solid cell, in the order of cells().
   std::vector<double> cell_frequency_bounds() const;
 
   /// f = external force at time t (nodal forces, pressures, gravity); overwrites f. Gravity uses the consistent mass.

@@ -1,0 +1,97 @@
+// The kernels of every lane count on batches laid out by hand, and the colouring of chunks.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "solid/blocks.hpp"
+#include "solid/colouring.hpp"
+#include "solid/hexa8_batch.hpp"
+#include "solid_fixture.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+struct Answer {
+  std::vector<double> force, stress;
+  double energy = 0.0;
+};
+
+Answer run(const KernelTable& kernel, const Model& model, const std::vector<double>& u) {
+  const SolidCells solid = make_solid_cells(model, kernel.lanes);
+  const Block& block = solid.blocks[0];
+  const CellBatches batches{model.mesh->coordinates[0].data(), block.offset.data(), block.cells};
+  const BatchLaw law{kernel.linear_elastic, &block.lame};
+  Answer answer{std::vector<double>(u.size(), 0.0), std::vector<double>(6 * static_cast<std::size_t>(block.cells)),
+                0.0};
+  kernel.add_internal_force(batches, law, u.data(), answer.force.data());
+  kernel.mean_stress(batches, law, u.data(), answer.stress.data());
+  answer.energy = kernel.strain_energy(batches, law, u.data());
+  return answer;
+}
+
+// Packs of 2, 4 and 8 lanes, lowered to whatever this test is compiled for, so that the 8-lane source is exercised on
+// processors without AVX-512 too. 27 cells leave 1, 3 and 3 lanes of the last batch in use.
+TEST(SolidKernels, EveryLaneCountEqualsTheReference) {
+  const Model model = one_part(block_mesh({3, 3, 3}, 0.2));
+  const auto u = random_vector(3 * model.mesh->node_count(), 1);
+  const Answer expected = run(kernels_reference(), model, u);
+  ASSERT_GT(largest(expected.force), 1.0);
+  for (const KernelTable& kernel : {make_kernels<Pack2>(), make_kernels<Pack4>(), make_kernels<Pack8>()}) {
+    const Answer answer = run(kernel, model, u);
+    // about 300 operations on numbers below 10: 300 x 10 x 2^-53 = 4e-13
+    EXPECT_LT(largest_difference(answer.force, expected.force), 1e-12) << kernel.lanes;
+    EXPECT_LT(largest_difference(answer.stress, expected.stress), 1e-12) << kernel.lanes;
+    EXPECT_NEAR(answer.energy, expected.energy, 1e-12 * expected.energy) << kernel.lanes;
+  }
+}
+
+TEST(SolidKernels, EveryBatchSizeIsFilledUpCorrectly) {
+  for (const int cells : {1, 2, 3, 4, 5, 7, 8, 9}) {
+    const Model model = one_part(block_mesh({cells, 1, 1}, 0.0));
+    const auto u = random_vector(3 * model.mesh->node_count(), 2);
+    EXPECT_LT(largest_difference(run(make_kernels<Pack8>(), model, u).force, run(kernels_reference(), model, u).force),
+              1e-12)
+        << cells;
+  }
+}
+
+std::set<Index> nodes_of(const Model& model, const SolidCells& solid, const Chunk& chunk) {
+  std::set<Index> nodes;
+  for (Index c = 0; c < chunk.cells; ++c) {
+    const Index first = solid.blocks[static_cast<std::size_t>(chunk.block)].first + chunk.first;
+    for (const Index n : cell_nodes(*model.mesh, solid.cells[static_cast<std::size_t>(first + c)])) nodes.insert(n);
+  }
+  return nodes;
+}
+
+TEST(SolidChunks, OfOneColourShareNoNodeAndCoverAllCells) {
+  Model model = one_part(block_mesh({8, 8, 80}, 0.0));  // two parts: 5120 cells, 10 chunks of 512
+  Part& body = model.parts[0];
+  model.parts.push_back(
+      {.name = "end", .cells = {body.cells.begin() + 3000, body.cells.end()}, .material = unit_material});
+  model.parts[0].cells.resize(3000);
+  const SolidCells solid = make_solid_cells(model, 4);
+  std::size_t cells = 0;
+  for (std::size_t k = 0; k + 1 < solid.colour_begin.size(); ++k) {
+    std::set<Index> seen;
+    for (std::size_t c = solid.colour_begin[k]; c < solid.colour_begin[k + 1]; ++c) {
+      for (const Index n : nodes_of(model, solid, solid.chunks[c])) EXPECT_TRUE(seen.insert(n).second);
+      cells += static_cast<std::size_t>(solid.chunks[c].cells);
+    }
+  }
+  EXPECT_EQ(cells, 5120U);
+  EXPECT_EQ(solid.colour_begin.size(), 3U) << "two colours suffice for a bar cut across";
+}
+
+TEST(SolidChunks, MoreNeighboursThanSharedColoursRunAlone) {
+  const std::vector<std::vector<Index>> all_touch_node_0(70, std::vector<Index>{0});
+  std::vector<int> colour = colour_chunks(1, all_touch_node_0);
+  std::sort(colour.begin(), colour.end());
+  for (int k = 0; k < 70; ++k) EXPECT_EQ(colour[static_cast<std::size_t>(k)], k);
+}
+
+}  // namespace
+}  // namespace carom

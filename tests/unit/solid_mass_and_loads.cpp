@@ -1,0 +1,206 @@
+// Masses, volumes and external forces of the HEXA8 solid.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <numeric>
+#include <string>
+
+#include "base/errors.hpp"
+#include "solid_fixture.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+constexpr double round_off = 1e-12;  // sums of some hundred terms below 10, 2^-53 each, with a margin of 10
+
+double volume_of(const std::array<int, 3>& divisions) {
+  return static_cast<double>(divisions[0] * divisions[1] * divisions[2]);
+}
+
+TEST(SolidMass, TotalIsDensityTimesVolumeOnADistortedMesh) {
+  const std::array<int, 3> divisions{3, 4, 3};
+  const Solid solid(one_part(block_mesh(divisions, 0.2)));
+  const double expected = unit_material.rho * volume_of(divisions);
+  EXPECT_NEAR(solid.mass(MassKind::consistent).total(), expected, expected * round_off);
+  EXPECT_NEAR(solid.mass(MassKind::lumped).total(), expected, expected * round_off);
+  const auto& volumes = solid.cell_volumes();
+  EXPECT_NEAR(std::accumulate(volumes.begin(), volumes.end(), 0.0), volume_of(divisions), expected * round_off);
+}
+
+// Unit cube: M_ab = rho / 216 x (8, 4, 2, 1) for nodes that share all, two, one or no coordinate (Zienkiewicz, Taylor
+// and Zhu, The Finite Element Method: products of the 1-D matrix (2 1; 1 2) / 6); lumped by symmetry rho / 8.
+TEST(SolidMass, OfTheUnitCube) {
+  const Model model = one_part(block_mesh({1, 1, 1}, 0.0));
+  const Solid solid(model);
+  const CsrMatrix M = solid.mass(MassKind::consistent).node_matrix();
+  ASSERT_EQ(M.column.size(), 64U);
+  for (std::size_t a = 0; a < 8; ++a)
+    for (std::size_t b = 0; b < 8; ++b) {
+      double expected = unit_material.rho;
+      for (std::size_t i = 0; i < 3; ++i)
+        expected *= model.mesh->coordinates[a][i] == model.mesh->coordinates[b][i] ? 2.0 / 6.0 : 1.0 / 6.0;
+      EXPECT_NEAR(M.value[8 * a + b], expected, round_off);
+    }
+  const Mass lumped = solid.mass(MassKind::lumped);
+  for (const double m : lumped.node_diagonal()) EXPECT_NEAR(m, unit_material.rho / 8, round_off);
+  EXPECT_NEAR(solid.cell_lengths()[0], 1.0, round_off);
+}
+
+// integral of rho v . v for a linear field v_z = x over the block [0,3]x[0,4]x[0,3]: rho 9 x 12 = 108 rho, exact for
+// the consistent mass on distorted cells because the trilinear map reproduces linear fields.
+TEST(SolidMass, ConsistentMassIntegratesLinearFieldsExactly) {
+  const Model model = one_part(block_mesh({3, 4, 3}, 0.2));
+  const Solid solid(model);
+  const auto v = affine(*model.mesh, {{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}}});
+  std::vector<double> Mv(v.size());
+  solid.mass(MassKind::consistent).apply(v, Mv);
+  EXPECT_NEAR(std::inner_product(v.begin(), v.end(), Mv.begin(), 0.0), 108.0 * unit_material.rho, 1000 * round_off);
+}
+
+TEST(SolidMass, NodesOutsideThePartsHaveNone) {
+  Model model = one_part(block_mesh({2, 1, 1}, 0.0));
+  model.parts[0].cells = {0};
+  const Solid solid(model);
+  const std::vector<double> nodes = solid.mass(MassKind::consistent).node_diagonal();
+  EXPECT_EQ(std::count(nodes.begin(), nodes.end(), 0.0), 4);
+  EXPECT_EQ(solid.cell_count(), 1U);
+}
+
+std::array<Vec3, 2> resultant_and_moment(const Mesh& mesh, const std::vector<double>& f) {
+  Vec3 force{}, moment{};
+  for (std::size_t n = 0; n < mesh.node_count(); ++n)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      force[i] += f[3 * n + i];
+      moment[i] += mesh.coordinates[n][j] * f[3 * n + k] - mesh.coordinates[n][k] * f[3 * n + j];
+    }
+  return {force, moment};
+}
+
+std::vector<std::array<Index, 4>> faces_of(const Mesh& mesh, const std::string& group) {
+  const CellBlock& quads = *mesh.block(CellType::quad4);
+  std::vector<std::array<Index, 4>> faces;
+  for (const CellRef& ref : mesh.cell_groups.at(group)) {
+    std::array<Index, 4> face{};
+    for (std::size_t a = 0; a < 4; ++a) face[a] = quads.connectivity[4 * static_cast<std::size_t>(ref.cell) + a];
+    faces.push_back(face);
+  }
+  return faces;
+}
+
+// Statics: pressure p on the plane face z = 3 of area 6 at centroid (1, 1.5): force -6 p in z, moment r x F.
+TEST(SolidLoads, PressureHasItsResultantAndMoment) {
+  Model model = one_part(block_mesh({2, 3, 3}, 0.0));
+  model.loads.push_back(Pressure{faces_of(*model.mesh, "ZMAX"), 0.5, TimeFunction{{0.0, 1.0}, {0.0, 2.0}}});
+  const Solid solid(model);
+  std::vector<double> f(solid.dof_count(), 7.0);
+  solid.external_force(0.5, f);
+  const auto [force, moment] = resultant_and_moment(*model.mesh, f);
+  const Vec3 expected{0.0, 0.0, -3.0}, expected_moment{1.5 * -3.0, 1.0 * 3.0, 0.0};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(force[i], expected[i], round_off);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(moment[i], expected_moment[i], round_off);
+  solid.external_force(0.0, f);
+  EXPECT_EQ(largest(f), 0.0);
+}
+
+// Gauss' theorem: a uniform pressure on a closed skin has no resultant and no moment, warped faces included.
+TEST(SolidLoads, PressureOnAClosedWarpedSkinVanishes) {
+  Mesh mesh = block_mesh({2, 2, 2}, 0.0);
+  const auto moves = random_vector(3 * mesh.node_count(), 9);
+  for (std::size_t d = 0; d < moves.size(); ++d) mesh.coordinates[d / 3][d % 3] += 0.15 * moves[d];
+  Model model = one_part(std::move(mesh));
+  std::vector<std::array<Index, 4>> faces;
+  for (const char* side : {"XMIN", "XMAX", "YMIN", "YMAX", "ZMIN", "ZMAX"})
+    for (const auto& face : faces_of(*model.mesh, side)) faces.push_back(face);
+  model.loads.push_back(Pressure{faces, 1.0, {}});
+  const Solid solid(model);
+  std::vector<double> f(solid.dof_count());
+  solid.external_force(0.0, f);
+  EXPECT_GT(largest(f), 0.1);
+  const auto [force, moment] = resultant_and_moment(*model.mesh, f);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(force[i], 0.0, round_off);
+}
+
+TEST(SolidLoads, GravityIsTheWeightAtTheCentroid) {
+  Model model = one_part(block_mesh({3, 4, 3}, 0.2));
+  const Vec3 g{0.5, -1.0, 2.0};
+  model.loads.push_back(Gravity{g, {}});
+  const Solid solid(model);
+  std::vector<double> f(solid.dof_count());
+  solid.external_force(1.0, f);
+  const auto [force, moment] = resultant_and_moment(*model.mesh, f);
+  const double m = 36.0 * unit_material.rho;  // block 3 x 4 x 3 with its centroid at (1.5, 2, 1.5)
+  const Vec3 expected_moment{m * (2.0 * g[2] - 1.5 * g[1]), m * (1.5 * g[0] - 1.5 * g[2]),
+                             m * (1.5 * g[1] - 2.0 * g[0])};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(force[i], m * g[i], m * 10 * round_off);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(moment[i], expected_moment[i], m * 10 * round_off);
+}
+
+TEST(SolidLoads, NodalForcesAddUpAndFollowTheirFactor) {
+  Model model = one_part(block_mesh({1, 1, 1}, 0.0));
+  EXPECT_FALSE(Solid(model).has_loads());
+  model.loads.push_back(NodalForce{{0, 3}, {1.0, 2.0, 3.0}, TimeFunction{{0.0, 2.0}, {1.0, 3.0}}});
+  model.loads.push_back(NodalForce{{3}, {0.0, 0.0, 1.0}, {}});
+  const Solid solid(model);
+  EXPECT_TRUE(solid.has_loads());
+  std::vector<double> f(24), expected(24, 0.0);
+  solid.external_force(1.0, f);
+  expected[0] = 2.0, expected[1] = 4.0, expected[2] = 6.0;
+  expected[9] = 2.0, expected[10] = 4.0, expected[11] = 7.0;
+  EXPECT_EQ(f, expected);
+}
+
+std::string message_of(const Model& model) {
+  try {
+    const Solid solid(model);
+  } catch (const CaseError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(SolidErrors, NameThePartTheCellAndTheRemedy) {
+  Model twice = one_part(block_mesh({2, 1, 1}, 0.0));
+  twice.parts.push_back({.name = "again", .cells = {1}, .material = unit_material});
+  EXPECT_NE(message_of(twice).find("cell 2, which is in parts.body already"), std::string::npos) << message_of(twice);
+  Model beyond = one_part(block_mesh({2, 1, 1}, 0.0));
+  beyond.parts[0].cells.push_back(2);
+  EXPECT_NE(message_of(beyond).find("one of the 2 HEXA8 cells"), std::string::npos) << message_of(beyond);
+  Mesh flat = block_mesh({1, 1, 1}, 0.0);
+  for (Vec3& x : flat.coordinates) x[2] = 0.0;
+  EXPECT_NE(message_of(one_part(std::move(flat))).find("Jacobian determinant 0 in cell 1"), std::string::npos);
+}
+
+class IsaVariable : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (const char* value = std::getenv("CAROM_ISA")) before_ = value;
+  }
+  void TearDown() override { setenv("CAROM_ISA", before_.c_str(), 1); }
+  static std::string message(const char* value) {
+    setenv("CAROM_ISA", value, 1);
+    try {
+      return std::string(name(chosen_isa()));
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+  }
+
+ private:
+  std::string before_;
+};
+
+TEST_F(IsaVariable, ForcesAnInstructionSetOrSaysWhyNot) {
+  EXPECT_EQ(message("reference"), "reference");
+  for (const Isa isa : available_isas()) EXPECT_EQ(message(std::string(name(isa)).c_str()), name(isa));
+  EXPECT_EQ(message(""), name(available_isas().back()));
+  EXPECT_NE(message("avx9").find("CAROM_ISA=avx9: no such instruction set; expected reference, v2, v3 or v4"),
+            std::string::npos);
+  if (supported(Isa::x86_64_v4)) return;
+  EXPECT_NE(message("v4").find("this processor lacks x86-64-v4; the best it has is"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace carom
