@@ -11,7 +11,7 @@
 #include "base/version.hpp"
 #include "casefile/schema.hpp"
 #include "casefile/read_case.hpp"
-#include "linalg/cholesky.hpp"
+#include "linalg/process_environment.hpp"
 #include "mesh/mesh_summary.hpp"
 #include "mesh/read_mesh.hpp"
 #include "parallel/threads.hpp"
@@ -76,7 +76,7 @@ ExitCode dispatch(const CLI::App& app, const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  carom::prepare_blas_environment(argv);
+  carom::prepare_process_environment(argv);
   CLI::App app{"Impact dynamics of deformable solids."};
   app.set_version_flag("--version", fmt::format("carom {} ({})", carom::version(), carom::compiler()));
   app.require_subcommand(1);

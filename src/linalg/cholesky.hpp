@@ -31,10 +31,4 @@ class Cholesky {
   std::unique_ptr<Impl> impl_;
 };
 
-/// OpenBLAS 0.3.21 takes processors it does not know for an old one unless OPENBLAS_CORETYPE is in the environment
-/// before the library loads. If it is unset and the library chose kernels below the AVX2 or AVX-512 this processor has,
-/// sets it (HASWELL, SKYLAKEX) and executes the program again; when that fails, goes on. Also fixes the number of BLAS
-/// threads to 1 (results must not depend on it). To be called first in main.
-void prepare_blas_environment(char** argv);
-
 }  // namespace carom

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-#include "linalg/cholesky.hpp"
+#include "linalg/process_environment.hpp"
 
 /// Stands in for the library's function: an OpenBLAS that does not know this processor, until it is told.
 extern "C" char* openblas_get_corename() {
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int executed_again = 42;
 
-class BlasEnvironmentDeathTest : public testing::Test {
+class ProcessEnvironmentDeathTest : public testing::Test {
  protected:
   void SetUp() override { GTEST_FLAG_SET(death_test_style, "threadsafe"); }  // OpenBLAS has started threads already
 };
@@ -31,23 +31,25 @@ bool is(const char* variable, const char* value) {
 /// Runs before the tests: the program executed again ends here and tells what it was given.
 const bool is_parent = [] {
   if (std::getenv("CAROM_TEST_EXECUTED_AGAIN") == nullptr) return true;
-  const bool good =
-      is("OPENBLAS_NUM_THREADS", "1") && (is("OPENBLAS_CORETYPE", "HASWELL") || is("OPENBLAS_CORETYPE", "SKYLAKEX"));
+  const bool good = is("OPENBLAS_NUM_THREADS", "1") && is("GOMP_SPINCOUNT", "1000") &&
+                    (is("OPENBLAS_CORETYPE", "HASWELL") || is("OPENBLAS_CORETYPE", "SKYLAKEX"));
   _exit(good ? executed_again : 1);
 }();
 
 void prepare() {
   std::string name = "carom", option = "--gtest_list_tests";
   char* argv[] = {name.data(), option.data(), nullptr};
-  prepare_blas_environment(argv);
+  prepare_process_environment(argv);
 }
 
-TEST_F(BlasEnvironmentDeathTest, ExecutesAgainWhenOpenBlasTakesTheProcessorForAnOldOne) {
+TEST_F(ProcessEnvironmentDeathTest, ExecutesAgainWhenOpenBlasTakesTheProcessorForAnOldOne) {
   ASSERT_TRUE(is_parent);
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "the plain kernels are the right ones for this processor";
   const auto run = [] {
     unsetenv("OPENBLAS_CORETYPE");
     unsetenv("OPENBLAS_NUM_THREADS");
+    unsetenv("OMP_WAIT_POLICY");
+    unsetenv("GOMP_SPINCOUNT");
     setenv("CAROM_TEST_EXECUTED_AGAIN", "1", 1);
     prepare();
     _exit(2);
@@ -55,9 +57,10 @@ TEST_F(BlasEnvironmentDeathTest, ExecutesAgainWhenOpenBlasTakesTheProcessorForAn
   EXPECT_EXIT(run(), testing::ExitedWithCode(executed_again), "");
 }
 
-TEST_F(BlasEnvironmentDeathTest, LeavesAVariableThatIsSetAlone) {
+TEST_F(ProcessEnvironmentDeathTest, LeavesVariablesThatAreSetAlone) {
   const auto run = [] {
     setenv("OPENBLAS_CORETYPE", "Nehalem", 1);
+    setenv("OMP_WAIT_POLICY", "active", 1);
     setenv("CAROM_TEST_EXECUTED_AGAIN", "1", 1);
     prepare();
     _exit(is("OPENBLAS_CORETYPE", "Nehalem") ? 3 : 2);

@@ -1,11 +1,15 @@
+#include "linalg/process_environment.hpp"
+
 #include <sys/auxv.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-#include "linalg/cholesky.hpp"
 #include "linalg/lapack.hpp"
 
 namespace carom {
@@ -38,23 +42,36 @@ std::string_view executable(std::array<char, 4096>& buffer) {
   return {buffer.data(), static_cast<std::size_t>(length)};
 }
 
+/// Name for OPENBLAS_CORETYPE when OpenBLAS has chosen worse kernels than this processor deserves, else null.
+const char* better_kernels() {
+  if (std::getenv("OPENBLAS_CORETYPE") != nullptr) return nullptr;
+  const KernelChoice choice = deserved_kernels();
+  if (choice.name == nullptr) return nullptr;
+  const std::string_view loaded = openblas_get_corename();
+  const bool good = std::find(choice.equal.begin(), choice.equal.end(), loaded) != choice.equal.end();
+  return good ? nullptr : choice.name;
+}
+
 }  // namespace
 
-void prepare_blas_environment(char** argv) {
+void prepare_process_environment(char** argv) {
   openblas_set_num_threads(1);
-  if (std::getenv("OPENBLAS_CORETYPE") != nullptr) return;
-  const KernelChoice choice = deserved_kernels();
-  if (choice.name == nullptr) return;
-  const std::string_view loaded = openblas_get_corename();
-  for (const std::string_view good : choice.equal)
-    if (loaded == good) return;
+  std::vector<std::pair<const char*, const char*>> wanted;
+  if (std::getenv("GOMP_SPINCOUNT") == nullptr && std::getenv("OMP_WAIT_POLICY") == nullptr) {
+    wanted.emplace_back("GOMP_SPINCOUNT", "1000");
+  }
+  if (const char* kernels = better_kernels()) {
+    wanted.emplace_back("OPENBLAS_CORETYPE", kernels);
+    if (std::getenv("OPENBLAS_NUM_THREADS") == nullptr) wanted.emplace_back("OPENBLAS_NUM_THREADS", "1");
+  }
   std::array<char, 4096> buffer;
-  if (executable(buffer).empty()) return;
-  if (setenv("OPENBLAS_CORETYPE", choice.name, 1) != 0) return;
-  if (std::getenv("OPENBLAS_NUM_THREADS") == nullptr) setenv("OPENBLAS_NUM_THREADS", "1", 1);
+  if (wanted.empty() || executable(buffer).empty()) return;
+  for (const auto& [name, value] : wanted) {
+    if (setenv(name, value, 1) != 0) return;
+  }
   execv(buffer.data(), argv);
-  // Only reached when the program could not be executed again: go on with slower kernels.
-  unsetenv("OPENBLAS_CORETYPE");
+  // Only reached when the program could not be executed again: go on, only slower.
+  for (const auto& [name, value] : wanted) unsetenv(name);
 }
 
 }  // namespace carom
