@@ -60,7 +60,9 @@ Recorder::Recorder(const Simulation& simulation, std::string folder)
 void Recorder::record(const StepView& view, double end_weight, Moment moment) {
   contact_.sample(view, end_weight);  // every step: the impulses are sums
   const bool last = moment == Moment::last;
-  if (last || view.step % simulation_.given().output.curves_every == 0) {
+  const bool due = last || view.step % simulation_.given().output.curves_every == 0;
+  if (due && view.step != last_row_) {
+    last_row_ = view.step;
     energy_.sample(view);
     probes_.sample(view);
     checks_.sample(view.state.t);
