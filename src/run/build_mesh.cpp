@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "base/errors.hpp"
 #include "mesh/read_mesh.hpp"
 #include "mesh/structured_block.hpp"
 
@@ -11,7 +12,12 @@ Mesh build_mesh(const Case& given) {
   if (!given.mesh.file->empty()) {
     const std::filesystem::path file = *given.mesh.file;
     const auto folder = std::filesystem::path(given.file).parent_path();
-    return read_mesh((file.is_absolute() ? file : folder / file).string());
+    const std::filesystem::path path = file.is_absolute() ? file : folder / file;
+    if (!std::filesystem::is_regular_file(path)) {
+      throw CaseError(given.mesh.file.where, "mesh.file", "\"" + *given.mesh.file + "\", and no file " + path.string(),
+                      "a mesh file (.msh, .med)", "The path is relative to the folder of the case file.");
+    }
+    return read_mesh(path.string());
   }
   std::vector<StructuredBlock> blocks;
   for (const CaseBlock& b : given.mesh.blocks) {

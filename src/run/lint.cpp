@@ -9,6 +9,8 @@
 #include "base/units.hpp"
 #include "casefile/plausibility.hpp"
 #include "math/vec3.hpp"
+#include "mesh/skin.hpp"
+#include "run/groups.hpp"
 
 namespace carom {
 
@@ -86,6 +88,19 @@ Waves waves(const Simulation& s) {
   return w;
 }
 
+/// Area of the outer faces that the nodes of a contact make up; 0 when they make up none.
+double surface_area(const Simulation& s, const CaseContact& contact) {
+  const std::vector<Index> nodes = Groups(s.mesh()).nodes(contact.group, "contact.group");
+  const auto is_member = [&](Index n) { return std::binary_search(nodes.begin(), nodes.end(), n); };
+  double area = 0.0;
+  for (const auto& face : skin(s.mesh())) {
+    if (!std::all_of(face.begin(), face.end(), is_member)) continue;
+    const auto x = [&](std::size_t a) { return s.mesh().coordinates[static_cast<std::size_t>(face[a])]; };
+    area += 0.5 * norm(cross(subtract(x(2), x(0)), subtract(x(3), x(1))));  // exact for plane quadrilaterals
+  }
+  return area;
+}
+
 void lint_contact(const Simulation& s, std::size_t c, const State& state, std::vector<std::string>& out) {
   const CaseContact& contact = s.given().contacts[c];
   const std::string at = fmt::format("{}: contact \"{}\"", to_string(contact.where), *contact.name);
@@ -103,14 +118,14 @@ void lint_contact(const Simulation& s, std::size_t c, const State& state, std::v
   if (contact.kind == CaseContact::Kind::stop || a.stiffness <= 0.0) return;
   const Waves w = waves(s);
   // A plane wave presses with rho c v; the stiffness per area is that of the rows over the area they stand for.
-  const double area = contact.per_node ? 0.0 : a.measure;
+  const double area = contact.per_node ? surface_area(s, contact) : a.measure;
   if (area <= 0.0) return;
   const double per_area = a.stiffness / area, penetration = w.impedance * a.speed / per_area;
   if (penetration > 0.01 * h) {
     out.push_back(
         fmt::format("{} is soft: impact at {:.4g} will penetrate by about {:.3g}, {:.3g} of a cell; stiffness {:.3g} "
                     "would keep it below 1 %",
-                    at, a.speed, penetration, penetration / h, w.impedance * a.speed / (0.01 * h)));
+                    at, a.speed, penetration, penetration / h, contact.stiffness.value * penetration / (0.01 * h)));
   }
   if (per_area > 20.0 * w.modulus / h) {
     out.push_back(
