@@ -3,8 +3,8 @@
 
     python3 tools/make_sdnv100_stiffness.py
 
-Each is cases/sdnv100/as_published.toml with another stiffness and checks of its own, whose reference values are computed
-by the one-dimensional program in tests/verification/reference_1d. Standard library only.
+Each is cases/sdnv100/as_published.toml with another stiffness and checks of its own, whose reference values come from
+the one-dimensional program in tests/verification/reference_1d. Standard library only.
 """
 
 import pathlib
@@ -51,8 +51,8 @@ def case_text(published, exponent):
     body = published[:published.index("[[check]]")]
     body = body[body.index("[mesh]"):]
     head = [
-        f"# SDNV100 as published, with the contact stiffness 1e{exponent} Pa/m: one of the sweep that shows how a stiffer",
-        "# contact improves the displacements and makes the velocities oscillate. Written by",
+        f"# SDNV100 as published, with the contact stiffness 1e{exponent} Pa/m: one of the sweep that shows how",
+        "# a stiffer contact improves the displacements and makes the velocities oscillate. Written by",
         "# tools/make_sdnv100_stiffness.py from as_published.toml.",
         f'title = "SDNV100, contact stiffness 1e{exponent} Pa/m"',
         'units = "SI"',

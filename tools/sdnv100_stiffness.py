@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Show what the contact stiffness does in SDNV100: print a table, draw a picture, fail if the conclusion does not hold.
 
-    for f in cases/sdnv100/stiffness/*.toml; do build/release/carom run $f --out out/stiffness/$(basename $f .toml); done
+    for e in 12 13 14 15 16; do
+      build/release/carom run cases/sdnv100/stiffness/E_n_1e$e.toml --out out/stiffness/E_n_1e$e
+    done
     python3 tools/sdnv100_stiffness.py out/stiffness docs/images/sdnv100_stiffness.svg
 
-The manual (V5.03.100) concludes that a stiffer contact improves the displacement field and brings strong oscillations of
-the velocity field around the analytical one. Measured at the foot A:
+The manual (V5.03.100) concludes that a stiffer contact improves the displacement field and brings strong oscillations
+of the velocity field around the analytical one. Measured at the foot A:
   displacement error    root mean square over the run of u_A minus that on a rigid wall;
   velocity oscillation  greatest |v_A - analytical| during the shock, the analytical velocity being that of the elastic
                         bar on a wall of the same stiffness, so that only what the discretisation adds is counted.

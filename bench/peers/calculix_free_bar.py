@@ -57,7 +57,8 @@ def mesh_lines(mesh):
     first = mesh.node_count() + 1
     yield "*NODE, NSET=WALL"
     corners = [(-2, -2), (2, -2), (2, 2), (-2, 2)]
-    for number, (x, y, z) in enumerate(((SIDE * x, SIDE * y, z) for z in (-SIDE, 0.0) for x, y in corners), start=first):
+    positions = [(SIDE * x, SIDE * y, z) for z in (-SIDE, 0.0) for x, y in corners]
+    for number, (x, y, z) in enumerate(positions, start=first):
         yield f"{number}, {x:.12g}, {y:.12g}, {z:.12g}"
     yield "*ELEMENT, TYPE=C3D8, ELSET=WALL"
     yield f"{mesh.cell_count() + 1}, " + ", ".join(str(first + i) for i in range(8))

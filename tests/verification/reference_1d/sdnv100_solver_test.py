@@ -88,7 +88,8 @@ class Solver(unittest.TestCase):
                                   1.0e-12, "MED against Gmsh")
 
     def test_stiffness_sweep(self):
-        """All checks hold; the softest and the stiffest walls rightly fail in the verdict on penetration or dissipation."""
+        """All checks hold; the verdict rightly fails on the penetration of the softest wall and the dissipation of the
+        stiffest ones."""
         errors, oscillations = {}, {}
         for exponent in sdnv100_stiffness.EXPONENTS:
             name = f"E_n_1e{exponent}"
