@@ -5,7 +5,6 @@
 #include <memory>
 #include <numeric>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,7 @@
 namespace carom {
 namespace {
 
-/// Cube of n^3 cells numbered naturally, inner nodes moved by up to a tenth of an edge so that no two cells are alike.
+/// Cube of n^3 cells numbered naturally, inner nodes moved by up to a tenth of an edge: no two cells are alike.
 Mesh natural_cube(int n) {
   StructuredBlock block;
   block.size = {1.0, 1.0, 1.0};
@@ -85,16 +84,19 @@ void add_benchmarks(const std::string& mesh_name, const std::shared_ptr<const Mo
   }
 }
 
-}  // namespace
-}  // namespace carom
-
-int main(int argc, char** argv) {
-  using namespace carom;
-  benchmark::Initialize(&argc, argv);
+void add_all_benchmarks() {
   set_threads(1);
   add_benchmarks("12^3 in cache", std::make_shared<Model>(one_part(natural_cube(12))));
   add_benchmarks("64^3 natural", std::make_shared<Model>(one_part(natural_cube(64))));
   add_benchmarks("64^3 shuffled, renumbered",
                  std::make_shared<Model>(one_part(renumbered(shuffled(natural_cube(64))))));
+}
+
+}  // namespace
+}  // namespace carom
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  carom::add_all_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -16,19 +16,19 @@ inline constexpr int lanes = static_cast<int>(sizeof(Real) / sizeof(double));
 /// Real as it may stand anywhere in an array of doubles.
 template <class Real>
 struct InArray {
-  using type [[gnu::aligned(alignof(double)), gnu::may_alias]] = Real;
+  using Type [[gnu::aligned(alignof(double)), gnu::may_alias]] = Real;
 };
 
 /// The `lanes<Real>` consecutive doubles at p (no alignment asked).
 template <class Real>
 [[gnu::always_inline]] static inline Real load(const double* p) {
-  return *reinterpret_cast<const typename InArray<Real>::type*>(p);
+  return *reinterpret_cast<const typename InArray<Real>::Type*>(p);
 }
 
 /// Writes the lanes of r to consecutive doubles at p.
 template <class Real>
 [[gnu::always_inline]] static inline void store(double* p, const Real& r) {
-  *reinterpret_cast<typename InArray<Real>::type*>(p) = r;
+  *reinterpret_cast<typename InArray<Real>::Type*>(p) = r;
 }
 
 }  // namespace carom

@@ -5,10 +5,8 @@
 #include "parallel/threads.hpp"
 #include "solid_fixture.hpp"
 
-namespace carom {
+namespace carom::test {
 namespace {
-
-using namespace test;
 
 // About 300 additions and products of numbers below 10 stand behind one nodal force: 300 x 10 x 2^-53 = 4e-13, and the
 // largest force is above 1.
@@ -150,4 +148,4 @@ TEST_P(EveryIsa, ForceOfSomeCellsIsTheirShare) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

@@ -9,10 +9,8 @@
 #include "solid/hexa8_batch.hpp"
 #include "solid_fixture.hpp"
 
-namespace carom {
+namespace carom::test {
 namespace {
-
-using namespace test;
 
 struct Answer {
   std::vector<double> force, stress;
@@ -61,8 +59,8 @@ TEST(SolidKernels, EveryBatchSizeIsFilledUpCorrectly) {
 std::set<Index> nodes_of(const Model& model, const SolidCells& solid, const Chunk& chunk) {
   std::set<Index> nodes;
   for (Index c = 0; c < chunk.cells; ++c) {
-    const Index first = solid.blocks[static_cast<std::size_t>(chunk.block)].first + chunk.first;
-    for (const Index n : cell_nodes(*model.mesh, solid.cells[static_cast<std::size_t>(first + c)])) nodes.insert(n);
+    const Index position = solid.blocks[static_cast<std::size_t>(chunk.block)].first + chunk.first + c;
+    for (const Index n : cell_nodes(*model.mesh, solid.cells[static_cast<std::size_t>(position)])) nodes.insert(n);
   }
   return nodes;
 }
@@ -94,4 +92,4 @@ TEST(SolidChunks, MoreNeighboursThanSharedColoursRunAlone) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

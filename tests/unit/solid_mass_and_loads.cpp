@@ -8,10 +8,8 @@
 #include "base/errors.hpp"
 #include "solid_fixture.hpp"
 
-namespace carom {
+namespace carom::test {
 namespace {
-
-using namespace test;
 
 constexpr double round_off = 1e-12;  // sums of some hundred terms below 10, 2^-53 each, with a margin of 10
 
@@ -93,7 +91,7 @@ std::vector<std::array<Index, 4>> faces_of(const Mesh& mesh, const std::string& 
 // Statics: pressure p on the plane face z = 3 of area 6 at centroid (1, 1.5): force -6 p in z, moment r x F.
 TEST(SolidLoads, PressureHasItsResultantAndMoment) {
   Model model = one_part(block_mesh({2, 3, 3}, 0.0));
-  model.loads.push_back(Pressure{faces_of(*model.mesh, "ZMAX"), 0.5, TimeFunction{{0.0, 1.0}, {0.0, 2.0}}});
+  model.loads.emplace_back(Pressure{faces_of(*model.mesh, "ZMAX"), 0.5, TimeFunction{{0.0, 1.0}, {0.0, 2.0}}});
   const Solid solid(model);
   std::vector<double> f(solid.dof_count(), 7.0);
   solid.external_force(0.5, f);
@@ -114,7 +112,7 @@ TEST(SolidLoads, PressureOnAClosedWarpedSkinVanishes) {
   std::vector<std::array<Index, 4>> faces;
   for (const char* side : {"XMIN", "XMAX", "YMIN", "YMAX", "ZMIN", "ZMAX"})
     for (const auto& face : faces_of(*model.mesh, side)) faces.push_back(face);
-  model.loads.push_back(Pressure{faces, 1.0, {}});
+  model.loads.emplace_back(Pressure{faces, 1.0, {}});
   const Solid solid(model);
   std::vector<double> f(solid.dof_count());
   solid.external_force(0.0, f);
@@ -126,7 +124,7 @@ TEST(SolidLoads, PressureOnAClosedWarpedSkinVanishes) {
 TEST(SolidLoads, GravityIsTheWeightAtTheCentroid) {
   Model model = one_part(block_mesh({3, 4, 3}, 0.2));
   const Vec3 g{0.5, -1.0, 2.0};
-  model.loads.push_back(Gravity{g, {}});
+  model.loads.emplace_back(Gravity{g, {}});
   const Solid solid(model);
   std::vector<double> f(solid.dof_count());
   solid.external_force(1.0, f);
@@ -141,8 +139,8 @@ TEST(SolidLoads, GravityIsTheWeightAtTheCentroid) {
 TEST(SolidLoads, NodalForcesAddUpAndFollowTheirFactor) {
   Model model = one_part(block_mesh({1, 1, 1}, 0.0));
   EXPECT_FALSE(Solid(model).has_loads());
-  model.loads.push_back(NodalForce{{0, 3}, {1.0, 2.0, 3.0}, TimeFunction{{0.0, 2.0}, {1.0, 3.0}}});
-  model.loads.push_back(NodalForce{{3}, {0.0, 0.0, 1.0}, {}});
+  model.loads.emplace_back(NodalForce{{0, 3}, {1.0, 2.0, 3.0}, TimeFunction{{0.0, 2.0}, {1.0, 3.0}}});
+  model.loads.emplace_back(NodalForce{{3}, {0.0, 0.0, 1.0}, {}});
   const Solid solid(model);
   EXPECT_TRUE(solid.has_loads());
   std::vector<double> f(24), expected(24, 0.0);
@@ -203,4 +201,4 @@ TEST_F(IsaVariable, ForcesAnInstructionSetOrSaysWhyNot) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test

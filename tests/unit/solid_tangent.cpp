@@ -7,10 +7,8 @@
 #include "linalg/largest_eigenvalue.hpp"
 #include "solid_fixture.hpp"
 
-namespace carom {
+namespace carom::test {
 namespace {
-
-using namespace test;
 
 // Entries of K are below 10 and rows have at most 81 of them: 81 x 10 x 2^-53 = 1e-13, with a margin of 10.
 constexpr double round_off = 1e-12;
@@ -165,4 +163,4 @@ TEST(SolidTangent, CellBoundsAreAboveTheLargestFrequency) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::test
