@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "math/vec3.hpp"
 
@@ -113,11 +114,15 @@ class PartCells {
   std::map<Index, std::vector<Index>> cells_of_;
 };
 
-/// True when the part on one of the two sides says that the normal must be turned.
+/// Makes the face that a part holds the upper one, so that the forces of the rows are those on the body.
+void put_part_above(const PartCells& parts, InterfaceFaces& faces) {
+  if (!parts.centroid_at(faces.upper) && parts.centroid_at(faces.lower)) std::swap(faces.lower, faces.upper);
+}
+
+/// True when the part above says that the normal must be turned.
 bool normal_is_inverted(const PartCells& parts, const InterfaceFaces& faces, const FacePoint& point) {
-  if (const auto above = parts.centroid_at(faces.upper)) return dot(subtract(*above, point.position), point.normal) < 0;
-  if (const auto below = parts.centroid_at(faces.lower)) return dot(subtract(*below, point.position), point.normal) > 0;
-  return false;
+  const auto above = parts.centroid_at(faces.upper);
+  return above && dot(subtract(*above, point.position), point.normal) < 0;
 }
 
 void add_interface_cell(ConstraintRows& rows, const Mesh& mesh, const InterfaceFaces& faces, bool turn, double mu,
@@ -142,12 +147,13 @@ struct RowBuilder {
     const PartCells parts(model);
     std::size_t turned = 0;
     for (const Index cell : contact.cells) {
-      const auto faces = coincident_faces(mesh, hexas.connectivity.data() + 8 * static_cast<std::size_t>(cell));
+      auto faces = coincident_faces(mesh, hexas.connectivity.data() + 8 * static_cast<std::size_t>(cell));
       if (!faces) {
         throw std::invalid_argument(fmt::format(
             "contact \"{}\": cell {} is not of zero thickness; the two opposite faces of an interface cell coincide",
             contact.name, hexas.file_numbers[static_cast<std::size_t>(cell)]));
       }
+      put_part_above(parts, *faces);
       const bool turn = normal_is_inverted(parts, *faces, face_points(mesh, faces->lower)[0]);
       if (turn) ++turned;
       add_interface_cell(detected.rows, mesh, *faces, turn, contact.friction.mu, source);

@@ -16,7 +16,8 @@ struct DetectedContact {
 };
 
 /// - interface cells: four rows per cell at the 2 x 2 Gauss points of the face (weights N_a above, -N_a below; the
-///   normal points to the part that holds the upper nodes, else the cell's own orientation counts);
+///   `above` is the side of the part, and the normal points to it; with parts on both sides or on none the cell's own
+///   order says which face is above);
 /// - rigid planes: one row per node with the area it stands for (integral of N_a over the faces), or 1 per node;
 /// - stops: one row per node, measure 1.
 /// Throws std::invalid_argument naming the contact and the cell when an interface cell is not of zero thickness.

@@ -123,12 +123,11 @@ namespace {
 
 struct ParametersOf {
   double measure;
+  double tangential(const FrictionLaw& friction) const { return friction.mu > 0.0 ? friction.eps_T * measure : 0.0; }
   PenaltyParameters operator()(const InterfaceContact& c) const {
-    return {c.eps_N * measure, c.friction.eps_T * measure, 0.0};
+    return {c.eps_N * measure, tangential(c.friction), 0.0};
   }
-  PenaltyParameters operator()(const PlaneContact& c) const {
-    return {c.eps_N * measure, c.friction.eps_T * measure, 0.0};
-  }
+  PenaltyParameters operator()(const PlaneContact& c) const { return {c.eps_N * measure, tangential(c.friction), 0.0}; }
   PenaltyParameters operator()(const StopContact& c) const { return {c.stiffness, 0.0, c.damping}; }
 };
 

@@ -13,12 +13,13 @@
 
 namespace carom {
 
-/// Equilibrium error of a trial state.
+/// Equilibrium error of a trial state. Forces are paired with the displacement of the whole body, norm with norm: node
+/// by node, a body at rest would take any force for equilibrium.
 struct Newmark::Residual {
   double norm = 0.0;          ///< 2-norm
-  double work = 0.0;          ///< sum of |R_i du_i|: the energy that it may leave unbooked
+  double displacement = 0.0;  ///< 2-norm of the step's displacement, and of what the residual would still add to it
+  double work = 0.0;          ///< norm x displacement, at least the energy that the residual may leave unbooked
   double round_off = 0.0;     ///< the part of `work` that rounding alone leaves
-  double displacement = 0.0;  ///< 2-norm of du
 };
 
 Newmark::Newmark(const System& system, const NewmarkParameters& parameters, double dt, double omega_max_squared)
@@ -84,17 +85,26 @@ Newmark::Residual Newmark::residual(const State& begin, const StepRequest& reque
   for (std::size_t i = 0; i < residual_.size(); ++i) {
     residual_[i] = fixed[i] ? 0.0 : next_.external[i] - next_.internal[i] + next_.contact[i] - next_.inertia[i];
   }
-  const auto du = [&](std::size_t i) { return std::abs(end.q[i] - begin.q[i]); };
+  const std::vector<double>& mass = system_.mass.node_diagonal();
+  const double h = request.dt, s = parameters_.beta * h * h;
+  // Squares of the displacement, of Jacobi's estimate of what is missing, and of the forces that cancel in the
+  // residual.
+  const auto sums = parallel_sums<3>(residual_.size(), [&](std::size_t i, std::array<double, 3>& sum) {
+    const double du = end.q[i] - begin.q[i];
+    sum[0] += du * du;
+    if (fixed[i]) return;
+    const double missing = s * residual_[i] / (mass[i / 3] + s * stiffness_diagonal_[i]);
+    const double force = std::abs(next_.external[i]) + std::abs(next_.internal[i]) + std::abs(next_.contact[i]) +
+                         std::abs(next_.inertia[i]) + stiffness_diagonal_[i] * std::abs(end.q[i]);
+    sum[1] += missing * missing;
+    sum[2] += force * force;
+  });
   out.norm = std::sqrt(dot(residual_, residual_));
-  out.work = parallel_sum(residual_.size(), [&](std::size_t i) { return std::abs(residual_[i]) * du(i); });
+  out.displacement = std::sqrt(sums[0]) + std::sqrt(sums[1]);
+  out.work = out.norm * out.displacement;
   // A displacement is known to a relative 1e-16 only, which the stiffness of a node turns into a force.
   constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
-  out.round_off =
-      precision * parallel_sum(residual_.size(), [&](std::size_t i) {
-        return du(i) * (std::abs(next_.external[i]) + std::abs(next_.internal[i]) + std::abs(next_.contact[i]) +
-                        std::abs(next_.inertia[i]) + stiffness_diagonal_[i] * std::abs(end.q[i]));
-      });
-  out.displacement = std::sqrt(parallel_sum(residual_.size(), [&](std::size_t i) { return du(i) * du(i); }));
+  out.round_off = precision * out.displacement * std::sqrt(sums[2]);
   return out;
 }
 

@@ -1,0 +1,231 @@
+// Penalty enforcement: forces, energies and tangents of single rows against closed forms and finite differences.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact/penalty.hpp"
+#include "math/vec3.hpp"
+#include "solid_fixture.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+constexpr double round_off = 1e-14;  // a few operations on numbers near 1
+
+/// Rows of one node each against a plane z = -gap.
+Penalty single_nodes(std::size_t count, const PenaltyParameters& parameters, double mu, double gap = 0.0) {
+  ConstraintRows rows;
+  for (std::size_t n = 0; n < count; ++n) {
+    rows.add_row(gap, {0, 0, 1}, {}, 1.0, mu, 0);
+    rows.add_node(static_cast<Index>(n), 1.0);
+  }
+  return {rows, std::vector<PenaltyParameters>(count, parameters)};
+}
+
+/// One node that has moved to u from u_begin.
+PenaltyResponse respond(const Penalty& penalty, const Vec3& u_begin, const Vec3& u, const RowHistory& history = {},
+                        const Vec3& v = {}) {
+  PenaltyResponse response;
+  penalty.evaluate(u_begin, u, v, std::vector<RowHistory>{history}, response);
+  return response;
+}
+
+Vec3 force_on_node(const Penalty& penalty, const PenaltyResponse& response) {
+  Vec3 f{};
+  penalty.add_force(response, f);
+  return f;
+}
+
+TEST(PenaltyForce, IsProportionalToThePenetrationAndNeverTensile) {
+  const Penalty penalty = single_nodes(1, {.eps_N = 4.0}, 0.0, 0.5);
+  const auto closed = respond(penalty, {}, {0, 0, -0.75});
+  EXPECT_NEAR(force_on_node(penalty, closed)[2], 4.0 * 0.25, round_off);
+  EXPECT_NEAR(closed.stored, 0.5 * 4.0 * 0.25 * 0.25, round_off);
+  for (const double z : {-0.5, -0.4, 3.0}) {  // just closed, open, far away
+    const auto open = respond(penalty, {}, {0.1, 0, z});
+    EXPECT_EQ(norm(force_on_node(penalty, open)), 0.0);
+    EXPECT_EQ(open.stored, 0.0);
+  }
+}
+
+TEST(PenaltyForce, OfADamperActsOnlyInStepsThatBeginClosedAndNeverPulls) {
+  const Penalty stop = single_nodes(1, {.eps_N = 4.0, .damping = 2.0}, 0.0);
+  const Vec3 closing{0, 0, -3.0}, opening{0, 0, 3.0}, at{0, 0, -0.25};
+  EXPECT_NEAR(respond(stop, {0, 0, -0.1}, at, {}, closing).force[0][0], 4.0 * 0.25 + 2.0 * 3.0, round_off);
+  EXPECT_NEAR(respond(stop, {0, 0, 0.1}, at, {}, closing).force[0][0], 4.0 * 0.25, round_off);
+  EXPECT_EQ(respond(stop, {0, 0, -0.1}, at, {}, opening).force[0][0], 0.0);  // 1 - 6 < 0
+  const auto pressed = respond(stop, {0, 0, -0.1}, at, {}, closing);
+  EXPECT_NEAR(pressed.damper[0], 2.0 * 3.0, round_off);
+  EXPECT_NEAR(pressed.stored, 0.5 * 4.0 * 0.25 * 0.25, round_off);
+}
+
+// eps_N = 10, penetration 0.2, mu = 0.3: p = 2, limit 0.6; eps_T = 5 sticks up to a slip of 0.12.
+struct Friction : testing::Test {
+  Penalty penalty = single_nodes(1, {.eps_N = 10.0, .eps_T = 5.0}, 0.3);
+  const double pressure = 2.0, limit = 0.6, eps_T = 5.0, yield = 0.12;
+  Vec3 direction{0.6, 0.8, 0.0};
+  Vec3 at(double slip) const { return {slip * direction[0], slip * direction[1], -0.2}; }
+};
+
+TEST_F(Friction, SticksThenSlides) {
+  const Vec3 begin = at(0.0);
+  for (const double slip : {0.01, 0.06, 0.119}) {
+    const auto stick = respond(penalty, begin, at(slip));
+    EXPECT_EQ(stick.status[0], RowStatus::stick);
+    const Vec3 f = force_on_node(penalty, stick);
+    EXPECT_NEAR(f[0], -eps_T * slip * direction[0], round_off);
+    EXPECT_NEAR(f[1], -eps_T * slip * direction[1], round_off);
+    EXPECT_EQ(stick.slip_work, 0.0);
+  }
+  for (const double slip : {0.121, 0.5, 20.0}) {
+    const auto slide = respond(penalty, begin, at(slip));
+    EXPECT_EQ(slide.status[0], RowStatus::slip);
+    const Vec3 f = force_on_node(penalty, slide);
+    EXPECT_NEAR(f[0], -limit * direction[0], round_off);
+    EXPECT_NEAR(f[1], -limit * direction[1], round_off);
+    EXPECT_NEAR(f[2], pressure, round_off);
+    EXPECT_NEAR(slide.slip_work, limit * (slip - yield), 20 * round_off);
+  }
+}
+
+// Path in many steps: the work of the tangential force is what is stored and what has slipped away. The trapezoidal
+// rule is exact while sticking and while sliding; the one step across the corner misses at most the corner's triangle,
+// 1/2 eps_T (ds/2)^2 / 2 at ds = 0.001 (here the corner falls on a step: round-off only).
+TEST_F(Friction, WorkIsStoredOrDissipated) {
+  RowHistory history;
+  double work = 0.0, dissipated = 0.0, before = 0.0;
+  const int steps = 500;
+  PenaltyResponse response;
+  for (int i = 1; i <= steps; ++i) {
+    response = respond(penalty, at(0.001 * (i - 1)), at(0.001 * i), history);
+    history = response.history[0];
+    const double tangential = std::hypot(response.force[0][1], response.force[0][2]);
+    work += 0.5 * (before + tangential) * 0.001;
+    before = tangential;
+    dissipated += response.slip_work;
+  }
+  const double tangential_stored = response.stored - 0.5 * 10.0 * 0.2 * 0.2;
+  EXPECT_NEAR(tangential_stored, 0.5 * eps_T * yield * yield, round_off);
+  EXPECT_NEAR(dissipated, limit * (0.5 - yield), 1e-12);  // 500 sums
+  EXPECT_NEAR(work, tangential_stored + dissipated, 1e-12);
+}
+
+TEST_F(Friction, ReversalSticksOverTwiceTheYieldSlip) {
+  RowHistory history = respond(penalty, at(0.0), at(0.5)).history[0];
+  const auto back = respond(penalty, at(0.5), at(0.5 - yield), history);  // half way: no force
+  EXPECT_EQ(back.status[0], RowStatus::stick);
+  EXPECT_NEAR(norm({force_on_node(penalty, back)[0], force_on_node(penalty, back)[1], 0}), 0.0, 10 * round_off);
+  const auto almost = respond(penalty, at(0.5), at(0.5 - 1.99 * yield), history);
+  EXPECT_EQ(almost.status[0], RowStatus::stick);
+  const auto sliding = respond(penalty, at(0.5), at(0.5 - 2.5 * yield), history);
+  EXPECT_EQ(sliding.status[0], RowStatus::slip);
+  EXPECT_NEAR(force_on_node(penalty, sliding)[0], limit * direction[0], 10 * round_off);
+  EXPECT_NEAR(sliding.slip_work, limit * 0.5 * yield, 10 * round_off);
+}
+
+TEST_F(Friction, OpenRowsForgetTheirSlip) {
+  const RowHistory history = respond(penalty, at(0.0), at(0.1)).history[0];
+  EXPECT_NE(history, RowHistory{});
+  const auto open = respond(penalty, at(0.1), {0.1, 0.2, 0.05}, history);
+  EXPECT_EQ(open.status[0], RowStatus::open);
+  EXPECT_EQ(open.history[0], RowHistory{});
+  EXPECT_EQ(open.stored, 0.0);
+}
+
+// -d(force)/dw by central differences with step 1e-6 at numbers near 1: truncation 1e-12, cancellation 1e-16 / 1e-6.
+constexpr double difference_step = 1e-6, difference_tolerance = 1e-8;
+
+void check_tangent(const Penalty& penalty, const Vec3& u_begin, const Vec3& u, const Vec3& v, const RowHistory& history,
+                   double dv_dx) {
+  const std::vector<RowHistory> histories{history};
+  const RowTangent D = penalty.tangent(0, u_begin, u, v, histories, dv_dx);
+  const ConstraintRows& rows = penalty.rows();
+  const std::array<Vec3, 3> frame{rows.normal[0], rows.tangent_1[0], rows.tangent_2[0]};
+  for (std::size_t j = 0; j < 3; ++j) {
+    std::array<Vec3, 2> force;
+    for (const int side : {0, 1}) {
+      const double h = side == 0 ? -difference_step : difference_step;
+      force[static_cast<std::size_t>(side)] =
+          respond(penalty, u_begin, add(u, scaled(frame[j], h)), history, add(v, scaled(frame[j], dv_dx * h))).force[0];
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(D[3 * i + j], -(force[1][i] - force[0][i]) / (2 * difference_step), difference_tolerance)
+          << "row " << i << ", column " << j;
+    }
+  }
+}
+
+TEST(PenaltyTangent, IsTheDerivativeOfTheForce) {
+  const Penalty frictional = single_nodes(1, {.eps_N = 10.0, .eps_T = 5.0}, 0.3);
+  const Penalty damped = single_nodes(1, {.eps_N = 10.0, .damping = 2.0}, 0.0);
+  int sticking = 0, sliding = 0, open = 0, pressed = 0, lifted = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const std::vector<double> x = random_vector(12, seed);
+    const Vec3 begin{0.1 * x[0], 0.1 * x[1], 0.1 * x[2]}, u{0.2 * x[3], 0.2 * x[4], 0.2 * x[5]}, v{x[6], x[7], x[8]};
+    const RowHistory history{0.02 * x[9], 0.02 * x[10]};
+    SCOPED_TRACE(seed);
+    check_tangent(frictional, begin, u, v, history, 3.0);
+    check_tangent(damped, begin, u, v, {}, 3.0);
+    const RowStatus status = respond(frictional, begin, u, history).status[0];
+    (status == RowStatus::open ? open : status == RowStatus::stick ? sticking : sliding)++;
+    if (begin[2] < 0.0 && u[2] < 0.0) (respond(damped, begin, u, {}, v).force[0][0] > 0.0 ? pressed : lifted)++;
+  }
+  // The draw covers every branch.
+  EXPECT_GT(std::min({sticking, sliding, open, pressed, lifted}), 0)
+      << sticking << " " << sliding << " " << open << " " << pressed << " " << lifted;
+}
+
+// Sliding couples the normal to the tangential direction: |t| = mu p, so that d|t|/dw_N = -mu eps_N, and nothing back.
+TEST_F(Friction, SlidingTangentIsNotSymmetric) {
+  const Vec3 begin = at(0.0), u = at(0.5);
+  const std::vector<RowHistory> history(1);
+  const RowTangent D = penalty.tangent(0, begin, u, Vec3{}, history, 0.0);
+  EXPECT_NEAR(std::hypot(D[3], D[6]), 0.3 * 10.0, 10 * round_off);
+  EXPECT_EQ(D[1], 0.0);
+  EXPECT_EQ(D[2], 0.0);
+}
+
+TEST(PenaltyStored, ForceIsMinusItsGradientWithoutSlip) {
+  ConstraintRows rows;
+  rows.add_row(0.05, {0.6, 0.0, 0.8}, {}, 1.0, 1e3, 0);  // mu so large that nothing slides
+  rows.add_node(0, 0.7);
+  rows.add_node(1, 0.3);
+  rows.add_node(2, -1.0);
+  rows.add_row(-0.3, {0.0, 1.0, 0.0}, {}, 1.0, 0.0, 0);
+  rows.add_node(1, 1.0);
+  const Penalty penalty(rows, {{.eps_N = 3.0, .eps_T = 2.0}, {.eps_N = 4.0}});
+  const std::vector<RowHistory> history(2);
+  const std::vector<double> begin(9, 0.0), v(9, 0.0);
+  int closed = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    std::vector<double> u = random_vector(9, seed), force(9, 0.0);
+    PenaltyResponse response;
+    penalty.evaluate(begin, u, v, history, response);
+    penalty.add_force(response, force);
+    if (response.status[0] == RowStatus::stick) ++closed;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      std::array<double, 2> stored{};
+      for (const std::size_t side : {0U, 1U}) {
+        std::vector<double> x = u;
+        x[i] += side == 0 ? -difference_step : difference_step;
+        penalty.evaluate(begin, x, v, history, response);
+        stored[side] = response.stored;
+      }
+      EXPECT_NEAR(force[i], -(stored[1] - stored[0]) / (2 * difference_step), difference_tolerance);
+    }
+  }
+  EXPECT_GT(closed, 3);
+}
+
+TEST(PenaltyClosedStiffness, IsTheTangentOfClosedSticking) {
+  const Penalty penalty = single_nodes(1, {.eps_N = 10.0, .eps_T = 5.0}, 0.3);
+  const Vec3 x{0.5, -0.25, 2.0};
+  Vec3 y{1.0, 1.0, 1.0};
+  penalty.add_closed_stiffness(x, y);
+  EXPECT_NEAR(norm(subtract(y, {1.0 + 2.5, 1.0 - 1.25, 1.0 + 20.0})), 0.0, 10 * round_off);
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,153 @@
+// Linear systems of implicit steps, both solvers against a dense solve and against each other.
+#include <gtest/gtest.h>
+
+#include "contact_fixture.hpp"
+#include "linalg/dense.hpp"
+#include "schemes_fixture.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+/// Interface rows (weights on eight nodes) and node rows, some dofs blocked.
+Model many_rows() {
+  Mesh mesh = block_mesh({2, 1, 2}, 0.1);
+  Model model = one_part(mesh);
+  const std::vector<Index> cells = add_interface(mesh, "ZMIN");
+  model.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  model.contacts.emplace_back(InterfaceContact{"wall", cells, 20.0, {10.0, 0.3}});
+  model.contacts.emplace_back(StopContact{"stop", model.mesh->nodes_of("XMAX"), {-1, 0, 0}, 0.1, 2.0, 0.0});
+  block(model, "WALL", {0, 1, 2});
+  block(model, "YMIN", {1});
+  return model;
+}
+
+/// M + s K + G^T D G on all dofs, identity on fixed ones: the oracle, by applying every part to unit vectors.
+std::vector<double> dense_operator(const Problem& p, double s, const std::vector<RowTangent>& D) {
+  const std::size_t n = p.solid.dof_count();
+  const ConstraintRows& rows = p.contact.rows();
+  const std::vector<bool>& fixed = p.supports.fixed();
+  std::vector<double> A(n * n), unit(n), column(n), K_unit(n);
+  for (std::size_t j = 0; j < n; ++j) {
+    std::fill(unit.begin(), unit.end(), 0.0);
+    unit[j] = 1.0;
+    p.mass.apply(unit, column);
+    p.solid.internal_force(unit, K_unit);
+    for (std::size_t i = 0; i < n; ++i) column[i] += s * K_unit[i];
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const Vec3 w = rows.relative(r, unit);
+      Vec3 force{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) force[i] += D[r][3 * i + k] * w[k];
+      }
+      rows.scatter(r, force, column);
+    }
+    for (std::size_t i = 0; i < n; ++i) A[n * i + j] = fixed[i] || fixed[j] ? (i == j ? 1.0 : 0.0) : column[i];
+  }
+  return A;
+}
+
+std::vector<double> free_random(const Problem& p, unsigned seed) {
+  std::vector<double> b = random_vector(p.solid.dof_count(), seed);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (p.supports.fixed()[i]) b[i] = 0.0;
+  }
+  return b;
+}
+
+/// Solves with the given tangents and compares with the dense solution.
+void expect_dense_solution(const Problem& p, EffectiveSolver& solver, double s, const std::vector<RowTangent>& D,
+                           double tolerance) {
+  const std::vector<double> b = free_random(p, 3);
+  std::vector<double> expected = b, x(b.size(), 1.0);
+  DenseLu(dense_operator(p, s, D), static_cast<int>(b.size())).solve(expected);
+  solver.prepare(s);
+  const LinearSolveReport report = solver.solve(b, D, 0.0, x);
+  EXPECT_TRUE(report.converged || report.residual < 1e-12) << report.residual;
+  EXPECT_LT(largest_difference(x, expected), tolerance * largest(expected));
+}
+
+enum class Draw { symmetric, general };
+
+/// Tangents of every third row zero, of the others random; normal only for every second.
+std::vector<RowTangent> random_tangents(std::size_t count, unsigned seed, Draw draw) {
+  std::vector<RowTangent> D(count);
+  for (std::size_t r = 0; r < count; ++r) {
+    if (r % 3 == 0) continue;
+    const std::vector<double> d = random_vector(9, seed + static_cast<unsigned>(r));
+    if (r % 2 == 0) {
+      D[r][0] = 5.0 + d[0];
+      continue;
+    }
+    for (std::size_t i = 0; i < 9; ++i) D[r][i] = d[i] + (i % 4 == 0 ? 4.0 : 0.0);  // positive definite
+    if (draw == Draw::symmetric) {
+      for (const auto& [i, j] : {std::pair{1, 3}, {2, 6}, {5, 7}}) {
+        D[r][static_cast<std::size_t>(i)] = D[r][static_cast<std::size_t>(j)];
+      }
+    }
+  }
+  return D;
+}
+
+TEST(EffectiveSolver, CholeskyCorrectsForAnyContactTangent) {
+  const Problem p(many_rows());
+  const auto solver = make_effective_solver(p.system, SolverKind::cholesky, 0.1, 1.0);
+  for (const double s : {0.1, 3.0}) {  // the second factor throws the columns of the first away
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      // 1e-11: round-off 1e-16 times a condition number of M + s K of some hundred, and the correction's
+      expect_dense_solution(p, *solver, s, random_tangents(p.contact.rows().size(), 100 * seed, Draw::general), 1e-11);
+    }
+    expect_dense_solution(p, *solver, s, std::vector<RowTangent>(p.contact.rows().size()), 1e-11);
+  }
+}
+
+TEST(EffectiveSolver, ConjugateGradientsSolveSymmetricTangents) {
+  const Problem p(many_rows());
+  const auto solver = make_effective_solver(p.system, SolverKind::conjugate_gradients, 0.1, 1.0);
+  for (const double s : {0.1, 3.0}) {
+    // 1e-10: a residual of 1e-14 times the condition number
+    expect_dense_solution(p, *solver, s, random_tangents(p.contact.rows().size(), 7, Draw::symmetric), 1e-10);
+  }
+}
+
+TEST(EffectiveSolver, AutomaticTakesTheFactorisationForLongSteps) {
+  const Problem p(many_rows());
+  const double omega_squared = stable_step(p.system).omega_max_squared_free;
+  const auto name_for = [&](double courant) {
+    const double h = courant * 2.0 / std::sqrt(omega_squared);
+    return make_effective_solver(p.system, SolverKind::automatic, 0.25 * h * h, omega_squared)->name();
+  };
+  // kappa = 1 + courant^2: 60 iterations at sqrt(kappa) / 2 ln(2e12) = 60, a Courant number of about 4.1
+  EXPECT_EQ(name_for(1.0), "conjugate gradients");
+  EXPECT_EQ(name_for(4.0), "conjugate gradients");
+  EXPECT_EQ(name_for(4.5), "Cholesky factorisation");
+  EXPECT_EQ(name_for(100.0), "Cholesky factorisation");
+}
+
+Model impact(const FrictionLaw& friction) {
+  Model model = one_part(block_mesh({2, 2, 4}, 0.15));
+  model.contacts.emplace_back(plane_below(model, 0.05, 20.0, friction));
+  return model;
+}
+
+TEST(Solvers, AgreeOnAnImpact) {
+  for (const FrictionLaw& friction : {FrictionLaw{}, FrictionLaw{10.0, 0.5}}) {
+    for (const MassKind kind : {MassKind::consistent, MassKind::lumped}) {
+      std::vector<State> states;
+      for (const SolverKind solver : {SolverKind::cholesky, SolverKind::conjugate_gradients}) {
+        const Problem p(impact(friction), kind);
+        const History run = march(*newmark(p, 0.1, {.solver = solver}), p.moving({0.1, 0.05, -0.2}), 0.1, 100);
+        ASSERT_TRUE(run.converged);
+        states.push_back(run.state);
+      }
+      // 1e-9: both leave at most 1e-12 of the energy unbooked, that is 1e-6 of a velocity squared at worst but 1e-9 in
+      // practice; the contact has been made and lost.
+      EXPECT_LT(largest_difference(states[0].q, states[1].q), 1e-9 * largest(states[0].q));
+      EXPECT_LT(largest_difference(states[0].v, states[1].v), 1e-9 * largest(states[0].v));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,57 @@
+// The same bits from any number of threads, for every instruction set of this processor.
+#include <gtest/gtest.h>
+
+#include "schemes_fixture.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+/// 640 cells and 2673 dofs, so that the loops are cut into several chunks; touches in the first step, with friction.
+/// Few steps: four threads on two cores wait long for each other.
+Model impact() {
+  Model model = one_part(block_mesh({8, 8, 10}, 0.15));
+  model.contacts.emplace_back(plane_below(model, 0.002, 20.0, {10.0, 0.3}));
+  return model;
+}
+
+using MakeScheme = std::unique_ptr<Scheme> (*)(const Problem&);
+constexpr double h = 0.05;
+
+State run_with(int threads, Isa isa, MassKind kind, MakeScheme make) {
+  set_threads(threads);
+  const Problem p(impact(), kind, isa);
+  const History run = march(*make(p), p.moving({0.1, 0.05, -0.2}), h, 2);
+  EXPECT_TRUE(run.converged);
+  EXPECT_GT(run.ledger.now().contact_stored, 0.0);
+  return run.state;
+}
+
+void expect_same_bits(Isa isa, MassKind kind, MakeScheme make) {
+  const State one = run_with(1, isa, kind, make);
+  EXPECT_TRUE(run_with(2, isa, kind, make) == one) << name(isa);
+  EXPECT_TRUE(run_with(4, isa, kind, make) == one) << name(isa);
+  set_threads(0);
+}
+
+TEST(Threads, CentralDifferences) {
+  for (const Isa isa : available_isas()) expect_same_bits(isa, MassKind::lumped, central);
+}
+
+TEST(Threads, CentralDifferencesWithConsistentMass) {
+  expect_same_bits(chosen_isa(), MassKind::consistent, central);
+}
+
+TEST(Threads, NewmarkWithConjugateGradients) {
+  expect_same_bits(chosen_isa(), MassKind::consistent,
+                   [](const Problem& p) { return newmark(p, h, {.solver = SolverKind::conjugate_gradients}); });
+}
+
+TEST(Threads, NewmarkWithCholesky) {
+  expect_same_bits(chosen_isa(), MassKind::consistent,
+                   [](const Problem& p) { return newmark(p, h, {.solver = SolverKind::cholesky}); });
+}
+
+}  // namespace
+}  // namespace carom
