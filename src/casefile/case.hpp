@@ -12,6 +12,7 @@
 #include "base/types.hpp"
 #include "base/units.hpp"
 #include "math/time_function.hpp"
+#include "mesh/structured_block.hpp"
 
 namespace carom {
 
@@ -25,29 +26,10 @@ struct Located {
   const T* operator->() const { return &value; }
 };
 
-/// Structured block of HEXA8 aligned with the axes. Faces xmin, xmax, ymin, ymax, zmin, zmax may be named as groups
-/// (their QUAD4 faces and nodes); all cells are in the group `cells`.
-struct CaseBlock {
-  Location where;
-  Vec3 origin{};
-  Vec3 size{};
-  std::array<int, 3> divisions{1, 1, 1};
-  std::string cells_group = "BLOCK";
-  /// Group name for each of xmin, xmax, ymin, ymax, zmin, zmax; "" gives no group.
-  std::array<std::string, 6> face_groups{"XMIN", "XMAX", "YMIN", "YMAX", "ZMIN", "ZMAX"};
-  /// Named single nodes: the node nearest to the point (it must lie within 1e-6 of the block's diagonal).
-  struct Point {
-    std::string name;
-    Vec3 position{};
-    Location where;
-  };
-  std::vector<Point> points;
-};
-
 struct CaseMesh {
   Location where;
   Located<std::string> file;  ///< "" when blocks are given; relative to the case file's folder
-  std::vector<CaseBlock> blocks;
+  std::vector<StructuredBlock> blocks;
 };
 
 struct CaseMaterial {

@@ -10,27 +10,29 @@ namespace {
 using Need = KeyOptions::Need;
 
 /// Names of the groups of a block; stored in the block itself.
-Section<CaseBlock> groups_section() {
-  Section<CaseBlock> s("Names of the groups of the block; an empty name gives no group.");
-  s.key("cells", &CaseBlock::cells_group, "Group of all cells.");
+Section<StructuredBlock> groups_section() {
+  Section<StructuredBlock> s("Names of the groups of the block; an empty name gives no group.");
+  s.key("cells", &StructuredBlock::cells_group, "Group of all cells.");
   constexpr std::array faces{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
   for (std::size_t i = 0; i < faces.size(); ++i) {
     s.key_by(
         faces[i], [i](auto& block) -> auto& { return block.face_groups[i]; },
         std::string("Group of the faces and nodes at ") + faces[i] + ".");
   }
-  s.finish = [](CaseBlock& block, const Node& node, const ReadContext& at) {
+  s.finish = [](StructuredBlock& block, const Node& node, const ReadContext& at) {
     if (!block.cells_group.empty()) return;
     throw CaseError(find(node, "cells")->where, at.at("cells").path, "\"\"", "the name of a group of cells");
   };
   return s;
 }
 
-void add_groups(Section<CaseBlock>& s) {
-  const Section<CaseBlock> groups = groups_section();
-  Section<CaseBlock>::Handlers handlers;
-  handlers.read = [groups](CaseBlock& block, const Node& node, const ReadContext& at) { groups.read(block, node, at); };
-  handlers.write = [groups](const CaseBlock& block, const Node& root) { return groups.write(block, &root); };
+void add_groups(Section<StructuredBlock>& s) {
+  const Section<StructuredBlock> groups = groups_section();
+  Section<StructuredBlock>::Handlers handlers;
+  handlers.read = [groups](StructuredBlock& block, const Node& node, const ReadContext& at) {
+    groups.read(block, node, at);
+  };
+  handlers.write = [groups](const StructuredBlock& block, const Node& root) { return groups.write(block, &root); };
   s.add({"groups",
          Shape::section,
          groups.description.doc,
@@ -40,7 +42,7 @@ void add_groups(Section<CaseBlock>& s) {
         handlers);
 }
 
-void add_points(Section<CaseBlock>& s) {
+void add_points(Section<StructuredBlock>& s) {
   const KeyDescription key{"points",
                            Shape::named_vectors,
                            "Groups of one node each: the node nearest to the point, which must lie within 1e-6 of the "
@@ -50,31 +52,32 @@ void add_points(Section<CaseBlock>& s) {
                            {}};
   KeyDescription point = key;
   point.shape = Shape::vector;
-  Section<CaseBlock>::Handlers handlers;
-  handlers.read = [key, point](CaseBlock& block, const Node& node, const ReadContext& at) {
+  Section<StructuredBlock>::Handlers handlers;
+  handlers.read = [key, point](StructuredBlock& block, const Node& node, const ReadContext& at) {
     for (const Member& m : members_of(node, key, at).members) {
-      CaseBlock::Point& to = block.points.emplace_back();
+      StructuredBlock::Point& to = block.points.emplace_back();
       to.name = m.key;
       to.where = m.where;
       check_name({m.key, m.where}, at.at(m.key).path);
       decode(m.value, point, at.at(m.key), to.position);
     }
   };
-  handlers.write = [](const CaseBlock& block, const Node&) -> std::optional<Node> {
+  handlers.write = [](const StructuredBlock& block, const Node&) -> std::optional<Node> {
     Table points;
-    for (const CaseBlock::Point& p : block.points) points.members.push_back({p.name, {}, *encode(p.position, {})});
+    for (const StructuredBlock::Point& p : block.points)
+      points.members.push_back({p.name, {}, *encode(p.position, {})});
     if (points.members.empty()) return std::nullopt;
     return Node{points, {}};
   };
   s.add(key, handlers);
 }
 
-Section<CaseBlock> block_section() {
-  Section<CaseBlock> s("A box of HEXA8 cells along the axes.");
-  s.key("origin", &CaseBlock::origin, "Corner with the smallest coordinates.", {.unit = Dimension::length});
-  s.key("size", &CaseBlock::size, "Lengths of the edges.",
+Section<StructuredBlock> block_section() {
+  Section<StructuredBlock> s("A box of HEXA8 cells along the axes.");
+  s.key("origin", &StructuredBlock::origin, "Corner with the smallest coordinates.", {.unit = Dimension::length});
+  s.key("size", &StructuredBlock::size, "Lengths of the edges.",
         {.unit = Dimension::length, .range = greater_than(0.0), .need = Need::required});
-  s.key("divisions", &CaseBlock::divisions, "Number of cells along each edge.",
+  s.key("divisions", &StructuredBlock::divisions, "Number of cells along each edge.",
         {.range = at_least(1.0), .need = Need::required});
   add_groups(s);
   add_points(s);

@@ -19,13 +19,7 @@ Mesh build_mesh(const Case& given) {
     }
     return read_mesh(path.string());
   }
-  std::vector<StructuredBlock> blocks;
-  for (const CaseBlock& b : given.mesh.blocks) {
-    StructuredBlock block{b.where, b.origin, b.size, b.divisions, b.cells_group, b.face_groups, {}};
-    for (const CaseBlock::Point& p : b.points) block.points.push_back({p.name, p.position, p.where});
-    blocks.push_back(std::move(block));
-  }
-  return make_structured_blocks(blocks);
+  return make_structured_blocks(given.mesh.blocks);
 }
 
 }  // namespace carom

@@ -123,7 +123,7 @@ void lint_contact(const Simulation& s, std::size_t c, const State& state, std::v
   const double per_area = a.stiffness / area, penetration = w.impedance * a.speed / per_area;
   if (penetration > 0.01 * h) {
     out.push_back(
-        fmt::format("{} is soft: impact at {:.4g} will penetrate by about {:.3g}, {:.3g} of a cell; stiffness {:.3g} "
+        fmt::format("{} is soft: impact at {:.4g} will penetrate by about {:.3g} ({:.3g} cells); stiffness {:.3g} "
                     "would keep it below 1 %",
                     at, a.speed, penetration, penetration / h, contact.stiffness.value * penetration / (0.01 * h)));
   }
