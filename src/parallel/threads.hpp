@@ -23,6 +23,14 @@ void parallel_for(std::size_t n, std::size_t grain, const Body& body) {
   }
 }
 
+/// Calls body(i) for every i in [0, n), in any order and at the same time.
+template <class Body>
+void parallel_each(std::size_t n, const Body& body) {
+  parallel_for(n, 4096, [&body](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
+}
+
 /// Sum of term(i) over [0, n), by blocks of fixed size added in a fixed order: the same bits for any thread count.
 template <class Term>
 double parallel_sum(std::size_t n, const Term& term);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "parallel/threads.hpp"
 #include "schemes/initial_acceleration.hpp"
 
 namespace carom {
@@ -58,10 +59,10 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
   end.q.resize(n);
   end.v.resize(n);
   end.a = begin.a;
-  for (std::size_t i = 0; i < n; ++i) {
+  parallel_each(n, [&](std::size_t i) {
     v_half_[i] = begin.v[i] + 0.5 * h * begin.a[i];
     end.q[i] = begin.q[i] + h * v_half_[i];
-  }
+  });
   evaluate_forces(system_, request.t_end, begin.q, begin.contact, end.q, v_half_, next_);
   impose_motions(system_, request.t_end, h, end.q, v_half_, end.a);
   force_sum(next_, rhs_);
@@ -71,7 +72,7 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
     report.failure = "the accelerations cannot be solved for: the forces are not finite or the mass is not positive";
     return report;
   }
-  for (std::size_t i = 0; i < n; ++i) end.v[i] = v_half_[i] + 0.5 * h * end.a[i];
+  parallel_each(n, [&](std::size_t i) { end.v[i] = v_half_[i] + 0.5 * h * end.a[i]; });
   end.contact = next_.rows.history;
   complete_forces(system_, end, next_);
   report.books = newmark_books(system_, begin, now_, end, next_, 0.0, 0.5, h);

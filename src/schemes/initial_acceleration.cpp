@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "parallel/threads.hpp"
+
 namespace carom {
 
 void start_with_supports(const System& system, State& state) {
@@ -26,7 +28,8 @@ void start_with_supports(const System& system, State& state) {
 }
 
 void force_sum(const Forces& forces, std::span<double> rhs) {
-  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = forces.external[i] - forces.internal[i] + forces.contact[i];
+  parallel_each(rhs.size(),
+                [&](std::size_t i) { rhs[i] = forces.external[i] - forces.internal[i] + forces.contact[i]; });
 }
 
 void start_accelerations(const System& system, MassSolver& solver, State& state, Forces& forces) {

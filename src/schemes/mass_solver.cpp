@@ -19,9 +19,9 @@ int MassSolver::solve(std::span<const double> f, std::span<double> a) {
   const std::vector<bool>& fixed = system_.supports.fixed();
   const std::size_t n = fixed.size();
   if (system_.mass.kind() == MassKind::lumped) {
-    for (std::size_t i = 0; i < n; ++i) {
+    parallel_each(n, [&](std::size_t i) {
       if (!fixed[i]) a[i] = f[i] * inverse_diagonal_[i];
-    }
+    });
     return 0;
   }
   // Prescribed accelerations go to the right-hand side; the unknown vector is zero there.
