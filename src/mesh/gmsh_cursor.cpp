@@ -80,7 +80,8 @@ void GmshCursor::end_section() {
   const std::string end = "$End" + section_.substr(1);
   if (position_ == bytes_.size()) fail("the end of the file", end, "The file seems cut off; write or copy it again.");
   const std::string_view found = word(end);
-  if (found != end) fail(printable(found), end, "Compare the count at the beginning of the section with what follows.");
+  if (found != end)
+    fail(printable(found), end, advice(found, "Compare the count at the beginning of the section with what follows."));
 }
 
 void GmshCursor::skip_section() {
