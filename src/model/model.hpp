@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -29,7 +30,7 @@ struct Part {
 /// What is imposed on one component of a group of nodes.
 enum class MotionKind : std::uint8_t { displacement, velocity, acceleration };
 
-/// The component (0, 1, 2) of the nodes follows function(t). Blocked components are displacement with value 0.
+/// The component (0, 1, 2) of the nodes follows function(t). Blocked components are velocity 0.
 struct PrescribedMotion {
   std::string name;
   std::vector<Index> nodes;
@@ -61,13 +62,10 @@ struct Gravity {
 
 using Load = std::variant<NodalForce, Pressure, Gravity>;
 
-/// Initial displacement and velocity of nodes; later entries overwrite earlier ones. Unset components stay as they are.
+/// Initial displacement and velocity of nodes; later entries overwrite earlier ones.
 struct InitialState {
   std::vector<Index> nodes;
-  Vec3 displacement{};
-  Vec3 velocity{};
-  bool sets_displacement = false;
-  bool sets_velocity = false;
+  std::optional<Vec3> displacement, velocity;
 };
 
 /// Regularised Coulomb friction: tangential stiffness eps_T and coefficient mu; none when either is 0.
