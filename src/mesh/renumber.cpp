@@ -21,6 +21,13 @@ std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
 
+/// The nearest multiple of `step` to a length, as a count; 0 where extents overflow, so that it can always be sorted
+/// by.
+double bin(double length, double step) {
+  constexpr double kMost = 1e7;
+  return std::fmin(std::fmax(std::round(length / step), 0.0), kMost);  // fmax turns not-a-number into 0
+}
+
 /// Nodes of the cells of highest dimension, and for each node the cells it belongs to (compressed rows).
 class Connections {
  public:
@@ -124,9 +131,7 @@ class LevelOrder {
     std::stable_sort(axes.begin(), axes.end(),
                      [&](std::size_t a, std::size_t b) { return size[a] > size[b] * (1 + 1e-9); });
     const double step = size[axes[0]] > 0 ? 1e-6 * size[axes[0]] : 1.0;
-    const auto place = [&](Index n, std::size_t axis) {
-      return std::round((mesh_.coordinates[at(n)][axis] - low[axis]) / step);
-    };
+    const auto place = [&](Index n, std::size_t axis) { return bin(mesh_.coordinates[at(n)][axis] - low[axis], step); };
     std::vector<Index> level;
     std::copy_if(body.begin(), body.end(), std::back_inserter(level), [&](Index n) { return place(n, axes[0]) <= 0; });
     std::sort(level.begin(), level.end(), [&](Index a, Index b) {
@@ -235,16 +240,47 @@ void renumber_nodes(Mesh& mesh, const std::vector<Index>& order) {
   }
 }
 
-}  // namespace
+/// Nodes along the bins of a coarse grid: near enough to the final order that finding it does not wait for memory.
+std::vector<Index> grid_order(const Mesh& mesh) {
+  constexpr double kBins = 100;
+  Vec3 low{}, high{};
+  if (mesh.node_count() > 0) low = high = mesh.coordinates[0];
+  for (const Vec3& x : mesh.coordinates)
+    for (std::size_t c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], x[c]);
+      high[c] = std::max(high[c], x[c]);
+    }
+  const double size = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  const double bin_size = size > 0 ? size / kBins : 1.0;
+  std::vector<std::pair<std::int64_t, Index>> keys(mesh.node_count());
+  for (std::size_t n = 0; n < keys.size(); ++n) {
+    std::int64_t key = 0;
+    for (const std::size_t c : {2, 1, 0})
+      key = 1000 * key + static_cast<std::int64_t>(bin(mesh.coordinates[n][c] - low[c], bin_size));
+    keys[n] = {key, static_cast<Index>(n)};
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<Index> order(keys.size());
+  std::transform(keys.begin(), keys.end(), order.begin(), [](const auto& key) { return key.second; });
+  return order;
+}
 
-Mesh renumbered(Mesh mesh) {
-  renumber_nodes(mesh, LevelOrder(mesh).compute());
+/// Brings nodes into this order (order[new] = old) and cells along.
+void reorder(const std::vector<Index>& order, Mesh& mesh) {
+  renumber_nodes(mesh, order);
   std::vector<std::vector<Index>> new_cell;
   for (CellBlock& block : mesh.blocks) new_cell.push_back(inverse(sort_cells(block)));
   for (auto& [name, cells] : mesh.cell_groups) {
     for (CellRef& ref : cells) ref.cell = new_cell[at(ref.block)][at(ref.cell)];
     std::sort(cells.begin(), cells.end());
   }
+}
+
+}  // namespace
+
+Mesh renumbered(Mesh mesh) {
+  reorder(grid_order(mesh), mesh);
+  reorder(LevelOrder(mesh).compute(), mesh);
   return mesh;
 }
 
