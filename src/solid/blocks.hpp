@@ -29,7 +29,7 @@ struct Chunk {
   Index cells = 0;
 };
 
-/// All solid cells. Chunk bounds and colours depend on the mesh and the lane count, never on the number of threads.
+/// All solid cells. Chunk bounds and colours depend on the mesh alone, never on the number of threads.
 struct SolidCells {
   std::vector<Index> cells;               ///< index in Mesh::block(hexa8)
   std::vector<Block> blocks;              ///< one per part that has cells
