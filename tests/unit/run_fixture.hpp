@@ -1,0 +1,84 @@
+// Cases in memory and in a temporary folder.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "base/errors.hpp"
+#include "casefile/read_case.hpp"
+#include "run/run_case.hpp"
+#include "run/simulation.hpp"
+
+namespace carom::test {
+
+/// A block of 2 x 2 x 3 unit cells with numbers near 1; `rest` adds or ends the sections.
+inline std::string case_of_block(const std::string& rest) {
+  return R"(units = "SI"
+[[mesh.block]]
+size = [2.0, 2.0, 3.0]
+divisions = [2, 2, 3]
+groups = { cells = "BODY", zmin = "FOOT", zmax = "HEAD" }
+[materials.soft]
+law = "linear_elastic"
+E = 2.0
+nu = 0.3
+rho = 1.5
+[[part]]
+name = "body"
+cells = "BODY"
+material = "soft"
+)" + rest;
+}
+
+/// The CaseError that building the case's simulation throws.
+inline CaseError case_error(const std::string& text) {
+  const Case given = parse_case(text, "case.toml");
+  try {
+    const Simulation simulation(given);
+  } catch (const CaseError& e) {
+    return e;
+  }
+  ADD_FAILURE() << "no error for\n" << text;
+  return {{}, "", "", ""};
+}
+
+inline std::string read_text(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+/// A temporary folder with a case in it.
+class TemporaryCase {
+ public:
+  explicit TemporaryCase(const std::string& text) {
+    static int count = 0;
+    folder_ = std::filesystem::temp_directory_path() /
+              ("carom_run_test_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "case.toml") << text;
+  }
+  ~TemporaryCase() { std::filesystem::remove_all(folder_); }
+  TemporaryCase(const TemporaryCase&) = delete;
+  TemporaryCase& operator=(const TemporaryCase&) = delete;
+
+  ExitCode run() const {
+    RunOptions options;
+    options.folder = results().string();
+    options.threads = 1;
+    options.progress = ProgressMode::quiet;
+    return run_case((folder_ / "case.toml").string(), options, std::atomic<bool>{false});
+  }
+  std::filesystem::path results() const { return folder_ / "out"; }
+  std::string result(const std::string& file) const { return read_text(results() / file); }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace carom::test
