@@ -25,9 +25,10 @@ Mesh natural_cube(int n) {
   Mesh mesh = make_structured_blocks({block});
   std::mt19937 generator(1);
   std::uniform_real_distribution<double> move(-0.1 / n, 0.1 / n);
-  for (Vec3& x : mesh.coordinates)
-    for (double& component : x)
-      if (component > 0.0 && component < 1.0) component += move(generator);
+  for (Vec3& x : mesh.coordinates) {
+    const bool inside = std::all_of(x.begin(), x.end(), [](double c) { return c > 0.0 && c < 1.0; });
+    for (double& component : x) component += inside ? move(generator) : 0.0;
+  }
   return mesh;
 }
 
