@@ -95,7 +95,7 @@ TEST(Casefile, BlocksAndMaterials) {
   EXPECT_EQ(c.title, "A \"complete\" case");
   EXPECT_EQ(c.units, UnitSystem::mm_t_s);
   ASSERT_EQ(c.mesh.blocks.size(), 2U);
-  const CaseBlock& block = c.mesh.blocks[0];
+  const StructuredBlock& block = c.mesh.blocks[0];
   EXPECT_EQ(block.divisions, (std::array{2, 2, 20}));
   EXPECT_EQ(block.cells_group, "BAR");
   EXPECT_EQ(block.face_groups, (std::array<std::string, 6>{"XMIN", "", "YMIN", "YMAX", "FOOT", "ZMAX"}));
