@@ -67,6 +67,26 @@ Section<CaseScheme> scheme_section() {
   return s;
 }
 
+/// A key that is written only where it acts: beside no step.
+void add_safety(Section<CaseTime>& s) {
+  const KeyDescription key{
+      "safety",
+      Shape::number,
+      "Fraction of the stable step; not beside `step`.",
+      {.range = {Bound{0.0, Bound::Side::open}, Bound{1.0, Bound::Side::closed}}, .kinds = {"central_differences"}},
+      Node{CaseTime{}.safety, {}},
+      {}};
+  Section<CaseTime>::Handlers handlers;
+  handlers.read = [key](CaseTime& time, const Node& node, const ReadContext& at) {
+    decode(node, key, at, time.safety);
+  };
+  handlers.write = [](const CaseTime& time, const Node&) -> std::optional<Node> {
+    if (time.step) return std::nullopt;
+    return Node{time.safety, {}};
+  };
+  s.add(key, handlers);
+}
+
 Section<CaseTime> time_section() {
   Section<CaseTime> s("Duration and time step.");
   s.description.selector = "scheme.kind";
@@ -79,9 +99,13 @@ Section<CaseTime> time_section() {
          .aliases = {"dt"},
          .default_phrase = "newmark: required; central_differences: from the stable step"});
   s.key("fixed", &CaseTime::fixed, "Never halve the step: a step that fails ends the run.", {.kinds = {"newmark"}});
-  s.key("safety", &CaseTime::safety, "Fraction of the stable step.",
-        {.range = {Bound{0.0, Bound::Side::open}, Bound{1.0, Bound::Side::closed}}, .kinds = {"central_differences"}});
-  s.finish = [](CaseTime& time, const Node&, const ReadContext& at) {
+  add_safety(s);
+  s.finish = [](CaseTime& time, const Node& node, const ReadContext& at) {
+    const Node* safety = find(node, "safety");
+    if (time.step && safety != nullptr) {
+      throw CaseError(safety->where, at.at("safety").path, "a fraction of the stable step beside a step",
+                      "step or safety", "Leave out step to have it chosen.");
+    }
     if (time.step && **time.step > *time.end) {
       throw CaseError(time.step->where, at.at("step").path, toml_number(**time.step),
                       "a step of at most time.end = " + toml_number(*time.end));
@@ -92,11 +116,12 @@ Section<CaseTime> time_section() {
 
 Section<CaseSolver> solver_section() {
   Section<CaseSolver> s("Solvers of implicit steps.");
+  s.description.selector = "scheme.kind";
   s.key("kind", &CaseSolver::kind,
         "Linear solver: conjugate gradients, CHOLMOD, or chosen from the estimated conditioning.",
-        {.choices = {"auto", "cg", "cholmod"}});
+        {.choices = {"auto", "cg", "cholmod"}, .kinds = {"newmark"}});
   s.key("max_contact_iterations", &CaseSolver::max_contact_iterations,
-        "A step whose contact state needs more iterations has failed.", {.range = at_least(1.0)});
+        "A step whose contact state needs more iterations has failed.", {.range = at_least(1.0), .kinds = {"newmark"}});
   return s;
 }
 
@@ -114,7 +139,7 @@ Section<CaseProbe> probe_section() {
   Section<CaseProbe> s("Curves at a node, at the node nearest to a point, or over a group, in probes.csv.");
   s.key("name", &CaseProbe::name, "Name in results and in [[check]].", {.need = Need::required});
   s.key("node", &CaseProbe::node, "Number of the node in the mesh file.", {.range = at_least(0.0)});
-  s.key("point", &CaseProbe::point, "The node nearest to this point.", {.unit = Dimension::length});
+  s.key("point", &CaseProbe::point, "The node of a part nearest to this point.", {.unit = Dimension::length});
   s.key("group", &CaseProbe::group, "Group: mean over its nodes; stress: over the cells that touch them.");
   s.key("quantities", &CaseProbe::quantities, "What to record.",
         {.choices = {"displacement", "velocity", "acceleration", "stress", "section_force"}, .need = Need::required});

@@ -52,6 +52,7 @@ class Lint {
     check_speeds();
     for (const CaseLoad& load : case_.loads) check_gravity(load);
     check_scheme();
+    check_use();
     return std::move(lines_);
   }
 
@@ -159,6 +160,24 @@ class Lint {
     say(scheme.where, fmt::format("scheme: Newmark with beta = {} and gamma = {} is stable for small steps only; with "
                                   "2 beta >= gamma it is stable for any step",
                                   scheme.beta, scheme.gamma));
+  }
+
+  /// What is declared and not used is a name forgotten elsewhere, more often than not.
+  void check_use() {
+    for (const CaseMaterial& m : case_.materials) {
+      const bool used = std::any_of(case_.parts.begin(), case_.parts.end(),
+                                    [&m](const CasePart& part) { return *part.material == m.name; });
+      if (!used) say(m.where, fmt::format("materials.{}: no part uses it", toml_key(m.name)));
+    }
+    for (const CaseFunction& f : case_.functions) {
+      const auto is_it = [&f](const auto& user) { return user.function && **user.function == f.name; };
+      const auto has_it = [&is_it](const CaseSupport& support) {
+        return std::any_of(support.motions.begin(), support.motions.end(), is_it);
+      };
+      const bool used = std::any_of(case_.loads.begin(), case_.loads.end(), is_it) ||
+                        std::any_of(case_.supports.begin(), case_.supports.end(), has_it);
+      if (!used) say(f.where, fmt::format("functions.{}: no load or support uses it", toml_key(f.name)));
+    }
   }
 
   const Case& case_;
