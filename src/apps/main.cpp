@@ -3,14 +3,17 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <system_error>
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
-#include "casefile/schema.hpp"
 #include "casefile/read_case.hpp"
+#include "casefile/schema.hpp"
 #include "linalg/process_environment.hpp"
 #include "mesh/mesh_summary.hpp"
 #include "mesh/read_mesh.hpp"
@@ -39,6 +42,8 @@ struct Arguments {
 ExitCode run(const Arguments& arguments) {
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
+  std::signal(SIGHUP, request_stop);
+  std::signal(SIGPIPE, SIG_IGN);  // a run outlives the pipe that its progress is written to
   carom::RunOptions options;
   options.folder = arguments.folder.empty()
                        ? (std::filesystem::path("out") / std::filesystem::path(arguments.case_file).stem()).string()
@@ -100,7 +105,9 @@ int main(int argc, char** argv) {
     return app.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::case_wrong);
   }
   try {
-    return static_cast<int>(dispatch(app, arguments));
+    const ExitCode code = dispatch(app, arguments);
+    if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "cannot write to stdout");
+    return static_cast<int>(code);
   } catch (const carom::CaseError& e) {
     fmt::print(stderr, "error: {}\n", e.what());
     return static_cast<int>(ExitCode::case_wrong);

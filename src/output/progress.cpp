@@ -55,6 +55,12 @@ std::vector<std::string> entries(const ProgressUpdate& now, double t_end, double
   return list;
 }
 
+/// A terminal or pipe that has gone must not end a run, so its errors are passed over.
+void show(std::FILE* stream, const std::string& text) {
+  std::fputs(text.c_str(), stream);
+  std::fflush(stream);
+}
+
 }  // namespace
 
 std::string progress_line(const ProgressUpdate& now, double t_end, double elapsed_seconds, int width) {
@@ -91,8 +97,7 @@ void Progress::show_live(const ProgressUpdate& now) {
   last_shown_ = time;
   const double elapsed = std::chrono::duration<double>(time - begin_).count();
   // The last column stays free: a full line would wrap on some terminals.
-  fmt::print(stream_, "\r{}\x1b[K", progress_line(now, t_end_, elapsed, terminal_width(stream_) - 1));
-  std::fflush(stream_);
+  show(stream_, "\r" + progress_line(now, t_end_, elapsed, terminal_width(stream_) - 1) + "\x1b[K");
   live_shown_ = true;
 }
 
@@ -101,21 +106,19 @@ void Progress::show_line(const ProgressUpdate& now) {
   if (fraction < next_line_ - 1e-9) return;
   next_line_ = kLineEvery * (std::floor(fraction / kLineEvery + 1e-9) + 1.0);
   const double elapsed = std::chrono::duration<double>(Clock::now() - begin_).count();
-  fmt::print(stream_, "{}\n", fmt::join(entries(now, t_end_, elapsed), "  "));
-  std::fflush(stream_);
+  show(stream_, fmt::format("{}\n", fmt::join(entries(now, t_end_, elapsed), "  ")));
 }
 
 void Progress::clear_live() {
   if (!live_shown_) return;
-  fmt::print(stream_, "\r\x1b[K");
+  show(stream_, "\r\x1b[K");
   live_shown_ = false;
 }
 
 void Progress::finish(std::string_view message) {
   if (mode_ == ProgressMode::quiet) return;
   clear_live();
-  if (!message.empty()) fmt::print(stream_, "{}\n", message);
-  std::fflush(stream_);
+  if (!message.empty()) show(stream_, std::string(message) + "\n");
 }
 
 }  // namespace carom
