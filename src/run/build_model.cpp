@@ -14,7 +14,7 @@ namespace {
 class Builder {
  public:
   Builder(const Case& given, const Mesh& mesh, Model& model)
-      : case_(given), mesh_(mesh), groups_(mesh), model_(model) {}
+      : case_(given), mesh_(mesh), groups_(mesh), model_(model), is_in_part_(mesh.node_count(), false) {}
 
   void build() {
     for (const CasePart& part : case_.parts) add_part(part);
@@ -32,7 +32,13 @@ class Builder {
               LinearElastic{*material->E, *material->nu, *material->rho}};
     for (const Index cell : part.cells) {
       const auto [entry, is_new] = part_of_.emplace(cell, *given.name);
-      if (is_new) continue;
+      if (is_new) {
+        for (std::size_t a = 0; a < 8; ++a) {
+          const Index n = mesh_.block(CellType::hexa8)->connectivity[8 * static_cast<std::size_t>(cell) + a];
+          is_in_part_[static_cast<std::size_t>(n)] = true;
+        }
+        continue;
+      }
       throw CaseError(given.cells.where, "part.cells",
                       fmt::format("cell {} in part \"{}\" and in part \"{}\"",
                                   mesh_.block(CellType::hexa8)->file_numbers[static_cast<std::size_t>(cell)],
@@ -58,7 +64,8 @@ class Builder {
     if (given.symmetry) blocked[static_cast<std::size_t>((**given.symmetry)[0] - 'x')] = true;
     for (int c = 0; c < 3; ++c) {
       if (blocked[static_cast<std::size_t>(c)]) {
-        model_.motions.push_back({label, nodes, c, MotionKind::displacement, {{0.0}, {0.0}}});
+        // No velocity rather than no displacement: nodes stay where [[initial]] has put them.
+        model_.motions.push_back({label, nodes, c, MotionKind::velocity, {{0.0}, {0.0}}});
       }
     }
     for (const CaseSupport::Motion& motion : given.motions) {
@@ -70,18 +77,32 @@ class Builder {
 
   void add_load(const CaseLoad& given) {
     switch (given.kind) {
-      case CaseLoad::Kind::force:
-        model_.loads.emplace_back(
-            NodalForce{groups_.nodes(*given.group, "load.group"), given.vector, function(given.function, 1.0)});
+      case CaseLoad::Kind::force: {
+        const std::vector<Index> nodes = groups_.nodes(*given.group, "load.group");
+        for (const Index n : nodes) refuse_outside_parts(n, *given.group);
+        model_.loads.emplace_back(NodalForce{nodes, given.vector, function(given.function, 1.0)});
         break;
-      case CaseLoad::Kind::pressure:
-        model_.loads.emplace_back(
-            Pressure{groups_.outer_faces(*given.group, "load.group"), given.pressure, function(given.function, 1.0)});
+      }
+      case CaseLoad::Kind::pressure: {
+        const std::vector<std::array<Index, 4>> faces = groups_.outer_faces(*given.group, "load.group");
+        for (const auto& face : faces)
+          std::for_each(face.begin(), face.end(), [&](Index n) { refuse_outside_parts(n, *given.group); });
+        model_.loads.emplace_back(Pressure{faces, given.pressure, function(given.function, 1.0)});
         break;
+      }
       case CaseLoad::Kind::gravity:
         model_.loads.emplace_back(Gravity{given.vector, function(given.function, 1.0)});
         break;
     }
+  }
+
+  /// A force on a node that no part holds would move nothing.
+  void refuse_outside_parts(Index node, const Located<std::string>& group) const {
+    if (is_in_part_[static_cast<std::size_t>(node)]) return;
+    throw CaseError(group.where, "load.group",
+                    fmt::format("node {} of \"{}\", which belongs to no part",
+                                mesh_.node_numbers[static_cast<std::size_t>(node)], *group),
+                    "nodes or faces of parts");
   }
 
   void add_initial(const CaseInitial& given) {
@@ -148,6 +169,7 @@ class Builder {
   Groups groups_;
   Model& model_;
   std::map<Index, std::string> part_of_;
+  std::vector<bool> is_in_part_;  ///< per node
 };
 
 }  // namespace

@@ -13,10 +13,11 @@ namespace carom {
 /// Watches the columns that the checks name; a value between two samples is interpolated linearly.
 class Checks {
  public:
-  /// Throws CaseError where a check names something that no table holds, a time outside the run, or an exact value that
-  /// [exact] does not cover.
+  /// Throws CaseError where a check names something that no table holds, or an exact value that [exact] does not cover.
   Checks(const Simulation& simulation, const std::vector<const Table*>& tables, const ExactCurves* exact);
 
+  /// Is t, with steps of at most dt, one of the two samples around the time of a check?
+  bool is_due(double t, double dt) const;
   /// To be called after the tables have been sampled.
   void sample(double t);
   /// Results so far; a check whose time has not been reached fails with a value of NaN.

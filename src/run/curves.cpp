@@ -161,9 +161,11 @@ void ProbeCurves::locate(const CaseProbe& given, Probe& probe) const {
     }
     probe.nodes = {static_cast<Index>(found - mesh.node_numbers.begin())};
   } else {
+    const std::vector<double>& mass = simulation_.mass().node_diagonal();
     Index nearest_node = 0;
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t n = 0; n < mesh.node_count(); ++n) {
+      if (mass[n] == 0.0) continue;
       const double distance = norm(subtract(mesh.coordinates[n], **given.point));
       if (distance >= best) continue;
       best = distance;

@@ -58,14 +58,18 @@ Recorder::Recorder(const Simulation& simulation, std::string folder)
 }
 
 void Recorder::record(const StepView& view, double end_weight, Moment moment) {
-  contact_.sample(view, end_weight);  // every step: the impulses are sums
+  if (view.step != last_sample_) contact_.sample(view, end_weight);  // every step, once: the impulses are sums
+  last_sample_ = view.step;
   const bool last = moment == Moment::last;
   const bool due = last || view.step % simulation_.given().output.curves_every == 0;
-  if (due && view.step != last_row_) {
-    last_row_ = view.step;
+  const bool is_checked = checks_.is_due(view.state.t, simulation_.dt());
+  if (due || is_checked) {
     energy_.sample(view);
     probes_.sample(view);
-    checks_.sample(view.state.t);
+  }
+  if (is_checked) checks_.sample(view.state.t);
+  if (due && view.step != last_row_) {
+    last_row_ = view.step;
     energy_file_.append(energy_.table().row);
     contact_file_.append(contact_.table().row);
     probes_file_.append(probes_.table().row);
@@ -106,32 +110,54 @@ void Recorder::record_frame(const StepView& view) {
   frames_.add(view.state.t, file);
 }
 
+namespace {
+
+/// Number of rows from the first on whose times are equidistant: the step may have been halved, and the last row is
+/// written whether it is due or not.
+std::size_t equidistant_rows(const std::vector<std::vector<double>>& rows) {
+  std::size_t n = std::min<std::size_t>(rows.size(), 2);
+  while (n >= 2 && n < rows.size()) {
+    const double first = rows[1][0] - rows[0][0], step = rows[n][0] - rows[n - 1][0];
+    if (std::abs(step - first) > 1e-6 * first) break;  // far above the round-off of times
+    ++n;
+  }
+  return n;
+}
+
+}  // namespace
+
 /// Probes with a channel frequency class, filtered after the run: probes_filtered.csv, the classes in its header.
 void Recorder::write_filtered() const {
-  if (filtered_rows_.size() < 3) return;
+  const std::size_t rows = equidistant_rows(filtered_rows_);
+  if (rows < 3) return;
   const Case& given = simulation_.given();
   const double seconds = si_factor(Dimension::time, given.units);
-  const double dt = filtered_rows_[1][0] - filtered_rows_[0][0];
+  const double dt = (filtered_rows_[rows - 1][0] - filtered_rows_[0][0]) / static_cast<double>(rows - 1);
   std::vector<std::string> columns{"time"}, header = comments(simulation_, "filtered probes");
+  if (rows < filtered_rows_.size()) {
+    header.push_back(fmt::format("ends at {}: the rows of probes.csv after it are not equidistant, which filters need",
+                                 filtered_rows_[rows - 1][0]));
+  }
   std::vector<std::vector<double>> values;
   for (const CaseProbe& probe : given.probes) {
     if (!probe.cfc) continue;
     for (std::size_t c = 1; c < probes_.table().columns.size(); ++c) {
-      if (!probes_.table().columns[c].starts_with(*probe.name + ".")) continue;
+      const std::string& column = probes_.table().columns[c];
+      if (column.substr(0, column.rfind('.')) != *probe.name) continue;
       std::vector<double> raw;
-      for (const auto& row : filtered_rows_) raw.push_back(row[c]);
+      for (std::size_t i = 0; i < rows; ++i) raw.push_back(filtered_rows_[i][c]);
       try {
         values.push_back(cfc_filter(raw, dt * seconds, *probe.cfc));
       } catch (const std::invalid_argument& e) {
-        header.push_back(fmt::format("{}: not filtered: {}", probes_.table().columns[c], e.what()));
+        header.push_back(fmt::format("{}: not filtered: {}", column, e.what()));
         continue;
       }
-      columns.push_back(probes_.table().columns[c]);
-      header.push_back(fmt::format("{}: SAE J211 CFC {:g}", columns.back(), *probe.cfc));
+      columns.push_back(column);
+      header.push_back(fmt::format("{}: SAE J211 CFC {:g}", column, *probe.cfc));
     }
   }
   CsvFile file(folder_ + "/probes_filtered.csv", columns, header);
-  for (std::size_t i = 0; i < filtered_rows_.size(); ++i) {
+  for (std::size_t i = 0; i < rows; ++i) {
     std::vector<double> row{filtered_rows_[i][0]};
     for (const auto& column : values) row.push_back(column[i]);
     file.append(row);

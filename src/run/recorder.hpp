@@ -44,7 +44,7 @@ class Recorder {
   std::optional<CsvFile> exact_file_;
   PvdCollection frames_;
   long long frame_every_;
-  long long last_frame_ = -1, last_row_ = -1;  ///< steps written last
+  long long last_sample_ = -1, last_frame_ = -1, last_row_ = -1;  ///< steps sampled or written last
   std::vector<std::vector<double>> filtered_rows_;  ///< rows of probes.csv, kept when a probe asks for a filter
 };
 

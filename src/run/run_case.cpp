@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
 #include "base/version.hpp"
 #include "casefile/plausibility.hpp"
@@ -101,7 +102,7 @@ class Run {
  private:
   void start();
   bool advance();
-  void record(Recorder::Moment moment, double dt, int iterations);
+  void record(Recorder::Moment moment);
 
   const Simulation& s_;
   Recorder recorder_;
@@ -112,6 +113,8 @@ class Run {
   std::optional<EnergyLedger> ledger_;
   std::optional<RunMonitor> monitor_;
   long long step_ = 0;
+  double dt_ = 0.0;     ///< of the last step
+  int iterations_ = 0;  ///< of the last step
   double dt_smallest_ = 0.0, dt_largest_ = 0.0;
   Outcome outcome_ = Outcome::good;
   std::string message_;
@@ -124,43 +127,45 @@ void Run::start() {
     throw RunError(0, 0.0, e.what());
   }
   ledger_.emplace(scheme_->forces().stored, scheme_->forces().total_momentum, reach(s_.mesh()));
-  monitor_.emplace(*ledger_);
-  record(Recorder::Moment::during, 0.0, 0);
+  const std::vector<double>& masses = s_.mass().node_diagonal();
+  monitor_.emplace(*ledger_, std::accumulate(masses.begin(), masses.end(), 0.0), s_.reversible_energy());
+  record(Recorder::Moment::during);
 }
 
-void Run::record(Recorder::Moment moment, double dt, int iterations) {
-  recorder_.record({step_, dt, iterations, state_, scheme_->forces(), *ledger_}, scheme_->end_weight(), moment);
+void Run::record(Recorder::Moment moment) {
+  recorder_.record({step_, dt_, iterations_, state_, scheme_->forces(), *ledger_}, scheme_->end_weight(), moment);
 }
 
 /// One accepted step. Returns false when the run cannot go on; message_ says why.
 bool Run::advance() {
   StepReport report;
-  double dt = 0.0;
   for (;;) {
-    dt = control_.dt();
+    const double dt = control_.dt();
     // A hundredth of the ledger's bound (1e-10 of the energy), shared out over the time of the run; what a step leaves
     // unbooked is at most its residual's work.
     const double tolerance = 1e-12 * ledger_->scale() * dt / *s_.given().time.end;
     report = scheme_->step(state_, {control_.t_end_of_step(), dt, tolerance}, next_);
     if (report.converged) break;
     if (control_.halve()) continue;
+    record(Recorder::Moment::last);
     message_ = fmt::format("step {} from t = {:.6g} failed: {}{}", step_ + 1, state_.t, report.failure,
                            s_.given().time.fixed ? "; the case fixes the step, so it was not halved" : "");
     outcome_ = Outcome::error;
     return false;
   }
   std::swap(state_, next_);
+  dt_ = control_.dt();
+  iterations_ = std::max(report.iterations, report.linear_iterations);
   control_.accept();
   ++step_;
-  dt_smallest_ = step_ == 1 ? dt : std::min(dt_smallest_, dt);
-  dt_largest_ = std::max(dt_largest_, dt);
+  dt_smallest_ = step_ == 1 ? dt_ : std::min(dt_smallest_, dt_);
+  dt_largest_ = std::max(dt_largest_, dt_);
   ledger_->add(report.books, scheme_->forces().total_momentum);
   monitor_->update();
   const std::string alarm = monitor_->alarm();
   const bool last = control_.at_end() || !alarm.empty();
-  const int iterations = std::max(report.iterations, report.linear_iterations);
-  record(last ? Recorder::Moment::last : Recorder::Moment::during, dt, iterations);
-  progress_.update({state_.t, step_, dt, iterations, monitor_->relative_imbalance()});
+  record(last ? Recorder::Moment::last : Recorder::Moment::during);
+  progress_.update({state_.t, step_, dt_, iterations_, monitor_->relative_imbalance()});
   if (alarm.empty()) return true;
   message_ = fmt::format("stopped after step {}, t = {:.6g}: {}; {}", step_, state_.t, alarm, worst_place(s_, state_));
   outcome_ = Outcome::error;
@@ -172,7 +177,7 @@ void Run::loop(const std::atomic<bool>& stop) {
   while (!control_.at_end()) {
     if (!advance()) return;
     if (!stop.load() || control_.at_end()) continue;
-    record(Recorder::Moment::last, 0.0, 0);
+    record(Recorder::Moment::last);
     outcome_ = Outcome::stopped;
     message_ = fmt::format("interrupted after step {}, t = {:.6g} of {:.6g}", step_, state_.t, *s_.given().time.end);
     return;
@@ -231,22 +236,35 @@ void judge(Summary& summary) {
                                 summary.verdict.size() - static_cast<std::size_t>(items), summary.verdict.size());
 }
 
+/// To stderr; when that has gone, the results are still in the folder.
+template <class... Values>
+void say(fmt::format_string<Values...> format, Values&&... values) {
+  std::fputs(fmt::format(format, std::forward<Values>(values)...).c_str(), stderr);
+}
+
 void print_verdict(const Summary& summary, const std::string& folder) {
   for (const VerdictItem& item : summary.verdict) {
-    if (!item.pass)
-      fmt::print(stderr, "FAILED  {}: {:.3g}, limit {:.3g} ({})\n", item.name, item.value, item.limit,
-                 item.explanation);
+    if (!item.pass) say("FAILED  {}: {:.3g}, limit {:.3g} ({})\n", item.name, item.value, item.limit, item.explanation);
   }
   for (const CheckSummary& check : summary.checks) {
     const bool reached = check.time <= summary.scheme.time_reached;
     if (!check.pass && reached) {
-      fmt::print(stderr, "FAILED  check {} at t = {:.6g}: {:.10g}, reference {:.10g}, difference {:.3g} ({})\n",
-                 check.name, check.time, check.value, check.reference, check.difference, check.source);
+      say("FAILED  check {} at t = {:.6g}: {:.10g}, reference {:.10g}, difference {:.3g} ({})\n", check.name,
+          check.time, check.value, check.reference, check.difference, check.source);
     }
   }
-  fmt::print(stderr, "{}: {}\n", to_string(summary.outcome), summary.message);
-  fmt::print(stderr, "{} steps in {:.3g} s; results in {}, open {}/report.html\n", summary.scheme.steps,
-             summary.cost.wall_seconds, folder, folder);
+  say("{}: {}\n", to_string(summary.outcome), summary.message);
+  say("{} steps in {:.3g} s; results in {}, open {}/report.html\n", summary.scheme.steps, summary.cost.wall_seconds,
+      folder, folder);
+}
+
+/// The case with its mesh file as seen from the results folder, so that the resolved case can be run there.
+Case beside(Case given, const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::string& file = given.mesh.file.value;
+  if (!file.empty() && !fs::path(file).is_absolute())
+    file = fs::proximate(fs::path(given.file).parent_path() / file, folder).generic_string();
+  return given;
 }
 
 ExitCode exit_code(Outcome outcome) {
@@ -271,11 +289,11 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   const bool quiet = options.progress == ProgressMode::quiet;
   const Simulation simulation(given);
   if (!quiet) {
-    for (const std::string& warning : plausibility_warnings(given)) fmt::print(stderr, "warning: {}\n", warning);
-    for (const std::string& note : simulation.notes()) fmt::print(stderr, "note: {}\n", note);
+    for (const std::string& warning : plausibility_warnings(given)) say("warning: {}\n", warning);
+    for (const std::string& note : simulation.notes()) say("note: {}\n", note);
   }
   Run run(simulation, options);
-  write_file(options.folder + "/case.resolved.toml", resolved_toml(given));
+  write_file(options.folder + "/case.resolved.toml", resolved_toml(beside(given, options.folder)));
   write_file(options.folder + "/mesh.txt", mesh_summary(simulation.mesh()));
   Summary summary = summary_of(simulation);
   const double setup_seconds = seconds_since(begin);

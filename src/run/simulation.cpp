@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "contact/detect.hpp"
@@ -112,9 +113,10 @@ void Simulation::refuse_initial_penetration() const {
 
 void Simulation::choose_step() {
   const double end = *case_.time.end;
-  double wanted = is_newmark(case_) ? **case_.time.step : 0.0;
+  double wanted = is_newmark(case_) ? **case_.time.step : 0.0, stable_dt = std::numeric_limits<double>::infinity();
   if (!is_newmark(case_)) {
     const StableStep stable = stable_step(system_);
+    stable_dt = stable.dt;
     wanted = case_.time.step ? **case_.time.step : case_.time.safety * stable.dt;
     if (wanted > stable.dt) {
       throw CaseError(
@@ -135,6 +137,11 @@ void Simulation::choose_step() {
   }
   // Keep the user's own number when it divides the end; its multiples are then the times of the steps.
   dt_ = std::abs(count - static_cast<double>(steps_)) <= 1e-6 ? wanted : end / static_cast<double>(steps_);
+  if (is_newmark(case_)) {
+    reversible_energy_ = 2.0 * case_.scheme.beta >= case_.scheme.gamma * (1.0 - 1e-12) ? 1.0 : 0.0;
+  } else {
+    reversible_energy_ = 1.0 / std::max(1e-3, 1.0 - std::pow(dt_ / stable_dt, 2));  // finite also at the limit
+  }
 }
 
 State Simulation::initial_state() const {

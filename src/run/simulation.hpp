@@ -42,6 +42,12 @@ class Simulation {
   double dt() const { return dt_; }
   long long steps() const { return steps_; }
 
+  /// How many times the energy of the run the scheme may lend to the mechanical energy T + V and take back later.
+  /// Central differences keep T + V - h^2/8 a.Ma (Krenk, Comput. Methods Appl. Mech. Eng. 195, 2006), so that T + V is
+  /// at most 1 / (1 - (h / stable step)^2) times what they keep. Newmark with 2 beta >= gamma lends where loads jump; a
+  /// Newmark that may become unstable is lent nothing.
+  double reversible_energy() const { return reversible_energy_; }
+
   /// The state of the case's [[initial]] sections, before Scheme::start.
   State initial_state() const;
   std::unique_ptr<Scheme> make_scheme() const;
@@ -64,6 +70,7 @@ class Simulation {
   System system_;
   double dt_ = 0.0;
   long long steps_ = 0;
+  double reversible_energy_ = 0.0;
 };
 
 }  // namespace carom

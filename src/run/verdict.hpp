@@ -11,12 +11,15 @@ namespace carom {
 /// Largest errors over a run, collected step by step, each relative to what it is an error of.
 class RunMonitor {
  public:
-  explicit RunMonitor(const EnergyLedger& ledger) : ledger_(ledger) {}
+  /// `mass` of all parts, and Simulation::reversible_energy().
+  RunMonitor(const EnergyLedger& ledger, double mass, double reversible)
+      : ledger_(ledger), mass_(mass), reversible_(reversible) {}
 
   void update();
 
   /// Why the run must stop now: mechanical energy grown, or the balance of powers off, by more than 5 % of the larger
-  /// of initial and supplied energy; "" while all is well.
+  /// of initial and supplied energy; "" while all is well. Growth that the scheme lends and takes back is none, unless
+  /// it is for two steps in a row more than a stable step can lend.
   std::string alarm() const;
 
   /// balance of powers, quadrature, algorithmic, linear and angular momentum, penetration.
@@ -27,7 +30,11 @@ class RunMonitor {
   double relative_imbalance() const;
 
  private:
+  double growth() const;
+
   const EnergyLedger& ledger_;
+  double mass_, reversible_;
+  double lent_ = 0.0, lent_before_ = 0.0;  ///< energy lent by the scheme, after this step and the one before
   double imbalance_ = 0.0, quadrature_ = 0.0, algorithmic_ = 0.0;  ///< largest so far, energies
   double linear_error_ = 0.0, angular_error_ = 0.0;                ///< largest so far, momenta
   double linear_scale_ = 0.0, angular_scale_ = 0.0;                ///< largest momentum or impulse so far

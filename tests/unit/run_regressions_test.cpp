@@ -1,0 +1,303 @@
+// What users ran into: each test is a case that once ended wrong.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "run_fixture.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+/// The rows of a CSV text as {column: value} of the last one whose time is at most t.
+double value_at(const std::string& csv, const std::string& name, double t) {
+  std::istringstream lines(csv);
+  std::string line, cell;
+  std::vector<std::string> names;
+  double value = std::nan("");
+  while (std::getline(lines, line)) {
+    if (line.empty() || line[0] == '#') continue;
+    std::vector<std::string> cells;
+    for (std::istringstream row(line); std::getline(row, cell, ',');) cells.push_back(cell);
+    if (names.empty()) {
+      names = cells;
+      continue;
+    }
+    if (std::stod(cells[0]) > t) break;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (names[i] == name) value = std::stod(cells[i]);
+    }
+  }
+  return value;
+}
+
+const char* const newmark = R"(
+[scheme]
+kind = "newmark"
+beta = 0.28
+gamma = 0.55
+[time]
+end = 4.0
+step = 0.02
+)";
+const char* const central_differences = R"(
+[scheme]
+kind = "central_differences"
+[time]
+end = 4.0
+)";
+
+const char* const functions = R"(
+[functions.late]
+kind = "step"
+time = 1.0
+before = 0.0
+after = 1.0
+[functions.pulse]
+time = [0.0, 0.5, 1.0]
+value = [0.0, 1.0, 0.0]
+)";
+
+/// Runs the block under `section`; returns the summary where the run has failed, or "".
+std::string failure(const std::string& section, const char* scheme) {
+  const TemporaryCase one(case_of_block(functions + section + scheme));
+  return one.run() == ExitCode::run_failed ? section + one.result("summary.json") : "";
+}
+
+// In the first step the scheme holds a good part of the energy itself; that is not growth.
+TEST(RunRegressions, LoadsMayBeginAtRest) {
+  for (const char* scheme : {newmark, central_differences}) {
+    EXPECT_EQ(failure(R"(
+[[load]]
+force = [0.0, 0.01, 0.0]
+group = "HEAD"
+function = "late"
+)",
+                      scheme),
+              "");
+    EXPECT_EQ(failure(R"(
+[[load]]
+pressure = 0.01
+group = "HEAD"
+function = "pulse"
+)",
+                      scheme),
+              "");
+  }
+}
+
+TEST(RunRegressions, MotionsMayBeginAtRest) {
+  EXPECT_EQ(failure(R"(
+[[support]]
+nodes = "HEAD"
+velocity = { z = -0.01, function = "late" }
+)",
+                    central_differences),
+            "");
+  EXPECT_EQ(failure(R"(
+[[support]]
+nodes = "HEAD"
+acceleration = { z = -0.01 }
+)",
+                    central_differences),
+            "");
+}
+
+// A plane at no distance: central differences hold the contact's energy for a step.
+TEST(RunRegressions, AnImpactMayBeginInTheFirstStep) {
+  for (const char* scheme : {newmark, central_differences}) {
+    const TemporaryCase one(case_of_block(R"(
+[[initial]]
+part = "body"
+velocity = [0.0, 0.0, -0.01]
+[[contact]]
+name = "floor"
+kind = "plane"
+group = "FOOT"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+stiffness = 2.0
+)" + std::string(scheme)));
+    EXPECT_NE(one.run(), ExitCode::run_failed) << one.result("summary.json");
+  }
+}
+
+// Head and foot fly apart: the momenta of the halves cancel, so there is no momentum to compare an error with.
+TEST(RunRegressions, MomentaThatCancelAreBalanced) {
+  const TemporaryCase one(case_of_block(R"(
+[[initial]]
+nodes = "HEAD"
+velocity = [0.0, 0.0, 0.1]
+[[initial]]
+nodes = "FOOT"
+velocity = [0.0, 0.0, -0.1]
+)" + std::string(newmark)));
+  EXPECT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
+}
+
+TEST(RunRegressions, ChecksSeeEveryStepWhateverTheRows) {
+  const std::string body = R"(
+[[initial]]
+nodes = "HEAD"
+velocity = [0.0, 0.0, 0.1]
+[[probe]]
+name = "head"
+group = "HEAD"
+quantities = ["velocity"]
+)" + std::string(newmark);
+  const TemporaryCase every(case_of_block(body));
+  every.run();
+  const double reference = value_at(every.result("probes.csv"), "head.velocity_z", 1.24 + 1e-9);  // the 62nd step
+  const TemporaryCase few(case_of_block(body + R"(
+[output]
+curves_every = 50
+[[check]]
+quantity = "velocity_z"
+place = "head"
+time = 1.24
+tolerance = 1e-12
+source = "the same run with a row for every step; the same numbers but for the printed digits"
+value = )" + std::to_string(0.0) + "\nabsolute = true\n"));
+  few.run();
+  const std::string summary = few.result("summary.json");
+  const std::size_t at = summary.find("\"value\": ", summary.find("\"checks\""));
+  ASSERT_NE(at, std::string::npos) << summary;
+  EXPECT_EQ(std::stod(summary.substr(at + 9)), reference);
+}
+
+TEST(RunRegressions, FilteredCurvesEndWhereTheRowsAreNoLongerEquidistant) {
+  const TemporaryCase one(case_of_block(R"(
+[[initial]]
+nodes = "HEAD"
+velocity = [0.0, 0.0, 0.1]
+[[probe]]
+name = "a"
+group = "HEAD"
+quantities = ["velocity"]
+cfc = 0.1
+[[probe]]
+name = "a.b"
+group = "FOOT"
+quantities = ["velocity"]
+[output]
+curves_every = 30
+)" + std::string(newmark)));
+  one.run();
+  const std::string filtered = one.result("probes_filtered.csv");
+  EXPECT_NE(filtered.find("# ends at 3.6"), std::string::npos) << filtered;  // rows at 0.6 k, and at the end, 4.0
+  EXPECT_EQ(filtered.find("a.b.velocity_z"), std::string::npos);             // another probe, which asks for no filter
+}
+
+TEST(RunRegressions, BlockedNodesStayWhereTheInitialStatePutsThem) {
+  const TemporaryCase one(case_of_block(R"(
+[[initial]]
+part = "body"
+displacement = [0.0, 0.0, 0.5]
+[[support]]
+nodes = "FOOT"
+blocked = ["z"]
+[[probe]]
+name = "foot"
+group = "FOOT"
+quantities = ["displacement"]
+[[check]]
+quantity = "displacement_z"
+place = "foot"
+value = 0.5
+tolerance = 1e-15
+source = "nothing moves it"
+[[check]]
+quantity = "energy.strain"
+value = 0.0
+absolute = true
+tolerance = 1e-15
+source = "a uniform displacement strains nothing; round-off of stiffness 2 x (0.5 eps)^2"
+)" + std::string(newmark)));
+  EXPECT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
+}
+
+/// A second block of cells, BASE, that belongs to no part.
+std::string with_base(const std::string& rest) {
+  return R"(
+[[mesh.block]]
+origin = [0.0, 0.0, -2.0]
+size = [2.0, 2.0, 1.0]
+divisions = [2, 2, 1]
+groups = { cells = "BASE", zmin = "BASE_FOOT", zmax = "BASE_HEAD" }
+)" + rest +
+         newmark;
+}
+
+TEST(RunRegressions, LoadsThatWouldMoveNothingAreRefused) {
+  const std::string message = case_error(case_of_block(with_base(R"(
+[[load]]
+force = [0.0, 0.0, 1.0]
+group = "BASE_HEAD"
+)")))
+                                  .what();
+  EXPECT_NE(message.find("of \"BASE_HEAD\", which belongs to no part"), std::string::npos) << message;
+}
+
+TEST(RunRegressions, PointsFindNodesOfParts) {
+  const TemporaryCase one(case_of_block(with_base(R"(
+[[initial]]
+part = "body"
+velocity = [0.0, 0.0, 0.25]
+[[probe]]
+name = "near"
+point = [0.0, 0.0, -0.9]
+quantities = ["velocity"]
+[[check]]
+quantity = "velocity_z"
+place = "near"
+value = 0.25
+tolerance = 1e-12
+source = "free flight; the nearest node of all, at z = -1, belongs to no part"
+)")));
+  EXPECT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
+}
+
+TEST(RunRegressions, KeysThatWouldDoNothingAreRefused) {
+  const auto message = [](const std::string& text) -> std::string {
+    try {
+      parse_case(text, "case.toml");
+    } catch (const CaseError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  const std::string explicit_case = case_of_block(central_differences);
+  EXPECT_NE(message(explicit_case + "[solver]\nkind = \"cg\"\n").find("solver.kind"), std::string::npos);
+  EXPECT_NE(message(explicit_case + "step = 0.01\nsafety = 0.5\n").find("time.safety"), std::string::npos);
+  EXPECT_EQ(message(explicit_case + "step = 0.01\n"), "");
+}
+
+TEST(RunRegressions, ChecksOfEnergiesTakeNoPlace) {
+  const TemporaryCase one(case_of_block(R"(
+[[probe]]
+name = "head"
+group = "HEAD"
+quantities = ["velocity"]
+[[check]]
+quantity = "energy.kinetic"
+place = "head"
+value = 1.0
+tolerance = 0.1
+)" + std::string(newmark)));
+  EXPECT_THROW(one.run(), CaseError);
+}
+
+TEST(RunRegressions, TheResolvedCaseRunsFromItsFolder) {
+  const TemporaryCase one(read_text(std::string(CAROM_SOURCE_DIR) + "/cases/interface_friction/imposed_slide.toml"));
+  const std::filesystem::path folder = one.results().parent_path();
+  std::filesystem::copy_file(std::string(CAROM_SOURCE_DIR) + "/cases/interface_friction/block.msh",
+                             folder / "block.msh");
+  ASSERT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
+  const Case again = read_case((one.results() / "case.resolved.toml").string());
+  EXPECT_EQ(Simulation(again).mesh().node_count(),
+            Simulation(read_case((folder / "case.toml").string())).mesh().node_count());
+}
+
+}  // namespace
+}  // namespace carom
