@@ -119,6 +119,19 @@ void Penalty::add_closed_stiffness(std::span<const double> x, std::span<double> 
   }
 }
 
+void Penalty::add_closed_diagonal(std::span<double> d) const {
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    const PenaltyParameters& row = parameters_[r];
+    for (Index k = rows_.begin[r]; k < rows_.begin[r + 1]; ++k) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double n = rows_.normal[r][c], t1 = rows_.tangent_1[r][c], t2 = rows_.tangent_2[r][c];
+        d[3 * static_cast<std::size_t>(rows_.node[k]) + c] +=
+            rows_.weight[k] * rows_.weight[k] * (row.eps_N * n * n + row.eps_T * (t1 * t1 + t2 * t2));
+      }
+    }
+  }
+}
+
 namespace {
 
 struct ParametersOf {

@@ -59,6 +59,8 @@ class Penalty {
 
   /// y += G^T diag(eps_N, eps_T, eps_T) G x with every row closed: the stiffness that the stable step must allow for.
   void add_closed_stiffness(std::span<const double> x, std::span<double> y) const;
+  /// d += the diagonal of that stiffness, one entry per dof.
+  void add_closed_diagonal(std::span<double> d) const;
 
  private:
   struct RowForce;

@@ -8,6 +8,7 @@
 #include "linalg/cholesky.hpp"
 #include "linalg/conjugate_gradients.hpp"
 #include "linalg/dense.hpp"
+#include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
 namespace carom {
@@ -96,12 +97,12 @@ struct RowComponent {
   std::size_t component;
 };
 
-/// A = M + s K factored once; contact by the Schur complement on its active rows:
-///   x = A^-1 b - Y D w,  (1 + S D) w = G A^-1 b,  Y = A^-1 G^T,  S = G Y  (Woodbury),
-/// where a column of Y is solved for when its row first becomes active.
+/// A = M + s K factored once; contact by the Schur complement on its active rows (Woodbury):
+///   (1 + S D) w = G A^-1 b,  x = A^-1 (b - G^T D w),  S = G A^-1 G^T,
+/// where S grows by a row and a column when a component of a row first becomes active; only S is kept.
 class CholeskySolver final : public EffectiveSolver {
  public:
-  explicit CholeskySolver(const System& system) : system_(system), column_of_(3 * system.contact.rows().size(), -1) {
+  explicit CholeskySolver(const System& system) : system_(system), known_(3 * system.contact.rows().size(), -1) {
     const std::vector<bool>& fixed = system.supports.fixed();
     compressed_of_.assign(fixed.size(), -1);
     for (std::size_t i = 0; i < fixed.size(); ++i) {
@@ -117,18 +118,19 @@ class CholeskySolver final : public EffectiveSolver {
     if (factor_ && s == s_) return;
     s_ = s;
     factor_.emplace(assemble());
-    columns_.clear();
-    std::fill(column_of_.begin(), column_of_.end(), -1);
+    components_.clear();
+    schur_.clear();
+    std::fill(known_.begin(), known_.end(), -1);
   }
 
   LinearSolveReport solve(std::span<const double> b, const std::vector<RowTangent>& D, double /*absolute*/,
                           std::span<double> x) override {
-    std::vector<double> y(free_.size());
-    for (std::size_t i = 0; i < free_.size(); ++i) y[i] = b[free_[i]];
-    factor_->solve(y);
-    std::fill(x.begin(), x.end(), 0.0);
-    for (std::size_t i = 0; i < free_.size(); ++i) x[free_[i]] = y[i];
-    correct_for_contact(D, x);
+    back_substitute(b, x);
+    const std::vector<RowComponent> active = active_components(D);
+    if (active.empty()) return {true, 1, 0.0};
+    std::vector<double> rhs(b.begin(), b.end());
+    subtract_contact(D, active, contact_displacements(D, active, x), rhs);
+    back_substitute(rhs, x);
     return {true, 1, 0.0};
   }
 
@@ -136,16 +138,22 @@ class CholeskySolver final : public EffectiveSolver {
 
  private:
   CsrMatrix assemble() const;
-  void add_columns(const std::vector<RowComponent>& active);
-  void correct_for_contact(const std::vector<RowTangent>& D, std::span<double> x);
+  std::vector<RowComponent> active_components(const std::vector<RowTangent>& D) const;
+  void back_substitute(std::span<const double> b, std::span<double> x) const;
+  void extend_schur(const std::vector<RowComponent>& active);
+  std::vector<double> contact_displacements(const std::vector<RowTangent>& D, const std::vector<RowComponent>& active,
+                                            std::span<const double> x);
+  void subtract_contact(const std::vector<RowTangent>& D, const std::vector<RowComponent>& active,
+                        const std::vector<double>& w, std::span<double> rhs) const;
 
   const System& system_;
   CsrMatrix stiffness_;
   std::vector<std::size_t> free_;     ///< dof of each unknown
   std::vector<Index> compressed_of_;  ///< unknown of each dof, -1 when fixed
   std::optional<Cholesky> factor_;
-  std::vector<std::vector<double>> columns_;  ///< columns of Y, on all dofs
-  std::vector<int> column_of_;                ///< column of each row component, -1 when not solved for yet
+  std::vector<RowComponent> components_;    ///< those that S knows
+  std::vector<int> known_;                  ///< position in S of each row component, -1 when it is not there yet
+  std::vector<std::vector<double>> schur_;  ///< lower triangle of S: row i has i + 1 entries
   double s_ = 0.0;
 };
 
@@ -172,12 +180,31 @@ CsrMatrix CholeskySolver::assemble() const {
   return A;
 }
 
-void CholeskySolver::add_columns(const std::vector<RowComponent>& active) {
+std::vector<RowComponent> CholeskySolver::active_components(const std::vector<RowTangent>& D) const {
+  std::vector<RowComponent> active;
+  for (std::size_t r = 0; r < D.size(); ++r) {
+    if (!acts(D[r])) continue;
+    const bool tangential = std::any_of(D[r].begin() + 1, D[r].end(), [](double d) { return d != 0.0; });
+    for (std::size_t c = 0; c < (tangential ? 3U : 1U); ++c) active.push_back({r, c});
+  }
+  return active;
+}
+
+/// x = A^-1 b on the free dofs, zero elsewhere.
+void CholeskySolver::back_substitute(std::span<const double> b, std::span<double> x) const {
+  std::vector<double> y(free_.size());
+  for (std::size_t i = 0; i < free_.size(); ++i) y[i] = b[free_[i]];
+  factor_->solve(y);
+  std::fill(x.begin(), x.end(), 0.0);
+  for (std::size_t i = 0; i < free_.size(); ++i) x[free_[i]] = y[i];
+}
+
+void CholeskySolver::extend_schur(const std::vector<RowComponent>& active) {
   std::vector<RowComponent> missing;
   for (const RowComponent& rc : active) {
-    if (column_of_[3 * rc.row + rc.component] < 0) missing.push_back(rc);
+    if (known_[3 * rc.row + rc.component] < 0) missing.push_back(rc);
   }
-  if (missing.empty()) return;
+  const ConstraintRows& rows = system_.contact.rows();
   const std::size_t n = free_.size();
   std::vector<double> full(system_.solid.dof_count());
   constexpr std::size_t most = 32;  // columns per call: enough for the matrix-matrix kernels of the solver
@@ -185,62 +212,60 @@ void CholeskySolver::add_columns(const std::vector<RowComponent>& active) {
     const std::size_t count = std::min(most, missing.size() - first);
     std::vector<double> block(n * count);
     for (std::size_t k = 0; k < count; ++k) {
-      const RowComponent& rc = missing[first + k];
       std::fill(full.begin(), full.end(), 0.0);
       Vec3 unit{};
-      unit[rc.component] = 1.0;
-      system_.contact.rows().scatter(rc.row, unit, full);
+      unit[missing[first + k].component] = 1.0;
+      rows.scatter(missing[first + k].row, unit, full);
       for (std::size_t i = 0; i < n; ++i) block[k * n + i] = full[free_[i]];
     }
     factor_->solve(block, static_cast<int>(count));
+    std::fill(full.begin(), full.end(), 0.0);
     for (std::size_t k = 0; k < count; ++k) {
-      std::fill(full.begin(), full.end(), 0.0);
       for (std::size_t i = 0; i < n; ++i) full[free_[i]] = block[k * n + i];
-      column_of_[3 * missing[first + k].row + missing[first + k].component] = static_cast<int>(columns_.size());
-      columns_.push_back(full);
+      const RowComponent& rc = missing[first + k];
+      known_[3 * rc.row + rc.component] = static_cast<int>(components_.size());
+      components_.push_back(rc);
+      std::vector<double>& line = schur_.emplace_back();
+      for (const RowComponent& other : components_) line.push_back(rows.relative(other.row, full)[other.component]);
     }
   }
 }
 
-void CholeskySolver::correct_for_contact(const std::vector<RowTangent>& D, std::span<double> x) {
-  const ConstraintRows& rows = system_.contact.rows();
-  std::vector<RowComponent> active;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (!acts(D[r])) continue;
-    const std::size_t components = D[r][4] != 0.0 || D[r][8] != 0.0 || D[r][3] != 0.0 || D[r][6] != 0.0 ? 3 : 1;
-    for (std::size_t c = 0; c < components; ++c) active.push_back({r, c});
-  }
-  if (active.empty()) return;
-  add_columns(active);
+/// w of (1 + S D) w = G x.
+std::vector<double> CholeskySolver::contact_displacements(const std::vector<RowTangent>& D,
+                                                          const std::vector<RowComponent>& active,
+                                                          std::span<const double> x) {
+  extend_schur(active);
   const std::size_t m = active.size();
-  const auto column = [&](const RowComponent& rc) -> const std::vector<double>& {
-    return columns_[static_cast<std::size_t>(column_of_[3 * rc.row + rc.component])];
+  const auto S = [&](const RowComponent& a, const RowComponent& b) {
+    const auto i = static_cast<std::size_t>(known_[3 * a.row + a.component]);
+    const auto j = static_cast<std::size_t>(known_[3 * b.row + b.component]);
+    return schur_[std::max(i, j)][std::min(i, j)];
   };
-  std::vector<double> S(m * m), matrix(m * m, 0.0), w(m);
+  std::vector<double> matrix(m * m, 0.0), w(m);
   for (std::size_t i = 0; i < m; ++i) {
-    w[i] = rows.relative(active[i].row, x)[active[i].component];
-    for (std::size_t j = 0; j < m; ++j)
-      S[i * m + j] = rows.relative(active[i].row, column(active[j]))[active[i].component];
-  }
-  // matrix = 1 + S D; D couples the components of one row only, and these stand side by side in `active`.
-  for (std::size_t i = 0; i < m; ++i) {
+    w[i] = system_.contact.rows().relative(active[i].row, x)[active[i].component];
+    matrix[i * m + i] += 1.0;
     for (std::size_t k = 0; k < m; ++k) {
+      const double s = S(active[i], active[k]);
+      // D couples the components of one row only, and these stand side by side in `active`.
       for (std::size_t j = k - active[k].component; j < m && active[j].row == active[k].row; ++j) {
-        matrix[i * m + j] += S[i * m + k] * D[active[k].row][3 * active[k].component + active[j].component];
+        matrix[i * m + j] += s * D[active[k].row][3 * active[k].component + active[j].component];
       }
     }
-    matrix[i * m + i] += 1.0;
   }
   DenseLu(std::move(matrix), static_cast<int>(m)).solve(w);
-  for (std::size_t k = 0; k < m; ++k) {
-    double force = 0.0;
-    for (std::size_t j = k - active[k].component; j < m && active[j].row == active[k].row; ++j) {
-      force += D[active[k].row][3 * active[k].component + active[j].component] * w[j];
-    }
-    const std::vector<double>& y = column(active[k]);
-    parallel_for(x.size(), 4096, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) x[i] -= force * y[i];
-    });
+  return w;
+}
+
+/// rhs -= G^T D w.
+void CholeskySolver::subtract_contact(const std::vector<RowTangent>& D, const std::vector<RowComponent>& active,
+                                      const std::vector<double>& w, std::span<double> rhs) const {
+  for (std::size_t k = 0; k < active.size();) {
+    const std::size_t r = active[k].row;
+    Vec3 displacement{};
+    for (; k < active.size() && active[k].row == r; ++k) displacement[active[k].component] = w[k];
+    system_.contact.rows().scatter(r, scaled(multiply(D[r], displacement), -1.0), rhs);
   }
 }
 
@@ -250,7 +275,7 @@ std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, Sol
                                                        double omega_max_squared) {
   if (kind == SolverKind::automatic) {
     const double iterations = 0.5 * std::sqrt(1.0 + s * omega_max_squared) * std::log(2.0 / 1e-12);
-    const bool large = system.solid.dof_count() > 2'000'000;
+    const bool large = system.solid.dof_count() > 2'000'000 || system.contact.rows().size() > 1000;
     kind = iterations <= 60.0 || large ? SolverKind::conjugate_gradients : SolverKind::cholesky;
   }
   if (kind == SolverKind::cholesky) return std::make_unique<CholeskySolver>(system);

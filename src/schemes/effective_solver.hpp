@@ -35,7 +35,8 @@ class EffectiveSolver {
 
 /// `automatic` takes conjugate gradients where the Jacobi-preconditioned operator is well conditioned,
 ///   kappa about 1 + s omega_max^2, so that sqrt(kappa)/2 ln(2/1e-12) iterations stay below 60, and the factorisation
-/// elsewhere, unless the mesh has more than two million dofs.
+/// elsewhere, unless the mesh has more than two million dofs or contact more than a thousand rows (one
+/// back-substitution and a line of a dense matrix each).
 std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind, double s,
                                                        double omega_max_squared);
 

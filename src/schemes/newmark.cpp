@@ -35,6 +35,8 @@ Newmark::Newmark(const System& system, const NewmarkParameters& parameters, doub
   correction_.resize(n);
   tangents_.resize(system.contact.rows().size());
   stiffness_diagonal_ = system.solid.tangent_diagonal(u_predicted_);
+  closed_diagonal_ = stiffness_diagonal_;
+  system.contact.add_closed_diagonal(closed_diagonal_);
 }
 
 void Newmark::start(State& state, double /*dt*/) {
@@ -70,10 +72,10 @@ void Newmark::impose_motions(const StepRequest& request, State& end) const {
 
 void Newmark::move(const StepRequest& request, State& end) const {
   const double h = request.dt;
-  for (std::size_t i = 0; i < end.q.size(); ++i) {
+  parallel_each(end.q.size(), [&](std::size_t i) {
     end.q[i] = u_predicted_[i] + parameters_.beta * h * h * end.a[i];
     end.v[i] = v_predicted_[i] + parameters_.gamma * h * end.a[i];
-  }
+  });
 }
 
 Newmark::Residual Newmark::residual(const State& begin, const StepRequest& request, const State& end) {
@@ -95,7 +97,7 @@ Newmark::Residual Newmark::residual(const State& begin, const StepRequest& reque
     if (fixed[i]) return;
     const double missing = s * residual_[i] / (mass[i / 3] + s * stiffness_diagonal_[i]);
     const double force = std::abs(next_.external[i]) + std::abs(next_.internal[i]) + std::abs(next_.contact[i]) +
-                         std::abs(next_.inertia[i]) + stiffness_diagonal_[i] * std::abs(end.q[i]);
+                         std::abs(next_.inertia[i]) + closed_diagonal_[i] * (std::abs(begin.q[i]) + std::abs(end.q[i]));
     sum[1] += missing * missing;
     sum[2] += force * force;
   });
@@ -141,16 +143,17 @@ StepReport Newmark::step(const State& begin, const StepRequest& request, State& 
       report.failure = cycling_rows(status_before);
       return report;
     }
-    try {
-      solver_->prepare(parameters_.beta * h * h);
-    } catch (const std::runtime_error& e) {
-      report.failure = e.what();
-      return report;
-    }
+    solver_->prepare(parameters_.beta * h * h);
     set_tangents(begin, end, h);
     const double absolute = 0.3 * tolerance / error.displacement;
     const LinearSolveReport solved = solver_->solve(residual_, tangents_, absolute, correction_);
     report.linear_iterations += solved.iterations;
+    if (!solved.converged) {
+      report.failure =
+          fmt::format("the linear solver stopped after {} iterations at a residual of {:.3g} (asked: {:.3g})",
+                      solved.iterations, solved.residual, absolute);
+      return report;
+    }
     for (std::size_t i = 0; i < end.a.size(); ++i) end.a[i] += correction_[i];
   }
   end.contact = next_.rows.history;

@@ -46,7 +46,8 @@ class Newmark final : public Scheme {
   std::unique_ptr<EffectiveSolver> solver_;
   MassSolver mass_solver_;
   Forces now_, next_;
-  std::vector<double> u_predicted_, v_predicted_, residual_, correction_, stiffness_diagonal_;
+  std::vector<double> u_predicted_, v_predicted_, residual_, correction_, stiffness_diagonal_;  ///< diagonal of K
+  std::vector<double> closed_diagonal_;  ///< with every contact row closed
   std::vector<RowTangent> tangents_;
 };
 

@@ -51,7 +51,9 @@ double lumped_frequency(const System& system, const Stiffness& K) {
 double consistent_frequency(const System& system, const Stiffness& K) {
   const std::vector<bool>& fixed = system.supports.fixed();
   std::vector<double> x(fixed.size()), Kx(fixed.size()), Mx(fixed.size()), y(fixed.size(), 0.0);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = fixed[i] ? 0.0 : std::sin(1.0 + 12.9898 * static_cast<double>(i));
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] = fixed[i] ? 0.0
+                    : 0.5 + std::fmod(0.6180339887498949 * static_cast<double>(i + 1), 1.0) * (i % 2 == 0 ? 1.0 : -1.0);
   MassSolver mass(system);
   double value = 0.0;
   for (int iteration = 0; iteration < 200; ++iteration) {
@@ -70,16 +72,22 @@ double consistent_frequency(const System& system, const Stiffness& K) {
   return 1.05 * value;
 }
 
+/// Largest sum of damping / mass over the nodes. For the consistent mass of parallelepipeds, M >= 1/8 of its diagonal
+/// (Wathen, IMA Journal of Numerical Analysis 7, 1987).
 double largest_damping_ratio(const System& system) {
   const ConstraintRows& rows = system.contact.rows();
-  const double smallest_share = system.mass.kind() == MassKind::lumped ? 1.0 : 1.0 / 27.0;  // consistent HEXA8
-  double d = 0.0;
+  const double smallest_share = system.mass.kind() == MassKind::lumped ? 1.0 : 1.0 / 8.0;
+  std::vector<double> damping(system.mass.node_diagonal().size(), 0.0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    const double c = system.contact.parameters()[r].damping;
-    for (Index k = rows.begin[r]; c > 0.0 && k < rows.begin[r + 1]; ++k) {
-      const double m = system.mass.node_diagonal()[static_cast<std::size_t>(rows.node[k])] * smallest_share;
-      if (m > 0.0) d = std::max(d, c * rows.weight[k] * rows.weight[k] / m);
+    for (Index k = rows.begin[r]; k < rows.begin[r + 1]; ++k) {
+      damping[static_cast<std::size_t>(rows.node[k])] +=
+          system.contact.parameters()[r].damping * rows.weight[k] * rows.weight[k];
     }
+  }
+  double d = 0.0;
+  for (std::size_t n = 0; n < damping.size(); ++n) {
+    const double m = system.mass.node_diagonal()[n] * smallest_share;
+    if (m > 0.0) d = std::max(d, damping[n] / m);
   }
   return d;
 }
