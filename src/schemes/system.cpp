@@ -14,7 +14,7 @@ void evaluate_forces(const System& system, double t, std::span<const double> u_b
   forces.external.resize(n);
   forces.contact.assign(n, 0.0);
   system.solid.internal_force(u, forces.internal);
-  system.solid.external_force(t, forces.external);
+  system.solid.external_force(t, system.mass, forces.external);
   system.contact.evaluate(u_begin, u, v, history, forces.rows);
   system.contact.add_force(forces.rows, forces.contact);
 }

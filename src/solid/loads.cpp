@@ -1,7 +1,6 @@
 #include "solid/loads.hpp"
 
 #include "element/quad4.hpp"
-#include "solid/cell_matrices.hpp"
 
 namespace carom {
 namespace {
@@ -35,40 +34,37 @@ class NodeSum {
   std::vector<char> touched_;
 };
 
-LoadVector make_load(const NodalForce& load, const Model&, const SolidCells&) {
+LoadVector make_load(const NodalForce& load) {
   return {load.nodes, std::vector<Vec3>(load.nodes.size(), load.force), load.factor};
 }
 
-LoadVector make_load(const Pressure& load, const Model& model, const SolidCells&) {
-  NodeSum sum(model.mesh->node_count());
+LoadVector make_load(const Pressure& load, const Mesh& mesh) {
+  NodeSum sum(mesh.node_count());
   for (const auto& face : load.faces) {
     std::array<Vec3, 4> x{};
-    for (std::size_t a = 0; a < 4; ++a) x[a] = model.mesh->coordinates[at(face[a])];
+    for (std::size_t a = 0; a < 4; ++a) x[a] = mesh.coordinates[at(face[a])];
     for (const quad4::FacePoint& point : quad4::face_points(x))
       for (std::size_t a = 0; a < 4; ++a) sum.add(face[a], -load.pressure * point.N[a], point.normal_dA);
   }
   return sum.result(load.factor);
 }
 
-LoadVector make_load(const Gravity& load, const Model& model, const SolidCells& solid) {
-  NodeSum sum(model.mesh->node_count());
-  for (const Block& block : solid.blocks)
-    for (Index c = 0; c < block.cells; ++c) {
-      const Index cell = solid.cells[at(block.first + c)];
-      const CellMass M = cell_mass(cell_coordinates(*model.mesh, cell), block.material.rho);
-      const auto nodes = cell_nodes(*model.mesh, cell);
-      for (std::size_t a = 0; a < 8; ++a)
-        for (std::size_t b = 0; b < 8; ++b) sum.add(nodes[a], M[a][b], load.acceleration);
-    }
-  return sum.result(load.factor);
-}
-
 }  // namespace
 
-std::vector<LoadVector> make_loads(const Model& model, const SolidCells& solid) {
+std::vector<LoadVector> make_loads(const Model& model) {
   std::vector<LoadVector> loads;
-  for (const Load& load : model.loads)
-    loads.push_back(std::visit([&](const auto& kind) { return make_load(kind, model, solid); }, load));
+  for (const Load& load : model.loads) {
+    if (const auto* force = std::get_if<NodalForce>(&load)) loads.push_back(make_load(*force));
+    if (const auto* pressure = std::get_if<Pressure>(&load)) loads.push_back(make_load(*pressure, *model.mesh));
+  }
+  return loads;
+}
+
+std::vector<Gravity> gravity_loads(const Model& model) {
+  std::vector<Gravity> loads;
+  for (const Load& load : model.loads) {
+    if (const auto* gravity = std::get_if<Gravity>(&load)) loads.push_back(*gravity);
+  }
   return loads;
 }
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "model/model.hpp"
-#include "solid/blocks.hpp"
 
 namespace carom {
 
@@ -15,8 +14,10 @@ struct LoadVector {
   TimeFunction factor;
 };
 
-/// One vector per load of the model. Nodal forces as they are; pressure: f_a = -p integral of N_a n dA over the
-/// reference faces (2 x 2 Gauss, exact); gravity: f_a = sum over b of M_ab g with the consistent mass.
-std::vector<LoadVector> make_loads(const Model& model, const SolidCells& solid);
+/// One vector per nodal force and pressure of the model. Nodal forces as they are; pressure: f_a = -p integral of
+/// N_a n dA over the reference faces (2 x 2 Gauss, exact).
+std::vector<LoadVector> make_loads(const Model& model);
+/// The gravity loads of the model; they act on the mass of the scheme.
+std::vector<Gravity> gravity_loads(const Model& model);
 
 }  // namespace carom

@@ -28,6 +28,16 @@ Mass::Mass(MassKind kind, CsrMatrix node_matrix) : kind_(kind), matrix_(std::mov
       if (static_cast<std::size_t>(matrix_.column[static_cast<std::size_t>(k)]) == n)
         diagonal_[n] = matrix_.value[static_cast<std::size_t>(k)];
   if (kind_ == MassKind::lumped) matrix_ = diagonal_matrix(diagonal_);
+  row_sums_.assign(diagonal_.size(), 0.0);
+  for (std::size_t n = 0; n < row_sums_.size(); ++n)
+    for (std::int64_t k = matrix_.row_begin[n]; k < matrix_.row_begin[n + 1]; ++k)
+      row_sums_[n] += matrix_.value[static_cast<std::size_t>(k)];
+}
+
+void Mass::add_gravity(const Vec3& acceleration, std::span<double> f) const {
+  parallel_each(row_sums_.size(), [&](std::size_t n) {
+    for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += row_sums_[n] * acceleration[i];
+  });
 }
 
 void Mass::apply(std::span<const double> x, std::span<double> y) const {

@@ -24,6 +24,8 @@ class Mass {
   void apply(std::span<const double> x, std::span<double> y) const;
   /// Diagonal of M, one entry per node.
   const std::vector<double>& node_diagonal() const { return diagonal_; }
+  /// f += M 1 times a uniform acceleration: the force of gravity, under which every free body falls with a = g.
+  void add_gravity(const Vec3& acceleration, std::span<double> f) const;
   /// The node matrix (diagonal matrix when lumped).
   const CsrMatrix& node_matrix() const { return matrix_; }
   /// Sum of all entries: the total mass.
@@ -33,6 +35,7 @@ class Mass {
   MassKind kind_;
   CsrMatrix matrix_;
   std::vector<double> diagonal_;
+  std::vector<double> row_sums_;
 };
 
 }  // namespace carom

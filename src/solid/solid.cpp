@@ -42,7 +42,8 @@ struct Solid::Impl {
         isa(wanted),
         kernel(kernels(wanted)),
         solid(make_solid_cells(model, kernel.lanes)),
-        loads(make_loads(model, solid)),
+        loads(make_loads(model)),
+        gravity(gravity_loads(model)),
         volumes(solid.cells.size()),
         lengths(solid.cells.size()) {
     for (std::size_t c = 0; c < solid.cells.size(); ++c) {
@@ -66,6 +67,7 @@ struct Solid::Impl {
   const KernelTable& kernel;
   SolidCells solid;
   std::vector<LoadVector> loads;
+  std::vector<Gravity> gravity;
   std::vector<double> volumes, lengths;
 };
 
@@ -178,17 +180,22 @@ std::vector<double> Solid::cell_frequency_bounds() const {
   return bounds;
 }
 
-void Solid::external_force(double t, std::span<double> f) const {
+void Solid::external_force(double t, const Mass& mass, std::span<double> f) const {
   std::fill(f.begin(), f.end(), 0.0);
   for (const LoadVector& load : impl_->loads) {
     const double factor = load.factor(t);
     for (std::size_t k = 0; k < load.nodes.size(); ++k)
       for (std::size_t i = 0; i < 3; ++i) f[3 * at(load.nodes[k]) + i] += factor * load.force[k][i];
   }
+  for (const Gravity& gravity : impl_->gravity) {
+    const double factor = gravity.factor(t);
+    const Vec3& g = gravity.acceleration;
+    mass.add_gravity({factor * g[0], factor * g[1], factor * g[2]}, f);
+  }
 }
 
 bool Solid::has_loads() const {
-  return !impl_->loads.empty();
+  return !impl_->loads.empty() || !impl_->gravity.empty();
 }
 
 std::vector<std::array<double, 6>> Solid::cell_stress(std::span<const double> u) const {

@@ -60,8 +60,9 @@ class Solid {
   /// whole body with lumped mass (Irons). One entry per solid cell, in the order of cells().
   std::vector<double> cell_frequency_bounds() const;
 
-  /// f = external force at time t (nodal forces, pressures, gravity); overwrites f. Gravity uses the consistent mass.
-  void external_force(double t, std::span<double> f) const;
+  /// f = external force at time t (nodal forces, pressures, gravity); overwrites f. Gravity acts on the mass that the
+  /// scheme uses.
+  void external_force(double t, const Mass& mass, std::span<double> f) const;
   bool has_loads() const;
 
   /// Index in Mesh::block(hexa8) of each solid cell; all per-cell results come in this order.

@@ -94,12 +94,12 @@ TEST(SolidLoads, PressureHasItsResultantAndMoment) {
   model.loads.emplace_back(Pressure{faces_of(*model.mesh, "ZMAX"), 0.5, TimeFunction{{0.0, 1.0}, {0.0, 2.0}}});
   const Solid solid(model);
   std::vector<double> f(solid.dof_count(), 7.0);
-  solid.external_force(0.5, f);
+  solid.external_force(0.5, solid.mass(MassKind::lumped), f);
   const auto [force, moment] = resultant_and_moment(*model.mesh, f);
   const Vec3 expected{0.0, 0.0, -3.0}, expected_moment{1.5 * -3.0, 1.0 * 3.0, 0.0};
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(force[i], expected[i], round_off);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(moment[i], expected_moment[i], round_off);
-  solid.external_force(0.0, f);
+  solid.external_force(0.0, solid.mass(MassKind::lumped), f);
   EXPECT_EQ(largest(f), 0.0);
 }
 
@@ -115,7 +115,7 @@ TEST(SolidLoads, PressureOnAClosedWarpedSkinVanishes) {
   model.loads.emplace_back(Pressure{faces, 1.0, {}});
   const Solid solid(model);
   std::vector<double> f(solid.dof_count());
-  solid.external_force(0.0, f);
+  solid.external_force(0.0, solid.mass(MassKind::lumped), f);
   EXPECT_GT(largest(f), 0.1);
   const auto [force, moment] = resultant_and_moment(*model.mesh, f);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(force[i], 0.0, round_off);
@@ -127,13 +127,28 @@ TEST(SolidLoads, GravityIsTheWeightAtTheCentroid) {
   model.loads.emplace_back(Gravity{g, {}});
   const Solid solid(model);
   std::vector<double> f(solid.dof_count());
-  solid.external_force(1.0, f);
+  solid.external_force(1.0, solid.mass(MassKind::consistent), f);
   const auto [force, moment] = resultant_and_moment(*model.mesh, f);
   const double m = 36.0 * unit_material.rho;  // block 3 x 4 x 3 with its centroid at (1.5, 2, 1.5)
   const Vec3 expected_moment{m * (2.0 * g[2] - 1.5 * g[1]), m * (1.5 * g[0] - 1.5 * g[2]),
                              m * (1.5 * g[1] - 2.0 * g[0])};
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(force[i], m * g[i], m * 10 * round_off);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(moment[i], expected_moment[i], m * 10 * round_off);
+}
+
+TEST(SolidLoads, GravityAcceleratesEveryNodeOfADistortedBodyByG) {
+  Model model = one_part(block_mesh({2, 2, 2}, 0.3));
+  const Vec3 g{0.5, -1.0, 2.0};
+  model.loads.emplace_back(Gravity{g, {}});
+  const Solid solid(model);
+  std::vector<double> f(solid.dof_count()), a(solid.dof_count()), Ma(solid.dof_count());
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = g[i % 3];
+  for (const MassKind kind : {MassKind::consistent, MassKind::lumped}) {
+    const Mass mass = solid.mass(kind);
+    solid.external_force(0.0, mass, f);
+    mass.apply(a, Ma);
+    for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(f[i], Ma[i], 100 * round_off);
+  }
 }
 
 TEST(SolidLoads, NodalForcesAddUpAndFollowTheirFactor) {
@@ -144,7 +159,7 @@ TEST(SolidLoads, NodalForcesAddUpAndFollowTheirFactor) {
   const Solid solid(model);
   EXPECT_TRUE(solid.has_loads());
   std::vector<double> f(24), expected(24, 0.0);
-  solid.external_force(1.0, f);
+  solid.external_force(1.0, solid.mass(MassKind::lumped), f);
   expected[0] = 2.0, expected[1] = 4.0, expected[2] = 6.0;
   expected[9] = 2.0, expected[10] = 4.0, expected[11] = 7.0;
   EXPECT_EQ(f, expected);
