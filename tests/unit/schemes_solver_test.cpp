@@ -111,6 +111,20 @@ TEST(EffectiveSolver, ConjugateGradientsSolveSymmetricTangents) {
   }
 }
 
+// Sliding makes the tangent unsymmetric, which conjugate gradients cannot take: they leave the one-way coupling out.
+TEST(EffectiveSolver, ConjugateGradientsLeaveOneWayCouplingOut) {
+  const Problem p(many_rows());
+  const auto solver = make_effective_solver(p.system, SolverKind::conjugate_gradients, 0.1, 1.0);
+  std::vector<RowTangent> coupled(p.contact.rows().size(), {5.0, 0, 0, -1.5, 1.0, 0, 0.5, 0, 2.0});
+  const std::vector<RowTangent> uncoupled(coupled.size(), {5.0, 0, 0, 0, 1.0, 0, 0, 0, 2.0});
+  const std::vector<double> b = free_random(p, 3);
+  std::vector<double> x(b.size()), y(b.size());
+  solver->prepare(0.1);
+  EXPECT_TRUE(solver->solve(b, coupled, 1e-12, x).converged);
+  EXPECT_TRUE(solver->solve(b, uncoupled, 1e-12, y).converged);
+  EXPECT_EQ(x, y);
+}
+
 TEST(EffectiveSolver, AutomaticTakesTheFactorisationForLongSteps) {
   const Problem p(many_rows());
   const double omega_squared = stable_step(p.system).omega_max_squared_free;
