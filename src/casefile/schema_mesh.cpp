@@ -73,7 +73,8 @@ void add_points(Section<StructuredBlock>& s) {
 }
 
 Section<StructuredBlock> block_section() {
-  Section<StructuredBlock> s("A box of HEXA8 cells along the axes.");
+  Section<StructuredBlock> s(
+      "A box of HEXA8 cells along the axes. Boxes that touch share no nodes; groups of the same name are united.");
   s.key("origin", &StructuredBlock::origin, "Corner with the smallest coordinates.", {.unit = Dimension::length});
   s.key("size", &StructuredBlock::size, "Lengths of the edges.",
         {.unit = Dimension::length, .range = greater_than(0.0), .need = Need::required});

@@ -43,10 +43,10 @@ std::vector<double> cfc_filter(std::span<const double> samples, double dt, doubl
   if (!(cfc > 0.0) || !(dt > 0.0)) {
     throw std::invalid_argument(fmt::format("CFC filter: class {} and sampling step {} must be positive", cfc, dt));
   }
-  if (dt * cfc > 0.1 * (1.0 + 1e-9)) {
+  if (dt * cfc > cfc_longest_sampling * (1.0 + 1e-9)) {
     throw std::invalid_argument(
         fmt::format("CFC {} needs a sample at least every {:.3g} s (10 times the class); found one every {:.3g} s", cfc,
-                    0.1 / cfc, dt));
+                    cfc_longest_sampling / cfc, dt));
   }
   if (samples.empty()) return {};
   // Continue both ends by point reflection for one period of the cut-off, or as far as the data go.

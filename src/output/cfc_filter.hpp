@@ -6,6 +6,9 @@
 
 namespace carom {
 
+/// Longest sampling step times class, both in SI: J211 asks for 10 samples per period of the class at least.
+inline constexpr double cfc_longest_sampling = 0.1;
+
 /// Phaseless 4-pole low-pass of channel frequency class `cfc` (60, 180, 600, 1000; any positive number in Hz): a 2-pole
 /// Butterworth filter run forwards and backwards (SAE J211-1, appendix C; ISO 6487, annex A).
 /// T = dt: wd = 2 pi cfc 2.0775, wa = tan(wd T / 2), a0 = wa^2 / (1 + sqrt(2) wa + wa^2), a1 = 2 a0, a2 = a0,

@@ -10,6 +10,7 @@
 #include "casefile/plausibility.hpp"
 #include "math/vec3.hpp"
 #include "mesh/skin.hpp"
+#include "output/cfc_filter.hpp"
 #include "run/groups.hpp"
 
 namespace carom {
@@ -147,6 +148,18 @@ void lint_scheme(const Simulation& s, std::vector<std::string>& out) {
   }
 }
 
+/// A filter that would not be applied, since the rows of probes.csv are too far apart.
+void lint_filters(const Simulation& s, std::vector<std::string>& out) {
+  const double sampling = s.dt() * s.given().output.curves_every * si_factor(Dimension::time, s.given().units);
+  for (const CaseProbe& probe : s.given().probes) {
+    if (!probe.cfc || sampling * *probe.cfc <= cfc_longest_sampling * (1.0 + 1e-9)) continue;
+    out.push_back(fmt::format(
+        "{}: probe \"{}\": will not be filtered: CFC {:g} needs a row at least every {:.3g} s, and rows will "
+        "be {:.3g} s apart",
+        to_string(probe.where), *probe.name, *probe.cfc, cfc_longest_sampling / *probe.cfc, sampling));
+  }
+}
+
 std::string format_vector(const Vec3& v) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0], v[1], v[2]);
 }
@@ -158,6 +171,7 @@ std::vector<std::string> lint_warnings(const Simulation& s) {
   const State state = s.initial_state();
   for (std::size_t c = 0; c < s.given().contacts.size(); ++c) lint_contact(s, c, state, out);
   lint_scheme(s, out);
+  lint_filters(s, out);
   return out;
 }
 

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <numeric>
 
+#include "base/errors.hpp"
 #include "base/version.hpp"
-#include "casefile/plausibility.hpp"
 #include "casefile/read_case.hpp"
 #include "casefile/resolved_case.hpp"
 #include "math/vec3.hpp"
@@ -19,6 +19,7 @@
 #include "output/summary.hpp"
 #include "parallel/threads.hpp"
 #include "report/report.hpp"
+#include "run/lint.hpp"
 #include "run/recorder.hpp"
 #include "run/simulation.hpp"
 #include "run/step_control.hpp"
@@ -289,7 +290,7 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   const bool quiet = options.progress == ProgressMode::quiet;
   const Simulation simulation(given);
   if (!quiet) {
-    for (const std::string& warning : plausibility_warnings(given)) say("warning: {}\n", warning);
+    for (const std::string& warning : lint_warnings(simulation)) say("warning: {}\n", warning);
     for (const std::string& note : simulation.notes()) say("note: {}\n", note);
   }
   Run run(simulation, options);
@@ -305,6 +306,10 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
     summary.message = run.message();
   } catch (const RunError& e) {
     summary.message = e.what();
+  } catch (const OutputError&) {
+    throw;
+  } catch (const std::exception& e) {  // a factorisation that fails, memory that runs out
+    summary.message = fmt::format("the run could not go on: {}", e.what());
   }
   const double step_seconds = seconds_since(stepping);
   run.progress().finish("");
