@@ -61,9 +61,25 @@ Simulation::Simulation(const Case& given)
       contact_(make_contact(given, model_, notes_)),
       supports_(make_supports(given, model_, mass_)),
       system_{*mesh_, solid_, mass_, contact_, supports_} {
+  refuse_ringing_motions();
   refuse_massless_contact();
   refuse_initial_penetration();
   choose_step();
+}
+
+/// Newmark's accelerations that follow an imposed displacement obey beta z^2 + (1/2 + gamma - 2 beta) z + 1/2 - gamma +
+/// beta = 0: with gamma = 1/2 the roots have modulus 1, and every kink of the function rings on for ever.
+void Simulation::refuse_ringing_motions() const {
+  if (!is_newmark(case_) || case_.scheme.gamma > 0.5) return;
+  for (const CaseSupport& support : case_.supports) {
+    for (const CaseSupport::Motion& motion : support.motions) {
+      if (motion.kind != CaseSupport::Kind::displacement || !motion.function) continue;
+      throw CaseError(motion.amplitude.where, "support.displacement",
+                      fmt::format("a displacement that changes in time, with gamma = {:g}", case_.scheme.gamma),
+                      "gamma > 0.5 in [scheme], since otherwise the velocities of these nodes ring without end",
+                      "Take beta = 0.28 and gamma = 0.55, or impose the velocity.");
+    }
+  }
 }
 
 /// A contact node that belongs to no part and is held by no support has no equation.

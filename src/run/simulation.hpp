@@ -55,6 +55,7 @@ class Simulation {
   std::string scheme_name() const;
 
  private:
+  void refuse_ringing_motions() const;
   void refuse_massless_contact() const;
   void refuse_initial_penetration() const;
   void choose_step();

@@ -97,7 +97,8 @@ Newmark::Residual Newmark::residual(const State& begin, const StepRequest& reque
     if (fixed[i]) return;
     const double missing = s * residual_[i] / (mass[i / 3] + s * stiffness_diagonal_[i]);
     const double force = std::abs(next_.external[i]) + std::abs(next_.internal[i]) + std::abs(next_.contact[i]) +
-                         std::abs(next_.inertia[i]) + closed_diagonal_[i] * (std::abs(begin.q[i]) + std::abs(end.q[i]));
+                         mass[i / 3] * std::abs(end.a[i]) +
+                         closed_diagonal_[i] * (std::abs(begin.q[i]) + std::abs(end.q[i]));
     sum[1] += missing * missing;
     sum[2] += force * force;
   });

@@ -88,20 +88,22 @@ function = "pulse"
 }
 
 TEST(RunRegressions, MotionsMayBeginAtRest) {
-  EXPECT_EQ(failure(R"(
+  for (const char* scheme : {newmark, central_differences}) {
+    EXPECT_EQ(failure(R"(
 [[support]]
 nodes = "HEAD"
 velocity = { z = -0.01, function = "late" }
 )",
-                    central_differences),
-            "");
-  EXPECT_EQ(failure(R"(
+                      scheme),
+              "");
+    EXPECT_EQ(failure(R"(
 [[support]]
 nodes = "HEAD"
 acceleration = { z = -0.01 }
 )",
-                    central_differences),
-            "");
+                      scheme),
+              "");
+  }
 }
 
 // A plane at no distance: central differences hold the contact's energy for a step.
@@ -227,6 +229,25 @@ divisions = [2, 2, 1]
 groups = { cells = "BASE", zmin = "BASE_FOOT", zmax = "BASE_HEAD" }
 )" + rest +
          newmark;
+}
+
+// Newmark with gamma = 1/2 never forgets a kink of an imposed displacement: the accelerations grew without end.
+TEST(RunRegressions, DisplacementsThatWouldRingAreRefused) {
+  const std::string undamped = R"(
+[scheme]
+kind = "newmark"
+[time]
+end = 4.0
+step = 0.02
+)";
+  const std::string support = R"(
+[[support]]
+nodes = "HEAD"
+displacement = { z = -0.01, function = "pulse" }
+)";
+  const std::string message = case_error(case_of_block(functions + support + undamped)).what();
+  EXPECT_NE(message.find("Take beta = 0.28 and gamma = 0.55, or impose the velocity"), std::string::npos) << message;
+  EXPECT_EQ(failure(support, newmark), "");
 }
 
 TEST(RunRegressions, LoadsThatWouldMoveNothingAreRefused) {
