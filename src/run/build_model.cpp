@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "run/groups.hpp"
 
@@ -176,8 +177,8 @@ class Builder {
 
 Model build_model(const Case& given, std::shared_ptr<const Mesh> mesh) {
   Model model;
-  model.mesh = mesh;
-  Builder(given, *mesh, model).build();
+  model.mesh = std::move(mesh);
+  Builder(given, *model.mesh, model).build();
   return model;
 }
 

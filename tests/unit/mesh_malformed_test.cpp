@@ -57,127 +57,124 @@ struct Spoiled {
   const char* message;  ///< the whole message after "bad.msh"
 };
 
-const std::vector<Spoiled>& spoiled_texts() {
-  static const std::vector<Spoiled> list{
-      {"version", replaced(kGood, "2.2 0", "4.0 0"),
-       ":2: $MeshFormat: found Gmsh format '4.0'; expected format 2.2 or 4.1. Save the mesh in one of them (gmsh -save "
-       "-format msh41 or msh22)."},
-      {"file type", replaced(kGood, "2.2 0", "2.2 2"),
-       ":2: $MeshFormat: found file type 2; expected 0 for text or 1 for binary"},
-      {"data size", replaced(kGood, "2.2 0 8", "2.2 0 4"),
-       ":2: $MeshFormat: found data size 4; expected 8. Save the mesh on a 64-bit system."},
-      {"format 1", "$NOD\n1\n1 0 0 0\n$ENDNOD\n",
-       ":1: $NOD: found Gmsh format 1; expected format 2.2 or 4.1. Save the mesh in one of them."},
-      {"no header", kGood.substr(kGood.find("$Nodes")),
-       ":1: $Nodes: found '$Nodes'; expected $MeshFormat. A Gmsh file begins with the section $MeshFormat."},
-      {"no nodes", replaced(replaced(kGood, "$Nodes", "$Other"), "$EndNodes", "$EndOther"),
-       ":19: $Elements: found $Elements without $Nodes before; expected $Nodes, then $Elements. Save the mesh with its "
-       "nodes."},
-      {"no cells", kGood.substr(0, kGood.find("$Elements")),
-       ":19: found no section $Elements; expected $Elements. Save the mesh with its cells."},
-      {"nothing but a header", kGood.substr(0, kGood.find("$Physical")),
-       ":4: found no section $Nodes; expected $Nodes. Save the mesh, not only the geometry."},
-      {"zero cells", replaced(kGood, "1\n1 5 2 1 1 1 2 3 4 5 6 7 8\n", "0\n"),
-       ": found a mesh without cells; expected at least one cell. Save the mesh after meshing, with all its cells."},
-      {"cut off early in the nodes", kGood.substr(0, kGood.find("1 1 1\n")),
-       ":9: $Nodes: found 8 nodes declared with 51 bytes left in the file; expected at most 6. The count is wrong or "
-       "the "
-       "file cut off; write or copy it again."},
-      {"cut off late in the nodes",
-       replaced(kGood.substr(0, kGood.find("8 0 1 1")), "1 0 0 0", "1 0.0000000000000000 0 0"),
-       ":17: $Nodes: found the end of the file; expected a node number. The file seems cut off; write or copy it "
-       "again."},
-      {"cut off before the end of a section", kGood.substr(0, kGood.find("$EndElements")),
-       ":22: $Elements: found the end of the file; expected $EndElements. The file seems cut off; write or copy it "
-       "again."},
-      {"unknown section without end", kGood + "$NodeData\n1 2 3\n",
-       ":23: $NodeData: found $NodeData without its end; expected $EndNodeData. The file seems cut off; write or copy "
-       "it "
-       "again."},
-      {"word between sections", replaced(kGood, "$Elements", "hello\n$Elements"),
-       ":19: found 'hello'; expected the beginning of a section, such as $Nodes. Remove what stands between the "
-       "sections, or compare the counts with the lines of the section before."},
-      {"10 GB of nodes", replaced(kGood, "$Nodes\n8", "$Nodes\n312500000"),
-       ":9: $Nodes: found 312500000 nodes declared with 126 bytes left in the file; expected at most 15. The count is "
-       "wrong or the file cut off; write or copy it again."},
-      {"10 GB of cells", replaced(kGood, "$Elements\n1\n", "$Elements\n312500000\n"),
-       ":20: $Elements: found 312500000 cells declared with 40 bytes left in the file; expected at most 5. The count "
-       "is "
-       "wrong or the file cut off; write or copy it again."},
-      {"negative count", replaced(kGood, "$Nodes\n8", "$Nodes\n-8"),
-       ":9: $Nodes: found -8 nodes; expected a count that is not negative. The file is damaged; write it again."},
-      {"count too small", replaced(kGood, "$Nodes\n8", "$Nodes\n7"),
-       ":17: $Nodes: found '8'; expected $EndNodes. Compare the count at the beginning of the section with what "
-       "follows."},
-      {"count too large", replaced(kGood, "$Nodes\n8", "$Nodes\n9"),
-       ":18: $Nodes: found '$EndNodes'; expected a node number, an integer"},
-      {"number that is none", replaced(kGood, "3 1 1 0", "3 1 one 0"),
-       ":12: $Nodes: found 'one'; expected a coordinate, a number"},
-      {"count beyond 64 bits", replaced(kGood, "$Nodes\n8", "$Nodes\n99999999999999999999"),
-       ":9: $Nodes: found '99999999999999999999'; expected the number of nodes, an integer"},
-      {"NaN", replaced(kGood, "3 1 1 0", "3 1 nan 0"),
-       ":12: $Nodes: found node 3 at (1, nan, 0); expected finite coordinates. Write the mesh again; a coordinate "
-       "overflowed or was never set."},
-      {"overflow", replaced(kGood, "3 1 1 0", "3 1 1e999 0"),
-       ":12: $Nodes: found node 3 at (1, inf, 0); expected finite coordinates. Write the mesh again; a coordinate "
-       "overflowed or was never set."},
-      {"node twice", replaced(kGood, "3 1 1 0", "2 1 1 0"),
-       ":12: $Nodes: found node number 2 a second time; expected every node number once. Renumber the nodes, for "
-       "instance by saving the mesh again from Gmsh."},
-      {"node zero", replaced(kGood, "3 1 1 0", "0 1 1 0"),
-       ":12: $Nodes: found node number 0; expected a positive number. Number the nodes from 1."},
-      {"short line", replaced(kGood, "3 1 1 0", "3 1 1"),
-       ":12: $Nodes: found the end of the line; expected a coordinate. A value is missing on this line."},
-      {"long line", replaced(kGood, "3 1 1 0", "3 1 1 0 7"),
-       ":12: $Nodes: found '7'; expected the end of the line. Compare the number of values with the type and the "
-       "counts "
-       "before."},
-      {"node that is not there", replaced(kGood, "6 7 8\n", "6 7 9\n"),
-       ":21: $Elements: found node 9 in cell 1; expected the number of a node in $Nodes. Save the mesh again with all "
-       "its nodes, or correct the cell."},
-      {"cell type of order 3", replaced(kGood, "1 5 2 1 1", "1 92 2 1 1"),
-       ":21: $Elements: found cell type 92; expected 1 to 12 or 15 to 19 (points; lines, triangles, quadrangles, "
-       "tetrahedra, pyramids, pentahedra and hexahedra of order 1 and 2). Mesh with order 1 (Mesh.ElementOrder = 1)."},
-      {"too few nodes in a cell", replaced(kGood, "5 6 7 8\n", "5 6 7\n"),
-       ":21: $Elements: found the end of the line; expected a node number. A value is missing on this line."},
-      {"tags without end", replaced(kGood, "1 5 2 1", "1 5 2000000000 1"),
-       ":21: $Elements: found 2000000000 tags declared with 34 bytes left in the file; expected at most 17. The count "
-       "is wrong or the file cut off; write or copy it again."},
-      {"folded cell", replaced(kGood, "1 2 3 4 5 6 7 8\n", "1 2 3 4 5 7 6 8\n"),
-       ": cell 1 (HEXA8): found Jacobians of both signs at the corners (from -1 to 1), at (0.5, 0.5, 0.5); expected a "
-       "cell with volume, not folded, over distinct nodes. Mesh the place again, or write the node order of this cell "
-       "anew."},
-      {"repeated node", replaced(kGood, "6 7 8\n", "6 7 7\n"),
-       ": cell 1 (HEXA8): found a node that occurs twice in the cell, at (0.625, 0.5, 0.5); expected a cell with "
-       "volume, "
-       "not folded, over distinct nodes. Mesh the place again, or write the node order of this cell anew."},
-      {"name without quotes", replaced(kGood, "\"BODY\"", "BODY"),
-       ":6: $PhysicalNames: found 'BODY'; expected a physical name in double quotes"},
-      {"dimension of a name", replaced(kGood, "3 1 \"BODY\"", "4 1 \"BODY\""),
-       ":6: $PhysicalNames: found dimension 4; expected 0 to 3"},
-      {"second list of nodes", kGood.substr(0, kGood.find("$Elements")) + kGood.substr(kGood.find("$Nodes")),
-       ":20: $Nodes: found a second list of nodes; expected one. Remove one of the two $Nodes sections."},
-      {"second list of cells", kGood + kGood.substr(kGood.find("$Elements")),
-       ":23: $Elements: found a second list of cells; expected one. Remove one of the two $Elements sections."},
-      {"4.1: dimension", replaced(kGood4, "\n3 1 4 1\n", "\n7 1 4 1\n"),
-       ":22: $Elements: found an entity of dimension 7; expected 0 to 3. The file is damaged; write it again."},
-      {"4.1: cells on the wrong entity", replaced(kGood4, "\n3 1 4 1\n", "\n2 1 4 1\n"),
-       ":22: $Elements: found TETRA4 on an entity of dimension 2; expected cells of the dimension of their entity. The "
-       "file is damaged; write it again."},
-      {"4.1: more nodes in the block", replaced(kGood4, "3 1 0 4\n", "3 1 0 5\n"),
-       ":10: $Nodes: found 5 nodes in an entity block with 4 left; expected a sum over the blocks equal to the total. "
-       "Correct the counts, or write the file again."},
-      {"4.1: fewer cells in the blocks", replaced(kGood4, "$Elements\n1 1", "$Elements\n1 2"),
-       ":23: $Elements: found 1 cells fewer in the blocks than declared; expected a sum over the blocks equal to the "
-       "total. Correct the counts, or write the file again."},
-      {"4.1: entities without end", replaced(kGood4, "$Entities\n0 0 0 1", "$Entities\n0 0 0 100000000"),
-       ":5: $Entities: found 100000000 entities declared with 148 bytes left in the file; expected at most 14. The "
-       "count is wrong or the file cut off; write or copy it again."},
-      {"4.1: partitioned", replaced(kGood4, "$Entities", "$PartitionedEntities"),
-       ":4: $PartitionedEntities: found a partitioned mesh; expected an unpartitioned one. Save the mesh without "
-       "partitions."}};
-  return list;
-}
+const std::vector<Spoiled> spoiled_texts{
+    {"version", replaced(kGood, "2.2 0", "4.0 0"),
+     ":2: $MeshFormat: found Gmsh format '4.0'; expected format 2.2 or 4.1. Save the mesh in one of them (gmsh -save "
+     "-format msh41 or msh22)."},
+    {"file type", replaced(kGood, "2.2 0", "2.2 2"),
+     ":2: $MeshFormat: found file type 2; expected 0 for text or 1 for binary"},
+    {"data size", replaced(kGood, "2.2 0 8", "2.2 0 4"),
+     ":2: $MeshFormat: found data size 4; expected 8. Save the mesh on a 64-bit system."},
+    {"format 1", "$NOD\n1\n1 0 0 0\n$ENDNOD\n",
+     ":1: $NOD: found Gmsh format 1; expected format 2.2 or 4.1. Save the mesh in one of them."},
+    {"no header", kGood.substr(kGood.find("$Nodes")),
+     ":1: $Nodes: found '$Nodes'; expected $MeshFormat. A Gmsh file begins with the section $MeshFormat."},
+    {"no nodes", replaced(replaced(kGood, "$Nodes", "$Other"), "$EndNodes", "$EndOther"),
+     ":19: $Elements: found $Elements without $Nodes before; expected $Nodes, then $Elements. Save the mesh with its "
+     "nodes."},
+    {"no cells", kGood.substr(0, kGood.find("$Elements")),
+     ":19: found no section $Elements; expected $Elements. Save the mesh with its cells."},
+    {"nothing but a header", kGood.substr(0, kGood.find("$Physical")),
+     ":4: found no section $Nodes; expected $Nodes. Save the mesh, not only the geometry."},
+    {"zero cells", replaced(kGood, "1\n1 5 2 1 1 1 2 3 4 5 6 7 8\n", "0\n"),
+     ": found a mesh without cells; expected at least one cell. Save the mesh after meshing, with all its cells."},
+    {"cut off early in the nodes", kGood.substr(0, kGood.find("1 1 1\n")),
+     ":9: $Nodes: found 8 nodes declared with 51 bytes left in the file; expected at most 6. The count is wrong or "
+     "the "
+     "file cut off; write or copy it again."},
+    {"cut off late in the nodes",
+     replaced(kGood.substr(0, kGood.find("8 0 1 1")), "1 0 0 0", "1 0.0000000000000000 0 0"),
+     ":17: $Nodes: found the end of the file; expected a node number. The file seems cut off; write or copy it "
+     "again."},
+    {"cut off before the end of a section", kGood.substr(0, kGood.find("$EndElements")),
+     ":22: $Elements: found the end of the file; expected $EndElements. The file seems cut off; write or copy it "
+     "again."},
+    {"unknown section without end", kGood + "$NodeData\n1 2 3\n",
+     ":23: $NodeData: found $NodeData without its end; expected $EndNodeData. The file seems cut off; write or copy "
+     "it "
+     "again."},
+    {"word between sections", replaced(kGood, "$Elements", "hello\n$Elements"),
+     ":19: found 'hello'; expected the beginning of a section, such as $Nodes. Remove what stands between the "
+     "sections, or compare the counts with the lines of the section before."},
+    {"10 GB of nodes", replaced(kGood, "$Nodes\n8", "$Nodes\n312500000"),
+     ":9: $Nodes: found 312500000 nodes declared with 126 bytes left in the file; expected at most 15. The count is "
+     "wrong or the file cut off; write or copy it again."},
+    {"10 GB of cells", replaced(kGood, "$Elements\n1\n", "$Elements\n312500000\n"),
+     ":20: $Elements: found 312500000 cells declared with 40 bytes left in the file; expected at most 5. The count "
+     "is "
+     "wrong or the file cut off; write or copy it again."},
+    {"negative count", replaced(kGood, "$Nodes\n8", "$Nodes\n-8"),
+     ":9: $Nodes: found -8 nodes; expected a count that is not negative. The file is damaged; write it again."},
+    {"count too small", replaced(kGood, "$Nodes\n8", "$Nodes\n7"),
+     ":17: $Nodes: found '8'; expected $EndNodes. Compare the count at the beginning of the section with what "
+     "follows."},
+    {"count too large", replaced(kGood, "$Nodes\n8", "$Nodes\n9"),
+     ":18: $Nodes: found '$EndNodes'; expected a node number, an integer"},
+    {"number that is none", replaced(kGood, "3 1 1 0", "3 1 one 0"),
+     ":12: $Nodes: found 'one'; expected a coordinate, a number"},
+    {"count beyond 64 bits", replaced(kGood, "$Nodes\n8", "$Nodes\n99999999999999999999"),
+     ":9: $Nodes: found '99999999999999999999'; expected the number of nodes, an integer"},
+    {"NaN", replaced(kGood, "3 1 1 0", "3 1 nan 0"),
+     ":12: $Nodes: found node 3 at (1, nan, 0); expected finite coordinates. Write the mesh again; a coordinate "
+     "overflowed or was never set."},
+    {"overflow", replaced(kGood, "3 1 1 0", "3 1 1e999 0"),
+     ":12: $Nodes: found node 3 at (1, inf, 0); expected finite coordinates. Write the mesh again; a coordinate "
+     "overflowed or was never set."},
+    {"node twice", replaced(kGood, "3 1 1 0", "2 1 1 0"),
+     ":12: $Nodes: found node number 2 a second time; expected every node number once. Renumber the nodes, for "
+     "instance by saving the mesh again from Gmsh."},
+    {"node zero", replaced(kGood, "3 1 1 0", "0 1 1 0"),
+     ":12: $Nodes: found node number 0; expected a positive number. Number the nodes from 1."},
+    {"short line", replaced(kGood, "3 1 1 0", "3 1 1"),
+     ":12: $Nodes: found the end of the line; expected a coordinate. A value is missing on this line."},
+    {"long line", replaced(kGood, "3 1 1 0", "3 1 1 0 7"),
+     ":12: $Nodes: found '7'; expected the end of the line. Compare the number of values with the type and the "
+     "counts "
+     "before."},
+    {"node that is not there", replaced(kGood, "6 7 8\n", "6 7 9\n"),
+     ":21: $Elements: found node 9 in cell 1; expected the number of a node in $Nodes. Save the mesh again with all "
+     "its nodes, or correct the cell."},
+    {"cell type of order 3", replaced(kGood, "1 5 2 1 1", "1 92 2 1 1"),
+     ":21: $Elements: found cell type 92; expected 1 to 12 or 15 to 19 (points; lines, triangles, quadrangles, "
+     "tetrahedra, pyramids, pentahedra and hexahedra of order 1 and 2). Mesh with order 1 (Mesh.ElementOrder = 1)."},
+    {"too few nodes in a cell", replaced(kGood, "5 6 7 8\n", "5 6 7\n"),
+     ":21: $Elements: found the end of the line; expected a node number. A value is missing on this line."},
+    {"tags without end", replaced(kGood, "1 5 2 1", "1 5 2000000000 1"),
+     ":21: $Elements: found 2000000000 tags declared with 34 bytes left in the file; expected at most 17. The count "
+     "is wrong or the file cut off; write or copy it again."},
+    {"folded cell", replaced(kGood, "1 2 3 4 5 6 7 8\n", "1 2 3 4 5 7 6 8\n"),
+     ": cell 1 (HEXA8): found Jacobians of both signs at the corners (from -1 to 1), at (0.5, 0.5, 0.5); expected a "
+     "cell with volume, not folded, over distinct nodes. Mesh the place again, or write the node order of this cell "
+     "anew."},
+    {"repeated node", replaced(kGood, "6 7 8\n", "6 7 7\n"),
+     ": cell 1 (HEXA8): found a node that occurs twice in the cell, at (0.625, 0.5, 0.5); expected a cell with "
+     "volume, "
+     "not folded, over distinct nodes. Mesh the place again, or write the node order of this cell anew."},
+    {"name without quotes", replaced(kGood, "\"BODY\"", "BODY"),
+     ":6: $PhysicalNames: found 'BODY'; expected a physical name in double quotes"},
+    {"dimension of a name", replaced(kGood, "3 1 \"BODY\"", "4 1 \"BODY\""),
+     ":6: $PhysicalNames: found dimension 4; expected 0 to 3"},
+    {"second list of nodes", kGood.substr(0, kGood.find("$Elements")) + kGood.substr(kGood.find("$Nodes")),
+     ":20: $Nodes: found a second list of nodes; expected one. Remove one of the two $Nodes sections."},
+    {"second list of cells", kGood + kGood.substr(kGood.find("$Elements")),
+     ":23: $Elements: found a second list of cells; expected one. Remove one of the two $Elements sections."},
+    {"4.1: dimension", replaced(kGood4, "\n3 1 4 1\n", "\n7 1 4 1\n"),
+     ":22: $Elements: found an entity of dimension 7; expected 0 to 3. The file is damaged; write it again."},
+    {"4.1: cells on the wrong entity", replaced(kGood4, "\n3 1 4 1\n", "\n2 1 4 1\n"),
+     ":22: $Elements: found TETRA4 on an entity of dimension 2; expected cells of the dimension of their entity. The "
+     "file is damaged; write it again."},
+    {"4.1: more nodes in the block", replaced(kGood4, "3 1 0 4\n", "3 1 0 5\n"),
+     ":10: $Nodes: found 5 nodes in an entity block with 4 left; expected a sum over the blocks equal to the total. "
+     "Correct the counts, or write the file again."},
+    {"4.1: fewer cells in the blocks", replaced(kGood4, "$Elements\n1 1", "$Elements\n1 2"),
+     ":23: $Elements: found 1 cells fewer in the blocks than declared; expected a sum over the blocks equal to the "
+     "total. Correct the counts, or write the file again."},
+    {"4.1: entities without end", replaced(kGood4, "$Entities\n0 0 0 1", "$Entities\n0 0 0 100000000"),
+     ":5: $Entities: found 100000000 entities declared with 148 bytes left in the file; expected at most 14. The "
+     "count is wrong or the file cut off; write or copy it again."},
+    {"4.1: partitioned", replaced(kGood4, "$Entities", "$PartitionedEntities"),
+     ":4: $PartitionedEntities: found a partitioned mesh; expected an unpartitioned one. Save the mesh without "
+     "partitions."}};
 
 TEST(MeshMalformed, TheFilesAreGoodBeforeTheyAreSpoiled) {
   EXPECT_EQ(read_mesh(kGood, "good.msh").block(CellType::hexa8)->size(), 1u);
@@ -185,7 +182,7 @@ TEST(MeshMalformed, TheFilesAreGoodBeforeTheyAreSpoiled) {
 }
 
 TEST(MeshMalformed, TextFilesNameTheLine) {
-  for (const Spoiled& spoiled : spoiled_texts())
+  for (const Spoiled& spoiled : spoiled_texts)
     EXPECT_EQ(message_of_bytes(spoiled.bytes), std::string("bad.msh") + spoiled.message) << spoiled.what;
 }
 
