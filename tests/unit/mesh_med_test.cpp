@@ -52,7 +52,7 @@ TEST(MeshMed, TurnsTheCellsOfMixedOrientation) {
 
 TEST(MeshMed, KeepsFileNumbersOfCells) {
   const Mesh mesh = read_mesh(kMeshes + "sdnv100a.med");
-  const auto& hexas = test::by_file_numbers(mesh).cells.at("HEXA8");
+  const auto hexas = test::by_file_numbers(mesh).cells.at("HEXA8");
   EXPECT_EQ(hexas.begin()->first, 126);  // MAI/HE8/NUM of the file runs from 126 to 149
   EXPECT_EQ(hexas.rbegin()->first, 149);
 }
