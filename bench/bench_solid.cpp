@@ -1,4 +1,5 @@
-// Internal force of linear elastic HEXA8 with gather and scatter, in cells per second, for each instruction set.
+// Internal force of HEXA8 with gather and scatter, small and finite strain, in cells per second, for each instruction
+// set; and the tangent action of finite strain.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -53,9 +54,9 @@ Mesh shuffled(Mesh mesh) {
   return result;
 }
 
-Model one_part(Mesh mesh) {
+Model one_part(Mesh mesh, const Material& material) {
   Model model;
-  Part part{.name = "cube", .cells = {}, .material = LinearElastic{.E = 2.0e11, .nu = 0.3, .rho = 7800.0}};
+  Part part{.name = "cube", .cells = {}, .material = material};
   part.cells.resize(mesh.blocks[0].size());
   std::iota(part.cells.begin(), part.cells.end(), Index{0});
   model.mesh = std::make_shared<const Mesh>(std::move(mesh));
@@ -63,34 +64,59 @@ Model one_part(Mesh mesh) {
   return model;
 }
 
-void internal_force(benchmark::State& state, const Model& model, Isa isa) {
+constexpr LinearElastic steel{{.E = 2.0e11, .nu = 0.3, .rho = 7800.0}};
+
+/// Calls kernel(solid, u, f) again and again with small random displacements u.
+template <class Kernel>
+void measure(benchmark::State& state, const Model& model, Isa isa, const Kernel& kernel) {
   const Solid solid(model, isa);
   std::vector<double> u(solid.dof_count()), f(solid.dof_count());
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> value(-1e-3, 1e-3);
   for (double& entry : u) entry = value(generator);
   for (auto _ : state) {
-    solid.internal_force(u, f);
+    kernel(solid, u, f);
     benchmark::DoNotOptimize(f.data());
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(solid.cell_count()));
 }
 
-void add_benchmarks(const std::string& mesh_name, const std::shared_ptr<const Model>& model) {
+template <class Kernel>
+void add_benchmarks(const std::string& name_of_kernel, const std::shared_ptr<const Model>& model,
+                    const Kernel& kernel) {
   for (const Isa isa : {Isa::reference, Isa::x86_64_v2, Isa::x86_64_v3, Isa::x86_64_v4}) {
     if (!supported(isa)) continue;
-    benchmark::RegisterBenchmark(("internal_force/" + mesh_name + "/" + std::string(name(isa))).c_str(),
-                                 [model, isa](benchmark::State& state) { internal_force(state, *model, isa); });
+    benchmark::RegisterBenchmark(
+        (name_of_kernel + "/" + std::string(name(isa))).c_str(),
+        [model, isa, kernel](benchmark::State& state) { measure(state, *model, isa, kernel); });
   }
 }
 
 void add_all_benchmarks() {
   set_threads(1);
-  add_benchmarks("12^3 in cache", std::make_shared<Model>(one_part(natural_cube(12))));
-  add_benchmarks("64^3 natural", std::make_shared<Model>(one_part(natural_cube(64))));
-  add_benchmarks("64^3 shuffled, renumbered",
-                 std::make_shared<Model>(one_part(renumbered(shuffled(natural_cube(64))))));
+  using Dofs = std::vector<double>;
+  const auto force = [](const Solid& solid, const Dofs& u, Dofs& f) { solid.internal_force(u, f); };
+  const auto tangent = [](const Solid& solid, const Dofs& u, Dofs& f) { solid.tangent_action(u, u, f); };
+  const auto discrete = [](const Solid& solid, const Dofs& u, Dofs& f) {
+    static const Dofs rest(u.size(), 0.0);
+    solid.discrete_gradient_force(rest, u, f);
+  };
+  const auto model = [](Mesh mesh, const Material& material) {
+    return std::make_shared<const Model>(one_part(std::move(mesh), material));
+  };
+  add_benchmarks("internal_force/12^3 in cache", model(natural_cube(12), steel), force);
+  add_benchmarks("internal_force/64^3 natural", model(natural_cube(64), steel), force);
+  add_benchmarks("internal_force/64^3 shuffled, renumbered", model(renumbered(shuffled(natural_cube(64))), steel),
+                 force);
+  const Material laws[] = {StVenantKirchhoff{steel}, NeoHookean{steel}};
+  const std::string law_names[] = {"St. Venant-Kirchhoff", "neo-Hookean"};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto cube = model(natural_cube(12), laws[k]);
+    add_benchmarks("internal_force/12^3 in cache/" + law_names[k], cube, force);
+    add_benchmarks("tangent_action/12^3 in cache/" + law_names[k], cube, tangent);
+    add_benchmarks("discrete_gradient_force/12^3 in cache/" + law_names[k], cube, discrete);
+  }
 }
 
 }  // namespace

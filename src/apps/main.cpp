@@ -14,6 +14,7 @@
 #include "base/version.hpp"
 #include "casefile/read_case.hpp"
 #include "casefile/schema.hpp"
+#include "compare/compare_cases.hpp"
 #include "linalg/process_environment.hpp"
 #include "mesh/mesh_summary.hpp"
 #include "mesh/read_mesh.hpp"
@@ -37,17 +38,26 @@ struct Arguments {
   std::string case_file, mesh_file, folder;
   int threads = 0;
   bool quiet = false;
+  carom::compare::Options choices;
+  int jobs = 0;
 };
 
-ExitCode run(const Arguments& arguments) {
+void stop_at_signals() {
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   std::signal(SIGHUP, request_stop);
   std::signal(SIGPIPE, SIG_IGN);  // a run outlives the pipe that its progress is written to
+}
+
+std::string results_folder(const Arguments& arguments, const char* ending) {
+  if (!arguments.folder.empty()) return arguments.folder;
+  return (std::filesystem::path("out") / std::filesystem::path(arguments.case_file).stem()).string() + ending;
+}
+
+ExitCode run(const Arguments& arguments) {
+  stop_at_signals();
   carom::RunOptions options;
-  options.folder = arguments.folder.empty()
-                       ? (std::filesystem::path("out") / std::filesystem::path(arguments.case_file).stem()).string()
-                       : arguments.folder;
+  options.folder = results_folder(arguments, "");
   options.threads = arguments.threads;
   options.progress = arguments.quiet ? carom::ProgressMode::quiet : carom::ProgressMode::automatic;
   return carom::run_case(arguments.case_file, options, stop_requested);
@@ -65,6 +75,13 @@ ExitCode check(const Arguments& arguments) {
   return warnings.empty() ? ExitCode::good : ExitCode::verdict_failed;
 }
 
+ExitCode compare(const Arguments& arguments) {
+  stop_at_signals();
+  const carom::compare::Settings settings{"/proc/self/exe", results_folder(arguments, "_compare"), arguments.jobs,
+                                          arguments.quiet};
+  return carom::compare::compare_cases(arguments.case_file, arguments.choices, settings, stop_requested);
+}
+
 ExitCode mesh(const Arguments& arguments) {
   fmt::print("{}", carom::mesh_summary(carom::read_mesh(arguments.mesh_file)));
   return ExitCode::good;
@@ -73,9 +90,27 @@ ExitCode mesh(const Arguments& arguments) {
 ExitCode dispatch(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("run")) return run(arguments);
   if (app.got_subcommand("check")) return check(arguments);
+  if (app.got_subcommand("compare")) return compare(arguments);
   if (app.got_subcommand("mesh")) return mesh(arguments);
   fmt::print("{}\n", carom::json_schema());
   return ExitCode::good;
+}
+
+void add_compare(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = app.add_subcommand("compare", "Run variants of a case side by side and recommend one");
+  command->add_option("case", arguments.case_file, "Case file (TOML)")->required();
+  const auto list = [command](const char* name, auto& values, const char* help) {
+    return command->add_option(name, values, help)->delimiter(',');
+  };
+  list("--scheme", arguments.choices.schemes, "Schemes, each as NAME or NAME:KEY=VALUE:...");
+  list("--enforcement", arguments.choices.enforcements, "Enforcements of contact, written alike");
+  list("--stiffness", arguments.choices.stiffnesses, "Stiffnesses, set in every [[contact]]");
+  list("--cells", arguments.choices.cells, "Cells along the longest edge of each block")
+      ->check(CLI::Range(1, 1'000'000));
+  list("--courant", arguments.choices.courants, "Steps, over shortest cell / fastest wave")->check(CLI::PositiveNumber);
+  command->add_option("--out", arguments.folder, "Results folder (default: out/<name of the case>_compare)");
+  command->add_option("--jobs", arguments.jobs, "Runs at a time (default: all cores)")->check(CLI::Range(0, 1024));
+  command->add_flag("--quiet", arguments.quiet, "Print errors only");
 }
 
 }  // namespace
@@ -96,6 +131,7 @@ int main(int argc, char** argv) {
   run_command->add_flag("--quiet", arguments.quiet, "Print errors only");
   CLI::App* check_command = app.add_subcommand("check", "Read, resolve and examine a case without running it");
   check_command->add_option("case", arguments.case_file, "Case file (TOML)")->required();
+  add_compare(app, arguments);
   CLI::App* mesh_command = app.add_subcommand("mesh", "Describe a mesh file");
   mesh_command->add_option("file", arguments.mesh_file, "Mesh file (Gmsh 2.2 or 4.1, MED)")->required();
   app.add_subcommand("schema", "Print the JSON Schema of the case format");

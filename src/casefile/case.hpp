@@ -13,6 +13,8 @@
 #include "base/units.hpp"
 #include "math/time_function.hpp"
 #include "mesh/structured_block.hpp"
+#include "model/compatibility.hpp"
+#include "model/contact_options.hpp"
 
 namespace carom {
 
@@ -35,7 +37,7 @@ struct CaseMesh {
 struct CaseMaterial {
   std::string name;
   Location where;
-  Located<std::string> law;  ///< "linear_elastic"
+  Located<std::string> law;  ///< "linear_elastic", "st_venant_kirchhoff" or "neo_hookean"
   Located<double> E, nu, rho;
 };
 
@@ -44,6 +46,10 @@ struct CasePart {
   Located<std::string> name;
   Located<std::string> cells;     ///< cell group
   Located<std::string> material;  ///< key of [materials]
+  enum class Section : std::uint8_t { solid, plane_strain, plane_stress, axisymmetric, bar };
+  Section section = Section::solid;
+  double thickness = 1.0;  ///< plane_strain, plane_stress
+  double area = 0.0;       ///< bar
 };
 
 /// [[support]]: what is imposed on a group of nodes.
@@ -86,17 +92,35 @@ struct CaseInitial {
 struct CaseContact {
   Location where;
   Located<std::string> name;
-  enum class Kind : std::uint8_t { interface, plane, stop };
-  Kind kind{};
-  Located<std::string> group;         ///< cells (interface), faces or nodes (plane), nodes (stop)
-  Located<double> stiffness;          ///< eps_N: stress per length (interface, plane per_area), force per length (else)
-  bool per_node = false;              ///< plane: measure = "node" instead of "area"
-  double tangential_stiffness = 0.0;  ///< interface, plane
-  double friction = 0.0;              ///< Coulomb mu
-  Vec3 point{};                       ///< plane
-  Located<Vec3> normal;  ///< plane: towards the body; stop: direction from the stop to the node. Normalised on reading
-  double gap = 0.0;      ///< stop
-  double damping = 0.0;  ///< stop
+  enum class Kind : std::uint8_t { interface, plane, sphere, cylinder, box, surface, pair, self, all, stop };
+  Located<Kind> kind{};
+  Located<std::string> group;   ///< cells (interface), faces or nodes (obstacles), slave faces (pair), faces (self),
+                                ///< nodes (stop)
+  Located<std::string> master;  ///< pair: faces of the other body
+  std::vector<Located<std::string>> exclude;  ///< all: groups whose faces take no part
+  PairMethod method = PairMethod::two_pass;   ///< pair, self, all
+  std::optional<Located<double>> stiffness;   ///< eps_N: stress per length (per node and stop: force per length)
+  double stiffness_factor = 1.0;              ///< on the stiffness that is chosen where none is given
+  bool per_node = false;                      ///< obstacles: measure = "node" instead of "area"
+  std::optional<double> tangential_stiffness;
+  double friction = 0.0;        ///< Coulomb mu
+  Located<double> restitution;  ///< Newton's coefficient, for impulses
+  Vec3 moment_point{};          ///< about which contact.csv gives the moment
+  InitialPenetration initial_penetration = InitialPenetration::refuse;
+  Vec3 point{};                  ///< plane, cylinder
+  Located<Vec3> normal;          ///< plane: towards the body; stop: from the stop to the node. Normalised on reading
+  Vec3 centre{};                 ///< sphere
+  Located<Vec3> axis;            ///< cylinder. Normalised on reading
+  double radius = 0.0;           ///< sphere, cylinder
+  bool inside = false;           ///< sphere, cylinder: the body is inside
+  Vec3 lower{};                  ///< box
+  Located<Vec3> upper;           ///< box
+  Located<std::string> surface;  ///< surface: faces of the rigid surface
+  std::optional<Vec3> velocity;  ///< obstacles: imposed, times function; initial with a mass
+  std::optional<Located<std::string>> function;
+  std::optional<double> mass;  ///< obstacles: free rigid body that moves without turning
+  double gap = 0.0;            ///< stop
+  double damping = 0.0;        ///< stop
 };
 
 struct CaseFunction {
@@ -105,21 +129,39 @@ struct CaseFunction {
   TimeFunction function;
 };
 
+/// [scheme], and the same keys of a [[stage]].
 struct CaseScheme {
   Location where;
-  enum class Kind : std::uint8_t { newmark, central_differences };
-  Kind kind{};
-  double beta = 0.25, gamma = 0.5;  ///< newmark
-  enum class Mass : std::uint8_t { consistent, lumped };
-  Mass mass{};  ///< default: consistent for newmark, lumped for central differences
+  Located<SchemeKind> kind;
+  std::optional<Located<EnforcementKind>> enforcement;  ///< filled on reading: the scheme's default
+  double beta = 0.25, gamma = 0.5;                      ///< newmark, contact_stabilized_newmark
+  double alpha = -0.05;                                 ///< hht, wbz
+  double rho_inf = 0.8;                                 ///< generalized_alpha, hulbert_chung
+  double theta = 0.5;                                   ///< moreau_jean
+  double phi = 1.033;                                   ///< tchamwa_wielgosz
+  double p = 0.54;                                      ///< noh_bathe
+  std::optional<double> penetration;  ///< augmented_lagrangian: largest penetration, relative to the smallest cell
+  enum class Mass : std::uint8_t { consistent, lumped, modified };
+  std::optional<Located<Mass>> mass;  ///< filled on reading: the scheme's default
+  enum class Redistribution : std::uint8_t { layers, least_squares };
+  std::optional<Redistribution> redistribution;  ///< modified mass; filled on reading
+  std::optional<int> layers;                     ///< modified mass over layers: their number; filled on reading
 };
 
+/// [time], and the same keys of a [[stage]].
 struct CaseTime {
   Location where;
   Located<double> end;
-  std::optional<Located<double>> step;  ///< newmark: required; central differences: default from the stable step
-  bool fixed = false;                   ///< newmark: never halve (a failing step ends the run)
-  double safety = 0.9;                  ///< central differences: fraction of the stable step
+  std::optional<Located<double>> step;  ///< implicit schemes: required; explicit ones: default from the stable step
+  bool fixed = false;                   ///< implicit schemes: never halve (a failing step ends the run)
+  double safety = 0.9;                  ///< explicit schemes: fraction of the stable step
+};
+
+/// [[stage]]: the run goes on with another scheme.
+struct CaseStage {
+  Location where;
+  CaseScheme scheme;
+  CaseTime time;
 };
 
 struct CaseSolver {
@@ -131,7 +173,9 @@ struct CaseSolver {
 struct CaseOutput {
   Location where;
   /// Of displacement, velocity, acceleration, stress.
-  std::vector<Located<std::string>> fields{{"displacement", {}}, {"velocity", {}}, {"stress", {}}};
+  std::vector<Located<std::string>> fields{{"displacement", {}},  {"velocity", {}},         {"stress", {}},
+                                           {"contact_force", {}}, {"contact_pressure", {}}, {"contact_gap", {}},
+                                           {"contact_status", {}}};
   int fields_every = 0;  ///< steps; 0: about 50 times over the run
   int curves_every = 1;  ///< steps between rows of the .csv files
 };
@@ -162,13 +206,25 @@ struct CaseCheck {
   std::string source;
 };
 
-/// [exact]: the exact solution of this case, for checks and curves (see exact/bar_impact.hpp).
+/// [exact.second]: the bar on the positive side of the axis.
+struct CaseExactBar {
+  Location where;
+  double length = 0.0, area = 0.0, modulus = 0.0, density = 0.0, speed = 0.0;
+};
+
+/// [exact]: the exact solution of this case, for checks and curves (see exact/).
 struct CaseExact {
   Location where;
-  Located<std::string> solution;  ///< "bar_on_rigid_wall" or "bar_on_penalty_wall"
+  Located<std::string> solution;
   double length = 0.0, area = 0.0, modulus = 0.0, density = 0.0, speed = 0.0, gap = 0.0;
-  double stiffness = 0.0;             ///< penalty wall: stress per length
-  double initial_displacement = 0.0;  ///< added to displacements (SDNV100 counts its initial +2 mm)
+  double stiffness = 0.0;              ///< penalty wall: stress per length; friction oscillator: force per length
+  double initial_displacement = 0.0;   ///< added to displacements (SDNV100 counts its initial +2 mm); the oscillator's
+  double gravity = 0.0;                ///< bouncing bar, sliding block, friction oscillator
+  double mass = 0.0;                   ///< sphere, block, oscillator
+  double radius = 0.0, poisson = 0.0;  ///< sphere
+  double friction = 0.0;               ///< Coulomb mu
+  double angle = 0.0;                  ///< of the incline, radians
+  std::optional<CaseExactBar> second;
   int axis = 2;
 };
 
@@ -186,6 +242,7 @@ struct Case {
   std::vector<CaseFunction> functions;
   CaseScheme scheme;
   CaseTime time;
+  std::vector<CaseStage> stages;  ///< after [scheme] and [time]
   CaseSolver solver;
   CaseOutput output;
   std::vector<CaseProbe> probes;

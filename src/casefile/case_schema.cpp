@@ -10,9 +10,12 @@ using Need = KeyOptions::Need;
 
 const std::vector<std::string> axes{"x", "y", "z"};
 
-Section<CaseMaterial> material_section() {
-  Section<CaseMaterial> s("A material; NAME is what [[part]] refers to.");
-  s.key("law", &CaseMaterial::law, "Material law.", {.choices = {"linear_elastic"}, .need = Need::required});
+SectionSchema<CaseMaterial> material_section() {
+  SectionSchema<CaseMaterial> s("A material; NAME is what [[part]] refers to.");
+  s.key("law", &CaseMaterial::law,
+        "Hooke's law for small strains and rotations, or the St-Venant-Kirchhoff or compressible neo-Hookean law for "
+        "finite ones.",
+        {.choices = {"linear_elastic", "st_venant_kirchhoff", "neo_hookean"}, .need = Need::required});
   s.key("E", &CaseMaterial::E, "Young's modulus.",
         {.unit = Dimension::stress,
          .range = greater_than(0.0),
@@ -25,17 +28,28 @@ Section<CaseMaterial> material_section() {
   return s;
 }
 
-Section<CasePart> part_section() {
-  Section<CasePart> s("A deformable body: a group of cells made of one material.");
+SectionSchema<CasePart> part_section() {
+  SectionSchema<CasePart> s("A deformable body: a group of cells made of one material.");
   s.key("name", &CasePart::name, "Name in results and messages.", {.need = Need::required});
   s.key("cells", &CasePart::cells, "Group of cells.", {.need = Need::required});
   s.key("material", &CasePart::material, "NAME of a [materials.NAME].", {.need = Need::required});
+  s.description.selector = "section";
+  s.description.default_kind = "solid";
+  s.key(
+      "section", &CasePart::section,
+      "What the cells are a section of: HEXA8 are solid; QUAD4 in a plane z = const are plane_strain, plane_stress or "
+      "axisymmetric (about the y axis, x being the radius); LINE2 are bars.",
+      {.choices = {"solid", "plane_strain", "plane_stress", "axisymmetric", "bar"}});
+  s.key("thickness", &CasePart::thickness, "Thickness of plane cells.",
+        {.unit = Dimension::length, .range = greater_than(0.0), .kinds = {"plane_strain", "plane_stress"}});
+  s.key("area", &CasePart::area, "Area of the section of the bars.",
+        {.unit = Dimension::area, .range = greater_than(0.0), .kinds = {"bar"}, .need = Need::required});
   s.finish = [](CasePart& part, const Node&, const ReadContext& at) { check_name(part.name, at.at("name").path); };
   return s;
 }
 
-Section<CaseInitial> initial_section() {
-  Section<CaseInitial> s("Initial displacement and velocity; later sections overwrite earlier ones.");
+SectionSchema<CaseInitial> initial_section() {
+  SectionSchema<CaseInitial> s("Initial displacement and velocity; later sections overwrite earlier ones.");
   s.key("nodes", &CaseInitial::nodes, "Group of nodes or cells, or \"all\".");
   s.key("part", &CaseInitial::part, "Name of a [[part]].");
   s.key("displacement", &CaseInitial::displacement, "Initial displacement, stress-free where it is uniform.",
@@ -46,97 +60,19 @@ Section<CaseInitial> initial_section() {
   return s;
 }
 
-Section<CaseScheme> scheme_section() {
-  const std::vector<std::string> newmark{"newmark"};
-  Section<CaseScheme> s("Time integration.");
-  s.description.selector = "kind";
-  s.key("kind", &CaseScheme::kind, "Newmark (implicit) or central differences (explicit).",
-        {.choices = {"newmark", "central_differences"}, .need = Need::required});
-  s.key("beta", &CaseScheme::beta, "Newmark's beta.",
-        {.range = {Bound{0.0, Bound::Side::open}, Bound{0.5, Bound::Side::closed}}, .kinds = newmark});
-  s.key("gamma", &CaseScheme::gamma, "Newmark's gamma; above 0.5 the scheme dissipates.",
-        {.range = {Bound{0.5, Bound::Side::closed}, Bound{1.0, Bound::Side::closed}}, .kinds = newmark});
-  s.key("mass", &CaseScheme::mass, "Mass matrix.",
-        {.choices = {"consistent", "lumped"},
-         .default_phrase = "consistent for newmark, lumped for central_differences"});
-  s.finish = [](CaseScheme& scheme, const Node& node, const ReadContext&) {
-    if (find(node, "mass") != nullptr) return;
-    const bool lumped = scheme.kind == CaseScheme::Kind::central_differences;
-    scheme.mass = lumped ? CaseScheme::Mass::lumped : CaseScheme::Mass::consistent;
-  };
-  return s;
-}
-
-/// A key that is written only where it acts: beside no step.
-void add_safety(Section<CaseTime>& s) {
-  const KeyDescription key{
-      "safety",
-      Shape::number,
-      "Fraction of the stable step; not beside `step`.",
-      {.range = {Bound{0.0, Bound::Side::open}, Bound{1.0, Bound::Side::closed}}, .kinds = {"central_differences"}},
-      Node{CaseTime{}.safety, {}},
-      {}};
-  Section<CaseTime>::Handlers handlers;
-  handlers.read = [key](CaseTime& time, const Node& node, const ReadContext& at) {
-    decode(node, key, at, time.safety);
-  };
-  handlers.write = [](const CaseTime& time, const Node&) -> std::optional<Node> {
-    if (time.step) return std::nullopt;
-    return Node{time.safety, {}};
-  };
-  s.add(key, handlers);
-}
-
-Section<CaseTime> time_section() {
-  Section<CaseTime> s("Duration and time step.");
-  s.description.selector = "scheme.kind";
-  s.key("end", &CaseTime::end, "The run goes from 0 to here.",
-        {.unit = Dimension::time, .range = greater_than(0.0), .need = Need::required, .aliases = {"duration"}});
-  s.key("step", &CaseTime::step, "Time step.",
-        {.unit = Dimension::time,
-         .range = greater_than(0.0),
-         .required_for = {"newmark"},
-         .aliases = {"dt"},
-         .default_phrase = "newmark: required; central_differences: from the stable step"});
-  s.key("fixed", &CaseTime::fixed, "Never halve the step: a step that fails ends the run.", {.kinds = {"newmark"}});
-  add_safety(s);
-  s.finish = [](CaseTime& time, const Node& node, const ReadContext& at) {
-    const Node* safety = find(node, "safety");
-    if (time.step && safety != nullptr) {
-      throw CaseError(safety->where, at.at("safety").path, "a fraction of the stable step beside a step",
-                      "step or safety", "Leave out step to have it chosen.");
-    }
-    if (time.step && **time.step > *time.end) {
-      throw CaseError(time.step->where, at.at("step").path, toml_number(**time.step),
-                      "a step of at most time.end = " + toml_number(*time.end));
-    }
-  };
-  return s;
-}
-
-Section<CaseSolver> solver_section() {
-  Section<CaseSolver> s("Solvers of implicit steps.");
-  s.description.selector = "scheme.kind";
-  s.key("kind", &CaseSolver::kind,
-        "Linear solver: conjugate gradients, CHOLMOD, or chosen from the estimated conditioning.",
-        {.choices = {"auto", "cg", "cholmod"}, .kinds = {"newmark"}});
-  s.key("max_contact_iterations", &CaseSolver::max_contact_iterations,
-        "A step whose contact state needs more iterations has failed.", {.range = at_least(1.0), .kinds = {"newmark"}});
-  return s;
-}
-
-Section<CaseOutput> output_section() {
-  Section<CaseOutput> s("What is written to the results folder, and how often.");
-  s.key("fields", &CaseOutput::fields, "Fields in the .vtu files.",
-        {.choices = {"displacement", "velocity", "acceleration", "stress"}});
+SectionSchema<CaseOutput> output_section() {
+  SectionSchema<CaseOutput> s("What is written to the results folder, and how often.");
+  s.key("fields", &CaseOutput::fields, "Fields in the .vtu files; those of contact only where there is one.",
+        {.choices = {"displacement", "velocity", "acceleration", "stress", "contact_force", "contact_pressure",
+                     "contact_gap", "contact_status"}});
   s.key("fields_every", &CaseOutput::fields_every, "Steps between .vtu files; 0: about 50 files over the run.",
         {.range = at_least(0.0)});
   s.key("curves_every", &CaseOutput::curves_every, "Steps between rows of the .csv files.", {.range = at_least(1.0)});
   return s;
 }
 
-Section<CaseProbe> probe_section() {
-  Section<CaseProbe> s("Curves at a node, at the node nearest to a point, or over a group, in probes.csv.");
+SectionSchema<CaseProbe> probe_section() {
+  SectionSchema<CaseProbe> s("Curves at a node, at the node nearest to a point, or over a group, in probes.csv.");
   s.key("name", &CaseProbe::name, "Name in results and in [[check]].", {.need = Need::required});
   s.key("node", &CaseProbe::node, "Number of the node in the mesh file.", {.range = at_least(0.0)});
   s.key("point", &CaseProbe::point, "The node of a part nearest to this point.", {.unit = Dimension::length});
@@ -152,8 +88,8 @@ Section<CaseProbe> probe_section() {
   return s;
 }
 
-Section<CaseCheck> checked_value_section() {
-  Section<CaseCheck> s("A value that the run must meet; the case is its own test.");
+SectionSchema<CaseCheck> checked_value_section() {
+  SectionSchema<CaseCheck> s("A value that the run must meet; the case is its own test.");
   s.key("quantity", &CaseCheck::quantity,
         "What is compared, e.g. \"displacement_z\", \"energy.ENER_CIN\", \"contact.force_z\".",
         {.need = Need::required});
@@ -161,7 +97,7 @@ Section<CaseCheck> checked_value_section() {
   s.key("time", &CaseCheck::time, "When.",
         {.unit = Dimension::time, .range = at_least(0.0), .default_phrase = "time.end"});
   s.key("value", &CaseCheck::value, "Reference value.");
-  Section<CaseCheck>::Handlers reference;
+  SectionSchema<CaseCheck>::Handlers reference;
   const KeyDescription reference_key{
       "reference", Shape::text, "Compare with the solution of [exact].", {.choices = {"exact"}}, {}, {}};
   reference.read = [reference_key](CaseCheck& check, const Node& node, const ReadContext& at) {
@@ -182,37 +118,8 @@ Section<CaseCheck> checked_value_section() {
   return s;
 }
 
-Section<CaseExact> exact_section() {
-  const auto positive = [](Dimension unit) {
-    return KeyOptions{.unit = unit, .range = greater_than(0.0), .need = Need::required};
-  };
-  Section<CaseExact> s(
-      "Exact solution of the case, for checks and curves: an elastic bar that flies against a wall end on.");
-  s.description.selector = "solution";
-  s.key("solution", &CaseExact::solution, "Which solution.",
-        {.choices = {"bar_on_rigid_wall", "bar_on_penalty_wall"}, .need = Need::required});
-  s.key("length", &CaseExact::length, "Length of the bar.", positive(Dimension::length));
-  s.key("area", &CaseExact::area, "Section of the bar.", positive(Dimension::area));
-  s.key("modulus", &CaseExact::modulus,
-        "Stress per axial strain: E for nu = 0 or free sides, E (1 - nu) / ((1 + nu) (1 - 2 nu)) for blocked sides.",
-        positive(Dimension::stress));
-  s.key("density", &CaseExact::density, "Density.", positive(Dimension::density));
-  s.key("speed", &CaseExact::speed, "Speed towards the wall.", positive(Dimension::velocity));
-  s.key("gap", &CaseExact::gap, "Distance to the wall at the start.",
-        {.unit = Dimension::length, .range = at_least(0.0)});
-  s.key("stiffness", &CaseExact::stiffness, "Stress per penetration of the wall.",
-        {.unit = Dimension::stress_per_length,
-         .range = greater_than(0.0),
-         .kinds = {"bar_on_penalty_wall"},
-         .need = Need::required});
-  s.key("initial_displacement", &CaseExact::initial_displacement, "Added to displacements.",
-        {.unit = Dimension::length});
-  s.key("axis", &CaseExact::axis, "Axis of the bar; it flies in the negative direction.", {.choices = axes});
-  return s;
-}
-
-Section<Case> root_section() {
-  Section<Case> s("A case is one TOML file.");
+SectionSchema<Case> root_section() {
+  SectionSchema<Case> s("A case is one TOML file.");
   s.key("title", &Case::title, "One line for reports.");
   s.key("units", &Case::units,
         "Unit system of all numbers, mesh included; for labels and plausibility, nothing is ever converted.",
@@ -229,6 +136,7 @@ Section<Case> root_section() {
   s.named_tables("functions", &Case::functions, function_section());
   s.table("scheme", &Case::scheme, scheme_section(), needed);
   s.table("time", &Case::time, time_section(), needed);
+  s.tables("stage", &Case::stages, stage_section());
   s.table("solver", &Case::solver, solver_section());
   s.table("output", &Case::output, output_section());
   s.tables("probe", &Case::probes, probe_section());
@@ -239,8 +147,8 @@ Section<Case> root_section() {
 
 }  // namespace
 
-const Section<Case>& case_schema() {
-  static const Section<Case> schema = root_section();
+const SectionSchema<Case>& case_schema() {
+  static const SectionSchema<Case> schema = root_section();
   return schema;
 }
 

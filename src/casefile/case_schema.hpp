@@ -7,13 +7,18 @@
 namespace carom {
 
 /// Every section and key of a case file.
-const Section<Case>& case_schema();
+const SectionSchema<Case>& case_schema();
 
 // The sections that are declared in files of their own.
-Section<CaseMesh> mesh_section();
-Section<CaseSupport> support_section();
-Section<CaseLoad> load_section();
-Section<CaseContact> contact_section();
-Section<CaseFunction> function_section();
+SectionSchema<CaseMesh> mesh_section();
+SectionSchema<CaseSupport> support_section();
+SectionSchema<CaseLoad> load_section();
+SectionSchema<CaseContact> contact_section();
+SectionSchema<CaseFunction> function_section();
+SectionSchema<CaseScheme> scheme_section();
+SectionSchema<CaseTime> time_section();
+SectionSchema<CaseStage> stage_section();
+SectionSchema<CaseSolver> solver_section();
+SectionSchema<CaseExact> exact_section();
 
 }  // namespace carom

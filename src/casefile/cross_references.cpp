@@ -86,6 +86,47 @@ void check_functions(const Case& given) {
     const auto& function = given.loads[i].function;
     if (function) check_known(*function, functions, entry_path("load", i, "function"), what);
   }
+  for (std::size_t i = 0; i < given.contacts.size(); ++i) {
+    const auto& function = given.contacts[i].function;
+    if (function) check_known(*function, functions, entry_path("contact", i, "function"), what);
+  }
+}
+
+double end_of_run(const Case& given) {
+  return given.stages.empty() ? *given.time.end : *given.stages.back().time.end;
+}
+
+void check_stages(const Case& given) {
+  double before = *given.time.end;
+  for (std::size_t i = 0; i < given.stages.size(); ++i) {
+    const Located<double>& end = given.stages[i].time.end;
+    if (!(*end > before)) {
+      throw CaseError(end.where, entry_path("stage", i, "end"), fmt::format("{}", *end),
+                      fmt::format("a time after {}, the end of the stage before", before),
+                      "end counts from the start of the run.");
+    }
+    before = *end;
+  }
+}
+
+/// What a stop or a restitution cannot do with the enforcement of a stage.
+void check_enforcement(const Case& given, const CaseScheme& scheme) {
+  const EnforcementKind enforcement = **scheme.enforcement;
+  for (std::size_t i = 0; i < given.contacts.size(); ++i) {
+    const CaseContact& contact = given.contacts[i];
+    if (*contact.kind == CaseContact::Kind::stop && enforcement != EnforcementKind::penalty) {
+      throw CaseError(contact.kind.where, entry_path("contact", i, "kind"),
+                      fmt::format("a stop, which is a spring, with enforcement = \"{}\"", name(enforcement)),
+                      "enforcement = \"penalty\" with stops", "Take a plane instead, or a scheme with penalty.");
+    }
+    if (*contact.restitution > 0.0 && enforcement != EnforcementKind::impulse) {
+      throw CaseError(contact.restitution.where, entry_path("contact", i, "restitution"),
+                      fmt::format("{} with enforcement = \"{}\"", *contact.restitution, name(enforcement)),
+                      "enforcement = \"impulse\" with a restitution",
+                      "Deformable bodies rebound by their own waves; remove restitution, or take moreau_jean or "
+                      "cd_lagrange.");
+    }
+  }
 }
 
 void check_checks(const Case& given) {
@@ -96,9 +137,9 @@ void check_checks(const Case& given) {
     const CaseCheck& check = given.checks[i];
     if (check.place)
       check_known(*check.place, places, entry_path("check", i, "place"), "the name of a [[probe]] or [[contact]]");
-    if (check.time && **check.time > *given.time.end) {
+    if (check.time && **check.time > end_of_run(given)) {
       throw CaseError(check.time->where, entry_path("check", i, "time"), fmt::format("{}", **check.time),
-                      fmt::format("a time of at most time.end = {}", *given.time.end));
+                      fmt::format("a time of at most {}, the end of the run", end_of_run(given)));
     }
     if (check.exact && !given.exact) {
       throw CaseError(check.where, entry_path("check", i, "reference"), "\"exact\" without a section [exact]",
@@ -123,6 +164,9 @@ void check_references(const Case& given) {
     }
   }
   check_functions(given);
+  check_stages(given);
+  check_enforcement(given, given.scheme);
+  for (const CaseStage& stage : given.stages) check_enforcement(given, stage.scheme);
   check_checks(given);
 }
 

@@ -50,8 +50,8 @@ Json list_schema(const Json& entry) {
   return {{"type", "array"}, {"items", entry}};
 }
 
-Json triple_schema(const Json& entry) {
-  return {{"type", "array"}, {"items", entry}, {"minItems", 3}, {"maxItems", 3}};
+Json tuple_schema(std::size_t size, const Json& entry) {
+  return {{"type", "array"}, {"items", entry}, {"minItems", size}, {"maxItems", size}};
 }
 
 Json named_schema(const Json& entry) {
@@ -70,15 +70,19 @@ Json shape_schema(const KeyDescription& key) {
     case Shape::text:
       return text_schema(options);
     case Shape::vector:
-      return triple_schema(number_schema("number", options));
+      return tuple_schema(3, number_schema("number", options));
+    case Shape::pair:
+      return tuple_schema(2, number_schema("number", options));
     case Shape::integers:
-      return triple_schema(number_schema("integer", options));
+      return tuple_schema(3, number_schema("integer", options));
+    case Shape::integer_pair:
+      return tuple_schema(2, number_schema("integer", options));
     case Shape::numbers:
       return list_schema(number_schema("number", options));
     case Shape::texts:
       return list_schema(text_schema(options));
     case Shape::named_vectors:
-      return named_schema(triple_schema(number_schema("number", options)));
+      return named_schema(tuple_schema(3, number_schema("number", options)));
     case Shape::section:
       return section_schema(*key.section);
     case Shape::sections:

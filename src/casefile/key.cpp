@@ -45,8 +45,12 @@ std::string shape_text(const KeyDescription& key) {
       return choices.empty() ? "a text in quotes" : "one of " + quoted_list(choices);
     case Shape::vector:
       return "three numbers [x, y, z]";
+    case Shape::pair:
+      return "two numbers [x, y]";
     case Shape::integers:
       return "three integers [nx, ny, nz]";
+    case Shape::integer_pair:
+      return "two integers [nx, ny]";
     case Shape::numbers:
       return "a list of numbers";
     case Shape::texts:

@@ -19,7 +19,9 @@ enum class Shape : std::uint8_t {
   number,
   text,
   vector,         ///< [x, y, z]
+  pair,           ///< [x, y]
   integers,       ///< [nx, ny, nz]
+  integer_pair,   ///< [nx, ny]
   numbers,        ///< list of numbers
   texts,          ///< list of texts
   named_vectors,  ///< { NAME = [x, y, z], ... }

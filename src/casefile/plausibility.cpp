@@ -156,7 +156,7 @@ class Lint {
   void check_scheme() {
     const CaseScheme& scheme = case_.scheme;
     constexpr double round_off = 1e-12;
-    if (scheme.kind != CaseScheme::Kind::newmark || 2.0 * scheme.beta >= scheme.gamma - round_off) return;
+    if (*scheme.kind != SchemeKind::newmark || 2.0 * scheme.beta >= scheme.gamma - round_off) return;
     say(scheme.where, fmt::format("scheme: Newmark with beta = {} and gamma = {} is stable for small steps only; with "
                                   "2 beta >= gamma it is stable for any step",
                                   scheme.beta, scheme.gamma));
@@ -175,8 +175,9 @@ class Lint {
         return std::any_of(support.motions.begin(), support.motions.end(), is_it);
       };
       const bool used = std::any_of(case_.loads.begin(), case_.loads.end(), is_it) ||
+                        std::any_of(case_.contacts.begin(), case_.contacts.end(), is_it) ||
                         std::any_of(case_.supports.begin(), case_.supports.end(), has_it);
-      if (!used) say(f.where, fmt::format("functions.{}: no load or support uses it", toml_key(f.name)));
+      if (!used) say(f.where, fmt::format("functions.{}: no load, support or contact uses it", toml_key(f.name)));
     }
   }
 

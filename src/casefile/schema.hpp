@@ -11,4 +11,7 @@ std::string json_schema();
 /// Markdown documentation of the case format (docs/case_format.md).
 std::string case_documentation();
 
+/// Markdown page of the schemes and the enforcements they take (docs/compatibility.md).
+std::string compatibility_markdown();
+
 }  // namespace carom

@@ -6,56 +6,122 @@ namespace carom {
 namespace {
 
 using Need = KeyOptions::Need;
+using Names = std::vector<std::string>;
 
-KeyOptions stiffness_options(Dimension unit, std::vector<std::string> kinds) {
-  return {.unit = unit,
-          .range = greater_than(0.0),
-          .kinds = std::move(kinds),
-          .need = Need::required,
-          .aliases = {"penalty", "eps_N", "E_n"}};
+const Names obstacles{"plane", "sphere", "cylinder", "box", "surface"};
+const Names pairs{"pair", "self", "all"};
+
+Names joined(Names a, const Names& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
 }
 
-void add_stiffness(Section<CaseContact>& s) {
-  s.key("stiffness", &CaseContact::stiffness, "Normal stress per penetration.",
-        stiffness_options(Dimension::stress_per_length, {"interface"}));
+void add_surfaces(SectionSchema<CaseContact>& s) {
+  s.key("group", &CaseContact::group,
+        "Group of cells (interface), of faces or nodes that may touch (obstacles), of slave faces (pair), of faces "
+        "(self), of nodes (stop).",
+        {.kinds = joined(obstacles, {"interface", "pair", "self", "stop"}),
+         .need = Need::required,
+         .aliases = {"slave"}});
+  s.key("master", &CaseContact::master, "Group of faces of the other body; the coarser or stiffer one.",
+        {.kinds = {"pair"}, .need = Need::required});
+  s.key("exclude", &CaseContact::exclude, "Groups whose faces take no part.", {.kinds = {"all"}});
+  s.key("method", &CaseContact::method,
+        "Where the gap is measured: at the nodes of one side, of both, or integrated over the overlaps of the faces.",
+        {.choices = {"node_to_surface", "two_pass", "surface_to_surface"}, .kinds = pairs});
+}
+
+void add_law(SectionSchema<CaseContact>& s) {
+  const Names chosen = joined(joined(obstacles, pairs), {"interface"});
+  const std::string automatic = "from the material and the size of the cells";
+  const Names aliases{"penalty", "eps_N", "E_n"};
   s.key("stiffness", &CaseContact::stiffness,
         "Normal stress per penetration; with measure = \"node\": force of a node per penetration.",
-        stiffness_options(Dimension::stress_per_length, {"plane"}));
+        {.unit = Dimension::stress_per_length,
+         .range = greater_than(0.0),
+         .kinds = chosen,
+         .aliases = aliases,
+         .default_phrase = automatic});
   s.key("stiffness", &CaseContact::stiffness, "Force of a node per penetration.",
-        stiffness_options(Dimension::force_per_length, {"stop"}));
+        {.unit = Dimension::force_per_length,
+         .range = greater_than(0.0),
+         .kinds = {"stop"},
+         .required_for = {"stop"},
+         .aliases = aliases});
+  s.key("stiffness_factor", &CaseContact::stiffness_factor,
+        "Multiplies the stiffness that is chosen where none is given.", {.range = greater_than(0.0), .kinds = chosen});
+  s.key("measure", &CaseContact::per_node, "What the stiffness is counted per: area of the faces, or node.",
+        {.choices = {"area", "node"}, .kinds = obstacles});
+  s.key("tangential_stiffness", &CaseContact::tangential_stiffness,
+        "As stiffness, for the sliding that regularised friction resists.",
+        {.unit = Dimension::stress_per_length,
+         .range = greater_than(0.0),
+         .kinds = chosen,
+         .aliases = {"eps_T", "E_t"},
+         .default_phrase = "with friction: as stiffness"});
+  s.key("friction", &CaseContact::friction, "Coulomb's coefficient of friction mu.",
+        {.range = at_least(0.0), .kinds = chosen, .aliases = {"mu"}});
+  s.key(
+      "restitution", &CaseContact::restitution,
+      "Newton's coefficient: separating over approaching speed, for enforcement = \"impulse\".",
+      {.range = {Bound{0.0, Bound::Side::closed}, Bound{1.0, Bound::Side::closed}}, .kinds = chosen, .aliases = {"e"}});
+  s.key("initial_penetration", &CaseContact::initial_penetration,
+        "What to do where bodies overlap at the start: refuse the case, take the overlap as the zero of the gap (no "
+        "strain), or keep it as prestress.",
+        {.choices = {"refuse", "offset", "prestress"}, .kinds = chosen});
+}
+
+void add_shapes(SectionSchema<CaseContact>& s) {
+  const Names round{"sphere", "cylinder"};
+  const KeyOptions::Need needed = Need::required;
+  s.key("point", &CaseContact::point, "A point of the plane, or of the axis of the cylinder.",
+        {.unit = Dimension::length, .kinds = {"plane", "cylinder"}, .need = needed});
+  s.key("normal", &CaseContact::normal,
+        "Direction from the plane to the body, or from the stop to the node; of any length but 0.",
+        {.kinds = {"plane", "stop"}, .need = needed});
+  s.key("centre", &CaseContact::centre, "Centre of the sphere.",
+        {.unit = Dimension::length, .kinds = {"sphere"}, .need = needed, .aliases = {"center"}});
+  s.key("axis", &CaseContact::axis, "Direction of the cylinder, which is endless.",
+        {.kinds = {"cylinder"}, .need = needed});
+  s.key("radius", &CaseContact::radius, "Radius.",
+        {.unit = Dimension::length, .range = greater_than(0.0), .kinds = round, .need = needed});
+  s.key("inside", &CaseContact::inside, "The body is inside of the shape.", {.kinds = round});
+  s.key("lower", &CaseContact::lower, "Corner of the box with the smallest coordinates.",
+        {.unit = Dimension::length, .kinds = {"box"}, .need = needed});
+  s.key("upper", &CaseContact::upper, "Corner of the box with the largest coordinates.",
+        {.unit = Dimension::length, .kinds = {"box"}, .need = needed});
+  s.key("surface", &CaseContact::surface, "Group of the faces of the rigid surface, which belong to no part.",
+        {.kinds = {"surface"}, .need = needed});
+  s.key("velocity", &CaseContact::velocity,
+        "The obstacle moves, without turning: imposed velocity times function; with a mass: initial velocity.",
+        {.unit = Dimension::velocity, .kinds = obstacles});
+  s.key("function", &CaseContact::function, "NAME of a [functions.NAME] that multiplies the imposed velocity.",
+        {.kinds = obstacles, .default_phrase = "constant 1"});
+  s.key("mass", &CaseContact::mass, "The obstacle is a free rigid body of this mass that moves without turning.",
+        {.unit = Dimension::mass, .range = greater_than(0.0), .kinds = obstacles});
 }
 
 }  // namespace
 
-Section<CaseContact> contact_section() {
-  const std::vector<std::string> stop{"stop"};
-  const std::vector<std::string> frictional{"interface", "plane"};
-  Section<CaseContact> s(
-      "Penalty contact: interface cells of zero thickness, a rigid plane, or discrete stops on nodes.");
+SectionSchema<CaseContact> contact_section() {
+  SectionSchema<CaseContact> s(
+      "Who touches whom: interface cells of zero thickness, rigid obstacles (plane, sphere, cylinder, box, surface), "
+      "two deformable surfaces (pair), one with itself (self), all exterior surfaces with each other (all), or "
+      "discrete stops on nodes.");
   s.description.selector = "kind";
   s.key("name", &CaseContact::name, "Name in results and in [[check]].", {.need = Need::required});
   s.key("kind", &CaseContact::kind, "What touches; decides which of the other keys are taken.",
-        {.choices = {"interface", "plane", "stop"}, .need = Need::required});
-  s.key("group", &CaseContact::group, "Group of cells (interface), of faces or nodes (plane), of nodes (stop).",
-        {.need = Need::required});
-  add_stiffness(s);
-  s.key("measure", &CaseContact::per_node, "What the stiffness is counted per: area of the faces, or node.",
-        {.choices = {"area", "node"}, .kinds = {"plane"}});
-  s.key(
-      "tangential_stiffness", &CaseContact::tangential_stiffness,
-      "As stiffness, for the sliding that Coulomb friction resists.",
-      {.unit = Dimension::stress_per_length, .range = at_least(0.0), .kinds = frictional, .aliases = {"eps_T", "E_t"}});
-  s.key("friction", &CaseContact::friction, "Coulomb's coefficient of friction mu.",
-        {.range = at_least(0.0), .kinds = frictional, .aliases = {"mu"}});
-  s.key("point", &CaseContact::point, "A point of the plane.",
-        {.unit = Dimension::length, .kinds = {"plane"}, .need = Need::required});
-  s.key("normal", &CaseContact::normal,
-        "Direction from the plane to the body, or from the stop to the node; of any length but 0.",
-        {.kinds = {"plane", "stop"}, .need = Need::required});
+        {.choices = {"interface", "plane", "sphere", "cylinder", "box", "surface", "pair", "self", "all", "stop"},
+         .need = Need::required});
+  s.key("moment_point", &CaseContact::moment_point, "Point about which contact.csv gives the moment of the contact.",
+        {.unit = Dimension::length});
+  add_surfaces(s);
+  add_law(s);
+  add_shapes(s);
   s.key("gap", &CaseContact::gap, "Distance that a node moves before it touches.",
-        {.unit = Dimension::length, .kinds = stop});
+        {.unit = Dimension::length, .kinds = {"stop"}});
   s.key("damping", &CaseContact::damping, "Force of a node per closing speed, while it touches.",
-        {.unit = Dimension::damping, .range = at_least(0.0), .kinds = stop});
+        {.unit = Dimension::damping, .range = at_least(0.0), .kinds = {"stop"}});
   s.finish = check_contact;
   return s;
 }

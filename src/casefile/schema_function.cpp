@@ -11,14 +11,14 @@ const std::vector<std::string> table{"table"};
 const std::vector<std::string> step{"step"};
 
 /// The kind decides how the function is written; what is kept is the table it makes.
-void add_kind(Section<CaseFunction>& s) {
+void add_kind(SectionSchema<CaseFunction>& s) {
   const KeyDescription key{"kind",
                            Shape::text,
                            "A table, linear between its entries, or a step from one value to another.",
                            {.choices = {"table", "step"}},
                            Node{std::string("table"), {}},
                            {}};
-  Section<CaseFunction>::Handlers handlers;
+  SectionSchema<CaseFunction>::Handlers handlers;
   handlers.read = [](CaseFunction&, const Node&, const ReadContext&) {};  // already judged as the selector
   handlers.write = [](const CaseFunction&, const Node&) { return Node{std::string("table"), {}}; };
   s.add(key, handlers);
@@ -26,8 +26,8 @@ void add_kind(Section<CaseFunction>& s) {
 
 /// A number of a step; written as a table, so there is nothing to write here.
 template <class Store>
-void add_step_number(Section<CaseFunction>& s, const KeyDescription& key, Store store) {
-  Section<CaseFunction>::Handlers handlers;
+void add_step_number(SectionSchema<CaseFunction>& s, const KeyDescription& key, Store store) {
+  SectionSchema<CaseFunction>::Handlers handlers;
   handlers.read = [key, store](CaseFunction& f, const Node& node, const ReadContext& at) {
     double number = 0.0;
     decode(node, key, at, number);
@@ -39,10 +39,10 @@ void add_step_number(Section<CaseFunction>& s, const KeyDescription& key, Store 
 
 }  // namespace
 
-Section<CaseFunction> function_section() {
+SectionSchema<CaseFunction> function_section() {
   const KeyOptions number{.kinds = step, .need = Need::required};
   const KeyOptions time{.unit = Dimension::time, .kinds = step, .need = Need::required};
-  Section<CaseFunction> s("A function of time for loads and imposed motions.");
+  SectionSchema<CaseFunction> s("A function of time for loads and imposed motions.");
   s.description.selector = "kind";
   s.description.default_kind = "table";
   add_kind(s);

@@ -6,8 +6,8 @@ namespace {
 
 /// A key that also says what kind of load it is.
 template <class Access>
-void add_kind(Section<CaseLoad>& s, const KeyDescription& key, CaseLoad::Kind kind, Access access) {
-  Section<CaseLoad>::Handlers handlers;
+void add_kind(SectionSchema<CaseLoad>& s, const KeyDescription& key, CaseLoad::Kind kind, Access access) {
+  SectionSchema<CaseLoad>::Handlers handlers;
   handlers.read = [=](CaseLoad& load, const Node& node, const ReadContext& at) {
     decode(node, key, at, access(load));
     load.kind = kind;
@@ -33,14 +33,14 @@ void check_group(CaseLoad& load, const Node& node, const ReadContext& at) {
 
 }  // namespace
 
-Section<CaseLoad> load_section() {
+SectionSchema<CaseLoad> load_section() {
   const auto vector = [](auto& load) -> auto& {
     return load.vector;
   };
   const auto pressure = [](auto& load) -> auto& {
     return load.pressure;
   };
-  Section<CaseLoad> s("A load: a force on each node of a group, a pressure on faces, or gravity.");
+  SectionSchema<CaseLoad> s("A load: a force on each node of a group, a pressure on faces, or gravity.");
   add_kind(s, {"force", Shape::vector, "Force on each node of the group.", {.unit = Dimension::force}, {}, {}},
            CaseLoad::Kind::force, vector);
   add_kind(s,

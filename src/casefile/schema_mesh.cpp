@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 
 #include "casefile/case_schema.hpp"
 #include "casefile/section_rules.hpp"
@@ -9,15 +12,19 @@ namespace {
 
 using Need = KeyOptions::Need;
 
-/// Names of the groups of a block; stored in the block itself.
-Section<StructuredBlock> groups_section() {
-  Section<StructuredBlock> s("Names of the groups of the block; an empty name gives no group.");
+const std::vector<std::string> hexa{"hexa"}, quad{"quad"}, bar{"bar"};
+
+/// Names of the groups of a block; stored in the block itself. `sides` names the entries of `names` in their order.
+template <std::size_t n>
+SectionSchema<StructuredBlock> groups_section(const std::string& doc, const std::vector<std::string>& sides,
+                                              std::array<std::string, n> StructuredBlock::*names,
+                                              const std::string& what) {
+  SectionSchema<StructuredBlock> s("Names of the groups of " + doc + "; an empty name gives no group.");
   s.key("cells", &StructuredBlock::cells_group, "Group of all cells.");
-  constexpr std::array faces{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
-  for (std::size_t i = 0; i < faces.size(); ++i) {
+  for (std::size_t i = 0; i < sides.size(); ++i) {
     s.key_by(
-        faces[i], [i](auto& block) -> auto& { return block.face_groups[i]; },
-        std::string("Group of the faces and nodes at ") + faces[i] + ".");
+        sides[i], [ names, i ](auto& block) -> auto& { return (block.*names)[i]; },
+        fmt::format("{} {}.", what, sides[i]));
   }
   s.finish = [](StructuredBlock& block, const Node& node, const ReadContext& at) {
     if (!block.cells_group.empty()) return;
@@ -26,9 +33,9 @@ Section<StructuredBlock> groups_section() {
   return s;
 }
 
-void add_groups(Section<StructuredBlock>& s) {
-  const Section<StructuredBlock> groups = groups_section();
-  Section<StructuredBlock>::Handlers handlers;
+void add_groups(SectionSchema<StructuredBlock>& s, const SectionSchema<StructuredBlock>& groups,
+                const std::vector<std::string>& kinds) {
+  SectionSchema<StructuredBlock>::Handlers handlers;
   handlers.read = [groups](StructuredBlock& block, const Node& node, const ReadContext& at) {
     groups.read(block, node, at);
   };
@@ -36,13 +43,31 @@ void add_groups(Section<StructuredBlock>& s) {
   s.add({"groups",
          Shape::section,
          groups.description.doc,
-         {},
+         {.kinds = kinds},
          {},
          std::make_shared<const SectionDescription>(groups.description)},
         handlers);
 }
 
-void add_points(Section<StructuredBlock>& s) {
+/// A key whose value is given in the form T and stored in the first entries of a member, for blocks that have fewer
+/// directions than the member has entries.
+template <class T, class Member>
+void add_first(SectionSchema<StructuredBlock>& s, const KeyDescription& key, Member StructuredBlock::*member) {
+  SectionSchema<StructuredBlock>::Handlers handlers;
+  handlers.read = [key, member](StructuredBlock& block, const Node& node, const ReadContext& at) {
+    T value{};
+    decode(node, key, at, value);
+    std::copy(value.begin(), value.end(), (block.*member).begin());
+  };
+  handlers.write = [key, member](const StructuredBlock& block, const Node&) {
+    T value{};
+    std::copy_n((block.*member).begin(), value.size(), value.begin());
+    return encode(value, key.options);
+  };
+  s.add(key, handlers);
+}
+
+void add_points(SectionSchema<StructuredBlock>& s) {
   const KeyDescription key{"points",
                            Shape::named_vectors,
                            "Groups of one node each: the node nearest to the point, which must lie within 1e-6 of the "
@@ -52,7 +77,7 @@ void add_points(Section<StructuredBlock>& s) {
                            {}};
   KeyDescription point = key;
   point.shape = Shape::vector;
-  Section<StructuredBlock>::Handlers handlers;
+  SectionSchema<StructuredBlock>::Handlers handlers;
   handlers.read = [key, point](StructuredBlock& block, const Node& node, const ReadContext& at) {
     for (const Member& m : members_of(node, key, at).members) {
       StructuredBlock::Point& to = block.points.emplace_back();
@@ -72,23 +97,52 @@ void add_points(Section<StructuredBlock>& s) {
   s.add(key, handlers);
 }
 
-Section<StructuredBlock> block_section() {
-  Section<StructuredBlock> s(
-      "A box of HEXA8 cells along the axes. Boxes that touch share no nodes; groups of the same name are united.");
-  s.key("origin", &StructuredBlock::origin, "Corner with the smallest coordinates.", {.unit = Dimension::length});
-  s.key("size", &StructuredBlock::size, "Lengths of the edges.",
-        {.unit = Dimension::length, .range = greater_than(0.0), .need = Need::required});
-  s.key("divisions", &StructuredBlock::divisions, "Number of cells along each edge.",
-        {.range = at_least(1.0), .need = Need::required});
-  add_groups(s);
+void add_extent(SectionSchema<StructuredBlock>& s) {
+  const auto length = [](const std::vector<std::string>& kinds) {
+    return KeyOptions{.unit = Dimension::length, .range = greater_than(0.0), .kinds = kinds, .need = Need::required};
+  };
+  const auto count = [](const std::vector<std::string>& kinds) {
+    return KeyOptions{.range = at_least(1.0), .kinds = kinds, .need = Need::required};
+  };
+  s.key("size", &StructuredBlock::size, "Lengths of the edges.", length(hexa));
+  add_first<std::array<double, 2>>(s, {"size", Shape::pair, "Lengths of the edges.", length(quad), {}, {}},
+                                   &StructuredBlock::size);
+  s.key("end", &StructuredBlock::end, "The other end.",
+        {.unit = Dimension::length, .kinds = bar, .need = Need::required});
+  s.key("divisions", &StructuredBlock::divisions, "Number of cells along each edge.", count(hexa));
+  add_first<std::array<int, 2>>(
+      s, {"divisions", Shape::integer_pair, "Number of cells along each edge.", count(quad), {}, {}},
+      &StructuredBlock::divisions);
+  s.key_by(
+      "divisions", [](auto& block) -> auto& { return block.divisions[0]; }, "Number of cells.", count(bar));
+}
+
+SectionSchema<StructuredBlock> block_section() {
+  SectionSchema<StructuredBlock> s(
+      "Regular cells: a box of HEXA8 along the axes, a rectangle of QUAD4 in a plane z = const, or a line of LINE2 in "
+      "any direction. Blocks that touch share no nodes; groups of the same name are united.");
+  s.description.selector = "kind";
+  s.key("kind", &StructuredBlock::kind, "Box, rectangle or line.", {.choices = {"hexa", "quad", "bar"}});
+  s.description.default_kind = "hexa";
+  s.key("origin", &StructuredBlock::origin, "Corner with the smallest coordinates; of a bar, one end.",
+        {.unit = Dimension::length});
+  add_extent(s);
+  const std::vector<std::string> sides{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
+  add_groups(s, groups_section("a box", sides, &StructuredBlock::face_groups, "Group of the faces and nodes at"), hexa);
+  add_groups(s,
+             groups_section("a rectangle", {sides.begin(), sides.begin() + 4}, &StructuredBlock::face_groups,
+                            "Group of the edges and nodes at"),
+             quad);
+  add_groups(s, groups_section("a bar", {"start", "end"}, &StructuredBlock::end_groups, "Group of the node at its"),
+             bar);
   add_points(s);
   return s;
 }
 
 }  // namespace
 
-Section<CaseMesh> mesh_section() {
-  Section<CaseMesh> s("Where the mesh comes from: a file, or structured blocks.");
+SectionSchema<CaseMesh> mesh_section() {
+  SectionSchema<CaseMesh> s("Where the mesh comes from: a file, or structured blocks.");
   s.key("file", &CaseMesh::file, "Gmsh (.msh) or MED (.med) file, relative to the folder of the case file.");
   s.tables("block", &CaseMesh::blocks, block_section());
   s.description.alternatives = {{Alternatives::Count::exactly_one, {"file", "block"}}};

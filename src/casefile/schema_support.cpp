@@ -15,8 +15,8 @@ struct MotionTable {
   std::optional<Located<std::string>> function;
 };
 
-Section<MotionTable> motion_section(const std::string& what, Dimension unit) {
-  Section<MotionTable> s("Prescribed " + what + " of single components: amplitude times function.");
+SectionSchema<MotionTable> motion_section(const std::string& what, Dimension unit) {
+  SectionSchema<MotionTable> s("Prescribed " + what + " of single components: amplitude times function.");
   for (std::size_t c = 0; c < 3; ++c) {
     s.key_by(axes[c], [c](auto& motion) -> auto& { return motion.amplitude[c]; }, "Amplitude along " + axes[c] + ".",
              {.unit = unit});
@@ -44,9 +44,9 @@ std::optional<MotionTable> motions_of(const CaseSupport& support, CaseSupport::K
   return table;
 }
 
-void add_motion(Section<CaseSupport>& s, const std::string& key, CaseSupport::Kind kind, Dimension unit) {
-  const Section<MotionTable> motion = motion_section(key, unit);
-  Section<CaseSupport>::Handlers handlers;
+void add_motion(SectionSchema<CaseSupport>& s, const std::string& key, CaseSupport::Kind kind, Dimension unit) {
+  const SectionSchema<MotionTable> motion = motion_section(key, unit);
+  SectionSchema<CaseSupport>::Handlers handlers;
   handlers.read = [motion, kind](CaseSupport& support, const Node& node, const ReadContext& at) {
     MotionTable table;
     motion.read(table, node, at);
@@ -90,8 +90,8 @@ void check_components(CaseSupport& support, const Node& node, const ReadContext&
 
 }  // namespace
 
-Section<CaseSupport> support_section() {
-  Section<CaseSupport> s("What is imposed on a group of nodes.");
+SectionSchema<CaseSupport> support_section() {
+  SectionSchema<CaseSupport> s("What is imposed on a group of nodes.");
   s.key("nodes", &CaseSupport::nodes, "Group of nodes or cells, or \"all\".", {.need = Need::required});
   s.key("symmetry", &CaseSupport::symmetry, "Symmetry plane with this normal: blocks that component.",
         {.choices = axes});

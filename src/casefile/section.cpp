@@ -56,12 +56,16 @@ std::string plain_list(const std::vector<std::string>& words) {
                   near.empty() ? "" : fmt::format("Did you mean {}?", near));
 }
 
-[[noreturn]] void wrong_kind(const Member& member, const KeyDescription& key, const SectionDescription& section,
-                             const std::string& kind, const ReadContext& at) {
+[[noreturn]] void wrong_kind(const Member& member, const SectionDescription& section, const std::string& kind,
+                             const ReadContext& at) {
+  std::vector<std::string> kinds;
+  for (const KeyDescription& key : section.keys) {
+    if (key.key == member.key) kinds.insert(kinds.end(), key.options.kinds.begin(), key.options.kinds.end());
+  }
   throw CaseError(member.where, join(at.path, member.key),
                   fmt::format("a key that {} = {} does not take", section.selector, toml_string(kind)),
                   fmt::format("one of {}", plain_list(names_for(section, kind))),
-                  fmt::format("It belongs to {} = {}.", section.selector, quoted_list(key.options.kinds)));
+                  fmt::format("It belongs to {} = {}.", section.selector, quoted_list(kinds)));
 }
 
 [[noreturn]] void missing_key(const Node& node, const KeyDescription& key, const ReadContext& at) {
@@ -110,7 +114,7 @@ std::string check_section(const Node& node, const SectionDescription& section, c
   const std::string kind = find_kind(node, section, at);
   for (const Member& member : table->members) {
     const KeyDescription* key = declared_key(section, member.key, kind);
-    if (!applies(*key, kind)) wrong_kind(member, *key, section, kind, at);
+    if (!applies(*key, kind)) wrong_kind(member, section, kind, at);
   }
   for (const Alternatives& alternatives : section.alternatives) check_alternatives(node, alternatives, at);
   for (const KeyDescription& key : section.keys) {

@@ -20,7 +20,7 @@ const List& entries_of(const Node& node, const KeyDescription& key, const ReadCo
 const Table& members_of(const Node& node, const KeyDescription& key, const ReadContext& at);
 
 template <class S>
-class Section {
+class SectionSchema {
  public:
   struct Handlers {
     std::function<void(S&, const Node&, const ReadContext&)> read;
@@ -31,7 +31,7 @@ class Section {
   };
   using Finish = std::function<void(S&, const Node&, const ReadContext&)>;
 
-  explicit Section(std::string doc) { description.doc = std::move(doc); }
+  explicit SectionSchema(std::string doc) { description.doc = std::move(doc); }
 
   SectionDescription description;
   /// Rules between the keys of the section, and defaults that follow from them; called last.
@@ -55,16 +55,17 @@ class Section {
 
   /// [name], stored in a member; an absent one has its defaults.
   template <class Sub>
-  void table(const std::string& name, Sub S::*member, const Section<Sub>& sub, KeyOptions options = {});
+  void table(const std::string& name, Sub S::*member, const SectionSchema<Sub>& sub, KeyOptions options = {});
   /// [name], stored in a member that is empty when the section is absent.
   template <class Sub>
-  void table(const std::string& name, std::optional<Sub> S::*member, const Section<Sub>& sub);
+  void table(const std::string& name, std::optional<Sub> S::*member, const SectionSchema<Sub>& sub);
   /// [[name]]
   template <class Sub>
-  void tables(const std::string& name, std::vector<Sub> S::*member, const Section<Sub>& sub, KeyOptions options = {});
+  void tables(const std::string& name, std::vector<Sub> S::*member, const SectionSchema<Sub>& sub,
+              KeyOptions options = {});
   /// [name.NAME]; the name goes to Sub::name.
   template <class Sub>
-  void named_tables(const std::string& name, std::vector<Sub> S::*member, const Section<Sub>& sub,
+  void named_tables(const std::string& name, std::vector<Sub> S::*member, const SectionSchema<Sub>& sub,
                     KeyOptions options = {});
 
   void read(S& s, const Node& node, const ReadContext& at) const;

@@ -18,7 +18,7 @@ void place_section(S& s, const Location& where) {
 
 template <class S>
 template <class Access>
-void Section<S>::key_by(const std::string& name, Access access, const std::string& doc, KeyOptions options) {
+void SectionSchema<S>::key_by(const std::string& name, Access access, const std::string& doc, KeyOptions options) {
   using Value = std::remove_cvref_t<decltype(access(std::declval<S&>()))>;
   KeyDescription described{name, shape_of<Value>(options), doc, std::move(options), {}, {}};
   const S defaults{};
@@ -42,14 +42,15 @@ void Section<S>::key_by(const std::string& name, Access access, const std::strin
 }
 
 template <class S>
-KeyDescription Section<S>::describe_section(const std::string& name, Shape shape, const SectionDescription& sub,
-                                            KeyOptions options) const {
+KeyDescription SectionSchema<S>::describe_section(const std::string& name, Shape shape, const SectionDescription& sub,
+                                                  KeyOptions options) const {
   return {name, shape, sub.doc, std::move(options), {}, std::make_shared<const SectionDescription>(sub)};
 }
 
 template <class S>
 template <class Sub>
-void Section<S>::table(const std::string& name, Sub S::*member, const Section<Sub>& sub, KeyOptions options) {
+void SectionSchema<S>::table(const std::string& name, Sub S::*member, const SectionSchema<Sub>& sub,
+                             KeyOptions options) {
   Handlers handlers;
   handlers.read = [member, sub](S& s, const Node& node, const ReadContext& at) {
     place_section(s.*member, node.where);
@@ -64,7 +65,7 @@ void Section<S>::table(const std::string& name, Sub S::*member, const Section<Su
 
 template <class S>
 template <class Sub>
-void Section<S>::table(const std::string& name, std::optional<Sub> S::*member, const Section<Sub>& sub) {
+void SectionSchema<S>::table(const std::string& name, std::optional<Sub> S::*member, const SectionSchema<Sub>& sub) {
   Handlers handlers;
   handlers.read = [member, sub](S& s, const Node& node, const ReadContext& at) {
     Sub& value = (s.*member).emplace();
@@ -80,8 +81,8 @@ void Section<S>::table(const std::string& name, std::optional<Sub> S::*member, c
 
 template <class S>
 template <class Sub>
-void Section<S>::tables(const std::string& name, std::vector<Sub> S::*member, const Section<Sub>& sub,
-                        KeyOptions options) {
+void SectionSchema<S>::tables(const std::string& name, std::vector<Sub> S::*member, const SectionSchema<Sub>& sub,
+                              KeyOptions options) {
   const KeyDescription described = describe_section(name, Shape::sections, sub.description, std::move(options));
   Handlers handlers;
   handlers.read = [member, sub, described](S& s, const Node& node, const ReadContext& at) {
@@ -103,8 +104,8 @@ void Section<S>::tables(const std::string& name, std::vector<Sub> S::*member, co
 
 template <class S>
 template <class Sub>
-void Section<S>::named_tables(const std::string& name, std::vector<Sub> S::*member, const Section<Sub>& sub,
-                              KeyOptions options) {
+void SectionSchema<S>::named_tables(const std::string& name, std::vector<Sub> S::*member, const SectionSchema<Sub>& sub,
+                                    KeyOptions options) {
   const KeyDescription described = describe_section(name, Shape::named_sections, sub.description, std::move(options));
   Handlers handlers;
   handlers.read = [member, sub, described](S& s, const Node& node, const ReadContext& at) {
@@ -125,7 +126,7 @@ void Section<S>::named_tables(const std::string& name, std::vector<Sub> S::*memb
 }
 
 template <class S>
-void Section<S>::read(S& s, const Node& node, const ReadContext& at) const {
+void SectionSchema<S>::read(S& s, const Node& node, const ReadContext& at) const {
   const std::string kind = check_section(node, description, at);
   const Table& table = std::get<Table>(node.value);
   for (std::size_t i = 0; i < handlers_.size(); ++i) {
@@ -141,7 +142,7 @@ void Section<S>::read(S& s, const Node& node, const ReadContext& at) const {
 }
 
 template <class S>
-Node Section<S>::write(const S& s, const Node* root) const {
+Node SectionSchema<S>::write(const S& s, const Node* root) const {
   Node node{Table{}, {}};
   const Node& whole = root != nullptr ? *root : node;
   for (std::size_t i = 0; i < handlers_.size(); ++i) {

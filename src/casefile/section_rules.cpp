@@ -35,28 +35,47 @@ void check_name(const Located<std::string>& name, const std::string& path) {
   throw CaseError(name.where, path, toml_string(*name), "a name without commas, quotes and control characters");
 }
 
-void check_contact(CaseContact& contact, const Node& node, const ReadContext& at) {
-  check_name(contact.name, at.at("name").path);
-  const bool mu = contact.friction > 0.0;
-  const bool eps_T = contact.tangential_stiffness > 0.0;
-  if (mu && !eps_T) {
-    throw CaseError(place_of(node, "friction"), at.at("friction").path,
-                    fmt::format("{} without a tangential_stiffness", contact.friction),
-                    "tangential_stiffness > 0 beside friction > 0",
-                    "Add tangential_stiffness; a value near stiffness is a fair start.");
-  }
-  if (eps_T && !mu) {
-    throw CaseError(place_of(node, "tangential_stiffness"), at.at("tangential_stiffness").path,
-                    fmt::format("{} without friction", contact.tangential_stiffness),
-                    "friction > 0 beside tangential_stiffness > 0", "Add friction, or remove tangential_stiffness.");
-  }
-  if (contact.kind == CaseContact::Kind::interface) return;
-  const double length = norm(*contact.normal);
+namespace {
+
+void check_direction(Located<Vec3>& direction, const std::string& path) {
+  const double length = norm(*direction);
   if (!(length > 0.0) || !std::isfinite(length)) {
-    throw CaseError(contact.normal.where, at.at("normal").path, fmt::format("a vector of length {}", length),
+    throw CaseError(direction.where, path, fmt::format("a vector of length {}", length),
                     "a direction, such as [0, 0, 1]");
   }
-  normalise(contact.normal.value);
+  normalise(direction.value);
+}
+
+}  // namespace
+
+void check_contact(CaseContact& contact, const Node& node, const ReadContext& at) {
+  using Kind = CaseContact::Kind;
+  check_name(contact.name, at.at("name").path);
+  if (contact.tangential_stiffness && contact.friction == 0.0) {
+    throw CaseError(place_of(node, "tangential_stiffness"), at.at("tangential_stiffness").path,
+                    fmt::format("{} without friction", *contact.tangential_stiffness),
+                    "friction > 0 beside tangential_stiffness", "Add friction, or remove tangential_stiffness.");
+  }
+  if (contact.stiffness && find(node, "stiffness_factor") != nullptr && contact.stiffness_factor != 1.0) {
+    throw CaseError(place_of(node, "stiffness_factor"), at.at("stiffness_factor").path, "a factor beside a stiffness",
+                    "one of the two", "Remove stiffness to have it chosen.");
+  }
+  if (*contact.kind == Kind::plane || *contact.kind == Kind::stop)
+    check_direction(contact.normal, at.at("normal").path);
+  if (*contact.kind == Kind::cylinder) check_direction(contact.axis, at.at("axis").path);
+  if (contact.function && (!contact.velocity || contact.mass)) {
+    throw CaseError(contact.function->where, at.at("function").path,
+                    contact.mass ? "a function beside a mass" : "a function without a velocity",
+                    "a velocity that is imposed", "Remove function, or give velocity and no mass.");
+  }
+  if (*contact.kind == Kind::box) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if ((*contact.upper)[c] > contact.lower[c]) continue;
+      throw CaseError(contact.upper.where, at.at("upper").path,
+                      fmt::format("{} against a lower of {}", (*contact.upper)[c], contact.lower[c]),
+                      "larger coordinates than lower, all three");
+    }
+  }
 }
 
 void check_function(CaseFunction& function, const Node& node, const ReadContext& at) {

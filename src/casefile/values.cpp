@@ -60,10 +60,26 @@ const List& list(const Node& node, const KeyDescription& key, const ReadContext&
   return *found;
 }
 
-const List& triple(const Node& node, const KeyDescription& key, const ReadContext& at) {
-  const List& found = list(node, key, at);
-  if (found.size() != 3) refuse(node, key, at);
-  return found;
+template <std::size_t n>
+void decode_numbers(const Node& node, const KeyDescription& key, const ReadContext& at, std::array<double, n>& value) {
+  const List& entries = list(node, key, at);
+  if (entries.size() != n) refuse(node, key, at);
+  for (std::size_t i = 0; i < n; ++i) value[i] = number(entries[i], entry_of(key, Shape::number), at.entry(i));
+}
+
+template <std::size_t n>
+void decode_integers(const Node& node, const KeyDescription& key, const ReadContext& at, std::array<int, n>& value) {
+  const List& entries = list(node, key, at);
+  if (entries.size() != n) refuse(node, key, at);
+  for (std::size_t i = 0; i < n; ++i) value[i] = small_integer(entries[i], entry_of(key, Shape::integer), at.entry(i));
+}
+
+/// Numbers as doubles, integers as std::int64_t.
+template <class Number, class Values>
+Node encode_list(const Values& values) {
+  List entries;
+  for (const auto entry : values) entries.push_back({Number{entry}, {}});
+  return Node{entries, {}};
 }
 
 }  // namespace
@@ -108,13 +124,19 @@ void decode(const Node& node, const KeyDescription& key, const ReadContext& at, 
 }
 
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, Vec3& value) {
-  const List& entries = triple(node, key, at);
-  for (std::size_t i = 0; i < 3; ++i) value[i] = number(entries[i], entry_of(key, Shape::number), at.entry(i));
+  decode_numbers(node, key, at, value);
+}
+
+void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::array<double, 2>& value) {
+  decode_numbers(node, key, at, value);
 }
 
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::array<int, 3>& value) {
-  const List& entries = triple(node, key, at);
-  for (std::size_t i = 0; i < 3; ++i) value[i] = small_integer(entries[i], entry_of(key, Shape::integer), at.entry(i));
+  decode_integers(node, key, at, value);
+}
+
+void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::array<int, 2>& value) {
+  decode_integers(node, key, at, value);
 }
 
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::array<bool, 3>& axes) {
@@ -171,13 +193,19 @@ std::optional<Node> encode(const std::string& value, const KeyOptions&) {
 }
 
 std::optional<Node> encode(const Vec3& value, const KeyOptions&) {
-  return Node{List{Node{value[0], {}}, Node{value[1], {}}, Node{value[2], {}}}, {}};
+  return encode_list<double>(value);
+}
+
+std::optional<Node> encode(const std::array<double, 2>& value, const KeyOptions&) {
+  return encode_list<double>(value);
 }
 
 std::optional<Node> encode(const std::array<int, 3>& value, const KeyOptions&) {
-  List entries;
-  for (const int entry : value) entries.push_back({std::int64_t{entry}, {}});
-  return Node{entries, {}};
+  return encode_list<std::int64_t>(value);
+}
+
+std::optional<Node> encode(const std::array<int, 2>& value, const KeyOptions&) {
+  return encode_list<std::int64_t>(value);
 }
 
 std::optional<Node> encode(const std::array<bool, 3>& axes, const KeyOptions& options) {
@@ -190,9 +218,7 @@ std::optional<Node> encode(const std::array<bool, 3>& axes, const KeyOptions& op
 }
 
 std::optional<Node> encode(const std::vector<double>& value, const KeyOptions&) {
-  List entries;
-  for (const double entry : value) entries.push_back({entry, {}});
-  return Node{entries, {}};
+  return encode_list<double>(value);
 }
 
 std::optional<Node> encode(const std::vector<Located<std::string>>& value, const KeyOptions&) {

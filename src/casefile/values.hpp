@@ -36,7 +36,9 @@ void decode(const Node& node, const KeyDescription& key, const ReadContext& at, 
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, double& value);
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::string& value);
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, Vec3& value);
+void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::array<double, 2>& value);
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::array<int, 3>& value);
+void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::array<int, 2>& value);
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::array<bool, 3>& axes);
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::vector<double>& value);
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at,
@@ -66,7 +68,9 @@ std::optional<Node> encode(std::int64_t value, const KeyOptions& options);
 std::optional<Node> encode(double value, const KeyOptions& options);
 std::optional<Node> encode(const std::string& value, const KeyOptions& options);
 std::optional<Node> encode(const Vec3& value, const KeyOptions& options);
+std::optional<Node> encode(const std::array<double, 2>& value, const KeyOptions& options);
 std::optional<Node> encode(const std::array<int, 3>& value, const KeyOptions& options);
+std::optional<Node> encode(const std::array<int, 2>& value, const KeyOptions& options);
 std::optional<Node> encode(const std::array<bool, 3>& axes, const KeyOptions& options);
 std::optional<Node> encode(const std::vector<double>& value, const KeyOptions& options);
 std::optional<Node> encode(const std::vector<Located<std::string>>& value, const KeyOptions& options);

@@ -1,6 +1,7 @@
 #include "contact/constraint_rows.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "math/vec3.hpp"
 
@@ -22,7 +23,8 @@ Vec3 any_tangent(const Vec3& n) {
 }  // namespace
 
 void ConstraintRows::add_row(double row_gap, const Vec3& row_normal, const Vec3& row_position, double row_measure,
-                             double row_mu, Index row_source) {
+                             const RowLaw& row_law, Index row_source) {
+  slot.push_back(static_cast<Index>(size()));
   begin.push_back(begin.back());
   gap.push_back(row_gap);
   normal.push_back(row_normal);
@@ -30,30 +32,49 @@ void ConstraintRows::add_row(double row_gap, const Vec3& row_normal, const Vec3&
   tangent_2.push_back(cross(row_normal, tangent_1.back()));
   position.push_back(row_position);
   measure.push_back(row_measure);
-  mu.push_back(row_mu);
+  law.push_back(row_law);
   source.push_back(row_source);
 }
 
 void ConstraintRows::add_node(Index n, double w) {
+  add_block(n, {scaled(normal.back(), w), scaled(tangent_1.back(), w), scaled(tangent_2.back(), w)});
+}
+
+void ConstraintRows::add_block(Index n, const RowBlock& b) {
   node.push_back(n);
-  weight.push_back(w);
+  block.push_back(b);
   ++begin.back();
 }
 
 Vec3 ConstraintRows::relative(std::size_t r, std::span<const double> x) const {
-  Vec3 d{};
-  for (Index k = begin[r]; k < begin[r + 1]; ++k) {
-    for (std::size_t c = 0; c < 3; ++c) d[c] += weight[k] * x[3 * static_cast<std::size_t>(node[k]) + c];
+  Vec3 w{};
+  for (auto k = static_cast<std::size_t>(begin[r]); k < static_cast<std::size_t>(begin[r + 1]); ++k) {
+    const double* u = x.data() + 3 * static_cast<std::size_t>(node[k]);
+    for (std::size_t i = 0; i < 3; ++i) w[i] += block[k][i][0] * u[0] + block[k][i][1] * u[1] + block[k][i][2] * u[2];
   }
-  return {dot(normal[r], d), dot(tangent_1[r], d), dot(tangent_2[r], d)};
+  return w;
 }
 
 void ConstraintRows::scatter(std::size_t r, const Vec3& s, std::span<double> f) const {
-  Vec3 force;
-  for (std::size_t c = 0; c < 3; ++c) force[c] = s[0] * normal[r][c] + s[1] * tangent_1[r][c] + s[2] * tangent_2[r][c];
-  for (Index k = begin[r]; k < begin[r + 1]; ++k) {
-    for (std::size_t c = 0; c < 3; ++c) f[3 * static_cast<std::size_t>(node[k]) + c] += weight[k] * force[c];
+  for (auto k = static_cast<std::size_t>(begin[r]); k < static_cast<std::size_t>(begin[r + 1]); ++k) {
+    const RowBlock& b = block[k];
+    double* node_force = f.data() + 3 * static_cast<std::size_t>(node[k]);
+    for (std::size_t c = 0; c < 3; ++c) node_force[c] += s[0] * b[0][c] + s[1] * b[1][c] + s[2] * b[2][c];
   }
+}
+
+bool ConstraintRows::is_closed(std::size_t r, std::span<const double> x) const {
+  constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
+  const Vec3 w = relative(r, x);
+  return gap[r] + w[0] <= precision * (norm(position[r]) + std::abs(gap[r]) + norm(w));
+}
+
+Vec3 ConstraintRows::to_space(std::size_t r, const Vec3& s) const {
+  return add(scaled(normal[r], s[0]), add(scaled(tangent_1[r], s[1]), scaled(tangent_2[r], s[2])));
+}
+
+Vec3 ConstraintRows::to_frame(std::size_t r, const Vec3& vector) const {
+  return {dot(normal[r], vector), dot(tangent_1[r], vector), dot(tangent_2[r], vector)};
 }
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 // Constraint rows: the one form in which every source of contact reaches every enforcement.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -8,33 +9,59 @@
 
 namespace carom {
 
-/// Rows of unilateral constraints. Row r sees the relative displacement of its two sides,
-///   d_r = sum over its nodes of weight_a u_a,
-/// in the frame (normal, tangent_1, tangent_2): w = (n . d_r, t_1 . d_r, t_2 . d_r) = (G u)_r, and its gap is
-///   g_r = gap_r + n . d_r   (length; positive: open).
-/// The normal points from the obstacle (or the other body) to the body that the positive weights belong to.
+/// What a row sees of one node: the rows n, t_1, t_2 of the node's 3 x 3 block of G.
+using RowBlock = std::array<Vec3, 3>;
+
+/// The law of one row, times its measure: force per length (eps_N, eps_T), force per velocity (damping).
+struct RowLaw {
+  double eps_N = 0.0;
+  double eps_T = 0.0;
+  double damping = 0.0;
+  double mu = 0.0;           ///< Coulomb's coefficient
+  double restitution = 0.0;  ///< Newton's coefficient
+};
+
+/// Rows of unilateral constraints. Row r sees the displacements of its nodes, in its frame (normal, tangent_1,
+/// tangent_2), as
+///   w = (G u)_r = sum over its nodes of block_a u_a,
+/// and its gap is g_r(u) = gap_r + w_n (length; positive: open), exactly for fixed rows, to first order about the
+/// displacement that they were made for otherwise. The normal points from the obstacle (or the other body) to the body
+/// that the row's force acts on with a positive sign. Force s in the frame gives the nodal forces block_a^T s.
 struct ConstraintRows {
   std::vector<Index> begin{0};  ///< nodes of row r are node[begin[r]] ... node[begin[r + 1] - 1]
   std::vector<Index> node;
-  std::vector<double> weight;
+  std::vector<RowBlock> block;
   std::vector<double> gap;  ///< at zero displacement
   std::vector<Vec3> normal, tangent_1, tangent_2;
-  std::vector<Vec3> position;   ///< reference position, for messages and output
+  std::vector<Vec3> position;   ///< where the row acts, for messages, output and moments
   std::vector<double> measure;  ///< area that the row stands for, or 1 for a row that is a single node
-  std::vector<double> mu;       ///< Coulomb coefficient
-  std::vector<Index> source;    ///< index in Model::contacts
+  std::vector<RowLaw> law;
+  std::vector<Index> source;  ///< index in Model::contacts
+  std::vector<Index> slot;    ///< entry of State::contact; at most one row per slot
 
   std::size_t size() const { return gap.size(); }
 
-  /// Appends a row without nodes; add_node then gives it its weights. The tangents are made from the normal.
-  void add_row(double row_gap, const Vec3& row_normal, const Vec3& row_position, double row_measure, double row_mu,
-               Index row_source);
+  /// Appends a row without nodes, whose slot is its own number; add_node or add_block then give it its nodes. The
+  /// tangents are made from the normal.
+  void add_row(double row_gap, const Vec3& row_normal, const Vec3& row_position, double row_measure,
+               const RowLaw& row_law, Index row_source);
+  /// A node that the last row sees with the weight w in all three directions.
   void add_node(Index n, double w);
+  /// A node that the last row sees by a block of its own.
+  void add_block(Index n, const RowBlock& b);
 
   /// w = (G x)_r in the row's frame; x is a dof vector.
   Vec3 relative(std::size_t r, std::span<const double> x) const;
+  /// g_r(x)
+  double gap_at(std::size_t r, std::span<const double> x) const { return gap[r] + relative(r, x)[0]; }
+  /// True when the gap is not above its own rounding: 16 units of round-off of position, gap and displacement. A body
+  /// that rests or slides would else lift off for a step at every gap of 1e-17.
+  bool is_closed(std::size_t r, std::span<const double> x) const;
   /// f += G_r^T s for the row's force s in its frame.
   void scatter(std::size_t r, const Vec3& s, std::span<double> f) const;
+  /// The vector of space with components s in the row's frame, and back.
+  Vec3 to_space(std::size_t r, const Vec3& s) const;
+  Vec3 to_frame(std::size_t r, const Vec3& vector) const;
 };
 
 }  // namespace carom

@@ -63,22 +63,28 @@ template <class Real>
   c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/// Geometry and strain at Gauss point p: cofactor columns, determinant, and eps = sym(grad u), shears as 2 eps_ij.
+/// Geometry at Gauss point p: cofactor columns and determinant.
 template <class Real>
-[[gnu::always_inline]] static inline void interpolate_point(int p, const ParentDerivatives<Real> x[3],
-                                                            const ParentDerivatives<Real> u[3],
-                                                            PointGeometry<Real>& geometry, Real strain[6]) {
-  Real g[3][3], h[3][3];  // g[k][i] = dX_i / dxi_k, h[k][i] = du_i / dxi_k (times 8)
+[[gnu::always_inline]] static inline void geometry_at_point(int p, const ParentDerivatives<Real> x[3],
+                                                            PointGeometry<Real>& geometry) {
+  Real g[3][3];  // g[k][i] = dX_i / dxi_k (times 8)
   for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < 3; ++i) {
-      g[k][i] = x[i].d[k][derivative_index(k, p)];
-      h[k][i] = u[i].d[k][derivative_index(k, p)];
-    }
+    for (int i = 0; i < 3; ++i) g[k][i] = x[i].d[k][derivative_index(k, p)];
   Real(&c)[3][3] = geometry.cofactor[p];
   cross(g[1], g[2], c[0]);
   cross(g[2], g[0], c[1]);
   cross(g[0], g[1], c[2]);
   geometry.det[p] = g[0][0] * c[0][0] + g[0][1] * c[0][1] + g[0][2] * c[0][2];
+}
+
+/// Strain at Gauss point p: eps = sym(grad u), shears as 2 eps_ij.
+template <class Real>
+[[gnu::always_inline]] static inline void strain_at_point(int p, const ParentDerivatives<Real> u[3],
+                                                          const PointGeometry<Real>& geometry, Real strain[6]) {
+  Real h[3][3];  // h[k][i] = du_i / dxi_k (times 8)
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i) h[k][i] = u[i].d[k][derivative_index(k, p)];
+  const Real(&c)[3][3] = geometry.cofactor[p];
   const Real inverse = 1.0 / geometry.det[p];
   constexpr int pair[3][2] = {{0, 1}, {1, 2}, {2, 0}};
   for (int i = 0; i < 3; ++i) {
@@ -86,6 +92,19 @@ template <class Real>
     const int a = pair[i][0], b = pair[i][1];
     strain[3 + i] = inverse * ((h[0][a] * c[0][b] + h[1][a] * c[1][b] + h[2][a] * c[2][b]) +
                                (h[0][b] * c[0][a] + h[1][b] * c[1][a] + h[2][b] * c[2][a]));
+  }
+}
+
+/// Displacement gradient at Gauss point p: H[i][j] = du_i / dX_j.
+template <class Real>
+[[gnu::always_inline]] static inline void gradient_at_point(int p, const ParentDerivatives<Real> u[3],
+                                                            const PointGeometry<Real>& geometry, Real H[3][3]) {
+  const Real(&c)[3][3] = geometry.cofactor[p];
+  const Real inverse = 1.0 / geometry.det[p];
+  for (int i = 0; i < 3; ++i) {
+    const Real h[3] = {u[i].d[0][derivative_index(0, p)], u[i].d[1][derivative_index(1, p)],
+                       u[i].d[2][derivative_index(2, p)]};
+    for (int j = 0; j < 3; ++j) H[i][j] = inverse * (h[0] * c[0][j] + h[1] * c[1][j] + h[2] * c[2][j]);
   }
 }
 
@@ -102,7 +121,8 @@ template <class Real>
 #pragma GCC unroll 8
   for (int p = 0; p < 8; ++p) {
     Real eps[6];
-    interpolate_point(p, dx, du, geometry, eps);
+    geometry_at_point(p, dx, geometry);
+    strain_at_point(p, du, geometry, eps);
     for (int c = 0; c < 6; ++c) store(strain + (6 * p + c) * lanes<Real>, eps[c]);
   }
 }
@@ -133,28 +153,43 @@ template <class Real>
   n[7] = s11 - d11, n[6] = s11 + d11;
 }
 
-/// f[component i][node a] = sum over Gauss points of stress_ij dN_a/dX_j det(J).
-/// stress[(6 p + c) lanes]: xx, yy, zz, xy, yz, zx.
-template <class Real>
-[[gnu::always_inline]] static inline void integrate(const double* stress, const PointGeometry<Real>& geometry,
+/// f[component i][node a] = sum over Gauss points of P_ij dN_a/dX_j det(J); stress_at(p, P) gives the stress of point
+/// p.
+template <class Real, class StressAt>
+[[gnu::always_inline]] static inline void integrate(const PointGeometry<Real>& geometry, const StressAt& stress_at,
                                                     Real f[3][8]) {
   ParentDerivatives<Real> weights[3];
 #pragma GCC unroll 8
   for (int p = 0; p < 8; ++p) {
-    Real s[6];
-    for (int c = 0; c < 6; ++c) s[c] = load<Real>(stress + (6 * p + c) * lanes<Real>);
-    constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    Real P[3][3];
+    stress_at(p, P);
     for (int k = 0; k < 3; ++k) {
       const Real(&c)[3] = geometry.cofactor[p][k];
       const int m = derivative_index(k, p);
       const bool first = ((p >> k) & 1) == 0;
       for (int i = 0; i < 3; ++i) {
-        const Real flux = s[voigt[i][0]] * c[0] + s[voigt[i][1]] * c[1] + s[voigt[i][2]] * c[2];
+        const Real flux = P[i][0] * c[0] + P[i][1] * c[1] + P[i][2] * c[2];
         weights[i].d[k][m] = first ? flux : weights[i].d[k][m] + flux;
       }
     }
   }
   for (int i = 0; i < 3; ++i) differentiate_transposed(weights[i], f[i]);
+}
+
+/// The same of a symmetric stress, stress[(6 p + c) lanes]: xx, yy, zz, xy, yz, zx.
+template <class Real>
+[[gnu::always_inline]] static inline void integrate(const double* stress, const PointGeometry<Real>& geometry,
+                                                    Real f[3][8]) {
+  integrate<Real>(
+      geometry,
+      [&](int p, Real P[3][3]) __attribute__((always_inline)) {
+        constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+        Real s[6];
+        for (int c = 0; c < 6; ++c) s[c] = load<Real>(stress + (6 * p + c) * lanes<Real>);
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j) P[i][j] = s[voigt[i][j]];
+      },
+      f);
 }
 
 }  // namespace carom::hexa8

@@ -9,7 +9,8 @@
 namespace carom {
 
 /// Energies (or their increments over a step), in the unit of energy.
-/// Stored: kinetic, strain, contact_stored are functions of the state. Dissipated: friction, damping.
+/// Stored: kinetic, strain, contact_stored are functions of the state. Dissipated: friction, damping, impact (what
+/// contact enforced by multipliers or impulses takes out along the normals).
 /// Supplied: external_work (loads), support_work (reactions of imposed motions), by the trapezoidal rule.
 /// algorithmic: what the scheme takes out by its own identity. quadrature: trapezoidal work of internal and contact
 /// forces minus the change of what they store and dissipate: zero for linear bodies without a change of contact.
@@ -19,6 +20,7 @@ struct EnergyTerms {
   double contact_stored = 0.0;
   double friction = 0.0;
   double damping = 0.0;
+  double impact = 0.0;
   double external_work = 0.0;
   double support_work = 0.0;
   double algorithmic = 0.0;
@@ -30,6 +32,7 @@ struct EnergyTerms {
     contact_stored += o.contact_stored;
     friction += o.friction;
     damping += o.damping;
+    impact += o.impact;
     external_work += o.external_work;
     support_work += o.support_work;
     algorithmic += o.algorithmic;
@@ -41,7 +44,9 @@ struct EnergyTerms {
   double mechanical() const { return kinetic + strain + contact_stored; }
   double supplied() const { return external_work + support_work; }
   /// Residual of the balance of powers; zero when forces, solves and formulas agree.
-  double imbalance() const { return mechanical() + friction + damping + algorithmic + quadrature - supplied(); }
+  double imbalance() const {
+    return mechanical() + friction + damping + impact + algorithmic + quadrature - supplied();
+  }
 };
 
 /// The same books in Code_Aster's terms (U4.84 ENERGIE), accumulated from zero at the start.

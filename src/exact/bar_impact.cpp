@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string_view>
 
+#include "exact/arguments.hpp"
 #include "math/gauss_legendre.hpp"
 
 namespace carom {
@@ -19,19 +19,15 @@ constexpr double transient_length = 48.0;
 constexpr double panel_length = 4.0;
 
 BarImpactData checked(const BarImpactData& data) {
-  const auto require = [](bool good, std::string_view name, double value, std::string_view expected) {
-    if (!good) throw std::invalid_argument(fmt::format("bar impact: {} is {:g}, expected {}", name, value, expected));
-  };
-  const auto positive = [&require](std::string_view name, double value) {
-    require(value > 0.0 && std::isfinite(value), name, value, "a positive number");
-  };
-  positive("length", data.length);
-  positive("modulus", data.modulus);
-  positive("density", data.density);
-  positive("area", data.area);
-  positive("speed", data.speed);
-  require(data.gap >= 0.0 && std::isfinite(data.gap), "gap", data.gap, "zero or a positive number");
-  require(data.stiffness >= 0.0, "stiffness", data.stiffness, "zero (rigid wall) or a positive number");
+  require_positive("bar impact", {{"length", data.length},
+                                  {"modulus", data.modulus},
+                                  {"density", data.density},
+                                  {"area", data.area},
+                                  {"speed", data.speed}});
+  require_not_negative("bar impact", {{"gap", data.gap}});
+  if (!(data.stiffness >= 0.0))
+    throw std::invalid_argument(
+        fmt::format("bar impact: stiffness is {:g}, expected zero (rigid wall) or a positive number", data.stiffness));
   return data;
 }
 

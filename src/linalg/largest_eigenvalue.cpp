@@ -17,7 +17,7 @@ constexpr std::size_t vector_grain = 4096;
 
 struct RitzPair {
   double value = 0.0;
-  double last_component = 0.0;  ///< of the unit eigenvector of the tridiagonal matrix
+  std::vector<double> vector;  ///< unit eigenvector of the tridiagonal matrix
 };
 
 /// Largest eigenpair of the symmetric tridiagonal matrix with the given diagonal and off-diagonal.
@@ -32,7 +32,8 @@ RitzPair largest_ritz_pair(std::vector<double> diagonal, std::vector<double> off
   dstevx_("V", "I", &n, diagonal.data(), off_diagonal.data(), &unused, &unused, &n, &n, &unused, &found,
           eigenvalues.data(), vector.data(), &n, work.data(), integer_work.data(), failed.data(), &info);
   // A vector that did not converge only costs iterations: its last component is then taken as 1.
-  return {eigenvalues[0], info == 0 ? std::abs(vector.back()) : 1.0};
+  if (info != 0) vector.back() = 1.0;
+  return {eigenvalues[0], vector};
 }
 
 /// Uniform pseudo-random number in [-1, 1) from the position alone (splitmix64, Steele, Lea and Flood 2014).
@@ -51,41 +52,108 @@ void divide(std::vector<double>& v, double length) {
   });
 }
 
-std::vector<double> start_vector(std::size_t n) {
+std::vector<double> random_vector(std::size_t n) {
   std::vector<double> v(n);
   parallel_for(n, vector_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) v[i] = random_entry(i);
   });
-  divide(v, std::sqrt(dot(v, v)));
+  return v;
+}
+
+/// The three-term recurrence in the inner product of M: v_k are M-orthonormal, p_k = M v_k.
+class Lanczos {
+ public:
+  Lanczos(const Pencil& pencil, std::vector<double> start)
+      : pencil_(pencil), v_(std::move(start)), p_(v_.size()), v_old_(v_.size(), 0.0), w_(v_.size()), Kv_(v_.size()) {
+    beta_ = normalise(v_);
+  }
+
+  const std::vector<double>& vector() const { return v_; }
+  bool is_finished() const { return beta_ == 0.0; }
+
+  /// One more iteration; the estimate so far.
+  EigenvalueEstimate iterate() {
+    if (!diagonal_.empty()) off_diagonal_.push_back(beta_);
+    pencil_.K(v_, Kv_);
+    const double alpha = dot(v_, Kv_);
+    diagonal_.push_back(alpha);
+    pencil_.M_inverse(Kv_, w_);
+    const double beta_before = diagonal_.size() > 1 ? beta_ : 0.0;
+    parallel_each(v_.size(), [&](std::size_t i) { w_[i] -= alpha * v_[i] + beta_before * v_old_[i]; });
+    std::swap(v_old_, v_);
+    std::swap(v_, w_);
+    beta_ = normalise(v_);
+    const int k = static_cast<int>(diagonal_.size());
+    if (!std::isfinite(alpha) || !std::isfinite(beta_)) {
+      beta_ = 0.0;
+      return {alpha, alpha, k};
+    }
+    ritz_ = largest_ritz_pair(diagonal_, off_diagonal_);
+    return {ritz_.value, ritz_.value + beta_ * std::abs(ritz_.vector.back()), k};
+  }
+  /// Components of the Ritz vector in the vectors so far.
+  const std::vector<double>& ritz() const { return ritz_.vector; }
+
+ private:
+  /// v /= |v|_M; returns |v|_M.
+  double normalise(std::vector<double>& v) {
+    pencil_.M(v, p_);
+    const double length = std::sqrt(dot(v, p_));
+    if (length > 0.0) divide(v, length);
+    return length;
+  }
+
+  const Pencil& pencil_;
+  std::vector<double> v_, p_, v_old_, w_, Kv_, diagonal_, off_diagonal_;
+  double beta_ = 0.0;
+  RitzPair ritz_;
+};
+
+/// A vector without components on what M_inverse leaves out.
+std::vector<double> start_vector(const Pencil& pencil, std::size_t n) {
+  std::vector<double> v(n);
+  pencil.M_inverse(random_vector(n), v);
   return v;
 }
 
 }  // namespace
 
-EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, std::size_t n, double tolerance, int max_iterations) {
+EigenvalueEstimate largest_eigenvalue(const Pencil& pencil, std::size_t n, double tolerance, int max_iterations) {
   EigenvalueEstimate estimate;
   if (n == 0) return estimate;
-  std::vector<double> v = start_vector(n), v_old(n, 0.0), w(n), diagonal, off_diagonal;
-  double beta = 0.0;
-  while (estimate.iterations < max_iterations) {
-    A(v, w);
-    diagonal.push_back(dot(v, w));
-    const double alpha = diagonal.back();
-    beta = std::sqrt(parallel_sum(n, [&](std::size_t i) {
-      w[i] -= alpha * v[i] + beta * v_old[i];
-      return w[i] * w[i];
-    }));
-    ++estimate.iterations;
-    if (!std::isfinite(alpha) || !std::isfinite(beta)) return {alpha + beta, alpha + beta, estimate.iterations};
-    const RitzPair ritz = largest_ritz_pair(diagonal, off_diagonal);
-    const double residual = beta * ritz.last_component;
-    estimate.value = ritz.value;
-    estimate.upper = ritz.value + residual;
-    if (residual <= tolerance * std::abs(ritz.value) || beta == 0.0) break;
-    off_diagonal.push_back(beta);
-    divide(w, beta);
-    std::swap(v_old, v);
-    std::swap(v, w);
+  Lanczos lanczos(pencil, start_vector(pencil, n));
+  while (!lanczos.is_finished() && estimate.iterations < max_iterations) {
+    estimate = lanczos.iterate();
+    if (estimate.upper - estimate.value <= tolerance * std::abs(estimate.value)) break;
+  }
+  return estimate;
+}
+
+EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, std::size_t n, double tolerance, int max_iterations) {
+  const LinearOperator identity = [](std::span<const double> x, std::span<double> y) {
+    std::copy(x.begin(), x.end(), y.begin());
+  };
+  return largest_eigenvalue({A, identity, identity}, n, tolerance, max_iterations);
+}
+
+EigenvalueEstimate follow_largest_eigenvalue(const Pencil& pencil, std::size_t n, std::vector<double>& x,
+                                             int iterations) {
+  EigenvalueEstimate estimate;
+  if (n == 0) return estimate;
+  std::vector<double> start = start_vector(pencil, n);
+  if (!x.empty()) {
+    const double share = 0.1 * std::sqrt(dot(x, x) / dot(start, start));
+    parallel_each(n, [&](std::size_t i) { start[i] = x[i] + share * start[i]; });
+  }
+  Lanczos lanczos(pencil, std::move(start));
+  std::vector<std::vector<double>> basis;
+  while (!lanczos.is_finished() && estimate.iterations < iterations) {
+    basis.push_back(lanczos.vector());
+    estimate = lanczos.iterate();
+  }
+  x.assign(n, 0.0);
+  for (std::size_t k = 0; k < basis.size() && k < lanczos.ritz().size(); ++k) {
+    parallel_each(n, [&](std::size_t i) { x[i] += lanczos.ritz()[k] * basis[k][i]; });
   }
   return estimate;
 }

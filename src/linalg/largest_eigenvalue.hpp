@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "linalg/conjugate_gradients.hpp"
 
@@ -13,10 +14,26 @@ struct EigenvalueEstimate {
   int iterations = 0;
 };
 
+/// K x = lambda M x with K symmetric positive semi-definite and M symmetric positive definite. What M_inverse sets to
+/// zero (fixed unknowns) stays out.
+struct Pencil {
+  LinearOperator K, M, M_inverse;
+};
+
 /// Largest eigenvalue of the symmetric positive semi-definite operator A of size n, by Lanczos iteration (Golub and Van
 /// Loan, Matrix Computations, 4th ed., section 10.1) from a fixed pseudo-random start vector, until the residual bound
 /// |beta_k s_k| is below `tolerance` times the value or max_iterations is reached. Same bits for any thread count.
 EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, std::size_t n, double tolerance = 1e-3,
                                       int max_iterations = 300);
+
+/// The same for K x = lambda M x, in the inner product of M (Parlett, The Symmetric Eigenvalue Problem, section 15.11).
+EigenvalueEstimate largest_eigenvalue(const Pencil& pencil, std::size_t n, double tolerance = 1e-3,
+                                      int max_iterations = 300);
+
+/// A few such iterations from the vector x, which receives the Ritz vector: repeated calls follow the largest
+/// eigenvalue of operators that change slowly. An empty x starts from the pseudo-random vector; one that is not empty
+/// gets a tenth of it added, so that an eigenvalue that has grown elsewhere is found. Keeps `iterations` vectors.
+EigenvalueEstimate follow_largest_eigenvalue(const Pencil& pencil, std::size_t n, std::vector<double>& x,
+                                             int iterations);
 
 }  // namespace carom

@@ -1,5 +1,7 @@
 #include "mesh/cell_topology.hpp"
 
+#include <algorithm>
+
 namespace carom {
 
 namespace {
@@ -29,6 +31,9 @@ constexpr std::array<Pair, 4> kHexaZ{{{0, 4}, {1, 5}, {2, 6}, {3, 7}}};
 constexpr std::array<std::span<const Pair>, 3> kHexaPairings{kHexaX, kHexaY, kHexaZ};
 constexpr std::array<Pair, 3> kPentaZ{{{0, 3}, {1, 4}, {2, 5}}};
 constexpr std::array<std::span<const Pair>, 1> kPentaPairings{kPentaZ};
+constexpr std::array<Pair, 2> kQuadX{{{0, 1}, {3, 2}}};
+constexpr std::array<Pair, 2> kQuadY{{{0, 3}, {1, 2}}};
+constexpr std::array<std::span<const Pair>, 2> kQuadPairings{kQuadX, kQuadY};
 
 }  // namespace
 
@@ -86,9 +91,26 @@ std::span<const std::span<const std::array<LocalNode, 2>>> opposite_faces(CellTy
     case CellType::penta6:
     case CellType::penta15:
       return kPentaPairings;
+    case CellType::quad4:
+      return kQuadPairings;
     default:
       return {};
   }
+}
+
+std::vector<std::uint8_t> node_dimensions(const Mesh& mesh) {
+  std::vector<std::uint8_t> highest(mesh.node_count(), 0);
+  for (const CellBlock& block : mesh.blocks)
+    for (const Index n : block.connectivity) {
+      std::uint8_t& seen = highest[static_cast<std::size_t>(n)];
+      seen = std::max(seen, static_cast<std::uint8_t>(dimension(block.type)));
+    }
+  return highest;
+}
+
+bool on_boundary(std::span<const Index> nodes, CellType type, std::span<const std::uint8_t> node_dimensions) {
+  return std::all_of(nodes.begin(), nodes.end(),
+                     [&](Index n) { return node_dimensions[static_cast<std::size_t>(n)] > dimension(type); });
 }
 
 }  // namespace carom

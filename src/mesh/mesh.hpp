@@ -63,8 +63,8 @@ struct MeshReport {
   std::string source;      ///< path of the file or "structured block"
   std::string format;      ///< e.g. "Gmsh 2.2 ASCII", "MED 3.3", "block"
   std::size_t turned = 0;  ///< solid cells whose node order was turned because their Jacobian was negative
-  double worst_jacobian =
-      0.0;  ///< smallest over cells of (min det J at the corners / max det J at the corners), solids only
+  /// Smallest over cells of (min det J at the corners / max det J at the corners): solids, and QUAD4 of plane meshes.
+  double worst_jacobian = 0.0;
   std::int64_t worst_cell = 0;  ///< file number of that cell
   std::vector<std::string> notes;
 };
@@ -72,7 +72,8 @@ struct MeshReport {
 /// Coordinates (m or the case's unit), cells and groups. Nodes and cells are numbered for locality;
 /// the file's numbers are kept in node_numbers and CellBlock::file_numbers. A group's entries are sorted and unique.
 /// A name may denote a node group and a cell group at once. Cells of zero thickness (HEXA8 whose two opposite faces
-/// coincide) are allowed and kept as they stand.
+/// coincide) are allowed and kept as they stand. QUAD4 and LINE2 are pieces of boundaries or solids (plane cells,
+/// bars): the parts of a case decide.
 struct Mesh {
   std::vector<Vec3> coordinates;
   std::vector<std::int64_t> node_numbers;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
+#include <vector>
 
 #include "mesh/cell_topology.hpp"
 #include "mesh/orientation.hpp"
@@ -29,11 +31,15 @@ std::string format_box(const Mesh& mesh) {
 
 std::size_t count_interfaces(const Mesh& mesh) {
   std::size_t count = 0;
+  const std::vector<std::uint8_t> dimensions = node_dimensions(mesh);
   for (const CellBlock& block : mesh.blocks) {
     if (opposite_faces(block.type).empty()) continue;
     const auto n = static_cast<std::size_t>(node_count(block.type));
-    for (std::size_t cell = 0; cell < block.size(); ++cell)
-      count += has_zero_thickness(mesh, block.type, {&block.connectivity[cell * n], n}) ? 1 : 0;
+    for (std::size_t cell = 0; cell < block.size(); ++cell) {
+      const std::span<const Index> nodes(&block.connectivity[cell * n], n);
+      const bool counts = !on_boundary(nodes, block.type, dimensions);
+      count += counts && has_zero_thickness(mesh, block.type, nodes) ? 1 : 0;
+    }
   }
   return count;
 }

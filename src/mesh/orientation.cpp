@@ -26,24 +26,53 @@ const Vec3& position(const Mesh& mesh, std::span<const Index> nodes, LocalNode l
   return mesh.coordinates[static_cast<std::size_t>(nodes[local])];
 }
 
-/// A Jacobian counts as zero below 1e-10 of the product of the three edge lengths: far above round-off, far below any
-/// cell that could be computed with.
+/// A Jacobian counts as zero below 1e-10 of the product of the edge lengths: far above round-off, far below any cell
+/// that could be computed with.
+constexpr double kFlat2 = 1e-20;
+
+void count(double det, double scale2, CornerJacobians& J) {
+  J.min = std::min(J.min, det);
+  J.max = std::max(J.max, det);
+  const bool clear = det * det > kFlat2 * scale2;
+  if (clear && det > 0) ++J.positive;
+  if (clear && det < 0) ++J.negative;
+}
+
 CornerJacobians corner_jacobians(const Mesh& mesh, CellType type, std::span<const Index> nodes) {
-  constexpr double kFlat2 = 1e-20;
   CornerJacobians J;
   for (const CornerFrame& frame : corner_frames(type)) {
     const Vec3& origin = position(mesh, nodes, frame.corner);
     const Vec3 a = subtract(position(mesh, nodes, frame.a), origin);
     const Vec3 b = subtract(position(mesh, nodes, frame.b), origin);
     const Vec3 c = subtract(position(mesh, nodes, frame.c), origin);
-    const double det = dot(cross(a, b), c);
-    J.min = std::min(J.min, det);
-    J.max = std::max(J.max, det);
-    const bool clear = det * det > kFlat2 * dot(a, a) * dot(b, b) * dot(c, c);
-    if (clear && det > 0) ++J.positive;
-    if (clear && det < 0) ++J.negative;
+    count(dot(cross(a, b), c), dot(a, a) * dot(b, b) * dot(c, c), J);
   }
   return J;
+}
+
+CornerJacobians plane_jacobians(const Mesh& mesh, std::span<const Index> nodes) {
+  CornerJacobians J;
+  for (LocalNode corner = 0; corner < 4; ++corner) {
+    const Vec3& origin = position(mesh, nodes, corner);
+    const Vec3 a = subtract(position(mesh, nodes, (corner + 1) % 4), origin);
+    const Vec3 b = subtract(position(mesh, nodes, (corner + 3) % 4), origin);
+    count(a[0] * b[1] - a[1] * b[0], dot(a, a) * dot(b, b), J);
+  }
+  return J;
+}
+
+/// No solids in space, and all nodes in one plane z = const: to 1e-9 of the size, above the round-off of any writer.
+bool is_plane(const Mesh& mesh) {
+  constexpr double kFlatness = 1e-9;
+  const auto is_solid = [](const CellBlock& block) { return dimension(block.type) == 3; };
+  if (std::any_of(mesh.blocks.begin(), mesh.blocks.end(), is_solid) || mesh.coordinates.empty()) return false;
+  Vec3 low = mesh.coordinates[0], high = low;
+  for (const Vec3& x : mesh.coordinates)
+    for (std::size_t c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], x[c]);
+      high[c] = std::max(high[c], x[c]);
+    }
+  return high[2] - low[2] <= kFlatness * std::max(high[0] - low[0], high[1] - low[1]);
 }
 
 bool has_repeated_nodes(std::span<const Index> nodes) {
@@ -95,17 +124,27 @@ bool has_zero_thickness(const Mesh& mesh, CellType type, std::span<const Index> 
   return collapsed == 1 && !has_repeated_nodes(nodes);
 }
 
+int plane_turn(const Mesh& mesh, std::span<const Index> nodes) {
+  const CornerJacobians J = plane_jacobians(mesh, nodes);
+  return J.positive == 4 ? 1 : (J.negative == 4 ? -1 : 0);
+}
+
 void orient_cells(Mesh& mesh) {
+  constexpr std::array<LocalNode, 4> kQuadMirror{0, 3, 2, 1};
   MeshReport& report = mesh.report;
   report.turned = 0;
   bool any = false;
+  const bool flat = is_plane(mesh);
   for (CellBlock& block : mesh.blocks) {
-    const auto mirror = mirrored_order(block.type);
-    const std::size_t corners = corner_frames(block.type).size(), n = static_cast<std::size_t>(node_count(block.type));
+    const bool is_plane_solid = flat && block.type == CellType::quad4;
+    const std::span<const LocalNode> mirror = is_plane_solid ? kQuadMirror : mirrored_order(block.type);
+    const std::size_t corners = is_plane_solid ? 4 : corner_frames(block.type).size();
+    const auto n = static_cast<std::size_t>(node_count(block.type));
     if (corners == 0) continue;
     for (std::size_t cell = 0; cell < block.size(); ++cell) {
       const std::span<Index> nodes(&block.connectivity[cell * n], n);
-      const CornerJacobians J = corner_jacobians(mesh, block.type, nodes);
+      const CornerJacobians J =
+          is_plane_solid ? plane_jacobians(mesh, nodes) : corner_jacobians(mesh, block.type, nodes);
       if (J.positive != corners && J.negative != corners) {
         if (has_zero_thickness(mesh, block.type, nodes)) continue;
         refuse(mesh, block, cell, nodes, J);

@@ -28,14 +28,13 @@ double bin(double length, double step) {
   return std::fmin(std::fmax(std::round(length / step), 0.0), kMost);  // fmax turns not-a-number into 0
 }
 
-/// Nodes of the cells of highest dimension, and for each node the cells it belongs to (compressed rows).
+/// Nodes of the cells that are not pieces of a boundary, and for each node the cells it belongs to (compressed rows).
 class Connections {
  public:
   explicit Connections(const Mesh& mesh) : node_begin_(mesh.node_count() + 1, 0) {
-    int highest = 1;
-    for (const CellBlock& block : mesh.blocks) highest = std::max(highest, dimension(block.type));
+    const std::vector<std::uint8_t> dimensions = node_dimensions(mesh);
     for (const CellBlock& block : mesh.blocks)
-      if (dimension(block.type) == highest) append(block);
+      if (dimension(block.type) > 0) append(block, dimensions);
     for (const Index n : cell_nodes_) ++node_begin_[at(n) + 1];
     std::partial_sum(node_begin_.begin(), node_begin_.end(), node_begin_.begin());
     node_cells_.resize(cell_nodes_.size());
@@ -54,11 +53,15 @@ class Connections {
   }
 
  private:
-  void append(const CellBlock& block) {
-    cell_nodes_.insert(cell_nodes_.end(), block.connectivity.begin(), block.connectivity.end());
+  void append(const CellBlock& block, std::span<const std::uint8_t> dimensions) {
     const auto n = static_cast<std::size_t>(node_count(block.type));
-    for (std::size_t cell = 0; cell < block.size(); ++cell) cell_begin_.push_back(cell_begin_.back() + n);
-    types_.insert(types_.end(), block.size(), block.type);
+    for (std::size_t cell = 0; cell < block.size(); ++cell) {
+      const std::span<const Index> nodes(&block.connectivity[cell * n], n);
+      if (on_boundary(nodes, block.type, dimensions)) continue;
+      cell_nodes_.insert(cell_nodes_.end(), nodes.begin(), nodes.end());
+      cell_begin_.push_back(cell_begin_.back() + n);
+      types_.push_back(block.type);
+    }
   }
 
   std::vector<std::size_t> cell_begin_{0}, node_begin_;

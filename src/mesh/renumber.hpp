@@ -6,12 +6,12 @@
 namespace carom {
 
 /// The same mesh under new local indices; numbers of the file, groups and node order within cells stay.
-/// Nodes: in each connected body (through its cells of highest dimension), breadth-first levels from the nodes at the
-/// lower end of the longest side of its bounding box; within a level sorted by the mean place of their neighbours in
-/// the level before, along edges where there are some (after E. Cuthill and J. McKee, Proc. 24th ACM Nat. Conf., 1969,
-/// with the mean instead of the first neighbour, which keeps rows straight). Cells: by their smallest node, then by the
-/// sum of their nodes. A straight block numbered naturally along its longest side comes out as it was. Time grows as
-/// the number of nodes times the logarithm of the size of a level.
+/// Nodes: in each connected body (through the cells that are no pieces of a boundary), breadth-first levels from the
+/// nodes at the lower end of the longest side of its bounding box; within a level sorted by the mean place of their
+/// neighbours in the level before, along edges where there are some (after E. Cuthill and J. McKee, Proc. 24th ACM Nat.
+/// Conf., 1969, with the mean instead of the first neighbour, which keeps rows straight). Cells: by their smallest
+/// node, then by the sum of their nodes. A straight block numbered naturally along its longest side comes out as it
+/// was. Time grows as the number of nodes times the logarithm of the size of a level.
 Mesh renumbered(Mesh mesh);
 
 }  // namespace carom

@@ -1,15 +1,27 @@
-// The outer surface of the HEXA8 cells.
+// The outer surface of the cells that may be solids.
 #pragma once
 
-#include <array>
 #include <vector>
 
+#include "mesh/facet.hpp"
 #include "mesh/mesh.hpp"
 
 namespace carom {
 
-/// Faces (4 local node indices, normal outward) that belong to exactly one HEXA8, in the order of their cells.
-/// Interfaces of zero thickness are left out, so that the faces beside them are outer faces.
-std::vector<std::array<Index, 4>> skin(const Mesh& mesh);
+/// A facet of the skin and the cell it belongs to.
+struct OuterFacet {
+  Facet facet;
+  CellRef cell;
+};
+
+/// What belongs to exactly one cell, block after block in the order of their cells: faces of HEXA8 (normal outward);
+/// edges of QUAD4 that are not faces of solids (the body on the left if the cell is counter-clockwise); ends of chains
+/// of LINE2 that are not edges of other cells. Cells that are pieces of a boundary (on_boundary) have no facets of
+/// their own. Interfaces of zero thickness are left out, so that the facets beside them are outer ones. Time is linear
+/// in the number of cells.
+std::vector<OuterFacet> outer_facets(const Mesh& mesh);
+
+/// The facets of outer_facets alone.
+std::vector<Facet> skin(const Mesh& mesh);
 
 }  // namespace carom

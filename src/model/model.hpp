@@ -11,20 +11,39 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "material/linear_elastic.hpp"
+#include "material/isotropic_elastic.hpp"
 #include "math/time_function.hpp"
+#include "mesh/facet.hpp"
 #include "mesh/mesh.hpp"
+#include "model/contact_options.hpp"
 
 namespace carom {
 
-/// Parameters of a material law; one alternative per law.
-using Material = std::variant<LinearElastic>;
+/// Parameters of a material law; one alternative per law. linear_elastic is small strain, the others are
+/// total-Lagrangian and take finite rotations and strains.
+using Material = std::variant<LinearElastic, StVenantKirchhoff, NeoHookean>;
 
-/// Cells of one material. The cells are HEXA8; indices into Mesh::block(hexa8).
+/// What the cells of a part are a section of. Plane cells (QUAD4) lie in the x-y plane, numbered counter-clockwise;
+/// axisymmetric ones turn about the y axis, with x >= 0 the radius, and stand for the whole circumference (2 pi x);
+/// bars are LINE2 in space.
+enum class Section : std::uint8_t { solid, plane_strain, plane_stress, axisymmetric, bar };
+
+/// Cells of one type and one material.
 struct Part {
   std::string name;
-  std::vector<Index> cells;
+  std::vector<Index> cells;  ///< indices into Mesh::block(type)
   Material material;
+  CellType type = CellType::hexa8;  ///< hexa8 for solid, quad4 for plane and axisymmetric, line2 for bar
+  Section section = Section::solid;
+  double thickness = 1.0;  ///< plane cells: their thickness; bars: the area of the section; else unused
+};
+
+/// Boundary facets of parts, their normals (mesh/facet.hpp) pointing out of the body. The measure of a facet is its
+/// area (solid), its length times thickness (plane) or times 2 pi x (axisymmetric), or `thickness` (the end of a bar).
+struct Surface {
+  std::vector<Facet> facets;
+  Section section = Section::solid;
+  double thickness = 1.0;
 };
 
 /// What is imposed on one component of a group of nodes.
@@ -46,10 +65,9 @@ struct NodalForce {
   TimeFunction factor;
 };
 
-/// Pressure (positive: pushes against the face) on QUAD4 faces, dead load on the reference configuration.
-/// Faces are four node indices, their normal (right-hand rule) pointing out of the body.
+/// Pressure (positive: pushes against the surface), dead load on the reference configuration.
 struct Pressure {
-  std::vector<std::array<Index, 4>> faces;
+  Surface surface;
   double pressure = 0.0;
   TimeFunction factor;
 };
@@ -68,33 +86,74 @@ struct InitialState {
   std::optional<Vec3> displacement, velocity;
 };
 
-/// Regularised Coulomb friction: tangential stiffness eps_T and coefficient mu; none when either is 0.
-struct FrictionLaw {
-  double eps_T = 0.0;
-  double mu = 0.0;
+/// The law of one contact. Stiffnesses are stress per length (force per length on rows that are counted per node); an
+/// absent one is chosen from the material and the size of the cells (contact/stiffness.hpp). They serve the penalty and
+/// the augmented Lagrangian; exact enforcements need none.
+struct ContactLaw {
+  std::optional<double> eps_N;    ///< normal
+  std::optional<double> eps_T;    ///< tangential (regularised friction); absent: as eps_N
+  double stiffness_factor = 1.0;  ///< multiplies the chosen stiffness
+  double mu = 0.0;                ///< Coulomb's coefficient
+  double restitution = 0.0;       ///< Newton's coefficient e, for impulses
 };
 
 /// Contact by HEXA8 cells whose two opposite faces coincide: traction = eps_N x penetration (force per area).
 struct InterfaceContact {
   std::string name;
   std::vector<Index> cells;  ///< indices into Mesh::block(hexa8)
-  double eps_N = 0.0;        ///< stress per length
-  FrictionLaw friction;      ///< eps_T: stress per length
+  ContactLaw law;
+  InitialPenetration initial = InitialPenetration::refuse;
 };
 
-/// What a penalty stiffness is counted per: stress per length on faces, or force per length on each node.
-enum class PenaltyMeasure : std::uint8_t { per_area, per_node };
+/// What a row stands for: the area of its node, or the node itself (stiffness is then force per length).
+enum class RowMeasure : std::uint8_t { per_area, per_node };
 
-/// Rigid plane through `point`; the body is on the side to which `normal` points.
-struct PlaneContact {
-  std::string name;
+/// Rigid shapes in their reference position. Bodies stay outside of them (of a sphere or cylinder with `inside` set,
+/// inside), or on the side of a plane to which the normal points.
+struct Plane {
   Vec3 point{};
   Vec3 normal{0.0, 0.0, 1.0};
-  PenaltyMeasure measure = PenaltyMeasure::per_area;
-  std::vector<Index> nodes;                 ///< nodes that may touch (per_node)
-  std::vector<std::array<Index, 4>> faces;  ///< faces that may touch (per_area)
-  double eps_N = 0.0;
-  FrictionLaw friction;
+};
+struct Sphere {
+  Vec3 centre{};
+  double radius = 0.0;
+  bool inside = false;
+};
+struct Cylinder {  ///< endless
+  Vec3 point{};
+  Vec3 axis{0.0, 0.0, 1.0};
+  double radius = 0.0;
+  bool inside = false;
+};
+struct Box {  ///< axis-aligned
+  Vec3 lower{}, upper{};
+};
+struct RigidSurface {
+  Surface surface;
+};
+using RigidShape = std::variant<Plane, Sphere, Cylinder, Box, RigidSurface>;
+
+/// A rigid obstacle. A moving one hangs on `carrier`, a node of its own whose displacement it follows (imposed by a
+/// PrescribedMotion, or free with the mass of a RigidBody); -1: at rest.
+struct ObstacleContact {
+  std::string name;
+  RigidShape shape;
+  Index carrier = -1;
+  RowMeasure measure = RowMeasure::per_area;
+  std::vector<Index> nodes;  ///< nodes that may touch (per_node)
+  Surface surface;           ///< facets that may touch (per_area)
+  ContactLaw law;
+  InitialPenetration initial = InitialPenetration::refuse;
+};
+
+/// Two deformable surfaces, or one with itself (`self`: slave and master are then the same facets).
+struct PairContact {
+  std::string name;
+  Surface slave, master;
+  bool self = false;
+  PairMethod method = PairMethod::two_pass;
+  ContactLaw law;
+  InitialPenetration initial = InitialPenetration::refuse;
 };
 
 /// Discrete stop on nodes: force stiffness x penetration + damping x closing speed, never tensile.
@@ -108,7 +167,14 @@ struct StopContact {
   double damping = 0.0;
 };
 
-using ContactDefinition = std::variant<InterfaceContact, PlaneContact, StopContact>;
+using ContactDefinition = std::variant<InterfaceContact, ObstacleContact, PairContact, StopContact>;
+
+/// A rigid body that moves without turning: a node of its own with a mass.
+struct RigidBody {
+  std::string name;
+  Index node = -1;
+  double mass = 0.0;
+};
 
 /// Everything the discrete bodies and the contact are made from.
 struct Model {
@@ -118,6 +184,7 @@ struct Model {
   std::vector<Load> loads;
   std::vector<InitialState> initial;
   std::vector<ContactDefinition> contacts;
+  std::vector<RigidBody> rigid_bodies;
 };
 
 }  // namespace carom

@@ -78,13 +78,14 @@ std::string unit_of_column(const Units& units, std::string_view column) {
   if (quantity == "stress") return units.stress;
   if (quantity == "force" || quantity == "section_force") return units.force;
   if (quantity == "impulse") return product(units.force, units.time);
+  if (quantity == "moment") return product(units.force, units.length);
   if (quantity == "momentum" || quantity == "momentum_error") return product(units.mass, velocity);
   if (quantity == "angular_momentum" || quantity == "angular_momentum_error")
     return velocity.empty() ? std::string() : product(units.mass, units.length + "²/" + units.time);
-  constexpr std::array<std::string_view, 16> energies{"kinetic",    "strain",        "contact_stored", "friction",
-                                                      "damping",    "external_work", "support_work",   "algorithmic",
-                                                      "quadrature", "imbalance",     "ENER_CIN",       "ENER_TOT",
-                                                      "TRAV_EXT",   "TRAV_AMOR",     "TRAV_LIAI",      "DISS_SCH"};
+  constexpr std::array<std::string_view, 17> energies{
+      "kinetic",       "strain",       "contact_stored", "friction",   "damping",   "impact",
+      "external_work", "support_work", "algorithmic",    "quadrature", "imbalance", "ENER_CIN",
+      "ENER_TOT",      "TRAV_EXT",     "TRAV_AMOR",      "TRAV_LIAI",  "DISS_SCH"};
   for (const std::string_view energy : energies) {
     if (quantity == energy) return units.energy;
   }

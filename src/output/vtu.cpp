@@ -18,9 +18,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "raw appended data is written as little endian");
 static_assert(sizeof(Vec3) == 3 * sizeof(double));
 
-constexpr std::uint8_t kVtkHexahedron = 12;
-constexpr std::int32_t kHexa8Nodes = 8;
-
 /// One array of the appended section: in the header with its offset, after it as a byte count and the bytes.
 struct AppendedArray {
   const void* data;
@@ -61,13 +58,15 @@ class VtuHeader {
 
 }  // namespace
 
-void write_vtu(const std::string& path, std::span<const Vec3> points, std::span<const Index> hexa8,
+void VtuCells::add(std::span<const Index> points, std::uint8_t type) {
+  connectivity.insert(connectivity.end(), points.begin(), points.end());
+  ends.push_back(static_cast<std::int64_t>(connectivity.size()));
+  types.push_back(type);
+}
+
+void write_vtu(const std::string& path, std::span<const Vec3> points, const VtuCells& cells,
                std::span<const VtuField> point_fields, std::span<const VtuField> cell_fields) {
-  assert(hexa8.size() % kHexa8Nodes == 0);
-  const std::size_t cells = hexa8.size() / kHexa8Nodes;
-  std::vector<std::int64_t> ends(cells);
-  for (std::size_t c = 0; c < cells; ++c) ends[c] = static_cast<std::int64_t>(c + 1) * kHexa8Nodes;
-  const std::vector<std::uint8_t> types(cells, kVtkHexahedron);
+  assert(cells.types.size() == cells.ends.size());
   const std::span<const double> coordinates(points.empty() ? nullptr : points.front().data(), 3 * points.size());
 
   std::vector<AppendedArray> arrays;
@@ -75,15 +74,15 @@ void write_vtu(const std::string& path, std::span<const Vec3> points, std::span<
   header.line("<?xml version=\"1.0\"?>");
   header.line("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">");
   header.line("<UnstructuredGrid>");
-  header.line(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", points.size(), cells));
+  header.line(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", points.size(), cells.types.size()));
   header.fields("PointData", point_fields, points.size());
-  header.fields("CellData", cell_fields, cells);
+  header.fields("CellData", cell_fields, cells.types.size());
   header.line("<Points>");
   header.array("Float64", "Points", 3, coordinates);
   header.line("</Points>\n<Cells>");
-  header.array("Int32", "connectivity", 1, hexa8);
-  header.array("Int64", "offsets", 1, std::span<const std::int64_t>(ends));
-  header.array("UInt8", "types", 1, std::span<const std::uint8_t>(types));
+  header.array("Int32", "connectivity", 1, std::span<const Index>(cells.connectivity));
+  header.array("Int64", "offsets", 1, std::span<const std::int64_t>(cells.ends));
+  header.array("UInt8", "types", 1, std::span<const std::uint8_t>(cells.types));
   header.line("</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">");
 
   FileWriter file(path);

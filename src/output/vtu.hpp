@@ -1,8 +1,10 @@
-// Hexahedral meshes with fields as VTK unstructured grids (.vtu).
+// Meshes with fields as VTK unstructured grids (.vtu).
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/types.hpp"
 
@@ -16,10 +18,21 @@ struct VtuField {
   std::span<const double> values;
 };
 
-/// Writes points (n) and HEXA8 cells (8 point indices each) with their fields as raw appended little-endian data with
-/// UInt64 headers, uncompressed. The file appears under its name only when it is complete. Copies none of the arrays.
+/// Cells in any order: the points of each, one after the other, and per cell where they end and VTK's number of its
+/// type (VTK file formats, "Linear cells"). The node orders of VTK are ours.
+struct VtuCells {
+  static constexpr std::uint8_t line = 3, quad = 9, hexahedron = 12;
+  std::vector<Index> connectivity;
+  std::vector<std::int64_t> ends;
+  std::vector<std::uint8_t> types;
+
+  void add(std::span<const Index> points, std::uint8_t type);
+};
+
+/// Writes points (n) and cells with their fields as raw appended little-endian data with UInt64 headers, uncompressed.
+/// The file appears under its name only when it is complete. Copies none of the arrays.
 /// Precondition: fields have components x (points or cells) values. Throws OutputError.
-void write_vtu(const std::string& path, std::span<const Vec3> points, std::span<const Index> hexa8,
+void write_vtu(const std::string& path, std::span<const Vec3> points, const VtuCells& cells,
                std::span<const VtuField> point_fields, std::span<const VtuField> cell_fields);
 
 }  // namespace carom

@@ -33,16 +33,6 @@ double largest_magnitude(const std::vector<double>& values) {
   return largest;
 }
 
-Curve make_curve(const CsvTable& table, const std::vector<double>& values, std::string name, CurveKind kind) {
-  const std::vector<double>& time = table.values.front();
-  Curve curve{std::move(name), {}, {}, kind};
-  for (const std::size_t row : decimate(time, values, kIntervals)) {
-    curve.time.push_back(time[row]);
-    curve.values.push_back(values[row]);
-  }
-  return curve;
-}
-
 /// Name of a curve in its chart: the component where there is one ("z"), else the quantity.
 std::string curve_name(const std::string& column) {
   const ColumnName name = parse_column(column);
@@ -178,6 +168,16 @@ std::string json_numbers(const std::vector<double>& values) {
 
 }  // namespace
 
+Curve make_curve(const CsvTable& table, const std::vector<double>& values, std::string name, CurveKind kind) {
+  const std::vector<double>& time = table.values.front();
+  Curve curve{std::move(name), {}, {}, kind};
+  for (const std::size_t row : decimate(time, values, kIntervals)) {
+    curve.time.push_back(time[row]);
+    curve.values.push_back(values[row]);
+  }
+  return curve;
+}
+
 std::vector<Chart> make_charts(const Tables& tables, const Units& units) {
   std::vector<Chart> charts;
   if (tables.probes) add_charts(charts, place_groups(*tables.probes, "Probes"), *tables.probes, tables, units);
@@ -192,9 +192,9 @@ std::string charts_json(const std::vector<Chart>& charts, const Units& units) {
     fmt::format_to(std::back_inserter(text), "\n{{\"label\":{},\"unit\":{},\"curves\":[", json_string(chart.label),
                    json_string(chart.unit));
     for (const Curve& curve : chart.curves) {
-      fmt::format_to(std::back_inserter(text), "{{\"name\":{},\"kind\":{},\"t\":{},\"y\":{}}},",
-                     json_string(curve.name), kKinds.at(static_cast<std::size_t>(curve.kind)), json_numbers(curve.time),
-                     json_numbers(curve.values));
+      fmt::format_to(std::back_inserter(text), "{{\"name\":{},\"kind\":{},\"shown\":{},\"t\":{},\"y\":{}}},",
+                     json_string(curve.name), kKinds.at(static_cast<std::size_t>(curve.kind)), curve.shown,
+                     json_numbers(curve.time), json_numbers(curve.values));
     }
     if (text.back() == ',') text.pop_back();
     text += "]},";

@@ -18,6 +18,7 @@ struct Curve {
   std::string name;
   std::vector<double> time, values;
   CurveKind kind{};
+  bool shown = true;  ///< until the reader clicks its name
 };
 
 /// One picture: curves of one unit over time.
@@ -33,6 +34,9 @@ struct Chart {
 struct Tables {
   std::optional<CsvTable> energy{}, contact{}, probes{}, probes_filtered{}, exact{};
 };
+
+/// A column over the table's times, reduced to what a screen can show (decimate.hpp).
+Curve make_curve(const CsvTable& table, const std::vector<double>& values, std::string name, CurveKind kind);
 
 /// Charts of probes, contact and energies; columns of the same name in probes_filtered.csv and exact.csv are laid over.
 /// Components below 1e-9 of the largest of their chart are named in its note instead of drawn; charts that are zero

@@ -55,7 +55,7 @@
     return chart.curves.map((curve, k) => {
       const button = document.createElement("button");
       button.type = "button";
-      button.setAttribute("aria-pressed", "true");
+      button.setAttribute("aria-pressed", String(curve.shown));
       const line = document.createElement("i");
       if (curve.kind === "exact") line.className = "dashed";
       const value = document.createElement("output");
@@ -84,12 +84,13 @@
 
   function draw(element) {
     const chart = data.charts[Number(element.dataset.chart)];
+    const isCrowded = chart.curves.length > 5;
     const legend = makeLegend(element.parentElement.querySelector(".legend"), chart);
     const power = exponent(chart.curves.flatMap((c) => c.y));
     const labels = ["t", ...chart.curves.map((c, k) => k + " " + c.name)];
     const series = {};
     chart.curves.forEach((c, k) => {
-      series[labels[k + 1]] = stroke[c.kind];
+      series[labels[k + 1]] = isCrowded && c.kind === "computed" ? { strokeWidth: 1.2 } : stroke[c.kind];
     });
     const show = (t, row) => {
       for (const l of legend) l.value.textContent = row === null ? "" : short(row[l.k + 1]);
@@ -98,7 +99,7 @@
     const time = document.createElement("output");
     const content = rows(chart);
     const graph = new Dygraph(element, content, {
-      labels, series, legend: "never", connectSeparatedPoints: true, animatedZooms: false, rightGap: 12, yRangePad: 8,
+      labels, series, visibility: chart.curves.map((c) => c.shown), legend: "never", connectSeparatedPoints: true, animatedZooms: false, rightGap: 12, yRangePad: 8,
       xlabel: axisTitle("time", data.time_unit, timePower), ylabel: axisTitle(chart.label, chart.unit, power),
       xLabelHeight: 18, yLabelWidth: 18, highlightCircleSize: 3, labelsKMB: false, includeZero: false,
       axes: {

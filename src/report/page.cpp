@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <iterator>
 #include <string_view>
 
 #include "output/xml.hpp"
 #include "report/assets.hpp"
+#include "report/html.hpp"
 #include "report/page_tables.hpp"
 
 namespace carom {
@@ -54,68 +53,28 @@ std::string header(const ReportData& data) {
   return html + "</header>\n";
 }
 
-std::string charts(const std::vector<Chart>& charts) {
-  std::string html;
-  std::string section;
-  for (std::size_t i = 0; i < charts.size(); ++i) {
-    const Chart& chart = charts[i];
-    if (chart.section != section) {
-      if (!section.empty()) html += "</div>\n</section>\n";
-      section = chart.section;
-      html += fmt::format("<section>\n<h2>{}</h2>\n<div class=\"charts\">\n", section);
-    }
-    html += fmt::format(
-        "<figure><figcaption>{}</figcaption><div class=\"legend\"></div><div class=\"chart\" data-chart=\"{}\"></div>"
-        "<p class=\"note\">{}</p></figure>\n",
-        xml_escape(chart.title), i, xml_escape(chart.note));
-  }
-  if (section.empty()) return html;
-  return html +
-         "</div>\n</section>\n<p class=\"note\">Drag over a picture to zoom all of them in time, hold shift to move, "
-         "double-click to see all again; click a name to hide its curve. Long tables are drawn by the smallest and "
-         "largest value in each of 1000 intervals of time; the .csv files hold every row.</p>\n";
-}
-
 std::string footer(const ReportData& data) {
   std::string html = "<footer>\n";
-  if (!data.case_text.empty()) {
-    html += fmt::format(
-        "<details><summary>The case with all defaults (case.resolved.toml)</summary><pre>{}</pre></details>\n",
-        xml_escape(data.case_text));
-  }
-  html +=
-      fmt::format("<details><summary>Licence of dygraphs, which draws the curves</summary><pre>{}</pre></details>\n",
-                  xml_escape(assets::dygraph_licence));
+  if (!data.case_text.empty()) html += foldable("The case with all defaults (case.resolved.toml)", data.case_text);
+  html += foldable("Licence of dygraphs, which draws the curves", assets::dygraph_licence);
   return html + "</footer>\n";
 }
 
 }  // namespace
 
 std::string make_page(const ReportData& data) {
-  const std::string title = data.summary ? data.summary->case_info.title : data.folder;
-  std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{} · Carom</title>\n"
-      "<link rel=\"icon\" href=\"data:,\">\n<style>{}\n{}</style>\n</head>\n<body>\n<main>\n",
-      xml_escape(title), assets::dygraph_css, assets::page_css);
-  html += header(data);
+  std::string content = header(data);
   if (data.summary) {
-    const Summary& summary = *data.summary;
-    html += verdict_table(summary);
-    html += checks_table(summary, data.units);
+    content += verdict_table(*data.summary);
+    content += checks_table(*data.summary, data.units);
   }
-  html += charts(data.charts);
+  content += chart_figures(data.charts);
   if (data.summary) {
-    html += ledger_tables(*data.summary, data.units);
-    html += run_table(*data.summary, data.units);
+    content += ledger_tables(*data.summary, data.units);
+    content += run_table(*data.summary, data.units);
   }
-  html += footer(data);
-  html += fmt::format("</main>\n<script type=\"application/json\" id=\"charts\">{}</script>\n",
-                      charts_json(data.charts, data.units));
-  html += fmt::format("<script>{}</script>\n<script>{}</script>\n</body>\n</html>\n", assets::dygraph_js,
-                      assets::curves_js);
-  return html;
+  content += footer(data);
+  return html_document(data.summary ? data.summary->case_info.title : data.folder, content, data.charts, data.units);
 }
 
 }  // namespace carom

@@ -7,41 +7,26 @@
 #include <string_view>
 
 #include "output/xml.hpp"
+#include "report/html.hpp"
 
 namespace carom {
 
 namespace {
 
-std::string number(double value, int digits) {
-  return std::isnan(value) ? "–" : fmt::format("{:.{}g}", value, digits);
-}
-
 std::string with_unit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : fmt::format("{} {}", text, unit);
 }
 
-std::string mark(bool pass) {
-  return pass ? "<td class=\"mark pass\">✓ pass</td>" : "<td class=\"mark fail\">✗ fail</td>";
-}
-
-/// A number cell: right-aligned, figures of equal width.
-std::string cell(const std::string& text) {
-  return fmt::format("<td class=\"number\">{}</td>", xml_escape(text));
-}
-
-std::string text_cell(std::string_view text) {
-  return fmt::format("<td>{}</td>", xml_escape(text));
-}
-
 /// Difference in percent of the reference, or as it is where the reference is zero or the tolerance absolute.
 std::string difference(const CheckSummary& check) {
-  if (check.tolerance_kind == ToleranceKind::absolute || check.reference == 0.0) return number(check.difference, 3);
-  return number(100.0 * check.difference / std::abs(check.reference), 3) + " %";
+  if (check.tolerance_kind == ToleranceKind::absolute || check.reference == 0.0)
+    return number_text(check.difference, 3);
+  return number_text(100.0 * check.difference / std::abs(check.reference), 3) + " %";
 }
 
 std::string tolerance(const CheckSummary& check) {
-  if (check.tolerance_kind == ToleranceKind::absolute) return fmt::format("± {}", number(check.tolerance, 3));
-  return fmt::format("± {} %", number(100.0 * check.tolerance, 3));
+  if (check.tolerance_kind == ToleranceKind::absolute) return fmt::format("± {}", number_text(check.tolerance, 3));
+  return fmt::format("± {} %", number_text(100.0 * check.tolerance, 3));
 }
 
 std::string value_table(std::string_view title, const std::vector<NamedValue>& values, const std::string& unit) {
@@ -54,13 +39,13 @@ std::string value_table(std::string_view title, const std::vector<NamedValue>& v
     if (name.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") != 0) {
       for (char& c : name) c = c == '_' ? ' ' : c;
     }
-    html += fmt::format("<tr>{}{}</tr>\n", text_cell(name), cell(number(entry.value, 9)));
+    html += fmt::format("<tr>{}{}</tr>\n", text_cell(name), number_cell(number_text(entry.value, 9)));
   }
   return html + "</tbody></table></div>\n";
 }
 
 std::string vector_cell(const Vec3& v) {
-  return cell(fmt::format("({}, {}, {})", number(v[0], 5), number(v[1], 5), number(v[2], 5)));
+  return number_cell(fmt::format("({}, {}, {})", number_text(v[0], 5), number_text(v[1], 5), number_text(v[2], 5)));
 }
 
 std::string momentum_table(const Summary& summary, const Units& units) {
@@ -70,7 +55,7 @@ std::string momentum_table(const Summary& summary, const Units& units) {
       "<th class=\"number\">largest error, relative</th></tr></thead><tbody>\n";
   const auto row = [&html](const std::string& name, const MomentumSummary& m) {
     html += fmt::format("<tr>{}{}{}{}{}</tr>\n", text_cell(name), vector_cell(m.begin), vector_cell(m.end),
-                        vector_cell(m.impulse), cell(number(m.error, 2)));
+                        vector_cell(m.impulse), number_cell(number_text(m.error, 2)));
   };
   const auto name = [&units](const std::string& text, std::string_view column) {
     const std::string unit = unit_of_column(units, column);
@@ -84,7 +69,8 @@ std::string momentum_table(const Summary& summary, const Units& units) {
 std::string phases(const CostSummary& cost) {
   std::string text;
   for (const NamedValue& phase : cost.phases) {
-    fmt::format_to(std::back_inserter(text), "{}{} {} s", text.empty() ? "" : ", ", phase.name, number(phase.value, 3));
+    fmt::format_to(std::back_inserter(text), "{}{} {} s", text.empty() ? "" : ", ", phase.name,
+                   number_text(phase.value, 3));
   }
   return text;
 }
@@ -99,9 +85,10 @@ std::string groups(const MeshSummary& mesh) {
 }
 
 std::string steps(const SchemeSummary& scheme, const Units& units) {
-  const std::string smallest = with_unit(number(scheme.dt_smallest, 6), units.time);
+  const std::string smallest = with_unit(number_text(scheme.dt_smallest, 6), units.time);
   if (scheme.dt_smallest == scheme.dt_largest) return fmt::format("{} of {}", scheme.steps, smallest);
-  return fmt::format("{} of {} to {}", scheme.steps, smallest, with_unit(number(scheme.dt_largest, 6), units.time));
+  return fmt::format("{} of {} to {}", scheme.steps, smallest,
+                     with_unit(number_text(scheme.dt_largest, 6), units.time));
 }
 
 }  // namespace
@@ -113,8 +100,9 @@ std::string verdict_table(const Summary& summary) {
       "class=\"number\">value</th>"
       "<th class=\"number\">limit</th><th></th><th>meaning</th></tr></thead><tbody>\n";
   for (const VerdictItem& item : summary.verdict) {
-    html += fmt::format("<tr>{}{}{}{}{}</tr>\n", text_cell(item.name), cell(number(item.value, 3)),
-                        cell(fmt::format("≤ {}", number(item.limit, 3))), mark(item.pass), text_cell(item.explanation));
+    html += fmt::format("<tr>{}{}{}{}{}</tr>\n", text_cell(item.name), number_cell(number_text(item.value, 3)),
+                        number_cell(fmt::format("≤ {}", number_text(item.limit, 3))), mark_cell(item.pass),
+                        text_cell(item.explanation));
   }
   return html + "</tbody></table></div>\n</section>\n";
 }
@@ -128,10 +116,10 @@ std::string checks_table(const Summary& summary, const Units& units) {
       "<tbody>\n",
       units.time.empty() ? "" : fmt::format(" [{}]", xml_escape(units.time)));
   for (const CheckSummary& check : summary.checks) {
-    html += fmt::format("<tr>{}{}{}{}{}{}{}{}{}</tr>\n", text_cell(check.name), cell(number(check.time, 6)),
-                        cell(number(check.value, 9)), cell(number(check.reference, 9)),
-                        text_cell(unit_of_column(units, check.quantity)), cell(difference(check)),
-                        cell(tolerance(check)), mark(check.pass), text_cell(check.source));
+    html += fmt::format("<tr>{}{}{}{}{}{}{}{}{}</tr>\n", text_cell(check.name), number_cell(number_text(check.time, 6)),
+                        number_cell(number_text(check.value, 9)), number_cell(number_text(check.reference, 9)),
+                        text_cell(unit_of_column(units, check.quantity)), number_cell(difference(check)),
+                        number_cell(tolerance(check)), mark_cell(check.pass), text_cell(check.source));
   }
   return html + "</tbody></table></div>\n</section>\n";
 }
@@ -156,13 +144,13 @@ std::string run_table(const Summary& summary, const Units& units) {
   entry("Scheme", scheme.name);
   entry("Linear solver", scheme.solver);
   entry("Steps", steps(scheme, units));
-  entry("Time",
-        fmt::format("{} of {}", number(scheme.time_reached, 6), with_unit(number(scheme.time_end, 6), units.time)));
+  entry("Time", fmt::format("{} of {}", number_text(scheme.time_reached, 6),
+                            with_unit(number_text(scheme.time_end, 6), units.time)));
   entry("Program",
         fmt::format("carom {}, {}, kernels {}, {} thread{}", summary.program.version, summary.program.compiler,
                     summary.program.isa, summary.program.threads, summary.program.threads == 1 ? "" : "s"));
-  entry("Wall clock", number(summary.cost.wall_seconds, 3) + " s");
-  entry("Processor", number(summary.cost.cpu_seconds, 3) + " s");
+  entry("Wall clock", number_text(summary.cost.wall_seconds, 3) + " s");
+  entry("Processor", number_text(summary.cost.cpu_seconds, 3) + " s");
   entry("Phases", phases(summary.cost));
   entry("Memory", fmt::format("{:.1f} MiB at most", static_cast<double>(summary.cost.peak_memory_bytes) / 1048576.0));
   return html + "</dl>\n</section>\n";

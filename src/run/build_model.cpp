@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
+#include "run/build_mesh.hpp"
 #include "run/groups.hpp"
+#include "run/parts.hpp"
 
 namespace carom {
 
@@ -15,10 +16,11 @@ namespace {
 class Builder {
  public:
   Builder(const Case& given, const Mesh& mesh, Model& model)
-      : case_(given), mesh_(mesh), groups_(mesh), model_(model), is_in_part_(mesh.node_count(), false) {}
+      : case_(given), mesh_(mesh), groups_(mesh), parts_(given, mesh, groups_), model_(model) {}
 
   void build() {
-    for (const CasePart& part : case_.parts) add_part(part);
+    model_.parts = parts_.parts();
+    model_.motions = parts_.held();
     for (std::size_t i = 0; i < case_.supports.size(); ++i) add_support(case_.supports[i], i);
     for (const CaseLoad& load : case_.loads) add_load(load);
     for (const CaseInitial& initial : case_.initial) add_initial(initial);
@@ -26,29 +28,6 @@ class Builder {
   }
 
  private:
-  void add_part(const CasePart& given) {
-    const auto material = std::find_if(case_.materials.begin(), case_.materials.end(),
-                                       [&](const CaseMaterial& m) { return m.name == *given.material; });
-    Part part{*given.name, groups_.hexas(given.cells, "part.cells"),
-              LinearElastic{*material->E, *material->nu, *material->rho}};
-    for (const Index cell : part.cells) {
-      const auto [entry, is_new] = part_of_.emplace(cell, *given.name);
-      if (is_new) {
-        for (std::size_t a = 0; a < 8; ++a) {
-          const Index n = mesh_.block(CellType::hexa8)->connectivity[8 * static_cast<std::size_t>(cell) + a];
-          is_in_part_[static_cast<std::size_t>(n)] = true;
-        }
-        continue;
-      }
-      throw CaseError(given.cells.where, "part.cells",
-                      fmt::format("cell {} in part \"{}\" and in part \"{}\"",
-                                  mesh_.block(CellType::hexa8)->file_numbers[static_cast<std::size_t>(cell)],
-                                  entry->second, *given.name),
-                      "every cell in one part only");
-    }
-    model_.parts.push_back(std::move(part));
-  }
-
   TimeFunction function(const std::optional<Located<std::string>>& name, double amplitude) const {
     if (!name) return {{0.0}, {amplitude}};
     const auto found = std::find_if(case_.functions.begin(), case_.functions.end(),
@@ -85,10 +64,10 @@ class Builder {
         break;
       }
       case CaseLoad::Kind::pressure: {
-        const std::vector<std::array<Index, 4>> faces = groups_.outer_faces(*given.group, "load.group");
-        for (const auto& face : faces)
-          std::for_each(face.begin(), face.end(), [&](Index n) { refuse_outside_parts(n, *given.group); });
-        model_.loads.emplace_back(Pressure{faces, given.pressure, function(given.function, 1.0)});
+        const Surface loaded = surface(*given.group, "load.group");
+        for (const Facet& facet : loaded.facets)
+          std::for_each(facet.begin(), facet.end(), [&](Index n) { refuse_outside_parts(n, *given.group); });
+        model_.loads.emplace_back(Pressure{loaded, given.pressure, function(given.function, 1.0)});
         break;
       }
       case CaseLoad::Kind::gravity:
@@ -97,9 +76,13 @@ class Builder {
     }
   }
 
+  Surface surface(const Located<std::string>& group, const std::string& key) const {
+    return parts_.surface(groups_.outer_facets(group, key), group.where, key);
+  }
+
   /// A force on a node that no part holds would move nothing.
   void refuse_outside_parts(Index node, const Located<std::string>& group) const {
-    if (is_in_part_[static_cast<std::size_t>(node)]) return;
+    if (parts_.hold(node)) return;
     throw CaseError(group.where, "load.group",
                     fmt::format("node {} of \"{}\", which belongs to no part",
                                 mesh_.node_numbers[static_cast<std::size_t>(node)], *group),
@@ -113,13 +96,7 @@ class Builder {
     } else {
       const auto part =
           std::find_if(model_.parts.begin(), model_.parts.end(), [&](const Part& p) { return p.name == **given.part; });
-      const std::vector<Index>& connectivity = mesh_.block(CellType::hexa8)->connectivity;
-      for (const Index cell : part->cells) {
-        for (std::size_t a = 0; a < 8; ++a)
-          initial.nodes.push_back(connectivity[8 * static_cast<std::size_t>(cell) + a]);
-      }
-      std::sort(initial.nodes.begin(), initial.nodes.end());
-      initial.nodes.erase(std::unique(initial.nodes.begin(), initial.nodes.end()), initial.nodes.end());
+      initial.nodes = parts_.nodes_of(*part);
     }
     initial.displacement = given.displacement;
     initial.velocity = given.velocity;
@@ -127,39 +104,112 @@ class Builder {
   }
 
   void add_contact(const CaseContact& given) {
-    const FrictionLaw friction{given.tangential_stiffness, given.friction};
-    switch (given.kind) {
-      case CaseContact::Kind::interface:
-        model_.contacts.emplace_back(InterfaceContact{*given.name, interface_cells(given), *given.stiffness, friction});
+    using Kind = CaseContact::Kind;
+    switch (*given.kind) {
+      case Kind::interface:
+        model_.contacts.emplace_back(
+            InterfaceContact{*given.name, interface_cells(given), law(given), given.initial_penetration});
         break;
-      case CaseContact::Kind::plane: {
-        PlaneContact plane{*given.name, given.point, *given.normal,    PenaltyMeasure::per_area,
-                           {},          {},          *given.stiffness, friction};
-        if (given.per_node) {
-          plane.measure = PenaltyMeasure::per_node;
-          plane.nodes = groups_.nodes(given.group, "contact.group");
-        } else {
-          plane.faces = groups_.outer_faces(given.group, "contact.group");
-        }
-        model_.contacts.emplace_back(std::move(plane));
+      case Kind::pair:
+      case Kind::self:
+      case Kind::all:
+        add_pair(given);
         break;
-      }
-      case CaseContact::Kind::stop:
+      case Kind::stop:
         model_.contacts.emplace_back(StopContact{*given.name, groups_.nodes(given.group, "contact.group"),
-                                                 *given.normal, given.gap, *given.stiffness, given.damping});
+                                                 *given.normal, given.gap, **given.stiffness, given.damping});
         break;
+      default:
+        add_obstacle(given);
     }
   }
 
+  static ContactLaw law(const CaseContact& given) {
+    ContactLaw law;
+    if (given.stiffness) law.eps_N = **given.stiffness;
+    law.eps_T = given.tangential_stiffness;
+    law.stiffness_factor = given.stiffness_factor;
+    law.mu = given.friction;
+    law.restitution = *given.restitution;
+    return law;
+  }
+
+  void add_pair(const CaseContact& given) {
+    PairContact pair;
+    pair.name = *given.name;
+    pair.method = given.method;
+    pair.law = law(given);
+    pair.initial = given.initial_penetration;
+    pair.self = *given.kind != CaseContact::Kind::pair;
+    if (*given.kind == CaseContact::Kind::all) {
+      std::vector<OuterFacet> facets = groups_.exterior(given.exclude, "contact.exclude");
+      std::erase_if(facets, [&](const OuterFacet& outer) { return parts_.part_of(outer.cell) == nullptr; });
+      pair.slave = parts_.surface(facets, given.where, "contact");
+    } else {
+      pair.slave = surface(given.group, "contact.group");
+    }
+    pair.master = pair.self ? pair.slave : surface(given.master, "contact.master");
+    model_.contacts.emplace_back(std::move(pair));
+  }
+
+  RigidShape shape(const CaseContact& given) const {
+    switch (*given.kind) {
+      case CaseContact::Kind::sphere:
+        return Sphere{given.centre, given.radius, given.inside};
+      case CaseContact::Kind::cylinder:
+        return Cylinder{given.point, *given.axis, given.radius, given.inside};
+      case CaseContact::Kind::box:
+        return Box{given.lower, *given.upper};
+      case CaseContact::Kind::surface:
+        return RigidSurface{{groups_.rigid_faces(given.surface, "contact.surface")}};
+      default:
+        return Plane{given.point, *given.normal};
+    }
+  }
+
+  void add_obstacle(const CaseContact& given) {
+    ObstacleContact obstacle;
+    obstacle.name = *given.name;
+    obstacle.shape = shape(given);
+    obstacle.law = law(given);
+    obstacle.initial = given.initial_penetration;
+    if (given.per_node) {
+      obstacle.measure = RowMeasure::per_node;
+      obstacle.nodes = groups_.nodes(given.group, "contact.group");
+    } else {
+      obstacle.surface = surface(given.group, "contact.group");
+    }
+    add_carrier(given, obstacle);
+    model_.contacts.emplace_back(std::move(obstacle));
+  }
+
+  /// A moving obstacle hangs on the node that build_mesh has appended for it.
+  void add_carrier(const CaseContact& given, ObstacleContact& obstacle) {
+    if (!is_moving(given)) return;
+    obstacle.carrier = static_cast<Index>(mesh_.node_count() - moving_obstacles(case_) + carriers_++);
+    const std::vector<Index> node{obstacle.carrier};
+    const Vec3 velocity = given.velocity.value_or(Vec3{});
+    model_.initial.push_back({node, std::nullopt, velocity});
+    if (given.mass) {
+      model_.rigid_bodies.push_back({*given.name, obstacle.carrier, *given.mass});
+      return;
+    }
+    const std::string label = fmt::format("velocity of contact \"{}\" (line {})", *given.name, given.where.line);
+    for (std::size_t c = 0; c < 3; ++c)
+      model_.motions.push_back(
+          {label, node, static_cast<int>(c), MotionKind::velocity, function(given.function, velocity[c])});
+  }
+
   std::vector<Index> interface_cells(const CaseContact& given) const {
-    std::vector<Index> cells = groups_.hexas(given.group, "contact.group");
+    std::vector<Index> cells = groups_.cells(given.group, "contact.group", CellType::hexa8, "HEXA8 cells");
+    const auto block = static_cast<Index>(mesh_.block(CellType::hexa8) - mesh_.blocks.data());
     for (const Index cell : cells) {
-      const auto part = part_of_.find(cell);
-      if (part == part_of_.end()) continue;
+      const Part* part = parts_.part_of({block, cell});
+      if (part == nullptr) continue;
       throw CaseError(given.group.where, "contact.group",
                       fmt::format("cell {} of \"{}\", which belongs to part \"{}\"",
                                   mesh_.block(CellType::hexa8)->file_numbers[static_cast<std::size_t>(cell)],
-                                  *given.group, part->second),
+                                  *given.group, part->name),
                       "interface cells that belong to no part");
     }
     return cells;
@@ -168,9 +218,9 @@ class Builder {
   const Case& case_;
   const Mesh& mesh_;
   Groups groups_;
+  Parts parts_;
   Model& model_;
-  std::map<Index, std::string> part_of_;
-  std::vector<bool> is_in_part_;  ///< per node
+  std::size_t carriers_ = 0;  ///< nodes of moving obstacles given away so far
 };
 
 }  // namespace

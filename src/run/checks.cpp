@@ -21,12 +21,12 @@ std::string column_name(const CaseCheck& check) {
 
 }  // namespace
 
-Checks::Checks(const Simulation& simulation, const std::vector<const Table*>& tables, const ExactCurves* exact)
+Checks::Checks(const Simulation& simulation, const std::vector<const CurveTable*>& tables, const ExactCurves* exact)
     : case_(simulation.given()) {
   for (const CaseCheck& check : case_.checks) watches_.push_back(watch(check, tables, exact));
 }
 
-Checks::Watch Checks::watch(const CaseCheck& check, const std::vector<const Table*>& tables,
+Checks::Watch Checks::watch(const CaseCheck& check, const std::vector<const CurveTable*>& tables,
                             const ExactCurves* exact) const {
   const std::string name = column_name(check);
   if (check.place && check.quantity->starts_with("energy.")) {
@@ -38,7 +38,7 @@ Checks::Watch Checks::watch(const CaseCheck& check, const std::vector<const Tabl
   w.time = check.time ? **check.time : *case_.time.end;
   w.reference = check.value ? **check.value : 0.0;
   std::vector<std::string> all;
-  for (const Table* table : tables) {
+  for (const CurveTable* table : tables) {
     all.insert(all.end(), table->columns.begin() + 1, table->columns.end());
     const auto column = table->find(name);
     if (!column) continue;

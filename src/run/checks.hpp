@@ -14,7 +14,7 @@ namespace carom {
 class Checks {
  public:
   /// Throws CaseError where a check names something that no table holds, or an exact value that [exact] does not cover.
-  Checks(const Simulation& simulation, const std::vector<const Table*>& tables, const ExactCurves* exact);
+  Checks(const Simulation& simulation, const std::vector<const CurveTable*>& tables, const ExactCurves* exact);
 
   /// Is t, with steps of at most dt, one of the two samples around the time of a check?
   bool is_due(double t, double dt) const;
@@ -25,7 +25,7 @@ class Checks {
 
  private:
   struct Watch {
-    const Table* table = nullptr;
+    const CurveTable* table = nullptr;
     std::size_t column = 0;
     std::string name;
     double time = 0.0;
@@ -33,7 +33,7 @@ class Checks {
     double last_time = 0.0, last_value = 0.0;
     std::optional<double> value;
   };
-  Watch watch(const CaseCheck& check, const std::vector<const Table*>& tables, const ExactCurves* exact) const;
+  Watch watch(const CaseCheck& check, const std::vector<const CurveTable*>& tables, const ExactCurves* exact) const;
 
   const Case& case_;
   std::vector<Watch> watches_;

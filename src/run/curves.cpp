@@ -11,7 +11,7 @@
 
 namespace carom {
 
-std::optional<std::size_t> Table::find(const std::string& column) const {
+std::optional<std::size_t> CurveTable::find(const std::string& column) const {
   const auto found = std::find(columns.begin(), columns.end(), column);
   if (found == columns.end()) return std::nullopt;
   return static_cast<std::size_t>(found - columns.begin());
@@ -27,6 +27,7 @@ EnergyCurves::EnergyCurves() {
                     "contact_stored",
                     "friction",
                     "damping",
+                    "impact",
                     "external_work",
                     "support_work",
                     "algorithmic",
@@ -61,6 +62,7 @@ void EnergyCurves::sample(const StepView& view) {
                 e.contact_stored,
                 e.friction,
                 e.damping,
+                e.impact,
                 e.external_work,
                 e.support_work,
                 e.algorithmic,
@@ -83,13 +85,14 @@ void EnergyCurves::sample(const StepView& view) {
 }
 
 ContactCurves::ContactCurves(const Simulation& simulation)
-    : contact_(simulation.contact()), contacts_(simulation.given().contacts.size()) {
+    : mesh_(simulation.mesh()), contacts_(simulation.given().contacts.size()) {
   table_.columns = {"time"};
   for (const CaseContact& contact : simulation.given().contacts) {
-    for (const char* name :
-         {"force_x", "force_y", "force_z", "impulse_x", "impulse_y", "impulse_z", "penetration", "closed"}) {
+    for (const char* name : {"force_x", "force_y", "force_z", "impulse_x", "impulse_y", "impulse_z", "moment_x",
+                             "moment_y", "moment_z", "penetration", "closed"}) {
       table_.columns.push_back(fmt::format("{}.{}", *contact.name, name));
     }
+    moment_points_.push_back(contact.moment_point);
   }
   force_.resize(contacts_);
   impulse_.resize(contacts_);
@@ -98,29 +101,27 @@ ContactCurves::ContactCurves(const Simulation& simulation)
 }
 
 void ContactCurves::sample(const StepView& view, double end_weight) {
-  const ConstraintRows& rows = contact_.rows();
-  std::vector<Vec3> force(contacts_);
+  const ConstraintRows& rows = *view.forces.rows.rows;
+  const std::vector<ContactResultant> resultants =
+      contact_resultants(view.forces.rows, mesh_, view.state.q, moment_points_);
   std::vector<double> penetration(contacts_, 0.0), closed(contacts_, 0.0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (view.forces.rows.status[r] == RowStatus::open) continue;
     const auto c = static_cast<std::size_t>(rows.source[r]);
-    const Vec3& s = view.forces.rows.force[r];
-    for (std::size_t i = 0; i < 3; ++i) {
-      force[c][i] += s[0] * rows.normal[r][i] + s[1] * rows.tangent_1[r][i] + s[2] * rows.tangent_2[r][i];
-    }
-    penetration[c] = std::max(penetration[c], -(rows.gap[r] + rows.relative(r, view.state.q)[0]));
+    penetration[c] = std::max(penetration[c], -rows.gap_at(r, view.state.q));
     closed[c] += 1.0;
   }
   table_.row = {view.state.t};
   for (std::size_t c = 0; c < contacts_; ++c) {
+    const Vec3 &force = resultants[c].force, &moment = resultants[c].moment;
     for (std::size_t i = 0; i < 3; ++i) {
-      impulse_[c][i] += view.dt * ((1.0 - end_weight) * force_[c][i] + end_weight * force[c][i]);
+      impulse_[c][i] += view.dt * ((1.0 - end_weight) * force_[c][i] + end_weight * force[i]);
     }
-    table_.row.insert(table_.row.end(), {force[c][0], force[c][1], force[c][2], impulse_[c][0], impulse_[c][1],
-                                         impulse_[c][2], penetration[c], closed[c]});
+    force_[c] = force;
+    table_.row.insert(table_.row.end(), {force[0], force[1], force[2], impulse_[c][0], impulse_[c][1], impulse_[c][2],
+                                         moment[0], moment[1], moment[2], penetration[c], closed[c]});
     worst_penetration_ = std::max(worst_penetration_, penetration[c]);
   }
-  force_ = force;
 }
 
 namespace {
@@ -181,17 +182,17 @@ void ProbeCurves::find_cells(const CaseProbe& given, const Vec3& position, Probe
   };
   if (!asks("stress") && !asks("section_force")) return;
   const Mesh& mesh = simulation_.mesh();
-  const std::vector<Index>& cells = simulation_.solid().cells();
-  const std::vector<Index>& connectivity = mesh.block(CellType::hexa8)->connectivity;
+  const Solid& solid = simulation_.solid();
   std::vector<bool> is_member(mesh.node_count(), false);
   for (const Index n : probe.nodes) is_member[static_cast<std::size_t>(n)] = true;
-  for (std::size_t k = 0; k < cells.size(); ++k) {
+  for (std::size_t k = 0; k < solid.cell_count(); ++k) {
+    const auto nodes = solid.nodes_of_cell(k);
     bool touches = false;
     Vec3 centre{};
-    for (std::size_t a = 0; a < 8; ++a) {
-      const auto n = static_cast<std::size_t>(connectivity[8 * static_cast<std::size_t>(cells[k]) + a]);
-      touches = touches || is_member[n];
-      centre = add(centre, scaled(mesh.coordinates[n], 0.125));
+    for (const Index n : nodes) {
+      touches = touches || is_member[static_cast<std::size_t>(n)];
+      centre =
+          add(centre, scaled(mesh.coordinates[static_cast<std::size_t>(n)], 1.0 / static_cast<double>(nodes.size())));
     }
     if (!touches) continue;
     probe.cells.push_back(static_cast<Index>(k));

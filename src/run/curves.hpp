@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "energy/ledger.hpp"
+#include "run/contact_fields.hpp"
 #include "run/simulation.hpp"
 
 namespace carom {
@@ -23,7 +24,7 @@ struct StepView {
 };
 
 /// Names and values of one table; the first column is always `time`.
-struct Table {
+struct CurveTable {
   std::vector<std::string> columns;
   std::vector<double> row;
 
@@ -36,27 +37,29 @@ class EnergyCurves {
  public:
   EnergyCurves();
   void sample(const StepView& view);
-  const Table& table() const { return table_; }
+  const CurveTable& table() const { return table_; }
 
  private:
-  Table table_;
+  CurveTable table_;
 };
 
-/// contact.csv: for each contact the resultant force on the body, its impulse, the largest penetration, closed rows.
+/// contact.csv: for each contact the resultant force on the body, its impulse, its moment about the moment_point, the
+/// largest penetration, closed rows.
 class ContactCurves {
  public:
   explicit ContactCurves(const Simulation& simulation);
   /// Resultants at this state; before the first step and after each one. `end_weight` is the scheme's weight of the
   /// force at the end of the step in its impulse (gamma of Newmark).
   void sample(const StepView& view, double end_weight);
-  const Table& table() const { return table_; }
+  const CurveTable& table() const { return table_; }
   /// Largest penetration over all contacts and steps, relative to the cell it belongs to.
   double worst_relative_penetration() const { return worst_penetration_ / cell_length_; }
 
  private:
-  const Penalty& contact_;
+  const Mesh& mesh_;
   std::size_t contacts_;
-  Table table_;
+  std::vector<Vec3> moment_points_;
+  CurveTable table_;
   std::vector<Vec3> force_, impulse_;
   double cell_length_ = 0.0;
   double worst_penetration_ = 0.0;
@@ -69,9 +72,10 @@ class ProbeCurves {
   /// Throws CaseError for nodes and groups that do not exist.
   explicit ProbeCurves(const Simulation& simulation);
   void sample(const StepView& view);
-  const Table& table() const { return table_; }
+  const CurveTable& table() const { return table_; }
   /// Mean reference position of each probe, in the order of Case::probes.
   const std::vector<Vec3>& positions() const { return positions_; }
+  const std::vector<Index>& nodes(std::size_t probe) const { return probes_[probe].nodes; }
 
  private:
   struct Probe {
@@ -87,7 +91,7 @@ class ProbeCurves {
   const Simulation& simulation_;
   std::vector<Probe> probes_;
   std::vector<Vec3> positions_;
-  Table table_;
+  CurveTable table_;
   std::vector<double> section_work_;
 };
 

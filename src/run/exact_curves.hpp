@@ -1,41 +1,37 @@
 // The exact solution of a case beside its curves.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "exact/bar_impact.hpp"
 #include "run/curves.hpp"
 
 namespace carom {
 
-/// Exact values of the columns that [exact] covers: displacement, velocity along the bar and axial stress of probes,
-/// the force of the only contact, and kinetic, strain and contact_stored energy.
+/// Exact values of the columns that [exact] covers: displacement, velocity along the axis and axial stress of probes,
+/// the force of the only contact along the axis, and energies.
 class ExactCurves {
  public:
-  /// Throws CaseError when the case has no [exact] or its data make no sense.
+  /// Throws CaseError when the data of [exact] make no sense for the case.
   ExactCurves(const Simulation& simulation, const ProbeCurves& probes);
 
   /// The value of a column of probes.csv, contact.csv or energy.csv at time t; nothing when it is not covered.
   std::optional<double> value(const std::string& column, double t) const;
-  /// All covered columns of the two tables, with `time` first.
+  /// All covered columns of the tables, with `time` first.
   void sample(double t);
-  const Table& table() const { return table_; }
+  const CurveTable& table() const { return table_; }
 
- private:
-  enum class Quantity : std::uint8_t { displacement, velocity, stress, force, kinetic, strain, contact_stored };
+  using Value = std::function<double(double t)>;
   struct Column {
     std::string name;
-    Quantity quantity;
-    double z = 0.0;
+    Value value;
   };
-  double evaluate(const Column& column, double t) const;
 
-  BarImpact bar_;
-  double initial_displacement_;
+ private:
   std::vector<Column> columns_;
-  Table table_;
+  CurveTable table_;
 };
 
 }  // namespace carom

@@ -4,12 +4,27 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <set>
+#include <span>
+#include <string_view>
 
-#include "mesh/skin.hpp"
+#include "mesh/cell_topology.hpp"
 
 namespace carom {
+
+namespace {
+
+/// Nodes of a facet in increasing order; the entries it does not need are -1.
+std::array<Index, 4> sorted(std::span<const Index> nodes) {
+  std::array<Index, 4> result{-1, -1, -1, -1};
+  std::copy(nodes.begin(), nodes.end(), result.begin());
+  std::sort(result.begin(), result.begin() + static_cast<std::ptrdiff_t>(nodes.size()));
+  return result;
+}
+
+}  // namespace
 
 void Groups::refuse(const Located<std::string>& name, const std::string& key, const std::string& found,
                     const std::string& expected) const {
@@ -39,51 +54,93 @@ std::vector<Index> Groups::nodes(const Located<std::string>& name, const std::st
   return mesh_.nodes_of(*name);
 }
 
-std::vector<Index> Groups::hexas(const Located<std::string>& name, const std::string& key) const {
+std::vector<Index> Groups::cells(const Located<std::string>& name, const std::string& key, CellType type,
+                                 const std::string& expected) const {
   require(name, key);
   std::vector<Index> cells;
-  const auto group = mesh_.cell_groups.find(*name);
-  if (group != mesh_.cell_groups.end()) {
+  std::set<std::string_view> others;
+  if (const auto group = mesh_.cell_groups.find(*name); group != mesh_.cell_groups.end()) {
     for (const CellRef& ref : group->second) {
-      const CellType type = mesh_.blocks[static_cast<std::size_t>(ref.block)].type;
-      if (type == CellType::hexa8) {
+      const CellType found = mesh_.blocks[static_cast<std::size_t>(ref.block)].type;
+      if (found == type) {
         cells.push_back(ref.cell);
-      } else if (dimension(type) == 3) {
-        refuse(name, key, fmt::format("{} cells in \"{}\"", carom::name(type), *name), "HEXA8 cells only");
+      } else if (dimension(found) >= dimension(type)) {
+        refuse(name, key, fmt::format("{} cells in \"{}\"", carom::name(found), *name), expected);
+      } else {
+        others.insert(carom::name(found));
       }
     }
   }
   if (cells.empty()) {
-    refuse(name, key, fmt::format("\"{}\", a group without solid cells", *name), "a group of HEXA8 cells");
+    const std::string what = others.empty() ? "nodes" : fmt::format("{} cells", fmt::join(others, " and "));
+    refuse(name, key, fmt::format("\"{}\", a group of {}", *name, what), expected);
   }
   std::sort(cells.begin(), cells.end());
   return cells;
 }
 
-std::vector<std::array<Index, 4>> Groups::outer_faces(const Located<std::string>& name, const std::string& key) const {
-  const std::vector<Index> members = nodes(name, key);
-  std::set<std::array<Index, 4>> quads;
+const Groups::Skin& Groups::skin() const {
+  if (!skin_) skin_ = Skin{carom::outer_facets(mesh_), node_dimensions(mesh_)};
+  return *skin_;
+}
+
+std::vector<OuterFacet> Groups::outer_facets(const Located<std::string>& name, const std::string& key) const {
+  std::vector<char> is_member(mesh_.node_count(), 0);
+  for (const Index n : nodes(name, key)) is_member[static_cast<std::size_t>(n)] = 1;
+  std::array<std::vector<std::array<Index, 4>>, 5> chosen;  // by number of nodes; nodes sorted, the rest -1
   if (const auto group = mesh_.cell_groups.find(*name); group != mesh_.cell_groups.end()) {
     for (const CellRef& ref : group->second) {
       const CellBlock& block = mesh_.blocks[static_cast<std::size_t>(ref.block)];
-      if (block.type != CellType::quad4) continue;
-      std::array<Index, 4> quad{};
-      std::copy_n(block.connectivity.begin() + 4 * static_cast<std::ptrdiff_t>(ref.cell), 4, quad.begin());
-      std::sort(quad.begin(), quad.end());
-      quads.insert(quad);
+      if (block.type != CellType::quad4 && block.type != CellType::line2) continue;
+      const auto n = static_cast<std::size_t>(node_count(block.type));
+      const std::span<const Index> nodes(&block.connectivity[n * static_cast<std::size_t>(ref.cell)], n);
+      if (on_boundary(nodes, block.type, skin().node_dimensions)) chosen[n].push_back(sorted(nodes));
     }
   }
-  std::vector<std::array<Index, 4>> faces;
-  for (const auto& face : skin(mesh_)) {
-    std::array<Index, 4> sorted = face;
-    std::sort(sorted.begin(), sorted.end());
-    const auto is_member = [&](Index n) { return std::binary_search(members.begin(), members.end(), n); };
-    const bool chosen = quads.empty() ? std::all_of(face.begin(), face.end(), is_member) : quads.contains(sorted);
-    if (chosen) faces.push_back(face);
+  for (auto& facets : chosen) std::sort(facets.begin(), facets.end());
+  std::vector<OuterFacet> result;
+  for (const OuterFacet& outer : skin().facets) {
+    const std::span<const Index> nodes(outer.facet.begin(), outer.facet.end());
+    const auto& of_its_kind = chosen[nodes.size()];
+    const auto belongs = [&](Index n) { return is_member[static_cast<std::size_t>(n)] != 0; };
+    if (!std::all_of(nodes.begin(), nodes.end(), belongs)) continue;
+    if (of_its_kind.empty() || std::binary_search(of_its_kind.begin(), of_its_kind.end(), sorted(nodes)))
+      result.push_back(outer);
   }
-  if (faces.empty()) {
+  if (result.empty()) {
     refuse(name, key, fmt::format("\"{}\", which holds no outer face of the solids", *name),
            "a group of faces on the surface, or of all nodes of such faces");
+  }
+  return result;
+}
+
+std::vector<OuterFacet> Groups::exterior(const std::vector<Located<std::string>>& excluded,
+                                         const std::string& key) const {
+  std::set<std::array<Index, 4>> out;
+  for (const auto& name : excluded)
+    for (const OuterFacet& outer : outer_facets(name, key)) out.insert(outer.facet.node);
+  std::vector<OuterFacet> facets = skin().facets;
+  std::erase_if(facets, [&](const OuterFacet& outer) { return out.contains(outer.facet.node); });
+  return facets;
+}
+
+std::vector<Facet> Groups::rigid_faces(const Located<std::string>& name, const std::string& key) const {
+  require(name, key);
+  std::vector<Facet> faces;
+  const auto group = mesh_.cell_groups.find(*name);
+  if (group != mesh_.cell_groups.end()) {
+    for (const CellRef& ref : group->second) {
+      const CellBlock& block = mesh_.blocks[static_cast<std::size_t>(ref.block)];
+      if (block.type != CellType::quad4 && block.type != CellType::tria3 && block.type != CellType::line2) continue;
+      Facet& face = faces.emplace_back();
+      face.size = node_count(block.type);
+      std::copy_n(block.connectivity.begin() + static_cast<std::ptrdiff_t>(face.size) * ref.cell, face.size,
+                  face.node.begin());
+    }
+  }
+  if (faces.empty()) {
+    refuse(name, key, fmt::format("\"{}\", a group without TRIA3, QUAD4 or LINE2 cells", *name),
+           "a group of faces (edges in two dimensions)");
   }
   return faces;
 }

@@ -1,13 +1,14 @@
 // Groups of the mesh as the case names them.
 #pragma once
 
-#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/errors.hpp"
 #include "casefile/case.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/skin.hpp"
 
 namespace carom {
 
@@ -19,18 +20,32 @@ class Groups {
 
   /// Nodes of the group; "all" means every node.
   std::vector<Index> nodes(const Located<std::string>& name, const std::string& key) const;
-  /// HEXA8 cells of the group; solid cells of another type are an error.
-  std::vector<Index> hexas(const Located<std::string>& name, const std::string& key) const;
-  /// Outer faces of the HEXA8 cells, normals outward, that lie in the group (QUAD4 cells of it, or faces whose four
-  /// nodes are in it when it has none).
-  std::vector<std::array<Index, 4>> outer_faces(const Located<std::string>& name, const std::string& key) const;
+  /// Cells of this type in the group, in increasing order; cells of lower dimension beside them are left out, others
+  /// are an error. `expected` is what the message says.
+  std::vector<Index> cells(const Located<std::string>& name, const std::string& key, CellType type,
+                           const std::string& expected) const;
+  /// The part of the skin (outer_facets of mesh/skin.hpp) that lies in the group: facets that are boundary cells of it
+  /// (QUAD4, LINE2), or whose nodes are all in it where it has no boundary cells of their kind.
+  std::vector<OuterFacet> outer_facets(const Located<std::string>& name, const std::string& key) const;
+  /// All of the skin but what lies in the excluded groups.
+  std::vector<OuterFacet> exterior(const std::vector<Located<std::string>>& excluded, const std::string& key) const;
+  /// Face cells of the group (TRIA3, QUAD4; LINE2 in two dimensions) as they are numbered: the faces of a rigid
+  /// surface.
+  std::vector<Facet> rigid_faces(const Located<std::string>& name, const std::string& key) const;
 
  private:
   void require(const Located<std::string>& name, const std::string& key) const;
   [[noreturn]] void refuse(const Located<std::string>& name, const std::string& key, const std::string& found,
                            const std::string& expected) const;
 
+  struct Skin {
+    std::vector<OuterFacet> facets;
+    std::vector<std::uint8_t> node_dimensions;
+  };
+  const Skin& skin() const;
+
   const Mesh& mesh_;
+  mutable std::optional<Skin> skin_;  ///< made when it is first asked for
 };
 
 }  // namespace carom

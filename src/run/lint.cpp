@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <span>
 
 #include "base/units.hpp"
 #include "casefile/plausibility.hpp"
@@ -12,6 +14,7 @@
 #include "mesh/skin.hpp"
 #include "output/cfc_filter.hpp"
 #include "run/groups.hpp"
+#include "run/parts.hpp"
 
 namespace carom {
 
@@ -25,16 +28,18 @@ struct PartSummary {
 
 PartSummary summarise(const Simulation& s, const Part& part, const State& state) {
   PartSummary sum;
-  const std::vector<Index>& connectivity = s.mesh().block(CellType::hexa8)->connectivity;
   const double rho = std::visit([](const auto& material) { return material.rho; }, part.material);
-  const std::vector<Index>& cells = s.solid().cells();
-  std::vector<double> volume_of(s.mesh().block(CellType::hexa8)->size(), 0.0);
-  for (std::size_t k = 0; k < cells.size(); ++k)
-    volume_of[static_cast<std::size_t>(cells[k])] = s.solid().cell_volumes()[k];
-  for (const Index cell : part.cells) {
-    const double share = rho * volume_of[static_cast<std::size_t>(cell)] / 8.0;
-    for (std::size_t a = 0; a < 8; ++a) {
-      const auto n = static_cast<std::size_t>(connectivity[8 * static_cast<std::size_t>(cell) + a]);
+  const Solid& solid = s.solid();
+  std::vector<char> is_member(s.mesh().block(part.type)->size(), 0);
+  for (const Index cell : part.cells) is_member[static_cast<std::size_t>(cell)] = 1;
+  for (std::size_t k = 0; k < solid.cell_count(); ++k) {
+    const CellRef& cell = solid.cells()[k];
+    if (s.mesh().blocks[static_cast<std::size_t>(cell.block)].type != part.type) continue;
+    if (is_member[static_cast<std::size_t>(cell.cell)] == 0) continue;
+    const std::span<const Index> nodes = solid.nodes_of_cell(k);
+    const double share = rho * solid.cell_volumes()[k] / static_cast<double>(nodes.size());
+    for (const Index node : nodes) {
+      const auto n = static_cast<std::size_t>(node);
       const Vec3 v{state.v[3 * n], state.v[3 * n + 1], state.v[3 * n + 2]};
       sum.mass += share;
       sum.kinetic += 0.5 * share * dot(v, v);
@@ -53,15 +58,16 @@ struct Approach {
 };
 
 Approach approach(const Simulation& s, std::size_t contact, const State& state) {
-  const ConstraintRows& rows = s.contact().rows();
+  const std::shared_ptr<const ConstraintRows> shared = s.initial_rows();
+  const ConstraintRows& rows = *shared;
   Approach a;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (static_cast<std::size_t>(rows.source[r]) != contact) continue;
-    const double gap = rows.gap[r] + rows.relative(r, state.q)[0], closing = -rows.relative(r, state.v)[0];
+    const double gap = rows.gap_at(r, state.q), closing = -rows.relative(r, state.v)[0];
     a.gap = std::min(a.gap, gap);
     a.speed = std::max(a.speed, closing);
     if (closing > 0.0) a.first_touch = std::min(a.first_touch, std::max(gap, 0.0) / closing);
-    a.stiffness += s.contact().parameters()[r].eps_N;
+    a.stiffness += rows.law[r].eps_N;
     a.measure += rows.measure[r];
   }
   return a;
@@ -77,27 +83,47 @@ struct Waves {
   double speed = 0.0, impedance = 0.0, modulus = 0.0;
 };
 
+/// Stress over strain of the fastest wave that a part carries: E of bars, E / (1 - nu^2) of plane stress, else the
+/// P-wave modulus (K. F. Graff, Wave Motion in Elastic Solids, 1975, sections 2.1, 8.3 and 5.1).
+double wave_modulus(const Part& part, const IsotropicElastic& m) {
+  if (part.section == Section::bar) return m.E;
+  if (part.section == Section::plane_stress) return m.E / (1.0 - m.nu * m.nu);
+  return m.p_wave_modulus();
+}
+
 Waves waves(const Simulation& s) {
   Waves w;
   for (const Part& part : s.model().parts) {
-    const auto& m = std::get<LinearElastic>(part.material);
-    const double c = std::sqrt(m.p_wave_modulus() / m.rho);
+    const auto m = std::visit([](const IsotropicElastic& law) { return law; }, part.material);
+    const double modulus = wave_modulus(part, m), c = std::sqrt(modulus / m.rho);
     w.speed = std::max(w.speed, c);
     w.impedance = std::max(w.impedance, m.rho * c);
-    w.modulus = std::max(w.modulus, m.p_wave_modulus());
+    w.modulus = std::max(w.modulus, modulus);
   }
   return w;
 }
 
-/// Area of the outer faces that the nodes of a contact make up; 0 when they make up none.
+/// Area of a facet as Surface counts it, of the section of this part.
+double area_of(const Mesh& mesh, const Facet& facet, const Part& part) {
+  const auto x = [&](std::size_t a) { return mesh.coordinates[static_cast<std::size_t>(facet[a])]; };
+  if (facet.size == 1) return part.thickness;
+  if (facet.size == 4)
+    return 0.5 * norm(cross(subtract(x(2), x(0)), subtract(x(3), x(1))));  // exact for plane quadrilaterals
+  const double ring = std::numbers::pi * (x(0)[0] + x(1)[0]);
+  return norm(subtract(x(1), x(0))) * (part.section == Section::axisymmetric ? ring : part.thickness);
+}
+
+/// Area of the part of the skin that the nodes of a contact make up; 0 when they make up none.
 double surface_area(const Simulation& s, const CaseContact& contact) {
-  const std::vector<Index> nodes = Groups(s.mesh()).nodes(contact.group, "contact.group");
+  const Groups groups(s.mesh());
+  const Parts parts(s.given(), s.mesh(), groups);
+  const std::vector<Index> nodes = groups.nodes(contact.group, "contact.group");
   const auto is_member = [&](Index n) { return std::binary_search(nodes.begin(), nodes.end(), n); };
   double area = 0.0;
-  for (const auto& face : skin(s.mesh())) {
-    if (!std::all_of(face.begin(), face.end(), is_member)) continue;
-    const auto x = [&](std::size_t a) { return s.mesh().coordinates[static_cast<std::size_t>(face[a])]; };
-    area += 0.5 * norm(cross(subtract(x(2), x(0)), subtract(x(3), x(1))));  // exact for plane quadrilaterals
+  for (const OuterFacet& outer : outer_facets(s.mesh())) {
+    const Part* part = parts.part_of(outer.cell);
+    if (part != nullptr && std::all_of(outer.facet.begin(), outer.facet.end(), is_member))
+      area += area_of(s.mesh(), outer.facet, *part);
   }
   return area;
 }
@@ -106,7 +132,7 @@ void lint_contact(const Simulation& s, std::size_t c, const State& state, std::v
   const CaseContact& contact = s.given().contacts[c];
   const std::string at = fmt::format("{}: contact \"{}\"", to_string(contact.where), *contact.name);
   const Approach a = approach(s, c, state);
-  const double end = *s.given().time.end, h = smallest_cell(s);
+  const double end = s.end(), h = smallest_cell(s);
   if (a.speed > 0.0 && a.first_touch > end) {
     out.push_back(fmt::format(
         "{} is not reached before the end: gap {:.4g} at speed {:.4g} closes at t = {:.4g}, the run ends at {:.4g}", at,
@@ -116,7 +142,7 @@ void lint_contact(const Simulation& s, std::size_t c, const State& state, std::v
     out.push_back(
         fmt::format("{}: nothing moves towards it (is the sign of the velocity or of the normal right?)", at));
   }
-  if (contact.kind == CaseContact::Kind::stop || a.stiffness <= 0.0) return;
+  if (*contact.kind == CaseContact::Kind::stop || a.stiffness <= 0.0) return;
   const Waves w = waves(s);
   // A plane wave presses with rho c v; the stiffness per area is that of the rows over the area they stand for.
   const double area = contact.per_node ? surface_area(s, contact) : a.measure;
@@ -126,7 +152,7 @@ void lint_contact(const Simulation& s, std::size_t c, const State& state, std::v
     out.push_back(
         fmt::format("{} is soft: impact at {:.4g} will penetrate by about {:.3g} ({:.3g} cells); stiffness {:.3g} "
                     "would keep it below 1 %",
-                    at, a.speed, penetration, penetration / h, contact.stiffness.value * penetration / (0.01 * h)));
+                    at, a.speed, penetration, penetration / h, a.stiffness / a.measure * penetration / (0.01 * h)));
   }
   if (per_area > 20.0 * w.modulus / h) {
     out.push_back(
@@ -137,8 +163,7 @@ void lint_contact(const Simulation& s, std::size_t c, const State& state, std::v
 }
 
 void lint_scheme(const Simulation& s, std::vector<std::string>& out) {
-  const CaseScheme& scheme = s.given().scheme;
-  if (scheme.kind != CaseScheme::Kind::newmark) return;
+  if (is_explicit(s.first().settings().kind)) return;
   const double courant = waves(s).speed * s.dt() / smallest_cell(s);
   if (courant > 20.0 && !s.given().contacts.empty()) {
     out.push_back(
@@ -200,13 +225,13 @@ std::string check_summary(const Simulation& s) {
   const double estimate = 2.0 / std::sqrt(*std::max_element(bounds.begin(), bounds.end()));
   text += fmt::format(
       "  scheme    {}\n  step      {:.6g} {}, {} steps to t = {:.6g}; Courant number {:.3g} (fastest wave {:.5g})\n",
-      s.scheme_name(), s.dt(), unit(Dimension::time), s.steps(), *s.given().time.end, c * s.dt() / h, c);
+      s.first().name(), s.dt(), unit(Dimension::time), s.steps(), *s.given().time.end, c * s.dt() / h, c);
   const StableStep stable = s.stable();
   text += fmt::format(
       "  stable    explicit step {:.4g} with contact, {:.4g} without; element estimate (lumped mass) {:.4g}\n",
       stable.dt, stable.dt_free, estimate);
   // 1 million cell-steps per second and core explicit, ten times that work per implicit step: orders of magnitude only.
-  const bool implicit_scheme = s.given().scheme.kind == CaseScheme::Kind::newmark;
+  const bool implicit_scheme = !is_explicit(s.first().settings().kind);
   const double work =
       static_cast<double>(s.solid().cell_count()) * static_cast<double>(s.steps()) * (implicit_scheme ? 30.0 : 1.0);
   text += fmt::format("  cost      about {:.1g} s on one core\n", std::max(0.01, work / 2e6));

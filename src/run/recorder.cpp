@@ -32,6 +32,16 @@ std::optional<ExactCurves> make_exact(const Simulation& simulation, const ProbeC
   return std::optional<ExactCurves>(std::in_place, simulation, probes);
 }
 
+VtuCells vtu_cells(const Simulation& simulation) {
+  VtuCells cells;
+  for (std::size_t k = 0; k < simulation.solid().cell_count(); ++k) {
+    const std::span<const Index> nodes = simulation.solid().nodes_of_cell(k);
+    const bool flat = nodes.size() == 4;
+    cells.add(nodes, nodes.size() == 8 ? VtuCells::hexahedron : (flat ? VtuCells::quad : VtuCells::line));
+  }
+  return cells;
+}
+
 bool wants_filter(const Case& given) {
   return std::any_of(given.probes.begin(), given.probes.end(), [](const CaseProbe& p) { return p.cfc.has_value(); });
 }
@@ -50,6 +60,7 @@ Recorder::Recorder(const Simulation& simulation, std::string folder)
                     comments(simulation, "contact forces on the body")),
       probes_file_(folder_ + "/probes.csv", probes_.table().columns, comments(simulation, "probes")),
       frames_(folder_ + "/fields.pvd"),
+      cells_(simulation.given().output.fields.empty() ? VtuCells{} : vtu_cells(simulation)),
       frame_every_(simulation.given().output.fields_every > 0 ? simulation.given().output.fields_every
                                                               : std::max(1LL, (simulation.steps() + 49) / 50)) {
   if (exact_) {
@@ -87,26 +98,25 @@ void Recorder::record_frame(const StepView& view) {
   const CaseOutput& output = s.given().output;
   if (output.fields.empty()) return;
   last_frame_ = view.step;
-  const std::vector<Index>& all = s.mesh().block(CellType::hexa8)->connectivity;
-  std::vector<Index> connectivity;
-  connectivity.reserve(8 * s.solid().cell_count());
-  for (const Index cell : s.solid().cells()) {
-    const auto first = all.begin() + 8 * static_cast<std::ptrdiff_t>(cell);
-    connectivity.insert(connectivity.end(), first, first + 8);
-  }
   std::vector<std::array<double, 6>> stress;
+  const NodalContact contact = nodal_contact(view.forces.rows, view.state.q);
+  const bool has_contact = !s.given().contacts.empty();
   std::vector<VtuField> point_fields, cell_fields;
   for (const auto& field : output.fields) {
     if (*field == "displacement") point_fields.push_back({*field, 3, view.state.q});
     if (*field == "velocity") point_fields.push_back({*field, 3, view.state.v});
     if (*field == "acceleration") point_fields.push_back({*field, 3, view.state.a});
+    if (*field == "contact_force" && has_contact) point_fields.push_back({*field, 3, view.forces.contact});
+    if (*field == "contact_pressure" && has_contact) point_fields.push_back({*field, 1, contact.pressure});
+    if (*field == "contact_gap" && has_contact) point_fields.push_back({*field, 1, contact.gap});
+    if (*field == "contact_status" && has_contact) point_fields.push_back({*field, 1, contact.status});
     if (*field == "stress") {
       stress = s.solid().cell_stress(view.state.q);
       cell_fields.push_back({*field, 6, std::span<const double>(stress.data()->data(), 6 * stress.size())});
     }
   }
   const std::string file = frame_file(static_cast<int>(view.step));
-  write_vtu(folder_ + "/" + file, s.mesh().coordinates, connectivity, point_fields, cell_fields);
+  write_vtu(folder_ + "/" + file, s.mesh().coordinates, cells_, point_fields, cell_fields);
   frames_.add(view.state.t, file);
 }
 

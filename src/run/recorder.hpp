@@ -8,6 +8,7 @@
 
 #include "output/csv.hpp"
 #include "output/pvd.hpp"
+#include "output/vtu.hpp"
 #include "run/checks.hpp"
 #include "run/curves.hpp"
 #include "run/exact_curves.hpp"
@@ -43,6 +44,7 @@ class Recorder {
   CsvFile energy_file_, contact_file_, probes_file_;
   std::optional<CsvFile> exact_file_;
   PvdCollection frames_;
+  VtuCells cells_;
   long long frame_every_;
   long long last_sample_ = -1, last_frame_ = -1, last_row_ = -1;  ///< steps sampled or written last
   std::vector<std::vector<double>> filtered_rows_;  ///< rows of probes.csv, kept when a probe asks for a filter

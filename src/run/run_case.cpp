@@ -50,6 +50,13 @@ std::size_t peak_memory() {
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
+/// Rings have no momentum across their axis y, and none about it that their cells would show.
+RunMonitor::Momenta momenta_of(const Model& model) {
+  const auto is_ring = [](const Part& part) { return part.section == Section::axisymmetric; };
+  return std::any_of(model.parts.begin(), model.parts.end(), is_ring) ? RunMonitor::Momenta::axial
+                                                                      : RunMonitor::Momenta::all;
+}
+
 double reach(const Mesh& mesh) {
   double r = 0.0;
   for (const Vec3& x : mesh.coordinates) r = std::max(r, norm(x));
@@ -70,11 +77,12 @@ std::string worst_place(const Simulation& s, const State& state) {
   const Vec3& x = s.mesh().coordinates[worst];
   std::string text = fmt::format("worst node {} at ({:.4g}, {:.4g}, {:.4g}), speed {:.4g}",
                                  s.mesh().node_numbers[worst], x[0], x[1], x[2], fastest);
-  const CellBlock& hexas = *s.mesh().block(CellType::hexa8);
-  for (const Index cell : s.solid().cells()) {
-    const auto first = hexas.connectivity.begin() + 8 * static_cast<std::ptrdiff_t>(cell);
-    if (std::find(first, first + 8, static_cast<Index>(worst)) == first + 8) continue;
-    return text + fmt::format(", in cell {}", hexas.file_numbers[static_cast<std::size_t>(cell)]);
+  for (std::size_t k = 0; k < s.solid().cell_count(); ++k) {
+    const auto nodes = s.solid().nodes_of_cell(k);
+    if (std::find(nodes.begin(), nodes.end(), static_cast<Index>(worst)) == nodes.end()) continue;
+    const CellRef cell = s.solid().cells()[k];
+    const CellBlock& block = s.mesh().blocks[static_cast<std::size_t>(cell.block)];
+    return text + fmt::format(", in cell {}", block.file_numbers[static_cast<std::size_t>(cell.cell)]);
   }
   return text;
 }
@@ -85,108 +93,201 @@ class Run {
   Run(const Simulation& simulation, const RunOptions& options)
       : s_(simulation),
         recorder_(simulation, options.folder),
-        scheme_(simulation.make_scheme()),
-        control_(simulation.dt(), simulation.steps(),
-                 simulation.given().time.fixed || simulation.given().scheme.kind != CaseScheme::Kind::newmark
-                     ? StepControl::Halving::forbidden
-                     : StepControl::Halving::allowed),
-        progress_(stderr, *simulation.given().time.end, options.progress),
+        progress_(stderr, simulation.end(), options.progress),
         state_(simulation.initial_state()) {}
 
   void loop(const std::atomic<bool>& stop);
   void fill(Summary& summary) const;
   Recorder& recorder() { return recorder_; }
   Progress& progress() { return progress_; }
+  const std::vector<std::string>& switches() const { return switches_; }
   Outcome outcome() const { return outcome_; }
   const std::string& message() const { return message_; }
 
  private:
-  void start();
-  bool advance();
+  void begin_stage(const Stage& stage);
+  void book_switch(const Stage& stage);
+  bool march(const Stage& stage, const std::atomic<bool>& stop);
+  void look_after(const Stage& stage);
+  bool advance(const Stage& stage);
   void record(Recorder::Moment moment);
 
   const Simulation& s_;
   Recorder recorder_;
   std::unique_ptr<Scheme> scheme_;
-  StepControl control_;
+  std::optional<StepControl> control_;
+  std::optional<StableStepWatch> watch_;  ///< where the stable step changes
   Progress progress_;
   State state_, next_;
   std::optional<EnergyLedger> ledger_;
   std::optional<RunMonitor> monitor_;
   long long step_ = 0;
-  double dt_ = 0.0;     ///< of the last step
-  int iterations_ = 0;  ///< of the last step
+  double dt_ = 0.0;                    ///< of the last step
+  int iterations_ = 0;                 ///< of the last step
+  std::vector<std::string> switches_;  ///< from stage to stage, for the log
   double dt_smallest_ = 0.0, dt_largest_ = 0.0;
   Outcome outcome_ = Outcome::good;
   std::string message_;
 };
 
-void Run::start() {
+/// Makes the stage's scheme and lets it take the state over.
+void Run::begin_stage(const Stage& stage) {
+  scheme_ = stage.make_scheme();
+  const bool may_halve = !stage.time().fixed && !is_explicit(stage.settings().kind);
+  control_.emplace(stage.begin(), stage.dt(), stage.steps(),
+                   may_halve ? StepControl::Halving::allowed : StepControl::Halving::forbidden);
   try {
-    scheme_->start(state_, s_.dt());
+    scheme_->start(state_, stage.dt());
   } catch (const std::runtime_error& e) {
-    throw RunError(0, 0.0, e.what());
+    throw RunError(static_cast<int>(step_), state_.t, e.what());
+  }
+  watch_.reset();
+  if (stage.stable_step_changes()) watch_.emplace(stage.watch_stable_step());
+  if (ledger_) {
+    book_switch(stage);
+    return;
   }
   ledger_.emplace(scheme_->forces().stored, scheme_->forces().total_momentum, reach(s_.mesh()));
-  const std::vector<double>& masses = s_.mass().node_diagonal();
-  monitor_.emplace(*ledger_, std::accumulate(masses.begin(), masses.end(), 0.0), s_.reversible_energy());
+  const std::vector<double>& masses = stage.mass().node_diagonal();
+  monitor_.emplace(*ledger_, std::accumulate(masses.begin(), masses.end(), 0.0), stage.reversible_energy(),
+                   momenta_of(s_.model()));
   record(Recorder::Moment::during);
+}
+
+/// Another scheme may have another mass, and starts from accelerations of its own: what the stored energies jump by is
+/// the scheme's doing (ledger: algorithmic), what the momentum jumps by an impulse that the log names.
+void Run::book_switch(const Stage& stage) {
+  const EnergyTerms before = ledger_->now(), &after = scheme_->forces().stored;
+  LedgerIncrement jump;
+  jump.energy.kinetic = after.kinetic - before.kinetic;
+  jump.energy.strain = after.strain - before.strain;
+  jump.energy.contact_stored = after.contact_stored - before.contact_stored;
+  jump.energy.algorithmic = -jump.energy.mechanical();
+  const Momentum now = scheme_->forces().total_momentum;
+  for (std::size_t c = 0; c < 3; ++c) {
+    jump.impulse.linear[c] = now.linear[c] - ledger_->momentum().linear[c];
+    jump.impulse.angular[c] = now.angular[c] - ledger_->momentum().angular[c];
+  }
+  ledger_->add(jump, now);
+  monitor_->begin_stage(stage.reversible_energy());
+  switches_.push_back(fmt::format("at t = {:.6g} from step {} on: {}; stored energy jumps by {:.3g}", state_.t, step_,
+                                  stage.name(), jump.energy.mechanical()));
 }
 
 void Run::record(Recorder::Moment moment) {
   recorder_.record({step_, dt_, iterations_, state_, scheme_->forces(), *ledger_}, scheme_->end_weight(), moment);
 }
 
+/// What is looked at every few steps: the stable step of bodies that change, and the rotation of small-strain parts.
+void Run::look_after(const Stage& stage) {
+  constexpr long long every = 10;
+  if (step_ % every != 0) return;
+  if (watch_) {
+    const double stable = watch_->update(next_.q, state_.q);
+    const double share = stage.time().step ? 1.0 : std::max(0.98, stage.time().safety);
+    if (!control_->limit(share * stable))
+      throw RunError(static_cast<int>(step_), state_.t,
+                     fmt::format("the stable step has fallen to {:.3g}, {:.3g} of what it was at the start", stable,
+                                 share * stable / stage.dt()));
+  }
+  constexpr double one_degree = 0.017453292519943295;
+  const Rotation rotation = s_.solid().largest_rotation(state_.q);
+  if (rotation.angle <= one_degree) return;
+  const CellRef cell = s_.solid().cells()[rotation.cell];
+  throw RunError(
+      static_cast<int>(step_), state_.t,
+      fmt::format(
+          "cell {} of a small-strain part has turned by {:.3g} degrees; small strain allows 1 (its "
+          "stress is wrong by the square of the angle). Choose law = \"st_venant_kirchhoff\" "
+          "(moderate strain) or \"neo_hookean\" (large strain) in [materials]",
+          s_.mesh().blocks[static_cast<std::size_t>(cell.block)].file_numbers[static_cast<std::size_t>(cell.cell)],
+          rotation.angle / one_degree));
+}
+
 /// One accepted step. Returns false when the run cannot go on; message_ says why.
-bool Run::advance() {
+bool Run::advance(const Stage& stage) {
   StepReport report;
   for (;;) {
-    const double dt = control_.dt();
+    const double dt = control_->dt();
     // A hundredth of the ledger's bound (1e-10 of the energy), shared out over the time of the run; what a step leaves
     // unbooked is at most its residual's work.
-    const double tolerance = 1e-12 * ledger_->scale() * dt / *s_.given().time.end;
-    report = scheme_->step(state_, {control_.t_end_of_step(), dt, tolerance}, next_);
+    const double tolerance = 1e-12 * ledger_->scale() * dt / s_.end();
+    report = scheme_->step(state_, {control_->t_end_of_step(), dt, tolerance}, next_);
     if (report.converged) break;
-    if (control_.halve()) continue;
+    if (control_->halve()) continue;
     record(Recorder::Moment::last);
     message_ = fmt::format("step {} from t = {:.6g} failed: {}{}", step_ + 1, state_.t, report.failure,
-                           s_.given().time.fixed ? "; the case fixes the step, so it was not halved" : "");
+                           stage.time().fixed ? "; the case fixes the step, so it was not halved" : "");
     outcome_ = Outcome::error;
     return false;
   }
   std::swap(state_, next_);
-  dt_ = control_.dt();
+  dt_ = control_->dt();
   iterations_ = std::max(report.iterations, report.linear_iterations);
-  control_.accept();
+  control_->accept();
   ++step_;
   dt_smallest_ = step_ == 1 ? dt_ : std::min(dt_smallest_, dt_);
   dt_largest_ = std::max(dt_largest_, dt_);
   ledger_->add(report.books, scheme_->forces().total_momentum);
   monitor_->update();
   const std::string alarm = monitor_->alarm();
-  const bool last = control_.at_end() || !alarm.empty();
+  const bool last = (control_->at_end() && stage.end() == s_.end()) || !alarm.empty();
   record(last ? Recorder::Moment::last : Recorder::Moment::during);
   progress_.update({state_.t, step_, dt_, iterations_, monitor_->relative_imbalance()});
+  if (!last) look_after(stage);
   if (alarm.empty()) return true;
   message_ = fmt::format("stopped after step {}, t = {:.6g}: {}; {}", step_, state_.t, alarm, worst_place(s_, state_));
   outcome_ = Outcome::error;
   return false;
 }
 
-void Run::loop(const std::atomic<bool>& stop) {
-  start();
-  while (!control_.at_end()) {
-    if (!advance()) return;
-    if (!stop.load() || control_.at_end()) continue;
+/// False when the run has ended before the stage has.
+bool Run::march(const Stage& stage, const std::atomic<bool>& stop) {
+  begin_stage(stage);
+  while (!control_->at_end()) {
+    if (!advance(stage)) return false;
+    if (!stop.load() || (control_->at_end() && stage.end() == s_.end())) continue;
     record(Recorder::Moment::last);
     outcome_ = Outcome::stopped;
-    message_ = fmt::format("interrupted after step {}, t = {:.6g} of {:.6g}", step_, state_.t, *s_.given().time.end);
-    return;
+    message_ = fmt::format("interrupted after step {}, t = {:.6g} of {:.6g}", step_, state_.t, s_.end());
+    return false;
+  }
+  return true;
+}
+
+void Run::loop(const std::atomic<bool>& stop) {
+  for (const auto& stage : s_.stages()) {
+    if (!march(*stage, stop)) return;
   }
 }
 
+/// Round-off, but where a scheme keeps the angular momentum of turning bodies to its order only.
+double angular_limit(const Simulation& s) {
+  const auto keeps_it = [](const auto& stage) {
+    switch (stage->settings().kind) {
+      case SchemeKind::central_differences:
+      case SchemeKind::cd_lagrange:
+      case SchemeKind::forward_increment:
+      case SchemeKind::modified_mass:
+      case SchemeKind::energy_momentum:
+        return true;
+      default:
+        return false;
+    }
+  };
+  const bool exact = s.solid().is_linear() || std::all_of(s.stages().begin(), s.stages().end(), keeps_it);
+  return exact ? 1e-9 : 1e-2;
+}
+
+/// All schemes of the run, in their order.
+std::string scheme_names(const Simulation& s) {
+  std::string names;
+  for (const auto& stage : s.stages()) names += (names.empty() ? "" : "; then ") + stage->name();
+  return names;
+}
+
 void Run::fill(Summary& summary) const {
-  summary.scheme = {s_.scheme_name(), scheme_->solver_name(), dt_smallest_, dt_largest_, step_, *s_.given().time.end,
+  summary.scheme = {scheme_names(s_), scheme_ ? scheme_->solver_name() : "", dt_smallest_, dt_largest_, step_, s_.end(),
                     state_.t};
   if (!ledger_) return;
   const EnergyTerms e = ledger_->now();
@@ -195,6 +296,7 @@ void Run::fill(Summary& summary) const {
                     {"contact_stored", e.contact_stored},
                     {"friction", e.friction},
                     {"damping", e.damping},
+                    {"impact", e.impact},
                     {"external_work", e.external_work},
                     {"support_work", e.support_work},
                     {"algorithmic", e.algorithmic},
@@ -207,7 +309,7 @@ void Run::fill(Summary& summary) const {
   summary.linear_momentum = {begin.linear, end.linear, impulse.linear, monitor_->linear_momentum_error()};
   summary.angular_momentum = {begin.angular, end.angular, impulse.angular, monitor_->angular_momentum_error()};
   summary.checks = recorder_.checks();
-  summary.verdict = monitor_->items(recorder_.worst_relative_penetration());
+  summary.verdict = monitor_->items(recorder_.worst_relative_penetration(), angular_limit(s_));
 }
 
 Summary summary_of(const Simulation& s) {
@@ -313,6 +415,9 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   }
   const double step_seconds = seconds_since(stepping);
   run.progress().finish("");
+  if (!quiet) {
+    for (const std::string& line : run.switches()) say("stage: {}\n", line);
+  }
   run.recorder().close();
   run.fill(summary);
   summary.cost = {

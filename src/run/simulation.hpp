@@ -2,17 +2,14 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "casefile/case.hpp"
-#include "contact/penalty.hpp"
+#include "contact/contact_geometry.hpp"
 #include "energy/ledger.hpp"
 #include "model/model.hpp"
-#include "schemes/scheme.hpp"
-#include "schemes/stable_step.hpp"
-#include "schemes/supports.hpp"
+#include "run/stage.hpp"
 #include "solid/solid.hpp"
 
 namespace carom {
@@ -30,48 +27,38 @@ class Simulation {
   const Mesh& mesh() const { return *mesh_; }
   const Model& model() const { return model_; }
   const Solid& solid() const { return solid_; }
-  const Mass& mass() const { return mass_; }
-  const Penalty& contact() const { return contact_; }
-  const System& system() const { return system_; }
-  /// The stable step of central differences on this system; costs some hundred actions of the stiffness.
-  StableStep stable() const { return stable_step(system_); }
+  const ContactGeometry& contact() const { return contact_; }
+  /// What follows one another in time; at least one.
+  const std::vector<std::unique_ptr<Stage>>& stages() const { return stages_; }
+  const Stage& first() const { return *stages_.front(); }
+  const Mass& mass() const { return first().mass(); }
+  const System& system() const { return first().system(); }
+  /// The usual step of the first stage.
+  double dt() const { return first().dt(); }
+  /// Steps of all stages.
+  long long steps() const;
+  /// End of the last stage.
+  double end() const { return stages_.back()->end(); }
+  /// The stable step of central differences on the first stage's system; costs some hundred actions of the stiffness.
+  StableStep stable() const { return stable_step(system(), 2.0, EnforcementKind::penalty); }
   /// What was mended or noticed while building.
   const std::vector<std::string>& notes() const { return notes_; }
 
-  /// The usual step and the number of steps of that length that reach the end exactly.
-  double dt() const { return dt_; }
-  long long steps() const { return steps_; }
-
-  /// How many times the energy of the run the scheme may lend to the mechanical energy T + V and take back later.
-  /// Central differences keep T + V - h^2/8 a.Ma (Krenk, Comput. Methods Appl. Mech. Eng. 195, 2006), so that T + V is
-  /// at most 1 / (1 - (h / stable step)^2) times what they keep. Newmark with 2 beta >= gamma lends where loads jump; a
-  /// Newmark that may become unstable is lent nothing.
-  double reversible_energy() const { return reversible_energy_; }
-
+  /// Contact rows at the start.
+  std::shared_ptr<const ConstraintRows> initial_rows() const;
   /// The state of the case's [[initial]] sections, before Scheme::start.
   State initial_state() const;
-  std::unique_ptr<Scheme> make_scheme() const;
-  /// "Newmark beta 0.28 gamma 0.55, consistent mass"
-  std::string scheme_name() const;
 
  private:
-  void refuse_ringing_motions() const;
-  void refuse_massless_contact() const;
-  void refuse_initial_penetration() const;
-  void choose_step();
+  void settle_initial_penetrations();
 
   const Case& case_;
   std::shared_ptr<const Mesh> mesh_;
+  std::vector<std::string> notes_;
   Model model_;
   Solid solid_;
-  Mass mass_;
-  std::vector<std::string> notes_;
-  Penalty contact_;
-  Supports supports_;
-  System system_;
-  double dt_ = 0.0;
-  long long steps_ = 0;
-  double reversible_energy_ = 0.0;
+  ContactGeometry contact_;
+  std::vector<std::unique_ptr<Stage>> stages_;
 };
 
 }  // namespace carom

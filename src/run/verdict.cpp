@@ -26,8 +26,9 @@ void RunMonitor::update() {
   lent_before_ = std::exchange(lent_, -now.algorithmic);
   const Momentum error = ledger_.momentum_error(), impulse = ledger_.impulse();
   const Momentum &momentum = ledger_.momentum(), &begin = ledger_.initial_momentum();
-  linear_error_ = std::max(linear_error_, norm(error.linear));
-  angular_error_ = std::max(angular_error_, norm(error.angular));
+  const bool is_axial = momenta_ == Momenta::axial;
+  linear_error_ = std::max(linear_error_, is_axial ? std::abs(error.linear[1]) : norm(error.linear));
+  if (!is_axial) angular_error_ = std::max(angular_error_, norm(error.angular));
   // The last entry stands for bodies whose momenta cancel: the momentum of all mass with the run's energy.
   linear_scale_ = std::max({linear_scale_, norm(begin.linear), norm(momentum.linear), norm(impulse.linear),
                             std::sqrt(2.0 * mass_ * ledger_.scale())});
@@ -70,7 +71,7 @@ double RunMonitor::angular_momentum_error() const {
   return ratio(angular_error_, angular_scale_);
 }
 
-std::vector<VerdictItem> RunMonitor::items(double worst_relative_penetration) const {
+std::vector<VerdictItem> RunMonitor::items(double worst_relative_penetration, double angular_limit) const {
   const double scale = ledger_.scale();
   const auto item = [](const char* name, double value, double limit, const char* explanation) {
     return VerdictItem{name, value, limit, value <= limit, explanation};
@@ -85,7 +86,8 @@ std::vector<VerdictItem> RunMonitor::items(double worst_relative_penetration) co
       item("algorithmic dissipation", ratio(algorithmic_, scale), 0.1,
            "energy that the time scheme takes out (or adds)"),
       item("linear momentum", linear_momentum_error(), 1e-9, "change of momentum against the impulses"),
-      item("angular momentum", angular_momentum_error(), 1e-9, "change of angular momentum against the impulses"),
+      item("angular momentum", angular_momentum_error(), angular_limit,
+           "change of angular momentum against the impulses"),
       item("penetration", worst_relative_penetration, 0.05,
            "largest penetration relative to the smallest cell: is the penalty stiff enough?"),
   };

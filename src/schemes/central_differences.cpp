@@ -1,54 +1,43 @@
 #include "schemes/central_differences.hpp"
 
-#include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "parallel/threads.hpp"
+#include "schemes/explicit_books.hpp"
+#include "schemes/imposed_motion.hpp"
 #include "schemes/initial_acceleration.hpp"
 
 namespace carom {
 
 namespace {
 
-/// Accelerations of the prescribed dofs that bring them, at the end of the step that follows, to where they must be;
-/// v_before is the velocity at the middle of the step that has ended.
-void impose_motions(const System& system, double t, double h, std::span<const double> u,
-                    std::span<const double> v_before, std::span<double> a) {
-  for (const PrescribedDof& p : system.supports.prescribed()) {
-    const auto i = static_cast<std::size_t>(p.dof);
-    switch (p.kind) {
-      case MotionKind::displacement:
-        a[i] = (p.function(t + h) - u[i] - h * v_before[i]) / (h * h);
-        break;
-      case MotionKind::velocity:
-        a[i] = (p.function(t + 0.5 * h) - v_before[i]) / h;
-        break;
-      case MotionKind::acceleration:
-        a[i] = p.function(t);
-        break;
-    }
-  }
+void evaluate_body_forces(const System& system, double t, std::span<const double> u, Forces& forces) {
+  forces.internal.resize(u.size());
+  forces.external.resize(u.size());
+  system.solid.internal_force(u, forces.internal);
+  system.solid.external_force(t, system.mass, forces.external);
 }
 
 }  // namespace
 
-CentralDifferences::CentralDifferences(const System& system) : system_(system), mass_solver_(system) {
+CentralDifferences::CentralDifferences(const System& system) : CentralDifferences(system, penalty_contact(system)) {}
+
+CentralDifferences::CentralDifferences(const System& system, std::unique_ptr<ExplicitContact> contact)
+    : system_(system), contact_(std::move(contact)), mass_solver_(system) {
   v_half_.resize(system.solid.dof_count());
   rhs_.resize(system.solid.dof_count());
 }
 
-std::string CentralDifferences::solver_name() const {
-  return system_.mass.kind() == MassKind::lumped ? "lumped mass, no solve" : "conjugate gradients on the mass";
-}
-
 void CentralDifferences::start(State& state, double dt) {
   start_with_supports(system_, state);
-  evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, now_);
-  // The first half step starts from v0 itself: a0 = 2 (u_p(h) - u0 - h v0) / h^2, and likewise for velocities.
-  impose_motions(system_, state.t, dt, state.q, state.v, state.a);
-  for (const PrescribedDof& p : system_.supports.prescribed()) {
-    if (p.kind != MotionKind::acceleration) state.a[static_cast<std::size_t>(p.dof)] *= 2.0;
-  }
+  evaluate_body_forces(system_, state.t, state.q, now_);
+  // The first half step starts from v0 itself: v_{1/2} = v0 + h/2 a0, u1 = u0 + h v0 + h^2/2 a0.
+  impose_motions(
+      system_, state.t, {dt, 0.5 * dt * dt, 0.5 * dt, 0.5 * dt},
+      [&](std::size_t i) { return state.q[i] + dt * state.v[i]; }, [&](std::size_t i) { return state.v[i]; }, state.a);
+  if (!contact_->respond({dt, 0.5 * dt, state.q, state.q, state.v, state.a, state.contact}, now_))
+    throw std::runtime_error("no contact force was found for the initial state");
   start_accelerations(system_, mass_solver_, state, now_);
 }
 
@@ -63,19 +52,26 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
     v_half_[i] = begin.v[i] + 0.5 * h * begin.a[i];
     end.q[i] = begin.q[i] + h * v_half_[i];
   });
-  evaluate_forces(system_, request.t_end, begin.q, begin.contact, end.q, v_half_, next_);
-  impose_motions(system_, request.t_end, h, end.q, v_half_, end.a);
-  force_sum(next_, rhs_);
+  evaluate_body_forces(system_, request.t_end, end.q, next_);
+  impose_motions(
+      system_, request.t_end, {h, h * h, 0.5 * h, h}, [&](std::size_t i) { return end.q[i] + h * v_half_[i]; },
+      [&](std::size_t i) { return v_half_[i]; }, end.a);
   StepReport report;
+  if (!contact_->respond({h, h, begin.q, end.q, v_half_, end.a, begin.contact}, next_)) {
+    report.failure = "no contact force was found: the forces are not finite, or the cone problem has no solution";
+    return report;
+  }
+  force_sum(next_, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);
   if (report.linear_iterations < 0) {
-    report.failure = "the accelerations cannot be solved for: the forces are not finite or the mass is not positive";
+    report.failure = MassSolver::failure;
     return report;
   }
   parallel_each(n, [&](std::size_t i) { end.v[i] = v_half_[i] + 0.5 * h * end.a[i]; });
   end.contact = next_.rows.history;
   complete_forces(system_, end, next_);
-  report.books = newmark_books(system_, begin, now_, end, next_, 0.0, 0.5, h);
+  report.books = central_difference_books(system_, begin, now_, end, next_, h);
+  contact_->book(begin, now_, end, next_, report.books.energy);
   report.converged = true;
   std::swap(now_, next_);
   return report;

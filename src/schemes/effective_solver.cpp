@@ -4,12 +4,14 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 
 #include "linalg/cholesky.hpp"
 #include "linalg/conjugate_gradients.hpp"
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
+#include "schemes/row_compliance.hpp"
 
 namespace carom {
 
@@ -31,41 +33,84 @@ RowTangent without_one_way_coupling(RowTangent D) {
   return D;
 }
 
+/// rhs -= G^T D w.
+void subtract_contact(const ConstraintRows& rows, const std::vector<RowTangent>& D,
+                      const std::vector<RowComponent>& active, const std::vector<double>& w, std::span<double> rhs) {
+  for (std::size_t k = 0; k < active.size();) {
+    const std::size_t r = active[k].row;
+    Vec3 displacement{};
+    for (; k < active.size() && active[k].row == r; ++k) displacement[active[k].component] = w[k];
+    rows.scatter(r, scaled(multiply(D[r], displacement), -1.0), rhs);
+  }
+}
+
 /// Jacobi-preconditioned conjugate gradients on the whole operator, contact rows included.
 class CgSolver final : public EffectiveSolver {
  public:
   explicit CgSolver(const System& system)
       : system_(system),
-        zero_(system.solid.dof_count(), 0.0),
-        stiffness_diagonal_(system.solid.tangent_diagonal(zero_)),
-        inverse_diagonal_(zero_.size()),
-        work_(zero_.size()),
-        tangents_(system.contact.rows().size()) {}
+        u_(system.solid.dof_count(), 0.0),
+        stiffness_diagonal_(system.solid.tangent_diagonal(u_)),
+        inverse_diagonal_(u_.size()),
+        work_(u_.size()) {}
 
-  void prepare(double s) override { s_ = s; }
+  std::string prepare(double m, double c, std::span<const double> u) override {
+    const bool is_linear = system_.solid.is_linear();
+    if (is_linear && m == m_ && c == c_) return {};
+    ++operators_made_;
+    m_ = m;
+    c_ = c;
+    if (is_linear) return {};
+    u_.assign(u.begin(), u.end());
+    stiffness_diagonal_ = system_.solid.tangent_diagonal(u_);
+    return {};
+  }
 
-  LinearSolveReport solve(std::span<const double> b, const std::vector<RowTangent>& D, double absolute,
-                          std::span<double> x) override {
+  LinearSolveReport solve(std::span<const double> b, const std::shared_ptr<const ConstraintRows>& rows,
+                          const std::vector<RowTangent>& D, double absolute, std::span<double> x) override {
+    rows_ = rows.get();
+    tangents_.resize(D.size());
     std::transform(D.begin(), D.end(), tangents_.begin(), without_one_way_coupling);
-    set_diagonal(tangents_);
-    std::fill(x.begin(), x.end(), 0.0);
-    const LinearOperator A = [&](std::span<const double> in, std::span<double> out) { apply(tangents_, in, out); };
-    const int most = 1000 + static_cast<int>(10.0 * std::sqrt(static_cast<double>(x.size())));
-    const CgResult result = cg_.solve(A, inverse_diagonal_, b, x, 1e-14, absolute, most);
-    return {result.converged, result.iterations, result.residual};
+    return iterate(b, 1e-14, absolute, x);
+  }
+
+  /// To a relative 1e-13: close to round-off, and within reach of the recurrence.
+  LinearSolveReport invert(std::span<double> b, int columns) override {
+    rows_ = nullptr;
+    tangents_.clear();
+    LinearSolveReport all{true, 0, 0.0};
+    const std::size_t n = u_.size();
+    std::vector<double> x(n);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) {
+      const std::span<double> column = b.subspan(k * n, n);
+      const LinearSolveReport one = iterate(column, 1e-13, 0.0, x);
+      std::copy(x.begin(), x.end(), column.begin());
+      all.converged = all.converged && one.converged;
+      all.iterations += one.iterations;
+      all.residual = std::max(all.residual, one.residual);
+    }
+    return all;
   }
 
   std::string name() const override { return "conjugate gradients"; }
 
  private:
+  LinearSolveReport iterate(std::span<const double> b, double relative, double absolute, std::span<double> x) {
+    set_diagonal(tangents_);
+    std::fill(x.begin(), x.end(), 0.0);
+    const LinearOperator A = [&](std::span<const double> in, std::span<double> out) { apply(tangents_, in, out); };
+    const int most = 1000 + static_cast<int>(10.0 * std::sqrt(static_cast<double>(x.size())));
+    const CgResult result = cg_.solve(A, inverse_diagonal_, b, x, relative, absolute, most);
+    return {result.converged, result.iterations, result.residual};
+  }
+
   void apply(const std::vector<RowTangent>& D, std::span<const double> x, std::span<double> y) {
     const std::vector<bool>& fixed = system_.supports.fixed();
-    system_.solid.tangent_action(zero_, x, y);
+    system_.solid.tangent_action(u_, x, y);
     system_.mass.apply(x, work_);
-    for (std::size_t i = 0; i < y.size(); ++i) y[i] = work_[i] + s_ * y[i];
-    const ConstraintRows& rows = system_.contact.rows();
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      if (acts(D[r])) rows.scatter(r, multiply(D[r], rows.relative(r, x)), y);
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] = m_ * work_[i] + c_ * y[i];
+    for (std::size_t r = 0; r < D.size(); ++r) {
+      if (acts(D[r])) rows_->scatter(r, multiply(D[r], rows_->relative(r, x)), y);
     }
     for (std::size_t i = 0; i < y.size(); ++i) {
       if (fixed[i]) y[i] = x[i];
@@ -76,16 +121,14 @@ class CgSolver final : public EffectiveSolver {
     const std::vector<double>& m = system_.mass.node_diagonal();
     const std::vector<bool>& fixed = system_.supports.fixed();
     for (std::size_t i = 0; i < inverse_diagonal_.size(); ++i) {
-      inverse_diagonal_[i] = m[i / 3] + s_ * stiffness_diagonal_[i];
+      inverse_diagonal_[i] = m_ * m[i / 3] + c_ * stiffness_diagonal_[i];
     }
-    const ConstraintRows& rows = system_.contact.rows();
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      for (Index k = rows.begin[r]; k < rows.begin[r + 1]; ++k) {
+    for (std::size_t r = 0; r < D.size(); ++r) {
+      const ConstraintRows& rows = *rows_;
+      for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
         for (std::size_t c = 0; c < 3; ++c) {
-          const Vec3 frame{rows.normal[r][c], rows.tangent_1[r][c], rows.tangent_2[r][c]};
-          const Vec3 s = multiply(D[r], frame);
-          inverse_diagonal_[3 * static_cast<std::size_t>(rows.node[k]) + c] +=
-              rows.weight[k] * rows.weight[k] * (frame[0] * s[0] + frame[1] * s[1] + frame[2] * s[2]);
+          const Vec3 column{rows.block[k][0][c], rows.block[k][1][c], rows.block[k][2][c]};
+          inverse_diagonal_[3 * static_cast<std::size_t>(rows.node[k]) + c] += dot(column, multiply(D[r], column));
         }
       }
     }
@@ -95,24 +138,19 @@ class CgSolver final : public EffectiveSolver {
   }
 
   const System& system_;
-  std::vector<double> zero_, stiffness_diagonal_, inverse_diagonal_, work_;
+  std::vector<double> u_, stiffness_diagonal_, inverse_diagonal_, work_;
+  const ConstraintRows* rows_ = nullptr;  ///< of the solve under way
   std::vector<RowTangent> tangents_;
-  double s_ = 0.0;
+  double m_ = 1.0, c_ = 0.0;
   ConjugateGradients cg_;
 };
 
-/// One component of one row: a column of G^T.
-struct RowComponent {
-  std::size_t row;
-  std::size_t component;
-};
-
-/// A = M + s K factored once; contact by the Schur complement on its active rows (Woodbury):
+/// A = m M + c K factored (once for a linear body); contact by the Schur complement on its active rows (Woodbury):
 ///   (1 + S D) w = G A^-1 b,  x = A^-1 (b - G^T D w),  S = G A^-1 G^T,
 /// where S grows by a row and a column when a component of a row first becomes active; only S is kept.
 class CholeskySolver final : public EffectiveSolver {
  public:
-  explicit CholeskySolver(const System& system) : system_(system), known_(3 * system.contact.rows().size(), -1) {
+  explicit CholeskySolver(const System& system) : system_(system), compliance_(system.solid.dof_count(), 0) {
     const std::vector<bool>& fixed = system.supports.fixed();
     compressed_of_.assign(fixed.size(), -1);
     for (std::size_t i = 0; i < fixed.size(); ++i) {
@@ -124,24 +162,40 @@ class CholeskySolver final : public EffectiveSolver {
     stiffness_ = system.solid.tangent(zero);
   }
 
-  void prepare(double s) override {
-    if (factor_ && s == s_) return;
-    s_ = s;
-    factor_.emplace(assemble());
-    components_.clear();
-    schur_.clear();
-    std::fill(known_.begin(), known_.end(), -1);
+  std::string prepare(double m, double c, std::span<const double> u) override {
+    const bool is_linear = system_.solid.is_linear();
+    if (factor_ && is_linear && m == m_ && c == c_) return {};
+    ++operators_made_;
+    m_ = m;
+    c_ = c;
+    factor_.reset();
+    compliance_.forget();
+    if (!is_linear) stiffness_ = system_.solid.tangent(u);
+    try {
+      factor_.emplace(assemble());
+    } catch (const std::runtime_error& e) {
+      return e.what();
+    }
+    return {};
   }
 
-  LinearSolveReport solve(std::span<const double> b, const std::vector<RowTangent>& D, double /*absolute*/,
-                          std::span<double> x) override {
-    back_substitute(b, x);
+  LinearSolveReport solve(std::span<const double> b, const std::shared_ptr<const ConstraintRows>& rows,
+                          const std::vector<RowTangent>& D, double /*absolute*/, std::span<double> x) override {
+    std::copy(b.begin(), b.end(), x.begin());
+    back_substitute(x, 1);
     const std::vector<RowComponent> active = active_components(D);
     if (active.empty()) return {true, 1, 0.0};
-    std::vector<double> rhs(b.begin(), b.end());
-    subtract_contact(D, active, contact_displacements(D, active, x), rhs);
-    back_substitute(rhs, x);
+    compliance_.use(rows);
+    const std::vector<double> w = contact_displacements(*rows, D, active, x);
+    std::copy(b.begin(), b.end(), x.begin());
+    subtract_contact(*rows, D, active, w, x);
+    back_substitute(x, 1);
     return {true, 1, 0.0};
+  }
+
+  LinearSolveReport invert(std::span<double> b, int columns) override {
+    back_substitute(b, columns);
+    return {true, columns, 0.0};
   }
 
   std::string name() const override { return "Cholesky factorisation"; }
@@ -149,22 +203,17 @@ class CholeskySolver final : public EffectiveSolver {
  private:
   CsrMatrix assemble() const;
   std::vector<RowComponent> active_components(const std::vector<RowTangent>& D) const;
-  void back_substitute(std::span<const double> b, std::span<double> x) const;
-  void extend_schur(const std::vector<RowComponent>& active);
-  std::vector<double> contact_displacements(const std::vector<RowTangent>& D, const std::vector<RowComponent>& active,
-                                            std::span<const double> x);
-  void subtract_contact(const std::vector<RowTangent>& D, const std::vector<RowComponent>& active,
-                        const std::vector<double>& w, std::span<double> rhs) const;
+  void back_substitute(std::span<double> b, int columns) const;
+  std::vector<double> contact_displacements(const ConstraintRows& rows, const std::vector<RowTangent>& D,
+                                            const std::vector<RowComponent>& active, std::span<const double> x);
 
   const System& system_;
   CsrMatrix stiffness_;
   std::vector<std::size_t> free_;     ///< dof of each unknown
   std::vector<Index> compressed_of_;  ///< unknown of each dof, -1 when fixed
   std::optional<Cholesky> factor_;
-  std::vector<RowComponent> components_;    ///< those that S knows
-  std::vector<int> known_;                  ///< position in S of each row component, -1 when it is not there yet
-  std::vector<std::vector<double>> schur_;  ///< lower triangle of S: row i has i + 1 entries
-  double s_ = 0.0;
+  RowCompliance compliance_;
+  double m_ = 1.0, c_ = 0.0;
 };
 
 CsrMatrix CholeskySolver::assemble() const {
@@ -174,13 +223,17 @@ CsrMatrix CholeskySolver::assemble() const {
   A.row_begin.push_back(0);
   for (const std::size_t i : free_) {
     std::int64_t m = M.row_begin[i / 3];
+    if (stiffness_.row_begin[i] == stiffness_.row_begin[i + 1] && m < M.row_begin[i / 3 + 1]) {  // a rigid body's node
+      A.column.push_back(compressed_of_[i]);
+      A.value.push_back(m_ * M.value[m]);
+    }
     for (std::int64_t k = stiffness_.row_begin[i]; k < stiffness_.row_begin[i + 1]; ++k) {
       const auto j = static_cast<std::size_t>(stiffness_.column[k]);
       if (compressed_of_[j] < 0) continue;
-      double value = s_ * stiffness_.value[k];
+      double value = c_ * stiffness_.value[k];
       if (j % 3 == i % 3) {
         while (m < M.row_begin[i / 3 + 1] && static_cast<std::size_t>(M.column[m]) < j / 3) ++m;
-        if (m < M.row_begin[i / 3 + 1] && static_cast<std::size_t>(M.column[m]) == j / 3) value += M.value[m];
+        if (m < M.row_begin[i / 3 + 1] && static_cast<std::size_t>(M.column[m]) == j / 3) value += m_ * M.value[m];
       }
       A.column.push_back(compressed_of_[j]);
       A.value.push_back(value);
@@ -200,64 +253,33 @@ std::vector<RowComponent> CholeskySolver::active_components(const std::vector<Ro
   return active;
 }
 
-/// x = A^-1 b on the free dofs, zero elsewhere.
-void CholeskySolver::back_substitute(std::span<const double> b, std::span<double> x) const {
-  std::vector<double> y(free_.size());
-  for (std::size_t i = 0; i < free_.size(); ++i) y[i] = b[free_[i]];
-  factor_->solve(y);
-  std::fill(x.begin(), x.end(), 0.0);
-  for (std::size_t i = 0; i < free_.size(); ++i) x[free_[i]] = y[i];
-}
-
-void CholeskySolver::extend_schur(const std::vector<RowComponent>& active) {
-  std::vector<RowComponent> missing;
-  for (const RowComponent& rc : active) {
-    if (known_[3 * rc.row + rc.component] < 0) missing.push_back(rc);
+/// b = A^-1 b on the free dofs, zero elsewhere.
+void CholeskySolver::back_substitute(std::span<double> b, int columns) const {
+  const std::size_t n = free_.size(), all = compressed_of_.size();
+  const auto count = static_cast<std::size_t>(columns);
+  std::vector<double> y(n * count);
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t i = 0; i < n; ++i) y[k * n + i] = b[k * all + free_[i]];
   }
-  const ConstraintRows& rows = system_.contact.rows();
-  const std::size_t n = free_.size();
-  std::vector<double> full(system_.solid.dof_count());
-  constexpr std::size_t most = 32;  // columns per call: enough for the matrix-matrix kernels of the solver
-  for (std::size_t first = 0; first < missing.size(); first += most) {
-    const std::size_t count = std::min(most, missing.size() - first);
-    std::vector<double> block(n * count);
-    for (std::size_t k = 0; k < count; ++k) {
-      std::fill(full.begin(), full.end(), 0.0);
-      Vec3 unit{};
-      unit[missing[first + k].component] = 1.0;
-      rows.scatter(missing[first + k].row, unit, full);
-      for (std::size_t i = 0; i < n; ++i) block[k * n + i] = full[free_[i]];
-    }
-    factor_->solve(block, static_cast<int>(count));
-    std::fill(full.begin(), full.end(), 0.0);
-    for (std::size_t k = 0; k < count; ++k) {
-      for (std::size_t i = 0; i < n; ++i) full[free_[i]] = block[k * n + i];
-      const RowComponent& rc = missing[first + k];
-      known_[3 * rc.row + rc.component] = static_cast<int>(components_.size());
-      components_.push_back(rc);
-      std::vector<double>& line = schur_.emplace_back();
-      for (const RowComponent& other : components_) line.push_back(rows.relative(other.row, full)[other.component]);
-    }
+  factor_->solve(y, columns);
+  std::fill(b.begin(), b.end(), 0.0);
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t i = 0; i < n; ++i) b[k * all + free_[i]] = y[k * n + i];
   }
 }
 
 /// w of (1 + S D) w = G x.
-std::vector<double> CholeskySolver::contact_displacements(const std::vector<RowTangent>& D,
+std::vector<double> CholeskySolver::contact_displacements(const ConstraintRows& rows, const std::vector<RowTangent>& D,
                                                           const std::vector<RowComponent>& active,
                                                           std::span<const double> x) {
-  extend_schur(active);
+  compliance_.extend(active, [&](std::span<double> b, int columns) { back_substitute(b, columns); });
   const std::size_t m = active.size();
-  const auto S = [&](const RowComponent& a, const RowComponent& b) {
-    const auto i = static_cast<std::size_t>(known_[3 * a.row + a.component]);
-    const auto j = static_cast<std::size_t>(known_[3 * b.row + b.component]);
-    return schur_[std::max(i, j)][std::min(i, j)];
-  };
   std::vector<double> matrix(m * m, 0.0), w(m);
   for (std::size_t i = 0; i < m; ++i) {
-    w[i] = system_.contact.rows().relative(active[i].row, x)[active[i].component];
+    w[i] = rows.relative(active[i].row, x)[active[i].component];
     matrix[i * m + i] += 1.0;
     for (std::size_t k = 0; k < m; ++k) {
-      const double s = S(active[i], active[k]);
+      const double s = compliance_(active[i], active[k]);
       // D couples the components of one row only, and these stand side by side in `active`.
       for (std::size_t j = k - active[k].component; j < m && active[j].row == active[k].row; ++j) {
         matrix[i * m + j] += s * D[active[k].row][3 * active[k].component + active[j].component];
@@ -268,24 +290,13 @@ std::vector<double> CholeskySolver::contact_displacements(const std::vector<RowT
   return w;
 }
 
-/// rhs -= G^T D w.
-void CholeskySolver::subtract_contact(const std::vector<RowTangent>& D, const std::vector<RowComponent>& active,
-                                      const std::vector<double>& w, std::span<double> rhs) const {
-  for (std::size_t k = 0; k < active.size();) {
-    const std::size_t r = active[k].row;
-    Vec3 displacement{};
-    for (; k < active.size() && active[k].row == r; ++k) displacement[active[k].component] = w[k];
-    system_.contact.rows().scatter(r, scaled(multiply(D[r], displacement), -1.0), rhs);
-  }
-}
-
 }  // namespace
 
-std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind, double s,
+std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind, double ratio,
                                                        double omega_max_squared) {
   if (kind == SolverKind::automatic) {
-    const double iterations = 0.5 * std::sqrt(1.0 + s * omega_max_squared) * std::log(2.0 / 1e-12);
-    const bool large = system.solid.dof_count() > 2'000'000 || system.contact.rows().size() > 1000;
+    const double iterations = 0.5 * std::sqrt(1.0 + ratio * omega_max_squared) * std::log(2.0 / 1e-12);
+    const bool large = system.solid.dof_count() > 2'000'000 || system.contact.slots() > 1000;
     kind = iterations <= 60.0 || large ? SolverKind::conjugate_gradients : SolverKind::cholesky;
   }
   if (kind == SolverKind::cholesky) return std::make_unique<CholeskySolver>(system);

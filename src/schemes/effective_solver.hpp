@@ -1,4 +1,4 @@
-// The linear systems of implicit steps: (M + s K + G^T D G) x = b on the free dofs.
+// The linear systems of implicit steps: (m M + c K + G^T D G) x = b on the free dofs.
 #pragma once
 
 #include <cstdint>
@@ -19,25 +19,35 @@ struct LinearSolveReport {
   double residual = 0.0;  ///< 2-norm; 0 for a direct solve
 };
 
-/// M and K are those of the system (a linear body), s = beta h^2; D holds the contact tangents, row by row in the
-/// row's frame, already times s. Contact never causes a new factorisation.
+/// A = m M + c K(u) of the system; D holds the contact tangents, row by row in the row's frame, times the slope of x in
+/// the unknown. Contact never causes a new factorisation.
 class EffectiveSolver {
  public:
   virtual ~EffectiveSolver() = default;
-  /// Makes the operator ready for this factor s; does nothing when it is the last one.
-  virtual void prepare(double s) = 0;
-  /// Solves for x (overwritten; zero on fixed dofs) to a residual of at most `absolute` in the 2-norm where the solver
-  /// iterates. b is zero on fixed dofs.
-  virtual LinearSolveReport solve(std::span<const double> b, const std::vector<RowTangent>& D, double absolute,
-                                  std::span<double> x) = 0;
+  /// Makes A ready at the displacement u; a linear body does nothing when m and c are the last ones. Returns what is
+  /// wrong with A, "" when nothing is.
+  virtual std::string prepare(double m, double c, std::span<const double> u) = 0;
+  /// Solves (A + G^T D G) x = b for x (overwritten; zero on fixed dofs) to a residual of at most `absolute` in the
+  /// 2-norm where the solver iterates. b is zero on fixed dofs; D may be empty.
+  virtual LinearSolveReport solve(std::span<const double> b, const std::shared_ptr<const ConstraintRows>& rows,
+                                  const std::vector<RowTangent>& D, double absolute, std::span<double> x) = 0;
+  /// Overwrites the dof vectors b (one after the other, zero on fixed dofs) by A^-1 b, close to round-off.
+  virtual LinearSolveReport invert(std::span<double> b, int columns) = 0;
   virtual std::string name() const = 0;
+  /// Grows whenever A becomes another operator.
+  std::size_t operators_made() const { return operators_made_; }
+
+ protected:
+  std::size_t operators_made_ = 0;
 };
 
-/// `automatic` takes conjugate gradients where the Jacobi-preconditioned operator is well conditioned,
-///   kappa about 1 + s omega_max^2, so that sqrt(kappa)/2 ln(2/1e-12) iterations stay below 60, and the factorisation
+/// ratio: c / m of the usual step (infinite for statics). `automatic` takes conjugate gradients where the
+/// Jacobi-preconditioned operator is well conditioned,
+///   kappa about 1 + (c / m) omega_max^2, so that sqrt(kappa)/2 ln(2/1e-12) iterations stay below 60, and the
+///   factorisation
 /// elsewhere, unless the mesh has more than two million dofs or contact more than a thousand rows (one
 /// back-substitution and a line of a dense matrix each).
-std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind, double s,
+std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind, double ratio,
                                                        double omega_max_squared);
 
 }  // namespace carom

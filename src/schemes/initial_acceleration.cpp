@@ -1,5 +1,7 @@
 #include "schemes/initial_acceleration.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "parallel/threads.hpp"
@@ -11,7 +13,7 @@ void start_with_supports(const System& system, State& state) {
   state.q.resize(n, 0.0);
   state.v.resize(n, 0.0);
   state.a.assign(n, 0.0);
-  state.contact.resize(system.contact.rows().size());
+  state.contact.resize(system.contact.slots());
   const std::vector<bool>& fixed = system.supports.fixed();
   for (std::size_t i = 0; i < n; ++i) {
     if (fixed[i]) state.v[i] = 0.0;
@@ -30,6 +32,27 @@ void start_with_supports(const System& system, State& state) {
 void force_sum(const Forces& forces, std::span<double> rhs) {
   parallel_each(rhs.size(),
                 [&](std::size_t i) { rhs[i] = forces.external[i] - forces.internal[i] + forces.contact[i]; });
+}
+
+void start_multipliers(const System& system, MassSolver& solver, double dt, State& state, Forces& forces) {
+  const std::shared_ptr<const ConstraintRows> shared = forces.rows.rows;
+  const ConstraintRows& rows = *shared;
+  forces.contact.assign(state.q.size(), 0.0);
+  open_response(shared, state.contact.size(), forces.rows);
+  std::vector<double> rhs(state.q.size()), a_free = state.a;
+  force_sum(forces, rhs);
+  if (solver.solve(rhs, a_free) < 0) throw std::runtime_error("the initial accelerations cannot be solved for");
+  std::vector<ClosingRow> closing;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (!rows.is_closed(r, state.q)) continue;
+    const Vec3 a = rows.relative(r, a_free), v = rows.relative(r, state.v);
+    closing.push_back({r, {a[0] + std::max(0.0, v[0]) / dt, a[1] + v[1] / dt, a[2] + v[2] / dt}});
+  }
+  std::vector<double> push(state.q.size());
+  if (!close_rows(closing, state.contact, mass_operator(system, solver), forces.rows, push))
+    open_response(shared, state.contact.size(), forces.rows);
+  forces.rows.add_force(forces.contact);
+  state.contact = forces.rows.history;
 }
 
 void start_accelerations(const System& system, MassSolver& solver, State& state, Forces& forces) {

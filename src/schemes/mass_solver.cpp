@@ -1,6 +1,8 @@
 #include "schemes/mass_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "parallel/threads.hpp"
 
@@ -10,9 +12,14 @@ MassSolver::MassSolver(const System& system) : system_(system) {
   const std::vector<double>& m = system.mass.node_diagonal();
   const std::vector<bool>& fixed = system.supports.fixed();
   inverse_diagonal_.resize(fixed.size());
-  for (std::size_t i = 0; i < fixed.size(); ++i) inverse_diagonal_[i] = fixed[i] ? 1.0 : 1.0 / m[i / 3];
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    inverse_diagonal_[i] = fixed[i] ? 1.0 : m[i / 3] > 0.0 ? 1.0 / m[i / 3] : 0.0;
   rhs_.resize(fixed.size());
   free_.resize(fixed.size());
+}
+
+std::string MassSolver::name() const {
+  return system_.mass.kind() == MassKind::lumped ? "lumped mass, no solve" : "conjugate gradients on the mass";
 }
 
 int MassSolver::solve(std::span<const double> f, std::span<double> a) {
@@ -43,6 +50,32 @@ int MassSolver::solve(std::span<const double> f, std::span<double> a) {
   }
   // 1e-15 asks for round-off; a stagnation just above it is as good, a residual above 1e-12 is not.
   return result.converged || result.residual <= 1e-12 * std::sqrt(dot(rhs_, rhs_)) ? result.iterations : -1;
+}
+
+ContactOperator mass_operator(const System& system, MassSolver& solver) {
+  const std::vector<bool>& fixed = system.supports.fixed();
+  const std::size_t n = fixed.size();
+  ContactOperator out;
+  out.inverse = [&solver, rhs = std::vector<double>()](std::span<double> b) mutable {
+    rhs.assign(b.begin(), b.end());
+    std::fill(b.begin(), b.end(), 0.0);
+    solver.solve(rhs, b);
+  };
+  if (system.mass.kind() == MassKind::lumped) {
+    std::vector<double> inverse(n);
+    const std::vector<double>& m = system.mass.node_diagonal();
+    for (std::size_t i = 0; i < n; ++i) inverse[i] = fixed[i] || m[i / 3] == 0.0 ? 0.0 : 1.0 / m[i / 3];
+    out.delassus = [inverse = std::move(inverse)](const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {
+      return make_delassus(rows, chosen, inverse);
+    };
+    return out;
+  }
+  out.delassus = [n, invert = out.inverse](const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {
+    return make_delassus(rows, chosen, n, [&](std::span<double> b, int columns) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) invert(b.subspan(k * n, n));
+    });
+  };
+  return out;
 }
 
 }  // namespace carom

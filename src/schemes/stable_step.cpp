@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <utility>
 
-#include "linalg/largest_eigenvalue.hpp"
+#include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/mass_solver.hpp"
 
@@ -12,76 +12,60 @@ namespace carom {
 
 namespace {
 
-/// y = (K + closed contact) x on the free dofs.
-class Stiffness {
+/// K + closed contact at one displacement, and M, on the free dofs with mass.
+class Vibration {
  public:
-  Stiffness(const System& system, bool with_contact)
-      : system_(system), with_contact_(with_contact), zero_(system.solid.dof_count(), 0.0) {}
+  /// rows: nullptr without contact
+  Vibration(const System& system, std::vector<double> u, std::shared_ptr<const ConstraintRows> rows)
+      : system_(system), u_(std::move(u)), rows_(std::move(rows)), mass_solver_(system), moves_(u_.size()) {
+    const std::vector<bool>& fixed = system.supports.fixed();
+    for (std::size_t i = 0; i < moves_.size(); ++i)
+      moves_[i] = !fixed[i] && system.mass.node_diagonal()[i / 3] > 0.0 ? 1 : 0;
+  }
 
-  void operator()(std::span<const double> x, std::span<double> y) const {
-    system_.solid.tangent_action(zero_, x, y);
-    if (with_contact_) system_.contact.add_closed_stiffness(x, y);
-    const std::vector<bool>& fixed = system_.supports.fixed();
-    for (std::size_t i = 0; i < y.size(); ++i) {
-      if (fixed[i]) y[i] = 0.0;
-    }
+  Pencil pencil() {
+    return {[this](std::span<const double> x, std::span<double> y) { stiffness(x, y); },
+            [this](std::span<const double> x, std::span<double> y) { system_.mass.apply(x, y); },
+            [this](std::span<const double> x, std::span<double> y) { inverse_mass(x, y); }};
   }
 
  private:
+  void stiffness(std::span<const double> x, std::span<double> y) const {
+    system_.solid.tangent_action(u_, x, y);
+    if (rows_) add_closed_stiffness(*rows_, x, y);
+    keep_moving(y);
+  }
+  void inverse_mass(std::span<const double> x, std::span<double> y) {
+    std::fill(y.begin(), y.end(), 0.0);
+    mass_solver_.solve(x, y);
+    keep_moving(y);
+  }
+  void keep_moving(std::span<double> y) const {
+    parallel_each(y.size(), [&](std::size_t i) {
+      if (moves_[i] == 0) y[i] = 0.0;
+    });
+  }
+
   const System& system_;
-  bool with_contact_;
-  std::vector<double> zero_;
+  std::vector<double> u_;
+  std::shared_ptr<const ConstraintRows> rows_;
+  MassSolver mass_solver_;
+  std::vector<unsigned char> moves_;
 };
 
-/// Largest eigenvalue of M^-1/2 K M^-1/2, M lumped.
-double lumped_frequency(const System& system, const Stiffness& K) {
-  const std::vector<bool>& fixed = system.supports.fixed();
-  const std::vector<double>& m = system.mass.node_diagonal();
-  std::vector<double> scale(fixed.size()), work(fixed.size());
-  for (std::size_t i = 0; i < scale.size(); ++i) scale[i] = fixed[i] ? 0.0 : 1.0 / std::sqrt(m[i / 3]);
-  const LinearOperator A = [&](std::span<const double> x, std::span<double> y) {
-    for (std::size_t i = 0; i < x.size(); ++i) work[i] = scale[i] * x[i];
-    K(work, y);
-    for (std::size_t i = 0; i < y.size(); ++i) y[i] *= scale[i];
-  };
-  return largest_eigenvalue(A, scale.size()).upper;
-}
-
-/// The same for a consistent M by power iteration in its inner product; 5 % is added for what is still missing.
-double consistent_frequency(const System& system, const Stiffness& K) {
-  const std::vector<bool>& fixed = system.supports.fixed();
-  std::vector<double> x(fixed.size()), Kx(fixed.size()), Mx(fixed.size()), y(fixed.size(), 0.0);
-  for (std::size_t i = 0; i < x.size(); ++i)
-    x[i] = fixed[i] ? 0.0
-                    : 0.5 + std::fmod(0.6180339887498949 * static_cast<double>(i + 1), 1.0) * (i % 2 == 0 ? 1.0 : -1.0);
-  MassSolver mass(system);
-  double value = 0.0;
-  for (int iteration = 0; iteration < 200; ++iteration) {
-    K(x, Kx);
-    system.mass.apply(x, Mx);
-    const double before = value, xMx = dot(x, Mx);
-    if (xMx == 0.0) return 0.0;
-    value = dot(x, Kx) / xMx;
-    if (iteration > 10 && value - before < 1e-4 * value) break;
-    std::fill(y.begin(), y.end(), 0.0);
-    mass.solve(Kx, y);
-    const double length = std::sqrt(dot(y, y));
-    if (length == 0.0) break;
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = y[i] / length;
-  }
-  return 1.05 * value;
+bool adds_stiffness(EnforcementKind enforcement) {
+  return enforcement == EnforcementKind::penalty;
 }
 
 /// Largest sum of damping / mass over the nodes. For the consistent mass of parallelepipeds, M >= 1/8 of its diagonal
 /// (Wathen, IMA Journal of Numerical Analysis 7, 1987).
-double largest_damping_ratio(const System& system) {
-  const ConstraintRows& rows = system.contact.rows();
+double largest_damping_ratio(const System& system, const ConstraintRows& rows) {
   const double smallest_share = system.mass.kind() == MassKind::lumped ? 1.0 : 1.0 / 8.0;
   std::vector<double> damping(system.mass.node_diagonal().size(), 0.0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (Index k = rows.begin[r]; k < rows.begin[r + 1]; ++k) {
-      damping[static_cast<std::size_t>(rows.node[k])] +=
-          system.contact.parameters()[r].damping * rows.weight[k] * rows.weight[k];
+    for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
+      const Vec3& n = rows.block[k][0];
+      damping[static_cast<std::size_t>(rows.node[k])] += rows.law[r].damping * dot(n, n);
     }
   }
   double d = 0.0;
@@ -92,20 +76,53 @@ double largest_damping_ratio(const System& system) {
   return d;
 }
 
+double step_of(double limit, double omega_squared, double damping_ratio) {
+  const double d = damping_ratio;
+  return 0.5 * limit * (std::sqrt(d * d + 4.0 * omega_squared) - d) / omega_squared;
+}
+
 }  // namespace
 
-StableStep stable_step(const System& system) {
-  const auto frequency = [&](bool with_contact) {
-    const Stiffness K(system, with_contact);
-    return system.mass.kind() == MassKind::lumped ? lumped_frequency(system, K) : consistent_frequency(system, K);
+StableStep stable_step(const System& system, double limit, EnforcementKind enforcement) {
+  const std::vector<double> zero(system.solid.dof_count(), 0.0);
+  const auto frequency = [&](std::shared_ptr<const ConstraintRows> rows) {
+    Vibration vibration(system, zero, std::move(rows));
+    return largest_eigenvalue(vibration.pencil(), zero.size()).upper;
   };
   StableStep out;
-  out.omega_max_squared_free = frequency(false);
-  out.omega_max_squared = system.contact.rows().size() == 0 ? out.omega_max_squared_free : frequency(true);
-  const double d = largest_damping_ratio(system);
-  out.dt_free = 2.0 / std::sqrt(out.omega_max_squared_free);
-  out.dt = (std::sqrt(d * d + 4.0 * out.omega_max_squared) - d) / out.omega_max_squared;
+  out.omega_max_squared = out.omega_max_squared_free = frequency(nullptr);
+  double damping_ratio = 0.0;
+  if (adds_stiffness(enforcement) && system.contact.slots() > 0) {
+    const auto rows = system.contact.rows_at(zero, zero);
+    out.omega_max_squared = frequency(rows);
+    damping_ratio = largest_damping_ratio(system, *rows);
+  }
+  out.dt_free = limit / std::sqrt(out.omega_max_squared_free);
+  out.dt = step_of(limit, out.omega_max_squared, damping_ratio);
   return out;
+}
+
+StableStepWatch::StableStepWatch(const System& system, double limit, EnforcementKind enforcement)
+    : system_(system), limit_(limit), enforcement_(enforcement) {}
+
+double StableStepWatch::update(std::span<const double> u_begin, std::span<const double> u) {
+  constexpr int iterations = 10, most_rounds = 20;
+  constexpr double settled = 0.02;  // of the bound above the Ritz value: 1 % of the step
+  std::shared_ptr<const ConstraintRows> rows;
+  double damping_ratio = 0.0;
+  if (adds_stiffness(enforcement_) && system_.contact.slots() > 0) {
+    rows = system_.contact.rows_at(u_begin, u);
+    damping_ratio = largest_damping_ratio(system_, *rows);
+  }
+  Vibration vibration(system_, {u.begin(), u.end()}, rows);
+  const Pencil pencil = vibration.pencil();
+  const bool first = vector_.empty();
+  EigenvalueEstimate estimate;
+  for (int round = 0; round < (first ? most_rounds : 1); ++round) {
+    estimate = follow_largest_eigenvalue(pencil, u.size(), vector_, iterations);
+    if (estimate.upper - estimate.value <= settled * estimate.value) break;
+  }
+  return step_of(limit_, estimate.upper, damping_ratio);
 }
 
 }  // namespace carom

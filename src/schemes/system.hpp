@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/contact_geometry.hpp"
 #include "contact/penalty.hpp"
 #include "energy/ledger.hpp"
 #include "schemes/supports.hpp"
@@ -17,7 +18,7 @@ struct System {
   const Mesh& mesh;
   const Solid& solid;
   const Mass& mass;
-  const Penalty& contact;
+  const ContactGeometry& contact;
   const Supports& supports;
 };
 
@@ -27,7 +28,7 @@ struct Forces {
   std::vector<double> internal, external, contact, reaction;
   std::vector<double> inertia;   ///< M a
   std::vector<double> momentum;  ///< M v
-  PenaltyResponse rows;
+  ContactResponse rows;
   EnergyTerms stored;          ///< kinetic, strain, contact_stored of the state
   Momentum total_momentum;     ///< of the state
   double inertia_power = 0.0;  ///< a . M a
@@ -43,12 +44,39 @@ void evaluate_forces(const System& system, double t, std::span<const double> u_b
 /// total momentum (angular momentum about the origin on the reference positions). evaluate_forces has been called.
 void complete_forces(const System& system, const State& state, Forces& forces);
 
-/// Books of one step of the Newmark family (central differences: beta = 0, gamma = 1/2). With x_bar the mean and dx the
-/// difference of both ends of the step, h the step, kappa = beta - gamma/2, the kinematics give
-///   d(1/2 v.Mv) = du . (M a)_bar + (gamma - 1/2) du . M da - h^2 kappa [ d(1/2 a.Ma) + (gamma - 1/2) da . M da ],
-/// so that algorithmic = h^2 kappa d(1/2 a.Ma) - (gamma - 1/2) (du . M da - h^2 kappa da . M da)
-/// (Krenk, Computer Methods in Applied Mechanics and Engineering 195, 2006, eq. 11, with forces instead of K u).
-LedgerIncrement newmark_books(const System& system, const State& begin, const Forces& forces_begin, const State& end,
-                              const Forces& forces_end, double beta, double gamma, double h);
+/// Adds component c of a nodal force or momentum p at x, and its moment about the origin, to six sums; and the sums as
+/// a Momentum.
+inline void add_with_moment(const Vec3& x, std::size_t c, double p, double* sums) {
+  const std::size_t d = (c + 1) % 3, e = (c + 2) % 3;
+  sums[c] += p;
+  sums[3 + d] += x[e] * p;  // (x cross p)_d = x_e p_c - x_c p_e
+  sums[3 + e] -= x[d] * p;
+}
+Momentum momentum_from(const double* sums);
+
+/// Where nodes stand for moments: at X where all bodies are linear (small displacements; their internal forces balance
+/// there), at X + (1 - w) u_0 + w u_1 where they are not.
+class MomentArms {
+ public:
+  MomentArms(const System& system, std::span<const double> u) : MomentArms(system, u, u, 1.0) {}
+  MomentArms(const System& system, std::span<const double> u_0, std::span<const double> u_1, double w)
+      : X_(system.mesh.coordinates), u_0_(u_0.data()), u_1_(u_1.data()), w_(w), is_linear_(system.solid.is_linear()) {}
+
+  Vec3 at(std::size_t node) const {
+    Vec3 x = X_[node];
+    if (is_linear_) return x;
+    for (std::size_t c = 0; c < 3; ++c) x[c] += (1.0 - w_) * u_0_[3 * node + c] + w_ * u_1_[3 * node + c];
+    return x;
+  }
+
+ private:
+  const std::vector<Vec3>& X_;
+  const double *u_0_, *u_1_;
+  double w_;
+  bool is_linear_;
+};
+
+/// Trapezoidal work of the dampers: of the forces at each end of the step, on that end's rows.
+double damping_work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end);
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 #include "solid/assembly.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace carom {
 namespace {
@@ -12,32 +13,35 @@ std::size_t at(std::int64_t i) {
 /// Cells of each node: begin offsets and cell positions.
 struct NodeCells {
   std::vector<std::size_t> begin;
-  std::vector<Index> cells;
+  std::vector<std::size_t> cells;
 };
 
-NodeCells cells_of_nodes(const Mesh& mesh, const SolidCells& solid) {
-  NodeCells result{std::vector<std::size_t>(mesh.node_count() + 1, 0), std::vector<Index>(8 * solid.cells.size())};
-  for (const Index cell : solid.cells)
-    for (const Index n : cell_nodes(mesh, cell)) ++result.begin[at(n) + 1];
-  for (std::size_t n = 0; n < mesh.node_count(); ++n) result.begin[n + 1] += result.begin[n];
+NodeCells cells_of_nodes(const SolidCells& solid) {
+  const std::size_t node_count = solid.mesh->node_count();
+  NodeCells result{std::vector<std::size_t>(node_count + 1, 0), {}};
+  for (std::size_t c = 0; c < solid.cells.size(); ++c)
+    for (const Index n : solid.nodes_of(c)) ++result.begin[at(n) + 1];
+  for (std::size_t n = 0; n < node_count; ++n) result.begin[n + 1] += result.begin[n];
+  result.cells.resize(result.begin.back());
   std::vector<std::size_t> next(result.begin.begin(), result.begin.end() - 1);
-  for (const Index cell : solid.cells)
-    for (const Index n : cell_nodes(mesh, cell)) result.cells[next[at(n)]++] = cell;
+  for (std::size_t c = 0; c < solid.cells.size(); ++c)
+    for (const Index n : solid.nodes_of(c)) result.cells[next[at(n)]++] = c;
   return result;
 }
 
 }  // namespace
 
-CsrMatrix node_graph(const Mesh& mesh, const SolidCells& solid) {
-  const NodeCells incident = cells_of_nodes(mesh, solid);
+CsrMatrix node_graph(const SolidCells& solid) {
+  const NodeCells incident = cells_of_nodes(solid);
+  const std::size_t node_count = solid.mesh->node_count();
   CsrMatrix graph;
-  graph.size = static_cast<Index>(mesh.node_count());
+  graph.size = static_cast<Index>(node_count);
   graph.row_begin.assign(1, 0);
   std::vector<Index> row;
-  for (std::size_t n = 0; n < mesh.node_count(); ++n) {
+  for (std::size_t n = 0; n < node_count; ++n) {
     row.clear();
     for (std::size_t k = incident.begin[n]; k < incident.begin[n + 1]; ++k)
-      for (const Index m : cell_nodes(mesh, incident.cells[k])) row.push_back(m);
+      for (const Index m : solid.nodes_of(incident.cells[k])) row.push_back(m);
     std::sort(row.begin(), row.end());
     row.erase(std::unique(row.begin(), row.end()), row.end());
     graph.column.insert(graph.column.end(), row.begin(), row.end());
@@ -60,6 +64,15 @@ CsrMatrix dof_graph(const CsrMatrix& nodes) {
     }
   graph.value.assign(graph.column.size(), 0.0);
   return graph;
+}
+
+void append_diagonal(CsrMatrix& matrix, Index row, double value) {
+  const auto r = static_cast<std::size_t>(row);
+  const std::int64_t at = matrix.row_begin[r];
+  assert(matrix.row_begin[r + 1] == at);
+  matrix.column.insert(matrix.column.begin() + at, row);
+  matrix.value.insert(matrix.value.begin() + at, value);
+  for (std::size_t k = r + 1; k < matrix.row_begin.size(); ++k) ++matrix.row_begin[k];
 }
 
 std::size_t entry(const CsrMatrix& matrix, Index row, Index column) {

@@ -7,10 +7,13 @@
 namespace carom {
 
 /// Empty matrix (zero values) whose entries are the pairs of nodes that share a solid cell.
-CsrMatrix node_graph(const Mesh& mesh, const SolidCells& solid);
+CsrMatrix node_graph(const SolidCells& solid);
 
 /// The same graph with 3 x 3 entries per pair of nodes; row 3 n + i is component i of node n.
 CsrMatrix dof_graph(const CsrMatrix& nodes);
+
+/// Gives a row without entries its diagonal entry.
+void append_diagonal(CsrMatrix& matrix, Index row, double value);
 
 /// Position in `matrix` of the entry (row, column), which must exist.
 std::size_t entry(const CsrMatrix& matrix, Index row, Index column);

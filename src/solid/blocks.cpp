@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/errors.hpp"
-#include "element/hexa8.hpp"
+#include "material/lateral.hpp"
 #include "solid/colouring.hpp"
 
 namespace carom {
@@ -21,38 +21,129 @@ CaseError part_error(const Mesh& mesh, const Part& part, std::string found, std:
   return {Location{mesh.report.source}, "parts." + part.name, std::move(found), std::move(expected), std::move(mend)};
 }
 
-void check_part(const Mesh& mesh, const std::vector<Part>& parts, std::size_t p, std::vector<Index>& owner) {
+CellType type_of(Section section) {
+  if (section == Section::solid) return CellType::hexa8;
+  return section == Section::bar ? CellType::line2 : CellType::quad4;
+}
+
+std::span<const Index> connectivity_of(const Mesh& mesh, const CellRef& ref) {
+  const CellBlock& block = mesh.blocks[at(ref.block)];
+  const auto n = static_cast<std::size_t>(node_count(block.type));
+  return {block.connectivity.data() + n * at(ref.cell), n};
+}
+
+CellNodes positions(const Mesh& mesh, std::span<const Index> nodes) {
+  CellNodes x{};
+  for (std::size_t a = 0; a < nodes.size(); ++a) x[a] = mesh.coordinates[at(nodes[a])];
+  return x;
+}
+
+void check_shape(const Mesh& mesh, const Part& part, const CellNodes& x, std::size_t nodes, std::int64_t number) {
+  const double det_J = cell_operations(part.section).measure(x, part.thickness).smallest_det_J;
+  if (!(det_J > 0.0))
+    throw part_error(mesh, part, fmt::format("Jacobian determinant {:.3g} in cell {}", det_J, number),
+                     "a positive Jacobian determinant at every Gauss point",
+                     "mend the cell in the mesh: it is flat, folded or too distorted");
+  if (part.type != CellType::quad4) return;
+  constexpr double flat = 1e-9;  // coordinates from a text file have more digits than that
+  for (std::size_t a = 1; a < nodes; ++a)
+    if (std::abs(x[a][2] - x[0][2]) > flat * std::sqrt(det_J))
+      throw part_error(mesh, part, fmt::format("z = {:.6g} and {:.6g} in cell {}", x[0][2], x[a][2], number),
+                       "plane cells in the x-y plane", "turn the mesh so that z is constant");
+  for (std::size_t a = 0; a < nodes && part.section == Section::axisymmetric; ++a)
+    if (x[a][0] < 0.0)
+      throw part_error(mesh, part, fmt::format("x = {:.6g} in cell {}", x[a][0], number),
+                       "x >= 0: the radius about the y axis", "move the mesh to the right of the y axis");
+}
+
+/// Which part has each cell of each block of the mesh; -1: none.
+using Owners = std::vector<std::vector<Index>>;
+
+void check_section(const Mesh& mesh, const Part& part) {
+  if (part.type != type_of(part.section))
+    throw part_error(mesh, part, fmt::format("{} cells", name(part.type)),
+                     fmt::format("{} cells for this section", name(type_of(part.section))),
+                     "solid parts are made of HEXA8, plane and axisymmetric ones of QUAD4, bars of LINE2");
+  if (!(part.thickness > 0.0))
+    throw part_error(mesh, part, fmt::format("thickness or area {:.6g}", part.thickness), "a positive number", "");
+}
+
+/// The cells of the part as references, checked.
+std::vector<CellRef> cells_of(const Mesh& mesh, const std::vector<Part>& parts, std::size_t p, Owners& owners) {
   const Part& part = parts[p];
-  const CellBlock* hexas = mesh.block(CellType::hexa8);
-  const std::size_t available = hexas == nullptr ? 0 : hexas->size();
+  check_section(mesh, part);
+  const CellBlock* block = mesh.block(part.type);
+  const std::size_t available = block == nullptr ? 0 : block->size();
+  std::vector<CellRef> cells;
   for (const Index cell : part.cells) {
     if (cell < 0 || at(cell) >= available)
       throw part_error(mesh, part, fmt::format("cell index {}", cell),
-                       fmt::format("one of the {} HEXA8 cells of the mesh", available),
-                       "parts are made of HEXA8 cells: mesh the part with linear hexahedra");
-    const std::int64_t number = hexas->file_numbers[at(cell)];
-    if (owner[at(cell)] >= 0)
-      throw part_error(mesh, part,
-                       fmt::format("cell {}, which is in parts.{} already", number, parts[at(owner[at(cell)])].name),
+                       fmt::format("one of the {} {} cells of the mesh", available, name(part.type)),
+                       fmt::format("the part is made of {0} cells: mesh it with linear {0} cells", name(part.type)));
+    const std::int64_t number = block->file_numbers[at(cell)];
+    const CellRef ref{static_cast<Index>(block - mesh.blocks.data()), cell};
+    Index& owner = owners[at(ref.block)][at(cell)];
+    if (owner >= 0)
+      throw part_error(mesh, part, fmt::format("cell {}, which is in parts.{} already", number, parts[at(owner)].name),
                        "each cell in one part", "take the cell out of one of the two groups");
-    owner[at(cell)] = static_cast<Index>(p);
-    const double det_J = hexa8::volume(cell_coordinates(mesh, cell)).smallest_det_J;
-    if (!(det_J > 0.0))
-      throw part_error(mesh, part, fmt::format("Jacobian determinant {:.3g} in cell {}", det_J, number),
-                       "a positive Jacobian determinant at every Gauss point",
-                       "mend the cell in the mesh: it is flat, folded or too distorted");
+    owner = static_cast<Index>(p);
+    const auto nodes = connectivity_of(mesh, ref);
+    check_shape(mesh, part, positions(mesh, nodes), nodes.size(), number);
+    cells.push_back(ref);
   }
+  return cells;
 }
 
-std::vector<Index> batch_offsets(const Mesh& mesh, const std::vector<Index>& cells, int lanes) {
+std::vector<Index> batch_offsets(const Mesh& mesh, const std::vector<CellRef>& cells, std::size_t nodes_per_cell,
+                                 int lanes) {
   const auto n = static_cast<std::size_t>(lanes);
   const std::size_t batches = (cells.size() + n - 1) / n;
-  std::vector<Index> offset(batches * 8 * n);
+  std::vector<Index> offset(batches * nodes_per_cell * n);
   for (std::size_t c = 0; c < batches * n; ++c) {
-    const auto nodes = cell_nodes(mesh, cells[std::min(c, cells.size() - 1)]);
-    for (std::size_t a = 0; a < 8; ++a) offset[((c / n) * 8 + a) * n + c % n] = 3 * nodes[a];
+    const auto nodes = connectivity_of(mesh, cells[std::min(c, cells.size() - 1)]);
+    for (std::size_t a = 0; a < nodes_per_cell; ++a) offset[((c / n) * nodes_per_cell + a) * n + c % n] = 3 * nodes[a];
   }
   return offset;
+}
+
+/// Kernels and laws of a part: its section chooses the element and what stresses are eliminated, its material the
+/// kinematics and the law.
+void choose_kernels(const Part& part, const KernelTable& table, Block& block) {
+  const bool solid = part.section == Section::solid;
+  const bool neo_hookean = std::holds_alternative<NeoHookean>(part.material);
+  const CellOperations& operations = *block.operations;
+  if (solid) {
+    block.kernels = block.small_strain ? table.small_strain : table.finite_strain;
+    block.batch_law = neo_hookean ? table.neo_hookean : table.linear;
+  } else {
+    block.kernels = block.small_strain ? operations.small_strain : operations.finite_strain;
+  }
+  if (part.section == Section::plane_stress)
+    block.cell_law = neo_hookean ? plane_stress_neo_hookean() : plane_stress_linear();
+  else if (part.section == Section::bar)
+    block.cell_law = neo_hookean ? bar_neo_hookean() : bar_linear();
+  else
+    block.cell_law = neo_hookean ? kernels_reference().neo_hookean : kernels_reference().linear;
+  if (!solid) block.batch_law = block.cell_law;
+}
+
+Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>& cells, const KernelTable& table) {
+  Block block;
+  block.cells = static_cast<Index>(cells.size());
+  block.lanes = part.section == Section::solid ? table.lanes : 1;
+  block.section = part.section;
+  block.thickness = part.thickness;
+  block.small_strain = std::holds_alternative<LinearElastic>(part.material);
+  std::visit(
+      [&](const IsotropicElastic& material) {
+        block.rho = material.rho;
+        block.lame = material.lame();
+      },
+      part.material);
+  block.operations = &cell_operations(part.section);
+  choose_kernels(part, table, block);
+  block.offset = batch_offsets(mesh, cells, block.nodes(), block.lanes);
+  return block;
 }
 
 /// At most about 64 chunks, so that a layer of a cube of cells fits in one and two colours do, but none so small that
@@ -63,7 +154,7 @@ Index chunk_size(std::size_t cells) {
   return std::max(smallest, (size + multiple - 1) / multiple * multiple);
 }
 
-void cut_and_colour(const Mesh& mesh, SolidCells& solid) {
+void cut_and_colour(SolidCells& solid) {
   std::vector<Chunk> chunks;
   std::vector<std::vector<Index>> chunk_nodes;
   const Index size = chunk_size(solid.cells.size());
@@ -73,10 +164,10 @@ void cut_and_colour(const Mesh& mesh, SolidCells& solid) {
       chunks.push_back({static_cast<Index>(b), first, std::min(size, block.cells - first)});
       std::vector<Index>& nodes = chunk_nodes.emplace_back();
       for (Index c = 0; c < chunks.back().cells; ++c)
-        for (const Index n : cell_nodes(mesh, solid.cells[at(block.first + first + c)])) nodes.push_back(n);
+        for (const Index n : solid.nodes_of(at(block.first + first + c))) nodes.push_back(n);
     }
   }
-  const std::vector<int> colour = colour_chunks(mesh.node_count(), chunk_nodes);
+  const std::vector<int> colour = colour_chunks(solid.mesh->node_count(), chunk_nodes);
   solid.colour_begin.assign(1, 0);
   const int last = colour.empty() ? -1 : *std::max_element(colour.begin(), colour.end());
   for (int k = 0; k <= last; ++k) {
@@ -88,38 +179,45 @@ void cut_and_colour(const Mesh& mesh, SolidCells& solid) {
 
 }  // namespace
 
-std::array<Index, 8> cell_nodes(const Mesh& mesh, Index cell) {
-  std::array<Index, 8> nodes{};
-  const auto first = mesh.block(CellType::hexa8)->connectivity.begin() + 8 * static_cast<std::ptrdiff_t>(cell);
-  std::copy(first, first + 8, nodes.begin());
-  return nodes;
+CellMatrix Block::stiffness(const CellNodes& x, const CellNodes& u) const {
+  const BatchLaw one_lane{cell_law.update, cell_law.tangent, &lame};
+  return (small_strain ? operations->small_stiffness : operations->finite_stiffness)(x, u, thickness, one_lane);
 }
 
-std::array<Vec3, 8> cell_coordinates(const Mesh& mesh, Index cell) {
-  std::array<Vec3, 8> x{};
-  const auto nodes = cell_nodes(mesh, cell);
-  for (std::size_t a = 0; a < 8; ++a) x[a] = mesh.coordinates[at(nodes[a])];
-  return x;
+std::span<const Index> SolidCells::nodes_of(std::size_t position) const {
+  return connectivity_of(*mesh, cells[position]);
 }
 
-SolidCells make_solid_cells(const Model& model, int lanes) {
+CellNodes SolidCells::coordinates_of(std::size_t position) const {
+  return positions(*mesh, nodes_of(position));
+}
+
+CellNodes SolidCells::values_of(std::size_t position, std::span<const double> u) const {
+  CellNodes values{};
+  const auto nodes = nodes_of(position);
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    for (std::size_t i = 0; i < 3; ++i) values[a][i] = u[3 * at(nodes[a]) + i];
+  return values;
+}
+
+CellBatches SolidCells::batches(const Block& block, Index first, Index count) const {
+  return {mesh->coordinates.front().data(), block.offset.data() + block.nodes() * at(first), count, block.thickness};
+}
+
+SolidCells make_solid_cells(const Model& model, const KernelTable& table) {
   const Mesh& mesh = *model.mesh;
-  const CellBlock* hexas = mesh.block(CellType::hexa8);
-  std::vector<Index> owner(hexas == nullptr ? 0 : hexas->size(), -1);
+  Owners owners;
+  for (const CellBlock& block : mesh.blocks) owners.emplace_back(block.size(), -1);
   SolidCells solid;
+  solid.mesh = model.mesh;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
-    check_part(mesh, model.parts, p, owner);
-    const Part& part = model.parts[p];
-    if (part.cells.empty()) continue;
-    const auto& material = std::get<LinearElastic>(part.material);
-    solid.blocks.push_back({.first = static_cast<Index>(solid.cells.size()),
-                            .cells = static_cast<Index>(part.cells.size()),
-                            .material = material,
-                            .lame = {material.lame_lambda(), material.shear_modulus()},
-                            .offset = batch_offsets(mesh, part.cells, lanes)});
-    solid.cells.insert(solid.cells.end(), part.cells.begin(), part.cells.end());
+    const std::vector<CellRef> cells = cells_of(mesh, model.parts, p, owners);
+    if (cells.empty()) continue;
+    solid.blocks.push_back(make_block(mesh, model.parts[p], cells, table));
+    solid.blocks.back().first = static_cast<Index>(solid.cells.size());
+    solid.cells.insert(solid.cells.end(), cells.begin(), cells.end());
   }
-  cut_and_colour(mesh, solid);
+  cut_and_colour(solid);
   return solid;
 }
 

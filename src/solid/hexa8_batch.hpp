@@ -1,8 +1,7 @@
-// The five stages over batches of HEXA8 cells: gather, interpolate, constitutive, integrate, scatter.
+// What the kernels over batches of HEXA8 cells share: gather, scatter, sums over points.
 #pragma once
 
 #include "element/hexa8_kernel.hpp"
-#include "material/linear_elastic_update.hpp"
 #include "solid/kernels.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
@@ -102,24 +101,14 @@ static void scatter_some(const Real in[3][8], const Index* offset, int count, do
     }
 }
 
-/// Strains and stresses at the Gauss points of one batch, with the geometry they were taken on.
+/// Stage 5: adds the nodal values of the `count` cells of a batch.
 template <class Real>
-struct BatchState {
-  hexa8::PointGeometry<Real> geometry;
-  alignas(sizeof(Real)) double strain[48 * lanes<Real>];
-  alignas(sizeof(Real)) double stress[48 * lanes<Real>];
-  alignas(sizeof(Real)) double energy[8 * lanes<Real>];
-};
-
-/// Stages 1 to 3. energy: where the stored energy density goes, or null.
-template <class Real>
-[[gnu::always_inline]] static inline void evaluate(const double* x, const Index* offset, const BatchLaw& law,
-                                                   const double* u, BatchState<Real>& state, double* energy) {
-  Real x_cell[3][8], u_cell[3][8];
-  gather(x, offset, x_cell);
-  gather(u, offset, u_cell);
-  hexa8::interpolate(x_cell, u_cell, state.geometry, state.strain);
-  law.update(law.parameters, {8, state.strain, state.stress, energy});
+[[gnu::always_inline]] static inline void scatter_batch(const Real in[3][8], const Index* offset, int count,
+                                                        double* f) {
+  if (count == lanes<Real>)
+    scatter(in, offset, f);
+  else
+    scatter_some(in, offset, count, f);
 }
 
 /// Calls body(offsets of the batch, cells in it, number of its first cell) for each batch.
@@ -133,59 +122,32 @@ template <class Real, class Body>
   }
 }
 
+/// Adds 512 x the stored energy of the `count` cells of a batch, density[p lanes], to sum.
 template <class Real>
-static void add_internal_force(const CellBatches& batches, const BatchLaw& law, const double* u, double* f) {
-  for_each_batch<Real>(
-      batches, [&](const Index* offset, int count, Index) __attribute__((always_inline)) {
-        BatchState<Real> state;
-        evaluate(batches.x, offset, law, u, state, nullptr);
-        Real f_cell[3][8];
-        hexa8::integrate(state.stress, state.geometry, f_cell);
-        if (count == lanes<Real>)
-          scatter(f_cell, offset, f);
-        else
-          scatter_some(f_cell, offset, count, f);
-      });
+[[gnu::always_inline]] static inline void add_energy(const double* density, const hexa8::PointGeometry<Real>& geometry,
+                                                     int count, double& sum) {
+  constexpr int n = lanes<Real>;
+  Real cell = load<Real>(density) * geometry.det[0];
+  for (int p = 1; p < 8; ++p) cell += load<Real>(density + p * n) * geometry.det[p];
+  double per_cell[n];
+  store(per_cell, cell);
+  for (int l = 0; l < count; ++l) sum += per_cell[l];
 }
 
+/// mean[6 l + c] = volume mean of value[(6 p + c) lanes + l] for the `count` cells of a batch.
 template <class Real>
-static double strain_energy(const CellBatches& batches, const BatchLaw& law, const double* u) {
-  double sum = 0.0;
-  for_each_batch<Real>(batches, [&](const Index* offset, int count, Index) {
-    constexpr int n = lanes<Real>;
-    BatchState<Real> state;
-    evaluate(batches.x, offset, law, u, state, state.energy);
-    Real cell = load<Real>(state.energy) * state.geometry.det[0];
-    for (int p = 1; p < 8; ++p) cell += load<Real>(state.energy + p * n) * state.geometry.det[p];
+[[gnu::always_inline]] static inline void store_mean(const double* value, const hexa8::PointGeometry<Real>& geometry,
+                                                     int count, double* mean) {
+  constexpr int n = lanes<Real>;
+  Real volume = geometry.det[0];
+  for (int p = 1; p < 8; ++p) volume += geometry.det[p];
+  for (int c = 0; c < 6; ++c) {
+    Real sum = load<Real>(value + c * n) * geometry.det[0];
+    for (int p = 1; p < 8; ++p) sum += load<Real>(value + (6 * p + c) * n) * geometry.det[p];
     double per_cell[n];
-    store(per_cell, cell);
-    for (int l = 0; l < count; ++l) sum += per_cell[l];
-  });
-  return sum / 512.0;
-}
-
-template <class Real>
-static void mean_stress(const CellBatches& batches, const BatchLaw& law, const double* u, double* stress) {
-  for_each_batch<Real>(batches, [&](const Index* offset, int count, Index first) {
-    constexpr int n = lanes<Real>;
-    BatchState<Real> state;
-    evaluate(batches.x, offset, law, u, state, nullptr);
-    Real volume = state.geometry.det[0];
-    for (int p = 1; p < 8; ++p) volume += state.geometry.det[p];
-    for (int c = 0; c < 6; ++c) {
-      Real sum = load<Real>(state.stress + c * n) * state.geometry.det[0];
-      for (int p = 1; p < 8; ++p) sum += load<Real>(state.stress + (6 * p + c) * n) * state.geometry.det[p];
-      double per_cell[n];
-      store(per_cell, Real(sum / volume));
-      for (int l = 0; l < count; ++l) stress[6 * (first + l) + c] = per_cell[l];
-    }
-  });
-}
-
-/// The kernels over Real.
-template <class Real>
-static constexpr KernelTable make_kernels() {
-  return {lanes<Real>, add_internal_force<Real>, strain_energy<Real>, mean_stress<Real>, linear_elastic_update<Real>};
+    store(per_cell, Real(sum / volume));
+    for (int l = 0; l < count; ++l) mean[6 * l + c] = per_cell[l];
+  }
 }
 
 }  // namespace carom

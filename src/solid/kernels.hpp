@@ -1,4 +1,4 @@
-// The batch kernels of the HEXA8 solid, compiled once per instruction set.
+// The batch kernels of the solid: those of HEXA8 compiled once per instruction set, those of plane cells and bars once.
 #pragma once
 
 #include "base/types.hpp"
@@ -6,30 +6,38 @@
 
 namespace carom {
 
-/// Cells of one material, `lanes` of them per batch. offset[(8 b + a) lanes + l] is 3 x the node number of local node a
-/// of cell b lanes + l. The last batch is filled up by repeating its last cell; such lanes are never written back.
+/// Cells of one type, section and material, `lanes` of them per batch. offset[(n b + a) lanes + l] is 3 x the node
+/// number of local node a (of n) of cell b lanes + l. The last batch is filled up by repeating its last cell; such
+/// lanes are never written back.
 struct CellBatches {
   const double* x = nullptr;  ///< coordinates, 3 per node
   const Index* offset = nullptr;
   Index cells = 0;
+  double thickness = 1.0;  ///< of plane cells; area of the section of bars
 };
 
-/// A material law as the kernels see it.
-struct BatchLaw {
-  BatchUpdate update = nullptr;
-  const void* parameters = nullptr;
-};
-
-/// The kernels of one instruction set. None of them allocates.
-struct KernelTable {
-  int lanes = 1;
-  /// f += integral of B^T sigma(B u) over the cells, dof vectors of 3 per node.
+/// The kernels of one cell type under one kinematics, small strain or total Lagrangian. Dof vectors have 3 entries per
+/// node. None of them allocates. An inverted cell under finite strain gives forces and energies that are not numbers.
+struct CellKernels {
+  /// f += F(u) of the cells.
   void (*add_internal_force)(const CellBatches&, const BatchLaw&, const double* u, double* f) = nullptr;
+  /// y += K(u) x of the cells.
+  void (*add_tangent_action)(const CellBatches&, const BatchLaw&, const double* u, const double* x,
+                             double* y) = nullptr;
+  /// f += energy-momentum force between u_0 and u_1 (Solid::discrete_gradient_force).
+  void (*add_discrete_gradient_force)(const CellBatches&, const BatchLaw&, const double* u_0, const double* u_1,
+                                      double* f) = nullptr;
   /// Sum over the cells of the integral of the stored energy density.
   double (*strain_energy)(const CellBatches&, const BatchLaw&, const double* u) = nullptr;
-  /// stress[6 cell + c] = volume mean of the stress.
+  /// stress[6 cell + c] = volume mean of the Cauchy stress.
   void (*mean_stress)(const CellBatches&, const BatchLaw&, const double* u, double* stress) = nullptr;
-  BatchUpdate linear_elastic = nullptr;
+};
+
+/// The kernels of HEXA8 of one instruction set.
+struct KernelTable {
+  int lanes = 1;
+  CellKernels small_strain, finite_strain;
+  LawKernels linear, neo_hookean;
 };
 
 const KernelTable& kernels_reference();

@@ -1,4 +1,4 @@
-#include "solid/hexa8_batch.hpp"
+#include "solid/hexa8_table.hpp"
 
 namespace carom {
 

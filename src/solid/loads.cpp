@@ -1,6 +1,12 @@
 #include "solid/loads.hpp"
 
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "base/errors.hpp"
 #include "element/quad4.hpp"
+#include "math/vec3.hpp"
 
 namespace carom {
 namespace {
@@ -38,13 +44,66 @@ LoadVector make_load(const NodalForce& load) {
   return {load.nodes, std::vector<Vec3>(load.nodes.size(), load.force), load.factor};
 }
 
-LoadVector make_load(const Pressure& load, const Mesh& mesh) {
+/// Adds -p integral of N_a n dA over a face, n dA by the right-hand rule.
+void add_pressure_on_face(const Pressure& load, const Mesh& mesh, const Facet& face, NodeSum& sum) {
+  if (face.size == 3) {
+    std::array<Vec3, 3> x{};
+    for (std::size_t a = 0; a < 3; ++a) x[a] = mesh.coordinates[at(face[a])];
+    const Vec3 twice_area = cross(subtract(x[1], x[0]), subtract(x[2], x[0]));
+    for (const Index node : face) sum.add(node, -load.pressure / 6.0, twice_area);
+    return;
+  }
+  std::array<Vec3, 4> x{};
+  for (std::size_t a = 0; a < 4; ++a) x[a] = mesh.coordinates[at(face[a])];
+  for (const quad4::FacePoint& point : quad4::face_points(x))
+    for (std::size_t a = 0; a < 4; ++a) sum.add(face[a], -load.pressure * point.N[a], point.normal_dA);
+}
+
+/// The same on an edge in the x-y plane with normal (dy, -dx), times thickness, or integral of N_a 2 pi x ds of the
+/// linear x: 2 pi L (2 x_a + x_b) / 6.
+void add_pressure_on_edge(const Pressure& load, const Mesh& mesh, const Facet& edge, NodeSum& sum) {
+  const Vec3 &x_0 = mesh.coordinates[at(edge[0])], &x_1 = mesh.coordinates[at(edge[1])];
+  const Vec3 normal{x_1[1] - x_0[1], x_0[0] - x_1[0], 0.0};
+  double share[2] = {0.5 * load.surface.thickness, 0.5 * load.surface.thickness};
+  if (load.surface.section == Section::axisymmetric) {
+    share[0] = std::numbers::pi / 3.0 * (2.0 * x_0[0] + x_1[0]);
+    share[1] = std::numbers::pi / 3.0 * (x_0[0] + 2.0 * x_1[0]);
+  }
+  for (std::size_t a = 0; a < 2; ++a) sum.add(edge[a], -load.pressure * share[a], normal);
+}
+
+/// Unit vector out of the body at the end `node` of a bar, along its axis.
+Vec3 end_normal(const Model& model, Index node) {
+  const Mesh& mesh = *model.mesh;
+  Vec3 normal{};
+  int bars = 0;
+  for (const Part& part : model.parts) {
+    if (part.type != CellType::line2) continue;
+    const std::vector<Index>& connectivity = mesh.block(CellType::line2)->connectivity;
+    for (const Index cell : part.cells) {
+      const Index* nodes = connectivity.data() + 2 * at(cell);
+      if (nodes[0] != node && nodes[1] != node) continue;
+      const Index other = nodes[0] == node ? nodes[1] : nodes[0];
+      normal = normalized(subtract(mesh.coordinates[at(node)], mesh.coordinates[at(other)]));
+      ++bars;
+    }
+  }
+  if (bars == 1) return normal;
+  throw CaseError(Location{mesh.report.source}, "loads",
+                  fmt::format("pressure on node {}, which has {} bars", mesh.node_numbers[at(node)], bars),
+                  "the end of one bar", "load other nodes by forces");
+}
+
+LoadVector make_load(const Pressure& load, const Model& model) {
+  const Mesh& mesh = *model.mesh;
   NodeSum sum(mesh.node_count());
-  for (const auto& face : load.faces) {
-    std::array<Vec3, 4> x{};
-    for (std::size_t a = 0; a < 4; ++a) x[a] = mesh.coordinates[at(face[a])];
-    for (const quad4::FacePoint& point : quad4::face_points(x))
-      for (std::size_t a = 0; a < 4; ++a) sum.add(face[a], -load.pressure * point.N[a], point.normal_dA);
+  for (const Facet& facet : load.surface.facets) {
+    if (facet.size == 1)
+      sum.add(facet[0], -load.pressure * load.surface.thickness, end_normal(model, facet[0]));
+    else if (facet.size == 2)
+      add_pressure_on_edge(load, mesh, facet, sum);
+    else
+      add_pressure_on_face(load, mesh, facet, sum);
   }
   return sum.result(load.factor);
 }
@@ -55,7 +114,7 @@ std::vector<LoadVector> make_loads(const Model& model) {
   std::vector<LoadVector> loads;
   for (const Load& load : model.loads) {
     if (const auto* force = std::get_if<NodalForce>(&load)) loads.push_back(make_load(*force));
-    if (const auto* pressure = std::get_if<Pressure>(&load)) loads.push_back(make_load(*pressure, *model.mesh));
+    if (const auto* pressure = std::get_if<Pressure>(&load)) loads.push_back(make_load(*pressure, model));
   }
   return loads;
 }

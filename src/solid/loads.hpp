@@ -15,7 +15,8 @@ struct LoadVector {
 };
 
 /// One vector per nodal force and pressure of the model. Nodal forces as they are; pressure: f_a = -p integral of
-/// N_a n dA over the reference faces (2 x 2 Gauss, exact).
+/// N_a n dA over the reference facets, exact; dA is measured as Surface says. Throws CaseError for a pressure on a
+/// single node that is not the end of one bar.
 std::vector<LoadVector> make_loads(const Model& model);
 /// The gravity loads of the model; they act on the mass of the scheme.
 std::vector<Gravity> gravity_loads(const Model& model);

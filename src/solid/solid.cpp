@@ -5,11 +5,9 @@
 #include <numeric>
 #include <utility>
 
-#include "element/hexa8.hpp"
 #include "parallel/threads.hpp"
 #include "solid/assembly.hpp"
 #include "solid/blocks.hpp"
-#include "solid/cell_matrices.hpp"
 #include "solid/kernels.hpp"
 #include "solid/loads.hpp"
 
@@ -38,36 +36,44 @@ const KernelTable& kernels(Isa isa) {
 
 struct Solid::Impl {
   Impl(const Model& model, Isa wanted)
-      : mesh(model.mesh),
-        isa(wanted),
-        kernel(kernels(wanted)),
-        solid(make_solid_cells(model, kernel.lanes)),
+      : isa(wanted),
+        solid(make_solid_cells(model, kernels(wanted))),
         loads(make_loads(model)),
         gravity(gravity_loads(model)),
+        rigid_bodies(model.rigid_bodies),
         volumes(solid.cells.size()),
         lengths(solid.cells.size()) {
-    for (std::size_t c = 0; c < solid.cells.size(); ++c) {
-      const auto x = cell_coordinates(*mesh, solid.cells[c]);
-      volumes[c] = hexa8::volume(x).volume;
-      lengths[c] = hexa8::length(x);
-    }
+    solid.for_each_cell([&](std::size_t c, const Block& block) {
+      const CellMeasure measure = block.operations->measure(solid.coordinates_of(c), block.thickness);
+      volumes[c] = measure.volume;
+      lengths[c] = measure.length;
+    });
   }
 
-  CellBatches batches(const Chunk& chunk) const {
-    return {mesh->coordinates.front().data(), block(chunk).offset.data() + 8 * at(chunk.first), chunk.cells};
-  }
   const Block& block(const Chunk& chunk) const { return solid.blocks[at(chunk.block)]; }
-  BatchLaw law(const Block& b) const { return {kernel.linear_elastic, &b.lame}; }
-  CellStiffness stiffness(std::size_t c, const Block& b) const {
-    return cell_stiffness(cell_coordinates(*mesh, solid.cells[c]), carom::tangent(b.material));
+  CellBatches batches(const Chunk& chunk) const { return solid.batches(block(chunk), chunk.first, chunk.cells); }
+  CellMatrix stiffness(std::size_t c, const Block& b, std::span<const double> u) const {
+    return b.stiffness(solid.coordinates_of(c), solid.values_of(c, u));
+  }
+  NodeMatrix mass(std::size_t c, const Block& b) const {
+    return b.operations->mass(solid.coordinates_of(c), b.thickness, b.rho);
   }
 
-  std::shared_ptr<const Mesh> mesh;
+  /// Overwrites f with the sum over the chunks of add(kernels, batches, law, f), colour by colour.
+  template <class Add>
+  void sum_over_chunks(std::span<double> f, const Add& add) const {
+    constexpr std::size_t zeros_per_task = 1 << 15;
+    parallel_for(f.size(), zeros_per_task,
+                 [&](std::size_t begin, std::size_t end) { std::fill(f.data() + begin, f.data() + end, 0.0); });
+    solid.for_each_chunk(
+        [&](const Chunk& chunk) { add(block(chunk).kernels, batches(chunk), block(chunk).law(), f.data()); });
+  }
+
   Isa isa;
-  const KernelTable& kernel;
   SolidCells solid;
   std::vector<LoadVector> loads;
   std::vector<Gravity> gravity;
+  std::vector<RigidBody> rigid_bodies;
   std::vector<double> volumes, lengths;
 };
 
@@ -76,7 +82,7 @@ Solid::~Solid() = default;
 Solid::Solid(Solid&&) noexcept = default;
 
 std::size_t Solid::node_count() const {
-  return impl_->mesh->node_count();
+  return impl_->solid.mesh->node_count();
 }
 std::size_t Solid::cell_count() const {
   return impl_->solid.cells.size();
@@ -84,8 +90,15 @@ std::size_t Solid::cell_count() const {
 Isa Solid::isa() const {
   return impl_->isa;
 }
-const std::vector<Index>& Solid::cells() const {
+bool Solid::is_linear() const {
+  const auto& blocks = impl_->solid.blocks;
+  return std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.small_strain; });
+}
+const std::vector<CellRef>& Solid::cells() const {
   return impl_->solid.cells;
+}
+std::span<const Index> Solid::nodes_of_cell(std::size_t k) const {
+  return impl_->solid.nodes_of(k);
 }
 const std::vector<double>& Solid::cell_volumes() const {
   return impl_->volumes;
@@ -95,53 +108,61 @@ const std::vector<double>& Solid::cell_lengths() const {
 }
 
 void Solid::internal_force(std::span<const double> u, std::span<double> f) const {
-  constexpr std::size_t zeros_per_task = 1 << 15;
-  parallel_for(f.size(), zeros_per_task,
-               [&](std::size_t begin, std::size_t end) { std::fill(f.data() + begin, f.data() + end, 0.0); });
-  impl_->solid.for_each_chunk([&](const Chunk& chunk) {
-    impl_->kernel.add_internal_force(impl_->batches(chunk), impl_->law(impl_->block(chunk)), u.data(), f.data());
-  });
+  impl_->sum_over_chunks(f, [&](const CellKernels& kernels, const CellBatches& cells, const BatchLaw& law,
+                                double* sum) { kernels.add_internal_force(cells, law, u.data(), sum); });
 }
 
 void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const double> u, std::span<double> f) const {
-  const auto n = at(impl_->kernel.lanes);
   std::array<Index, 64> offset{};  // one batch of at most 8 lanes, filled up with one cell
   for (const Index cell : cells) {
     const Block& block = *std::find_if(impl_->solid.blocks.begin(), impl_->solid.blocks.end(),
                                        [&](const Block& b) { return cell < b.first + b.cells; });
-    const std::size_t c = at(cell - block.first);
-    for (std::size_t a = 0; a < 8; ++a)
-      std::fill_n(offset.begin() + static_cast<std::ptrdiff_t>(a * n), n, block.offset[((c / n) * 8 + a) * n + c % n]);
-    impl_->kernel.add_internal_force({impl_->mesh->coordinates.front().data(), offset.data(), 1}, impl_->law(block),
-                                     u.data(), f.data());
+    const auto nodes = impl_->solid.nodes_of(at(cell));
+    const auto n = at(block.lanes);
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      std::fill_n(offset.begin() + static_cast<std::ptrdiff_t>(a * n), n, 3 * nodes[a]);
+    CellBatches batch = impl_->solid.batches(block, 0, 1);
+    batch.offset = offset.data();
+    block.kernels.add_internal_force(batch, block.law(), u.data(), f.data());
   }
 }
 
-void Solid::tangent_action(std::span<const double>, std::span<const double> x, std::span<double> y) const {
-  internal_force(x, y);  // every law so far is linear: K x = F(x) at any u
+void Solid::tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y) const {
+  impl_->sum_over_chunks(y, [&](const CellKernels& kernels, const CellBatches& cells, const BatchLaw& law,
+                                double* sum) { kernels.add_tangent_action(cells, law, u.data(), x.data(), sum); });
 }
 
-CsrMatrix Solid::tangent(std::span<const double>) const {
-  CsrMatrix K = dof_graph(node_graph(*impl_->mesh, impl_->solid));
+void Solid::discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1,
+                                    std::span<double> f) const {
+  impl_->sum_over_chunks(f,
+                         [&](const CellKernels& kernels, const CellBatches& cells, const BatchLaw& law, double* sum) {
+                           kernels.add_discrete_gradient_force(cells, law, u_0.data(), u_1.data(), sum);
+                         });
+}
+
+CsrMatrix Solid::tangent(std::span<const double> u) const {
+  CsrMatrix K = dof_graph(node_graph(impl_->solid));
   impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
-    const CellStiffness cell = impl_->stiffness(c, block);
-    const auto nodes = cell_nodes(*impl_->mesh, impl_->solid.cells[c]);
-    for (std::size_t a = 0; a < 8; ++a)
-      for (std::size_t b = 0; b < 8; ++b)
+    const CellMatrix cell = impl_->stiffness(c, block, u);
+    const auto nodes = impl_->solid.nodes_of(c);
+    const std::size_t dofs = 3 * nodes.size();
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t b = 0; b < nodes.size(); ++b)
         for (std::size_t i = 0; i < 3; ++i) {
           double* row = K.value.data() + entry(K, 3 * nodes[a] + static_cast<Index>(i), 3 * nodes[b]);
-          for (std::size_t j = 0; j < 3; ++j) row[j] += cell[3 * a + i][3 * b + j];
+          for (std::size_t j = 0; j < 3; ++j) row[j] += cell[(3 * a + i) * dofs + 3 * b + j];
         }
   });
   return K;
 }
 
-std::vector<double> Solid::tangent_diagonal(std::span<const double>) const {
+std::vector<double> Solid::tangent_diagonal(std::span<const double> u) const {
   std::vector<double> diagonal(dof_count(), 0.0);
   impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
-    const CellStiffness cell = impl_->stiffness(c, block);
-    const auto nodes = cell_nodes(*impl_->mesh, impl_->solid.cells[c]);
-    for (std::size_t r = 0; r < 24; ++r) diagonal[3 * at(nodes[r / 3]) + r % 3] += cell[r][r];
+    const CellMatrix cell = impl_->stiffness(c, block, u);
+    const auto nodes = impl_->solid.nodes_of(c);
+    const std::size_t dofs = 3 * nodes.size();
+    for (std::size_t r = 0; r < dofs; ++r) diagonal[3 * at(nodes[r / 3]) + r % 3] += cell[r * (dofs + 1)];
   });
   return diagonal;
 }
@@ -150,32 +171,52 @@ double Solid::strain_energy(std::span<const double> u) const {
   const std::vector<Chunk>& chunks = impl_->solid.chunks;
   std::vector<double> partial(chunks.size());
   parallel_for(chunks.size(), 1, [&](std::size_t c, std::size_t) {
-    partial[c] = impl_->kernel.strain_energy(impl_->batches(chunks[c]), impl_->law(impl_->block(chunks[c])), u.data());
+    const Block& block = impl_->block(chunks[c]);
+    partial[c] = block.kernels.strain_energy(impl_->batches(chunks[c]), block.law(), u.data());
   });
   return std::accumulate(partial.begin(), partial.end(), 0.0);
 }
 
-Mass Solid::mass(MassKind kind) const {
-  CsrMatrix M = node_graph(*impl_->mesh, impl_->solid);
-  impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
-    const Index number = impl_->solid.cells[c];
-    const CellMass cell = cell_mass(cell_coordinates(*impl_->mesh, number), block.material.rho);
-    const auto nodes = cell_nodes(*impl_->mesh, number);
-    const auto diagonal = lumped(cell);
-    for (std::size_t a = 0; a < 8; ++a) {
-      if (kind == MassKind::lumped) M.value[entry(M, nodes[a], nodes[a])] += diagonal[a];
-      for (std::size_t b = 0; b < 8 && kind == MassKind::consistent; ++b)
-        M.value[entry(M, nodes[a], nodes[b])] += cell[a][b];
+Rotation Solid::largest_rotation(std::span<const double> u) const {
+  const std::vector<Chunk>& chunks = impl_->solid.chunks;
+  std::vector<Rotation> partial(chunks.size());
+  parallel_for(chunks.size(), 1, [&](std::size_t c, std::size_t) {
+    const Block& block = impl_->block(chunks[c]);
+    if (!block.small_strain) return;
+    const auto first = at(block.first + chunks[c].first);
+    for (std::size_t k = first; k < first + at(chunks[c].cells); ++k) {
+      const double angle =
+          block.operations->rotation(impl_->solid.coordinates_of(k), impl_->solid.values_of(k, u), block.thickness);
+      if (angle > partial[c].angle) partial[c] = {angle, static_cast<Index>(k)};
     }
   });
+  Rotation largest;
+  for (const Rotation& rotation : partial)
+    if (rotation.angle > largest.angle) largest = rotation;
+  return largest;
+}
+
+Mass Solid::mass(MassKind kind) const {
+  CsrMatrix M = node_graph(impl_->solid);
+  impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
+    const NodeMatrix cell = impl_->mass(c, block);
+    const auto nodes = impl_->solid.nodes_of(c);
+    const auto diagonal = lumped(cell, nodes.size());
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      if (kind == MassKind::lumped) M.value[entry(M, nodes[a], nodes[a])] += diagonal[a];
+      for (std::size_t b = 0; b < nodes.size() && kind == MassKind::consistent; ++b)
+        M.value[entry(M, nodes[a], nodes[b])] += cell[a * nodes.size() + b];
+    }
+  });
+  for (const RigidBody& body : impl_->rigid_bodies) append_diagonal(M, body.node, body.mass);
   return Mass(kind, std::move(M));
 }
 
 std::vector<double> Solid::cell_frequency_bounds() const {
   std::vector<double> bounds(cell_count());
   impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
-    const CellMass M = cell_mass(cell_coordinates(*impl_->mesh, impl_->solid.cells[c]), block.material.rho);
-    bounds[c] = frequency_bound(impl_->stiffness(c, block), lumped(M));
+    const CellMatrix K = block.stiffness(impl_->solid.coordinates_of(c), {});
+    bounds[c] = frequency_bound(K, lumped(impl_->mass(c, block), block.nodes()), block.nodes());
   });
   return bounds;
 }
@@ -202,8 +243,9 @@ std::vector<std::array<double, 6>> Solid::cell_stress(std::span<const double> u)
   std::vector<std::array<double, 6>> stress(cell_count());
   parallel_for(impl_->solid.chunks.size(), 1, [&](std::size_t c, std::size_t) {
     const Chunk& chunk = impl_->solid.chunks[c];
-    double* first = stress[at(impl_->block(chunk).first + chunk.first)].data();
-    impl_->kernel.mean_stress(impl_->batches(chunk), impl_->law(impl_->block(chunk)), u.data(), first);
+    const Block& block = impl_->block(chunk);
+    double* first = stress[at(block.first + chunk.first)].data();
+    block.kernels.mean_stress(impl_->batches(chunk), block.law(), u.data(), first);
   });
   return stress;
 }

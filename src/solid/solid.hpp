@@ -23,8 +23,17 @@ std::string_view name(Isa isa);
 /// True when this processor has the instruction set.
 bool supported(Isa isa);
 
-/// HEXA8 solids, 2 x 2 x 2 Gauss points, small strain. Dof 3 n + c is component c of node n; dof vectors have
-/// 3 x node_count entries. All cells of all parts take part; interface cells of contact do not.
+/// A rotation angle (radian) and the cell that has it, a position in Solid::cells(); -1: no cell has been turned.
+struct Rotation {
+  double angle = 0.0;
+  Index cell = -1;
+};
+
+/// Solids of HEXA8 (2 x 2 x 2 Gauss points), plane and axisymmetric QUAD4 (2 x 2) and bars of LINE2 (1). Dof 3 n + c is
+/// component c of node n whatever the cells; dof vectors have 3 x node_count entries. Plane cells have no forces and no
+/// stiffness in z, bars none across their axis but for the initial-stress term of finite strain. LinearElastic parts
+/// are of small strain, the others total Lagrangian. All cells of all parts take part; interface cells of contact do
+/// not.
 class Solid {
  public:
   explicit Solid(const Model& model, Isa isa = chosen_isa());
@@ -37,15 +46,24 @@ class Solid {
   Isa isa() const;
 
   /// True when internal_force is linear in u: then K is constant and may be prepared once per run.
-  bool is_linear() const { return true; }
+  bool is_linear() const;
 
-  /// f = F(u) = sum over cells of the integral of B^T sigma(B u); overwrites f. Threaded in coloured chunks, the same
-  /// bits for any thread count. Does not allocate.
+  /// f = F(u) = sum over cells of the integral of B^T sigma(B u), small strain, or P dN/dX with P = F S(E); overwrites
+  /// f. Not a number at the nodes of an inverted cell of finite strain (det F <= 0 at a quadrature point). Threaded in
+  /// coloured chunks, the same bits for any thread count. Does not allocate.
   void internal_force(std::span<const double> u, std::span<double> f) const;
   /// Adds to f the internal force of the listed solid cells alone (positions in cells()); for section forces.
   void add_internal_force_of(std::span<const Index> cells, std::span<const double> u, std::span<double> f) const;
-  /// y = K(u) x; overwrites y. As internal_force.
+  /// y = K(u) x, the derivative of F at u in the direction x; overwrites y. As internal_force.
   void tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y) const;
+  /// The energy-momentum force of a step from u_0 to u_1; overwrites f. As internal_force.
+  /// f = integral of F_mid S_alg dN/dX, F_mid = (F_0 + F_1) / 2, S_alg the discrete gradient of the stored energy
+  /// (material/discrete_gradient.hpp; Gonzalez, Comput. Methods Appl. Mech. Eng. 190, 2000), so that
+  /// f . (u_1 - u_0) = strain_energy(u_1) - strain_energy(u_0), and f has no resultant and no moment about the middle
+  /// configuration. St. Venant-Kirchhoff: S_alg = (S_0 + S_1) / 2; small strain: f = F((u_0 + u_1) / 2), likewise with
+  /// the reference configuration for the moment. Its derivative by u_1 is not symmetric; tangent_action at
+  /// (u_0 + u_1) / 2, halved, is a symmetric approximation to first order in u_1 - u_0 for Newton's method.
+  void discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1, std::span<double> f) const;
   /// Assembled K(u), 3 nodes x 3 nodes.
   CsrMatrix tangent(std::span<const double> u) const;
   /// Diagonal of K(u).
@@ -53,11 +71,17 @@ class Solid {
   /// Integral of the stored energy density; a function of u alone (ledger term `strain`).
   double strain_energy(std::span<const double> u) const;
 
+  /// Largest rotation of a small-strain cell: the angle of R in F = R U at its centre, bars: the angle by which the
+  /// axis turns; pi for a cell turned inside out. Small strain makes an error of order angle^2. Threaded, cheap enough
+  /// to be called every few steps.
+  Rotation largest_rotation(std::span<const double> u) const;
+
   Mass mass(MassKind kind) const;
 
   /// Upper bound of omega^2 per cell: |A^8|^(1/8) of A = M_e^-1/2 K_e M_e^-1/2 with the lumped mass of the cell, in the
   /// largest-row-sum norm (a power sharpens Gershgorin's bound). The largest over the cells bounds the omega^2 of the
-  /// whole body with lumped mass (Irons). One entry per solid cell, in the order of cells().
+  /// whole body with lumped mass (Irons). K_e is that of the reference configuration. One entry per solid cell, in the
+  /// order of cells().
   std::vector<double> cell_frequency_bounds() const;
 
   /// f = external force at time t (nodal forces, pressures, gravity); overwrites f. Gravity acts on the mass that the
@@ -65,11 +89,15 @@ class Solid {
   void external_force(double t, const Mass& mass, std::span<double> f) const;
   bool has_loads() const;
 
-  /// Index in Mesh::block(hexa8) of each solid cell; all per-cell results come in this order.
-  const std::vector<Index>& cells() const;
-  /// Volume mean of the stress of each solid cell: xx, yy, zz, xy, yz, zx.
+  /// The solid cells; all per-cell results come in this order.
+  const std::vector<CellRef>& cells() const;
+  /// Nodes of cell k of cells().
+  std::span<const Index> nodes_of_cell(std::size_t k) const;
+  /// Mean over the reference volume of the Cauchy stress of each solid cell: xx, yy, zz, xy, yz, zx. zz is the hoop
+  /// stress of axisymmetric cells; bars give the tensor of their axial stress.
   std::vector<std::array<double, 6>> cell_stress(std::span<const double> u) const;
-  /// Volume and a length of each solid cell (volume over the largest face area).
+  /// Reference volume of each solid cell (axisymmetric: of the ring) and a length: volume over the largest face area of
+  /// HEXA8, area over the longest edge of QUAD4, the length of a bar.
   const std::vector<double>& cell_volumes() const;
   const std::vector<double>& cell_lengths() const;
 

@@ -3,12 +3,14 @@
 
 #include <vector>
 
+#include "base/types.hpp"
+
 namespace carom {
 
-/// History of one contact row: the elastic tangential slip in the row's two tangent directions (length).
+/// History of one contact slot, as vectors of space, so that they outlive the row's frame.
 struct RowHistory {
-  double slip_1 = 0.0;
-  double slip_2 = 0.0;
+  Vec3 slip{};        ///< elastic tangential slip of regularised friction (length)
+  Vec3 multiplier{};  ///< force on the positive side (augmented Lagrangian; start value of exact enforcements)
   friend bool operator==(const RowHistory&, const RowHistory&) = default;
 };
 
@@ -18,7 +20,8 @@ struct State {
   std::vector<double> q;            ///< displacement
   std::vector<double> v;            ///< velocity
   std::vector<double> a;            ///< acceleration
-  std::vector<RowHistory> contact;  ///< one entry per contact row
+  std::vector<RowHistory> contact;  ///< one entry per contact slot (ConstraintRows::slot)
+  std::vector<double> memory;       ///< what else a scheme carries from step to step; made by Scheme::start
 
   friend bool operator==(const State&, const State&) = default;
 };

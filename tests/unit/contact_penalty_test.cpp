@@ -14,44 +14,44 @@ using namespace test;
 
 constexpr double round_off = 1e-14;  // a few operations on numbers near 1
 
-/// Rows of one node each against a plane z = -gap.
-Penalty single_nodes(std::size_t count, const PenaltyParameters& parameters, double mu, double gap = 0.0) {
+using Rows = std::shared_ptr<const ConstraintRows>;
+
+/// A row of one node against a plane z = -gap.
+Rows single_node(const RowLaw& law, double gap = 0.0) {
   ConstraintRows rows;
-  for (std::size_t n = 0; n < count; ++n) {
-    rows.add_row(gap, {0, 0, 1}, {}, 1.0, mu, 0);
-    rows.add_node(static_cast<Index>(n), 1.0);
-  }
-  return {rows, std::vector<PenaltyParameters>(count, parameters)};
+  rows.add_row(gap, {0, 0, 1}, {}, 1.0, law, 0);
+  rows.add_node(0, 1.0);
+  return std::make_shared<const ConstraintRows>(std::move(rows));
 }
 
 /// One node that has moved to u from u_begin.
-PenaltyResponse respond(const Penalty& penalty, const Vec3& u_begin, const Vec3& u, const RowHistory& history = {},
+ContactResponse respond(const Rows& rows, const Vec3& u_begin, const Vec3& u, const RowHistory& history = {},
                         const Vec3& v = {}) {
-  PenaltyResponse response;
-  penalty.evaluate(u_begin, u, v, std::vector<RowHistory>{history}, response);
+  ContactResponse response;
+  penalty_response(rows, u_begin, u, v, std::vector<RowHistory>{history}, response);
   return response;
 }
 
-Vec3 force_on_node(const Penalty& penalty, const PenaltyResponse& response) {
+Vec3 force_on_node(const ContactResponse& response) {
   Vec3 f{};
-  penalty.add_force(response, f);
+  response.add_force(f);
   return f;
 }
 
 TEST(PenaltyForce, IsProportionalToThePenetrationAndNeverTensile) {
-  const Penalty penalty = single_nodes(1, {.eps_N = 4.0}, 0.0, 0.5);
+  const Rows penalty = single_node({.eps_N = 4.0}, 0.5);
   const auto closed = respond(penalty, {}, {0, 0, -0.75});
-  EXPECT_NEAR(force_on_node(penalty, closed)[2], 4.0 * 0.25, round_off);
+  EXPECT_NEAR(force_on_node(closed)[2], 4.0 * 0.25, round_off);
   EXPECT_NEAR(closed.stored, 0.5 * 4.0 * 0.25 * 0.25, round_off);
   for (const double z : {-0.5, -0.4, 3.0}) {  // just closed, open, far away
     const auto open = respond(penalty, {}, {0.1, 0, z});
-    EXPECT_EQ(norm(force_on_node(penalty, open)), 0.0);
+    EXPECT_EQ(norm(force_on_node(open)), 0.0);
     EXPECT_EQ(open.stored, 0.0);
   }
 }
 
 TEST(PenaltyForce, OfADamperActsOnlyInStepsThatBeginClosedAndNeverPulls) {
-  const Penalty stop = single_nodes(1, {.eps_N = 4.0, .damping = 2.0}, 0.0);
+  const Rows stop = single_node({.eps_N = 4.0, .damping = 2.0});
   const Vec3 closing{0, 0, -3.0}, opening{0, 0, 3.0}, at{0, 0, -0.25};
   EXPECT_NEAR(respond(stop, {0, 0, -0.1}, at, {}, closing).force[0][0], 4.0 * 0.25 + 2.0 * 3.0, round_off);
   EXPECT_NEAR(respond(stop, {0, 0, 0.1}, at, {}, closing).force[0][0], 4.0 * 0.25, round_off);
@@ -63,7 +63,7 @@ TEST(PenaltyForce, OfADamperActsOnlyInStepsThatBeginClosedAndNeverPulls) {
 
 // eps_N = 10, penetration 0.2, mu = 0.3: p = 2, limit 0.6; eps_T = 5 sticks up to a slip of 0.12.
 struct Friction : testing::Test {
-  Penalty penalty = single_nodes(1, {.eps_N = 10.0, .eps_T = 5.0}, 0.3);
+  Rows penalty = single_node({.eps_N = 10.0, .eps_T = 5.0, .mu = 0.3});
   const double pressure = 2.0, limit = 0.6, eps_T = 5.0, yield = 0.12;
   Vec3 direction{0.6, 0.8, 0.0};
   Vec3 at(double slip) const { return {slip * direction[0], slip * direction[1], -0.2}; }
@@ -74,7 +74,7 @@ TEST_F(Friction, SticksThenSlides) {
   for (const double slip : {0.01, 0.06, 0.119}) {
     const auto stick = respond(penalty, begin, at(slip));
     EXPECT_EQ(stick.status[0], RowStatus::stick);
-    const Vec3 f = force_on_node(penalty, stick);
+    const Vec3 f = force_on_node(stick);
     EXPECT_NEAR(f[0], -eps_T * slip * direction[0], round_off);
     EXPECT_NEAR(f[1], -eps_T * slip * direction[1], round_off);
     EXPECT_EQ(stick.slip_work, 0.0);
@@ -82,12 +82,24 @@ TEST_F(Friction, SticksThenSlides) {
   for (const double slip : {0.121, 0.5, 20.0}) {
     const auto slide = respond(penalty, begin, at(slip));
     EXPECT_EQ(slide.status[0], RowStatus::slip);
-    const Vec3 f = force_on_node(penalty, slide);
+    const Vec3 f = force_on_node(slide);
     EXPECT_NEAR(f[0], -limit * direction[0], round_off);
     EXPECT_NEAR(f[1], -limit * direction[1], round_off);
     EXPECT_NEAR(f[2], pressure, round_off);
     EXPECT_NEAR(slide.slip_work, limit * (slip - yield), 20 * round_off);
   }
+}
+
+// From a gap of 0.3 to a penetration of 0.2 on a straight path: 0.2 / 0.5 of the sliding is in contact.
+TEST_F(Friction, FirstTouchCountsTheSlidingInContact) {
+  Vec3 begin = at(0.0);
+  begin[2] = 0.3;
+  const auto stick = respond(penalty, begin, at(0.1));
+  EXPECT_EQ(stick.status[0], RowStatus::stick);
+  EXPECT_NEAR(force_on_node(stick)[0], -eps_T * 0.4 * 0.1 * direction[0], round_off);
+  const auto slide = respond(penalty, begin, at(1.0));
+  EXPECT_EQ(slide.status[0], RowStatus::slip);
+  EXPECT_NEAR(slide.slip_work, limit * (0.4 - yield), 10 * round_off);
 }
 
 // Path in many steps: the work of the tangential force is what is stored and what has slipped away. The trapezoidal
@@ -97,7 +109,7 @@ TEST_F(Friction, WorkIsStoredOrDissipated) {
   RowHistory history;
   double work = 0.0, dissipated = 0.0, before = 0.0;
   const int steps = 500;
-  PenaltyResponse response;
+  ContactResponse response;
   for (int i = 1; i <= steps; ++i) {
     response = respond(penalty, at(0.001 * (i - 1)), at(0.001 * i), history);
     history = response.history[0];
@@ -116,12 +128,12 @@ TEST_F(Friction, ReversalSticksOverTwiceTheYieldSlip) {
   RowHistory history = respond(penalty, at(0.0), at(0.5)).history[0];
   const auto back = respond(penalty, at(0.5), at(0.5 - yield), history);  // half way: no force
   EXPECT_EQ(back.status[0], RowStatus::stick);
-  EXPECT_NEAR(norm({force_on_node(penalty, back)[0], force_on_node(penalty, back)[1], 0}), 0.0, 10 * round_off);
+  EXPECT_NEAR(norm({force_on_node(back)[0], force_on_node(back)[1], 0}), 0.0, 10 * round_off);
   const auto almost = respond(penalty, at(0.5), at(0.5 - 1.99 * yield), history);
   EXPECT_EQ(almost.status[0], RowStatus::stick);
   const auto sliding = respond(penalty, at(0.5), at(0.5 - 2.5 * yield), history);
   EXPECT_EQ(sliding.status[0], RowStatus::slip);
-  EXPECT_NEAR(force_on_node(penalty, sliding)[0], limit * direction[0], 10 * round_off);
+  EXPECT_NEAR(force_on_node(sliding)[0], limit * direction[0], 10 * round_off);
   EXPECT_NEAR(sliding.slip_work, limit * 0.5 * yield, 10 * round_off);
 }
 
@@ -137,11 +149,11 @@ TEST_F(Friction, OpenRowsForgetTheirSlip) {
 // -d(force)/dw by central differences with step 1e-6 at numbers near 1: truncation 1e-12, cancellation 1e-16 / 1e-6.
 constexpr double difference_step = 1e-6, difference_tolerance = 1e-8;
 
-void check_tangent(const Penalty& penalty, const Vec3& u_begin, const Vec3& u, const Vec3& v, const RowHistory& history,
+void check_tangent(const Rows& penalty, const Vec3& u_begin, const Vec3& u, const Vec3& v, const RowHistory& history,
                    double dv_dx) {
   const std::vector<RowHistory> histories{history};
-  const RowTangent D = penalty.tangent(0, u_begin, u, v, histories, dv_dx);
-  const ConstraintRows& rows = penalty.rows();
+  const RowTangent D = penalty_tangent(*penalty, 0, u_begin, u, v, histories, dv_dx);
+  const ConstraintRows& rows = *penalty;
   const std::array<Vec3, 3> frame{rows.normal[0], rows.tangent_1[0], rows.tangent_2[0]};
   for (std::size_t j = 0; j < 3; ++j) {
     std::array<Vec3, 2> force;
@@ -158,13 +170,13 @@ void check_tangent(const Penalty& penalty, const Vec3& u_begin, const Vec3& u, c
 }
 
 TEST(PenaltyTangent, IsTheDerivativeOfTheForce) {
-  const Penalty frictional = single_nodes(1, {.eps_N = 10.0, .eps_T = 5.0}, 0.3);
-  const Penalty damped = single_nodes(1, {.eps_N = 10.0, .damping = 2.0}, 0.0);
+  const Rows frictional = single_node({.eps_N = 10.0, .eps_T = 5.0, .mu = 0.3});
+  const Rows damped = single_node({.eps_N = 10.0, .damping = 2.0});
   int sticking = 0, sliding = 0, open = 0, pressed = 0, lifted = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
     const std::vector<double> x = random_vector(12, seed);
     const Vec3 begin{0.1 * x[0], 0.1 * x[1], 0.1 * x[2]}, u{0.2 * x[3], 0.2 * x[4], 0.2 * x[5]}, v{x[6], x[7], x[8]};
-    const RowHistory history{0.02 * x[9], 0.02 * x[10]};
+    const RowHistory history{{0.02 * x[9], 0.02 * x[10], 0.0}, {}};
     SCOPED_TRACE(seed);
     check_tangent(frictional, begin, u, v, history, 3.0);
     check_tangent(damped, begin, u, v, {}, 3.0);
@@ -181,7 +193,7 @@ TEST(PenaltyTangent, IsTheDerivativeOfTheForce) {
 TEST_F(Friction, SlidingTangentIsNotSymmetric) {
   const Vec3 begin = at(0.0), u = at(0.5);
   const std::vector<RowHistory> history(1);
-  const RowTangent D = penalty.tangent(0, begin, u, Vec3{}, history, 0.0);
+  const RowTangent D = penalty_tangent(*penalty, 0, begin, u, Vec3{}, history, 0.0);
   EXPECT_NEAR(std::hypot(D[3], D[6]), 0.3 * 10.0, 10 * round_off);
   EXPECT_EQ(D[1], 0.0);
   EXPECT_EQ(D[2], 0.0);
@@ -189,28 +201,30 @@ TEST_F(Friction, SlidingTangentIsNotSymmetric) {
 
 TEST(PenaltyStored, ForceIsMinusItsGradientWithoutSlip) {
   ConstraintRows rows;
-  rows.add_row(0.05, {0.6, 0.0, 0.8}, {}, 1.0, 1e3, 0);  // mu so large that nothing slides
+  // Closed from the beginning: a step that closes it counts only a part of the sliding. mu is so large that nothing
+  // slides.
+  rows.add_row(-0.05, {0.6, 0.0, 0.8}, {}, 1.0, {.eps_N = 3.0, .eps_T = 2.0, .mu = 1e3}, 0);
   rows.add_node(0, 0.7);
   rows.add_node(1, 0.3);
   rows.add_node(2, -1.0);
-  rows.add_row(-0.3, {0.0, 1.0, 0.0}, {}, 1.0, 0.0, 0);
+  rows.add_row(-0.3, {0.0, 1.0, 0.0}, {}, 1.0, {.eps_N = 4.0}, 0);
   rows.add_node(1, 1.0);
-  const Penalty penalty(rows, {{.eps_N = 3.0, .eps_T = 2.0}, {.eps_N = 4.0}});
+  const Rows penalty = std::make_shared<const ConstraintRows>(std::move(rows));
   const std::vector<RowHistory> history(2);
   const std::vector<double> begin(9, 0.0), v(9, 0.0);
   int closed = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     std::vector<double> u = random_vector(9, seed), force(9, 0.0);
-    PenaltyResponse response;
-    penalty.evaluate(begin, u, v, history, response);
-    penalty.add_force(response, force);
+    ContactResponse response;
+    penalty_response(penalty, begin, u, v, history, response);
+    response.add_force(force);
     if (response.status[0] == RowStatus::stick) ++closed;
     for (std::size_t i = 0; i < u.size(); ++i) {
       std::array<double, 2> stored{};
       for (const std::size_t side : {0U, 1U}) {
         std::vector<double> x = u;
         x[i] += side == 0 ? -difference_step : difference_step;
-        penalty.evaluate(begin, x, v, history, response);
+        penalty_response(penalty, begin, x, v, history, response);
         stored[side] = response.stored;
       }
       EXPECT_NEAR(force[i], -(stored[1] - stored[0]) / (2 * difference_step), difference_tolerance);
@@ -220,10 +234,10 @@ TEST(PenaltyStored, ForceIsMinusItsGradientWithoutSlip) {
 }
 
 TEST(PenaltyClosedStiffness, IsTheTangentOfClosedSticking) {
-  const Penalty penalty = single_nodes(1, {.eps_N = 10.0, .eps_T = 5.0}, 0.3);
+  const Rows penalty = single_node({.eps_N = 10.0, .eps_T = 5.0, .mu = 0.3});
   const Vec3 x{0.5, -0.25, 2.0};
   Vec3 y{1.0, 1.0, 1.0};
-  penalty.add_closed_stiffness(x, y);
+  add_closed_stiffness(*penalty, x, y);
   EXPECT_NEAR(norm(subtract(y, {1.0 + 2.5, 1.0 - 1.25, 1.0 + 20.0})), 0.0, 10 * round_off);
 }
 

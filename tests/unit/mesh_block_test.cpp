@@ -115,9 +115,10 @@ TEST(MeshBlock, MessagesSayWhatIsWrong) {
 }
 
 /// Faces with an odd number of owners by comparing every pair of faces of all cells.
-std::vector<std::array<Index, 4>> skin_by_brute_force(const Mesh& mesh) {
+std::vector<Facet> skin_by_brute_force(const Mesh& mesh) {
   const CellBlock& hexas = *mesh.block(CellType::hexa8);
-  std::vector<std::array<Index, 4>> faces, sorted, outer;
+  std::vector<std::array<Index, 4>> faces, sorted;
+  std::vector<Facet> outer;
   for (std::size_t c = 0; c < hexas.size(); ++c)
     for (const auto& local : hexa8_faces) {
       std::array<Index, 4> face{};
@@ -127,7 +128,7 @@ std::vector<std::array<Index, 4>> skin_by_brute_force(const Mesh& mesh) {
       sorted.push_back(face);
     }
   for (std::size_t i = 0; i < faces.size(); ++i)
-    if (std::count(sorted.begin(), sorted.end(), sorted[i]) == 1) outer.push_back(faces[i]);
+    if (std::count(sorted.begin(), sorted.end(), sorted[i]) == 1) outer.push_back({faces[i], 4});
   return outer;
 }
 
@@ -137,6 +138,7 @@ TEST(MeshSkin, AgreesWithBruteForceOnBlocksWithHoles) {
     StructuredBlock block;
     block.size = {1, 2, 3};
     block.divisions = {4, 5, 6};
+    block.face_groups = {};  // faces without their solids would be plane cells
     Mesh mesh = make_structured_blocks({block});
     CellBlock& hexas = mesh.blocks[0];  // a mesh of our own from here on: every third cell taken out at random
     for (std::size_t c = hexas.size(); c-- > 0;)
@@ -159,6 +161,133 @@ TEST(MeshSkin, AgreesWithBruteForceOnBlocksWithHoles) {
     EXPECT_NEAR(norm(area), 0.0, 1e-12);  // some hundred round-offs of areas below 1
     EXPECT_NEAR(volume, expected_volume, 1e-12);
   }
+}
+
+StructuredBlock strip() {
+  StructuredBlock block;
+  block.kind = StructuredBlock::Kind::quad;
+  block.origin = {1, 2, 0.5};
+  block.size = {3, 2, 0};
+  block.divisions = {6, 2, 1};
+  return block;
+}
+
+StructuredBlock bar() {
+  StructuredBlock block;
+  block.kind = StructuredBlock::Kind::bar;
+  block.origin = {1, 1, 1};
+  block.end = {-2, 5, 13};  // at the distance 13
+  block.divisions = {10, 1, 1};
+  return block;
+}
+
+TEST(MeshStrip, HasTheNodesCellsAndGroupsThatCountingGives) {
+  StructuredBlock block = strip();
+  block.points = {{"CORNER", {4, 4, 0.5}, {}}};
+  const Mesh mesh = make_structured_blocks({block});
+  EXPECT_EQ(mesh.node_count(), 7u * 3u);
+  ASSERT_EQ(mesh.blocks.size(), 2u);
+  EXPECT_EQ(mesh.block(CellType::quad4)->size(), 12u);
+  EXPECT_EQ(mesh.block(CellType::line2)->size(), 2u * (6 + 2));
+  EXPECT_EQ(mesh.cell_groups.at("BLOCK").size(), 12u);
+  EXPECT_EQ(mesh.nodes_of("YMIN").size(), 7u);
+  EXPECT_EQ(mesh.nodes_of("XMAX").size(), 3u);
+  EXPECT_FALSE(mesh.has_group("ZMIN"));
+  ASSERT_EQ(mesh.nodes_of("CORNER").size(), 1u);
+  EXPECT_EQ(node(mesh, mesh.nodes_of("CORNER")[0]), (Vec3{4, 4, 0.5}));
+  EXPECT_EQ(mesh.report.turned, 0u);
+  EXPECT_NEAR(mesh.report.worst_jacobian, 1.0, 1e-12);  // squares of 0.5 and 1 up to round-off
+  EXPECT_NE(mesh.report.worst_cell, 0);
+}
+
+TEST(MeshStrip, EdgesLieOnTheirSideWithTheBodyOnTheirLeft) {
+  const Mesh mesh = make_structured_blocks({strip()});
+  const std::array<std::string, 4> names{"XMIN", "XMAX", "YMIN", "YMAX"};
+  const std::array<double, 4> place{1, 4, 2, 4};
+  const CellBlock& lines = *mesh.block(CellType::line2);
+  for (std::size_t s = 0; s < 4; ++s)
+    for (const CellRef& ref : mesh.cell_groups.at(names[s])) {
+      ASSERT_EQ(mesh.blocks[static_cast<std::size_t>(ref.block)].type, CellType::line2);
+      const Index* n = &lines.connectivity[2 * static_cast<std::size_t>(ref.cell)];
+      for (int i = 0; i < 2; ++i) EXPECT_EQ(node(mesh, n[i])[s / 2], place[s]);
+      const Vec3 d = subtract(node(mesh, n[1]), node(mesh, n[0]));
+      const Vec3 outward{d[1], -d[0], 0};
+      EXPECT_GT(s % 2 == 0 ? -outward[s / 2] : outward[s / 2], 0.0) << names[s];
+    }
+}
+
+TEST(MeshStrip, SkinIsTheFourSides) {
+  const Mesh mesh = make_structured_blocks({strip()});
+  double area = 0, length = 0;  // Green: the area is half the integral of x dy - y dx around the body
+  const auto facets = outer_facets(mesh);
+  ASSERT_EQ(facets.size(), 16u);
+  for (const OuterFacet& outer : facets) {
+    const Facet& f = outer.facet;
+    ASSERT_EQ(f.size, 2);
+    const Vec3 &a = node(mesh, f[0]), &b = node(mesh, f[1]);
+    area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+    length += norm(subtract(b, a));
+    const CellBlock& owner = mesh.blocks[static_cast<std::size_t>(outer.cell.block)];
+    ASSERT_EQ(owner.type, CellType::quad4);
+    const auto first = owner.connectivity.begin() + 4 * outer.cell.cell;
+    EXPECT_EQ(std::count(first, first + 4, f[0]) + std::count(first, first + 4, f[1]), 2);
+  }
+  EXPECT_NEAR(area, 6.0, 1e-14);  // 3 x 2; 16 round-offs
+  EXPECT_NEAR(length, 10.0, 1e-14);
+}
+
+TEST(MeshBar, RunsFromEndToEndInSpace) {
+  StructuredBlock block = bar();
+  block.points = {{"MIDDLE", {-0.5, 3, 7}, {}}};
+  const Mesh mesh = make_structured_blocks({block});
+  EXPECT_EQ(mesh.node_count(), 11u);
+  ASSERT_EQ(mesh.blocks.size(), 1u);
+  const CellBlock& lines = mesh.blocks[0];
+  ASSERT_EQ(lines.size(), 10u);
+  for (std::size_t c = 0; c < 10; ++c) {
+    const Vec3 d = subtract(node(mesh, lines.connectivity[2 * c + 1]), node(mesh, lines.connectivity[2 * c]));
+    EXPECT_NEAR(norm(d), 1.3, 1e-14);
+  }
+  EXPECT_EQ(node(mesh, mesh.nodes_of("START").at(0)), (Vec3{1, 1, 1}));
+  EXPECT_EQ(node(mesh, mesh.nodes_of("END").at(0)), (Vec3{-2, 5, 13}));
+  EXPECT_EQ(node(mesh, mesh.nodes_of("MIDDLE").at(0)), (Vec3{-0.5, 3, 7}));
+  const auto facets = skin(mesh);
+  ASSERT_EQ(facets.size(), 2u);
+  for (const Facet& f : facets) {
+    EXPECT_EQ(f.size, 1);
+    EXPECT_TRUE(f[0] == mesh.nodes_of("START")[0] || f[0] == mesh.nodes_of("END")[0]);
+  }
+}
+
+TEST(MeshBar, MessagesSayWhatIsWrong) {
+  StructuredBlock block = bar();
+  block.end = block.origin;
+  EXPECT_NE(message_of(block).find("found a bar whose ends coincide"), std::string::npos) << message_of(block);
+  block = bar();
+  block.points = {{"P", {0, 0, 0}, {}}};  // nearest to the origin, at the distance sqrt(3) of the first node
+  EXPECT_NE(message_of(block).find("point P: found (0, 0, 0), 1.73205 away"), std::string::npos) << message_of(block);
+  block = strip();
+  block.points = {{"P", {1, 2, 0}, {}}};
+  EXPECT_NE(message_of(block).find("point P: found (1, 2, 0), 0.5 away"), std::string::npos) << message_of(block);
+}
+
+TEST(MeshBlock, KindsMix) {
+  StructuredBlock box;
+  box.origin = {10, 0, 0};
+  box.size = {1, 1, 1};
+  box.cells_group = "BOX";
+  const Mesh mesh = make_structured_blocks({bar(), strip(), box});
+  EXPECT_EQ(mesh.node_count(), 11u + 21u + 8u);
+  EXPECT_EQ(mesh.block(CellType::quad4)->size(), 12u + 6u);
+  EXPECT_EQ(mesh.block(CellType::line2)->size(), 10u + 16u);
+  const auto count_of = [&](const std::vector<Facet>& facets, int size) {
+    return std::count_if(facets.begin(), facets.end(), [&](const Facet& f) { return f.size == size; });
+  };
+  const auto facets = skin(mesh);
+  EXPECT_EQ(count_of(facets, 4), 6);
+  EXPECT_EQ(count_of(facets, 2), 16);
+  EXPECT_EQ(count_of(facets, 1), 2);
+  EXPECT_EQ(mesh.cell_groups.at("XMIN").size(), 2u + 1u);  // edges of the strip, a face of the box
 }
 
 TEST(MeshSummary, NamesWhatTheMeshHolds) {

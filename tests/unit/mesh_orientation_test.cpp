@@ -130,6 +130,59 @@ TEST(MeshOrientation, RefusesFoldedFlatAndDegenerateCells) {
       << "two pairs of faces coincide: a line, not an interface";
 }
 
+/// Two QUAD4 side by side, of which the second is clockwise, at height z.
+Mesh two_quads(double z) {
+  Mesh mesh = one_cell(CellType::quad4, {{0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}, {2, 0, z}, {2, 1, z}});
+  mesh.blocks[0].connectivity = {0, 1, 2, 3, 1, 2, 5, 4};
+  mesh.blocks[0].file_numbers = {17, 18};
+  return mesh;
+}
+
+TEST(MeshOrientation, TurnsClockwiseQuadsOfPlaneMeshes) {
+  Mesh mesh = two_quads(0.25);
+  EXPECT_EQ(plane_turn(mesh, {&mesh.blocks[0].connectivity[4], 4}), -1);
+  orient_cells(mesh);
+  EXPECT_EQ(mesh.report.turned, 1u);
+  EXPECT_EQ(mesh.blocks[0].connectivity, (std::vector<Index>{0, 1, 2, 3, 1, 4, 5, 2}));
+  EXPECT_EQ(plane_turn(mesh, {&mesh.blocks[0].connectivity[4], 4}), 1);
+  EXPECT_NEAR(mesh.report.worst_jacobian, 1.0, 1e-15);
+  mesh.coordinates[5] = {1.75, 0.75, 0.25};  // products at the corners: 1, 0.75, 0.5, 0.75
+  orient_cells(mesh);
+  EXPECT_NEAR(mesh.report.worst_jacobian, 0.5, 1e-15);
+  EXPECT_EQ(mesh.report.worst_cell, 18);
+}
+
+TEST(MeshOrientation, LeavesQuadsInSpaceAlone) {
+  Mesh sheet = two_quads(0);
+  sheet.coordinates[4][2] = 0.5;
+  const auto before = sheet.blocks[0].connectivity;
+  orient_cells(sheet);
+  EXPECT_EQ(sheet.blocks[0].connectivity, before);
+  EXPECT_EQ(sheet.report.worst_cell, 0);
+
+  Mesh beside_solid = two_quads(0);
+  beside_solid.blocks.push_back({CellType::tetra4, {0, 1, 2, 6}, {19}});
+  beside_solid.coordinates.push_back({0, 0, 1});
+  beside_solid.node_numbers.push_back(7);
+  orient_cells(beside_solid);
+  EXPECT_EQ(beside_solid.blocks[0].connectivity, before);
+  EXPECT_EQ(beside_solid.report.turned, 0u);
+}
+
+TEST(MeshOrientation, RefusesFoldedQuadsAndKeepsInterfacesOfPlaneMeshes) {
+  Mesh folded = two_quads(0);
+  std::swap(folded.blocks[0].connectivity[6], folded.blocks[0].connectivity[7]);
+  EXPECT_EQ(plane_turn(folded, {&folded.blocks[0].connectivity[4], 4}), 0);
+  EXPECT_NE(message_of(folded).find("test.msh: cell 18 (QUAD4): found Jacobians of both signs"), std::string::npos);
+
+  Mesh joint = two_quads(0);
+  joint.coordinates[4] = joint.coordinates[1];
+  joint.coordinates[5] = joint.coordinates[2];
+  orient_cells(joint);
+  EXPECT_EQ(joint.report.turned, 0u);
+  EXPECT_EQ(skin(joint).size(), 4u) << "the joint hides no edge of the cell beside it";
+}
+
 TEST(MeshOrientation, VeryThinCellsAreCells) {
   std::vector<Vec3> thin = kCorners.at(CellType::hexa8);
   for (Vec3& x : thin) x[2] *= 1e-5;  // ten times the thickness below which faces coincide

@@ -146,5 +146,33 @@ TEST(MeshRenumber, SeparateBodiesAndLooseNodesAreAllNumbered) {
   EXPECT_EQ(mean_span(again), 4 * 4 + 4 + 1);
 }
 
+TEST(MeshRenumber, PlaneStripsAndBarsBesideSolidsComeOutInTheirOwnOrder) {
+  StructuredBlock box, strip, bar;
+  box.size = {2, 2, 2};
+  box.divisions = {2, 2, 2};
+  strip.kind = StructuredBlock::Kind::quad;
+  strip.origin = {10, 0, 0};
+  strip.size = {1, 30, 0};
+  strip.divisions = {3, 90, 1};
+  bar.kind = StructuredBlock::Kind::bar;
+  bar.origin = {20, 0, 0};
+  bar.end = {20, 0, 5};
+  bar.divisions = {50, 1, 1};
+  const Mesh mesh = renumbered(shuffled(make_structured_blocks({box, strip, bar}), 11));
+  const auto span = [&](const std::string& group) {
+    Index most = 0;
+    for (const CellRef& ref : mesh.cell_groups.at(group)) {
+      const CellBlock& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
+      const auto n = static_cast<std::ptrdiff_t>(node_count(block.type));
+      if (block.type == CellType::hexa8) continue;
+      const auto [low, high] = std::minmax_element(block.connectivity.begin() + n * ref.cell,
+                                                   block.connectivity.begin() + n * (ref.cell + 1));
+      most = std::max(most, *high - *low);
+    }
+    return most;
+  };
+  EXPECT_EQ(span("BLOCK"), 4 + 1) << "the widest cell of the strip: one row of 4 nodes, and one more";
+}
+
 }  // namespace
 }  // namespace carom

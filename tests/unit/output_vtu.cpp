@@ -38,10 +38,16 @@ struct Grid {
                {point(i, j, k), point(i + 1, j, k), point(i + 1, j + 1, k), point(i, j + 1, k), point(i, j, k + 1),
                 point(i + 1, j, k + 1), point(i + 1, j + 1, k + 1), point(i, j + 1, k + 1)})
             hexa8.push_back(n);
+    for (std::size_t c = 0; c < hexa8.size(); c += 8) cells.add({&hexa8[c], 8}, VtuCells::hexahedron);
   }
-  std::size_t cells() const { return hexa8.size() / 8; }
+  /// Adds the face z = 0 of the first cube as a QUAD4, and its edge along x as a LINE2.
+  void add_flat_cells() {
+    cells.add({hexa8.data(), 4}, VtuCells::quad);
+    cells.add({hexa8.data(), 2}, VtuCells::line);
+  }
   std::vector<Vec3> points;
   std::vector<Index> hexa8;
+  VtuCells cells;
 };
 
 /// Entry i of a field is scale * (i + 1/3): not exact in decimal, so a loss of digits shows.
@@ -62,24 +68,25 @@ class VtuTest : public testing::Test {
 
   void write_frame(const Grid& grid, int step, double scale) const {
     const std::vector<double> displacement = values(3 * grid.points.size(), scale);
-    const std::vector<double> stress = values(6 * grid.cells(), -scale);
-    const std::vector<double> energy = values(grid.cells(), 2 * scale);
+    const std::vector<double> stress = values(6 * grid.cells.types.size(), -scale);
+    const std::vector<double> energy = values(grid.cells.types.size(), 2 * scale);
     const std::vector<VtuField> on_points{{"displacement", 3, displacement}};
     const std::vector<VtuField> on_cells{{"stress", 6, stress}, {"energy <&\"> density", 1, energy}};
-    write_vtu((folder_ / frame_file(step)).string(), grid.points, grid.hexa8, on_points, on_cells);
+    write_vtu((folder_ / frame_file(step)).string(), grid.points, grid.cells, on_points, on_cells);
   }
 
   fs::path folder_;
 };
 
 TEST_F(VtuTest, VtkReadsEveryPointCellAndFieldExactly) {
-  const Grid grid(3, 2, 2);
+  Grid grid(3, 2, 2);
+  grid.add_flat_cells();
   PvdCollection pvd((folder_ / "fields.pvd").string());
   for (const int step : {0, 10}) {
     write_frame(grid, step, step + 1.0);
     pvd.add(0.1 * step, frame_file(step));
   }
-  const std::string command = fmt::format("/usr/bin/python3 \"{}/tests/unit/vtu_read.py\" \"{}\" 3 2 2 0 10",
+  const std::string command = fmt::format("/usr/bin/python3 \"{}/tests/unit/vtu_read.py\" \"{}\" 3 2 2 mixed 0 10",
                                           CAROM_SOURCE_DIR, folder_.string());
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
@@ -90,8 +97,9 @@ TEST_F(VtuTest, VtkReadsMoreThanOneBuffer) {
   PvdCollection pvd((folder_ / "fields.pvd").string());
   write_frame(grid, 123456, 123457.0);
   pvd.add(0.1 * 123456, frame_file(123456));
-  const std::string command = fmt::format("/usr/bin/python3 \"{}/tests/unit/vtu_read.py\" \"{}\" 40 30 20 123456",
-                                          CAROM_SOURCE_DIR, folder_.string());
+  const std::string command =
+      fmt::format("/usr/bin/python3 \"{}/tests/unit/vtu_read.py\" \"{}\" 40 30 20 hexahedra 123456", CAROM_SOURCE_DIR,
+                  folder_.string());
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
@@ -109,7 +117,7 @@ TEST_F(VtuTest, MissingFolderIsAnErrorThatNamesThePath) {
   const Grid grid(1, 1, 1);
   const std::string path = (folder_ / "absent" / "a.vtu").string();
   try {
-    write_vtu(path, grid.points, grid.hexa8, {}, {});
+    write_vtu(path, grid.points, grid.cells, {}, {});
     FAIL() << "no error";
   } catch (const OutputError& error) {
     EXPECT_EQ(error.what(), "cannot write " + path + ": No such file or directory");

@@ -35,7 +35,7 @@ TEST(Groups, WithoutSolidCellsCannotBeAPart) {
   const CaseError e = case_error(
       case_of_block("[[part]]\nname = \"foot\"\ncells = \"FOOT\"\nmaterial = \"soft\"\n" + newmark_for_one_second));
   EXPECT_EQ(e.key(), "part.cells");
-  EXPECT_EQ(e.found(), "\"FOOT\", a group without solid cells");
+  EXPECT_EQ(e.found(), "\"FOOT\", a group of QUAD4 cells");
 }
 
 TEST(Parts, MayNotShareACell) {
@@ -64,13 +64,15 @@ TEST(Contact, NodesWithoutMassMustBeHeld) {
 
 TEST(Contact, MayNotPenetrateAtTheStart) {
   const CaseError e = case_error(case_of_block(plane("FOOT", 0.25) + newmark_for_one_second));
-  EXPECT_EQ(e.found(), "9 of 9 rows of \"wall\" that penetrate at the start, the worst by 0.25 (0.25 of a cell)");
+  const std::string what =
+      "9 rows of \"wall\" that penetrate at the start, the worst by 0.25 (0.25 of a cell): 0.25 at (";
+  EXPECT_EQ(e.found().substr(0, what.size()), what);
 }
 
 TEST(Contact, MayTouchAtTheStart) {
   const Case given = parse_case(case_of_block(plane("FOOT", 0.0) + newmark_for_one_second), "case.toml");
   const Simulation simulation(given);
-  EXPECT_EQ(simulation.contact().rows().size(), 9U);
+  EXPECT_EQ(simulation.contact().slots(), 9U);
 }
 
 TEST(Step, AboveTheStableOneIsRefusedForCentralDifferences) {

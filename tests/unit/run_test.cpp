@@ -13,7 +13,7 @@ namespace {
 using namespace test;
 
 TEST(StepControl, ReachesExactMultiplesOfTheStep) {
-  StepControl control(2e-6, 70, StepControl::Halving::allowed);
+  StepControl control(0.0, 2e-6, 70, StepControl::Halving::allowed);
   int steps = 0;
   while (!control.at_end()) {
     ++steps;
@@ -24,7 +24,7 @@ TEST(StepControl, ReachesExactMultiplesOfTheStep) {
 }
 
 TEST(StepControl, HalvesAndGrowsBackOntoTheGrid) {
-  StepControl control(1.0, 3, StepControl::Halving::allowed);
+  StepControl control(0.0, 1.0, 3, StepControl::Halving::allowed);
   EXPECT_TRUE(control.halve());
   EXPECT_TRUE(control.halve());
   EXPECT_EQ(control.dt(), 0.25);
@@ -42,12 +42,12 @@ TEST(StepControl, HalvesAndGrowsBackOntoTheGrid) {
 }
 
 TEST(StepControl, GivesUpAtTheSmallestStepOrAtOnceWhereTheCaseFixesIt) {
-  StepControl control(1.0, 1, StepControl::Halving::allowed);
+  StepControl control(0.0, 1.0, 1, StepControl::Halving::allowed);
   int halvings = 0;
   while (control.halve()) ++halvings;
   EXPECT_EQ(halvings, 16);
   EXPECT_EQ(control.dt(), 1.0 / 65536);
-  EXPECT_FALSE(StepControl(1.0, 1, StepControl::Halving::forbidden).halve());
+  EXPECT_FALSE(StepControl(0.0, 1.0, 1, StepControl::Halving::forbidden).halve());
 }
 
 /// Values of a column of a CSV text whose comment lines begin with #.
@@ -75,15 +75,15 @@ std::string sliding_case(const std::string& time) {
   return case_of_block(R"(
 [[initial]]
 part = "body"
-velocity = [0.15, 0.05, -0.2]
+velocity = [0.0075, 0.0025, -0.01]
 [[initial]]
 nodes = "HEAD"
-velocity = [0.05, 0.15, -0.1]
+velocity = [0.0025, 0.0075, -0.005]
 [[contact]]
 name = "floor"
 kind = "plane"
 group = "FOOT"
-point = [0.0, 0.0, -0.05]
+point = [0.0, 0.0, -0.0025]
 normal = [0.0, 0.0, 1.0]
 stiffness = 20.0
 tangential_stiffness = 10.0

@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "contact/detect.hpp"
+#include "contact/contact_geometry.hpp"
 #include "energy/ledger.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/central_differences.hpp"
-#include "schemes/newmark.hpp"
+#include "schemes/generalized_alpha.hpp"
 #include "schemes/stable_step.hpp"
 #include "solid_fixture.hpp"
 
@@ -23,21 +24,21 @@ struct Problem {
       : model(std::move(given)),
         solid(model, isa),
         mass(solid.mass(kind)),
-        contact(penalty(model)),
+        contact(model),
         supports(model, with_mass(mass)),
         system{*model.mesh, solid, mass, contact, supports} {}
   Problem(const Problem&) = delete;
   Problem& operator=(const Problem&) = delete;
 
-  static Penalty penalty(const Model& model) {
-    ConstraintRows rows = detect_contact(model).rows;
-    std::vector<PenaltyParameters> parameters = penalty_parameters(model, rows);
-    return {std::move(rows), std::move(parameters)};
-  }
   static std::vector<bool> with_mass(const Mass& mass) {
     std::vector<bool> flags;
     for (const double m : mass.node_diagonal()) flags.push_back(m > 0.0);
     return flags;
+  }
+
+  std::shared_ptr<const ConstraintRows> rows() const {
+    const std::vector<double> zero(solid.dof_count(), 0.0);
+    return contact.rows_at(zero, zero);
   }
 
   /// Free nodes of the body at velocity v0; nothing displaced.
@@ -45,14 +46,14 @@ struct Problem {
     State state;
     state.q.assign(solid.dof_count(), 0.0);
     for (std::size_t i = 0; i < solid.dof_count(); ++i) state.v.push_back(v0[i % 3]);
-    state.contact.resize(contact.rows().size());
+    state.contact.resize(contact.slots());
     return state;
   }
 
   Model model;
   Solid solid;
   Mass mass;
-  Penalty contact;
+  ContactGeometry contact;
   Supports supports;
   System system;
 };
@@ -66,6 +67,7 @@ struct History {
   double shadow_change = 0.0;  ///< largest change of T + U - h^2/8 a.Ma over a step
   int linear_iterations = 0;
   bool converged = true;
+  std::string failure{};  ///< of the step that did not converge
 };
 
 inline double shadow_energy(const Scheme& scheme, double h) {
@@ -85,7 +87,10 @@ History march(Scheme& scheme, const State& begin, double h, int n, const Observe
     const double tolerance = 1e-12 * out.ledger.scale() / n;
     const StepReport report = scheme.step(state, {i * h, h, tolerance}, next);
     out.converged = report.converged;
-    if (!out.converged) break;
+    if (!out.converged) {
+      out.failure = report.failure;
+      break;
+    }
     std::swap(state, next);
     out.linear_iterations += report.linear_iterations;
     out.ledger.add(report.books, scheme.forces().total_momentum);
@@ -108,8 +113,22 @@ inline History march(Scheme& scheme, const State& begin, double h, int n) {
   return march(scheme, begin, h, n, [](const State&, const Scheme&) {});
 }
 
+struct NewmarkParameters {
+  double beta = 0.25, gamma = 0.5;
+  int max_iterations = 50;
+  SolverKind solver = SolverKind::automatic;
+};
+
+inline std::unique_ptr<Scheme> generalized_alpha(const Problem& p, double h,
+                                                 const GeneralizedAlphaParameters& parameters,
+                                                 const ImplicitSettings& settings = {}) {
+  return std::make_unique<GeneralizedAlpha>(p.system, parameters, settings, h,
+                                            stable_step(p.system).omega_max_squared_free);
+}
+
 inline std::unique_ptr<Scheme> newmark(const Problem& p, double h, const NewmarkParameters& parameters = {}) {
-  return std::make_unique<Newmark>(p.system, parameters, h, stable_step(p.system).omega_max_squared_free);
+  return generalized_alpha(p, h, newmark_parameters(parameters.beta, parameters.gamma),
+                           {.max_iterations = parameters.max_iterations, .solver = parameters.solver});
 }
 
 inline std::unique_ptr<Scheme> central(const Problem& p) {
@@ -117,12 +136,12 @@ inline std::unique_ptr<Scheme> central(const Problem& p) {
 }
 
 /// Outward QUAD4 faces of a group.
-inline std::vector<std::array<Index, 4>> faces_of(const Mesh& mesh, const std::string& group) {
-  std::vector<std::array<Index, 4>> faces;
+inline std::vector<Facet> faces_of(const Mesh& mesh, const std::string& group) {
+  std::vector<Facet> faces;
   for (const CellRef& ref : mesh.cell_groups.at(group)) {
     const CellBlock& quads = mesh.blocks[static_cast<std::size_t>(ref.block)];
-    faces.emplace_back();
-    std::copy_n(quads.connectivity.begin() + 4 * static_cast<std::ptrdiff_t>(ref.cell), 4, faces.back().begin());
+    Facet& face = faces.emplace_back(Facet{{}, 4});
+    std::copy_n(quads.connectivity.begin() + 4 * static_cast<std::ptrdiff_t>(ref.cell), 4, face.node.begin());
   }
   return faces;
 }
@@ -132,14 +151,17 @@ inline void block(Model& model, const std::string& group, const std::vector<int>
   for (const int c : components) model.motions.push_back({group, model.mesh->nodes_of(group), c});
 }
 
+struct Friction {
+  double eps_T = 0.0, mu = 0.0;
+};
+
 /// A plane z = -gap under the group's faces, per area.
-inline PlaneContact plane_below(const Model& model, double gap, double eps_N, const FrictionLaw& friction = {}) {
-  PlaneContact plane;
+inline ObstacleContact plane_below(const Model& model, double gap, double eps_N, const Friction& friction = {}) {
+  ObstacleContact plane;
   plane.name = "plane";
-  plane.point = {0, 0, -gap};
-  plane.faces = faces_of(*model.mesh, "ZMIN");
-  plane.eps_N = eps_N;
-  plane.friction = friction;
+  plane.shape = Plane{{0, 0, -gap}, {0, 0, 1}};
+  plane.surface.facets = faces_of(*model.mesh, "ZMIN");
+  plane.law = {.eps_N = eps_N, .eps_T = friction.eps_T, .mu = friction.mu};
   return plane;
 }
 

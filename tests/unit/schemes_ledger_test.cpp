@@ -6,7 +6,7 @@
 #include <string>
 
 #include "contact_fixture.hpp"
-#include "schemes_fixture.hpp"
+#include "schemes_implicit.hpp"
 
 namespace carom {
 namespace {
@@ -32,7 +32,7 @@ void PrintTo(const Scenario& scenario, std::ostream* out) {
   *out << scenario.name;
 }
 
-Model on_plane(const FrictionLaw& friction) {
+Model on_plane(const Friction& friction) {
   Model model = distorted_block();
   model.contacts.emplace_back(plane_below(model, 0.05, 20.0, friction));
   return model;
@@ -43,7 +43,7 @@ Model on_interface() {
   Model model = one_part(mesh);
   const std::vector<Index> cells = add_interface(mesh, "ZMIN");
   model.mesh = std::make_shared<const Mesh>(std::move(mesh));
-  model.contacts.emplace_back(InterfaceContact{"wall", cells, 20.0, {10.0, 0.3}});
+  model.contacts.emplace_back(InterfaceContact{"wall", cells, {.eps_N = 20.0, .eps_T = 10.0, .mu = 0.3}});
   block(model, "WALL", {0, 1, 2});
   return model;
 }
@@ -85,7 +85,7 @@ std::vector<Scenario> scenarios() {
        }},
       {"pressure",
        [] {
-         return loaded(Pressure{faces_of(*distorted_block().mesh, "ZMAX"), 0.1, ramp_and_fall});
+         return loaded(Pressure{{faces_of(*distorted_block().mesh, "ZMAX")}, 0.1, ramp_and_fall});
        }},
       {"nodal_force",
        [] {
@@ -111,7 +111,7 @@ State start_of(const Scenario& scenario, const Problem& p) {
 struct Ledger : testing::TestWithParam<Scenario> {
   void expect_closed(const Problem& p, Scheme& scheme, double h) {
     const History run = march(scheme, start_of(GetParam(), p), h, static_cast<int>(end / h));
-    ASSERT_TRUE(run.converged);
+    ASSERT_TRUE(run.converged) << run.failure;
     const double scale = run.ledger.scale();
     ASSERT_GT(scale, 1e-3);                   // something has happened
     EXPECT_LT(run.imbalance, 1e-10 * scale);  // what a case promises (verdict: energy balance)
@@ -141,6 +141,14 @@ TEST_P(Ledger, ClosesWithCentralDifferences) {
   for (const MassKind kind : {MassKind::lumped, MassKind::consistent}) {
     const Problem p(GetParam().model(), kind);
     expect_closed(p, *central(p), 0.8 * stable_step(p.system).dt);
+  }
+}
+
+TEST_P(Ledger, ClosesWithEveryImplicitScheme) {
+  const Problem p(GetParam().model());
+  for (const ImplicitScheme& one : implicit_schemes()) {
+    SCOPED_TRACE(one.name);
+    expect_closed(p, *one.with(p, 0.1), 0.1);
   }
 }
 

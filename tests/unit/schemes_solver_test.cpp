@@ -16,7 +16,7 @@ Model many_rows() {
   Model model = one_part(mesh);
   const std::vector<Index> cells = add_interface(mesh, "ZMIN");
   model.mesh = std::make_shared<const Mesh>(std::move(mesh));
-  model.contacts.emplace_back(InterfaceContact{"wall", cells, 20.0, {10.0, 0.3}});
+  model.contacts.emplace_back(InterfaceContact{"wall", cells, {.eps_N = 20.0, .eps_T = 10.0, .mu = 0.3}});
   model.contacts.emplace_back(StopContact{"stop", model.mesh->nodes_of("XMAX"), {-1, 0, 0}, 0.1, 2.0, 0.0});
   block(model, "WALL", {0, 1, 2});
   block(model, "YMIN", {1});
@@ -26,7 +26,8 @@ Model many_rows() {
 /// M + s K + G^T D G on all dofs, identity on fixed ones: the oracle, by applying every part to unit vectors.
 std::vector<double> dense_operator(const Problem& p, double s, const std::vector<RowTangent>& D) {
   const std::size_t n = p.solid.dof_count();
-  const ConstraintRows& rows = p.contact.rows();
+  const auto shared = p.rows();
+  const ConstraintRows& rows = *shared;
   const std::vector<bool>& fixed = p.supports.fixed();
   std::vector<double> A(n * n), unit(n), column(n), K_unit(n);
   for (std::size_t j = 0; j < n; ++j) {
@@ -62,8 +63,8 @@ void expect_dense_solution(const Problem& p, EffectiveSolver& solver, double s, 
   const std::vector<double> b = free_random(p, 3);
   std::vector<double> expected = b, x(b.size(), 1.0);
   DenseLu(dense_operator(p, s, D), static_cast<int>(b.size())).solve(expected);
-  solver.prepare(s);
-  const LinearSolveReport report = solver.solve(b, D, 0.0, x);
+  EXPECT_EQ(solver.prepare(1.0, s, x), "");
+  const LinearSolveReport report = solver.solve(b, p.rows(), D, 0.0, x);
   EXPECT_TRUE(report.converged || report.residual < 1e-12) << report.residual;
   EXPECT_LT(largest_difference(x, expected), tolerance * largest(expected));
 }
@@ -96,9 +97,9 @@ TEST(EffectiveSolver, CholeskyCorrectsForAnyContactTangent) {
   for (const double s : {0.1, 3.0}) {  // the second factor throws the columns of the first away
     for (unsigned seed = 1; seed <= 5; ++seed) {
       // 1e-11: round-off 1e-16 times a condition number of M + s K of some hundred, and the correction's
-      expect_dense_solution(p, *solver, s, random_tangents(p.contact.rows().size(), 100 * seed, Draw::general), 1e-11);
+      expect_dense_solution(p, *solver, s, random_tangents(p.contact.slots(), 100 * seed, Draw::general), 1e-11);
     }
-    expect_dense_solution(p, *solver, s, std::vector<RowTangent>(p.contact.rows().size()), 1e-11);
+    expect_dense_solution(p, *solver, s, std::vector<RowTangent>(p.contact.slots()), 1e-11);
   }
 }
 
@@ -107,7 +108,7 @@ TEST(EffectiveSolver, ConjugateGradientsSolveSymmetricTangents) {
   const auto solver = make_effective_solver(p.system, SolverKind::conjugate_gradients, 0.1, 1.0);
   for (const double s : {0.1, 3.0}) {
     // 1e-10: a residual of 1e-14 times the condition number
-    expect_dense_solution(p, *solver, s, random_tangents(p.contact.rows().size(), 7, Draw::symmetric), 1e-10);
+    expect_dense_solution(p, *solver, s, random_tangents(p.contact.slots(), 7, Draw::symmetric), 1e-10);
   }
 }
 
@@ -115,13 +116,13 @@ TEST(EffectiveSolver, ConjugateGradientsSolveSymmetricTangents) {
 TEST(EffectiveSolver, ConjugateGradientsLeaveOneWayCouplingOut) {
   const Problem p(many_rows());
   const auto solver = make_effective_solver(p.system, SolverKind::conjugate_gradients, 0.1, 1.0);
-  std::vector<RowTangent> coupled(p.contact.rows().size(), {5.0, 0, 0, -1.5, 1.0, 0, 0.5, 0, 2.0});
+  std::vector<RowTangent> coupled(p.contact.slots(), {5.0, 0, 0, -1.5, 1.0, 0, 0.5, 0, 2.0});
   const std::vector<RowTangent> uncoupled(coupled.size(), {5.0, 0, 0, 0, 1.0, 0, 0, 0, 2.0});
   const std::vector<double> b = free_random(p, 3);
   std::vector<double> x(b.size()), y(b.size());
-  solver->prepare(0.1);
-  EXPECT_TRUE(solver->solve(b, coupled, 1e-12, x).converged);
-  EXPECT_TRUE(solver->solve(b, uncoupled, 1e-12, y).converged);
+  EXPECT_EQ(solver->prepare(1.0, 0.1, x), "");
+  EXPECT_TRUE(solver->solve(b, p.rows(), coupled, 1e-12, x).converged);
+  EXPECT_TRUE(solver->solve(b, p.rows(), uncoupled, 1e-12, y).converged);
   EXPECT_EQ(x, y);
 }
 
@@ -139,14 +140,14 @@ TEST(EffectiveSolver, AutomaticTakesTheFactorisationForLongSteps) {
   EXPECT_EQ(name_for(100.0), "Cholesky factorisation");
 }
 
-Model impact(const FrictionLaw& friction) {
+Model impact(const Friction& friction) {
   Model model = one_part(block_mesh({2, 2, 4}, 0.15));
   model.contacts.emplace_back(plane_below(model, 0.05, 20.0, friction));
   return model;
 }
 
 TEST(Solvers, AgreeOnAnImpact) {
-  for (const FrictionLaw& friction : {FrictionLaw{}, FrictionLaw{10.0, 0.5}}) {
+  for (const Friction& friction : {Friction{}, Friction{10.0, 0.5}}) {
     for (const MassKind kind : {MassKind::consistent, MassKind::lumped}) {
       std::vector<State> states;
       for (const SolverKind solver : {SolverKind::cholesky, SolverKind::conjugate_gradients}) {

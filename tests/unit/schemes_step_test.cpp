@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 /// A block that flies towards a plane 0.05 below at speed 0.2: it touches at t = 0.25.
-Model flying(const FrictionLaw& friction = {}) {
+Model flying(const Friction& friction = {}) {
   Model model = one_part(block_mesh({2, 2, 2}, 0.0));
   model.contacts.emplace_back(plane_below(model, 0.05, 20.0, friction));
   return model;
@@ -116,12 +116,12 @@ TEST(Contact, MayCloseExactlyAtTheEndOfAStep) {
 /// A block on node springs of 1 at a penetration of 1 that nodal forces of 1 hold in balance: closed while |u| < 1.
 Model resting() {
   Model model = one_part(block_mesh({2, 2, 2}, 0.1));
-  PlaneContact bed;
+  ObstacleContact bed;
   bed.name = "bed";
-  bed.point = {0, 0, 1.0};
-  bed.measure = PenaltyMeasure::per_node;
+  bed.shape = Plane{{0, 0, 1.0}, {0, 0, 1}};
+  bed.measure = RowMeasure::per_node;
   bed.nodes = model.mesh->nodes_of("ZMIN");
-  bed.eps_N = 1.0;
+  bed.law.eps_N = 1.0;
   model.contacts.emplace_back(bed);
   model.loads.emplace_back(NodalForce{model.mesh->nodes_of("ZMIN"), {0, 0, -1.0}, {}});
   return model;

@@ -1,6 +1,7 @@
 // Small models for the tests of the solid.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -15,7 +16,7 @@
 namespace carom::test {
 
 /// A steel-like material with numbers near 1, so that absolute tolerances have a meaning.
-inline constexpr LinearElastic unit_material{.E = 2.0, .nu = 0.3, .rho = 1.5};
+inline constexpr LinearElastic unit_material{{.E = 2.0, .nu = 0.3, .rho = 1.5}};
 
 /// Block of the given divisions with edges of length `edge`; inner nodes moved by up to `distortion` x edge (seeded).
 /// With a distortion of 0.2 all Jacobian determinants stay positive.
@@ -87,6 +88,40 @@ inline std::vector<Isa> available_isas() {
   for (const Isa isa : {Isa::reference, Isa::x86_64_v2, Isa::x86_64_v3, Isa::x86_64_v4})
     if (supported(isa)) isas.push_back(isa);
   return isas;
+}
+
+/// Eigenvalues of a small symmetric matrix by Jacobi rotations (Golub and Van Loan, 4th ed., section 8.5), ascending.
+inline std::vector<double> eigenvalues(std::vector<std::vector<double>> A) {
+  const std::size_t n = A.size();
+  for (int sweep = 0; sweep < 30; ++sweep)
+    for (std::size_t p = 0; p < n; ++p)
+      for (std::size_t q = p + 1; q < n; ++q) {
+        if (A[p][q] == 0.0) continue;
+        const double theta = (A[q][q] - A[p][p]) / (2 * A[p][q]);
+        const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+        const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+        for (std::size_t k = 0; k < n; ++k) {
+          const double a = A[k][p], b = A[k][q];
+          A[k][p] = c * a - s * b, A[k][q] = s * a + c * b;
+        }
+        for (std::size_t k = 0; k < n; ++k) {
+          const double a = A[p][k], b = A[q][k];
+          A[p][k] = c * a - s * b, A[q][k] = s * a + c * b;
+        }
+      }
+  std::vector<double> values;
+  for (std::size_t i = 0; i < n; ++i) values.push_back(A[i][i]);
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+inline std::vector<std::vector<double>> dense(const CsrMatrix& K) {
+  const auto n = static_cast<std::size_t>(K.size);
+  std::vector<std::vector<double>> A(n, std::vector<double>(n, 0.0));
+  for (std::size_t r = 0; r < n; ++r)
+    for (auto k = static_cast<std::size_t>(K.row_begin[r]); k < static_cast<std::size_t>(K.row_begin[r + 1]); ++k)
+      A[r][static_cast<std::size_t>(K.column[k])] = K.value[k];
+  return A;
 }
 
 }  // namespace carom::test

@@ -6,7 +6,7 @@
 
 #include "solid/blocks.hpp"
 #include "solid/colouring.hpp"
-#include "solid/hexa8_batch.hpp"
+#include "solid/hexa8_table.hpp"
 #include "solid_fixture.hpp"
 
 namespace carom::test {
@@ -18,15 +18,15 @@ struct Answer {
 };
 
 Answer run(const KernelTable& kernel, const Model& model, const std::vector<double>& u) {
-  const SolidCells solid = make_solid_cells(model, kernel.lanes);
+  const SolidCells solid = make_solid_cells(model, kernel);
   const Block& block = solid.blocks[0];
-  const CellBatches batches{model.mesh->coordinates[0].data(), block.offset.data(), block.cells};
-  const BatchLaw law{kernel.linear_elastic, &block.lame};
+  const CellBatches batches = solid.batches(block, 0, block.cells);
+  const BatchLaw law = block.law();
   Answer answer{std::vector<double>(u.size(), 0.0), std::vector<double>(6 * static_cast<std::size_t>(block.cells)),
                 0.0};
-  kernel.add_internal_force(batches, law, u.data(), answer.force.data());
-  kernel.mean_stress(batches, law, u.data(), answer.stress.data());
-  answer.energy = kernel.strain_energy(batches, law, u.data());
+  block.kernels.add_internal_force(batches, law, u.data(), answer.force.data());
+  block.kernels.mean_stress(batches, law, u.data(), answer.stress.data());
+  answer.energy = block.kernels.strain_energy(batches, law, u.data());
   return answer;
 }
 
@@ -56,11 +56,11 @@ TEST(SolidKernels, EveryBatchSizeIsFilledUpCorrectly) {
   }
 }
 
-std::set<Index> nodes_of(const Model& model, const SolidCells& solid, const Chunk& chunk) {
+std::set<Index> nodes_of(const SolidCells& solid, const Chunk& chunk) {
   std::set<Index> nodes;
   for (Index c = 0; c < chunk.cells; ++c) {
     const Index position = solid.blocks[static_cast<std::size_t>(chunk.block)].first + chunk.first + c;
-    for (const Index n : cell_nodes(*model.mesh, solid.cells[static_cast<std::size_t>(position)])) nodes.insert(n);
+    for (const Index n : solid.nodes_of(static_cast<std::size_t>(position))) nodes.insert(n);
   }
   return nodes;
 }
@@ -71,12 +71,12 @@ TEST(SolidChunks, OfOneColourShareNoNodeAndCoverAllCells) {
   model.parts.push_back(
       {.name = "end", .cells = {body.cells.begin() + 3000, body.cells.end()}, .material = unit_material});
   model.parts[0].cells.resize(3000);
-  const SolidCells solid = make_solid_cells(model, 4);
+  const SolidCells solid = make_solid_cells(model, make_kernels<Pack4>());
   std::size_t cells = 0;
   for (std::size_t k = 0; k + 1 < solid.colour_begin.size(); ++k) {
     std::set<Index> seen;
     for (std::size_t c = solid.colour_begin[k]; c < solid.colour_begin[k + 1]; ++c) {
-      for (const Index n : nodes_of(model, solid, solid.chunks[c])) EXPECT_TRUE(seen.insert(n).second);
+      for (const Index n : nodes_of(solid, solid.chunks[c])) EXPECT_TRUE(seen.insert(n).second);
       cells += static_cast<std::size_t>(solid.chunks[c].cells);
     }
   }

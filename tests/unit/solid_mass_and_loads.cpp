@@ -77,12 +77,12 @@ std::array<Vec3, 2> resultant_and_moment(const Mesh& mesh, const std::vector<dou
   return {force, moment};
 }
 
-std::vector<std::array<Index, 4>> faces_of(const Mesh& mesh, const std::string& group) {
+std::vector<Facet> faces_of(const Mesh& mesh, const std::string& group) {
   const CellBlock& quads = *mesh.block(CellType::quad4);
-  std::vector<std::array<Index, 4>> faces;
+  std::vector<Facet> faces;
   for (const CellRef& ref : mesh.cell_groups.at(group)) {
-    std::array<Index, 4> face{};
-    for (std::size_t a = 0; a < 4; ++a) face[a] = quads.connectivity[4 * static_cast<std::size_t>(ref.cell) + a];
+    Facet face{{}, 4};
+    for (std::size_t a = 0; a < 4; ++a) face.node[a] = quads.connectivity[4 * static_cast<std::size_t>(ref.cell) + a];
     faces.push_back(face);
   }
   return faces;
@@ -91,7 +91,7 @@ std::vector<std::array<Index, 4>> faces_of(const Mesh& mesh, const std::string& 
 // Statics: pressure p on the plane face z = 3 of area 6 at centroid (1, 1.5): force -6 p in z, moment r x F.
 TEST(SolidLoads, PressureHasItsResultantAndMoment) {
   Model model = one_part(block_mesh({2, 3, 3}, 0.0));
-  model.loads.emplace_back(Pressure{faces_of(*model.mesh, "ZMAX"), 0.5, TimeFunction{{0.0, 1.0}, {0.0, 2.0}}});
+  model.loads.emplace_back(Pressure{{faces_of(*model.mesh, "ZMAX")}, 0.5, TimeFunction{{0.0, 1.0}, {0.0, 2.0}}});
   const Solid solid(model);
   std::vector<double> f(solid.dof_count(), 7.0);
   solid.external_force(0.5, solid.mass(MassKind::lumped), f);
@@ -109,10 +109,10 @@ TEST(SolidLoads, PressureOnAClosedWarpedSkinVanishes) {
   const auto moves = random_vector(3 * mesh.node_count(), 9);
   for (std::size_t d = 0; d < moves.size(); ++d) mesh.coordinates[d / 3][d % 3] += 0.15 * moves[d];
   Model model = one_part(std::move(mesh));
-  std::vector<std::array<Index, 4>> faces;
+  std::vector<Facet> faces;
   for (const char* side : {"XMIN", "XMAX", "YMIN", "YMAX", "ZMIN", "ZMAX"})
     for (const auto& face : faces_of(*model.mesh, side)) faces.push_back(face);
-  model.loads.emplace_back(Pressure{faces, 1.0, {}});
+  model.loads.emplace_back(Pressure{{faces}, 1.0, {}});
   const Solid solid(model);
   std::vector<double> f(solid.dof_count());
   solid.external_force(0.0, solid.mass(MassKind::lumped), f);

@@ -63,40 +63,6 @@ TEST(SolidTangent, IsSymmetricAndHasItsDiagonal) {
   }
 }
 
-/// Eigenvalues of a small symmetric matrix by Jacobi rotations (Golub and Van Loan, 4th ed., section 8.5), ascending.
-std::vector<double> eigenvalues(std::vector<std::vector<double>> A) {
-  const std::size_t n = A.size();
-  for (int sweep = 0; sweep < 30; ++sweep)
-    for (std::size_t p = 0; p < n; ++p)
-      for (std::size_t q = p + 1; q < n; ++q) {
-        if (A[p][q] == 0.0) continue;
-        const double theta = (A[q][q] - A[p][p]) / (2 * A[p][q]);
-        const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-        const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-        for (std::size_t k = 0; k < n; ++k) {
-          const double a = A[k][p], b = A[k][q];
-          A[k][p] = c * a - s * b, A[k][q] = s * a + c * b;
-        }
-        for (std::size_t k = 0; k < n; ++k) {
-          const double a = A[p][k], b = A[q][k];
-          A[p][k] = c * a - s * b, A[q][k] = s * a + c * b;
-        }
-      }
-  std::vector<double> values;
-  for (std::size_t i = 0; i < n; ++i) values.push_back(A[i][i]);
-  std::sort(values.begin(), values.end());
-  return values;
-}
-
-std::vector<std::vector<double>> dense(const CsrMatrix& K) {
-  const auto n = static_cast<std::size_t>(K.size);
-  std::vector<std::vector<double>> A(n, std::vector<double>(n, 0.0));
-  for (std::size_t r = 0; r < n; ++r)
-    for (auto k = static_cast<std::size_t>(K.row_begin[r]); k < static_cast<std::size_t>(K.row_begin[r + 1]); ++k)
-      A[r][static_cast<std::size_t>(K.column[k])] = K.value[k];
-  return A;
-}
-
 /// One cell whose eight nodes are all moved.
 Model one_distorted_cell(unsigned seed) {
   Mesh mesh = block_mesh({1, 1, 1}, 0.0);

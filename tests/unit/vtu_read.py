@@ -1,15 +1,15 @@
-"""Reads a results folder with VTK and compares every number: vtu_read.py FOLDER nx ny nz STEP...
+"""Reads a results folder with VTK and compares every number: vtu_read.py FOLDER nx ny nz hexahedra|mixed STEP...
 
 The expected numbers are computed here from the rules in output_vtu.cpp (unit cubes, x fastest; entry i of a field is
 scale * (i + 1/3) with scale = step + 1, negated for the stress and doubled for the energy density). Equality is exact:
-raw binary data lose nothing.
+raw binary data lose nothing. `mixed`: behind the cubes come the face z = 0 of the first one and that face's first edge.
 """
 
 import sys
 import xml.etree.ElementTree as ElementTree
 
 from vtkmodules.vtkCommonCore import vtkCommand
-from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_LINE, VTK_QUAD
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 
@@ -52,14 +52,18 @@ def read(path):
     return reader.GetOutput()
 
 
-def check_frame(path, shape, scale):
+def check_frame(path, shape, is_mixed, scale):
     grid = read(path)
     points, cells = expected_grid(*shape)
+    types = [VTK_HEXAHEDRON] * len(cells)
+    if is_mixed:
+        cells += [cells[0][:4], cells[0][:2]]
+        types += [VTK_QUAD, VTK_LINE]
     same("points", tuples(grid.GetPoints().GetData()), points)
+    same("cell types", [grid.GetCellType(c) for c in range(grid.GetNumberOfCells())], types)
     connectivity = [int(n) for (n,) in tuples(grid.GetCells().GetConnectivityArray())]
-    same("cells", list(zip(*[iter(connectivity)] * 8)), cells)
-    if {grid.GetCellType(c) for c in range(grid.GetNumberOfCells())} != {VTK_HEXAHEDRON}:
-        sys.exit("cells other than hexahedra")
+    ends = [int(n) for (n,) in tuples(grid.GetCells().GetOffsetsArray())]
+    same("cells", [tuple(connectivity[a:b]) for a, b in zip(ends, ends[1:])], cells)
     on_points, on_cells = grid.GetPointData(), grid.GetCellData()
     if on_points.GetNumberOfArrays() != 1 or on_cells.GetNumberOfArrays() != 2:
         sys.exit("missing or unexpected arrays")
@@ -69,12 +73,12 @@ def check_frame(path, shape, scale):
 
 
 def main():
-    folder, shape, steps = sys.argv[1], [int(n) for n in sys.argv[2:5]], [int(n) for n in sys.argv[5:]]
+    folder, shape, steps = sys.argv[1], [int(n) for n in sys.argv[2:5]], [int(n) for n in sys.argv[6:]]
     sets = ElementTree.parse(folder + "/fields.pvd").getroot().find("Collection").findall("DataSet")
     if [float(s.get("timestep")) for s in sets] != [0.1 * step for step in steps]:
         sys.exit("fields.pvd: wrong times")
     for data_set, step in zip(sets, steps):
-        check_frame(folder + "/" + data_set.get("file"), shape, step + 1.0)
+        check_frame(folder + "/" + data_set.get("file"), shape, sys.argv[5] == "mixed", step + 1.0)
 
 
 main()

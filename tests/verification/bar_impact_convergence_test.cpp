@@ -64,7 +64,7 @@ double velocity_error(int cells, double step, const std::string& scheme_text) {
     if (x[0] == 0.0 && x[1] == 0.0)
       edge[static_cast<std::size_t>(std::lround((x[2] - bar.gap) / bar.length * cells))] = n;
   }
-  const auto scheme = simulation.make_scheme();
+  const auto scheme = simulation.first().make_scheme();
   State state = simulation.initial_state(), next;
   const double h = simulation.dt();
   scheme->start(state, h);

@@ -1,0 +1,29 @@
+#include <fmt/format.h>
+
+#include "casefile/schema.hpp"
+#include "model/compatibility.hpp"
+
+namespace carom {
+
+std::string compatibility_markdown() {
+  std::string text =
+      "# Which scheme takes which contact\n\n"
+      "Made from `src/model/compatibility.hpp`, from which the error messages and the tests come as well. `[scheme]\n"
+      "enforcement` names the column; without it a case gets the first that its scheme takes.\n\n| scheme |";
+  std::string line = "|---|";
+  for (const std::string_view enforcement : enforcement_names) {
+    text += fmt::format(" `{}` |", enforcement);
+    line += ":-:|";
+  }
+  text += " |\n" + line + "---|\n";
+  for (const SchemeTraits& scheme : scheme_table) {
+    text += fmt::format("| `{}` |", scheme.name);
+    for (const bool taken : scheme.takes) text += taken ? " yes |" : " - |";
+    text += is_explicit(scheme.kind) ? " explicit |\n" : " implicit |\n";
+  }
+  text += "\nWhy not:\n\n";
+  for (const SchemeTraits& scheme : scheme_table) text += fmt::format("- `{}`: {}.\n", scheme.name, scheme.why_not);
+  return text;
+}
+
+}  // namespace carom

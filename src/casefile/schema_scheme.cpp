@@ -1,0 +1,239 @@
+#include <fmt/format.h>
+
+#include "casefile/case_schema.hpp"
+#include "casefile/section_rules.hpp"
+
+namespace carom {
+
+namespace {
+
+using Need = KeyOptions::Need;
+using Names = std::vector<std::string>;
+
+template <class Condition>
+Names schemes_with(const Condition& condition) {
+  Names names;
+  for (const SchemeTraits& scheme : scheme_table) {
+    if (condition(scheme)) names.emplace_back(scheme.name);
+  }
+  return names;
+}
+
+Names all_schemes() {
+  return schemes_with([](const SchemeTraits&) { return true; });
+}
+Names implicit_schemes() {
+  return schemes_with([](const SchemeTraits& s) { return !is_explicit(s.kind); });
+}
+Names explicit_schemes() {
+  return schemes_with([](const SchemeTraits& s) { return is_explicit(s.kind); });
+}
+
+Range closed(double low, double high) {
+  return {Bound{low, Bound::Side::closed}, Bound{high, Bound::Side::closed}};
+}
+
+/// The keys of a scheme, in [scheme] and in [[stage]]; scheme_of(section) is the CaseScheme.
+template <class S, class Access>
+void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
+  const auto number = [&](const std::string& key, double CaseScheme::*member, const std::string& doc, Range range,
+                          const Names& kinds) {
+    s.key_by(key, [ scheme_of, member ](auto& section) -> auto& { return scheme_of(section).*member; }, doc,
+             {.range = range, .kinds = kinds});
+  };
+  s.description.selector = "kind";
+  s.key_by("kind", [scheme_of](auto& section) -> auto& { return scheme_of(section).kind; }, "Time scheme.",
+           {.choices = all_schemes(), .need = Need::required});
+  s.key_by("enforcement", [scheme_of](auto& section) -> auto& { return scheme_of(section).enforcement; },
+           "How contact is enforced; the table of the manual says which scheme takes which.",
+           {.choices = Names(enforcement_names.begin(), enforcement_names.end()),
+            .default_phrase = "the first that the scheme takes"});
+  number("beta", &CaseScheme::beta, "Newmark's beta.", {Bound{0.0, Bound::Side::open}, Bound{0.5, Bound::Side::closed}},
+         {"newmark"});
+  number("gamma", &CaseScheme::gamma, "Newmark's gamma; above 0.5 the scheme dissipates.", closed(0.5, 1.0),
+         {"newmark", "contact_stabilized_newmark"});
+  number("alpha", &CaseScheme::alpha, "Dissipation of HHT and WBZ; 0 is Newmark's trapezoidal rule.",
+         closed(-1.0 / 3.0, 0.0), {"hht", "wbz"});
+  number("rho_inf", &CaseScheme::rho_inf, "Spectral radius at high frequency (Hulbert-Chung: at bifurcation).",
+         closed(0.0, 1.0), {"generalized_alpha", "hulbert_chung"});
+  number("theta", &CaseScheme::theta, "Weight of the end of the step; above 0.5 the scheme dissipates.",
+         closed(0.5, 1.0), {"moreau_jean"});
+  number("phi", &CaseScheme::phi, "Above 1 the scheme dissipates.", closed(1.0, 2.0), {"tchamwa_wielgosz"});
+  number("p", &CaseScheme::p, "First sub-step over the step.",
+         {Bound{0.0, Bound::Side::open}, Bound{1.0, Bound::Side::open}}, {"noh_bathe"});
+  const auto augmented = [](const SchemeTraits& t) { return takes(t.kind, EnforcementKind::augmented_lagrangian); };
+  s.key_by("penetration", [scheme_of](auto& section) -> auto& { return scheme_of(section).penetration; },
+           "With enforcement = \"augmented_lagrangian\": largest penetration, relative to the smallest cell.",
+           {.range = greater_than(0.0), .kinds = schemes_with(augmented), .default_phrase = "1e-3"});
+  s.key_by("mass", [scheme_of](auto& section) -> auto& { return scheme_of(section).mass; },
+           "Mass matrix; modified: no inertia on contact nodes, theirs given to their neighbours.",
+           {.choices = {"consistent", "lumped", "modified"},
+            .default_phrase = "implicit: consistent; explicit: lumped; modified_mass: modified"});
+  s.key_by("layers", [scheme_of](auto& section) -> auto& { return scheme_of(section).layers; },
+           "With a modified mass: layers of nodes that take the mass of the contact nodes.",
+           {.range = at_least(1.0), .default_phrase = "4"});
+  s.key_by("redistribution", [scheme_of](auto& section) -> auto& { return scheme_of(section).redistribution; },
+           "With a modified mass: evenly over the layers, or by least squares over the body, centre and inertia kept.",
+           {.choices = {"layers", "least_squares"}, .default_phrase = "layers"});
+}
+
+[[noreturn]] void refuse_enforcement(const CaseScheme& scheme, const ReadContext& at) {
+  const SchemeTraits& line = traits(*scheme.kind);
+  Names taken;
+  for (std::size_t e = 0; e < enforcement_count; ++e) {
+    if (line.takes[e]) taken.emplace_back(enforcement_names[e]);
+  }
+  throw CaseError(scheme.enforcement->where, at.at("enforcement").path,
+                  fmt::format("\"{}\" with the scheme {}", name(**scheme.enforcement), line.name),
+                  fmt::format("{}{}, since {}", taken.size() > 1 ? "one of " : "", quoted_list(taken), line.why_not),
+                  "Choose another enforcement or another scheme; docs/compatibility.md has the whole table.");
+}
+
+void check_mass(CaseScheme& scheme, const Node& node, const ReadContext& at) {
+  using Mass = CaseScheme::Mass;
+  const bool must_be_modified = *scheme.kind == SchemeKind::modified_mass;
+  if (!scheme.mass) {
+    const Mass usual = must_be_modified ? Mass::modified : is_explicit(*scheme.kind) ? Mass::lumped : Mass::consistent;
+    scheme.mass = Located<Mass>{usual, scheme.where};
+  }
+  const bool is_modified = **scheme.mass == Mass::modified;
+  const bool may_be_modified =
+      must_be_modified ||
+      (!is_explicit(*scheme.kind) && **scheme.enforcement == EnforcementKind::lagrange &&
+       *scheme.kind != SchemeKind::contact_stabilized_newmark && *scheme.kind != SchemeKind::statics);
+  if (is_modified && !may_be_modified) {
+    throw CaseError(scheme.mass->where, at.at("mass").path,
+                    fmt::format("\"modified\" with scheme {} and enforcement {}", traits(*scheme.kind).name,
+                                name(**scheme.enforcement)),
+                    "modified_mass, or newmark, hht, wbz, generalized_alpha or bathe with enforcement = \"lagrange\"");
+  }
+  if (!is_modified && must_be_modified) {
+    throw CaseError(scheme.mass->where, at.at("mass").path, "another mass than \"modified\"",
+                    "\"modified\", on which the scheme modified_mass is built", "Leave mass out.");
+  }
+  if (is_modified) {
+    using Redistribution = CaseScheme::Redistribution;
+    if (!scheme.redistribution) scheme.redistribution = Redistribution::layers;
+    if (!scheme.layers && *scheme.redistribution == Redistribution::layers) scheme.layers = 4;
+  }
+  for (const char* key : {"layers", "redistribution"}) {
+    const Node* given = find(node, key);
+    if (given == nullptr || is_modified) continue;
+    throw CaseError(given->where, at.at(key).path, "a key of the modified mass", "it only beside mass = \"modified\"",
+                    fmt::format("Remove {}, or choose mass = \"modified\".", key));
+  }
+  if (scheme.layers && *scheme.redistribution == CaseScheme::Redistribution::least_squares) {
+    throw CaseError(find(node, "layers")->where, at.at("layers").path,
+                    "layers beside redistribution = \"least_squares\"", "one of the two", "Remove layers.");
+  }
+}
+
+void finish_scheme(CaseScheme& scheme, const Node& node, const ReadContext& at) {
+  if (!scheme.enforcement)
+    scheme.enforcement = Located<EnforcementKind>{default_enforcement(*scheme.kind), scheme.where};
+  if (!takes(*scheme.kind, **scheme.enforcement)) refuse_enforcement(scheme, at);
+  const Node* penetration = find(node, "penetration");
+  const bool is_augmented = **scheme.enforcement == EnforcementKind::augmented_lagrangian;
+  if (is_augmented && !scheme.penetration) scheme.penetration = 1e-3;
+  if (penetration != nullptr && !is_augmented) {
+    throw CaseError(penetration->where, at.at("penetration").path, "a key of the augmented Lagrangian",
+                    "it only beside enforcement = \"augmented_lagrangian\"", "Remove it.");
+  }
+  check_mass(scheme, node, at);
+}
+
+/// `safety` is written only where it acts: beside no step.
+template <class S, class Access>
+void add_safety(SectionSchema<S>& s, Access time_of) {
+  const KeyDescription key{
+      "safety",
+      Shape::number,
+      "Fraction of the stable step; not beside `step`.",
+      {.range = {Bound{0.0, Bound::Side::open}, Bound{1.0, Bound::Side::closed}}, .kinds = explicit_schemes()},
+      Node{CaseTime{}.safety, {}},
+      {}};
+  typename SectionSchema<S>::Handlers handlers;
+  handlers.read = [key, time_of](S& section, const Node& node, const ReadContext& at) {
+    decode(node, key, at, time_of(section).safety);
+  };
+  handlers.write = [time_of](const S& section, const Node&) -> std::optional<Node> {
+    if (time_of(section).step) return std::nullopt;
+    return Node{time_of(section).safety, {}};
+  };
+  s.add(key, handlers);
+}
+
+template <class S, class Access>
+void add_time_keys(SectionSchema<S>& s, Access time_of, const std::string& end_doc) {
+  s.key_by("end", [time_of](auto& section) -> auto& { return time_of(section).end; }, end_doc,
+           {.unit = Dimension::time, .range = greater_than(0.0), .need = Need::required, .aliases = {"duration"}});
+  s.key_by("step", [time_of](auto& section) -> auto& { return time_of(section).step; }, "Time step.",
+           {.unit = Dimension::time,
+            .range = greater_than(0.0),
+            .required_for = implicit_schemes(),
+            .aliases = {"dt"},
+            .default_phrase = "implicit schemes: required; explicit ones: from the stable step"});
+  s.key_by("fixed", [time_of](auto& section) -> auto& { return time_of(section).fixed; },
+           "Never halve the step: a step that fails ends the run.", {.kinds = implicit_schemes()});
+  add_safety(s, time_of);
+}
+
+void finish_time(CaseTime& time, const Node& node, const ReadContext& at) {
+  const Node* safety = find(node, "safety");
+  if (time.step && safety != nullptr) {
+    throw CaseError(safety->where, at.at("safety").path, "a fraction of the stable step beside a step",
+                    "step or safety", "Leave out step to have it chosen.");
+  }
+  if (time.step && **time.step > *time.end) {
+    throw CaseError(time.step->where, at.at("step").path, toml_number(**time.step),
+                    "a step of at most time.end = " + toml_number(*time.end));
+  }
+}
+
+}  // namespace
+
+SectionSchema<CaseScheme> scheme_section() {
+  SectionSchema<CaseScheme> s("Time integration and the enforcement of contact.");
+  add_scheme_keys(
+      s, [](auto& scheme) -> auto& { return scheme; });
+  s.finish = finish_scheme;
+  return s;
+}
+
+SectionSchema<CaseTime> time_section() {
+  SectionSchema<CaseTime> s("Duration and time step.");
+  s.description.selector = "scheme.kind";
+  add_time_keys(
+      s, [](auto& time) -> auto& { return time; }, "The run goes from 0 to here.");
+  s.finish = finish_time;
+  return s;
+}
+
+SectionSchema<CaseStage> stage_section() {
+  SectionSchema<CaseStage> s(
+      "What follows [scheme] and [time], in the order of the file: the state goes on with another scheme.");
+  add_scheme_keys(
+      s, [](auto& stage) -> auto& { return stage.scheme; });
+  add_time_keys(
+      s, [](auto& stage) -> auto& { return stage.time; }, "The stage goes from the end of the one before to here.");
+  s.finish = [](CaseStage& stage, const Node& node, const ReadContext& at) {
+    stage.scheme.where = stage.time.where = stage.where;
+    finish_scheme(stage.scheme, node, at);
+    finish_time(stage.time, node, at);
+  };
+  return s;
+}
+
+SectionSchema<CaseSolver> solver_section() {
+  SectionSchema<CaseSolver> s("Solvers of implicit steps.");
+  s.description.selector = "scheme.kind";
+  s.key("kind", &CaseSolver::kind,
+        "Linear solver: conjugate gradients, CHOLMOD, or chosen from the estimated conditioning.",
+        {.choices = {"auto", "cg", "cholmod"}, .kinds = implicit_schemes()});
+  s.key("max_contact_iterations", &CaseSolver::max_contact_iterations,
+        "A step whose contact state needs more iterations has failed.",
+        {.range = at_least(1.0), .kinds = implicit_schemes()});
+  return s;
+}
+
+}  // namespace carom

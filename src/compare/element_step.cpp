@@ -1,0 +1,24 @@
+#include "compare/element_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "run/build_mesh.hpp"
+#include "run/build_model.hpp"
+#include "solid/solid.hpp"
+
+namespace carom::compare {
+
+double element_step(const Case& given) {
+  const Model model = build_model(given, std::make_shared<const Mesh>(build_mesh(given)));
+  double fastest = 0.0;
+  for (const Part& part : model.parts) {
+    const auto speed = [](const auto& material) { return std::sqrt(material.p_wave_modulus() / material.rho); };
+    fastest = std::max(fastest, std::visit(speed, part.material));
+  }
+  const Solid solid(model);
+  return *std::min_element(solid.cell_lengths().begin(), solid.cell_lengths().end()) / fastest;
+}
+
+}  // namespace carom::compare

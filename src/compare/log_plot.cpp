@@ -1,0 +1,122 @@
+#include "compare/log_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "output/xml.hpp"
+
+namespace carom::compare {
+
+namespace {
+
+// Of the picture, in its own units.
+constexpr double kWidth = 560.0, kHeight = 330.0, kLeft = 62.0, kRight = 16.0, kTop = 10.0, kBottom = 44.0;
+constexpr std::size_t kColours = 8;  // of page.css
+
+/// Logarithm to a position, with room at both ends.
+class Axis {
+ public:
+  /// begin, end: positions of the low and the high end.
+  Axis(double low, double high, double begin, double end) : begin_(begin), end_(end) {
+    const double middle = 0.5 * (std::log10(low) + std::log10(high));
+    const double half = std::max(0.35, 0.5 * (std::log10(high) - std::log10(low)) * 1.12);
+    low_ = middle - half;
+    high_ = middle + half;
+  }
+  double at(double value) const { return begin_ + (end_ - begin_) * (std::log10(value) - low_) / (high_ - low_); }
+  std::vector<double> ticks() const { return log_ticks(std::pow(10.0, low_), std::pow(10.0, high_)); }
+
+ private:
+  double begin_, end_, low_ = 0.0, high_ = 0.0;
+};
+
+template <class Value>
+Axis axis_of(const LogPlot& plot, const Value& value, double begin, double end) {
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;
+  for (const LogCurve& curve : plot.curves) {
+    for (const LogPoint& point : curve.points) {
+      low = std::min(low, value(point));
+      high = std::max(high, value(point));
+    }
+  }
+  return {low, high, begin, end};
+}
+
+std::vector<double> distinct(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+std::string grid(const LogPlot& plot, const Axis& x, const Axis& y) {
+  std::string svg, text;
+  for (const double tick : plot.x_ticks.empty() ? x.ticks() : distinct(plot.x_ticks)) {
+    svg += fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\"/>", x.at(tick), kTop, kHeight - kBottom);
+    text += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{:g}</text>", x.at(tick),
+                        kHeight - kBottom + 17.0, tick);
+  }
+  for (const double tick : y.ticks()) {
+    svg += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\"/>", kLeft, y.at(tick), kWidth - kRight);
+    text += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{:g}</text>", kLeft - 7.0,
+                        y.at(tick) + 4.0, tick);
+  }
+  return svg + text;
+}
+
+std::string labels(const LogPlot& plot) {
+  const double x = 0.5 * (kLeft + kWidth - kRight), y = 0.5 * (kTop + kHeight - kBottom);
+  return fmt::format(
+      "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>"
+      "<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+      x, kHeight - 8.0, xml_escape(plot.x_label), y, xml_escape(plot.y_label));
+}
+
+std::string own_colour(std::size_t curve) {
+  return fmt::format("--own:var(--curve-{})", curve % kColours + 1);
+}
+
+std::string picture(const LogCurve& curve, const Axis& x, const Axis& y) {
+  std::string path, dots;
+  for (const LogPoint& p : curve.points) {
+    path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x.at(p.x), y.at(p.y));
+    dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\"><title>{}</title></circle>", x.at(p.x), y.at(p.y),
+                        xml_escape(p.tip));
+  }
+  return fmt::format("<path class=\"curve\" d=\"{}\"/>{}", path, dots);
+}
+
+}  // namespace
+
+std::vector<double> log_ticks(double low, double high) {
+  const bool is_long = high / low >= 1000.0;
+  std::vector<double> ticks;
+  for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, power) <= high; ++power) {
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      const double tick = factor * std::pow(10.0, power);
+      if (tick >= low && tick <= high && (factor == 1.0 || !is_long)) ticks.push_back(tick);
+    }
+  }
+  return ticks;
+}
+
+std::string log_plot(const LogPlot& plot) {
+  const Axis x = axis_of(
+      plot, [](const LogPoint& p) { return p.x; }, kLeft, kWidth - kRight);
+  const Axis y = axis_of(
+      plot, [](const LogPoint& p) { return p.y; }, kHeight - kBottom, kTop);
+  std::string legend, curves;
+  for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+    legend += fmt::format("<span style=\"{}\"><i style=\"border-color:var(--own)\"></i>{}</span>", own_colour(i),
+                          xml_escape(plot.curves[i].name));
+    curves += fmt::format("<g style=\"{}\">{}</g>\n", own_colour(i), picture(plot.curves[i], x, y));
+  }
+  return fmt::format(
+      "<figure><figcaption>{0}</figcaption><div class=\"legend\">{1}</div>\n"
+      "<svg class=\"plot\" viewBox=\"0 0 {2} {3}\" role=\"img\" aria-label=\"{0}\">{4}{5}{6}</svg></figure>\n",
+      xml_escape(plot.title), legend, kWidth, kHeight, grid(plot, x, y), labels(plot), curves);
+}
+
+}  // namespace carom::compare

@@ -1,0 +1,33 @@
+// A picture with logarithmic axes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace carom::compare {
+
+struct LogPoint {
+  double x = 0.0, y = 0.0;  ///< positive
+  std::string tip;          ///< shown under the pointer
+};
+
+/// Points joined by a line in their order.
+struct LogCurve {
+  std::string name;
+  std::vector<LogPoint> points;
+};
+
+struct LogPlot {
+  std::string title, x_label, y_label;
+  std::vector<double> x_ticks;  ///< empty: log_ticks
+  std::vector<LogCurve> curves;
+};
+
+/// An HTML figure with an SVG picture in the colours of the page (report/page.css), and its legend.
+std::string log_plot(const LogPlot& plot);
+
+/// Ticks of a logarithmic axis within [low, high]: powers of ten, and 2 and 5 times them where the axis spans fewer
+/// than three decades.
+std::vector<double> log_ticks(double low, double high);
+
+}  // namespace carom::compare

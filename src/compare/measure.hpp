@@ -1,0 +1,84 @@
+// What the runs of a comparison reached, in numbers.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compare/variant.hpp"
+#include "output/summary.hpp"
+#include "report/csv_table.hpp"
+
+namespace carom::compare {
+
+/// Integrals over time by the trapezoidal rule on the rows; errors are quotients of them.
+struct Deviation {
+  double square = 0.0, reference_square = 0.0;  ///< of u - r, of r
+  double magnitude = 0.0, reference_magnitude = 0.0;
+
+  Deviation& operator+=(const Deviation& o);
+  /// sqrt(int (u - r)^2 dt / int r^2 dt); NaN where the reference is zero throughout.
+  double l2() const;
+  /// int |u - r| dt / int |r| dt; NaN as l2.
+  double l1() const;
+};
+
+/// All spans of one length.
+Deviation deviation(std::span<const double> time, std::span<const double> values, std::span<const double> reference);
+
+/// Values at the times `to`, linear between the rows, constant beyond them. Precondition: `from` does not decrease and
+/// is not empty.
+std::vector<double> interpolated(std::span<const double> from, std::span<const double> values,
+                                 std::span<const double> to);
+
+/// 1 minus the energy that the computation has lost (negative: made), over the larger of the initial and the largest
+/// supplied energy: (mechanical(0) + supplied - friction - damping - mechanical(end)) of energy.csv. NaN without
+/// energy.
+double energy_kept(const CsvTable& energy);
+
+/// Errors of one column, or of all columns of one quantity together.
+struct NamedError {
+  std::string name;
+  double l2 = 0.0, l1 = 0.0;
+};
+
+/// One variant after its run.
+struct Result {
+  Variant variant;
+  int exit_code = -1;
+  std::string failure;             ///< why there is nothing to compare; "" when the run reached its end
+  std::optional<Summary> summary;  ///< when the run wrote one
+  CsvTable curves;                 ///< columns of probes.csv, contact.csv and energy.csv
+  std::optional<CsvTable> exact;   ///< exact.csv
+
+  bool is_reference = false;  ///< the finest run, which the others are compared with
+  std::vector<NamedError> columns, quantities;
+  double peak_force = 0.0, reference_peak_force = 0.0;  ///< largest magnitude over the compared force columns
+  double energy_kept = 0.0;
+  double penetration = 0.0;  ///< largest over contacts and rows
+
+  bool compared() const { return failure.empty() && !is_reference; }
+  bool passed() const;                            ///< every item of the verdict
+  std::vector<std::string> failed_items() const;  ///< "quadrature 0.12 > 0.05"
+  double step() const { return summary ? summary->scheme.dt_largest : 0.0; }
+  double cpu_seconds() const { return summary ? summary->cost.cpu_seconds : 0.0; }
+  /// The L2 error of a quantity; NaN where there is none.
+  double error(const std::string& quantity) const;
+};
+
+/// What the curves are compared with.
+enum class ReferenceKind { exact, finest };
+
+/// Reads what a run left in its folder; `log` is what it printed.
+Result read_result(const Variant& variant, const std::string& folder, int exit_code, const std::string& log);
+
+/// Fills in the errors, against exact.csv where every run that reached its end has one, else against the run of most
+/// cells and, of those, of most steps: on its rows, the others linear between theirs. Columns that are below 1e-9 of
+/// the largest of their quantity in the reference are left out.
+ReferenceKind measure(std::vector<Result>& results);
+
+/// The quantity by which variants are ranked: force, else velocity, else the first that was compared; "" for none.
+std::string ranking_quantity(const std::vector<Result>& results);
+
+}  // namespace carom::compare

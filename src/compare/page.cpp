@@ -1,0 +1,172 @@
+#include "compare/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/histories.hpp"
+#include "compare/log_plot.hpp"
+#include "output/xml.hpp"
+#include "report/assets.hpp"
+#include "report/html.hpp"
+
+namespace carom::compare {
+
+namespace {
+
+std::string percent(double ratio, int digits) {
+  return std::isfinite(ratio) ? fmt::format("{:.{}g} %", 100.0 * ratio, digits) : "–";
+}
+
+std::string header(const Comparison& c) {
+  const Recommendation& advice = c.recommendation;
+  std::string html = fmt::format(
+      "<header>\n<p class=\"kicker\">Carom · comparison{}</p>\n<h1>{}</h1>\n"
+      "<div class=\"banner {}\" role=\"status\"><strong>{}</strong><span>{}</span></div>\n<ul>\n",
+      c.common.empty() ? "" : xml_escape(" · in all variants: " + c.common), xml_escape(c.title),
+      advice.result ? "good" : "stopped", advice.result ? "Recommended" : "No recommendation",
+      xml_escape(advice.headline));
+  for (const std::string& reason : advice.reasons) html += fmt::format("<li>{}</li>\n", xml_escape(reason));
+  return html + "</ul>\n</header>\n";
+}
+
+std::string reference_name(const Comparison& c) {
+  return c.reference == ReferenceKind::exact ? "exact" : "finest";
+}
+
+std::string row(const Comparison& c, std::size_t i, const std::vector<std::string>& quantities) {
+  const Result& r = c.results[i];
+  const bool recommended = c.recommendation.result == i;
+  const std::string name = fmt::format("<a href=\"variants/{}/report.html\">{}</a>", xml_escape(r.variant.name),
+                                       xml_escape(r.variant.label));
+  const double peak = r.reference_peak_force > 0.0 ? r.peak_force / r.reference_peak_force : std::nan("");
+  const std::string steps = r.summary ? std::to_string(r.summary->scheme.steps) : "–";
+  const std::vector<std::string> items = r.failed_items();
+  std::string html = recommended ? "<tr class=\"chosen\">" : "<tr>";
+  html += fmt::format("<td>{}{}</td>", name, r.is_reference ? " (reference)" : "") + text_cell(r.variant.enforcement);
+  for (const std::string& quantity : quantities)
+    html += number_cell(r.is_reference ? "–" : percent(r.error(quantity), 3));
+  html += number_cell(number_text(peak, 4)) + number_cell(percent(r.energy_kept, 5)) +
+          number_cell(number_text(r.penetration, 3)) + number_cell(number_text(r.step() / r.variant.element_step, 3)) +
+          number_cell(steps) + number_cell(number_text(r.cpu_seconds(), 3));
+  const bool pass = items.empty();
+  html += fmt::format("<td class=\"mark {}\">{}</td></tr>\n", pass ? "pass" : "fail",
+                      pass ? std::string("✓ pass") : xml_escape(fmt::format("✗ {}", fmt::join(items, ", "))));
+  return html;
+}
+
+/// Whose errors the table shows: force and velocity where they were compared, else what variants are ranked by.
+std::vector<std::string> shown_quantities(const Comparison& c) {
+  std::vector<std::string> shown;
+  for (const char* quantity : {"force", "velocity"}) {
+    const auto has = [quantity](const Result& r) { return std::isfinite(r.error(quantity)); };
+    if (std::any_of(c.results.begin(), c.results.end(), has)) shown.emplace_back(quantity);
+  }
+  if (shown.empty() && !c.quantity.empty()) shown.push_back(c.quantity);
+  return shown;
+}
+
+std::string main_table(const Comparison& c) {
+  const Units units = units_of(c.units);
+  const std::vector<std::string> quantities = shown_quantities(c);
+  std::string errors;
+  for (const std::string& quantity : quantities)
+    errors += fmt::format("<th class=\"number\">error, {}</th>", xml_escape(quantity));
+  std::string html = fmt::format(
+      "<section>\n<h2>Variants</h2>\n<div class=\"scroll\"><table "
+      "class=\"wide\"><thead><tr><th>Variant</th><th>contact</th>{}"
+      "<th class=\"number\">peak / {}</th><th class=\"number\">energy kept</th>"
+      "<th class=\"number\">penetration{}</th><th class=\"number\">Courant</th><th class=\"number\">steps</th>"
+      "<th class=\"number\">CPU [s]</th><th>verdict</th></tr></thead><tbody>\n",
+      errors, reference_name(c), units.length.empty() ? "" : fmt::format(" [{}]", xml_escape(units.length)));
+  bool any = false;
+  for (std::size_t i = 0; i < c.results.size(); ++i) {
+    if (!c.results[i].failure.empty()) continue;
+    html += row(c, i, quantities);
+    any = true;
+  }
+  if (!any) return "";
+  const std::string against = c.reference == ReferenceKind::exact
+                                  ? "the exact solution of the case"
+                                  : fmt::format("the finest run ({})", c.finest()->variant.label);
+  return html +
+         fmt::format(
+             "</tbody></table></div>\n<p class=\"note\">Errors are relative L2 norms over the time of the run, all "
+             "columns of the quantity together, against {}. Peak: largest contact force over that of the reference. "
+             "Energy kept: 1 minus what the computation lost, over the larger of initial and supplied energy; 100 % is "
+             "exact. Courant: step over shortest cell / fastest wave. CPU: processor time of the whole run on one "
+             "thread. compare.csv and compare.json hold all of it, and L1 norms.</p>\n</section>\n",
+             xml_escape(against));
+}
+
+std::string remarks_table(const std::vector<Remark>& remarks, std::string_view title, std::string_view heading) {
+  if (remarks.empty()) return "";
+  std::string html = fmt::format(
+      "<section>\n<h2>{}</h2>\n<div class=\"scroll\"><table class=\"wide even\"><thead><tr><th>Variants</th><th>{}</th>"
+      "</tr></thead><tbody>\n",
+      title, heading);
+  for (const Remark& r : remarks) html += fmt::format("<tr>{}{}</tr>\n", text_cell(r.variants), text_cell(r.text));
+  return html + "</tbody></table></div>\n</section>\n";
+}
+
+/// Ticks of the horizontal axis: where the points are, or at round numbers.
+enum class Ticks : std::uint8_t { points, round };
+
+LogPlot plot_of(const Comparison& c, const std::vector<Series>& all, std::string title, std::string x_label,
+                Ticks ticks) {
+  LogPlot plot{std::move(title), std::move(x_label), fmt::format("relative L2 error, {}", c.quantity), {}, {}};
+  for (const Series& s : all) {
+    LogCurve curve{s.order ? fmt::format("{}: order {:.2f}", s.name, *s.order) : s.name, {}};
+    for (const Point& p : s.points) {
+      const Result& r = c.results[p.result];
+      curve.points.push_back(
+          {p.x, p.y, fmt::format("{}: error {}, {:.3g} s", r.variant.label, percent(p.y, 3), r.cpu_seconds())});
+    }
+    plot.curves.push_back(std::move(curve));
+  }
+  if (ticks == Ticks::points) {
+    for (const LogCurve& curve : plot.curves) {
+      for (const LogPoint& p : curve.points) plot.x_ticks.push_back(p.x);
+    }
+  }
+  return plot;
+}
+
+std::string plots(const Comparison& c) {
+  const Units units = units_of(c.units);
+  const auto in = [](const char* name, const std::string& unit) {
+    return unit.empty() ? std::string(name) : fmt::format("{} [{}]", name, unit);
+  };
+  std::string html;
+  const auto add = [&](const std::vector<Series>& all, const char* title, const std::string& x_label, Ticks ticks) {
+    if (!all.empty()) html += log_plot(plot_of(c, all, title, x_label, ticks));
+  };
+  add(series_along(c.results, Along::cells, c.quantity), "Convergence with the mesh", "cells along the longest edge",
+      Ticks::points);
+  add(series_along(c.results, Along::step, c.quantity), "Convergence with the step", in("time step", units.time),
+      Ticks::round);
+  add(series_along(c.results, Along::stiffness, c.quantity), "Influence of the contact stiffness", "stiffness",
+      Ticks::points);
+  add(series_of_cost(c.results, c.quantity), "Error against cost", "processor time [s]", Ticks::round);
+  if (html.empty()) return "";
+  return "<section>\n<h2>Convergence and cost</h2>\n<div class=\"charts\">\n" + html +
+         "</div>\n<p class=\"note\">Orders are slopes by least squares over all points of a line: error ~ (1 / "
+         "cells)^p, "
+         "step^p, (1 / stiffness)^p.</p>\n</section>\n";
+}
+
+}  // namespace
+
+std::string make_page(const Comparison& comparison, const std::string& case_text) {
+  const std::vector<Chart> histories = make_histories(comparison);
+  const std::string content =
+      header(comparison) + main_table(comparison) + plots(comparison) + chart_figures(histories) +
+      remarks_table(failures(comparison), "Not compared", "why") +
+      remarks_table(changes(comparison), "Changes that the choices brought with them", "change") + "<footer>\n" +
+      foldable("The case that was varied", case_text) +
+      foldable("Licence of dygraphs, which draws the curves", assets::dygraph_licence) + "</footer>\n";
+  return html_document(comparison.title + ": comparison", content, histories, units_of(comparison.units));
+}
+
+}  // namespace carom::compare

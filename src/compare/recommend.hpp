@@ -1,0 +1,25 @@
+// Which variant to take, and why.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/measure.hpp"
+
+namespace carom::compare {
+
+/// An error of at most this times the smallest is as good, and the cheaper variant is taken.
+constexpr double as_good = 1.25;
+
+struct Recommendation {
+  std::optional<std::size_t> result;  ///< position of the recommended variant
+  std::string headline;
+  std::vector<std::string> reasons;  ///< sentences with numbers
+};
+
+/// Among the variants that were compared and passed every item of their verdict: the one of least processor time whose
+/// L2 error of `quantity` is at most `as_good` times the smallest.
+Recommendation recommend(const std::vector<Result>& results, const std::string& quantity, ReferenceKind reference);
+
+}  // namespace carom::compare

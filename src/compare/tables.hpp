@@ -1,0 +1,47 @@
+// The table of a comparison as text, CSV and JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/convergence.hpp"
+#include "compare/measure.hpp"
+#include "compare/recommend.hpp"
+
+namespace carom::compare {
+
+/// All that a comparison found.
+struct Comparison {
+  std::string file, title, units;
+  std::string common;  ///< what all variants have in common, "" for nothing but the case
+  ReferenceKind reference = ReferenceKind::exact;
+  std::string quantity;  ///< by which variants are ranked
+  std::vector<Result> results;
+  Recommendation recommendation;
+
+  const Result* finest() const;
+};
+
+/// What was said about variants.
+struct Remark {
+  std::string variants;  ///< labels, separated by semicolons
+  std::string text;
+};
+
+/// Why variants were not compared; those of one reason together.
+std::vector<Remark> failures(const Comparison& comparison);
+/// What the choices brought with them; likewise.
+std::vector<Remark> changes(const Comparison& comparison);
+
+/// The table for the terminal: variants that were compared, then the others with their reasons, then the
+/// recommendation.
+std::string text_table(const Comparison& comparison);
+/// One row per variant, also of those that were not run; empty where there is no number.
+std::string csv_table(const Comparison& comparison);
+/// The same with the errors of every column, orders and recommendation; numbers that are not finite are null.
+std::string json_table(const Comparison& comparison);
+
+/// "passed", or the items of the verdict that failed, or why there is none.
+std::string status_text(const Result& result);
+
+}  // namespace carom::compare

@@ -1,0 +1,248 @@
+#include "compare/variant.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "casefile/read_case.hpp"
+#include "casefile/read_toml.hpp"
+#include "casefile/write_toml.hpp"
+#include "compare/edit.hpp"
+#include "compare/element_step.hpp"
+
+namespace carom::compare {
+
+namespace {
+
+/// The message without the place in a text that the user has not written.
+std::string reason(const CaseError& error) {
+  return CaseError({}, error.key(), error.found(), error.expected(), error.suggestion()).what();
+}
+
+std::string text_at(const Node& root, std::string_view path) {
+  const Node* node = find(root, path);
+  const auto* text = node == nullptr ? nullptr : std::get_if<std::string>(&node->value);
+  return text == nullptr ? "" : *text;
+}
+
+/// A case tree on its way to one that is accepted.
+class Draft {
+ public:
+  explicit Draft(Node root) : root_(std::move(root)) {}
+
+  Node& root() { return root_; }
+  const std::string& text() const { return text_; }
+  std::vector<std::string>& notes() { return notes_; }
+
+  void set_scheme(const std::string& key, const std::string& word) {
+    for (std::string& path : compare::set_scheme(root_, key, word)) keep_.push_back(std::move(path));
+  }
+  void set_step(double step) {
+    set_key(root_, "time", "step", {step, {}});
+    keep_.emplace_back("time.step");
+  }
+  void set_stiffness(const Node& value);
+
+  /// Leaves out the keys that the changed case does not take, and reads it. Throws CaseError when it is refused for
+  /// another reason.
+  Case accept();
+
+ private:
+  bool may_leave_out(const std::string& path) const;
+
+  Node root_;
+  std::string text_;
+  std::vector<std::string> keep_;  ///< paths that were asked for
+  std::vector<std::string> notes_;
+};
+
+void Draft::set_stiffness(const Node& value) {
+  List& contacts = std::get<List>(find_at(root_, "contact")->value);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const std::string path = fmt::format("contact[{}].stiffness", i);
+    erase_at(root_, path);
+    std::get<Table>(contacts[i].value).members.push_back({"stiffness", {}, value});
+    keep_.push_back(path);
+  }
+}
+
+bool Draft::may_leave_out(const std::string& path) const {
+  constexpr std::array<std::string_view, 4> sections{"scheme.", "time.", "solver.", "contact["};
+  return std::any_of(sections.begin(), sections.end(), [&path](auto s) { return path.starts_with(s); }) &&
+         std::find(keep_.begin(), keep_.end(), path) == keep_.end();
+}
+
+Case Draft::accept() {
+  std::map<std::string, CaseError> left_out;
+  for (;;) {
+    try {
+      text_ = write_toml(root_);
+      return parse_case(text_, "case.toml");
+    } catch (const CaseError& error) {
+      const auto before = left_out.find(error.key());
+      if (before != left_out.end()) throw CaseError(before->second);  // it is needed after all
+      if (!may_leave_out(error.key()) || !erase_at(root_, error.key())) throw;
+      left_out.emplace(error.key(), error);
+      notes_.push_back(fmt::format("{} does not apply", error.key()));
+    }
+  }
+}
+
+/// The largest step of at most `wanted` that divides `end`.
+double dividing_step(double wanted, double end) {
+  return end / std::max(1.0, std::ceil(end / wanted * (1.0 - 1e-9)));
+}
+
+std::string folder_name(std::size_t number, const std::string& label) {
+  constexpr std::size_t longest = 100;
+  std::string name = fmt::format("{:02}_", number + 1);
+  for (const char c : label) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-';
+    if (plain || name.back() != '_') name += plain ? c : '_';
+  }
+  return name.substr(0, longest);
+}
+
+/// Element steps of the meshes, each built once; 0 cells: as the case says.
+class ElementSteps {
+ public:
+  double of(const Base& base, int cells) {
+    const auto known = steps_.find(cells);
+    if (known != steps_.end()) return known->second;
+    Node root = base.root;
+    if (cells != 0) set_cells(root, cells);
+    Case read = parse_case(write_toml(root), base.file);
+    return steps_.emplace(cells, compare::element_step(read)).first->second;
+  }
+
+ private:
+  std::map<int, double> steps_;
+};
+
+/// Every step that the case gives, times the ratio, so that whole steps reach the end of each stage.
+void scale_steps(Draft& draft, double ratio) {
+  if (std::abs(ratio - 1.0) < 1e-9) return;  // round-off of cell lengths
+  double begin = 0.0;
+  for (std::size_t stage = 0;; ++stage) {
+    const std::string section = stage == 0 ? "time" : fmt::format("stage[{}]", stage - 1);
+    if (find_at(draft.root(), section) == nullptr) return;
+    const double end = number_at(draft.root(), section + ".end");
+    if (Node* step = find_at(draft.root(), section + ".step"))
+      step->value = dividing_step(number_at(draft.root(), section + ".step") * ratio, end - begin);
+    begin = end;
+  }
+}
+
+/// Does the stiffness of contacts enter the computation?
+bool uses_stiffness(const Case& given) {
+  const EnforcementKind kind = **given.scheme.enforcement;
+  return !given.contacts.empty() && (kind == EnforcementKind::penalty || kind == EnforcementKind::augmented_lagrangian);
+}
+
+/// The case with the step that it has or that its scheme needs.
+Case accept_with_step(Draft& draft, const Base& base, double element_step) {
+  try {
+    return draft.accept();
+  } catch (const CaseError& error) {
+    if (error.key() != "time.step" || find(draft.root(), "time.step") != nullptr) throw;
+  }
+  draft.set_step(dividing_step(element_step, base.end));
+  draft.notes().emplace_back("time.step from Courant number 1");
+  return draft.accept();
+}
+
+void build(Variant& v, const Base& base, ElementSteps& steps) {
+  Draft draft(base.root);
+  if ((v.choice.scheme || v.choice.enforcement || v.choice.courant) && find(base.root, "stage") != nullptr) {
+    throw CaseError({base.file}, "stage", "a case of several stages", "[scheme] and [time] alone",
+                    "Of a case with stages, stiffness and cells can be varied.");
+  }
+  if (v.choice.scheme) draft.set_scheme("kind", *v.choice.scheme);
+  if (v.choice.enforcement) draft.set_scheme("enforcement", *v.choice.enforcement);
+  if (v.choice.cells) set_cells(draft.root(), *v.choice.cells);
+  v.element_step = steps.of(base, v.choice.cells.value_or(0));
+  if (v.choice.courant) {
+    draft.set_step(dividing_step(*v.choice.courant * v.element_step, base.end));
+  } else {
+    scale_steps(draft, v.element_step / steps.of(base, 0));
+  }
+  set_key(draft.root(), "output", "fields", {List{}, {}});
+  const Case accepted = accept_with_step(draft, base, v.element_step);
+  v.enforcement = name(**accepted.scheme.enforcement);
+  if (v.choice.stiffness && !uses_stiffness(accepted)) {
+    v.choice.stiffness.reset();
+    draft.notes().emplace_back("no contact takes a stiffness");
+  } else if (v.choice.stiffness) {
+    draft.set_stiffness(value_of(*v.choice.stiffness));
+    draft.accept();
+  }
+  v.notes = draft.notes();
+  v.case_text = draft.text();
+}
+
+/// Names the variant in its report, and its mesh file from its folder.
+std::string finished(const Variant& v, const Base& base, const std::string& folder) {
+  namespace fs = std::filesystem;
+  Node root = read_toml(v.case_text, "case.toml");
+  const std::string title = text_at(root, "title");
+  const Node* old = find(root, "title");
+  const std::string full = title.empty() ? v.label : title + ": " + v.label;
+  if (old != nullptr) {
+    find_at(root, "title")->value = full;
+  } else {
+    std::get<Table>(root.value).members.insert(std::get<Table>(root.value).members.begin(), {"title", {}, {full, {}}});
+  }
+  const fs::path mesh = text_at(root, "mesh.file");
+  if (!mesh.empty() && mesh.is_relative()) {
+    const fs::path from_here = fs::path(base.file).parent_path() / mesh;
+    find_at(root, "mesh.file")->value = fs::proximate(from_here, fs::path(folder) / v.name).generic_string();
+  }
+  return write_toml(root);
+}
+
+}  // namespace
+
+Base read_base(const std::string& file) {
+  const Case read = read_case(file);
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  Node root = read_toml(text, file);
+  const int cells = cells_of(root);
+  return {file, std::move(root), *read.time.end, cells};
+}
+
+std::vector<Variant> make_variants(const Base& base, const Options& options, const std::string& folder) {
+  std::vector<Variant> variants;
+  const Choice common = common_choice(options);
+  ElementSteps steps;
+  for (const Choice& choice : combinations(options)) {
+    Variant v;
+    v.choice = choice;
+    v.enforcement = choice.enforcement.value_or("");
+    try {
+      build(v, base, steps);
+    } catch (const CaseError& error) {
+      v.refusal = reason(error);
+    }
+    const auto same = [&v](const Variant& other) { return other.choice == v.choice; };
+    if (std::any_of(variants.begin(), variants.end(), same)) continue;
+    v.varied = varied(v.choice, common);
+    v.label = label_of(v.varied);
+    if (v.label.empty()) v.label = "as the case says";
+    v.name = folder_name(variants.size(), v.label);
+    v.scheme = v.choice.scheme.value_or(text_at(base.root, "scheme.kind"));
+    v.cells = v.choice.cells.value_or(base.cells);
+    if (v.refusal.empty()) v.case_text = finished(v, base, folder);
+    variants.push_back(std::move(v));
+  }
+  return variants;
+}
+
+}  // namespace carom::compare

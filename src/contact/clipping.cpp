@@ -1,0 +1,241 @@
+#include "contact/clipping.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <optional>
+
+#include "contact/bilinear_patch.hpp"
+#include "math/gauss_legendre.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double negligible = 1e-12;  // part of the smaller facet's area
+
+using Point = std::array<double, 2>;
+
+double area_of(const Point& a, const Point& b, const Point& c) {
+  return 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+}
+
+/// Convex polygon, counter-clockwise. Clipping a quadrilateral by four lines makes at most 8 corners; the rest is for
+/// corners that are doubled by round-off, of which any beyond the last place bound no area.
+struct Polygon {
+  std::array<Point, 16> corner{};
+  std::size_t size = 0;
+
+  void push(const Point& p) {
+    if (size < corner.size()) corner[size++] = p;
+  }
+  double area() const {
+    double sum = 0.0;
+    for (std::size_t i = 2; i < size; ++i) sum += area_of(corner[0], corner[i - 1], corner[i]);
+    return sum;
+  }
+};
+
+/// The part of the polygon on the left of the line from a to b.
+Polygon clip(const Polygon& polygon, const Point& a, const Point& b) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    const Point& p = polygon.corner[i];
+    const Point& q = polygon.corner[i + 1 < polygon.size ? i + 1 : 0];
+    const double side_p = area_of(a, b, p), side_q = area_of(a, b, q);
+    if (side_p >= 0.0) kept.push(p);
+    if ((side_p > 0.0 && side_q < 0.0) || (side_p < 0.0 && side_q > 0.0)) {
+      const double s = side_p / (side_p - side_q);
+      kept.push({p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1])});
+    }
+  }
+  return kept;
+}
+
+Polygon clip(Polygon polygon, const Polygon& window) {
+  for (std::size_t i = 0; i < window.size && polygon.size > 2; ++i)
+    polygon = clip(polygon, window.corner[i], window.corner[i + 1 < window.size ? i + 1 : 0]);
+  return polygon;
+}
+
+/// The plane of the slave: axes at its centre, z along its normal there.
+struct Plane {
+  Vec3 origin, normal, e_1, e_2;
+
+  explicit Plane(const PlacedFacet& slave) {
+    const ParentPoint centre = facet_centre(slave.size);
+    const FacetFrame frame = facet_frame(slave, centre.xi, centre.eta);
+    origin = frame.position;
+    normal = frame.normal;
+    e_1 = normalized(frame.a_1);
+    e_2 = cross(normal, e_1);
+  }
+  /// The facet in the plane's axes.
+  PlacedFacet seen(const PlacedFacet& facet) const {
+    PlacedFacet local{{}, facet.size};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) {
+      const Vec3 r = subtract(facet.x[a], origin);
+      local.x[a] = {dot(r, e_1), dot(r, e_2), dot(r, normal)};
+    }
+    return local;
+  }
+};
+
+/// The shadow in the plane of a facet, given in the plane's axes, as one or two convex polygons.
+struct Shadow {
+  std::array<Polygon, 2> part;
+  std::size_t count = 0;
+
+  explicit Shadow(const PlacedFacet& facet);
+
+ private:
+  void add_part(std::array<std::size_t, 4> corners, std::size_t size);
+  std::array<Point, 4> p_{};
+  double sign_ = 1.0;
+};
+
+Shadow::Shadow(const PlacedFacet& facet) {
+  const auto size = static_cast<std::size_t>(facet.size);
+  for (std::size_t a = 0; a < size; ++a) p_[a] = {facet.x[a][0], facet.x[a][1]};
+  double total = area_of(p_[0], p_[1], p_[2]);
+  if (size == 4) total += area_of(p_[0], p_[2], p_[3]);
+  sign_ = total < 0.0 ? -1.0 : 1.0;
+  if (size == 3) {
+    add_part({0, 1, 2}, 3);
+    return;
+  }
+  std::size_t reflex = 4;
+  for (std::size_t a = 0; a < 4; ++a)
+    if (sign_ * area_of(p_[(a + 3) % 4], p_[a], p_[(a + 1) % 4]) < -negligible * std::abs(total)) reflex = a;
+  if (reflex == 4) {
+    add_part({0, 1, 2, 3}, 4);
+  } else {
+    add_part({reflex, (reflex + 1) % 4, (reflex + 2) % 4}, 3);
+    add_part({reflex, (reflex + 2) % 4, (reflex + 3) % 4}, 3);
+  }
+}
+
+/// Counter-clockwise; parts that are turned over against the whole (a facet folded in the projection) are left out.
+void Shadow::add_part(std::array<std::size_t, 4> corners, std::size_t size) {
+  if (sign_ < 0.0) std::reverse(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(size));
+  Polygon polygon;
+  for (std::size_t i = 0; i < size; ++i) polygon.push(p_[corners[i]]);
+  if (polygon.area() > 0.0) part[count++] = polygon;
+}
+
+/// A facet in the plane's axes.
+struct Seen {
+  BilinearPatch patch;
+  int size;
+
+  /// Point of the facet over a point of its shadow, moved by round-off into the facet.
+  std::optional<ParentPoint> over(const Point& p) const;
+};
+
+std::optional<ParentPoint> Seen::over(const Point& p) const {
+  constexpr double slack = 1e-6;  // p lies in the shadow: only the round-off of slender shadows is to be allowed
+  const double low = size == 4 ? -1.0 : 0.0;
+  std::array<ParentPoint, 2> points;
+  const int count = points_over(patch, p[0], p[1], points);
+  for (int i = 0; i < count; ++i) {
+    const auto [xi, eta] = points[static_cast<std::size_t>(i)];
+    const double high = size == 4 ? 1.0 : 1.0 - std::clamp(xi, 0.0, 1.0);
+    if (xi < low - slack || xi > 1.0 + slack || eta < low - slack || eta > high + slack) continue;
+    return ParentPoint{std::clamp(xi, low, 1.0), std::clamp(eta, low, high)};
+  }
+  return std::nullopt;
+}
+
+/// Radon's rule of degree 5 on the triangle: barycentric coordinates (1 - 2 r, r, r) and their rotations.
+struct TrianglePoint {
+  std::array<double, 3> barycentric;
+  double weight;  ///< of the triangle's area
+};
+
+std::array<TrianglePoint, 7> radon_rule() {
+  const double root = std::sqrt(15.0);
+  std::array<TrianglePoint, 7> rule{};
+  rule[0] = {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, 9.0 / 40.0};
+  std::size_t k = 1;
+  for (const double sign : {-1.0, 1.0}) {
+    const double r = (6.0 + sign * root) / 21.0, weight = (155.0 + sign * root) / 1200.0;
+    for (std::size_t i = 0; i < 3; ++i, ++k) {
+      rule[k] = {{r, r, r}, weight};
+      rule[k].barycentric[i] = 1.0 - 2.0 * r;
+    }
+  }
+  return rule;
+}
+
+/// One overlap in the making.
+struct Overlap {
+  Seen slave, master;
+  std::vector<OverlapPoint>& points;
+
+  void add_point(const Point& p, double area) const;
+  void add_triangle(const Point& a, const Point& b, const Point& c) const;
+  void add_polygon(const Polygon& polygon) const;
+};
+
+void Overlap::add_point(const Point& p, double area) const {
+  const std::optional<ParentPoint> on_slave = slave.over(p), on_master = master.over(p);
+  if (!on_slave || !on_master) return;
+  const Vec3 n = cross(slave.patch.tangent_1(on_slave->eta), slave.patch.tangent_2(on_slave->xi));
+  const double gap = master.patch.at(on_master->xi, on_master->eta)[2] - slave.patch.at(on_slave->xi, on_slave->eta)[2];
+  if (n[2] > 0.0) points.push_back({*on_slave, *on_master, area * std::sqrt(dot(n, n)) / n[2], gap});
+}
+
+void Overlap::add_triangle(const Point& a, const Point& b, const Point& c) const {
+  static const std::array<TrianglePoint, 7> rule = radon_rule();
+  const double area = area_of(a, b, c);
+  if (!(area > 0.0)) return;
+  for (const auto& [l, weight] : rule)
+    add_point({l[0] * a[0] + l[1] * b[0] + l[2] * c[0], l[0] * a[1] + l[1] * b[1] + l[2] * c[1]}, weight * area);
+}
+
+void Overlap::add_polygon(const Polygon& polygon) const {
+  for (std::size_t i = 2; i < polygon.size; ++i)
+    add_triangle(polygon.corner[0], polygon.corner[i - 1], polygon.corner[i]);
+}
+
+void add_segment_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector<OverlapPoint>& points) {
+  static const std::vector<QuadraturePoint> rule = gauss_legendre(3);
+  const PlacedFacet seen = Plane(slave).seen(master);
+  const double half = 0.5 * measure(slave), start = seen.x[0][0], end = seen.x[1][0];
+  const double low = std::max(-half, std::min(start, end)), high = std::min(half, std::max(start, end));
+  if (!(high - low > negligible * std::min(2.0 * half, measure(master)))) return;
+  for (const QuadraturePoint& point : rule) {
+    const double s = 0.5 * (low + high) + 0.5 * (high - low) * point.x;
+    const double master_xi = std::clamp((2.0 * s - start - end) / (end - start), -1.0, 1.0);
+    points.push_back({{s / half, 0.0},
+                      {master_xi, 0.0},
+                      0.5 * (high - low) * point.weight,
+                      facet_position(seen, master_xi, 0.0)[2]});
+  }
+}
+
+}  // namespace
+
+int add_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector<OverlapPoint>& points) {
+  assert((slave.size == 2) == (master.size == 2) && slave.size > 1 && master.size > 1);
+  const std::size_t before = points.size();
+  if (slave.size == 2) {
+    add_segment_overlap(slave, master, points);
+    return static_cast<int>(points.size() - before);
+  }
+  const Plane plane(slave);
+  const PlacedFacet seen_slave = plane.seen(slave), seen_master = plane.seen(master);
+  const Shadow of_slave(seen_slave), of_master(seen_master);
+  const Overlap overlap{{BilinearPatch(seen_slave), slave.size}, {BilinearPatch(seen_master), master.size}, points};
+  const double least = negligible * std::min(measure(slave), measure(master));
+  for (std::size_t i = 0; i < of_slave.count; ++i) {
+    for (std::size_t j = 0; j < of_master.count; ++j) {
+      const Polygon common = clip(of_slave.part[i], of_master.part[j]);
+      if (common.area() > least) overlap.add_polygon(common);
+    }
+  }
+  return static_cast<int>(points.size() - before);
+}
+
+}  // namespace carom

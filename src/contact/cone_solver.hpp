@@ -1,0 +1,40 @@
+// The one complementarity solver: unilateral contact with Coulomb friction on a few rows.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contact/delassus.hpp"
+
+namespace carom {
+
+/// How far solve_cone came.
+struct ConeResult {
+  bool converged = false;
+  int iterations = 0;  ///< sweeps and linear systems, of the set of coupled rows that took most; 0: start accepted
+  double error = 0.0;  ///< largest violation of the conditions, relative (see solve_cone)
+};
+
+/// Finds r (r[i] is the force or impulse of row i of W in its frame; start values in, solution out) and w = W r + b so
+/// that in every row (normal n, tangents T)
+///   0 <= r_n, 0 <= w_n, r_n w_n = 0                                   (Signorini)
+///   |r_T| <= mu r_n;  w_T = 0 where |r_T| < mu r_n, else w_T = -s r_T, s >= 0   (Coulomb)
+/// Rows with mu = 0 have r_T = 0. What w means is the caller's affair: displacement, slip increment or velocity, the
+/// gap or the restitution being part of b_n.
+///
+/// Sets of rows that do not act on each other are problems of their own. Each starts with block Gauss-Seidel sweeps
+/// (Jourdan, Alart and Jean, Comput. Methods Appl. Mech. Eng. 155, 1998), whose rows are solved exactly: independent
+/// rows are done in one. Frictionless sets end by block principal pivoting (the primal-dual active set of
+/// Hintermueller, Ito and Kunisch, SIAM J. Optim. 13, 2003, made finite), so exactly; sets with friction by semismooth
+/// Newton on the projection equations (Alart and Curnier, Comput. Methods Appl. Mech. Eng. 92, 1991), with more sweeps
+/// where it fails. W may be singular (redundant rows): any solution is then given. The solution need not be unique for
+/// large mu.
+///
+/// The error is the largest violation of the natural map of a row, min(w_n, W_nn r_n) and W_TT (r_T - projection of
+/// r_T - w_T / W_TT on the disc of radius mu r_n), over the largest |b| and |W_ii r_i| of the set. Not converged: no
+/// solution exists (nothing can move a row that is closing), b is not finite, or the iterations ran out; r is then the
+/// best found, with 0 <= r_n. Deterministic, and independent of units.
+ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<const double> mu, std::vector<Vec3>& r,
+                      double tolerance = 1e-12);
+
+}  // namespace carom

@@ -1,0 +1,160 @@
+#include "contact/contact_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "contact/interface_rows.hpp"
+#include "contact/obstacle_rows.hpp"
+#include "contact/pair_rows.hpp"
+#include "contact/row_maker.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+
+namespace {
+
+struct MakeRows {
+  const Model& model;
+  std::vector<std::string>& notes;
+  Index source;
+
+  std::unique_ptr<RowMaker> operator()(const InterfaceContact& contact) const {
+    return interface_rows(model, contact, source, notes);
+  }
+  std::unique_ptr<RowMaker> operator()(const ObstacleContact& contact) const {
+    return obstacle_rows(model, contact, source);
+  }
+  std::unique_ptr<RowMaker> operator()(const PairContact& contact) const { return pair_rows(model, contact, source); }
+  std::unique_ptr<RowMaker> operator()(const StopContact& contact) const { return stop_rows(model, contact, source); }
+};
+
+/// Nodes whose positions the rows of a contact ask for.
+struct MovingNodes {
+  std::vector<Index>& nodes;
+
+  void add(const Surface& surface) const {
+    for (const Facet& facet : surface.facets) nodes.insert(nodes.end(), facet.begin(), facet.end());
+  }
+  void operator()(const InterfaceContact& /*contact*/) const {}
+  void operator()(const StopContact& /*contact*/) const {}
+  void operator()(const ObstacleContact& contact) const {
+    nodes.insert(nodes.end(), contact.nodes.begin(), contact.nodes.end());
+    add(contact.surface);
+    if (contact.carrier >= 0) nodes.push_back(contact.carrier);
+  }
+  void operator()(const PairContact& contact) const {
+    add(contact.slave);
+    add(contact.master);
+  }
+};
+
+bool takes_offsets(const ContactDefinition& definition) {
+  return std::visit(
+      [](const auto& contact) {
+        if constexpr (std::is_same_v<decltype(contact), const StopContact&>)
+          return false;
+        else
+          return contact.initial == InitialPenetration::strain_free_offset;
+      },
+      definition);
+}
+
+}  // namespace
+
+struct ContactGeometry::Impl {
+  explicit Impl(const Model& of) : model(of) {}
+
+  const Model& model;
+  std::vector<std::unique_ptr<RowMaker>> makers;
+  std::vector<Index> first_slot{0};  ///< of each maker, and the number of slots
+  std::vector<Index> nodes;          ///< that move and are asked for, each once
+  std::vector<double> offset;        ///< by slot, <= 0
+  std::vector<std::string> notes;
+  std::shared_ptr<const ConstraintRows> fixed;  ///< null when some rows are not fixed
+  std::vector<Vec3> x_begin, x, displacement;   ///< scratch of rows_at
+
+  bool place(std::span<const double> u_begin, std::span<const double> u);
+  ConstraintRows make(std::span<const double> u_begin, std::span<const double> u);
+};
+
+/// Positions of the nodes; false when one is not finite.
+bool ContactGeometry::Impl::place(std::span<const double> u_begin, std::span<const double> u) {
+  bool is_finite = true;
+  for (const Index n : nodes) {
+    const auto i = 3 * static_cast<std::size_t>(n);
+    const Vec3& X = model.mesh->coordinates[n];
+    x_begin[n] = add(X, {u_begin[i], u_begin[i + 1], u_begin[i + 2]});
+    x[n] = add(X, {u[i], u[i + 1], u[i + 2]});
+    displacement[n] = subtract(x[n], x_begin[n]);
+    is_finite = is_finite && std::isfinite(dot(displacement[n], displacement[n]));
+  }
+  return is_finite;
+}
+
+ConstraintRows ContactGeometry::Impl::make(std::span<const double> u_begin, std::span<const double> u) {
+  const bool is_finite = place(u_begin, u);
+  const ContactMotion motion{x_begin, x, displacement, u};
+  ConstraintRows rows;
+  for (std::size_t i = 0; i < makers.size(); ++i)
+    if (is_finite || makers[i]->is_fixed()) makers[i]->append(motion, first_slot[i], rows);
+  for (std::size_t r = 0; r < rows.size(); ++r) rows.gap[r] -= offset[rows.slot[r]];
+  return rows;
+}
+
+ContactGeometry::ContactGeometry(const Model& model) : impl_(std::make_unique<Impl>(model)) {
+  Impl& impl = *impl_;
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    impl.makers.push_back(std::visit(MakeRows{model, impl.notes, static_cast<Index>(i)}, model.contacts[i]));
+    impl.first_slot.push_back(impl.first_slot.back() + static_cast<Index>(impl.makers.back()->slots()));
+    if (!impl.makers.back()->is_fixed()) std::visit(MovingNodes{impl.nodes}, model.contacts[i]);
+  }
+  std::sort(impl.nodes.begin(), impl.nodes.end());
+  impl.nodes.erase(std::unique(impl.nodes.begin(), impl.nodes.end()), impl.nodes.end());
+  impl.offset.assign(slots(), 0.0);
+  if (!impl.nodes.empty()) impl.x_begin = impl.x = impl.displacement = std::vector<Vec3>(model.mesh->node_count());
+  const bool is_fixed =
+      std::all_of(impl.makers.begin(), impl.makers.end(), [](const auto& m) { return m->is_fixed(); });
+  if (is_fixed) impl.fixed = std::make_shared<const ConstraintRows>(impl.make({}, {}));
+}
+ContactGeometry::~ContactGeometry() = default;
+ContactGeometry::ContactGeometry(ContactGeometry&&) noexcept = default;
+
+std::size_t ContactGeometry::slots() const {
+  return static_cast<std::size_t>(impl_->first_slot.back());
+}
+bool ContactGeometry::is_fixed() const {
+  return impl_->fixed != nullptr;
+}
+std::shared_ptr<const ConstraintRows> ContactGeometry::rows_at(std::span<const double> u_begin,
+                                                               std::span<const double> u) const {
+  return impl_->fixed ? impl_->fixed : std::make_shared<const ConstraintRows>(impl_->make(u_begin, u));
+}
+
+std::vector<Penetration> ContactGeometry::initial_penetrations(std::span<const double> u) const {
+  const auto rows = rows_at(u, u);
+  std::vector<Penetration> found;
+  for (std::size_t r = 0; r < rows->size(); ++r) {
+    const double gap = rows->gap_at(r, u);
+    if (gap < 0.0) found.push_back({rows->slot[r], rows->source[r], rows->position[r], -gap});
+  }
+  std::sort(found.begin(), found.end(), [](const Penetration& a, const Penetration& b) {
+    return std::tuple(-a.depth, a.slot) < std::tuple(-b.depth, b.slot);
+  });
+  return found;
+}
+
+void ContactGeometry::set_initial(std::span<const double> u) {
+  impl_->offset.assign(slots(), 0.0);
+  if (impl_->fixed) impl_->fixed = std::make_shared<const ConstraintRows>(impl_->make({}, {}));
+  for (const Penetration& p : initial_penetrations(u))
+    if (takes_offsets(impl_->model.contacts[p.contact])) impl_->offset[p.slot] = -p.depth;
+  if (impl_->fixed) impl_->fixed = std::make_shared<const ConstraintRows>(impl_->make({}, {}));
+}
+
+const std::vector<std::string>& ContactGeometry::notes() const {
+  return impl_->notes;
+}
+
+}  // namespace carom

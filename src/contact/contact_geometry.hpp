@@ -1,0 +1,63 @@
+// The geometry step: from contact definitions to constraint rows, at any displacement.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "contact/constraint_rows.hpp"
+#include "model/model.hpp"
+
+namespace carom {
+
+/// A row that penetrates in the initial state.
+struct Penetration {
+  Index slot = -1;
+  Index contact = -1;  ///< index in Model::contacts
+  Vec3 position{};
+  double depth = 0.0;  ///< - gap, positive
+};
+
+/// Makes the rows of all contacts of a model:
+/// - interface cells: four rows per cell (interface_rows.hpp);
+/// - obstacles: one row per node with the area it stands for, or 1 per node (obstacle_rows.hpp);
+/// - pairs: see PairMethod and pair_rows.hpp, mortar_rows.hpp;
+/// - stops: one row per node, measure 1.
+/// Every contact has a fixed number of histories (slots): one per Gauss point of an interface, per node of an obstacle
+/// or a stop, per slave node of a pair (and master node, in two passes). Rows stand in the order of their slots; slots
+/// that are far from touching may have none.
+class ContactGeometry {
+ public:
+  /// Throws std::invalid_argument naming the contact (and the cell) where an interface cell is not of zero thickness or
+  /// the kinds of facets of a pair cannot meet. The model must outlive the object.
+  explicit ContactGeometry(const Model& model);
+  ~ContactGeometry();
+  ContactGeometry(ContactGeometry&&) noexcept;
+
+  /// Number of entries of State::contact; the same for a whole run.
+  std::size_t slots() const;
+  /// True when the rows are the same at every displacement.
+  bool is_fixed() const;
+  /// Rows at displacement u, when the step began at u_begin (so that what crossed a facet in between is found). Where
+  /// is_fixed, always the same object. Search lists are kept from call to call, but the rows do not depend on them, nor
+  /// on the number of threads. Not to be called from two threads at once. Contacts whose rows are not fixed have none
+  /// when a displacement of their nodes is not finite.
+  std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> u_begin, std::span<const double> u) const;
+
+  /// What penetrates at displacement u, worst first; offsets of set_initial count as they stand.
+  std::vector<Penetration> initial_penetrations(std::span<const double> u) const;
+  /// Takes the penetrations at displacement u as free of strain in the contacts that say so
+  /// (InitialPenetration::strain_free_offset): their gaps are subtracted from the slots' gaps from here on. Open slots
+  /// have no offset.
+  void set_initial(std::span<const double> u);
+
+  /// What was turned or noticed, for the log.
+  const std::vector<std::string>& notes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace carom

@@ -1,0 +1,172 @@
+#include "contact/delassus.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "math/vec3.hpp"
+#include "parallel/threads.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t batch_size = 32;      ///< columns that are solved at once
+constexpr std::size_t rows_per_chunk = 16;  ///< rows read from a batch by one thread at a time
+
+/// Number of components of a row that take part: normal, and with friction the two tangents.
+std::size_t components(const ConstraintRows& rows, std::size_t row) {
+  return rows.law[row].mu > 0.0 ? 3 : 1;
+}
+
+/// One column of G^T: component c of row i of W.
+struct Column {
+  std::size_t i, c;
+};
+
+/// W = (W + W^T) / 2: an inverse that is an iteration, or rounds, leaves W symmetric only nearly.
+void make_symmetric(Delassus& W) {
+  const std::size_t n = W.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i; j < n; ++j) {
+      FrameBlock& upper = W.block[i * n + j];
+      FrameBlock& lower = W.block[j * n + i];
+      for (std::size_t a = 0; a < 3; ++a) {
+        for (std::size_t b = 0; b < 3; ++b) {
+          const double mean = 0.5 * (upper[3 * a + b] + lower[3 * b + a]);
+          upper[3 * a + b] = lower[3 * b + a] = mean;
+        }
+      }
+    }
+  }
+}
+
+/// One appearance of a node in a row.
+struct NodeUse {
+  Index node;
+  std::size_t i;  ///< row of W
+  std::size_t k;  ///< entry of ConstraintRows::block
+};
+
+/// All appearances, sorted by node, then row.
+std::vector<NodeUse> uses_by_node(const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {
+  std::vector<NodeUse> uses;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const auto end = static_cast<std::size_t>(rows.begin[chosen[i] + 1]);
+    for (auto k = static_cast<std::size_t>(rows.begin[chosen[i]]); k < end; ++k) uses.push_back({rows.node[k], i, k});
+  }
+  std::ranges::stable_sort(uses, {}, &NodeUse::node);
+  return uses;
+}
+
+/// block += B_i diag(inverse) B_j^T for the first m_i and m_j components
+void add_product(const RowBlock& B_i, const double* inverse, const RowBlock& B_j, std::size_t m_i, std::size_t m_j,
+                 FrameBlock& block) {
+  for (std::size_t a = 0; a < m_i; ++a) {
+    const Vec3 scaled_row{B_i[a][0] * inverse[0], B_i[a][1] * inverse[1], B_i[a][2] * inverse[2]};
+    for (std::size_t b = 0; b < m_j; ++b) block[3 * a + b] += dot(scaled_row, B_j[b]);
+  }
+}
+
+}  // namespace
+
+void Delassus::apply(std::span<const Vec3> r, std::span<Vec3> w) const {
+  assert(r.size() == size() && w.size() == size());
+  for (std::size_t i = 0; i < size(); ++i) {
+    Vec3 sum{};
+    for (std::size_t k = begin[i]; k < begin[i + 1]; ++k) {
+      const FrameBlock& B = block[k];
+      const Vec3& s = r[column[k]];
+      for (std::size_t a = 0; a < 3; ++a) sum[a] += B[3 * a] * s[0] + B[3 * a + 1] * s[1] + B[3 * a + 2] * s[2];
+    }
+    w[i] = sum;
+  }
+}
+
+Delassus make_delassus(const ConstraintRows& rows, std::vector<std::size_t> chosen, std::size_t dof_count,
+                       const InverseOperator& inverse, std::vector<double>* columns) {
+  Delassus W;
+  W.rows = std::move(chosen);
+  const std::size_t n = W.size();
+  W.block.assign(n * n, FrameBlock{});
+  for (std::size_t i = 0; i <= n; ++i) W.begin.push_back(i * n);
+  for (std::size_t k = 0; k < n * n; ++k) W.column.push_back(k % n);
+  if (columns != nullptr) columns->assign(3 * n * dof_count, 0.0);
+  std::vector<Column> wanted;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t c = 0; c < components(rows, W.rows[i]); ++c) wanted.push_back({i, c});
+  }
+  std::vector<double> batch;
+  for (std::size_t first = 0; first < wanted.size(); first += batch_size) {
+    const std::size_t count = std::min(batch_size, wanted.size() - first);
+    batch.assign(count * dof_count, 0.0);
+    const auto vector = [&](std::size_t k) { return std::span(batch).subspan(k * dof_count, dof_count); };
+    for (std::size_t k = 0; k < count; ++k) {
+      Vec3 unit{};
+      unit[wanted[first + k].c] = 1.0;
+      rows.scatter(W.rows[wanted[first + k].i], unit, vector(k));
+    }
+    inverse(batch, static_cast<int>(count));
+    parallel_for(n, rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto [j, c] = wanted[first + k];
+        for (std::size_t i = begin; i < end; ++i) {
+          const Vec3 w = rows.relative(W.rows[i], vector(k));
+          for (std::size_t a = 0; a < components(rows, W.rows[i]); ++a) W.block[i * n + j][3 * a + c] = w[a];
+        }
+      }
+    });
+    if (columns == nullptr) continue;
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto [j, c] = wanted[first + k];
+      std::ranges::copy(vector(k), columns->begin() + static_cast<std::ptrdiff_t>((3 * j + c) * dof_count));
+    }
+  }
+  make_symmetric(W);
+  return W;
+}
+
+Delassus make_delassus(const ConstraintRows& rows, std::vector<std::size_t> chosen,
+                       std::span<const double> inverse_diagonal) {
+  Delassus W;
+  W.rows = std::move(chosen);
+  const std::size_t n = W.size();
+  const std::vector<NodeUse> uses = uses_by_node(rows, W.rows);
+  W.begin.push_back(0);
+  std::vector<std::size_t> entry(n), seen_by(n, n);  // entry of column j in row i, once seen_by[j] == i
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto begin = static_cast<std::size_t>(rows.begin[W.rows[i]]);
+    const auto end = static_cast<std::size_t>(rows.begin[W.rows[i] + 1]);
+    columns.assign(1, i);
+    seen_by[i] = i;
+    const auto each_partner = [&](auto&& visit) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const Index node = rows.node[k];
+        auto use = std::lower_bound(uses.begin(), uses.end(), node,
+                                    [](const NodeUse& u, Index wanted) { return u.node < wanted; });
+        for (; use != uses.end() && use->node == node; ++use) visit(k, *use);
+      }
+    };
+    each_partner([&](std::size_t, const NodeUse& use) {
+      if (seen_by[use.i] == i) return;
+      seen_by[use.i] = i;
+      columns.push_back(use.i);
+    });
+    std::ranges::sort(columns);
+    for (const std::size_t j : columns) {
+      entry[j] = W.column.size();
+      W.column.push_back(j);
+      W.block.emplace_back();
+    }
+    each_partner([&](std::size_t k, const NodeUse& use) {
+      const double* inverse = inverse_diagonal.data() + 3 * static_cast<std::size_t>(use.node);
+      add_product(rows.block[k], inverse, rows.block[use.k], components(rows, W.rows[i]),
+                  components(rows, W.rows[use.i]), W.block[entry[use.i]]);
+    });
+    W.begin.push_back(W.column.size());
+  }
+  return W;
+}
+
+}  // namespace carom

@@ -1,0 +1,303 @@
+#include "contact/mortar_rows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "contact/box_tree.hpp"
+#include "contact/broad_phase.hpp"
+#include "contact/clipping.hpp"
+#include "contact/facet_projection.hpp"
+#include "contact/pair_rows.hpp"
+#include "contact/surface_search.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double least_coverage = 1e-6;  // of a node's measure
+constexpr double look = 1.5;             // of the facet size: overlaps within count
+
+using NodePairs = std::array<std::array<double, 4>, 4>;
+
+/// A slave facet at its current position, and its extent along its plane's axes and normal.
+struct Slave {
+  PlacedFacet placed;
+  Vec3 centre, axis_1, axis_2, normal;
+  Bounds extent;
+
+  explicit Slave(const PlacedFacet& facet) : placed(facet) {
+    const ParentPoint at = facet_centre(facet.size);
+    const FacetFrame frame = facet_frame(facet, at.xi, at.eta);
+    centre = frame.position;
+    normal = frame.normal;
+    axis_1 = normalized(frame.a_1);
+    axis_2 = cross(normal, axis_1);
+    extent = extent_of(facet);
+  }
+  Bounds extent_of(const PlacedFacet& facet) const {
+    Bounds bounds;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) {
+      const Vec3 r = subtract(facet.x[a], centre);
+      bounds.include(Vec3{dot(r, axis_1), dot(r, axis_2), dot(r, normal)});
+    }
+    return bounds;
+  }
+  /// False when the other facet lies nowhere over or under this one, or farther outward than `reach`.
+  bool may_overlap(const PlacedFacet& other, double reach) const {
+    Bounds column = extent;
+    column.low[2] = -INFINITY;
+    column.high[2] += reach;
+    return column.overlaps(extent_of(other));
+  }
+};
+
+/// Integrals over the overlaps of one slave facet: entries [A][b] with the slave's node A.
+struct FacetSums {
+  struct Master {
+    Index facet;
+    NodePairs NN;  ///< w N_A N_c
+  };
+  Vec3 normal{};
+  double least_gap = std::numeric_limits<double>::infinity();
+  std::array<double, 4> D{}, gap{};           ///< w N_A, w N_A g
+  NodePairs NN{};                             ///< w N_A N_b
+  std::array<std::array<Vec3, 4>, 4> tilt{};  ///< w N_A g a^alpha N_b,alpha
+  std::vector<Master> masters;
+
+  /// Adds a point of weight w to these sums and to those with its master.
+  void add_point(double w, double point_gap, const FacetShape& shape, const FacetFrame& frame,
+                 const std::array<double, 4>& N_master, NodePairs& with_master);
+  void clear() {
+    std::vector<Master> kept = std::move(masters);
+    kept.clear();
+    *this = {};
+    masters = std::move(kept);
+  }
+};
+
+void FacetSums::add_point(double w, double point_gap, const FacetShape& shape, const FacetFrame& frame,
+                          const std::array<double, 4>& N_master, NodePairs& with_master) {
+  least_gap = std::min(least_gap, point_gap);
+  const TangentDual dual = tangent_dual(frame, normal);
+  std::array<Vec3, 4> turn{};  // g a^alpha N_b,alpha
+  for (std::size_t b = 0; b < 4; ++b)
+    turn[b] = scaled(add(scaled(dual.dual_1, shape.dN_dxi[b]), scaled(dual.dual_2, shape.dN_deta[b])), point_gap);
+  for (std::size_t A = 0; A < 4; ++A) {
+    const double wN = w * shape.N[A];
+    D[A] += wN;
+    gap[A] += wN * point_gap;
+    for (std::size_t b = 0; b < 4; ++b) {
+      NN[A][b] += wN * shape.N[b];
+      with_master[A][b] += wN * N_master[b];
+      tilt[A][b] = add(tilt[A][b], scaled(turn[b], wN));
+    }
+  }
+}
+
+/// Points of the overlap with one master.
+struct Overlap {
+  Index master;
+  PlacedFacet placed;
+  std::size_t begin, end;
+};
+
+class MortarRows : public RowMaker {
+ public:
+  MortarRows(const Model& model, const PairContact& contact, const ContactLaw& law, Index source);
+  std::size_t slots() const override { return nodes_.size(); }
+  bool is_fixed() const override { return false; }
+  void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override;
+
+ private:
+  /// A slave node, its share of the surface, and its facets with its number there.
+  struct Node {
+    Index node;
+    double measure;
+    std::vector<std::pair<std::size_t, std::size_t>> facets;
+  };
+
+  void integrate(std::size_t f, const ContactMotion& motion, FacetSums& sums) const;
+  bool add_points(std::size_t f, Index g, const Slave& slave, const ContactMotion& motion,
+                  std::vector<OverlapPoint>& points) const;
+  bool was_in_front(std::size_t f, Index g, const OverlapPoint& point, const ContactMotion& motion) const;
+  void add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const;
+
+  std::span<const Vec3> X_;
+  Surface slave_;
+  ContactLaw law_;
+  Index source_;
+  double size_;  ///< the larger mean facet size
+  std::vector<double> depth_;
+  std::vector<Node> nodes_;
+  mutable BroadPhase broad_phase_;
+  mutable std::vector<FacetSums> sums_;
+};
+
+MortarRows::MortarRows(const Model& model, const PairContact& contact, const ContactLaw& law, Index source)
+    : X_(model.mesh->coordinates),
+      slave_(contact.slave),
+      law_(law),
+      source_(source),
+      size_(std::max(mean_facet_size(X_, contact.slave.facets), mean_facet_size(X_, contact.master.facets))),
+      depth_(contact.self ? half_thickness(X_, contact.master.facets, size_)
+                          : std::vector<double>(contact.master.facets.size(), size_)),
+      broad_phase_(contact.slave.facets, contact.master.facets, look * size_,
+                   0.5 * mean_facet_size(X_, contact.master.facets)),
+      sums_(contact.slave.facets.size()) {
+  std::map<Index, std::size_t> number;
+  for (const auto& [n, measure] : nodal_measures(X_, slave_)) {
+    number[n] = nodes_.size();
+    nodes_.push_back({n, measure, {}});
+  }
+  for (std::size_t f = 0; f < slave_.facets.size(); ++f)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(slave_.facets[f].size); ++a)
+      nodes_[number.at(slave_.facets[f][a])].facets.emplace_back(f, a);
+}
+
+void MortarRows::append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const {
+  broad_phase_.update(motion.x_begin, motion.displacement);
+  constexpr std::size_t grain = 16;  // facets per task: some hundred microseconds of work
+  parallel_for(sums_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) integrate(f, motion, sums_[f]);
+  });
+  append_in_parallel(nodes_.size(), rows, [&](std::size_t i, ConstraintRows& made) {
+    add_row(nodes_[i], first_slot + static_cast<Index>(i), motion, made);
+  });
+}
+
+/// The point and the master's point over it, in the slave's frame at the beginning of the step.
+bool MortarRows::was_in_front(std::size_t f, Index g, const OverlapPoint& point, const ContactMotion& motion) const {
+  const PlacedFacet slave = place(slave_.facets[f], motion.x_begin);
+  const PlacedFacet master = place(broad_phase_.targets()[g], motion.x_begin);
+  const Vec3 way = subtract(facet_position(master, point.master.xi, point.master.eta),
+                            facet_position(slave, point.slave.xi, point.slave.eta));
+  return dot(way, facet_frame(slave, point.slave.xi, point.slave.eta).normal) >= 0.0;
+}
+
+/// Appends the points of the overlap with master g, if it counts.
+bool MortarRows::add_points(std::size_t f, Index g, const Slave& slave, const ContactMotion& motion,
+                            std::vector<OverlapPoint>& points) const {
+  const PlacedFacet master = place(broad_phase_.targets()[g], motion.x);
+  if (!slave.may_overlap(master, look * size_)) return false;
+  const ParentPoint centre = facet_centre(master.size);
+  if (dot(facet_frame(master, centre.xi, centre.eta).normal, slave.normal) >= opposed) return false;
+  const std::size_t before = points.size();
+  if (add_overlap(slave.placed, master, points) == 0) return false;
+  const auto nearest = std::min_element(points.begin() + static_cast<std::ptrdiff_t>(before), points.end(),
+                                        [](const OverlapPoint& a, const OverlapPoint& b) { return a.gap < b.gap; });
+  const bool is_deep = nearest->gap < -depth_[g];
+  if (nearest->gap <= look * size_ && (!is_deep || was_in_front(f, g, *nearest, motion))) return true;
+  points.resize(before);
+  return false;
+}
+
+/// Sets the weight of every point to zero that has another master nearer along the normal.
+void hide_layers(const Slave& slave, const std::vector<Overlap>& overlaps, std::vector<OverlapPoint>& points) {
+  for (const Overlap& own : overlaps) {
+    for (std::size_t q = own.begin; q < own.end; ++q) {
+      const Vec3 x = facet_position(slave.placed, points[q].slave.xi, points[q].slave.eta);
+      for (const Overlap& other : overlaps) {
+        if (other.master == own.master) continue;
+        const std::optional<RayHit> hit = intersect(other.placed, x, slave.normal);
+        if (hit && std::abs(hit->distance) < std::abs(points[q].gap)) points[q].weight = 0.0;
+      }
+    }
+  }
+}
+
+void MortarRows::integrate(std::size_t f, const ContactMotion& motion, FacetSums& sums) const {
+  sums.clear();
+  const std::span<const Index> candidates = broad_phase_.targets_of(f);
+  if (candidates.empty()) return;
+  const Slave slave(place(slave_.facets[f], motion.x));
+  std::vector<OverlapPoint> points;
+  std::vector<Overlap> overlaps;
+  for (const Index g : candidates) {
+    const std::size_t begin = points.size();
+    if (add_points(f, g, slave, motion, points))
+      overlaps.push_back({g, place(broad_phase_.targets()[g], motion.x), begin, points.size()});
+  }
+  if (points.empty()) return;
+  double covered = 0.0;
+  for (const OverlapPoint& point : points) covered += point.weight;
+  const double area = measure(slave.placed);
+  if (covered > area * (1.0 + 1e-6)) hide_layers(slave, overlaps, points);
+  const PlacedFacet reference = place(slave_.facets[f], X_);
+  const double stretch = measure(reference) / area, width = reference.size == 2 ? slave_.thickness : 1.0;
+  const bool is_ring = slave_.section == Section::axisymmetric;
+  sums.normal = slave.normal;
+  for (const Overlap& overlap : overlaps) {
+    sums.masters.push_back({overlap.master, {}});
+    for (std::size_t q = overlap.begin; q < overlap.end; ++q) {
+      const auto& [at, on_master, weight, gap] = points[q];
+      if (weight == 0.0) continue;
+      const double around = is_ring ? 2.0 * std::numbers::pi * facet_position(reference, at.xi, at.eta)[0] : width;
+      sums.add_point(weight * stretch * around, gap, facet_shape(reference.size, at.xi, at.eta),
+                     facet_frame(slave.placed, at.xi, at.eta),
+                     facet_shape(overlap.placed.size, on_master.xi, on_master.eta).N, sums.masters.back().NN);
+    }
+  }
+}
+
+/// Blocks of a row in the making, one per node, in the order of their first use.
+struct Blocks {
+  std::vector<std::pair<Index, RowBlock>> entries;
+
+  void add(Index n, const Vec3& normal, const Vec3& tangent_1, const Vec3& tangent_2) {
+    auto entry = std::find_if(entries.begin(), entries.end(), [n](const auto& e) { return e.first == n; });
+    if (entry == entries.end()) entry = entries.insert(entry, {n, {}});
+    RowBlock& block = entry->second;
+    block = {carom::add(block[0], normal), carom::add(block[1], tangent_1), carom::add(block[2], tangent_2)};
+  }
+};
+
+void MortarRows::add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const {
+  double D = 0.0, gap = 0.0, least_gap = std::numeric_limits<double>::infinity();
+  Vec3 direction{};
+  for (const auto& [f, A] : node.facets) {
+    const FacetSums& sums = sums_[f];
+    if (sums.D[A] == 0.0) continue;
+    D += sums.D[A];
+    gap += sums.gap[A];
+    direction = subtract(direction, scaled(sums.normal, sums.D[A]));
+    least_gap = std::min(least_gap, sums.least_gap);
+  }
+  const double length = norm(direction);
+  if (!(D > least_coverage * node.measure) || least_gap > size_ || !(length > 0.0)) return;
+  rows.add_row(gap / D, scaled(direction, 1.0 / length), motion.x[node.node], D, row_law(law_, D), source_);
+  const Vec3 t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
+  Blocks blocks;
+  blocks.add(node.node, {}, {}, {});  // the row's own node first
+  for (const auto& [f, A] : node.facets) {
+    const FacetSums& sums = sums_[f];
+    const Facet& facet = slave_.facets[f];
+    for (std::size_t b = 0; b < static_cast<std::size_t>(facet.size); ++b) {
+      const double w = sums.NN[A][b] / D;
+      const Vec3 tilt = scaled(sums.tilt[A][b], 1.0 / D);
+      blocks.add(facet[b], scaled(sums.normal, -w), subtract(scaled(t_1, w), scaled(sums.normal, dot(t_1, tilt))),
+                 subtract(scaled(t_2, w), scaled(sums.normal, dot(t_2, tilt))));
+    }
+    for (const FacetSums::Master& master : sums.masters) {
+      const Facet& other = broad_phase_.targets()[master.facet];
+      for (std::size_t c = 0; c < static_cast<std::size_t>(other.size); ++c) {
+        const double w = master.NN[A][c] / D;
+        if (w != 0.0) blocks.add(other[c], scaled(sums.normal, w), scaled(t_1, -w), scaled(t_2, -w));
+      }
+    }
+  }
+  for (const auto& [n, block] : blocks.entries) rows.add_block(n, block);
+  finish_row(rows, motion.u, slot);
+}
+
+}  // namespace
+
+std::unique_ptr<RowMaker> mortar_rows(const Model& model, const PairContact& contact, const ContactLaw& law,
+                                      Index source) {
+  return std::make_unique<MortarRows>(model, contact, law, source);
+}
+
+}  // namespace carom

@@ -1,0 +1,184 @@
+#include "contact/obstacle_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contact/rigid_shapes.hpp"
+#include "contact/surface_search.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+namespace {
+
+/// What every obstacle has: its nodes with their measures, law and carrier.
+struct Touching {
+  std::span<const Vec3> X;
+  std::vector<std::pair<Index, double>> nodes;  ///< node and measure, by increasing node
+  ContactLaw law;
+  Index carrier, source;
+
+  Touching(const Model& model, const ObstacleContact& contact, Index contact_source)
+      : X(model.mesh->coordinates), law(contact.law), carrier(contact.carrier), source(contact_source) {
+    if (contact.measure == RowMeasure::per_node) {
+      for (const Index n : contact.nodes) nodes.emplace_back(n, 1.0);
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    } else {
+      const std::map<Index, double> measures = nodal_measures(X, contact.surface);
+      nodes.assign(measures.begin(), measures.end());
+    }
+  }
+
+  /// Displacement of the obstacle for positions x of the nodes.
+  Vec3 shift(std::span<const Vec3> x) const { return carrier < 0 ? Vec3{} : subtract(x[carrier], X[carrier]); }
+
+  void add_row(std::size_t i, const SignedDistance& at, const Vec3& position, ConstraintRows& rows) const {
+    const auto [n, measure] = nodes[i];
+    rows.add_row(at.gap, at.normal, position, measure, row_law(law, measure), source);
+    rows.add_node(n, 1.0);
+    if (carrier >= 0) rows.add_node(carrier, -1.0);
+  }
+};
+
+class PlaneRows : public RowMaker {
+ public:
+  PlaneRows(Touching touching, const Plane& plane) : touching_(std::move(touching)), plane_(plane) {}
+  std::size_t slots() const override { return touching_.nodes.size(); }
+  bool is_fixed() const override { return true; }
+  void append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const override {
+    for (std::size_t i = 0; i < slots(); ++i) {
+      const Vec3& X = touching_.X[touching_.nodes[i].first];
+      touching_.add_row(i, signed_distance(plane_, X), X, rows);
+      rows.slot.back() = first_slot + static_cast<Index>(i);
+    }
+  }
+
+ private:
+  Touching touching_;
+  Plane plane_;
+};
+
+/// Curved shapes with a distance in closed form.
+template <class Shape>
+class ShapeRows : public RowMaker {
+ public:
+  ShapeRows(Touching touching, const Shape& shape) : touching_(std::move(touching)), shape_(shape) {}
+  std::size_t slots() const override { return touching_.nodes.size(); }
+  bool is_fixed() const override { return false; }
+  void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
+    const Vec3 shift = touching_.shift(motion.x);
+    append_in_parallel(slots(), rows, [&](std::size_t i, ConstraintRows& made) {
+      const Vec3& x = motion.x[touching_.nodes[i].first];
+      touching_.add_row(i, signed_distance(shape_, subtract(x, shift)), x, made);
+      finish_row(made, motion.u, first_slot + static_cast<Index>(i));
+    });
+  }
+
+ private:
+  Touching touching_;
+  Shape shape_;
+};
+
+/// Nodes against the facets of a rigid surface, seen from the surface: points 0 ... n - 1 are the nodes that may touch,
+/// the rest are the surface's own, which rest there.
+class RigidSurfaceRows : public RowMaker {
+ public:
+  RigidSurfaceRows(Touching touching, const Surface& own, const Surface& rigid)
+      : touching_(std::move(touching)), search_(make_search(own, rigid)) {}
+  std::size_t slots() const override { return touching_.nodes.size(); }
+  bool is_fixed() const override { return false; }
+  void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
+    const Vec3 shift_begin = touching_.shift(motion.x_begin), shift = touching_.shift(motion.x);
+    for (std::size_t i = 0; i < slots(); ++i) {
+      const Index n = touching_.nodes[i].first;
+      x_begin_[i] = subtract(motion.x_begin[n], shift_begin);
+      x_[i] = subtract(motion.x[n], shift);
+      displacement_[i] = subtract(x_[i], x_begin_[i]);
+    }
+    search_.update(x_begin_, x_, displacement_);
+    append_in_parallel(slots(), rows, [&](std::size_t i, ConstraintRows& made) {
+      const std::optional<SurfacePoint> met = search_.find(i);
+      if (!met) return;
+      touching_.add_row(i, {met->normal, met->gap}, motion.x[touching_.nodes[i].first], made);
+      finish_row(made, motion.u, first_slot + static_cast<Index>(i));
+    });
+  }
+
+ private:
+  SurfaceSearch make_search(const Surface& own, const Surface& rigid) {
+    std::map<Index, Index> own_point, rigid_point;
+    std::vector<Index> points;
+    for (const auto& [n, measure] : touching_.nodes) points.push_back(own_point[n] = add_point(n));
+    for (const Facet& facet : rigid.facets)
+      for (const Index n : facet)
+        if (!rigid_point.contains(n)) rigid_point[n] = add_point(n);
+    const std::vector<Facet> own_facets = renumbered(own.facets, own_point);
+    const std::vector<Facet> facets = renumbered(rigid.facets, rigid_point);
+    const double size = mean_facet_size(x_, facets), reach = std::max(size, mean_facet_size(x_, own_facets));
+    return {points, own_facets, facets, {reach, 0.5 * size, std::vector<double>(facets.size(), reach)}};
+  }
+  static std::vector<Facet> renumbered(std::vector<Facet> facets, const std::map<Index, Index>& point) {
+    for (Facet& facet : facets)
+      for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) facet.node[a] = point.at(facet[a]);
+    return facets;
+  }
+  Index add_point(Index n) {
+    x_.push_back(touching_.X[n]);
+    x_begin_.push_back(touching_.X[n]);
+    displacement_.push_back({});
+    return static_cast<Index>(x_.size()) - 1;
+  }
+
+  Touching touching_;
+  mutable std::vector<Vec3> x_begin_, x_, displacement_;
+  mutable SurfaceSearch search_;
+};
+
+class StopRows : public RowMaker {
+ public:
+  StopRows(const Model& model, const StopContact& contact, Index source)
+      : X_(model.mesh->coordinates), contact_(contact), source_(source) {}
+  std::size_t slots() const override { return contact_.nodes.size(); }
+  bool is_fixed() const override { return true; }
+  void append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const override {
+    for (const Index n : contact_.nodes) {
+      rows.add_row(contact_.gap, contact_.direction, X_[n], 1.0, {contact_.stiffness, 0.0, contact_.damping}, source_);
+      rows.add_node(n, 1.0);
+      rows.slot.back() = first_slot++;
+    }
+  }
+
+ private:
+  std::span<const Vec3> X_;
+  StopContact contact_;
+  Index source_;
+};
+
+/// The maker for each shape.
+struct MakeRows {
+  const ObstacleContact& contact;
+  Touching touching;
+
+  std::unique_ptr<RowMaker> operator()(const Plane& plane) { return std::make_unique<PlaneRows>(touching, plane); }
+  std::unique_ptr<RowMaker> operator()(const RigidSurface& rigid) {
+    const bool has_normals = contact.measure == RowMeasure::per_area;
+    return std::make_unique<RigidSurfaceRows>(touching, has_normals ? contact.surface : Surface{}, rigid.surface);
+  }
+  template <class Shape>
+  std::unique_ptr<RowMaker> operator()(const Shape& shape) {
+    return std::make_unique<ShapeRows<Shape>>(touching, shape);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<RowMaker> obstacle_rows(const Model& model, const ObstacleContact& contact, Index source) {
+  return std::visit(MakeRows{contact, Touching(model, contact, source)}, contact.shape);
+}
+
+std::unique_ptr<RowMaker> stop_rows(const Model& model, const StopContact& contact, Index source) {
+  return std::make_unique<StopRows>(model, contact, source);
+}
+
+}  // namespace carom

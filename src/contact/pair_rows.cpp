@@ -1,0 +1,186 @@
+#include "contact/pair_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "contact/mortar_rows.hpp"
+#include "contact/surface_search.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+namespace {
+
+/// Least cosine between a row's normal and its facet's for which the facet can be turned about the row.
+constexpr double least_cosine = 0.1;
+
+bool is_points(const Surface& surface) {
+  return !surface.facets.empty() && surface.facets.front().size == 1;
+}
+
+ContactLaw with_half_stiffness(ContactLaw law) {
+  if (law.eps_N) *law.eps_N *= 0.5;
+  if (law.eps_T) *law.eps_T *= 0.5;
+  return law;
+}
+
+std::vector<Index> keys(const std::map<Index, double>& map) {
+  std::vector<Index> out;
+  for (const auto& [key, value] : map) out.push_back(key);
+  return out;
+}
+
+/// Adds the master nodes of the last row.
+void add_master(ConstraintRows& rows, const SurfacePoint& met, const Facet& facet, const PlacedFacet& placed) {
+  const FacetFrame frame = facet_frame(placed, met.xi, met.eta);
+  const FacetShape shape = facet_shape(facet.size, met.xi, met.eta);
+  const Vec3 n = rows.normal.back(), t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
+  TangentDual dual;
+  if (std::abs(dot(frame.normal, n)) >= least_cosine) dual = tangent_dual(frame, n);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) {
+    const Vec3 tilt = scaled(add(scaled(dual.dual_1, shape.dN_dxi[a]), scaled(dual.dual_2, shape.dN_deta[a])), met.gap);
+    const double w = -met.N[a];
+    rows.add_block(facet[a], {scaled(n, w), add(scaled(t_1, w), scaled(n, dot(t_1, tilt))),
+                              add(scaled(t_2, w), scaled(n, dot(t_2, tilt)))});
+  }
+}
+
+/// The nodes of one surface against the facets of another.
+class NodeRows : public RowMaker {
+ public:
+  NodeRows(std::span<const Vec3> X, const Surface& slave, const Surface& master, bool self, const ContactLaw& law,
+           Index source)
+      : measures_(nodal_measures(X, slave)), law_(law), source_(source), search_([&] {
+          const double size = mean_facet_size(X, master.facets),
+                       reach = std::max(size, mean_facet_size(X, slave.facets));
+          SearchRange range{reach, 0.5 * size, std::vector<double>(master.facets.size(), reach)};
+          if (self) range.depth = half_thickness(X, master.facets, reach);
+          return SurfaceSearch(keys(measures_), slave.facets, master.facets, std::move(range));
+        }()) {
+    for (const auto& [n, measure] : measures_) measure_.push_back(measure);
+  }
+  std::size_t slots() const override { return measure_.size(); }
+  bool is_fixed() const override { return false; }
+  void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
+    search_.update(motion.x_begin, motion.x, motion.displacement);
+    append_in_parallel(slots(), rows, [&](std::size_t i, ConstraintRows& made) {
+      const std::optional<SurfacePoint> met = search_.find(i);
+      if (!met) return;
+      const Index n = search_.nodes()[i];
+      made.add_row(met->gap, met->normal, motion.x[n], measure_[i], row_law(law_, measure_[i]), source_);
+      made.add_node(n, 1.0);
+      const Facet& facet = search_.facets()[met->facet];
+      add_master(made, *met, facet, place(facet, motion.x));
+      finish_row(made, motion.u, first_slot + static_cast<Index>(i));
+    });
+  }
+
+ private:
+  std::map<Index, double> measures_;
+  std::vector<double> measure_;
+  ContactLaw law_;
+  Index source_;
+  mutable SurfaceSearch search_;
+};
+
+/// Both directions of a pair.
+class TwoPassRows : public RowMaker {
+ public:
+  TwoPassRows(std::unique_ptr<RowMaker> first, std::unique_ptr<RowMaker> second)
+      : first_(std::move(first)), second_(std::move(second)) {}
+  std::size_t slots() const override { return first_->slots() + second_->slots(); }
+  bool is_fixed() const override { return first_->is_fixed() && second_->is_fixed(); }
+  void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
+    first_->append(motion, first_slot, rows);
+    second_->append(motion, first_slot + static_cast<Index>(first_->slots()), rows);
+  }
+
+ private:
+  std::unique_ptr<RowMaker> first_, second_;
+};
+
+/// Ends of bars against ends of bars.
+class EndRows : public RowMaker {
+ public:
+  EndRows(const Model& model, const Surface& slave, const Surface& master, const ContactLaw& law, Index source)
+      : X_(model.mesh->coordinates), law_(law), measure_(slave.thickness), source_(source) {
+    for (const Facet& end : slave.facets) slaves_.push_back(end[0]);
+    std::sort(slaves_.begin(), slaves_.end());
+    for (const Index s : slaves_) {
+      const Vec3 of_slave = outward(*model.mesh, s);
+      masters_.push_back({});
+      double least = std::numeric_limits<double>::infinity();
+      for (const Facet& end : master.facets) {
+        const Vec3 n = outward(*model.mesh, end[0]);
+        const double distance = norm(subtract(X_[end[0]], X_[s]));
+        if (end[0] == s || !(dot(n, of_slave) < 0.0) || distance >= least) continue;
+        least = distance;
+        masters_.back() = {end[0], n};
+      }
+    }
+  }
+  std::size_t slots() const override { return slaves_.size(); }
+  bool is_fixed() const override { return true; }
+  void append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const override {
+    for (std::size_t i = 0; i < slaves_.size(); ++i) {
+      const auto& [master, n] = masters_[i];
+      if (master < 0) continue;
+      const Vec3& X = X_[slaves_[i]];
+      rows.add_row(dot(n, subtract(X, X_[master])), n, X, measure_, row_law(law_, measure_), source_);
+      rows.add_node(slaves_[i], 1.0);
+      rows.add_node(master, -1.0);
+      rows.slot.back() = first_slot + static_cast<Index>(i);
+    }
+  }
+
+ private:
+  struct End {
+    Index node = -1;
+    Vec3 outward{};
+  };
+  /// Unit direction out of the bar at its end n; zero where n is the end of no bar.
+  static Vec3 outward(const Mesh& mesh, Index n) {
+    const CellBlock* lines = mesh.block(CellType::line2);
+    if (lines == nullptr) return {};
+    for (std::size_t i = 0; i < lines->connectivity.size(); ++i) {
+      if (lines->connectivity[i] != n) continue;
+      return normalized(subtract(mesh.coordinates[n], mesh.coordinates[lines->connectivity[i ^ 1U]]));
+    }
+    return {};
+  }
+
+  std::span<const Vec3> X_;
+  ContactLaw law_;
+  double measure_;
+  Index source_;
+  std::vector<Index> slaves_;
+  std::vector<End> masters_;
+};
+
+}  // namespace
+
+TangentDual tangent_dual(const FacetFrame& frame, const Vec3& n) {
+  const double scale = 1.0 / dot(n, cross(frame.a_1, frame.a_2));
+  return {scaled(cross(frame.a_2, n), scale), scaled(cross(n, frame.a_1), scale)};
+}
+
+std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& contact, Index source) {
+  const bool has_points = is_points(contact.slave), both_points = has_points && is_points(contact.master);
+  if (!has_points && is_points(contact.master)) {
+    throw std::invalid_argument("contact \"" + contact.name +
+                                "\": the ends of bars cannot be the master of facets; exchange group and master");
+  }
+  const bool both_ways = contact.self || (contact.method == PairMethod::two_pass && !has_points);
+  const ContactLaw law = both_ways ? with_half_stiffness(contact.law) : contact.law;
+  if (both_points) return std::make_unique<EndRows>(model, contact.slave, contact.master, law, source);
+  if (contact.method == PairMethod::surface_to_surface && !has_points) return mortar_rows(model, contact, law, source);
+  const std::span<const Vec3> X = model.mesh->coordinates;
+  auto rows = std::make_unique<NodeRows>(X, contact.slave, contact.master, contact.self, law, source);
+  if (!both_ways || contact.self) return rows;
+  auto back = std::make_unique<NodeRows>(X, contact.master, contact.slave, false, law, source);
+  return std::make_unique<TwoPassRows>(std::move(rows), std::move(back));
+}
+
+}  // namespace carom

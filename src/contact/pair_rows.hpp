@@ -1,0 +1,43 @@
+// Rows of pairs of deformable surfaces.
+#pragma once
+
+#include <memory>
+
+#include "contact/facet_geometry.hpp"
+#include "contact/row_maker.hpp"
+
+namespace carom {
+
+/// The rows of a pair.
+///
+/// Nodes against facets (node_to_surface; the ends of bars against facets whatever the method is): one slot per slave
+/// node, by increasing node; its measure is the node's share of the slave surface (nodal_measures). The row stands
+/// where SurfaceSearch finds the node on the master, within the larger mean facet size h of both surfaces and as deep
+/// as that; with `self` half_thickness deep, with limit h. The slave node has the block (n, t_1, t_2), the master node
+/// a
+///   -N_a (n, t_1, t_2) + g (0, t_1 . a^alpha, t_2 . a^alpha) N_a,alpha n
+/// with a^alpha the dual base of the facet's tangents: the tangential motion is that of the node relative to the
+/// turning facet's projected point, and tangential forces act on both sides at one point, so that no moment is left
+/// across a gap (Wriggers, Computational Contact Mechanics, 2nd ed., section 4.1). Only beside edges, where the normal
+/// is within 6 degrees of the facet's plane, is the term left out; those rows are open. In two dimensions it concerns
+/// the tangent in the plane.
+///
+/// two_pass: the same in both directions, slots of the master nodes after those of the slave nodes. Here and with
+/// `self`, where both sides' nodes are slaves, every row has half of the law's stiffness.
+///
+/// surface_to_surface: see mortar_rows.hpp.
+///
+/// Ends of bars against ends of bars: fixed rows. Every end has the nearest master end that points against it, in the
+/// reference configuration; the normal is that end's outward direction there, the measure the area of the section.
+///
+/// Throws std::invalid_argument naming the contact when the master consists of the ends of bars and the slave does not.
+std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& contact, Index source);
+
+/// Coefficients beta^alpha = t . dual_alpha of t = beta^1 a_1 + beta^2 a_2 + gamma n, for tangents a_alpha of a facet
+/// and a direction n out of its plane: dual_1 = a_2 x n / V, dual_2 = n x a_1 / V, V = n . a_1 x a_2.
+struct TangentDual {
+  Vec3 dual_1{}, dual_2{};
+};
+TangentDual tangent_dual(const FacetFrame& frame, const Vec3& n);
+
+}  // namespace carom

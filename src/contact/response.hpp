@@ -1,0 +1,35 @@
+// What contact answers at one configuration, whichever enforcement made it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contact/constraint_rows.hpp"
+#include "state/state.hpp"
+
+namespace carom {
+
+enum class RowStatus : std::uint8_t { open, stick, slip };
+
+/// Forces are those on the positive side, in the row's frame (normal, tangent_1, tangent_2); one entry per row, history
+/// one per slot.
+struct ContactResponse {
+  std::shared_ptr<const ConstraintRows> rows;
+  std::vector<Vec3> force;
+  std::vector<double> damper;  ///< part of the normal force that a damper gives
+  std::vector<RowStatus> status;
+  std::vector<RowHistory> history;
+  double stored = 0.0;     ///< sum of 1/2 eps_N <-g>^2 + 1/2 eps_T |s_e|^2 (ledger: contact_stored)
+  double slip_work = 0.0;  ///< work of the friction forces on the slip of the step (ledger: friction)
+
+  /// f += G^T force.
+  void add_force(std::span<double> f) const;
+};
+
+/// 3 x 3 tangent of one row in its frame, row-major: -d(force)/d(w).
+using RowTangent = std::array<double, 9>;
+
+}  // namespace carom

@@ -1,0 +1,88 @@
+#include "contact/row_maker.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "contact/facet_geometry.hpp"
+#include "element/quad4.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+namespace {
+
+template <class T>
+void append_all(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+/// Shares of the nodes of one facet in its measure.
+std::array<double, 4> shares(const PlacedFacet& facet, const Surface& surface) {
+  std::array<double, 4> share{};
+  if (facet.size == 4) {
+    for (const quad4::FacePoint& point : quad4::face_points(facet.x))
+      for (std::size_t a = 0; a < 4; ++a) share[a] += point.N[a] * norm(point.normal_dA);
+  } else if (facet.size == 3) {
+    share.fill(measure(facet) / 3.0);
+  } else if (facet.size == 2) {
+    const bool is_ring = surface.section == Section::axisymmetric;
+    for (std::size_t a = 0; a < 2; ++a) {
+      const double width =
+          is_ring ? 2.0 * std::numbers::pi / 3.0 * (2.0 * facet.x[a][0] + facet.x[1 - a][0]) : surface.thickness;
+      share[a] = 0.5 * measure(facet) * width;
+    }
+  } else {
+    share[0] = surface.thickness;
+  }
+  return share;
+}
+
+}  // namespace
+
+RowLaw row_law(const ContactLaw& law, double measure) {
+  const double eps_N = law.eps_N.value_or(0.0) * measure, eps_T = law.eps_T.value_or(0.0) * measure;
+  return {eps_N, law.mu > 0.0 ? eps_T : 0.0, 0.0, law.mu, law.restitution};
+}
+
+std::map<Index, double> nodal_measures(std::span<const Vec3> coordinates, const Surface& surface) {
+  std::map<Index, double> sums;
+  for (const Facet& facet : surface.facets) {
+    const std::array<double, 4> share = shares(place(facet, coordinates), surface);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) sums[facet[a]] += share[a];
+  }
+  return sums;
+}
+
+double mean_facet_size(std::span<const Vec3> coordinates, std::span<const Facet> facets) {
+  double sum = 0.0;
+  for (const Facet& facet : facets) {
+    if (facet.size == 1) continue;
+    const double extent = measure(place(facet, coordinates));
+    sum += facet.size == 2 ? extent : std::sqrt(extent);
+  }
+  return facets.empty() ? 0.0 : sum / static_cast<double>(facets.size());
+}
+
+void finish_row(ConstraintRows& rows, std::span<const double> u, Index slot) {
+  rows.gap.back() -= rows.relative(rows.size() - 1, u)[0];
+  rows.slot.back() = slot;
+}
+
+void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_slot) {
+  const Index shift = rows.begin.back();
+  for (std::size_t r = 0; r < from.size(); ++r) {
+    rows.begin.push_back(from.begin[r + 1] + shift);
+    rows.slot.push_back(from.slot[r] + first_slot);
+  }
+  append_all(rows.node, from.node);
+  append_all(rows.block, from.block);
+  append_all(rows.gap, from.gap);
+  append_all(rows.normal, from.normal);
+  append_all(rows.tangent_1, from.tangent_1);
+  append_all(rows.tangent_2, from.tangent_2);
+  append_all(rows.position, from.position);
+  append_all(rows.measure, from.measure);
+  append_all(rows.law, from.law);
+  append_all(rows.source, from.source);
+}
+
+}  // namespace carom

@@ -1,0 +1,65 @@
+// What makes the rows of one contact, and what the makers share.
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "contact/constraint_rows.hpp"
+#include "model/model.hpp"
+#include "parallel/threads.hpp"
+
+namespace carom {
+
+/// Where the nodes stand. Only the entries of nodes that belong to a contact are filled.
+struct ContactMotion {
+  std::span<const Vec3> x_begin;       ///< X + u_begin
+  std::span<const Vec3> x;             ///< X + u
+  std::span<const Vec3> displacement;  ///< x - x_begin
+  std::span<const double> u;
+};
+
+/// Rows of one contact. Results do not depend on what a maker keeps between calls (search lists), which is why append
+/// is const; it is not to be called on one maker from two threads.
+class RowMaker {
+ public:
+  virtual ~RowMaker() = default;
+  /// Number of histories; the same for a whole run.
+  virtual std::size_t slots() const = 0;
+  /// True when append gives the same rows at every displacement.
+  virtual bool is_fixed() const = 0;
+  /// Appends the rows at motion.x, in the order of their slots, which count from first_slot. The stored gap is the
+  /// exact one at motion.x less (G u)_n.
+  virtual void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const = 0;
+};
+
+/// The law of a contact times the measure of a row. Friction needs a stiffness only where there is friction.
+RowLaw row_law(const ContactLaw& law, double measure);
+
+/// Shares of the nodes of a surface in its measure (see Surface), in the reference configuration: integral of N_a dA;
+/// on a ring 2 pi L (2 x_a + x_b) / 6.
+std::map<Index, double> nodal_measures(std::span<const Vec3> coordinates, const Surface& surface);
+
+/// Mean over the facets of the square root of their area (solid) or of their length; points have none, and no
+/// facets none either.
+double mean_facet_size(std::span<const Vec3> coordinates, std::span<const Facet> facets);
+
+/// Completes the last row, whose gap was given at displacement u: takes (G u)_n off and sets the slot.
+void finish_row(ConstraintRows& rows, std::span<const double> u, Index slot);
+
+/// Appends all rows of `from`, their slots moved by first_slot.
+void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_slot = 0);
+
+/// Calls make(i, rows_of_the_range) for i in [0, n), at the same time for different ranges, and appends what they made
+/// in the order of i.
+template <class Make>
+void append_in_parallel(std::size_t n, ConstraintRows& rows, const Make& make) {
+  constexpr std::size_t grain = 256;  // rows per task: some hundred microseconds of work
+  std::vector<ConstraintRows> made((n + grain - 1) / grain);
+  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) make(i, made[begin / grain]);
+  });
+  for (const ConstraintRows& part : made) append_rows(rows, part);
+}
+
+}  // namespace carom

@@ -1,0 +1,238 @@
+#include "contact/stiffness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include "contact/facet_geometry.hpp"
+#include "math/vec3.hpp"
+#include "mesh/cell_topology.hpp"
+#include "mesh/skin.hpp"
+
+namespace carom {
+
+namespace {
+
+/// Modulus of a cell that is compressed between a facet and its opposite one.
+double compression_modulus(const Part& part) {
+  const IsotropicElastic& law = std::visit([](const auto& m) -> const IsotropicElastic& { return m; }, part.material);
+  if (part.section == Section::bar) return law.E;
+  if (part.section == Section::plane_stress) return law.E / (1.0 - law.nu * law.nu);
+  return law.p_wave_modulus();
+}
+
+/// The cell behind a facet, as contact sees it.
+struct Backing {
+  double modulus = 0.0, height = 0.0;
+  double measure = 0.0;  ///< of the facet, as its section counts it
+
+  double stiffness() const { return modulus / height; }
+};
+
+/// One side of a contact: sums over its facets.
+struct Side {
+  double measure = 0.0, stiffness = 0.0, modulus = 0.0;
+
+  void add(const Backing& b) {
+    measure += b.measure;
+    stiffness += b.measure * b.stiffness();
+    modulus += b.measure * b.modulus;
+  }
+  double mean_stiffness() const { return stiffness / measure; }
+  double mean_modulus() const { return modulus / measure; }
+};
+
+/// Finds the cells of parts by their nodes.
+class PartCells {
+ public:
+  explicit PartCells(const Model& model) : mesh_(*model.mesh), begin_(mesh_.node_count() + 1, 0) {
+    const auto each = [&](auto&& visit) {
+      for (const Part& part : model.parts) {
+        for (const Index cell : part.cells) {
+          for (const Index n : nodes_of({&part, cell})) visit(static_cast<std::size_t>(n), Cell{&part, cell});
+        }
+      }
+    };
+    each([&](std::size_t n, const Cell&) { ++begin_[n + 1]; });
+    for (std::size_t n = 0; n < mesh_.node_count(); ++n) begin_[n + 1] += begin_[n];
+    cells_.resize(begin_.back());
+    std::vector<std::size_t> next = begin_;
+    each([&](std::size_t n, const Cell& cell) { cells_[next[n]++] = cell; });
+  }
+
+  /// The softest cell of a part that has all nodes of the facet.
+  std::optional<Backing> behind(const Facet& facet) const {
+    std::optional<Backing> softest;
+    const auto first = static_cast<std::size_t>(facet[0]);
+    for (std::size_t k = begin_[first]; k < begin_[first + 1]; ++k) {
+      const std::span<const Index> nodes = nodes_of(cells_[k]);
+      const auto held = [&](Index n) { return std::ranges::find(nodes, n) != nodes.end(); };
+      if (!std::all_of(facet.begin(), facet.end(), held)) continue;
+      const Backing backing = backing_of(cells_[k], facet);
+      if (!(backing.height > 0.0)) continue;
+      if (!softest || backing.stiffness() < softest->stiffness()) softest = backing;
+    }
+    return softest;
+  }
+
+ private:
+  struct Cell {
+    const Part* part = nullptr;
+    Index number = -1;
+  };
+
+  std::span<const Index> nodes_of(const Cell& cell) const {
+    const auto size = static_cast<std::size_t>(node_count(cell.part->type));
+    return std::span(mesh_.block(cell.part->type)->connectivity)
+        .subspan(size * static_cast<std::size_t>(cell.number), size);
+  }
+
+  Backing backing_of(const Cell& cell, const Facet& facet) const {
+    Vec3 centroid{};
+    const std::span<const Index> nodes = nodes_of(cell);
+    for (const Index n : nodes)
+      centroid = add(centroid, scaled(mesh_.coordinates[static_cast<std::size_t>(n)], 1.0 / nodes.size()));
+    const PlacedFacet placed = place(facet, mesh_.coordinates);
+    const ParentPoint centre = facet_centre(facet.size);
+    const FacetFrame frame = facet_frame(placed, centre.xi, centre.eta);
+    const Vec3 inward = subtract(centroid, frame.position);
+    const double half = facet.size == 1 ? norm(inward) : std::abs(dot(inward, frame.normal));
+    const Part& part = *cell.part;
+    double size = measure(placed);
+    if (part.section == Section::axisymmetric) size *= 2.0 * std::numbers::pi * frame.position[0];
+    if (part.section != Section::axisymmetric && part.section != Section::solid) size *= part.thickness;
+    return {compression_modulus(part), 2.0 * half, size};
+  }
+
+  const Mesh& mesh_;
+  std::vector<std::size_t> begin_;
+  std::vector<Cell> cells_;
+};
+
+[[noreturn]] void refuse(const std::string& contact) {
+  throw std::invalid_argument(fmt::format(
+      "contact \"{}\": its stiffness cannot be chosen, since no cell of a part is behind it; give a stiffness",
+      contact));
+}
+
+Side side_of(const PartCells& cells, std::span<const Facet> facets, const std::string& contact) {
+  Side side;
+  for (const Facet& facet : facets) {
+    if (const auto backing = cells.behind(facet)) side.add(*backing);
+  }
+  if (!(side.measure > 0.0)) refuse(contact);
+  return side;
+}
+
+/// The value of one contact and the sides that it comes from.
+struct Choice {
+  std::vector<Side> sides;
+  double node_measure = 1.0;  ///< per_node: mean measure of a node
+
+  double stiffness() const {
+    const double first = sides[0].mean_stiffness();
+    const double both = sides.size() == 1 ? first : 2.0 / (1.0 / first + 1.0 / sides[1].mean_stiffness());
+    return both * node_measure;
+  }
+};
+
+struct Chooser {
+  const Mesh& mesh;
+  const PartCells& cells;
+
+  /// The sides are told apart by softness, cell by cell: which face of an interface comes first means nothing.
+  Choice operator()(const InterfaceContact& contact) const {
+    const std::vector<Index>& nodes = mesh.block(CellType::hexa8)->connectivity;
+    Side softer, stiffer;
+    for (const Index cell : contact.cells) {
+      std::vector<Backing> found;
+      for (const auto& face : hexa8_faces) {
+        Facet facet{{}, 4};
+        for (std::size_t a = 0; a < 4; ++a) facet.node[a] = nodes[8 * static_cast<std::size_t>(cell) + face[a]];
+        if (const auto backing = cells.behind(facet)) found.push_back(*backing);
+      }
+      std::ranges::sort(found, {}, &Backing::stiffness);
+      if (!found.empty()) softer.add(found.front());
+      if (found.size() > 1) stiffer.add(found.back());
+    }
+    if (!(softer.measure > 0.0)) refuse(contact.name);
+    if (stiffer.measure > 0.0) return {{softer, stiffer}};
+    return {{softer}};
+  }
+
+  Choice operator()(const ObstacleContact& contact) const {
+    if (contact.measure == RowMeasure::per_area) return {{side_of(cells, contact.surface.facets, contact.name)}};
+    return per_node(contact);
+  }
+
+  Choice operator()(const PairContact& contact) const {
+    return {{side_of(cells, contact.slave.facets, contact.name), side_of(cells, contact.master.facets, contact.name)}};
+  }
+
+  Choice per_node(const ObstacleContact& contact) const {
+    std::vector<bool> listed(mesh.node_count(), false);
+    for (const Index n : contact.nodes) listed[static_cast<std::size_t>(n)] = true;
+    const auto on_list = [&](Index n) { return listed[static_cast<std::size_t>(n)]; };
+    std::vector<Facet> whole, touched;
+    for (const Facet& facet : skin(mesh)) {
+      if (std::all_of(facet.begin(), facet.end(), on_list)) whole.push_back(facet);
+      if (std::any_of(facet.begin(), facet.end(), on_list)) touched.push_back(facet);
+    }
+    const std::vector<Facet>& facets = whole.empty() ? touched : whole;
+    Choice choice{{side_of(cells, facets, contact.name)}};
+    double sum = 0.0;
+    for (const Facet& facet : facets) {
+      const auto backing = cells.behind(facet);
+      if (!backing) continue;
+      const auto shares = static_cast<double>(std::count_if(facet.begin(), facet.end(), on_list));
+      sum += backing->measure * shares / facet.size;
+    }
+    choice.node_measure = sum / static_cast<double>(std::ranges::count(listed, true));
+    return choice;
+  }
+};
+
+std::string sentence(const std::string& contact, double stiffness, const Choice& choice, double factor) {
+  std::string text = fmt::format("contact \"{}\": stiffness {:.4g} chosen", contact, stiffness);
+  const char* join = " from";
+  for (const Side& side : choice.sides) {
+    text += fmt::format("{} modulus {:.4g} over cell height {:.4g}", join, side.mean_modulus(),
+                        side.mean_modulus() / side.mean_stiffness());
+    join = " and";
+  }
+  if (choice.node_measure != 1.0) text += fmt::format(", times {:.4g} per node", choice.node_measure);
+  if (factor != 1.0) text += fmt::format(", times the factor {:.4g}", factor);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> choose_stiffness(Model& model) {
+  std::vector<std::string> notes;
+  std::optional<PartCells> cells;  // made when first needed
+  const auto choose = [&](auto& contact) {
+    if constexpr (!std::is_same_v<std::decay_t<decltype(contact)>, StopContact>) {
+      ContactLaw& law = contact.law;
+      if (!law.eps_N) {
+        if (!cells) cells.emplace(model);
+        const Choice choice = Chooser{*model.mesh, *cells}(contact);
+        law.eps_N = law.stiffness_factor * choice.stiffness();
+        notes.push_back(sentence(contact.name, *law.eps_N, choice, law.stiffness_factor));
+      }
+      if (!law.eps_T && law.mu > 0.0) law.eps_T = law.eps_N;
+    }
+  };
+  for (ContactDefinition& contact : model.contacts) std::visit(choose, contact);
+  return notes;
+}
+
+}  // namespace carom

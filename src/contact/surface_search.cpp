@@ -1,0 +1,343 @@
+#include "contact/surface_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "math/vec3.hpp"
+#include "parallel/threads.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double rim_slack = 0.1;  // of the facet's size: continuation beyond a rim
+constexpr double tie = 1e-12;      // relative: the same point seen from two facets
+constexpr double tiny = 1e-6;      // of the reach: below, the direction to a corner is round-off
+
+double squared_distance(const Bounds& box, const Vec3& x) {
+  double sum = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double d = std::max({box.low[c] - x[c], 0.0, x[c] - box.high[c]});
+    sum += d * d;
+  }
+  return sum;
+}
+
+/// Normal at the centre times area or length; zero for a point.
+Vec3 area_vector(const PlacedFacet& facet) {
+  const auto& x = facet.x;
+  if (facet.size == 4) return scaled(cross(subtract(x[2], x[0]), subtract(x[3], x[1])), 0.5);
+  if (facet.size == 3) return scaled(cross(subtract(x[1], x[0]), subtract(x[2], x[0])), 0.5);
+  if (facet.size == 2) return {x[1][1] - x[0][1], x[0][0] - x[1][0], 0.0};
+  return {};
+}
+
+/// n / |n|, or zero; faster than normalized().
+Vec3 direction(const Vec3& n) {
+  const double length = std::sqrt(dot(n, n));
+  return length > 0.0 ? scaled(n, 1.0 / length) : Vec3{};
+}
+
+double size_of(const PlacedFacet& facet) {
+  const double extent = measure(facet);
+  return facet.size == 2 ? extent : std::sqrt(extent);
+}
+
+bool contains(const Facet& facet, Index node) {
+  return std::find(facet.begin(), facet.end(), node) != facet.end();
+}
+
+/// Foot of the perpendicular from x on the facet continued beyond its edges, by Newton's method from a near point.
+ParentPoint foot(const PlacedFacet& facet, const Vec3& x, ParentPoint at) {
+  Vec3 twist{};  // d2x / (dxi deta)
+  if (facet.size == 4) twist = scaled(subtract(add(facet.x[0], facet.x[2]), add(facet.x[1], facet.x[3])), 0.25);
+  for (int i = 0; i < 20; ++i) {
+    const FacetFrame frame = facet_frame(facet, at.xi, at.eta);
+    const Vec3 r = subtract(x, frame.position);
+    const double a11 = dot(frame.a_1, frame.a_1), a22 = dot(frame.a_2, frame.a_2);
+    const double a12 = dot(frame.a_1, frame.a_2) - dot(r, twist);
+    const double b1 = dot(frame.a_1, r), b2 = dot(frame.a_2, r), det = a11 * a22 - a12 * a12;
+    if (!(det > 0.0)) break;
+    const double dxi = (a22 * b1 - a12 * b2) / det, deta = (a11 * b2 - a12 * b1) / det;
+    at.xi += dxi;
+    if (facet.size > 2) at.eta += deta;
+    if (std::abs(dxi) + std::abs(deta) < 1e-15) break;
+  }
+  return at;
+}
+
+}  // namespace
+
+namespace {
+
+/// Numbers that are equal for facets of one connected piece of a surface.
+std::vector<Index> pieces(const std::vector<Facet>& facets) {
+  Index last = -1;
+  for (const Facet& facet : facets) last = std::max(last, *std::max_element(facet.begin(), facet.end()));
+  std::vector<Index> parent(static_cast<std::size_t>(last) + 1);
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](Index n) {
+    while (parent[n] != n) n = parent[n] = parent[parent[n]];
+    return n;
+  };
+  for (const Facet& facet : facets)
+    for (const Index n : facet) parent[root(n)] = root(facet[0]);
+  std::vector<Index> piece;
+  for (const Facet& facet : facets) piece.push_back(root(facet[0]));
+  return piece;
+}
+
+}  // namespace
+
+std::vector<double> half_thickness(std::span<const Vec3> coordinates, const std::vector<Facet>& skin, double limit) {
+  BroadPhase broad_phase(skin, skin, limit, 0.0);
+  broad_phase.update(coordinates);
+  const std::vector<Index> piece = pieces(skin);
+  std::vector<double> half(skin.size(), 0.5 * limit);
+  parallel_each(skin.size(), [&](std::size_t f) {
+    const PlacedFacet facet = place(skin[f], coordinates);
+    const ParentPoint centre = facet_centre(facet.size);
+    const FacetFrame frame = facet_frame(facet, centre.xi, centre.eta);
+    const Vec3 inward = scaled(frame.normal, -1.0);
+    for (const Index other : broad_phase.targets_of(f)) {
+      if (piece[other] != piece[f]) continue;
+      const PlacedFacet far = place(skin[other], coordinates);
+      const std::optional<RayHit> hit = intersect(far, frame.position, inward);
+      if (!hit || hit->distance <= 0.0 || dot(facet_frame(far, hit->xi, hit->eta).normal, inward) <= 0.0) continue;
+      half[f] = std::min(half[f], 0.5 * hit->distance);
+    }
+  });
+  return half;
+}
+
+/// One node and what it brings along.
+struct SurfaceSearch::Query {
+  std::size_t q;
+  Index node;
+  Vec3 x;
+  Vec3 normal;  ///< its averaged normal, or zero
+};
+
+/// The closest point so far.
+struct SurfaceSearch::Best {
+  double distance;
+  Index facet = -1;
+  Projection projection{};
+  bool is_continued = false;  ///< beyond a rim
+};
+
+SurfaceSearch::SurfaceSearch(std::vector<Index> nodes, std::vector<Facet> own, std::vector<Facet> facets,
+                             SearchRange range)
+    : nodes_(std::move(nodes)),
+      own_(std::move(own)),
+      range_(std::move(range)),
+      broad_phase_(
+          [this] {
+            std::vector<Facet> points;
+            for (const Index n : nodes_) points.push_back({{n, -1, -1, -1}, 1});
+            return points;
+          }(),
+          std::move(facets), range_.reach, range_.margin) {
+  const std::span<const Facet> targets = broad_phase_.targets();
+  Index last = -1;
+  for (const Index n : nodes_) last = std::max(last, n);
+  for (const std::span<const Facet> all : {targets, std::span<const Facet>(own_)})
+    for (const Facet& facet : all)
+      for (const Index n : facet) last = std::max(last, n);
+  facets_at_.resize(static_cast<std::size_t>(last) + 1);
+  for (std::size_t f = 0; f < targets.size(); ++f)
+    for (const Index n : targets[f]) facets_at_[n].push_back(static_cast<Index>(f));
+  std::vector<std::vector<Index>> ring(facets_at_.size());  // nodes of the facets that a node belongs to
+  for (const std::span<const Facet> all : {targets, std::span<const Facet>(own_)})
+    for (const Facet& facet : all)
+      for (const Index n : facet) ring[n].insert(ring[n].end(), facet.begin(), facet.end());
+  least_depth_ = range_.depth.empty() ? 0.0 : *std::min_element(range_.depth.begin(), range_.depth.end());
+  excluded_.resize(nodes_.size());
+  for (std::size_t q = 0; q < nodes_.size(); ++q) {
+    std::vector<Index>& list = excluded_[q];
+    for (const Index n : ring[nodes_[q]]) list.insert(list.end(), facets_at_[n].begin(), facets_at_[n].end());
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+}
+
+void SurfaceSearch::update(std::span<const Vec3> x_begin, std::span<const Vec3> x, std::span<const Vec3> displacement) {
+  x_begin_ = x_begin;
+  x_ = x;
+  displacement_ = displacement;
+  broad_phase_.update(x_begin, displacement);
+  if (broad_phase_.pair_count() == 0) return;
+  const std::span<const Facet> targets = facets();
+  placed_.resize(targets.size());
+  bounds_.resize(targets.size());
+  facet_normals_.resize(targets.size());
+  parallel_each(targets.size(), [&](std::size_t f) {
+    placed_[f] = place(targets[f], x);
+    bounds_[f] = {};
+    for (int a = 0; a < placed_[f].size; ++a) bounds_[f].include(placed_[f].x[static_cast<std::size_t>(a)]);
+    facet_normals_[f] = direction(area_vector(placed_[f]));
+  });
+  node_normals_.assign(facets_at_.size(), {});
+  for (const Facet& facet : own_) {
+    const Vec3 n = area_vector(place(facet, x));
+    for (const Index node : facet) node_normals_[node] = add(node_normals_[node], n);
+  }
+  double of_nodes = 0.0, of_facets = 0.0;
+  for (const Index n : nodes_) of_nodes = std::max(of_nodes, dot(displacement[n], displacement[n]));
+  for (const Facet& facet : targets)
+    for (const Index n : facet) of_facets = std::max(of_facets, dot(displacement[n], displacement[n]));
+  is_fast_ = std::sqrt(of_nodes) + std::sqrt(of_facets) > 0.25 * least_depth_;
+}
+
+SurfaceSearch::Query SurfaceSearch::query(std::size_t q) const {
+  const Index n = nodes_[q];
+  return {q, n, x_[n], direction(node_normals_[n])};
+}
+
+bool SurfaceSearch::counts(const Query& query, Index f) const {
+  const std::vector<Index>& excluded = excluded_[query.q];
+  if (std::binary_search(excluded.begin(), excluded.end(), f)) return false;
+  const bool has_normal = dot(query.normal, query.normal) > 0.0;
+  return !has_normal || dot(query.normal, facet_normals_[f]) < opposed;
+}
+
+/// True when no other facet that counts goes on beyond the edge where p lies, or beyond one of the edges of its vertex.
+bool SurfaceSearch::ends_at(const Query& query, Index f, const Projection& p) const {
+  const Facet& facet = facets()[f];
+  const auto size = static_cast<std::size_t>(facet.size), k = static_cast<std::size_t>(p.feature);
+  const auto ends_at_edge = [&](Index a, Index b) {
+    return std::none_of(facets_at_[a].begin(), facets_at_[a].end(), [&](Index other) {
+      return other != f && contains(facets()[other], b) && counts(query, other);
+    });
+  };
+  if (size == 2) return ends_at_edge(facet[k], facet[k]);
+  if (ends_at_edge(facet[k], facet[(k + 1) % size])) return true;
+  return p.site == ProjectionSite::vertex && ends_at_edge(facet[(k + size - 1) % size], facet[k]);
+}
+
+void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
+  const PlacedFacet& facet = placed_[f];
+  Projection p = project(facet, query.x);
+  // On a common edge or corner the facet is taken that the point is seen from best.
+  const bool is_tied = best.facet >= 0 && std::abs(p.distance - best.distance) <= tie * best.distance;
+  if (is_tied ? std::abs(p.gap) <= std::abs(best.projection.gap) : !(p.distance < best.distance)) return;
+  if (p.gap < -range_.depth[f]) return;
+  bool is_continued = false;
+  if (p.site != ProjectionSite::interior && ends_at(query, f, p)) {
+    const ParentPoint at = foot(facet, query.x, {p.xi, p.eta});
+    const FacetFrame frame = facet_frame(facet, at.xi, at.eta);
+    is_continued = norm(subtract(frame.position, p.point)) <= rim_slack * size_of(facet);
+    if (!is_continued && p.gap < 0.0) return;
+    if (is_continued) {
+      p.xi = at.xi;
+      p.eta = at.eta;
+      p.N = facet_shape(facet.size, at.xi, at.eta).N;
+      p.point = frame.position;
+      p.normal = frame.normal;
+      p.gap = dot(subtract(query.x, frame.position), frame.normal);
+    }
+  }
+  best = {p.distance, f, p, is_continued};
+}
+
+Vec3 SurfaceSearch::pseudonormal(Index f, const Projection& p) const {
+  const Facet& facet = facets()[f];
+  const auto size = static_cast<std::size_t>(facet.size), k = static_cast<std::size_t>(p.feature);
+  Vec3 sum{};
+  for (const Index other : facets_at_[facet[k]]) {
+    const Facet& beside = facets()[other];
+    if (p.site == ProjectionSite::edge && !contains(beside, facet[(k + 1) % size])) continue;
+    double weight = 1.0;
+    if (p.site == ProjectionSite::vertex && beside.size > 2) {
+      const auto n = static_cast<std::size_t>(beside.size);
+      const auto a = static_cast<std::size_t>(std::find(beside.begin(), beside.end(), facet[k]) - beside.begin());
+      const Vec3& corner = placed_[other].x[a];
+      const Vec3 to_next = subtract(placed_[other].x[(a + 1) % n], corner);
+      const Vec3 to_last = subtract(placed_[other].x[(a + n - 1) % n], corner);
+      weight = std::atan2(norm(cross(to_next, to_last)), dot(to_next, to_last));
+    }
+    sum = add(sum, scaled(project(placed_[other], p.point).normal, weight));
+  }
+  const double length = norm(sum);
+  return length > 0.0 ? scaled(sum, 1.0 / length) : p.normal;
+}
+
+/// The facet that the node has gone through first, from the front to the back.
+std::optional<Index> SurfaceSearch::crossed_facet(const Query& query) const {
+  std::optional<Index> first;
+  double least = INFINITY;
+  for (const Index f : broad_phase_.targets_of(query.q)) {
+    if (!counts(query, f)) continue;
+    const Facet& facet = facets()[f];
+    const ParentPoint centre = facet_centre(facet.size);
+    std::array<double, 4> N = facet_shape(facet.size, centre.xi, centre.eta).N;
+    std::optional<RayHit> hit;
+    double way = 0.0;
+    for (int i = 0; i < 3; ++i) {  // the facet's motion is that of the point that is hit
+      Vec3 motion = displacement_[query.node];
+      for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a)
+        motion = subtract(motion, scaled(displacement_[facet[a]], N[a]));
+      way = norm(motion);
+      if (!(way > 0.0) || dot(motion, facet_normals_[f]) >= 0.0) {
+        hit.reset();
+        break;
+      }
+      hit = intersect(placed_[f], subtract(query.x, motion), scaled(motion, 1.0 / way), 1e-6);
+      if (!hit) break;
+      N = facet_shape(facet.size, hit->xi, hit->eta).N;
+    }
+    if (!hit || hit->distance < -tiny * range_.reach || hit->distance > way || hit->distance / way >= least) continue;
+    least = hit->distance / way;
+    first = f;
+  }
+  return first;
+}
+
+/// The closest point of the facets that count, the nearest by its bounds first, so that few have to be projected on.
+SurfaceSearch::Best SurfaceSearch::closest(const Query& query) const {
+  const std::span<const Index> candidates = broad_phase_.targets_of(query.q);
+  Best best{std::nextafter(range_.reach, INFINITY)};
+  Index nearest = -1;
+  double bound = best.distance * best.distance;
+  for (const Index f : candidates) {
+    const double d = squared_distance(bounds_[f], query.x);
+    if (d >= bound || !counts(query, f)) continue;
+    bound = d;
+    nearest = f;
+  }
+  if (nearest >= 0) consider(query, nearest, best);
+  for (const Index f : candidates) {
+    if (f == nearest || squared_distance(bounds_[f], query.x) > (1.0 + 4.0 * tie) * best.distance * best.distance)
+      continue;
+    if (counts(query, f)) consider(query, f, best);
+  }
+  return best;
+}
+
+std::optional<SurfacePoint> SurfaceSearch::find(std::size_t q) const {
+  if (broad_phase_.targets_of(q).empty()) return std::nullopt;
+  const Query query = this->query(q);
+  const Best best = closest(query);
+  const auto met = [](Index f, const Projection& p, const SignedDistance& at) {
+    return SurfacePoint{f, p.xi, p.eta, p.N, p.point, at.normal, at.gap};
+  };
+  SignedDistance at{best.projection.normal, best.projection.gap};
+  const bool is_inside = best.is_continued || best.projection.site == ProjectionSite::interior;
+  if (best.facet >= 0 && !is_inside) {
+    const Vec3 average = pseudonormal(best.facet, best.projection);
+    at = signed_distance(best.projection, query.x, average, tiny * range_.reach);
+  }
+  const bool is_found = best.facet >= 0 && at.gap >= -range_.depth[best.facet];
+  if (is_fast_ && !(is_found && at.gap < 0.0)) {
+    if (const std::optional<Index> crossed = crossed_facet(query)) {
+      const Projection p = project(placed_[*crossed], query.x);
+      if (p.site == ProjectionSite::interior) return met(*crossed, p, {p.normal, p.gap});
+      return met(*crossed, p, {scaled(subtract(p.point, query.x), 1.0 / p.distance), -p.distance});
+    }
+  }
+  if (!is_found) return std::nullopt;
+  return met(best.facet, best.projection, at);
+}
+
+}  // namespace carom

@@ -1,0 +1,95 @@
+// Where nodes touch a surface: the closest point that counts, through edges and corners, and crossings within a step.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contact/box_tree.hpp"
+#include "contact/broad_phase.hpp"
+#include "contact/facet_projection.hpp"
+
+namespace carom {
+
+/// The point of a surface that a node meets. grad_x gap = normal and grad_{x_a} gap = -N_a normal for the node a of the
+/// facet.
+struct SurfacePoint {
+  Index facet = -1;
+  double xi = 0.0, eta = 0.0;  ///< a little outside of the facet beyond a rim
+  std::array<double, 4> N{};
+  Vec3 point{};
+  Vec3 normal{};
+  double gap = 0.0;  ///< (x - point) . normal
+};
+
+/// Two unit normals oppose each other when their product is below this: sides that stand at a right angle do not.
+inline constexpr double opposed = -0.1;
+
+/// How far a search looks, as lengths.
+struct SearchRange {
+  double reach = 0.0;         ///< largest distance of a point that counts
+  double margin = 0.0;        ///< of the lists that are kept (BroadPhase)
+  std::vector<double> depth;  ///< of each facet: largest distance behind it that counts
+};
+
+/// Half of the least of `limit` and the thickness of the body behind each facet of its skin: the length of the ray from
+/// the facet's centre inwards to the next facet. Deeper points would be taken for points of the far side.
+std::vector<double> half_thickness(std::span<const Vec3> coordinates, const std::vector<Facet>& skin, double limit);
+
+/// Closest points of nodes on a surface of segments, triangles and quadrilaterals.
+///
+/// Of the facets within `reach` those count that do not contain the node and are not neighbours of facets that do, and
+/// whose normal (at the centre) opposes the node's own averaged normal, n_s . n_m < `opposed`, where the node has one.
+/// The closest point over those is taken. Behind a facet it counts to the facet's depth: so nodes are not taken to
+/// touch the far side of their own thin plate. On an edge or corner the sign of the gap is that of the pseudonormal
+/// (sum of the normals of the facets there, at corners weighted by their angles), which is right at all edges and
+/// corners of closed surfaces (Baerentzen and Aanaes, IEEE Trans. Vis. Comput. Graphics 11(3), 2005).
+///
+/// Where the surface ends (or goes on with facets that do not count) a node behind it and beside it touches nothing;
+/// but the facets are continued by a tenth of their size, so that nodes on the common rim of two aligned bodies are not
+/// lost.
+///
+/// A node that was in front of a facet at x_begin and is behind it at x, having gone through it, meets that facet
+/// however deep it is, unless its closest point says already that it is behind the surface. Facets are taken as moving
+/// without turning within the step.
+class SurfaceSearch {
+ public:
+  /// `own`: the facets that the nodes belong to, for their averaged normals; nodes on none have no normal.
+  SurfaceSearch(std::vector<Index> nodes, std::vector<Facet> own, std::vector<Facet> facets, SearchRange range);
+
+  /// Brings the search up to date. The positions must stay until the last find; displacement = x - x_begin.
+  void update(std::span<const Vec3> x_begin, std::span<const Vec3> x, std::span<const Vec3> displacement);
+  /// What nodes[q] meets, if anything. May be called from many threads.
+  std::optional<SurfacePoint> find(std::size_t q) const;
+
+  std::span<const Index> nodes() const { return nodes_; }
+  std::span<const Facet> facets() const { return broad_phase_.targets(); }
+  long builds() const { return broad_phase_.builds(); }
+
+ private:
+  struct Query;
+  struct Best;
+  Query query(std::size_t q) const;
+  bool counts(const Query& query, Index f) const;
+  bool ends_at(const Query& query, Index f, const Projection& p) const;
+  void consider(const Query& query, Index f, Best& best) const;
+  Best closest(const Query& query) const;
+  Vec3 pseudonormal(Index f, const Projection& p) const;
+  std::optional<Index> crossed_facet(const Query& query) const;
+
+  std::vector<Index> nodes_;
+  std::vector<Facet> own_;
+  SearchRange range_;
+  BroadPhase broad_phase_;
+  std::vector<std::vector<Index>> facets_at_;  ///< by node
+  std::vector<std::vector<Index>> excluded_;   ///< by query, increasing: neighbours of the node's own facets
+  std::span<const Vec3> x_begin_, x_, displacement_;
+  std::vector<PlacedFacet> placed_;
+  std::vector<Bounds> bounds_;
+  std::vector<Vec3> facet_normals_;  ///< at the centres
+  std::vector<Vec3> node_normals_;   ///< sums of the area vectors of own_, by node
+  double least_depth_ = 0.0;
+  bool is_fast_ = false;  ///< something may have crossed a facet without being near it now
+};
+
+}  // namespace carom

@@ -1,0 +1,174 @@
+// Which time scheme takes which enforcement of contact: the one table behind the error message, the manual and the
+// tests.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace carom {
+
+enum class SchemeKind : std::uint8_t {
+  newmark,
+  hht,
+  wbz,
+  generalized_alpha,
+  bathe,
+  contact_stabilized_newmark,
+  energy_momentum,
+  moreau_jean,
+  central_differences,
+  hulbert_chung,
+  noh_bathe,
+  tchamwa_wielgosz,
+  cd_lagrange,
+  forward_increment,
+  modified_mass,
+  statics
+};
+
+enum class EnforcementKind : std::uint8_t { penalty, augmented_lagrangian, lagrange, impulse };
+
+/// Whether a step solves a system of the whole body.
+enum class Stepping : std::uint8_t { implicit_steps, explicit_steps };
+
+inline constexpr std::size_t enforcement_count = 4;
+inline constexpr std::array<std::string_view, enforcement_count> enforcement_names{"penalty", "augmented_lagrangian",
+                                                                                   "lagrange", "impulse"};
+
+/// One line of the table. `why_not` says what stands against the enforcements that are not taken.
+struct SchemeTraits {
+  SchemeKind kind;
+  std::string_view name;   ///< in case files
+  std::string_view title;  ///< in reports and messages
+  Stepping stepping;
+  std::array<bool, enforcement_count> takes;  ///< in the order of EnforcementKind
+  std::string_view why_not;
+};
+
+namespace detail {
+inline constexpr std::string_view smooth = "its forces are smooth functions of time, which impulses are not";
+inline constexpr std::string_view smooth_explicit =
+    "an explicit step has no equation in which a multiplier could be solved for at its end; cd_lagrange, "
+    "forward_increment "
+    "and modified_mass are the explicit schemes with exact contact";
+inline constexpr std::string_view velocity_level =
+    "it balances velocities over a step, so that contact enters by impulses";
+inline constexpr std::string_view displacement_level =
+    "it is built on constraints of the displacement, solved exactly within the step";
+inline constexpr std::string_view potential =
+    "it conserves energy through a contact potential, which only the penalty has";
+}  // namespace detail
+
+/// Doyen, Ern and Piperno, SIAM J. Sci. Comput. 33(1), 2011, sort contact discretisations into the same four groups.
+inline constexpr std::array<SchemeTraits, 16> scheme_table{{
+    {SchemeKind::newmark, "newmark", "Newmark", Stepping::implicit_steps, {true, true, true, false}, detail::smooth},
+    {SchemeKind::hht, "hht", "HHT", Stepping::implicit_steps, {true, true, true, false}, detail::smooth},
+    {SchemeKind::wbz, "wbz", "WBZ", Stepping::implicit_steps, {true, true, true, false}, detail::smooth},
+    {SchemeKind::generalized_alpha,
+     "generalized_alpha",
+     "generalised-alpha",
+     Stepping::implicit_steps,
+     {true, true, true, false},
+     detail::smooth},
+    {SchemeKind::bathe,
+     "bathe",
+     "Bathe composite",
+     Stepping::implicit_steps,
+     {true, true, true, false},
+     detail::smooth},
+    {SchemeKind::contact_stabilized_newmark,
+     "contact_stabilized_newmark",
+     "contact-stabilised Newmark",
+     Stepping::implicit_steps,
+     {false, false, true, false},
+     detail::displacement_level},
+    {SchemeKind::energy_momentum,
+     "energy_momentum",
+     "energy-momentum",
+     Stepping::implicit_steps,
+     {true, false, false, false},
+     detail::potential},
+    {SchemeKind::moreau_jean,
+     "moreau_jean",
+     "Moreau-Jean",
+     Stepping::implicit_steps,
+     {false, false, false, true},
+     detail::velocity_level},
+    {SchemeKind::central_differences,
+     "central_differences",
+     "central differences",
+     Stepping::explicit_steps,
+     {true, false, false, false},
+     detail::smooth_explicit},
+    {SchemeKind::hulbert_chung,
+     "hulbert_chung",
+     "Hulbert-Chung",
+     Stepping::explicit_steps,
+     {true, false, false, false},
+     detail::smooth_explicit},
+    {SchemeKind::noh_bathe,
+     "noh_bathe",
+     "Noh-Bathe",
+     Stepping::explicit_steps,
+     {true, false, false, false},
+     detail::smooth_explicit},
+    {SchemeKind::tchamwa_wielgosz,
+     "tchamwa_wielgosz",
+     "Tchamwa-Wielgosz",
+     Stepping::explicit_steps,
+     {true, false, false, false},
+     detail::smooth_explicit},
+    {SchemeKind::cd_lagrange,
+     "cd_lagrange",
+     "CD-Lagrange",
+     Stepping::explicit_steps,
+     {false, false, false, true},
+     detail::velocity_level},
+    {SchemeKind::forward_increment,
+     "forward_increment",
+     "central differences, forward-increment multipliers",
+     Stepping::explicit_steps,
+     {false, false, true, false},
+     detail::displacement_level},
+    {SchemeKind::modified_mass,
+     "modified_mass",
+     "central differences, modified mass",
+     Stepping::explicit_steps,
+     {false, false, true, false},
+     detail::displacement_level},
+    {SchemeKind::statics, "statics", "statics", Stepping::implicit_steps, {true, true, true, false}, detail::smooth},
+}};
+
+constexpr const SchemeTraits& traits(SchemeKind kind) {
+  return scheme_table[static_cast<std::size_t>(kind)];
+}
+constexpr bool takes(SchemeKind scheme, EnforcementKind enforcement) {
+  return traits(scheme).takes[static_cast<std::size_t>(enforcement)];
+}
+constexpr std::string_view name(EnforcementKind kind) {
+  return enforcement_names[static_cast<std::size_t>(kind)];
+}
+constexpr bool is_explicit(SchemeKind kind) {
+  return traits(kind).stepping == Stepping::explicit_steps;
+}
+/// The enforcement that a case gets which names none: the first that the scheme takes.
+constexpr EnforcementKind default_enforcement(SchemeKind scheme) {
+  for (std::size_t e = 0; e < enforcement_count; ++e) {
+    if (traits(scheme).takes[e]) return static_cast<EnforcementKind>(e);
+  }
+  return EnforcementKind::penalty;
+}
+
+namespace detail {
+constexpr bool table_is_in_order() {
+  for (std::size_t i = 0; i < scheme_table.size(); ++i) {
+    if (static_cast<std::size_t>(scheme_table[i].kind) != i) return false;
+  }
+  return true;
+}
+static_assert(table_is_in_order());
+}  // namespace detail
+
+}  // namespace carom

@@ -1,0 +1,203 @@
+#include "run/parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/vec3.hpp"
+#include "mesh/orientation.hpp"
+
+namespace carom {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+CellType cell_type(Section section) {
+  switch (section) {
+    case Section::solid:
+      return CellType::hexa8;
+    case Section::bar:
+      return CellType::line2;
+    default:
+      return CellType::quad4;
+  }
+}
+
+Material make_material(const CaseMaterial& given) {
+  const IsotropicElastic elastic{*given.E, *given.nu, *given.rho};
+  if (*given.law == "st_venant_kirchhoff") return StVenantKirchhoff{elastic};
+  if (*given.law == "neo_hookean") return NeoHookean{elastic};
+  return LinearElastic{elastic};
+}
+
+std::string describe(const Part& part) {
+  if (part.section == Section::solid || part.section == Section::axisymmetric)
+    return fmt::format("\"{}\" ({})", part.name, name(part.section));
+  return fmt::format("\"{}\" ({}, {} {:g})", part.name, name(part.section),
+                     part.section == Section::bar ? "area" : "thickness", part.thickness);
+}
+
+}  // namespace
+
+std::string_view name(Section section) {
+  static constexpr std::array<std::string_view, 5> names{"solid", "plane_strain", "plane_stress", "axisymmetric",
+                                                         "bar"};
+  return names.at(static_cast<std::size_t>(section));
+}
+
+Parts::Parts(const Case& given, const Mesh& mesh, const Groups& groups)
+    : mesh_(mesh), holds_node_(mesh.node_count(), Hold::none) {
+  for (const CellBlock& block : mesh.blocks) part_of_cell_.emplace_back(block.size(), -1);
+  for (const CasePart& part : given.parts) add(given, part, groups);
+}
+
+void Parts::add(const Case& given, const CasePart& wanted, const Groups& groups) {
+  const auto material = std::find_if(given.materials.begin(), given.materials.end(),
+                                     [&](const CaseMaterial& m) { return m.name == *wanted.material; });
+  Part part;
+  part.name = *wanted.name;
+  part.material = make_material(*material);
+  part.section = static_cast<Section>(wanted.section);  // declared in the same order
+  part.type = cell_type(part.section);
+  part.thickness = part.section == Section::bar ? wanted.area : wanted.thickness;
+  part.cells = groups.cells(wanted.cells, "part.cells", part.type,
+                            fmt::format("{} cells, since section = \"{}\" (QUAD4 take plane_strain, plane_stress or "
+                                        "axisymmetric, LINE2 take bar)",
+                                        carom::name(part.type), name(part.section)));
+  const auto block = static_cast<std::size_t>(mesh_.block(part.type) - mesh_.blocks.data());
+  for (const Index cell : part.cells) {
+    Index& owner = part_of_cell_[block][at(cell)];
+    if (owner >= 0)
+      throw CaseError(wanted.cells.where, "part.cells",
+                      fmt::format("cell {} in part \"{}\" and in part \"{}\"",
+                                  mesh_.blocks[block].file_numbers[at(cell)], parts_[at(owner)].name, part.name),
+                      "every cell in one part only");
+    owner = static_cast<Index>(parts_.size());
+    const Hold hold = part.type == CellType::hexa8 ? Hold::solid : Hold::plane_or_bar;
+    for (const Index n : nodes_of_cell(part, cell)) holds_node_[at(n)] = std::max(holds_node_[at(n)], hold);
+  }
+  if (part.type == CellType::quad4) check_plane(part, wanted.cells);
+  if (part.section == Section::axisymmetric) check_axis(part, wanted.cells);
+  if (part.section == Section::bar) check_bars(part, wanted.cells);
+  parts_.push_back(std::move(part));
+}
+
+void Parts::refuse_cell(const Part& part, Index cell, const Located<std::string>& group, const std::string& found,
+                        const std::string& expected) const {
+  throw CaseError(
+      group.where, "part.cells",
+      fmt::format("cell {} ({}) {}", mesh_.block(part.type)->file_numbers[at(cell)], carom::name(part.type), found),
+      expected);
+}
+
+void Parts::check_plane(const Part& part, const Located<std::string>& group) const {
+  constexpr double flatness = 1e-9;  // of the cell's diagonal: above the round-off of any writer
+  for (const Index cell : part.cells) {
+    const std::span<const Index> nodes = nodes_of_cell(part, cell);
+    const auto x = [&](std::size_t a) { return mesh_.coordinates[at(nodes[a])]; };
+    const double size = std::max(norm(subtract(x(2), x(0))), norm(subtract(x(3), x(1))));
+    for (std::size_t a = 1; a < 4; ++a)
+      if (std::abs(x(a)[2] - x(0)[2]) > flatness * size)
+        refuse_cell(part, cell, group, "outside of the x-y plane",
+                    fmt::format("cells in a plane z = const, since section = \"{}\"", name(part.section)));
+    if (plane_turn(mesh_, nodes) != 1)
+      refuse_cell(part, cell, group, "numbered clockwise or folded",
+                  "counter-clockwise cells (in a mesh without solids they are turned on reading)");
+  }
+}
+
+void Parts::check_axis(const Part& part, const Located<std::string>& group) const {
+  const double tolerance = axis_tolerance(part);
+  for (const Index cell : part.cells)
+    for (const Index n : nodes_of_cell(part, cell))
+      if (mesh_.coordinates[at(n)][0] < -tolerance)
+        refuse_cell(part, cell, group,
+                    fmt::format("with node {} at x = {:.6g}", mesh_.node_numbers[at(n)], mesh_.coordinates[at(n)][0]),
+                    "x >= 0, since section = \"axisymmetric\" turns about the y axis");
+}
+
+void Parts::check_bars(const Part& part, const Located<std::string>& group) const {
+  for (const Index cell : part.cells) {
+    const std::span<const Index> nodes = nodes_of_cell(part, cell);
+    if (mesh_.coordinates[at(nodes[0])] == mesh_.coordinates[at(nodes[1])])
+      refuse_cell(part, cell, group, "without length", "bars whose ends are apart");
+  }
+}
+
+/// What is at most this far from the axis lies on it: 1e-9 of the largest radius, above the round-off of any writer.
+double Parts::axis_tolerance(const Part& part) const {
+  double largest = 0.0;
+  for (const Index cell : part.cells)
+    for (const Index n : nodes_of_cell(part, cell)) largest = std::max(largest, std::abs(mesh_.coordinates[at(n)][0]));
+  return 1e-9 * largest;
+}
+
+std::span<const Index> Parts::nodes_of_cell(const Part& part, Index cell) const {
+  const auto n = static_cast<std::size_t>(node_count(part.type));
+  return {&mesh_.block(part.type)->connectivity[n * at(cell)], n};
+}
+
+const Part* Parts::part_of(const CellRef& cell) const {
+  const Index part = part_of_cell_[at(cell.block)][at(cell.cell)];
+  return part < 0 ? nullptr : &parts_[at(part)];
+}
+
+std::vector<Index> Parts::nodes_of(const Part& part) const {
+  std::vector<char> is_member(mesh_.node_count(), 0);
+  for (const Index cell : part.cells)
+    for (const Index n : nodes_of_cell(part, cell)) is_member[at(n)] = 1;
+  std::vector<Index> nodes;
+  for (std::size_t n = 0; n < is_member.size(); ++n)
+    if (is_member[n] != 0) nodes.push_back(static_cast<Index>(n));
+  return nodes;
+}
+
+std::vector<PrescribedMotion> Parts::held() const {
+  std::vector<PrescribedMotion> motions;
+  for (const Part& part : parts_) {
+    if (part.type != CellType::quad4) continue;
+    const std::string label = fmt::format("part \"{}\", which is {}", part.name, name(part.section));
+    std::vector<Index> nodes = nodes_of(part), on_axis;
+    const double tolerance = axis_tolerance(part);
+    std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(on_axis),
+                 [&](Index n) { return mesh_.coordinates[at(n)][0] <= tolerance; });
+    std::erase_if(nodes, [&](Index n) { return holds_node_[at(n)] == Hold::solid; });
+    if (!nodes.empty()) motions.push_back({label, std::move(nodes), 2, MotionKind::velocity, {{0.0}, {0.0}}});
+    if (part.section == Section::axisymmetric && !on_axis.empty())
+      motions.push_back({label, std::move(on_axis), 0, MotionKind::velocity, {{0.0}, {0.0}}});
+  }
+  return motions;
+}
+
+Surface Parts::surface(const std::vector<OuterFacet>& facets, const Location& where, const std::string& key) const {
+  Surface surface;
+  const Part* first = nullptr;
+  for (const OuterFacet& outer : facets) {
+    surface.facets.push_back(outer.facet);
+    const Part* part = part_of(outer.cell);
+    if (part == nullptr) {
+      const CellBlock& block = mesh_.blocks[at(outer.cell.block)];
+      if (block.type == CellType::hexa8) continue;
+      throw CaseError(where, key,
+                      fmt::format("the boundary of cell {} ({}), which belongs to no part",
+                                  block.file_numbers[at(outer.cell.cell)], carom::name(block.type)),
+                      "faces, edges or ends of parts");
+    }
+    if (first == nullptr) first = part;
+    if (part->section == first->section && (part->section == Section::solid || part->thickness == first->thickness))
+      continue;
+    throw CaseError(where, key, fmt::format("pieces of part {} and of part {}", describe(*first), describe(*part)),
+                    "a surface of one section and thickness", "Make one group for each of them.");
+  }
+  if (first != nullptr) {
+    surface.section = first->section;
+    surface.thickness = first->thickness;
+  }
+  return surface;
+}
+
+}  // namespace carom

@@ -1,0 +1,192 @@
+#include "run/stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "schemes/stability_limit.hpp"
+#include "solid/modified_mass.hpp"
+
+namespace carom {
+
+namespace {
+
+SchemeSettings settings_of(const CaseScheme& given, const CaseSolver& solver) {
+  static constexpr SolverKind kinds[] = {SolverKind::automatic, SolverKind::conjugate_gradients, SolverKind::cholesky};
+  SchemeSettings s;
+  s.kind = *given.kind;
+  s.enforcement = **given.enforcement;
+  s.beta = given.beta;
+  s.gamma = given.gamma;
+  s.alpha = given.alpha;
+  s.rho_inf = given.rho_inf;
+  s.theta = given.theta;
+  s.phi = given.phi;
+  s.p = given.p;
+  s.penetration = given.penetration.value_or(s.penetration);
+  s.max_iterations = solver.max_contact_iterations;
+  s.solver = kinds[static_cast<int>(solver.kind)];
+  return s;
+}
+
+Mass make_mass(const StageContext& context, const CaseScheme& scheme, std::vector<std::string>& notes) {
+  if (**scheme.mass == CaseScheme::Mass::modified) {
+    MassModification how;
+    if (*scheme.redistribution == CaseScheme::Redistribution::least_squares)
+      how.spread = MassSpread::least_squares;
+    else
+      how.layers = *scheme.layers;
+    try {
+      ModifiedMass modified = modify_mass(context.solid, context.model, how);
+      notes = describe(modified.shift);
+      return std::move(modified.mass);
+    } catch (const std::invalid_argument& e) {
+      throw CaseError(scheme.mass->where, "scheme.mass", e.what(),
+                      "a body with more layers of cells than its contact surface");
+    }
+  }
+  return context.solid.mass(**scheme.mass == CaseScheme::Mass::consistent ? MassKind::consistent : MassKind::lumped);
+}
+
+/// The nodes of the bodies: those that carry mass before contact nodes give theirs away.
+std::vector<bool> body_nodes(const StageContext& context) {
+  const Mass lumped = context.solid.mass(MassKind::lumped);
+  std::vector<bool> has_mass;
+  for (const double m : lumped.node_diagonal()) has_mass.push_back(m > 0.0);
+  return has_mass;
+}
+
+Supports make_supports(const StageContext& context, const std::vector<bool>& has_mass) {
+  const Case& given = context.given;
+  try {
+    return {context.model, has_mass};
+  } catch (const std::invalid_argument& e) {
+    throw CaseError(given.supports.empty() ? Location{given.file} : given.supports.front().where, "support", e.what(),
+                    "");
+  }
+}
+
+}  // namespace
+
+Stage::Stage(const StageContext& context, const CaseScheme& scheme, const CaseTime& time, double begin)
+    : context_(context),
+      scheme_(scheme),
+      time_(time),
+      begin_(begin),
+      settings_(settings_of(scheme, context.given.solver)),
+      mass_(make_mass(context, scheme, notes_)),
+      supports_(make_supports(context, body_nodes(context))),
+      system_{context.mesh, context.solid, mass_, context.contact, supports_} {
+  refuse_ringing_motions();
+  refuse_massless_contact();
+  choose_step();
+}
+
+/// Newmark's accelerations that follow an imposed displacement obey beta z^2 + (1/2 + gamma - 2 beta) z + 1/2 - gamma +
+/// beta = 0: with gamma = 1/2 the roots have modulus 1, and every kink of the function rings on for ever. The same
+/// holds for the members of the family that do not dissipate.
+void Stage::refuse_ringing_motions() const {
+  const SchemeSettings& s = settings_;
+  const bool rings =
+      (s.kind == SchemeKind::newmark && s.gamma <= 0.5) ||
+      ((s.kind == SchemeKind::hht || s.kind == SchemeKind::wbz) && s.alpha >= 0.0) ||
+      ((s.kind == SchemeKind::generalized_alpha || s.kind == SchemeKind::hulbert_chung) && s.rho_inf >= 1.0);
+  if (!rings) return;
+  for (const CaseSupport& support : context_.given.supports) {
+    for (const CaseSupport::Motion& motion : support.motions) {
+      if (motion.kind != CaseSupport::Kind::displacement || !motion.function) continue;
+      throw CaseError(
+          motion.amplitude.where, "support.displacement",
+          fmt::format("a displacement that changes in time, with {}", describe(s)),
+          "a scheme that dissipates a little, since otherwise the velocities of these nodes ring without end",
+          "Take gamma > 0.5, alpha < 0 or rho_inf < 1 in [scheme], or impose the velocity.");
+    }
+  }
+}
+
+/// A contact node that belongs to no part and is held by no support has no equation.
+void Stage::refuse_massless_contact() const {
+  const std::vector<double> zero(context_.solid.dof_count(), 0.0);
+  const std::shared_ptr<const ConstraintRows> shared = context_.contact.rows_at(zero, zero);
+  const ConstraintRows& rows = *shared;
+  const std::vector<bool> has_mass = body_nodes(context_);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
+      const Index n = rows.node[k];
+      if (has_mass[static_cast<std::size_t>(n)]) continue;
+      if (supports_.is_prescribed(3 * n) && supports_.is_prescribed(3 * n + 1) && supports_.is_prescribed(3 * n + 2))
+        continue;
+      const CaseContact& contact = context_.given.contacts[static_cast<std::size_t>(rows.source[r])];
+      throw CaseError(contact.group.where, "contact.group",
+                      fmt::format("node {} of \"{}\", which belongs to no part and is not held in x, y and z",
+                                  context_.mesh.node_numbers[static_cast<std::size_t>(n)], *contact.group),
+                      "nodes with mass, or supports on all three components",
+                      "Put the cells in a [[part]], or block the node by a [[support]].");
+    }
+  }
+}
+
+void Stage::choose_step() {
+  const double length = end() - begin_;
+  const bool explicit_steps = is_explicit(settings_.kind);
+  double wanted = explicit_steps ? 0.0 : **time_.step, stable_dt = std::numeric_limits<double>::infinity();
+  if (explicit_steps) {
+    const StableStep stable = this->stable();
+    stable_dt = stable.dt;
+    wanted = time_.step ? **time_.step : time_.safety * stable.dt;
+    if (wanted > stable.dt) {
+      throw CaseError(
+          time_.step->where, "time.step", fmt::format("{:.6g}", wanted),
+          fmt::format("at most the stable step {:.6g} (contact included; {:.6g} without)", stable.dt, stable.dt_free),
+          "Lower the step, or leave it out to have it chosen.");
+    }
+  }
+  const double count = length / wanted;
+  if (!(count < 1e13)) {
+    throw CaseError(time_.where, "time", fmt::format("{:.3g} steps to the end", count), "fewer than 1e13");
+  }
+  steps_ = std::max(1LL, static_cast<long long>(std::ceil(count * (1.0 - 1e-9))));
+  if (time_.fixed && std::abs(count - static_cast<double>(steps_)) > 1e-6) {
+    throw CaseError(time_.end.where, "time.end", fmt::format("{:.9g} steps of {:.6g} to {:.6g}", count, wanted, end()),
+                    "a whole number of steps, since the step is fixed",
+                    "Change end or step, or leave out fixed = true.");
+  }
+  // Keep the user's own number when it divides the end; its multiples are then the times of the steps.
+  dt_ = std::abs(count - static_cast<double>(steps_)) <= 1e-6 ? wanted : length / static_cast<double>(steps_);
+  if (explicit_steps) {
+    reversible_energy_ = 1.0 / std::max(1e-3, 1.0 - std::pow(dt_ / stable_dt, 2));  // finite also at the limit
+  } else {
+    const bool may_grow =
+        settings_.kind == SchemeKind::newmark && 2.0 * settings_.beta < settings_.gamma * (1.0 - 1e-12);
+    reversible_energy_ = may_grow ? 0.0 : 1.0;
+  }
+}
+
+StableStep Stage::stable() const {
+  return stable_step(system_, stability_limit(settings_), settings_.enforcement);
+}
+
+bool Stage::stable_step_changes() const {
+  return is_explicit(settings_.kind) && (!context_.solid.is_linear() || !context_.contact.is_fixed());
+}
+
+StableStepWatch Stage::watch_stable_step() const {
+  return {system_, stability_limit(settings_), settings_.enforcement};
+}
+
+std::unique_ptr<Scheme> Stage::make_scheme() const {
+  const std::vector<double> bounds = context_.solid.cell_frequency_bounds();
+  return carom::make_scheme(system_, settings_, dt_, *std::max_element(bounds.begin(), bounds.end()));
+}
+
+std::string Stage::name() const {
+  static constexpr const char* masses[] = {"consistent", "lumped", "modified"};
+  return fmt::format("{}, {} mass", describe(settings_), masses[static_cast<int>(**scheme_.mass)]);
+}
+
+}  // namespace carom

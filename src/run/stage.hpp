@@ -1,0 +1,82 @@
+// One stage of a run: a scheme, the mass and the supports it works with, and its steps.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "casefile/case.hpp"
+#include "schemes/make_scheme.hpp"
+#include "schemes/stable_step.hpp"
+#include "schemes/supports.hpp"
+#include "schemes/system.hpp"
+
+namespace carom {
+
+/// What the stages of a run share. References only: the owner outlives the stages.
+struct StageContext {
+  const Case& given;
+  const Mesh& mesh;
+  const Model& model;
+  const Solid& solid;
+  const ContactGeometry& contact;
+};
+
+/// Not movable, since the system refers to its members. Building it finds every error of its sections that can be found
+/// without stepping (CaseError).
+class Stage {
+ public:
+  /// From `begin` to time.end.
+  Stage(const StageContext& context, const CaseScheme& scheme, const CaseTime& time, double begin);
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  const CaseTime& time() const { return time_; }
+  const SchemeSettings& settings() const { return settings_; }
+  const Mass& mass() const { return mass_; }
+  const Supports& supports() const { return supports_; }
+  const System& system() const { return system_; }
+  double begin() const { return begin_; }
+  double end() const { return *time_.end; }
+  /// The usual step and the number of steps of that length that reach the end exactly.
+  double dt() const { return dt_; }
+  long long steps() const { return steps_; }
+
+  /// How many times the energy of the run the scheme may lend to the mechanical energy T + V and take back later.
+  /// Central differences keep T + V - h^2/8 a.Ma (Krenk, Comput. Methods Appl. Mech. Eng. 195, 2006), so that T + V is
+  /// at most 1 / (1 - (h / stable step)^2) times what they keep. Newmark with 2 beta >= gamma lends where loads jump; a
+  /// Newmark that may become unstable is lent nothing.
+  double reversible_energy() const { return reversible_energy_; }
+
+  std::unique_ptr<Scheme> make_scheme() const;
+  /// The stable step of the stage's scheme on its system at the start.
+  StableStep stable() const;
+  /// True when the stable step of an explicit stage changes during the run.
+  bool stable_step_changes() const;
+  /// Re-estimates it.
+  StableStepWatch watch_stable_step() const;
+  /// What was done to the mass, for the log.
+  const std::vector<std::string>& notes() const { return notes_; }
+  /// "Newmark beta 0.28 gamma 0.55, consistent mass"
+  std::string name() const;
+
+ private:
+  void refuse_ringing_motions() const;
+  void refuse_massless_contact() const;
+  void choose_step();
+
+  const StageContext context_;
+  const CaseScheme& scheme_;
+  const CaseTime& time_;
+  double begin_;
+  SchemeSettings settings_;
+  std::vector<std::string> notes_;
+  Mass mass_;
+  Supports supports_;
+  System system_;
+  double dt_ = 0.0;
+  long long steps_ = 0;
+  double reversible_energy_ = 0.0;
+};
+
+}  // namespace carom

@@ -1,0 +1,91 @@
+#include "schemes/books.hpp"
+
+#include <array>
+
+#include "parallel/threads.hpp"
+
+namespace carom {
+
+namespace {
+
+double mix(double w, double x0, double x1) {
+  return (1.0 - w) * x0 + w * x1;
+}
+
+}  // namespace
+
+StepBooks step_books(const System& system, const State& begin, const Forces& f0, const State& end, const Forces& f1,
+                     const StepWeights& w, const ContactWork& contact, std::span<const double> mean_internal) {
+  const MomentArms arms(system, begin.q, end.q, 0.5);
+  // Works of internal, external and support forces; du . M a~, du . (f~ + R~ - F~), du . C~; the resultant.
+  const auto sums = parallel_sums<12>(end.q.size(), [&](std::size_t i, std::array<double, 12>& s) {
+    const double du = end.q[i] - begin.q[i];
+    const double inertia = mix(w.inertia, f0.inertia[i], f1.inertia[i]);
+    const bool is_given = !mean_internal.empty();
+    const double internal = is_given ? mean_internal[i] : mix(w.force, f0.internal[i], f1.internal[i]);
+    const double external = mix(w.force, f0.external[i], f1.external[i]);
+    const double in_contact = mix(w.contact, f0.contact[i], f1.contact[i]);
+    const auto dof = static_cast<Index>(i);
+    const double support = system.supports.is_prescribed(dof) ? inertia + internal - external - in_contact : 0.0;
+    s[0] += (is_given ? internal : 0.5 * (f0.internal[i] + f1.internal[i])) * du;
+    s[1] += 0.5 * (f0.external[i] + f1.external[i]) * du;
+    s[2] += mix(w.support_work, f0.reaction[i], f1.reaction[i]) * du;
+    s[3] += inertia * du;
+    s[4] += (external + support - internal) * du;
+    s[5] += in_contact * du;
+    add_with_moment(arms.at(i / 3), i % 3, external + support + in_contact, s.data() + 6);
+  });
+  StepBooks out;
+  out.force = momentum_from(sums.data() + 6);
+  LedgerIncrement& step = out.increment;
+  EnergyTerms& energy = step.energy;
+  energy.kinetic = f1.stored.kinetic - f0.stored.kinetic;
+  energy.strain = f1.stored.strain - f0.stored.strain;
+  energy.contact_stored = f1.stored.contact_stored - f0.stored.contact_stored;
+  energy.friction = contact.friction;
+  energy.damping = contact.damping;
+  energy.impact = contact.impact;
+  energy.external_work = sums[1];
+  energy.support_work = sums[2];
+  energy.algorithmic = sums[3] - energy.kinetic + (sums[1] + sums[2] - sums[0]) - sums[4] + (contact.total - sums[5]);
+  energy.quadrature = sums[0] - energy.strain - contact.total - energy.contact_stored - contact.friction -
+                      contact.damping - contact.impact;
+  step.aster.ENER_CIN = energy.kinetic;
+  step.aster.ENER_TOT = sums[0];
+  step.aster.TRAV_EXT = energy.external_work + energy.support_work;
+  step.aster.TRAV_LIAI = -contact.total;
+  return out;
+}
+
+void set_mean_reactions(const System& system, const Forces& f0, const StepWeights& w, Forces& f1,
+                        std::span<const double> mean_internal) {
+  for (const PrescribedDof& p : system.supports.prescribed()) {
+    const auto i = static_cast<std::size_t>(p.dof);
+    const double internal = mean_internal.empty() ? mix(w.force, f0.internal[i], f1.internal[i]) : mean_internal[i];
+    f1.reaction[i] = mix(w.inertia, f0.inertia[i], f1.inertia[i]) + internal -
+                     mix(w.force, f0.external[i], f1.external[i]) - mix(w.contact, f0.contact[i], f1.contact[i]);
+  }
+}
+
+Momentum combine(double a, const Momentum& p, double b, const Momentum& q) {
+  Momentum out;
+  for (std::size_t c = 0; c < 3; ++c) {
+    out.linear[c] = a * p.linear[c] + b * q.linear[c];
+    out.angular[c] = a * p.angular[c] + b * q.angular[c];
+  }
+  return out;
+}
+
+Momentum resultant(const System& system, std::span<const double> u, const Forces& forces) {
+  const MomentArms arms(system, u);
+  const auto sums = parallel_sums<6>(forces.contact.size(), [&](std::size_t i, std::array<double, 6>& s) {
+    add_with_moment(arms.at(i / 3), i % 3, forces.external[i] + forces.contact[i] + forces.reaction[i], s.data());
+  });
+  return momentum_from(sums.data());
+}
+
+double trapezoidal_work(const State& begin, std::span<const double> f0, const State& end, std::span<const double> f1) {
+  return parallel_sum(f0.size(), [&](std::size_t i) { return 0.5 * (f0[i] + f1[i]) * (end.q[i] - begin.q[i]); });
+}
+
+}  // namespace carom

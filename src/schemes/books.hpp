@@ -1,0 +1,49 @@
+// The books of a step of any scheme, from the forces at both ends and the weights that the scheme gives them.
+#pragma once
+
+#include "schemes/contact_port.hpp"
+#include "schemes/system.hpp"
+
+namespace carom {
+
+/// Weights of the end of the step (1 minus those of its beginning) in the scheme's equation of motion
+///   M a~ + F~ = f~ + C~ + R~,  x~ = (1 - w) x0 + w x1,
+/// and in the work of the supports, which is booked as ((1 - w) R0 + w R1) . du.
+struct StepWeights {
+  double inertia = 0.5;
+  double force = 0.5;  ///< of internal and external forces
+  double contact = 0.5;
+  double support_work = 0.5;
+};
+
+/// The energies of a step, and the resultant of external, contact and support forces in the scheme's equation.
+struct StepBooks {
+  LedgerIncrement increment;
+  Momentum force;
+};
+
+/// Internal and external works by the trapezoidal rule, W_k; contact as its port has booked it; and what the scheme
+/// takes out by its own kinematics and weights,
+///   algorithmic = du . M a~ - d(1/2 v.Mv) + sum over k of (W_k - du . f~_k),
+/// which is zero for the trapezoidal rule (a~ = dv/h, du = h (v0 + v1)/2). R~ closes the equation where motions are
+/// imposed. A scheme whose F~ is not a weighted mean of both ends gives it as mean_internal; its work is then du . F~.
+/// The imbalance of the ledger is then du . (M a~ + F~ - f~ - C~) on the free dofs: it checks the solve.
+StepBooks step_books(const System& system, const State& begin, const Forces& forces_begin, const State& end,
+                     const Forces& forces_end, const StepWeights& weights, const ContactWork& contact,
+                     std::span<const double> mean_internal = {});
+
+/// Replaces the reactions at the end, for schemes whose acceleration is the mean of the step, by R~.
+void set_mean_reactions(const System& system, const Forces& forces_begin, const StepWeights& weights,
+                        Forces& forces_end, std::span<const double> mean_internal = {});
+
+/// a p + b q
+Momentum combine(double a, const Momentum& p, double b, const Momentum& q);
+
+/// Resultant of external, contact and support forces at one instant.
+Momentum resultant(const System& system, std::span<const double> u, const Forces& forces);
+
+/// Work of a force over the step by the trapezoidal rule.
+double trapezoidal_work(const State& begin, std::span<const double> force_begin, const State& end,
+                        std::span<const double> force_end);
+
+}  // namespace carom

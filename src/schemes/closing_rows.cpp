@@ -1,0 +1,81 @@
+#include "schemes/closing_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contact/cone_solver.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+
+namespace {
+
+/// Puts the multiplier of row r (in its frame) into response and history.
+void set_multiplier(std::size_t r, const Vec3& force, ContactResponse& response) {
+  const ConstraintRows& rows = *response.rows;
+  const double limit = rows.law[r].mu * force[0];
+  response.force[r] = force;
+  response.status[r] = RowStatus::open;
+  if (force[0] > 0.0) {
+    // On the cone up to the accuracy of the solver.
+    const bool slips = limit > 0.0 && std::hypot(force[1], force[2]) >= (1.0 - 1e-9) * limit;
+    response.status[r] = slips ? RowStatus::slip : RowStatus::stick;
+  }
+  response.history[static_cast<std::size_t>(rows.slot[r])].multiplier = rows.to_space(r, force);
+}
+
+/// Marks the rows that close at w + G x; false when there is none that was not marked before.
+bool mark_closing(const std::vector<ClosingRow>& candidates, const ConstraintRows& rows, std::span<const double> x,
+                  std::vector<std::size_t>& chosen) {
+  const std::size_t before = chosen.size();
+  for (const ClosingRow& c : candidates) {
+    if (std::binary_search(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(before), c.row)) continue;
+    const double pushed = rows.relative(c.row, x)[0];
+    // Rows that others push to within round-off of their limit stay out; what is not a number is left to the solver.
+    const bool is_open = c.w[0] + pushed >= -1e-13 * (std::abs(c.w[0]) + std::abs(pushed));
+    if (!is_open) chosen.push_back(c.row);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen.size() > before;
+}
+
+}  // namespace
+
+bool close_rows(const std::vector<ClosingRow>& candidates, std::span<const RowHistory> history,
+                const ContactOperator& contact_operator, ContactResponse& response, std::span<double> x) {
+  const ConstraintRows& rows = *response.rows;
+  std::vector<std::size_t> chosen;
+  std::fill(x.begin(), x.end(), 0.0);
+  while (mark_closing(candidates, rows, x, chosen)) {
+    const Delassus W = contact_operator.delassus(rows, chosen);
+    chosen = W.rows;
+    std::vector<Vec3> b, r;
+    std::vector<double> mu;
+    auto candidate = candidates.begin();
+    for (const std::size_t row : chosen) {
+      candidate = std::find_if(candidate, candidates.end(), [row](const ClosingRow& c) { return c.row == row; });
+      b.push_back(candidate->w);
+      mu.push_back(rows.law[row].mu);
+      r.push_back(rows.to_frame(row, history[static_cast<std::size_t>(rows.slot[row])].multiplier));
+    }
+    if (!solve_cone(W, b, mu, r).converged) return false;
+    for (std::size_t k = 0; k < chosen.size(); ++k) set_multiplier(chosen[k], r[k], response);
+    std::fill(x.begin(), x.end(), 0.0);
+    response.add_force(x);
+    contact_operator.inverse(x);
+  }
+  return true;
+}
+
+void open_response(std::shared_ptr<const ConstraintRows> rows, std::size_t slots, ContactResponse& response) {
+  response.rows = std::move(rows);
+  const std::size_t n = response.rows->size();
+  response.force.assign(n, Vec3{});
+  response.damper.assign(n, 0.0);
+  response.status.assign(n, RowStatus::open);
+  response.history.assign(slots, {});
+  response.stored = response.slip_work = 0.0;
+}
+
+}  // namespace carom

@@ -1,0 +1,36 @@
+// The rows that would close, and the multipliers that keep them open or just closed.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "contact/delassus.hpp"
+#include "contact/response.hpp"
+
+namespace carom {
+
+/// What contact does not know of the bodies: A of W = G A^-1 G^T.
+struct ContactOperator {
+  /// W on at least the chosen rows, in ascending order.
+  std::function<Delassus(const ConstraintRows&, const std::vector<std::size_t>& chosen)> delassus;
+  /// Overwrites a dof vector b by A^-1 b, zero on fixed dofs.
+  std::function<void(std::span<double> b)> inverse;
+};
+
+/// A row that takes part: w without multipliers, in its frame, the gap (or what stands for it) being part of w_n.
+struct ClosingRow {
+  std::size_t row = 0;
+  Vec3 w{};
+};
+
+/// Finds the multipliers of solve_cone for w + W r on the rows given, working only on those that close: rows are added
+/// until none of the others closes under the answer of these. `response` has been opened (open_response) and receives
+/// the multipliers, x receives A^-1 G^T r. Start values are those of the history. False when the cone solver fails.
+bool close_rows(const std::vector<ClosingRow>& rows, std::span<const RowHistory> history,
+                const ContactOperator& contact_operator, ContactResponse& response, std::span<double> x);
+
+/// Clears the response for these rows and the history of multipliers: every row open.
+void open_response(std::shared_ptr<const ConstraintRows> rows, std::size_t slots, ContactResponse& response);
+
+}  // namespace carom

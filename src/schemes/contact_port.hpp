@@ -1,0 +1,73 @@
+// How an implicit stage meets contact, whichever enforcement it has.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "schemes/effective_solver.hpp"
+#include "schemes/implicit_settings.hpp"
+#include "schemes/system.hpp"
+
+namespace carom {
+
+/// Where a stage begins and how its state follows its unknown y: x = x_hat + s y, v = v_hat + r y.
+struct StageStart {
+  const State* begin = nullptr;
+  double s = 0.0, r = 0.0;
+  double m = 1.0, c = 0.0;                ///< the operator of the stage is m M + c K
+  double shift = 0.0;                     ///< the part of m that the equation does not have (StageEquation)
+  std::span<const double> x_predicted{};  ///< where impulses decide which rows are closed
+};
+
+/// What contact still violates at a trial state, as energy, and how much of that is rounding.
+struct ContactError {
+  double work = 0.0;
+  double round_off = 0.0;
+};
+
+/// What a port makes of a linear system.
+struct PortSolve {
+  LinearSolveReport linear;
+  std::string failure;  ///< why there is no solution, "" when there is one
+};
+
+/// Work of the contact forces over a step, and where it went.
+struct ContactWork {
+  double total = 0.0;
+  double friction = 0.0, damping = 0.0, impact = 0.0;
+};
+
+/// One enforcement of contact within implicit stages. begin() comes first, once per stage; the state that it is given
+/// outlives the stage.
+class ContactPort {
+ public:
+  virtual ~ContactPort() = default;
+  virtual void begin(const StageStart& start) = 0;
+  /// True when displacement and velocity decide the forces; else conditions do, and a start has to find them.
+  virtual bool is_law() const = 0;
+  /// Forces on the rows at displacement x and velocity v.
+  virtual void respond(std::span<const double> x, std::span<const double> v, ContactResponse& response) = 0;
+  /// Violation of the conditions that `response`, the answer at x and v, does not satisfy by its law.
+  virtual ContactError error(std::span<const double> x, std::span<const double> v,
+                             const ContactResponse& response) const = 0;
+  /// Solves A dy = residual with contact following dy; `response` and `residual` (its forces included) belong to x
+  /// and v.
+  virtual PortSolve solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
+                          const ContactResponse& response, std::span<const double> residual, double absolute,
+                          std::span<double> dy) = 0;
+  /// At equilibrium: true when the contact conditions are met; else the forces have been changed and equilibrium must
+  /// be found again.
+  virtual bool settle(std::span<const double> x, const ContactResponse& response) = 0;
+  /// d += the stiffness of contact on the diagonal, for the round-off of equilibrium.
+  virtual void add_stiffness_diagonal(std::span<double> d) const = 0;
+  /// Work over a step. Multipliers work as supports do (StepWeights::support_work), (1 - end_weight) times those of the
+  /// beginning and end_weight times those of the end.
+  virtual ContactWork work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
+                           double end_weight) const = 0;
+};
+
+/// The port of settings.enforcement.
+std::unique_ptr<ContactPort> make_contact_port(const System& system, const ImplicitSettings& settings);
+
+}  // namespace carom

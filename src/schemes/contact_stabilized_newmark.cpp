@@ -1,0 +1,82 @@
+#include "schemes/contact_stabilized_newmark.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "schemes/books.hpp"
+#include "schemes/exact_port.hpp"
+
+namespace carom {
+
+namespace {
+
+/// No force inside: the projection knows the mass alone.
+StageForce no_force() {
+  return {[](std::span<const double> /*x*/, std::span<double> f) { std::fill(f.begin(), f.end(), 0.0); },
+          [](std::span<const double> x) { return x; }, 0.0};
+}
+
+}  // namespace
+
+ContactStabilizedNewmark::ContactStabilizedNewmark(const System& system, double gamma, const ImplicitSettings& settings,
+                                                   double dt, double omega_max_squared)
+    : system_(system),
+      gamma_(gamma),
+      projection_(system, settings, 0.0, omega_max_squared, std::make_unique<ProjectionPort>(system), no_force()),
+      stage_(system, settings, 0.5 * gamma * dt * dt, omega_max_squared) {
+  assert(gamma >= 0.5 && gamma <= 1.0 && settings.enforcement == EnforcementKind::lagrange);
+  x_predicted_.resize(system.solid.dof_count());
+  zero_.resize(system.solid.dof_count());
+  known_.resize(system.solid.dof_count());
+}
+
+void ContactStabilizedNewmark::start(State& state, double dt) {
+  start_in_equilibrium(system_, stage_, dt, state, now_);
+}
+
+/// projected_.q = u_hat
+StageReport ContactStabilizedNewmark::project(const State& begin, const StepRequest& request) {
+  for (std::size_t i = 0; i < begin.q.size(); ++i) x_predicted_[i] = begin.q[i] + request.dt * begin.v[i];
+  projected_ = begin;
+  std::fill(projected_.a.begin(), projected_.a.end(), 0.0);
+  const StageEquation equation{.s = 1.0, .x_hat = x_predicted_, .v_hat = zero_, .known = zero_};
+  // M u_hat is a force times h^2: what the tolerance leaves of work is that much less.
+  const double tolerance = request.work_tolerance * request.dt * request.dt;
+  return projection_.solve(equation, begin, tolerance, projected_, next_);
+}
+
+StepReport ContactStabilizedNewmark::step(const State& begin, const StepRequest& request, State& end) {
+  const double h = request.dt;
+  const std::size_t n = begin.q.size();
+  StageReport projected = project(begin, request);
+  StepReport report{false, projected.iterations, projected.linear_iterations, std::move(projected.failure), {}};
+  if (!projected.converged) return report;
+  end = begin;
+  end.t = request.t_end;
+  next_.external.resize(n);
+  system_.solid.external_force(end.t, system_.mass, next_.external);
+  for (std::size_t i = 0; i < n; ++i) {
+    known_[i] = gamma_ * next_.external[i] + (1.0 - gamma_) * (now_.external[i] - now_.internal[i]);
+  }
+  const StageEquation equation{
+      .k = gamma_, .s = 0.5 * h * h, .r = h, .x_hat = projected_.q, .v_hat = begin.v, .known = known_};
+  impose_on_stage(system_, equation, end.t, end.t - 0.5 * h, end.a);
+  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
+  report.converged = solved.converged;
+  report.iterations += solved.iterations;
+  report.linear_iterations += solved.linear_iterations;
+  report.failure = std::move(solved.failure);
+  if (!report.converged) return report;
+  complete_forces(system_, end, next_);
+  const StepWeights weights{.inertia = 1.0, .force = gamma_, .contact = 1.0, .support_work = 1.0};
+  set_mean_reactions(system_, now_, weights, next_);
+  const StepBooks books = step_books(system_, begin, now_, end, next_, weights,
+                                     stage_.port().work(begin, now_, end, next_, weights.support_work));
+  report.books = books.increment;
+  report.books.impulse = combine(h, books.force, 0.0, {});
+  std::swap(now_, next_);
+  return report;
+}
+
+}  // namespace carom

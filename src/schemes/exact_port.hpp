@@ -1,0 +1,117 @@
+// Exact contact within implicit stages: multipliers on displacements, impulses on velocities.
+#pragma once
+
+#include <vector>
+
+#include "contact/cone_solver.hpp"
+#include "schemes/contact_port.hpp"
+#include "schemes/row_compliance.hpp"
+
+namespace carom {
+
+/// The forces lambda on the rows that satisfy Signorini's and Coulomb's conditions exactly:
+///   w = w_free + slope G A^-1 G^T lambda,  (lambda, w) in the cones of solve_cone,
+/// where w_free is what the rows would see without lambda. Rows enter when they would be violated. For a linear body
+/// with fixed rows the columns A^-1 G^T are kept for the run, so that a step with contact costs one back-substitution
+/// and products with the columns; otherwise they are made anew for the rows in question at every iterate. Multipliers
+/// go on from step to step as start values, in State::contact.
+class ExactPort : public ContactPort {
+ public:
+  explicit ExactPort(const System& system);
+
+  void begin(const StageStart& start) override;
+  bool is_law() const override { return false; }
+  void respond(std::span<const double> x, std::span<const double> v, ContactResponse& response) override;
+  PortSolve solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
+                  const ContactResponse& response, std::span<const double> residual, double absolute,
+                  std::span<double> dy) override;
+  bool settle(std::span<const double> x, const ContactResponse& response) override;
+  void add_stiffness_diagonal(std::span<double> d) const override;
+  ContactWork work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
+                   double end_weight) const override;
+
+ protected:
+  virtual std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> x) const = 0;
+  /// Slope in y of what the rows see, and which of x and v they see.
+  virtual double slope() const = 0;
+  virtual std::span<const double> seen(std::span<const double> x, std::span<const double> v) const = 0;
+  /// w of row r when they see z.
+  virtual Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const = 0;
+  virtual bool may_act(std::size_t /*r*/) const { return true; }
+  virtual double friction(const RowLaw& law) const { return law.mu; }
+
+  const System& system_;
+  StageStart start_;
+  std::vector<Vec3> multiplier_;  ///< per slot, a vector of space
+  std::vector<double>
+      compliance_of_;  ///< per slot, of the last solve: slope x largest diagonal entry of W, 0: not in it
+  bool is_solved_ = false;
+
+ private:
+  void forget_stale(const EffectiveSolver& solver, const ConstraintRows& rows);
+  bool choose(const ConstraintRows& rows, std::span<const double> z, std::span<const double> dy);
+  void add(std::size_t r);
+  bool assemble(EffectiveSolver& solver, const ConstraintRows& rows, LinearSolveReport& linear);
+  void note_compliances(const ConstraintRows& rows);
+  std::string solve_rows(const ContactResponse& response);
+  void add_forces(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> residual,
+                  double absolute, LinearSolveReport& linear, std::span<double> dy);
+
+  RowCompliance compliance_;
+  std::size_t operator_ = 0;         ///< EffectiveSolver::operators_made of compliance_
+  std::vector<std::size_t> chosen_;  ///< rows that compliance_ knows
+  std::vector<bool> is_chosen_;
+  Delassus W_;               ///< of those that may act
+  std::vector<Vec3> force_;  ///< of the rows of W_, in their frames
+  std::vector<double> free_, moved_, load_;
+};
+
+/// 0 <= g(x) perpendicular to lambda_n >= 0 at the end of the stage, slip over the step in Coulomb's cone.
+class MultiplierPort : public ExactPort {
+ public:
+  using ExactPort::ExactPort;
+  /// How far the multipliers are from their conditions on the rows made at x, where rows move or the operator is
+  /// shifted: elsewhere the solve has met them.
+  ContactError error(std::span<const double> x, std::span<const double> v,
+                     const ContactResponse& response) const override;
+
+ protected:
+  std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> x) const override;
+  double slope() const override { return start_.s; }
+  std::span<const double> seen(std::span<const double> x, std::span<const double> /*v*/) const override { return x; }
+  Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const override;
+};
+
+/// The same without friction: with m M y = contact(x) it finds the admissible x that is nearest to x_hat in the norm of
+/// M.
+class ProjectionPort final : public MultiplierPort {
+ public:
+  using MultiplierPort::MultiplierPort;
+
+ protected:
+  double friction(const RowLaw& /*law*/) const override { return 0.0; }
+};
+
+/// On rows with g(x_predicted) <= 0, with U = G v: 0 <= U_n + e min(0, U_n at the beginning) perpendicular to
+/// lambda_n >= 0 (Newton's restitution), U_t in Coulomb's cone (Jean, Comput. Methods Appl. Mech. Eng. 177, 1999). The
+/// rows are those made at x_predicted.
+class ImpulsePort final : public ExactPort {
+ public:
+  using ExactPort::ExactPort;
+  void begin(const StageStart& start) override;
+  ContactError error(std::span<const double> x, std::span<const double> v,
+                     const ContactResponse& response) const override;
+
+ protected:
+  std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> x) const override;
+  double slope() const override { return start_.r; }
+  std::span<const double> seen(std::span<const double> /*x*/, std::span<const double> v) const override { return v; }
+  Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const override;
+  bool may_act(std::size_t r) const override { return is_closed_[r]; }
+
+ private:
+  std::shared_ptr<const ConstraintRows> rows_;
+  std::vector<bool> is_closed_;
+};
+
+}  // namespace carom

@@ -1,0 +1,61 @@
+#include "schemes/explicit_books.hpp"
+
+#include <array>
+#include <vector>
+
+#include "parallel/threads.hpp"
+
+namespace carom {
+
+LedgerIncrement central_difference_books(const System& system, const State& begin, const Forces& f0, const State& end,
+                                         const Forces& f1, double h) {
+  // The forces of each end act where the nodes stand then: with a lumped mass that is the exact change of momentum.
+  const MomentArms arms_0(system, begin.q), arms_1(system, end.q);
+  // Works of internal, contact, external and support forces, impulses and their moments.
+  const auto sums = parallel_sums<10>(end.q.size(), [&](std::size_t i, std::array<double, 10>& s) {
+    const double du = end.q[i] - begin.q[i];
+    s[0] += 0.5 * (f0.internal[i] + f1.internal[i]) * du;
+    s[1] += 0.5 * (f0.contact[i] + f1.contact[i]) * du;
+    s[2] += 0.5 * (f0.external[i] + f1.external[i]) * du;
+    s[3] += 0.5 * (f0.reaction[i] + f1.reaction[i]) * du;
+    const double half = 0.5 * h;
+    const double impulse_0 = half * (f0.external[i] + f0.contact[i] + f0.reaction[i]);
+    const double impulse_1 = half * (f1.external[i] + f1.contact[i] + f1.reaction[i]);
+    add_with_moment(arms_0.at(i / 3), i % 3, impulse_0, s.data() + 4);
+    add_with_moment(arms_1.at(i / 3), i % 3, impulse_1, s.data() + 4);
+  });
+  const double internal_work = sums[0], contact_work = sums[1];
+  LedgerIncrement step;
+  EnergyTerms& energy = step.energy;
+  energy.kinetic = f1.stored.kinetic - f0.stored.kinetic;
+  energy.strain = f1.stored.strain - f0.stored.strain;
+  energy.contact_stored = f1.stored.contact_stored - f0.stored.contact_stored;
+  energy.friction = f1.rows.slip_work;
+  energy.damping = damping_work(begin, f0, end, f1);
+  energy.external_work = sums[2];
+  energy.support_work = sums[3];
+  energy.algorithmic = -0.125 * h * h * (f1.inertia_power - f0.inertia_power);
+  energy.quadrature =
+      internal_work - energy.strain - contact_work - energy.contact_stored - energy.friction - energy.damping;
+  step.aster.ENER_CIN = energy.kinetic;
+  step.aster.ENER_TOT = internal_work;
+  step.aster.TRAV_EXT = energy.external_work + energy.support_work;
+  step.aster.TRAV_LIAI = -contact_work;
+  step.impulse = momentum_from(sums.data() + 4);
+  return step;
+}
+
+LedgerIncrement explicit_books(const System& system, const State& begin, const Forces& f0, const State& end,
+                               const Forces& f1, std::span<const double> A, std::span<const double> B, double h) {
+  LedgerIncrement step = central_difference_books(system, begin, f0, end, f1, h);
+  std::vector<double> MA(A.size());
+  system.mass.apply(A, MA);
+  step.energy.algorithmic = parallel_sum(A.size(), [&](std::size_t i) {
+    const double du = end.q[i] - begin.q[i];
+    return du * (0.5 * (f0.inertia[i] + f1.inertia[i]) - MA[i]) - h * h * (0.5 * A[i] - B[i]) * MA[i];
+  });
+  step.impulse = {};
+  return step;
+}
+
+}  // namespace carom

@@ -1,0 +1,98 @@
+#include "schemes/hulbert_chung.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <utility>
+
+#include "parallel/threads.hpp"
+#include "schemes/books.hpp"
+#include "schemes/explicit_books.hpp"
+#include "schemes/imposed_motion.hpp"
+#include "schemes/initial_acceleration.hpp"
+
+namespace carom {
+
+namespace {
+
+/// State::memory: the scheme's accelerations, then the resultant of forces filtered like them.
+constexpr std::size_t resultant_size = 6;
+
+Momentum stored_resultant(const std::vector<double>& memory) {
+  const double* p = memory.data() + memory.size() - resultant_size;
+  return {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}};
+}
+
+void store_resultant(const Momentum& m, std::vector<double>& memory) {
+  double* p = memory.data() + memory.size() - resultant_size;
+  for (std::size_t c = 0; c < 3; ++c) {
+    p[c] = m.linear[c];
+    p[3 + c] = m.angular[c];
+  }
+}
+
+}  // namespace
+
+HulbertChung::HulbertChung(const System& system, double rho)
+    : system_(system),
+      alpha_m_((2.0 * rho - 1.0) / (1.0 + rho)),
+      beta_((5.0 - 3.0 * rho) / ((1.0 + rho) * (1.0 + rho) * (2.0 - rho))),
+      gamma_(1.5 - alpha_m_),
+      mass_solver_(system),
+      rhs_(system.solid.dof_count()),
+      A_(system.solid.dof_count()),
+      B_(system.solid.dof_count()) {
+  assert(rho >= 0.0 && rho <= 1.0);
+}
+
+void HulbertChung::start(State& state, double dt) {
+  start_with_supports(system_, state);
+  evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, now_);
+  // e0 = e1 = a0
+  impose_motions(
+      system_, state.t, {dt, 0.5 * dt * dt, dt, dt}, [&](std::size_t i) { return state.q[i] + dt * state.v[i]; },
+      [&](std::size_t i) { return state.v[i]; }, state.a);
+  start_accelerations(system_, mass_solver_, state, now_);
+  state.memory = state.a;
+  state.memory.resize(state.a.size() + resultant_size);
+  store_resultant(resultant(system_, state.q, now_), state.memory);
+}
+
+StepReport HulbertChung::step(const State& begin, const StepRequest& request, State& end) {
+  const double h = request.dt, share = 1.0 / (1.0 - alpha_m_);
+  end = begin;
+  end.t = request.t_end;
+  parallel_each(end.q.size(), [&](std::size_t i) {
+    const double e0 = begin.memory[i], e1 = share * (begin.a[i] - alpha_m_ * e0);
+    end.memory[i] = e1;
+    B_[i] = (0.5 - beta_) * e0 + beta_ * e1;
+    A_[i] = (1.0 - gamma_) * e0 + gamma_ * e1;
+    end.q[i] = begin.q[i] + h * begin.v[i] + h * h * B_[i];
+    end.v[i] = begin.v[i] + h * A_[i];
+  });
+  evaluate_forces(system_, request.t_end, begin.q, begin.contact, end.q, end.v, next_);
+  const double beta_e1 = 0.5 - beta_ - share * alpha_m_ * beta_, gamma_e1 = 1.0 - gamma_ - share * alpha_m_ * gamma_;
+  impose_motions(
+      system_, request.t_end, {h, h * h * beta_ * share, h, h * gamma_ * share},
+      [&](std::size_t i) { return end.q[i] + h * end.v[i] + h * h * beta_e1 * end.memory[i]; },
+      [&](std::size_t i) { return end.v[i] + h * gamma_e1 * end.memory[i]; }, end.a);
+  force_sum(next_, rhs_);
+  StepReport report;
+  report.linear_iterations = mass_solver_.solve(rhs_, end.a);
+  if (report.linear_iterations < 0) {
+    report.failure = MassSolver::failure;
+    return report;
+  }
+  end.contact = next_.rows.history;
+  complete_forces(system_, end, next_);
+  report.books = explicit_books(system_, begin, now_, end, next_, A_, B_, h);
+  const Momentum before = stored_resultant(begin.memory);
+  const Momentum filtered = combine(share, resultant(system_, begin.q, now_), -share * alpha_m_, before);
+  store_resultant(filtered, end.memory);
+  report.books.impulse = combine(h * (1.0 - gamma_), before, h * gamma_, filtered);
+  report.converged = true;
+  std::swap(now_, next_);
+  return report;
+}
+
+}  // namespace carom

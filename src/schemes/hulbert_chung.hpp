@@ -1,0 +1,37 @@
+// Hulbert and Chung's explicit generalised-alpha scheme.
+#pragma once
+
+#include <vector>
+
+#include "schemes/mass_solver.hpp"
+#include "schemes/scheme.hpp"
+
+namespace carom {
+
+/// With e_n the scheme's own accelerations (State::memory) and M a_n = f(t_n) - F(u_n) + contact(u_n, v_n):
+///   (1 - alpha_m) e1 + alpha_m e0 = a0,
+///   u1 = u0 + h v0 + h^2 ((1/2 - beta) e0 + beta e1),  v1 = v0 + h ((1 - gamma) e0 + gamma e1),
+///   alpha_m = (2 r - 1)/(1 + r),  beta = (5 - 3 r)/((1 + r)^2 (2 - r)),  gamma = 3/2 - alpha_m
+/// (Hulbert and Chung, Comput. Methods Appl. Mech. Eng. 137, 1996, with the spectral radius r at the bifurcation
+/// point). Order 2; stable for omega h <= stability_limit. The state's accelerations are a_n. Momenta are exact, the
+/// impulses being those of the forces filtered like e. Penalty contact. Imposed motions are imposed through a.
+class HulbertChung final : public Scheme {
+ public:
+  /// rho: spectral radius, 0 ... 1
+  HulbertChung(const System& system, double rho);
+
+  void start(State& state, double dt) override;
+  StepReport step(const State& begin, const StepRequest& request, State& end) override;
+  const Forces& forces() const override { return now_; }
+  double end_weight() const override { return 0.5; }
+  std::string solver_name() const override { return mass_solver_.name(); }
+
+ private:
+  const System& system_;
+  double alpha_m_, beta_, gamma_;
+  MassSolver mass_solver_;
+  Forces now_, next_;
+  std::vector<double> rhs_, A_, B_;
+};
+
+}  // namespace carom

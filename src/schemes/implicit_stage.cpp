@@ -1,0 +1,222 @@
+#include "schemes/implicit_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "parallel/threads.hpp"
+#include "schemes/initial_acceleration.hpp"
+
+namespace carom {
+
+/// Equilibrium error of a trial state. Forces are paired with the displacement of the whole body, norm with norm: node
+/// by node, a body at rest would take any force for equilibrium.
+struct ImplicitStage::Residual {
+  double norm = 0.0;          ///< 2-norm
+  double displacement = 0.0;  ///< 2-norm of the step's displacement, and of what the residual would still add to it
+  double work = 0.0;          ///< norm x displacement, at least the energy that the residual may leave unbooked
+  double round_off = 0.0;     ///< the part of `work` that rounding alone leaves
+};
+
+namespace {
+
+/// Exact contact of a linear body on fixed rows asks for a column of the inverse per row, once: a factorisation gives
+/// them cheaply, conjugate gradients do not. Half a million dofs take some gigabytes.
+SolverKind solver_for(const System& system, const ImplicitSettings& settings) {
+  const bool is_exact =
+      settings.enforcement == EnforcementKind::lagrange || settings.enforcement == EnforcementKind::impulse;
+  const bool is_kept = system.solid.is_linear() && system.contact.is_fixed() && system.contact.slots() > 0;
+  const bool is_small = system.solid.dof_count() <= 500'000;
+  if (settings.solver == SolverKind::automatic && is_exact && is_kept && is_small) return SolverKind::cholesky;
+  return settings.solver;
+}
+
+}  // namespace
+
+ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& settings, double ratio,
+                             double omega_max_squared)
+    : ImplicitStage(system, settings, ratio, omega_max_squared, make_contact_port(system, settings), {}) {}
+
+ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& settings, double ratio,
+                             double omega_max_squared, std::unique_ptr<ContactPort> port, StageForce force)
+    : system_(system),
+      max_iterations_(settings.max_iterations),
+      solver_(make_effective_solver(system, solver_for(system, settings), ratio, omega_max_squared)),
+      port_(std::move(port)),
+      force_(std::move(force)) {
+  residual_.resize(system.solid.dof_count());
+  correction_.resize(residual_.size());
+  stiffness_diagonal_ = system.solid.tangent_diagonal(residual_);
+  closed_diagonal_ = stiffness_diagonal_;
+  port_->add_stiffness_diagonal(closed_diagonal_);
+  if (force_.value) return;
+  force_.value = [&system](std::span<const double> x, std::span<double> f) { system.solid.internal_force(x, f); };
+  force_.tangent_at = [](std::span<const double> x) { return x; };
+}
+
+void ImplicitStage::start(const State& state, Forces& forces) {
+  port_->begin({&state, 1.0, 0.0, 1.0, 0.0, 0.0, state.q});
+  port_->respond(state.q, state.v, forces.rows);
+  forces.contact.assign(state.q.size(), 0.0);
+  forces.rows.add_force(forces.contact);
+}
+
+ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const State& begin, const State& end,
+                                                Forces& forces) {
+  force_.value(end.q, forces.internal);
+  forces.contact.assign(end.q.size(), 0.0);
+  port_->respond(end.q, end.v, forces.rows);
+  forces.rows.add_force(forces.contact);
+  system_.mass.apply(end.a, forces.inertia);
+  const std::vector<bool>& fixed = system_.supports.fixed();
+  const std::vector<double>& mass = system_.mass.node_diagonal();
+  // Squares of the residual, of the displacement, of Jacobi's estimate of what is missing, and of the forces that
+  // cancel in the residual.
+  for (std::size_t i = 0; i < residual_.size(); ++i) {
+    residual_[i] =
+        fixed[i] ? 0.0 : eq.known[i] - eq.k * forces.internal[i] + forces.contact[i] - eq.m * forces.inertia[i];
+  }
+  const auto sums = parallel_sums<4>(residual_.size(), [&](std::size_t i, std::array<double, 4>& sum) {
+    const double du = end.q[i] - begin.q[i];
+    sum[1] += du * du;
+    if (fixed[i]) return;
+    sum[0] += residual_[i] * residual_[i];
+    const double missing =
+        eq.s * residual_[i] / ((eq.m + eq.shift) * mass[i / 3] + force_.factor * eq.k * eq.s * stiffness_diagonal_[i]);
+    const double force = std::abs(eq.known[i]) + std::abs(forces.internal[i]) + std::abs(forces.contact[i]) +
+                         eq.m * mass[i / 3] * std::abs(end.a[i]) +
+                         closed_diagonal_[i] * (std::abs(begin.q[i]) + std::abs(eq.x_hat[i]) + std::abs(end.q[i]));
+    sum[2] += missing * missing;
+    sum[3] += force * force;
+  });
+  const ContactError contact = port_->error(end.q, end.v, forces.rows);
+  Residual out;
+  out.norm = std::sqrt(sums[0]);
+  out.displacement = std::sqrt(sums[1]) + std::sqrt(sums[2]);
+  out.work = out.norm * out.displacement + contact.work;
+  // A displacement is known to a relative 1e-16 of its terms only, which the stiffness of a node turns into a force.
+  constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
+  out.round_off = precision * out.displacement * std::sqrt(sums[3]) + contact.round_off;
+  return out;
+}
+
+StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, double work_tolerance, State& end,
+                                 Forces& forces) {
+  const std::size_t n = begin.q.size();
+  forces.internal.resize(n);
+  forces.inertia.resize(n);
+  end.q.resize(n);
+  end.v.resize(n);
+  port_->begin({&begin, eq.s, eq.r, eq.m + eq.shift, force_.factor * eq.k * eq.s, eq.shift, eq.x_predicted});
+  StageReport report;
+  std::vector<RowStatus> before;
+  for (int newton = 0, outer = 0;; ++newton, ++report.iterations) {
+    parallel_each(n, [&](std::size_t i) {
+      end.q[i] = eq.x_hat[i] + eq.s * end.a[i];
+      end.v[i] = eq.v_hat[i] + eq.r * end.a[i];
+    });
+    before.swap(forces.rows.status);
+    const Residual error = residual(eq, begin, end, forces);
+    if (!std::isfinite(error.norm)) {
+      report.failure = "the forces are not finite";
+      return report;
+    }
+    const double tolerance = std::max(work_tolerance, error.round_off);
+    if (error.work <= tolerance) {
+      if (port_->settle(end.q, forces.rows)) break;
+      if (++outer > max_iterations_) {
+        report.failure = fmt::format("the contact forces do not settle in {} updates of the multipliers", outer - 1);
+        return report;
+      }
+      newton = -1;
+      continue;
+    }
+    if (newton == max_iterations_) {
+      report.failure = cycling_rows(before, forces);
+      return report;
+    }
+    report.failure = improve(eq, 0.3 * tolerance / error.displacement, end, forces, report);
+    if (!report.failure.empty()) return report;
+  }
+  end.contact = forces.rows.history;
+  report.converged = true;
+  return report;
+}
+
+/// One Newton step. Returns why there is none, "" when there is.
+std::string ImplicitStage::improve(const StageEquation& eq, double absolute, State& end, const Forces& forces,
+                                   StageReport& report) {
+  std::string failure = solver_->prepare(eq.m + eq.shift, force_.factor * eq.k * eq.s, force_.tangent_at(end.q));
+  if (!failure.empty()) return failure;
+  const PortSolve solved = port_->solve(*solver_, end.q, end.v, forces.rows, residual_, absolute, correction_);
+  report.linear_iterations += solved.linear.iterations;
+  if (!solved.failure.empty()) return solved.failure;
+  if (!solved.linear.converged) {
+    return fmt::format("the linear solver stopped after {} iterations at a residual of {:.3g} (asked: {:.3g})",
+                       solved.linear.iterations, solved.linear.residual, absolute);
+  }
+  for (std::size_t i = 0; i < end.a.size(); ++i) end.a[i] += correction_[i];
+  return {};
+}
+
+std::string ImplicitStage::cycling_rows(const std::vector<RowStatus>& before, const Forces& forces) const {
+  static constexpr const char* names[] = {"open", "stick", "slip"};
+  const ConstraintRows& rows = *forces.rows.rows;
+  const std::vector<RowStatus>& now = forces.rows.status;
+  std::string list;
+  int count = 0;
+  for (std::size_t r = 0; r < rows.size() && r < before.size(); ++r) {
+    if (before[r] == now[r]) continue;
+    if (++count > 5) continue;
+    const Vec3& x = rows.position[r];
+    list += fmt::format("{}row {} at ({:.4g}, {:.4g}, {:.4g}) {} -> {}", list.empty() ? "" : ", ", r, x[0], x[1], x[2],
+                        names[static_cast<int>(before[r])], names[static_cast<int>(now[r])]);
+  }
+  if (count == 0)
+    return fmt::format("no equilibrium after {} iterations, with a settled contact state", max_iterations_);
+  if (count > 5) list += fmt::format(" and {} more", count - 5);
+  return fmt::format("the contact state does not settle in {} iterations; these rows cycle: {}", max_iterations_, list);
+}
+
+void impose_on_stage(const System& system, const StageEquation& eq, double t, double t_acceleration,
+                     std::span<double> y) {
+  for (const PrescribedDof& p : system.supports.prescribed()) {
+    const auto i = static_cast<std::size_t>(p.dof);
+    switch (p.kind) {
+      case MotionKind::displacement:
+        y[i] = (p.function(t) - eq.x_hat[i]) / eq.s;
+        break;
+      case MotionKind::velocity:
+        y[i] = (p.function(t) - eq.v_hat[i]) / eq.r;
+        break;
+      case MotionKind::acceleration:
+        y[i] = p.function(t_acceleration);
+        break;
+    }
+  }
+}
+
+void start_in_equilibrium(const System& system, ImplicitStage& stage, double dt, State& state, Forces& forces) {
+  start_with_supports(system, state);
+  const std::size_t n = state.q.size();
+  forces.internal.resize(n);
+  forces.external.resize(n);
+  system.solid.internal_force(state.q, forces.internal);
+  system.solid.external_force(state.t, system.mass, forces.external);
+  stage.start(state, forces);
+  const double t = state.t;
+  for (const PrescribedDof& p : system.supports.prescribed()) {
+    state.a[static_cast<std::size_t>(p.dof)] = p.kind == MotionKind::acceleration ? p.function(t)
+                                               : p.kind == MotionKind::velocity   ? p.function.derivative(t)
+                                                                                  : 0.0;
+  }
+  MassSolver mass_solver(system);
+  if (!stage.port().is_law()) start_multipliers(system, mass_solver, dt, state, forces);
+  start_accelerations(system, mass_solver, state, forces);
+}
+
+}  // namespace carom

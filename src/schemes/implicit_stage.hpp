@@ -1,0 +1,82 @@
+// The nonlinear equation that every implicit scheme solves, once or more per step.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "schemes/contact_port.hpp"
+#include "schemes/implicit_settings.hpp"
+
+namespace carom {
+
+/// m M y + k F(x) = contact(x, v) + known on the free dofs, with x = x_hat + s y and v = v_hat + r y.
+struct StageEquation {
+  double m = 1.0, k = 1.0;
+  double s = 0.0, r = 0.0;
+  double shift = 0.0;  ///< added to m in the operator alone, where m = 0 may leave bodies that only contact holds
+  std::span<const double> x_hat{}, v_hat{}, known{};
+  std::span<const double> x_predicted{};  ///< see StageStart
+};
+
+struct StageReport {
+  bool converged = false;
+  int iterations = 0, linear_iterations = 0;
+  std::string failure;
+};
+
+/// The internal force of a stage when it is not F(x): its value, and factor x K(tangent_at) for its tangent.
+struct StageForce {
+  std::function<void(std::span<const double> x, std::span<double> f)> value;
+  std::function<std::span<const double>(std::span<const double> x)> tangent_at;
+  double factor = 1.0;
+};
+
+/// Newton's method with m M + k s K(x) and the contact of a port. Equilibrium is reached when the residual could leave
+/// no more energy unbooked than the given tolerance, or rounding leaves more.
+class ImplicitStage {
+ public:
+  /// ratio: k s / m of the usual step; omega_max_squared: a bound of the spectrum of M^-1 K. Both choose the solver.
+  ImplicitStage(const System& system, const ImplicitSettings& settings, double ratio, double omega_max_squared);
+  /// The same with another port and force.
+  ImplicitStage(const System& system, const ImplicitSettings& settings, double ratio, double omega_max_squared,
+                std::unique_ptr<ContactPort> port, StageForce force);
+
+  /// Solves for end.a = y, whose prescribed entries are given and whose others are the start value; end.q and end.v
+  /// follow. forces: external is given; internal, contact and rows are filled.
+  StageReport solve(const StageEquation& equation, const State& begin, double work_tolerance, State& end,
+                    Forces& forces);
+  /// Contact forces at a state that a run begins with, its history included.
+  void start(const State& state, Forces& forces);
+
+  const ContactPort& port() const { return *port_; }
+  std::string solver_name() const { return solver_->name(); }
+
+ private:
+  struct Residual;
+  Residual residual(const StageEquation& equation, const State& begin, const State& end, Forces& forces);
+  std::string improve(const StageEquation& equation, double absolute, State& end, const Forces& forces,
+                      StageReport& report);
+  std::string cycling_rows(const std::vector<RowStatus>& before, const Forces& forces) const;
+
+  const System& system_;
+  int max_iterations_;
+  std::unique_ptr<EffectiveSolver> solver_;
+  std::unique_ptr<ContactPort> port_;
+  StageForce force_;
+  std::vector<double> residual_, correction_;
+  std::vector<double> stiffness_diagonal_, closed_diagonal_;  ///< of K; with every contact row closed
+};
+
+/// Sets the prescribed entries of y so that the motions of the supports are met at time t: displacements by x, and
+/// velocities by v; accelerations are those at time t_acceleration.
+void impose_on_stage(const System& system, const StageEquation& equation, double t, double t_acceleration,
+                     std::span<double> y);
+
+/// What the implicit schemes begin with: start_with_supports, the forces (multipliers included), and accelerations in
+/// equilibrium. dt: the first step.
+void start_in_equilibrium(const System& system, ImplicitStage& stage, double dt, State& state, Forces& forces);
+
+}  // namespace carom

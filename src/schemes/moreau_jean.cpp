@@ -1,0 +1,57 @@
+#include "schemes/moreau_jean.hpp"
+
+#include <cassert>
+#include <utility>
+
+#include "schemes/books.hpp"
+
+namespace carom {
+
+MoreauJean::MoreauJean(const System& system, double theta, const ImplicitSettings& settings, double dt,
+                       double omega_max_squared)
+    : system_(system), theta_(theta), stage_(system, settings, theta * theta * dt * dt, omega_max_squared) {
+  assert(theta >= 0.5 && theta <= 1.0 && settings.enforcement == EnforcementKind::impulse);
+  x_hat_.resize(system.solid.dof_count());
+  x_predicted_.resize(system.solid.dof_count());
+  known_.resize(system.solid.dof_count());
+}
+
+void MoreauJean::start(State& state, double dt) {
+  start_in_equilibrium(system_, stage_, dt, state, now_);
+}
+
+StepReport MoreauJean::step(const State& begin, const StepRequest& request, State& end) {
+  const double h = request.dt;
+  const std::size_t n = begin.q.size();
+  end = begin;
+  end.t = request.t_end;
+  next_.external.resize(n);
+  system_.solid.external_force(end.t, system_.mass, next_.external);
+  for (std::size_t i = 0; i < n; ++i) {
+    x_hat_[i] = begin.q[i] + h * begin.v[i];
+    x_predicted_[i] = begin.q[i] + 0.5 * h * begin.v[i];
+    known_[i] = theta_ * next_.external[i] + (1.0 - theta_) * (now_.external[i] - now_.internal[i]);
+  }
+  const StageEquation equation{.k = theta_,
+                               .s = theta_ * h * h,
+                               .r = h,
+                               .x_hat = x_hat_,
+                               .v_hat = begin.v,
+                               .known = known_,
+                               .x_predicted = x_predicted_};
+  impose_on_stage(system_, equation, end.t, end.t - 0.5 * h, end.a);
+  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
+  StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
+  if (!report.converged) return report;
+  complete_forces(system_, end, next_);
+  const StepWeights weights{.inertia = 1.0, .force = theta_, .contact = 1.0, .support_work = 1.0};
+  set_mean_reactions(system_, now_, weights, next_);
+  const StepBooks books = step_books(system_, begin, now_, end, next_, weights,
+                                     stage_.port().work(begin, now_, end, next_, weights.support_work));
+  report.books = books.increment;
+  report.books.impulse = combine(h, books.force, 0.0, {});
+  std::swap(now_, next_);
+  return report;
+}
+
+}  // namespace carom

@@ -1,0 +1,70 @@
+// Contact springs within implicit stages: penalty and augmented Lagrangian.
+#pragma once
+
+#include <vector>
+
+#include "schemes/contact_port.hpp"
+
+namespace carom {
+
+/// The penalty (contact/penalty.hpp) with its tangents on the rows of the iterate.
+class PenaltyPort : public ContactPort {
+ public:
+  explicit PenaltyPort(const System& system) : system_(system) {}
+
+  void begin(const StageStart& start) override;
+  bool is_law() const override { return true; }
+  void respond(std::span<const double> x, std::span<const double> v, ContactResponse& response) override;
+  ContactError error(std::span<const double> x, std::span<const double> v,
+                     const ContactResponse& response) const override;
+  PortSolve solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
+                  const ContactResponse& response, std::span<const double> residual, double absolute,
+                  std::span<double> dy) override;
+  bool settle(std::span<const double> x, const ContactResponse& response) override;
+  void add_stiffness_diagonal(std::span<double> d) const override;
+  /// Friction on the slip, dampers by the trapezoidal rule, the total likewise.
+  ContactWork work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
+                   double end_weight) const override;
+
+ protected:
+  const System& system_;
+  const State* begin_ = nullptr;
+  double s_ = 0.0, dv_dx_ = 0.0;
+  std::vector<RowTangent> tangents_;
+};
+
+/// Uzawa's iteration around it (Wriggers, Computational Contact Mechanics, 2nd ed., section 6.3.2):
+///   p = <lambda_n - eps_N g>,  t = lambda_t - eps_T slip, returned to |t| <= mu lambda_n,
+/// the slip being that of the step; at equilibrium the multipliers become the forces, until no row
+/// penetrates, no pressed row is open, and no sticking row slips by more than the given length. The springs are a means
+/// only: they store nothing, friction is exact in the limit, and where inertia would make an iteration gain little,
+/// they are stiffened to ten times what the body's own diagonal answers. Dampers have no part in it.
+class AugmentedLagrangianPort final : public PenaltyPort {
+ public:
+  AugmentedLagrangianPort(const System& system, double penetration);
+
+  void begin(const StageStart& start) override;
+  bool is_law() const override { return false; }
+  void respond(std::span<const double> x, std::span<const double> v, ContactResponse& response) override;
+  PortSolve solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
+                  const ContactResponse& response, std::span<const double> residual, double absolute,
+                  std::span<double> dy) override;
+  bool settle(std::span<const double> x, const ContactResponse& response) override;
+  ContactWork work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
+                   double end_weight) const override;
+
+ private:
+  double stiffening(const ConstraintRows& rows, std::size_t r) const;
+
+  double penetration_;
+  double m_ = 1.0, c_ = 0.0;      ///< of the operator
+  std::vector<double> diagonal_;  ///< of K
+  std::vector<Vec3> multiplier_;  ///< per slot, a vector of space
+};
+
+/// Work of multipliers over a step (ContactPort::work), those of each end on its rows: the normal part goes to
+/// `impact`, the tangential one to `friction`.
+ContactWork multiplier_work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
+                            double end_weight);
+
+}  // namespace carom

@@ -1,0 +1,71 @@
+#include "schemes/row_compliance.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "parallel/threads.hpp"
+
+namespace carom {
+
+void RowCompliance::use(const std::shared_ptr<const ConstraintRows>& rows) {
+  if (rows == rows_) return;
+  rows_ = rows;
+  components_.clear();
+  lower_.clear();
+  columns_.clear();
+  known_.assign(3 * rows->size(), -1);
+}
+
+void RowCompliance::extend(std::span<const RowComponent> wanted, const InverseOperator& inverse) {
+  std::vector<RowComponent> missing;
+  std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(missing),
+               [&](const RowComponent& rc) { return !knows(rc); });
+  const ConstraintRows& rows = *rows_;
+  const std::size_t n = dof_count_;
+  constexpr std::size_t most = 32;  // columns per call: enough for the matrix-matrix kernels of the solver
+  for (std::size_t first = 0; first < missing.size(); first += most) {
+    const std::size_t count = std::min(most, missing.size() - first);
+    std::vector<double> block(n * count, 0.0);
+    for (std::size_t k = 0; k < count; ++k) {
+      Vec3 unit{};
+      unit[missing[first + k].component] = 1.0;
+      rows.scatter(missing[first + k].row, unit, std::span(block).subspan(k * n, n));
+    }
+    inverse(block, static_cast<int>(count));
+    const bool keep = has_columns() && (components_.size() + count) * n <= column_entries_;
+    for (std::size_t k = 0; k < count; ++k) {
+      const RowComponent& rc = missing[first + k];
+      const std::span<const double> column = std::span(block).subspan(k * n, n);
+      known_[3 * rc.row + rc.component] = static_cast<int>(components_.size());
+      components_.push_back(rc);
+      std::vector<double>& line = lower_.emplace_back();
+      for (const RowComponent& other : components_) line.push_back(rows.relative(other.row, column)[other.component]);
+    }
+    if (keep) columns_.insert(columns_.end(), block.begin(), block.end());
+  }
+}
+
+double RowCompliance::operator()(const RowComponent& a, const RowComponent& b) const {
+  const auto i = static_cast<std::size_t>(known_[3 * a.row + a.component]);
+  const auto j = static_cast<std::size_t>(known_[3 * b.row + b.component]);
+  return lower_[std::max(i, j)][std::min(i, j)];
+}
+
+void RowCompliance::add_columns(std::span<const std::size_t> rows, std::span<const Vec3> force,
+                                std::span<double> x) const {
+  std::vector<std::pair<const double*, double>> terms;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (force[i][c] == 0.0) continue;
+      const auto column = static_cast<std::size_t>(known_[3 * rows[i] + c]);
+      terms.emplace_back(columns_.data() + column * dof_count_, force[i][c]);
+    }
+  }
+  parallel_for(x.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (const auto& [column, f] : terms) {
+      for (std::size_t i = begin; i < end; ++i) x[i] += f * column[i];
+    }
+  });
+}
+
+}  // namespace carom

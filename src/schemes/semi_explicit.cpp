@@ -1,0 +1,254 @@
+#include "schemes/semi_explicit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "parallel/threads.hpp"
+#include "schemes/explicit_books.hpp"
+#include "schemes/explicit_contact.hpp"
+#include "schemes/imposed_motion.hpp"
+#include "schemes/initial_acceleration.hpp"
+
+namespace carom {
+
+/// The dofs b: those without mass that are not imposed and that their cells hold.
+struct SemiExplicit::Boundary {
+  explicit Boundary(const System& given) : system(given), of_dof(given.solid.dof_count(), -1), force(of_dof.size()) {
+    const std::vector<double> zero(of_dof.size(), 0.0), stiffness = system.solid.tangent_diagonal(zero);
+    for (std::size_t i = 0; i < of_dof.size(); ++i) {
+      if (system.mass.node_diagonal()[i / 3] > 0.0 || system.supports.is_prescribed(static_cast<Index>(i))) continue;
+      if (stiffness[i] == 0.0) continue;
+      of_dof[i] = static_cast<Index>(dofs.size());
+      dofs.push_back(i);
+    }
+    for (std::size_t k = 0; k < system.solid.cell_count(); ++k) {
+      const auto nodes = system.solid.nodes_of_cell(k);
+      const bool touches = std::any_of(nodes.begin(), nodes.end(), [this](Index n) {
+        const std::size_t i = 3 * static_cast<std::size_t>(n);
+        return of_dof[i] >= 0 || of_dof[i + 1] >= 0 || of_dof[i + 2] >= 0;
+      });
+      if (touches) cells.push_back(static_cast<Index>(k));
+    }
+    contact_operator.inverse = [this](std::span<double> b) { invert(b, 1); };
+    contact_operator.delassus = [this](const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {
+      return delassus(rows, chosen);
+    };
+  }
+
+  /// Factors K_bb(u). Throws std::runtime_error when it is not positive definite.
+  void factorise(std::span<const double> u) {
+    W = {};
+    if (dofs.empty()) return;
+    const CsrMatrix K = system.solid.tangent(u);
+    CsrMatrix K_bb;
+    K_bb.size = static_cast<Index>(dofs.size());
+    K_bb.row_begin.push_back(0);
+    for (const std::size_t i : dofs) {
+      for (auto k = static_cast<std::size_t>(K.row_begin[i]); k < static_cast<std::size_t>(K.row_begin[i + 1]); ++k) {
+        const Index j = of_dof[static_cast<std::size_t>(K.column[k])];
+        if (j < 0) continue;
+        K_bb.column.push_back(j);
+        K_bb.value.push_back(K.value[k]);
+      }
+      K_bb.row_begin.push_back(static_cast<std::int64_t>(K_bb.column.size()));
+    }
+    factor.emplace(K_bb);
+  }
+
+  /// b = K_bb^-1 b on the dofs b, zero elsewhere.
+  void invert(std::span<double> b, int columns) const {
+    const std::size_t n = of_dof.size(), m = dofs.size(), count = static_cast<std::size_t>(columns);
+    std::vector<double> x(m * count);
+    for (std::size_t k = 0; k < count; ++k) {
+      for (std::size_t i = 0; i < m; ++i) x[k * m + i] = b[k * n + dofs[i]];
+    }
+    if (m > 0) factor->solve(x, columns);
+    std::fill(b.begin(), b.end(), 0.0);
+    for (std::size_t k = 0; k < count; ++k) {
+      for (std::size_t i = 0; i < m; ++i) b[k * n + dofs[i]] = x[k * m + i];
+    }
+  }
+
+  /// W on the chosen rows. Where rows are fixed it is kept, and grows by a quarter at least, with the rows next to
+  /// closing, so that a contact that spreads does not make it anew at every step.
+  Delassus delassus(const ConstraintRows& rows, std::vector<std::size_t> chosen) {
+    const auto make = [&](std::vector<std::size_t> set) {
+      return make_delassus(rows, std::move(set), of_dof.size(),
+                           [this](std::span<double> b, int columns) { invert(b, columns); });
+    };
+    if (!system.contact.is_fixed()) return make(std::move(chosen));
+    std::vector<std::size_t> set;
+    std::set_union(chosen.begin(), chosen.end(), W.rows.begin(), W.rows.end(), std::back_inserter(set));
+    if (set.size() == W.size()) return W;
+    std::vector<std::size_t> others;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (!std::binary_search(set.begin(), set.end(), r)) others.push_back(r);
+    }
+    const std::size_t wanted = std::min(W.size() + W.size() / 4, rows.size());
+    if (set.size() < wanted) {
+      const auto last = others.begin() + static_cast<std::ptrdiff_t>(wanted - set.size());
+      std::partial_sort(others.begin(), last, others.end(),
+                        [&](std::size_t a, std::size_t b) { return closing[a].w[0] < closing[b].w[0]; });
+      set.insert(set.end(), others.begin(), last);
+      std::sort(set.begin(), set.end());
+    }
+    W = make(std::move(set));
+    return W;
+  }
+
+  /// r = f - F(u) on the dofs b, zero elsewhere.
+  void residual(std::span<const double> f, std::span<const double> u, std::span<double> r) {
+    std::fill(force.begin(), force.end(), 0.0);
+    system.solid.add_internal_force_of(cells, u, force);
+    std::fill(r.begin(), r.end(), 0.0);
+    for (const std::size_t i : dofs) r[i] = f[i] - force[i];
+  }
+
+  const System& system;
+  std::vector<std::size_t> dofs;
+  std::vector<Index> of_dof;  ///< position in `dofs`, -1 elsewhere
+  std::vector<Index> cells;   ///< that touch them
+  std::vector<double> force;
+  std::vector<ClosingRow> closing;  ///< every row, in order
+  std::optional<Cholesky> factor;
+  Delassus W;
+  ContactOperator contact_operator;
+};
+
+/// What the dofs b are brought into equilibrium for.
+struct SemiExplicit::Target {
+  std::span<const double> u_begin;
+  std::span<const RowHistory> history;
+};
+
+SemiExplicit::SemiExplicit(const System& system, int max_iterations)
+    : system_(system), max_iterations_(max_iterations), boundary_(std::make_unique<Boundary>(system)) {
+  if (system.mass.kind() != MassKind::lumped) throw std::invalid_argument("the modified mass is a lumped one");
+  const std::size_t n = system.solid.dof_count();
+  v_half_.resize(n);
+  residual_.resize(n);
+  push_.resize(n);
+  try {
+    boundary_->factorise(v_half_);
+  } catch (const std::runtime_error& e) {
+    throw std::invalid_argument(fmt::format(
+        "the contact nodes are not held by their cells, so that they cannot go without mass: {}", e.what()));
+  }
+}
+SemiExplicit::~SemiExplicit() = default;
+
+std::string SemiExplicit::solver_name() const {
+  return fmt::format("lumped mass, Cholesky factorisation of {} contact dofs", boundary_->dofs.size());
+}
+
+/// Finds u on the dofs b and the multipliers. Returns why it failed, empty when it did not.
+std::string SemiExplicit::equilibrate(const Target& target, std::span<double> u, Forces& forces, int& iterations) {
+  Boundary& b = *boundary_;
+  std::vector<RowHistory> history(target.history.begin(), target.history.end());
+  const bool one_solve = system_.solid.is_linear() && system_.contact.is_fixed();
+  for (iterations = 1;; ++iterations) {
+    b.residual(forces.external, u, residual_);
+    b.invert(residual_, 1);
+    const auto rows = system_.contact.rows_at(target.u_begin, u);
+    open_response(rows, history.size(), forces.rows);
+    b.closing.resize(rows->size());
+    for (std::size_t r = 0; r < rows->size(); ++r) {
+      const Vec3 w = rows->relative(r, u), w_begin = rows->relative(r, target.u_begin),
+                 dw = rows->relative(r, residual_);
+      b.closing[r] = {r, {rows->gap[r] + w[0] + dw[0], w[1] - w_begin[1] + dw[1], w[2] - w_begin[2] + dw[2]}};
+    }
+    if (!close_rows(b.closing, history, b.contact_operator, forces.rows, push_))
+      return "no contact force was found: the forces are not finite, or the cone problem has no solution";
+    double change = 0.0, size = 0.0, motion = 0.0;
+    for (const std::size_t i : b.dofs) {
+      const double du = residual_[i] + push_[i];
+      u[i] += du;
+      change += du * du;
+      size += u[i] * u[i];
+      motion += (u[i] - target.u_begin[i]) * (u[i] - target.u_begin[i]);
+    }
+    if (!std::isfinite(change)) return "the forces are not finite";
+    if (one_solve) break;
+    constexpr double round_off = 64.0 * std::numeric_limits<double>::epsilon();
+    if (std::sqrt(change) <= 1e-12 * std::sqrt(motion) + round_off * std::sqrt(size)) break;
+    if (iterations == max_iterations_)
+      return fmt::format("the contact nodes find no equilibrium in {} iterations; the last moved them by {:.3g}",
+                         iterations, std::sqrt(change));
+    history = forces.rows.history;
+    constexpr int patience = 8;  // iterations with one factorisation
+    if (iterations % patience == 0 && !system_.solid.is_linear()) b.factorise(u);
+  }
+  forces.contact.assign(u.size(), 0.0);
+  forces.rows.add_force(forces.contact);
+  return {};
+}
+
+/// Accelerations of the dofs i; `first` is 1/2 for the half step that follows the start, 1 later.
+void SemiExplicit::accelerate(double t, double h, double first, std::span<const double> v_before, State& state,
+                              Forces& forces) {
+  impose_motions(
+      system_, t, {h, first * h * h, 0.5 * h, first * h}, [&](std::size_t i) { return state.q[i] + h * v_before[i]; },
+      [&](std::size_t i) { return v_before[i]; }, state.a);
+  const std::vector<double>& m = system_.mass.node_diagonal();
+  parallel_each(state.a.size(), [&](std::size_t i) {
+    if (system_.supports.is_prescribed(static_cast<Index>(i))) return;
+    state.a[i] = m[i / 3] > 0.0 ? (forces.external[i] - forces.internal[i] + forces.contact[i]) / m[i / 3] : 0.0;
+  });
+}
+
+void SemiExplicit::start(State& state, double dt) {
+  const std::vector<double> velocities = state.v;
+  start_with_supports(system_, state);
+  for (const std::size_t i : boundary_->dofs) state.v[i] = velocities[i];
+  now_.external.resize(state.q.size());
+  now_.internal.resize(state.q.size());
+  system_.solid.external_force(state.t, system_.mass, now_.external);
+  if (!system_.solid.is_linear()) boundary_->factorise(state.q);
+  const std::vector<double> given = state.q;
+  int iterations = 0;
+  const std::string failure = equilibrate({given, state.contact}, state.q, now_, iterations);
+  if (!failure.empty()) throw std::runtime_error("the contact nodes find no equilibrium at the start: " + failure);
+  state.contact = now_.rows.history;
+  system_.solid.internal_force(state.q, now_.internal);
+  accelerate(state.t, dt, 0.5, state.v, state, now_);
+  complete_forces(system_, state, now_);
+}
+
+StepReport SemiExplicit::step(const State& begin, const StepRequest& request, State& end) {
+  const double h = request.dt;
+  const std::size_t n = begin.q.size();
+  end = begin;
+  end.t = request.t_end;
+  parallel_each(n, [&](std::size_t i) {
+    v_half_[i] = begin.v[i] + 0.5 * h * begin.a[i];
+    end.q[i] = begin.q[i] + h * v_half_[i];
+  });
+  next_.external.resize(n);
+  next_.internal.resize(n);
+  system_.solid.external_force(request.t_end, system_.mass, next_.external);
+  StepReport report;
+  try {
+    report.failure = equilibrate({begin.q, begin.contact}, end.q, next_, report.iterations);
+  } catch (const std::runtime_error& e) {
+    report.failure = e.what();  // a stiffness that has become indefinite
+  }
+  if (!report.failure.empty()) return report;
+  system_.solid.internal_force(end.q, next_.internal);
+  accelerate(request.t_end, h, 1.0, v_half_, end, next_);
+  parallel_each(n, [&](std::size_t i) { end.v[i] = v_half_[i] + 0.5 * h * end.a[i]; });
+  for (const std::size_t i : boundary_->dofs) end.v[i] = (end.q[i] - begin.q[i]) / h;
+  end.contact = next_.rows.history;
+  complete_forces(system_, end, next_);
+  report.books = central_difference_books(system_, begin, now_, end, next_, h);
+  book_multipliers(begin, now_, end, next_, report.books.energy);
+  report.converged = true;
+  std::swap(now_, next_);
+  return report;
+}
+
+}  // namespace carom

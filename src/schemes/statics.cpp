@@ -1,0 +1,58 @@
+#include "schemes/statics.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "schemes/books.hpp"
+#include "schemes/initial_acceleration.hpp"
+
+namespace carom {
+
+Statics::Statics(const System& system, const ImplicitSettings& settings, double omega_max_squared)
+    : system_(system),
+      shift_(1e-10 * omega_max_squared),
+      stage_(system, settings, std::numeric_limits<double>::infinity(), omega_max_squared) {
+  zero_.resize(system.solid.dof_count());
+}
+
+void Statics::start(State& state, double /*dt*/) {
+  start_with_supports(system_, state);
+  std::fill(state.v.begin(), state.v.end(), 0.0);
+  const std::size_t n = state.q.size();
+  now_.internal.resize(n);
+  now_.external.resize(n);
+  system_.solid.internal_force(state.q, now_.internal);
+  system_.solid.external_force(state.t, system_.mass, now_.external);
+  stage_.start(state, now_);
+  complete_forces(system_, state, now_);
+}
+
+StepReport Statics::step(const State& begin, const StepRequest& request, State& end) {
+  end = begin;
+  end.t = request.t_end;
+  next_.external.resize(begin.q.size());
+  system_.solid.external_force(end.t, system_.mass, next_.external);
+  // The unknown is the displacement of the step; it stands in end.a while the stage is solved.
+  for (const PrescribedDof& p : system_.supports.prescribed()) {
+    const auto i = static_cast<std::size_t>(p.dof);
+    end.a[i] = p.kind == MotionKind::displacement ? p.function(end.t) - begin.q[i]
+               : p.kind == MotionKind::velocity   ? request.dt * p.function(end.t)
+                                                  : 0.0;
+  }
+  const StageEquation equation{
+      .m = 0.0, .s = 1.0, .shift = shift_, .x_hat = begin.q, .v_hat = zero_, .known = next_.external};
+  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
+  StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
+  if (!report.converged) return report;
+  std::fill(end.a.begin(), end.a.end(), 0.0);
+  complete_forces(system_, end, next_);
+  const StepWeights weights{.inertia = 1.0, .force = 1.0, .contact = 1.0};
+  report.books = step_books(system_, begin, now_, end, next_, weights,
+                            stage_.port().work(begin, now_, end, next_, weights.support_work))
+                     .increment;
+  std::swap(now_, next_);
+  return report;
+}
+
+}  // namespace carom

@@ -1,0 +1,36 @@
+// Statics: equilibrium at the end of every step, without inertia.
+#pragma once
+
+#include <vector>
+
+#include "schemes/implicit_stage.hpp"
+#include "schemes/scheme.hpp"
+
+namespace carom {
+
+/// F(u1) = f(t1) + contact(u1) by Newton's method; v1 = a1 = 0. Loads and imposed displacements are those at the end of
+/// the step; a dof of imposed velocity moves by h v(t1), one of imposed acceleration stays. Friction follows the path
+/// of the steps. Where only contact holds a body, the operator of Newton's method is shifted by 1e-10 omega_max^2 M,
+/// the equation is not (penalty and augmented Lagrangian; the compliance of multipliers on such a body is lost in
+/// rounding, and the step fails); without any hold there is no equilibrium, and the step fails. There is no inertia and
+/// no momentum: impulses are not booked. algorithmic = sum over k of du . (mean of both ends - force at the end): what
+/// an initial lack of equilibrium or a sudden load would have left in motion.
+class Statics final : public Scheme {
+ public:
+  Statics(const System& system, const ImplicitSettings& settings, double omega_max_squared);
+
+  void start(State& state, double dt) override;
+  StepReport step(const State& begin, const StepRequest& request, State& end) override;
+  const Forces& forces() const override { return now_; }
+  double end_weight() const override { return 1.0; }
+  std::string solver_name() const override { return stage_.solver_name(); }
+
+ private:
+  const System& system_;
+  double shift_;
+  ImplicitStage stage_;
+  Forces now_, next_;
+  std::vector<double> zero_;
+};
+
+}  // namespace carom

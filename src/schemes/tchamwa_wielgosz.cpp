@@ -1,0 +1,59 @@
+#include "schemes/tchamwa_wielgosz.hpp"
+
+#include <cassert>
+#include <utility>
+
+#include "parallel/threads.hpp"
+#include "schemes/books.hpp"
+#include "schemes/explicit_books.hpp"
+#include "schemes/imposed_motion.hpp"
+#include "schemes/initial_acceleration.hpp"
+
+namespace carom {
+
+TchamwaWielgosz::TchamwaWielgosz(const System& system, double phi)
+    : system_(system), phi_(phi), mass_solver_(system), rhs_(system.solid.dof_count()), B_(system.solid.dof_count()) {
+  assert(phi >= 1.0);
+}
+
+void TchamwaWielgosz::impose(double h, State& state) const {
+  impose_motions(
+      system_, state.t, {h, phi_ * h * h, h, h}, [&](std::size_t i) { return state.q[i] + h * state.v[i]; },
+      [&](std::size_t i) { return state.v[i]; }, state.a);
+}
+
+void TchamwaWielgosz::start(State& state, double dt) {
+  start_with_supports(system_, state);
+  evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, now_);
+  impose(dt, state);
+  start_accelerations(system_, mass_solver_, state, now_);
+}
+
+StepReport TchamwaWielgosz::step(const State& begin, const StepRequest& request, State& end) {
+  const double h = request.dt;
+  end = begin;
+  end.t = request.t_end;
+  parallel_each(end.q.size(), [&](std::size_t i) {
+    B_[i] = phi_ * begin.a[i];
+    end.q[i] = begin.q[i] + h * begin.v[i] + h * h * B_[i];
+    end.v[i] = begin.v[i] + h * begin.a[i];
+  });
+  evaluate_forces(system_, request.t_end, begin.q, begin.contact, end.q, end.v, next_);
+  impose(h, end);
+  force_sum(next_, rhs_);
+  StepReport report;
+  report.linear_iterations = mass_solver_.solve(rhs_, end.a);
+  if (report.linear_iterations < 0) {
+    report.failure = MassSolver::failure;
+    return report;
+  }
+  end.contact = next_.rows.history;
+  complete_forces(system_, end, next_);
+  report.books = explicit_books(system_, begin, now_, end, next_, begin.a, B_, h);
+  report.books.impulse = combine(h, resultant(system_, begin.q, now_), 0.0, {});
+  report.converged = true;
+  std::swap(now_, next_);
+  return report;
+}
+
+}  // namespace carom

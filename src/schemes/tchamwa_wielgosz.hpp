@@ -1,0 +1,35 @@
+// Tchamwa and Wielgosz' explicit scheme.
+#pragma once
+
+#include <vector>
+
+#include "schemes/mass_solver.hpp"
+#include "schemes/scheme.hpp"
+
+namespace carom {
+
+/// u1 = u0 + h v0 + phi h^2 a0,  v1 = v0 + h a0,  M a1 = f(t1) - F(u1) + contact(u1, v1)
+/// (Tchamwa, Conway and Wielgosz, ASME PVP 398, 1999). Order 1; stable for omega h <= 2 / sqrt(2 phi - 1); phi > 1
+/// dissipates the high frequencies, phi = 1 nothing. Momenta are exact (impulses by the forces at the beginning of the
+/// steps). Penalty contact. Imposed motions are imposed through a0.
+class TchamwaWielgosz final : public Scheme {
+ public:
+  TchamwaWielgosz(const System& system, double phi);
+
+  void start(State& state, double dt) override;
+  StepReport step(const State& begin, const StepRequest& request, State& end) override;
+  const Forces& forces() const override { return now_; }
+  double end_weight() const override { return 0.0; }
+  std::string solver_name() const override { return mass_solver_.name(); }
+
+ private:
+  void impose(double h, State& state) const;
+
+  const System& system_;
+  double phi_;
+  MassSolver mass_solver_;
+  Forces now_, next_;
+  std::vector<double> rhs_, B_;
+};
+
+}  // namespace carom

@@ -1,0 +1,243 @@
+#include "solid/modified_mass.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "math/vec3.hpp"
+#include "solid/least_squares_mass.hpp"
+
+namespace carom {
+
+namespace {
+
+struct NodeCollector {
+  const Model& model;
+  std::vector<Index>& nodes;
+
+  void add(const Surface& surface) const {
+    for (const Facet& facet : surface.facets) {
+      for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) nodes.push_back(facet[a]);
+    }
+  }
+  void operator()(const InterfaceContact& contact) const {
+    const std::vector<Index>& connectivity = model.mesh->block(CellType::hexa8)->connectivity;
+    for (const Index cell : contact.cells) {
+      const auto first = connectivity.begin() + 8 * static_cast<std::ptrdiff_t>(cell);
+      nodes.insert(nodes.end(), first, first + 8);
+    }
+  }
+  void operator()(const ObstacleContact& contact) const {
+    add(contact.surface);
+    nodes.insert(nodes.end(), contact.nodes.begin(), contact.nodes.end());
+  }
+  void operator()(const PairContact& contact) const {
+    add(contact.slave);
+    add(contact.master);
+  }
+  void operator()(const StopContact& contact) const {
+    nodes.insert(nodes.end(), contact.nodes.begin(), contact.nodes.end());
+  }
+};
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Neighbours through cells, as the pattern of the consistent mass has them.
+std::span<const Index> neighbours(const CsrMatrix& graph, Index n) {
+  const auto begin = static_cast<std::size_t>(graph.row_begin[at(n)]);
+  const auto end = static_cast<std::size_t>(graph.row_begin[at(n) + 1]);
+  return {graph.column.data() + begin, end - begin};
+}
+
+/// The node sets that are connected among the nodes with the flag, each in the order of a breadth-first search.
+std::vector<std::vector<Index>> connected_sets(const CsrMatrix& graph, std::vector<bool> flag) {
+  std::vector<std::vector<Index>> sets;
+  for (Index start = 0; start < graph.size; ++start) {
+    if (!flag[at(start)]) continue;
+    std::vector<Index>& set = sets.emplace_back(1, start);
+    flag[at(start)] = false;
+    for (std::size_t k = 0; k < set.size(); ++k) {
+      for (const Index n : neighbours(graph, set[k])) {
+        if (!flag[at(n)]) continue;
+        flag[at(n)] = false;
+        set.push_back(n);
+      }
+    }
+  }
+  return sets;
+}
+
+/// Contact nodes that have mass and are not imposed in every component.
+std::vector<bool> massless_flags(const Model& model, const std::vector<double>& mass) {
+  std::map<Index, std::array<bool, 3>> imposed;
+  for (const PrescribedMotion& motion : model.motions) {
+    for (const Index n : motion.nodes) imposed[n][at(static_cast<Index>(motion.component))] = true;
+  }
+  std::vector<bool> flags(mass.size(), false);
+  for (const Index n : contact_nodes(model)) {
+    const auto found = imposed.find(n);
+    const bool held = found != imposed.end() && found->second == std::array{true, true, true};
+    flags[at(n)] = mass[at(n)] > 0.0 && !held;
+  }
+  return flags;
+}
+
+void spread_over_layers(const CsrMatrix& graph, const std::vector<bool>& massless, int layers,
+                        const std::vector<double>& before, std::vector<double>& after) {
+  std::vector<bool> seen(before.size());
+  for (const std::vector<Index>& patch : connected_sets(graph, massless)) {
+    seen = massless;
+    std::vector<std::vector<Index>> found;
+    std::vector<Index> front = patch;
+    while (static_cast<int>(found.size()) < layers) {
+      std::vector<Index> next;
+      for (const Index n : front) {
+        for (const Index m : neighbours(graph, n)) {
+          if (seen[at(m)]) continue;
+          seen[at(m)] = true;
+          next.push_back(m);
+        }
+      }
+      if (next.empty()) break;
+      found.push_back(next);
+      front = std::move(next);
+    }
+    if (found.empty()) {
+      throw std::invalid_argument(
+          "the modified mass finds no node without contact beside a contact surface that could take its mass; refine "
+          "the mesh, or choose another scheme");
+    }
+    double moved = 0.0;
+    for (const Index n : patch) moved += before[at(n)];
+    for (const std::vector<Index>& layer : found) {
+      double weight = 0.0;
+      for (const Index n : layer) weight += before[at(n)];
+      const double factor = moved / static_cast<double>(found.size()) / weight;
+      for (const Index n : layer) after[at(n)] += factor * before[at(n)];
+    }
+  }
+}
+
+void spread_by_least_squares(const Mesh& mesh, const CsrMatrix& graph, const std::vector<bool>& massless,
+                             const std::vector<double>& before, std::vector<double>& after) {
+  std::vector<bool> has_mass(before.size());
+  std::transform(before.begin(), before.end(), has_mass.begin(), [](double m) { return m > 0.0; });
+  for (const std::vector<Index>& body : connected_sets(graph, has_mass)) {
+    std::vector<MassPoint> kept, removed;
+    std::vector<Index> nodes;
+    for (const Index n : body) {
+      const MassPoint point{mesh.coordinates[at(n)], before[at(n)]};
+      (massless[at(n)] ? removed : kept).push_back(point);
+      if (!massless[at(n)]) nodes.push_back(n);
+    }
+    if (removed.empty()) continue;
+    const std::vector<double> change = redistribute(kept, removed, 0.25);
+    for (std::size_t k = 0; k < nodes.size(); ++k) after[at(nodes[k])] += change[k];
+  }
+}
+
+/// Sum of m (|r|^2 1 - r r^T) about `centre`, and the Frobenius norm of a difference of two.
+std::array<double, 6> inertia(const Mesh& mesh, const std::vector<double>& mass, const Vec3& centre) {
+  std::array<double, 6> J{};
+  for (std::size_t n = 0; n < mass.size(); ++n) {
+    const Vec3 r = subtract(mesh.coordinates[n], centre);
+    const double square = dot(r, r);
+    for (std::size_t c = 0; c < 3; ++c) {
+      J[c] += mass[n] * (square - r[c] * r[c]);
+      J[3 + c] -= mass[n] * r[c] * r[(c + 1) % 3];
+    }
+  }
+  return J;
+}
+
+double tensor_norm(const std::array<double, 6>& J) {
+  return std::sqrt(J[0] * J[0] + J[1] * J[1] + J[2] * J[2] + 2.0 * (J[3] * J[3] + J[4] * J[4] + J[5] * J[5]));
+}
+
+Vec3 mass_centre(const Mesh& mesh, const std::vector<double>& mass, double total) {
+  Vec3 centre{};
+  for (std::size_t n = 0; n < mass.size(); ++n) centre = add(centre, scaled(mesh.coordinates[n], mass[n] / total));
+  return centre;
+}
+
+MassShift compare(const Mesh& mesh, const std::vector<bool>& massless, const std::vector<double>& before,
+                  const std::vector<double>& after) {
+  MassShift shift;
+  shift.total = std::accumulate(before.begin(), before.end(), 0.0);
+  shift.total_error = std::accumulate(after.begin(), after.end(), 0.0) - shift.total;
+  for (std::size_t n = 0; n < before.size(); ++n) {
+    if (massless[n]) {
+      shift.moved += before[n];
+      ++shift.contact_nodes;
+    } else if (before[n] > 0.0) {
+      shift.largest_gain = std::max(shift.largest_gain, after[n] / before[n] - 1.0);
+      shift.largest_loss = std::max(shift.largest_loss, 1.0 - after[n] / before[n]);
+    }
+  }
+  const Vec3 centre = mass_centre(mesh, before, shift.total);
+  shift.centre = subtract(mass_centre(mesh, after, shift.total), centre);
+  const std::array<double, 6> J = inertia(mesh, before, centre);
+  std::array<double, 6> change = inertia(mesh, after, centre);
+  for (std::size_t k = 0; k < 6; ++k) change[k] -= J[k];
+  const double size = tensor_norm(J);
+  shift.inertia = size > 0.0 ? tensor_norm(change) / size : 0.0;
+  return shift;
+}
+
+}  // namespace
+
+std::vector<std::string> describe(const MassShift& s) {
+  return {
+      fmt::format("modified mass: {:.6g} of {:.6g} taken from {} contact nodes, total kept to {:.2g}", s.moved, s.total,
+                  s.contact_nodes, std::abs(s.total_error)),
+      fmt::format("modified mass: the centre shifts by ({:.3g}, {:.3g}, {:.3g})", s.centre[0], s.centre[1],
+                  s.centre[2]),
+      fmt::format("modified mass: the inertia about the centre changes by {:.3g} %", 100.0 * s.inertia),
+      fmt::format("modified mass: nodes gain at most {:.3g} % and lose at most {:.3g} % of their mass",
+                  100.0 * s.largest_gain, 100.0 * s.largest_loss),
+  };
+}
+
+std::vector<Index> contact_nodes(const Model& model) {
+  std::vector<Index> nodes;
+  for (const ContactDefinition& contact : model.contacts) std::visit(NodeCollector{model, nodes}, contact);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+ModifiedMass modify_mass(const Solid& solid, const Model& model, const MassModification& how) {
+  assert(how.layers >= 1);
+  const std::vector<double> before = solid.mass(MassKind::lumped).node_diagonal();
+  const CsrMatrix graph = solid.mass(MassKind::consistent).node_matrix();
+  const std::vector<bool> massless = massless_flags(model, before);
+  std::vector<double> after = before;
+  for (std::size_t n = 0; n < after.size(); ++n) {
+    if (massless[n]) after[n] = 0.0;
+  }
+  switch (how.spread) {
+    case MassSpread::layers:
+      spread_over_layers(graph, massless, how.layers, before, after);
+      break;
+    case MassSpread::least_squares:
+      spread_by_least_squares(*model.mesh, graph, massless, before, after);
+      break;
+  }
+  CsrMatrix diagonal;
+  diagonal.size = graph.size;
+  diagonal.value = after;
+  for (Index n = 0; n <= graph.size; ++n) diagonal.row_begin.push_back(n);
+  for (Index n = 0; n < graph.size; ++n) diagonal.column.push_back(n);
+  return {Mass(MassKind::lumped, std::move(diagonal)), compare(*model.mesh, massless, before, after)};
+}
+
+}  // namespace carom

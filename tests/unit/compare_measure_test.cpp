@@ -1,0 +1,242 @@
+// Errors, orders and advice from tables made by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "compare/convergence.hpp"
+#include "compare/histories.hpp"
+#include "compare/log_plot.hpp"
+#include "compare/measure.hpp"
+#include "compare/page.hpp"
+#include "compare/recommend.hpp"
+#include "compare/tables.hpp"
+
+namespace carom::compare {
+namespace {
+
+TEST(CompareMeasure, IntegratesByTheTrapezoidalRule) {
+  // |u - r| = 1, 0, 2 at t = 0, 1, 3: areas 1/2 and 2; squares 1, 0, 4: 1/2 and 4. |r| = 1, 2, 2: 3/2 and 4; squares
+  // 1, 4, 4: 5/2 and 8.
+  const std::array<double, 3> time{0.0, 1.0, 3.0}, values{2.0, 2.0, 0.0}, reference{1.0, 2.0, 2.0};
+  const Deviation d = deviation(time, values, reference);
+  EXPECT_DOUBLE_EQ(d.l1(), 2.5 / 5.5);
+  EXPECT_DOUBLE_EQ(d.l2(), std::sqrt(4.5 / 10.5));
+  const std::array<double, 3> zero{};
+  EXPECT_TRUE(std::isnan(deviation(time, values, zero).l2()));
+  EXPECT_TRUE(std::isnan(deviation(time, values, zero).l1()));
+}
+
+TEST(CompareMeasure, InterpolatesLinearly) {
+  const std::array<double, 3> from{0.0, 1.0, 3.0}, values{1.0, 2.0, 6.0};
+  const std::array<double, 6> to{-1.0, 0.0, 0.25, 1.0, 2.0, 4.0};
+  EXPECT_EQ(interpolated(from, values, to), (std::vector<double>{1.0, 1.0, 1.25, 2.0, 4.0, 6.0}));
+}
+
+CsvTable energy_table(const std::vector<std::vector<double>>& columns) {
+  CsvTable table;
+  table.columns = {"time",    "kinetic",       "strain",       "contact_stored",
+                   "damping", "external_work", "support_work", "friction"};
+  table.values = columns;
+  return table;
+}
+
+TEST(CompareMeasure, EnergyKeptCountsOnlyWhatTheComputationLost) {
+  // 10 at the start, 4 supplied, 2 rubbed away and 1 damped: 11 are left where nothing is lost.
+  const auto with_end = [](double kinetic) {
+    return energy_table(
+        {{0.0, 1.0}, {8.0, kinetic}, {1.0, 0.5}, {1.0, 0.5}, {0.0, 1.0}, {0.0, 3.0}, {0.0, 1.0}, {0.0, 2.0}});
+  };
+  EXPECT_DOUBLE_EQ(energy_kept(with_end(10.0)), 1.0);
+  EXPECT_DOUBLE_EQ(energy_kept(with_end(9.0)), 0.9);
+  // From rest: scaled by the largest supplied energy, which was given back before the end.
+  EXPECT_DOUBLE_EQ(energy_kept(energy_table({{0.0, 1.0, 2.0},
+                                             {0.0, 4.0, 0.5},
+                                             {0.0, 0.0, 0.0},
+                                             {0.0, 0.0, 0.0},
+                                             {0.0, 0.0, 0.0},
+                                             {0.0, 5.0, 0.0},
+                                             {0.0, 0.0, 0.0},
+                                             {0.0, 0.0, 0.0}})),
+                   1.1);
+}
+
+TEST(CompareConvergence, SlopeOfAPowerIsItsExponent) {
+  const std::array<double, 3> x{1.0, 2.0, 8.0}, y{3.0, 3.0 * std::pow(2.0, 1.5), 3.0 * std::pow(8.0, 1.5)};
+  EXPECT_NEAR(*slope(x, y), 1.5, 1e-14);  // round-off of logarithms
+  const std::array<double, 2> same{2.0, 2.0}, any{1.0, 3.0};
+  EXPECT_FALSE(slope(same, any));
+}
+
+TEST(CompareLogPlot, TicksAreRoundNumbers) {
+  EXPECT_EQ(log_ticks(0.04, 0.6), (std::vector<double>{0.05, 0.1, 0.2, 0.5}));
+  EXPECT_EQ(log_ticks(0.5, 2000.0), (std::vector<double>{1.0, 10.0, 100.0, 1000.0}));
+}
+
+/// A run that ended, whose force is `force` at t = 0, 1, 2 beside the exact 1.
+Result result_of(const std::string& scheme, int cells, double force, double cpu_seconds) {
+  Result r;
+  r.variant.choice.scheme = r.variant.varied.scheme = r.variant.scheme = scheme;
+  r.variant.choice.cells = r.variant.varied.cells = r.variant.cells = cells;
+  r.variant.label = label_of(r.variant.varied);
+  r.variant.name = scheme + std::to_string(cells);
+  r.variant.element_step = 2.0;
+  r.exit_code = 0;
+  r.summary.emplace();
+  r.summary->outcome = Outcome::good;
+  r.summary->scheme.dt_largest = 1.0;
+  r.summary->scheme.steps = 2;
+  r.summary->mesh.cells = static_cast<std::size_t>(cells);
+  r.summary->cost.cpu_seconds = cpu_seconds;
+  r.summary->verdict = {{"quadrature", 0.01, 0.05, true, ""}, {"penetration", 0.002, 0.05, true, ""}};
+  r.curves.columns = {"time", "A.velocity_z", "wall.force_z", "wall.penetration", "kinetic"};
+  r.curves.values = {{0.0, 1.0, 2.0}, {1.0, 1.0, 1.0}, {force, force, force}, {0.0, 0.1, 0.0}, {1.0, 1.0, 1.0}};
+  r.exact.emplace();
+  r.exact->columns = {"time", "A.velocity_z", "wall.force_z"};
+  r.exact->values = {{0.0, 1.0, 2.0}, {2.0, 2.0, 2.0}, {1.0, 1.0, 1.0}};
+  r.energy_kept = 0.99;
+  r.penetration = 0.1;
+  return r;
+}
+
+/// Errors of the force 0.2, 0.1, 0.09 and 0.4.
+Comparison sample() {
+  Comparison c;
+  c.title = "Sample <b>";
+  c.units = "SI";
+  c.results = {result_of("a", 10, 1.2, 1.0), result_of("a", 20, 1.1, 2.0), result_of("b", 20, 1.09, 5.0),
+               result_of("b", 40, 1.4, 0.1)};
+  return c;
+}
+
+void finish(Comparison& c) {
+  c.reference = measure(c.results);
+  c.quantity = ranking_quantity(c.results);
+  c.recommendation = recommend(c.results, c.quantity, c.reference);
+}
+
+TEST(CompareMeasure, ComparesWithTheExactSolution) {
+  Comparison c = sample();
+  finish(c);
+  EXPECT_EQ(c.reference, ReferenceKind::exact);
+  EXPECT_EQ(c.quantity, "force");
+  EXPECT_NEAR(c.results[0].error("force"), 0.2, 1e-15);
+  EXPECT_NEAR(c.results[0].error("velocity"), 0.5, 1e-15);
+  EXPECT_DOUBLE_EQ(c.results[0].peak_force / c.results[0].reference_peak_force, 1.2);
+  EXPECT_TRUE(std::isnan(c.results[0].error("kinetic")));  // exact.csv does not hold it
+}
+
+TEST(CompareMeasure, ComparesWithTheFinestRunWithoutAnExactSolution) {
+  Comparison c = sample();
+  for (Result& r : c.results) r.exact.reset();
+  finish(c);
+  EXPECT_EQ(c.reference, ReferenceKind::finest);
+  EXPECT_EQ(c.finest(), &c.results[3]);
+  EXPECT_NEAR(c.results[0].error("force"), 0.2 / 1.4, 1e-15);
+  EXPECT_DOUBLE_EQ(c.results[0].error("kinetic"), 0.0);
+  EXPECT_TRUE(std::isnan(c.results[0].error("penetration")));
+  ASSERT_TRUE(c.recommendation.result);
+  EXPECT_NE(*c.recommendation.result, 3U);  // a run is not recommended for agreeing with itself
+}
+
+TEST(CompareRecommend, TakesTheCheapestOfThoseThatAreAsGood) {
+  Comparison c = sample();
+  finish(c);
+  EXPECT_EQ(c.recommendation.result, std::optional<std::size_t>(1));  // 0.1 <= 1.25 x 0.09, and 2 s instead of 5 s
+  EXPECT_NE(c.recommendation.reasons[1].find("1.11 times the smallest (9 %, b, 20 cells)"), std::string::npos)
+      << c.recommendation.reasons[1];
+  c.results[1].summary->verdict[0] = {"quadrature", 0.06, 0.05, false, ""};
+  c.recommendation = recommend(c.results, c.quantity, c.reference);
+  EXPECT_EQ(c.recommendation.result, std::optional<std::size_t>(2));
+  EXPECT_NE(c.recommendation.reasons.back().find("a, 20 cells; its verdict fails (quadrature 0.06 > 0.05)"),
+            std::string::npos);
+}
+
+TEST(CompareRecommend, RecommendsNothingThatFails) {
+  Comparison c = sample();
+  for (Result& r : c.results) r.summary->verdict[0].pass = false;
+  finish(c);
+  EXPECT_FALSE(c.recommendation.result);
+  EXPECT_EQ(c.recommendation.reasons.size(), 4U);
+}
+
+TEST(CompareConvergence, SeriesShareAllButOneChoice) {
+  Comparison c = sample();
+  finish(c);
+  const std::vector<Series> all = series_along(c.results, Along::cells, c.quantity);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].name, "a");
+  EXPECT_NEAR(*all[0].order, 1.0, 1e-13);  // 0.2 to 0.1 on twice the cells
+  EXPECT_TRUE(series_along(c.results, Along::stiffness, c.quantity).empty());
+  EXPECT_TRUE(series_along(c.results, Along::step, c.quantity).empty());
+  const std::vector<Series> cost = series_of_cost(c.results, c.quantity);
+  ASSERT_EQ(cost.size(), 2U);
+  EXPECT_EQ(cost[1].points[0].x, 0.1);  // ascending in time
+}
+
+TEST(CompareTables, HoldEveryVariant) {
+  Comparison c = sample();
+  Result refused;
+  refused.variant.name = refused.variant.label = "z";
+  refused.exit_code = 2;
+  refused.failure = "not allowed: \"z\"";
+  c.results.push_back(refused);
+  finish(c);
+  const nlohmann::json json = nlohmann::json::parse(json_table(c));
+  ASSERT_EQ(json["variants"].size(), 5U);
+  EXPECT_NEAR(json["variants"][0]["errors"]["force"]["l2"].get<double>(), 0.2, 1e-15);
+  EXPECT_DOUBLE_EQ(json["variants"][0]["courant"].get<double>(), 0.5);
+  EXPECT_FALSE(json["variants"][4]["allowed"].get<bool>());
+  EXPECT_NEAR(json["orders"]["cells"]["a"].get<double>(), 1.0, 1e-13);
+  EXPECT_EQ(json["recommendation"]["variant"], "a20");
+  const std::string csv = csv_table(c), header = csv.substr(0, csv.find('\n'));
+  EXPECT_EQ(header,
+            "name,scheme,enforcement,stiffness,cells,courant,step,steps,cpu_seconds,l2_velocity,l1_velocity,l2_force,"
+            "l1_force,peak_force,peak_force_over_reference,energy_kept,penetration,status");
+  const std::string last = csv.substr(csv.rfind('\n', csv.size() - 2) + 1);
+  EXPECT_EQ(last, "z,\"\",\"\",,,,,,,,,,,,,,,\"not allowed: \"\"z\"\"\"\n");
+  EXPECT_EQ(std::count(last.begin(), last.end(), ','), std::count(header.begin(), header.end(), ','));
+  EXPECT_NE(text_table(c).find("Recommended: a, 20 cells"), std::string::npos);
+}
+
+TEST(ComparePage, ShowsVariantsPicturesAndAdvice) {
+  Comparison c = sample();
+  c.results.push_back(c.results[0]);
+  c.results.back().failure = "stopped <early>";
+  finish(c);
+  const std::string page = make_page(c, "case <text>");
+  const auto has = [&page](const char* text) { return page.find(text) != std::string::npos; };
+  EXPECT_TRUE(has("<strong>Recommended</strong><span>a, 20 cells</span>"));
+  EXPECT_TRUE(has("<tr class=\"chosen\"><td><a href=\"variants/a20/report.html\">a, 20 cells</a>"));
+  EXPECT_TRUE(has("a: order 1.00"));
+  EXPECT_TRUE(has("stopped &lt;early&gt;"));
+  EXPECT_TRUE(has("Sample &lt;b&gt;"));
+  EXPECT_TRUE(has("case &lt;text&gt;"));
+  const std::vector<Chart> charts = make_histories(c);
+  ASSERT_EQ(charts.size(), 2U);  // force, velocity; the sample has no strain energy for the mechanical one
+  EXPECT_EQ(charts[0].title, "wall · force z");
+  ASSERT_EQ(charts[0].curves.size(), 5U);              // four that ended and the exact one
+  EXPECT_EQ(charts[0].curves[3].name, "b, 20 cells");  // the best is drawn last, under the exact one
+  EXPECT_EQ(charts[0].curves[4].kind, CurveKind::exact);
+}
+
+TEST(ComparePage, HidesTheWorstOfMany) {
+  Comparison c;
+  c.units = "SI";
+  for (int i = 1; i <= 10; ++i) c.results.push_back(result_of("a", i, 1.0 + 0.01 * i, 1.0));
+  finish(c);
+  const Chart chart = make_histories(c).front();
+  ASSERT_EQ(chart.curves.size(), 11U);
+  EXPECT_EQ(chart.curves[7].name, "a, 1 cells");
+  EXPECT_TRUE(chart.curves[7].shown);
+  EXPECT_FALSE(chart.curves[8].shown);
+  EXPECT_EQ(chart.curves[9].name, "a, 10 cells");
+  EXPECT_FALSE(chart.curves[9].shown);
+}
+
+}  // namespace
+}  // namespace carom::compare

@@ -1,0 +1,365 @@
+// Rows of pairs: nodes against facets, both passes, one surface with itself, ends of bars.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "contact/facet_projection.hpp"
+#include "contact_rows_fixture.hpp"
+#include "parallel/threads.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+constexpr double round_off = 1e-13;  // positions below 10, some ten operations
+// Central differences with steps h: error 1e-16 * 10 / h + curvature^2 h^2 / 6, curvatures below 100.
+constexpr double step = 1e-6, slope_error = 1e-8;
+
+PairContact pair(const Surface& slave, const Surface& master, PairMethod method = PairMethod::node_to_surface) {
+  PairContact contact;
+  contact.name = "pair";
+  contact.slave = slave;
+  contact.master = master;
+  contact.method = method;
+  contact.law.eps_N = 4.0;
+  contact.law.eps_T = 2.0;
+  contact.law.mu = 0.3;
+  return contact;
+}
+
+double bump(double x, double y) {
+  return 0.08 * std::sin(5 * x + 1) * std::cos(4 * y);
+}
+
+/// A bumpy master of unit size below a slave patch that looks down on it, moved at random.
+struct Bumpy {
+  Scene scene;
+  std::vector<Facet> slave, master;
+  std::vector<double> u;
+
+  Bumpy(unsigned seed, bool triangles, double height, PairMethod method = PairMethod::node_to_surface) {
+    master = scene.add_patch(
+        6, 5,
+        [](double s, double t) {
+          return Vec3{s, t, bump(s, t)};
+        },
+        triangles);
+    slave = scene.add_patch(
+        4, 7,
+        [&](double s, double t) {
+          return Vec3{0.1 + 0.8 * t, 0.1 + 0.8 * s, bump(t, s) + height};
+        },
+        triangles);
+    scene.finish().contacts.emplace_back(pair({slave}, {master}, method));
+    Random random(seed);
+    u = scene.zero();
+    for (double& component : u) component = random(-0.01, 0.01);
+  }
+};
+
+TEST(NodeRows, HaveNormalsThatAreTheGradientOfTheGap) {
+  for (const bool triangles : {false, true}) {
+    for (const double height : {0.06, -0.05}) {
+      const Bumpy bumpy(11, triangles, height);
+      const ContactGeometry contact(bumpy.scene.model);
+      EXPECT_EQ(contact.rows_at(bumpy.u, bumpy.u)->size(), 5U * 8U);
+      EXPECT_LT(gradient_error(contact, bumpy.u, step), slope_error) << triangles << height;
+    }
+  }
+}
+
+// Any force of a row and its reactions are in balance, moments included, however far apart they act.
+TEST(NodeRows, LeaveNoForceAndNoMoment) {
+  Random random(13);
+  for (const bool triangles : {false, true}) {
+    for (const double height : {0.07, 0.0, -0.07}) {
+      const Bumpy bumpy(17, triangles, height);
+      const auto rows = ContactGeometry(bumpy.scene.model).rows_at(bumpy.u, bumpy.u);
+      ASSERT_EQ(rows->size(), 5U * 8U);
+      for (std::size_t r = 0; r < rows->size(); ++r) {
+        const Resultant sum = resultant(bumpy.scene, *rows, r, random.vector(1.0), bumpy.u);
+        EXPECT_LT(norm(sum.force), round_off);
+        EXPECT_LT(norm(sum.moment), round_off);
+      }
+    }
+  }
+}
+
+// Where the surfaces see each other from the front, what is found is the closest point over all facets.
+TEST(NodeRows, StandAtTheClosestPointOfAllFacets) {
+  for (const bool triangles : {false, true}) {
+    const Bumpy bumpy(19, triangles, 0.1);
+    const ContactGeometry contact(bumpy.scene.model);
+    std::vector<Vec3> x = bumpy.scene.mesh.coordinates;
+    for (std::size_t i = 0; i < bumpy.u.size(); ++i) x[i / 3][i % 3] += bumpy.u[i];
+    const auto rows = contact.rows_at(bumpy.u, bumpy.u);
+    ASSERT_EQ(rows->size(), 5U * 8U);
+    for (std::size_t r = 0; r < rows->size(); ++r) {
+      double least = INFINITY;
+      for (const Facet& facet : bumpy.master)
+        least = std::min(least, project(place(facet, x), x[rows->node[rows->begin[r]]]).distance);
+      EXPECT_NEAR(std::abs(rows->gap_at(r, bumpy.u)), least, round_off);
+    }
+  }
+}
+
+// Points around a box, over faces, edges and corners, and a little inside.
+TEST(NodeRows, AtEdgesAndCornersHaveTheGradientOfTheGapAndNoMoment) {
+  Random random(37);
+  Scene scene;
+  Surface points;
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 x = random.vector(1.3);
+    std::array<double, 3> inside{};  // depths under the faces
+    for (std::size_t c = 0; c < 3; ++c) inside[c] = 1.0 - std::abs(x[c]);
+    std::sort(inside.begin(), inside.end());
+    if (inside[0] > 0.2 || inside[1] - inside[0] < 0.05) continue;  // away from the kinks inside
+    points.facets.push_back({{scene.add_node(x), -1, -1, -1}, 1});
+  }
+  ASSERT_GT(points.facets.size(), 30U);
+  const auto box = scene.add_box({-1, -1, -1}, {1, 1, 1}, 2);
+  scene.finish().contacts.emplace_back(pair(points, {box}));
+  const ContactGeometry contact(scene.model);
+  auto u = scene.zero();
+  for (double& component : u) component = random(-0.001, 0.001);
+  EXPECT_LT(gradient_error(contact, u, step), slope_error);
+  const auto rows = contact.rows_at(u, u);
+  EXPECT_EQ(rows->size(), points.facets.size());
+  for (std::size_t r = 0; r < rows->size(); ++r) {
+    const Resultant sum = resultant(scene, *rows, r, random.vector(1.0), u);
+    EXPECT_LT(norm(sum.force), round_off);
+    EXPECT_LT(norm(sum.moment), round_off);
+  }
+}
+
+/// Segments along y = f(x) from x = 0 to 1; the normal is (dy, -dx) of their direction.
+template <class Height>
+std::vector<Facet> add_line(Scene& scene, int n, const Height& height, bool leftwards) {
+  std::vector<Facet> facets;
+  Index last = -1;
+  for (int i = 0; i <= n; ++i) {
+    const double x = leftwards ? 1.0 - double(i) / n : double(i) / n;
+    const Index next = scene.add_node({x, height(x), 0.0});
+    if (i > 0) facets.push_back({{last, next, -1, -1}, 2});
+    last = next;
+  }
+  return facets;
+}
+
+TEST(NodeRows, InThePlaneHaveTheGradientOfTheGapAndNoMoment) {
+  Scene scene;
+  const auto low = [](double x) { return 0.1 * std::sin(4 * x); };
+  const auto high = [&](double x) { return low(x) + 0.05 * std::cos(7 * x); };
+  const auto master = add_line(scene, 6, low, true);  // upwards
+  const auto slave = add_line(scene, 9, high, false);
+  const Surface below{master, Section::plane_strain, 0.5}, above{slave, Section::plane_strain, 0.5};
+  scene.finish().contacts.emplace_back(pair(above, below));
+  const ContactGeometry contact(scene.model);
+  const auto u = scene.zero();
+  const auto rows = contact.rows_at(u, u);
+  ASSERT_EQ(rows->size(), 10U);
+  Random random(23);
+  for (std::size_t r = 0; r < rows->size(); ++r) {
+    EXPECT_EQ(rows->tangent_1[r][2], 0.0);
+    const Resultant sum = resultant(scene, *rows, r, {random(-1, 1), random(-1, 1), 0.0}, u);
+    EXPECT_LT(norm(sum.force), round_off);
+    EXPECT_LT(norm(sum.moment), round_off);
+  }
+  for (const Facet& facet : slave) {  // in the plane
+    for (const Index n : facet) {
+      for (const Vec3 d : {Vec3{step, 0, 0}, Vec3{0, step, 0}}) {
+        const auto r = static_cast<std::size_t>(row_of(*rows, n - slave[0][0]));
+        const double slope = (gap_of(contact, with_displacement(u, n, d), rows->slot[r]) -
+                              gap_of(contact, with_displacement(u, n, scaled(d, -1)), rows->slot[r])) /
+                             (2 * step);
+        EXPECT_NEAR(slope, dot(rows->normal[r], d) / step, slope_error);
+      }
+    }
+  }
+}
+
+/// The lower face of a unit square at height z, looking down, n x n facets, displaced by (dx, dy).
+std::vector<Facet> add_sole(Scene& scene, int n, double z, double dx, double dy, double size) {
+  return scene.add_patch(n, n, [=](double s, double t) { return Vec3{dx + size * t, dy + size * s, z}; });
+}
+
+// A sole slides over a flat plate of another mesh, from the middle over the rim: every slot keeps its exact gap while
+// its node is over the plate, on facets, edges and corners, and has none when the node is beyond the rim.
+TEST(NodeRows, KeepTheirSlotsWhileSlidingOverFacetsAndLoseThemBeyondTheRim) {
+  Scene scene;
+  const auto plate = scene.add_patch(5, 5, [](double s, double t) { return Vec3{s, t, 0}; });
+  const double depth = 0.01;
+  const auto sole = add_sole(scene, 3, -depth, 0.3, 0.3, 0.3);
+  scene.finish().contacts.emplace_back(pair({sole}, {plate}));
+  const ContactGeometry contact(scene.model);
+  ASSERT_EQ(contact.slots(), 16U);
+  const Index first = sole[0][0];
+  for (int i = 0; i <= 100; ++i) {
+    auto u = scene.zero();
+    for (Index n = first; n < first + 16; ++n) u = with_displacement(u, n, {0.01 * i, 0.0, 0.0});
+    const auto rows = contact.rows_at(u, u);
+    for (Index slot = 0; slot < 16; ++slot) {
+      const double x = scene.mesh.coordinates[first + slot][0] + 0.01 * i;
+      const auto r = row_of(*rows, slot);
+      if (x <= 1.02 - 1e-9) {  // the plate's facets of 0.2 are continued by a tenth
+        ASSERT_GE(r, 0) << x;
+        EXPECT_NEAR(rows->gap_at(static_cast<std::size_t>(r), u), -depth, round_off);
+        EXPECT_NEAR(rows->normal[static_cast<std::size_t>(r)][2], 1.0, round_off);
+      } else if (x > 1.02 + 1e-9) {
+        EXPECT_LT(r, 0) << x;
+      }
+    }
+  }
+}
+
+TEST(NodeRows, InTwoPassesHaveBothSidesSlotsAndHalfTheStiffness) {
+  Scene scene;
+  const auto plate = scene.add_patch(5, 5, [](double s, double t) { return Vec3{s, t, 0}; });
+  const auto sole = add_sole(scene, 3, -0.01, 0.0, 0.0, 1.0);
+  scene.finish().contacts.emplace_back(pair({sole}, {plate}, PairMethod::two_pass));
+  const ContactGeometry contact(scene.model);
+  ASSERT_EQ(contact.slots(), 16U + 36U);
+  const auto rows = contact.rows_at(scene.zero(), scene.zero());
+  ASSERT_EQ(rows->size(), 52U);
+  double eps_N = 0.0, eps_T = 0.0;
+  for (std::size_t r = 0; r < rows->size(); ++r) {
+    EXPECT_EQ(rows->slot[r], static_cast<Index>(r));
+    EXPECT_NEAR(rows->gap[r], -0.01, round_off);
+    eps_N += rows->law[r].eps_N;
+    eps_T += rows->law[r].eps_T;
+  }
+  EXPECT_NEAR(eps_N, 4.0 * 1.0, round_off);  // over both sides of the unit square, as one pass would have
+  EXPECT_NEAR(eps_T, 2.0 * 1.0, round_off);
+}
+
+// A plate of 0.02 under facets of 0.25: the sole goes deeper than half of it and must still see the upper face.
+TEST(NodeRows, DoNotTakeTheFarSideOfAThinPlate) {
+  Scene scene;
+  const auto plate = scene.add_box({0, 0, -0.02}, {1, 1, 0}, 4);
+  const auto sole = add_sole(scene, 3, -0.015, 0.2, 0.2, 0.6);
+  scene.finish().contacts.emplace_back(pair({sole}, {plate}));
+  const auto rows = ContactGeometry(scene.model).rows_at(scene.zero(), scene.zero());
+  ASSERT_EQ(rows->size(), 16U);
+  for (std::size_t r = 0; r < 16; ++r) {
+    EXPECT_NEAR(rows->gap[r], -0.015, round_off);
+    EXPECT_EQ(rows->normal[r], (Vec3{0, 0, 1}));
+  }
+}
+
+// Through a thin plate within one step, the plate moving as well.
+TEST(NodeRows, CatchAProjectileThatCrossesAThinPlateInOneStep) {
+  Scene scene;
+  const auto plate = scene.add_box({0, 0, -0.02}, {1, 1, 0}, 4);
+  const auto sole = add_sole(scene, 2, 0.1, 0.2, 0.2, 0.6);
+  scene.finish().contacts.emplace_back(pair({sole}, {plate}));
+  const ContactGeometry contact(scene.model);
+  const auto begin = scene.zero();
+  auto end = begin;
+  const auto nodes = static_cast<Index>(scene.mesh.coordinates.size());
+  for (Index n = 0; n < nodes; ++n)
+    end = with_displacement(end, n, n < sole[0][0] ? Vec3{0, 0, 0.5} : Vec3{0.05, 0, -3});
+  const auto rows = contact.rows_at(begin, end);
+  ASSERT_EQ(rows->size(), 9U);
+  for (std::size_t r = 0; r < 9; ++r) EXPECT_NEAR(rows->gap_at(r, end), 0.1 - 3.5, round_off);
+  EXPECT_EQ(contact.rows_at(end, end)->size(), 0U);
+}
+
+PairContact self(const Surface& surface, PairMethod method = PairMethod::node_to_surface) {
+  PairContact contact = pair(surface, surface, method);
+  contact.self = true;
+  return contact;
+}
+
+// Plates, thin or of one cell, do not touch themselves.
+TEST(SelfContact, FindsNothingOnABoxAlone) {
+  for (const PairMethod method : {PairMethod::node_to_surface, PairMethod::surface_to_surface}) {
+    for (const double thickness : {0.01, 0.1, 1.0}) {
+      Scene scene;
+      const auto skin = scene.add_box({0, 0, 0}, {1, 1, thickness}, 4);
+      scene.finish().contacts.emplace_back(self({skin}, method));
+      EXPECT_EQ(ContactGeometry(scene.model).rows_at(scene.zero(), scene.zero())->size(), 0U) << thickness;
+    }
+  }
+}
+
+// Two boxes of equal section stand on each other, one shifted a little to the side, both in one surface: the nodes on
+// the common rim keep their rows. Gap by construction.
+TEST(SelfContact, OfTwoAlignedBoxesKeepsTheNodesOfTheRim) {
+  for (const double offset : {0.0, 1e-9, 1e-3}) {
+    for (const double gap : {1e-3, -1e-3}) {
+      Scene scene;
+      auto skin = scene.add_box({0, 0, 0}, {1, 1, 1}, 3);
+      const auto upper = scene.add_box({offset, offset, 1 + gap}, {1 + offset, 1 + offset, 2 + gap}, 3);
+      skin.insert(skin.end(), upper.begin(), upper.end());
+      scene.finish().contacts.emplace_back(self({skin}));
+      const auto rows = ContactGeometry(scene.model).rows_at(scene.zero(), scene.zero());
+      std::set<Index> touching;
+      for (std::size_t r = 0; r < rows->size(); ++r) {
+        if (std::abs(rows->gap[r]) > 0.1) continue;
+        EXPECT_NEAR(rows->gap[r], gap, round_off);
+        touching.insert(rows->node[rows->begin[r]]);
+      }
+      EXPECT_EQ(touching.size(), 32U) << offset << " " << gap;  // 4 x 4 nodes on both faces
+    }
+  }
+}
+
+TEST(EndRows, FollowTheAxisOfTheBars) {
+  Scene scene;
+  for (const double x : {0.0, 1.0, 1.25, 2.0}) scene.add_node({0.6 * x, 0.8 * x, 0.0});
+  CellBlock lines;
+  lines.type = CellType::line2;
+  lines.connectivity = {0, 1, 2, 3};
+  scene.mesh.blocks.push_back(lines);
+  const auto end = [](Index n) { return Surface{{{{n, -1, -1, -1}, 1}}, Section::bar, 0.5}; };
+  scene.finish().contacts.emplace_back(pair(end(2), end(1), PairMethod::surface_to_surface));
+  const ContactGeometry contact(scene.model);
+  EXPECT_TRUE(contact.is_fixed());
+  const auto rows = contact.rows_at(scene.zero(), scene.zero());
+  ASSERT_EQ(rows->size(), 1U);
+  EXPECT_NEAR(rows->gap[0], 0.25, round_off);
+  EXPECT_NEAR(norm(subtract(rows->normal[0], {0.6, 0.8, 0.0})), 0.0, round_off);
+  EXPECT_EQ(rows->measure[0], 0.5);
+  EXPECT_EQ(rows->law[0].eps_N, 2.0);
+  EXPECT_NEAR(rows->gap_at(0, with_displacement(scene.zero(), 1, {0.18, 0.24, 0})), -0.05, round_off);
+}
+
+TEST(EndRows, AreRefusedAsMasterOfFacets) {
+  Scene scene;
+  const auto plate = scene.add_patch(1, 1, [](double s, double t) { return Vec3{s, t, 0}; });
+  const Index n = scene.add_node({0.5, 0.5, 1});
+  scene.finish().contacts.emplace_back(pair({plate}, {{{{n, -1, -1, -1}, 1}}, Section::bar}));
+  EXPECT_THROW(ContactGeometry{scene.model}, std::invalid_argument);
+}
+
+TEST(NodeRows, HaveTheSameBitsForEveryNumberOfThreadsAndEverySearchList) {
+  Scene scene;
+  const auto at = [](double s, double t) { return Vec3{s, t, bump(s, t)}; };
+  const auto master = scene.add_patch(40, 40, at);
+  const auto slave = scene.add_patch(45, 45, [&](double s, double t) { return add(at(t, s), {0, 0, 0.005}); });
+  for (const PairMethod method : {PairMethod::two_pass, PairMethod::surface_to_surface})
+    scene.finish().contacts.emplace_back(pair({slave}, {master}, method));
+  Random random(29);
+  auto u = scene.zero();
+  for (double& component : u) component = random(-0.002, 0.002);
+  set_threads(1);
+  ContactGeometry one(scene.model);
+  const auto expected = one.rows_at(scene.zero(), u);
+  for (const int threads : {1, 2, 4}) {
+    set_threads(threads);
+    ContactGeometry other(scene.model);
+    if (threads != 2) other.rows_at(u, scene.zero());  // another history of lists
+    const auto rows = other.rows_at(scene.zero(), u);
+    EXPECT_EQ(rows->gap, expected->gap);
+    EXPECT_EQ(rows->node, expected->node);
+    EXPECT_EQ(rows->block, expected->block);
+    EXPECT_EQ(rows->slot, expected->slot);
+  }
+  set_threads(0);
+}
+
+}  // namespace
+}  // namespace carom

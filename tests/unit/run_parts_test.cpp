@@ -1,0 +1,161 @@
+// Parts of plane cells and bars: what is held, what surfaces are, what is refused.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "run/build_mesh.hpp"
+#include "run/build_model.hpp"
+#include "run_fixture.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+const std::string strip = R"(
+[[mesh.block]]
+kind = "quad"
+origin = [0.0, 1.0, 0.25]
+size = [2.0, 3.0]
+divisions = [2, 3]
+groups = { cells = "STRIP", ymin = "FOOT", ymax = "HEAD" }
+)";
+const std::string bar = R"(
+[[mesh.block]]
+kind = "bar"
+origin = [9.0, 0.0, 0.0]
+end = [9.0, 0.0, 4.0]
+divisions = 4
+groups = { cells = "BAR", end = "TIP" }
+)";
+const std::string box = R"(
+[[mesh.block]]
+origin = [20.0, 0.0, 0.0]
+size = [1.0, 1.0, 1.0]
+divisions = [1, 1, 1]
+groups = { cells = "BOX", zmin = "FLOOR" }
+)";
+
+std::string part(const std::string& name, const std::string& cells, const std::string& section) {
+  return "[[part]]\nname = \"" + name + "\"\ncells = \"" + cells + "\"\nmaterial = \"m\"\n" + section + "\n";
+}
+
+const std::string plane_part = part("strip", "STRIP", "section = \"plane_stress\"\nthickness = 0.5");
+const std::string bar_part = part("bar", "BAR", "section = \"bar\"\narea = 0.1");
+const std::string box_part = part("box", "BOX", "");
+
+/// Sections in one case; `law` of the only material.
+std::string text_of(const std::string& sections, const std::string& law = "linear_elastic") {
+  return sections + "[materials.m]\nlaw = \"" + law +
+         "\"\nE = 2.0\nnu = 0.3\nrho = 1.5\n[scheme]\nkind = \"central_differences\"\n[time]\nend = 1.0\n";
+}
+
+Model model_of(const std::string& text) {
+  const Case given = parse_case(text, "case.toml");
+  return build_model(given, std::make_shared<const Mesh>(build_mesh(given)));
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    model_of(text);
+  } catch (const CaseError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Parts, KeepSectionThicknessAreaAndLaw) {
+  const Model model = model_of(text_of(strip + bar + box + plane_part + bar_part + box_part, "neo_hookean"));
+  ASSERT_EQ(model.parts.size(), 3U);
+  EXPECT_EQ(model.parts[0].type, CellType::quad4);
+  EXPECT_EQ(model.parts[0].section, Section::plane_stress);
+  EXPECT_EQ(model.parts[0].thickness, 0.5);
+  EXPECT_EQ(model.parts[0].cells.size(), 6U);
+  EXPECT_EQ(model.parts[1].type, CellType::line2);
+  EXPECT_EQ(model.parts[1].section, Section::bar);
+  EXPECT_EQ(model.parts[1].thickness, 0.1);
+  EXPECT_EQ(model.parts[2].section, Section::solid);
+  EXPECT_TRUE(std::holds_alternative<NeoHookean>(model.parts[2].material));
+}
+
+TEST(Parts, EachLawHasItsMaterial) {
+  EXPECT_TRUE(std::holds_alternative<LinearElastic>(model_of(text_of(box + box_part)).parts[0].material));
+  const Model finite = model_of(text_of(box + box_part, "st_venant_kirchhoff"));
+  ASSERT_TRUE(std::holds_alternative<StVenantKirchhoff>(finite.parts[0].material));
+  EXPECT_EQ(std::get<StVenantKirchhoff>(finite.parts[0].material).E, 2.0);
+}
+
+TEST(Parts, PlaneOnesAreHeldAlongZ) {
+  const Model model = model_of(text_of(strip + bar + plane_part + bar_part));
+  ASSERT_EQ(model.motions.size(), 1U);
+  const PrescribedMotion& held = model.motions[0];
+  EXPECT_EQ(held.name, "part \"strip\", which is plane_stress");
+  EXPECT_EQ(held.component, 2);
+  EXPECT_EQ(held.kind, MotionKind::velocity);
+  EXPECT_EQ(held.function(0.5), 0.0);
+  EXPECT_EQ(held.nodes, model.mesh->nodes_of("STRIP"));
+}
+
+TEST(Parts, AxisymmetricOnesAreHeldOnTheAxis) {
+  const Model model = model_of(text_of(strip + part("ring", "STRIP", "section = \"axisymmetric\"")));
+  ASSERT_EQ(model.motions.size(), 2U);
+  EXPECT_EQ(model.motions[1].component, 0);
+  EXPECT_EQ(model.motions[1].nodes, model.mesh->nodes_of("XMIN"));
+}
+
+TEST(Parts, SurfacesHaveTheSectionOfTheirPart) {
+  const std::string pressures =
+      "[[load]]\npressure = 1.0\ngroup = \"HEAD\"\n[[load]]\npressure = 1.0\ngroup = \"TIP\"\n"
+      "[[load]]\npressure = 1.0\ngroup = \"FLOOR\"\n";
+  const Model model = model_of(text_of(strip + bar + box + plane_part + bar_part + box_part + pressures));
+  ASSERT_EQ(model.loads.size(), 3U);
+  const auto surface = [&](std::size_t i) { return std::get<Pressure>(model.loads[i]).surface; };
+  EXPECT_EQ(surface(0).section, Section::plane_stress);
+  EXPECT_EQ(surface(0).thickness, 0.5);
+  EXPECT_EQ(surface(0).facets.size(), 2U);
+  EXPECT_EQ(surface(1).section, Section::bar);
+  EXPECT_EQ(surface(1).thickness, 0.1);
+  ASSERT_EQ(surface(1).facets.size(), 1U);
+  EXPECT_EQ(surface(1).facets[0].size, 1);
+  EXPECT_EQ(surface(2).section, Section::solid);
+  ASSERT_EQ(surface(2).facets.size(), 1U);
+  EXPECT_EQ(surface(2).facets[0].size, 4);
+}
+
+TEST(Parts, EveryMessage) {
+  EXPECT_NE(
+      message_of(text_of(strip + part("p", "STRIP", "")))
+          .find("part.cells: found \"STRIP\", a group of QUAD4 cells; expected HEXA8 cells, since section = \"solid\""),
+      std::string::npos);
+  EXPECT_NE(message_of(text_of(box + part("p", "BOX", "section = \"plane_strain\"")))
+                .find("found HEXA8 cells in \"BOX\"; expected QUAD4 cells, since section = \"plane_strain\""),
+            std::string::npos);
+  EXPECT_NE(message_of(text_of(bar + part("p", "TIP", "section = \"bar\"\narea = 1.0")))
+                .find("found \"TIP\", a group of nodes; expected LINE2 cells, since section = \"bar\""),
+            std::string::npos);
+  // The outward normal of the floor points down.
+  EXPECT_NE(message_of(text_of(box + part("p", "FLOOR", "section = \"plane_strain\"")))
+                .find("(QUAD4) numbered clockwise or folded; expected counter-clockwise cells"),
+            std::string::npos);
+  EXPECT_NE(message_of(text_of(box + part("p", "XMIN", "section = \"plane_strain\"")))
+                .find("(QUAD4) outside of the x-y plane; expected cells in a plane z = const"),
+            std::string::npos);
+  std::string left = strip;
+  left.replace(left.find("[0.0, 1.0, 0.25]"), 16, "[-1.0, 1.0, 0.0]");
+  EXPECT_NE(message_of(text_of(left + part("p", "STRIP", "section = \"axisymmetric\"")))
+                .find("with node 1 at x = -1; expected x >= 0, since section = \"axisymmetric\""),
+            std::string::npos);
+  std::string second = strip;
+  second.replace(second.find("STRIP"), 5, "OTHER");
+  EXPECT_NE(message_of(text_of(strip + second + plane_part + part("other", "OTHER", "section = \"plane_strain\"") +
+                               "[[load]]\npressure = 1.0\ngroup = \"HEAD\"\n"))
+                .find("load.group: found pieces of part \"strip\" (plane_stress, thickness 0.5) and of part \"other\" "
+                      "(plane_strain, thickness 1); expected a surface of one section and thickness"),
+            std::string::npos);
+  EXPECT_NE(message_of(text_of(strip + bar + bar_part + "[[load]]\npressure = 1.0\ngroup = \"HEAD\"\n"))
+                .find("found the boundary of cell 5 (QUAD4), which belongs to no part; expected faces, edges or ends"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace carom

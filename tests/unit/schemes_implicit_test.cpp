@@ -1,0 +1,293 @@
+// Every implicit scheme: order, damping of high frequencies, failures without trace, thread bits, contact.
+#include "schemes_implicit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "schemes/statics.hpp"
+#include "schemes_impact_bar.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+/// The guided column of one cell: u_z of the head is an oscillator of omega^2 = C / (share rho), consistent mass, with
+/// C = E (1 - nu) / ((1 + nu) (1 - 2 nu)), share 1/3 (see schemes_order_test.cpp).
+Model guided_cell() {
+  Model model = one_part(block_mesh({1, 1, 1}, 0.0));
+  block(model, "BLOCK", {0, 1});
+  block(model, "ZMIN", {2});
+  return model;
+}
+
+const double omega = [] {
+  const auto& m = unit_material;
+  return std::sqrt(3.0 * m.E * (1 - m.nu) / ((1 + m.nu) * (1 - 2 * m.nu)) / m.rho);
+}();
+
+State released(const Problem& p, double height) {
+  State begin = p.moving({});
+  for (const Index node : p.model.mesh->nodes_of("ZMAX")) begin.q[3 * static_cast<std::size_t>(node) + 2] = height;
+  return begin;
+}
+
+std::size_t head(const Problem& p) {
+  return 3 * static_cast<std::size_t>(p.model.mesh->nodes_of("ZMAX")[0]) + 2;
+}
+
+/// Error of displacement and velocity after 1.3 periods in n steps.
+double error_of(const ImplicitScheme& one, int n) {
+  const Problem p(guided_cell());
+  const double end = 1.3 * 2.0 * std::numbers::pi / omega, h = end / n;
+  const History run = march(*one.with(p, h), released(p, 0.1), h, n);
+  const double u = 0.1 * std::cos(omega * end), v = -0.1 * omega * std::sin(omega * end);
+  return std::max(std::abs(run.state.q[head(p)] - u), std::abs(run.state.v[head(p)] - v) / omega);
+}
+
+double expected_order(const std::string& name) {
+  return name.starts_with("newmark") || name == "moreau_jean_dissipative" ? 1.0 : 2.0;
+}
+
+TEST(ImplicitSchemes, HaveTheirOrder) {
+  for (const ImplicitScheme& one : implicit_schemes()) {
+    SCOPED_TRACE(one.name);
+    const double order = expected_order(one.name);
+    const int n = order == 1.0 ? 400 : 100;  // the next term of the error changes what is observed by less than 0.05
+    EXPECT_NEAR(std::log2(error_of(one, n) / error_of(one, 2 * n)), order, 0.05);
+  }
+}
+
+// At omega h = 1e3 the amplification is that of infinite frequency to 1e-6: the spectral radius of the literature. More
+// steps would meet the tolerance of equilibrium.
+TEST(ImplicitSchemes, DampHighFrequenciesAsTheirSpectralRadiusSays) {
+  const std::vector<std::pair<GeneralizedAlphaParameters, double>> cases{
+      {newmark_parameters(0.25, 0.5), 1.0},
+      {chung_hulbert_parameters(0.8), 0.8},
+      {chung_hulbert_parameters(0.5), 0.5},
+      {hht_parameters(-0.05), 0.95 / 1.05},  // (1 + alpha) / (1 - alpha) = rho_inf (Hughes 1987, section 9.3)
+      {wbz_parameters(-0.05), 0.95 / 1.05}};
+  const double h = 1e3 / omega;
+  for (const auto& [parameters, radius] : cases) {
+    const Problem p(guided_cell());
+    const auto scheme = generalized_alpha(p, h, parameters);
+    std::vector<double> u;
+    const History run = march(*scheme, released(p, 0.1), h, 40,
+                              [&](const State& state, const Scheme&) { u.push_back(std::abs(state.q[head(p)])); });
+    ASSERT_TRUE(run.converged) << run.failure;
+    // u_n ~ n^2 radius^n where three roots coincide: over these steps 4^(1/20) = 1.07 of the radius, and 2 % about it.
+    EXPECT_NEAR(std::pow(u[40] / u[20], 1.0 / 20.0), radius, 0.09 * radius);
+  }
+}
+
+TEST(ImplicitSchemes, StayBoundedAtLongSteps) {
+  Model model = one_part(block_mesh({2, 2, 3}, 0.15));
+  block(model, "ZMIN", {0, 1, 2});
+  const Problem p(model);
+  State begin = p.moving({});
+  begin.v = random_vector(p.solid.dof_count(), 3);
+  for (const ImplicitScheme& one : implicit_schemes()) {
+    SCOPED_TRACE(one.name);
+    const double h = 50.0;  // periods of the block are 1 to 20
+    double largest_energy = 0.0, first = 0.0;
+    march(*one.with(p, h), begin, h, 200, [&](const State&, const Scheme& scheme) {
+      const double energy = scheme.forces().stored.mechanical();
+      if (first == 0.0) first = energy;
+      largest_energy = std::max(largest_energy, energy);
+    });
+    EXPECT_LT(largest_energy, 4.0 * first);  // schemes with gamma > 1/2 may lend for a step; see Krenk's identity
+  }
+}
+
+/// A block that touches a plane in the first step, sliding.
+Model touching() {
+  Model model = one_part(block_mesh({2, 2, 2}, 0.1));
+  model.contacts.emplace_back(plane_below(model, 0.005, 20.0, {10.0, 0.3}));
+  return model;
+}
+
+TEST(ImplicitSchemes, LeaveTheStateWhereAStepFails) {
+  for (ImplicitScheme one : implicit_schemes()) {
+    SCOPED_TRACE(one.name);
+    const Problem p(touching());
+    one.settings.max_iterations = 0;
+    const double h = 0.1;
+    const auto scheme = one.with(p, h);
+    State state = p.moving({0.1, 0.05, -0.2}), next;
+    scheme->start(state, h);
+    const State kept = state;
+    const std::vector<double> internal = scheme->forces().internal, contact = scheme->forces().contact;
+    const StepReport failed = scheme->step(state, {h, h, 1e-12}, next);
+    EXPECT_FALSE(failed.converged);
+    EXPECT_FALSE(failed.failure.empty());
+    EXPECT_EQ(state, kept);
+    EXPECT_EQ(scheme->forces().internal, internal);
+    EXPECT_EQ(scheme->forces().contact, contact);
+  }
+}
+
+TEST(ImplicitSchemes, GiveTheSameBitsFromAnyNumberOfThreads) {
+  Model model = one_part(block_mesh({6, 6, 8}, 0.15));
+  model.contacts.emplace_back(plane_below(model, 0.002, 20.0, {10.0, 0.3}));
+  for (const ImplicitScheme& one : implicit_schemes()) {
+    if (one.name.starts_with("wbz") || one.name.starts_with("hht")) continue;  // the parameters alone differ
+    SCOPED_TRACE(one.name);
+    std::vector<State> states;
+    for (const int threads : {1, 2, 4}) {
+      set_threads(threads);
+      const Problem p(model);
+      const History run = march(*one.with(p, 0.05), p.moving({0.1, 0.05, -0.2}), 0.05, 2);
+      EXPECT_TRUE(run.converged) << run.failure;
+      states.push_back(run.state);
+    }
+    set_threads(0);
+    EXPECT_TRUE(states[1] == states[0]);
+    EXPECT_TRUE(states[2] == states[0]);
+  }
+}
+
+/// Figures of a one-dimensional program for this bar (100 two-node elements, Courant number 1), and the mass with which
+/// they are met.
+struct Reference {
+  ImplicitScheme scheme;
+  MassKind mass;
+  double error, peak, energy;
+};
+
+std::vector<Reference> references() {
+  using enum MassKind;
+  const EnforcementKind exact = EnforcementKind::lagrange;
+  std::vector<Reference> all{
+      {alpha_scheme("trapezoidal", newmark_parameters(0.25, 0.5), exact), consistent, 1.43, 3.48, 10.9},
+      {alpha_scheme("newmark", newmark_parameters(0.28, 0.55), exact), consistent, 0.253, 2.18, 0.954},
+      {alpha_scheme("hht", hht_parameters(-0.2), exact), consistent, 0.181, 2.04, 0.981},
+      {alpha_scheme("generalized_alpha", chung_hulbert_parameters(0.5), exact), consistent, 0.110, 1.50, 0.980}};
+  for (const ImplicitScheme& one : implicit_schemes()) {
+    if (one.name == "bathe_lagrange") all.push_back({one, consistent, 0.117, 1.75, 0.988});
+    if (one.name == "contact_stabilized") all.push_back({one, lumped, 0.101, 1.12, 0.994});
+    if (one.name == "moreau_jean") all.push_back({one, lumped, 0.097, 1.06, 0.993});
+  }
+  return all;
+}
+
+TEST(ImpactBarTable, IsReached) {
+  const double h = ImpactBar::length / 100.0 / ImpactBar::wave_speed;
+  for (const Reference& entry : references()) {
+    SCOPED_TRACE(entry.scheme.name);
+    const Problem p(ImpactBar::model(100), entry.mass);
+    const ImpactBarRun run = run_impact_bar(p, *entry.scheme.with(p, h), h);
+    ASSERT_TRUE(run.converged);
+    // The table rounds to three digits; its L2 norm is that of another sampling of the jumps.
+    EXPECT_LT(run.error, 1.01 * entry.error);
+    EXPECT_NEAR(run.peak, entry.peak, 0.006);
+    EXPECT_NEAR(run.energy, entry.energy, 0.006 * std::max(1.0, entry.energy));
+    EXPECT_LT(run.imbalance, 1e-10);
+    EXPECT_LT(run.momentum_error, 1e-9);
+    // Impulses let a row stay where a step has carried it; multipliers close the gap to round-off.
+    EXPECT_LT(run.penetration, entry.scheme.name == "moreau_jean" ? ImpactBar::speed * h / ImpactBar::length : 1e-11);
+  }
+}
+
+TEST(ImpactBarTable, EnergyMomentumKeepsTheEnergyWithPenalty) {
+  const double h = ImpactBar::length / 100.0 / ImpactBar::wave_speed;
+  ContactLaw springs;
+  springs.eps_N = 9000.0;  // E / cell
+  const Problem p(ImpactBar::model(100, springs));
+  for (const ImplicitScheme& one : implicit_schemes()) {
+    if (one.name != "energy_momentum") continue;
+    const ImpactBarRun run = run_impact_bar(p, *one.with(p, h), h);
+    ASSERT_TRUE(run.converged);
+    EXPECT_NEAR(run.energy, 1.0, 1e-10);  // the balance of powers, with nothing else in it
+    EXPECT_LT(run.largest_energy, 1.0 + 1e-10);
+    EXPECT_LT(run.error, 0.1);
+  }
+}
+
+// One cell that is too stiff to deform in a step rebounds as a rigid body by Newton's law.
+TEST(MoreauJeanScheme, RebounsWithTheRestitutionOfTheRows) {
+  for (const double e : {0.0, 0.5, 1.0}) {
+    Model model = one_part(block_mesh({1, 1, 1}, 0.0));
+    ObstacleContact plane = plane_below(model, 0.05, 0.0);
+    plane.law.restitution = e;
+    model.contacts.emplace_back(plane);
+    block(model, "BLOCK", {0, 1});
+    const Problem p(model, MassKind::lumped);
+    const double h = 0.01;
+    double after = 0.0, loss = 0.0;
+    State state = p.moving({0, 0, -0.2}), next;
+    const auto scheme = moreau_jean_scheme("", 0.5).with(p, h);
+    scheme->start(state, h);
+    for (int i = 1; i <= 40 && after == 0.0; ++i) {
+      const StepReport report = scheme->step(state, {i * h, h, 1e-14}, next);
+      ASSERT_TRUE(report.converged) << report.failure;
+      std::swap(state, next);
+      loss += report.books.energy.impact;
+      // The rows are those of the four lower nodes.
+      if (scheme->forces().rows.force[0][0] > 0.0) after = state.v[2];
+    }
+    EXPECT_NEAR(after, 0.2 * e, 1e-10);
+    // Newton's law takes (1 - e^2)/2 of m v^2 from the nodes that touch: half of the mass. Theta = 1/2 puts the mean
+    // velocity of the step, (e - 1)/2 v, to the impulse (1 + e) m v.
+    EXPECT_NEAR(loss, 0.5 * (1.0 - e * e) * 0.5 * p.mass.total() * 0.04, 0.02 * 0.5 * p.mass.total() * 0.04);
+  }
+}
+
+/// A column of length 3, E = 2, nu = 0, that stands on a plane.
+Model column() {
+  Model model = one_part(block_mesh({1, 1, 3}, 0.0), LinearElastic{{.E = 2.0, .nu = 0.0, .rho = 1.5}});
+  model.contacts.emplace_back(plane_below(model, 0.0, 20.0));
+  block(model, "BLOCK", {0, 1});
+  return model;
+}
+
+// Under pressure q on its head, held by contact alone: u(head) - u(foot) = -q L / E.
+TEST(StaticsScheme, FindsTheStretchOfAColumnThatContactHolds) {
+  for (const EnforcementKind e : {EnforcementKind::penalty, EnforcementKind::augmented_lagrangian}) {
+    SCOPED_TRACE(name(e));
+    Model model = column();
+    model.loads.emplace_back(Pressure{{faces_of(*model.mesh, "ZMAX")}, 0.1, {}});
+    const Problem p(model);
+    Statics scheme(p.system, {.enforcement = e, .penetration = 1e-9}, stable_step(p.system).omega_max_squared_free);
+    const History run = march(scheme, p.moving({}), 1.0, 2);
+    ASSERT_TRUE(run.converged) << run.failure;
+    const auto foot = 3 * static_cast<std::size_t>(p.model.mesh->nodes_of("ZMIN")[0]) + 2;
+    EXPECT_NEAR(run.state.q[head(p)] - run.state.q[foot], -0.1 * 3.0 / 2.0, 1e-9);
+    EXPECT_NEAR(run.state.q[foot], e == EnforcementKind::penalty ? -0.1 / 20.0 : 0.0, 1e-8);
+    EXPECT_EQ(largest(run.state.v), 0.0);
+    EXPECT_LT(run.imbalance, 1e-10 * run.ledger.scale());
+  }
+}
+
+// Its head pushed down by d: the plane answers with E d / L, at any number of steps.
+TEST(StaticsScheme, FindsTheForceOnAPushedColumn) {
+  for (const EnforcementKind e : {EnforcementKind::augmented_lagrangian, EnforcementKind::lagrange}) {
+    SCOPED_TRACE(name(e));
+    Model model = column();
+    model.motions.push_back(
+        {"push", model.mesh->nodes_of("ZMAX"), 2, MotionKind::displacement, {{0.0, 2.0}, {0.0, -0.15}}});
+    const Problem p(model);
+    Statics scheme(p.system, {.enforcement = e, .penetration = 1e-9}, stable_step(p.system).omega_max_squared_free);
+    double force = 0.0;
+    const History run = march(scheme, p.moving({}), 1.0, 2, [&](const State&, const Scheme& s) {
+      force = 0.0;
+      for (std::size_t i = 2; i < s.forces().contact.size(); i += 3) force += s.forces().contact[i];
+    });
+    ASSERT_TRUE(run.converged) << run.failure;
+    EXPECT_NEAR(force, 2.0 * 0.15 / 3.0, 1e-7);
+    EXPECT_LT(run.imbalance, 1e-10 * run.ledger.scale());
+  }
+}
+
+TEST(StaticsScheme, FailsWhereNothingHoldsTheBody) {
+  Model model = one_part(block_mesh({1, 1, 2}, 0.0));
+  model.loads.emplace_back(Pressure{{faces_of(*model.mesh, "ZMAX")}, -0.1, {}});
+  const Problem p(model);
+  Statics scheme(p.system, {}, stable_step(p.system).omega_max_squared_free);
+  State state = p.moving({}), next;
+  scheme.start(state, 1.0);
+  EXPECT_FALSE(scheme.step(state, {1.0, 1.0, 1e-12}, next).converged);
+}
+
+}  // namespace
+}  // namespace carom

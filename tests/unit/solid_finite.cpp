@@ -1,0 +1,274 @@
+// Every section with every law: derivatives, energy, objectivity, the energy-momentum force.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "math/gauss_legendre.hpp"
+#include "parallel/threads.hpp"
+#include "solid_bodies.hpp"
+
+namespace carom::test {
+namespace {
+
+// Some hundred operations on numbers below 10 stand behind one entry, 300 x 10 x 2^-53 = 4e-13.
+constexpr double round_off = 1e-12;
+
+class EveryBody : public testing::TestWithParam<Body> {
+ protected:
+  Model model_ = body(distorted_mesh(GetParam().section), GetParam().section, GetParam().material);
+  Solid solid_{model_};
+  /// Displacements that turn and strain the cells by some 10 % and invert none.
+  std::vector<double> displacement(unsigned seed) const {
+    auto u = random_vector(solid_.dof_count(), seed);
+    for (double& entry : u) entry *= 0.1;
+    return u;
+  }
+  std::vector<double> discrete_force(const std::vector<double>& u_0, const std::vector<double>& u_1) const {
+    std::vector<double> f(u_0.size());
+    solid_.discrete_gradient_force(u_0, u_1, f);
+    return f;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Solid, EveryBody, testing::ValuesIn(all_bodies()),
+                         [](const auto& instance) { return name_of(instance.param); });
+
+TEST_P(EveryBody, TangentActionIsTheDerivativeOfTheForce) {
+  const auto u = displacement(1), x = random_vector(u.size(), 2);
+  const double h = 1e-5;  // truncation h^2 F'''/6, F''' up to some 1000 at these strains, and round-off 1e-15 / h
+  const auto plus = internal_force(solid_, sum(h, x, u)), minus = internal_force(solid_, sum(-h, x, u));
+  std::vector<double> Kx(u.size());
+  solid_.tangent_action(u, x, Kx);
+  ASSERT_GT(largest(Kx), 0.1);
+  for (std::size_t d = 0; d < u.size(); ++d) EXPECT_NEAR((plus[d] - minus[d]) / (2 * h), Kx[d], 1e-7) << d;
+}
+
+TEST_P(EveryBody, AssembledTangentItsDiagonalAndItsActionAgree) {
+  const auto u = displacement(3), x = random_vector(u.size(), 4);
+  const CsrMatrix K = solid_.tangent(u);
+  std::vector<double> assembled(x.size()), action(x.size()), Ky(x.size());
+  K.apply(x, assembled);
+  solid_.tangent_action(u, x, action);
+  EXPECT_LT(largest_difference(assembled, action), round_off);
+  EXPECT_LT(largest_difference(K.diagonal(), solid_.tangent_diagonal(u)), round_off);
+  const auto y = random_vector(u.size(), 5);
+  K.apply(y, Ky);
+  EXPECT_NEAR(dot(x, Ky), dot(y, assembled), 10 * round_off) << "symmetry";
+}
+
+// Work along the straight path from rest, by 20 Gauss points: the integrand is a polynomial of degree 3 or analytic.
+TEST_P(EveryBody, EnergyIsTheWorkOfTheForce) {
+  const auto u = displacement(6);
+  double work = 0.0;
+  for (const QuadraturePoint& point : gauss_legendre(20)) {
+    const double s = 0.5 * (1.0 + point.x);
+    work += 0.5 * point.weight * dot(internal_force(solid_, sum(s, u, std::vector<double>(u.size(), 0.0))), u);
+  }
+  ASSERT_GT(work, 1e-3);
+  EXPECT_NEAR(solid_.strain_energy(u), work, round_off);
+}
+
+TEST_P(EveryBody, OnlySmallStrainIsLinear) {
+  EXPECT_EQ(solid_.is_linear(), !is_finite_strain(GetParam()));
+}
+
+/// A large rotation: 90 degrees about z for plane cells, 120 degrees about (1, 1, 1) in space.
+std::array<Vec3, 3> large_turn(Section section) {
+  if (components(section) == 2) return {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
+  return {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
+}
+
+Vec3 turned(const std::array<Vec3, 3>& R, const Vec3& v) {
+  Vec3 result{};
+  for (std::size_t i = 0; i < 3; ++i) result[i] = R[i][0] * v[0] + R[i][1] * v[1] + R[i][2] * v[2];
+  return result;
+}
+
+/// Displacements of the body that is deformed by u and then turned.
+std::vector<double> turned(const Mesh& mesh, const std::array<Vec3, 3>& R, const std::vector<double>& u) {
+  std::vector<double> result;
+  for (std::size_t n = 0; n < mesh.node_count(); ++n) {
+    const Vec3& X = mesh.coordinates[n];
+    const Vec3 x = turned(R, {X[0] + u[3 * n], X[1] + u[3 * n + 1], X[2] + u[3 * n + 2]});
+    for (std::size_t i = 0; i < 3; ++i) result.push_back(x[i] - X[i]);
+  }
+  return result;
+}
+
+// Objectivity: F(R (X + u) - X) = R F(u) and the same energy; with u = 0 a rotation makes no force at all.
+TEST_P(EveryBody, FiniteStrainIsObjective) {
+  const Section section = GetParam().section;
+  if (!is_finite_strain(GetParam()) || section == Section::axisymmetric)
+    return;  // no rotation maps these to themselves
+  const auto R = large_turn(section);
+  const std::vector<double> rest(solid_.dof_count(), 0.0);
+  EXPECT_LT(largest(internal_force(solid_, turned(*model_.mesh, R, rest))), round_off);
+  const auto u = displacement(7), Ru = turned(*model_.mesh, R, u);
+  const auto f = internal_force(solid_, u), Rf = internal_force(solid_, Ru);
+  EXPECT_NEAR(solid_.strain_energy(Ru), solid_.strain_energy(u), round_off);
+  for (std::size_t n = 0; n < solid_.node_count(); ++n) {
+    const Vec3 expected = turned(R, {f[3 * n], f[3 * n + 1], f[3 * n + 2]});
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(Rf[3 * n + i], expected[i], round_off);
+  }
+}
+
+// The discrete gradient: energies to round-off of the energy after any step, however large.
+TEST_P(EveryBody, DiscreteGradientForceHasTheWorkOfTheStep) {
+  for (const unsigned seed : {8U, 9U, 10U}) {
+    auto u_0 = displacement(seed), u_1 = displacement(seed + 100);
+    const double change = solid_.strain_energy(u_1) - solid_.strain_energy(u_0);
+    EXPECT_NEAR(dot(discrete_force(u_0, u_1), sum(-1.0, u_0, u_1)), change, round_off);
+    ASSERT_GT(std::abs(change), 1e-4);
+  }
+}
+
+TEST_P(EveryBody, DiscreteGradientForceOfNoStepIsTheForce) {
+  const auto u = displacement(11);
+  EXPECT_LT(largest_difference(discrete_force(u, u), internal_force(solid_, u)), round_off);
+}
+
+// No resultant and no moment about the middle configuration (reference configuration under small strain); axisymmetric
+// cells hold their hoop forces themselves and have a resultant in x.
+TEST_P(EveryBody, DiscreteGradientForceConservesMomentum) {
+  const Section section = GetParam().section;
+  const auto u_0 = displacement(12), u_1 = displacement(13);
+  const auto f = discrete_force(u_0, u_1);
+  const double middle = is_finite_strain(GetParam()) ? 0.5 : 0.0;
+  Vec3 force{}, moment{};
+  for (std::size_t n = 0; n < solid_.node_count(); ++n) {
+    Vec3 x = model_.mesh->coordinates[n];
+    for (std::size_t i = 0; i < 3; ++i) x[i] += middle * (u_0[3 * n + i] + u_1[3 * n + i]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      force[i] += f[3 * n + i];
+      moment[i] += x[j] * f[3 * n + k] - x[k] * f[3 * n + j];
+    }
+  }
+  EXPECT_GT(largest(f), 0.01);
+  for (std::size_t i = section == Section::axisymmetric ? 1 : 0; i < 3; ++i) EXPECT_NEAR(force[i], 0.0, 10 * round_off);
+  if (section == Section::axisymmetric) return;
+  if (components(section) == 2) moment[0] = moment[1] = 0.0;  // by u_z, of which plane cells know nothing
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(moment[i], 0.0, 10 * round_off);
+}
+
+TEST_P(EveryBody, PlaneCellsKnowNothingOfZ) {
+  if (components(GetParam().section) == 3) return;
+  const auto u = displacement(14);
+  auto lifted = u;
+  for (std::size_t d = 2; d < u.size(); d += 3) lifted[d] = 5.0;
+  const auto f = internal_force(solid_, u);
+  EXPECT_EQ(internal_force(solid_, lifted), f);
+  for (std::size_t d = 2; d < u.size(); d += 3) EXPECT_EQ(f[d], 0.0);
+}
+
+TEST_P(EveryBody, AnInvertedCellGivesNoNumber) {
+  if (!is_finite_strain(GetParam()) || GetParam().section == Section::bar) return;  // a bar turns, it has no inside
+  std::vector<double> u(solid_.dof_count());
+  const bool plane = components(GetParam().section) == 2;
+  for (std::size_t n = 0; n < solid_.node_count(); ++n)  // mirrored at y = 0 (plane) or z = 0: J = -1, C = 1
+    u[3 * n + (plane ? 1 : 2)] = -2.0 * model_.mesh->coordinates[n][plane ? 1 : 2];
+  EXPECT_TRUE(std::isnan(internal_force(solid_, u)[0]));
+  EXPECT_TRUE(std::isnan(solid_.strain_energy(u)));
+}
+
+TEST_P(EveryBody, SameBitsForAnyNumberOfThreads) {
+  const Section section = GetParam().section;
+  Mesh mesh = section == Section::solid ? block_mesh({12, 12, 12}, 0.2) : quad_mesh(40, 40, 0.2);
+  if (section == Section::bar) {  // a grid of 3200 bars
+    std::vector<Index> bars;
+    for (Index n = 0; n < 40 * 40; ++n) bars.insert(bars.end(), {n, n + 1, n, n + 41});
+    mesh = mesh_of(CellType::line2, mesh.coordinates, bars);
+  }
+  const Model model = body(std::move(mesh), section, GetParam().material);
+  const Solid solid(model);
+  auto u = random_vector(solid.dof_count(), 15);
+  for (double& entry : u) entry *= 0.02;
+  const auto x = random_vector(u.size(), 16);
+  const auto all = [&](int threads) {
+    set_threads(threads);
+    std::vector<double> result = internal_force(solid, u), y(u.size());
+    solid.tangent_action(u, x, y);
+    result.insert(result.end(), y.begin(), y.end());
+    solid.discrete_gradient_force(u, std::vector<double>(u.size(), 0.0), y);
+    result.insert(result.end(), y.begin(), y.end());
+    result.push_back(solid.strain_energy(u));
+    const Rotation rotation = solid.largest_rotation(u);
+    result.push_back(rotation.angle);
+    result.push_back(rotation.cell);
+    return result;
+  };
+  const auto expected = all(1);
+  for (const double entry : expected) ASSERT_TRUE(std::isfinite(entry));
+  EXPECT_EQ(all(2), expected);
+  EXPECT_EQ(all(4), expected);
+  set_threads(0);
+}
+
+TEST_P(EveryBody, ForceOfSomeCellsIsTheirShare) {
+  const auto u = displacement(17);
+  std::vector<double> f(u.size(), 0.0);
+  std::vector<Index> others;
+  for (Index c = 1; c < static_cast<Index>(solid_.cell_count()); ++c) others.push_back(c);
+  solid_.add_internal_force_of(std::vector<Index>{0}, u, f);
+  EXPECT_GT(largest_difference(f, internal_force(solid_, u)), 0.01);
+  solid_.add_internal_force_of(others, u, f);
+  EXPECT_LT(largest_difference(f, internal_force(solid_, u)), round_off);
+}
+
+class EveryIsaAndLaw : public testing::TestWithParam<std::tuple<Isa, Material>> {};
+INSTANTIATE_TEST_SUITE_P(
+    Solid, EveryIsaAndLaw, testing::Combine(testing::ValuesIn(available_isas()), testing::ValuesIn(all_materials())),
+    [](const auto& instance) {
+      return std::string(name(std::get<0>(instance.param))) + name_of({Section::solid, std::get<1>(instance.param)});
+    });
+
+TEST_P(EveryIsaAndLaw, KernelsEqualTheReference) {
+  const auto& [isa, material] = GetParam();
+  const Model model = body(block_mesh({3, 3, 3}, 0.2), Section::solid, material);  // the last batch is not full
+  const Solid solid(model, isa), reference(model, Isa::reference);
+  auto u = random_vector(solid.dof_count(), 18), v = random_vector(solid.dof_count(), 19);
+  for (double& entry : u) entry *= 0.08;
+  for (double& entry : v) entry *= 0.08;
+  EXPECT_LT(largest_difference(internal_force(solid, u), internal_force(reference, u)), round_off);
+  std::vector<double> y(u.size()), expected(u.size());
+  solid.tangent_action(u, v, y);
+  reference.tangent_action(u, v, expected);
+  EXPECT_LT(largest_difference(y, expected), round_off);
+  solid.discrete_gradient_force(u, v, y);
+  reference.discrete_gradient_force(u, v, expected);
+  EXPECT_LT(largest_difference(y, expected), round_off);
+  EXPECT_NEAR(solid.strain_energy(u), reference.strain_energy(u), round_off * reference.strain_energy(u));
+  const auto stress = solid.cell_stress(u), expected_stress = reference.cell_stress(u);
+  for (std::size_t c = 0; c < stress.size(); ++c)
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(stress[c][i], expected_stress[c][i], round_off);
+}
+
+TEST(SolidRotation, IsTheAngleOfTheRotationWhateverTheStretch) {
+  const double angle = 0.3, c = std::cos(angle), s = std::sin(angle);
+  // F = R U with U = diag(1.1, 0.9, 1): the columns of the rotation about z, stretched
+  const std::array<Vec3, 3> H{{{1.1 * c - 1, -0.9 * s, 0}, {1.1 * s, 0.9 * c - 1, 0}, {0, 0, 0}}};
+  for (const Section section : {Section::solid, Section::plane_stress, Section::plane_strain}) {
+    const Model model = body(distorted_mesh(section), section, unit_material);
+    EXPECT_NEAR(Solid(model).largest_rotation(affine(*model.mesh, H)).angle, angle, round_off);
+  }
+  const std::array<Vec3, 3> R{{{c - 1, -s, 0}, {s, c - 1, 0}, {0, 0, 0}}};
+  const Model bar = body(mesh_of(CellType::line2, {{0, 0, 0}, {2, 0, 0}}, {0, 1}), Section::bar, unit_material);
+  EXPECT_NEAR(Solid(bar).largest_rotation(affine(*bar.mesh, R)).angle, angle, round_off);
+}
+
+TEST(SolidRotation, NamesTheCellAndLooksAtSmallStrainAlone) {
+  Model model = body(block_mesh({3, 1, 1}, 0.0), Section::solid, unit_material);
+  std::vector<double> u(3 * model.mesh->node_count(), 0.0);
+  for (std::size_t n = 0; n < model.mesh->node_count(); ++n)  // the last cell leans by tan = 0.1
+    if (model.mesh->coordinates[n][0] > 2.5) u[3 * n + 1] = 0.1;
+  const Rotation rotation = Solid(model).largest_rotation(u);
+  EXPECT_EQ(rotation.cell, 2);
+  EXPECT_NEAR(rotation.angle, std::atan(0.05), round_off);  // simple shear: tan(angle) = shear / 2
+  model.parts[0].material = NeoHookean{unit_material};
+  EXPECT_EQ(Solid(model).largest_rotation(u).cell, -1);
+  model.parts[0].material = unit_material;
+  u[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(Solid(model).largest_rotation(u).angle, std::numbers::pi);
+}
+
+}  // namespace
+}  // namespace carom::test
