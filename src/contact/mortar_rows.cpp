@@ -21,12 +21,16 @@ namespace {
 constexpr double least_coverage = 1e-6;  // of a node's measure
 constexpr double look = 1.5;             // of the facet size: overlaps within count
 
+constexpr double facing = -0.5;  // n_s . n_m below: at most 60 degrees from facing each other
+
 using NodePairs = std::array<std::array<double, 4>, 4>;
+using NodePairVectors = std::array<std::array<Vec3, 4>, 4>;
 
 /// A slave facet at its current position, and its extent along its plane's axes and normal.
 struct Slave {
   PlacedFacet placed;
   Vec3 centre, axis_1, axis_2, normal;
+  std::array<Vec3, 4> turn{};  ///< FacetSums::turn
   Bounds extent;
 
   explicit Slave(const PlacedFacet& facet) : placed(facet) {
@@ -37,6 +41,10 @@ struct Slave {
     axis_1 = normalized(frame.a_1);
     axis_2 = cross(normal, axis_1);
     extent = extent_of(facet);
+    const FacetShape shape = facet_shape(facet.size, at.xi, at.eta);
+    const TangentDual dual = tangent_dual(frame, normal);
+    for (std::size_t b = 0; b < 4; ++b)
+      turn[b] = add(scaled(dual.dual_1, shape.dN_dxi[b]), scaled(dual.dual_2, shape.dN_deta[b]));
   }
   Bounds extent_of(const PlacedFacet& facet) const {
     Bounds bounds;
@@ -55,22 +63,25 @@ struct Slave {
   }
 };
 
-/// Integrals over the overlaps of one slave facet: entries [A][b] with the slave's node A.
+/// Integrals over the overlaps of one slave facet: entries [A][b] with the slave's node A. m: see mortar_rows.hpp.
 struct FacetSums {
   struct Master {
     Index facet;
-    NodePairs NN;  ///< w N_A N_c
+    NodePairs NN{};         ///< w N_A N_c
+    NodePairVectors mNN{};  ///< w N_A N_c m
   };
   Vec3 normal{};
+  std::array<Vec3, 4> turn{};  ///< a^alpha N_b,alpha at the centre
   double least_gap = std::numeric_limits<double>::infinity();
-  std::array<double, 4> D{}, gap{};           ///< w N_A, w N_A g
-  NodePairs NN{};                             ///< w N_A N_b
-  std::array<std::array<Vec3, 4>, 4> tilt{};  ///< w N_A g a^alpha N_b,alpha
+  std::array<double, 4> D{}, gap{};  ///< w N_A, w N_A g
+  std::array<Vec3, 4> m{}, m_gap{};  ///< w N_A m, w N_A g m
+  NodePairs NN{};                    ///< w N_A N_b
+  NodePairVectors mNN{};             ///< w N_A N_b m
   std::vector<Master> masters;
 
   /// Adds a point of weight w to these sums and to those with its master.
-  void add_point(double w, double point_gap, const FacetShape& shape, const FacetFrame& frame,
-                 const std::array<double, 4>& N_master, NodePairs& with_master);
+  void add_point(double w, double point_gap, const Vec3& m_point, const std::array<double, 4>& N,
+                 const std::array<double, 4>& N_master, Master& master);
   void clear() {
     std::vector<Master> kept = std::move(masters);
     kept.clear();
@@ -79,21 +90,20 @@ struct FacetSums {
   }
 };
 
-void FacetSums::add_point(double w, double point_gap, const FacetShape& shape, const FacetFrame& frame,
-                          const std::array<double, 4>& N_master, NodePairs& with_master) {
+void FacetSums::add_point(double w, double point_gap, const Vec3& m_point, const std::array<double, 4>& N,
+                          const std::array<double, 4>& N_master, Master& master) {
   least_gap = std::min(least_gap, point_gap);
-  const TangentDual dual = tangent_dual(frame, normal);
-  std::array<Vec3, 4> turn{};  // g a^alpha N_b,alpha
-  for (std::size_t b = 0; b < 4; ++b)
-    turn[b] = scaled(add(scaled(dual.dual_1, shape.dN_dxi[b]), scaled(dual.dual_2, shape.dN_deta[b])), point_gap);
   for (std::size_t A = 0; A < 4; ++A) {
-    const double wN = w * shape.N[A];
+    const double wN = w * N[A];
     D[A] += wN;
     gap[A] += wN * point_gap;
+    m[A] = add(m[A], scaled(m_point, wN));
+    m_gap[A] = add(m_gap[A], scaled(m_point, wN * point_gap));
     for (std::size_t b = 0; b < 4; ++b) {
-      NN[A][b] += wN * shape.N[b];
-      with_master[A][b] += wN * N_master[b];
-      tilt[A][b] = add(tilt[A][b], scaled(turn[b], wN));
+      NN[A][b] += wN * N[b];
+      mNN[A][b] = add(mNN[A][b], scaled(m_point, wN * N[b]));
+      master.NN[A][b] += wN * N_master[b];
+      master.mNN[A][b] = add(master.mNN[A][b], scaled(m_point, wN * N_master[b]));
     }
   }
 }
@@ -184,7 +194,7 @@ bool MortarRows::add_points(std::size_t f, Index g, const Slave& slave, const Co
   const PlacedFacet master = place(broad_phase_.targets()[g], motion.x);
   if (!slave.may_overlap(master, look * size_)) return false;
   const ParentPoint centre = facet_centre(master.size);
-  if (dot(facet_frame(master, centre.xi, centre.eta).normal, slave.normal) >= opposed) return false;
+  if (dot(facet_frame(master, centre.xi, centre.eta).normal, slave.normal) >= facing) return false;
   const std::size_t before = points.size();
   if (add_overlap(slave.placed, master, points) == 0) return false;
   const auto nearest = std::min_element(points.begin() + static_cast<std::ptrdiff_t>(before), points.end(),
@@ -230,15 +240,18 @@ void MortarRows::integrate(std::size_t f, const ContactMotion& motion, FacetSums
   const double stretch = measure(reference) / area, width = reference.size == 2 ? slave_.thickness : 1.0;
   const bool is_ring = slave_.section == Section::axisymmetric;
   sums.normal = slave.normal;
+  sums.turn = slave.turn;
   for (const Overlap& overlap : overlaps) {
-    sums.masters.push_back({overlap.master, {}});
+    sums.masters.push_back({overlap.master});
     for (std::size_t q = overlap.begin; q < overlap.end; ++q) {
       const auto& [at, on_master, weight, gap] = points[q];
-      if (weight == 0.0) continue;
+      const Vec3 n = facet_frame(overlap.placed, on_master.xi, on_master.eta).normal;
+      const double facing_cosine = dot(n, slave.normal);
+      if (weight == 0.0 || facing_cosine >= facing) continue;
       const double around = is_ring ? 2.0 * std::numbers::pi * facet_position(reference, at.xi, at.eta)[0] : width;
-      sums.add_point(weight * stretch * around, gap, facet_shape(reference.size, at.xi, at.eta),
-                     facet_frame(slave.placed, at.xi, at.eta),
-                     facet_shape(overlap.placed.size, on_master.xi, on_master.eta).N, sums.masters.back().NN);
+      sums.add_point(weight * stretch * around, gap, scaled(n, 1.0 / facing_cosine),
+                     facet_shape(reference.size, at.xi, at.eta).N,
+                     facet_shape(overlap.placed.size, on_master.xi, on_master.eta).N, sums.masters.back());
     }
   }
 }
@@ -263,7 +276,7 @@ void MortarRows::add_row(const Node& node, Index slot, const ContactMotion& moti
     if (sums.D[A] == 0.0) continue;
     D += sums.D[A];
     gap += sums.gap[A];
-    direction = subtract(direction, scaled(sums.normal, sums.D[A]));
+    direction = subtract(direction, sums.m[A]);
     least_gap = std::min(least_gap, sums.least_gap);
   }
   const double length = norm(direction);
@@ -277,15 +290,16 @@ void MortarRows::add_row(const Node& node, Index slot, const ContactMotion& moti
     const Facet& facet = slave_.facets[f];
     for (std::size_t b = 0; b < static_cast<std::size_t>(facet.size); ++b) {
       const double w = sums.NN[A][b] / D;
-      const Vec3 tilt = scaled(sums.tilt[A][b], 1.0 / D);
-      blocks.add(facet[b], scaled(sums.normal, -w), subtract(scaled(t_1, w), scaled(sums.normal, dot(t_1, tilt))),
-                 subtract(scaled(t_2, w), scaled(sums.normal, dot(t_2, tilt))));
+      const auto turned = [&](const Vec3& force) { return scaled(sums.normal, dot(force, sums.turn[b]) / D); };
+      blocks.add(facet[b], subtract(turned(sums.m_gap[A]), scaled(sums.mNN[A][b], 1.0 / D)),
+                 subtract(scaled(t_1, w), turned(scaled(t_1, sums.gap[A]))),
+                 subtract(scaled(t_2, w), turned(scaled(t_2, sums.gap[A]))));
     }
     for (const FacetSums::Master& master : sums.masters) {
       const Facet& other = broad_phase_.targets()[master.facet];
       for (std::size_t c = 0; c < static_cast<std::size_t>(other.size); ++c) {
         const double w = master.NN[A][c] / D;
-        if (w != 0.0) blocks.add(other[c], scaled(sums.normal, w), scaled(t_1, -w), scaled(t_2, -w));
+        if (w != 0.0) blocks.add(other[c], scaled(master.mNN[A][c], 1.0 / D), scaled(t_1, -w), scaled(t_2, -w));
       }
     }
   }

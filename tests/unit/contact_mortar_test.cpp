@@ -145,6 +145,43 @@ TEST(MortarRows, OfFlatParallelSurfacesAreTheGradientOfTheGap) {
   }
 }
 
+// Triangles that lie wholly over one tilted facet: their points stay where they are on the slave, so the row is the
+// gradient of the gap by every node and in every direction, at a gap and at an angle.
+TEST(MortarRows, OfTiltedSurfacesAreTheGradientOfTheGap) {
+  for (const double slope_of_master : {0.0, 0.3, 1.0}) {
+    Scene scene;
+    const auto master = scene.add_patch(1, 1, [=](double s, double t) {
+      return Vec3{4 * s - 2, 4 * t - 2, slope_of_master * (4 * s - 2) - 0.1 * slope_of_master * t};
+    });
+    const auto slave = scene.add_patch(
+        2, 2,
+        [](double s, double t) {
+          return Vec3{t - 0.4, s - 0.6, 0.2 + 0.1 * s * t};
+        },
+        true);
+    scene.finish().contacts.emplace_back(mortar({slave}, {master}));
+    const ContactGeometry contact(scene.model);
+    const auto u = scene.zero();
+    const auto rows = contact.rows_at(u, u);
+    ASSERT_EQ(rows->size(), 9U);
+    const double h = 1e-6;
+    for (std::size_t r = 0; r < rows->size(); ++r) {
+      for (Index k = rows->begin[r]; k < rows->begin[r + 1]; ++k) {
+        const Index n = rows->node[static_cast<std::size_t>(k)];
+        for (std::size_t c = 0; c < 3; ++c) {
+          Vec3 step{};
+          step[c] = h;
+          const double slope = (gap_of(contact, with_displacement(u, n, step), rows->slot[r]) -
+                                gap_of(contact, with_displacement(u, n, scaled(step, -1.0)), rows->slot[r])) /
+                               (2 * h);
+          // h^2 and the round-off of the gap over h, 1e-10; covered wholly, the weights do not change
+          EXPECT_NEAR(slope, rows->block[static_cast<std::size_t>(k)][0][c], 1e-8) << r << " " << n << " " << c;
+        }
+      }
+    }
+  }
+}
+
 // Curved, tilted, warped, with a gap: whatever the force of a row is, its reactions balance it, moments included.
 TEST(MortarRows, LeaveNoForceAndNoMoment) {
   Random random(31);
