@@ -89,13 +89,15 @@ ContactCurves::ContactCurves(const Simulation& simulation)
   table_.columns = {"time"};
   for (const CaseContact& contact : simulation.given().contacts) {
     for (const char* name : {"force_x", "force_y", "force_z", "impulse_x", "impulse_y", "impulse_z", "moment_x",
-                             "moment_y", "moment_z", "penetration", "closed"}) {
+                             "moment_y", "moment_z", "penetration", "closed", "closings"}) {
       table_.columns.push_back(fmt::format("{}.{}", *contact.name, name));
     }
     moment_points_.push_back(contact.moment_point);
   }
   force_.resize(contacts_);
   impulse_.resize(contacts_);
+  closed_.resize(contacts_);
+  closings_.resize(contacts_);
   const std::vector<double>& lengths = simulation.solid().cell_lengths();
   cell_length_ = *std::min_element(lengths.begin(), lengths.end());
 }
@@ -118,8 +120,10 @@ void ContactCurves::sample(const StepView& view, double end_weight) {
       impulse_[c][i] += view.dt * ((1.0 - end_weight) * force_[c][i] + end_weight * force[i]);
     }
     force_[c] = force;
+    if (closed_[c] == 0.0 && closed[c] > 0.0) closings_[c] += 1.0;
+    closed_[c] = closed[c];
     table_.row.insert(table_.row.end(), {force[0], force[1], force[2], impulse_[c][0], impulse_[c][1], impulse_[c][2],
-                                         moment[0], moment[1], moment[2], penetration[c], closed[c]});
+                                         moment[0], moment[1], moment[2], penetration[c], closed[c], closings_[c]});
     worst_penetration_ = std::max(worst_penetration_, penetration[c]);
   }
 }

@@ -44,7 +44,7 @@ class EnergyCurves {
 };
 
 /// contact.csv: for each contact the resultant force on the body, its impulse, its moment about the moment_point, the
-/// largest penetration, closed rows.
+/// largest penetration, closed rows, and how often it went from open everywhere to closed somewhere.
 class ContactCurves {
  public:
   explicit ContactCurves(const Simulation& simulation);
@@ -61,6 +61,7 @@ class ContactCurves {
   std::vector<Vec3> moment_points_;
   CurveTable table_;
   std::vector<Vec3> force_, impulse_;
+  std::vector<double> closed_, closings_;
   double cell_length_ = 0.0;
   double worst_penetration_ = 0.0;
 };

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
+#include "contact/buried_facets.hpp"
 #include "contact/stiffness.hpp"
 #include "run/build_mesh.hpp"
 #include "run/build_model.hpp"
@@ -89,7 +91,10 @@ void Simulation::settle_initial_penetrations() {
       list += fmt::format("{}{:.4g} at ({:.4g}, {:.4g}, {:.4g})", list.empty() ? "" : ", ", p.depth, p.position[0],
                           p.position[1], p.position[2]);
     }
-    if (count == 0) continue;
+    if (count == 0) {
+      refuse_buried_facets(c, state);
+      continue;
+    }
     const CaseContact& contact = case_.contacts[c];
     const std::string what =
         fmt::format("{} rows of \"{}\" that penetrate at the start, the worst by {:.4g} ({:.3g} of a cell): {}{}",
@@ -106,6 +111,33 @@ void Simulation::settle_initial_penetrations() {
                                      : "taken as free of strain"));
   }
   contact_.set_initial(state.q);
+}
+
+/// Facets of a pair inside of another body and too deep for any row: contact would not see them, ever.
+void Simulation::refuse_buried_facets(std::size_t c, const State& state) const {
+  const auto* pair = std::get_if<PairContact>(&model_.contacts[c]);
+  if (pair == nullptr) return;
+  const std::shared_ptr<const ConstraintRows> rows = contact_.rows_at(state.q, state.q);
+  std::set<Index> seen;
+  for (std::size_t r = 0; r < rows->size(); ++r)
+    if (static_cast<std::size_t>(rows->source[r]) == c)
+      seen.insert(rows->node.begin() + rows->begin[r], rows->node.begin() + rows->begin[r + 1]);
+  std::vector<BuriedFacet> buried = buried_facets(model_, *pair, state.q);
+  std::erase_if(buried, [&](const BuriedFacet& b) {
+    return std::any_of(b.facet.begin(), b.facet.end(), [&](Index n) { return seen.contains(n); });
+  });
+  if (buried.empty()) return;
+  const CaseContact& contact = case_.contacts[c];
+  const auto& [facet, x, cell] = buried[0];
+  const CellBlock& block = mesh_->blocks[static_cast<std::size_t>(cell.block)];
+  throw CaseError(
+      contact.where, "contact",
+      fmt::format("{} facets of \"{}\" deep inside of another body at the start, such as that of node {} at "
+                  "({:.4g}, {:.4g}, {:.4g}) inside of {} {}",
+                  buried.size(), *contact.name, mesh_->node_numbers[static_cast<std::size_t>(facet[0])], x[0], x[1],
+                  x[2], name(block.type), block.file_numbers[static_cast<std::size_t>(cell.cell)]),
+      "bodies that are apart or just touch",
+      "Is one body placed on the wrong side of the other? Contact sees overlaps of one facet's size at most.");
 }
 
 std::shared_ptr<const ConstraintRows> Simulation::initial_rows() const {

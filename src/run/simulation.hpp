@@ -51,6 +51,7 @@ class Simulation {
 
  private:
   void settle_initial_penetrations();
+  void refuse_buried_facets(std::size_t c, const State& state) const;
 
   const Case& case_;
   std::shared_ptr<const Mesh> mesh_;

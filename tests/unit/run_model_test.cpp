@@ -69,6 +69,20 @@ TEST(Contact, MayNotPenetrateAtTheStart) {
   EXPECT_EQ(e.found().substr(0, what.size()), what);
 }
 
+// The second bar is put one length to the left, where the first one is: far deeper than the rows of a pair look.
+TEST(Contact, MayNotBeginWithBodiesInsideOfEachOther) {
+  for (const auto& [file, gap, moved, cell] :
+       {std::array{"grazing.toml", "origin = [0.0, 0.0, 0.01]", "origin = [0.0, 0.0, -1.0]", "HEXA8"},
+        std::array{"grazing_strip.toml", "origin = [0.0, 0.01, 0.0]", "origin = [0.0, -1.0, 0.0]", "QUAD4"}}) {
+    std::string text = read_text(std::string(CAROM_SOURCE_DIR "/cases/two_bars/") + file);
+    const std::size_t at = text.find(gap);
+    ASSERT_NE(at, std::string::npos) << file;
+    const CaseError e = case_error(text.replace(at, std::string_view(gap).size(), moved));
+    EXPECT_NE(e.found().find("deep inside of another body at the start"), std::string::npos) << e.found();
+    EXPECT_NE(e.found().find(std::string("inside of ") + cell), std::string::npos) << e.found();
+  }
+}
+
 TEST(Contact, MayTouchAtTheStart) {
   const Case given = parse_case(case_of_block(plane("FOOT", 0.0) + newmark_for_one_second), "case.toml");
   const Simulation simulation(given);

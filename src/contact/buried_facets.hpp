@@ -1,0 +1,25 @@
+// Bodies that start inside of each other, deeper than contact looks.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace carom {
+
+/// A facet of a pair's surfaces that lies inside of a cell which is not its own.
+struct BuriedFacet {
+  Facet facet;
+  Vec3 position{};  ///< of the point that was looked at
+  CellRef cell;     ///< a solid or plane cell of one of the parts
+};
+
+/// Facets of the pair's slave and master of which a point lies inside of a HEXA8 or, in two dimensions, a QUAD4 of the
+/// model's parts at displacement u. One point of every facet is looked at, off its centre and a thousandth of its size
+/// under it, so that surfaces that touch do not count and nodes on the faces of cells do not matter; it is found in the
+/// cell by Newton's method. The rows of a pair look one facet deep; this finds what lies deeper, at any depth: what
+/// bodies look like that begin on the wrong side of each other. Bars have no inside.
+std::vector<BuriedFacet> buried_facets(const Model& model, const PairContact& pair, std::span<const double> u);
+
+}  // namespace carom
