@@ -26,9 +26,13 @@ void add_surfaces(SectionSchema<CaseContact>& s) {
   s.key("master", &CaseContact::master, "Group of faces of the other body; the coarser or stiffer one.",
         {.kinds = {"pair"}, .need = Need::required});
   s.key("exclude", &CaseContact::exclude, "Groups whose faces take no part.", {.kinds = {"all"}});
-  s.key("method", &CaseContact::method,
-        "Where the gap is measured: at the nodes of one side, of both, or integrated over the overlaps of the faces.",
-        {.choices = {"node_to_surface", "two_pass", "surface_to_surface"}, .kinds = pairs});
+  s.key(
+      "method", &CaseContact::method,
+      "Where the gap is measured: at the nodes of one side, of both, or integrated over the overlaps of the faces. "
+      "Both "
+      "sides' nodes (two_pass) sink nowhere, on coarse curved faces either; the overlaps carry pressure exactly across "
+      "flat meshes that do not match, but see the mean gap: a coarse curved face sinks in by part of its rise.",
+      {.choices = {"node_to_surface", "two_pass", "surface_to_surface"}, .kinds = pairs});
 }
 
 void add_law(SectionSchema<CaseContact>& s) {

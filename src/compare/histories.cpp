@@ -66,7 +66,8 @@ Chart make_history(const Comparison& comparison, const std::vector<std::size_t>&
   for (std::size_t k = std::min(kShown, order.size()); k > 0; --k) add(k - 1);
   for (std::size_t k = kShown; k < order.size(); ++k) add(k);
   if (hidden > 0)
-    chart.note = fmt::format("The {} variants of larger error are hidden; click their names to see them.", hidden);
+    chart.note = fmt::format(
+        "The {} variants of larger error are hidden; open the list and click their names to see them.", hidden);
   if (const CsvTable* reference = reference_table(comparison, order)) {
     const std::vector<double> values = values_of(*reference);
     const Result* finest = comparison.finest();

@@ -65,7 +65,10 @@ Recommendation recommend(const std::vector<Result>& results, const std::string& 
       *std::min_element(fit.begin(), fit.end(), [&](std::size_t a, std::size_t b) { return error(a) < error(b); });
   std::size_t chosen = best;
   for (const std::size_t i : fit) {
-    if (error(i) <= as_good * error(best) && results[i].cpu_seconds() < results[chosen].cpu_seconds()) chosen = i;
+    const double cost = results[i].cpu_seconds();
+    if (error(i) <= as_good * error(best) && cheaper * cost <= results[best].cpu_seconds() &&
+        cost < results[chosen].cpu_seconds())
+      chosen = i;
   }
   const Result &r = results[chosen], &b = results[best];
   out.result = chosen;
@@ -74,10 +77,9 @@ Recommendation recommend(const std::vector<Result>& results, const std::string& 
                                     run_count(results)));
   if (chosen == best) {
     out.reasons.push_back(
-        fmt::format("Its error of the {} is the smallest of them, {}, in {:.3g} s of processor time; none that is "
-                    "cheaper comes within "
-                    "{:g} times of it.",
-                    quantity, percent(error(chosen)), r.cpu_seconds(), as_good));
+        fmt::format("Its error of the {} is the smallest of them, {}, in {:.3g} s of processor time; none that takes "
+                    "{:g} times less comes within {:g} times of it.",
+                    quantity, percent(error(chosen)), r.cpu_seconds(), cheaper, as_good));
   } else {
     out.reasons.push_back(
         fmt::format("Its error of the {} is {}, {:.3g} times the smallest ({}, {}), and it takes {:.3g} s of processor "

@@ -11,6 +11,8 @@ namespace carom::compare {
 
 /// An error of at most this times the smallest is as good, and the cheaper variant is taken.
 constexpr double as_good = 1.25;
+/// Costs that differ by less are the same: processor times of one computation scatter by some ten percent.
+constexpr double cheaper = 1.25;
 
 struct Recommendation {
   std::optional<std::size_t> result;  ///< position of the recommended variant
@@ -18,8 +20,9 @@ struct Recommendation {
   std::vector<std::string> reasons;  ///< sentences with numbers
 };
 
-/// Among the variants that were compared and passed every item of their verdict: the one of least processor time whose
-/// L2 error of `quantity` is at most `as_good` times the smallest.
+/// Among the variants that were compared and passed every item of their verdict: the one of the smallest
+/// L2 error of `quantity`; or, if any takes `cheaper` times less processor time and has an error of at most `as_good`
+/// times the smallest, the one of those that takes least.
 Recommendation recommend(const std::vector<Result>& results, const std::string& quantity, ReferenceKind reference);
 
 }  // namespace carom::compare

@@ -52,7 +52,10 @@
   }
 
   function makeLegend(element, chart) {
-    return chart.curves.map((curve, k) => {
+    const more = document.createElement("details");
+    const count = chart.curves.filter((c) => !c.shown).length;
+    more.append(Object.assign(document.createElement("summary"), { textContent: count + " more" }));
+    const entries = chart.curves.map((curve, k) => {
       const button = document.createElement("button");
       button.type = "button";
       button.setAttribute("aria-pressed", String(curve.shown));
@@ -60,9 +63,11 @@
       if (curve.kind === "exact") line.className = "dashed";
       const value = document.createElement("output");
       button.append(line, curve.name, value);
-      element.append(button);
+      (curve.shown ? element : more).append(button);
       return { button, line, value, k };
     });
+    if (count > 0) element.append(more);
+    return entries;
   }
 
   const stroke = {

@@ -272,7 +272,8 @@ class Result:
 
 
 METHODS = {"default": PAIR, "node_to_surface": PAIR + '\nmethod = "node_to_surface"',
-           "two_pass": PAIR + '\nmethod = "two_pass"', "all": 'kind = "all"'}
+           "two_pass": PAIR + '\nmethod = "two_pass"',
+           "surface_to_surface": PAIR + '\nmethod = "surface_to_surface"', "all": 'kind = "all"'}
 BASE = (1e-3, 1.0, 1.0)
 
 
