@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 
 #include "base/units.hpp"
 #include "casefile/plausibility.hpp"
+#include "contact/facet_geometry.hpp"
 #include "math/vec3.hpp"
 #include "mesh/skin.hpp"
 #include "output/cfc_filter.hpp"
@@ -71,6 +73,57 @@ Approach approach(const Simulation& s, std::size_t contact, const State& state) 
     a.measure += rows.measure[r];
   }
   return a;
+}
+
+/// Mean position and velocity of the nodes of facets.
+struct Motion {
+  Vec3 x{}, v{};
+};
+Motion mean_motion(const Simulation& s, std::span<const Facet> facets, const State& state) {
+  Motion m;
+  double count = 0.0;
+  for (const Facet& facet : facets) {
+    for (const Index n : facet) {
+      const auto i = static_cast<std::size_t>(n);
+      for (std::size_t c = 0; c < 3; ++c) {
+        m.x[c] += s.mesh().coordinates[i][c] + state.q[3 * i + c];
+        m.v[c] += state.v[3 * i + c];
+      }
+      ++count;
+    }
+  }
+  return {scaled(m.x, 1.0 / count), scaled(m.v, 1.0 / count)};
+}
+
+/// Speed at which the middles of two surfaces approach each other that are too far apart for rows; without a value
+/// where that says nothing.
+std::optional<double> far_approach(const Simulation& s, std::size_t c, const State& state) {
+  const auto* pair = std::get_if<PairContact>(&s.model().contacts[c]);
+  if (pair == nullptr || pair->self) return std::nullopt;
+  const Motion slave = mean_motion(s, pair->slave.facets, state), master = mean_motion(s, pair->master.facets, state);
+  const Vec3 way = subtract(master.x, slave.x);
+  return norm(way) > 0.0 ? std::optional(dot(subtract(slave.v, master.v), way) / norm(way)) : std::nullopt;
+}
+
+/// True when a rigid surface shows its back: the facet nearest to the middle of the touching surface looks the same way
+/// as that does and lies before it.
+bool shows_its_back(const Simulation& s, std::size_t c, const State& state) {
+  const auto* obstacle = std::get_if<ObstacleContact>(&s.model().contacts[c]);
+  const auto* rigid = obstacle == nullptr ? nullptr : std::get_if<RigidSurface>(&obstacle->shape);
+  if (rigid == nullptr || obstacle->surface.facets.empty()) return false;
+  const Vec3 middle = mean_motion(s, obstacle->surface.facets, state).x;
+  const auto centre = [&](const Facet& facet) { return mean_motion(s, std::span(&facet, 1), state).x; };
+  const auto distance = [&](const Facet& facet) { return norm(subtract(centre(facet), middle)); };
+  const auto nearer = [&](const Facet& a, const Facet& b) { return distance(a) < distance(b); };
+  const auto normal = [&](const Facet& facet) {
+    const PlacedFacet placed = place(facet, s.mesh().coordinates);
+    const ParentPoint at = facet_centre(facet.size);
+    return facet_frame(placed, at.xi, at.eta).normal;
+  };
+  const std::vector<Facet>&own = obstacle->surface.facets, &others = rigid->surface.facets;
+  const Facet& here = *std::min_element(own.begin(), own.end(), nearer);
+  const Facet& there = *std::min_element(others.begin(), others.end(), nearer);
+  return dot(normal(here), normal(there)) > 0.5 && dot(subtract(centre(there), centre(here)), normal(here)) > 0.0;
 }
 
 double smallest_cell(const Simulation& s) {
@@ -138,7 +191,15 @@ void lint_contact(const Simulation& s, std::size_t c, const State& state, std::v
         "{} is not reached before the end: gap {:.4g} at speed {:.4g} closes at t = {:.4g}, the run ends at {:.4g}", at,
         a.gap, a.speed, a.first_touch, end));
   }
-  if (a.speed <= 0.0 && a.gap > 0.0 && s.model().loads.empty()) {
+  const bool is_turned = shows_its_back(s, c, state);
+  if (is_turned) {
+    out.push_back(
+        fmt::format("{}: the faces of its rigid surface look away from \"{}\", and what comes from behind "
+                    "passes: turn the faces round (the order of their nodes)",
+                    at, *contact.group));
+  }
+  const double speed = std::isfinite(a.gap) ? a.speed : far_approach(s, c, state).value_or(1.0);
+  if (speed <= 0.0 && a.gap > 0.0 && !is_turned && s.model().loads.empty()) {
     out.push_back(
         fmt::format("{}: nothing moves towards it (is the sign of the velocity or of the normal right?)", at));
   }
@@ -218,8 +279,10 @@ std::string check_summary(const Simulation& s) {
     const Approach a = approach(s, i, state);
     const std::string touch =
         std::isfinite(a.first_touch) ? fmt::format("first touch at t = {:.6g}", a.first_touch) : "no approach";
-    text += fmt::format("  contact   \"{}\": gap {:.6g} {}, closing speed {:.6g}, {}\n", *s.given().contacts[i].name,
-                        a.gap, unit(Dimension::length), a.speed, touch);
+    text += fmt::format("  contact   \"{}\": {}\n", *s.given().contacts[i].name,
+                        std::isfinite(a.gap) ? fmt::format("gap {:.6g} {}, closing speed {:.6g}, {}", a.gap,
+                                                           unit(Dimension::length), a.speed, touch)
+                                             : "the surfaces are more than a facet apart");
   }
   const std::vector<double> bounds = s.solid().cell_frequency_bounds();
   const double estimate = 2.0 / std::sqrt(*std::max_element(bounds.begin(), bounds.end()));

@@ -1,0 +1,66 @@
+// What a case is warned of before it runs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "run/lint.hpp"
+#include "run_fixture.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+const std::string central_differences = "[scheme]\nkind = \"central_differences\"\n[time]\nend = 1.0\n";
+
+std::string moving(double speed) {
+  return "[[initial]]\npart = \"body\"\nvelocity = [0.0, 0.0, " + std::to_string(speed) + "]\n";
+}
+
+/// A second body of the same material, its lower face at the given height.
+std::string second_body(double height) {
+  return "[[mesh.block]]\norigin = [0.0, 0.0, " + std::to_string(height) +
+         "]\nsize = [2.0, 2.0, 1.0]\ndivisions = [1, 1, 1]\ngroups = { cells = \"OTHER\", zmin = \"UNDER\" }\n"
+         "[[part]]\nname = \"other\"\ncells = \"OTHER\"\nmaterial = \"soft\"\n"
+         "[[contact]]\nname = \"touch\"\nkind = \"pair\"\ngroup = \"HEAD\"\nmaster = \"UNDER\"\n";
+}
+
+/// A rigid sheet of one facet whose normal is along z.
+std::string sheet(double height, const std::string& group) {
+  return "[[mesh.block]]\nkind = \"quad\"\norigin = [-1.0, -1.0, " + std::to_string(height) +
+         "]\nsize = [4.0, 4.0]\ndivisions = [1, 1]\ngroups = { cells = \"SHEET\" }\n"
+         "[[contact]]\nname = \"sheet\"\nkind = \"surface\"\nsurface = \"SHEET\"\ngroup = \"" +
+         group + "\"\n";
+}
+
+bool is_warned(const std::string& rest, const std::string& what) {
+  const Case given = parse_case(case_of_block(rest + central_differences), "case.toml");
+  const std::vector<std::string> warnings = lint_warnings(Simulation(given));
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const std::string& w) { return w.find(what) != std::string::npos; });
+}
+
+TEST(Lint, SaysWhenNothingMovesTowardsAContact) {
+  const std::string what = "nothing moves towards it";
+  // Surfaces 0.5 apart have rows, those 5 apart have none: both are judged.
+  for (const double height : {3.5, 8.0}) {
+    EXPECT_FALSE(is_warned(second_body(height) + moving(1.0), what)) << height;
+    EXPECT_TRUE(is_warned(second_body(height) + moving(-1.0), what)) << height;
+    EXPECT_TRUE(is_warned(second_body(height), what)) << height;
+  }
+}
+
+TEST(Lint, SaysWhenARigidSurfaceShowsItsBack) {
+  const std::string what = "look away from";
+  EXPECT_FALSE(is_warned(sheet(-0.1, "FOOT") + moving(-1.0), what));
+  EXPECT_TRUE(is_warned(sheet(3.1, "HEAD") + moving(1.0), what));
+}
+
+TEST(Lint, SaysWhenAContactIsReachedAfterTheEnd) {
+  const std::string what = "is not reached before the end";
+  EXPECT_FALSE(is_warned(second_body(3.5) + moving(1.0), what));
+  EXPECT_TRUE(is_warned(second_body(3.5) + moving(0.4), what));  // 0.5 / 0.4 > 1
+}
+
+}  // namespace
+}  // namespace carom
