@@ -165,7 +165,7 @@ struct CaseStage {
 };
 
 struct CaseSolver {
-  enum class Kind : std::uint8_t { automatic, cg, cholmod };
+  enum class Kind : std::uint8_t { automatic, cg, cholmod, mumps };
   Kind kind = Kind::automatic;
   int max_contact_iterations = 50;
 };

@@ -113,7 +113,7 @@ void Cholesky::Impl::factorize(cholmod_sparse& A) {
   const bool done = cholmod_l_factorize(&A, L, &common) != 0;
   if (common.status == CHOLMOD_NOT_POSDEF || (done && L->minor < L->n)) {
     const SuiteSparse_long row = static_cast<const SuiteSparse_long*>(L->Perm)[L->minor];
-    throw std::runtime_error(
+    throw NotPositiveDefinite(
         fmt::format("Cholesky factorisation: the matrix is not positive definite (pivot of row {})", row));
   }
   if (!done) throw std::runtime_error("Cholesky factorisation failed: " + reason(common));

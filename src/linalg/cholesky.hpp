@@ -3,16 +3,22 @@
 
 #include <memory>
 #include <span>
+#include <stdexcept>
 
 #include "linalg/csr_matrix.hpp"
 
 namespace carom {
 
+/// What Cholesky throws for a matrix that has no such factors.
+struct NotPositiveDefinite : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// A = L L^T of a symmetric positive definite matrix; factored once, solved many times.
 class Cholesky {
  public:
-  /// Reads the lower triangle of A. Throws std::runtime_error when an entry is not finite, when A is not positive
-  /// definite (names the 0-based row) or when memory runs out.
+  /// Reads the lower triangle of A. Throws NotPositiveDefinite (names the 0-based row), std::runtime_error when an
+  /// entry is not finite or when memory runs out.
   explicit Cholesky(const CsrMatrix& A);
   ~Cholesky();
   Cholesky(Cholesky&&) noexcept;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
@@ -100,7 +101,7 @@ class Run {
   void fill(Summary& summary) const;
   Recorder& recorder() { return recorder_; }
   Progress& progress() { return progress_; }
-  const std::vector<std::string>& switches() const { return switches_; }
+  const std::vector<std::string>& log() const { return log_; }
   Outcome outcome() const { return outcome_; }
   const std::string& message() const { return message_; }
 
@@ -110,6 +111,7 @@ class Run {
   bool march(const Stage& stage, const std::atomic<bool>& stop);
   void look_after(const Stage& stage);
   bool advance(const Stage& stage);
+  void note_solver();
   void record(Recorder::Moment moment);
 
   const Simulation& s_;
@@ -122,9 +124,10 @@ class Run {
   std::optional<EnergyLedger> ledger_;
   std::optional<RunMonitor> monitor_;
   long long step_ = 0;
-  double dt_ = 0.0;                    ///< of the last step
-  int iterations_ = 0;                 ///< of the last step
-  std::vector<std::string> switches_;  ///< from stage to stage, for the log
+  double dt_ = 0.0;               ///< of the last step
+  int iterations_ = 0;            ///< of the last step
+  std::vector<std::string> log_;  ///< changes of scheme and solver on the way
+  std::string solver_;            ///< Scheme::solver_name after the last step
   double dt_smallest_ = 0.0, dt_largest_ = 0.0;
   Outcome outcome_ = Outcome::good;
   std::string message_;
@@ -133,6 +136,7 @@ class Run {
 /// Makes the stage's scheme and lets it take the state over.
 void Run::begin_stage(const Stage& stage) {
   scheme_ = stage.make_scheme();
+  solver_ = scheme_->solver_name();
   const bool may_halve = !stage.time().fixed && !is_explicit(stage.settings().kind);
   control_.emplace(stage.begin(), stage.dt(), stage.steps(),
                    may_halve ? StepControl::Halving::allowed : StepControl::Halving::forbidden);
@@ -170,8 +174,8 @@ void Run::book_switch(const Stage& stage) {
   }
   ledger_->add(jump, now);
   monitor_->begin_stage(stage.reversible_energy());
-  switches_.push_back(fmt::format("at t = {:.6g} from step {} on: {}; stored energy jumps by {:.3g}", state_.t, step_,
-                                  stage.name(), jump.energy.mechanical()));
+  log_.push_back(fmt::format("stage: at t = {:.6g} from step {} on: {}; stored energy jumps by {:.3g}", state_.t, step_,
+                             stage.name(), jump.energy.mechanical()));
 }
 
 void Run::record(Recorder::Moment moment) {
@@ -204,6 +208,14 @@ void Run::look_after(const Stage& stage) {
           rotation.angle / one_degree));
 }
 
+/// A tangent that is not positive definite makes the scheme change its solver, once in a stage.
+void Run::note_solver() {
+  std::string now = scheme_->solver_name();
+  if (now == solver_) return;
+  log_.push_back(fmt::format("solver: at t = {:.6g} from step {} on: {}", state_.t, step_, now));
+  solver_ = std::move(now);
+}
+
 /// One accepted step. Returns false when the run cannot go on; message_ says why.
 bool Run::advance(const Stage& stage) {
   StepReport report;
@@ -226,6 +238,7 @@ bool Run::advance(const Stage& stage) {
   iterations_ = std::max(report.iterations, report.linear_iterations);
   control_->accept();
   ++step_;
+  note_solver();
   dt_smallest_ = step_ == 1 ? dt_ : std::min(dt_smallest_, dt_);
   dt_largest_ = std::max(dt_largest_, dt_);
   ledger_->add(report.books, scheme_->forces().total_momentum);
@@ -416,7 +429,7 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   const double step_seconds = seconds_since(stepping);
   run.progress().finish("");
   if (!quiet) {
-    for (const std::string& line : run.switches()) say("stage: {}\n", line);
+    for (const std::string& line : run.log()) say("{}\n", line);
   }
   run.recorder().close();
   run.fill(summary);

@@ -17,7 +17,8 @@ namespace carom {
 namespace {
 
 SchemeSettings settings_of(const CaseScheme& given, const CaseSolver& solver) {
-  static constexpr SolverKind kinds[] = {SolverKind::automatic, SolverKind::conjugate_gradients, SolverKind::cholesky};
+  static constexpr SolverKind kinds[] = {SolverKind::automatic, SolverKind::conjugate_gradients, SolverKind::cholesky,
+                                         SolverKind::ldlt};
   SchemeSettings s;
   s.kind = *given.kind;
   s.enforcement = **given.enforcement;

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <optional>
-#include <stdexcept>
 
-#include "linalg/cholesky.hpp"
 #include "linalg/conjugate_gradients.hpp"
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/row_compliance.hpp"
+#include "schemes/tangent_factors.hpp"
 
 namespace carom {
 
@@ -78,7 +76,7 @@ class CgSolver final : public EffectiveSolver {
   LinearSolveReport invert(std::span<double> b, int columns) override {
     rows_ = nullptr;
     tangents_.clear();
-    LinearSolveReport all{true, 0, 0.0};
+    LinearSolveReport all{true, 0, 0.0, false};
     const std::size_t n = u_.size();
     std::vector<double> x(n);
     for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) {
@@ -88,6 +86,7 @@ class CgSolver final : public EffectiveSolver {
       all.converged = all.converged && one.converged;
       all.iterations += one.iterations;
       all.residual = std::max(all.residual, one.residual);
+      all.is_indefinite = all.is_indefinite || one.is_indefinite;
     }
     return all;
   }
@@ -101,7 +100,8 @@ class CgSolver final : public EffectiveSolver {
     const LinearOperator A = [&](std::span<const double> in, std::span<double> out) { apply(tangents_, in, out); };
     const int most = 1000 + static_cast<int>(10.0 * std::sqrt(static_cast<double>(x.size())));
     const CgResult result = cg_.solve(A, inverse_diagonal_, b, x, relative, absolute, most);
-    return {result.converged, result.iterations, result.residual};
+    const bool broke_down = !result.converged && result.iterations < most;
+    return {result.converged, result.iterations, result.residual, broke_down};
   }
 
   void apply(const std::vector<RowTangent>& D, std::span<const double> x, std::span<double> y) {
@@ -148,9 +148,10 @@ class CgSolver final : public EffectiveSolver {
 /// A = m M + c K factored (once for a linear body); contact by the Schur complement on its active rows (Woodbury):
 ///   (1 + S D) w = G A^-1 b,  x = A^-1 (b - G^T D w),  S = G A^-1 G^T,
 /// where S grows by a row and a column when a component of a row first becomes active; only S is kept.
-class CholeskySolver final : public EffectiveSolver {
+class DirectSolver final : public EffectiveSolver {
  public:
-  explicit CholeskySolver(const System& system) : system_(system), compliance_(system.solid.dof_count(), 0) {
+  DirectSolver(const System& system, TangentFactors::Method method)
+      : system_(system), factors_(method), compliance_(system.solid.dof_count(), 0) {
     const std::vector<bool>& fixed = system.supports.fixed();
     compressed_of_.assign(fixed.size(), -1);
     for (std::size_t i = 0; i < fixed.size(); ++i) {
@@ -164,19 +165,13 @@ class CholeskySolver final : public EffectiveSolver {
 
   std::string prepare(double m, double c, std::span<const double> u) override {
     const bool is_linear = system_.solid.is_linear();
-    if (factor_ && is_linear && m == m_ && c == c_) return {};
+    if (factors_.has_factors() && is_linear && m == m_ && c == c_) return {};
     ++operators_made_;
     m_ = m;
     c_ = c;
-    factor_.reset();
     compliance_.forget();
     if (!is_linear) stiffness_ = system_.solid.tangent(u);
-    try {
-      factor_.emplace(assemble());
-    } catch (const std::runtime_error& e) {
-      return e.what();
-    }
-    return {};
+    return factors_.factorize(assemble());
   }
 
   LinearSolveReport solve(std::span<const double> b, const std::shared_ptr<const ConstraintRows>& rows,
@@ -184,21 +179,21 @@ class CholeskySolver final : public EffectiveSolver {
     std::copy(b.begin(), b.end(), x.begin());
     back_substitute(x, 1);
     const std::vector<RowComponent> active = active_components(D);
-    if (active.empty()) return {true, 1, 0.0};
+    if (active.empty()) return {true, 1, 0.0, false};
     compliance_.use(rows);
     const std::vector<double> w = contact_displacements(*rows, D, active, x);
     std::copy(b.begin(), b.end(), x.begin());
     subtract_contact(*rows, D, active, w, x);
     back_substitute(x, 1);
-    return {true, 1, 0.0};
+    return {true, 1, 0.0, false};
   }
 
   LinearSolveReport invert(std::span<double> b, int columns) override {
     back_substitute(b, columns);
-    return {true, columns, 0.0};
+    return {true, columns, 0.0, false};
   }
 
-  std::string name() const override { return "Cholesky factorisation"; }
+  std::string name() const override { return factors_.name(); }
 
  private:
   CsrMatrix assemble() const;
@@ -211,12 +206,12 @@ class CholeskySolver final : public EffectiveSolver {
   CsrMatrix stiffness_;
   std::vector<std::size_t> free_;     ///< dof of each unknown
   std::vector<Index> compressed_of_;  ///< unknown of each dof, -1 when fixed
-  std::optional<Cholesky> factor_;
+  TangentFactors factors_;
   RowCompliance compliance_;
   double m_ = 1.0, c_ = 0.0;
 };
 
-CsrMatrix CholeskySolver::assemble() const {
+CsrMatrix DirectSolver::assemble() const {
   const CsrMatrix& M = system_.mass.node_matrix();
   CsrMatrix A;
   A.size = static_cast<Index>(free_.size());
@@ -243,7 +238,7 @@ CsrMatrix CholeskySolver::assemble() const {
   return A;
 }
 
-std::vector<RowComponent> CholeskySolver::active_components(const std::vector<RowTangent>& D) const {
+std::vector<RowComponent> DirectSolver::active_components(const std::vector<RowTangent>& D) const {
   std::vector<RowComponent> active;
   for (std::size_t r = 0; r < D.size(); ++r) {
     if (!acts(D[r])) continue;
@@ -254,14 +249,14 @@ std::vector<RowComponent> CholeskySolver::active_components(const std::vector<Ro
 }
 
 /// b = A^-1 b on the free dofs, zero elsewhere.
-void CholeskySolver::back_substitute(std::span<double> b, int columns) const {
+void DirectSolver::back_substitute(std::span<double> b, int columns) const {
   const std::size_t n = free_.size(), all = compressed_of_.size();
   const auto count = static_cast<std::size_t>(columns);
   std::vector<double> y(n * count);
   for (std::size_t k = 0; k < count; ++k) {
     for (std::size_t i = 0; i < n; ++i) y[k * n + i] = b[k * all + free_[i]];
   }
-  factor_->solve(y, columns);
+  factors_.solve(y, columns);
   std::fill(b.begin(), b.end(), 0.0);
   for (std::size_t k = 0; k < count; ++k) {
     for (std::size_t i = 0; i < n; ++i) b[k * all + free_[i]] = y[k * n + i];
@@ -269,9 +264,9 @@ void CholeskySolver::back_substitute(std::span<double> b, int columns) const {
 }
 
 /// w of (1 + S D) w = G x.
-std::vector<double> CholeskySolver::contact_displacements(const ConstraintRows& rows, const std::vector<RowTangent>& D,
-                                                          const std::vector<RowComponent>& active,
-                                                          std::span<const double> x) {
+std::vector<double> DirectSolver::contact_displacements(const ConstraintRows& rows, const std::vector<RowTangent>& D,
+                                                        const std::vector<RowComponent>& active,
+                                                        std::span<const double> x) {
   compliance_.extend(active, [&](std::span<double> b, int columns) { back_substitute(b, columns); });
   const std::size_t m = active.size();
   std::vector<double> matrix(m * m, 0.0), w(m);
@@ -299,7 +294,8 @@ std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, Sol
     const bool large = system.solid.dof_count() > 2'000'000 || system.contact.slots() > 1000;
     kind = iterations <= 60.0 || large ? SolverKind::conjugate_gradients : SolverKind::cholesky;
   }
-  if (kind == SolverKind::cholesky) return std::make_unique<CholeskySolver>(system);
+  if (kind == SolverKind::cholesky) return std::make_unique<DirectSolver>(system, TangentFactors::Method::cholesky);
+  if (kind == SolverKind::ldlt) return std::make_unique<DirectSolver>(system, TangentFactors::Method::ldlt);
   return std::make_unique<CgSolver>(system);
 }
 

@@ -11,12 +11,13 @@
 
 namespace carom {
 
-enum class SolverKind : std::uint8_t { automatic, conjugate_gradients, cholesky };
+enum class SolverKind : std::uint8_t { automatic, conjugate_gradients, cholesky, ldlt };
 
 struct LinearSolveReport {
   bool converged = false;
   int iterations = 0;
-  double residual = 0.0;  ///< 2-norm; 0 for a direct solve
+  double residual = 0.0;       ///< 2-norm; 0 for a direct solve
+  bool is_indefinite = false;  ///< it broke down, since the operator is not positive definite
 };
 
 /// A = m M + c K(u) of the system; D holds the contact tangents, row by row in the row's frame, times the slope of x in
@@ -46,7 +47,8 @@ class EffectiveSolver {
 ///   kappa about 1 + (c / m) omega_max^2, so that sqrt(kappa)/2 ln(2/1e-12) iterations stay below 60, and the
 ///   factorisation
 /// elsewhere, unless the mesh has more than two million dofs or contact more than a thousand rows (one
-/// back-substitution and a line of a dense matrix each).
+/// back-substitution and a line of a dense matrix each). Cholesky factors give way to L D L^T where the operator is not
+/// positive definite (TangentFactors).
 std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind, double ratio,
                                                        double omega_max_squared);
 

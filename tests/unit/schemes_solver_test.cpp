@@ -3,6 +3,7 @@
 
 #include "contact_fixture.hpp"
 #include "linalg/dense.hpp"
+#include "schemes/make_scheme.hpp"
 #include "schemes_fixture.hpp"
 
 namespace carom {
@@ -112,6 +113,42 @@ TEST(EffectiveSolver, ConjugateGradientsSolveSymmetricTangents) {
   }
 }
 
+TEST(EffectiveSolver, LdltCorrectsForAnyContactTangent) {
+  const Problem p(many_rows());
+  const auto solver = make_effective_solver(p.system, SolverKind::ldlt, 0.1, 1.0);
+  EXPECT_EQ(solver->name(), "LDL^T factorisation");
+  for (const double s : {0.1, 3.0}) {
+    for (unsigned seed = 1; seed <= 3; ++seed) {  // 1e-11: as for Cholesky
+      expect_dense_solution(p, *solver, s, random_tangents(p.contact.slots(), 100 * seed, Draw::general), 1e-11);
+    }
+  }
+}
+
+// s < 0 stands for a tangent with negative stiffness: M - 3 K is indefinite.
+TEST(EffectiveSolver, CholeskyGivesWayToLdltWhereTheOperatorIsIndefinite) {
+  const Problem p(many_rows());
+  const auto solver = make_effective_solver(p.system, SolverKind::cholesky, 0.1, 1.0);
+  expect_dense_solution(p, *solver, 0.1, random_tangents(p.contact.slots(), 100, Draw::general), 1e-11);
+  EXPECT_EQ(solver->name(), "Cholesky factorisation");
+  // 1e-10: M - 3 K may have an eigenvalue near zero, so that the condition number is some thousand
+  expect_dense_solution(p, *solver, -3.0, random_tangents(p.contact.slots(), 100, Draw::general), 1e-10);
+  const std::string name = solver->name();
+  EXPECT_EQ(name.find("LDL^T factorisation since a tangent had "), 0u) << name;
+  expect_dense_solution(p, *solver, 0.1, random_tangents(p.contact.slots(), 100, Draw::general), 1e-11);
+  EXPECT_EQ(solver->name(), name);
+}
+
+TEST(EffectiveSolver, ConjugateGradientsSayThatTheOperatorIsIndefinite) {
+  const Problem p(many_rows());
+  const auto solver = make_effective_solver(p.system, SolverKind::conjugate_gradients, 0.1, 1.0);
+  const std::vector<double> b = free_random(p, 3);
+  std::vector<double> x(b.size());
+  EXPECT_EQ(solver->prepare(1.0, -3.0, x), "");
+  const LinearSolveReport report = solver->solve(b, p.rows(), {}, 0.0, x);
+  EXPECT_FALSE(report.converged);
+  EXPECT_TRUE(report.is_indefinite);
+}
+
 // Sliding makes the tangent unsymmetric, which conjugate gradients cannot take: they leave the one-way coupling out.
 TEST(EffectiveSolver, ConjugateGradientsLeaveOneWayCouplingOut) {
   const Problem p(many_rows());
@@ -150,7 +187,7 @@ TEST(Solvers, AgreeOnAnImpact) {
   for (const Friction& friction : {Friction{}, Friction{10.0, 0.5}}) {
     for (const MassKind kind : {MassKind::consistent, MassKind::lumped}) {
       std::vector<State> states;
-      for (const SolverKind solver : {SolverKind::cholesky, SolverKind::conjugate_gradients}) {
+      for (const SolverKind solver : {SolverKind::cholesky, SolverKind::conjugate_gradients, SolverKind::ldlt}) {
         const Problem p(impact(friction), kind);
         const History run = march(*newmark(p, 0.1, {.solver = solver}), p.moving({0.1, 0.05, -0.2}), 0.1, 100);
         ASSERT_TRUE(run.converged);
@@ -160,6 +197,37 @@ TEST(Solvers, AgreeOnAnImpact) {
       // practice; the contact has been made and lost.
       EXPECT_LT(largest_difference(states[0].q, states[1].q), 1e-9 * largest(states[0].q));
       EXPECT_LT(largest_difference(states[0].v, states[1].v), 1e-9 * largest(states[0].v));
+      EXPECT_LT(largest_difference(states[0].q, states[2].q), 1e-9 * largest(states[0].q));
+      EXPECT_LT(largest_difference(states[0].v, states[2].v), 1e-9 * largest(states[0].v));
+    }
+  }
+}
+
+// Every implicit scheme and enforcement, both factorisations: the same answer.
+TEST(Solvers, EveryImplicitSchemeTakesLdlt) {
+  for (const SchemeTraits& scheme : scheme_table) {
+    if (is_explicit(scheme.kind)) continue;
+    for (std::size_t e = 0; e < enforcement_count; ++e) {
+      if (!scheme.takes[e]) continue;
+      const Problem p(impact({}));
+      std::vector<State> states;
+      for (const SolverKind solver : {SolverKind::cholesky, SolverKind::ldlt}) {
+        SchemeSettings settings;
+        settings.kind = scheme.kind;
+        settings.enforcement = static_cast<EnforcementKind>(e);
+        settings.solver = solver;
+        const auto made = make_scheme(p.system, settings, 0.1, stable_step(p.system).omega_max_squared_free);
+        // Statics knows no velocities: there nothing moves.
+        const History run = march(*made, p.moving({0.1, 0.05, -0.2}), 0.1, 20);
+        EXPECT_EQ(made->solver_name(), solver == SolverKind::ldlt ? "LDL^T factorisation" : "Cholesky factorisation");
+        EXPECT_TRUE(run.converged) << scheme.name << ", " << enforcement_names[e];
+        states.push_back(run.state);
+      }
+      // 1e-9: as AgreeOnAnImpact
+      EXPECT_LT(largest_difference(states[0].v, states[1].v), 1e-9 * std::max(0.1, largest(states[0].v)))
+          << scheme.name;
+      EXPECT_LT(largest_difference(states[0].q, states[1].q), 1e-9 * std::max(0.1, largest(states[0].q)))
+          << scheme.name;
     }
   }
 }

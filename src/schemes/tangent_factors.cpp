@@ -1,0 +1,50 @@
+#include "schemes/tangent_factors.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <stdexcept>
+
+namespace carom {
+
+std::string TangentFactors::factorize(const CsrMatrix& A) {
+  has_factors_ = false;
+  cholesky_.reset();  // before others are made: both at once may not fit
+  try {
+    if (method_ == Method::cholesky) {
+      try {
+        cholesky_.emplace(A);
+      } catch (const NotPositiveDefinite&) {
+        method_ = Method::ldlt;
+      }
+    }
+    if (method_ == Method::ldlt) ldlt_.factorize(A);
+    if (method_ != first_ && negative_ == 0) negative_ = ldlt_.negative_eigenvalues();
+  } catch (const SingularMatrix& e) {
+    return std::string(e.what()) +
+           ": a body that nothing holds, or a limit or bifurcation point. Hold the body, change the step, or follow "
+           "the "
+           "motion by a scheme with inertia";
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+  has_factors_ = true;
+  return {};
+}
+
+void TangentFactors::solve(std::span<double> b, int columns) const {
+  assert(has_factors_);
+  if (method_ == Method::cholesky)
+    cholesky_->solve(b, columns);
+  else
+    ldlt_.solve(b, columns);
+}
+
+std::string TangentFactors::name() const {
+  if (method_ == Method::cholesky) return "Cholesky factorisation";
+  if (first_ == method_) return "LDL^T factorisation";
+  return fmt::format("LDL^T factorisation since a tangent had {} negative eigenvalue{}", negative_,
+                     negative_ == 1 ? "" : "s");
+}
+
+}  // namespace carom
