@@ -27,8 +27,9 @@ SectionSchema<CaseExactBar> second_bar_section() {
 
 void add_bodies(SectionSchema<CaseExact>& s) {
   const Names walls{"bar_on_rigid_wall", "bar_on_penalty_wall"};
-  const Names bars{"bar_on_rigid_wall", "bar_on_penalty_wall", "bouncing_bar", "two_bars"};
-  const Names elastic{"bar_on_rigid_wall", "bar_on_penalty_wall", "bouncing_bar", "two_bars", "sphere_on_rigid_wall"};
+  const Names bars{"bar_on_rigid_wall", "bar_on_penalty_wall", "bar_on_free_mass", "bouncing_bar", "two_bars"};
+  const Names elastic{"bar_on_rigid_wall", "bar_on_penalty_wall", "bar_on_free_mass", "bouncing_bar",
+                      "two_bars",          "sphere_on_rigid_wall"};
   s.key("length", &CaseExact::length, "Length of the bar.", positive(Dimension::length, bars));
   s.key("area", &CaseExact::area, "Section of the bar.", positive(Dimension::area, bars));
   s.key("modulus", &CaseExact::modulus,
@@ -38,8 +39,9 @@ void add_bodies(SectionSchema<CaseExact>& s) {
   s.key("poisson", &CaseExact::poisson, "Poisson's ratio of the sphere.",
         {.range = between_open(-1.0, 0.5), .kinds = {"sphere_on_rigid_wall"}});
   s.key("density", &CaseExact::density, "Density.", positive(Dimension::density, bars));
-  s.key("mass", &CaseExact::mass, "Mass of the body.",
-        positive(Dimension::mass, {"sphere_on_rigid_wall", "sliding_block", "friction_oscillator"}));
+  s.key(
+      "mass", &CaseExact::mass, "Mass of the body; of the rigid one that the bar hits.",
+      positive(Dimension::mass, {"bar_on_free_mass", "sphere_on_rigid_wall", "sliding_block", "friction_oscillator"}));
   s.key("radius", &CaseExact::radius, "Radius of the sphere.", positive(Dimension::length, {"sphere_on_rigid_wall"}));
 }
 
@@ -49,18 +51,19 @@ SectionSchema<CaseExact> exact_section() {
   SectionSchema<CaseExact> s("Exact solution of the case, for checks and curves; the motion is along one axis.");
   s.description.selector = "solution";
   s.key("solution", &CaseExact::solution, "Which solution.",
-        {.choices = {"bar_on_rigid_wall", "bar_on_penalty_wall", "bouncing_bar", "two_bars", "sphere_on_rigid_wall",
-                     "sliding_block", "friction_oscillator"},
+        {.choices = {"bar_on_rigid_wall", "bar_on_penalty_wall", "bar_on_free_mass", "bouncing_bar", "two_bars",
+                     "sphere_on_rigid_wall", "sliding_block", "friction_oscillator"},
          .need = Need::required});
   add_bodies(s);
   s.key("speed", &CaseExact::speed, "Speed towards the wall; of a block or of the first of two bars, along the axis.",
         {.unit = Dimension::velocity,
-         .kinds = {"bar_on_rigid_wall", "bar_on_penalty_wall", "bouncing_bar", "two_bars", "sphere_on_rigid_wall",
-                   "sliding_block"},
-         .required_for = {"bar_on_rigid_wall", "bar_on_penalty_wall", "sphere_on_rigid_wall", "two_bars"}});
+         .kinds = {"bar_on_rigid_wall", "bar_on_penalty_wall", "bar_on_free_mass", "bouncing_bar", "two_bars",
+                   "sphere_on_rigid_wall", "sliding_block"},
+         .required_for = {"bar_on_rigid_wall", "bar_on_penalty_wall", "bar_on_free_mass", "sphere_on_rigid_wall",
+                          "two_bars"}});
   s.key("gap", &CaseExact::gap, "Distance to the wall, or between the bars, at the start.",
-        not_negative(Dimension::length,
-                     {"bar_on_rigid_wall", "bar_on_penalty_wall", "bouncing_bar", "two_bars", "sphere_on_rigid_wall"}));
+        not_negative(Dimension::length, {"bar_on_rigid_wall", "bar_on_penalty_wall", "bar_on_free_mass", "bouncing_bar",
+                                         "two_bars", "sphere_on_rigid_wall"}));
   s.key("stiffness", &CaseExact::stiffness, "Stress per penetration of the wall.",
         positive(Dimension::stress_per_length, {"bar_on_penalty_wall"}));
   s.key("stiffness", &CaseExact::stiffness, "Of the spring.",
@@ -73,7 +76,8 @@ SectionSchema<CaseExact> exact_section() {
         not_negative(Dimension::none, {"sliding_block"}));
   s.key("initial_displacement", &CaseExact::initial_displacement,
         "Added to displacements; where the oscillator is released.",
-        {.unit = Dimension::length, .kinds = {"bar_on_rigid_wall", "bar_on_penalty_wall", "friction_oscillator"}});
+        {.unit = Dimension::length,
+         .kinds = {"bar_on_rigid_wall", "bar_on_penalty_wall", "bar_on_free_mass", "friction_oscillator"}});
   s.table("second", &CaseExact::second, second_bar_section());
   s.key("axis", &CaseExact::axis,
         "Axis of the motion. A bar or sphere flies in the negative direction; of two bars the first part lies on the "

@@ -25,15 +25,25 @@ BarImpactData checked(const BarImpactData& data) {
                                   {"area", data.area},
                                   {"speed", data.speed}});
   require_not_negative("bar impact", {{"gap", data.gap}});
+  require_not_negative("bar impact", {{"wall mass", data.wall_mass}});
+  if (data.stiffness > 0.0 && data.wall_mass > 0.0)
+    throw std::invalid_argument(fmt::format(
+        "bar impact: a wall of stiffness {:g} and mass {:g}, expected one of the two", data.stiffness, data.wall_mass));
   if (!(data.stiffness >= 0.0))
     throw std::invalid_argument(
         fmt::format("bar impact: stiffness is {:g}, expected zero (rigid wall) or a positive number", data.stiffness));
   return data;
 }
 
-/// t_c, or 0 for the rigid wall.
+/// t_c; m / Z of a free wall; 0 for the rigid wall.
 double contact_time_of(const BarImpactData& data, double impedance) {
+  if (data.wall_mass > 0.0) return data.wall_mass / (impedance * data.area);
   return data.stiffness == 0.0 || std::isinf(data.stiffness) ? 0.0 : impedance / data.stiffness;
+}
+
+WallTraction traction_of(const BarImpactData& data, double round_trip, double contact_time) {
+  if (data.wall_mass > 0.0) return WallTraction::free_mass(round_trip, contact_time);
+  return {round_trip, contact_time};
 }
 
 }  // namespace
@@ -45,7 +55,7 @@ BarImpact::BarImpact(const BarImpactData& data)
       touch_time_(data.gap / data.speed),
       round_trip_(2.0 * data.length / wave_speed_),
       contact_time_(contact_time_of(data, impedance_)),
-      traction_(round_trip_, contact_time_) {
+      traction_(traction_of(data, round_trip_, contact_time_)) {
   refuse_second_contact();
 }
 
@@ -88,9 +98,14 @@ double BarImpact::contact_force(double t) const {
 }
 
 double BarImpact::contact_energy(double t) const {
-  if (contact_time_ == 0.0) return 0.0;
+  if (contact_time_ == 0.0 || data_.wall_mass > 0.0) return 0.0;
   const double force = contact_force(t);
   return 0.5 * force * force / (data_.stiffness * data_.area);
+}
+
+double BarImpact::wall_velocity(double t) const {
+  if (data_.wall_mass == 0.0) return 0.0;
+  return -data_.speed / contact_time_ * traction_.integral(t - touch_time_);
 }
 
 double BarImpact::rebound_speed() const {
@@ -98,7 +113,10 @@ double BarImpact::rebound_speed() const {
 }
 
 /// After the release the face moves away by rebound_speed T in every period T, so one period shows all.
+/// A free wall moves away faster than the face at all times: -speed (1 - e(T)) against -speed (1 - 2 e(s)) with
+/// e(s) = exp(-s Z / m) >= e(T).
 void BarImpact::refuse_second_contact() const {
+  if (data_.wall_mass > 0.0) return;
   constexpr int samples = 512;
   const double rounding = 1e-12 * (data_.gap + data_.speed * (round_trip_ + traction_.duration()));
   for (int i = 0; i <= samples; ++i)

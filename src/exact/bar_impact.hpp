@@ -17,6 +17,7 @@ struct BarImpactData {
   double speed = 0.0;      ///< v0 > 0, towards the wall
   double gap = 0.0;        ///< from the face to the wall at t = 0
   double stiffness = 0.0;  ///< eps_N: traction = eps_N x penetration; 0 or infinity: rigid wall
+  double wall_mass = 0.0;  ///< of a rigid wall that is free and at rest before the impact; 0: it is held
 };
 
 /// Solution by characteristics for any t >= 0: flight, contact, release and the waves that keep running in the bar
@@ -29,7 +30,8 @@ struct BarImpactData {
 class BarImpact {
  public:
   /// Throws std::invalid_argument naming the quantity when length, modulus, density, area or speed is not positive,
-  /// gap or stiffness is negative, the wall is too soft (see WallTraction), or the face would touch the wall again.
+  /// gap or stiffness is negative, the wall is too soft (see WallTraction), or the face would touch the wall again;
+  /// nor may a wall have both a stiffness and a mass.
   explicit BarImpact(const BarImpactData& data);
 
   double displacement(double z, double t) const;
@@ -42,6 +44,9 @@ class BarImpact {
   double strain_energy(double t) const;
   /// Energy stored in the penalty wall; 0 for the rigid one.
   double contact_energy(double t) const;
+  /// Velocity of the wall along z: -speed (1 - exp(-s Z / wall_mass)), Z = rho c A, s the time since the touch, until
+  /// the release; 0 for a wall that is held.
+  double wall_velocity(double t) const;
 
   /// c = sqrt(modulus / rho)
   double wave_speed() const { return wave_speed_; }
@@ -59,7 +64,8 @@ class BarImpact {
   double integrate_along(double t, const Function& density) const;
 
   BarImpactData data_;
-  double wave_speed_, impedance_, touch_time_, round_trip_, contact_time_;
+  double wave_speed_, impedance_, touch_time_, round_trip_;
+  double contact_time_;  ///< of the transients behind the fronts: t_c, or wall_mass / Z; 0: there are none
   WallTraction traction_;
 };
 

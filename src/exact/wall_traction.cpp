@@ -55,6 +55,12 @@ WallTraction::WallTraction(double round_trip, double contact_time)
   duration_ = contact_time * find_release();
 }
 
+WallTraction WallTraction::free_mass(double round_trip, double decay_time) {
+  WallTraction traction(round_trip, 0.0);
+  traction.decay_time_ = decay_time;
+  return traction;
+}
+
 double WallTraction::find_release() const {
   const double X = round_trip_ / contact_time_;
   // q rises up to X; the steps are short against both the delay and the decay.
@@ -71,11 +77,13 @@ double WallTraction::find_release() const {
 
 double WallTraction::value(double s) const {
   if (s < 0.0 || s >= duration_) return 0.0;
+  if (decay_time_ > 0.0) return std::exp(-s / decay_time_);
   return contact_time_ == 0.0 ? 1.0 : series(s / contact_time_, round_trip_ / contact_time_).h;
 }
 
 double WallTraction::integral(double s) const {
   const double until = std::clamp(s, 0.0, duration_);
+  if (decay_time_ > 0.0) return -decay_time_ * std::expm1(-until / decay_time_);
   if (contact_time_ == 0.0) return until;
   return contact_time_ * series(until / contact_time_, round_trip_ / contact_time_).integral;
 }

@@ -59,10 +59,10 @@ class Builder {
 
  private:
   void bar_on_wall() {
-    const bool rigid = *exact_.solution == "bar_on_rigid_wall";
-    const auto bar =
-        std::make_shared<const BarImpact>(BarImpactData{exact_.length, exact_.modulus, exact_.density, exact_.area,
-                                                        exact_.speed, exact_.gap, rigid ? 0.0 : exact_.stiffness});
+    BarImpactData data{exact_.length, exact_.modulus, exact_.density, exact_.area, exact_.speed, exact_.gap};
+    if (*exact_.solution == "bar_on_penalty_wall") data.stiffness = exact_.stiffness;
+    if (*exact_.solution == "bar_on_free_mass") data.wall_mass = exact_.mass;
+    const auto bar = std::make_shared<const BarImpact>(data);
     const double z0 = lowest(), shift = exact_.initial_displacement;
     add_probes([&](std::size_t, double x) {
       const double z = std::clamp(x - z0, 0.0, exact_.length);
@@ -71,7 +71,11 @@ class Builder {
                          [bar, z](double t) { return bar->stress(z, t); }};
     });
     add_force([bar](double t) { return bar->contact_force(t); });
-    columns_.push_back({"kinetic", [bar](double t) { return bar->kinetic_energy(t); }});
+    const double mass = data.wall_mass;
+    columns_.push_back({"kinetic", [bar, mass](double t) {
+                          const double v = bar->wall_velocity(t);
+                          return bar->kinetic_energy(t) + 0.5 * mass * v * v;
+                        }});
     columns_.push_back({"strain", [bar](double t) { return bar->strain_energy(t); }});
     columns_.push_back({"contact_stored", [bar](double t) { return bar->contact_energy(t); }});
   }

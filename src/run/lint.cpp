@@ -17,6 +17,7 @@
 #include "output/cfc_filter.hpp"
 #include "run/groups.hpp"
 #include "run/parts.hpp"
+#include "schemes/touch_rebound.hpp"
 
 namespace carom {
 
@@ -223,6 +224,15 @@ void lint_contact(const Simulation& s, std::size_t c, const State& state, std::v
   }
 }
 
+/// Multipliers that throw back what touches them.
+void lint_touches(const Simulation& s, std::vector<std::string>& out) {
+  if (s.given().contacts.empty()) return;
+  for (const auto& stage : s.stages()) {
+    const std::string remedy = touch_remedy(*stage);
+    if (!remedy.empty()) out.push_back(fmt::format("{}: {}", to_string(stage->scheme().where), remedy));
+  }
+}
+
 void lint_scheme(const Simulation& s, std::vector<std::string>& out) {
   if (is_explicit(s.first().settings().kind)) return;
   const double courant = waves(s).speed * s.dt() / smallest_cell(s);
@@ -252,11 +262,24 @@ std::string format_vector(const Vec3& v) {
 
 }  // namespace
 
+std::string touch_remedy(const Stage& stage) {
+  const std::optional<double> rebound = touch_rebound(stage.settings());
+  const bool has_inertia = **stage.scheme().mass != CaseScheme::Mass::modified;
+  if (!rebound || !has_inertia || *rebound <= largest_touch_rebound) return {};
+  return fmt::format(
+      "{} with multipliers throws a node that touches for one step back with up to {:.3g} times its speed, and so "
+      "makes "
+      "energy where touches are short; generalized_alpha (at most 1.25 times), bathe, contact_stabilized_newmark, "
+      "moreau_jean, or mass = \"modified\" do not",
+      describe(stage.settings()), *rebound);
+}
+
 std::vector<std::string> lint_warnings(const Simulation& s) {
   std::vector<std::string> out = plausibility_warnings(s.given());
   const State state = s.initial_state();
   for (std::size_t c = 0; c < s.given().contacts.size(); ++c) lint_contact(s, c, state, out);
   lint_scheme(s, out);
+  lint_touches(s, out);
   lint_filters(s, out);
   return out;
 }

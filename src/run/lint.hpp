@@ -12,6 +12,10 @@ namespace carom {
 /// to pay for it, a step that skips waves, schemes outside their unconditional stability, unit plausibility.
 std::vector<std::string> lint_warnings(const Simulation& simulation);
 
+/// Why the scheme of a stage makes energy on multipliers (schemes/touch_rebound.hpp), and what to choose instead; ""
+/// where it does not.
+std::string touch_remedy(const Stage& stage);
+
 /// The text of `carom check`: parts with mass, kinetic energy and momentum; contacts with gap and first touch; stable
 /// step and Courant number; estimated cost.
 std::string check_summary(const Simulation& simulation);

@@ -250,6 +250,8 @@ bool Run::advance(const Stage& stage) {
   if (!last) look_after(stage);
   if (alarm.empty()) return true;
   message_ = fmt::format("stopped after step {}, t = {:.6g}: {}; {}", step_, state_.t, alarm, worst_place(s_, state_));
+  const std::string remedy = s_.given().contacts.empty() ? "" : touch_remedy(stage);
+  if (!remedy.empty()) message_ += ". " + remedy;
   outcome_ = Outcome::error;
   return false;
 }

@@ -31,6 +31,7 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
+  const CaseScheme& scheme() const { return scheme_; }
   const CaseTime& time() const { return time_; }
   const SchemeSettings& settings() const { return settings_; }
   const Mass& mass() const { return mass_; }

@@ -245,5 +245,35 @@ TEST(BarImpact, RefusesDataWithoutASolution) {
   EXPECT_NE(message(data).find("too soft: its stiffness times L / modulus is 0.00111"), std::string::npos);
 }
 
+/// m dv/dt = Z (v0 - v) until the wave comes back: momentum, energy and force against the closed form.
+TEST(BarImpact, FreeMassTakesOverExponentially) {
+  for (const double mass : {1.0, 10.0, 100.0}) {
+    BarImpactData data = impact_bar;
+    data.wall_mass = mass;
+    const BarImpact bar(data);
+    const double Z = 30.0, M = 10.0, v0 = 10.0, energy = 0.5 * M * v0 * v0;
+    EXPECT_DOUBLE_EQ(bar.release_time(), 0.5 + 2.0 / 3.0);
+    for (const double t : {0.5, 0.7, 1.1}) {
+      EXPECT_NEAR(bar.contact_force(t), Z * v0 * std::exp(-Z * (t - 0.5) / mass), 1e-9);
+      EXPECT_NEAR(bar.velocity(0.0, t), bar.wall_velocity(t), 1e-12);  // together
+    }
+    const double after = -v0 * (1.0 - std::exp(-2.0 * M / mass));
+    for (const double t : {1.2, 1.7, 3.1}) {
+      EXPECT_EQ(bar.contact_force(t), 0.0);
+      EXPECT_NEAR(bar.wall_velocity(t), after, 1e-12);
+      EXPECT_LT(bar.wall_velocity(t), bar.velocity(0.0, t));  // apart
+    }
+    EXPECT_NEAR(M * bar.rebound_speed() + mass * after, -M * v0, 1e-10);
+    for (const double t : {0.2, 0.6, 1.0, 1.3, 4.0}) {
+      const double v = bar.wall_velocity(t);
+      EXPECT_NEAR(bar.kinetic_energy(t) + bar.strain_energy(t) + 0.5 * mass * v * v, energy, 1e-9 * energy) << t;
+      EXPECT_EQ(bar.contact_energy(t), 0.0);
+    }
+  }
+  BarImpactData both = impact_bar;
+  both.wall_mass = both.stiffness = 1.0;
+  EXPECT_THROW(BarImpact{both}, std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace carom

@@ -1,0 +1,24 @@
+#include "schemes/touch_rebound.hpp"
+
+#include "schemes/generalized_alpha.hpp"
+
+namespace carom {
+
+std::optional<double> touch_rebound(const SchemeSettings& s) {
+  if (s.enforcement != EnforcementKind::lagrange) return std::nullopt;
+  const auto of = [](const GeneralizedAlphaParameters& p) { return (1.0 - p.alpha_m) / p.beta - 1.0; };
+  switch (s.kind) {
+    case SchemeKind::newmark:
+      return of(newmark_parameters(s.beta, s.gamma));
+    case SchemeKind::hht:
+      return of(hht_parameters(s.alpha));
+    case SchemeKind::wbz:
+      return of(wbz_parameters(s.alpha));
+    case SchemeKind::generalized_alpha:
+      return of(chung_hulbert_parameters(s.rho_inf));
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace carom
