@@ -45,6 +45,8 @@ VARIANTS = {
                                            ("0.101", "1.12", "0.994", "0.251")),
     "Moreau-Jean, theta 1/2, e 0, lumped": ('kind = "moreau_jean"\nmass = "lumped"', 1.0, None,
                                             ("0.097", "1.06", "0.993", "0.360")),
+    "nonsmooth generalised-alpha, rho_inf 0.8": ('kind = "nonsmooth_generalized_alpha"\nrho_inf = 0.8', 1.0, None, None),
+    "nonsmooth generalised-alpha, rho_inf 0.5": ('kind = "nonsmooth_generalized_alpha"\nrho_inf = 0.5', 1.0, None, None),
     "energy-momentum, penalty E/h": ('kind = "energy_momentum"', 1.0, SPRING, None),
     "modified mass (1 layer) and Newmark 1/4": ('kind = "newmark"\nmass = "modified"\nlayers = 1' + MULTIPLIERS, 1.0,
                                                 None, ("0.099", "1.34", "1.00007", "0.933")),

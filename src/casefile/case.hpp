@@ -136,7 +136,7 @@ struct CaseScheme {
   std::optional<Located<EnforcementKind>> enforcement;  ///< filled on reading: the scheme's default
   double beta = 0.25, gamma = 0.5;                      ///< newmark, contact_stabilized_newmark
   double alpha = -0.05;                                 ///< hht, wbz
-  double rho_inf = 0.8;                                 ///< generalized_alpha, hulbert_chung
+  double rho_inf = 0.8;                                 ///< generalized_alpha, its nonsmooth kin, hulbert_chung
   double theta = 0.5;                                   ///< moreau_jean
   double phi = 1.033;                                   ///< tchamwa_wielgosz
   double p = 0.54;                                      ///< noh_bathe

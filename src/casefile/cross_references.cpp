@@ -123,8 +123,8 @@ void check_enforcement(const Case& given, const CaseScheme& scheme) {
       throw CaseError(contact.restitution.where, entry_path("contact", i, "restitution"),
                       fmt::format("{} with enforcement = \"{}\"", *contact.restitution, name(enforcement)),
                       "enforcement = \"impulse\" with a restitution",
-                      "Deformable bodies rebound by their own waves; remove restitution, or take moreau_jean or "
-                      "cd_lagrange.");
+                      "Deformable bodies rebound by their own waves; remove restitution, or take moreau_jean, "
+                      "nonsmooth_generalized_alpha or cd_lagrange.");
     }
   }
 }

@@ -55,7 +55,7 @@ void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
   number("alpha", &CaseScheme::alpha, "Dissipation of HHT and WBZ; 0 is Newmark's trapezoidal rule.",
          closed(-1.0 / 3.0, 0.0), {"hht", "wbz"});
   number("rho_inf", &CaseScheme::rho_inf, "Spectral radius at high frequency (Hulbert-Chung: at bifurcation).",
-         closed(0.0, 1.0), {"generalized_alpha", "hulbert_chung"});
+         closed(0.0, 1.0), {"generalized_alpha", "nonsmooth_generalized_alpha", "hulbert_chung"});
   number("theta", &CaseScheme::theta, "Weight of the end of the step; above 0.5 the scheme dissipates.",
          closed(0.5, 1.0), {"moreau_jean"});
   number("phi", &CaseScheme::phi, "Above 1 the scheme dissipates.", closed(1.0, 2.0), {"tchamwa_wielgosz"});

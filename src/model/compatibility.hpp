@@ -18,6 +18,7 @@ enum class SchemeKind : std::uint8_t {
   contact_stabilized_newmark,
   energy_momentum,
   moreau_jean,
+  nonsmooth_generalized_alpha,
   central_differences,
   hulbert_chung,
   noh_bathe,
@@ -62,7 +63,7 @@ inline constexpr std::string_view potential =
 }  // namespace detail
 
 /// Doyen, Ern and Piperno, SIAM J. Sci. Comput. 33(1), 2011, sort contact discretisations into the same four groups.
-inline constexpr std::array<SchemeTraits, 16> scheme_table{{
+inline constexpr std::array<SchemeTraits, 17> scheme_table{{
     {SchemeKind::newmark, "newmark", "Newmark", Stepping::implicit_steps, {true, true, true, false}, detail::smooth},
     {SchemeKind::hht, "hht", "HHT", Stepping::implicit_steps, {true, true, true, false}, detail::smooth},
     {SchemeKind::wbz, "wbz", "WBZ", Stepping::implicit_steps, {true, true, true, false}, detail::smooth},
@@ -93,6 +94,12 @@ inline constexpr std::array<SchemeTraits, 16> scheme_table{{
     {SchemeKind::moreau_jean,
      "moreau_jean",
      "Moreau-Jean",
+     Stepping::implicit_steps,
+     {false, false, false, true},
+     detail::velocity_level},
+    {SchemeKind::nonsmooth_generalized_alpha,
+     "nonsmooth_generalized_alpha",
+     "nonsmooth generalised-alpha",
      Stepping::implicit_steps,
      {false, false, false, true},
      detail::velocity_level},

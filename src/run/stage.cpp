@@ -93,10 +93,11 @@ Stage::Stage(const StageContext& context, const CaseScheme& scheme, const CaseTi
 /// holds for the members of the family that do not dissipate.
 void Stage::refuse_ringing_motions() const {
   const SchemeSettings& s = settings_;
-  const bool rings =
-      (s.kind == SchemeKind::newmark && s.gamma <= 0.5) ||
-      ((s.kind == SchemeKind::hht || s.kind == SchemeKind::wbz) && s.alpha >= 0.0) ||
-      ((s.kind == SchemeKind::generalized_alpha || s.kind == SchemeKind::hulbert_chung) && s.rho_inf >= 1.0);
+  const bool rings = (s.kind == SchemeKind::newmark && s.gamma <= 0.5) ||
+                     ((s.kind == SchemeKind::hht || s.kind == SchemeKind::wbz) && s.alpha >= 0.0) ||
+                     ((s.kind == SchemeKind::generalized_alpha || s.kind == SchemeKind::nonsmooth_generalized_alpha ||
+                       s.kind == SchemeKind::hulbert_chung) &&
+                      s.rho_inf >= 1.0);
   if (!rings) return;
   for (const CaseSupport& support : context_.given.supports) {
     for (const CaseSupport::Motion& motion : support.motions) {

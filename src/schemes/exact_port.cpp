@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "math/vec3.hpp"
@@ -100,7 +101,9 @@ void ExactPort::add(std::size_t r) {
 }
 
 /// Makes W for the chosen rows. Returns false when the operator cannot be inverted.
-bool ExactPort::assemble(EffectiveSolver& solver, const ConstraintRows& rows, LinearSolveReport& linear) {
+bool ExactPort::assemble(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& shared,
+                         LinearSolveReport& linear) {
+  const ConstraintRows& rows = *shared;
   std::vector<std::size_t> acting;
   std::copy_if(chosen_.begin(), chosen_.end(), std::back_inserter(acting), [&](std::size_t r) { return may_act(r); });
   if (W_.rows == acting) return true;
@@ -114,6 +117,7 @@ bool ExactPort::assemble(EffectiveSolver& solver, const ConstraintRows& rows, Li
     converged = converged && report.converged;
     linear.iterations += report.iterations;
   });
+  find_direct_compliances(shared, wanted);
   const std::size_t n = acting.size();
   W_.begin.assign(1, 0);
   W_.column.clear();
@@ -123,7 +127,8 @@ bool ExactPort::assemble(EffectiveSolver& solver, const ConstraintRows& rows, Li
       FrameBlock block{};
       for (std::size_t a = 0; a < components(friction(rows.law[acting[i]])); ++a) {
         for (std::size_t b = 0; b < components(friction(rows.law[acting[j]])); ++b) {
-          block[3 * a + b] = compliance_({acting[i], a}, {acting[j], b});
+          const RowComponent of{acting[i], a}, to{acting[j], b};
+          block[3 * a + b] = compliance_(of, to) + direct_compliance(of, to);
         }
       }
       W_.column.push_back(j);
@@ -189,6 +194,7 @@ PortSolve ExactPort::solve(EffectiveSolver& solver, std::span<const double> x, s
   PortSolve out{solver.solve(residual, response.rows, {}, absolute, free_), {}};
   std::copy(free_.begin(), free_.end(), dy.begin());
   force_.clear();
+  see_all(response);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (response.status[r] != RowStatus::open) add(r);
   }
@@ -197,7 +203,7 @@ PortSolve ExactPort::solve(EffectiveSolver& solver, std::span<const double> x, s
   if (!out.linear.converged || !acts) return out;
   for (std::size_t before = 0; before != chosen_.size();) {
     before = chosen_.size();
-    if (!assemble(solver, rows, out.linear)) {
+    if (!assemble(solver, response.rows, out.linear)) {
       out.failure = "the linear solver does not find the compliance of the rows in contact";
       return out;
     }
@@ -206,12 +212,20 @@ PortSolve ExactPort::solve(EffectiveSolver& solver, std::span<const double> x, s
     out.failure = solve_rows(response);
     if (!out.failure.empty()) return out;
     add_forces(solver, response, residual, absolute, out.linear, dy);
+    see_forces(rows, W_.rows, force_);
     choose(rows, z, dy);  // what the forces push other rows into
+    see_all(response);
   }
   for (std::size_t i = 0; i < force_.size(); ++i) {
     multiplier_[static_cast<std::size_t>(rows.slot[W_.rows[i]])] = rows.to_space(W_.rows[i], force_[i]);
   }
   return out;
+}
+
+void ExactPort::see_all(const ContactResponse& response) {
+  std::vector<std::size_t> all(response.rows->size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  see_forces(*response.rows, all, response.force);
 }
 
 /// dy = free_ + A^-1 G^T (force - force of the response).

@@ -39,6 +39,13 @@ class ExactPort : public ContactPort {
   virtual Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const = 0;
   virtual bool may_act(std::size_t /*r*/) const { return true; }
   virtual double friction(const RowLaw& law) const { return law.mu; }
+  /// What the rows answer to their forces beside slope x G A^-1 G^T, over the slope; nothing here, see JumpPort.
+  virtual void find_direct_compliances(const std::shared_ptr<const ConstraintRows>& /*rows*/,
+                                       std::span<const RowComponent> /*wanted*/) {}
+  virtual double direct_compliance(const RowComponent& /*a*/, const RowComponent& /*b*/) const { return 0.0; }
+  /// value() is to include from now on what these forces (in the frames of the listed rows) do directly.
+  virtual void see_forces(const ConstraintRows& /*rows*/, std::span<const std::size_t> /*which*/,
+                          std::span<const Vec3> /*force*/) {}
 
   const System& system_;
   StageStart start_;
@@ -51,7 +58,9 @@ class ExactPort : public ContactPort {
   void forget_stale(const EffectiveSolver& solver, const ConstraintRows& rows);
   bool choose(const ConstraintRows& rows, std::span<const double> z, std::span<const double> dy);
   void add(std::size_t r);
-  bool assemble(EffectiveSolver& solver, const ConstraintRows& rows, LinearSolveReport& linear);
+  bool assemble(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& shared,
+                LinearSolveReport& linear);
+  void see_all(const ContactResponse& response);
   void note_compliances(const ConstraintRows& rows);
   std::string solve_rows(const ContactResponse& response);
   void add_forces(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> residual,
@@ -95,7 +104,7 @@ class ProjectionPort final : public MultiplierPort {
 /// On rows with g(x_predicted) <= 0, with U = G v: 0 <= U_n + e min(0, U_n at the beginning) perpendicular to
 /// lambda_n >= 0 (Newton's restitution), U_t in Coulomb's cone (Jean, Comput. Methods Appl. Mech. Eng. 177, 1999). The
 /// rows are those made at x_predicted.
-class ImpulsePort final : public ExactPort {
+class ImpulsePort : public ExactPort {
  public:
   using ExactPort::ExactPort;
   void begin(const StageStart& start) override;

@@ -12,6 +12,7 @@
 #include "schemes/hulbert_chung.hpp"
 #include "schemes/moreau_jean.hpp"
 #include "schemes/noh_bathe.hpp"
+#include "schemes/nonsmooth_generalized_alpha.hpp"
 #include "schemes/semi_explicit.hpp"
 #include "schemes/statics.hpp"
 #include "schemes/tchamwa_wielgosz.hpp"
@@ -43,6 +44,9 @@ std::unique_ptr<Scheme> make_scheme(const System& system, const SchemeSettings& 
       return std::make_unique<Statics>(system, implicit, omega_max_squared);
     case SchemeKind::moreau_jean:
       return std::make_unique<MoreauJean>(system, s.theta, implicit, dt, omega_max_squared);
+    case SchemeKind::nonsmooth_generalized_alpha:
+      return std::make_unique<NonsmoothGeneralizedAlpha>(system, chung_hulbert_parameters(s.rho_inf), implicit, dt,
+                                                         omega_max_squared);
     case SchemeKind::central_differences:
       return std::make_unique<CentralDifferences>(system, penalty_contact(system));
     case SchemeKind::cd_lagrange:
@@ -72,6 +76,7 @@ std::string describe(const SchemeSettings& s) {
     case SchemeKind::wbz:
       return fmt::format("{} alpha {:g}", title, s.alpha);
     case SchemeKind::generalized_alpha:
+    case SchemeKind::nonsmooth_generalized_alpha:
     case SchemeKind::hulbert_chung:
       return fmt::format("{} rho_inf {:g}", title, s.rho_inf);
     case SchemeKind::moreau_jean:

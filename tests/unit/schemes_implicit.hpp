@@ -9,6 +9,7 @@
 #include "schemes/contact_stabilized_newmark.hpp"
 #include "schemes/energy_momentum.hpp"
 #include "schemes/moreau_jean.hpp"
+#include "schemes/nonsmooth_generalized_alpha.hpp"
 #include "schemes_fixture.hpp"
 
 namespace carom::test {
@@ -41,6 +42,15 @@ inline ImplicitScheme moreau_jean_scheme(const std::string& title, double theta)
           }};
 }
 
+inline ImplicitScheme nonsmooth_scheme(const std::string& title, double rho_inf) {
+  return {title,
+          {.enforcement = EnforcementKind::impulse},
+          [rho_inf](const Problem& p, const ImplicitSettings& settings, double h, double omega_squared) {
+            return std::make_unique<NonsmoothGeneralizedAlpha>(p.system, chung_hulbert_parameters(rho_inf), settings, h,
+                                                               omega_squared);
+          }};
+}
+
 inline std::vector<ImplicitScheme> implicit_schemes() {
   std::vector<ImplicitScheme> all;
   for (const EnforcementKind e :
@@ -67,6 +77,8 @@ inline std::vector<ImplicitScheme> implicit_schemes() {
                  }});
   all.push_back(moreau_jean_scheme("moreau_jean", 0.5));
   all.push_back(moreau_jean_scheme("moreau_jean_dissipative", 0.7));
+  all.push_back(nonsmooth_scheme("nonsmooth_generalized_alpha", 0.5));
+  all.push_back(nonsmooth_scheme("nonsmooth_generalized_alpha_conserving", 1.0));
   return all;
 }
 

@@ -1,0 +1,32 @@
+// Impulses that change the velocity at once, beside what they do through the equation of the step.
+#pragma once
+
+#include <vector>
+
+#include "schemes/exact_port.hpp"
+#include "schemes/mass_solver.hpp"
+
+namespace carom {
+
+/// ImpulsePort for stages whose velocity is v = v_hat + r (y + ratio M^-1 G^T lambda): what the rows see is the
+/// velocity with its jump, W is G (A^-1 + ratio M^-1) G^T. The caller adds the jump to the velocity of the stage.
+class JumpPort final : public ImpulsePort {
+ public:
+  /// ratio: 0 or greater.
+  JumpPort(const System& system, double ratio);
+
+ protected:
+  Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const override;
+  void find_direct_compliances(const std::shared_ptr<const ConstraintRows>& rows,
+                               std::span<const RowComponent> wanted) override;
+  double direct_compliance(const RowComponent& a, const RowComponent& b) const override;
+  void see_forces(const ConstraintRows& rows, std::span<const std::size_t> which, std::span<const Vec3> force) override;
+
+ private:
+  double ratio_;
+  MassSolver mass_solver_;
+  RowCompliance compliance_;  ///< of M
+  std::vector<double> load_, jump_;
+};
+
+}  // namespace carom

@@ -1,0 +1,175 @@
+#include "schemes/nonsmooth_generalized_alpha.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "parallel/threads.hpp"
+#include "schemes/books.hpp"
+#include "schemes/jump_port.hpp"
+
+namespace carom {
+
+namespace {
+
+double weight_of_new_force(const GeneralizedAlphaParameters& p) {
+  return (1.0 - p.alpha_f) / (1.0 - p.alpha_m);
+}
+
+StageForce body_force(const System& system) {
+  return {[&system](std::span<const double> x, std::span<double> f) { system.solid.internal_force(x, f); },
+          [](std::span<const double> x) { return x; }, 1.0};
+}
+
+/// State::memory: a, z, and the resultants of M a and M z, as forces.
+struct Memory {
+  explicit Memory(const std::vector<double>& memory) : data(memory.data()), n((memory.size() - 12) / 2) {}
+  double a(std::size_t i) const { return data[i]; }
+  double z(std::size_t i) const { return data[n + i]; }
+  Momentum of_a() const { return momentum_from(data + 2 * n); }
+  Momentum of_z() const { return momentum_from(data + 2 * n + 6); }
+
+  const double* data;
+  std::size_t n;
+};
+
+void store(const Momentum& p, double* where) {
+  std::copy(p.linear.begin(), p.linear.end(), where);
+  std::copy(p.angular.begin(), p.angular.end(), where + 3);
+}
+
+}  // namespace
+
+NonsmoothGeneralizedAlpha::NonsmoothGeneralizedAlpha(const System& system, const GeneralizedAlphaParameters& p,
+                                                     const ImplicitSettings& settings, double dt,
+                                                     double omega_max_squared)
+    : system_(system),
+      parameters_(p),
+      kappa_(weight_of_new_force(p)),
+      stage_(system, settings, p.beta * kappa_ * dt * dt, omega_max_squared,
+             std::make_unique<JumpPort>(system, (2.0 * p.beta - p.gamma) / (p.gamma * 2.0 * p.beta * kappa_)),
+             body_force(system)),
+      mass_solver_(system) {
+  assert(settings.enforcement == EnforcementKind::impulse && p.gamma > 0.0 && 2.0 * p.beta >= p.gamma);
+  const std::size_t n = system.solid.dof_count();
+  for (std::vector<double>* v : {&u_hat_, &v_hat_, &carried_, &known_, &u_predicted_, &jump_, &mean_, &mean_inertia_})
+    v->resize(n);
+}
+
+/// jump_ from next_.contact
+bool NonsmoothGeneralizedAlpha::solve_jump() {
+  std::fill(jump_.begin(), jump_.end(), 0.0);
+  const std::vector<RowStatus>& status = next_.rows.status;
+  if (std::all_of(status.begin(), status.end(), [](RowStatus s) { return s == RowStatus::open; })) return true;
+  return mass_solver_.solve(next_.contact, jump_) >= 0;
+}
+
+/// Resultant of p / h and of what the supports answer to it.
+Momentum NonsmoothGeneralizedAlpha::jump_resultant(const State& end) {
+  system_.mass.apply(jump_, mean_inertia_);
+  const MomentArms arms(system_, end.q);
+  const auto sums = parallel_sums<6>(jump_.size(), [&](std::size_t i, std::array<double, 6>& s) {
+    const bool is_prescribed = system_.supports.is_prescribed(static_cast<Index>(i));
+    add_with_moment(arms.at(i / 3), i % 3, is_prescribed ? mean_inertia_[i] : next_.contact[i], s.data());
+  });
+  return momentum_from(sums.data());
+}
+
+void NonsmoothGeneralizedAlpha::start(State& state, double dt) {
+  start_in_equilibrium(system_, stage_, dt, state, next_);
+  if (!solve_jump()) throw std::runtime_error(MassSolver::failure);
+  const std::size_t n = state.q.size();
+  state.memory.resize(2 * n + 12);
+  for (std::size_t i = 0; i < n; ++i) state.memory[i] = state.memory[n + i] = state.a[i] - jump_[i];
+  const Momentum smooth = combine(1.0, resultant(system_, state.q, next_), -1.0, jump_resultant(state));
+  store(smooth, state.memory.data() + 2 * n);
+  store(smooth, state.memory.data() + 2 * n + 6);
+  std::swap(now_, next_);
+}
+
+StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest& request, State& end) {
+  const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
+  const double h = request.dt, scale = 2.0 * beta * kappa_;
+  const std::size_t n = begin.q.size();
+  const Memory old(begin.memory);
+  end = begin;
+  end.t = request.t_end;
+  next_.external.resize(n);
+  system_.solid.external_force(end.t, system_.mass, next_.external);
+  for (std::size_t i = 0; i < n; ++i) {
+    carried_[i] = (alpha_f * old.z(i) - alpha_m * old.a(i)) / (1.0 - alpha_m);
+    u_hat_[i] = begin.q[i] + h * begin.v[i] + h * h * ((0.5 - beta) * old.a(i) + beta * carried_[i]);
+    v_hat_[i] = begin.v[i] + h * ((1.0 - gamma) * old.a(i) + gamma * carried_[i]);
+    u_predicted_[i] = begin.q[i] + 0.5 * h * begin.v[i];
+    known_[i] = scale * next_.external[i];
+  }
+  // The equation times `scale`, so that its contact force is p / h.
+  const StageEquation equation{.m = scale,
+                               .k = scale,
+                               .s = beta * kappa_ * h * h,
+                               .r = gamma * kappa_ * h,
+                               .x_hat = u_hat_,
+                               .v_hat = v_hat_,
+                               .known = known_,
+                               .x_predicted = u_predicted_};
+  impose_on_stage(system_, equation, end.t, end.t, end.a);
+  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
+  StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
+  if (!report.converged) return report;
+  if (!solve_jump()) {
+    report.converged = false;
+    report.failure = MassSolver::failure;
+    return report;
+  }
+  split(begin, h, end);
+  complete_forces(system_, end, next_);
+  report.books = books(begin, h, end);
+  std::swap(now_, next_);
+  return report;
+}
+
+/// end.a = y becomes z1 and a1 in the memory, and z1 + W/h; end.v receives what is missing of the jump.
+void NonsmoothGeneralizedAlpha::split(const State& begin, double h, State& end) {
+  const double beta = parameters_.beta, gamma = parameters_.gamma;
+  const std::size_t n = begin.q.size();
+  parallel_each(n, [&](std::size_t i) {
+    const double z = end.a[i] - jump_[i] / (2.0 * beta * kappa_);
+    end.v[i] += h * (1.0 - gamma / (2.0 * beta)) * jump_[i];
+    end.a[i] = z + jump_[i];
+    end.memory[i] = kappa_ * z + carried_[i];
+    end.memory[n + i] = z;
+    mean_[i] = 0.5 * (begin.memory[n + i] + z) + jump_[i];
+  });
+}
+
+/// The books, and the resultants in the memory of the end.
+LedgerIncrement NonsmoothGeneralizedAlpha::books(const State& begin, double h, State& end) {
+  const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
+  const std::size_t n = begin.q.size();
+  const Memory old(begin.memory);
+  const Momentum jump = jump_resultant(end);
+  const Momentum of_z = combine(1.0, resultant(system_, end.q, next_), -1.0, jump);
+  const Momentum carried = combine(alpha_f / (1.0 - alpha_m), old.of_z(), -alpha_m / (1.0 - alpha_m), old.of_a());
+  const Momentum of_a = combine(kappa_, of_z, 1.0, carried);
+  store(of_a, end.memory.data() + 2 * n);
+  store(of_z, end.memory.data() + 2 * n + 6);
+  // The equation of the step is M (z_bar + W/h) + F_bar = f_bar + p/h + mean reactions: given as inertia and reactions
+  // of the end, with the weight 1.
+  system_.mass.apply(mean_, mean_inertia_);
+  next_.inertia.swap(mean_inertia_);
+  reaction_ = next_.reaction;
+  const StepWeights weights{.inertia = 1.0, .force = 0.5, .contact = 1.0, .support_work = 1.0};
+  set_mean_reactions(system_, now_, weights, next_);
+  LedgerIncrement out = step_books(system_, begin, now_, end, next_, weights,
+                                   stage_.port().work(begin, now_, end, next_, weights.support_work))
+                            .increment;
+  next_.inertia.swap(mean_inertia_);
+  next_.reaction = reaction_;
+  out.impulse = combine(1.0, combine(h * (1.0 - gamma), old.of_a(), h * gamma, of_a), h, jump);
+  return out;
+}
+
+}  // namespace carom
