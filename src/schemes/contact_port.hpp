@@ -6,6 +6,7 @@
 #include <string>
 
 #include "schemes/effective_solver.hpp"
+#include "schemes/free_modes.hpp"
 #include "schemes/implicit_settings.hpp"
 #include "schemes/system.hpp"
 
@@ -16,8 +17,9 @@ struct StageStart {
   const State* begin = nullptr;
   double s = 0.0, r = 0.0;
   double m = 1.0, c = 0.0;                ///< the operator of the stage is m M + c K
-  double shift = 0.0;                     ///< the part of m that the equation does not have (StageEquation)
+  const FreeModes* free = nullptr;        ///< see StageEquation
   std::span<const double> x_predicted{};  ///< where impulses decide which rows are closed
+  std::span<const double> force_parts{};  ///< magnitudes of the forces whose sum the residual is, of the last iterate
 };
 
 /// What contact still violates at a trial state, as energy, and how much of that is rounding.

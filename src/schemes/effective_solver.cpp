@@ -109,6 +109,7 @@ class CgSolver final : public EffectiveSolver {
     system_.solid.tangent_action(u_, x, y);
     system_.mass.apply(x, work_);
     for (std::size_t i = 0; i < y.size(); ++i) y[i] = m_ * work_[i] + c_ * y[i];
+    for (const DofSpring& spring : springs_) y[spring.dof] += spring.stiffness * x[spring.dof];
     for (std::size_t r = 0; r < D.size(); ++r) {
       if (acts(D[r])) rows_->scatter(r, multiply(D[r], rows_->relative(r, x)), y);
     }
@@ -123,6 +124,7 @@ class CgSolver final : public EffectiveSolver {
     for (std::size_t i = 0; i < inverse_diagonal_.size(); ++i) {
       inverse_diagonal_[i] = m_ * m[i / 3] + c_ * stiffness_diagonal_[i];
     }
+    for (const DofSpring& spring : springs_) inverse_diagonal_[spring.dof] += spring.stiffness;
     for (std::size_t r = 0; r < D.size(); ++r) {
       const ConstraintRows& rows = *rows_;
       for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
@@ -213,6 +215,8 @@ class DirectSolver final : public EffectiveSolver {
 
 CsrMatrix DirectSolver::assemble() const {
   const CsrMatrix& M = system_.mass.node_matrix();
+  std::vector<double> held(compressed_of_.size(), 0.0);
+  for (const DofSpring& spring : springs_) held[spring.dof] += spring.stiffness;
   CsrMatrix A;
   A.size = static_cast<Index>(free_.size());
   A.row_begin.push_back(0);
@@ -220,12 +224,12 @@ CsrMatrix DirectSolver::assemble() const {
     std::int64_t m = M.row_begin[i / 3];
     if (stiffness_.row_begin[i] == stiffness_.row_begin[i + 1] && m < M.row_begin[i / 3 + 1]) {  // a rigid body's node
       A.column.push_back(compressed_of_[i]);
-      A.value.push_back(m_ * M.value[m]);
+      A.value.push_back(m_ * M.value[m] + held[i]);
     }
     for (std::int64_t k = stiffness_.row_begin[i]; k < stiffness_.row_begin[i + 1]; ++k) {
       const auto j = static_cast<std::size_t>(stiffness_.column[k]);
       if (compressed_of_[j] < 0) continue;
-      double value = c_ * stiffness_.value[k];
+      double value = c_ * stiffness_.value[k] + (j == i ? held[i] : 0.0);
       if (j % 3 == i % 3) {
         while (m < M.row_begin[i / 3 + 1] && static_cast<std::size_t>(M.column[m]) < j / 3) ++m;
         if (m < M.row_begin[i / 3 + 1] && static_cast<std::size_t>(M.column[m]) == j / 3) value += m_ * M.value[m];

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "schemes/system.hpp"
@@ -20,11 +21,19 @@ struct LinearSolveReport {
   bool is_indefinite = false;  ///< it broke down, since the operator is not positive definite
 };
 
-/// A = m M + c K(u) of the system; D holds the contact tangents, row by row in the row's frame, times the slope of x in
-/// the unknown. Contact never causes a new factorisation.
+/// A spring between a dof and the ground.
+struct DofSpring {
+  std::size_t dof = 0;
+  double stiffness = 0.0;
+};
+
+/// A = m M + c K(u) of the system, and the springs of hold(); D holds the contact tangents, row by row in the row's
+/// frame, times the slope of x in the unknown. Contact never causes a new factorisation.
 class EffectiveSolver {
  public:
   virtual ~EffectiveSolver() = default;
+  /// Springs that are part of A from the next prepare() on, none of them on a fixed dof.
+  void hold(std::vector<DofSpring> springs) { springs_ = std::move(springs); }
   /// Makes A ready at the displacement u; a linear body does nothing when m and c are the last ones. Returns what is
   /// wrong with A, "" when nothing is.
   virtual std::string prepare(double m, double c, std::span<const double> u) = 0;
@@ -40,6 +49,7 @@ class EffectiveSolver {
 
  protected:
   std::size_t operators_made_ = 0;
+  std::vector<DofSpring> springs_;
 };
 
 /// ratio: c / m of the usual step (infinite for statics). `automatic` takes conjugate gradients where the

@@ -48,6 +48,7 @@ class ExactPort : public ContactPort {
                           std::span<const Vec3> /*force*/) {}
 
   const System& system_;
+  double extent_ = 0.0;  ///< largest coordinate, where rows move: their gaps are known to its rounding
   StageStart start_;
   std::vector<Vec3> multiplier_;  ///< per slot, a vector of space
   std::vector<double>
@@ -79,8 +80,8 @@ class ExactPort : public ContactPort {
 class MultiplierPort : public ExactPort {
  public:
   using ExactPort::ExactPort;
-  /// How far the multipliers are from their conditions on the rows made at x, where rows move or the operator is
-  /// shifted: elsewhere the solve has met them.
+  /// How far the multipliers are from their conditions on the rows made at x, where rows move or the operator has
+  /// springs of its own: elsewhere the solve has met them.
   ContactError error(std::span<const double> x, std::span<const double> v,
                      const ContactResponse& response) const override;
 

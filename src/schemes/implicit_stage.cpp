@@ -20,6 +20,7 @@ struct ImplicitStage::Residual {
   double displacement = 0.0;  ///< 2-norm of the step's displacement, and of what the residual would still add to it
   double work = 0.0;          ///< norm x displacement, at least the energy that the residual may leave unbooked
   double round_off = 0.0;     ///< the part of `work` that rounding alone leaves
+  double supplied = 0.0;      ///< work of the loads or of the internal forces on the step's displacement
 };
 
 namespace {
@@ -51,15 +52,21 @@ ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& setti
   residual_.resize(system.solid.dof_count());
   correction_.resize(residual_.size());
   stiffness_diagonal_ = system.solid.tangent_diagonal(residual_);
-  closed_diagonal_ = stiffness_diagonal_;
+  force_parts_.resize(residual_.size());
+  closed_diagonal_.assign(residual_.size(), 0.0);
   port_->add_stiffness_diagonal(closed_diagonal_);
   if (force_.value) return;
   force_.value = [&system](std::span<const double> x, std::span<double> f) { system.solid.internal_force(x, f); };
   force_.tangent_at = [](std::span<const double> x) { return x; };
 }
 
+void ImplicitStage::hold(const std::vector<DofSpring>& springs) {
+  solver_->hold(springs);
+  for (const DofSpring& spring : springs) stiffness_diagonal_[spring.dof] += spring.stiffness;
+}
+
 void ImplicitStage::start(const State& state, Forces& forces) {
-  port_->begin({&state, 1.0, 0.0, 1.0, 0.0, 0.0, state.q});
+  port_->begin({&state, 1.0, 0.0, 1.0, 0.0, nullptr, state.q, {}});
   port_->respond(state.q, state.v, forces.rows);
   forces.contact.assign(state.q.size(), 0.0);
   forces.rows.add_force(forces.contact);
@@ -74,22 +81,28 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   system_.mass.apply(end.a, forces.inertia);
   const std::vector<bool>& fixed = system_.supports.fixed();
   const std::vector<double>& mass = system_.mass.node_diagonal();
+  const bool is_fixed = system_.contact.is_fixed();
   // Squares of the residual, of the displacement, of Jacobi's estimate of what is missing, and of the forces that
   // cancel in the residual.
   for (std::size_t i = 0; i < residual_.size(); ++i) {
     residual_[i] =
         fixed[i] ? 0.0 : eq.known[i] - eq.k * forces.internal[i] + forces.contact[i] - eq.m * forces.inertia[i];
   }
-  const auto sums = parallel_sums<4>(residual_.size(), [&](std::size_t i, std::array<double, 4>& sum) {
+  const auto sums = parallel_sums<6>(residual_.size(), [&](std::size_t i, std::array<double, 6>& sum) {
     const double du = end.q[i] - begin.q[i];
     sum[1] += du * du;
+    sum[4] += eq.known[i] * du;
+    sum[5] += forces.internal[i] * du;
     if (fixed[i]) return;
     sum[0] += residual_[i] * residual_[i];
     const double missing =
-        eq.s * residual_[i] / ((eq.m + eq.shift) * mass[i / 3] + force_.factor * eq.k * eq.s * stiffness_diagonal_[i]);
-    const double force = std::abs(eq.known[i]) + std::abs(forces.internal[i]) + std::abs(forces.contact[i]) +
-                         eq.m * mass[i / 3] * std::abs(end.a[i]) +
-                         closed_diagonal_[i] * (std::abs(begin.q[i]) + std::abs(eq.x_hat[i]) + std::abs(end.q[i]));
+        eq.s * residual_[i] / (eq.m * mass[i / 3] + force_.factor * eq.k * eq.s * stiffness_diagonal_[i]);
+    force_parts_[i] = std::abs(eq.known[i]) + std::abs(forces.internal[i]) + std::abs(forces.contact[i]) +
+                      eq.m * mass[i / 3] * std::abs(end.a[i]);
+    const double moved = std::abs(begin.q[i]) + std::abs(eq.x_hat[i]) + std::abs(end.q[i]);
+    // Gaps of moving rows are differences of positions, those of fixed rows of displacements.
+    const double placed = is_fixed ? moved : moved + std::abs(system_.mesh.coordinates[i / 3][i % 3]);
+    const double force = force_parts_[i] + stiffness_diagonal_[i] * moved + closed_diagonal_[i] * placed;
     sum[2] += missing * missing;
     sum[3] += force * force;
   });
@@ -98,6 +111,7 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   out.norm = std::sqrt(sums[0]);
   out.displacement = std::sqrt(sums[1]) + std::sqrt(sums[2]);
   out.work = out.norm * out.displacement + contact.work;
+  out.supplied = std::max(std::abs(sums[4]), std::abs(sums[5]));
   // A displacement is known to a relative 1e-16 of its terms only, which the stiffness of a node turns into a force.
   constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
   out.round_off = precision * out.displacement * std::sqrt(sums[3]) + contact.round_off;
@@ -111,7 +125,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
   forces.inertia.resize(n);
   end.q.resize(n);
   end.v.resize(n);
-  port_->begin({&begin, eq.s, eq.r, eq.m + eq.shift, force_.factor * eq.k * eq.s, eq.shift, eq.x_predicted});
+  port_->begin({&begin, eq.s, eq.r, eq.m, force_.factor * eq.k * eq.s, eq.free, eq.x_predicted, force_parts_});
   StageReport report;
   std::vector<RowStatus> before;
   for (int newton = 0, outer = 0;; ++newton, ++report.iterations) {
@@ -125,7 +139,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
       report.failure = "the forces are not finite";
       return report;
     }
-    const double tolerance = std::max(work_tolerance, error.round_off);
+    const double tolerance = std::max({work_tolerance, error.round_off, eq.share * error.supplied});
     if (error.work <= tolerance) {
       if (port_->settle(end.q, forces.rows)) break;
       if (++outer > max_iterations_) {
@@ -150,7 +164,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
 /// One Newton step. Returns why there is none, "" when there is.
 std::string ImplicitStage::improve(const StageEquation& eq, double absolute, State& end, const Forces& forces,
                                    StageReport& report) {
-  std::string failure = solver_->prepare(eq.m + eq.shift, force_.factor * eq.k * eq.s, force_.tangent_at(end.q));
+  std::string failure = solver_->prepare(eq.m, force_.factor * eq.k * eq.s, force_.tangent_at(end.q));
   if (!failure.empty()) return failure;
   const PortSolve solved = port_->solve(*solver_, end.q, end.v, forces.rows, residual_, absolute, correction_);
   report.linear_iterations += solved.linear.iterations;

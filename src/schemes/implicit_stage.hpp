@@ -16,7 +16,8 @@ namespace carom {
 struct StageEquation {
   double m = 1.0, k = 1.0;
   double s = 0.0, r = 0.0;
-  double shift = 0.0;  ///< added to m in the operator alone, where m = 0 may leave bodies that only contact holds
+  double share = 0.0;  ///< of the stage's own work that its residual may leave unbooked, whatever else is asked
+  const FreeModes* free = nullptr;  ///< where m = 0 leaves motions that only contact holds
   std::span<const double> x_hat{}, v_hat{}, known{};
   std::span<const double> x_predicted{};  ///< see StageStart
 };
@@ -51,6 +52,9 @@ class ImplicitStage {
   /// Contact forces at a state that a run begins with, its history included.
   void start(const State& state, Forces& forces);
 
+  /// Springs on the operator, not on the equation, so that it has an inverse where only contact holds a body.
+  void hold(const std::vector<DofSpring>& springs);
+
   const ContactPort& port() const { return *port_; }
   std::string solver_name() const { return solver_->name(); }
 
@@ -66,8 +70,8 @@ class ImplicitStage {
   std::unique_ptr<EffectiveSolver> solver_;
   std::unique_ptr<ContactPort> port_;
   StageForce force_;
-  std::vector<double> residual_, correction_;
-  std::vector<double> stiffness_diagonal_, closed_diagonal_;  ///< of K; with every contact row closed
+  std::vector<double> residual_, correction_, force_parts_;
+  std::vector<double> stiffness_diagonal_, closed_diagonal_;  ///< of K and the springs; of all contact rows, closed
 };
 
 /// Sets the prescribed entries of y so that the motions of the supports are met at time t: displacements by x, and

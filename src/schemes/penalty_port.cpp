@@ -4,14 +4,23 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "linalg/dense.hpp"
 #include "math/vec3.hpp"
 #include "schemes/books.hpp"
 
 namespace carom {
 
+PenaltyPort::PenaltyPort(const System& system) : system_(system) {
+  const std::vector<double>& lengths = system.solid.cell_lengths();
+  reach_ = lengths.empty() ? 0.0 : 0.01 * *std::min_element(lengths.begin(), lengths.end());
+}
+
 void PenaltyPort::begin(const StageStart& start) {
   begin_ = start.begin;
+  free_ = start.free;
+  force_parts_ = start.force_parts;
   s_ = start.s;
   dv_dx_ = start.r / start.s;
 }
@@ -34,11 +43,108 @@ PortSolve PenaltyPort::solve(EffectiveSolver& solver, std::span<const double> x,
     tangents_[r] = penalty_tangent(rows, r, begin_->q, x, v, begin_->contact, dv_dx_);
     for (double& d : tangents_[r]) d *= s_;
   }
-  return {solver.solve(residual, response.rows, tangents_, absolute, dy), {}};
+  return solve_with_tangents(solver, x, response, residual, absolute, dy);
 }
 
 bool PenaltyPort::settle(std::span<const double> /*x*/, const ContactResponse& /*response*/) {
   return true;
+}
+
+PenaltyPort::ClosedSpring PenaltyPort::closed_spring(const ConstraintRows& rows, std::size_t r,
+                                                     std::span<const double> x) const {
+  const RowLaw& law = rows.law[r];
+  return {{s_ * law.eps_N, 0.0, 0.0, 0.0, s_ * law.eps_T, 0.0, 0.0, 0.0, s_ * law.eps_T},
+          -law.eps_N * rows.gap_at(r, x)};
+}
+
+/// Closes the open rows that the motion reaches first. False when it reaches none.
+bool PenaltyPort::close_reached(const ConstraintRows& rows, std::span<const double> x, std::span<const double> motion) {
+  std::vector<std::pair<std::size_t, double>> reached;  // rows, and how far the motion closes them
+  double first = std::numeric_limits<double>::infinity();
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (tangents_[r][0] != 0.0) continue;
+    const double closing = -free_->relative(rows, r, motion, x)[0];
+    if (!(closing > 1e-9 * norm(free_->relative(rows, r, motion, x)))) continue;
+    reached.emplace_back(r, closing);
+    first = std::min(first, std::max(0.0, rows.gap_at(r, x)) / closing);
+  }
+  for (const auto& [r, closing] : reached) {
+    if (rows.gap_at(r, x) - first * closing > reach_) continue;
+    const ClosedSpring spring = closed_spring(rows, r, x);
+    tangents_[r] = spring.tangent;
+    rows.scatter(r, {spring.force, 0.0, 0.0}, load_);
+  }
+  return !reached.empty();
+}
+
+/// Gives sliding rows the tangent of sticking ones. False when there are none.
+bool PenaltyPort::stick_sliding(const ContactResponse& response, std::span<const double> x) {
+  const ConstraintRows& rows = *response.rows;
+  bool is_any = false;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (response.status[r] != RowStatus::slip) continue;
+    const RowTangent stick = closed_spring(rows, r, x).tangent;
+    is_any = is_any || tangents_[r] != stick;
+    tangents_[r] = stick;
+  }
+  return is_any;
+}
+
+/// Why nothing can hold a body, "" where all are held.
+std::string PenaltyPort::hold_bodies(const ContactResponse& response, std::span<const double> x,
+                                     std::span<const double> residual) {
+  for (;;) {
+    const std::vector<double> motion = free_->unheld(*response.rows, tangents_, x, residual, force_parts_);
+    if (std::all_of(motion.begin(), motion.end(), [](double m) { return m == 0.0; })) return {};
+    if (close_reached(*response.rows, x, motion) || stick_sliding(response, x)) continue;
+    return "no support and no contact holds " + free_->describe(motion) + ", where the loads push it";
+  }
+}
+
+PortSolve PenaltyPort::solve_with_tangents(EffectiveSolver& solver, std::span<const double> x,
+                                           const ContactResponse& response, std::span<const double> residual,
+                                           double absolute, std::span<double> dy) {
+  if (free_ == nullptr || free_->empty()) {
+    return {solver.solve(residual, response.rows, tangents_, absolute, dy), {}};
+  }
+  load_.assign(residual.begin(), residual.end());
+  std::string failure = hold_bodies(response, x, residual);
+  if (!failure.empty()) return {{}, std::move(failure)};
+  const std::vector<bool>& fixed = system_.supports.fixed();
+  for (std::size_t i = 0; i < load_.size(); ++i) {
+    if (fixed[i]) load_[i] = 0.0;
+  }
+  PortSolve out{solver.solve(load_, response.rows, tangents_, absolute, dy), {}};
+  release_held(solver, response, x, out.linear, dy);
+  return out;
+}
+
+/// dy becomes (A - P N P^T)^-1 of the load, N = FreeModes::needless and P the pins, from A^-1 of it (Woodbury):
+///   dy + Z (1 - N P^T Z)^-1 N P^T dy,  Z = A^-1 P.
+void PenaltyPort::release_held(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> x,
+                               LinearSolveReport& linear, std::span<double> dy) {
+  const std::vector<double> N = free_->needless(*response.rows, tangents_, x);
+  if (N.empty()) return;
+  const std::vector<DofSpring> pins = free_->pins();
+  const std::size_t d = pins.size(), n = dy.size();
+  std::vector<double> Z(d * n), unit(n, 0.0), matrix(d * d, 0.0), c(d, 0.0);
+  for (std::size_t k = 0; k < d; ++k) {
+    unit[pins[k].dof] = 1.0;
+    const LinearSolveReport one = solver.solve(unit, response.rows, tangents_, 0.0, std::span(Z).subspan(k * n, n));
+    unit[pins[k].dof] = 0.0;
+    linear.converged = linear.converged && one.converged;
+    linear.iterations += one.iterations;
+  }
+  for (std::size_t i = 0; i < d; ++i) {
+    matrix[i * d + i] = 1.0;
+    for (std::size_t j = 0; j < d; ++j) {
+      c[i] += N[i * d + j] * dy[pins[j].dof];
+      for (std::size_t k = 0; k < d; ++k) matrix[i * d + k] -= N[i * d + j] * Z[k * n + pins[j].dof];
+    }
+  }
+  DenseLu(std::move(matrix), static_cast<int>(d)).solve(c);
+  for (std::size_t k = 0; k < d; ++k)
+    for (std::size_t i = 0; i < n; ++i) dy[i] += c[k] * Z[k * n + i];
 }
 
 void PenaltyPort::add_stiffness_diagonal(std::span<double> d) const {
@@ -125,10 +231,18 @@ void AugmentedLagrangianPort::respond(std::span<const double> x, std::span<const
   }
 }
 
-PortSolve AugmentedLagrangianPort::solve(EffectiveSolver& solver, std::span<const double> /*x*/,
+PortSolve AugmentedLagrangianPort::solve(EffectiveSolver& solver, std::span<const double> x,
                                          std::span<const double> /*v*/, const ContactResponse& response,
                                          std::span<const double> residual, double absolute, std::span<double> dy) {
-  return {solver.solve(residual, response.rows, tangents_, absolute, dy), {}};
+  return solve_with_tangents(solver, x, response, residual, absolute, dy);
+}
+
+PenaltyPort::ClosedSpring AugmentedLagrangianPort::closed_spring(const ConstraintRows& rows, std::size_t r,
+                                                                 std::span<const double> x) const {
+  const double factor = stiffening(rows, r), eps_N = factor * rows.law[r].eps_N;
+  const double eps_T = rows.law[r].mu > 0.0 ? std::max(1.0, tangential_share * factor) * rows.law[r].eps_T : 0.0;
+  const Vec3 lambda = rows.to_frame(r, multiplier_[static_cast<std::size_t>(rows.slot[r])]);
+  return {{s_ * eps_N, 0.0, 0.0, 0.0, s_ * eps_T, 0.0, 0.0, 0.0, s_ * eps_T}, lambda[0] - eps_N * rows.gap_at(r, x)};
 }
 
 bool AugmentedLagrangianPort::settle(std::span<const double> x, const ContactResponse& response) {

@@ -10,7 +10,7 @@ namespace carom {
 /// The penalty (contact/penalty.hpp) with its tangents on the rows of the iterate.
 class PenaltyPort : public ContactPort {
  public:
-  explicit PenaltyPort(const System& system) : system_(system) {}
+  explicit PenaltyPort(const System& system);
 
   void begin(const StageStart& start) override;
   bool is_law() const override { return true; }
@@ -27,10 +27,33 @@ class PenaltyPort : public ContactPort {
                    double end_weight) const override;
 
  protected:
+  /// The spring of a row as if it were closed and sticking: its tangent, and the normal force that it would have at x.
+  struct ClosedSpring {
+    RowTangent tangent;
+    double force;
+  };
+  virtual ClosedSpring closed_spring(const ConstraintRows& rows, std::size_t r, std::span<const double> x) const;
+  /// Solves with tangents_. Where a free motion of a body is loaded that they do not resist, the open rows that it
+  /// would reach first (to a hundredth of the smallest cell) count as closed, then sliding rows as sticking.
+  PortSolve solve_with_tangents(EffectiveSolver& solver, std::span<const double> x, const ContactResponse& response,
+                                std::span<const double> residual, double absolute, std::span<double> dy);
+
   const System& system_;
   const State* begin_ = nullptr;
   double s_ = 0.0, dv_dx_ = 0.0;
   std::vector<RowTangent> tangents_;
+
+ private:
+  std::string hold_bodies(const ContactResponse& response, std::span<const double> x, std::span<const double> residual);
+  bool close_reached(const ConstraintRows& rows, std::span<const double> x, std::span<const double> motion);
+  void release_held(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> x,
+                    LinearSolveReport& linear, std::span<double> dy);
+  bool stick_sliding(const ContactResponse& response, std::span<const double> x);
+
+  const FreeModes* free_ = nullptr;
+  std::span<const double> force_parts_;
+  double reach_;
+  std::vector<double> load_;
 };
 
 /// Uzawa's iteration around it (Wriggers, Computational Contact Mechanics, 2nd ed., section 6.3.2):
@@ -54,6 +77,7 @@ class AugmentedLagrangianPort final : public PenaltyPort {
                    double end_weight) const override;
 
  private:
+  ClosedSpring closed_spring(const ConstraintRows& rows, std::size_t r, std::span<const double> x) const override;
   double stiffening(const ConstraintRows& rows, std::size_t r) const;
 
   double penetration_;

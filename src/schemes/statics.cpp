@@ -11,9 +11,10 @@ namespace carom {
 
 Statics::Statics(const System& system, const ImplicitSettings& settings, double omega_max_squared)
     : system_(system),
-      shift_(1e-10 * omega_max_squared),
+      free_(system),
       stage_(system, settings, std::numeric_limits<double>::infinity(), omega_max_squared) {
   zero_.resize(system.solid.dof_count());
+  stage_.hold(free_.pins(settings.enforcement == EnforcementKind::lagrange ? 0.1 : 1.0));
 }
 
 void Statics::start(State& state, double /*dt*/) {
@@ -41,7 +42,7 @@ StepReport Statics::step(const State& begin, const StepRequest& request, State& 
                                                   : 0.0;
   }
   const StageEquation equation{
-      .m = 0.0, .s = 1.0, .shift = shift_, .x_hat = begin.q, .v_hat = zero_, .known = next_.external};
+      .m = 0.0, .s = 1.0, .share = 1e-12, .free = &free_, .x_hat = begin.q, .v_hat = zero_, .known = next_.external};
   StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
