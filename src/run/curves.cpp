@@ -93,6 +93,7 @@ ContactCurves::ContactCurves(const Simulation& simulation)
       table_.columns.push_back(fmt::format("{}.{}", *contact.name, name));
     }
     moment_points_.push_back(contact.moment_point);
+    has_area_.push_back(*contact.kind != CaseContact::Kind::stop && !contact.per_node);
   }
   force_.resize(contacts_);
   impulse_.resize(contacts_);
@@ -112,6 +113,7 @@ void ContactCurves::sample(const StepView& view, double end_weight) {
     const auto c = static_cast<std::size_t>(rows.source[r]);
     penetration[c] = std::max(penetration[c], -rows.gap_at(r, view.state.q));
     closed[c] += 1.0;
+    if (has_area_[c]) largest_pressure_ = std::max(largest_pressure_, view.forces.rows.force[r][0] / rows.measure[r]);
   }
   table_.row = {view.state.t};
   for (std::size_t c = 0; c < contacts_; ++c) {

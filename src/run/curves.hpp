@@ -54,6 +54,8 @@ class ContactCurves {
   const CurveTable& table() const { return table_; }
   /// Largest penetration over all contacts and steps, relative to the cell it belongs to.
   double worst_relative_penetration() const { return worst_penetration_ / cell_length_; }
+  /// Largest pressure on a row over all contacts and steps; rows that are counted per node have none.
+  double largest_pressure() const { return largest_pressure_; }
 
  private:
   const Mesh& mesh_;
@@ -63,7 +65,8 @@ class ContactCurves {
   std::vector<Vec3> force_, impulse_;
   std::vector<double> closed_, closings_;
   double cell_length_ = 0.0;
-  double worst_penetration_ = 0.0;
+  double worst_penetration_ = 0.0, largest_pressure_ = 0.0;
+  std::vector<bool> has_area_;  ///< of the rows of each contact: their measure is one
 };
 
 /// probes.csv: displacement, velocity, acceleration and stress at the probes, and section forces: what the cells on the

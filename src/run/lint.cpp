@@ -234,7 +234,7 @@ void lint_touches(const Simulation& s, std::vector<std::string>& out) {
 }
 
 void lint_scheme(const Simulation& s, std::vector<std::string>& out) {
-  if (is_explicit(s.first().settings().kind)) return;
+  if (is_explicit(s.first().settings().kind) || s.first().settings().kind == SchemeKind::statics) return;
   const double courant = waves(s).speed * s.dt() / smallest_cell(s);
   if (courant > 20.0 && !s.given().contacts.empty()) {
     out.push_back(

@@ -29,6 +29,7 @@ class Recorder {
 
   std::vector<CheckSummary> checks() const { return checks_.results(); }
   double worst_relative_penetration() const { return contact_.worst_relative_penetration(); }
+  double largest_pressure() const { return contact_.largest_pressure(); }
 
  private:
   void record_frame(const StepView& view);

@@ -7,8 +7,10 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numeric>
 #include <utility>
+#include <variant>
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
@@ -56,6 +58,24 @@ RunMonitor::Momenta momenta_of(const Model& model) {
   const auto is_ring = [](const Part& part) { return part.section == Section::axisymmetric; };
   return std::any_of(model.parts.begin(), model.parts.end(), is_ring) ? RunMonitor::Momenta::axial
                                                                       : RunMonitor::Momenta::all;
+}
+
+/// The energy that displacements of 1e-10 of the bodies' reach would store: less is rounding of positions, to the
+/// verdict's 1e-10 of it.
+double rest_energy(const Solid& solid, double reach) {
+  const std::vector<double> diagonal = solid.tangent_diagonal(std::vector<double>(solid.dof_count(), 0.0));
+  const double sum = std::accumulate(diagonal.begin(), diagonal.end(), 0.0), u = 1e-10 * reach;
+  return 0.5 * sum * u * u;
+}
+
+RunMonitor::StageKind kind_of(const Stage& stage) {
+  return {stage.reversible_energy(), stage.settings().kind == SchemeKind::statics};
+}
+
+double smallest_youngs_modulus(const Model& model) {
+  double E = std::numeric_limits<double>::infinity();
+  for (const Part& part : model.parts) std::visit([&](const auto& law) { E = std::min(E, law.E); }, part.material);
+  return E;
 }
 
 double reach(const Mesh& mesh) {
@@ -153,8 +173,10 @@ void Run::begin_stage(const Stage& stage) {
   }
   ledger_.emplace(scheme_->forces().stored, scheme_->forces().total_momentum, reach(s_.mesh()));
   const std::vector<double>& masses = stage.mass().node_diagonal();
-  monitor_.emplace(*ledger_, std::accumulate(masses.begin(), masses.end(), 0.0), stage.reversible_energy(),
-                   momenta_of(s_.model()));
+  monitor_.emplace(*ledger_,
+                   RunMonitor::Bodies{std::accumulate(masses.begin(), masses.end(), 0.0),
+                                      rest_energy(s_.solid(), reach(s_.mesh())), momenta_of(s_.model())},
+                   kind_of(stage));
   record(Recorder::Moment::during);
 }
 
@@ -173,7 +195,7 @@ void Run::book_switch(const Stage& stage) {
     jump.impulse.angular[c] = now.angular[c] - ledger_->momentum().angular[c];
   }
   ledger_->add(jump, now);
-  monitor_->begin_stage(stage.reversible_energy());
+  monitor_->begin_stage(kind_of(stage));
   log_.push_back(fmt::format("stage: at t = {:.6g} from step {} on: {}; stored energy jumps by {:.3g}", state_.t, step_,
                              stage.name(), jump.energy.mechanical()));
 }
@@ -182,11 +204,13 @@ void Run::record(Recorder::Moment moment) {
   recorder_.record({step_, dt_, iterations_, state_, scheme_->forces(), *ledger_}, scheme_->end_weight(), moment);
 }
 
-/// What is looked at every few steps: the stable step of bodies that change, and the rotation of small-strain parts.
+/// What is looked at every few steps: the stable step of bodies that change, and the rotation of small-strain parts,
+/// which is looked at after the last step of a stage as well.
 void Run::look_after(const Stage& stage) {
   constexpr long long every = 10;
-  if (step_ % every != 0) return;
-  if (watch_) {
+  const bool is_due = step_ % every == 0, at_end = control_->at_end();
+  if (!is_due && !at_end) return;
+  if (watch_ && !at_end) {
     const double stable = watch_->update(next_.q, state_.q);
     const double share = stage.time().step ? 1.0 : std::max(0.98, stage.time().safety);
     if (!control_->limit(share * stable))
@@ -247,7 +271,7 @@ bool Run::advance(const Stage& stage) {
   const bool last = (control_->at_end() && stage.end() == s_.end()) || !alarm.empty();
   record(last ? Recorder::Moment::last : Recorder::Moment::during);
   progress_.update({state_.t, step_, dt_, iterations_, monitor_->relative_imbalance()});
-  if (!last) look_after(stage);
+  if (alarm.empty()) look_after(stage);
   if (alarm.empty()) return true;
   message_ = fmt::format("stopped after step {}, t = {:.6g}: {}; {}", step_, state_.t, alarm, worst_place(s_, state_));
   const std::string remedy = s_.given().contacts.empty() ? "" : touch_remedy(stage);
@@ -324,7 +348,9 @@ void Run::fill(Summary& summary) const {
   summary.linear_momentum = {begin.linear, end.linear, impulse.linear, monitor_->linear_momentum_error()};
   summary.angular_momentum = {begin.angular, end.angular, impulse.angular, monitor_->angular_momentum_error()};
   summary.checks = recorder_.checks();
-  summary.verdict = monitor_->items(recorder_.worst_relative_penetration(), angular_limit(s_));
+  summary.verdict = monitor_->items(
+      {recorder_.worst_relative_penetration(), recorder_.largest_pressure() / smallest_youngs_modulus(s_.model())},
+      angular_limit(s_));
 }
 
 Summary summary_of(const Simulation& s) {

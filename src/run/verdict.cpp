@@ -19,35 +19,53 @@ double ratio(double error, double scale) {
 }  // namespace
 
 void RunMonitor::update() {
-  const EnergyTerms now = ledger_.now();
+  const EnergyTerms total = ledger_.now();
+  if (stage_.is_static) {
+    static_.quadrature += total.quadrature - before_.quadrature;
+    static_.algorithmic += total.algorithmic - before_.algorithmic;
+  }
+  before_ = total;
+  const EnergyTerms now = dynamic();
   imbalance_ = std::max(imbalance_, std::abs(ledger_.imbalance()));
   quadrature_ = std::max(quadrature_, std::abs(now.quadrature));
   algorithmic_ = std::max(algorithmic_, std::abs(now.algorithmic));
   lent_before_ = std::exchange(lent_, -now.algorithmic);
   const Momentum error = ledger_.momentum_error(), impulse = ledger_.impulse();
   const Momentum &momentum = ledger_.momentum(), &begin = ledger_.initial_momentum();
-  const bool is_axial = momenta_ == Momenta::axial;
+  const bool is_axial = bodies_.momenta == Momenta::axial;
   linear_error_ = std::max(linear_error_, is_axial ? std::abs(error.linear[1]) : norm(error.linear));
   if (!is_axial) angular_error_ = std::max(angular_error_, norm(error.angular));
   // The last entry stands for bodies whose momenta cancel: the momentum of all mass with the run's energy.
   linear_scale_ = std::max({linear_scale_, norm(begin.linear), norm(momentum.linear), norm(impulse.linear),
-                            std::sqrt(2.0 * mass_ * ledger_.scale())});
+                            std::sqrt(2.0 * bodies_.mass * scale())});
   // Moments are compared with what the forces would do at the far end of the bodies, not with a sum that may vanish by
   // symmetry.
   angular_scale_ = std::max({angular_scale_, norm(begin.angular), norm(momentum.angular), norm(impulse.angular),
                              linear_scale_ * ledger_.reach()});
 }
 
+double RunMonitor::scale() const {
+  return std::max(ledger_.scale(), bodies_.rest_energy);
+}
+
+/// The totals without what static stages have booked for the path of their loads and contacts.
+EnergyTerms RunMonitor::dynamic() const {
+  EnergyTerms terms = ledger_.now();
+  terms.quadrature -= static_.quadrature;
+  terms.algorithmic -= static_.algorithmic;
+  return terms;
+}
+
 double RunMonitor::growth() const {
-  const double most = reversible_ * ledger_.scale();
+  const double most = stage_.reversible * scale();
   // Where a load or a motion jumps, the work that supplies the energy comes with the step after it.
-  const bool is_lent = reversible_ > 0.0 && std::min(lent_, lent_before_) <= most;
-  return ledger_.growth() - (is_lent ? std::max(0.0, lent_) : 0.0);
+  const bool is_lent = stage_.reversible > 0.0 && std::min(lent_, lent_before_) <= most;
+  return ledger_.growth() + static_.quadrature + static_.algorithmic - (is_lent ? std::max(0.0, lent_) : 0.0);
 }
 
 std::string RunMonitor::alarm() const {
   constexpr double limit = 0.05;
-  const double scale = std::max(ledger_.scale(), lent_);
+  const double scale = std::max(this->scale(), lent_);
   if (!std::isfinite(ledger_.now().mechanical())) return "the energy is not finite";
   if (growth() > limit * scale) {
     return fmt::format(
@@ -62,7 +80,7 @@ std::string RunMonitor::alarm() const {
 }
 
 double RunMonitor::relative_imbalance() const {
-  return ratio(std::abs(ledger_.imbalance()), ledger_.scale());
+  return ratio(std::abs(ledger_.imbalance()), scale());
 }
 double RunMonitor::linear_momentum_error() const {
   return ratio(linear_error_, linear_scale_);
@@ -71,8 +89,8 @@ double RunMonitor::angular_momentum_error() const {
   return ratio(angular_error_, angular_scale_);
 }
 
-std::vector<VerdictItem> RunMonitor::items(double worst_relative_penetration, double angular_limit) const {
-  const double scale = ledger_.scale();
+std::vector<VerdictItem> RunMonitor::items(const Pressing& pressing, double angular_limit) const {
+  const double scale = this->scale();
   const auto item = [](const char* name, double value, double limit, const char* explanation) {
     return VerdictItem{name, value, limit, value <= limit, explanation};
   };
@@ -88,8 +106,9 @@ std::vector<VerdictItem> RunMonitor::items(double worst_relative_penetration, do
       item("linear momentum", linear_momentum_error(), 1e-9, "change of momentum against the impulses"),
       item("angular momentum", angular_momentum_error(), angular_limit,
            "change of angular momentum against the impulses"),
-      item("penetration", worst_relative_penetration, 0.05,
-           "largest penetration relative to the smallest cell: is the penalty stiff enough?"),
+      item("penetration", pressing.penetration, std::max(0.05, 2.0 * pressing.strain),
+           "largest penetration relative to the smallest cell; the limit is 5 %, or twice the largest contact pressure "
+           "over the smallest Young's modulus: is the penalty stiff enough?"),
   };
 }
 

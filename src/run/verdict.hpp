@@ -12,14 +12,24 @@ namespace carom {
 /// Largest errors over a run, collected step by step, each relative to what it is an error of.
 class RunMonitor {
  public:
-  /// `mass` of all parts, and Stage::reversible_energy().
   /// Which components of momentum are balanced: all, or along y alone (axisymmetric parts).
   enum class Momenta : std::uint8_t { all, axial };
-  RunMonitor(const EnergyLedger& ledger, double mass, double reversible, Momenta momenta)
-      : ledger_(ledger), mass_(mass), reversible_(reversible), momenta_(momenta) {}
+  /// What errors are judged by beside the ledger.
+  struct Bodies {
+    double mass = 0.0;         ///< of all parts
+    double rest_energy = 0.0;  ///< energies below cannot be told from rounding: the least scale of all energies
+    Momenta momenta = Momenta::all;
+  };
+  /// One stage: Stage::reversible_energy(), and whether it has inertia.
+  struct StageKind {
+    double reversible = 1.0;
+    bool is_static = false;
+  };
+  RunMonitor(const EnergyLedger& ledger, const Bodies& bodies, const StageKind& stage)
+      : ledger_(ledger), bodies_(bodies), stage_(stage) {}
 
   /// Another scheme goes on.
-  void begin_stage(double reversible) { reversible_ = reversible; }
+  void begin_stage(const StageKind& stage) { stage_ = stage; }
 
   void update();
 
@@ -28,20 +38,29 @@ class RunMonitor {
   /// it is for two steps in a row more than a stable step can lend.
   std::string alarm() const;
 
-  /// balance of powers, quadrature, algorithmic, linear and angular momentum, penetration.
+  /// What the last item compares: the largest penetration and pressure of the contacts, relative to the smallest cell
+  /// and to the smallest Young's modulus.
+  struct Pressing {
+    double penetration = 0.0, strain = 0.0;
+  };
+  /// balance of powers, quadrature, algorithmic, linear and angular momentum, penetration. What static stages book as
+  /// quadrature and algorithmic is left out: without inertia it says nothing about the step.
   /// angular_limit: what the error of angular momentum may be with the schemes of the run.
-  std::vector<VerdictItem> items(double worst_relative_penetration, double angular_limit) const;
+  std::vector<VerdictItem> items(const Pressing& pressing, double angular_limit) const;
   double linear_momentum_error() const;
   double angular_momentum_error() const;
   /// Imbalance now, relative to the energy scale.
   double relative_imbalance() const;
 
  private:
+  double scale() const;
   double growth() const;
+  EnergyTerms dynamic() const;
 
   const EnergyLedger& ledger_;
-  double mass_, reversible_;
-  Momenta momenta_;
+  Bodies bodies_;
+  StageKind stage_;
+  EnergyTerms before_{}, static_{};  ///< totals at the last update, and how much of them static stages have booked
   double lent_ = 0.0, lent_before_ = 0.0;  ///< energy lent by the scheme, after this step and the one before
   double imbalance_ = 0.0, quadrature_ = 0.0, algorithmic_ = 0.0;  ///< largest so far, energies
   double linear_error_ = 0.0, angular_error_ = 0.0;                ///< largest so far, momenta
