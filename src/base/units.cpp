@@ -15,7 +15,7 @@ struct DimensionRow {
 };
 
 /// In the order of Dimension.
-constexpr std::array<DimensionRow, 14> dimension_rows{{
+constexpr std::array<DimensionRow, 16> dimension_rows{{
     {"", 0, 0, 0, {"", "", ""}},
     {"length", 1, 0, 0, {"m", "mm", "mm"}},
     {"area", 2, 0, 0, {"m2", "mm2", "mm2"}},
@@ -30,6 +30,8 @@ constexpr std::array<DimensionRow, 14> dimension_rows{{
     {"stress per length", -2, 1, -2, {"Pa/m", "MPa/mm", "GPa/mm"}},
     {"force per length", 0, 1, -2, {"N/m", "N/mm", "kN/mm"}},
     {"force per velocity", 0, 1, -1, {"N s/m", "N s/mm", "kN ms/mm"}},
+    {"inertia", 2, 1, 0, {"kg m2", "t mm2", "kg mm2"}},
+    {"angular velocity", 0, 0, -1, {"1/s", "1/s", "1/ms"}},
 }};
 
 struct SystemRow {

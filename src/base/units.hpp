@@ -26,7 +26,9 @@ enum class Dimension : std::uint8_t {
   acceleration,
   stress_per_length,  ///< penalty stiffness per area
   force_per_length,   ///< penalty stiffness of a node or stop
-  damping             ///< force per velocity
+  damping,            ///< force per velocity
+  inertia,            ///< mass times area
+  angular_velocity
 };
 
 /// All dimensions that have units.
@@ -42,7 +44,9 @@ inline constexpr std::array dimensions{Dimension::length,
                                        Dimension::acceleration,
                                        Dimension::stress_per_length,
                                        Dimension::force_per_length,
-                                       Dimension::damping};
+                                       Dimension::damping,
+                                       Dimension::inertia,
+                                       Dimension::angular_velocity};
 
 /// "SI", "mm-t-s", "mm-kg-ms": the values of the key `units`.
 std::string_view name(UnitSystem system);

@@ -97,12 +97,35 @@ void add_shapes(SectionSchema<CaseContact>& s) {
   s.key("surface", &CaseContact::surface, "Group of the faces of the rigid surface, which belong to no part.",
         {.kinds = {"surface"}, .need = needed});
   s.key("velocity", &CaseContact::velocity,
-        "The obstacle moves, without turning: imposed velocity times function; with a mass: initial velocity.",
+        "The obstacle moves, without turning: imposed velocity times function; with a mass: initial velocity, of the "
+        "centre of mass.",
         {.unit = Dimension::velocity, .kinds = obstacles});
   s.key("function", &CaseContact::function, "NAME of a [functions.NAME] that multiplies the imposed velocity.",
         {.kinds = obstacles, .default_phrase = "constant 1"});
-  s.key("mass", &CaseContact::mass, "The obstacle is a free rigid body of this mass that moves without turning.",
+  s.key("mass", &CaseContact::mass,
+        "The obstacle is a free rigid body of this mass, which turns where it has an inertia and else does not. It "
+        "belongs to this one contact.",
         {.unit = Dimension::mass, .range = greater_than(0.0), .kinds = obstacles});
+  s.key("inertia", &CaseContact::inertia,
+        "Moments of inertia [I_xx, I_yy, I_zz] of the free body about its centre of mass, along the axes; each smaller "
+        "than the sum of the two others.",
+        {.unit = Dimension::inertia, .kinds = obstacles});
+  s.key("products_of_inertia", &CaseContact::products_of_inertia,
+        "Entries [I_xy, I_yz, I_zx] of its inertia tensor, which are minus the integrals of the products of the "
+        "coordinates.",
+        {.unit = Dimension::inertia, .kinds = obstacles, .default_phrase = "0"});
+  s.key("centre_of_mass", &CaseContact::centre_of_mass, "Of the free body that turns, at the start.",
+        {.unit = Dimension::length,
+         .kinds = obstacles,
+         .aliases = {"center_of_mass"},
+         .default_phrase = "sphere and box: their middle; the other kinds must have one"});
+  s.key("rigidity", &CaseContact::rigidity,
+        "Of the free body that turns: frequency at which its axes vibrate about right angles, over the highest of the "
+        "mesh. Its strain, which the verdict limits to 1e-3, falls with the square; above 1 explicit runs pay with their "
+        "step.",
+        {.range = greater_than(0.0), .kinds = obstacles});
+  s.key("angular_velocity", &CaseContact::angular_velocity, "Of the free body that turns, at the start; radians.",
+        {.unit = Dimension::angular_velocity, .kinds = obstacles, .default_phrase = "0"});
 }
 
 }  // namespace

@@ -48,8 +48,29 @@ void check_direction(Located<Vec3>& direction, const std::string& path) {
 
 }  // namespace
 
+/// What a body that turns needs, and what only it may have.
+static void check_body(const CaseContact& contact, const Node& node, const ReadContext& at) {
+  using Kind = CaseContact::Kind;
+  if (contact.inertia && !contact.mass) {
+    throw CaseError(contact.inertia->where, at.at("inertia").path, "an inertia without a mass",
+                    "the mass of a free body beside its inertia", "Add mass, or remove inertia.");
+  }
+  for (const char* key : {"products_of_inertia", "centre_of_mass", "angular_velocity", "rigidity"}) {
+    const Node* given = find(node, key);
+    if (given == nullptr || contact.inertia) continue;
+    throw CaseError(given->where, at.at(key).path, fmt::format("{} without an inertia", key),
+                    "the inertia of a free body that turns", fmt::format("Add mass and inertia, or remove {}.", key));
+  }
+  const bool has_middle = *contact.kind == Kind::sphere || *contact.kind == Kind::box;
+  if (contact.inertia && !has_middle && !contact.centre_of_mass) {
+    throw CaseError(contact.inertia->where, at.at("inertia").path, "an inertia without a centre of mass",
+                    "a centre_of_mass, which only spheres and boxes have by their shape", "Add centre_of_mass.");
+  }
+}
+
 void check_contact(CaseContact& contact, const Node& node, const ReadContext& at) {
   using Kind = CaseContact::Kind;
+  check_body(contact, node, at);
   check_name(contact.name, at.at("name").path);
   if (contact.tangential_stiffness && contact.friction == 0.0) {
     throw CaseError(place_of(node, "tangential_stiffness"), at.at("tangential_stiffness").path,

@@ -34,6 +34,7 @@ void ConstraintRows::add_row(double row_gap, const Vec3& row_normal, const Vec3&
   measure.push_back(row_measure);
   law.push_back(row_law);
   source.push_back(row_source);
+  behind.push_back(0);
 }
 
 void ConstraintRows::add_node(Index n, double w) {

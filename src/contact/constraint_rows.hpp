@@ -37,6 +37,7 @@ struct ConstraintRows {
   std::vector<double> measure;  ///< area that the row stands for, or 1 for a row that is a single node
   std::vector<RowLaw> law;
   std::vector<Index> source;  ///< index in Model::contacts
+  std::vector<Index> behind;  ///< how many of the row's last nodes hold the obstacle alone
   std::vector<Index> slot;    ///< entry of State::contact; at most one row per slot
 
   std::size_t size() const { return gap.size(); }

@@ -32,6 +32,7 @@ struct MakeRows {
 
 /// Nodes whose positions the rows of a contact ask for.
 struct MovingNodes {
+  const Model& model;
   std::vector<Index>& nodes;
 
   void add(const Surface& surface) const {
@@ -43,6 +44,9 @@ struct MovingNodes {
     nodes.insert(nodes.end(), contact.nodes.begin(), contact.nodes.end());
     add(contact.surface);
     if (contact.carrier >= 0) nodes.push_back(contact.carrier);
+    if (contact.body < 0) return;
+    const TurningBody& body = model.turning_bodies[static_cast<std::size_t>(contact.body)];
+    nodes.insert(nodes.end(), body.nodes.begin(), body.nodes.end());
   }
   void operator()(const PairContact& contact) const {
     add(contact.slave);
@@ -108,7 +112,7 @@ ContactGeometry::ContactGeometry(const Model& model) : impl_(std::make_unique<Im
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     impl.makers.push_back(std::visit(MakeRows{model, impl.notes, static_cast<Index>(i)}, model.contacts[i]));
     impl.first_slot.push_back(impl.first_slot.back() + static_cast<Index>(impl.makers.back()->slots()));
-    if (!impl.makers.back()->is_fixed()) std::visit(MovingNodes{impl.nodes}, model.contacts[i]);
+    if (!impl.makers.back()->is_fixed()) std::visit(MovingNodes{model, impl.nodes}, model.contacts[i]);
   }
   std::sort(impl.nodes.begin(), impl.nodes.end());
   impl.nodes.erase(std::unique(impl.nodes.begin(), impl.nodes.end()), impl.nodes.end());

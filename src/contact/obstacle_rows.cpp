@@ -1,7 +1,9 @@
 #include "contact/obstacle_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "contact/rigid_shapes.hpp"
@@ -11,15 +13,29 @@
 namespace carom {
 namespace {
 
-/// What every obstacle has: its nodes with their measures, law and carrier.
+/// Where an obstacle stands: at rest, shifted with its carrier, or placed by the nodes of its body.
+struct Stand {
+  Vec3 shift{};
+  std::optional<BodyPlacement> placement{};
+
+  /// The position x as the obstacle in its reference position sees it.
+  Vec3 seen(const Vec3& x) const { return placement ? placement->reference(x) : subtract(x, shift); }
+};
+
+/// What every obstacle has: its nodes with their measures, law and carrier or body.
 struct Touching {
   std::span<const Vec3> X;
   std::vector<std::pair<Index, double>> nodes;  ///< node and measure, by increasing node
   ContactLaw law;
   Index carrier, source;
+  const TurningBody* body;  ///< null: the obstacle does not turn
 
   Touching(const Model& model, const ObstacleContact& contact, Index contact_source)
-      : X(model.mesh->coordinates), law(contact.law), carrier(contact.carrier), source(contact_source) {
+      : X(model.mesh->coordinates),
+        law(contact.law),
+        carrier(contact.carrier),
+        source(contact_source),
+        body(contact.body < 0 ? nullptr : &model.turning_bodies[static_cast<std::size_t>(contact.body)]) {
     if (contact.measure == RowMeasure::per_node) {
       for (const Index n : contact.nodes) nodes.emplace_back(n, 1.0);
       std::sort(nodes.begin(), nodes.end());
@@ -30,14 +46,40 @@ struct Touching {
     }
   }
 
-  /// Displacement of the obstacle for positions x of the nodes.
-  Vec3 shift(std::span<const Vec3> x) const { return carrier < 0 ? Vec3{} : subtract(x[carrier], X[carrier]); }
+  /// Where the obstacle stands for positions x of the nodes.
+  Stand stand(std::span<const Vec3> x) const {
+    if (body != nullptr) return {{}, BodyPlacement(*body, body_frame(*body, nodal_values(*body, x)))};
+    return {carrier < 0 ? Vec3{} : subtract(x[carrier], X[carrier])};
+  }
 
-  void add_row(std::size_t i, const SignedDistance& at, const Vec3& position, ConstraintRows& rows) const {
+  /// The row of node i at `position`, its distance being that of stand.seen(position).
+  void add_row(std::size_t i, const SignedDistance& at, const Vec3& position, const Stand& stand,
+               ConstraintRows& rows) const {
     const auto [n, measure] = nodes[i];
+    if (stand.placement) {
+      add_turning_row(i, at, position, *stand.placement, rows);
+      return;
+    }
     rows.add_row(at.gap, at.normal, position, measure, row_law(law, measure), source);
     rows.add_node(n, 1.0);
     if (carrier >= 0) rows.add_node(carrier, -1.0);
+  }
+
+ private:
+  /// The gap is a function of the point X of the body that is at x now, and x = sum of N_a(X) x_a holds for every motion
+  /// of the nodes that leaves X in place. So d gap = grad . (dx - sum of N_a dx_a) with the gradient by x, exactly; its
+  /// length differs from 1 by the strain of the body.
+  void add_turning_row(std::size_t i, const SignedDistance& at, const Vec3& position, const BodyPlacement& placement,
+                       ConstraintRows& rows) const {
+    const auto [n, measure] = nodes[i];
+    const Vec3 gradient = placement.gradient(at.normal);
+    rows.add_row(at.gap, normalized(gradient), position, measure, row_law(law, measure), source);
+    const RowBlock block{gradient, rows.tangent_1.back(), rows.tangent_2.back()};
+    rows.add_block(n, block);
+    const std::array<double, 4> N = placement.weights(position);
+    for (std::size_t a = 0; a < 4; ++a)
+      rows.add_block(body->nodes[a], {scaled(block[0], -N[a]), scaled(block[1], -N[a]), scaled(block[2], -N[a])});
+    rows.behind.back() = 4;
   }
 };
 
@@ -49,7 +91,7 @@ class PlaneRows : public RowMaker {
   void append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const override {
     for (std::size_t i = 0; i < slots(); ++i) {
       const Vec3& X = touching_.X[touching_.nodes[i].first];
-      touching_.add_row(i, signed_distance(plane_, X), X, rows);
+      touching_.add_row(i, signed_distance(plane_, X), X, {}, rows);
       rows.slot.back() = first_slot + static_cast<Index>(i);
     }
   }
@@ -59,7 +101,7 @@ class PlaneRows : public RowMaker {
   Plane plane_;
 };
 
-/// Curved shapes with a distance in closed form.
+/// Shapes with a distance in closed form that are curved, or turn.
 template <class Shape>
 class ShapeRows : public RowMaker {
  public:
@@ -67,10 +109,10 @@ class ShapeRows : public RowMaker {
   std::size_t slots() const override { return touching_.nodes.size(); }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
-    const Vec3 shift = touching_.shift(motion.x);
+    const Stand stand = touching_.stand(motion.x);
     append_in_parallel(slots(), rows, [&](std::size_t i, ConstraintRows& made) {
       const Vec3& x = motion.x[touching_.nodes[i].first];
-      touching_.add_row(i, signed_distance(shape_, subtract(x, shift)), x, made);
+      touching_.add_row(i, signed_distance(shape_, stand.seen(x)), x, stand, made);
       finish_row(made, motion.u, first_slot + static_cast<Index>(i));
     });
   }
@@ -89,18 +131,18 @@ class RigidSurfaceRows : public RowMaker {
   std::size_t slots() const override { return touching_.nodes.size(); }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
-    const Vec3 shift_begin = touching_.shift(motion.x_begin), shift = touching_.shift(motion.x);
+    const Stand begin = touching_.stand(motion.x_begin), stand = touching_.stand(motion.x);
     for (std::size_t i = 0; i < slots(); ++i) {
       const Index n = touching_.nodes[i].first;
-      x_begin_[i] = subtract(motion.x_begin[n], shift_begin);
-      x_[i] = subtract(motion.x[n], shift);
+      x_begin_[i] = begin.seen(motion.x_begin[n]);
+      x_[i] = stand.seen(motion.x[n]);
       displacement_[i] = subtract(x_[i], x_begin_[i]);
     }
     search_.update(x_begin_, x_, displacement_);
     append_in_parallel(slots(), rows, [&](std::size_t i, ConstraintRows& made) {
       const std::optional<SurfacePoint> met = search_.find(i);
       if (!met) return;
-      touching_.add_row(i, {met->normal, met->gap}, motion.x[touching_.nodes[i].first], made);
+      touching_.add_row(i, {met->normal, met->gap}, motion.x[touching_.nodes[i].first], stand, made);
       finish_row(made, motion.u, first_slot + static_cast<Index>(i));
     });
   }
@@ -160,7 +202,10 @@ struct MakeRows {
   const ObstacleContact& contact;
   Touching touching;
 
-  std::unique_ptr<RowMaker> operator()(const Plane& plane) { return std::make_unique<PlaneRows>(touching, plane); }
+  std::unique_ptr<RowMaker> operator()(const Plane& plane) {
+    if (touching.body != nullptr) return std::make_unique<ShapeRows<Plane>>(touching, plane);
+    return std::make_unique<PlaneRows>(touching, plane);
+  }
   std::unique_ptr<RowMaker> operator()(const RigidSurface& rigid) {
     const bool has_normals = contact.measure == RowMeasure::per_area;
     return std::make_unique<RigidSurfaceRows>(touching, has_normals ? contact.surface : Surface{}, rigid.surface);

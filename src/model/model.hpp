@@ -16,6 +16,7 @@
 #include "mesh/facet.hpp"
 #include "mesh/mesh.hpp"
 #include "model/contact_options.hpp"
+#include "model/turning_body.hpp"
 
 namespace carom {
 
@@ -134,11 +135,13 @@ struct RigidSurface {
 using RigidShape = std::variant<Plane, Sphere, Cylinder, Box, RigidSurface>;
 
 /// A rigid obstacle. A moving one hangs on `carrier`, a node of its own whose displacement it follows (imposed by a
-/// PrescribedMotion, or free with the mass of a RigidBody); -1: at rest.
+/// PrescribedMotion, or free with the mass of a RigidBody); -1: at rest. One that turns as well hangs on the TurningBody
+/// `body`, an index in Model::turning_bodies; -1: it does not turn.
 struct ObstacleContact {
   std::string name;
   RigidShape shape;
   Index carrier = -1;
+  Index body = -1;
   RowMeasure measure = RowMeasure::per_area;
   std::vector<Index> nodes;  ///< nodes that may touch (per_node)
   Surface surface;           ///< facets that may touch (per_area)
@@ -185,6 +188,7 @@ struct Model {
   std::vector<InitialState> initial;
   std::vector<ContactDefinition> contacts;
   std::vector<RigidBody> rigid_bodies;
+  std::vector<TurningBody> turning_bodies;
 };
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include "base/errors.hpp"
 #include "mesh/read_mesh.hpp"
 #include "mesh/structured_block.hpp"
+#include "run/rigid_bodies.hpp"
 
 namespace carom {
 
@@ -27,22 +28,15 @@ Mesh bodies(const Case& given) {
 
 }  // namespace
 
-bool is_moving(const CaseContact& contact) {
-  return contact.velocity.has_value() || contact.mass.has_value();
-}
-
-std::size_t moving_obstacles(const Case& given) {
-  return static_cast<std::size_t>(std::count_if(given.contacts.begin(), given.contacts.end(), is_moving));
-}
-
 Mesh build_mesh(const Case& given) {
   Mesh mesh = bodies(given);
   std::int64_t last = 0;
   for (const std::int64_t number : mesh.node_numbers) last = std::max(last, number);
   for (const CaseContact& contact : given.contacts) {
-    if (!is_moving(contact)) continue;
-    mesh.coordinates.push_back(*contact.kind == CaseContact::Kind::sphere ? contact.centre : contact.point);
-    mesh.node_numbers.push_back(++last);
+    for (const Vec3& x : carrier_positions(contact)) {
+      mesh.coordinates.push_back(x);
+      mesh.node_numbers.push_back(++last);
+    }
   }
   return mesh;
 }

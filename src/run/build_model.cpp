@@ -8,6 +8,7 @@
 #include "run/build_mesh.hpp"
 #include "run/groups.hpp"
 #include "run/parts.hpp"
+#include "run/rigid_bodies.hpp"
 
 namespace carom {
 
@@ -183,17 +184,20 @@ class Builder {
     model_.contacts.emplace_back(std::move(obstacle));
   }
 
-  /// A moving obstacle hangs on the node that build_mesh has appended for it.
+  /// A moving obstacle hangs on the nodes that build_mesh has appended for it.
   void add_carrier(const CaseContact& given, ObstacleContact& obstacle) {
-    if (!is_moving(given)) return;
-    obstacle.carrier = static_cast<Index>(mesh_.node_count() - moving_obstacles(case_) + carriers_++);
-    const std::vector<Index> node{obstacle.carrier};
-    const Vec3 velocity = given.velocity.value_or(Vec3{});
-    model_.initial.push_back({node, std::nullopt, velocity});
+    const std::size_t nodes = carrier_nodes(given);
+    if (nodes == 0) return;
+    const auto first = static_cast<Index>(mesh_.node_count() - carrier_nodes(case_) + carriers_);
+    carriers_ += nodes;
     if (given.mass) {
-      model_.rigid_bodies.push_back({*given.name, obstacle.carrier, *given.mass});
+      add_free_body(given, first, obstacle, model_);
       return;
     }
+    obstacle.carrier = first;
+    const std::vector<Index> node{first};
+    const Vec3 velocity = *given.velocity;
+    model_.initial.push_back({node, std::nullopt, velocity});
     const std::string label = fmt::format("velocity of contact \"{}\" (line {})", *given.name, given.where.line);
     for (std::size_t c = 0; c < 3; ++c)
       model_.motions.push_back(

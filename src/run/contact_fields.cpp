@@ -12,7 +12,8 @@ namespace {
 template <class Visit>
 void for_each_pushed_node(const ConstraintRows& rows, const Visit& visit) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
+    const auto end = static_cast<std::size_t>(rows.begin[r + 1] - rows.behind[r]);
+    for (auto k = static_cast<std::size_t>(rows.begin[r]); k < end; ++k) {
       const double weight = dot(rows.block[k][0], rows.normal[r]);
       if (weight > 0.0) visit(r, k, weight);
     }

@@ -8,6 +8,7 @@
 
 #include "math/vec3.hpp"
 #include "run/groups.hpp"
+#include "run/rigid_bodies.hpp"
 
 namespace carom {
 
@@ -84,14 +85,36 @@ void EnergyCurves::sample(const StepView& view) {
                 norm(error.angular)};
 }
 
+namespace {
+
+/// The obstacle of a contact; null for other kinds.
+const ObstacleContact* obstacle(const Model& model, std::size_t contact) {
+  return std::get_if<ObstacleContact>(&model.contacts[contact]);
+}
+
+/// Names of what contact.csv says of the motion of a contact's obstacle.
+std::vector<std::string> motion_columns(const Model& model, std::size_t contact) {
+  const ObstacleContact* found = obstacle(model, contact);
+  if (found == nullptr || (found->carrier < 0 && found->body < 0)) return {};
+  std::vector<std::string> names{"displacement_x", "displacement_y", "displacement_z",
+                                 "velocity_x",     "velocity_y",     "velocity_z"};
+  if (found->body >= 0) names.insert(names.end(), {"angular_velocity_x", "angular_velocity_y", "angular_velocity_z"});
+  return names;
+}
+
+}  // namespace
+
 ContactCurves::ContactCurves(const Simulation& simulation)
-    : mesh_(simulation.mesh()), contacts_(simulation.given().contacts.size()) {
+    : model_(simulation.model()), mesh_(simulation.mesh()), contacts_(simulation.given().contacts.size()) {
   table_.columns = {"time"};
-  for (const CaseContact& contact : simulation.given().contacts) {
+  for (std::size_t c = 0; c < contacts_; ++c) {
+    const CaseContact& contact = simulation.given().contacts[c];
     for (const char* name : {"force_x", "force_y", "force_z", "impulse_x", "impulse_y", "impulse_z", "moment_x",
                              "moment_y", "moment_z", "penetration", "closed", "closings"}) {
       table_.columns.push_back(fmt::format("{}.{}", *contact.name, name));
     }
+    for (const std::string& name : motion_columns(model_, c))
+      table_.columns.push_back(fmt::format("{}.{}", *contact.name, name));
     moment_points_.push_back(contact.moment_point);
     has_area_.push_back(*contact.kind != CaseContact::Kind::stop && !contact.per_node);
   }
@@ -101,6 +124,27 @@ ContactCurves::ContactCurves(const Simulation& simulation)
   closings_.resize(contacts_);
   const std::vector<double>& lengths = simulation.solid().cell_lengths();
   cell_length_ = *std::min_element(lengths.begin(), lengths.end());
+}
+
+void ContactCurves::add_motion(std::size_t contact, const State& state) {
+  const ObstacleContact* found = obstacle(model_, contact);
+  if (found == nullptr) return;
+  const auto append = [&](const Vec3& x) { table_.row.insert(table_.row.end(), x.begin(), x.end()); };
+  if (found->carrier >= 0) {
+    for (const std::vector<double>* x : {&state.q, &state.v}) {
+      const auto first = x->begin() + 3 * static_cast<std::ptrdiff_t>(found->carrier);
+      table_.row.insert(table_.row.end(), first, first + 3);
+    }
+  }
+  if (found->body < 0) return;
+  const TurningBody& body = model_.turning_bodies[static_cast<std::size_t>(found->body)];
+  const BodyFrame displacement = body_frame(body, nodal_values(body, state.q));
+  const BodyFrame velocity = body_frame(body, nodal_values(body, state.v));
+  BodyFrame position = displacement;
+  for (std::size_t i = 0; i < 3; ++i) position.directors[i] = add(position.directors[i], body.axes[i]);
+  append(displacement.centre);
+  append(velocity.centre);
+  append(angular_velocity(position, velocity));
 }
 
 void ContactCurves::sample(const StepView& view, double end_weight) {
@@ -126,6 +170,7 @@ void ContactCurves::sample(const StepView& view, double end_weight) {
     closed_[c] = closed[c];
     table_.row.insert(table_.row.end(), {force[0], force[1], force[2], impulse_[c][0], impulse_[c][1], impulse_[c][2],
                                          moment[0], moment[1], moment[2], penetration[c], closed[c], closings_[c]});
+    add_motion(c, view.state);
     worst_penetration_ = std::max(worst_penetration_, penetration[c]);
   }
 }
@@ -171,7 +216,8 @@ void ProbeCurves::locate(const CaseProbe& given, Probe& probe) const {
     const std::vector<double>& mass = simulation_.mass().node_diagonal();
     Index nearest_node = 0;
     double best = std::numeric_limits<double>::infinity();
-    for (std::size_t n = 0; n < mesh.node_count(); ++n) {
+    const std::size_t of_parts = mesh.node_count() - carrier_nodes(simulation_.given());
+    for (std::size_t n = 0; n < of_parts; ++n) {
       if (mass[n] == 0.0) continue;
       const double distance = norm(subtract(mesh.coordinates[n], **given.point));
       if (distance >= best) continue;

@@ -44,7 +44,8 @@ class EnergyCurves {
 };
 
 /// contact.csv: for each contact the resultant force on the body, its impulse, its moment about the moment_point, the
-/// largest penetration, closed rows, and how often it went from open everywhere to closed somewhere.
+/// largest penetration, closed rows, and how often it went from open everywhere to closed somewhere; of an obstacle that
+/// moves the displacement and velocity of its centre, and where it turns its angular velocity.
 class ContactCurves {
  public:
   explicit ContactCurves(const Simulation& simulation);
@@ -58,6 +59,9 @@ class ContactCurves {
   double largest_pressure() const { return largest_pressure_; }
 
  private:
+  void add_motion(std::size_t contact, const State& state);
+
+  const Model& model_;
   const Mesh& mesh_;
   std::size_t contacts_;
   std::vector<Vec3> moment_points_;

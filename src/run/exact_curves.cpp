@@ -71,6 +71,9 @@ class Builder {
                          [bar, z](double t) { return bar->stress(z, t); }};
     });
     add_force([bar](double t) { return bar->contact_force(t); });
+    if (data.wall_mass > 0.0 && given_.contacts.size() == 1)
+      columns_.push_back({fmt::format("{}.velocity_{}", *given_.contacts[0].name, letter_),
+                          [bar](double t) { return bar->wall_velocity(t); }});
     const double mass = data.wall_mass;
     columns_.push_back({"kinetic", [bar, mass](double t) {
                           const double v = bar->wall_velocity(t);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "parallel/threads.hpp"
@@ -55,6 +56,9 @@ ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& setti
   force_parts_.resize(residual_.size());
   closed_diagonal_.assign(residual_.size(), 0.0);
   port_->add_stiffness_diagonal(closed_diagonal_);
+  std::vector<double> body_force(residual_.size(), 0.0);
+  system.solid.add_body_force_scale(body_force);
+  body_force_ = std::sqrt(std::inner_product(body_force.begin(), body_force.end(), body_force.begin(), 0.0));
   if (force_.value) return;
   force_.value = [&system](std::span<const double> x, std::span<double> f) { system.solid.internal_force(x, f); };
   force_.tangent_at = [](std::span<const double> x) { return x; };
@@ -114,7 +118,9 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   out.supplied = std::max(std::abs(sums[4]), std::abs(sums[5]));
   // A displacement is known to a relative 1e-16 of its terms only, which the stiffness of a node turns into a force.
   constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
-  out.round_off = precision * out.displacement * std::sqrt(sums[3]) + contact.round_off;
+  out.round_off = out.displacement * (precision * std::sqrt(sums[3]) +
+                                      std::numeric_limits<double>::epsilon() * body_force_) +
+                  contact.round_off;
   return out;
 }
 

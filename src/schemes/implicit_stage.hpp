@@ -72,6 +72,7 @@ class ImplicitStage {
   StageForce force_;
   std::vector<double> residual_, correction_, force_parts_;
   std::vector<double> stiffness_diagonal_, closed_diagonal_;  ///< of K and the springs; of all contact rows, closed
+  double body_force_ = 0.0;  ///< 2-norm of the forces by which rigid bodies that turn round (Solid)
 };
 
 /// Sets the prescribed entries of y so that the motions of the supports are met at time t: displacements by x, and

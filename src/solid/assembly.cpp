@@ -75,6 +75,16 @@ void append_diagonal(CsrMatrix& matrix, Index row, double value) {
   for (std::size_t k = r + 1; k < matrix.row_begin.size(); ++k) ++matrix.row_begin[k];
 }
 
+void append_row(CsrMatrix& matrix, Index row, std::span<const Index> columns) {
+  const std::int64_t at = matrix.row_begin[static_cast<std::size_t>(row)];
+  append_diagonal(matrix, row, 0.0);
+  matrix.column[static_cast<std::size_t>(at)] = columns[0];
+  matrix.column.insert(matrix.column.begin() + at + 1, columns.begin() + 1, columns.end());
+  matrix.value.insert(matrix.value.begin() + at, columns.size() - 1, 0.0);
+  for (std::size_t k = static_cast<std::size_t>(row) + 1; k < matrix.row_begin.size(); ++k)
+    matrix.row_begin[k] += static_cast<std::int64_t>(columns.size()) - 1;
+}
+
 std::size_t entry(const CsrMatrix& matrix, Index row, Index column) {
   const auto first = matrix.column.begin() + matrix.row_begin[at(row)];
   const auto last = matrix.column.begin() + matrix.row_begin[at(row) + 1];

@@ -1,6 +1,8 @@
 // Sparse matrices from cell matrices.
 #pragma once
 
+#include <span>
+
 #include "linalg/csr_matrix.hpp"
 #include "solid/blocks.hpp"
 
@@ -14,6 +16,9 @@ CsrMatrix dof_graph(const CsrMatrix& nodes);
 
 /// Gives a row without entries its diagonal entry.
 void append_diagonal(CsrMatrix& matrix, Index row, double value);
+
+/// Gives a row without entries zeros in the columns, which are sorted.
+void append_row(CsrMatrix& matrix, Index row, std::span<const Index> columns);
 
 /// Position in `matrix` of the entry (row, column), which must exist.
 std::size_t entry(const CsrMatrix& matrix, Index row, Index column);

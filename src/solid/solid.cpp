@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "solid/blocks.hpp"
 #include "solid/kernels.hpp"
 #include "solid/loads.hpp"
+#include "solid/turning_bodies.hpp"
 
 namespace carom {
 namespace {
@@ -42,7 +44,8 @@ struct Solid::Impl {
         gravity(gravity_loads(model)),
         rigid_bodies(model.rigid_bodies),
         volumes(solid.cells.size()),
-        lengths(solid.cells.size()) {
+        lengths(solid.cells.size()),
+        turning_bodies(model.turning_bodies, model.turning_bodies.empty() ? 0.0 : largest_frequency()) {
     solid.for_each_cell([&](std::size_t c, const Block& block) {
       const CellMeasure measure = block.operations->measure(solid.coordinates_of(c), block.thickness);
       volumes[c] = measure.volume;
@@ -57,6 +60,19 @@ struct Solid::Impl {
   }
   NodeMatrix mass(std::size_t c, const Block& b) const {
     return b.operations->mass(solid.coordinates_of(c), b.thickness, b.rho);
+  }
+
+  std::vector<double> frequency_bounds() const {
+    std::vector<double> bounds(solid.cells.size());
+    solid.for_each_cell([&](std::size_t c, const Block& b) {
+      bounds[c] = frequency_bound(b.stiffness(solid.coordinates_of(c), {}), lumped(mass(c, b), b.nodes()), b.nodes());
+    });
+    return bounds;
+  }
+  double largest_frequency() const {
+    double largest = 0.0;
+    for (const double bound : frequency_bounds()) largest = std::max(largest, bound);
+    return std::sqrt(largest);
   }
 
   /// Overwrites f with the sum over the chunks of add(kernels, batches, law, f), colour by colour.
@@ -75,6 +91,7 @@ struct Solid::Impl {
   std::vector<Gravity> gravity;
   std::vector<RigidBody> rigid_bodies;
   std::vector<double> volumes, lengths;
+  TurningBodies turning_bodies;
 };
 
 Solid::Solid(const Model& model, Isa isa) : impl_(std::make_unique<Impl>(model, isa)) {}
@@ -92,7 +109,7 @@ Isa Solid::isa() const {
 }
 bool Solid::is_linear() const {
   const auto& blocks = impl_->solid.blocks;
-  return std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.small_strain; });
+  return impl_->turning_bodies.empty() && std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.small_strain; });
 }
 const std::vector<CellRef>& Solid::cells() const {
   return impl_->solid.cells;
@@ -110,6 +127,7 @@ const std::vector<double>& Solid::cell_lengths() const {
 void Solid::internal_force(std::span<const double> u, std::span<double> f) const {
   impl_->sum_over_chunks(f, [&](const CellKernels& kernels, const CellBatches& cells, const BatchLaw& law,
                                 double* sum) { kernels.add_internal_force(cells, law, u.data(), sum); });
+  impl_->turning_bodies.add_internal_force(u, f);
 }
 
 void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const double> u, std::span<double> f) const {
@@ -130,6 +148,7 @@ void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const 
 void Solid::tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y) const {
   impl_->sum_over_chunks(y, [&](const CellKernels& kernels, const CellBatches& cells, const BatchLaw& law,
                                 double* sum) { kernels.add_tangent_action(cells, law, u.data(), x.data(), sum); });
+  impl_->turning_bodies.add_tangent_action(u, x, y);
 }
 
 void Solid::discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1,
@@ -138,10 +157,13 @@ void Solid::discrete_gradient_force(std::span<const double> u_0, std::span<const
                          [&](const CellKernels& kernels, const CellBatches& cells, const BatchLaw& law, double* sum) {
                            kernels.add_discrete_gradient_force(cells, law, u_0.data(), u_1.data(), sum);
                          });
+  impl_->turning_bodies.add_discrete_gradient_force(u_0, u_1, f);
 }
 
 CsrMatrix Solid::tangent(std::span<const double> u) const {
-  CsrMatrix K = dof_graph(node_graph(impl_->solid));
+  CsrMatrix graph = node_graph(impl_->solid);
+  impl_->turning_bodies.add_rows(graph);
+  CsrMatrix K = dof_graph(graph);
   impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
     const CellMatrix cell = impl_->stiffness(c, block, u);
     const auto nodes = impl_->solid.nodes_of(c);
@@ -153,6 +175,7 @@ CsrMatrix Solid::tangent(std::span<const double> u) const {
           for (std::size_t j = 0; j < 3; ++j) row[j] += cell[(3 * a + i) * dofs + 3 * b + j];
         }
   });
+  impl_->turning_bodies.add_tangent(u, K);
   return K;
 }
 
@@ -164,6 +187,7 @@ std::vector<double> Solid::tangent_diagonal(std::span<const double> u) const {
     const std::size_t dofs = 3 * nodes.size();
     for (std::size_t r = 0; r < dofs; ++r) diagonal[3 * at(nodes[r / 3]) + r % 3] += cell[r * (dofs + 1)];
   });
+  impl_->turning_bodies.add_tangent_diagonal(u, diagonal);
   return diagonal;
 }
 
@@ -174,7 +198,15 @@ double Solid::strain_energy(std::span<const double> u) const {
     const Block& block = impl_->block(chunks[c]);
     partial[c] = block.kernels.strain_energy(impl_->batches(chunks[c]), block.law(), u.data());
   });
-  return std::accumulate(partial.begin(), partial.end(), 0.0);
+  return std::accumulate(partial.begin(), partial.end(), 0.0) + impl_->turning_bodies.energy(u);
+}
+
+double Solid::body_strain(std::span<const double> u) const {
+  return impl_->turning_bodies.largest_strain(u);
+}
+
+void Solid::add_body_force_scale(std::span<double> f) const {
+  impl_->turning_bodies.add_force_scale(f);
 }
 
 Rotation Solid::largest_rotation(std::span<const double> u) const {
@@ -209,16 +241,12 @@ Mass Solid::mass(MassKind kind) const {
     }
   });
   for (const RigidBody& body : impl_->rigid_bodies) append_diagonal(M, body.node, body.mass);
+  impl_->turning_bodies.add_mass(M);
   return Mass(kind, std::move(M));
 }
 
 std::vector<double> Solid::cell_frequency_bounds() const {
-  std::vector<double> bounds(cell_count());
-  impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
-    const CellMatrix K = block.stiffness(impl_->solid.coordinates_of(c), {});
-    bounds[c] = frequency_bound(K, lumped(impl_->mass(c, block), block.nodes()), block.nodes());
-  });
-  return bounds;
+  return impl_->frequency_bounds();
 }
 
 void Solid::external_force(double t, const Mass& mass, std::span<double> f) const {

@@ -1,0 +1,117 @@
+#include "model/turning_body.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "math/principal_axes.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+
+TurningBody make_turning_body(double mass, const Vec3& centre, const Vec3& inertia, const Vec3& products) {
+  const PrincipalAxes principal = principal_axes(inertia, products);
+  const Vec3& I = principal.values;
+  TurningBody body;
+  body.mass = mass;
+  body.centre = centre;
+  body.axes = principal.axes;
+  Vec3 euler{};
+  for (std::size_t i = 0; i < 3; ++i) euler[i] = 0.5 * (I[(i + 1) % 3] + I[(i + 2) % 3] - I[i]);
+  const double largest = *std::max_element(euler.begin(), euler.end());
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(euler[i] > 1e-6 * largest)) {
+      throw std::invalid_argument(fmt::format(
+          "principal moments of inertia {:.6g}, {:.6g}, {:.6g}, of which one is not smaller than the sum of the others",
+          I[0], I[1], I[2]));
+    }
+    body.radii[i] = std::sqrt(euler[i] / mass);
+  }
+  return body;
+}
+
+Vec3 corner(const TurningBody& body, std::size_t a) {
+  Vec3 x = body.centre;
+  for (std::size_t i = 0; i < 3; ++i) x = add(x, scaled(body.axes[i], corner_signs[a][i] * body.radii[i]));
+  return x;
+}
+
+BodyFrame body_frame(const TurningBody& body, const std::array<Vec3, 4>& nodal) {
+  BodyFrame frame;
+  for (std::size_t a = 0; a < 4; ++a) {
+    frame.centre = add(frame.centre, scaled(nodal[a], 0.25));
+    for (std::size_t i = 0; i < 3; ++i)
+      frame.directors[i] = add(frame.directors[i], scaled(nodal[a], 0.25 * corner_signs[a][i] / body.radii[i]));
+  }
+  return frame;
+}
+
+std::array<Vec3, 4> nodal_values(const TurningBody& body, std::span<const Vec3> values) {
+  std::array<Vec3, 4> nodal{};
+  for (std::size_t a = 0; a < 4; ++a) nodal[a] = values[static_cast<std::size_t>(body.nodes[a])];
+  return nodal;
+}
+
+std::array<Vec3, 4> nodal_values(const TurningBody& body, std::span<const double> values) {
+  std::array<Vec3, 4> nodal{};
+  for (std::size_t a = 0; a < 4; ++a) {
+    const std::size_t first = 3 * static_cast<std::size_t>(body.nodes[a]);
+    nodal[a] = {values[first], values[first + 1], values[first + 2]};
+  }
+  return nodal;
+}
+
+Vec3 angular_velocity(const BodyFrame& position, const BodyFrame& velocity) {
+  Vec3 omega{};
+  for (std::size_t i = 0; i < 3; ++i)
+    omega = add(omega, scaled(cross(position.directors[i], velocity.directors[i]), 0.5));
+  return omega;
+}
+
+double body_strain(const BodyFrame& position) {
+  const auto& d = position.directors;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j <= i; ++j)
+      largest = std::max(largest, 0.5 * std::abs(dot(d[i], d[j]) - (i == j ? 1.0 : 0.0)));
+  return largest;
+}
+
+BodyPlacement::BodyPlacement(const TurningBody& body, const BodyFrame& frame) : body_(&body), centre_(frame.centre) {
+  const auto& d = frame.directors;
+  const double volume = dot(d[0], cross(d[1], d[2]));
+  for (std::size_t i = 0; i < 3; ++i) duals_[i] = scaled(cross(d[(i + 1) % 3], d[(i + 2) % 3]), 1.0 / volume);
+}
+
+/// X_i
+Vec3 BodyPlacement::components(const Vec3& x) const {
+  const Vec3 r = subtract(x, centre_);
+  return {dot(duals_[0], r), dot(duals_[1], r), dot(duals_[2], r)};
+}
+
+Vec3 BodyPlacement::reference(const Vec3& x) const {
+  const Vec3 X = components(x);
+  Vec3 at = body_->centre;
+  for (std::size_t i = 0; i < 3; ++i) at = add(at, scaled(body_->axes[i], X[i]));
+  return at;
+}
+
+Vec3 BodyPlacement::gradient(const Vec3& g) const {
+  Vec3 out{};
+  for (std::size_t i = 0; i < 3; ++i) out = add(out, scaled(duals_[i], dot(body_->axes[i], g)));
+  return out;
+}
+
+std::array<double, 4> BodyPlacement::weights(const Vec3& x) const {
+  const Vec3 X = components(x);
+  std::array<double, 4> N{};
+  for (std::size_t a = 0; a < 4; ++a) {
+    N[a] = 0.25;
+    for (std::size_t i = 0; i < 3; ++i) N[a] += 0.25 * corner_signs[a][i] * X[i] / body_->radii[i];
+  }
+  return N;
+}
+
+}  // namespace carom
