@@ -155,9 +155,10 @@ struct CaseScheme {
 struct CaseTime {
   Location where;
   Located<double> end;
-  std::optional<Located<double>> step;  ///< implicit schemes: required; explicit ones: default from the stable step
-  bool fixed = false;                   ///< implicit schemes: never halve (a failing step ends the run)
-  double safety = 0.9;                  ///< explicit schemes: fraction of the stable step
+  std::optional<Located<double>> step;    ///< implicit schemes: required; explicit ones: default from the stable step
+  bool fixed = false;                     ///< implicit schemes: never halve (a failing step ends the run)
+  std::optional<double> event_tolerance;  ///< implicit schemes: closing rows cut the step, to this share of it
+  double safety = 0.9;                    ///< explicit schemes: fraction of the stable step
 };
 
 /// [[stage]]: the run goes on with another scheme.

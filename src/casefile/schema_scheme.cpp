@@ -25,6 +25,9 @@ Names all_schemes() {
 Names implicit_schemes() {
   return schemes_with([](const SchemeTraits& s) { return !is_explicit(s.kind); });
 }
+Names implicit_dynamics() {
+  return schemes_with([](const SchemeTraits& s) { return !is_explicit(s.kind) && s.kind != SchemeKind::statics; });
+}
 Names explicit_schemes() {
   return schemes_with([](const SchemeTraits& s) { return is_explicit(s.kind); });
 }
@@ -175,6 +178,13 @@ void add_time_keys(SectionSchema<S>& s, Access time_of, const std::string& end_d
             .default_phrase = "implicit schemes: required; explicit ones: from the stable step"});
   s.key_by("fixed", [time_of](auto& section) -> auto& { return time_of(section).fixed; },
            "Never halve the step: a step that fails ends the run.", {.kinds = implicit_schemes()});
+  s.key_by(
+      "event_tolerance", [time_of](auto& section) -> auto& { return time_of(section).event_tolerance; },
+      "A step in which contact closes is made again so that it ends at the touch, to this fraction of the step; the "
+      "steps after it start as small and grow. Not beside fixed = true.",
+      {.range = {Bound{0.0, Bound::Side::open}, Bound{1.0, Bound::Side::open}},
+       .kinds = implicit_dynamics(),
+       .default_phrase = "contact does not cut steps"});
   add_safety(s, time_of);
 }
 
@@ -183,6 +193,11 @@ void finish_time(CaseTime& time, const Node& node, const ReadContext& at) {
   if (time.step && safety != nullptr) {
     throw CaseError(safety->where, at.at("safety").path, "a fraction of the stable step beside a step",
                     "step or safety", "Leave out step to have it chosen.");
+  }
+  if (time.fixed && time.event_tolerance) {
+    throw CaseError(find(node, "event_tolerance")->where, at.at("event_tolerance").path,
+                    "a tolerance for contact events beside fixed = true", "one of the two",
+                    "A fixed step cannot end where contact closes: remove fixed or event_tolerance.");
   }
   if (time.step && **time.step > *time.end) {
     throw CaseError(time.step->where, at.at("step").path, toml_number(**time.step),

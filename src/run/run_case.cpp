@@ -25,7 +25,7 @@
 #include "run/lint.hpp"
 #include "run/recorder.hpp"
 #include "run/simulation.hpp"
-#include "run/step_control.hpp"
+#include "run/step_guard.hpp"
 #include "run/verdict.hpp"
 
 namespace carom {
@@ -129,7 +129,7 @@ class Run {
   void begin_stage(const Stage& stage);
   void book_switch(const Stage& stage);
   bool march(const Stage& stage, const std::atomic<bool>& stop);
-  void look_after(const Stage& stage);
+  void look_after();
   bool advance(const Stage& stage);
   void note_solver();
   void record(Recorder::Moment moment);
@@ -137,8 +137,7 @@ class Run {
   const Simulation& s_;
   Recorder recorder_;
   std::unique_ptr<Scheme> scheme_;
-  std::optional<StepControl> control_;
-  std::optional<StableStepWatch> watch_;  ///< where the stable step changes
+  std::optional<StepGuard> steps_;
   Progress progress_;
   State state_, next_;
   std::optional<EnergyLedger> ledger_;
@@ -158,16 +157,12 @@ class Run {
 void Run::begin_stage(const Stage& stage) {
   scheme_ = stage.make_scheme();
   solver_ = scheme_->solver_name();
-  const bool may_halve = !stage.time().fixed && !is_explicit(stage.settings().kind);
-  control_.emplace(stage.begin(), stage.dt(), stage.steps(),
-                   may_halve ? StepControl::Halving::allowed : StepControl::Halving::forbidden);
+  steps_.emplace(stage);
   try {
     scheme_->start(state_, stage.dt());
   } catch (const std::runtime_error& e) {
     throw RunError(static_cast<int>(step_), state_.t, e.what());
   }
-  watch_.reset();
-  if (stage.stable_step_changes()) watch_.emplace(stage.watch_stable_step());
   if (ledger_) {
     book_switch(stage);
     return;
@@ -207,18 +202,11 @@ void Run::record(Recorder::Moment moment) {
 
 /// What is looked at every few steps: the stable step of bodies that change, and the rotation of small-strain parts,
 /// which is looked at after the last step of a stage as well.
-void Run::look_after(const Stage& stage) {
+void Run::look_after() {
   constexpr long long every = 10;
-  const bool is_due = step_ % every == 0, at_end = control_->at_end();
+  const bool is_due = step_ % every == 0, at_end = steps_->control().at_end();
   if (!is_due && !at_end) return;
-  if (watch_ && !at_end) {
-    const double stable = watch_->update(next_.q, state_.q);
-    const double share = stage.time().step ? 1.0 : std::max(0.98, stage.time().safety);
-    if (!control_->limit(share * stable))
-      throw RunError(static_cast<int>(step_), state_.t,
-                     fmt::format("the stable step has fallen to {:.3g}, {:.3g} of what it was at the start", stable,
-                                 share * stable / stage.dt()));
-  }
+  if (!at_end) steps_->follow_stable_step(next_, state_, step_);
   constexpr double one_degree = 0.017453292519943295;
   const Rotation rotation = s_.solid().largest_rotation(state_.q);
   if (rotation.angle <= one_degree) return;
@@ -245,13 +233,17 @@ void Run::note_solver() {
 bool Run::advance(const Stage& stage) {
   StepReport report;
   for (;;) {
-    const double dt = control_->dt();
+    const double dt = steps_->control().dt();
     // A hundredth of the ledger's bound (1e-10 of the energy), shared out over the time of the run; what a step leaves
     // unbooked is at most its residual's work.
     const double tolerance = 1e-12 * ledger_->scale() * dt / s_.end();
-    report = scheme_->step(state_, {control_->t_end_of_step(), dt, tolerance}, next_);
-    if (report.converged) break;
-    if (control_->halve()) continue;
+    report = scheme_->step(state_, {steps_->control().t_end_of_step(), dt, tolerance}, next_);
+    if (report.converged) {
+      if (!steps_->is_to_be_repeated(state_, next_, scheme_->forces(), step_ + 1)) break;
+      scheme_->take_back();
+      continue;
+    }
+    if (steps_->halve()) continue;
     record(Recorder::Moment::last);
     message_ = fmt::format("step {} from t = {:.6g} failed: {}{}", step_ + 1, state_.t, report.failure,
                            stage.time().fixed ? "; the case fixes the step, so it was not halved" : "");
@@ -259,9 +251,9 @@ bool Run::advance(const Stage& stage) {
     return false;
   }
   std::swap(state_, next_);
-  dt_ = control_->dt();
+  dt_ = steps_->control().dt();
   iterations_ = std::max(report.iterations, report.linear_iterations);
-  control_->accept();
+  steps_->accept();
   ++step_;
   note_solver();
   dt_smallest_ = step_ == 1 ? dt_ : std::min(dt_smallest_, dt_);
@@ -270,10 +262,10 @@ bool Run::advance(const Stage& stage) {
   monitor_->update();
   body_strain_ = std::max(body_strain_, s_.solid().body_strain(state_.q));
   const std::string alarm = monitor_->alarm();
-  const bool last = (control_->at_end() && stage.end() == s_.end()) || !alarm.empty();
+  const bool last = (steps_->control().at_end() && stage.end() == s_.end()) || !alarm.empty();
   record(last ? Recorder::Moment::last : Recorder::Moment::during);
   progress_.update({state_.t, step_, dt_, iterations_, monitor_->relative_imbalance()});
-  if (alarm.empty()) look_after(stage);
+  if (alarm.empty()) look_after();
   if (alarm.empty()) return true;
   message_ = fmt::format("stopped after step {}, t = {:.6g}: {}; {}", step_, state_.t, alarm, worst_place(s_, state_));
   const std::string remedy = s_.given().contacts.empty() ? "" : touch_remedy(stage);
@@ -285,9 +277,9 @@ bool Run::advance(const Stage& stage) {
 /// False when the run has ended before the stage has.
 bool Run::march(const Stage& stage, const std::atomic<bool>& stop) {
   begin_stage(stage);
-  while (!control_->at_end()) {
+  while (!steps_->control().at_end()) {
     if (!advance(stage)) return false;
-    if (!stop.load() || (control_->at_end() && stage.end() == s_.end())) continue;
+    if (!stop.load() || (steps_->control().at_end() && stage.end() == s_.end())) continue;
     record(Recorder::Moment::last);
     outcome_ = Outcome::stopped;
     message_ = fmt::format("interrupted after step {}, t = {:.6g} of {:.6g}", step_, state_.t, s_.end());

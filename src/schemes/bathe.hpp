@@ -1,6 +1,7 @@
 // Bathe's composite scheme: the trapezoidal rule, then a three-point backward formula.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "schemes/implicit_stage.hpp"
@@ -21,6 +22,7 @@ class Bathe final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
+  void take_back() override { std::swap(now_, next_); }
   const Forces& forces() const override { return now_; }
   double end_weight() const override { return 0.5; }
   std::string solver_name() const override { return second_.solver_name(); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "schemes/explicit_contact.hpp"
@@ -25,6 +26,7 @@ class CentralDifferences final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
+  void take_back() override { std::swap(now_, next_); }
   const Forces& forces() const override { return now_; }
   double end_weight() const override { return 0.5; }
   std::string solver_name() const override { return mass_solver_.name(); }

@@ -1,6 +1,7 @@
 // The generalised-alpha family: Newmark, HHT, WBZ and Chung-Hulbert as parameters of one scheme.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "schemes/implicit_stage.hpp"
@@ -50,6 +51,7 @@ class GeneralizedAlpha final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
+  void take_back() override { std::swap(now_, next_); }
   const Forces& forces() const override { return now_; }
   double end_weight() const override { return parameters_.gamma; }
   std::string solver_name() const override { return stage_.solver_name(); }

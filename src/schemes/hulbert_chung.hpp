@@ -1,6 +1,7 @@
 // Hulbert and Chung's explicit generalised-alpha scheme.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "schemes/mass_solver.hpp"
@@ -22,6 +23,7 @@ class HulbertChung final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
+  void take_back() override { std::swap(now_, next_); }
   const Forces& forces() const override { return now_; }
   double end_weight() const override { return 0.5; }
   std::string solver_name() const override { return mass_solver_.name(); }

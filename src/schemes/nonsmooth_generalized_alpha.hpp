@@ -1,6 +1,7 @@
 // Generalised-alpha for the smooth motion, impulses for what contact does to it.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "schemes/generalized_alpha.hpp"
@@ -37,6 +38,7 @@ class NonsmoothGeneralizedAlpha final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
+  void take_back() override { std::swap(now_, next_); }
   const Forces& forces() const override { return now_; }
   double end_weight() const override { return 1.0; }
   std::string solver_name() const override { return stage_.solver_name(); }

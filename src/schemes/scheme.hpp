@@ -30,6 +30,9 @@ class Scheme {
   virtual ~Scheme() = default;
   virtual void start(State& state, double dt) = 0;
   virtual StepReport step(const State& begin, const StepRequest& request, State& end) = 0;
+  /// Takes the last converged step back, so that another may be made from the state that it began with. Not twice in a
+  /// row.
+  virtual void take_back() = 0;
   /// Forces of the last started or converged state.
   virtual const Forces& forces() const = 0;
   /// Weight of the force at the end of a step in its impulse, 1 minus that of the force at its beginning.

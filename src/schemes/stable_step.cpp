@@ -113,6 +113,8 @@ double StableStepWatch::update(std::span<const double> u_begin, std::span<const 
   if (adds_stiffness(enforcement_) && system_.contact.slots() > 0) {
     rows = system_.contact.rows_at(u_begin, u);
     damping_ratio = largest_damping_ratio(system_, *rows);
+    known_.assign(system_.contact.slots(), false);
+    for (const Index slot : rows->slot) known_[static_cast<std::size_t>(slot)] = true;
   }
   Vibration vibration(system_, {u.begin(), u.end()}, rows);
   const Pencil pencil = vibration.pencil();
@@ -123,6 +125,15 @@ double StableStepWatch::update(std::span<const double> u_begin, std::span<const 
     if (estimate.upper - estimate.value <= settled * estimate.value) break;
   }
   return step_of(limit_, estimate.upper, damping_ratio);
+}
+
+bool StableStepWatch::knows(const ContactResponse& response) const {
+  if (!adds_stiffness(enforcement_)) return true;
+  for (std::size_t r = 0; r < response.status.size(); ++r) {
+    if (response.status[r] == RowStatus::open) continue;
+    if (known_.empty() || !known_[static_cast<std::size_t>(response.rows->slot[r])]) return false;
+  }
+  return true;
 }
 
 }  // namespace carom

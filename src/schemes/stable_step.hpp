@@ -37,12 +37,16 @@ class StableStepWatch {
   /// leave: a step on the safe side, as long as the body changes little between two calls. Costs ten actions of the
   /// tangent; the first call some more.
   double update(std::span<const double> u_begin, std::span<const double> u);
+  /// False when springs act on rows that the last update did not count, since they were too far from touching to be
+  /// there.
+  bool knows(const ContactResponse& response) const;
 
  private:
   const System& system_;
   double limit_;
   EnforcementKind enforcement_;
   std::vector<double> vector_;
+  std::vector<bool> known_;  ///< slots of the rows of the last update
 };
 
 }  // namespace carom

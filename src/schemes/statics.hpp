@@ -1,6 +1,7 @@
 // Statics: equilibrium at the end of every step, without inertia.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "schemes/implicit_stage.hpp"
@@ -23,6 +24,7 @@ class Statics final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
+  void take_back() override { std::swap(now_, next_); }
   const Forces& forces() const override { return now_; }
   double end_weight() const override { return 1.0; }
   std::string solver_name() const override { return stage_.solver_name(); }

@@ -1,6 +1,7 @@
 // Tchamwa and Wielgosz' explicit scheme.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "schemes/mass_solver.hpp"
@@ -18,6 +19,7 @@ class TchamwaWielgosz final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
+  void take_back() override { std::swap(now_, next_); }
   const Forces& forces() const override { return now_; }
   double end_weight() const override { return 0.0; }
   std::string solver_name() const override { return mass_solver_.name(); }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "casefile/read_case.hpp"
@@ -51,6 +52,26 @@ inline std::string read_text(const std::filesystem::path& path) {
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   return text.str();
+}
+
+/// Values of a column of a CSV text whose comment lines begin with #.
+inline std::vector<double> column(const std::string& csv, const std::string& name) {
+  std::istringstream lines(csv);
+  std::vector<double> values;
+  std::string line, cell;
+  std::size_t position = std::string::npos;
+  while (std::getline(lines, line)) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream cells(line);
+    for (std::size_t i = 0; std::getline(cells, cell, ','); ++i) {
+      if (position == std::string::npos && cell == name) {
+        position = i;
+        break;
+      }
+      if (i == position) values.push_back(std::stod(cell));
+    }
+  }
+  return values;
 }
 
 /// A temporary folder with a case in it.

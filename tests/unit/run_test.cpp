@@ -50,26 +50,6 @@ TEST(StepControl, GivesUpAtTheSmallestStepOrAtOnceWhereTheCaseFixesIt) {
   EXPECT_FALSE(StepControl(0.0, 1.0, 1, StepControl::Halving::forbidden).halve());
 }
 
-/// Values of a column of a CSV text whose comment lines begin with #.
-std::vector<double> column(const std::string& csv, const std::string& name) {
-  std::istringstream lines(csv);
-  std::vector<double> values;
-  std::string line, cell;
-  std::size_t position = std::string::npos;
-  while (std::getline(lines, line)) {
-    if (line.empty() || line[0] == '#') continue;
-    std::istringstream cells(line);
-    for (std::size_t i = 0; std::getline(cells, cell, ','); ++i) {
-      if (position == std::string::npos && cell == name) {
-        position = i;
-        break;
-      }
-      if (i == position) values.push_back(std::stod(cell));
-    }
-  }
-  return values;
-}
-
 /// Slides over a rough plane in one direction while it turns: the contact state needs several iterations.
 std::string sliding_case(const std::string& time) {
   return case_of_block(R"(
