@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "linalg/lapack.hpp"
 
@@ -56,6 +57,22 @@ void DenseLu::solve(std::span<double> b) const {
   int info = 0;
   dgetrs_("T", &n_, &columns, lu_.data(), &n_, pivot_.data(), b.data(), &n_, &info);
   assert(info == 0);
+}
+
+SymmetricEigen symmetric_eigen(std::vector<double> a, int n) {
+  const auto size = static_cast<std::size_t>(n);
+  assert(a.size() == size * size);
+  if (n == 0) return {};
+  if (!std::isfinite(largest_row_sum(a, size)))
+    throw std::runtime_error(fmt::format("dense {0} x {0} matrix: an entry is not finite", n));
+  openblas_set_num_threads(1);
+  SymmetricEigen out{std::vector<double>(size), std::move(a)};
+  std::vector<double> work(34 * size);
+  const int length = static_cast<int>(work.size());
+  int info = 0;
+  dsyev_("V", "L", &n, out.vectors.data(), &n, out.values.data(), work.data(), &length, &info);
+  if (info != 0) throw std::runtime_error(fmt::format("dense {0} x {0} matrix: no eigenvalues found", n));
+  return out;
 }
 
 }  // namespace carom

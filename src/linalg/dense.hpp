@@ -19,4 +19,13 @@ class DenseLu {
   int n_;
 };
 
+/// Eigenvalues of a symmetric matrix, increasing, and orthonormal eigenvectors: entry i of the k-th is vectors[k n +
+/// i].
+struct SymmetricEigen {
+  std::vector<double> values, vectors;
+};
+
+/// Of the n x n matrix a (LAPACK dsyev). Throws std::runtime_error when an entry is not finite.
+SymmetricEigen symmetric_eigen(std::vector<double> a, int n);
+
 }  // namespace carom

@@ -14,6 +14,9 @@ void dgecon_(const char* norm, const int* n, const double* a, const int* lda, co
 void dstevx_(const char* jobz, const char* range, const int* n, double* d, double* e, const double* vl,
              const double* vu, const int* il, const int* iu, const double* abstol, int* m, double* w, double* z,
              const int* ldz, double* work, int* iwork, int* ifail, int* info);
+/// Eigenvalues and eigenvectors of a symmetric matrix, which the vectors replace.
+void dsyev_(const char* jobz, const char* uplo, const int* n, double* a, const int* lda, double* w, double* work,
+            const int* lwork, int* info);
 void openblas_set_num_threads(int count);
 /// Name of the processor family whose kernels OpenBLAS uses.
 char* openblas_get_corename();

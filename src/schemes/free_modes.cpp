@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
@@ -18,33 +19,6 @@ namespace {
 std::size_t root(std::vector<std::size_t>& parent, std::size_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
-}
-
-/// Jacobi's method (Golub and Van Loan, Matrix Computations, 4th ed., section 8.5) for a symmetric n x n matrix: A
-/// becomes diagonal, the columns of V its eigenvectors.
-void diagonalise(std::vector<double>& A, std::vector<double>& V, std::size_t n) {
-  V.assign(n * n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) V[n * i + i] = 1.0;
-  const auto turn = [n](std::vector<double>& M, std::size_t p, std::size_t q, std::size_t step, double c, double s) {
-    for (std::size_t k = 0; k < n; ++k, p += step, q += step) {
-      const double a = M[p];
-      M[p] = c * a - s * M[q];
-      M[q] = s * a + c * M[q];
-    }
-  };
-  for (int pass = 0; pass < 20; ++pass) {
-    for (std::size_t p = 0; p < n; ++p) {
-      for (std::size_t q = p + 1; q < n; ++q) {
-        if (A[n * p + q] == 0.0) continue;
-        const double theta = (A[n * q + q] - A[n * p + p]) / (2.0 * A[n * p + q]);
-        const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
-        const double c = 1.0 / std::hypot(t, 1.0), s = t * c;
-        turn(A, p, q, n, c, s);
-        turn(A, n * p, n * q, 1, c, s);
-        turn(V, p, q, n, c, s);
-      }
-    }
-  }
 }
 
 }  // namespace
@@ -130,7 +104,7 @@ void FreeModes::find_modes() {
     body.stiffness = least;
     softest = std::min(softest, least);
     const double of_support = most > 0.0 ? most : 1.0;
-    std::vector<double> T(36, 0.0), V;
+    std::vector<double> T(36, 0.0);
     dofs_of(body, [&](std::size_t i) {
       const double support = system_.supports.fixed()[i] ? of_support : 0.0;
       for (std::size_t j = 0; j < 6; ++j)
@@ -139,13 +113,12 @@ void FreeModes::find_modes() {
     // A single node does not turn: its turns are zero vectors, which resist nothing and are no modes.
     if (body.nodes.size() == 1)
       for (std::size_t j = 3; j < 6; ++j) T[7 * j] = of_support;
-    diagonalise(T, V, 6);
-    double largest = of_support;
-    for (std::size_t j = 0; j < 6; ++j) largest = std::max(largest, T[7 * j]);
+    const SymmetricEigen eigen = symmetric_eigen(T, 6);
+    const double largest = std::max(of_support, eigen.values.back());
     for (std::size_t j = 0; j < 6; ++j) {
-      if (T[7 * j] > 1e-9 * largest) continue;
+      if (eigen.values[j] > 1e-9 * largest) continue;
       Candidate mode;
-      for (std::size_t k = 0; k < 6; ++k) mode[k] = V[6 * k + j];
+      for (std::size_t k = 0; k < 6; ++k) mode[k] = eigen.vectors[6 * j + k];
       body.modes.push_back(mode);
     }
   }
@@ -278,7 +251,7 @@ std::vector<double> FreeModes::unheld(const ConstraintRows& rows, const std::vec
 std::vector<double> FreeModes::needless(const ConstraintRows& rows, const std::vector<RowTangent>& D,
                                         std::span<const double> u) const {
   const std::size_t d = size_;
-  std::vector<double> T = stiffness_of_rows(rows, D, u), V, stiffness(d);
+  std::vector<double> T = stiffness_of_rows(rows, D, u), stiffness(d);
   for (std::size_t k = 0; k < d; ++k) stiffness[k] = bodies_[body_of_mode_[k]].stiffness;
   for (std::size_t k = 0; k < d; ++k) {
     for (std::size_t l = 0; l <= k; ++l) {
@@ -286,17 +259,18 @@ std::vector<double> FreeModes::needless(const ConstraintRows& rows, const std::v
       T[k * d + l] = T[l * d + k] = mean;
     }
   }
-  diagonalise(T, V, d);
+  const SymmetricEigen eigen = symmetric_eigen(std::move(T), static_cast<int>(d));
   // An orthonormal basis of the pins' displacements, scaled by the roots of their stiffnesses.
   std::vector<std::vector<double>> basis;
   for (std::size_t m = 0; m < d; ++m) {
-    if (!(T[m * d + m] > 1e-4)) continue;
+    if (!(eigen.values[m] > 1e-4)) continue;
     std::vector<double> p(d, 0.0);
     for (const Body& body : bodies_) {
       for (std::size_t i = 0; i < body.pins.size(); ++i) {
         const auto node = static_cast<Index>(body.pins[i] / 3);
         for (std::size_t k = 0; k < body.modes.size(); ++k)
-          p[body.first + i] += combine(body, body.modes[k], node, u)[body.pins[i] % 3] * V[(body.first + k) * d + m];
+          p[body.first + i] +=
+              combine(body, body.modes[k], node, u)[body.pins[i] % 3] * eigen.vectors[m * d + body.first + k];
       }
     }
     for (int again = 0; again < 2; ++again) {

@@ -45,5 +45,30 @@ TEST(DenseLu, RefusesSingularMatrices) {
   EXPECT_THROW(DenseLu({1, NAN, 2, 4}, 2), std::runtime_error);
 }
 
+TEST(SymmetricEigen, GivesOrthonormalVectorsByIncreasingValues) {
+  constexpr int n = 7;
+  std::vector<double> A = test::random_vector(std::size_t{n} * n, 33);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < i; ++j) A[n * i + j] = A[n * j + i];
+  const SymmetricEigen eigen = symmetric_eigen(A, n);
+  EXPECT_TRUE(std::is_sorted(eigen.values.begin(), eigen.values.end()));
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::vector<double> v(eigen.vectors.begin() + static_cast<std::ptrdiff_t>(n * k),
+                                eigen.vectors.begin() + static_cast<std::ptrdiff_t>(n * (k + 1)));
+    std::vector<double> expected = v;
+    for (double& component : expected) component *= eigen.values[k];
+    EXPECT_LT(test::largest_difference(test::product(A, v), expected), 1e-14);  // entries of A below 1: n eps |A|
+    for (std::size_t l = 0; l < n; ++l) {
+      double product = 0.0;
+      for (std::size_t i = 0; i < n; ++i) product += v[i] * eigen.vectors[n * l + i];
+      EXPECT_NEAR(product, k == l ? 1.0 : 0.0, 1e-14);
+    }
+  }
+}
+
+TEST(SymmetricEigen, RefusesWhatIsNotFinite) {
+  EXPECT_THROW(symmetric_eigen({NAN, 0, 0, 1}, 2), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace carom
