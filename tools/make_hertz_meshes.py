@@ -5,7 +5,8 @@
 
 Plane meshes (QUAD4, z = 0) are the half x >= 0 of a disc, to be used as axisymmetric sphere or plane-strain cylinder;
 solid ones (HEXA8) are the quarter x >= 0, z >= 0 of a ball. `half_*` ends at the cut y = R, `full_*` and `solid_*` are
-the whole body, `two_*` is `full_*` and its mirror image at y = 0, whose groups end in _B. The number is n:
+the whole body, `two_*` is the body and its mirror image at y = 0, whose
+groups end in _B (`two_half_*`: of `half_*`). The number is n:
 
 The lower half is the image of a quarter disc (eighth of a ball) of radius 2 R about the origin, with a square (cubic)
 core of n x n cells and rings that grow geometrically, under the map that takes the half space to the ball about (0, R):
@@ -169,6 +170,7 @@ MESHES = [
     ("half_16", 2, 0.4e-3, 16, False),
     ("full_6", 2, 0.6e-3, 6, True),
     ("two_6", 2, 0.6e-3, 6, True),
+    ("two_half_8", 2, 0.4e-3, 8, False),
     ("solid_4", 3, 0.6e-3, 4, True),
 ]
 

@@ -38,6 +38,7 @@ struct ConstraintRows {
   std::vector<RowLaw> law;
   std::vector<Index> source;  ///< index in Model::contacts
   std::vector<Index> behind;  ///< how many of the row's last nodes hold the obstacle alone
+  std::vector<bool> is_back;  ///< the row's positive side is not the contact's group but the other body (two passes)
   std::vector<Index> slot;    ///< entry of State::contact; at most one row per slot
 
   std::size_t size() const { return gap.size(); }

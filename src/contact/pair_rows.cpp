@@ -94,7 +94,9 @@ class TwoPassRows : public RowMaker {
   bool is_fixed() const override { return first_->is_fixed() && second_->is_fixed(); }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
     first_->append(motion, first_slot, rows);
+    const std::size_t before = rows.size();
     second_->append(motion, first_slot + static_cast<Index>(first_->slots()), rows);
+    std::fill(rows.is_back.begin() + static_cast<std::ptrdiff_t>(before), rows.is_back.end(), true);
   }
 
  private:

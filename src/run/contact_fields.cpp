@@ -8,14 +8,15 @@ namespace carom {
 
 namespace {
 
-/// Calls visit(row, entry, weight) for every node that a row pushes along its normal.
+/// Calls visit(row, entry, weight) for every node that a row sees along its normal, pushed where the weight is
+/// positive.
 template <class Visit>
-void for_each_pushed_node(const ConstraintRows& rows, const Visit& visit) {
+void for_each_node(const ConstraintRows& rows, const Visit& visit) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const auto end = static_cast<std::size_t>(rows.begin[r + 1] - rows.behind[r]);
     for (auto k = static_cast<std::size_t>(rows.begin[r]); k < end; ++k) {
       const double weight = dot(rows.block[k][0], rows.normal[r]);
-      if (weight > 0.0) visit(r, k, weight);
+      if (weight != 0.0) visit(r, k, weight);
     }
   }
 }
@@ -27,7 +28,8 @@ NodalContact nodal_contact(const ContactResponse& response, std::span<const doub
   NodalContact out{std::vector<double>(nodes, 0.0), std::vector<double>(nodes, 0.0), std::vector<double>(nodes, 0.0)};
   const ConstraintRows& rows = *response.rows;
   std::vector<double> weights(nodes, 0.0);
-  for_each_pushed_node(rows, [&](std::size_t r, std::size_t k, double weight) {
+  for_each_node(rows, [&](std::size_t r, std::size_t k, double weight) {
+    if (weight < 0.0) return;
     const auto n = static_cast<std::size_t>(rows.node[k]);
     weights[n] += weight;
     out.pressure[n] += weight * response.force[r][0] / rows.measure[r];
@@ -46,8 +48,8 @@ std::vector<ContactResultant> contact_resultants(const ContactResponse& response
                                                  std::span<const double> u, const std::vector<Vec3>& points) {
   std::vector<ContactResultant> out(points.size());
   const ConstraintRows& rows = *response.rows;
-  for_each_pushed_node(rows, [&](std::size_t r, std::size_t k, double) {
-    if (response.status[r] == RowStatus::open) return;
+  for_each_node(rows, [&](std::size_t r, std::size_t k, double weight) {
+    if (response.status[r] == RowStatus::open || (weight > 0.0) == rows.is_back[r]) return;
     const auto c = static_cast<std::size_t>(rows.source[r]), n = static_cast<std::size_t>(rows.node[k]);
     const Vec3& s = response.force[r];
     const RowBlock& b = rows.block[k];

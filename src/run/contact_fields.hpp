@@ -17,7 +17,8 @@ struct NodalContact {
 };
 NodalContact nodal_contact(const ContactResponse& response, std::span<const double> u);
 
-/// Force of each contact on that side, and its moment about a point (force x length), in the deformed configuration.
+/// Force of each contact on the body of its group, over both passes where there are two, and its moment about a point
+/// (force x length), in the deformed configuration.
 struct ContactResultant {
   Vec3 force{}, moment{};
 };

@@ -170,7 +170,9 @@ std::string ExactPort::solve_rows(const ContactResponse& response) {
   // Forces that miss their cone by 1e-10 are in equilibrium all the same. But b is that of a body on its springs where
   // contact alone holds it, far more than the motion that is looked for, and what has been found must not satisfy.
   const bool is_held = start_.free == nullptr || start_.free->empty();
-  const ConeResult result = solve_cone(W_, b, mu, force_, is_held ? 1e-10 : 1e-14);
+  const bool has_friction = std::any_of(mu.begin(), mu.end(), [](double m) { return m > 0.0; });
+  const double wanted = is_held ? 1e-10 : has_friction ? 1e-14 : 1e-16;
+  const ConeResult result = solve_cone(W_, b, mu, force_, wanted);
   if (result.converged || result.error <= 1e-10) return {};
   return fmt::format("the forces of {} rows in contact are not found in {} iterations: error {:.3g}", n,
                      result.iterations, result.error);
