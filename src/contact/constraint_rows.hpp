@@ -37,7 +37,7 @@ struct ConstraintRows {
   std::vector<double> measure;  ///< area that the row stands for, or 1 for a row that is a single node
   std::vector<RowLaw> law;
   std::vector<Index> source;  ///< index in Model::contacts
-  std::vector<Index> behind;  ///< how many of the row's last nodes hold the obstacle alone
+  std::vector<Index> behind;  ///< how many of the row's last nodes belong to the other side: master or obstacle
   std::vector<bool> is_back;  ///< the row's positive side is not the contact's group but the other body (two passes)
   std::vector<Index> slot;    ///< entry of State::contact; at most one row per slot
 

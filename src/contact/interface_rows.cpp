@@ -129,10 +129,9 @@ void add_interface_cell(ConstraintRows& rows, const Mesh& mesh, const InterfaceF
   for (const FacePoint& point : face_points(mesh, faces.lower)) {
     rows.add_row(0.0, turn ? scaled(point.normal, -1.0) : point.normal, point.position, point.area,
                  row_law(law, point.area), source);
-    for (std::size_t a = 0; a < 4; ++a) {
-      rows.add_node(faces.upper[a], point.N[a]);
-      rows.add_node(faces.lower[a], -point.N[a]);
-    }
+    for (std::size_t a = 0; a < 4; ++a) rows.add_node(faces.upper[a], point.N[a]);
+    for (std::size_t a = 0; a < 4; ++a) rows.add_node(faces.lower[a], -point.N[a]);
+    rows.behind.back() = 4;
   }
 }
 

@@ -283,27 +283,29 @@ void MortarRows::add_row(const Node& node, Index slot, const ContactMotion& moti
   if (!(D > least_coverage * node.measure) || least_gap > size_ || !(length > 0.0)) return;
   rows.add_row(gap / D, scaled(direction, 1.0 / length), motion.x[node.node], D, row_law(law_, D), source_);
   const Vec3 t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
-  Blocks blocks;
-  blocks.add(node.node, {}, {}, {});  // the row's own node first
+  Blocks own, others;
+  own.add(node.node, {}, {}, {});  // first of all
   for (const auto& [f, A] : node.facets) {
     const FacetSums& sums = sums_[f];
     const Facet& facet = slave_.facets[f];
     for (std::size_t b = 0; b < static_cast<std::size_t>(facet.size); ++b) {
       const double w = sums.NN[A][b] / D;
       const auto turned = [&](const Vec3& force) { return scaled(sums.normal, dot(force, sums.turn[b]) / D); };
-      blocks.add(facet[b], subtract(turned(sums.m_gap[A]), scaled(sums.mNN[A][b], 1.0 / D)),
-                 subtract(scaled(t_1, w), turned(scaled(t_1, sums.gap[A]))),
-                 subtract(scaled(t_2, w), turned(scaled(t_2, sums.gap[A]))));
+      own.add(facet[b], subtract(turned(sums.m_gap[A]), scaled(sums.mNN[A][b], 1.0 / D)),
+              subtract(scaled(t_1, w), turned(scaled(t_1, sums.gap[A]))),
+              subtract(scaled(t_2, w), turned(scaled(t_2, sums.gap[A]))));
     }
     for (const FacetSums::Master& master : sums.masters) {
       const Facet& other = broad_phase_.targets()[master.facet];
       for (std::size_t c = 0; c < static_cast<std::size_t>(other.size); ++c) {
         const double w = master.NN[A][c] / D;
-        if (w != 0.0) blocks.add(other[c], scaled(master.mNN[A][c], 1.0 / D), scaled(t_1, -w), scaled(t_2, -w));
+        if (w != 0.0) others.add(other[c], scaled(master.mNN[A][c], 1.0 / D), scaled(t_1, -w), scaled(t_2, -w));
       }
     }
   }
-  for (const auto& [n, block] : blocks.entries) rows.add_block(n, block);
+  for (const Blocks* side : {&own, &others})
+    for (const auto& [n, block] : side->entries) rows.add_block(n, block);
+  rows.behind.back() = static_cast<Index>(others.entries.size());
   finish_row(rows, motion.u, slot);
 }
 

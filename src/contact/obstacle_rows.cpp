@@ -62,13 +62,15 @@ struct Touching {
     }
     rows.add_row(at.gap, at.normal, position, measure, row_law(law, measure), source);
     rows.add_node(n, 1.0);
-    if (carrier >= 0) rows.add_node(carrier, -1.0);
+    if (carrier < 0) return;
+    rows.add_node(carrier, -1.0);
+    rows.behind.back() = 1;
   }
 
  private:
-  /// The gap is a function of the point X of the body that is at x now, and x = sum of N_a(X) x_a holds for every motion
-  /// of the nodes that leaves X in place. So d gap = grad . (dx - sum of N_a dx_a) with the gradient by x, exactly; its
-  /// length differs from 1 by the strain of the body.
+  /// The gap is a function of the point X of the body that is at x now, and x = sum of N_a(X) x_a holds for every
+  /// motion of the nodes that leaves X in place. So d gap = grad . (dx - sum of N_a dx_a) with the gradient by x,
+  /// exactly; its length differs from 1 by the strain of the body.
   void add_turning_row(std::size_t i, const SignedDistance& at, const Vec3& position, const BodyPlacement& placement,
                        ConstraintRows& rows) const {
     const auto [n, measure] = nodes[i];

@@ -45,6 +45,7 @@ void add_master(ConstraintRows& rows, const SurfacePoint& met, const Facet& face
     rows.add_block(facet[a], {scaled(n, w), add(scaled(t_1, w), scaled(n, dot(t_1, tilt))),
                               add(scaled(t_2, w), scaled(n, dot(t_2, tilt)))});
   }
+  rows.behind.back() = facet.size;
 }
 
 /// The nodes of one surface against the facets of another.
@@ -133,6 +134,7 @@ class EndRows : public RowMaker {
       rows.add_row(dot(n, subtract(X, X_[master])), n, X, measure_, row_law(law_, measure_), source_);
       rows.add_node(slaves_[i], 1.0);
       rows.add_node(master, -1.0);
+      rows.behind.back() = 1;
       rows.slot.back() = first_slot + static_cast<Index>(i);
     }
   }
