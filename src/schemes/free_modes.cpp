@@ -229,11 +229,9 @@ std::vector<double> FreeModes::unheld(const ConstraintRows& rows, const std::vec
       e[body.first + k] = 1e-12 * body.stiffness;
       for (const Index n : body.nodes) {
         const Vec3 v = combine(body, body.modes[k], n, u);
-        for (std::size_t i = 0; i < 3; ++i) {
-          const std::size_t dof = 3 * static_cast<std::size_t>(n) + i;
-          load[body.first + k] += v[i] * force[dof];
-          parts[body.first + k] += std::abs(v[i]) * magnitude[dof];
-        }
+        const std::size_t dof = 3 * static_cast<std::size_t>(n);
+        load[body.first + k] += dot(v, {force[dof], force[dof + 1], force[dof + 2]});
+        parts[body.first + k] += norm(v) * norm({magnitude[dof], magnitude[dof + 1], magnitude[dof + 2]});
       }
     }
   }
