@@ -7,10 +7,8 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <numeric>
 #include <utility>
-#include <variant>
 
 #include "base/errors.hpp"
 #include "base/version.hpp"
@@ -22,6 +20,7 @@
 #include "output/summary.hpp"
 #include "parallel/threads.hpp"
 #include "report/report.hpp"
+#include "run/body_scales.hpp"
 #include "run/lint.hpp"
 #include "run/recorder.hpp"
 #include "run/simulation.hpp"
@@ -53,35 +52,8 @@ std::size_t peak_memory() {
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
-/// Rings have no momentum across their axis y, and none about it that their cells would show.
-RunMonitor::Momenta momenta_of(const Model& model) {
-  const auto is_ring = [](const Part& part) { return part.section == Section::axisymmetric; };
-  return std::any_of(model.parts.begin(), model.parts.end(), is_ring) ? RunMonitor::Momenta::axial
-                                                                      : RunMonitor::Momenta::all;
-}
-
-/// The energy that displacements of 1e-10 of the bodies' reach would store: less is rounding of positions, to the
-/// verdict's 1e-10 of it.
-double rest_energy(const Solid& solid, double reach) {
-  const std::vector<double> diagonal = solid.tangent_diagonal(std::vector<double>(solid.dof_count(), 0.0));
-  const double sum = std::accumulate(diagonal.begin(), diagonal.end(), 0.0), u = 1e-10 * reach;
-  return 0.5 * sum * u * u;
-}
-
 RunMonitor::StageKind kind_of(const Stage& stage) {
   return {stage.reversible_energy(), stage.settings().kind == SchemeKind::statics};
-}
-
-double smallest_youngs_modulus(const Model& model) {
-  double E = std::numeric_limits<double>::infinity();
-  for (const Part& part : model.parts) std::visit([&](const auto& law) { E = std::min(E, law.E); }, part.material);
-  return E;
-}
-
-double reach(const Mesh& mesh) {
-  double r = 0.0;
-  for (const Vec3& x : mesh.coordinates) r = std::max(r, norm(x));
-  return r;
 }
 
 /// The node that moves fastest (or the first whose motion is not finite) and a solid cell that holds it.
