@@ -40,15 +40,21 @@ struct Problem {
   const Delassus& W;
   std::span<const Vec3> b;
   std::span<const double> mu;
-  double tolerance;
+  double tolerance, accepted;  ///< the latter is not below the former
   std::vector<Vec3>& r;
   std::vector<double> W_nn, W_tt;     ///< largest tangential diagonal entry; 0 without friction
   std::vector<FrameBlock> own;        ///< diagonal blocks
   std::vector<std::size_t> position;  ///< scratch: place of a row in the system that is assembled
 
   Problem(const Delassus& operator_W, std::span<const Vec3> given, std::span<const double> friction, double wanted,
-          std::vector<Vec3>& force)
-      : W(operator_W), b(given), mu(friction), tolerance(wanted), r(force), position(operator_W.size()) {
+          double enough, std::vector<Vec3>& force)
+      : W(operator_W),
+        b(given),
+        mu(friction),
+        tolerance(wanted),
+        accepted(std::max(wanted, enough)),
+        r(force),
+        position(operator_W.size()) {
     for (std::size_t i = 0; i < W.size(); ++i) {
       for (std::size_t k = W.begin[i]; k < W.begin[i + 1]; ++k) {
         if (W.column[k] == i) own.push_back(W.block[k]);
@@ -369,6 +375,7 @@ int newton(Problem& p, const RowList& rows) {
     if (!newton_step(p, rows)) break;
     const double error = p.error(rows);
     if (!std::isfinite(error)) break;
+    if (error >= least && least <= p.accepted) break;
     if (error >= least) continue;
     least = error;
     for (std::size_t k = 0; k < rows.size(); ++k) best[k] = p.r[rows[k]];
@@ -382,7 +389,9 @@ int solve_with_friction(Problem& p, const RowList& rows) {
   const bool small = 3 * rows.size() <= dense_limit;
   int done = 0;
   for (int swept = 0, most = 10; swept < most_sweeps && !p.solved(rows); most *= 2) {
+    const double before = p.error(rows);
     if (small) done += newton(p, rows);
+    if (before <= p.accepted && p.error(rows) > 0.5 * before) break;
     const int now = sweeps(p, rows, std::min(most, most_sweeps - swept));
     swept += now;
     done += now;
@@ -401,12 +410,12 @@ int solve_set(Problem& p, const RowList& rows) {
 }  // namespace
 
 ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<const double> mu, std::vector<Vec3>& r,
-                      double tolerance) {
+                      double tolerance, double accepted) {
   assert(b.size() == W.size() && mu.size() == W.size());
   r.resize(W.size());
   const auto finite = [](const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); };
   if (!std::ranges::all_of(b, finite)) return {false, 0, infinity};
-  Problem p(W, b, mu, tolerance, r);
+  Problem p(W, b, mu, tolerance, accepted, r);
   for (std::size_t i = 0; i < W.size(); ++i) {
     if (!finite(r[i])) r[i] = {};
     r[i][0] = std::max(0.0, r[i][0]);
@@ -419,7 +428,7 @@ ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<cons
     result.iterations = std::max(result.iterations, solve_set(p, rows));
     const double error = p.error(rows);
     result.error = std::max(result.error, error);
-    if (error > tolerance) result.converged = false;
+    if (error > p.accepted) result.converged = false;
   }
   return result;
 }

@@ -34,7 +34,10 @@ struct ConeResult {
 /// r_T - w_T / W_TT on the disc of radius mu r_n), over the largest |b| and |W_ii r_i| of the set. Not converged: no
 /// solution exists (nothing can move a row that is closing), b is not finite, or the iterations ran out; r is then the
 /// best found, with 0 <= r_n. Deterministic, and independent of units.
+///
+/// Iterations end when the error is at most `tolerance`; or at most `accepted` (where that is larger) and no longer
+/// falling: so forces can be had to round-off, wherever that is.
 ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<const double> mu, std::vector<Vec3>& r,
-                      double tolerance = 1e-12);
+                      double tolerance = 1e-12, double accepted = 0.0);
 
 }  // namespace carom

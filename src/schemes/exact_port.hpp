@@ -5,16 +5,18 @@
 
 #include "contact/cone_solver.hpp"
 #include "schemes/contact_port.hpp"
+#include "schemes/node_compliance.hpp"
 #include "schemes/row_compliance.hpp"
 
 namespace carom {
 
 /// The forces lambda on the rows that satisfy Signorini's and Coulomb's conditions exactly:
 ///   w = w_free + slope G A^-1 G^T lambda,  (lambda, w) in the cones of solve_cone,
-/// where w_free is what the rows would see without lambda. Rows enter when they would be violated. For a linear body
-/// with fixed rows the columns A^-1 G^T are kept for the run, so that a step with contact costs one back-substitution
-/// and products with the columns; otherwise they are made anew for the rows in question at every iterate. Multipliers
-/// go on from step to step as start values, in State::contact.
+/// where w_free is what the rows would see without lambda. Rows enter when they would be violated. For linear bodies
+/// what has been solved for is kept for the run: with fixed rows the columns A^-1 G^T, so that an iteration with
+/// contact costs one back-substitution and products with the columns; with moving rows the compliance of their nodes,
+/// so that it costs two. With nonlinear bodies columns are made anew for the rows in question at every iterate.
+/// Multipliers go on from step to step as start values, in State::contact.
 class ExactPort : public ContactPort {
  public:
   explicit ExactPort(const System& system);
@@ -39,10 +41,11 @@ class ExactPort : public ContactPort {
   virtual Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const = 0;
   virtual bool may_act(std::size_t /*r*/) const { return true; }
   virtual double friction(const RowLaw& law) const { return law.mu; }
-  /// What the rows answer to their forces beside slope x G A^-1 G^T, over the slope; nothing here, see JumpPort.
-  virtual void find_direct_compliances(const std::shared_ptr<const ConstraintRows>& /*rows*/,
-                                       std::span<const RowComponent> /*wanted*/) {}
-  virtual double direct_compliance(const RowComponent& /*a*/, const RowComponent& /*b*/) const { return 0.0; }
+  /// Adds to W what the acting rows (counts[i] components of row i) answer to their forces beside slope x G A^-1 G^T,
+  /// over the slope; nothing here, see JumpPort.
+  virtual void add_direct_compliance(const std::shared_ptr<const ConstraintRows>& /*rows*/,
+                                     std::span<const std::size_t> /*acting*/, std::span<const std::size_t> /*counts*/,
+                                     std::vector<FrameBlock>& /*W*/) {}
   /// value() is to include from now on what these forces (in the frames of the listed rows) do directly.
   virtual void see_forces(const ConstraintRows& /*rows*/, std::span<const std::size_t> /*which*/,
                           std::span<const Vec3> /*force*/) {}
@@ -68,6 +71,8 @@ class ExactPort : public ContactPort {
                   double absolute, LinearSolveReport& linear, std::span<double> dy);
 
   RowCompliance compliance_;
+  NodeCompliance nodes_;             ///< of linear bodies, where rows move
+  bool by_nodes_ = false;            ///< W_ has been made by nodes_
   std::size_t operator_ = 0;         ///< EffectiveSolver::operators_made of compliance_
   std::vector<std::size_t> chosen_;  ///< rows that compliance_ knows
   std::vector<bool> is_chosen_;

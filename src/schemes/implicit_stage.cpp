@@ -28,12 +28,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Exact contact of a linear body on fixed rows asks for a column of the inverse per row, once: a factorisation gives
-/// them cheaply, conjugate gradients do not. Half a million dofs take some gigabytes.
+/// Exact contact of linear bodies asks for a column of the inverse per row, or three per contact node where rows move,
+/// once: a factorisation gives them cheaply, conjugate gradients do not. Half a million dofs take some gigabytes.
 SolverKind solver_for(const System& system, const ImplicitSettings& settings) {
   const bool is_exact =
       settings.enforcement == EnforcementKind::lagrange || settings.enforcement == EnforcementKind::impulse;
-  const bool is_kept = system.solid.is_linear() && system.contact.is_fixed() && system.contact.slots() > 0;
+  const bool is_kept = system.solid.is_linear() && system.contact.slots() > 0;
   const bool is_small = system.solid.dof_count() <= 500'000;
   if (settings.solver == SolverKind::automatic && is_exact && is_kept && is_small) return SolverKind::cholesky;
   return settings.solver;
@@ -120,9 +120,9 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   out.supplied = std::max(std::abs(sums[4]), std::abs(sums[5]));
   // A displacement is known to a relative 1e-16 of its terms only, which the stiffness of a node turns into a force.
   constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
-  out.round_off = out.displacement * (precision * std::sqrt(sums[3]) +
-                                      std::numeric_limits<double>::epsilon() * body_force_) +
-                  contact.round_off;
+  out.round_off =
+      out.displacement * (precision * std::sqrt(sums[3]) + std::numeric_limits<double>::epsilon() * body_force_) +
+      contact.round_off;
   return out;
 }
 

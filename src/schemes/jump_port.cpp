@@ -19,19 +19,18 @@ Vec3 JumpPort::value(const ConstraintRows& rows, std::size_t r, std::span<const 
   return w;
 }
 
-void JumpPort::find_direct_compliances(const std::shared_ptr<const ConstraintRows>& rows,
-                                       std::span<const RowComponent> wanted) {
+void JumpPort::add_direct_compliance(const std::shared_ptr<const ConstraintRows>& rows,
+                                     std::span<const std::size_t> acting, std::span<const std::size_t> counts,
+                                     std::vector<FrameBlock>& W) {
   if (ratio_ == 0.0) return;
   compliance_.use(rows);
   const ContactOperator mass = mass_operator(system_, mass_solver_);
   const std::size_t n = load_.size();
-  compliance_.extend(wanted, [&](std::span<double> b, int columns) {
+  const std::vector<FrameBlock> direct = compliance_.blocks(acting, counts, [&](std::span<double> b, int columns) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) mass.inverse(b.subspan(k * n, n));
   });
-}
-
-double JumpPort::direct_compliance(const RowComponent& a, const RowComponent& b) const {
-  return ratio_ == 0.0 ? 0.0 : ratio_ * compliance_(a, b);
+  for (std::size_t i = 0; i < W.size(); ++i)
+    for (std::size_t k = 0; k < W[i].size(); ++k) W[i][k] += ratio_ * direct[i][k];
 }
 
 void JumpPort::see_forces(const ConstraintRows& rows, std::span<const std::size_t> which, std::span<const Vec3> force) {

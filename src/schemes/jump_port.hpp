@@ -17,9 +17,8 @@ class JumpPort final : public ImpulsePort {
 
  protected:
   Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const override;
-  void find_direct_compliances(const std::shared_ptr<const ConstraintRows>& rows,
-                               std::span<const RowComponent> wanted) override;
-  double direct_compliance(const RowComponent& a, const RowComponent& b) const override;
+  void add_direct_compliance(const std::shared_ptr<const ConstraintRows>& rows, std::span<const std::size_t> acting,
+                             std::span<const std::size_t> counts, std::vector<FrameBlock>& W) override;
   void see_forces(const ConstraintRows& rows, std::span<const std::size_t> which, std::span<const Vec3> force) override;
 
  private:

@@ -28,6 +28,10 @@ class RowCompliance {
   void forget() { rows_.reset(); }
   /// Adds those components that are not there yet.
   void extend(std::span<const RowComponent> wanted, const InverseOperator& inverse);
+  /// S of the listed rows, of which row i has counts[i] components, as a dense matrix of blocks by rows; what is not
+  /// there yet is solved for.
+  std::vector<FrameBlock> blocks(std::span<const std::size_t> rows, std::span<const std::size_t> counts,
+                                 const InverseOperator& inverse);
   bool knows(const RowComponent& rc) const { return known_[3 * rc.row + rc.component] >= 0; }
   /// Number of components.
   std::size_t size() const { return components_.size(); }
