@@ -147,8 +147,10 @@ struct CaseScheme {
   enum class Mass : std::uint8_t { consistent, lumped, modified };
   std::optional<Located<Mass>> mass;  ///< filled on reading: the scheme's default
   enum class Redistribution : std::uint8_t { layers, least_squares };
-  std::optional<Redistribution> redistribution;  ///< modified mass; filled on reading
-  std::optional<int> layers;                     ///< modified mass over layers: their number; filled on reading
+  std::optional<Redistribution> redistribution;      ///< modified mass; filled on reading
+  std::optional<int> layers;                         ///< modified mass over layers: their number; filled on reading
+  std::optional<Located<double>> mass_scaling_step;  ///< explicit schemes: stable step that cells are made heavier for
+  std::optional<double> mass_scaling_limit;          ///< largest share of mass added; filled on reading
 };
 
 /// [time], and the same keys of a [[stage]].

@@ -78,6 +78,16 @@ void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
   s.key_by("redistribution", [scheme_of](auto& section) -> auto& { return scheme_of(section).redistribution; },
            "With a modified mass: evenly over the layers, or by least squares over the body, centre and inertia kept.",
            {.choices = {"layers", "least_squares"}, .default_phrase = "layers"});
+  s.key_by("mass_scaling_step", [scheme_of](auto& section) -> auto& { return scheme_of(section).mass_scaling_step; },
+           "Cells whose own stable step is below this become as heavy as it takes; with a lumped mass.",
+           {.unit = Dimension::time,
+            .range = greater_than(0.0),
+            .kinds = explicit_schemes(),
+            .default_phrase = "no mass is added"});
+  s.key_by(
+      "mass_scaling_limit", [scheme_of](auto& section) -> auto& { return scheme_of(section).mass_scaling_limit; },
+      "Largest mass that may be added, as a fraction of the total mass.",
+      {.range = greater_than(0.0), .kinds = explicit_schemes(), .default_phrase = "0.05, beside mass_scaling_step"});
 }
 
 [[noreturn]] void refuse_enforcement(const CaseScheme& scheme, const ReadContext& at) {
@@ -131,6 +141,21 @@ void check_mass(CaseScheme& scheme, const Node& node, const ReadContext& at) {
   }
 }
 
+void check_mass_scaling(CaseScheme& scheme, const Node& node, const ReadContext& at) {
+  const Node* limit = find(node, "mass_scaling_limit");
+  if (limit != nullptr && !scheme.mass_scaling_step) {
+    throw CaseError(limit->where, at.at("mass_scaling_limit").path, "a limit of mass scaling without a step",
+                    "it only beside mass_scaling_step", "Add mass_scaling_step, or remove the limit.");
+  }
+  if (!scheme.mass_scaling_step) return;
+  if (**scheme.mass != CaseScheme::Mass::lumped) {
+    throw CaseError(scheme.mass_scaling_step->where, at.at("mass_scaling_step").path,
+                    "mass scaling with another mass than \"lumped\"", "mass = \"lumped\"",
+                    "Remove mass_scaling_step, or take a scheme with a lumped mass.");
+  }
+  if (!scheme.mass_scaling_limit) scheme.mass_scaling_limit = 0.05;
+}
+
 void finish_scheme(CaseScheme& scheme, const Node& node, const ReadContext& at) {
   if (!scheme.enforcement)
     scheme.enforcement = Located<EnforcementKind>{default_enforcement(*scheme.kind), scheme.where};
@@ -143,6 +168,7 @@ void finish_scheme(CaseScheme& scheme, const Node& node, const ReadContext& at) 
                     "it only beside enforcement = \"augmented_lagrangian\"", "Remove it.");
   }
   check_mass(scheme, node, at);
+  check_mass_scaling(scheme, node, at);
 }
 
 /// `safety` is written only where it acts: beside no step.

@@ -81,13 +81,18 @@ Json to_json(const SchemeSummary& scheme) {
           {"dt_largest", number(scheme.dt_largest)},
           {"steps", scheme.steps},
           {"time_end", number(scheme.time_end)},
-          {"time_reached", number(scheme.time_reached)}};
+          {"time_reached", number(scheme.time_reached)},
+          {"added_mass", number(scheme.added_mass)},
+          {"added_mass_share", number(scheme.added_mass_share)},
+          {"mass_notes", scheme.mass_notes}};
 }
 
 SchemeSummary scheme_from(const Json& json) {
-  return {json.at("name").get<std::string>(), json.at("solver").get<std::string>(), number(json.at("dt_smallest")),
-          number(json.at("dt_largest")),      json.at("steps").get<std::int64_t>(), number(json.at("time_end")),
-          number(json.at("time_reached"))};
+  return {json.at("name").get<std::string>(),   json.at("solver").get<std::string>(),
+          number(json.at("dt_smallest")),       number(json.at("dt_largest")),
+          json.at("steps").get<std::int64_t>(), number(json.at("time_end")),
+          number(json.at("time_reached")),      number(json.at("added_mass")),
+          number(json.at("added_mass_share")),  json.at("mass_notes").get<std::vector<std::string>>()};
 }
 
 Json to_json(const CostSummary& cost) {

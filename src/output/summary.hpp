@@ -45,8 +45,10 @@ struct SchemeSummary {
   std::string solver;  ///< e.g. "CG", "CHOLMOD"; "" when there is none
   double dt_smallest = 0.0, dt_largest = 0.0;
   std::int64_t steps = 0;
-  double time_end = 0.0;      ///< asked for
-  double time_reached = 0.0;  ///< less when the run was stopped
+  double time_end = 0.0;                            ///< asked for
+  double time_reached = 0.0;                        ///< less when the run was stopped
+  double added_mass = 0.0, added_mass_share = 0.0;  ///< the most that mass scaling has added in a stage
+  std::vector<std::string> mass_notes{};            ///< what was done to the mass, and where
 };
 
 struct CostSummary {

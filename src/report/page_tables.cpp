@@ -143,6 +143,7 @@ std::string run_table(const Summary& summary, const Units& units) {
   entry("Groups", groups(summary.mesh));
   entry("Scheme", scheme.name);
   entry("Linear solver", scheme.solver);
+  for (const std::string& note : scheme.mass_notes) entry("Mass", note);
   entry("Steps", steps(scheme, units));
   entry("Time", fmt::format("{} of {}", number_text(scheme.time_reached, 6),
                             with_unit(number_text(scheme.time_end, 6), units.time)));

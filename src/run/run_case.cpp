@@ -306,6 +306,14 @@ std::string scheme_names(const Simulation& s) {
 void Run::fill(Summary& summary) const {
   summary.scheme = {scheme_names(s_), scheme_ ? scheme_->solver_name() : "", dt_smallest_, dt_largest_, step_, s_.end(),
                     state_.t};
+  for (const auto& stage : s_.stages()) {
+    const Stage::MassNotes& notes = stage->mass_notes();
+    if (notes.added > summary.scheme.added_mass) {
+      summary.scheme.added_mass = notes.added;
+      summary.scheme.added_mass_share = notes.added_share;
+    }
+    summary.scheme.mass_notes.insert(summary.scheme.mass_notes.end(), notes.lines.begin(), notes.lines.end());
+  }
   if (!ledger_) return;
   const EnergyTerms e = ledger_->now();
   summary.ledger = {{"kinetic", e.kinetic},

@@ -64,7 +64,10 @@ Simulation::Simulation(const Case& given)
   for (const CaseStage& stage : given.stages) {
     stages_.push_back(std::make_unique<Stage>(context, stage.scheme, stage.time, stages_.back()->end()));
   }
-  for (const auto& stage : stages_) notes_.insert(notes_.end(), stage->notes().begin(), stage->notes().end());
+  for (const auto& stage : stages_) {
+    const std::vector<std::string>& lines = stage->mass_notes().lines;
+    notes_.insert(notes_.end(), lines.begin(), lines.end());
+  }
 }
 
 long long Simulation::steps() const {

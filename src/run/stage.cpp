@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "schemes/stability_limit.hpp"
+#include "solid/mass_scaling.hpp"
 #include "solid/modified_mass.hpp"
 
 namespace carom {
@@ -35,7 +36,29 @@ SchemeSettings settings_of(const CaseScheme& given, const CaseSolver& solver) {
   return s;
 }
 
-Mass make_mass(const StageContext& context, const CaseScheme& scheme, std::vector<std::string>& notes) {
+Mass make_scaled_mass(const StageContext& context, const CaseScheme& scheme, const SchemeSettings& settings,
+                      Stage::MassNotes& notes) {
+  const double omega = stability_limit(settings) / **scheme.mass_scaling_step;
+  const std::vector<double> factors = mass_factors(context.solid, omega * omega);
+  const MassGain gain = mass_gain(context.solid, factors);
+  const std::string what = describe(gain, context.solid, context.mesh);
+  if (gain.share() > *scheme.mass_scaling_limit) {
+    throw CaseError(
+        scheme.mass_scaling_step->where, "scheme.mass_scaling_step",
+        fmt::format("a step of {:.6g}, for which {}", **scheme.mass_scaling_step, what),
+        fmt::format("at most {:.4g} % of added mass (mass_scaling_limit)", 100.0 * *scheme.mass_scaling_limit),
+        "Lower the step, mend the mesh where the worst cells are, or raise the limit if the added inertia "
+        "does no harm there.");
+  }
+  notes.added = gain.added;
+  notes.added_share = gain.share();
+  notes.lines.push_back("mass scaling: " + what);
+  return context.solid.lumped_mass(factors);
+}
+
+Mass make_mass(const StageContext& context, const CaseScheme& scheme, const SchemeSettings& settings,
+               Stage::MassNotes& notes) {
+  if (scheme.mass_scaling_step) return make_scaled_mass(context, scheme, settings, notes);
   if (**scheme.mass == CaseScheme::Mass::modified) {
     MassModification how;
     if (*scheme.redistribution == CaseScheme::Redistribution::least_squares)
@@ -44,7 +67,7 @@ Mass make_mass(const StageContext& context, const CaseScheme& scheme, std::vecto
       how.layers = *scheme.layers;
     try {
       ModifiedMass modified = modify_mass(context.solid, context.model, how);
-      notes = describe(modified.shift);
+      notes.lines = describe(modified.shift);
       return std::move(modified.mass);
     } catch (const std::invalid_argument& e) {
       throw CaseError(scheme.mass->where, "scheme.mass", e.what(),
@@ -80,7 +103,7 @@ Stage::Stage(const StageContext& context, const CaseScheme& scheme, const CaseTi
       time_(time),
       begin_(begin),
       settings_(settings_of(scheme, context.given.solver)),
-      mass_(make_mass(context, scheme, notes_)),
+      mass_(make_mass(context, scheme, settings_, notes_)),
       supports_(make_supports(context, body_nodes(context))),
       system_{context.mesh, context.solid, mass_, context.contact, supports_} {
   refuse_ringing_motions();

@@ -57,7 +57,11 @@ class Stage {
   /// Re-estimates it.
   StableStepWatch watch_stable_step() const;
   /// What was done to the mass, for the log.
-  const std::vector<std::string>& notes() const { return notes_; }
+  struct MassNotes {
+    std::vector<std::string> lines;
+    double added = 0.0, added_share = 0.0;  ///< by mass scaling: mass, and over the total
+  };
+  const MassNotes& mass_notes() const { return notes_; }
   /// "Newmark beta 0.28 gamma 0.55, consistent mass"
   std::string name() const;
 
@@ -71,7 +75,7 @@ class Stage {
   const CaseTime& time_;
   double begin_;
   SchemeSettings settings_;
-  std::vector<std::string> notes_;
+  MassNotes notes_;
   Mass mass_;
   Supports supports_;
   System system_;

@@ -245,6 +245,27 @@ Mass Solid::mass(MassKind kind) const {
   return Mass(kind, std::move(M));
 }
 
+Mass Solid::lumped_mass(std::span<const double> cell_factors) const {
+  CsrMatrix M = node_graph(impl_->solid);
+  impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
+    const auto nodes = impl_->solid.nodes_of(c);
+    const auto diagonal = lumped(impl_->mass(c, block), nodes.size());
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      M.value[entry(M, nodes[a], nodes[a])] += cell_factors[c] * diagonal[a];
+  });
+  for (const RigidBody& body : impl_->rigid_bodies) append_diagonal(M, body.node, body.mass);
+  return Mass(MassKind::lumped, std::move(M));
+}
+
+std::vector<double> Solid::cell_masses() const {
+  std::vector<double> masses(cell_count());
+  impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
+    const auto diagonal = lumped(impl_->mass(c, block), block.nodes());
+    masses[c] = std::accumulate(diagonal.begin(), diagonal.begin() + static_cast<std::ptrdiff_t>(block.nodes()), 0.0);
+  });
+  return masses;
+}
+
 std::vector<double> Solid::cell_frequency_bounds() const {
   return impl_->frequency_bounds();
 }

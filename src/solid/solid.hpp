@@ -86,6 +86,10 @@ class Solid {
   Rotation largest_rotation(std::span<const double> u) const;
 
   Mass mass(MassKind kind) const;
+  /// The lumped mass, that of each cell times its factor.
+  Mass lumped_mass(std::span<const double> cell_factors) const;
+  /// Mass of each solid cell.
+  std::vector<double> cell_masses() const;
 
   /// Upper bound of omega^2 per cell: |A^8|^(1/8) of A = M_e^-1/2 K_e M_e^-1/2 with the lumped mass of the cell, in the
   /// largest-row-sum norm (a power sharpens Gershgorin's bound). The largest over the cells bounds the omega^2 of the

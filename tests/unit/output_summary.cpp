@@ -28,7 +28,7 @@ Summary sample() {
   s.program = {"0.1.0", "GCC 12.2.0", "v4", 2};
   s.case_info = {"a/b \"c\".toml", "Bar <script>alert(1)</script> é", "SI"};
   s.mesh = {88, 21, {{"ENCASTR", 4, 1}, {"SYMX", 44, 20}}};
-  s.scheme = {"Newmark beta 0.25 gamma 0.5", "CHOLMOD", 1e-6, 2e-6, 150, 3e-4, 2.5e-4};
+  s.scheme = {"Newmark beta 0.25 gamma 0.5", "CHOLMOD", 1e-6, 2e-6, 150, 3e-4, 2.5e-4, 0.25, 0.0125, {"one", "two"}};
   s.cost = {0.11, 0.12, {{"setup", 0.02}, {"steps", 0.07}}, 12345678};
   s.ledger = {{"kinetic", 1.0 / 3.0}, {"strain", 2.5}};
   s.code_aster = {{"ENER_CIN", -1.0}, {"DISS_SCH", 4.5e-12}};
@@ -67,6 +67,9 @@ TEST(Summary, EveryFieldComesBack) {
   EXPECT_EQ(b.scheme.steps, a.scheme.steps);
   EXPECT_EQ(b.scheme.time_end, a.scheme.time_end);
   EXPECT_EQ(b.scheme.time_reached, a.scheme.time_reached);
+  EXPECT_EQ(b.scheme.added_mass, a.scheme.added_mass);
+  EXPECT_EQ(b.scheme.added_mass_share, a.scheme.added_mass_share);
+  EXPECT_EQ(b.scheme.mass_notes, a.scheme.mass_notes);
   EXPECT_EQ(b.outcome, a.outcome);
   EXPECT_EQ(b.message, a.message);
   fs::remove(path);
