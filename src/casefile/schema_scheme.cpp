@@ -32,6 +32,10 @@ Names explicit_schemes() {
   return schemes_with([](const SchemeTraits& s) { return is_explicit(s.kind); });
 }
 
+Names schemes_of_lumped_mass() {
+  return schemes_with([](const SchemeTraits& s) { return is_explicit(s.kind) && s.kind != SchemeKind::modified_mass; });
+}
+
 Range closed(double low, double high) {
   return {Bound{low, Bound::Side::closed}, Bound{high, Bound::Side::closed}};
 }
@@ -82,12 +86,13 @@ void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
            "Cells whose own stable step is below this become as heavy as it takes; with a lumped mass.",
            {.unit = Dimension::time,
             .range = greater_than(0.0),
-            .kinds = explicit_schemes(),
+            .kinds = schemes_of_lumped_mass(),
             .default_phrase = "no mass is added"});
-  s.key_by(
-      "mass_scaling_limit", [scheme_of](auto& section) -> auto& { return scheme_of(section).mass_scaling_limit; },
-      "Largest mass that may be added, as a fraction of the total mass.",
-      {.range = greater_than(0.0), .kinds = explicit_schemes(), .default_phrase = "0.05, beside mass_scaling_step"});
+  s.key_by("mass_scaling_limit", [scheme_of](auto& section) -> auto& { return scheme_of(section).mass_scaling_limit; },
+           "Largest mass that may be added, as a fraction of the total mass.",
+           {.range = greater_than(0.0),
+            .kinds = schemes_of_lumped_mass(),
+            .default_phrase = "0.05, beside mass_scaling_step"});
 }
 
 [[noreturn]] void refuse_enforcement(const CaseScheme& scheme, const ReadContext& at) {
