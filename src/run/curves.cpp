@@ -104,6 +104,20 @@ std::vector<std::string> motion_columns(const Model& model, std::size_t contact)
 
 }  // namespace
 
+namespace {
+
+/// How many rows share the pressure at a place: two where both sides have rows, none where rows have no area.
+double passes(const ContactDefinition& contact) {
+  if (std::holds_alternative<StopContact>(contact)) return 0.0;
+  if (const auto* obstacle = std::get_if<ObstacleContact>(&contact))
+    return obstacle->measure == RowMeasure::per_area ? 1.0 : 0.0;
+  const auto* pair = std::get_if<PairContact>(&contact);
+  if (pair == nullptr || pair->slave.facets.empty() || pair->slave.facets[0].size == 1) return 1.0;
+  return pair->self || pair->method == PairMethod::two_pass ? 2.0 : 1.0;
+}
+
+}  // namespace
+
 ContactCurves::ContactCurves(const Simulation& simulation)
     : model_(simulation.model()), mesh_(simulation.mesh()), contacts_(simulation.given().contacts.size()) {
   table_.columns = {"time"};
@@ -116,7 +130,7 @@ ContactCurves::ContactCurves(const Simulation& simulation)
     for (const std::string& name : motion_columns(model_, c))
       table_.columns.push_back(fmt::format("{}.{}", *contact.name, name));
     moment_points_.push_back(contact.moment_point);
-    has_area_.push_back(*contact.kind != CaseContact::Kind::stop && !contact.per_node);
+    passes_.push_back(passes(model_.contacts[c]));
   }
   force_.resize(contacts_);
   impulse_.resize(contacts_);
@@ -157,7 +171,7 @@ void ContactCurves::sample(const StepView& view, double end_weight) {
     const auto c = static_cast<std::size_t>(rows.source[r]);
     penetration[c] = std::max(penetration[c], -rows.gap_at(r, view.state.q));
     closed[c] += 1.0;
-    if (has_area_[c]) largest_pressure_ = std::max(largest_pressure_, view.forces.rows.force[r][0] / rows.measure[r]);
+    largest_pressure_ = std::max(largest_pressure_, passes_[c] * view.forces.rows.force[r][0] / rows.measure[r]);
   }
   table_.row = {view.state.t};
   for (std::size_t c = 0; c < contacts_; ++c) {

@@ -44,8 +44,8 @@ class EnergyCurves {
 };
 
 /// contact.csv: for each contact the resultant force on the body, its impulse, its moment about the moment_point, the
-/// largest penetration, closed rows, and how often it went from open everywhere to closed somewhere; of an obstacle that
-/// moves the displacement and velocity of its centre, and where it turns its angular velocity.
+/// largest penetration, closed rows, and how often it went from open everywhere to closed somewhere; of an obstacle
+/// that moves the displacement and velocity of its centre, and where it turns its angular velocity.
 class ContactCurves {
  public:
   explicit ContactCurves(const Simulation& simulation);
@@ -70,7 +70,7 @@ class ContactCurves {
   std::vector<double> closed_, closings_;
   double cell_length_ = 0.0;
   double worst_penetration_ = 0.0, largest_pressure_ = 0.0;
-  std::vector<bool> has_area_;  ///< of the rows of each contact: their measure is one
+  std::vector<double> passes_;  ///< how many rows share the pressure at a place of each contact; 0: rows have no area
 };
 
 /// probes.csv: displacement, velocity, acceleration and stress at the probes, and section forces: what the cells on the
