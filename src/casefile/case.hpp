@@ -118,12 +118,12 @@ struct CaseContact {
   Located<std::string> surface;  ///< surface: faces of the rigid surface
   std::optional<Vec3> velocity;  ///< obstacles: imposed, times function; initial with a mass
   std::optional<Located<std::string>> function;
-  std::optional<double> mass;  ///< obstacles: free rigid body, which turns where it has an inertia
+  std::optional<double> mass;            ///< obstacles: free rigid body, which turns where it has an inertia
   std::optional<Located<Vec3>> inertia;  ///< I_xx, I_yy, I_zz about the centre of mass
   std::optional<Vec3> products_of_inertia, centre_of_mass, angular_velocity;
   double rigidity = 0.5;  ///< of the body that turns (TurningBody)
-  double gap = 0.0;            ///< stop
-  double damping = 0.0;        ///< stop
+  double gap = 0.0;       ///< stop
+  double damping = 0.0;   ///< stop
 };
 
 struct CaseFunction {

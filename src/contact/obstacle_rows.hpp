@@ -9,10 +9,12 @@ namespace carom {
 
 /// One row per node that may touch, in the order of the nodes, with the measure of its share in the contact surface in
 /// the reference configuration (nodal_measures) or 1. A moving obstacle follows the displacement of its carrier, on
-/// which the row has the block -(n, t_1, t_2). Planes have fixed rows. Spheres, cylinders and boxes have rows for all
-/// nodes. A rigid surface (its nodes do not move, except all together with the carrier) has rows for the nodes within
-/// the larger mean facet size of both surfaces, found by a SurfaceSearch; the nodes' normals come from the contact
-/// surface.
+/// which the row has the block -(n, t_1, t_2). One that turns is placed by the four nodes of its body, on which the row
+/// has the blocks -N_a (n, t_1, t_2) with the weights of the body's point where the node is (turning_body.hpp), so that
+/// forces and moments balance exactly; n is then the gradient of the gap. Planes that do not turn have fixed rows.
+/// Spheres, cylinders and boxes have rows for all nodes. A rigid surface (its nodes do not move, except all together
+/// with the carrier or body) has rows for the nodes within the larger mean facet size of both surfaces, found by a
+/// SurfaceSearch; the nodes' normals come from the contact surface.
 std::unique_ptr<RowMaker> obstacle_rows(const Model& model, const ObstacleContact& contact, Index source);
 
 /// One row per node of a discrete stop, with measure 1, the same at every displacement.

@@ -135,8 +135,8 @@ struct RigidSurface {
 using RigidShape = std::variant<Plane, Sphere, Cylinder, Box, RigidSurface>;
 
 /// A rigid obstacle. A moving one hangs on `carrier`, a node of its own whose displacement it follows (imposed by a
-/// PrescribedMotion, or free with the mass of a RigidBody); -1: at rest. One that turns as well hangs on the TurningBody
-/// `body`, an index in Model::turning_bodies; -1: it does not turn.
+/// PrescribedMotion, or free with the mass of a RigidBody); -1: at rest. One that turns as well hangs on the
+/// TurningBody `body`, an index in Model::turning_bodies; -1: it does not turn.
 struct ObstacleContact {
   std::string name;
   RigidShape shape;

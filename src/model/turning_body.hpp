@@ -13,11 +13,11 @@ namespace carom {
 /// A rigid body of mass m with the principal axes e_i at its centre of mass, as four nodes of mass m / 4 on the corners
 /// of a tetrahedron,
 ///   x_a = phi + sum over i of s_ai r_i d_i,  s = (1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1),
-/// with d_i = e_i at first and r_i^2 = E_i / m, E_i = (I_j + I_k - I_i) / 2 the Euler tensor. The four have the mass, the
-/// centre and the inertia of the body (equimomental systems: E. J. Routh, Dynamics of a System of Rigid Bodies, 1905,
-/// ch. I), and every other point of it follows them by weights that do not change (natural coordinates: J. Garcia de
-/// Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, ch. 4; P. Betsch, S. Leyendecker, Int.
-/// J. Numer. Meth. Engng 67, 2006):
+/// with d_i = e_i at first and r_i^2 = E_i / m, E_i = (I_j + I_k - I_i) / 2 the Euler tensor. The four have the mass,
+/// the centre and the inertia of the body (equimomental systems: E. J. Routh, Dynamics of a System of Rigid Bodies,
+/// 1905, ch. I), and every other point of it follows them by weights that do not change (natural coordinates: J. Garcia
+/// de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, ch. 4; P. Betsch, S. Leyendecker,
+/// Int. J. Numer. Meth. Engng 67, 2006):
 ///   x = sum over a of N_a x_a,  N_a = 1/4 (1 + sum over i of s_ai X_i / r_i),  X_i = e_i . (X - centre).
 /// So the mass matrix is diagonal and constant, and momenta and kinetic energy are exact. What keeps the directors d_i
 /// orthonormal is a stiff energy (solid/turning_bodies.hpp).
@@ -25,18 +25,18 @@ struct TurningBody {
   std::string name;
   std::array<Index, 4> nodes{-1, -1, -1, -1};
   double mass = 0.0;
-  Vec3 centre{};                   ///< of mass, in the reference configuration
-  std::array<Vec3, 3> axes{};      ///< e_i, orthonormal and right-handed
-  Vec3 radii{};                    ///< r_i > 0, length
+  Vec3 centre{};                    ///< of mass, in the reference configuration
+  std::array<Vec3, 3> axes{};       ///< e_i, orthonormal and right-handed
+  Vec3 radii{};                     ///< r_i > 0, length
   double rigidity = 0.5;            ///< frequency of the directors' vibration over the largest of the mesh
-  std::optional<double> frequency; ///< radian per time, instead of what rigidity makes
+  std::optional<double> frequency;  ///< radian per time, instead of what rigidity makes
 };
 
 /// s_ai
 inline constexpr std::array<Vec3, 4> corner_signs{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
 
-/// The body without its nodes. inertia: I_xx, I_yy, I_zz about the centre of mass; products: the tensor's entries xy, yz,
-/// zx, which are minus the integrals of the products of the coordinates. Throws std::invalid_argument naming the
+/// The body without its nodes. inertia: I_xx, I_yy, I_zz about the centre of mass; products: the tensor's entries xy,
+/// yz, zx, which are minus the integrals of the products of the coordinates. Throws std::invalid_argument naming the
 /// principal moments when a moment is not below the sum of the two others by 1e-6 of the largest Euler moment: bodies
 /// without thickness (rods, discs) have no tetrahedron.
 TurningBody make_turning_body(double mass, const Vec3& centre, const Vec3& inertia, const Vec3& products);

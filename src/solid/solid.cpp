@@ -109,7 +109,8 @@ Isa Solid::isa() const {
 }
 bool Solid::is_linear() const {
   const auto& blocks = impl_->solid.blocks;
-  return impl_->turning_bodies.empty() && std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.small_strain; });
+  return impl_->turning_bodies.empty() &&
+         std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.small_strain; });
 }
 const std::vector<CellRef>& Solid::cells() const {
   return impl_->solid.cells;

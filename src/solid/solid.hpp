@@ -33,9 +33,9 @@ struct Rotation {
 /// component c of node n whatever the cells; dof vectors have 3 x node_count entries. Plane cells have no forces and no
 /// stiffness in z, bars none across their axis but for the initial-stress term of finite strain. LinearElastic parts
 /// are of small strain, the others total Lagrangian. All cells of all parts take part; interface cells of contact do
-/// not. Rigid bodies that turn stand among the nodes: their directors' forces, stiffness, energy and mass are part of all
-/// sums here, and make the system nonlinear; the frequency of their directors is TurningBody::rigidity times
-/// the largest bound of the cells'.
+/// not. Rigid bodies that turn stand among the nodes: their directors' forces, stiffness, energy and mass are part of
+/// all sums here, and make the system nonlinear; the frequency of their directors is TurningBody::rigidity times the
+/// largest bound of the cells'.
 class Solid {
  public:
   explicit Solid(const Model& model, Isa isa = chosen_isa());
@@ -50,8 +50,8 @@ class Solid {
   /// Largest strain of the rigid bodies that turn (turning_bodies.hpp): how far they are from rigid. 0 without.
   double body_strain(std::span<const double> u) const;
 
-  /// Adds, on the nodes of rigid bodies that turn, the forces whose relative rounding internal_force cannot avoid at any
-  /// displacement: the bodies' stiffness times their size.
+  /// Adds, on the nodes of rigid bodies that turn, the forces whose relative rounding internal_force cannot avoid at
+  /// any displacement: the bodies' stiffness times their size.
   void add_body_force_scale(std::span<double> f) const;
 
   /// True when internal_force is linear in u: then K is constant and may be prepared once per run.

@@ -57,8 +57,8 @@ struct Turning {
   std::vector<double> turned(const Vec3& n, double angle, const Vec3& shift) const {
     std::vector<double> u;
     for (const Vec3& X : scene.mesh.coordinates) {
-      const Vec3 x = add(scaled(X, std::cos(angle)), add(scaled(cross(n, X), std::sin(angle)),
-                                                         scaled(n, dot(n, X) * (1.0 - std::cos(angle)))));
+      const Vec3 x = add(scaled(X, std::cos(angle)),
+                         add(scaled(cross(n, X), std::sin(angle)), scaled(n, dot(n, X) * (1.0 - std::cos(angle)))));
       for (std::size_t c = 0; c < 3; ++c) u.push_back(x[c] + shift[c] - X[c]);
     }
     return u;

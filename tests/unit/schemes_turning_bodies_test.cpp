@@ -24,7 +24,8 @@ State spinning(const Problem& p, const Vec3& velocity, const Vec3& omega) {
 }
 
 std::unique_ptr<Scheme> energy_momentum(const Problem& p, double h) {
-  return std::make_unique<EnergyMomentum>(p.system, ImplicitSettings{}, h, stable_step(p.system).omega_max_squared_free);
+  return std::make_unique<EnergyMomentum>(p.system, ImplicitSettings{}, h,
+                                          stable_step(p.system).omega_max_squared_free);
 }
 
 /// Moments A, A, C; spin omega_3 about the third axis and transverse omega_1.
@@ -47,8 +48,8 @@ double precession_error(double h, bool implicit_steps) {
   const Vec3 L{A * omega[0], 0.0, C * omega[2]};
   const Vec3 n = normalized(L), d{0.0, 0.0, 1.0};
   const double angle = norm(L) / A * end;
-  const Vec3 expected = add(scaled(d, std::cos(angle)), add(scaled(cross(n, d), std::sin(angle)),
-                                                            scaled(n, dot(n, d) * (1.0 - std::cos(angle)))));
+  const Vec3 expected = add(scaled(d, std::cos(angle)),
+                            add(scaled(cross(n, d), std::sin(angle)), scaled(n, dot(n, d) * (1.0 - std::cos(angle)))));
   return norm(subtract(position_of(p.model.turning_bodies[0], run.state.q).directors[2], expected));
 }
 
@@ -129,8 +130,8 @@ struct PointHitsBox {
 };
 
 // Impulse J = 2 v / (1/m1 + 1/m + (r x n) . I^-1 (r x n)) for an elastic hit without friction (W. Goldsmith, Impact,
-// 1960, section 1.4). The hit lasts pi / omega_hit with omega_hit^2 = stiffness x (the bracket); that it takes time lets the
-// box turn meanwhile, by 1 / omega_hit, and the directors ring by (omega_hit / frequency)^2.
+// 1960, section 1.4). The hit lasts pi / omega_hit with omega_hit^2 = stiffness x (the bracket); that it takes time
+// lets the box turn meanwhile, by 1 / omega_hit, and the directors ring by (omega_hit / frequency)^2.
 TEST(TurningBodies, AreHitOffTheirMiddleAsRigidBodies) {
   const Vec3 I{0.9, 1.0, 0.8}, n{0, 0, -1};
   for (const bool implicit_steps : {false, true}) {
@@ -201,24 +202,26 @@ AfterHit hit(const Problem& p, Scheme& scheme, double h, double linear_limit, do
   return {velocity_of(body, run.state.v).centre, body_angular_velocity(body, run.state), run.ledger.momentum()};
 }
 
-// Momentum of the whole: 4 x (0.3, 0.1, -1), nothing from outside. Central differences and the energy-momentum scheme keep the
-// angular momentum to round-off, Moreau-Jean to the order of its step (docs/schemes.md).
+// Momentum of the whole: 4 x (0.3, 0.1, -1), nothing from outside. Central differences keep both momenta to round-off.
+// Implicit equations are solved to what the directors' stiffness makes of the rounding of displacements; the
+// energy-momentum scheme keeps the angular momentum as well, Moreau-Jean to the order of its step.
 TEST(TurningBodies, HitByABlockKeepTheMomentaOfTheWhole) {
   const BlockHitsBox both(0.3);
-  const Problem lumped(both.model, MassKind::lumped), consistent(both.model);
+  const Problem lumped(both.model, MassKind::lumped);
   const double h = 0.5 * stable_step(lumped.system).dt;
   const AfterHit explicit_hit = hit(lumped, *central(lumped), h, 1e-12, 1e-12);
-  const AfterHit mean_hit = hit(consistent, *energy_momentum(consistent, 2.0 * h), 2.0 * h, 1e-11, 1e-11);
-  const auto moreau_jean = std::make_unique<MoreauJean>(lumped.system, 0.5,
-                                                        ImplicitSettings{.enforcement = EnforcementKind::impulse}, h,
-                                                        stable_step(lumped.system).omega_max_squared_free);
-  const AfterHit impulsive = hit(lumped, *moreau_jean, h, 1e-11, 1e-2);
+  const AfterHit mean_hit = hit(lumped, *energy_momentum(lumped, h), h, 1e-9, 1e-9);
+  const auto moreau_jean =
+      std::make_unique<MoreauJean>(lumped.system, 0.5, ImplicitSettings{.enforcement = EnforcementKind::impulse}, h,
+                                   stable_step(lumped.system).omega_max_squared_free);
+  const AfterHit impulsive = hit(lumped, *moreau_jean, h, 1e-9, 1e-2);
   EXPECT_LT(explicit_hit.velocity[2], -0.3);  // the box has been hit and turns
   EXPECT_GT(norm(subtract(explicit_hit.omega, {0.0, 0.2, 0.1})), 0.1);
-  // Masses, contact laws and steps differ: the block has two cells per edge.
-  EXPECT_LT(norm(subtract(explicit_hit.velocity, mean_hit.velocity)), 0.05 * norm(explicit_hit.velocity));
-  EXPECT_LT(norm(subtract(explicit_hit.omega, mean_hit.omega)), 0.05 * norm(explicit_hit.omega));
-  EXPECT_LT(norm(subtract(explicit_hit.velocity, impulsive.velocity)), 0.15 * norm(explicit_hit.velocity));
+  // The same forces, mass and step: they differ by the schemes' errors alone, of order 2, and by when a row closes.
+  EXPECT_LT(norm(subtract(explicit_hit.velocity, mean_hit.velocity)), 0.01 * norm(explicit_hit.velocity));
+  EXPECT_LT(norm(subtract(explicit_hit.omega, mean_hit.omega)), 0.01 * norm(explicit_hit.omega));
+  // Impulses without restitution take the energy of what stops.
+  EXPECT_LT(norm(subtract(explicit_hit.velocity, impulsive.velocity)), 0.2 * norm(explicit_hit.velocity));
 }
 
 }  // namespace

@@ -84,7 +84,8 @@ std::vector<double> some_state(const Model& model, unsigned seed) {
   return u;
 }
 
-// By central differences of steps 1e-5: errors of 1e-10 of quantities near 1e2 (third derivatives) and 1e-16 / 1e-5 of them.
+// By central differences of steps 1e-5: errors of 1e-10 of quantities near 1e2 (third derivatives) and 1e-16 / 1e-5 of
+// them.
 TEST(TurningBody, ForceAndTangentAreDerivatives) {
   const Model model = lone_body(turned_body(), 3.0);
   const Solid solid(model);
