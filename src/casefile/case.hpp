@@ -121,9 +121,9 @@ struct CaseContact {
   std::optional<double> mass;            ///< obstacles: free rigid body, which turns where it has an inertia
   std::optional<Located<Vec3>> inertia;  ///< I_xx, I_yy, I_zz about the centre of mass
   std::optional<Vec3> products_of_inertia, centre_of_mass, angular_velocity;
-  double rigidity = 0.5;  ///< of the body that turns (TurningBody)
-  double gap = 0.0;       ///< stop
-  double damping = 0.0;   ///< stop
+  std::optional<double> rigidity;  ///< of the body that turns (TurningBody)
+  double gap = 0.0;                ///< stop
+  double damping = 0.0;            ///< stop
 };
 
 struct CaseFunction {

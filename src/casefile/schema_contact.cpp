@@ -124,7 +124,7 @@ void add_shapes(SectionSchema<CaseContact>& s) {
       "Of the free body that turns: frequency at which its axes vibrate about right angles, over the highest of the "
       "mesh. Its strain, which the verdict limits to 1e-3, falls with the square; above 1 explicit runs pay with their "
       "step.",
-      {.range = greater_than(0.0), .kinds = obstacles});
+      {.range = greater_than(0.0), .kinds = obstacles, .default_phrase = "0.5"});
   s.key("angular_velocity", &CaseContact::angular_velocity, "Of the free body that turns, at the start; radians.",
         {.unit = Dimension::angular_velocity, .kinds = obstacles, .default_phrase = "0"});
 }

@@ -21,7 +21,7 @@ TurningBody body_of(const CaseContact& contact) {
     TurningBody body = make_turning_body(*contact.mass, contact.centre_of_mass.value_or(middle_of(contact)),
                                          **contact.inertia, contact.products_of_inertia.value_or(Vec3{}));
     body.name = *contact.name;
-    body.rigidity = contact.rigidity;
+    body.rigidity = contact.rigidity.value_or(body.rigidity);
     return body;
   } catch (const std::invalid_argument& e) {
     throw CaseError(contact.inertia->where, "contact.inertia", e.what(),
