@@ -119,6 +119,11 @@ void check_enforcement(const Case& given, const CaseScheme& scheme) {
                       fmt::format("a stop, which is a spring, with enforcement = \"{}\"", name(enforcement)),
                       "enforcement = \"penalty\" with stops", "Take a plane instead, or a scheme with penalty.");
     }
+    if (*scheme.kind == SchemeKind::statics && contact.inertia) {
+      throw CaseError(contact.inertia->where, entry_path("contact", i, "inertia"), "a body that turns, with statics",
+                      "a scheme with inertia, or a free body without `inertia`, which does not turn",
+                      "Nothing but contact holds the directions of such a body at rest.");
+    }
     if (*contact.restitution > 0.0 && enforcement != EnforcementKind::impulse) {
       throw CaseError(contact.restitution.where, entry_path("contact", i, "restitution"),
                       fmt::format("{} with enforcement = \"{}\"", *contact.restitution, name(enforcement)),

@@ -160,8 +160,8 @@ void decode(const Node& node, const KeyDescription& key, const ReadContext& at,
   const List& entries = list(node, key, at);
   value.clear();
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const std::string& choice =
-        key.options.choices.at(decode_choice(entries[i], entry_of(key, Shape::text), at.entry(i)));
+    std::string choice;
+    decode(entries[i], entry_of(key, Shape::text), at.entry(i), choice);
     const auto same = [&choice](const Located<std::string>& other) { return *other == choice; };
     if (std::any_of(value.begin(), value.end(), same)) {
       throw CaseError(entries[i].where, at.entry(i).path, toml_string(choice) + " a second time", "each name once");

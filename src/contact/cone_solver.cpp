@@ -417,6 +417,7 @@ ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<cons
   if (!std::ranges::all_of(b, finite)) return {false, 0, infinity};
   Problem p(W, b, mu, tolerance, accepted, r);
   for (std::size_t i = 0; i < W.size(); ++i) {
+    if (p.W_nn[i] < 0.0) return {false, 0, infinity};
     if (!finite(r[i])) r[i] = {};
     r[i][0] = std::max(0.0, r[i][0]);
     if (p.W_nn[i] == 0.0) r[i] = {};

@@ -32,8 +32,9 @@ struct ConeResult {
 ///
 /// The error is the largest violation of the natural map of a row, min(w_n, W_nn r_n) and W_TT (r_T - projection of
 /// r_T - w_T / W_TT on the disc of radius mu r_n), over the largest |b| and |W_ii r_i| of the set. Not converged: no
-/// solution exists (nothing can move a row that is closing), b is not finite, or the iterations ran out; r is then the
-/// best found, with 0 <= r_n. Deterministic, and independent of units.
+/// solution exists (nothing can move a row that is closing), b is not finite, a row gives way against its force (W_nn <
+/// 0, the error is infinite then), or the iterations ran out; r is then the best found, with 0 <= r_n. Deterministic,
+/// and independent of units.
 ///
 /// Iterations end when the error is at most `tolerance`; or at most `accepted` (where that is larger) and no longer
 /// falling: so forces can be had to round-off, wherever that is.

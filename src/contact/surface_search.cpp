@@ -124,7 +124,8 @@ struct SurfaceSearch::Best {
   double distance;
   Index facet = -1;
   Projection projection{};
-  bool is_continued = false;  ///< beyond a rim
+  bool is_continued = false;  ///< beyond a rim, a little
+  bool is_beside = false;     ///< beyond a rim, farther
 };
 
 SurfaceSearch::SurfaceSearch(std::vector<Index> nodes, std::vector<Facet> own, std::vector<Facet> facets,
@@ -202,18 +203,36 @@ bool SurfaceSearch::counts(const Query& query, Index f) const {
   return !has_normal || dot(query.normal, facet_normals_[f]) < opposed;
 }
 
-/// True when no other facet that counts goes on beyond the edge where p lies, or beyond one of the edges of its vertex.
+/// True when no other facet that counts goes on beyond the edge where p lies, or beyond an edge at the vertex where p
+/// lies, of whichever facet there.
 bool SurfaceSearch::ends_at(const Query& query, Index f, const Projection& p) const {
-  const Facet& facet = facets()[f];
-  const auto size = static_cast<std::size_t>(facet.size), k = static_cast<std::size_t>(p.feature);
-  const auto ends_at_edge = [&](Index a, Index b) {
+  const auto ends_at_edge = [&](Index of, Index a, Index b) {
     return std::none_of(facets_at_[a].begin(), facets_at_[a].end(), [&](Index other) {
-      return other != f && contains(facets()[other], b) && counts(query, other);
+      return other != of && contains(facets()[other], b) && counts(query, other);
     });
   };
-  if (size == 2) return ends_at_edge(facet[k], facet[k]);
-  if (ends_at_edge(facet[k], facet[(k + 1) % size])) return true;
-  return p.site == ProjectionSite::vertex && ends_at_edge(facet[(k + size - 1) % size], facet[k]);
+  const Facet& facet = facets()[f];
+  const auto k = static_cast<std::size_t>(p.feature);
+  if (facet.size == 2) return ends_at_edge(f, facet[k], facet[k]);
+  if (p.site == ProjectionSite::edge)
+    return ends_at_edge(f, facet[k], facet[(k + 1) % static_cast<std::size_t>(facet.size)]);
+  const Index vertex = facet[k];
+  return std::any_of(facets_at_[vertex].begin(), facets_at_[vertex].end(), [&](Index g) {
+    if (!counts(query, g)) return false;
+    const Facet& there = facets()[g];
+    const auto size = static_cast<std::size_t>(there.size);
+    const auto a = static_cast<std::size_t>(std::find(there.begin(), there.end(), vertex) - there.begin());
+    return ends_at_edge(g, vertex, there[(a + 1) % size]) || ends_at_edge(g, there[(a + size - 1) % size], vertex);
+  });
+}
+
+/// True when a neighbour at the edge or vertex where p lies comes nearer to the node: p is then no closest point of the
+/// surface, though the neighbour may not count for its rim.
+bool SurfaceSearch::goes_on_nearer(const Query& query, Index f, const Projection& p) const {
+  const std::vector<Index>& around = facets_at_[facets()[f][static_cast<std::size_t>(p.feature)]];
+  return std::any_of(around.begin(), around.end(), [&](Index g) {
+    return g != f && counts(query, g) && project(placed_[g], query.x).distance < p.distance * (1.0 - 1e-9);
+  });
 }
 
 void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
@@ -224,7 +243,8 @@ void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
   if (is_tied ? std::abs(p.gap) <= std::abs(best.projection.gap) : !(p.distance < best.distance)) return;
   if (p.gap < -range_.depth[f]) return;
   bool is_continued = false;
-  if (p.site != ProjectionSite::interior && ends_at(query, f, p)) {
+  const bool is_beyond = p.site != ProjectionSite::interior && ends_at(query, f, p);
+  if (is_beyond) {
     const ParentPoint at = foot(facet, query.x, {p.xi, p.eta});
     const FacetFrame frame = facet_frame(facet, at.xi, at.eta);
     is_continued = norm(subtract(frame.position, p.point)) <= rim_slack * size_of(facet);
@@ -238,7 +258,8 @@ void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
       p.gap = dot(subtract(query.x, frame.position), frame.normal);
     }
   }
-  best = {p.distance, f, p, is_continued};
+  if (!is_beyond && p.site != ProjectionSite::interior && goes_on_nearer(query, f, p)) return;
+  best = {p.distance, f, p, is_continued, is_beyond && !is_continued};
 }
 
 Vec3 SurfaceSearch::pseudonormal(Index f, const Projection& p) const {
@@ -328,7 +349,9 @@ std::optional<SurfacePoint> SurfaceSearch::find(std::size_t q) const {
     const Vec3 average = pseudonormal(best.facet, best.projection);
     at = signed_distance(best.projection, query.x, average, tiny * range_.reach);
   }
-  const bool is_found = best.facet >= 0 && at.gap >= -range_.depth[best.facet];
+  // Beside a rim a node is behind some of the facets there and in front of others, and touches none of them.
+  const bool is_lost = best.is_beside && at.gap < 0.0;
+  const bool is_found = best.facet >= 0 && !is_lost && at.gap >= -range_.depth[best.facet];
   if (is_fast_ && !(is_found && at.gap < 0.0)) {
     if (const std::optional<Index> crossed = crossed_facet(query)) {
       const Projection p = project(placed_[*crossed], query.x);

@@ -72,6 +72,7 @@ class SurfaceSearch {
   Query query(std::size_t q) const;
   bool counts(const Query& query, Index f) const;
   bool ends_at(const Query& query, Index f, const Projection& p) const;
+  bool goes_on_nearer(const Query& query, Index f, const Projection& p) const;
   void consider(const Query& query, Index f, Best& best) const;
   Best closest(const Query& query) const;
   Vec3 pseudonormal(Index f, const Projection& p) const;

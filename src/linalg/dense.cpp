@@ -16,8 +16,8 @@ namespace carom {
 
 namespace {
 
-/// Largest sum of |a_ij| over a stored row (the 1-norm of the matrix that LAPACK sees, the transpose); not a number when
-/// an entry is not.
+/// Largest sum of |a_ij| over a stored row (the 1-norm of the matrix that LAPACK sees, the transpose); not a number
+/// when an entry is not.
 double largest_row_sum(const std::vector<double>& a, std::size_t n) {
   double largest = 0.0;
   for (std::size_t i = 0; i < n; ++i) {

@@ -136,6 +136,10 @@ class Builder {
   }
 
   void add_pair(const CaseContact& given) {
+    if (*given.kind == CaseContact::Kind::pair && *given.group == *given.master)
+      throw CaseError(given.master.where, "contact.master",
+                      fmt::format("\"{}\", which is the group as well", *given.master), "the faces of another body",
+                      "One surface with itself is kind = \"self\".");
     PairContact pair;
     pair.name = *given.name;
     pair.method = given.method;

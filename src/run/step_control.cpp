@@ -33,7 +33,7 @@ void StepControl::accept() {
 bool StepControl::halve() {
   if (halving_ == Halving::forbidden || level_ == levels) return false;
   ++level_;
-  cut_ /= 2;
+  if (cut_ > 0) cut_ = std::max(1LL, cut_ / 2);
   successes_ = 0;
   return true;
 }

@@ -133,7 +133,11 @@ bool ExactPort::assemble(EffectiveSolver& solver, const std::shared_ptr<const Co
     W_.begin.push_back(W_.column.size());
   }
   W_.rows = std::move(acting);
-  return converged;
+  if (converged) return true;
+  W_ = {};
+  compliance_.forget();
+  nodes_.forget();
+  return false;
 }
 
 /// For the error of the forces: what each row answers to its own.
@@ -169,6 +173,10 @@ std::string ExactPort::solve_rows(const ContactResponse& response) {
   const double wanted = !is_held ? (has_friction ? 1e-14 : 1e-16) : system_.contact.is_fixed() ? accepted : 1e-15;
   const ConeResult result = solve_cone(W_, b, mu, force_, wanted, accepted);
   if (result.converged) return {};
+  if (std::isinf(result.error))
+    return "a body gives way against its contact forces (its tangent is indefinite on the rows in contact, or its "
+           "forces "
+           "are not finite); take smaller steps, or penalty";
   return fmt::format("the forces of {} rows in contact are not found in {} iterations: error {:.3g}", n,
                      result.iterations, result.error);
 }

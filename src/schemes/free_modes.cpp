@@ -239,9 +239,11 @@ std::vector<double> FreeModes::unheld(const ConstraintRows& rows, const std::vec
   for (std::size_t k = 0; k < size_; ++k) T[k * size_ + k] += e[k];
   std::vector<double> rho = load;
   DenseLu(std::move(T), static_cast<int>(size_)).solve(rho);
+  // Bodies pass their loads on: what rounding leaves on one may come from the load of another.
+  const double largest = parts.empty() ? 0.0 : *std::max_element(parts.begin(), parts.end());
   for (std::size_t k = 0; k < size_; ++k) {
     rho[k] *= e[k];
-    if (std::abs(rho[k]) <= 1e-8 * parts[k]) rho[k] = 0.0;
+    if (std::abs(rho[k]) <= 1e-8 * largest) rho[k] = 0.0;
   }
   return rho;
 }

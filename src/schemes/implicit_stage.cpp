@@ -28,14 +28,15 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Exact contact of linear bodies asks for a column of the inverse per row, or three per contact node where rows move,
-/// once: a factorisation gives them cheaply, conjugate gradients do not. Half a million dofs take some gigabytes.
+/// Exact contact asks for a column of the inverse per row, or three per contact node where rows of linear bodies move:
+/// a factorisation gives them cheaply, conjugate gradients do not. Linear bodies factor once, and half a million dofs
+/// take some gigabytes; the others factor in every iteration, which pays while that is a matter of seconds.
 SolverKind solver_for(const System& system, const ImplicitSettings& settings) {
   const bool is_exact =
       settings.enforcement == EnforcementKind::lagrange || settings.enforcement == EnforcementKind::impulse;
-  const bool is_kept = system.solid.is_linear() && system.contact.slots() > 0;
-  const bool is_small = system.solid.dof_count() <= 500'000;
-  if (settings.solver == SolverKind::automatic && is_exact && is_kept && is_small) return SolverKind::cholesky;
+  const bool is_small = system.solid.dof_count() <= (system.solid.is_linear() ? 500'000U : 50'000U);
+  if (settings.solver == SolverKind::automatic && is_exact && system.contact.slots() > 0 && is_small)
+    return SolverKind::cholesky;
   return settings.solver;
 }
 
@@ -126,12 +127,13 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   return out;
 }
 
-/// What rounding may leave is a bound that the many dofs of a fine mesh seldom come near: a stage that has a share to
-/// meet goes on below it as long as an iteration halves what is left.
-bool ImplicitStage::is_equilibrium(const StageEquation& eq, const Residual& error, double wanted, double work_before) {
+/// What rounding may leave is a bound that the many dofs of a fine mesh, and rigid bodies that turn, seldom come near:
+/// a stage that has a share to meet, or such bodies, goes on below it as long as an iteration halves what is left.
+bool ImplicitStage::is_equilibrium(const StageEquation& eq, const Residual& error, double wanted,
+                                   double work_before) const {
   if (error.work <= wanted) return true;
   if (error.work > error.round_off) return false;
-  return eq.share == 0.0 || error.work > 0.5 * work_before;
+  return (eq.share == 0.0 && body_force_ == 0.0) || error.work > 0.5 * work_before;
 }
 
 StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, double work_tolerance, State& end,

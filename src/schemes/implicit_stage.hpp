@@ -61,7 +61,7 @@ class ImplicitStage {
  private:
   struct Residual;
   Residual residual(const StageEquation& equation, const State& begin, const State& end, Forces& forces);
-  static bool is_equilibrium(const StageEquation& equation, const Residual& error, double wanted, double work_before);
+  bool is_equilibrium(const StageEquation& equation, const Residual& error, double wanted, double work_before) const;
   std::string improve(const StageEquation& equation, double absolute, State& end, const Forces& forces,
                       StageReport& report);
   std::string cycling_rows(const std::vector<RowStatus>& before, const Forces& forces) const;

@@ -13,11 +13,11 @@ namespace carom {
 /// the step; a dof of imposed velocity moves by h v(t1), one of imposed acceleration stays. Friction follows the path
 /// of the steps. Where only contact can hold a body, weak springs on as many of its dofs as it has free motions
 /// (FreeModes) give the operator of Newton's method an inverse; the equation does not have them. Their stiffness is
-/// 1e-6 of a node's (penalty, augmented Lagrangian), so that an iteration misses by about as much, or 0.1
-/// (multipliers, whose compliance must not be lost in rounding). A load that neither supports nor closed rows resist
-/// closes the rows it would reach first; where there are none, there is no equilibrium, and the step fails. There is no
-/// inertia and no momentum: impulses are not booked. algorithmic = sum over k of du . (mean of both ends - force at the
-/// end): what an initial lack of equilibrium or a sudden load would have left in motion.
+/// a node's, and closed rows take the springs off again that they make needless (penalty, augmented Lagrangian); or 0.1
+/// of it (multipliers, whose compliance must not be lost in rounding). A load that neither supports nor closed rows
+/// resist closes the rows it would reach first; where there are none, there is no equilibrium, and the step fails.
+/// There is no inertia and no momentum: impulses are not booked. algorithmic = sum over k of du . (mean of both ends -
+/// force at the end): what an initial lack of equilibrium or a sudden load would have left in motion.
 class Statics final : public Scheme {
  public:
   Statics(const System& system, const ImplicitSettings& settings, double omega_max_squared);

@@ -53,6 +53,11 @@ struct Solid::Impl {
     });
   }
 
+  /// Appends the masses of the rigid bodies to the diagonal of M.
+  void add_body_masses(CsrMatrix& M) const {
+    for (const RigidBody& body : rigid_bodies) append_diagonal(M, body.node, body.mass);
+    turning_bodies.add_mass(M);
+  }
   const Block& block(const Chunk& chunk) const { return solid.blocks[at(chunk.block)]; }
   CellBatches batches(const Chunk& chunk) const { return solid.batches(block(chunk), chunk.first, chunk.cells); }
   CellMatrix stiffness(std::size_t c, const Block& b, std::span<const double> u) const {
@@ -241,8 +246,7 @@ Mass Solid::mass(MassKind kind) const {
         M.value[entry(M, nodes[a], nodes[b])] += cell[a * nodes.size() + b];
     }
   });
-  for (const RigidBody& body : impl_->rigid_bodies) append_diagonal(M, body.node, body.mass);
-  impl_->turning_bodies.add_mass(M);
+  impl_->add_body_masses(M);
   return Mass(kind, std::move(M));
 }
 
@@ -254,7 +258,7 @@ Mass Solid::lumped_mass(std::span<const double> cell_factors) const {
     for (std::size_t a = 0; a < nodes.size(); ++a)
       M.value[entry(M, nodes[a], nodes[a])] += cell_factors[c] * diagonal[a];
   });
-  for (const RigidBody& body : impl_->rigid_bodies) append_diagonal(M, body.node, body.mass);
+  impl_->add_body_masses(M);
   return Mass(MassKind::lumped, std::move(M));
 }
 

@@ -215,6 +215,25 @@ TEST(NodeRows, KeepTheirSlotsWhileSlidingOverFacetsAndLoseThemBeyondTheRim) {
   }
 }
 
+// A plate of triangles that are tilted against each other, and a node 0.1 beside a corner of their rim that is in front
+// of one of them and behind their mean plane: its distance to the corner is no depth.
+TEST(NodeRows, TakeNoDepthFromNodesBesideARim) {
+  for (const double height : {-0.012, -0.009, -0.006, -0.003, 0.0, 0.003}) {
+    Scene scene;
+    const auto plate = scene.add_patch(
+        2, 1,
+        [](double s, double t) {
+          return Vec3{s, t, t * (s == 0.5 ? 0.1 : -0.1)};
+        },
+        true);
+    const auto sole = scene.add_patch(1, 1, [=](double s, double t) { return Vec3{0.5 + t, -0.6 + 0.5 * s, height}; });
+    scene.finish().contacts.emplace_back(pair({sole}, {plate}));
+    const auto u = scene.zero();
+    const auto rows = ContactGeometry(scene.model).rows_at(u, u);
+    for (std::size_t r = 0; r < rows->size(); ++r) EXPECT_GE(rows->gap_at(r, u), -0.02) << height;
+  }
+}
+
 TEST(NodeRows, InTwoPassesHaveBothSidesSlotsAndHalfTheStiffness) {
   Scene scene;
   const auto plate = scene.add_patch(5, 5, [](double s, double t) { return Vec3{s, t, 0}; });

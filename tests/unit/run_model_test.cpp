@@ -83,6 +83,28 @@ TEST(Contact, MayNotBeginWithBodiesInsideOfEachOther) {
   }
 }
 
+TEST(Contact, OfAPairTakesTwoSurfaces) {
+  const CaseError e = case_error(case_of_block(
+      "[[contact]]\nname = \"c\"\nkind = \"pair\"\ngroup = \"FOOT\"\nmaster = \"FOOT\"\n" + newmark_for_one_second));
+  EXPECT_EQ(e.found(), "\"FOOT\", which is the group as well");
+}
+
+// The block of 2 x 2 x 3 cells has 34 nodes on its skin; without its head's faces the middle node of the head goes.
+TEST(Contact, OfAllLeavesOutWhatIsExcluded) {
+  const auto slots = [](const std::string& exclude) {
+    const Case given = parse_case(
+        case_of_block("[[contact]]\nname = \"c\"\nkind = \"all\"\n" + exclude + newmark_for_one_second), "case.toml");
+    return Simulation(given).contact().slots();
+  };
+  EXPECT_EQ(slots(""), 34U);
+  EXPECT_EQ(slots("exclude = [\"HEAD\"]\n"), 33U);
+  EXPECT_EQ(slots("exclude = [\"HEAD\", \"FOOT\"]\n"), 32U);
+  EXPECT_EQ(case_error(case_of_block("[[contact]]\nname = \"c\"\nkind = \"all\"\nexclude = [\"HED\"]\n" +
+                                     newmark_for_one_second))
+                .key(),
+            "contact.exclude");
+}
+
 TEST(Contact, MayTouchAtTheStart) {
   const Case given = parse_case(case_of_block(plane("FOOT", 0.0) + newmark_for_one_second), "case.toml");
   const Simulation simulation(given);
