@@ -395,5 +395,14 @@ TEST(Cone, LongChainsAreSolvedInLinearTime) {
   }
 }
 
+// A row that gives way against its force: W is the compliance of an indefinite operator.
+TEST(Cone, RefusesARowThatGivesWayAgainstItsForce) {
+  const ConeProblem p = make_problem({-1, 0, 0, 0, 1, 0, 0, 0, 1}, {{-1, 0, 0}}, {0.0});
+  std::vector<Vec3> r;
+  const ConeResult result = solve_cone(p.W, p.b, p.mu, r, 1e-10);
+  EXPECT_FALSE(result.converged);
+  EXPECT_TRUE(std::isinf(result.error));
+}
+
 }  // namespace
 }  // namespace carom

@@ -379,5 +379,46 @@ TEST(RunRegressions, TheResolvedCaseRunsFromItsFolder) {
             Simulation(read_case((folder / "case.toml").string())).mesh().node_count());
 }
 
+// A lid under pressure on a block without a load of its own on a floor: the floor holds both.
+TEST(RunRegressions, StaticsHoldsABodyThatOnlyPassesLoadsOn) {
+  for (const char* enforcement : {"penalty", "augmented_lagrangian"}) {
+    const TemporaryCase one(case_of_block(R"(
+[[mesh.block]]
+origin = [0.0, 0.0, 3.0]
+size = [2.0, 2.0, 1.0]
+divisions = [2, 2, 1]
+groups = { cells = "LID", zmin = "UNDER", zmax = "TOP" }
+[[part]]
+name = "lid"
+cells = "LID"
+material = "soft"
+[[load]]
+group = "TOP"
+pressure = 1e-3
+[[contact]]
+name = "floor"
+kind = "plane"
+group = "FOOT"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+[[contact]]
+name = "seam"
+kind = "pair"
+group = "UNDER"
+master = "HEAD"
+[scheme]
+kind = "statics"
+enforcement = ")" + std::string(enforcement) +
+                                          "\"\n[time]\nend = 1.0\nstep = 1.0\n"));
+    one.run();
+    const std::string contact = one.result("contact.csv");
+    for (const char* place : {"floor.force_z", "seam.force_z"}) {
+      const std::vector<double> force = column(contact, place);
+      ASSERT_FALSE(force.empty()) << enforcement << one.result("summary.json");
+      EXPECT_NEAR(force.back(), 4e-3, 1e-10) << enforcement << " " << place;  // pressure x area; energy share 1e-12
+    }
+  }
+}
+
 }  // namespace
 }  // namespace carom

@@ -171,5 +171,16 @@ TEST(TurningBody, TakesHalfTheLargestFrequencyOfTheMesh) {
   EXPECT_NEAR(solid.body_strain(u), strain, 1e-15);
 }
 
+TEST(TurningBody, KeepsItsMassWhereCellsAreScaled) {
+  Mesh mesh = block_mesh({2, 1, 1}, 0.1);
+  TurningBody body = make_turning_body(5.0, {9, 9, 9}, moments, {});
+  add_nodes(mesh, body);
+  Model model = one_part(std::move(mesh));
+  model.turning_bodies.push_back(body);
+  const Solid solid(model);
+  const std::vector<double> factors(solid.cell_count(), 1.0);
+  EXPECT_EQ(solid.lumped_mass(factors).node_diagonal(), solid.mass(MassKind::lumped).node_diagonal());
+}
+
 }  // namespace
 }  // namespace carom
