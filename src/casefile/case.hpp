@@ -137,7 +137,7 @@ struct CaseScheme {
   Location where;
   Located<SchemeKind> kind;
   std::optional<Located<EnforcementKind>> enforcement;  ///< filled on reading: the scheme's default
-  double beta = 0.25, gamma = 0.5;                      ///< newmark, contact_stabilized_newmark
+  double beta = 0.25, gamma = 0.5;                      ///< newmark; gamma also contact_stabilized_newmark
   double alpha = -0.05;                                 ///< hht, wbz
   double rho_inf = 0.8;                                 ///< generalized_alpha, its nonsmooth kin, hulbert_chung
   double theta = 0.5;                                   ///< moreau_jean

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -54,24 +55,32 @@ inline std::string read_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// Values of a column of a CSV text whose comment lines begin with #.
-inline std::vector<double> column(const std::string& csv, const std::string& name) {
-  std::istringstream lines(csv);
-  std::vector<double> values;
-  std::string line, cell;
-  std::size_t position = std::string::npos;
-  while (std::getline(lines, line)) {
+/// The columns of a CSV text by name; comment lines begin with #.
+using Columns = std::map<std::string, std::vector<double>>;
+inline Columns read_csv(const std::string& text) {
+  std::istringstream lines(text);
+  std::vector<std::string> names;
+  Columns columns;
+  for (std::string line, word; std::getline(lines, line);) {
     if (line.empty() || line[0] == '#') continue;
-    std::istringstream cells(line);
-    for (std::size_t i = 0; std::getline(cells, cell, ','); ++i) {
-      if (position == std::string::npos && cell == name) {
-        position = i;
-        break;
-      }
-      if (i == position) values.push_back(std::stod(cell));
-    }
+    std::vector<std::string> words;
+    for (std::istringstream row(line); std::getline(row, word, ',');) words.push_back(word);
+    for (std::size_t c = 0; !names.empty() && c < words.size(); ++c) columns[names[c]].push_back(std::stod(words[c]));
+    if (names.empty()) names = words;
   }
-  return values;
+  return columns;
+}
+
+/// One of them; empty when there is none of that name.
+inline std::vector<double> column(const std::string& csv, const std::string& name) {
+  return read_csv(csv)[name];
+}
+
+/// Last value of each.
+inline std::map<std::string, double> last_row(const std::string& csv) {
+  std::map<std::string, double> row;
+  for (const auto& [name, values] : read_csv(csv)) row[name] = values.back();
+  return row;
 }
 
 /// A temporary folder with a case in it.

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <map>
 #include <sstream>
 
 #include "exact/bar_impact.hpp"
@@ -17,22 +16,6 @@ namespace carom {
 namespace {
 
 using namespace test;
-
-using Columns = std::map<std::string, std::vector<double>>;
-
-Columns read_csv(const std::string& text) {
-  std::istringstream lines(text);
-  std::vector<std::string> names;
-  Columns columns;
-  for (std::string line, word; std::getline(lines, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    std::vector<std::string> words;
-    for (std::istringstream row(line); std::getline(row, word, ',');) words.push_back(word);
-    for (std::size_t c = 0; !names.empty() && c < words.size(); ++c) columns[names[c]].push_back(std::stod(words[c]));
-    if (names.empty()) names = words;
-  }
-  return columns;
-}
 
 /// The bar of 100 cells (length 10, E 900, rho 1, speed 0.1, gap 0.05) on a wall: `wall` holds its mass, or nothing.
 std::string bar_case(const std::string& scheme, const std::string& wall, double step) {

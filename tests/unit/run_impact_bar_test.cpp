@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <sstream>
 
 #include "run_fixture.hpp"
 
@@ -12,28 +10,6 @@ namespace carom {
 namespace {
 
 using namespace test;
-
-using Columns = std::map<std::string, std::vector<double>>;
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> words;
-  std::istringstream stream(line);
-  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
-  return words;
-}
-
-Columns read_csv(const std::string& text) {
-  std::istringstream lines(text);
-  std::vector<std::string> names;
-  Columns columns;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    const std::vector<std::string> words = split(line);
-    for (std::size_t c = 0; !names.empty() && c < words.size(); ++c) columns[names[c]].push_back(std::stod(words[c]));
-    if (names.empty()) names = words;
-  }
-  return columns;
-}
 
 struct Curves {
   Columns energy, contact, probes;

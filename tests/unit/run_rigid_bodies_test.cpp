@@ -1,9 +1,6 @@
 // Rigid bodies that turn, from the case to the results.
 #include <gtest/gtest.h>
 
-#include <map>
-#include <sstream>
-
 #include "run_fixture.hpp"
 
 namespace carom {
@@ -31,19 +28,6 @@ name = "near"
 point = [1.0, 1.0, -9.0]
 quantities = ["velocity"]
 )");
-}
-
-std::map<std::string, double> last_row(const std::string& csv) {
-  std::istringstream lines(csv);
-  std::vector<std::vector<std::string>> rows;
-  for (std::string line, word; std::getline(lines, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    rows.emplace_back();
-    for (std::istringstream row(line); std::getline(row, word, ',');) rows.back().push_back(word);
-  }
-  std::map<std::string, double> last;
-  for (std::size_t i = 0; i < rows.front().size(); ++i) last[rows.front()[i]] = std::stod(rows.back()[i]);
-  return last;
 }
 
 // About a principal axis a free body spins steadily; the stretched axes ring by (omega / frequency)^2 < 2e-4.

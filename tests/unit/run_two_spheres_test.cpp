@@ -3,8 +3,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <map>
-#include <sstream>
 
 #include "run_fixture.hpp"
 
@@ -12,22 +10,6 @@ namespace carom {
 namespace {
 
 using namespace test;
-
-/// Last row of a results table by column.
-std::map<std::string, double> last_row(const std::string& text) {
-  std::istringstream lines(text);
-  std::vector<std::string> names, last;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    std::vector<std::string> words;
-    std::istringstream stream(line);
-    for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
-    (names.empty() ? names : last) = words;
-  }
-  std::map<std::string, double> row;
-  for (std::size_t c = 0; c < last.size(); ++c) row[names[c]] = std::stod(last[c]);
-  return row;
-}
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
