@@ -20,6 +20,7 @@
 #include "mesh/read_mesh.hpp"
 #include "parallel/threads.hpp"
 #include "run/lint.hpp"
+#include "run/recorder.hpp"
 #include "run/run_case.hpp"
 #include "run/simulation.hpp"
 
@@ -67,6 +68,7 @@ ExitCode check(const Arguments& arguments) {
   carom::set_threads(arguments.threads);
   const carom::Case given = carom::read_case(arguments.case_file);
   const carom::Simulation simulation(given);
+  const carom::RunTables tables(simulation);  // refuses probes and checks that a run would refuse
   fmt::print("{}", carom::check_summary(simulation));
   for (const std::string& note : simulation.notes()) fmt::print("note: {}\n", note);
   const std::vector<std::string> warnings = carom::lint_warnings(simulation);
@@ -128,7 +130,7 @@ int main(int argc, char** argv) {
   run_command->add_option("case", arguments.case_file, "Case file (TOML)")->required();
   run_command->add_option("--out", arguments.folder, "Results folder (default: out/<name of the case>)");
   run_command->add_option("--threads", arguments.threads, "Threads (default: all cores)")->check(CLI::Range(0, 1024));
-  run_command->add_flag("--quiet", arguments.quiet, "Print errors only");
+  run_command->add_flag("--quiet", arguments.quiet, "Print errors, and why a run is not good");
   CLI::App* check_command = app.add_subcommand("check", "Read, resolve and examine a case without running it");
   check_command->add_option("case", arguments.case_file, "Case file (TOML)")->required();
   add_compare(app, arguments);

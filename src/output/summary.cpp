@@ -186,6 +186,8 @@ Json to_json(const Summary& s) {
   json["angular_momentum"] = to_json(s.angular_momentum);
   json["verdict"] = list(s.verdict);
   json["checks"] = list(s.checks);
+  json["warnings"] = s.warnings;
+  json["notes"] = s.notes;
   return json;
 }
 
@@ -208,6 +210,8 @@ Summary summary_from(const Json& json) {
   s.angular_momentum = momentum_from(json.at("angular_momentum"));
   for (const Json& item : json.at("verdict")) s.verdict.push_back(verdict_item_from(item));
   for (const Json& check : json.at("checks")) s.checks.push_back(check_from(check));
+  s.warnings = json.at("warnings").get<std::vector<std::string>>();
+  s.notes = json.at("notes").get<std::vector<std::string>>();
   return s;
 }
 

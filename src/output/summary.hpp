@@ -105,6 +105,8 @@ struct Summary {
   MomentumSummary linear_momentum, angular_momentum;
   std::vector<CheckSummary> checks;
   std::vector<VerdictItem> verdict;
+  std::vector<std::string> warnings;  ///< what is doubtful about the case, as `check` says it, and about the run
+  std::vector<std::string> notes;     ///< what was chosen or mended
   Outcome outcome = Outcome::error;
   std::string message;  ///< one sentence for the banner; the error's text when there is one
 };

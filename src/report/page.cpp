@@ -65,6 +65,7 @@ std::string footer(const ReportData& data) {
 std::string make_page(const ReportData& data) {
   std::string content = header(data);
   if (data.summary) {
+    content += warnings_list(*data.summary);
     content += verdict_table(*data.summary);
     content += checks_table(*data.summary, data.units);
   }

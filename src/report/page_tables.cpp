@@ -107,6 +107,17 @@ std::string verdict_table(const Summary& summary) {
   return html + "</tbody></table></div>\n</section>\n";
 }
 
+std::string warnings_list(const Summary& summary) {
+  const auto list = [](std::string_view title, std::string_view style, const std::vector<std::string>& lines) {
+    std::string html;
+    if (lines.empty()) return html;
+    html = fmt::format("<section>\n<h2>{}</h2>\n<ul class=\"{}\">\n", title, style);
+    for (const std::string& line : lines) html += fmt::format("<li>{}</li>\n", xml_escape(line));
+    return html + "</ul>\n</section>\n";
+  };
+  return list("Warnings", "notes", summary.warnings) + list("Notes", "remarks", summary.notes);
+}
+
 std::string checks_table(const Summary& summary, const Units& units) {
   if (summary.checks.empty()) return {};
   std::string html = fmt::format(

@@ -48,46 +48,49 @@ bool wants_filter(const Case& given) {
 
 }  // namespace
 
+RunTables::RunTables(const Simulation& simulation)
+    : contact(simulation),
+      probes(simulation),
+      exact(make_exact(simulation, probes)),
+      checks(simulation, {&energy.table(), &contact.table(), &probes.table()}, exact ? &*exact : nullptr) {}
+
 Recorder::Recorder(const Simulation& simulation, std::string folder)
     : simulation_(simulation),
       folder_(std::move(folder)),
-      contact_(simulation),
-      probes_(simulation),
-      exact_(make_exact(simulation, probes_)),
-      checks_(simulation, {&energy_.table(), &contact_.table(), &probes_.table()}, exact_ ? &*exact_ : nullptr),
-      energy_file_(prepared(folder_) + "/energy.csv", energy_.table().columns, comments(simulation, "energies")),
-      contact_file_(folder_ + "/contact.csv", contact_.table().columns,
+      tables_(simulation),
+      energy_file_(prepared(folder_) + "/energy.csv", tables_.energy.table().columns, comments(simulation, "energies")),
+      contact_file_(folder_ + "/contact.csv", tables_.contact.table().columns,
                     comments(simulation, "contact forces on the body")),
-      probes_file_(folder_ + "/probes.csv", probes_.table().columns, comments(simulation, "probes")),
+      probes_file_(folder_ + "/probes.csv", tables_.probes.table().columns, comments(simulation, "probes")),
       frames_(folder_ + "/fields.pvd"),
       cells_(simulation.given().output.fields.empty() ? VtuCells{} : vtu_cells(simulation)),
       frame_every_(simulation.given().output.fields_every > 0 ? simulation.given().output.fields_every
                                                               : std::max(1LL, (simulation.steps() + 49) / 50)) {
-  if (exact_) {
-    exact_file_.emplace(folder_ + "/exact.csv", exact_->table().columns, comments(simulation, "exact solution"));
+  if (tables_.exact) {
+    exact_file_.emplace(folder_ + "/exact.csv", tables_.exact->table().columns, comments(simulation, "exact solution"));
   }
 }
 
 void Recorder::record(const StepView& view, double end_weight, Moment moment) {
-  if (view.step != last_sample_) contact_.sample(view, end_weight);  // every step, once: the impulses are sums
+  if (view.step != last_sample_) tables_.contact.sample(view, end_weight);  // every step, once: the impulses are sums
   last_sample_ = view.step;
   const bool last = moment == Moment::last;
   const bool due = last || view.step % simulation_.given().output.curves_every == 0;
-  const bool is_checked = checks_.is_due(view.state.t, simulation_.dt());
+  const bool is_checked = tables_.checks.is_due(view.state.t, simulation_.dt());
   if (due || is_checked) {
-    energy_.sample(view);
-    probes_.sample(view);
+    tables_.energy.sample(view);
+    tables_.probes.sample(view);
   }
-  if (is_checked) checks_.sample(view.state.t);
+  if (is_checked) tables_.checks.sample(view.state.t);
   if (due && view.step != last_row_) {
     last_row_ = view.step;
-    energy_file_.append(energy_.table().row);
-    contact_file_.append(contact_.table().row);
-    probes_file_.append(probes_.table().row);
-    if (wants_filter(simulation_.given())) filtered_rows_.push_back(probes_.table().row);
-    if (exact_) {
-      exact_->sample(view.state.t);
-      exact_file_->append(exact_->table().row);
+    energy_file_.append(tables_.energy.table().row);
+    contact_file_.append(tables_.contact.table().row);
+    probes_file_.append(tables_.probes.table().row);
+    if (wants_filter(simulation_.given())) filtered_rows_.push_back(tables_.probes.table().row);
+    if (tables_.exact) {
+      tables_.exact->sample(view.state.t);
+      exact_file_->append(tables_.exact->table().row);
     }
   }
   if ((last || view.step % frame_every_ == 0) && view.step != last_frame_) record_frame(view);
@@ -151,8 +154,8 @@ void Recorder::write_filtered() const {
   std::vector<std::vector<double>> values;
   for (const CaseProbe& probe : given.probes) {
     if (!probe.cfc) continue;
-    for (std::size_t c = 1; c < probes_.table().columns.size(); ++c) {
-      const std::string& column = probes_.table().columns[c];
+    for (std::size_t c = 1; c < tables_.probes.table().columns.size(); ++c) {
+      const std::string& column = tables_.probes.table().columns[c];
       if (column.substr(0, column.rfind('.')) != *probe.name) continue;
       std::vector<double> raw;
       for (std::size_t i = 0; i < rows; ++i) raw.push_back(filtered_rows_[i][c]);

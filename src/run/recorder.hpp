@@ -15,10 +15,24 @@
 
 namespace carom {
 
+/// The curves of a case and what is checked on them; not movable, since the checks refer to the tables.
+struct RunTables {
+  /// Touches no file. Throws CaseError for probes, checks and exact solutions that do not fit.
+  explicit RunTables(const Simulation& simulation);
+  RunTables(const RunTables&) = delete;
+  RunTables& operator=(const RunTables&) = delete;
+
+  EnergyCurves energy;
+  ContactCurves contact;
+  ProbeCurves probes;
+  std::optional<ExactCurves> exact;
+  Checks checks;
+};
+
 /// Samples the curves, the checks and the fields at the steps where they are due.
 class Recorder {
  public:
-  /// Prepares the folder and opens its files. Throws OutputError, and CaseError for probes and checks.
+  /// Prepares the folder and opens its files. Throws OutputError, and CaseError as RunTables does.
   Recorder(const Simulation& simulation, std::string folder);
 
   /// To be called for the initial state and after every step; `last` forces everything out.
@@ -27,9 +41,9 @@ class Recorder {
   /// Writes the filtered curves and closes all files.
   void close();
 
-  std::vector<CheckSummary> checks() const { return checks_.results(); }
-  double worst_relative_penetration() const { return contact_.worst_relative_penetration(); }
-  double largest_pressure() const { return contact_.largest_pressure(); }
+  std::vector<CheckSummary> checks() const { return tables_.checks.results(); }
+  double worst_relative_penetration() const { return tables_.contact.worst_relative_penetration(); }
+  double largest_pressure() const { return tables_.contact.largest_pressure(); }
 
  private:
   void record_frame(const StepView& view);
@@ -37,11 +51,7 @@ class Recorder {
 
   const Simulation& simulation_;
   std::string folder_;
-  EnergyCurves energy_;
-  ContactCurves contact_;
-  ProbeCurves probes_;
-  std::optional<ExactCurves> exact_;
-  Checks checks_;
+  RunTables tables_;
   CsvFile energy_file_, contact_file_, probes_file_;
   std::optional<CsvFile> exact_file_;
   PvdCollection frames_;

@@ -373,6 +373,10 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
   std::fputs(fmt::format(format, std::forward<Values>(values)...).c_str(), stderr);
 }
 
+void say_lines(std::string_view kind, const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) say("{}: {}\n", kind, line);
+}
+
 void print_verdict(const Summary& summary, const std::string& folder) {
   for (const VerdictItem& item : summary.verdict) {
     if (!item.pass) say("FAILED  {}: {:.3g}, limit {:.3g} ({})\n", item.name, item.value, item.limit, item.explanation);
@@ -385,8 +389,8 @@ void print_verdict(const Summary& summary, const std::string& folder) {
     }
   }
   say("{}: {}\n", to_string(summary.outcome), summary.message);
-  say("{} steps in {:.3g} s; results in {}, open {}/report.html\n", summary.scheme.steps, summary.cost.wall_seconds,
-      folder, folder);
+  say("{} step{} in {:.3g} s; results in {}, open {}/report.html\n", summary.scheme.steps,
+      summary.scheme.steps == 1 ? "" : "s", summary.cost.wall_seconds, folder, folder);
 }
 
 /// The case with its mesh file as seen from the results folder, so that the resolved case can be run there.
@@ -419,14 +423,17 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   const Case given = read_case(case_file);
   const bool quiet = options.progress == ProgressMode::quiet;
   const Simulation simulation(given);
+  const std::vector<std::string> warnings = lint_warnings(simulation);
   if (!quiet) {
-    for (const std::string& warning : lint_warnings(simulation)) say("warning: {}\n", warning);
-    for (const std::string& note : simulation.notes()) say("note: {}\n", note);
+    say_lines("warning", warnings);
+    say_lines("note", simulation.notes());
   }
   Run run(simulation, options);
   write_file(options.folder + "/case.resolved.toml", resolved_toml(beside(given, options.folder)));
   write_file(options.folder + "/mesh.txt", mesh_summary(simulation.mesh()));
   Summary summary = summary_of(simulation);
+  summary.warnings = warnings;
+  summary.notes = simulation.notes();
   const double setup_seconds = seconds_since(begin);
   const Clock::time_point stepping = Clock::now();
   summary.outcome = Outcome::error;
@@ -446,6 +453,7 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   if (!quiet) {
     for (const std::string& line : run.log()) say("{}\n", line);
   }
+  summary.notes.insert(summary.notes.end(), run.log().begin(), run.log().end());
   run.recorder().close();
   run.fill(summary);
   summary.cost = {
@@ -453,7 +461,9 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   judge(summary);
   write_summary(options.folder + "/summary.json", summary);
   write_report(options.folder);
-  if (!quiet) print_verdict(summary, options.folder);
+  const bool is_good = summary.outcome == Outcome::good;
+  if (quiet && !is_good) say_lines("warning", warnings);
+  if (!quiet || !is_good) print_verdict(summary, options.folder);
   return exit_code(summary.outcome);
 }
 

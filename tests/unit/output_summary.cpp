@@ -37,6 +37,8 @@ Summary sample() {
   s.checks = {{"B.displacement_z", "displacement_z", "B", 1e-4, 1.5, 1.25, 0.25, 0.1, ToleranceKind::absolute, true,
                "manual V5.03.100, table 3.2"}};
   s.verdict = {{"energy balance", 1e-12, 1e-10, true, "largest imbalance over the run"}};
+  s.warnings = {"a warning", "another"};
+  s.notes = {"a note"};
   s.outcome = Outcome::stopped;
   s.message = "stopped at t = 2.5e-4";
   return s;
@@ -70,6 +72,8 @@ TEST(Summary, EveryFieldComesBack) {
   EXPECT_EQ(b.scheme.added_mass, a.scheme.added_mass);
   EXPECT_EQ(b.scheme.added_mass_share, a.scheme.added_mass_share);
   EXPECT_EQ(b.scheme.mass_notes, a.scheme.mass_notes);
+  EXPECT_EQ(b.warnings, a.warnings);
+  EXPECT_EQ(b.notes, a.notes);
   EXPECT_EQ(b.outcome, a.outcome);
   EXPECT_EQ(b.message, a.message);
   fs::remove(path);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "run/lint.hpp"
+#include "run/recorder.hpp"
 #include "run_fixture.hpp"
 
 namespace carom {
@@ -60,6 +61,19 @@ TEST(Lint, SaysWhenAContactIsReachedAfterTheEnd) {
   const std::string what = "is not reached before the end";
   EXPECT_FALSE(is_warned(second_body(3.5) + moving(1.0), what));
   EXPECT_TRUE(is_warned(second_body(3.5) + moving(0.4), what));  // 0.5 / 0.4 > 1
+}
+
+TEST(Lint, CheckRefusesWhatARunRefuses) {
+  const auto tables_of = [](const std::string& rest) {
+    const Case given = parse_case(case_of_block(rest + central_differences), "case.toml");
+    const Simulation simulation(given);
+    const RunTables tables(simulation);  // what `carom check` makes as well; touches no file
+  };
+  const std::string probe = "[[probe]]\nname = \"top\"\ngroup = \"HEAD\"\nquantities = [\"velocity\"]\n";
+  const std::string check = "[[check]]\nquantity = \"velocity_w\"\nplace = \"top\"\nvalue = 1.0\ntolerance = 0.1\n";
+  EXPECT_NO_THROW(tables_of(probe));
+  EXPECT_THROW(tables_of(probe + check), CaseError);
+  EXPECT_THROW(tables_of("[[probe]]\nname = \"n\"\nnode = 9999\nquantities = [\"velocity\"]\n"), CaseError);
 }
 
 }  // namespace
