@@ -134,10 +134,24 @@ void check_enforcement(const Case& given, const CaseScheme& scheme) {
   }
 }
 
+/// Surfaces in contact with themselves have forces between their parts: "<contact>.<second>_on_<first>".
+Names places_between_parts(const Case& given) {
+  Names places;
+  for (const CaseContact& contact : given.contacts) {
+    if (*contact.kind != CaseContact::Kind::all && *contact.kind != CaseContact::Kind::self) continue;
+    for (std::size_t second = 0; second < given.parts.size(); ++second) {
+      for (std::size_t first = 0; first < second; ++first)
+        places.push_back(
+            fmt::format("{}.{}_on_{}", *contact.name, *given.parts[second].name, *given.parts[first].name));
+    }
+  }
+  return places;
+}
+
 void check_checks(const Case& given) {
   Names places = names_of(given.probes);
-  const Names contacts = names_of(given.contacts);
-  places.insert(places.end(), contacts.begin(), contacts.end());
+  for (const Names& more : {names_of(given.contacts), places_between_parts(given)})
+    places.insert(places.end(), more.begin(), more.end());
   for (std::size_t i = 0; i < given.checks.size(); ++i) {
     const CaseCheck& check = given.checks[i];
     if (check.place)

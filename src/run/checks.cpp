@@ -19,6 +19,21 @@ std::string column_name(const CaseCheck& check) {
   return check.place ? **check.place + "." + quantity : quantity;
 }
 
+/// What to write instead of a column that is not there: where one surface touches itself, forces are those between its
+/// parts; else a near spelling.
+std::string remedy(const CaseCheck& check, const std::string& name, const std::vector<std::string>& columns) {
+  const std::string quantity = name.substr(name.rfind('.') + 1), place = check.place ? **check.place + "." : "";
+  std::vector<std::string> between;
+  for (const std::string& column : columns) {
+    if (!place.empty() && column.starts_with(place) && column.ends_with("." + quantity))
+      between.push_back(fmt::format("\"{}\"", column.substr(0, column.rfind('.'))));
+  }
+  if (!between.empty())
+    return fmt::format("Forces of this contact are those between parts: place = {}.", fmt::join(between, " or "));
+  const std::string near = nearest(name, columns);
+  return near.empty() ? "" : fmt::format("Did you mean \"{}\"?", near);
+}
+
 }  // namespace
 
 Checks::Checks(const Simulation& simulation, const std::vector<const CurveTable*>& tables, const ExactCurves* exact)
@@ -46,11 +61,9 @@ Checks::Watch Checks::watch(const CaseCheck& check, const std::vector<const Curv
     w.column = *column;
   }
   if (w.table == nullptr) {
-    const std::string near = nearest(name, all);
     throw CaseError(check.quantity.where, "check.quantity",
                     fmt::format("\"{}\", which no table of this run holds", name),
-                    "a column of probes.csv or contact.csv (with `place`), or energy.<term>",
-                    near.empty() ? "" : fmt::format("Did you mean \"{}\"?", near));
+                    "a column of probes.csv or contact.csv (with `place`), or energy.<term>", remedy(check, name, all));
   }
   if (check.exact) {
     const std::optional<double> reference = exact == nullptr ? std::nullopt : exact->value(name, w.time);

@@ -63,25 +63,4 @@ NodalContact nodal_contact(const ContactResponse& response, std::span<const doub
   return {std::move(own.pressure), std::move(own.gap), std::move(own.status)};
 }
 
-std::vector<ContactResultant> contact_resultants(const ContactResponse& response, const Mesh& mesh,
-                                                 std::span<const double> u, const std::vector<Vec3>& points) {
-  std::vector<ContactResultant> out(points.size());
-  const ConstraintRows& rows = *response.rows;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (response.status[r] == RowStatus::open) continue;
-    const auto c = static_cast<std::size_t>(rows.source[r]);
-    const Vec3& s = response.force[r];
-    const auto [begin, end] = entries_of_side(rows, r, rows.is_back[r]);
-    for (std::size_t k = begin; k < end; ++k) {
-      const auto n = static_cast<std::size_t>(rows.node[k]);
-      const RowBlock& b = rows.block[k];
-      const Vec3 force = add(scaled(b[0], s[0]), add(scaled(b[1], s[1]), scaled(b[2], s[2])));
-      const Vec3 x = add(mesh.coordinates[n], {u[3 * n], u[3 * n + 1], u[3 * n + 2]});
-      out[c].force = add(out[c].force, force);
-      out[c].moment = add(out[c].moment, cross(subtract(x, points[c]), force));
-    }
-  }
-  return out;
-}
-
 }  // namespace carom

@@ -1,11 +1,10 @@
-// Contact at the nodes, and its resultants.
+// Contact at the nodes.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "contact/response.hpp"
-#include "mesh/mesh.hpp"
 
 namespace carom {
 
@@ -18,14 +17,5 @@ struct NodalContact {
   std::vector<double> pressure, gap, status;
 };
 NodalContact nodal_contact(const ContactResponse& response, std::span<const double> u);
-
-/// Force of each contact on the body of its group, over both passes where there are two, and its moment about a point
-/// (force x length), in the deformed configuration.
-struct ContactResultant {
-  Vec3 force{}, moment{};
-};
-/// points: one per contact.
-std::vector<ContactResultant> contact_resultants(const ContactResponse& response, const Mesh& mesh,
-                                                 std::span<const double> u, const std::vector<Vec3>& points);
 
 }  // namespace carom

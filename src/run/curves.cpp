@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -116,28 +117,52 @@ double passes(const ContactDefinition& contact) {
   return pair->self || pair->method == PairMethod::two_pass ? 2.0 : 1.0;
 }
 
+constexpr std::array resultant_columns{"force_x",   "force_y",  "force_z",  "impulse_x", "impulse_y",
+                                       "impulse_z", "moment_x", "moment_y", "moment_z"};
+
+std::vector<Vec3> moment_points(const Case& given) {
+  std::vector<Vec3> points;
+  for (const CaseContact& contact : given.contacts) points.push_back(contact.moment_point);
+  return points;
+}
+
 }  // namespace
 
 ContactCurves::ContactCurves(const Simulation& simulation)
-    : model_(simulation.model()), mesh_(simulation.mesh()), contacts_(simulation.given().contacts.size()) {
+    : model_(simulation.model()),
+      contacts_(simulation.given().contacts.size()),
+      resultants_(model_, moment_points(simulation.given())) {
   table_.columns = {"time"};
   for (std::size_t c = 0; c < contacts_; ++c) {
-    const CaseContact& contact = simulation.given().contacts[c];
-    for (const char* name : {"force_x", "force_y", "force_z", "impulse_x", "impulse_y", "impulse_z", "moment_x",
-                             "moment_y", "moment_z", "penetration", "closed", "closings"}) {
-      table_.columns.push_back(fmt::format("{}.{}", *contact.name, name));
-    }
-    for (const std::string& name : motion_columns(model_, c))
-      table_.columns.push_back(fmt::format("{}.{}", *contact.name, name));
-    moment_points_.push_back(contact.moment_point);
+    const auto add_columns = [&](const std::string& place, const auto& names) {
+      for (const auto& name : names) table_.columns.push_back(fmt::format("{}.{}", place, name));
+    };
+    for (const ResultantPlace& place : resultants_.places())
+      if (place.contact == c) add_columns(place.name, resultant_columns);
+    const std::string& contact = *simulation.given().contacts[c].name;
+    add_columns(contact, std::array{"penetration", "closed", "closings"});
+    add_columns(contact, motion_columns(model_, c));
     passes_.push_back(passes(model_.contacts[c]));
   }
-  force_.resize(contacts_);
-  impulse_.resize(contacts_);
+  force_.resize(resultants_.places().size());
+  impulse_.resize(resultants_.places().size());
   closed_.resize(contacts_);
   closings_.resize(contacts_);
   const std::vector<double>& lengths = simulation.solid().cell_lengths();
   cell_length_ = *std::min_element(lengths.begin(), lengths.end());
+}
+
+void ContactCurves::add_resultants(std::size_t contact, const std::vector<ContactResultant>& resultants, double dt,
+                                   double end_weight) {
+  for (std::size_t k = 0; k < resultants.size(); ++k) {
+    if (resultants_.places()[k].contact != contact) continue;
+    const auto& [force, moment] = resultants[k];
+    for (std::size_t i = 0; i < 3; ++i)
+      impulse_[k][i] += dt * ((1.0 - end_weight) * force_[k][i] + end_weight * force[i]);
+    force_[k] = force;
+    for (const Vec3* v : std::array<const Vec3*, 3>{&force, &impulse_[k], &moment})
+      table_.row.insert(table_.row.end(), v->begin(), v->end());
+  }
 }
 
 void ContactCurves::add_motion(std::size_t contact, const State& state) {
@@ -163,8 +188,7 @@ void ContactCurves::add_motion(std::size_t contact, const State& state) {
 
 void ContactCurves::sample(const StepView& view, double end_weight) {
   const ConstraintRows& rows = *view.forces.rows.rows;
-  const std::vector<ContactResultant> resultants =
-      contact_resultants(view.forces.rows, mesh_, view.state.q, moment_points_);
+  const std::vector<ContactResultant> resultants = resultants_.of(view.forces.rows, view.state.q);
   std::vector<double> penetration(contacts_, 0.0), closed(contacts_, 0.0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (view.forces.rows.status[r] == RowStatus::open) continue;
@@ -175,15 +199,10 @@ void ContactCurves::sample(const StepView& view, double end_weight) {
   }
   table_.row = {view.state.t};
   for (std::size_t c = 0; c < contacts_; ++c) {
-    const Vec3 &force = resultants[c].force, &moment = resultants[c].moment;
-    for (std::size_t i = 0; i < 3; ++i) {
-      impulse_[c][i] += view.dt * ((1.0 - end_weight) * force_[c][i] + end_weight * force[i]);
-    }
-    force_[c] = force;
+    add_resultants(c, resultants, view.dt, end_weight);
     if (closed_[c] == 0.0 && closed[c] > 0.0) closings_[c] += 1.0;
     closed_[c] = closed[c];
-    table_.row.insert(table_.row.end(), {force[0], force[1], force[2], impulse_[c][0], impulse_[c][1], impulse_[c][2],
-                                         moment[0], moment[1], moment[2], penetration[c], closed[c], closings_[c]});
+    table_.row.insert(table_.row.end(), {penetration[c], closed[c], closings_[c]});
     add_motion(c, view.state);
     worst_penetration_ = std::max(worst_penetration_, penetration[c]);
   }

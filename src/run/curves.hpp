@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "energy/ledger.hpp"
-#include "run/contact_fields.hpp"
+#include "run/contact_resultants.hpp"
 #include "run/simulation.hpp"
 
 namespace carom {
@@ -43,9 +43,10 @@ class EnergyCurves {
   CurveTable table_;
 };
 
-/// contact.csv: for each contact the resultant force on the body, its impulse, its moment about the moment_point, the
-/// largest penetration, closed rows, and how often it went from open everywhere to closed somewhere; of an obstacle
-/// that moves the displacement and velocity of its centre, and where it turns its angular velocity.
+/// contact.csv: for each place of a contact (ContactResultants) the resultant force, its impulse and its moment about
+/// the moment_point; for each contact the largest penetration, closed rows, and how often it went from open everywhere
+/// to closed somewhere; of an obstacle that moves the displacement and velocity of its centre, and where it turns its
+/// angular velocity.
 class ContactCurves {
  public:
   explicit ContactCurves(const Simulation& simulation);
@@ -59,14 +60,15 @@ class ContactCurves {
   double largest_pressure() const { return largest_pressure_; }
 
  private:
+  void add_resultants(std::size_t contact, const std::vector<ContactResultant>& resultants, double dt,
+                      double end_weight);
   void add_motion(std::size_t contact, const State& state);
 
   const Model& model_;
-  const Mesh& mesh_;
   std::size_t contacts_;
-  std::vector<Vec3> moment_points_;
+  ContactResultants resultants_;
   CurveTable table_;
-  std::vector<Vec3> force_, impulse_;
+  std::vector<Vec3> force_, impulse_;  ///< of each resultant
   std::vector<double> closed_, closings_;
   double cell_length_ = 0.0;
   double worst_penetration_ = 0.0, largest_pressure_ = 0.0;

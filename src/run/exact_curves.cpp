@@ -170,9 +170,11 @@ class Builder {
     if (value && probes_.table().find(name)) columns_.push_back({name, value});
   }
 
+  /// Of the only resultant, where there is one.
   void add_force(const Value& value) {
-    if (given_.contacts.size() == 1)
-      columns_.push_back({fmt::format("{}.force_{}", *given_.contacts[0].name, letter_), value});
+    const ContactResultants resultants(simulation_.model(), std::vector<Vec3>(given_.contacts.size()));
+    if (resultants.places().size() == 1)
+      columns_.push_back({fmt::format("{}.force_{}", resultants.places()[0].name, letter_), value});
   }
 
   /// Lowest coordinate of the parts along the axis.
@@ -199,9 +201,11 @@ class Builder {
 
   int part_of_probe(std::size_t probe) const { return part_of_node(probes_.nodes(probe).front()); }
 
+  /// The part that the contact's force acts on: the first of two in self-contact (ResultantPlace).
   int slave_part() const {
     const auto* pair =
         simulation_.model().contacts.empty() ? nullptr : std::get_if<PairContact>(&simulation_.model().contacts[0]);
+    if (pair != nullptr && pair->self) return 0;
     return pair == nullptr || pair->slave.facets.empty() ? 1 : part_of_node(pair->slave.facets[0][0]);
   }
 

@@ -10,6 +10,7 @@
 #include "output/pvd.hpp"
 #include "output/vtu.hpp"
 #include "run/checks.hpp"
+#include "run/contact_fields.hpp"
 #include "run/curves.hpp"
 #include "run/exact_curves.hpp"
 

@@ -3,6 +3,7 @@
 
 #include "contact_rows_fixture.hpp"
 #include "run/contact_fields.hpp"
+#include "run/contact_resultants.hpp"
 
 namespace carom {
 namespace {
@@ -35,7 +36,7 @@ TEST(NodalContact, HasTheWholePressureOnBothSidesByEveryMethod) {
     const NodalContact nodes = nodal_contact(response, u);
     for (const double p : nodes.pressure) EXPECT_NEAR(p, pressure, 1e-12) << static_cast<int>(method);
     for (const double status : nodes.status) EXPECT_EQ(status, 2.0);
-    const ContactResultant sum = contact_resultants(response, *scene.model.mesh, u, {Vec3{}})[0];
+    const ContactResultant sum = ContactResultants(scene.model, {Vec3{}}).of(response, u)[0];
     EXPECT_NEAR(std::abs(sum.force[2]), pressure, 1e-12);  // on unit area: the body of the group has all of it
   }
 }

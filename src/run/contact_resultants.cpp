@@ -1,0 +1,158 @@
+#include "run/contact_resultants.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "math/vec3.hpp"
+
+namespace carom {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+const PairContact* self_contact(const Model& model, std::size_t contact) {
+  const auto* pair = std::get_if<PairContact>(&model.contacts[contact]);
+  return pair != nullptr && pair->self ? pair : nullptr;
+}
+
+bool is_ring(const ContactDefinition& contact) {
+  if (const auto* pair = std::get_if<PairContact>(&contact)) return pair->slave.section == Section::axisymmetric;
+  const auto* obstacle = std::get_if<ObstacleContact>(&contact);
+  return obstacle != nullptr && obstacle->surface.section == Section::axisymmetric;
+}
+
+std::string name_of(const ContactDefinition& contact) {
+  return std::visit([](const auto& c) { return c.name; }, contact);
+}
+
+/// The parts of every node, ascending.
+std::vector<std::vector<Index>> parts_of_nodes(const Model& model) {
+  std::vector<std::vector<Index>> parts(model.mesh->node_count());
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const Part& part = model.parts[p];
+    const auto n = at(node_count(part.type));
+    const std::vector<Index>& connectivity = model.mesh->block(part.type)->connectivity;
+    for (const Index cell : part.cells) {
+      for (std::size_t a = 0; a < n; ++a) {
+        std::vector<Index>& of_node = parts[at(connectivity[n * at(cell) + a])];
+        if (of_node.empty() || of_node.back() != static_cast<Index>(p)) of_node.push_back(static_cast<Index>(p));
+      }
+    }
+  }
+  return parts;
+}
+
+/// The nodes of a row's own side, and those of the other one.
+struct Sides {
+  std::size_t begin, split, end;
+};
+Sides sides(const ConstraintRows& rows, std::size_t r) {
+  const auto first = at(rows.begin[r]), last = at(rows.begin[r + 1]);
+  return {first, last - at(rows.behind[r]), last};
+}
+
+}  // namespace
+
+ContactResultants::ContactResultants(const Model& model, std::vector<Vec3> moment_points)
+    : mesh_(*model.mesh), moment_points_(std::move(moment_points)) {
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    first_place_.push_back(places_.size());
+    const PairContact* self = self_contact(model, c);
+    if (self == nullptr) {
+      places_.push_back({name_of(model.contacts[c]), c, std::nullopt, is_ring(model.contacts[c])});
+      continue;
+    }
+    if (parts_of_node_.empty()) parts_of_node_ = parts_of_nodes(model);
+    std::set<Index> held;
+    for (const Facet& facet : self->slave.facets) held.insert(part_of_side({facet.begin(), facet.end()}));
+    for (auto first = held.begin(); first != held.end(); ++first) {
+      for (auto second = std::next(first); second != held.end(); ++second) {
+        places_.push_back(
+            {fmt::format("{}.{}_on_{}", self->name, model.parts[at(*second)].name, model.parts[at(*first)].name), c,
+             std::pair{*first, *second}, is_ring(model.contacts[c])});
+      }
+    }
+  }
+  first_place_.push_back(places_.size());
+}
+
+/// The part that most of the nodes belong to, the first of those of equal number: nodes where two parts meet belong to
+/// both, their facets to one.
+Index ContactResultants::part_of_side(std::span<const Index> nodes) const {
+  std::map<Index, int> votes;
+  for (const Index n : nodes)
+    for (const Index part : parts_of_node_[at(n)]) ++votes[part];
+  const auto most =
+      std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == votes.end() ? -1 : most->first;
+}
+
+Index ContactResultants::part_of_node(Index node, Index preferred) const {
+  const std::vector<Index>& parts = parts_of_node_[at(node)];
+  if (parts.empty()) return -1;
+  return std::find(parts.begin(), parts.end(), preferred) != parts.end() ? preferred : parts.front();
+}
+
+std::size_t ContactResultants::place_of(std::size_t contact, std::pair<Index, Index> parts) const {
+  std::size_t place = first_place_[contact];
+  while (place < first_place_[contact + 1] && places_[place].parts != parts) ++place;
+  return place;
+}
+
+/// Adds sign times the force of the row on the node of an entry.
+void ContactResultants::add(const ContactResponse& response, std::size_t r, std::size_t entry, double sign,
+                            std::size_t place, std::span<const double> u, ContactResultant& sum) const {
+  const ConstraintRows& rows = *response.rows;
+  const Vec3 s = scaled(response.force[r], sign);
+  const RowBlock& b = rows.block[entry];
+  const std::size_t n = at(rows.node[entry]);
+  Vec3 force = carom::add(scaled(b[0], s[0]), carom::add(scaled(b[1], s[1]), scaled(b[2], s[2])));
+  Vec3 x = carom::add(mesh_.coordinates[n], {u[3 * n], u[3 * n + 1], u[3 * n + 2]});
+  sum.force = carom::add(sum.force, force);
+  if (places_[place].is_ring) x[0] = x[2] = force[0] = force[2] = 0.0;
+  sum.moment = carom::add(sum.moment, cross(subtract(x, moment_points_[places_[place].contact]), force));
+}
+
+/// A row of a surface in self-contact: its forces on the nodes of the other side, by their parts.
+void ContactResultants::add_between_parts(const ContactResponse& response, std::size_t r, std::span<const double> u,
+                                          std::vector<ContactResultant>& out) const {
+  const ConstraintRows& rows = *response.rows;
+  const auto c = at(rows.source[r]);
+  const auto [begin, split, end] = sides(rows, r);
+  const std::span<const Index> nodes(rows.node);
+  const Index own = part_of_side(nodes.subspan(begin, split - begin));
+  const Index other = part_of_side(nodes.subspan(split, end - split));
+  for (std::size_t k = split; k < end; ++k) {
+    const Index part = part_of_node(rows.node[k], other);
+    const std::size_t place = place_of(c, std::minmax(own, part));
+    if (place == first_place_[c + 1]) continue;  // of one part
+    add(response, r, k, part < own ? 1.0 : -1.0, place, u, out[place]);
+  }
+}
+
+std::vector<ContactResultant> ContactResultants::of(const ContactResponse& response, std::span<const double> u) const {
+  std::vector<ContactResultant> out(places_.size());
+  const ConstraintRows& rows = *response.rows;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (response.status[r] == RowStatus::open) continue;
+    const std::size_t place = first_place_[at(rows.source[r])];
+    if (place == first_place_[at(rows.source[r]) + 1]) continue;
+    if (places_[place].parts) {
+      add_between_parts(response, r, u, out);
+      continue;
+    }
+    const auto [begin, split, end] = sides(rows, r);
+    const bool is_back = rows.is_back[r];
+    for (std::size_t k = is_back ? split : begin; k < (is_back ? end : split); ++k)
+      add(response, r, k, 1.0, place, u, out[place]);
+  }
+  return out;
+}
+
+}  // namespace carom
