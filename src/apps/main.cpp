@@ -71,6 +71,7 @@ ExitCode check(const Arguments& arguments) {
   const carom::RunTables tables(simulation);  // refuses probes and checks that a run would refuse
   fmt::print("{}", carom::check_summary(simulation));
   for (const std::string& note : simulation.notes()) fmt::print("note: {}\n", note);
+  for (const std::string& note : tables.probes.notes()) fmt::print("note: {}\n", note);
   const std::vector<std::string> warnings = carom::lint_warnings(simulation);
   for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
   fmt::print("{}\n", warnings.empty() ? "ready to run" : fmt::format("{} warning(s)", warnings.size()));

@@ -32,6 +32,8 @@ struct CaseMesh {
   Location where;
   Located<std::string> file;  ///< "" when blocks are given; relative to the case file's folder
   std::vector<StructuredBlock> blocks;
+  enum class Unused : std::uint8_t { refuse, ignore };
+  Unused unused = Unused::refuse;  ///< cells that no part, interface or rigid surface takes
 };
 
 struct CaseMaterial {
@@ -192,6 +194,7 @@ struct CaseProbe {
   Located<std::string> name;
   std::optional<Located<std::int64_t>> node;     ///< file number
   std::optional<Located<Vec3>> point;            ///< nearest node
+  std::optional<double> within;                  ///< largest distance from point to node; default: the cell at the node
   std::optional<Located<std::string>> group;     ///< mean over its nodes; for `stress` the cells that touch them;
                                                  ///< for `section_force` the cells that touch them on the side `side`
   std::vector<Located<std::string>> quantities;  ///< displacement, velocity, acceleration, stress, section_force

@@ -76,6 +76,8 @@ SectionSchema<CaseProbe> probe_section() {
   s.key("name", &CaseProbe::name, "Name in results and in [[check]].", {.need = Need::required});
   s.key("node", &CaseProbe::node, "Number of the node in the mesh file.", {.range = at_least(0.0)});
   s.key("point", &CaseProbe::point, "The node of a part nearest to this point.", {.unit = Dimension::length});
+  s.key("within", &CaseProbe::within, "Largest distance from the point to its node.",
+        {.unit = Dimension::length, .range = at_least(0.0), .default_phrase = "the size of a cell at the node"});
   s.key("group", &CaseProbe::group, "Group: mean over its nodes; stress: over the cells that touch them.");
   s.key("quantities", &CaseProbe::quantities, "What to record.",
         {.choices = {"displacement", "velocity", "acceleration", "stress", "section_force"}, .need = Need::required});

@@ -145,6 +145,10 @@ SectionSchema<CaseMesh> mesh_section() {
   SectionSchema<CaseMesh> s("Where the mesh comes from: a file, or structured blocks.");
   s.key("file", &CaseMesh::file, "Gmsh (.msh) or MED (.med) file, relative to the folder of the case file.");
   s.tables("block", &CaseMesh::blocks, block_section());
+  s.key("unused", &CaseMesh::unused,
+        "What is done about cells that belong to no part, no interface, no rigid surface, and are no piece of the "
+        "boundary of other cells.",
+        {.choices = {"refuse", "ignore"}});
   s.description.alternatives = {{Alternatives::Count::exactly_one, {"file", "block"}}};
   s.finish = [](CaseMesh& mesh, const Node& node, const ReadContext& at) {
     if (!mesh.file->empty() || !mesh.blocks.empty()) return;

@@ -9,6 +9,7 @@
 #include "run/groups.hpp"
 #include "run/parts.hpp"
 #include "run/rigid_bodies.hpp"
+#include "run/unused_cells.hpp"
 
 namespace carom {
 
@@ -26,6 +27,7 @@ class Builder {
     for (const CaseLoad& load : case_.loads) add_load(load);
     for (const CaseInitial& initial : case_.initial) add_initial(initial);
     for (const CaseContact& contact : case_.contacts) add_contact(contact);
+    refuse_unused_cells(case_, mesh_, parts_);
   }
 
  private:

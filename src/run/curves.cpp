@@ -8,8 +8,7 @@
 #include <limits>
 
 #include "math/vec3.hpp"
-#include "run/groups.hpp"
-#include "run/rigid_bodies.hpp"
+#include "run/probe_place.hpp"
 
 namespace carom {
 
@@ -219,7 +218,8 @@ ProbeCurves::ProbeCurves(const Simulation& simulation) : simulation_(simulation)
   table_.columns = {"time"};
   for (const CaseProbe& given : simulation.given().probes) {
     Probe probe;
-    locate(given, probe);
+    const ProbePlace place = place_probe(given, simulation);
+    probe.nodes = place.nodes;
     Vec3 position{};
     for (const Index n : probe.nodes) {
       position = add(position, scaled(simulation.mesh().coordinates[static_cast<std::size_t>(n)],
@@ -229,36 +229,16 @@ ProbeCurves::ProbeCurves(const Simulation& simulation) : simulation_(simulation)
     find_cells(given, position, probe);
     add_columns(*given.name, probe);
     positions_.push_back(position);
+    if (given.point) note_node(given, place);
     probes_.push_back(std::move(probe));
   }
 }
 
-void ProbeCurves::locate(const CaseProbe& given, Probe& probe) const {
-  const Mesh& mesh = simulation_.mesh();
-  if (given.group) {
-    probe.nodes = Groups(mesh).nodes(*given.group, "probe.group");
-  } else if (given.node) {
-    const auto found = std::find(mesh.node_numbers.begin(), mesh.node_numbers.end(), **given.node);
-    if (found == mesh.node_numbers.end()) {
-      const auto [least, most] = std::minmax_element(mesh.node_numbers.begin(), mesh.node_numbers.end());
-      throw CaseError(given.node->where, "probe.node", fmt::format("{}, which the mesh does not have", **given.node),
-                      fmt::format("a node number of the mesh ({} to {})", *least, *most));
-    }
-    probe.nodes = {static_cast<Index>(found - mesh.node_numbers.begin())};
-  } else {
-    const std::vector<double>& mass = simulation_.mass().node_diagonal();
-    Index nearest_node = 0;
-    double best = std::numeric_limits<double>::infinity();
-    const std::size_t of_parts = mesh.node_count() - carrier_nodes(simulation_.given());
-    for (std::size_t n = 0; n < of_parts; ++n) {
-      if (mass[n] == 0.0) continue;
-      const double distance = norm(subtract(mesh.coordinates[n], **given.point));
-      if (distance >= best) continue;
-      best = distance;
-      nearest_node = static_cast<Index>(n);
-    }
-    probe.nodes = {nearest_node};
-  }
+void ProbeCurves::note_node(const CaseProbe& given, const ProbePlace& place) {
+  const auto n = static_cast<std::size_t>(place.nodes[0]);
+  const Vec3& x = simulation_.mesh().coordinates[n];
+  notes_.push_back(fmt::format("probe \"{}\": node {} at ({:.6g}, {:.6g}, {:.6g}), {:.3g} from the point", *given.name,
+                               simulation_.mesh().node_numbers[n], x[0], x[1], x[2], place.distance));
 }
 
 void ProbeCurves::find_cells(const CaseProbe& given, const Vec3& position, Probe& probe) const {
@@ -268,6 +248,7 @@ void ProbeCurves::find_cells(const CaseProbe& given, const Vec3& position, Probe
   if (!asks("stress") && !asks("section_force")) return;
   const Mesh& mesh = simulation_.mesh();
   const Solid& solid = simulation_.solid();
+  const Vec3 across = given.side ? across_section(given, probe.nodes, mesh) : Vec3{};
   std::vector<bool> is_member(mesh.node_count(), false);
   for (const Index n : probe.nodes) is_member[static_cast<std::size_t>(n)] = true;
   for (std::size_t k = 0; k < solid.cell_count(); ++k) {
@@ -281,7 +262,7 @@ void ProbeCurves::find_cells(const CaseProbe& given, const Vec3& position, Probe
     }
     if (!touches) continue;
     probe.cells.push_back(static_cast<Index>(k));
-    if (given.side && dot(subtract(centre, position), *given.side) > 0.0)
+    if (given.side && dot(subtract(centre, position), across) > 0.0)
       probe.section_cells.push_back(static_cast<Index>(k));
   }
   const bool nothing_to_sum = asks("section_force") && probe.section_cells.empty();

@@ -9,6 +9,7 @@
 
 #include "energy/ledger.hpp"
 #include "run/contact_resultants.hpp"
+#include "run/probe_place.hpp"
 #include "run/simulation.hpp"
 
 namespace carom {
@@ -79,12 +80,14 @@ class ContactCurves {
 /// probe's side pull the section with (minus their internal force on its nodes).
 class ProbeCurves {
  public:
-  /// Throws CaseError for nodes and groups that do not exist.
+  /// Throws CaseError as place_probe and across_section do.
   explicit ProbeCurves(const Simulation& simulation);
   void sample(const StepView& view);
   const CurveTable& table() const { return table_; }
   /// Mean reference position of each probe, in the order of Case::probes.
   const std::vector<Vec3>& positions() const { return positions_; }
+  /// Which node stands for each point, and how far from it.
+  const std::vector<std::string>& notes() const { return notes_; }
   const std::vector<Index>& nodes(std::size_t probe) const { return probes_[probe].nodes; }
 
  private:
@@ -94,13 +97,14 @@ class ProbeCurves {
     std::vector<Index> section_cells;  ///< those of them on the probe's side
     std::vector<std::string> quantities;
   };
-  void locate(const CaseProbe& given, Probe& probe) const;
+  void note_node(const CaseProbe& given, const ProbePlace& place);
   void find_cells(const CaseProbe& given, const Vec3& position, Probe& probe) const;
   void add_columns(const std::string& name, const Probe& probe);
 
   const Simulation& simulation_;
   std::vector<Probe> probes_;
   std::vector<Vec3> positions_;
+  std::vector<std::string> notes_;
   CurveTable table_;
   std::vector<double> section_work_;
 };

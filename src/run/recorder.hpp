@@ -42,6 +42,8 @@ class Recorder {
   /// Writes the filtered curves and closes all files.
   void close();
 
+  /// Where probes stand.
+  const std::vector<std::string>& notes() const { return tables_.probes.notes(); }
   std::vector<CheckSummary> checks() const { return tables_.checks.results(); }
   double worst_relative_penetration() const { return tables_.contact.worst_relative_penetration(); }
   double largest_pressure() const { return tables_.contact.largest_pressure(); }

@@ -424,16 +424,18 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   const bool quiet = options.progress == ProgressMode::quiet;
   const Simulation simulation(given);
   const std::vector<std::string> warnings = lint_warnings(simulation);
+  Run run(simulation, options);
+  std::vector<std::string> notes = simulation.notes();
+  notes.insert(notes.end(), run.recorder().notes().begin(), run.recorder().notes().end());
   if (!quiet) {
     say_lines("warning", warnings);
-    say_lines("note", simulation.notes());
+    say_lines("note", notes);
   }
-  Run run(simulation, options);
   write_file(options.folder + "/case.resolved.toml", resolved_toml(beside(given, options.folder)));
   write_file(options.folder + "/mesh.txt", mesh_summary(simulation.mesh()));
   Summary summary = summary_of(simulation);
   summary.warnings = warnings;
-  summary.notes = simulation.notes();
+  summary.notes = std::move(notes);
   const double setup_seconds = seconds_since(begin);
   const Clock::time_point stepping = Clock::now();
   summary.outcome = Outcome::error;

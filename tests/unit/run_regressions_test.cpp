@@ -320,7 +320,7 @@ group = "BASE_HEAD"
 }
 
 TEST(RunRegressions, PointsFindNodesOfParts) {
-  const TemporaryCase one(case_of_block(with_base(R"(
+  const TemporaryCase one("mesh.unused = \"ignore\"\n" + case_of_block(with_base(R"(
 [[initial]]
 part = "body"
 velocity = [0.0, 0.0, 0.25]

@@ -26,6 +26,7 @@ end = 2.0
 [[probe]]
 name = "near"
 point = [1.0, 1.0, -9.0]
+within = 9.0
 quantities = ["velocity"]
 )");
 }

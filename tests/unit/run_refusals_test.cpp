@@ -1,0 +1,89 @@
+// What a case is refused for before it runs, beyond its single sections: what no part takes, and where probes stand.
+#include <gtest/gtest.h>
+
+#include "run/recorder.hpp"
+#include "run_fixture.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+const std::string newmark = "[scheme]\nkind = \"newmark\"\n[time]\nend = 1.0\nstep = 0.1\n";
+
+/// A second block beside the body that no part takes.
+const std::string forgotten =
+    "[[mesh.block]]\norigin = [5.0, 0.0, 0.0]\nsize = [1.0, 1.0, 2.0]\ndivisions = [1, 1, 2]\n"
+    "groups = { cells = \"FORGOTTEN\" }\n";
+
+/// A rigid sheet under the body; a contact takes it or does not.
+const std::string sheet =
+    "[[mesh.block]]\nkind = \"quad\"\norigin = [-1.0, -1.0, -0.1]\nsize = [4.0, 4.0]\ndivisions = [1, 1]\n"
+    "groups = { cells = \"SHEET\" }\n";
+const std::string on_sheet =
+    "[[contact]]\nname = \"floor\"\nkind = \"surface\"\nsurface = \"SHEET\"\ngroup = \"FOOT\"\n";
+
+CaseError tables_error(const std::string& rest) {
+  const Case given = parse_case(case_of_block(rest + newmark), "case.toml");
+  const Simulation simulation(given);
+  try {
+    const RunTables tables(simulation);
+  } catch (const CaseError& e) {
+    return e;
+  }
+  ADD_FAILURE() << "no error for\n" << rest;
+  return {{}, "", "", ""};
+}
+
+std::vector<std::string> probe_notes(const std::string& rest) {
+  const Case given = parse_case(case_of_block(rest + newmark), "case.toml");
+  const Simulation simulation(given);
+  return RunTables(simulation).probes.notes();
+}
+
+TEST(UnusedCells, AreNamedWithTheirCount) {
+  const CaseError error = case_error(case_of_block(forgotten + newmark));
+  EXPECT_EQ(error.key(), "mesh");
+  EXPECT_NE(error.found().find("2 HEXA8 in \"FORGOTTEN\" (cell 13 and others)"), std::string::npos) << error.found();
+  EXPECT_NE(error.suggestion().find("mesh.unused = \"ignore\""), std::string::npos);
+  const CaseError free_face = case_error(case_of_block(sheet + newmark));
+  EXPECT_NE(free_face.found().find("1 QUAD4 in \"SHEET\""), std::string::npos) << free_face.found();
+}
+
+TEST(UnusedCells, AreTakenWhereAContactUsesThemOrTheCaseSaysSo) {
+  const auto builds = [](const std::string& text) {
+    const Case given = parse_case(text, "case.toml");
+    const Simulation simulation(given);
+  };
+  EXPECT_NO_THROW(builds(case_of_block(sheet + on_sheet + newmark)));
+  EXPECT_NO_THROW(builds("mesh.unused = \"ignore\"\n" + case_of_block(forgotten + newmark)));
+}
+
+TEST(ProbePlace, IsRefusedBeyondACell) {
+  const auto probe = [](const std::string& where) {
+    return "[[probe]]\nname = \"far\"\nquantities = [\"velocity\"]\n" + where;
+  };
+  // A cell's longest line is sqrt(3): 1.7 from the corner (2, 2, 3) is within it, 1.8 is not.
+  const std::vector<std::string> notes = probe_notes(probe("point = [3.7, 2.0, 3.0]\n"));
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("at (2, 2, 3), 1.7 from the point"), std::string::npos) << notes[0];
+  EXPECT_EQ(tables_error(probe("point = [3.8, 2.0, 3.0]\n")).key(), "probe.point");
+  EXPECT_EQ(tables_error(probe("point = [1000.0, 2.0, 3.0]\n")).key(), "probe.point");
+  EXPECT_EQ(probe_notes(probe("point = [1000.0, 2.0, 3.0]\nwithin = 1000.0\n")).size(), 1U);
+  EXPECT_EQ(tables_error(probe("point = [3.7, 2.0, 3.0]\nwithin = 1.0\n")).key(), "probe.point");
+}
+
+TEST(SectionForce, NeedsASideAcrossItsSection) {
+  const auto section = [](const std::string& side) {
+    return "[[probe]]\nname = \"cut\"\ngroup = \"FOOT\"\nquantities = [\"section_force\"]\nside = " + side + "\n";
+  };
+  EXPECT_EQ(probe_notes(section("[0.0, 0.0, 1.0]")).size(), 0U);
+  EXPECT_EQ(tables_error(section("[1.0, 1.0, 0.0]")).key(), "probe.side");
+  EXPECT_EQ(tables_error(section("[1.0, 0.0, 0.001]")).key(), "probe.side");
+  // Along the section as much as across it: the cells above are taken whichever way it leans, none below are.
+  EXPECT_EQ(probe_notes(section("[1.0, 0.0, 0.5]")).size(), 0U);
+  EXPECT_EQ(tables_error(section("[1.0, 0.0, -0.5]")).key(), "probe");
+}
+
+}  // namespace
+}  // namespace carom
