@@ -16,6 +16,7 @@
 #include "mesh/skin.hpp"
 #include "output/cfc_filter.hpp"
 #include "run/groups.hpp"
+#include "run/locking.hpp"
 #include "run/parts.hpp"
 #include "schemes/touch_rebound.hpp"
 
@@ -281,6 +282,7 @@ std::vector<std::string> lint_warnings(const Simulation& s) {
   lint_scheme(s, out);
   lint_touches(s, out);
   lint_filters(s, out);
+  for (std::string& warning : locking_warnings(s)) out.push_back(std::move(warning));
   return out;
 }
 

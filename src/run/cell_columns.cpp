@@ -1,0 +1,105 @@
+#include "run/cell_columns.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+#include "mesh/cell_topology.hpp"
+
+namespace carom {
+
+namespace {
+
+/// Sides of a cell: 2 axis and 2 axis + 1 lie opposite to each other. Of a QUAD4 its edges, -1 for none.
+constexpr int none = -1;
+constexpr std::array<std::array<int, 4>, 6> hexa8_sides{
+    {{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}}};
+constexpr std::array<std::array<int, 4>, 6> quad4_sides{{{0, 3, none, none},
+                                                         {1, 2, none, none},
+                                                         {0, 1, none, none},
+                                                         {3, 2, none, none},
+                                                         {none, none, none, none},
+                                                         {none, none, none, none}}};
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+CellColumns::CellColumns(const Mesh& mesh, const Solid& solid)
+    : mesh_(mesh), solid_(solid), of_cell_(solid.cell_count(), {none, none, none}) {
+  find_neighbours();
+  for (std::size_t k = 0; k < solid_.cell_count(); ++k) {
+    for (int axis = 0; axis < dimension(k); ++axis) {
+      for (const Side side : {6 * k + 2 * at(axis), 6 * k + 2 * at(axis) + 1})
+        if (neighbour_[side] < 0 && of_cell_[k][at(axis)] < 0) walk(side);
+    }
+  }
+}
+
+int CellColumns::dimension(std::size_t k) const {
+  const std::size_t nodes = solid_.nodes_of_cell(k).size();
+  return nodes == 8 ? 3 : (nodes == 4 ? 2 : 0);
+}
+
+Facet CellColumns::facet(Side side) const {
+  const std::span<const Index> nodes = solid_.nodes_of_cell(side / 6);
+  Facet facet;
+  for (const int local : (nodes.size() == 8 ? hexa8_sides : quad4_sides)[side % 6])
+    if (local != none) facet.node[at(facet.size++)] = nodes[at(local)];
+  return facet;
+}
+
+Vec3 CellColumns::middle(Side side) const {
+  const Facet f = facet(side);
+  Vec3 sum{};
+  for (const Index n : f) sum = add(sum, mesh_.coordinates[at(n)]);
+  return scaled(sum, 1.0 / f.size);
+}
+
+double CellColumns::length(std::size_t k, int axis) const {
+  const Side side = 6 * k + 2 * at(axis);
+  return norm(subtract(middle(side + 1), middle(side)));
+}
+
+void CellColumns::find_neighbours() {
+  struct Face {
+    std::array<Index, 4> key;
+    Side side;
+  };
+  std::vector<Face> faces;
+  faces.reserve(6 * solid_.cell_count());
+  for (std::size_t k = 0; k < solid_.cell_count(); ++k) {
+    for (Side side = 6 * k; side < 6 * k + 2 * at(dimension(k)); ++side) {
+      faces.push_back({facet(side).node, side});
+      std::sort(faces.back().key.begin(), faces.back().key.end());
+    }
+  }
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
+  neighbour_.assign(6 * solid_.cell_count(), -1);
+  for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
+    if (faces[i].key != faces[i + 1].key) continue;
+    neighbour_[faces[i].side] = static_cast<std::ptrdiff_t>(faces[i + 1].side);
+    neighbour_[faces[i + 1].side] = static_cast<std::ptrdiff_t>(faces[i].side);
+  }
+}
+
+void CellColumns::walk(Side start) {
+  CellColumn column{0, 0.0, {}, facet(start), {}};
+  Side side = start, opposite = start ^ 1U;
+  for (;;) {
+    of_cell_[side / 6][side % 6 / 2] = static_cast<Index>(columns_.size());
+    ++column.cells;
+    opposite = side / 6 * 6 + ((side % 6) ^ 1U);
+    column.length += norm(subtract(middle(opposite), middle(side)));
+    if (neighbour_[opposite] < 0 || at(static_cast<Index>(column.cells)) > solid_.cell_count()) break;
+    side = static_cast<Side>(neighbour_[opposite]);
+  }
+  column.last = facet(opposite);
+  const Vec3 way = subtract(middle(opposite), middle(start));
+  if (norm(way) > 0.0) column.direction = scaled(way, 1.0 / norm(way));
+  columns_.push_back(column);
+}
+
+}  // namespace carom

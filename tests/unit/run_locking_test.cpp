@@ -1,0 +1,159 @@
+// Where fully integrated cells lock: the estimate against the solver and closed forms, and when it is said.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "run/cell_columns.hpp"
+#include "run/locking.hpp"
+#include "run_fixture.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+/// A cantilever of height 1 with n cells of length a through it, loaded across at its end, E = 1000.
+struct Cantilever {
+  int cells = 1, along = 20;
+  double length = 20.0, nu = 0.0;
+  const char* section = "plane_stress";
+
+  std::string text() const {
+    return fmt::format(R"(units = "SI"
+[[mesh.block]]
+kind = "quad"
+size = [{0}, 1.0]
+divisions = [{1}, {2}]
+groups = {{ cells = "BEAM", xmin = "ROOT", xmax = "TIP" }}
+[materials.m]
+law = "linear_elastic"
+E = 1000.0
+nu = {3}
+rho = 1000.0
+[[part]]
+name = "beam"
+cells = "BEAM"
+material = "m"
+section = "{4}"
+[[support]]
+nodes = "ROOT"
+blocked = ["x", "y"]
+[[load]]
+group = "TIP"
+force = [0.0, {5}, 0.0]
+[[probe]]
+name = "tip"
+group = "TIP"
+quantities = ["displacement"]
+[scheme]
+kind = "statics"
+[time]
+end = 1.0
+step = 1.0
+[output]
+fields = []
+)",
+                       length, along, cells, nu, section, -1e-3 / (cells + 1));
+  }
+  double length_to_height() const { return length / along; }
+  /// Bernoulli's F L^3 / (3 E I), F = 1e-3, I = 1/12; E / (1 - nu^2) in plane strain.
+  double exact() const {
+    const double modulus = section == std::string("plane_strain") ? 1000.0 / (1.0 - nu * nu) : 1000.0;
+    return 1e-3 * length * length * length / (3.0 * modulus / 12.0);
+  }
+};
+
+bool locks(const std::string& text) {
+  const Case given = parse_case(text, "case.toml");
+  const Simulation simulation(given);
+  const std::vector<std::string> warnings = locking_warnings(simulation);
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [](const std::string& w) { return w.find("lock") != std::string::npos; });
+}
+
+TEST(Locking, TheEstimateIsWhatTheSolverLoses) {
+  const auto check = [](const Cantilever& beam) {
+    const TemporaryCase one(beam.text());
+    ASSERT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
+    const double lost = beam.exact() / -last_row(one.result("probes.csv")).at("tip.displacement_y");
+    const BentLayer layer{beam.cells, beam.length_to_height(), beam.nu};
+    const bool is_plate = beam.section == std::string("plane_strain");
+    const double estimate = is_plate ? plate_stiffness_ratio(layer) : strip_stiffness_ratio(layer);
+    // The clamp and the shear of a beam 20 times as long as high change the deflection by some percent.
+    EXPECT_NEAR(lost / estimate, 1.0, 0.08) << beam.text();
+  };
+  check({1, 20, 20.0, 0.0, "plane_stress"});
+  check({1, 5, 20.0, 0.3, "plane_stress"});
+  check({4, 10, 20.0, 0.3, "plane_stress"});
+  check({1, 20, 20.0, 0.3, "plane_strain"});
+  check({1, 40, 20.0, 0.45, "plane_strain"});
+  check({2, 40, 20.0, 0.49, "plane_strain"});
+  check({3, 20, 20.0, 0.3, "plane_strain"});
+}
+
+TEST(Locking, IsSaidOfWhatIsBentAlone) {
+  EXPECT_TRUE(locks(Cantilever{1, 20, 20.0, 0.3, "plane_strain"}.text()));
+  EXPECT_FALSE(locks(Cantilever{4, 60, 20.0, 0.3, "plane_strain"}.text()));
+  EXPECT_FALSE(locks(Cantilever{1, 4, 4.0, 0.3, "plane_strain"}.text()));  // a block: as high as a quarter of it
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = Cantilever{1, 20, 20.0, 0.3, "plane_strain"}.text();
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  EXPECT_FALSE(locks(with("force = [0.0, -0.0005, 0.0]", "force = [-0.0005, 0.0, 0.0]")));  // pressed along
+  // A plane of symmetry along one side: it is pulled and pressed, not bent.
+  EXPECT_FALSE(locks(with("[[load]]", "[[support]]\nnodes = \"BEAM\"\nblocked = [\"y\"]\n[[load]]")));
+}
+
+TEST(Locking, IsSaidNearIncompressibility) {
+  const auto block = [](double nu, int cells) {
+    return fmt::format(R"(units = "SI"
+[[mesh.block]]
+size = [1.0, 1.0, 1.0]
+divisions = [{1}, {1}, {1}]
+groups = {{ cells = "BODY", zmin = "FOOT" }}
+[materials.m]
+law = "linear_elastic"
+E = 1000.0
+nu = {0}
+rho = 1000.0
+[[part]]
+name = "body"
+cells = "BODY"
+material = "m"
+[scheme]
+kind = "newmark"
+[time]
+end = 1.0
+step = 1.0
+)",
+                       nu, cells);
+  };
+  EXPECT_FALSE(locks(block(0.3, 1)));
+  EXPECT_TRUE(locks(block(0.499, 4)));   // 1 + 124.5 / 16
+  EXPECT_FALSE(locks(block(0.49, 6)));   // 1 + 12 / 36
+  EXPECT_TRUE(locks(block(0.4999, 8)));  // 1 + 1250 / 64
+}
+
+TEST(CellColumns, CountCellsFromSkinToSkin) {
+  const Case given = parse_case(case_of_block("[scheme]\nkind = \"newmark\"\n[time]\nend = 1.0\nstep = 1.0\n"), "c");
+  const Simulation s(given);
+  const CellColumns columns(s.mesh(), s.solid());
+  for (std::size_t k = 0; k < s.solid().cell_count(); ++k) {
+    ASSERT_EQ(columns.dimension(k), 3);
+    std::array<int, 3> cells{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const CellColumn& column = columns.column(k, axis);
+      cells[static_cast<std::size_t>(axis)] = column.cells;
+      EXPECT_NEAR(column.length, column.cells, 1e-14);  // unit cells
+      EXPECT_NEAR(columns.length(k, axis), 1.0, 1e-15);
+    }
+    std::sort(cells.begin(), cells.end());
+    EXPECT_EQ(cells, (std::array<int, 3>{2, 2, 3}));
+  }
+}
+
+}  // namespace
+}  // namespace carom
