@@ -5,7 +5,7 @@
 namespace carom {
 
 std::optional<double> contact_event(const State& begin, const State& end, const ContactResponse& at_end,
-                                    const EventTolerance& tolerance) {
+                                    double tolerance) {
   const ConstraintRows& rows = *at_end.rows;
   const double h = end.t - begin.t;
   std::optional<double> first;
@@ -13,10 +13,10 @@ std::optional<double> contact_event(const State& begin, const State& end, const 
     if (at_end.status[r] == RowStatus::open || rows.is_closed(r, begin.q)) continue;
     const double before = rows.gap_at(r, begin.q);
     const double after = std::min(rows.gap_at(r, end.q), before + h * rows.relative(r, begin.v)[0]);
-    if (after >= -tolerance.depth || before <= 0.0) continue;
+    if (after >= 0.0 || before <= 0.0) continue;
     const double touch = before / (before - after);
-    if ((1.0 - touch) * h <= tolerance.time) continue;
-    const double wanted = touch + 0.5 * (tolerance.depth / (before - after) + tolerance.time / h);
+    if ((1.0 - touch) * h <= tolerance) continue;
+    const double wanted = touch + 0.5 * tolerance / h;
     first = std::min(wanted, first.value_or(wanted));
   }
   return first;

@@ -37,6 +37,7 @@ class Stage {
   const Mass& mass() const { return mass_; }
   const Supports& supports() const { return supports_; }
   const System& system() const { return system_; }
+  const Model& model() const { return context_.model; }
   double begin() const { return begin_; }
   double end() const { return *time_.end; }
   /// The usual step and the number of steps of that length that reach the end exactly.

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
 #include "base/errors.hpp"
+#include "run/contact_event.hpp"
 
 namespace carom {
 
@@ -15,12 +17,9 @@ StepControl::Halving halving_of(const Stage& stage) {
   return may_halve ? StepControl::Halving::allowed : StepControl::Halving::forbidden;
 }
 
-std::optional<EventTolerance> event_tolerance_of(const Stage& stage) {
-  const std::optional<double>& given = stage.time().event_tolerance;
-  if (given) return EventTolerance{.time = *given * stage.dt()};
-  if (!is_explicit(stage.settings().kind) || stage.system().contact.is_fixed()) return std::nullopt;
-  const std::vector<double>& lengths = stage.system().solid.cell_lengths();
-  return EventTolerance{.depth = 0.5 * *std::min_element(lengths.begin(), lengths.end())};
+const std::string& contact_name(const Model& model, Index contact) {
+  return std::visit([](const auto& c) -> const std::string& { return c.name; },
+                    model.contacts[static_cast<std::size_t>(contact)]);
 }
 
 }  // namespace
@@ -28,8 +27,16 @@ std::optional<EventTolerance> event_tolerance_of(const Stage& stage) {
 StepGuard::StepGuard(const Stage& stage)
     : stage_(stage),
       control_(stage.begin(), stage.dt(), stage.steps(), halving_of(stage)),
-      tolerance_(event_tolerance_of(stage)) {
+      event_tolerance_(stage.time().event_tolerance.value_or(0.0) * stage.dt()) {
+  if (stage.settings().kind != SchemeKind::statics && stage.system().contact.slots() > 0)
+    motion_.emplace(stage.model(), stage.system().solid);
   if (stage.stable_step_changes()) watch_.emplace(stage.watch_stable_step());
+}
+
+void StepGuard::limit_motion(const State& now, const ConstraintRows& rows) {
+  if (!motion_ || !is_explicit(stage_.settings().kind)) return;
+  const double longest = motion_->longest_step(now, rows);
+  if (longest < control_.dt()) control_.cut(longest / control_.dt());
 }
 
 bool StepGuard::is_to_be_repeated(const State& begin, const State& end, const Forces& forces, long long step) {
@@ -39,16 +46,41 @@ bool StepGuard::is_to_be_repeated(const State& begin, const State& end, const Fo
     follow_stable_step(begin, end, step);
     if (control_.dt() < dt * (1.0 - 1e-9)) return true;
   }
-  if (!tolerance_ || cuts_ == most_cuts) return false;
-  const std::optional<double> fraction = contact_event(begin, end, forces.rows, *tolerance_);
-  if (!fraction || !control_.cut(*fraction)) return false;
+  if (cuts_ == most_cuts) return false;
+  if (!moves_too_far(begin, end, forces, step) && !ends_late(begin, end, forces)) return false;
   ++cuts_;
+  return true;
+}
+
+/// Cuts a step that carries contact too far.
+bool StepGuard::moves_too_far(const State& begin, const State& end, const Forces& forces, long long step) {
+  if (!motion_) return false;
+  const std::optional<MotionLimit::Overrun> overrun = motion_->overrun(begin, end, forces.rows);
+  if (!overrun) return false;
+  if (stage_.time().fixed) {
+    throw RunError(
+        static_cast<int>(step), end.t,
+        fmt::format("contact \"{}\" closes by {:.3g} of a cell within one step, more than the half that it "
+                    "may, and the case fixes the step: lower time.step to about {:.2g}, or leave out "
+                    "fixed = true to have such steps cut",
+                    contact_name(stage_.model(), overrun->contact), overrun->depth, overrun->fraction * control_.dt()));
+  }
+  return control_.cut(overrun->fraction);
+}
+
+/// Cuts a step in which contact closes long before the end.
+bool StepGuard::ends_late(const State& begin, const State& end, const Forces& forces) {
+  if (event_tolerance_ == 0.0) return false;
+  const std::optional<double> fraction = contact_event(begin, end, forces.rows, event_tolerance_);
+  if (!fraction || !control_.cut(*fraction)) return false;
+  is_at_event_ = true;
   return true;
 }
 
 void StepGuard::accept() {
   control_.accept();
-  if (cuts_ > 0 && tolerance_->time > 0.0) control_.refine(tolerance_->time);
+  if (is_at_event_) control_.refine(event_tolerance_);
+  is_at_event_ = false;
   cuts_ = 0;
 }
 

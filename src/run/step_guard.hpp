@@ -3,18 +3,19 @@
 
 #include <optional>
 
-#include "run/contact_event.hpp"
+#include "run/motion_limit.hpp"
 #include "run/stage.hpp"
 #include "run/step_control.hpp"
 
 namespace carom {
 
+/// Contact that closes too far within a step (MotionLimit) has it made again, shorter; explicit steps are kept short
+/// enough beforehand. Where the case fixes the step, the run stops. Statics are free to move as far as they like.
 /// Implicit stages with time.event_tolerance: a step in which rows close earlier before its end than the tolerance, as
-/// a fraction of the usual step, is made again so that it ends at the touch (contact_event), at most eight times; the
-/// steps after it are no longer than the tolerance either, and grow again. Explicit stages whose stable step changes: a
-/// step with springs on rows that the last estimate did not know is made again where they make it unstable; and one in
-/// which rows that move close by more than half of the smallest cell ends at the touch, since a row that deep may be
-/// lost in the next step.
+/// a fraction of the usual step, is made again so that it ends at the touch (contact_event); the steps after it are no
+/// longer than the tolerance either, and grow again. Both at most eight times in a step. Explicit stages whose stable
+/// step changes: a step with springs on rows that the last estimate did not know is made again where they make it
+/// unstable.
 class StepGuard {
  public:
   explicit StepGuard(const Stage& stage);
@@ -22,8 +23,10 @@ class StepGuard {
   const StepControl& control() const { return control_; }
   bool halve() { return control_.halve(); }
 
+  /// Shortens the next step of an explicit stage to what contact may close within it; `rows` are those of `now`.
+  void limit_motion(const State& now, const ConstraintRows& rows);
   /// True when the converged step from `begin` to `end`, number `step`, has to be made again, its length having been
-  /// changed.
+  /// changed. Throws RunError where contact moves too far in a step that the case fixes.
   bool is_to_be_repeated(const State& begin, const State& end, const Forces& forces, long long step);
   /// The step counts.
   void accept();
@@ -32,11 +35,16 @@ class StepGuard {
   void follow_stable_step(const State& before, const State& now, long long step);
 
  private:
+  bool moves_too_far(const State& begin, const State& end, const Forces& forces, long long step);
+  bool ends_late(const State& begin, const State& end, const Forces& forces);
+
   const Stage& stage_;
   StepControl control_;
-  std::optional<StableStepWatch> watch_;     ///< where the stable step changes
-  std::optional<EventTolerance> tolerance_;  ///< where contact events cut the step
-  int cuts_ = 0;                             ///< of the present step
+  std::optional<StableStepWatch> watch_;  ///< where the stable step changes
+  std::optional<MotionLimit> motion_;     ///< where there is contact and inertia
+  double event_tolerance_ = 0.0;          ///< time; 0: contact events do not cut the step
+  bool is_at_event_ = false;              ///< the present step has been cut to end at a touch
+  int cuts_ = 0;                          ///< of the present step
 };
 
 }  // namespace carom

@@ -1,0 +1,83 @@
+#include "run/motion_limit.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "math/vec3.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double share = 0.5;  // of a cell
+
+/// What may close within a step on account of the shape: half of half of its thickness.
+struct MostOfShape {
+  double operator()(const Plane& /*plane*/) const { return infinity; }
+  double operator()(const Sphere& sphere) const { return sphere.inside ? infinity : share * sphere.radius; }
+  double operator()(const Cylinder& cylinder) const { return cylinder.inside ? infinity : share * cylinder.radius; }
+  double operator()(const Box& box) const {
+    const Vec3 size = subtract(box.upper, box.lower);
+    return share * 0.5 * std::min({size[0], size[1], size[2]});
+  }
+  double operator()(const RigidSurface& /*rigid*/) const { return infinity; }
+};
+
+struct MostOfContact {
+  double operator()(const InterfaceContact& /*contact*/) const { return -1.0; }
+  double operator()(const StopContact& /*contact*/) const { return -1.0; }
+  double operator()(const PairContact& /*contact*/) const { return infinity; }
+  double operator()(const ObstacleContact& contact) const { return std::visit(MostOfShape{}, contact.shape); }
+};
+
+}  // namespace
+
+MotionLimit::MotionLimit(const Model& model, const Solid& solid) : length_(solid.node_count(), infinity) {
+  for (std::size_t k = 0; k < solid.cell_count(); ++k)
+    for (const Index n : solid.nodes_of_cell(k))
+      length_[static_cast<std::size_t>(n)] = std::min(length_[static_cast<std::size_t>(n)], solid.cell_lengths()[k]);
+  for (const ContactDefinition& contact : model.contacts) most_.push_back(std::visit(MostOfContact{}, contact));
+}
+
+/// Negative where the row is not limited.
+double MotionLimit::allowed(const ConstraintRows& rows, std::size_t r) const {
+  double most = most_[static_cast<std::size_t>(rows.source[r])];
+  for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
+    most = std::min(most, share * length_[static_cast<std::size_t>(rows.node[k])]);
+  return most < infinity ? most : -1.0;
+}
+
+double MotionLimit::longest_step(const State& begin, const ConstraintRows& rows) const {
+  double longest = infinity;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const double closing = -rows.relative(r, begin.v)[0];
+    if (!(closing > 0.0)) continue;
+    const double depth = allowed(rows, r);
+    if (depth < 0.0) continue;
+    longest = std::min(longest, (std::max(0.0, rows.gap_at(r, begin.q)) + 0.5 * depth) / closing);
+  }
+  return longest;
+}
+
+std::optional<MotionLimit::Overrun> MotionLimit::overrun(const State& begin, const State& end,
+                                                         const ContactResponse& at_end) const {
+  const ConstraintRows& rows = *at_end.rows;
+  const double h = end.t - begin.t;
+  std::optional<Overrun> worst;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const double most = allowed(rows, r);
+    if (most < 0.0) continue;
+    const double before = rows.gap_at(r, begin.q);
+    double after = rows.gap_at(r, end.q);
+    if (before > 0.0 && at_end.status[r] != RowStatus::open)
+      after = std::min(after, before + h * rows.relative(r, begin.v)[0]);
+    const double depth = std::min(0.0, before) - after;
+    if (depth <= most) continue;
+    const double fraction = (std::max(0.0, before) + 0.5 * most) / (before - after);
+    if (!worst || fraction < worst->fraction) worst = {fraction, share * depth / most, rows.source[r]};
+  }
+  return worst;
+}
+
+}  // namespace carom

@@ -1,0 +1,45 @@
+// How far a step may carry contact nodes towards what they may touch.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "contact/response.hpp"
+#include "model/model.hpp"
+#include "solid/solid.hpp"
+
+namespace carom {
+
+/// A row that is deep in the other body is lost to the search, and one that meets a spring deep has work done on it
+/// that nobody sees. So rows of pairs and obstacles may close, within a step, to a depth of
+///   allowed = 1/2 min(cell lengths at the row's nodes, half of the obstacle's thickness),
+/// counted from the surface or from where the row began, whichever is deeper. Only what is near enough to have a row
+/// counts, and only the motion along its normal: bodies fly and slide as fast as they like. Cells of interfaces and
+/// stops have no far side and are left alone.
+class MotionLimit {
+ public:
+  MotionLimit(const Model& model, const Solid& solid);
+
+  /// The longest step from `begin`, whose rows are given, that takes no row deeper than half of what is allowed at the
+  /// velocity of the beginning; infinite where nothing closes.
+  double longest_step(const State& begin, const ConstraintRows& rows) const;
+
+  /// A row that has been carried too far.
+  struct Overrun {
+    double fraction = 1.0;  ///< of the step: where the row is half as deep as is allowed
+    double depth = 0.0;     ///< how far it was carried, in cells
+    Index contact = -1;     ///< index in Model::contacts
+  };
+  /// The row for which the step from `begin` to `end` has to be cut most, if any. Rows that carry a force at the end
+  /// are taken to have gone on with their velocity of the beginning where that leads deeper: exact contact leaves no
+  /// depth to see.
+  std::optional<Overrun> overrun(const State& begin, const State& end, const ContactResponse& at_end) const;
+
+ private:
+  double allowed(const ConstraintRows& rows, std::size_t r) const;
+
+  std::vector<double> length_;  ///< by node: the least of the cells there
+  std::vector<double> most_;    ///< by contact
+};
+
+}  // namespace carom
