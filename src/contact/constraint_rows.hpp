@@ -39,6 +39,7 @@ struct ConstraintRows {
   std::vector<Index> source;  ///< index in Model::contacts
   std::vector<Index> behind;  ///< how many of the row's last nodes belong to the other side: master or obstacle
   std::vector<bool> is_back;  ///< the row's positive side is not the contact's group but the other body (two passes)
+  std::vector<Index> facet;   ///< what the row meets: facet of the other surface, face of a box, 0 where there is one
   std::vector<Index> slot;    ///< entry of State::contact; at most one row per slot
 
   std::size_t size() const { return gap.size(); }

@@ -80,7 +80,7 @@ struct ContactGeometry::Impl {
   std::vector<Vec3> x_begin, x, displacement;   ///< scratch of rows_at
 
   bool place(std::span<const double> u_begin, std::span<const double> u);
-  ConstraintRows make(std::span<const double> u_begin, std::span<const double> u);
+  ConstraintRows make(std::span<const double> u_begin, std::span<const double> u, std::span<const RowHistory> history);
 };
 
 /// Positions of the nodes; false when one is not finite.
@@ -97,9 +97,10 @@ bool ContactGeometry::Impl::place(std::span<const double> u_begin, std::span<con
   return is_finite;
 }
 
-ConstraintRows ContactGeometry::Impl::make(std::span<const double> u_begin, std::span<const double> u) {
+ConstraintRows ContactGeometry::Impl::make(std::span<const double> u_begin, std::span<const double> u,
+                                           std::span<const RowHistory> history) {
   const bool is_finite = place(u_begin, u);
-  const ContactMotion motion{x_begin, x, displacement, u};
+  const ContactMotion motion{x_begin, x, displacement, u, history};
   ConstraintRows rows;
   for (std::size_t i = 0; i < makers.size(); ++i)
     if (is_finite || makers[i]->is_fixed()) makers[i]->append(motion, first_slot[i], rows);
@@ -120,7 +121,7 @@ ContactGeometry::ContactGeometry(const Model& model) : impl_(std::make_unique<Im
   if (!impl.nodes.empty()) impl.x_begin = impl.x = impl.displacement = std::vector<Vec3>(model.mesh->node_count());
   const bool is_fixed =
       std::all_of(impl.makers.begin(), impl.makers.end(), [](const auto& m) { return m->is_fixed(); });
-  if (is_fixed) impl.fixed = std::make_shared<const ConstraintRows>(impl.make({}, {}));
+  if (is_fixed) impl.fixed = std::make_shared<const ConstraintRows>(impl.make({}, {}, {}));
 }
 ContactGeometry::~ContactGeometry() = default;
 ContactGeometry::ContactGeometry(ContactGeometry&&) noexcept = default;
@@ -132,8 +133,9 @@ bool ContactGeometry::is_fixed() const {
   return impl_->fixed != nullptr;
 }
 std::shared_ptr<const ConstraintRows> ContactGeometry::rows_at(std::span<const double> u_begin,
-                                                               std::span<const double> u) const {
-  return impl_->fixed ? impl_->fixed : std::make_shared<const ConstraintRows>(impl_->make(u_begin, u));
+                                                               std::span<const double> u,
+                                                               std::span<const RowHistory> history) const {
+  return impl_->fixed ? impl_->fixed : std::make_shared<const ConstraintRows>(impl_->make(u_begin, u, history));
 }
 
 std::vector<Penetration> ContactGeometry::initial_penetrations(std::span<const double> u) const {
@@ -151,10 +153,10 @@ std::vector<Penetration> ContactGeometry::initial_penetrations(std::span<const d
 
 void ContactGeometry::set_initial(std::span<const double> u) {
   impl_->offset.assign(slots(), 0.0);
-  if (impl_->fixed) impl_->fixed = std::make_shared<const ConstraintRows>(impl_->make({}, {}));
+  if (impl_->fixed) impl_->fixed = std::make_shared<const ConstraintRows>(impl_->make({}, {}, {}));
   for (const Penetration& p : initial_penetrations(u))
     if (takes_offsets(impl_->model.contacts[p.contact])) impl_->offset[p.slot] = -p.depth;
-  if (impl_->fixed) impl_->fixed = std::make_shared<const ConstraintRows>(impl_->make({}, {}));
+  if (impl_->fixed) impl_->fixed = std::make_shared<const ConstraintRows>(impl_->make({}, {}, {}));
 }
 
 const std::vector<std::string>& ContactGeometry::notes() const {

@@ -8,6 +8,7 @@
 
 #include "contact/constraint_rows.hpp"
 #include "model/model.hpp"
+#include "state/state.hpp"
 
 namespace carom {
 
@@ -39,11 +40,13 @@ class ContactGeometry {
   std::size_t slots() const;
   /// True when the rows are the same at every displacement.
   bool is_fixed() const;
-  /// Rows at displacement u, when the step began at u_begin (so that what crossed a facet in between is found). Where
-  /// is_fixed, always the same object. Search lists are kept from call to call, but the rows do not depend on them, nor
-  /// on the number of threads. Not to be called from two threads at once. Contacts whose rows are not fixed have none
-  /// when a displacement of their nodes is not finite.
-  std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> u_begin, std::span<const double> u) const;
+  /// Rows at displacement u, when the step began at u_begin (so that what crossed a facet in between is found) with the
+  /// history given (so that what was behind a facet stays there; without, nothing was). Where is_fixed, always the same
+  /// object. Search lists are kept from call to call, but the rows do not depend on them, nor on the number of threads.
+  /// Not to be called from two threads at once. Contacts whose rows are not fixed have none when a displacement of
+  /// their nodes is not finite.
+  std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> u_begin, std::span<const double> u,
+                                                std::span<const RowHistory> history = {}) const;
 
   /// What penetrates at displacement u, worst first; offsets of set_initial count as they stand.
   std::vector<Penetration> initial_penetrations(std::span<const double> u) const;

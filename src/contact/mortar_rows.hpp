@@ -26,8 +26,8 @@ namespace carom {
 ///
 /// With h the larger mean facet size of both surfaces: overlaps count to a gap of 1.5 h, and rows are made where one
 /// comes within h. Behind a master facet they count to h, with `self` to half_thickness with limit h; deeper when they
-/// were in front at the beginning of the step. Where a slave facet has several masters in line, the nearest counts.
-/// law: that of the contact, halved with `self`.
+/// were in front at the beginning of the step, or a node of the slave facet was behind the master then. Where a slave
+/// facet has several masters in line, the nearest counts. law: that of the contact, halved with `self`.
 std::unique_ptr<RowMaker> mortar_rows(const Model& model, const PairContact& contact, const ContactLaw& law,
                                       Index source);
 

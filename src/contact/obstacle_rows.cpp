@@ -85,6 +85,23 @@ struct Touching {
   }
 };
 
+/// The distance of x from a shape, and the face it is taken from.
+struct FaceDistance {
+  SignedDistance distance;
+  Index face = 0;
+};
+
+/// A point that was behind a face of a box, or -1, stays behind that face while it is inside.
+FaceDistance distance(const Box& box, const Vec3& x, Index behind) {
+  const FaceDistance nearest{signed_distance(box, x), nearest_face(box, x)};
+  if (behind < 0 || nearest.distance.gap >= 0.0) return nearest;
+  return {distance_to_face(box, x, behind), behind};
+}
+template <class Shape>
+FaceDistance distance(const Shape& shape, const Vec3& x, Index /*behind*/) {
+  return {signed_distance(shape, x)};
+}
+
 class PlaneRows : public RowMaker {
  public:
   PlaneRows(Touching touching, const Plane& plane) : touching_(std::move(touching)), plane_(plane) {}
@@ -114,7 +131,9 @@ class ShapeRows : public RowMaker {
     const Stand stand = touching_.stand(motion.x);
     append_in_parallel(slots(), rows, [&](std::size_t i, ConstraintRows& made) {
       const Vec3& x = motion.x[touching_.nodes[i].first];
-      touching_.add_row(i, signed_distance(shape_, stand.seen(x)), x, stand, made);
+      const FaceDistance at = distance(shape_, stand.seen(x), motion.behind(first_slot + static_cast<Index>(i)));
+      touching_.add_row(i, at.distance, x, stand, made);
+      made.facet.back() = at.face;
       finish_row(made, motion.u, first_slot + static_cast<Index>(i));
     });
   }
@@ -140,11 +159,12 @@ class RigidSurfaceRows : public RowMaker {
       x_[i] = stand.seen(motion.x[n]);
       displacement_[i] = subtract(x_[i], x_begin_[i]);
     }
-    search_.update(x_begin_, x_, displacement_);
+    search_.update(x_begin_, x_, displacement_, motion.behind(first_slot, slots()));
     append_in_parallel(slots(), rows, [&](std::size_t i, ConstraintRows& made) {
       const std::optional<SurfacePoint> met = search_.find(i);
       if (!met) return;
       touching_.add_row(i, {met->normal, met->gap}, motion.x[touching_.nodes[i].first], stand, made);
+      made.facet.back() = met->facet;
       finish_row(made, motion.u, first_slot + static_cast<Index>(i));
     });
   }

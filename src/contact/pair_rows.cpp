@@ -65,13 +65,14 @@ class NodeRows : public RowMaker {
   std::size_t slots() const override { return measure_.size(); }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
-    search_.update(motion.x_begin, motion.x, motion.displacement);
+    search_.update(motion.x_begin, motion.x, motion.displacement, motion.behind(first_slot, slots()));
     append_in_parallel(slots(), rows, [&](std::size_t i, ConstraintRows& made) {
       const std::optional<SurfacePoint> met = search_.find(i);
       if (!met) return;
       const Index n = search_.nodes()[i];
       made.add_row(met->gap, met->normal, motion.x[n], measure_[i], row_law(law_, measure_[i]), source_);
       made.add_node(n, 1.0);
+      made.facet.back() = met->facet;
       const Facet& facet = search_.facets()[met->facet];
       add_master(made, *met, facet, place(facet, motion.x));
       finish_row(made, motion.u, first_slot + static_cast<Index>(i));

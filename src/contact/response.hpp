@@ -29,6 +29,10 @@ struct ContactResponse {
   void add_force(std::span<double> f) const;
 };
 
+/// state.contact = the history of the response, and what its rows are behind at state.q: a row whose gap is negative is
+/// taken to be behind the same facet in the next step, however deep it goes, until it comes out in front.
+void take_history(const ContactResponse& response, State& state);
+
 /// 3 x 3 tangent of one row in its frame, row-major: -d(force)/d(w).
 using RowTangent = std::array<double, 9>;
 

@@ -33,20 +33,29 @@ SignedDistance signed_distance(const Cylinder& cylinder, const Vec3& x) {
   return from_centre(subtract(r, scaled(axis, dot(r, axis))), cylinder.radius, cylinder.inside, any);
 }
 
-SignedDistance signed_distance(const Box& box, const Vec3& x) {
-  Vec3 outside{}, normal{};
-  double nearest = -INFINITY;  // least negative distance to a face
-  for (std::size_t c = 0; c < 3; ++c) {
-    outside[c] = x[c] - std::clamp(x[c], box.lower[c], box.upper[c]);
-    const double below = box.lower[c] - x[c], above = x[c] - box.upper[c];
-    if (std::max(below, above) <= nearest) continue;
-    nearest = std::max(below, above);
-    normal = {};
-    normal[c] = above >= below ? 1.0 : -1.0;
+SignedDistance distance_to_face(const Box& box, const Vec3& x, Index face) {
+  const auto c = static_cast<std::size_t>(face / 2);
+  Vec3 normal{};
+  normal[c] = face % 2 == 1 ? 1.0 : -1.0;
+  return {normal, face % 2 == 1 ? x[c] - box.upper[c] : box.lower[c] - x[c]};
+}
+
+Index nearest_face(const Box& box, const Vec3& x) {
+  Index nearest = 0;
+  for (Index face = 1; face < 6; ++face) {
+    const double gap = distance_to_face(box, x, face).gap, best = distance_to_face(box, x, nearest).gap;
+    const bool is_opposite = face % 2 == 1 && face == nearest + 1;  // in the middle between two the upper one counts
+    if (gap > best || (gap == best && is_opposite)) nearest = face;
   }
+  return nearest;
+}
+
+SignedDistance signed_distance(const Box& box, const Vec3& x) {
+  Vec3 outside{};
+  for (std::size_t c = 0; c < 3; ++c) outside[c] = x[c] - std::clamp(x[c], box.lower[c], box.upper[c]);
   const double distance = norm(outside);
   if (distance > 0.0) return {scaled(outside, 1.0 / distance), distance};
-  return {normal, nearest};
+  return distance_to_face(box, x, nearest_face(box, x));
 }
 
 }  // namespace carom

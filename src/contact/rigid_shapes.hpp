@@ -18,4 +18,9 @@ SignedDistance signed_distance(const Sphere& sphere, const Vec3& x);
 SignedDistance signed_distance(const Cylinder& cylinder, const Vec3& x);
 SignedDistance signed_distance(const Box& box, const Vec3& x);
 
+/// Faces of a box: 2 c is that at lower[c], 2 c + 1 that at upper[c]. Of a point inside, the nearest one; the distance
+/// of any point from the plane of one.
+Index nearest_face(const Box& box, const Vec3& x);
+SignedDistance distance_to_face(const Box& box, const Vec3& x, Index face);
+
 }  // namespace carom

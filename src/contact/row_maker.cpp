@@ -85,6 +85,7 @@ void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_s
   append_all(rows.law, from.law);
   append_all(rows.source, from.source);
   append_all(rows.behind, from.behind);
+  append_all(rows.facet, from.facet);
 }
 
 }  // namespace carom

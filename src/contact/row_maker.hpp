@@ -8,6 +8,7 @@
 #include "contact/constraint_rows.hpp"
 #include "model/model.hpp"
 #include "parallel/threads.hpp"
+#include "state/state.hpp"
 
 namespace carom {
 
@@ -17,6 +18,16 @@ struct ContactMotion {
   std::span<const Vec3> x;             ///< X + u
   std::span<const Vec3> displacement;  ///< x - x_begin
   std::span<const double> u;
+  std::span<const RowHistory> history{};  ///< of all slots at x_begin; empty where there is none
+
+  /// What the slot was behind at x_begin, -1 when it was in front.
+  Index behind(Index slot) const { return history.empty() ? -1 : history[static_cast<std::size_t>(slot)].facet; }
+  /// The same of `count` slots from the first on.
+  std::vector<Index> behind(Index first_slot, std::size_t count) const {
+    std::vector<Index> facets(history.empty() ? 0 : count);
+    for (std::size_t i = 0; i < facets.size(); ++i) facets[i] = behind(first_slot + static_cast<Index>(i));
+    return facets;
+  }
 };
 
 /// Rows of one contact. Results do not depend on what a maker keeps between calls (search lists), which is why append

@@ -116,7 +116,8 @@ struct SurfaceSearch::Query {
   std::size_t q;
   Index node;
   Vec3 x;
-  Vec3 normal;  ///< its averaged normal, or zero
+  Vec3 normal;             ///< its averaged normal, or zero
+  bool is_behind = false;  ///< it is known to be behind the surface, however deep
 };
 
 /// The closest point so far.
@@ -163,12 +164,15 @@ SurfaceSearch::SurfaceSearch(std::vector<Index> nodes, std::vector<Facet> own, s
   }
 }
 
-void SurfaceSearch::update(std::span<const Vec3> x_begin, std::span<const Vec3> x, std::span<const Vec3> displacement) {
+void SurfaceSearch::update(std::span<const Vec3> x_begin, std::span<const Vec3> x, std::span<const Vec3> displacement,
+                           std::vector<Index> behind) {
   x_begin_ = x_begin;
   x_ = x;
   displacement_ = displacement;
   broad_phase_.update(x_begin, displacement);
-  if (broad_phase_.pair_count() == 0) return;
+  behind_ = std::move(behind);
+  const bool none_is_behind = std::all_of(behind_.begin(), behind_.end(), [](Index f) { return f < 0; });
+  if (broad_phase_.pair_count() == 0 && none_is_behind) return;
   const std::span<const Facet> targets = facets();
   placed_.resize(targets.size());
   bounds_.resize(targets.size());
@@ -241,7 +245,7 @@ void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
   // On a common edge or corner the facet is taken that the point is seen from best.
   const bool is_tied = best.facet >= 0 && std::abs(p.distance - best.distance) <= tie * best.distance;
   if (is_tied ? std::abs(p.gap) <= std::abs(best.projection.gap) : !(p.distance < best.distance)) return;
-  if (p.gap < -range_.depth[f]) return;
+  if (!query.is_behind && p.gap < -range_.depth[f]) return;
   bool is_continued = false;
   const bool is_beyond = p.site != ProjectionSite::interior && ends_at(query, f, p);
   if (is_beyond) {
@@ -336,31 +340,61 @@ SurfaceSearch::Best SurfaceSearch::closest(const Query& query) const {
   return best;
 }
 
-std::optional<SurfacePoint> SurfaceSearch::find(std::size_t q) const {
-  if (broad_phase_.targets_of(q).empty()) return std::nullopt;
-  const Query query = this->query(q);
-  const Best best = closest(query);
-  const auto met = [](Index f, const Projection& p, const SignedDistance& at) {
-    return SurfacePoint{f, p.xi, p.eta, p.N, p.point, at.normal, at.gap};
-  };
-  SignedDistance at{best.projection.normal, best.projection.gap};
-  const bool is_inside = best.is_continued || best.projection.site == ProjectionSite::interior;
-  if (best.facet >= 0 && !is_inside) {
-    const Vec3 average = pseudonormal(best.facet, best.projection);
-    at = signed_distance(best.projection, query.x, average, tiny * range_.reach);
+/// The closest point that the facet `from` and ever nearer neighbours lead to.
+SurfaceSearch::Best SurfaceSearch::followed(const Query& query, Index from) const {
+  Index f = from;
+  Projection p = project(placed_[f], query.x);
+  Best best{INFINITY};
+  for (std::size_t hops = 0; hops < facets().size(); ++hops) {
+    consider(query, f, best);
+    if (p.site == ProjectionSite::interior) return best;
+    const Index last = f;
+    for (const Index g : facets_at_[facets()[last][static_cast<std::size_t>(p.feature)]]) {
+      if (!counts(query, g)) continue;
+      consider(query, g, best);
+      const Projection there = project(placed_[g], query.x);
+      if (!(there.distance < p.distance * (1.0 - 1e-9))) continue;
+      f = g;
+      p = there;
+    }
+    if (f == last) return best;
   }
+  return best;
+}
+
+/// What the closest point found amounts to.
+std::optional<SurfacePoint> SurfaceSearch::met(const Query& query, const Best& best) const {
+  if (best.facet < 0) return std::nullopt;
+  const Projection& p = best.projection;
+  SignedDistance at{p.normal, p.gap};
+  if (!best.is_continued && p.site != ProjectionSite::interior)
+    at = signed_distance(p, query.x, pseudonormal(best.facet, p), tiny * range_.reach);
   // Beside a rim a node is behind some of the facets there and in front of others, and touches none of them.
-  const bool is_lost = best.is_beside && at.gap < 0.0;
-  const bool is_found = best.facet >= 0 && !is_lost && at.gap >= -range_.depth[best.facet];
-  if (is_fast_ && !(is_found && at.gap < 0.0)) {
+  if (best.is_beside && at.gap < 0.0) return std::nullopt;
+  if (!query.is_behind && at.gap < -range_.depth[best.facet]) return std::nullopt;
+  return SurfacePoint{best.facet, p.xi, p.eta, p.N, p.point, at.normal, at.gap};
+}
+
+std::optional<SurfacePoint> SurfaceSearch::find(std::size_t q) const {
+  const Index behind = behind_.empty() ? -1 : behind_[q];
+  if (behind < 0 && broad_phase_.targets_of(q).empty()) return std::nullopt;
+  Query query = this->query(q);
+  std::optional<SurfacePoint> found = met(query, closest(query));
+  if (found && found->gap < 0.0) return found;
+  if (behind >= 0 && counts(query, behind)) {
+    query.is_behind = true;
+    const std::optional<SurfacePoint> kept = met(query, followed(query, behind));
+    if (kept && kept->gap < 0.0) return kept;
+  }
+  if (is_fast_) {
     if (const std::optional<Index> crossed = crossed_facet(query)) {
       const Projection p = project(placed_[*crossed], query.x);
-      if (p.site == ProjectionSite::interior) return met(*crossed, p, {p.normal, p.gap});
-      return met(*crossed, p, {scaled(subtract(p.point, query.x), 1.0 / p.distance), -p.distance});
+      SignedDistance at{p.normal, p.gap};
+      if (p.site != ProjectionSite::interior) at = {scaled(subtract(p.point, query.x), 1.0 / p.distance), -p.distance};
+      return SurfacePoint{*crossed, p.xi, p.eta, p.N, p.point, at.normal, at.gap};
     }
   }
-  if (!is_found) return std::nullopt;
-  return met(best.facet, best.projection, at);
+  return found;
 }
 
 }  // namespace carom

@@ -49,6 +49,10 @@ std::vector<double> half_thickness(std::span<const Vec3> coordinates, const std:
 /// but the facets are continued by a tenth of their size, so that nodes on the common rim of two aligned bodies are not
 /// lost.
 ///
+/// A node that was behind a facet at x_begin stays behind the surface there, however deep it goes, until it comes out
+/// in front or leaves it sideways: unless it is behind what the search finds, its closest point is looked for from that
+/// facet on, from neighbour to nearer neighbour, without the limits of reach and depth.
+///
 /// A node that was in front of a facet at x_begin and is behind it at x, having gone through it, meets that facet
 /// however deep it is, unless its closest point says already that it is behind the surface. Facets are taken as moving
 /// without turning within the step.
@@ -57,8 +61,10 @@ class SurfaceSearch {
   /// `own`: the facets that the nodes belong to, for their averaged normals; nodes on none have no normal.
   SurfaceSearch(std::vector<Index> nodes, std::vector<Facet> own, std::vector<Facet> facets, SearchRange range);
 
-  /// Brings the search up to date. The positions must stay until the last find; displacement = x - x_begin.
-  void update(std::span<const Vec3> x_begin, std::span<const Vec3> x, std::span<const Vec3> displacement);
+  /// Brings the search up to date. The positions must stay until the last find; displacement = x - x_begin. behind: by
+  /// node of nodes() the facet that it was behind at x_begin, -1: none; empty: none was.
+  void update(std::span<const Vec3> x_begin, std::span<const Vec3> x, std::span<const Vec3> displacement,
+              std::vector<Index> behind = {});
   /// What nodes[q] meets, if anything. May be called from many threads.
   std::optional<SurfacePoint> find(std::size_t q) const;
 
@@ -77,6 +83,8 @@ class SurfaceSearch {
   Best closest(const Query& query) const;
   Vec3 pseudonormal(Index f, const Projection& p) const;
   std::optional<Index> crossed_facet(const Query& query) const;
+  Best followed(const Query& query, Index from) const;
+  std::optional<SurfacePoint> met(const Query& query, const Best& best) const;
 
   std::vector<Index> nodes_;
   std::vector<Facet> own_;
@@ -85,6 +93,7 @@ class SurfaceSearch {
   std::vector<std::vector<Index>> facets_at_;  ///< by node
   std::vector<std::vector<Index>> excluded_;   ///< by query, increasing: neighbours of the node's own facets
   std::span<const Vec3> x_begin_, x_, displacement_;
+  std::vector<Index> behind_;
   std::vector<PlacedFacet> placed_;
   std::vector<Bounds> bounds_;
   std::vector<Vec3> facet_normals_;  ///< at the centres

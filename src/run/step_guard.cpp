@@ -86,7 +86,7 @@ void StepGuard::accept() {
 
 void StepGuard::follow_stable_step(const State& before, const State& now, long long step) {
   if (!watch_) return;
-  const double stable = watch_->update(before.q, now.q);
+  const double stable = watch_->update(before, now.q);
   // The estimate may be a percent or two below that of the start, for which no step has to change.
   const double share = stage_.time().step ? 1.0 : std::min(1.0, 1.02 * stage_.time().safety);
   if (control_.limit(share * stable)) return;

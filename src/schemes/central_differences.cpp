@@ -68,7 +68,7 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
     return report;
   }
   parallel_each(n, [&](std::size_t i) { end.v[i] = v_half_[i] + 0.5 * h * end.a[i]; });
-  end.contact = next_.rows.history;
+  take_history(next_.rows, end);
   complete_forces(system_, end, next_);
   report.books = central_difference_books(system_, begin, now_, end, next_, h);
   contact_->book(begin, now_, end, next_, report.books.energy);

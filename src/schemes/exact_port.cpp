@@ -294,7 +294,7 @@ ContactError MultiplierPort::error(std::span<const double> x, std::span<const do
 }
 
 std::shared_ptr<const ConstraintRows> MultiplierPort::rows_at(std::span<const double> x) const {
-  return system_.contact.rows_at(start_.begin->q, x);
+  return system_.contact.rows_at(start_.begin->q, x, start_.begin->contact);
 }
 
 Vec3 MultiplierPort::value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const {
@@ -306,7 +306,7 @@ Vec3 MultiplierPort::value(const ConstraintRows& rows, std::size_t r, std::span<
 
 void ImpulsePort::begin(const StageStart& start) {
   ExactPort::begin(start);
-  rows_ = system_.contact.rows_at(start.begin->q, start.x_predicted);
+  rows_ = system_.contact.rows_at(start.begin->q, start.x_predicted, start.begin->contact);
   is_closed_.resize(rows_->size());
   for (std::size_t r = 0; r < rows_->size(); ++r) {
     is_closed_[r] = rows_->is_closed(r, start.x_predicted);

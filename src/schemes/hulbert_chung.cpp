@@ -83,7 +83,7 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
     report.failure = MassSolver::failure;
     return report;
   }
-  end.contact = next_.rows.history;
+  take_history(next_.rows, end);
   complete_forces(system_, end, next_);
   report.books = explicit_books(system_, begin, now_, end, next_, A_, B_, h);
   const Momentum before = stored_resultant(begin.memory);

@@ -178,7 +178,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
     report.failure = improve(eq, 0.3 * tolerance / error.displacement, end, forces, report);
     if (!report.failure.empty()) return report;
   }
-  end.contact = forces.rows.history;
+  take_history(forces.rows, end);
   report.converged = true;
   return report;
 }

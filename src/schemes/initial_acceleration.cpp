@@ -52,7 +52,7 @@ void start_multipliers(const System& system, MassSolver& solver, double dt, Stat
   if (!close_rows(closing, state.contact, mass_operator(system, solver), forces.rows, push))
     open_response(shared, state.contact.size(), forces.rows);
   forces.rows.add_force(forces.contact);
-  state.contact = forces.rows.history;
+  take_history(forces.rows, state);
 }
 
 void start_accelerations(const System& system, MassSolver& solver, State& state, Forces& forces) {

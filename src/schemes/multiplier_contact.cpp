@@ -34,7 +34,7 @@ class MultiplierContact final : public ExplicitContact {
 
   bool respond(const ExplicitPoint& at, Forces& forces) override {
     forces.contact.assign(at.u.size(), 0.0);
-    open_response(system_.contact.rows_at(at.u_begin, at.u), at.history.size(), forces.rows);
+    open_response(system_.contact.rows_at(at.u_begin, at.u, at.history), at.history.size(), forces.rows);
     const ConstraintRows& rows = *forces.rows.rows;
     closing_.clear();
     for (std::size_t r = 0; r < rows.size(); ++r) {

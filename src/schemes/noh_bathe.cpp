@@ -52,7 +52,7 @@ int NohBathe::first_part(const State& begin, const StepRequest& request) {
   force_sum(middle_forces_, rhs_);
   const int iterations = mass_solver_.solve(rhs_, middle_.a);
   parallel_each(begin.q.size(), [&](std::size_t i) { middle_.v[i] = predicted_[i] + 0.5 * k * middle_.a[i]; });
-  middle_.contact = middle_forces_.rows.history;
+  take_history(middle_forces_.rows, middle_);
   complete_forces(system_, middle_, middle_forces_);
   return iterations;
 }
@@ -75,7 +75,7 @@ int NohBathe::second_part(const State& begin, const StepRequest& request, State&
   force_sum(next_, rhs_);
   const int iterations = mass_solver_.solve(rhs_, end.a);
   parallel_each(begin.q.size(), [&](std::size_t i) { end.v[i] = predicted_[i] + rest * q2_ * end.a[i]; });
-  end.contact = next_.rows.history;
+  take_history(next_.rows, end);
   complete_forces(system_, end, next_);
   return iterations;
 }

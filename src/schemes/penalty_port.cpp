@@ -26,7 +26,7 @@ void PenaltyPort::begin(const StageStart& start) {
 }
 
 void PenaltyPort::respond(std::span<const double> x, std::span<const double> v, ContactResponse& response) {
-  penalty_response(system_.contact.rows_at(begin_->q, x), begin_->q, x, v, begin_->contact, response);
+  penalty_response(system_.contact.rows_at(begin_->q, x, begin_->contact), begin_->q, x, v, begin_->contact, response);
 }
 
 ContactError PenaltyPort::error(std::span<const double> /*x*/, std::span<const double> /*v*/,
@@ -192,7 +192,7 @@ double AugmentedLagrangianPort::stiffening(const ConstraintRows& rows, std::size
 
 void AugmentedLagrangianPort::respond(std::span<const double> x, std::span<const double> /*v*/,
                                       ContactResponse& response) {
-  response.rows = system_.contact.rows_at(begin_->q, x);
+  response.rows = system_.contact.rows_at(begin_->q, x, begin_->contact);
   const ConstraintRows& rows = *response.rows;
   response.force.assign(rows.size(), {});
   response.damper.assign(rows.size(), 0.0);

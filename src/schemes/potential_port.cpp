@@ -35,7 +35,7 @@ void PotentialPort::respond(std::span<const double> x, std::span<const double> /
   const std::vector<double>& x0 = begin_->q;
   middle_.resize(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) middle_[i] = 0.5 * (x0[i] + x[i]);
-  response.rows = system_.contact.rows_at(x0, middle_);
+  response.rows = system_.contact.rows_at(x0, middle_, begin_->contact);
   const ConstraintRows& rows = *response.rows;
   response.force.assign(rows.size(), {});
   response.damper.assign(rows.size(), 0.0);

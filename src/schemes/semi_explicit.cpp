@@ -154,7 +154,7 @@ std::string SemiExplicit::equilibrate(const Target& target, std::span<double> u,
   for (iterations = 1;; ++iterations) {
     b.residual(forces.external, u, residual_);
     b.invert(residual_, 1);
-    const auto rows = system_.contact.rows_at(target.u_begin, u);
+    const auto rows = system_.contact.rows_at(target.u_begin, u, target.history);
     open_response(rows, history.size(), forces.rows);
     b.closing.resize(rows->size());
     for (std::size_t r = 0; r < rows->size(); ++r) {
@@ -213,7 +213,7 @@ void SemiExplicit::start(State& state, double dt) {
   int iterations = 0;
   const std::string failure = equilibrate({given, state.contact}, state.q, now_, iterations);
   if (!failure.empty()) throw std::runtime_error("the contact nodes find no equilibrium at the start: " + failure);
-  state.contact = now_.rows.history;
+  take_history(now_.rows, state);
   system_.solid.internal_force(state.q, now_.internal);
   accelerate(state.t, dt, 0.5, state.v, state, now_);
   complete_forces(system_, state, now_);
@@ -242,7 +242,7 @@ StepReport SemiExplicit::step(const State& begin, const StepRequest& request, St
   accelerate(request.t_end, h, 1.0, v_half_, end, next_);
   parallel_each(n, [&](std::size_t i) { end.v[i] = v_half_[i] + 0.5 * h * end.a[i]; });
   for (const std::size_t i : boundary_->dofs) end.v[i] = (end.q[i] - begin.q[i]) / h;
-  end.contact = next_.rows.history;
+  take_history(next_.rows, end);
   complete_forces(system_, end, next_);
   report.books = central_difference_books(system_, begin, now_, end, next_, h);
   book_multipliers(begin, now_, end, next_, report.books.energy);

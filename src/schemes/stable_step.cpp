@@ -105,13 +105,13 @@ StableStep stable_step(const System& system, double limit, EnforcementKind enfor
 StableStepWatch::StableStepWatch(const System& system, double limit, EnforcementKind enforcement)
     : system_(system), limit_(limit), enforcement_(enforcement) {}
 
-double StableStepWatch::update(std::span<const double> u_begin, std::span<const double> u) {
+double StableStepWatch::update(const State& begin, std::span<const double> u) {
   constexpr int iterations = 10, most_rounds = 20;
   constexpr double settled = 0.02;  // of the bound above the Ritz value: 1 % of the step
   std::shared_ptr<const ConstraintRows> rows;
   double damping_ratio = 0.0;
   if (adds_stiffness(enforcement_) && system_.contact.slots() > 0) {
-    rows = system_.contact.rows_at(u_begin, u);
+    rows = system_.contact.rows_at(begin.q, u, begin.contact);
     damping_ratio = largest_damping_ratio(system_, *rows);
     known_.assign(system_.contact.slots(), false);
     for (const Index slot : rows->slot) known_[static_cast<std::size_t>(slot)] = true;

@@ -32,11 +32,11 @@ class StableStepWatch {
  public:
   StableStepWatch(const System& system, double limit, EnforcementKind enforcement);
 
-  /// Stable step at displacement u, every contact row that there is at u counted as closed; u_begin: displacement at
-  /// the begin of the last step. The frequency is taken at the upper end of its error bound, which the iterations
+  /// Stable step at displacement u, every contact row that there is at u counted as closed; begin: where the
+  /// last step began. The frequency is taken at the upper end of its error bound, which the iterations
   /// leave: a step on the safe side, as long as the body changes little between two calls. Costs ten actions of the
   /// tangent; the first call some more.
-  double update(std::span<const double> u_begin, std::span<const double> u);
+  double update(const State& begin, std::span<const double> u);
   /// False when springs act on rows that the last update did not count, since they were too far from touching to be
   /// there.
   bool knows(const ContactResponse& response) const;

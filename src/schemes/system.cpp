@@ -15,7 +15,7 @@ void evaluate_forces(const System& system, double t, std::span<const double> u_b
   forces.contact.assign(n, 0.0);
   system.solid.internal_force(u, forces.internal);
   system.solid.external_force(t, system.mass, forces.external);
-  penalty_response(system.contact.rows_at(u_begin, u), u_begin, u, v, history, forces.rows);
+  penalty_response(system.contact.rows_at(u_begin, u, history), u_begin, u, v, history, forces.rows);
   forces.rows.add_force(forces.contact);
 }
 

@@ -47,7 +47,7 @@ StepReport TchamwaWielgosz::step(const State& begin, const StepRequest& request,
     report.failure = MassSolver::failure;
     return report;
   }
-  end.contact = next_.rows.history;
+  take_history(next_.rows, end);
   complete_forces(system_, end, next_);
   report.books = explicit_books(system_, begin, now_, end, next_, begin.a, B_, h);
   report.books.impulse = combine(h, resultant(system_, begin.q, now_), 0.0, {});

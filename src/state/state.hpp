@@ -11,6 +11,7 @@ namespace carom {
 struct RowHistory {
   Vec3 slip{};        ///< elastic tangential slip of regularised friction (length)
   Vec3 multiplier{};  ///< force on the positive side (augmented Lagrangian; start value of exact enforcements)
+  Index facet = -1;   ///< what the row was behind (ConstraintRows::facet); -1: in front, or out of reach
   friend bool operator==(const RowHistory&, const RowHistory&) = default;
 };
 
