@@ -21,6 +21,7 @@
 #include "parallel/threads.hpp"
 #include "report/report.hpp"
 #include "run/body_scales.hpp"
+#include "run/inside_out.hpp"
 #include "run/lint.hpp"
 #include "run/recorder.hpp"
 #include "run/simulation.hpp"
@@ -211,13 +212,19 @@ bool Run::advance(const Stage& stage) {
     // unbooked is at most its residual's work.
     const double tolerance = 1e-12 * ledger_->scale() * dt / s_.end();
     report = scheme_->step(state_, {steps_->control().t_end_of_step(), dt, tolerance}, next_);
+    if (report.converged && !std::isfinite(scheme_->forces().stored.mechanical())) {
+      scheme_->take_back();
+      report.converged = false;
+      report.failure = "the energy is not finite";
+    }
     if (report.converged) {
       if (!steps_->is_to_be_repeated(state_, next_, scheme_->forces(), step_ + 1)) break;
       scheme_->take_back();
       continue;
     }
-    if (steps_->halve()) continue;
+    if (steps_->shorten(state_, step_ + 1)) continue;
     record(Recorder::Moment::last);
+    if (const std::string inverted = inside_out(s_, next_.q); !inverted.empty()) report.failure = inverted;
     message_ = fmt::format("step {} from t = {:.6g} failed: {}{}", step_ + 1, state_.t, report.failure,
                            stage.time().fixed ? "; the case fixes the step, so it was not halved" : "");
     outcome_ = Outcome::error;

@@ -33,6 +33,14 @@ StepGuard::StepGuard(const Stage& stage)
   if (stage.stable_step_changes()) watch_.emplace(stage.watch_stable_step());
 }
 
+bool StepGuard::shorten(const State& now, long long step) {
+  if (!is_explicit(stage_.settings().kind)) return control_.halve();
+  constexpr int most_failures = 6;
+  if (failures_ == most_failures) return false;
+  if (++failures_ == 1) follow_stable_step(now, now, step);
+  return control_.cut(0.5);
+}
+
 void StepGuard::limit_motion(const State& now, const ConstraintRows& rows) {
   if (!motion_ || !is_explicit(stage_.settings().kind)) return;
   const double longest = motion_->longest_step(now, rows);
@@ -81,7 +89,7 @@ void StepGuard::accept() {
   control_.accept();
   if (is_at_event_) control_.refine(event_tolerance_);
   is_at_event_ = false;
-  cuts_ = 0;
+  cuts_ = failures_ = 0;
 }
 
 void StepGuard::follow_stable_step(const State& before, const State& now, long long step) {

@@ -21,8 +21,9 @@ class StepGuard {
   explicit StepGuard(const Stage& stage);
 
   const StepControl& control() const { return control_; }
-  bool halve() { return control_.halve(); }
-
+  /// Shortens the step from `now`, number `step`, that has failed; false when it may not be shorter. Explicit steps are
+  /// halved a few times, once the stable step has been looked at.
+  bool shorten(const State& now, long long step);
   /// Shortens the next step of an explicit stage to what contact may close within it; `rows` are those of `now`.
   void limit_motion(const State& now, const ConstraintRows& rows);
   /// True when the converged step from `begin` to `end`, number `step`, has to be made again, its length having been
@@ -44,7 +45,7 @@ class StepGuard {
   std::optional<MotionLimit> motion_;     ///< where there is contact and inertia
   double event_tolerance_ = 0.0;          ///< time; 0: contact events do not cut the step
   bool is_at_event_ = false;              ///< the present step has been cut to end at a touch
-  int cuts_ = 0;                          ///< of the present step
+  int cuts_ = 0, failures_ = 0;           ///< of the present step
 };
 
 }  // namespace carom

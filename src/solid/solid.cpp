@@ -234,6 +234,19 @@ Rotation Solid::largest_rotation(std::span<const double> u) const {
   return largest;
 }
 
+Index Solid::first_inverted_cell(std::span<const double> u) const {
+  std::vector<double> f(dof_count(), 0.0);
+  for (std::size_t k = 0; k < cell_count(); ++k) {
+    const std::array<Index, 1> one{static_cast<Index>(k)};
+    add_internal_force_of(one, u, f);
+    bool is_finite = true;
+    for (const Index n : nodes_of_cell(k))
+      for (std::size_t c = 0; c < 3; ++c) is_finite = is_finite && std::isfinite(f[3 * at(n) + c]);
+    if (!is_finite) return one[0];
+  }
+  return -1;
+}
+
 Mass Solid::mass(MassKind kind) const {
   CsrMatrix M = node_graph(impl_->solid);
   impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {

@@ -85,6 +85,10 @@ class Solid {
   /// to be called every few steps.
   Rotation largest_rotation(std::span<const double> u) const;
 
+  /// The first cell, a position in cells(), that has forces which are no numbers at u: at finite positions one that is
+  /// turned inside out (det F <= 0 at a quadrature point of finite strain). -1: none. One cell after the other.
+  Index first_inverted_cell(std::span<const double> u) const;
+
   Mass mass(MassKind kind) const;
   /// The lumped mass, that of each cell times its factor.
   Mass lumped_mass(std::span<const double> cell_factors) const;
