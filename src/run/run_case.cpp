@@ -23,6 +23,7 @@
 #include "run/body_scales.hpp"
 #include "run/inside_out.hpp"
 #include "run/lint.hpp"
+#include "run/overlap_watch.hpp"
 #include "run/recorder.hpp"
 #include "run/simulation.hpp"
 #include "run/step_guard.hpp"
@@ -88,7 +89,8 @@ class Run {
       : s_(simulation),
         recorder_(simulation, options.folder),
         progress_(stderr, simulation.end(), options.progress),
-        state_(simulation.initial_state()) {}
+        state_(simulation.initial_state()),
+        overlap_(simulation, state_) {}
 
   void loop(const std::atomic<bool>& stop);
   void fill(Summary& summary) const;
@@ -113,6 +115,7 @@ class Run {
   std::optional<StepGuard> steps_;
   Progress progress_;
   State state_, next_;
+  OverlapWatch overlap_;
   std::optional<EnergyLedger> ledger_;
   std::optional<RunMonitor> monitor_;
   long long step_ = 0;
@@ -244,6 +247,7 @@ bool Run::advance(const Stage& stage) {
   const std::string alarm = monitor_->alarm();
   const bool last = (steps_->control().at_end() && stage.end() == s_.end()) || !alarm.empty();
   record(last ? Recorder::Moment::last : Recorder::Moment::during);
+  overlap_.look(state_, last ? OverlapWatch::Moment::last : OverlapWatch::Moment::during);
   progress_.update({state_.t, step_, dt_, iterations_, monitor_->relative_imbalance()});
   if (alarm.empty()) look_after();
   if (alarm.empty()) return true;
@@ -345,6 +349,7 @@ void Run::fill(Summary& summary) const {
   summary.verdict = monitor_->items(
       {recorder_.worst_relative_penetration(), recorder_.largest_pressure() / smallest_youngs_modulus(s_.model())},
       angular_limit(s_));
+  summary.verdict.push_back(overlap_.item());
   if (!s_.model().turning_bodies.empty()) summary.verdict.push_back(body_strain_item(body_strain_));
 }
 

@@ -1,0 +1,275 @@
+#include "contact/body_overlap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "contact/cell_location.hpp"
+#include "contact/facet_geometry.hpp"
+#include "contact/facet_projection.hpp"
+#include "contact/rigid_shapes.hpp"
+#include "element/hexa8.hpp"
+#include "element/quad4.hpp"
+#include "math/vec3.hpp"
+#include "mesh/skin.hpp"
+#include "parallel/threads.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Faces by the parent coordinate k and the side: face 2 k at xi_k = -1, 2 k + 1 at xi_k = +1.
+constexpr std::size_t face_count = 6;
+
+/// Volume over the largest face, or area over the longest edge.
+double length_of(const Corners& corners, std::size_t nodes) {
+  if (nodes == 8) return hexa8::length(corners);
+  const std::array<Vec3, 4> x{corners[0], corners[1], corners[2], corners[3]};
+  double longest = 0.0;
+  for (std::size_t a = 0; a < 4; ++a) longest = std::max(longest, norm(subtract(x[(a + 1) % 4], x[a])));
+  return quad4::area(x) / longest;
+}
+
+/// A signed distance from the surface that faces the node within `reach`, infinite where none does.
+double distance_behind(const Surface& surface, std::span<const Vec3> X, const Vec3& x, double reach) {
+  Projection nearest;
+  nearest.distance = reach;
+  bool is_found = false;
+  for (const Facet& facet : surface.facets) {
+    const PlacedFacet placed = place(facet, X);
+    Bounds box;
+    for (int a = 0; a < placed.size; ++a) box.include(placed.x[static_cast<std::size_t>(a)]);
+    box.grow(nearest.distance);
+    if (!box.contains(x)) continue;
+    const Projection p = project(placed, x);
+    if (p.distance >= nearest.distance) continue;
+    nearest = p;
+    is_found = true;
+  }
+  return is_found && nearest.site == ProjectionSite::interior ? nearest.gap : infinity;
+}
+
+struct GapOfShape {
+  std::span<const Vec3> X;
+  const Vec3& x;
+  double reach;
+
+  double operator()(const RigidSurface& rigid) const { return distance_behind(rigid.surface, X, x, reach); }
+  template <class Shape>
+  double operator()(const Shape& shape) const {
+    return signed_distance(shape, x).gap;
+  }
+};
+
+}  // namespace
+
+struct BodyOverlap::Impl {
+  const Model& model;
+  PlacedCells reference;
+  std::vector<double> length;                          ///< by cell
+  std::vector<std::array<bool, face_count>> on_skin;   ///< by cell: which faces
+  std::vector<double> node_length;                     ///< by node: the least of its cells, infinite without
+  std::vector<Index> skin_nodes;                       ///< increasing
+  std::vector<bool> is_skin;                           ///< by node
+  std::vector<std::vector<Index>> cells_at;            ///< by skin node (position in skin_nodes)
+  std::vector<Index> body;                             ///< by node: the same for nodes of one connected body
+  std::vector<double> at_start;                        ///< by skin node: depth in cells
+  std::vector<std::vector<double>> obstacle_at_start;  ///< by contact and node of it
+  std::vector<std::vector<Index>> obstacle_nodes;      ///< by contact
+
+  Impl(const Model& of, std::span<const double> u);
+  void find_skin();
+  void find_bodies();
+  bool may_meet(std::size_t skin_node, Index cell) const;
+  double depth(const PlacedCells& cells, std::size_t skin_node, Index cell, const Vec3& x) const;
+  std::vector<Overlap> depths(std::span<const Vec3> x) const;
+  std::vector<double> obstacle_depths(std::size_t c, std::span<const Vec3> x) const;
+};
+
+BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
+    : model(of), reference(of, of.mesh->coordinates), node_length(of.mesh->node_count(), infinity) {
+  for (std::size_t k = 0; k < reference.ref.size(); ++k) {
+    length.push_back(length_of(reference.corners[k], reference.nodes[k].size()));
+    for (const Index n : reference.nodes[k]) node_length[n] = std::min(node_length[n], length[k]);
+  }
+  find_skin();
+  find_bodies();
+  const std::vector<Vec3> x = current_positions(*model.mesh, u);
+  for (const Overlap& overlap : depths(x)) at_start.push_back(overlap.depth);
+  for (const ContactDefinition& definition : model.contacts) {
+    obstacle_nodes.emplace_back();
+    if (const auto* obstacle = std::get_if<ObstacleContact>(&definition)) {
+      std::vector<Index>& nodes = obstacle_nodes.back();
+      nodes = obstacle->nodes;
+      for (const Facet& facet : obstacle->surface.facets) nodes.insert(nodes.end(), facet.begin(), facet.end());
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      std::erase_if(nodes, [&](Index n) { return node_length[n] == infinity; });
+    }
+    obstacle_at_start.push_back(obstacle_depths(obstacle_nodes.size() - 1, x));
+  }
+}
+
+/// The faces of cells that the skin of the mesh consists of.
+void BodyOverlap::Impl::find_skin() {
+  is_skin.assign(model.mesh->node_count(), false);
+  on_skin.assign(reference.ref.size(), {});
+  std::vector<std::pair<CellRef, std::size_t>> numbers;
+  for (std::size_t k = 0; k < reference.ref.size(); ++k) numbers.emplace_back(reference.ref[k], k);
+  std::sort(numbers.begin(), numbers.end());
+  for (const OuterFacet& outer : outer_facets(*model.mesh)) {
+    const auto at = std::lower_bound(numbers.begin(), numbers.end(), std::pair(outer.cell, std::size_t{0}));
+    if (at == numbers.end() || at->first != outer.cell) continue;
+    const std::size_t k = at->second;
+    const std::span<const Index> nodes = reference.nodes[k];
+    Vec3 sum{};  // of the parent coordinates of the facet's nodes: +-their number along the normal, zero across
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      if (std::find(outer.facet.begin(), outer.facet.end(), nodes[a]) == outer.facet.end()) continue;
+      is_skin[nodes[a]] = true;
+      sum = add(sum, hexa8::node_position[a]);
+    }
+    const std::size_t axes = nodes.size() == 4 ? 2 : 3;
+    for (std::size_t c = 0; c < axes; ++c)
+      if (std::abs(sum[c]) == static_cast<double>(outer.facet.size)) on_skin[k][2 * c + (sum[c] > 0.0 ? 1 : 0)] = true;
+  }
+  std::vector<Index> position(is_skin.size(), -1);
+  for (std::size_t n = 0; n < is_skin.size(); ++n) {
+    if (!is_skin[n]) continue;
+    position[n] = static_cast<Index>(skin_nodes.size());
+    skin_nodes.push_back(static_cast<Index>(n));
+  }
+  cells_at.resize(skin_nodes.size());
+  for (std::size_t k = 0; k < reference.ref.size(); ++k)
+    for (const Index n : reference.nodes[k])
+      if (position[n] >= 0) cells_at[position[n]].push_back(static_cast<Index>(k));
+}
+
+void BodyOverlap::Impl::find_bodies() {
+  body.resize(model.mesh->node_count());
+  std::iota(body.begin(), body.end(), 0);
+  const auto root = [&](Index n) {
+    while (body[n] != n) n = body[n] = body[body[n]];
+    return n;
+  };
+  for (const std::span<const Index> nodes : reference.nodes)
+    for (const Index n : nodes) body[root(n)] = root(nodes[0]);
+  for (std::size_t n = 0; n < body.size(); ++n) body[n] = root(static_cast<Index>(n));
+}
+
+/// False for cells of the node and their neighbours.
+bool BodyOverlap::Impl::may_meet(std::size_t skin_node, Index cell) const {
+  const std::span<const Index> nodes = reference.nodes[cell];
+  if (body[nodes[0]] != body[skin_nodes[skin_node]]) return true;
+  return std::none_of(cells_at[skin_node].begin(), cells_at[skin_node].end(), [&](Index own) {
+    const std::span<const Index> others = reference.nodes[own];
+    return std::find_first_of(nodes.begin(), nodes.end(), others.begin(), others.end()) != nodes.end();
+  });
+}
+
+/// In cells; zero outside of the cell.
+double BodyOverlap::Impl::depth(const PlacedCells& cells, std::size_t skin_node, Index cell, const Vec3& x) const {
+  const std::optional<Vec3> xi = parent_point(cells.corners[cell], x);
+  if (!xi || std::max({std::abs((*xi)[0]), std::abs((*xi)[1]), std::abs((*xi)[2])}) >= 1.0) return 0.0;
+  double share = infinity;
+  for (std::size_t face = 0; face < face_count; ++face)
+    if (on_skin[cell][face])
+      share = std::min(share, 0.5 * (face % 2 == 1 ? 1.0 - (*xi)[face / 2] : 1.0 + (*xi)[face / 2]));
+  if (share == infinity) {
+    share = 0.0;
+    const std::array<double, 8> N = hexa8::shape(*xi);
+    const std::span<const Index> nodes = cells.nodes[cell];
+    for (std::size_t a = 0; a < 8; ++a)
+      if (!is_skin[nodes[a % nodes.size()]]) share += N[a];
+  }
+  const double now = share * length_of(cells.corners[cell], cells.nodes[cell].size());
+  return now / std::min(length[cell], node_length[skin_nodes[skin_node]]);
+}
+
+/// One entry per skin node: its deepest cell.
+std::vector<Overlap> BodyOverlap::Impl::depths(std::span<const Vec3> x) const {
+  const PlacedCells cells(model, x);
+  BoxTree tree;
+  tree.build(cells.bounds);
+  std::vector<Overlap> found(skin_nodes.size());
+  constexpr std::size_t grain = 64;
+  parallel_for(skin_nodes.size(), grain, [&](std::size_t begin, std::size_t end) {
+    std::vector<Index> near;
+    for (std::size_t i = begin; i < end; ++i) {
+      Bounds point;
+      point.include(x[skin_nodes[i]]);
+      near.clear();
+      tree.find(point, near);
+      std::sort(near.begin(), near.end());
+      for (const Index cell : near) {
+        if (!may_meet(i, cell)) continue;
+        const double d = depth(cells, i, cell, x[skin_nodes[i]]);
+        if (d > found[i].depth) found[i] = {d, skin_nodes[i], x[skin_nodes[i]], cells.ref[cell]};
+      }
+    }
+  });
+  return found;
+}
+
+/// By node of the contact, in cells; not positive outside.
+std::vector<double> BodyOverlap::Impl::obstacle_depths(std::size_t c, std::span<const Vec3> x) const {
+  std::vector<double> depths;
+  const auto* obstacle = std::get_if<ObstacleContact>(&model.contacts[c]);
+  if (obstacle == nullptr) return depths;
+  std::optional<BodyPlacement> placement;
+  if (obstacle->body >= 0) {
+    const TurningBody& turning = model.turning_bodies[static_cast<std::size_t>(obstacle->body)];
+    placement.emplace(turning, body_frame(turning, nodal_values(turning, x)));
+  }
+  const std::vector<Vec3>& X = model.mesh->coordinates;
+  const Vec3 shift = obstacle->carrier < 0 ? Vec3{} : subtract(x[obstacle->carrier], X[obstacle->carrier]);
+  for (const Index n : obstacle_nodes[c]) {
+    const Vec3 seen = placement ? placement->reference(x[n]) : subtract(x[n], shift);
+    depths.push_back(-std::visit(GapOfShape{X, seen, 2.0 * node_length[n]}, obstacle->shape) / node_length[n]);
+  }
+  return depths;
+}
+
+BodyOverlap::BodyOverlap(const Model& model, std::span<const double> u) : impl_(std::make_unique<Impl>(model, u)) {}
+BodyOverlap::~BodyOverlap() = default;
+BodyOverlap::BodyOverlap(BodyOverlap&&) noexcept = default;
+
+Overlap BodyOverlap::deepest(std::span<const double> u) const {
+  const Impl& impl = *impl_;
+  Overlap worst;
+  const bool is_finite = std::all_of(u.begin(), u.end(), [](double value) { return std::isfinite(value); });
+  if (!is_finite) return worst;
+  const std::vector<Vec3> x = current_positions(*impl.model.mesh, u);
+  const std::vector<Overlap> now = impl.depths(x);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const double growth = now[i].depth - impl.at_start[i];
+    if (growth <= worst.depth) continue;
+    worst = now[i];
+    worst.depth = growth;
+  }
+  for (std::size_t c = 0; c < impl.model.contacts.size(); ++c) {
+    const std::vector<double> depths = impl.obstacle_depths(c, x);
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      const double growth = depths[i] - std::max(0.0, impl.obstacle_at_start[c][i]);
+      const Index n = impl.obstacle_nodes[c][i];
+      if (growth > worst.depth) worst = {growth, n, x[n], {-1, -1}, static_cast<Index>(c)};
+    }
+  }
+  return worst;
+}
+
+Index BodyOverlap::part_of(Index node) const {
+  const auto& nodes = impl_->reference.nodes;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    if (std::find(nodes[k].begin(), nodes[k].end(), node) != nodes[k].end()) return impl_->reference.part[k];
+  return -1;
+}
+
+Index BodyOverlap::part_of(const CellRef& cell) const {
+  const auto& ref = impl_->reference.ref;
+  const auto at = std::find(ref.begin(), ref.end(), cell);
+  return at == ref.end() ? -1 : impl_->reference.part[static_cast<std::size_t>(at - ref.begin())];
+}
+
+}  // namespace carom

@@ -1,0 +1,47 @@
+// Do bodies overlap? A test by geometry alone, that knows nothing of rows.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace carom {
+
+/// Where a node of a skin is deepest inside of what it should be outside of.
+struct Overlap {
+  double depth = 0.0;  ///< in cells; without what it was at the start
+  Index node = -1;     ///< -1: nowhere
+  Vec3 position{};
+  CellRef cell{-1, -1};  ///< the cell that it is inside of, or
+  Index contact = -1;    ///< the contact with the obstacle
+};
+
+/// Looks for nodes of the skins of HEXA8 and QUAD4 bodies
+/// - inside of cells that are neither their own nor neighbours of those: of other bodies, or of a fold of their own. The
+///   depth is that under the skin, (1 -+ xi_k) / 2 of the cell's length for the nearest of its skin faces; a cell
+///   without skin faces counts by the shape functions of its nodes that are not on the skin, at most its length;
+/// - inside of rigid obstacles or behind their planes and surfaces, for the nodes that a contact names.
+/// Depths are taken over the smaller of the reference lengths of the cells at the node and of the cell it is inside of.
+/// What overlaps at the start does so on purpose: growth counts. Bars have no inside.
+class BodyOverlap {
+ public:
+  /// u: displacement at the start. The model must outlive the object.
+  BodyOverlap(const Model& model, std::span<const double> u);
+  ~BodyOverlap();
+  BodyOverlap(BodyOverlap&&) noexcept;
+
+  /// The deepest node at displacement u. Costs about as much as a few explicit steps.
+  Overlap deepest(std::span<const double> u) const;
+
+  /// Numbers of the parts of the node and of the cell (Model::parts); -1: none.
+  Index part_of(Index node) const;
+  Index part_of(const CellRef& cell) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace carom

@@ -1,0 +1,50 @@
+#include "run/inside_out.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/vec3.hpp"
+
+namespace carom {
+
+namespace {
+
+std::string part_of(const Model& model, const CellRef& cell) {
+  const CellBlock& block = model.mesh->blocks[static_cast<std::size_t>(cell.block)];
+  for (const Part& part : model.parts) {
+    const bool has_it =
+        part.type == block.type && std::find(part.cells.begin(), part.cells.end(), cell.cell) != part.cells.end();
+    if (has_it) return part.name;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string inside_out(const Simulation& simulation, std::span<const double> u) {
+  const Solid& solid = simulation.solid();
+  const bool is_finite = u.size() == solid.dof_count() &&
+                         std::all_of(u.begin(), u.end(), [](double value) { return std::isfinite(value); });
+  if (solid.is_linear() || !is_finite) return {};
+  const Index k = solid.first_inverted_cell(u);
+  if (k < 0) return {};
+  const std::span<const Index> nodes = solid.nodes_of_cell(static_cast<std::size_t>(k));
+  Vec3 centre{};
+  for (const Index n : nodes) {
+    const auto i = 3 * static_cast<std::size_t>(n);
+    const Vec3 x = add(simulation.mesh().coordinates[static_cast<std::size_t>(n)], {u[i], u[i + 1], u[i + 2]});
+    centre = add(centre, scaled(x, 1.0 / static_cast<double>(nodes.size())));
+  }
+  const CellRef cell = solid.cells()[static_cast<std::size_t>(k)];
+  const CellBlock& block = simulation.mesh().blocks[static_cast<std::size_t>(cell.block)];
+  return fmt::format(
+      "cell {} of part \"{}\" at ({:.4g}, {:.4g}, {:.4g}) turns inside out: it is crushed or sheared beyond what its "
+      "shape can follow. Finer cells there, a law that stiffens enough, a lower speed or load, or a stiffer contact "
+      "that spreads the load help; smaller steps (time.safety, time.step) where it happens at once",
+      block.file_numbers[static_cast<std::size_t>(cell.cell)], part_of(simulation.model(), cell), centre[0], centre[1],
+      centre[2]);
+}
+
+}  // namespace carom

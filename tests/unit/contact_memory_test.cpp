@@ -1,0 +1,158 @@
+// What was behind a surface stays behind it; bodies that overlap.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact/body_overlap.hpp"
+#include "contact/response.hpp"
+#include "contact_rows_fixture.hpp"
+#include "mesh/structured_block.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+constexpr double round_off = 1e-13;  // positions below 10, some ten operations
+
+/// The history of a step that ended at u with the rows made there.
+std::vector<RowHistory> history_at(const ContactGeometry& contact, const std::vector<double>& u,
+                                   const std::vector<RowHistory>& before) {
+  State state;
+  state.q = u;
+  ContactResponse response;
+  response.rows = contact.rows_at(u, u, before);
+  response.history.resize(contact.slots());
+  take_history(response, state);
+  return state.contact;
+}
+
+/// Gap of slot 0 of a node that goes by `way` in one step after the other, and the last normal.
+struct Path {
+  std::vector<double> gaps;
+  Vec3 normal{};
+};
+Path follow(const ContactGeometry& contact, const Scene& scene, Index node, const std::vector<Vec3>& places) {
+  Path path;
+  std::vector<RowHistory> history(contact.slots());
+  std::vector<double> u = scene.zero();
+  for (const Vec3& place : places) {
+    const std::vector<double> next = with_displacement(scene.zero(), node, place);
+    const auto rows = contact.rows_at(u, next, history);
+    const auto r = row_of(*rows, 0);
+    path.gaps.push_back(r < 0 ? NAN : rows->gap_at(static_cast<std::size_t>(r), next));
+    if (r >= 0) path.normal = rows->normal[static_cast<std::size_t>(r)];
+    history = history_at(contact, next, history);
+    u = next;
+  }
+  return path;
+}
+
+// A box of thickness 1: without memory a node deeper than 1/2 would be sent out at the other side.
+TEST(SideMemory, KeepsANodeBehindTheFaceOfABoxThatItEntered) {
+  Scene scene;
+  const Index node = scene.add_node({0.0, 0.0, 1.5});
+  ObstacleContact contact;
+  contact.shape = Box{{-5, -5, 0}, {5, 5, 1}};
+  contact.measure = RowMeasure::per_node;
+  contact.nodes = {node};
+  scene.finish().contacts.emplace_back(contact);
+  const ContactGeometry geometry(scene.model);
+  const Path path =
+      follow(geometry, scene, node, {{0, 0, -0.7}, {0, 0, -1.1}, {0, 0, -1.4}, {0, 0, -0.3}, {0, 0, -2.0}});
+  const std::vector<double> expected{-0.2, -0.6, -0.9, 0.2, 0.5};  // the last jump passes the box: it is in front again
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(path.gaps[i], expected[i], round_off) << i;
+}
+
+/// A point above a plate of unit facets, which begins to touch it and goes on downwards by half a facet at a time.
+TEST(SideMemory, KeepsANodeHoweverDeepItGoes) {
+  Scene scene;
+  const std::vector<Facet> master = scene.add_patch(4, 4, [](double s, double t) { return Vec3{4 * s, 4 * t, 0}; });
+  const std::vector<Facet> slave = scene.add_patch(1, 1, [](double s, double t) {
+    return Vec3{1.2 + t, 1.3 + s, 0.1};
+  });
+  PairContact contact;
+  contact.slave.facets = slave;
+  contact.master.facets = master;
+  contact.method = PairMethod::node_to_surface;
+  scene.finish().contacts.emplace_back(contact);
+  const ContactGeometry geometry(scene.model);
+  const Index node = slave[0][0];
+  std::vector<Vec3> places;
+  for (int i = 1; i <= 6; ++i) places.push_back({0.05 * i, 0.03 * i, -0.5 * i});
+  places.push_back({0, 0, 0.2});
+  const Path path = follow(geometry, scene, node, places);
+  for (int i = 1; i <= 6; ++i) EXPECT_NEAR(path.gaps[static_cast<std::size_t>(i - 1)], 0.1 - 0.5 * i, round_off) << i;
+  EXPECT_NEAR(path.gaps.back(), 0.3, round_off);  // in front again, and free
+  EXPECT_NEAR(path.normal[2], 1.0, round_off);
+}
+
+/// Two cubes of n^3 cells and edge 1, the second one above the first, lowered by `overlap`.
+struct Cubes {
+  Model model;
+  std::vector<double> u;
+  std::vector<bool> is_upper;
+
+  explicit Cubes(int n) {
+    StructuredBlock lower, upper;
+    lower.size = upper.size = {1, 1, 1};
+    lower.divisions = upper.divisions = {n, n, n};
+    upper.origin = {0.05, 0.07, 1.0};
+    lower.cells_group = "LOWER";
+    upper.cells_group = "UPPER";
+    const auto mesh = std::make_shared<const Mesh>(make_structured_blocks({lower, upper}));
+    for (const char* name : {"LOWER", "UPPER"}) {
+      Part part;
+      part.name = name;
+      for (const CellRef& cell : mesh->cell_groups.at(name)) part.cells.push_back(cell.cell);
+      part.material = LinearElastic{};
+      model.parts.push_back(part);
+    }
+    is_upper.assign(mesh->node_count(), false);
+    for (const Index node : mesh->nodes_of("UPPER")) is_upper[static_cast<std::size_t>(node)] = true;
+    model.mesh = mesh;
+    u.assign(3 * mesh->node_count(), 0.0);
+  }
+  std::vector<double> lowered(double by) const {
+    std::vector<double> lowered = u;
+    for (std::size_t i = 0; i < is_upper.size(); ++i)
+      if (is_upper[i]) lowered[3 * i + 2] -= by;
+    return lowered;
+  }
+};
+
+TEST(BodyOverlap, IsTheDepthUnderTheSkinInCells) {
+  const Cubes cubes(4);
+  const BodyOverlap overlap(cubes.model, cubes.u);
+  EXPECT_EQ(overlap.deepest(cubes.u).depth, 0.0);
+  // A tenth of a cell deep, then more than a cell: of cells without skin faces one counts.
+  EXPECT_NEAR(overlap.deepest(cubes.lowered(0.025)).depth, 0.1, round_off);
+  EXPECT_GE(overlap.deepest(cubes.lowered(0.3)).depth, 1.0 - round_off);
+  const Overlap deep = overlap.deepest(cubes.lowered(0.025));
+  EXPECT_NE(overlap.part_of(deep.node), overlap.part_of(deep.cell));
+  EXPECT_EQ(overlap.deepest(cubes.lowered(-0.3)).depth, 0.0);
+}
+
+TEST(BodyOverlap, LeavesOutWhatTheBodiesStartWith) {
+  const Cubes cubes(4);
+  const BodyOverlap overlap(cubes.model, cubes.lowered(0.025));
+  EXPECT_NEAR(overlap.deepest(cubes.lowered(0.025)).depth, 0.0, round_off);
+  EXPECT_NEAR(overlap.deepest(cubes.lowered(0.1)).depth, 0.3, round_off);
+}
+
+TEST(BodyOverlap, CountsObstacles) {
+  Cubes cubes(2);
+  ObstacleContact contact;
+  contact.shape = Plane{{0, 0, 0}, {0, 0, 1}};
+  contact.measure = RowMeasure::per_node;
+  contact.nodes = cubes.model.mesh->nodes_of("LOWER");
+  cubes.model.contacts.emplace_back(contact);
+  const BodyOverlap overlap(cubes.model, cubes.u);
+  std::vector<double> u = cubes.u;
+  for (std::size_t i = 2; i < u.size(); i += 3) u[i] = -0.2;  // both cubes; cells of 1/2
+  EXPECT_NEAR(overlap.deepest(u).depth, 0.4, round_off);
+  EXPECT_EQ(overlap.deepest(u).contact, 0);
+}
+
+}  // namespace
+}  // namespace carom

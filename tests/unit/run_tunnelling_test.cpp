@@ -1,0 +1,122 @@
+// Bodies that are shot at each other do not pass through each other, or the run does not call it good.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "run_fixture.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+/// Two soft blocks of edge 0.1, wave speed 11.6, the upper one of 1 kg falls on the lower one.
+std::string blocks(double speed, const std::string& contact, const std::string& scheme) {
+  return fmt::format(R"(units = "SI"
+[[mesh.block]]
+size = [0.1, 0.1, 0.1]
+divisions = [4, 4, 4]
+groups = {{ cells = "A", zmin = "A0", zmax = "A1" }}
+[[mesh.block]]
+origin = [0.0, 0.0, 0.101]
+size = [0.1, 0.1, 0.1]
+divisions = [3, 3, 3]
+groups = {{ cells = "B", zmin = "B0", zmax = "B1" }}
+[materials.s]
+law = "neo_hookean"
+E = 1e5
+nu = 0.3
+rho = 1000.0
+[[part]]
+name = "a"
+cells = "A"
+material = "s"
+[[part]]
+name = "b"
+cells = "B"
+material = "s"
+[[initial]]
+part = "b"
+velocity = [0.0, 0.0, {}]
+{}
+[scheme]
+{}
+[[probe]]
+name = "a"
+group = "A"
+quantities = ["velocity"]
+[[probe]]
+name = "b"
+group = "B"
+quantities = ["velocity", "displacement"]
+[output]
+fields = []
+)",
+                     -speed, contact, scheme);
+}
+
+std::string pair(const std::string& method) {
+  return "[[contact]]\nname = \"c\"\nkind = \"pair\"\ngroup = \"B0\"\nmaster = \"A1\"\nmethod = \"" + method + "\"\n";
+}
+
+/// True when the upper block has gone through the lower one, or still goes down faster than it at the end.
+bool has_passed(const TemporaryCase& one) {
+  const auto last = last_row(one.result("probes.csv"));
+  return last.at("b.displacement_z") < -0.15 || last.at("b.velocity_z") < last.at("a.velocity_z") - 1e-6;
+}
+
+// At 50 m/s, four times the wave speed, an explicit step was three cells long.
+TEST(Tunnelling, OfFastSoftBlocksIsNotCalledGood) {
+  for (const char* method : {"two_pass", "node_to_surface", "surface_to_surface"}) {
+    for (const double speed : {50.0, 30.0, 5.0}) {
+      SCOPED_TRACE(fmt::format("{} {}", method, speed));
+      const TemporaryCase one(
+          blocks(speed, pair(method), fmt::format("kind = \"central_differences\"\n[time]\nend = {}", 1.0 / speed)));
+      const ExitCode code = one.run();
+      EXPECT_TRUE(code != ExitCode::good || !has_passed(one)) << one.result("summary.json");
+    }
+  }
+}
+
+// Nothing holds the blocks apart: the verdict says between whom.
+TEST(Tunnelling, WithoutAnyContactIsNamed) {
+  const TemporaryCase one(blocks(5.0, "", "kind = \"central_differences\"\n[time]\nend = 0.05"));
+  EXPECT_EQ(one.run(), ExitCode::verdict_failed);
+  const std::string summary = one.result("summary.json");
+  EXPECT_NE(summary.find("\"overlap of bodies\""), std::string::npos);
+  EXPECT_NE(summary.find("between which no contact is defined"), std::string::npos) << summary;
+}
+
+// An implicit step that would carry the blocks through half a cell is cut; where the case fixes it the run says so.
+TEST(Tunnelling, OfImplicitStepsIsCutOrRefused) {
+  const std::string scheme = "kind = \"newmark\"\ngamma = 0.6\nbeta = 0.31\n[time]\nend = 0.024\nstep = 4e-3\n";
+  const TemporaryCase cut(blocks(5.0, pair("node_to_surface"), scheme)),
+      fixed(blocks(5.0, pair("node_to_surface"), scheme + "fixed = true\n"));
+  cut.run();
+  EXPECT_FALSE(has_passed(cut));
+  EXPECT_EQ(fixed.run(), ExitCode::run_failed);
+  EXPECT_NE(fixed.result("summary.json").find("the case fixes the step"), std::string::npos)
+      << fixed.result("summary.json");
+}
+
+// A box half a cell thick, met at the speed of sound.
+TEST(Tunnelling, OfAThinBoxIsPrevented) {
+  for (const char* scheme : {"kind = \"central_differences\"\n[time]\nend = 0.02\n",
+                             "kind = \"newmark\"\n[time]\nend = 0.02\nstep = 4e-3\n"}) {
+    SCOPED_TRACE(scheme);
+    const TemporaryCase one(blocks(-10.0,
+                                   "[[contact]]\nname = \"c\"\nkind = \"box\"\ngroup = \"B1\"\n"
+                                   "lower = [-1.0, -1.0, 0.22]\nupper = [1.0, 1.0, 0.235]\n",
+                                   scheme));
+    const ExitCode code = one.run();
+    const auto last = last_row(one.result("probes.csv"));
+    EXPECT_TRUE(code != ExitCode::good || last.at("b.velocity_z") < 0.0) << one.result("summary.json");
+    EXPECT_LT(last.at("b.displacement_z"), 0.1);
+  }
+}
+
+}  // namespace
+}  // namespace carom
