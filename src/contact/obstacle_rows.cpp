@@ -91,11 +91,14 @@ struct FaceDistance {
   Index face = 0;
 };
 
-/// A point that was behind a face of a box, or -1, stays behind that face while it is inside.
+/// A point that was behind a face of a box, or -1, stays behind that face, through the whole box and beyond, until it
+/// comes out in front or leaves it sideways.
 FaceDistance distance(const Box& box, const Vec3& x, Index behind) {
-  const FaceDistance nearest{signed_distance(box, x), nearest_face(box, x)};
-  if (behind < 0 || nearest.distance.gap >= 0.0) return nearest;
-  return {distance_to_face(box, x, behind), behind};
+  const auto axis = static_cast<std::size_t>(behind / 2);
+  bool stays = behind >= 0 && distance_to_face(box, x, behind).gap < 0.0;
+  for (std::size_t c = 0; c < 3 && stays; ++c) stays = c == axis || (x[c] >= box.lower[c] && x[c] <= box.upper[c]);
+  if (stays) return {distance_to_face(box, x, behind), behind};
+  return {signed_distance(box, x), nearest_face(box, x)};
 }
 template <class Shape>
 FaceDistance distance(const Shape& shape, const Vec3& x, Index /*behind*/) {

@@ -48,16 +48,25 @@ double MotionLimit::allowed(const ConstraintRows& rows, std::size_t r) const {
   return most < infinity ? most : -1.0;
 }
 
-double MotionLimit::longest_step(const State& begin, const ConstraintRows& rows) const {
-  double longest = infinity;
+/// Makes row r the worst if it goes from one gap to the other, too far, and has to be cut more.
+void MotionLimit::judge(const ConstraintRows& rows, std::size_t r, double before, double after,
+                        std::optional<Overrun>& worst) const {
+  const double depth = std::min(0.0, before) - after;
+  if (!(depth > 0.0)) return;
+  const double most = allowed(rows, r);
+  if (most < 0.0 || depth <= most) return;
+  const double fraction = (std::max(0.0, before) + 0.5 * most) / (before - after);
+  if (!worst || fraction < worst->fraction) worst = {fraction, share * depth / most, rows.source[r]};
+}
+
+std::optional<MotionLimit::Overrun> MotionLimit::foreseen(const State& begin, const ConstraintRows& rows,
+                                                          double h) const {
+  std::optional<Overrun> worst;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    const double closing = -rows.relative(r, begin.v)[0];
-    if (!(closing > 0.0)) continue;
-    const double depth = allowed(rows, r);
-    if (depth < 0.0) continue;
-    longest = std::min(longest, (std::max(0.0, rows.gap_at(r, begin.q)) + 0.5 * depth) / closing);
+    const double before = rows.gap_at(r, begin.q);
+    judge(rows, r, before, before + h * rows.relative(r, begin.v)[0], worst);
   }
-  return longest;
+  return worst;
 }
 
 std::optional<MotionLimit::Overrun> MotionLimit::overrun(const State& begin, const State& end,
@@ -66,16 +75,11 @@ std::optional<MotionLimit::Overrun> MotionLimit::overrun(const State& begin, con
   const double h = end.t - begin.t;
   std::optional<Overrun> worst;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    const double most = allowed(rows, r);
-    if (most < 0.0) continue;
     const double before = rows.gap_at(r, begin.q);
     double after = rows.gap_at(r, end.q);
     if (before > 0.0 && at_end.status[r] != RowStatus::open)
       after = std::min(after, before + h * rows.relative(r, begin.v)[0]);
-    const double depth = std::min(0.0, before) - after;
-    if (depth <= most) continue;
-    const double fraction = (std::max(0.0, before) + 0.5 * most) / (before - after);
-    if (!worst || fraction < worst->fraction) worst = {fraction, share * depth / most, rows.source[r]};
+    judge(rows, r, before, after, worst);
   }
   return worst;
 }

@@ -20,22 +20,22 @@ class MotionLimit {
  public:
   MotionLimit(const Model& model, const Solid& solid);
 
-  /// The longest step from `begin`, whose rows are given, that takes no row deeper than half of what is allowed at the
-  /// velocity of the beginning; infinite where nothing closes.
-  double longest_step(const State& begin, const ConstraintRows& rows) const;
-
-  /// A row that has been carried too far.
+  /// A row that is carried too far.
   struct Overrun {
     double fraction = 1.0;  ///< of the step: where the row is half as deep as is allowed
-    double depth = 0.0;     ///< how far it was carried, in cells
+    double depth = 0.0;     ///< how far it is carried, in cells
     Index contact = -1;     ///< index in Model::contacts
   };
-  /// The row for which the step from `begin` to `end` has to be cut most, if any. Rows that carry a force at the end
-  /// are taken to have gone on with their velocity of the beginning where that leads deeper: exact contact leaves no
-  /// depth to see.
+  /// The row for which a step of length h from `begin`, whose rows are given, has to be cut most at the velocity of the
+  /// beginning, if any.
+  std::optional<Overrun> foreseen(const State& begin, const ConstraintRows& rows, double h) const;
+  /// The same of a step that has been made. Rows that carry a force at the end are taken to have gone on with their
+  /// velocity of the beginning where that leads deeper: exact contact leaves no depth to see.
   std::optional<Overrun> overrun(const State& begin, const State& end, const ContactResponse& at_end) const;
 
  private:
+  void judge(const ConstraintRows& rows, std::size_t r, double before, double after,
+             std::optional<Overrun>& worst) const;
   double allowed(const ConstraintRows& rows, std::size_t r) const;
 
   std::vector<double> length_;  ///< by node: the least of the cells there

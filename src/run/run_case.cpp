@@ -208,7 +208,7 @@ void Run::note_solver() {
 /// One accepted step. Returns false when the run cannot go on; message_ says why.
 bool Run::advance(const Stage& stage) {
   StepReport report;
-  steps_->limit_motion(state_, *scheme_->forces().rows.rows);
+  steps_->limit_motion(state_, *scheme_->forces().rows.rows, step_ + 1);
   for (;;) {
     const double dt = steps_->control().dt();
     // A hundredth of the ledger's bound (1e-10 of the energy), shared out over the time of the run; what a step leaves

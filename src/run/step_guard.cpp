@@ -41,10 +41,8 @@ bool StepGuard::shorten(const State& now, long long step) {
   return control_.cut(0.5);
 }
 
-void StepGuard::limit_motion(const State& now, const ConstraintRows& rows) {
-  if (!motion_ || !is_explicit(stage_.settings().kind)) return;
-  const double longest = motion_->longest_step(now, rows);
-  if (longest < control_.dt()) control_.cut(longest / control_.dt());
+void StepGuard::limit_motion(const State& now, const ConstraintRows& rows, long long step) {
+  if (motion_) cut_motion(motion_->foreseen(now, rows, control_.dt()), now.t, step);
 }
 
 bool StepGuard::is_to_be_repeated(const State& begin, const State& end, const Forces& forces, long long step) {
@@ -55,19 +53,18 @@ bool StepGuard::is_to_be_repeated(const State& begin, const State& end, const Fo
     if (control_.dt() < dt * (1.0 - 1e-9)) return true;
   }
   if (cuts_ == most_cuts) return false;
-  if (!moves_too_far(begin, end, forces, step) && !ends_late(begin, end, forces)) return false;
+  const bool is_cut = motion_ && cut_motion(motion_->overrun(begin, end, forces.rows), end.t, step);
+  if (!is_cut && !ends_late(begin, end, forces)) return false;
   ++cuts_;
   return true;
 }
 
-/// Cuts a step that carries contact too far.
-bool StepGuard::moves_too_far(const State& begin, const State& end, const Forces& forces, long long step) {
-  if (!motion_) return false;
-  const std::optional<MotionLimit::Overrun> overrun = motion_->overrun(begin, end, forces.rows);
+/// Cuts a step that carries contact too far; false where it does not, or is the shortest.
+bool StepGuard::cut_motion(const std::optional<MotionLimit::Overrun>& overrun, double t, long long step) {
   if (!overrun) return false;
   if (stage_.time().fixed) {
     throw RunError(
-        static_cast<int>(step), end.t,
+        static_cast<int>(step), t,
         fmt::format("contact \"{}\" closes by {:.3g} of a cell within one step, more than the half that it "
                     "may, and the case fixes the step: lower time.step to about {:.2g}, or leave out "
                     "fixed = true to have such steps cut",

@@ -9,8 +9,8 @@
 
 namespace carom {
 
-/// Contact that closes too far within a step (MotionLimit) has it made again, shorter; explicit steps are kept short
-/// enough beforehand. Where the case fixes the step, the run stops. Statics are free to move as far as they like.
+/// Contact that closes too far within a step (MotionLimit) has it made again, shorter; what the velocity foretells
+/// is cut beforehand. Where the case fixes the step, the run stops. Statics are free to move as far as they like.
 /// Implicit stages with time.event_tolerance: a step in which rows close earlier before its end than the tolerance, as
 /// a fraction of the usual step, is made again so that it ends at the touch (contact_event); the steps after it are no
 /// longer than the tolerance either, and grow again. Both at most eight times in a step. Explicit stages whose stable
@@ -24,8 +24,9 @@ class StepGuard {
   /// Shortens the step from `now`, number `step`, that has failed; false when it may not be shorter. Explicit steps are
   /// halved a few times, once the stable step has been looked at.
   bool shorten(const State& now, long long step);
-  /// Shortens the next step of an explicit stage to what contact may close within it; `rows` are those of `now`.
-  void limit_motion(const State& now, const ConstraintRows& rows);
+  /// Shortens the step from `now`, number `step`, to what contact may close within it; `rows` are those of `now`.
+  /// Throws RunError where the case fixes it.
+  void limit_motion(const State& now, const ConstraintRows& rows, long long step);
   /// True when the converged step from `begin` to `end`, number `step`, has to be made again, its length having been
   /// changed. Throws RunError where contact moves too far in a step that the case fixes.
   bool is_to_be_repeated(const State& begin, const State& end, const Forces& forces, long long step);
@@ -36,7 +37,7 @@ class StepGuard {
   void follow_stable_step(const State& before, const State& now, long long step);
 
  private:
-  bool moves_too_far(const State& begin, const State& end, const Forces& forces, long long step);
+  bool cut_motion(const std::optional<MotionLimit::Overrun>& overrun, double t, long long step);
   bool ends_late(const State& begin, const State& end, const Forces& forces);
 
   const Stage& stage_;
