@@ -19,7 +19,8 @@ struct Overlap {
 };
 
 /// Looks for nodes of the skins of HEXA8 and QUAD4 bodies
-/// - inside of cells that are neither their own nor neighbours of those: of other bodies, or of a fold of their own. The
+/// - inside of cells that are neither their own nor neighbours of those: of other bodies, or of a fold of their own.
+/// The
 ///   depth is that under the skin, (1 -+ xi_k) / 2 of the cell's length for the nearest of its skin faces; a cell
 ///   without skin faces counts by the shape functions of its nodes that are not on the skin, at most its length;
 /// - inside of rigid obstacles or behind their planes and surfaces, for the nodes that a contact names.
