@@ -44,9 +44,9 @@ Range closed(double low, double high) {
 template <class S, class Access>
 void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
   const auto number = [&](const std::string& key, double CaseScheme::*member, const std::string& doc, Range range,
-                          const Names& kinds) {
+                          const Names& kinds, const std::string& default_phrase = "") {
     s.key_by(key, [ scheme_of, member ](auto& section) -> auto& { return scheme_of(section).*member; }, doc,
-             {.range = range, .kinds = kinds});
+             {.range = range, .kinds = kinds, .default_phrase = default_phrase});
   };
   s.description.selector = "kind";
   s.key_by("kind", [scheme_of](auto& section) -> auto& { return scheme_of(section).kind; }, "Time scheme.",
@@ -56,11 +56,11 @@ void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
            {.choices = Names(enforcement_names.begin(), enforcement_names.end()),
             .default_phrase = "the first that the scheme takes"});
   number("beta", &CaseScheme::beta, "Newmark's beta.", {Bound{0.0, Bound::Side::open}, Bound{0.5, Bound::Side::closed}},
-         {"newmark"});
+         {"newmark"}, "0.25; with multipliers 0.5, which throws no node back faster than it came");
   number("gamma", &CaseScheme::gamma, "Newmark's gamma; above 0.5 the scheme dissipates.", closed(0.5, 1.0),
          {"newmark", "contact_stabilized_newmark"});
   number("alpha", &CaseScheme::alpha, "Dissipation of HHT and WBZ; 0 is Newmark's trapezoidal rule.",
-         closed(-1.0 / 3.0, 0.0), {"hht", "wbz"});
+         closed(-1.0 / 3.0, 0.0), {"hht", "wbz"}, "-0.05; with multipliers -1/3, which throws nodes back least");
   number("rho_inf", &CaseScheme::rho_inf, "Spectral radius at high frequency (Hulbert-Chung: at bifurcation).",
          closed(0.0, 1.0), {"generalized_alpha", "nonsmooth_generalized_alpha", "hulbert_chung"});
   number("theta", &CaseScheme::theta, "Weight of the end of the step; above 0.5 the scheme dissipates.",
@@ -161,6 +161,17 @@ void check_mass_scaling(CaseScheme& scheme, const Node& node, const ReadContext&
   if (!scheme.mass_scaling_limit) scheme.mass_scaling_limit = 0.05;
 }
 
+/// Multipliers on contact nodes with inertia make the alpha family throw back what touches
+/// (schemes/touch_rebound.hpp): its parameters of least rebound, where the case gives none.
+void choose_parameters(CaseScheme& scheme, const Node& node) {
+  const EnforcementKind enforcement = **scheme.enforcement;
+  const bool has_multipliers =
+      enforcement == EnforcementKind::lagrange || enforcement == EnforcementKind::augmented_lagrangian;
+  if (!has_multipliers || **scheme.mass == CaseScheme::Mass::modified) return;
+  if (find(node, "beta") == nullptr && find(node, "gamma") == nullptr) scheme.beta = 0.5;
+  if (find(node, "alpha") == nullptr) scheme.alpha = -1.0 / 3.0;
+}
+
 void finish_scheme(CaseScheme& scheme, const Node& node, const ReadContext& at) {
   if (!scheme.enforcement)
     scheme.enforcement = Located<EnforcementKind>{default_enforcement(*scheme.kind), scheme.where};
@@ -174,6 +185,7 @@ void finish_scheme(CaseScheme& scheme, const Node& node, const ReadContext& at) 
   }
   check_mass(scheme, node, at);
   check_mass_scaling(scheme, node, at);
+  choose_parameters(scheme, node);
 }
 
 /// `safety` is written only where it acts: beside no step.
