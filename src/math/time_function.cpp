@@ -13,6 +13,23 @@ std::vector<double>::const_iterator first_after(const std::vector<double>& time,
   return std::upper_bound(time.begin(), time.end(), t + 1e-12 * std::abs(t));
 }
 
+/// Calls visit(p, f(p), q, f(q)) for every piece [p, q] of [a, b] on which f is linear, from the left to the right.
+template <class Visit>
+void each_piece(const TimeFunction& f, double a, double b, const Visit& visit) {
+  const std::vector<double>&t = f.time, &y = f.value;
+  auto i = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), a) - t.begin());  // the first entry after p
+  for (double p = a; p < b; ++i) {
+    const double q = i < t.size() ? std::min(b, t[i]) : b;
+    const auto at = [&](double s) {
+      if (i == 0) return y.front();
+      if (i == t.size()) return y.back();
+      return y[i - 1] + (y[i] - y[i - 1]) * (s - t[i - 1]) / (t[i] - t[i - 1]);
+    };
+    if (q > p) visit(p, at(p), q, at(q));
+    p = q;
+  }
+}
+
 }  // namespace
 
 double TimeFunction::operator()(double t) const {
@@ -28,6 +45,21 @@ double TimeFunction::derivative(double t) const {
   if (next == time.begin() || next == time.end()) return 0.0;
   const auto i = static_cast<std::size_t>(next - time.begin());
   return (value[i] - value[i - 1]) / (time[i] - time[i - 1]);
+}
+
+double TimeFunction::integral(double a, double b) const {
+  double sum = 0.0;
+  each_piece(*this, a, b, [&](double p, double f_p, double q, double f_q) { sum += 0.5 * (q - p) * (f_p + f_q); });
+  return sum;
+}
+
+double TimeFunction::second_integral(double a, double b) const {
+  double sum = 0.0;
+  each_piece(*this, a, b, [&](double p, double f_p, double q, double f_q) {
+    // Simpson's rule on the product of two linear functions.
+    sum += (q - p) / 6.0 * ((b - p) * f_p + (2.0 * b - p - q) * (f_p + f_q) + (b - q) * f_q);
+  });
+  return sum;
 }
 
 }  // namespace carom

@@ -15,6 +15,10 @@ struct TimeFunction {
   double operator()(double t) const;
   /// First derivative at t (from the right at a kink; jumps do not count).
   double derivative(double t) const;
+  /// Integral of f from a to b >= a, piece by piece: exact up to rounding, whatever kinks and jumps lie between.
+  double integral(double a, double b) const;
+  /// Integral of (b - s) f(s) from a to b >= a: what an acceleration f adds to the way.
+  double second_integral(double a, double b) const;
 };
 
 }  // namespace carom

@@ -106,32 +106,8 @@ Stage::Stage(const StageContext& context, const CaseScheme& scheme, const CaseTi
       mass_(make_mass(context, scheme, settings_, notes_)),
       supports_(make_supports(context, body_nodes(context))),
       system_{context.mesh, context.solid, mass_, context.contact, supports_} {
-  refuse_ringing_motions();
   refuse_massless_contact();
   choose_step();
-}
-
-/// Newmark's accelerations that follow an imposed displacement obey beta z^2 + (1/2 + gamma - 2 beta) z + 1/2 - gamma +
-/// beta = 0: with gamma = 1/2 the roots have modulus 1, and every kink of the function rings on for ever. The same
-/// holds for the members of the family that do not dissipate.
-void Stage::refuse_ringing_motions() const {
-  const SchemeSettings& s = settings_;
-  const bool rings = (s.kind == SchemeKind::newmark && s.gamma <= 0.5) ||
-                     ((s.kind == SchemeKind::hht || s.kind == SchemeKind::wbz) && s.alpha >= 0.0) ||
-                     ((s.kind == SchemeKind::generalized_alpha || s.kind == SchemeKind::nonsmooth_generalized_alpha ||
-                       s.kind == SchemeKind::hulbert_chung) &&
-                      s.rho_inf >= 1.0);
-  if (!rings) return;
-  for (const CaseSupport& support : context_.given.supports) {
-    for (const CaseSupport::Motion& motion : support.motions) {
-      if (motion.kind != CaseSupport::Kind::displacement || !motion.function) continue;
-      throw CaseError(
-          motion.amplitude.where, "support.displacement",
-          fmt::format("a displacement that changes in time, with {}", describe(s)),
-          "a scheme that dissipates a little, since otherwise the velocities of these nodes ring without end",
-          "Take gamma > 0.5, alpha < 0 or rho_inf < 1 in [scheme], or impose the velocity.");
-    }
-  }
 }
 
 /// A contact node that belongs to no part and is held by no support has no equation.

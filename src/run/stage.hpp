@@ -67,7 +67,6 @@ class Stage {
   std::string name() const;
 
  private:
-  void refuse_ringing_motions() const;
   void refuse_massless_contact() const;
   void choose_step();
 

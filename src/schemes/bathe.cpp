@@ -8,6 +8,7 @@ namespace carom {
 
 Bathe::Bathe(const System& system, const ImplicitSettings& settings, double dt, double omega_max_squared)
     : system_(system),
+      start_(system),
       first_(system, settings, dt * dt / 16.0, omega_max_squared),
       second_(system, settings, dt * dt / 9.0, omega_max_squared) {
   x_hat_.resize(system.solid.dof_count());
@@ -26,7 +27,8 @@ bool Bathe::solve(ImplicitStage& stage, const StageEquation& equation, const Ste
   whole.x_hat = x_hat_;
   whole.v_hat = v_hat_;
   whole.known = forces_end.external;
-  impose_on_stage(system_, whole, end.t, end.t, end.a);
+  whole.imposed = imposed_;
+  impose_on_stage(whole, end.a);
   StageReport solved = stage.solve(whole, begin, 0.5 * request.work_tolerance, end, forces_end);
   report.iterations += solved.iterations;
   report.linear_iterations += solved.linear_iterations;
@@ -48,8 +50,15 @@ StepReport Bathe::step(const State& begin, const StepRequest& request, State& en
   StepReport report;
   middle_ = begin;
   middle_.t = request.t_end - 0.5 * h;
+  imposed_steps(system_.supports, begin.t, middle_.t, begin.q, imposed_);
+  if (!start_.set(
+          begin.a, 0.5 * h, imposed_, [](const ImposedStep& s) { return s.a_begin; }, now_)) {
+    report.failure = MassSolver::failure;
+    return report;
+  }
+  const std::span<const double> a_begin = start_.a();
   for (std::size_t i = 0; i < begin.q.size(); ++i) {
-    v_hat_[i] = begin.v[i] + 0.25 * h * begin.a[i];
+    v_hat_[i] = begin.v[i] + 0.25 * h * a_begin[i];
     x_hat_[i] = begin.q[i] + 0.25 * h * (begin.v[i] + v_hat_[i]);
   }
   const StageEquation trapezoidal{.s = h * h / 16.0, .r = 0.25 * h};
@@ -60,6 +69,7 @@ StepReport Bathe::step(const State& begin, const StepRequest& request, State& en
     v_hat_[i] = (4.0 * middle_.v[i] - begin.v[i]) / 3.0;
     x_hat_[i] = (h * v_hat_[i] + 4.0 * middle_.q[i] - begin.q[i]) / 3.0;
   }
+  imposed_steps(system_.supports, middle_.t, end.t, middle_.q, imposed_);
   const StageEquation backward{.s = h * h / 9.0, .r = h / 3.0};
   if (!solve(second_, backward, request, middle_, half_, end, next_, report)) return report;
   const Momentum sum =

@@ -33,9 +33,11 @@ class Bathe final : public Scheme {
              const Forces& forces_begin, State& end, Forces& forces_end, StepReport& report);
 
   const System& system_;
+  StepStart start_;
   ImplicitStage first_, second_;
   Forces now_, half_, next_;
   State middle_;
+  std::vector<ImposedStep> imposed_;  ///< of the sub-step under way
   std::vector<double> x_hat_, v_hat_;
 };
 

@@ -14,6 +14,11 @@ double mix(double w, double x0, double x1) {
 
 }  // namespace
 
+double support_work(std::size_t i, const State& begin, const Forces& f0, const State& end, const Forces& f1, double w) {
+  const double rest = mix(w, f0.reaction[i] - f0.inertia[i], f1.reaction[i] - f1.inertia[i]);
+  return 0.5 * (begin.v[i] + end.v[i]) * (f1.momentum[i] - f0.momentum[i]) + rest * (end.q[i] - begin.q[i]);
+}
+
 StepBooks step_books(const System& system, const State& begin, const Forces& f0, const State& end, const Forces& f1,
                      const StepWeights& w, const ContactWork& contact, std::span<const double> mean_internal) {
   const MomentArms arms(system, begin.q, end.q, 0.5);
@@ -29,7 +34,7 @@ StepBooks step_books(const System& system, const State& begin, const Forces& f0,
     const double support = system.supports.is_prescribed(dof) ? inertia + internal - external - in_contact : 0.0;
     s[0] += (is_given ? internal : 0.5 * (f0.internal[i] + f1.internal[i])) * du;
     s[1] += 0.5 * (f0.external[i] + f1.external[i]) * du;
-    s[2] += mix(w.support_work, f0.reaction[i], f1.reaction[i]) * du;
+    if (system.supports.is_prescribed(dof)) s[2] += support_work(i, begin, f0, end, f1, w.support_work);
     s[3] += inertia * du;
     s[4] += (external + support - internal) * du;
     s[5] += in_contact * du;

@@ -8,13 +8,19 @@ namespace carom {
 
 /// Weights of the end of the step (1 minus those of its beginning) in the scheme's equation of motion
 ///   M a~ + F~ = f~ + C~ + R~,  x~ = (1 - w) x0 + w x1,
-/// and in the work of the supports, which is booked as ((1 - w) R0 + w R1) . du.
+/// and in the work of the supports (support_work).
 struct StepWeights {
   double inertia = 0.5;
   double force = 0.5;  ///< of internal and external forces
   double contact = 0.5;
   double support_work = 0.5;
 };
+
+/// Work of a support on dof i: what its inertia takes, v_bar (M dv) with v_bar the mean of both ends, and what balances
+/// the forces, ((1 - w) (R0 - M a0) + w (R1 - M a1)) du. The first is the change of kinetic energy, whatever the
+/// velocity does within the step.
+double support_work(std::size_t i, const State& begin, const Forces& forces_begin, const State& end,
+                    const Forces& forces_end, double w);
 
 /// The energies of a step, and the resultant of external, contact and support forces in the scheme's equation.
 struct StepBooks {

@@ -24,7 +24,7 @@ void evaluate_body_forces(const System& system, double t, std::span<const double
 CentralDifferences::CentralDifferences(const System& system) : CentralDifferences(system, penalty_contact(system)) {}
 
 CentralDifferences::CentralDifferences(const System& system, std::unique_ptr<ExplicitContact> contact)
-    : system_(system), contact_(std::move(contact)), mass_solver_(system) {
+    : system_(system), contact_(std::move(contact)), mass_solver_(system), start_(system) {
   v_half_.resize(system.solid.dof_count());
   rhs_.resize(system.solid.dof_count());
 }
@@ -32,10 +32,8 @@ CentralDifferences::CentralDifferences(const System& system, std::unique_ptr<Exp
 void CentralDifferences::start(State& state, double dt) {
   start_with_supports(system_, state);
   evaluate_body_forces(system_, state.t, state.q, now_);
-  // The first half step starts from v0 itself: v_{1/2} = v0 + h/2 a0, u1 = u0 + h v0 + h^2/2 a0.
-  impose_motions(
-      system_, state.t, {dt, 0.5 * dt * dt, 0.5 * dt, 0.5 * dt},
-      [&](std::size_t i) { return state.q[i] + dt * state.v[i]; }, [&](std::size_t i) { return state.v[i]; }, state.a);
+  imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_next_);
+  for (const ImposedStep& s : imposed_next_) state.a[s.dof] = acceleration_to_middle(s, dt);
   if (!contact_->respond({dt, 0.5 * dt, state.q, state.q, state.v, state.a, state.contact}, now_))
     throw std::runtime_error("no contact force was found for the initial state");
   start_accelerations(system_, mass_solver_, state, now_);
@@ -48,19 +46,31 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
   end.q.resize(n);
   end.v.resize(n);
   end.a = begin.a;
+  StepReport report;
+  imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
+  if (!start_.set(
+          begin.a, h, imposed_, [h](const ImposedStep& s) { return acceleration_to_middle(s, h); }, now_)) {
+    report.failure = MassSolver::failure;
+    return report;
+  }
+  const std::span<const double> a_begin = start_.a();
   parallel_each(n, [&](std::size_t i) {
-    v_half_[i] = begin.v[i] + 0.5 * h * begin.a[i];
+    v_half_[i] = begin.v[i] + 0.5 * h * a_begin[i];
     end.q[i] = begin.q[i] + h * v_half_[i];
   });
+  for (const ImposedStep& s : imposed_) {
+    v_half_[s.dof] = s.mean_velocity;
+    end.q[s.dof] = s.u;
+  }
   evaluate_body_forces(system_, request.t_end, end.q, next_);
-  impose_motions(
-      system_, request.t_end, {h, h * h, 0.5 * h, h}, [&](std::size_t i) { return end.q[i] + h * v_half_[i]; },
-      [&](std::size_t i) { return v_half_[i]; }, end.a);
-  StepReport report;
+  // Contact looks at the step that follows.
+  imposed_steps(system_.supports, end.t, end.t + h, end.q, imposed_next_);
+  for (const ImposedStep& s : imposed_next_) end.a[s.dof] = (s.mean_velocity - v_half_[s.dof]) / h;
   if (!contact_->respond({h, h, begin.q, end.q, v_half_, end.a, begin.contact}, next_)) {
     report.failure = "no contact force was found: the forces are not finite, or the cone problem has no solution";
     return report;
   }
+  for (const ImposedStep& s : imposed_) end.a[s.dof] = acceleration_from_middle(s, h);
   force_sum(next_, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);
   if (report.linear_iterations < 0) {
@@ -69,8 +79,9 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
   }
   parallel_each(n, [&](std::size_t i) { end.v[i] = v_half_[i] + 0.5 * h * end.a[i]; });
   take_history(next_.rows, end);
+  for (const ImposedStep& s : imposed_) end.v[s.dof] = s.v;
   complete_forces(system_, end, next_);
-  report.books = central_difference_books(system_, begin, now_, end, next_, h);
+  report.books = central_difference_books(system_, begin, now_, a_begin, end, next_, h);
   contact_->book(begin, now_, end, next_, report.books.energy);
   report.converged = true;
   std::swap(now_, next_);

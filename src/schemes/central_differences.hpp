@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "schemes/explicit_contact.hpp"
+#include "schemes/imposed_motion.hpp"
 #include "schemes/mass_solver.hpp"
 #include "schemes/scheme.hpp"
 
@@ -16,8 +17,8 @@ namespace carom {
 /// omega h <= 2; momenta exact; the shadow energy T + U - h^2/8 a.Ma is constant while contact does not change.
 /// Contact is a force of (u1, v_{1/2}) for the penalty; multipliers and impulses are found so that the next step keeps
 /// to the rows: as part of a1 they act on v_{3/2} = v_{1/2} + h a1 (explicit_contact.hpp). Steps of changing length
-/// keep to them up to that change. Imposed motions are imposed through a1, the second difference of their function, as
-/// for Newmark.
+/// keep to them up to that change. Imposed dofs move by the exact integrals of their functions (ImposedStep); v_{1/2}
+/// is their mean velocity, and their accelerations lead from v0 to it and from it to v1.
 class CentralDifferences final : public Scheme {
  public:
   /// With penalty contact.
@@ -35,8 +36,10 @@ class CentralDifferences final : public Scheme {
   const System& system_;
   std::unique_ptr<ExplicitContact> contact_;
   MassSolver mass_solver_;
+  StepStart start_;
   Forces now_, next_;
   std::vector<double> v_half_, rhs_;
+  std::vector<ImposedStep> imposed_, imposed_next_;
 };
 
 }  // namespace carom

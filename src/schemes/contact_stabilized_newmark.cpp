@@ -38,6 +38,8 @@ void ContactStabilizedNewmark::start(State& state, double dt) {
 /// projected_.q = u_hat
 StageReport ContactStabilizedNewmark::project(const State& begin, const StepRequest& request) {
   for (std::size_t i = 0; i < begin.q.size(); ++i) x_predicted_[i] = begin.q[i] + request.dt * begin.v[i];
+  imposed_steps(system_.supports, begin.t, request.t_end, begin.q, imposed_);
+  for (const ImposedStep& s : imposed_) x_predicted_[s.dof] = s.u;
   projected_ = begin;
   std::fill(projected_.a.begin(), projected_.a.end(), 0.0);
   const StageEquation equation{.s = 1.0, .x_hat = x_predicted_, .v_hat = zero_, .known = zero_};
@@ -59,9 +61,14 @@ StepReport ContactStabilizedNewmark::step(const State& begin, const StepRequest&
   for (std::size_t i = 0; i < n; ++i) {
     known_[i] = gamma_ * next_.external[i] + (1.0 - gamma_) * (now_.external[i] - now_.internal[i]);
   }
-  const StageEquation equation{
-      .k = gamma_, .s = 0.5 * h * h, .r = h, .x_hat = projected_.q, .v_hat = begin.v, .known = known_};
-  impose_on_stage(system_, equation, end.t, end.t - 0.5 * h, end.a);
+  const StageEquation equation{.k = gamma_,
+                               .s = 0.5 * h * h,
+                               .r = h,
+                               .x_hat = projected_.q,
+                               .v_hat = begin.v,
+                               .known = known_,
+                               .imposed = imposed_};
+  impose_on_stage(equation, end.a);
   StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
   report.converged = solved.converged;
   report.iterations += solved.iterations;

@@ -39,6 +39,7 @@ class ContactStabilizedNewmark final : public Scheme {
   ImplicitStage projection_, stage_;
   State projected_;
   Forces now_, next_;
+  std::vector<ImposedStep> imposed_;
   std::vector<double> x_predicted_, zero_, known_;
 };
 

@@ -42,12 +42,14 @@ StepReport EnergyMomentum::step(const State& begin, const StepRequest& request, 
   end.t = request.t_end;
   next_.external.resize(n);
   system_.solid.external_force(end.t, system_.mass, next_.external);
+  imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   for (std::size_t i = 0; i < n; ++i) {
     x_hat_[i] = begin.q[i] + h * begin.v[i];
     known_[i] = 0.5 * (now_.external[i] + next_.external[i]);
   }
-  const StageEquation equation{.s = 0.5 * h * h, .r = h, .x_hat = x_hat_, .v_hat = begin.v, .known = known_};
-  impose_on_stage(system_, equation, end.t, end.t - 0.5 * h, end.a);
+  const StageEquation equation{
+      .s = 0.5 * h * h, .r = h, .x_hat = x_hat_, .v_hat = begin.v, .known = known_, .imposed = imposed_};
+  impose_on_stage(equation, end.a);
   StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;

@@ -20,7 +20,7 @@ namespace carom {
 /// fixed rows, is conserved exactly at any step, and so are both momenta; for linear bodies it is the midpoint rule,
 /// unconditionally stable. Newton's method takes K at the middle, so that it converges linearly, the faster the smaller
 /// the step, where the body is not linear. The acceleration of the state is the mean of the step, reactions likewise.
-/// algorithmic = 0 but for supports: their work is that of the mean reactions.
+/// algorithmic = 0.
 class EnergyMomentum final : public Scheme {
  public:
   /// settings.enforcement is penalty.
@@ -40,6 +40,7 @@ class EnergyMomentum final : public Scheme {
   const State* begin_ = nullptr;  ///< of the step under way
   ImplicitStage stage_;
   Forces now_, next_;
+  std::vector<ImposedStep> imposed_;
   std::vector<double> x_hat_, known_, mean_internal_;
   std::vector<double> middle_;  ///< (u0 + u1) / 2 of the iterate
 };

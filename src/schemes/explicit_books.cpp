@@ -4,20 +4,25 @@
 #include <vector>
 
 #include "parallel/threads.hpp"
+#include "schemes/books.hpp"
 
 namespace carom {
 
-LedgerIncrement central_difference_books(const System& system, const State& begin, const Forces& f0, const State& end,
-                                         const Forces& f1, double h) {
+LedgerIncrement central_difference_books(const System& system, const State& begin, const Forces& f0,
+                                         std::span<const double> a_begin, const State& end, const Forces& f1,
+                                         double h) {
   // The forces of each end act where the nodes stand then: with a lumped mass that is the exact change of momentum.
   const MomentArms arms_0(system, begin.q), arms_1(system, end.q);
-  // Works of internal, contact, external and support forces, impulses and their moments.
-  const auto sums = parallel_sums<10>(end.q.size(), [&](std::size_t i, std::array<double, 10>& s) {
+  // Works of internal, contact, external and support forces, impulses and their moments, da . (M a0 + M a1).
+  const auto sums = parallel_sums<11>(end.q.size(), [&](std::size_t i, std::array<double, 11>& s) {
     const double du = end.q[i] - begin.q[i];
     s[0] += 0.5 * (f0.internal[i] + f1.internal[i]) * du;
     s[1] += 0.5 * (f0.contact[i] + f1.contact[i]) * du;
     s[2] += 0.5 * (f0.external[i] + f1.external[i]) * du;
-    s[3] += 0.5 * (f0.reaction[i] + f1.reaction[i]) * du;
+    if (system.supports.is_prescribed(static_cast<Index>(i)))
+      s[3] += support_work(i, begin, f0, end, f1, 0.5);
+    else
+      s[10] += (end.a[i] - a_begin[i]) * (f0.inertia[i] + f1.inertia[i]);
     const double half = 0.5 * h;
     const double impulse_0 = half * (f0.external[i] + f0.contact[i] + f0.reaction[i]);
     const double impulse_1 = half * (f1.external[i] + f1.contact[i] + f1.reaction[i]);
@@ -34,7 +39,7 @@ LedgerIncrement central_difference_books(const System& system, const State& begi
   energy.damping = damping_work(begin, f0, end, f1);
   energy.external_work = sums[2];
   energy.support_work = sums[3];
-  energy.algorithmic = -0.125 * h * h * (f1.inertia_power - f0.inertia_power);
+  energy.algorithmic = -0.125 * h * h * sums[10];
   energy.quadrature =
       internal_work - energy.strain - contact_work - energy.contact_stored - energy.friction - energy.damping;
   step.aster.ENER_CIN = energy.kinetic;
@@ -47,10 +52,11 @@ LedgerIncrement central_difference_books(const System& system, const State& begi
 
 LedgerIncrement explicit_books(const System& system, const State& begin, const Forces& f0, const State& end,
                                const Forces& f1, std::span<const double> A, std::span<const double> B, double h) {
-  LedgerIncrement step = central_difference_books(system, begin, f0, end, f1, h);
+  LedgerIncrement step = central_difference_books(system, begin, f0, begin.a, end, f1, h);
   std::vector<double> MA(A.size());
   system.mass.apply(A, MA);
   step.energy.algorithmic = parallel_sum(A.size(), [&](std::size_t i) {
+    if (system.supports.is_prescribed(static_cast<Index>(i))) return 0.0;
     const double du = end.q[i] - begin.q[i];
     return du * (0.5 * (f0.inertia[i] + f1.inertia[i]) - MA[i]) - h * h * (0.5 * A[i] - B[i]) * MA[i];
   });

@@ -20,6 +20,7 @@ GeneralizedAlpha::GeneralizedAlpha(const System& system, const GeneralizedAlphaP
                                    const ImplicitSettings& settings, double dt, double omega_max_squared)
     : system_(system),
       parameters_(p),
+      start_(system),
       stage_(system, settings, (1.0 - p.alpha_f) / (1.0 - p.alpha_m) * p.beta * dt * dt, omega_max_squared) {
   assert(p.beta > 0.0 && p.alpha_m < 1.0 && p.alpha_f < 1.0);
   const std::size_t n = system.solid.dof_count();
@@ -41,9 +42,14 @@ StepReport GeneralizedAlpha::step(const State& begin, const StepRequest& request
   end.t = request.t_end;
   next_.external.resize(n);
   system_.solid.external_force(end.t, system_.mass, next_.external);
+  imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
+  if (!start_.set(
+          begin.a, h, imposed_, [](const ImposedStep& s) { return s.a_begin; }, now_))
+    return {false, 0, 0, MassSolver::failure, {}};
+  const std::span<const double> a_begin = start_.a();
   for (std::size_t i = 0; i < n; ++i) {
-    u_predicted_[i] = begin.q[i] + h * begin.v[i] + h * h * (0.5 - beta) * begin.a[i];
-    v_predicted_[i] = begin.v[i] + h * (1.0 - gamma) * begin.a[i];
+    u_predicted_[i] = begin.q[i] + h * begin.v[i] + h * h * (0.5 - beta) * a_begin[i];
+    v_predicted_[i] = begin.v[i] + h * (1.0 - gamma) * a_begin[i];
     known_[i] = (1.0 - alpha_f) * next_.external[i] + alpha_f * (now_.external[i] - now_.internal[i]) -
                 alpha_m * now_.inertia[i];
   }
@@ -53,8 +59,9 @@ StepReport GeneralizedAlpha::step(const State& begin, const StepRequest& request
                                .r = gamma * h,
                                .x_hat = u_predicted_,
                                .v_hat = v_predicted_,
-                               .known = known_};
-  impose_on_stage(system_, equation, end.t, end.t, end.a);
+                               .known = known_,
+                               .imposed = imposed_};
+  impose_on_stage(equation, end.a);
   StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
@@ -64,7 +71,7 @@ StepReport GeneralizedAlpha::step(const State& begin, const StepRequest& request
                                      stage_.port().work(begin, now_, end, next_, weights.support_work));
   report.books = books.increment;
   const std::vector<double>& m = begin.memory;
-  const Momentum before{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}};
+  const Momentum before = combine(1.0, {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}}, 1.0, start_.change(begin.q));
   const Momentum after = combine(1.0 / (1.0 - alpha_m), books.force, -alpha_m / (1.0 - alpha_m), before);
   report.books.impulse = combine(h * (1.0 - gamma), before, h * gamma, after);
   end.memory = packed(after);

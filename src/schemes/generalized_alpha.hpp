@@ -39,8 +39,9 @@ constexpr GeneralizedAlphaParameters chung_hulbert_parameters(double rho_inf) {
 /// (Chung and Hulbert, Journal of Applied Mechanics 60, 1993; contact at the end of the step). Order 2 for
 /// gamma = 1/2 - alpha_m + alpha_f, else 1; unconditionally stable (linear) for alpha_m <= alpha_f <= 1/2 and
 /// beta >= 1/4 + (alpha_f - alpha_m) / 2. Newmark with 1/4, 1/2 conserves the energy of linear bodies; all conserve
-/// linear momentum. The unknown of Newton's method is a1. Imposed motions are imposed through a1, so that the kinematic
-/// relations hold on every dof. The impulses of the ledger follow from M a: with e1 the resultant that
+/// linear momentum. The unknown of Newton's method is a1. Imposed dofs move by the exact integrals of their functions
+/// (ImposedStep); their accelerations give their velocities by the scheme's rule, which is what their neighbours feel
+/// through a consistent mass. The impulses of the ledger follow from M a: with e1 the resultant that
 /// (1 - alpha_m) e1 + alpha_m e0 = forces of the equation defines, it is h ((1 - gamma) e0 + gamma e1); e is the
 /// scheme's memory.
 class GeneralizedAlpha final : public Scheme {
@@ -59,8 +60,10 @@ class GeneralizedAlpha final : public Scheme {
  private:
   const System& system_;
   GeneralizedAlphaParameters parameters_;
+  StepStart start_;
   ImplicitStage stage_;
   Forces now_, next_;
+  std::vector<ImposedStep> imposed_;
   std::vector<double> u_predicted_, v_predicted_, known_;
 };
 

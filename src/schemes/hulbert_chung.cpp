@@ -39,6 +39,7 @@ HulbertChung::HulbertChung(const System& system, double rho)
       beta_((5.0 - 3.0 * rho) / ((1.0 + rho) * (1.0 + rho) * (2.0 - rho))),
       gamma_(1.5 - alpha_m_),
       mass_solver_(system),
+      start_(system),
       rhs_(system.solid.dof_count()),
       A_(system.solid.dof_count()),
       B_(system.solid.dof_count()) {
@@ -49,9 +50,8 @@ void HulbertChung::start(State& state, double dt) {
   start_with_supports(system_, state);
   evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, now_);
   // e0 = e1 = a0
-  impose_motions(
-      system_, state.t, {dt, 0.5 * dt * dt, dt, dt}, [&](std::size_t i) { return state.q[i] + dt * state.v[i]; },
-      [&](std::size_t i) { return state.v[i]; }, state.a);
+  imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
+  for (const ImposedStep& s : imposed_) state.a[s.dof] = mean_acceleration(s, dt);
   start_accelerations(system_, mass_solver_, state, now_);
   state.memory = state.a;
   state.memory.resize(state.a.size() + resultant_size);
@@ -62,22 +62,32 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
   const double h = request.dt, share = 1.0 / (1.0 - alpha_m_);
   end = begin;
   end.t = request.t_end;
+  StepReport report;
+  imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
+  const auto wanted = [&](const ImposedStep& s) {
+    const double e0 = begin.memory[s.dof], e1 = (mean_acceleration(s, h) - (1.0 - gamma_) * e0) / gamma_;
+    return (1.0 - alpha_m_) * e1 + alpha_m_ * e0;
+  };
+  if (!start_.set(begin.a, h, imposed_, wanted, now_)) {
+    report.failure = MassSolver::failure;
+    return report;
+  }
+  const std::span<const double> a_begin = start_.a();
   parallel_each(end.q.size(), [&](std::size_t i) {
-    const double e0 = begin.memory[i], e1 = share * (begin.a[i] - alpha_m_ * e0);
+    const double e0 = begin.memory[i], e1 = share * (a_begin[i] - alpha_m_ * e0);
     end.memory[i] = e1;
     B_[i] = (0.5 - beta_) * e0 + beta_ * e1;
     A_[i] = (1.0 - gamma_) * e0 + gamma_ * e1;
     end.q[i] = begin.q[i] + h * begin.v[i] + h * h * B_[i];
     end.v[i] = begin.v[i] + h * A_[i];
   });
+  for (const ImposedStep& s : imposed_) {
+    end.q[s.dof] = s.u;
+    end.v[s.dof] = s.v;
+  }
   evaluate_forces(system_, request.t_end, begin.q, begin.contact, end.q, end.v, next_);
-  const double beta_e1 = 0.5 - beta_ - share * alpha_m_ * beta_, gamma_e1 = 1.0 - gamma_ - share * alpha_m_ * gamma_;
-  impose_motions(
-      system_, request.t_end, {h, h * h * beta_ * share, h, h * gamma_ * share},
-      [&](std::size_t i) { return end.q[i] + h * end.v[i] + h * h * beta_e1 * end.memory[i]; },
-      [&](std::size_t i) { return end.v[i] + h * gamma_e1 * end.memory[i]; }, end.a);
+  for (const ImposedStep& s : imposed_) end.a[s.dof] = mean_acceleration(s, h);
   force_sum(next_, rhs_);
-  StepReport report;
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);
   if (report.linear_iterations < 0) {
     report.failure = MassSolver::failure;

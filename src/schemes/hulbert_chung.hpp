@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "schemes/imposed_motion.hpp"
 #include "schemes/mass_solver.hpp"
 #include "schemes/scheme.hpp"
 
@@ -15,7 +16,8 @@ namespace carom {
 ///   alpha_m = (2 r - 1)/(1 + r),  beta = (5 - 3 r)/((1 + r)^2 (2 - r)),  gamma = 3/2 - alpha_m
 /// (Hulbert and Chung, Comput. Methods Appl. Mech. Eng. 137, 1996, with the spectral radius r at the bifurcation
 /// point). Order 2; stable for omega h <= stability_limit. The state's accelerations are a_n. Momenta are exact, the
-/// impulses being those of the forces filtered like e. Penalty contact. Imposed motions are imposed through a.
+/// impulses being those of the forces filtered like e. Penalty contact. Imposed dofs move by the exact
+/// integrals of their functions; their a give their velocities by the scheme's rule.
 class HulbertChung final : public Scheme {
  public:
   /// rho: spectral radius, 0 ... 1
@@ -32,8 +34,10 @@ class HulbertChung final : public Scheme {
   const System& system_;
   double alpha_m_, beta_, gamma_;
   MassSolver mass_solver_;
+  StepStart start_;
   Forces now_, next_;
   std::vector<double> rhs_, A_, B_;
+  std::vector<ImposedStep> imposed_;
 };
 
 }  // namespace carom

@@ -152,6 +152,10 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
       end.q[i] = eq.x_hat[i] + eq.s * end.a[i];
       end.v[i] = eq.v_hat[i] + eq.r * end.a[i];
     });
+    for (const ImposedStep& s : eq.imposed) {
+      end.q[s.dof] = s.u;
+      end.v[s.dof] = s.v;
+    }
     before.swap(forces.rows.status);
     const Residual error = residual(eq, begin, end, forces);
     if (!std::isfinite(error.norm)) {
@@ -221,22 +225,8 @@ std::string ImplicitStage::cycling_rows(const std::vector<RowStatus>& before, co
   return fmt::format("the contact state does not settle in {} iterations; these rows cycle: {}", max_iterations_, list);
 }
 
-void impose_on_stage(const System& system, const StageEquation& eq, double t, double t_acceleration,
-                     std::span<double> y) {
-  for (const PrescribedDof& p : system.supports.prescribed()) {
-    const auto i = static_cast<std::size_t>(p.dof);
-    switch (p.kind) {
-      case MotionKind::displacement:
-        y[i] = (p.function(t) - eq.x_hat[i]) / eq.s;
-        break;
-      case MotionKind::velocity:
-        y[i] = (p.function(t) - eq.v_hat[i]) / eq.r;
-        break;
-      case MotionKind::acceleration:
-        y[i] = p.function(t_acceleration);
-        break;
-    }
-  }
+void impose_on_stage(const StageEquation& eq, std::span<double> y) {
+  for (const ImposedStep& s : eq.imposed) y[s.dof] = (s.v - eq.v_hat[s.dof]) / eq.r;
 }
 
 void start_in_equilibrium(const System& system, ImplicitStage& stage, double dt, State& state, Forces& forces) {
@@ -247,12 +237,9 @@ void start_in_equilibrium(const System& system, ImplicitStage& stage, double dt,
   system.solid.internal_force(state.q, forces.internal);
   system.solid.external_force(state.t, system.mass, forces.external);
   stage.start(state, forces);
-  const double t = state.t;
-  for (const PrescribedDof& p : system.supports.prescribed()) {
-    state.a[static_cast<std::size_t>(p.dof)] = p.kind == MotionKind::acceleration ? p.function(t)
-                                               : p.kind == MotionKind::velocity   ? p.function.derivative(t)
-                                                                                  : 0.0;
-  }
+  std::vector<ImposedStep> imposed;
+  imposed_steps(system.supports, state.t, state.t + dt, state.q, imposed);
+  for (const ImposedStep& s : imposed) state.a[s.dof] = s.a_begin;
   MassSolver mass_solver(system);
   if (!stage.port().is_law()) start_multipliers(system, mass_solver, dt, state, forces);
   start_accelerations(system, mass_solver, state, forces);

@@ -9,10 +9,12 @@
 
 #include "schemes/contact_port.hpp"
 #include "schemes/implicit_settings.hpp"
+#include "schemes/imposed_motion.hpp"
 
 namespace carom {
 
-/// m M y + k F(x) = contact(x, v) + known on the free dofs, with x = x_hat + s y and v = v_hat + r y.
+/// m M y + k F(x) = contact(x, v) + known on the free dofs, with x = x_hat + s y and v = v_hat + r y; the imposed dofs
+/// are where their motions lead, and their y is what the mass feels.
 struct StageEquation {
   double m = 1.0, k = 1.0;
   double s = 0.0, r = 0.0;
@@ -20,6 +22,7 @@ struct StageEquation {
   const FreeModes* free = nullptr;  ///< where m = 0 leaves motions that only contact holds
   std::span<const double> x_hat{}, v_hat{}, known{};
   std::span<const double> x_predicted{};  ///< see StageStart
+  std::span<const ImposedStep> imposed{};
 };
 
 struct StageReport {
@@ -76,10 +79,9 @@ class ImplicitStage {
   double body_force_ = 0.0;  ///< 2-norm of the forces by which rigid bodies that turn round (Solid)
 };
 
-/// Sets the prescribed entries of y so that the motions of the supports are met at time t: displacements by x, and
-/// velocities by v; accelerations are those at time t_acceleration.
-void impose_on_stage(const System& system, const StageEquation& equation, double t, double t_acceleration,
-                     std::span<double> y);
+/// Sets the imposed entries of y so that the scheme's own rule gives the velocity at the end, v = v_hat + r y: momentum
+/// is then exact.
+void impose_on_stage(const StageEquation& equation, std::span<double> y);
 
 /// What the implicit schemes begin with: start_with_supports, the forces (multipliers included), and accelerations in
 /// equilibrium. dt: the first step.

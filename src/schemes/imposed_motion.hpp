@@ -1,38 +1,74 @@
-// Imposed motions in explicit schemes: the acceleration now that brings a dof where it must be next.
+// Imposed motions in a step: where they lead exactly, and the accelerations with which the bodies feel it.
 #pragma once
 
+#include <functional>
 #include <span>
+#include <vector>
 
+#include "schemes/mass_solver.hpp"
 #include "schemes/system.hpp"
 
 namespace carom {
 
-/// How the acceleration at t enters what is imposed next: u(t + displacement_time) = u_without + displacement_weight a,
-/// v(t + velocity_time) = v_without + velocity_weight a.
-struct ImposedNext {
-  double displacement_time, displacement_weight;
-  double velocity_time, velocity_weight;
+/// One dof of imposed motion over a step. Displacement, velocity and acceleration are functions of time and their exact
+/// integrals, so that they do not depend on the scheme or the step.
+struct ImposedStep {
+  std::size_t dof = 0;
+  double u = 0.0, v = 0.0;     ///< displacement and velocity at its end
+  double v_begin = 0.0;        ///< velocity at its beginning
+  double mean_velocity = 0.0;  ///< (u - u_begin) / h
+  /// Acceleration at its beginning, from the right: that of the function; the mean one where the displacement is
+  /// imposed, whose function is made of straight lines.
+  double a_begin = 0.0;
 };
 
-/// Sets the accelerations of the prescribed dofs. u_without(i) and v_without(i) are the next displacement and velocity
-/// of dof i, its acceleration left out.
-template <class Displacement, class Velocity>
-void impose_motions(const System& system, double t, const ImposedNext& next, const Displacement& u_without,
-                    const Velocity& v_without, std::span<double> a) {
-  for (const PrescribedDof& p : system.supports.prescribed()) {
-    const auto i = static_cast<std::size_t>(p.dof);
-    switch (p.kind) {
-      case MotionKind::displacement:
-        a[i] = (p.function(t + next.displacement_time) - u_without(i)) / next.displacement_weight;
-        break;
-      case MotionKind::velocity:
-        a[i] = (p.function(t + next.velocity_time) - v_without(i)) / next.velocity_weight;
-        break;
-      case MotionKind::acceleration:
-        a[i] = p.function(t);
-        break;
-    }
-  }
+/// Accelerations of the two halves of a step of central differences, v_{1/2} being the mean velocity.
+inline double acceleration_to_middle(const ImposedStep& s, double h) {
+  return 2.0 * (s.mean_velocity - s.v_begin) / h;
 }
+inline double acceleration_from_middle(const ImposedStep& s, double h) {
+  return 2.0 * (s.v - s.mean_velocity) / h;
+}
+/// That of schemes with v = v_begin + h a.
+inline double mean_acceleration(const ImposedStep& s, double h) {
+  return (s.v - s.v_begin) / h;
+}
+
+/// Velocity at time t of a dof whose acceleration or velocity is imposed, or the rate of its displacement.
+double imposed_velocity(const Supports& supports, const PrescribedDof& p, double t);
+
+/// All imposed dofs over the step from `begin` to `end`, the displacements at its beginning being u; in the order of
+/// Supports::prescribed.
+void imposed_steps(const Supports& supports, double begin, double end, std::span<const double> u,
+                   std::vector<ImposedStep>& steps);
+
+/// Accelerations at the beginning of a step, from the right. An imposed acceleration may jump between two steps (at a
+/// kink of its velocity), and with a consistent mass its neighbours' jump along, as M a = f - F + contact stays on the
+/// free dofs. So a kink is over with the step that it belongs to: carried on by the rule of a scheme without
+/// dissipation, it would ring for ever.
+class StepStart {
+ public:
+  explicit StepStart(const System& system) : system_(system), mass_solver_(system) {}
+
+  using Wanted = std::function<double(const ImposedStep&)>;
+
+  /// a: accelerations from the left; wanted(s): that of the dof of an ImposedStep s from the right. False when the mass
+  /// matrix cannot be solved.
+  bool set(std::span<const double> a, double h, std::span<const ImposedStep> steps, const Wanted& wanted);
+  /// The same; inertia and reactions of the forces at the beginning follow.
+  bool set(std::span<const double> a, double h, std::span<const ImposedStep> steps, const Wanted& wanted,
+           Forces& forces);
+  /// Accelerations from the right; refers to those from the left where nothing has changed.
+  std::span<const double> a() const { return a_; }
+  /// Resultant of M times their change, on the imposed dofs; u: displacement at the beginning.
+  Momentum change(std::span<const double> u);
+
+ private:
+  const System& system_;
+  MassSolver mass_solver_;
+  std::vector<double> own_, change_, inertia_;
+  std::span<const double> a_;
+  bool is_changed_ = false, are_forces_changed_ = false;
+};
 
 }  // namespace carom

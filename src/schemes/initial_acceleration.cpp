@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "parallel/threads.hpp"
+#include "schemes/imposed_motion.hpp"
 
 namespace carom {
 
@@ -20,12 +21,9 @@ void start_with_supports(const System& system, State& state) {
   }
   for (const PrescribedDof& p : system.supports.prescribed()) {
     const auto i = static_cast<std::size_t>(p.dof);
-    if (p.kind == MotionKind::displacement) {
-      state.q[i] = p.function(state.t);
-      state.v[i] = p.function.derivative(state.t);
-    } else if (p.kind == MotionKind::velocity) {
-      state.v[i] = p.function(state.t);
-    }
+    const Supports::Motion& motion = system.supports.motions()[p.motion];
+    if (motion.kind == MotionKind::displacement) state.q[i] = motion.function(state.t);
+    state.v[i] = imposed_velocity(system.supports, p, state.t);
   }
 }
 

@@ -32,14 +32,17 @@ StepReport MoreauJean::step(const State& begin, const StepRequest& request, Stat
     x_predicted_[i] = begin.q[i] + 0.5 * h * begin.v[i];
     known_[i] = theta_ * next_.external[i] + (1.0 - theta_) * (now_.external[i] - now_.internal[i]);
   }
+  imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
+  for (const ImposedStep& s : imposed_) x_predicted_[s.dof] = 0.5 * (begin.q[s.dof] + s.u);
   const StageEquation equation{.k = theta_,
                                .s = theta_ * h * h,
                                .r = h,
                                .x_hat = x_hat_,
                                .v_hat = begin.v,
                                .known = known_,
-                               .x_predicted = x_predicted_};
-  impose_on_stage(system_, equation, end.t, end.t - 0.5 * h, end.a);
+                               .x_predicted = x_predicted_,
+                               .imposed = imposed_};
+  impose_on_stage(equation, end.a);
   StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;

@@ -35,6 +35,7 @@ class MoreauJean final : public Scheme {
   double theta_;
   ImplicitStage stage_;
   Forces now_, next_;
+  std::vector<ImposedStep> imposed_;
   std::vector<double> x_hat_, x_predicted_, known_;
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "schemes/imposed_motion.hpp"
 #include "schemes/mass_solver.hpp"
 #include "schemes/scheme.hpp"
 
@@ -14,7 +15,7 @@ namespace carom {
 ///   q1 = (1 - 2 p)/(2 p (1 - p)),  q2 = 1/2 - p q1,  q0 = 1/2 - q1 - q2
 /// (Noh and Bathe, Computers and Structures 129, 2013). Order 2; two force evaluations a step; stable for omega h <=
 /// stability_limit (3.745 for p = 0.54, which dissipates the high frequencies). Momenta are exact. Penalty contact,
-/// evaluated at both sub-steps. Imposed motions are imposed through a.
+/// evaluated at both sub-steps. Imposed dofs move by the exact integrals of their functions.
 class NohBathe final : public Scheme {
  public:
   NohBathe(const System& system, double p);
@@ -28,15 +29,17 @@ class NohBathe final : public Scheme {
 
  private:
   int first_part(const State& begin, const StepRequest& request);
-  int second_part(const State& begin, const StepRequest& request, State& end);
+  int second_part(const StepRequest& request, State& end);
   LedgerIncrement books(const State& begin, const StepRequest& request, const State& end);
 
   const System& system_;
   double p_, q0_, q1_, q2_;
   MassSolver mass_solver_;
+  StepStart start_;
   Forces now_, middle_forces_, next_;
   State middle_;
   std::vector<double> rhs_, predicted_, A_, B_;
+  std::vector<ImposedStep> imposed_;
 };
 
 }  // namespace carom

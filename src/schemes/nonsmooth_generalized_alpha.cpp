@@ -52,6 +52,7 @@ NonsmoothGeneralizedAlpha::NonsmoothGeneralizedAlpha(const System& system, const
       stage_(system, settings, p.beta * kappa_ * dt * dt, omega_max_squared,
              std::make_unique<JumpPort>(system, (2.0 * p.beta - p.gamma) / (p.gamma * 2.0 * p.beta * kappa_)),
              body_force(system)),
+      start_(system),
       mass_solver_(system) {
   assert(settings.enforcement == EnforcementKind::impulse && p.gamma > 0.0 && 2.0 * p.beta >= p.gamma);
   const std::size_t n = system.solid.dof_count();
@@ -90,15 +91,32 @@ void NonsmoothGeneralizedAlpha::start(State& state, double dt) {
   std::swap(now_, next_);
 }
 
+/// memory_: begin.memory with the accelerations of the supports that the step begins with.
+bool NonsmoothGeneralizedAlpha::start_from_the_right(const State& begin, double h) {
+  memory_ = begin.memory;
+  const std::size_t n = begin.q.size();
+  const std::span<const double> all(begin.memory);
+  for (const std::size_t part : {std::size_t{0}, std::size_t{1}}) {
+    const std::span<const double> a = all.subspan(part * n, n);
+    if (!start_.set(a, h, imposed_, [](const ImposedStep& s) { return s.a_begin; })) return false;
+    std::copy(start_.a().begin(), start_.a().end(), memory_.begin() + static_cast<std::ptrdiff_t>(part * n));
+    const std::size_t place = 2 * n + 6 * part;
+    store(combine(1.0, momentum_from(all.data() + place), 1.0, start_.change(begin.q)), memory_.data() + place);
+  }
+  return true;
+}
+
 StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest& request, State& end) {
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
   const double h = request.dt, scale = 2.0 * beta * kappa_;
   const std::size_t n = begin.q.size();
-  const Memory old(begin.memory);
   end = begin;
   end.t = request.t_end;
   next_.external.resize(n);
   system_.solid.external_force(end.t, system_.mass, next_.external);
+  imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
+  if (!start_from_the_right(begin, h)) return {false, 0, 0, MassSolver::failure, {}};
+  const Memory old(memory_);
   for (std::size_t i = 0; i < n; ++i) {
     carried_[i] = (alpha_f * old.z(i) - alpha_m * old.a(i)) / (1.0 - alpha_m);
     u_hat_[i] = begin.q[i] + h * begin.v[i] + h * h * ((0.5 - beta) * old.a(i) + beta * carried_[i]);
@@ -106,6 +124,7 @@ StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest
     u_predicted_[i] = begin.q[i] + 0.5 * h * begin.v[i];
     known_[i] = scale * next_.external[i];
   }
+  for (const ImposedStep& s : imposed_) u_predicted_[s.dof] = 0.5 * (begin.q[s.dof] + s.u);
   // The equation times `scale`, so that its contact force is p / h.
   const StageEquation equation{.m = scale,
                                .k = scale,
@@ -114,8 +133,9 @@ StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest
                                .x_hat = u_hat_,
                                .v_hat = v_hat_,
                                .known = known_,
-                               .x_predicted = u_predicted_};
-  impose_on_stage(system_, equation, end.t, end.t, end.a);
+                               .x_predicted = u_predicted_,
+                               .imposed = imposed_};
+  impose_on_stage(equation, end.a);
   StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
@@ -124,7 +144,7 @@ StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest
     report.failure = MassSolver::failure;
     return report;
   }
-  split(begin, h, end);
+  split(h, end);
   complete_forces(system_, end, next_);
   report.books = books(begin, h, end);
   std::swap(now_, next_);
@@ -132,24 +152,25 @@ StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest
 }
 
 /// end.a = y becomes z1 and a1 in the memory, and z1 + W/h; end.v receives what is missing of the jump.
-void NonsmoothGeneralizedAlpha::split(const State& begin, double h, State& end) {
+void NonsmoothGeneralizedAlpha::split(double h, State& end) {
   const double beta = parameters_.beta, gamma = parameters_.gamma;
-  const std::size_t n = begin.q.size();
+  const std::size_t n = end.q.size();
   parallel_each(n, [&](std::size_t i) {
     const double z = end.a[i] - jump_[i] / (2.0 * beta * kappa_);
     end.v[i] += h * (1.0 - gamma / (2.0 * beta)) * jump_[i];
     end.a[i] = z + jump_[i];
     end.memory[i] = kappa_ * z + carried_[i];
     end.memory[n + i] = z;
-    mean_[i] = 0.5 * (begin.memory[n + i] + z) + jump_[i];
+    mean_[i] = 0.5 * (memory_[n + i] + z) + jump_[i];
   });
+  for (const ImposedStep& s : imposed_) end.v[s.dof] = s.v;
 }
 
 /// The books, and the resultants in the memory of the end.
 LedgerIncrement NonsmoothGeneralizedAlpha::books(const State& begin, double h, State& end) {
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
   const std::size_t n = begin.q.size();
-  const Memory old(begin.memory);
+  const Memory old(memory_);
   const Momentum jump = jump_resultant(end);
   const Momentum of_z = combine(1.0, resultant(system_, end.q, next_), -1.0, jump);
   const Momentum carried = combine(alpha_f / (1.0 - alpha_m), old.of_z(), -alpha_m / (1.0 - alpha_m), old.of_a());

@@ -46,18 +46,21 @@ class NonsmoothGeneralizedAlpha final : public Scheme {
  private:
   bool solve_jump();
   Momentum jump_resultant(const State& end);
-  void split(const State& begin, double h, State& end);
+  bool start_from_the_right(const State& begin, double h);
+  void split(double h, State& end);
   LedgerIncrement books(const State& begin, double h, State& end);
 
   const System& system_;
   GeneralizedAlphaParameters parameters_;
   double kappa_;
   ImplicitStage stage_;
+  StepStart start_;
   MassSolver mass_solver_;
   Forces now_, next_;
   std::vector<double> u_hat_, v_hat_, carried_, known_, u_predicted_;
   std::vector<double> jump_;  ///< W / h
-  std::vector<double> mean_, mean_inertia_, reaction_;
+  std::vector<double> mean_, mean_inertia_, reaction_, memory_;
+  std::vector<ImposedStep> imposed_;
 };
 
 }  // namespace carom

@@ -127,7 +127,7 @@ struct SemiExplicit::Target {
 };
 
 SemiExplicit::SemiExplicit(const System& system, int max_iterations)
-    : system_(system), max_iterations_(max_iterations), boundary_(std::make_unique<Boundary>(system)) {
+    : system_(system), max_iterations_(max_iterations), start_(system), boundary_(std::make_unique<Boundary>(system)) {
   if (system.mass.kind() != MassKind::lumped) throw std::invalid_argument("the modified mass is a lumped one");
   const std::size_t n = system.solid.dof_count();
   v_half_.resize(n);
@@ -188,12 +188,8 @@ std::string SemiExplicit::equilibrate(const Target& target, std::span<double> u,
   return {};
 }
 
-/// Accelerations of the dofs i; `first` is 1/2 for the half step that follows the start, 1 later.
-void SemiExplicit::accelerate(double t, double h, double first, std::span<const double> v_before, State& state,
-                              Forces& forces) {
-  impose_motions(
-      system_, t, {h, first * h * h, 0.5 * h, first * h}, [&](std::size_t i) { return state.q[i] + h * v_before[i]; },
-      [&](std::size_t i) { return v_before[i]; }, state.a);
+/// Accelerations of the dofs i; those of the imposed ones stand in `state`.
+void SemiExplicit::accelerate(State& state, const Forces& forces) const {
   const std::vector<double>& m = system_.mass.node_diagonal();
   parallel_each(state.a.size(), [&](std::size_t i) {
     if (system_.supports.is_prescribed(static_cast<Index>(i))) return;
@@ -215,7 +211,9 @@ void SemiExplicit::start(State& state, double dt) {
   if (!failure.empty()) throw std::runtime_error("the contact nodes find no equilibrium at the start: " + failure);
   take_history(now_.rows, state);
   system_.solid.internal_force(state.q, now_.internal);
-  accelerate(state.t, dt, 0.5, state.v, state, now_);
+  imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
+  for (const ImposedStep& s : imposed_) state.a[s.dof] = acceleration_to_middle(s, dt);
+  accelerate(state, now_);
   complete_forces(system_, state, now_);
 }
 
@@ -224,14 +222,26 @@ StepReport SemiExplicit::step(const State& begin, const StepRequest& request, St
   const std::size_t n = begin.q.size();
   end = begin;
   end.t = request.t_end;
+  StepReport report;
+  imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
+  if (!start_.set(
+          begin.a, h, imposed_, [h](const ImposedStep& s) { return acceleration_to_middle(s, h); }, now_)) {
+    report.failure = MassSolver::failure;
+    return report;
+  }
+  const std::span<const double> a_begin = start_.a();
   parallel_each(n, [&](std::size_t i) {
-    v_half_[i] = begin.v[i] + 0.5 * h * begin.a[i];
+    v_half_[i] = begin.v[i] + 0.5 * h * a_begin[i];
     end.q[i] = begin.q[i] + h * v_half_[i];
   });
+  for (const ImposedStep& s : imposed_) {
+    v_half_[s.dof] = s.mean_velocity;
+    end.q[s.dof] = s.u;
+    end.a[s.dof] = acceleration_from_middle(s, h);
+  }
   next_.external.resize(n);
   next_.internal.resize(n);
   system_.solid.external_force(request.t_end, system_.mass, next_.external);
-  StepReport report;
   try {
     report.failure = equilibrate({begin.q, begin.contact}, end.q, next_, report.iterations);
   } catch (const std::runtime_error& e) {
@@ -239,12 +249,13 @@ StepReport SemiExplicit::step(const State& begin, const StepRequest& request, St
   }
   if (!report.failure.empty()) return report;
   system_.solid.internal_force(end.q, next_.internal);
-  accelerate(request.t_end, h, 1.0, v_half_, end, next_);
+  accelerate(end, next_);
   parallel_each(n, [&](std::size_t i) { end.v[i] = v_half_[i] + 0.5 * h * end.a[i]; });
   for (const std::size_t i : boundary_->dofs) end.v[i] = (end.q[i] - begin.q[i]) / h;
   take_history(next_.rows, end);
+  for (const ImposedStep& s : imposed_) end.v[s.dof] = s.v;
   complete_forces(system_, end, next_);
-  report.books = central_difference_books(system_, begin, now_, end, next_, h);
+  report.books = central_difference_books(system_, begin, now_, a_begin, end, next_, h);
   book_multipliers(begin, now_, end, next_, report.books.energy);
   report.converged = true;
   std::swap(now_, next_);

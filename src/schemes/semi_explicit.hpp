@@ -10,6 +10,7 @@
 #include "contact/delassus.hpp"
 #include "linalg/cholesky.hpp"
 #include "schemes/closing_rows.hpp"
+#include "schemes/imposed_motion.hpp"
 #include "schemes/scheme.hpp"
 
 namespace carom {
@@ -41,13 +42,15 @@ class SemiExplicit final : public Scheme {
   struct Boundary;
   struct Target;
   std::string equilibrate(const Target& target, std::span<double> u, Forces& forces, int& iterations);
-  void accelerate(double t, double h, double first, std::span<const double> v_before, State& state, Forces& forces);
+  void accelerate(State& state, const Forces& forces) const;
 
   const System& system_;
   int max_iterations_;
+  StepStart start_;
   std::unique_ptr<Boundary> boundary_;
   Forces now_, next_;
   std::vector<double> v_half_, residual_, push_;
+  std::vector<ImposedStep> imposed_;
 };
 
 }  // namespace carom

@@ -35,14 +35,19 @@ StepReport Statics::step(const State& begin, const StepRequest& request, State& 
   next_.external.resize(begin.q.size());
   system_.solid.external_force(end.t, system_.mass, next_.external);
   // The unknown is the displacement of the step; it stands in end.a while the stage is solved.
-  for (const PrescribedDof& p : system_.supports.prescribed()) {
-    const auto i = static_cast<std::size_t>(p.dof);
-    end.a[i] = p.kind == MotionKind::displacement ? p.function(end.t) - begin.q[i]
-               : p.kind == MotionKind::velocity   ? request.dt * p.function(end.t)
-                                                  : 0.0;
+  imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
+  for (ImposedStep& s : imposed_) {
+    end.a[s.dof] = s.u - begin.q[s.dof];
+    s.v = 0.0;  // a motion without velocities
   }
-  const StageEquation equation{
-      .m = 0.0, .s = 1.0, .share = 1e-12, .free = &free_, .x_hat = begin.q, .v_hat = zero_, .known = next_.external};
+  const StageEquation equation{.m = 0.0,
+                               .s = 1.0,
+                               .share = 1e-12,
+                               .free = &free_,
+                               .x_hat = begin.q,
+                               .v_hat = zero_,
+                               .known = next_.external,
+                               .imposed = imposed_};
   StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;

@@ -10,7 +10,7 @@
 namespace carom {
 
 /// F(u1) = f(t1) + contact(u1) by Newton's method; v1 = a1 = 0. Loads and imposed displacements are those at the end of
-/// the step; a dof of imposed velocity moves by h v(t1), one of imposed acceleration stays. Friction follows the path
+/// the step; imposed velocities and accelerations move their dofs by their integrals. Friction follows the path
 /// of the steps. Where only contact can hold a body, weak springs on as many of its dofs as it has free motions
 /// (FreeModes) give the operator of Newton's method an inverse; the equation does not have them. Their stiffness is
 /// a node's, and closed rows take the springs off again that they make needless (penalty, augmented Lagrangian); or 0.1
@@ -35,6 +35,7 @@ class Statics final : public Scheme {
   ImplicitStage stage_;
   Forces now_, next_;
   std::vector<double> zero_;
+  std::vector<ImposedStep> imposed_;
 };
 
 }  // namespace carom

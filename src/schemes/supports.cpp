@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace carom {
@@ -38,9 +39,18 @@ Supports::Supports(const Model& model, const std::vector<bool>& has_mass) {
   for (std::size_t n = 0; n < has_mass.size(); ++n) {
     for (std::size_t c = 0; c < 3; ++c) fixed_[3 * n + c] = !has_mass[n];
   }
+  for (const PrescribedMotion& motion : model.motions) motions_.push_back({motion.kind, motion.function});
   for (const auto& [dof, motion] : owner) {
-    prescribed_.push_back({dof, motion->kind, motion->function});
+    prescribed_.push_back({dof, static_cast<std::size_t>(motion - model.motions.data())});
     fixed_[static_cast<std::size_t>(dof)] = prescribed_flag_[static_cast<std::size_t>(dof)] = true;
+  }
+  for (const InitialState& initial : model.initial) {
+    if (!initial.velocity) continue;
+    const std::set<Index> nodes(initial.nodes.begin(), initial.nodes.end());
+    for (PrescribedDof& p : prescribed_) {
+      if (motions_[p.motion].kind == MotionKind::acceleration && nodes.contains(p.dof / 3))
+        p.start_velocity = (*initial.velocity)[static_cast<std::size_t>(p.dof % 3)];
+    }
   }
 }
 

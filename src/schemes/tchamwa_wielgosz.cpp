@@ -12,20 +12,20 @@
 namespace carom {
 
 TchamwaWielgosz::TchamwaWielgosz(const System& system, double phi)
-    : system_(system), phi_(phi), mass_solver_(system), rhs_(system.solid.dof_count()), B_(system.solid.dof_count()) {
+    : system_(system),
+      phi_(phi),
+      mass_solver_(system),
+      start_(system),
+      rhs_(system.solid.dof_count()),
+      B_(system.solid.dof_count()) {
   assert(phi >= 1.0);
-}
-
-void TchamwaWielgosz::impose(double h, State& state) const {
-  impose_motions(
-      system_, state.t, {h, phi_ * h * h, h, h}, [&](std::size_t i) { return state.q[i] + h * state.v[i]; },
-      [&](std::size_t i) { return state.v[i]; }, state.a);
 }
 
 void TchamwaWielgosz::start(State& state, double dt) {
   start_with_supports(system_, state);
   evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, now_);
-  impose(dt, state);
+  imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
+  for (const ImposedStep& s : imposed_) state.a[s.dof] = mean_acceleration(s, dt);
   start_accelerations(system_, mass_solver_, state, now_);
 }
 
@@ -33,15 +33,26 @@ StepReport TchamwaWielgosz::step(const State& begin, const StepRequest& request,
   const double h = request.dt;
   end = begin;
   end.t = request.t_end;
-  parallel_each(end.q.size(), [&](std::size_t i) {
-    B_[i] = phi_ * begin.a[i];
-    end.q[i] = begin.q[i] + h * begin.v[i] + h * h * B_[i];
-    end.v[i] = begin.v[i] + h * begin.a[i];
-  });
-  evaluate_forces(system_, request.t_end, begin.q, begin.contact, end.q, end.v, next_);
-  impose(h, end);
-  force_sum(next_, rhs_);
   StepReport report;
+  imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
+  const auto wanted = [h](const ImposedStep& s) { return mean_acceleration(s, h); };
+  if (!start_.set(begin.a, h, imposed_, wanted, now_)) {
+    report.failure = MassSolver::failure;
+    return report;
+  }
+  const std::span<const double> a_begin = start_.a();
+  parallel_each(end.q.size(), [&](std::size_t i) {
+    B_[i] = phi_ * a_begin[i];
+    end.q[i] = begin.q[i] + h * begin.v[i] + h * h * B_[i];
+    end.v[i] = begin.v[i] + h * a_begin[i];
+  });
+  for (const ImposedStep& s : imposed_) {
+    end.q[s.dof] = s.u;
+    end.v[s.dof] = s.v;
+  }
+  evaluate_forces(system_, request.t_end, begin.q, begin.contact, end.q, end.v, next_);
+  for (const ImposedStep& s : imposed_) end.a[s.dof] = mean_acceleration(s, h);
+  force_sum(next_, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);
   if (report.linear_iterations < 0) {
     report.failure = MassSolver::failure;
@@ -49,7 +60,7 @@ StepReport TchamwaWielgosz::step(const State& begin, const StepRequest& request,
   }
   take_history(next_.rows, end);
   complete_forces(system_, end, next_);
-  report.books = explicit_books(system_, begin, now_, end, next_, begin.a, B_, h);
+  report.books = explicit_books(system_, begin, now_, end, next_, a_begin, B_, h);
   report.books.impulse = combine(h, resultant(system_, begin.q, now_), 0.0, {});
   report.converged = true;
   std::swap(now_, next_);

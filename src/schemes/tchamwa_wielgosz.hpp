@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "schemes/imposed_motion.hpp"
 #include "schemes/mass_solver.hpp"
 #include "schemes/scheme.hpp"
 
@@ -12,7 +13,8 @@ namespace carom {
 /// u1 = u0 + h v0 + phi h^2 a0,  v1 = v0 + h a0,  M a1 = f(t1) - F(u1) + contact(u1, v1)
 /// (Tchamwa, Conway and Wielgosz, ASME PVP 398, 1999). Order 1; stable for omega h <= 2 / sqrt(2 phi - 1); phi > 1
 /// dissipates the high frequencies, phi = 1 nothing. Momenta are exact (impulses by the forces at the beginning of the
-/// steps). Penalty contact. Imposed motions are imposed through a0.
+/// steps). Penalty contact. Imposed dofs move by the exact integrals of their functions, a0 being
+/// their mean acceleration.
 class TchamwaWielgosz final : public Scheme {
  public:
   TchamwaWielgosz(const System& system, double phi);
@@ -25,13 +27,13 @@ class TchamwaWielgosz final : public Scheme {
   std::string solver_name() const override { return mass_solver_.name(); }
 
  private:
-  void impose(double h, State& state) const;
-
   const System& system_;
   double phi_;
   MassSolver mass_solver_;
+  StepStart start_;
   Forces now_, next_;
   std::vector<double> rhs_, B_;
+  std::vector<ImposedStep> imposed_;
 };
 
 }  // namespace carom

@@ -288,8 +288,8 @@ groups = { cells = "BASE", zmin = "BASE_FOOT", zmax = "BASE_HEAD" }
          newmark;
 }
 
-// Newmark with gamma = 1/2 never forgets a kink of an imposed displacement: the accelerations grew without end.
-TEST(RunRegressions, DisplacementsThatWouldRingAreRefused) {
+// Newmark with gamma = 1/2 never forgot a kink of an imposed displacement: the accelerations grew without end.
+TEST(RunRegressions, KinksOfDisplacementsDoNotRing) {
   const std::string undamped = R"(
 [scheme]
 kind = "newmark"
@@ -302,10 +302,7 @@ step = 0.02
 nodes = "HEAD"
 displacement = { z = -0.01, function = "pulse" }
 )";
-  const std::string message = case_error(case_of_block(functions + support + undamped)).what();
-  EXPECT_NE(message.find("Take gamma > 0.5, alpha < 0 or rho_inf < 1 in [scheme], or impose the velocity"),
-            std::string::npos)
-      << message;
+  EXPECT_EQ(failure(support, undamped), "");
   EXPECT_EQ(failure(support, newmark), "");
 }
 

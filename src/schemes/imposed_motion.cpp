@@ -1,0 +1,125 @@
+#include "schemes/imposed_motion.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "parallel/threads.hpp"
+
+namespace carom {
+
+namespace {
+
+/// What one motion adds to all of its dofs.
+struct MotionOverStep {
+  double way = 0.0;       ///< integral of the velocity, without that at the beginning where the acceleration is imposed
+  double v_begin = 0.0;   ///< beside PrescribedDof::start_velocity
+  double v = 0.0;         ///< the same at the end
+  double position = 0.0;  ///< where the displacement is imposed
+  double a_begin = 0.0;
+};
+
+MotionOverStep over_step(const Supports::Motion& motion, double begin, double end) {
+  const TimeFunction& f = motion.function;
+  MotionOverStep out;
+  switch (motion.kind) {
+    case MotionKind::displacement:
+      out = {0.0, f.derivative(begin), f.derivative(end), f(end), 0.0};
+      out.a_begin = (out.v - out.v_begin) / (end - begin);
+      break;
+    case MotionKind::velocity:
+      out = {f.integral(begin, end), f(begin), f(end), 0.0, f.derivative(begin)};
+      break;
+    case MotionKind::acceleration:
+      out = {f.second_integral(begin, end), f.integral(0.0, begin), f.integral(0.0, end), 0.0, f(begin)};
+      break;
+  }
+  return out;
+}
+
+}  // namespace
+
+double imposed_velocity(const Supports& supports, const PrescribedDof& p, double t) {
+  const auto& [kind, f] = supports.motions()[p.motion];
+  switch (kind) {
+    case MotionKind::displacement:
+      return f.derivative(t);
+    case MotionKind::velocity:
+      return f(t);
+    case MotionKind::acceleration:
+      break;
+  }
+  return p.start_velocity + f.integral(0.0, t);
+}
+
+void imposed_steps(const Supports& supports, double begin, double end, std::span<const double> u,
+                   std::vector<ImposedStep>& steps) {
+  std::vector<MotionOverStep> motions;
+  for (const Supports::Motion& motion : supports.motions()) motions.push_back(over_step(motion, begin, end));
+  const double h = end - begin;
+  steps.clear();
+  for (const PrescribedDof& p : supports.prescribed()) {
+    const MotionOverStep& m = motions[p.motion];
+    const auto i = static_cast<std::size_t>(p.dof);
+    ImposedStep step{i, 0.0, p.start_velocity + m.v, p.start_velocity + m.v_begin, 0.0, m.a_begin};
+    const MotionKind kind = supports.motions()[p.motion].kind;
+    const double way = kind == MotionKind::displacement ? m.position - u[i]
+                       : kind == MotionKind::velocity   ? m.way
+                                                        : m.way + h * step.v_begin;
+    step.u = kind == MotionKind::displacement ? m.position : u[i] + way;
+    step.mean_velocity = way / h;
+    steps.push_back(step);
+  }
+}
+
+bool StepStart::set(std::span<const double> a, double h, std::span<const ImposedStep> steps, const Wanted& wanted) {
+  is_changed_ = false;
+  a_ = a;
+  for (const ImposedStep& s : steps) {
+    const double change = wanted(s) - a[s.dof];
+    // Velocities are known to a relative 1e-16, and accelerations are their differences.
+    const double noise = 16.0 * std::numeric_limits<double>::epsilon() *
+                         (std::abs(s.v_begin) + std::abs(s.mean_velocity) + std::abs(s.v)) / h;
+    if (std::abs(change) <= noise) continue;
+    if (!is_changed_) change_.assign(a.size(), 0.0);
+    is_changed_ = true;
+    change_[s.dof] = change;
+  }
+  if (!is_changed_) return true;
+  inertia_.assign(a.size(), 0.0);
+  if (mass_solver_.solve(inertia_, change_) < 0) return false;
+  own_.resize(a.size());
+  parallel_each(own_.size(), [&](std::size_t i) { own_[i] = a[i] + change_[i]; });
+  a_ = own_;
+  return true;
+}
+
+bool StepStart::set(std::span<const double> a, double h, std::span<const ImposedStep> steps, const Wanted& wanted,
+                    Forces& forces) {
+  if (!set(a, h, steps, wanted)) return false;
+  // A step that is made again finds the forces of its first try.
+  if (!is_changed_ && !are_forces_changed_) return true;
+  are_forces_changed_ = is_changed_;
+  inertia_.resize(a.size());
+  system_.mass.apply(a_, inertia_);
+  for (const ImposedStep& s : steps) {
+    const std::size_t i = s.dof;
+    forces.inertia[i] = inertia_[i];
+    forces.reaction[i] = forces.inertia[i] + forces.internal[i] - forces.external[i] - forces.contact[i];
+  }
+  return true;
+}
+
+Momentum StepStart::change(std::span<const double> u) {
+  if (!is_changed_) return {};
+  system_.mass.apply(change_, inertia_);
+  const MomentArms arms(system_, u);
+  std::array<double, 6> sums{};
+  for (const PrescribedDof& p : system_.supports.prescribed()) {
+    const auto i = static_cast<std::size_t>(p.dof);
+    add_with_moment(arms.at(i / 3), i % 3, inertia_[i], sums.data());
+  }
+  return momentum_from(sums.data());
+}
+
+}  // namespace carom
