@@ -57,10 +57,10 @@ class MedReader {
   Mesh run() {
     mesh_.report.source = source_;
     mesh_.report.format = "MED " + version();
-    const std::string name = only_mesh();
-    const std::string step = first_step("/ENS_MAA/" + name);
-    families_ = read_families("/FAS/" + name);
-    read_nodes(step + "/NOE", space_dimension(name));
+    const std::string name = only_mesh(), mesh = "/ENS_MAA/" + name;
+    const std::string step = is_med_2_ ? mesh : first_step(mesh);
+    families_ = read_families(is_med_2_ ? mesh + "/FAS" : "/FAS/" + name);
+    read_nodes(step + "/NOE", space_dimension(mesh));
     read_cells(step + "/MAI");
     return std::move(mesh_);
   }
@@ -78,14 +78,22 @@ class MedReader {
     return found->second;
   }
 
-  std::string version() const {
+  bool has_attribute(const std::string& path, const std::string& name) const {
+    return tree_.attributes.count(path + "@" + name) != 0;
+  }
+
+  /// MED 2.2 and 2.3 keep families below the mesh and have no computing steps.
+  std::string version() {
     if (tree_.groups.count("/INFOS_GENERALES") == 0)
       fail("/INFOS_GENERALES", "an HDF5 file without this group", "a MED file",
            "Export the mesh as MED (Salome, Code_Aster) or as Gmsh 2.2 or 4.1.");
     const std::int64_t major = attribute("/INFOS_GENERALES", "MAJ"), minor = attribute("/INFOS_GENERALES", "MIN");
-    if (major < 3 || major > 4)
-      fail("/INFOS_GENERALES", fmt::format("MED {}.{}", major, minor), "MED 3 or 4",
-           "Convert the file (medimport), or write it again.");
+    if (major < 2 || major > 4 || (major == 2 && minor < 2))
+      fail(
+          "/INFOS_GENERALES", fmt::format("MED {}.{}", major, minor), "MED 2.2 to 4",
+          "Convert the file by the program medimport of the MED library (medimport OLD.med NEW.med), or write it again "
+          "by a newer Salome.");
+    is_med_2_ = major == 2;
     return fmt::format("{}.{}", major, minor);
   }
 
@@ -107,10 +115,10 @@ class MedReader {
     return mesh + "/" + steps[0];
   }
 
-  std::size_t space_dimension(const std::string& name) const {
-    const std::int64_t dimension = attribute("/ENS_MAA/" + name, "ESP");
-    if (dimension < 1 || dimension > 3)
-      fail("/ENS_MAA/" + name, fmt::format("space dimension {}", dimension), "1, 2 or 3");
+  /// MED 2 has ESP only where space has more dimensions than the mesh.
+  std::size_t space_dimension(const std::string& mesh) const {
+    const std::int64_t dimension = attribute(mesh, is_med_2_ && !has_attribute(mesh, "ESP") ? "DIM" : "ESP");
+    if (dimension < 1 || dimension > 3) fail(mesh, fmt::format("space dimension {}", dimension), "1, 2 or 3");
     return static_cast<std::size_t>(dimension);
   }
 
@@ -139,26 +147,28 @@ class MedReader {
     return values;
   }
 
+  /// MED 2.3.1 and older have the families of nodes and of cells side by side.
   Families read_families(const std::string& path) const {
     Families families;
-    for (const char* kind : {"/NOEUD", "/ELEME"})
+    for (const char* kind : {"", "/NOEUD", "/ELEME"})
       for (const std::string& name : children(tree_, path + kind)) {
         const std::string family = path + kind + "/" + name;
+        if (*kind == '\0' && !has_attribute(family, "NUM")) continue;  // NOEUD and ELEME themselves
         families[attribute(family, "NUM")] = group_names(family + "/GRO/NOM");
       }
     return families;
   }
 
-  /// Names of 80 characters each, filled up with blanks or zeros.
+  /// Names of 80 characters each, filled up with blanks or zeros; in MED 2 with one zero after the last.
   std::vector<std::string> group_names(const std::string& path) const {
-    const auto found = tree_.data_sets.find(path);
-    if (found == tree_.data_sets.end()) return {};
+    if (tree_.data_sets.count(path) == 0) return {};
     const std::vector<std::int64_t>& letters = require<std::int64_t>(path);
-    const std::uint64_t length = found->second.extents.empty() ? 0 : found->second.extents.back();
+    constexpr std::size_t length = 80;
     std::vector<std::string> names;
-    for (std::size_t begin = 0; length > 0 && begin + length <= letters.size(); begin += length) {
+    for (std::size_t begin = 0; begin < letters.size(); begin += length) {
+      const std::size_t end = std::min(begin + length, letters.size());
       std::string name;
-      for (std::size_t i = begin; i < begin + length && letters[i] != 0; ++i) name += static_cast<char>(letters[i]);
+      for (std::size_t i = begin; i < end && letters[i] != 0; ++i) name += static_cast<char>(letters[i]);
       name.erase(name.find_last_not_of(' ') + 1);
       if (!name.empty()) names.push_back(std::move(name));
     }
@@ -244,6 +254,7 @@ class MedReader {
 
   const Hdf5Tree& tree_;
   const std::string& source_;
+  bool is_med_2_ = false;
   Families families_;
   Mesh mesh_;
 };

@@ -8,10 +8,10 @@
 
 namespace carom {
 
-/// The one mesh of a MED 3 or 4 file: nodes, cells of the types of CellType except HEXA27, families of nodes and
+/// The one mesh of a MED 2.2 to 4 file: nodes, cells of the types of CellType except HEXA27, families of nodes and
 /// cells (each names the groups it belongs to). MED orients its solids the other way round than Gmsh; they are brought
 /// to our order (mirrored_order), so that a cell written as MED's manual asks comes out with a positive Jacobian.
-/// With several computing steps the first is read. Throws CaseError with the path inside the file.
+/// With several computing steps the first is read; MED 2 has none. Throws CaseError with the path inside the file.
 Mesh med_mesh(const Hdf5Tree& tree, const std::string& source);
 
 }  // namespace carom

@@ -10,7 +10,7 @@ namespace {
 
 /// Meshes and families, without the names of single nodes and cells and without result fields.
 bool is_wanted(const std::string& path) {
-  if (path.starts_with("/FAS")) return true;
+  if (path.starts_with("/FAS") || path.ends_with("/GRO/NOM")) return true;
   if (path.ends_with("/NOM")) return false;
   return path.starts_with("/ENS_MAA") || path == "/INFOS_GENERALES";
 }

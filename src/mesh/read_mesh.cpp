@@ -17,7 +17,7 @@ namespace carom {
 
 namespace {
 
-constexpr const char* kKnown = "a mesh file: Gmsh 2.2 or 4.1 (.msh) or MED 3 or 4 (.med)";
+constexpr const char* kKnown = "a mesh file: Gmsh 2.2 or 4.1 (.msh) or MED 2.2 to 4 (.med)";
 
 std::string read_bytes(const std::string& path) {
   std::error_code error;

@@ -188,7 +188,7 @@ TEST(MeshMalformed, TextFilesNameTheLine) {
 
 TEST(MeshMalformed, BytesThatAreNoMesh) {
   const std::string known =
-      "; expected a mesh file: Gmsh 2.2 or 4.1 (.msh) or MED 3 or 4 (.med). Export the mesh in one "
+      "; expected a mesh file: Gmsh 2.2 or 4.1 (.msh) or MED 2.2 to 4 (.med). Export the mesh in one "
       "of these formats.";
   EXPECT_EQ(message_of_bytes(""), "bad.msh: found an empty file" + known);
   EXPECT_EQ(message_of_bytes(" \n\n"), "bad.msh: found an empty file" + known);
@@ -202,16 +202,16 @@ TEST(MeshMalformed, BytesThatAreNoMesh) {
 TEST(MeshMalformed, PathsThatAreNoFile) {
   EXPECT_EQ(message_of([] { read_mesh(std::string("/nowhere/beam.msh")); }),
             "/nowhere/beam.msh: found no readable file (No such file or directory); expected a mesh file: Gmsh 2.2 or "
-            "4.1 (.msh) or MED 3 or 4 (.med). Check the path; it is relative to the folder of the case file.");
+            "4.1 (.msh) or MED 2.2 to 4 (.med). Check the path; it is relative to the folder of the case file.");
   const std::string folder = CAROM_SOURCE_DIR "/cases";
   EXPECT_EQ(message_of([&] { read_mesh(folder); }),
             folder +
-                ": found a folder; expected a mesh file: Gmsh 2.2 or 4.1 (.msh) or MED 3 or 4 (.med). Name the file "
+                ": found a folder; expected a mesh file: Gmsh 2.2 or 4.1 (.msh) or MED 2.2 to 4 (.med). Name the file "
                 "inside it.");
   EXPECT_EQ(
       message_of([] { read_mesh(std::string("/dev/null")); }),
       "/dev/null: found something that is not a regular file; expected a mesh file: Gmsh 2.2 or 4.1 (.msh) or MED "
-      "3 or 4 (.med)");
+      "2.2 to 4 (.med)");
 }
 
 TEST(MeshMalformed, BinaryFlaggedAsTextAndTheReverse) {
@@ -282,9 +282,10 @@ TEST(MeshMalformed, MedTreesNameThePath) {
   EXPECT_EQ(message_of_tree([](Hdf5Tree& t) { t.groups.erase("/INFOS_GENERALES"); }),
             "bad.med: /INFOS_GENERALES: found an HDF5 file without this group; expected a MED file. Export the mesh as "
             "MED (Salome, Code_Aster) or as Gmsh 2.2 or 4.1.");
-  EXPECT_EQ(message_of_tree([](Hdf5Tree& t) { t.attributes["/INFOS_GENERALES@MAJ"] = 2; }),
-            "bad.med: /INFOS_GENERALES: found MED 2.3; expected MED 3 or 4. Convert the file (medimport), or write it "
-            "again.");
+  EXPECT_EQ(
+      message_of_tree([](Hdf5Tree& t) { t.attributes["/INFOS_GENERALES@MAJ"] = 1; }),
+      "bad.med: /INFOS_GENERALES: found MED 1.3; expected MED 2.2 to 4. Convert the file by the program medimport "
+      "of the MED library (medimport OLD.med NEW.med), or write it again by a newer Salome.");
   EXPECT_EQ(
       message_of_tree([](Hdf5Tree& t) { t.groups.insert("/ENS_MAA/other"); }),
       "bad.med: /ENS_MAA: found 2 meshes (000000bf, other); expected one mesh. Write the mesh that is wanted alone "

@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "mesh/cell_topology.hpp"
 #include "mesh/isolated_process.hpp"
+#include "mesh/med_mesh.hpp"
 #include "mesh/read_mesh.hpp"
 #include "mesh_fixture.hpp"
 
@@ -83,6 +84,65 @@ TEST(MeshMed, ReadsQuadraticCellsAndFamiliesOfSeveralGroups) {
 TEST(MeshMed, BothFilesOfTheRepositoryAreReadWhateverTheyAreCalled) {
   const std::string bytes = test::bytes_of(kMeshes + "sdnv100a.med");
   EXPECT_EQ(read_mesh(bytes, "misnamed.msh").node_count(), 102u);
+}
+
+/// Written through the 2.3.6 interface of the MED library: one cell 1 x 1 x 2, its lower and upper face, two corners.
+TEST(MeshMed, ReadsFilesOfOlderVersions) {
+  const Mesh mesh = read_mesh(CAROM_SOURCE_DIR "/tests/data/cube_med_2_3.med");
+  EXPECT_EQ(mesh.report.format, "MED 2.3");
+  ASSERT_EQ(mesh.node_count(), 8u);
+  ASSERT_EQ(mesh.block(CellType::hexa8)->size(), 1u);
+  EXPECT_DOUBLE_EQ(test::hexa_volume(mesh, *mesh.block(CellType::hexa8), 0), 2.0);
+  const test::ByFileNumbers read = test::by_file_numbers(mesh);
+  EXPECT_EQ(read.nodes.at(18), (Vec3{1.0, 1.0, 2.0}));
+  EXPECT_EQ(read.node_groups.at("CORNER"), (std::set<std::int64_t>{15, 18}));
+  EXPECT_EQ(read.node_groups.at("TIP"), (std::set<std::int64_t>{18}));
+  EXPECT_EQ(mesh.cell_groups.at("BODY").size(), 1u);
+  EXPECT_EQ(mesh.cell_groups.at("SKIN").size(), 2u);
+  EXPECT_EQ(mesh.nodes_of("TOP").size(), 4u);
+}
+
+/// Two bars in the plane; before 2.3.2 the families stood side by side.
+Hdf5Tree bars_of_med_2(std::int64_t minor) {
+  Hdf5Tree tree;
+  tree.groups = {
+      "/INFOS_GENERALES",      "/ENS_MAA",       "/ENS_MAA/m",         "/ENS_MAA/m/FAS", "/ENS_MAA/m/FAS/FAM_1",
+      "/ENS_MAA/m/FAS/FAM_-1", "/ENS_MAA/m/MAI", "/ENS_MAA/m/MAI/SE2", "/ENS_MAA/m/NOE"};
+  tree.attributes = {{"/INFOS_GENERALES@MAJ", 2},
+                     {"/INFOS_GENERALES@MIN", minor},
+                     {"/ENS_MAA/m@TYP", 0},
+                     {"/ENS_MAA/m@DIM", 1},
+                     {"/ENS_MAA/m@ESP", 2},
+                     {"/ENS_MAA/m/FAS/FAM_1@NUM", 1},
+                     {"/ENS_MAA/m/FAS/FAM_-1@NUM", -1}};
+  const auto name = [](const std::string& text) {
+    std::vector<std::int64_t> letters(81, ' ');
+    std::copy(text.begin(), text.end(), letters.begin());
+    letters.back() = 0;
+    return Hdf5Tree::DataSet{{81, 1}, letters};
+  };
+  const auto integers = [](std::vector<std::int64_t> values) { return Hdf5Tree::DataSet{{values.size()}, values}; };
+  tree.data_sets = {{"/ENS_MAA/m/FAS/FAM_1/GRO/NOM", name("END")},
+                    {"/ENS_MAA/m/FAS/FAM_-1/GRO/NOM", name("BARS")},
+                    {"/ENS_MAA/m/NOE/COO", {{6}, std::vector<double>{0.0, 1.0, 2.0, 0.0, 3.0, 4.0}}},
+                    {"/ENS_MAA/m/NOE/FAM", integers({0, 0, 1})},
+                    {"/ENS_MAA/m/MAI/SE2/NOD", integers({1, 2, 2, 3})},
+                    {"/ENS_MAA/m/MAI/SE2/FAM", integers({-1, -1})}};
+  return tree;
+}
+
+TEST(MeshMed, ReadsTheFamiliesOf22AndSaysHowToConvertOlderFiles) {
+  const Mesh mesh = med_mesh(bars_of_med_2(2), "old.med");
+  EXPECT_EQ(mesh.coordinates[2], (Vec3{2.0, 4.0, 0.0}));  // all x stand before all y
+  EXPECT_EQ(mesh.node_groups.at("END"), (std::vector<Index>{2}));
+  EXPECT_EQ(mesh.cell_groups.at("BARS").size(), 2u);
+  try {
+    med_mesh(bars_of_med_2(1), "old.med");
+    FAIL() << "MED 2.1 was read";
+  } catch (const CaseError& error) {
+    EXPECT_NE(std::string(error.what()).find("MED 2.1"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("medimport"), std::string::npos) << error.what();
+  }
 }
 
 constexpr IsolationLimits kLimits{.memory_bytes = 1 << 28, .output_bytes = 1000, .cpu_seconds = 1};
