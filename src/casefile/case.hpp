@@ -82,6 +82,22 @@ struct CaseLoad {
   std::optional<Located<std::string>> function;  ///< key of [functions]; constant 1 when absent
 };
 
+/// [[point_mass]]: exactly one of mass (of each node) and total.
+struct CasePointMass {
+  Location where;
+  Located<std::string> nodes;
+  std::optional<double> mass, total;
+};
+
+/// [[spring]]: to the ground (stiffness, total_stiffness) or to nodes of the group `to` (axial).
+struct CaseSpring {
+  Location where;
+  Located<std::string> nodes;
+  std::optional<Located<Vec3>> stiffness, total_stiffness;  ///< along x, y, z: of each node, or of all together
+  std::optional<Located<std::string>> to;
+  std::optional<double> axial;  ///< along the line between the two nodes
+};
+
 /// [[initial]]
 struct CaseInitial {
   Location where;
@@ -123,9 +139,10 @@ struct CaseContact {
   std::optional<double> mass;            ///< obstacles: free rigid body, which turns where it has an inertia
   std::optional<Located<Vec3>> inertia;  ///< I_xx, I_yy, I_zz about the centre of mass
   std::optional<Vec3> products_of_inertia, centre_of_mass, angular_velocity;
-  std::optional<double> rigidity;  ///< of the body that turns (TurningBody)
-  double gap = 0.0;                ///< stop
-  double damping = 0.0;            ///< stop
+  std::optional<double> rigidity;               ///< of the body that turns (TurningBody)
+  double gap = 0.0;                             ///< stop
+  double damping = 0.0;                         ///< stop
+  DamperActs damper = DamperActs::compression;  ///< stop
 };
 
 struct CaseFunction {
@@ -245,6 +262,8 @@ struct Case {
   std::vector<CaseMaterial> materials;
   std::vector<CasePart> parts;
   std::vector<CaseSupport> supports;
+  std::vector<CasePointMass> point_masses;
+  std::vector<CaseSpring> springs;
   std::vector<CaseLoad> loads;
   std::vector<CaseInitial> initial;
   std::vector<CaseContact> contacts;

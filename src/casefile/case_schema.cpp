@@ -31,7 +31,8 @@ SectionSchema<CaseMaterial> material_section() {
 SectionSchema<CasePart> part_section() {
   SectionSchema<CasePart> s("A deformable body: a group of cells made of one material.");
   s.key("name", &CasePart::name, "Name in results and messages.", {.need = Need::required});
-  s.key("cells", &CasePart::cells, "Group of cells.", {.need = Need::required});
+  s.key("cells", &CasePart::cells, "Group of cells, or \"all\": all cells of the mesh that the section takes.",
+        {.need = Need::required});
   s.key("material", &CasePart::material, "NAME of a [materials.NAME].", {.need = Need::required});
   s.description.selector = "section";
   s.description.default_kind = "solid";
@@ -131,6 +132,8 @@ SectionSchema<Case> root_section() {
   s.table("mesh", &Case::mesh, mesh_section(), needed);
   s.named_tables("materials", &Case::materials, material_section(), needed);
   s.tables("part", &Case::parts, part_section(), needed);
+  s.tables("point_mass", &Case::point_masses, point_mass_section());
+  s.tables("spring", &Case::springs, spring_section());
   s.tables("support", &Case::supports, support_section());
   s.tables("load", &Case::loads, load_section());
   s.tables("initial", &Case::initial, initial_section());

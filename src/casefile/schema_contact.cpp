@@ -150,6 +150,10 @@ SectionSchema<CaseContact> contact_section() {
         {.unit = Dimension::length, .kinds = {"stop"}});
   s.key("damping", &CaseContact::damping, "Force of a node per closing speed, while it touches.",
         {.unit = Dimension::damping, .range = at_least(0.0), .kinds = {"stop"}});
+  s.key("damper", &CaseContact::damper,
+        "How the damping acts while the node touches: so that the stop never pulls (compression), or also holding the "
+        "node back when it moves off (two_sided).",
+        {.choices = {"compression", "two_sided"}, .kinds = {"stop"}});
   s.finish = check_contact;
   return s;
 }

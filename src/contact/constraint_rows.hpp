@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "model/contact_options.hpp"
 
 namespace carom {
 
@@ -19,6 +20,7 @@ struct RowLaw {
   double damping = 0.0;
   double mu = 0.0;           ///< Coulomb's coefficient
   double restitution = 0.0;  ///< Newton's coefficient
+  DamperActs damper_acts = DamperActs::compression;
 };
 
 /// Rows of unilateral constraints. Row r sees the displacements of its nodes, in its frame (normal, tangent_1,

@@ -205,12 +205,16 @@ class RigidSurfaceRows : public RowMaker {
 class StopRows : public RowMaker {
  public:
   StopRows(const Model& model, const StopContact& contact, Index source)
-      : X_(model.mesh->coordinates), contact_(contact), source_(source) {}
+      : X_(model.mesh->coordinates), contact_(contact), source_(source) {
+    law_.eps_N = contact.stiffness;
+    law_.damping = contact.damping;
+    law_.damper_acts = contact.damper_acts;
+  }
   std::size_t slots() const override { return contact_.nodes.size(); }
   bool is_fixed() const override { return true; }
   void append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const override {
     for (const Index n : contact_.nodes) {
-      rows.add_row(contact_.gap, contact_.direction, X_[n], 1.0, {contact_.stiffness, 0.0, contact_.damping}, source_);
+      rows.add_row(contact_.gap, contact_.direction, X_[n], 1.0, law_, source_);
       rows.add_node(n, 1.0);
       rows.slot.back() = first_slot++;
     }
@@ -219,6 +223,7 @@ class StopRows : public RowMaker {
  private:
   std::span<const Vec3> X_;
   StopContact contact_;
+  RowLaw law_;
   Index source_;
 };
 

@@ -15,8 +15,8 @@ namespace {
 struct RowForce {
   RowStatus status = RowStatus::open;
   double penetration = 0.0;               ///< <-g>
-  bool normal_slope_acts = false;         ///< the normal force is compressive, so that it has a slope
-  double damping = 0.0;                   ///< slope of the normal force in the velocity
+  double stiffness = 0.0;                 ///< slope of the normal force in the penetration
+  double damping = 0.0;                   ///< slope of the normal force in the closing velocity
   double pressure = 0.0;                  ///< normal force
   double share = 1.0, share_slope = 0.0;  ///< share of the step's sliding that is in contact, and its slope in the gap
   std::array<double, 2> sliding{};        ///< over the step
@@ -33,12 +33,13 @@ RowForce row_force(const ConstraintRows& rows, std::size_t r, std::span<const do
   const Vec3 w = rows.relative(r, x);
   const double gap = rows.gap[r] + w[0];
   const bool damped = law.damping > 0.0 && rows.gap_at(r, x_begin) < 0.0;
+  const bool pulls = damped && law.damper_acts == DamperActs::two_sided;
   out.penetration = std::max(0.0, -gap);
-  const double pressure =
-      damped ? -law.eps_N * gap - law.damping * rows.relative(r, v)[0] : law.eps_N * out.penetration;
-  out.normal_slope_acts = pressure > 0.0;
-  out.damping = damped ? law.damping : 0.0;
-  out.pressure = std::max(0.0, pressure);
+  const double damper = damped ? -law.damping * rows.relative(r, v)[0] : 0.0;
+  out.pressure = (damped && !pulls ? -law.eps_N * gap : law.eps_N * out.penetration) + damper;
+  if (!pulls) out.pressure = std::max(0.0, out.pressure);
+  if (pulls ? gap < 0.0 : out.pressure > 0.0) out.stiffness = law.eps_N;
+  if (pulls || (damped && out.pressure > 0.0)) out.damping = law.damping;
   if (gap >= 0.0 && out.pressure == 0.0) return out;
   out.status = RowStatus::stick;
   const double limit = law.mu * out.pressure;
@@ -100,7 +101,7 @@ RowTangent penalty_tangent(const ConstraintRows& rows, std::size_t r, std::span<
   const RowForce out = row_force(rows, r, x_begin, x, v, history[static_cast<std::size_t>(rows.slot[r])]);
   RowTangent D{};
   if (out.status == RowStatus::open) return D;
-  if (out.normal_slope_acts) D[0] = law.eps_N + out.damping * dv_dx;
+  D[0] = out.stiffness + out.damping * dv_dx;
   const double along = out.share * law.eps_T;  // slope of the trial force in the sliding
   const std::array<double, 2> through_gap{law.eps_T * out.share_slope * out.sliding[0],
                                           law.eps_T * out.share_slope * out.sliding[1]};

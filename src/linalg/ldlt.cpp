@@ -58,7 +58,7 @@ std::string reason(MUMPS_INT code, MUMPS_INT detail) {
 [[noreturn]] void fail(MUMPS_INT code, MUMPS_INT detail) {
   if (code == -6 || code == -10) {
     throw SingularMatrix(
-        fmt::format("LDL^T factorisation: the matrix is singular to working precision (rank {} at most)", detail));
+        fmt::format("LDL^T factorisation: the matrix is singular to working precision (rank {} at most)", detail), -1);
   }
   throw std::runtime_error("LDL^T factorisation: " + reason(code, detail));
 }
@@ -154,9 +154,11 @@ void Ldlt::Impl::factorise() {
   }
   if (code < 0) fail(code, info(error_detail));
   if (info(null_count) > 0) {
+    const Index null_row = mumps.pivnul_list[0] - 1;
     throw SingularMatrix(
         fmt::format("LDL^T factorisation: the matrix is singular to working precision ({} null pivots, one of row {})",
-                    info(null_count), mumps.pivnul_list[0] - 1));
+                    info(null_count), null_row),
+        null_row);
   }
   has_factors = true;
 }

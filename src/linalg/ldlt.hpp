@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <string>
 
 #include "linalg/csr_matrix.hpp"
 
@@ -11,7 +12,8 @@ namespace carom {
 
 /// What Ldlt throws for a matrix that is singular to working precision.
 struct SingularMatrix : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  SingularMatrix(const std::string& what, Index a_row) : std::runtime_error(what), row(a_row) {}
+  Index row;  ///< of a pivot that vanishes: an unknown that takes part in a motion without resistance; -1: not known
 };
 
 /// P A P^T = L D L^T with D of 1 x 1 and 2 x 2 pivots (multifrontal, threshold pivoting: Duff and Reid, ACM Trans.

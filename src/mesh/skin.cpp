@@ -61,6 +61,7 @@ std::vector<Candidate> facets_of(const Mesh& mesh, std::size_t block, std::span<
     for (std::size_t first = 0; first < table.corners.size(); first += table.size) {
       Facet facet{{-1, -1, -1, -1}, static_cast<int>(table.size)};
       for (std::size_t a = 0; a < table.size; ++a) facet.node[a] = nodes[table.corners[first + a]];
+      if (on_boundary({facet.begin(), facet.end()}, cells.type, dimensions)) continue;  // it ends in a body
       Candidate& candidate = candidates.emplace_back(
           Candidate{{facet, {static_cast<Index>(block), static_cast<Index>(cell)}}, facet.node});
       std::sort(candidate.sorted.begin(), candidate.sorted.begin() + static_cast<std::ptrdiff_t>(table.size));

@@ -159,7 +159,7 @@ struct PairContact {
   InitialPenetration initial = InitialPenetration::refuse;
 };
 
-/// Discrete stop on nodes: force stiffness x penetration + damping x closing speed, never tensile.
+/// Discrete stop on nodes: force stiffness x penetration + damping x closing speed, tensile as far as damper_acts says.
 /// The gap of a node is gap + direction . u: the node touches when it has moved by `gap` against `direction`.
 struct StopContact {
   std::string name;
@@ -168,6 +168,7 @@ struct StopContact {
   double gap = 0.0;
   double stiffness = 0.0;
   double damping = 0.0;
+  DamperActs damper_acts = DamperActs::compression;
 };
 
 using ContactDefinition = std::variant<InterfaceContact, ObstacleContact, PairContact, StopContact>;
@@ -179,6 +180,20 @@ struct RigidBody {
   double mass = 0.0;
 };
 
+/// A mass at each of the nodes, besides that of their cells.
+struct PointMass {
+  std::vector<Index> nodes;
+  double mass = 0.0;
+};
+
+/// A linear spring between two nodes: the force stiffness x (u_0 - u_1) acts on the second and its opposite on the
+/// first. The stiffness is symmetric, positive semi-definite and that of the reference configuration. A spring to the
+/// ground ends in a node of its own that stands where the first does and never moves.
+struct Spring {
+  std::array<Index, 2> nodes{-1, -1};
+  std::array<Vec3, 3> stiffness{};
+};
+
 /// Everything the discrete bodies and the contact are made from.
 struct Model {
   std::shared_ptr<const Mesh> mesh;
@@ -187,6 +202,8 @@ struct Model {
   std::vector<Load> loads;
   std::vector<InitialState> initial;
   std::vector<ContactDefinition> contacts;
+  std::vector<PointMass> point_masses;
+  std::vector<Spring> springs;
   std::vector<RigidBody> rigid_bodies;
   std::vector<TurningBody> turning_bodies;
 };

@@ -6,6 +6,7 @@
 #include "base/errors.hpp"
 #include "mesh/read_mesh.hpp"
 #include "mesh/structured_block.hpp"
+#include "run/attached.hpp"
 #include "run/rigid_bodies.hpp"
 
 namespace carom {
@@ -32,12 +33,14 @@ Mesh build_mesh(const Case& given) {
   Mesh mesh = bodies(given);
   std::int64_t last = 0;
   for (const std::int64_t number : mesh.node_numbers) last = std::max(last, number);
-  for (const CaseContact& contact : given.contacts) {
-    for (const Vec3& x : carrier_positions(contact)) {
+  const auto append = [&](const std::vector<Vec3>& positions) {
+    for (const Vec3& x : positions) {
       mesh.coordinates.push_back(x);
       mesh.node_numbers.push_back(++last);
     }
-  }
+  };
+  append(ground_positions(given, mesh));
+  for (const CaseContact& contact : given.contacts) append(carrier_positions(contact));
   return mesh;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "run/attached.hpp"
 #include "run/build_mesh.hpp"
 #include "run/groups.hpp"
 #include "run/parts.hpp"
@@ -23,6 +24,8 @@ class Builder {
   void build() {
     model_.parts = parts_.parts();
     model_.motions = parts_.held();
+    const std::size_t appended = ground_positions(case_, mesh_).size() + carrier_nodes(case_);
+    add_attached(case_, mesh_, groups_, parts_, static_cast<Index>(mesh_.node_count() - appended), model_);
     for (std::size_t i = 0; i < case_.supports.size(); ++i) add_support(case_.supports[i], i);
     for (const CaseLoad& load : case_.loads) add_load(load);
     for (const CaseInitial& initial : case_.initial) add_initial(initial);
@@ -85,7 +88,7 @@ class Builder {
 
   /// A force on a node that no part holds would move nothing.
   void refuse_outside_parts(Index node, const Located<std::string>& group) const {
-    if (parts_.hold(node)) return;
+    if (parts_.hold(node) || has_point_mass(model_, node)) return;
     throw CaseError(group.where, "load.group",
                     fmt::format("node {} of \"{}\", which belongs to no part",
                                 mesh_.node_numbers[static_cast<std::size_t>(node)], *group),
@@ -120,7 +123,8 @@ class Builder {
         break;
       case Kind::stop:
         model_.contacts.emplace_back(StopContact{*given.name, groups_.nodes(given.group, "contact.group"),
-                                                 *given.normal, given.gap, **given.stiffness, given.damping});
+                                                 *given.normal, given.gap, **given.stiffness, given.damping,
+                                                 given.damper});
         break;
       default:
         add_obstacle(given);

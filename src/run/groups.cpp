@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <set>
 #include <span>
 #include <string_view>
 
 #include "mesh/cell_topology.hpp"
+#include "mesh/orientation.hpp"
 
 namespace carom {
 
@@ -45,17 +45,46 @@ void Groups::require(const Located<std::string>& name, const std::string& key) c
 }
 
 std::vector<Index> Groups::nodes(const Located<std::string>& name, const std::string& key) const {
-  if (*name == "all" && !mesh_.has_group("all")) {
-    std::vector<Index> all(mesh_.node_count());
-    std::iota(all.begin(), all.end(), 0);
-    return all;
+  if (!means_all(*name)) {
+    require(name, key);
+    return mesh_.nodes_of(*name);
   }
-  require(name, key);
-  return mesh_.nodes_of(*name);
+  std::vector<char> is_member(mesh_.node_count(), 0);
+  for (const CellBlock& block : mesh_.blocks)
+    for (const Index n : block.connectivity) is_member[static_cast<std::size_t>(n)] = 1;
+  for (const auto& [group, members] : mesh_.node_groups)
+    for (const Index n : members) is_member[static_cast<std::size_t>(n)] = 1;
+  std::vector<Index> all;
+  for (std::size_t n = 0; n < is_member.size(); ++n)
+    if (is_member[n] != 0) all.push_back(static_cast<Index>(n));
+  return all;
+}
+
+std::vector<Index> Groups::all_cells(const Located<std::string>& name, const std::string& key, CellType type,
+                                     const std::string& expected) const {
+  std::vector<Index> cells;
+  for (const CellBlock& block : mesh_.blocks) {
+    if (dimension(block.type) != dimension(type)) continue;
+    const auto n = static_cast<std::size_t>(node_count(block.type));
+    for (std::size_t cell = 0; cell < block.size(); ++cell) {
+      const std::span<const Index> nodes(&block.connectivity[n * cell], n);
+      if (on_boundary(nodes, block.type, skin().node_dimensions)) continue;
+      if (block.type != type) {
+        throw CaseError(name.where, key,
+                        fmt::format("\"all\", where the mesh has {} cells such as {}", carom::name(block.type),
+                                    block.file_numbers[cell]),
+                        expected, "Mesh them anew, or name the group that is meant.");
+      }
+      if (!has_zero_thickness(mesh_, type, nodes)) cells.push_back(static_cast<Index>(cell));
+    }
+  }
+  if (cells.empty()) throw CaseError(name.where, key, "\"all\" in a mesh without such cells", expected);
+  return cells;
 }
 
 std::vector<Index> Groups::cells(const Located<std::string>& name, const std::string& key, CellType type,
                                  const std::string& expected) const {
+  if (means_all(*name)) return all_cells(name, key, type, expected);
   require(name, key);
   std::vector<Index> cells;
   std::set<std::string_view> others;

@@ -18,10 +18,12 @@ class Groups {
  public:
   explicit Groups(const Mesh& mesh) : mesh_(mesh) {}
 
-  /// Nodes of the group; "all" means every node.
+  /// Nodes of the group; "all", where no group has that name, means every node of cells and groups (and so none that
+  /// obstacles or springs hang on).
   std::vector<Index> nodes(const Located<std::string>& name, const std::string& key) const;
   /// Cells of this type in the group, in increasing order; cells of lower dimension beside them are left out, others
-  /// are an error. `expected` is what the message says.
+  /// are an error. `expected` is what the message says. "all", where no group has that name, means every cell of the
+  /// type that is no boundary of other cells and not of zero thickness; other cells of its dimension are an error.
   std::vector<Index> cells(const Located<std::string>& name, const std::string& key, CellType type,
                            const std::string& expected) const;
   /// The part of the skin (outer_facets of mesh/skin.hpp) that lies in the group: facets that are boundary cells of it
@@ -34,6 +36,9 @@ class Groups {
   std::vector<Facet> rigid_faces(const Located<std::string>& name, const std::string& key) const;
 
  private:
+  std::vector<Index> all_cells(const Located<std::string>& name, const std::string& key, CellType type,
+                               const std::string& expected) const;
+  bool means_all(const std::string& name) const { return name == "all" && !mesh_.has_group(name); }
   void require(const Located<std::string>& name, const std::string& key) const;
   [[noreturn]] void refuse(const Located<std::string>& name, const std::string& key, const std::string& found,
                            const std::string& expected) const;

@@ -301,8 +301,9 @@ double angular_limit(const Simulation& s) {
   };
   const auto is_small_strain = [](const Part& part) { return std::holds_alternative<LinearElastic>(part.material); };
   const std::vector<Part>& parts = s.model().parts;
-  // Moments are taken where nodes stand; the internal forces of small strain balance where nodes stood.
-  const bool is_mixed = !s.solid().is_linear() && std::any_of(parts.begin(), parts.end(), is_small_strain);
+  // Moments are taken where nodes stand; the internal forces of small strain and springs balance where nodes stood.
+  const bool is_mixed = !s.solid().is_linear() &&
+                        (!s.model().springs.empty() || std::any_of(parts.begin(), parts.end(), is_small_strain));
   const bool is_kept = !is_mixed && std::all_of(s.stages().begin(), s.stages().end(), keeps_it);
   const bool exact = s.solid().is_linear() || is_kept;
   return exact ? 1e-9 : 1e-2;

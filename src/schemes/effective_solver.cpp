@@ -1,5 +1,7 @@
 #include "schemes/effective_solver.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -14,6 +16,17 @@
 namespace carom {
 
 namespace {
+
+/// Why a tangent has no inverse: the dof moves, alone or with others, and nothing resists.
+std::string describe_free_motion(const Mesh& mesh, std::size_t dof) {
+  return fmt::format(
+      "{} without resistance: the tangent is singular. Hold the node by a [[support]] or a [[spring]] (bars resist "
+      "along "
+      "their axis only); where stiffness is lost on the way (a limit or bifurcation point), change the step or follow "
+      "the "
+      "motion by a scheme with inertia",
+      describe_motion(mesh, dof));
+}
 
 bool acts(const RowTangent& D) {
   return std::any_of(D.begin(), D.end(), [](double d) { return d != 0.0; });
@@ -83,6 +96,7 @@ class CgSolver final : public EffectiveSolver {
       const std::span<double> column = b.subspan(k * n, n);
       const LinearSolveReport one = iterate(column, 1e-13, 0.0, x);
       std::copy(x.begin(), x.end(), column.begin());
+      if (!one.converged) all.worst = one.worst;
       all.converged = all.converged && one.converged;
       all.iterations += one.iterations;
       all.residual = std::max(all.residual, one.residual);
@@ -100,8 +114,20 @@ class CgSolver final : public EffectiveSolver {
     const LinearOperator A = [&](std::span<const double> in, std::span<double> out) { apply(tangents_, in, out); };
     const int most = 1000 + static_cast<int>(10.0 * std::sqrt(static_cast<double>(x.size())));
     const CgResult result = cg_.solve(A, inverse_diagonal_, b, x, relative, absolute, most);
-    const bool broke_down = !result.converged && result.iterations < most;
-    return {result.converged, result.iterations, result.residual, broke_down};
+    if (result.converged) return {true, result.iterations, result.residual, false};
+    const bool broke_down = result.iterations < most;
+    return {false, result.iterations, result.residual, broke_down, largest_residual(b, x)};
+  }
+
+  /// Where the operator is singular, iterations leave of b what no force of it can balance: the motions without
+  /// resistance.
+  std::size_t largest_residual(std::span<const double> b, std::span<const double> x) {
+    std::vector<double> Ax(x.size());
+    apply(tangents_, x, Ax);
+    std::size_t worst = 0;
+    for (std::size_t i = 0; i < b.size(); ++i)
+      if (!(std::abs(b[i] - Ax[i]) <= std::abs(b[worst] - Ax[worst]))) worst = i;
+    return worst;
   }
 
   void apply(const std::vector<RowTangent>& D, std::span<const double> x, std::span<double> y) {
@@ -134,8 +160,11 @@ class CgSolver final : public EffectiveSolver {
         }
       }
     }
+    // Nothing resists a dof without a diagonal entry: any finite number serves it.
+    const double most = *std::max_element(inverse_diagonal_.begin(), inverse_diagonal_.end());
     for (std::size_t i = 0; i < inverse_diagonal_.size(); ++i) {
-      inverse_diagonal_[i] = fixed[i] ? 1.0 : 1.0 / inverse_diagonal_[i];
+      const double d = inverse_diagonal_[i];
+      inverse_diagonal_[i] = fixed[i] ? 1.0 : 1.0 / (d == 0.0 ? most : d);
     }
   }
 
@@ -173,7 +202,9 @@ class DirectSolver final : public EffectiveSolver {
     c_ = c;
     compliance_.forget();
     if (!is_linear) stiffness_ = system_.solid.tangent(u);
-    return factors_.factorize(assemble());
+    const std::string failure = factors_.factorize(assemble());
+    if (factors_.singular_row() < 0) return failure;
+    return describe_free_motion(system_.mesh, free_[static_cast<std::size_t>(factors_.singular_row())]);
   }
 
   LinearSolveReport solve(std::span<const double> b, const std::shared_ptr<const ConstraintRows>& rows,
@@ -290,6 +321,12 @@ std::vector<double> DirectSolver::contact_displacements(const ConstraintRows& ro
 }
 
 }  // namespace
+
+std::string describe_motion(const Mesh& mesh, std::size_t dof) {
+  const Vec3& x = mesh.coordinates[dof / 3];
+  return fmt::format("node {} at ({:.4g}, {:.4g}, {:.4g}) moves along {}", mesh.node_numbers[dof / 3], x[0], x[1], x[2],
+                     "xyz"[dof % 3]);
+}
 
 std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind, double ratio,
                                                        double omega_max_squared) {

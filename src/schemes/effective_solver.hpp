@@ -19,6 +19,7 @@ struct LinearSolveReport {
   int iterations = 0;
   double residual = 0.0;       ///< 2-norm; 0 for a direct solve
   bool is_indefinite = false;  ///< it broke down, since the operator is not positive definite
+  std::size_t worst = 0;       ///< dof of the largest residual where it has not converged
 };
 
 /// A spring between a dof and the ground.
@@ -51,6 +52,9 @@ class EffectiveSolver {
   std::size_t operators_made_ = 0;
   std::vector<DofSpring> springs_;
 };
+
+/// "node 17 at (0, 1, 2) moves along z", for messages.
+std::string describe_motion(const Mesh& mesh, std::size_t dof);
 
 /// ratio: c / m of the usual step (infinite for statics). `automatic` takes conjugate gradients where the
 /// Jacobi-preconditioned operator is well conditioned,

@@ -49,6 +49,10 @@ void FreeModes::find_bodies() {
       is_used[static_cast<std::size_t>(n)] = true;  // also where a modified mass leaves none
     }
   }
+  for (const Spring& spring : solid.springs()) {
+    const auto a = static_cast<std::size_t>(spring.nodes[0]), b = static_cast<std::size_t>(spring.nodes[1]);
+    if (is_used[a] && is_used[b]) parent[root(parent, a)] = root(parent, b);  // else it is the ground
+  }
   body_of_.assign(parent.size(), -1);
   for (std::size_t n = 0; n < parent.size(); ++n) {
     if (!is_used[n]) continue;

@@ -196,11 +196,14 @@ std::string ImplicitStage::improve(const StageEquation& eq, double absolute, Sta
   report.linear_iterations += solved.linear.iterations;
   if (!solved.failure.empty()) return solved.failure;
   if (!solved.linear.converged) {
-    return fmt::format("the linear solver stopped after {} iterations at a residual of {:.3g} (asked: {:.3g}){}",
-                       solved.linear.iterations, solved.linear.residual, absolute,
-                       solved.linear.is_indefinite ? ": the tangent is not positive definite, or its numbers are not "
-                                                     "finite. Shorten the step, or choose solver.kind = \"mumps\""
-                                                   : "");
+    return fmt::format(
+        "the linear solver stopped after {} iterations at a residual of {:.3g} (asked: {:.3g}){}; the residual "
+        "is largest where {}: if nothing resists that, add a [[support]] or a [[spring]]",
+        solved.linear.iterations, solved.linear.residual, absolute,
+        solved.linear.is_indefinite ? ": the tangent is not positive definite, or its numbers are not finite. Shorten "
+                                      "the step, or choose solver.kind = \"mumps\""
+                                    : "",
+        describe_motion(system_.mesh, solved.linear.worst));
   }
   for (std::size_t i = 0; i < end.a.size(); ++i) end.a[i] += correction_[i];
   return {};

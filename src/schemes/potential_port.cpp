@@ -51,8 +51,9 @@ void PotentialPort::respond(std::span<const double> x, std::span<const double> /
     NormalForce normal = discrete_derivative(law.eps_N, g0, g1);
     const double spring = normal.p;
     if (law.damping > 0.0 && g0 < 0.0 && h_ > 0.0) {
-      normal.p = std::max(0.0, normal.p - law.damping * dw[0] / h_);
-      normal.slope = normal.p > 0.0 ? normal.slope + law.damping / h_ : 0.0;
+      normal.p -= law.damping * dw[0] / h_;
+      normal.slope += law.damping / h_;
+      if (law.damper_acts == DamperActs::compression && normal.p <= 0.0) normal = {};
     }
     response.damper[r] = normal.p - spring;
     if (normal.p == 0.0 && spring == 0.0) continue;

@@ -9,6 +9,7 @@ namespace carom {
 
 std::string TangentFactors::factorize(const CsrMatrix& A) {
   has_factors_ = false;
+  singular_row_ = -1;
   cholesky_.reset();  // before others are made: both at once may not fit
   try {
     if (method_ == Method::cholesky) {
@@ -21,10 +22,8 @@ std::string TangentFactors::factorize(const CsrMatrix& A) {
     if (method_ == Method::ldlt) ldlt_.factorize(A);
     if (method_ != first_ && negative_ == 0) negative_ = ldlt_.negative_eigenvalues();
   } catch (const SingularMatrix& e) {
-    return std::string(e.what()) +
-           ": a body that nothing holds, or a limit or bifurcation point. Hold the body, change the step, or follow "
-           "the "
-           "motion by a scheme with inertia";
+    singular_row_ = e.row;
+    return e.what();
   } catch (const std::runtime_error& e) {
     return e.what();
   }

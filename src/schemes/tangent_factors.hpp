@@ -19,8 +19,10 @@ class TangentFactors {
 
   explicit TangentFactors(Method first) : first_(first), method_(first) {}
 
-  /// Factors A. Returns why there are no factors and what to do, "" when there are.
+  /// Factors A. Returns why there are no factors, "" when there are.
   std::string factorize(const CsrMatrix& A);
+  /// The row of A that the last call found to be without a pivot, and so in a motion without resistance; -1: none.
+  Index singular_row() const { return singular_row_; }
   bool has_factors() const { return has_factors_; }
   /// Overwrites b by A^-1 b, column by column.
   void solve(std::span<double> b, int columns) const;
@@ -30,6 +32,7 @@ class TangentFactors {
  private:
   Method first_, method_;
   Index negative_ = 0;  ///< eigenvalues of the first matrix that was not positive definite
+  Index singular_row_ = -1;
   bool has_factors_ = false;
   std::optional<Cholesky> cholesky_;
   Ldlt ldlt_;

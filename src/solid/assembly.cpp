@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
 
 namespace carom {
 namespace {
@@ -31,8 +32,13 @@ NodeCells cells_of_nodes(const SolidCells& solid) {
 
 }  // namespace
 
-CsrMatrix node_graph(const SolidCells& solid) {
+CsrMatrix node_graph(const SolidCells& solid, std::span<const Spring> springs) {
   const NodeCells incident = cells_of_nodes(solid);
+  std::multimap<Index, Index> tied;
+  for (const Spring& spring : springs) {
+    tied.emplace(spring.nodes[0], spring.nodes[1]);
+    tied.emplace(spring.nodes[1], spring.nodes[0]);
+  }
   const std::size_t node_count = solid.mesh->node_count();
   CsrMatrix graph;
   graph.size = static_cast<Index>(node_count);
@@ -42,6 +48,8 @@ CsrMatrix node_graph(const SolidCells& solid) {
     row.clear();
     for (std::size_t k = incident.begin[n]; k < incident.begin[n + 1]; ++k)
       for (const Index m : solid.nodes_of(incident.cells[k])) row.push_back(m);
+    const auto [first, last] = tied.equal_range(static_cast<Index>(n));
+    for (auto tie = first; tie != last; ++tie) row.insert(row.end(), {tie->first, tie->second});
     std::sort(row.begin(), row.end());
     row.erase(std::unique(row.begin(), row.end()), row.end());
     graph.column.insert(graph.column.end(), row.begin(), row.end());
@@ -64,6 +72,13 @@ CsrMatrix dof_graph(const CsrMatrix& nodes) {
     }
   graph.value.assign(graph.column.size(), 0.0);
   return graph;
+}
+
+void add_diagonal(CsrMatrix& matrix, Index row, double value) {
+  if (matrix.row_begin[at(row)] == matrix.row_begin[at(row) + 1])
+    append_diagonal(matrix, row, value);
+  else
+    matrix.value[entry(matrix, row, row)] += value;
 }
 
 void append_diagonal(CsrMatrix& matrix, Index row, double value) {

@@ -8,11 +8,14 @@
 
 namespace carom {
 
-/// Empty matrix (zero values) whose entries are the pairs of nodes that share a solid cell.
-CsrMatrix node_graph(const SolidCells& solid);
+/// Empty matrix (zero values) whose entries are the pairs of nodes that share a solid cell or a spring.
+CsrMatrix node_graph(const SolidCells& solid, std::span<const Spring> springs = {});
 
 /// The same graph with 3 x 3 entries per pair of nodes; row 3 n + i is component i of node n.
 CsrMatrix dof_graph(const CsrMatrix& nodes);
+
+/// Adds to the diagonal entry, which rows without entries are given.
+void add_diagonal(CsrMatrix& matrix, Index row, double value);
 
 /// Gives a row without entries its diagonal entry.
 void append_diagonal(CsrMatrix& matrix, Index row, double value);

@@ -11,6 +11,7 @@
 #include "solid/blocks.hpp"
 #include "solid/kernels.hpp"
 #include "solid/loads.hpp"
+#include "solid/springs.hpp"
 #include "solid/turning_bodies.hpp"
 
 namespace carom {
@@ -43,6 +44,8 @@ struct Solid::Impl {
         loads(make_loads(model)),
         gravity(gravity_loads(model)),
         rigid_bodies(model.rigid_bodies),
+        point_masses(model.point_masses),
+        springs(model.springs),
         volumes(solid.cells.size()),
         lengths(solid.cells.size()),
         turning_bodies(model.turning_bodies, model.turning_bodies.empty() ? 0.0 : largest_frequency()) {
@@ -53,8 +56,10 @@ struct Solid::Impl {
     });
   }
 
-  /// Appends the masses of the rigid bodies to the diagonal of M.
+  /// Adds the masses of points and rigid bodies to the diagonal of M.
   void add_body_masses(CsrMatrix& M) const {
+    for (const PointMass& point : point_masses)
+      for (const Index node : point.nodes) add_diagonal(M, node, point.mass);
     for (const RigidBody& body : rigid_bodies) append_diagonal(M, body.node, body.mass);
     turning_bodies.add_mass(M);
   }
@@ -95,6 +100,8 @@ struct Solid::Impl {
   std::vector<LoadVector> loads;
   std::vector<Gravity> gravity;
   std::vector<RigidBody> rigid_bodies;
+  std::vector<PointMass> point_masses;
+  Springs springs;
   std::vector<double> volumes, lengths;
   TurningBodies turning_bodies;
 };
@@ -117,6 +124,9 @@ bool Solid::is_linear() const {
   return impl_->turning_bodies.empty() &&
          std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.small_strain; });
 }
+const std::vector<Spring>& Solid::springs() const {
+  return impl_->springs.all();
+}
 const std::vector<CellRef>& Solid::cells() const {
   return impl_->solid.cells;
 }
@@ -133,6 +143,7 @@ const std::vector<double>& Solid::cell_lengths() const {
 void Solid::internal_force(std::span<const double> u, std::span<double> f) const {
   impl_->sum_over_chunks(f, [&](const CellKernels& kernels, const CellBatches& cells, const BatchLaw& law,
                                 double* sum) { kernels.add_internal_force(cells, law, u.data(), sum); });
+  impl_->springs.add_force(1.0, u, f);
   impl_->turning_bodies.add_internal_force(u, f);
 }
 
@@ -154,6 +165,7 @@ void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const 
 void Solid::tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y) const {
   impl_->sum_over_chunks(y, [&](const CellKernels& kernels, const CellBatches& cells, const BatchLaw& law,
                                 double* sum) { kernels.add_tangent_action(cells, law, u.data(), x.data(), sum); });
+  impl_->springs.add_force(1.0, x, y);
   impl_->turning_bodies.add_tangent_action(u, x, y);
 }
 
@@ -163,11 +175,13 @@ void Solid::discrete_gradient_force(std::span<const double> u_0, std::span<const
                          [&](const CellKernels& kernels, const CellBatches& cells, const BatchLaw& law, double* sum) {
                            kernels.add_discrete_gradient_force(cells, law, u_0.data(), u_1.data(), sum);
                          });
+  impl_->springs.add_force(0.5, u_0, f);
+  impl_->springs.add_force(0.5, u_1, f);
   impl_->turning_bodies.add_discrete_gradient_force(u_0, u_1, f);
 }
 
 CsrMatrix Solid::tangent(std::span<const double> u) const {
-  CsrMatrix graph = node_graph(impl_->solid);
+  CsrMatrix graph = node_graph(impl_->solid, impl_->springs.all());
   impl_->turning_bodies.add_rows(graph);
   CsrMatrix K = dof_graph(graph);
   impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
@@ -181,6 +195,7 @@ CsrMatrix Solid::tangent(std::span<const double> u) const {
           for (std::size_t j = 0; j < 3; ++j) row[j] += cell[(3 * a + i) * dofs + 3 * b + j];
         }
   });
+  impl_->springs.add_tangent(K);
   impl_->turning_bodies.add_tangent(u, K);
   return K;
 }
@@ -193,6 +208,7 @@ std::vector<double> Solid::tangent_diagonal(std::span<const double> u) const {
     const std::size_t dofs = 3 * nodes.size();
     for (std::size_t r = 0; r < dofs; ++r) diagonal[3 * at(nodes[r / 3]) + r % 3] += cell[r * (dofs + 1)];
   });
+  impl_->springs.add_tangent_diagonal(diagonal);
   impl_->turning_bodies.add_tangent_diagonal(u, diagonal);
   return diagonal;
 }
@@ -204,7 +220,8 @@ double Solid::strain_energy(std::span<const double> u) const {
     const Block& block = impl_->block(chunks[c]);
     partial[c] = block.kernels.strain_energy(impl_->batches(chunks[c]), block.law(), u.data());
   });
-  return std::accumulate(partial.begin(), partial.end(), 0.0) + impl_->turning_bodies.energy(u);
+  return std::accumulate(partial.begin(), partial.end(), 0.0) + impl_->springs.energy(u) +
+         impl_->turning_bodies.energy(u);
 }
 
 double Solid::body_strain(std::span<const double> u) const {

@@ -33,9 +33,9 @@ struct Rotation {
 /// component c of node n whatever the cells; dof vectors have 3 x node_count entries. Plane cells have no forces and no
 /// stiffness in z, bars none across their axis but for the initial-stress term of finite strain. LinearElastic parts
 /// are of small strain, the others total Lagrangian. All cells of all parts take part; interface cells of contact do
-/// not. Rigid bodies that turn stand among the nodes: their directors' forces, stiffness, energy and mass are part of
-/// all sums here, and make the system nonlinear; the frequency of their directors is TurningBody::rigidity times the
-/// largest bound of the cells'.
+/// not. Springs and point masses are part of all sums. Rigid bodies that turn stand among the nodes: their directors'
+/// forces, stiffness, energy and mass are part of all sums here, and make the system nonlinear; the frequency of their
+/// directors is TurningBody::rigidity times the largest bound of the cells'.
 class Solid {
  public:
   explicit Solid(const Model& model, Isa isa = chosen_isa());
@@ -105,6 +105,8 @@ class Solid {
   /// scheme uses.
   void external_force(double t, const Mass& mass, std::span<double> f) const;
   bool has_loads() const;
+
+  const std::vector<Spring>& springs() const;
 
   /// The solid cells; all per-cell results come in this order.
   const std::vector<CellRef>& cells() const;

@@ -148,6 +148,18 @@ TEST(Casefile, SupportsLoadsAndInitialState) {
   EXPECT_FALSE(c.initial[0].displacement.has_value());
 }
 
+TEST(Casefile, PointMassesAndSprings) {
+  const Case c = complete();
+  ASSERT_EQ(c.point_masses.size(), 1U);
+  EXPECT_EQ(c.point_masses[0].total, 0.25);
+  EXPECT_FALSE(c.point_masses[0].mass.has_value());
+  ASSERT_EQ(c.springs.size(), 3U);
+  EXPECT_EQ(**c.springs[2].total_stiffness, (Vec3{0.0, 7e3, 0.0}));
+  EXPECT_EQ(**c.springs[0].stiffness, (Vec3{1e3, 0.0, 2e3}));
+  EXPECT_EQ(**c.springs[1].to, "FOOT");
+  EXPECT_EQ(c.springs[1].axial, 5e3);
+}
+
 TEST(Casefile, ContactsAndFunctions) {
   const Case c = complete();
   ASSERT_EQ(c.contacts.size(), 4U);
@@ -156,6 +168,7 @@ TEST(Casefile, ContactsAndFunctions) {
   EXPECT_TRUE(c.contacts[1].per_node);
   EXPECT_EQ(*c.contacts[2].kind, CaseContact::Kind::interface);
   EXPECT_EQ(c.contacts[3].damping, 0.1);
+  EXPECT_EQ(c.contacts[3].damper, DamperActs::two_sided);
   ASSERT_EQ(c.functions.size(), 2U);
   const TimeFunction& jump = c.functions[1].function;
   EXPECT_EQ(jump(4.9e-5), 0.0);

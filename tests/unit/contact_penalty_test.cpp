@@ -61,6 +61,18 @@ TEST(PenaltyForce, OfADamperActsOnlyInStepsThatBeginClosedAndNeverPulls) {
   EXPECT_NEAR(pressed.stored, 0.5 * 4.0 * 0.25 * 0.25, round_off);
 }
 
+TEST(PenaltyForce, OfATwoSidedDamperPullsWhileTheRowIsClosed) {
+  const Rows stop = single_node({.eps_N = 4.0, .damping = 2.0, .damper_acts = DamperActs::two_sided});
+  const Vec3 closing{0, 0, -3.0}, opening{0, 0, 3.0}, at{0, 0, -0.25};
+  EXPECT_NEAR(respond(stop, {0, 0, -0.1}, at, {}, closing).force[0][0], 4.0 * 0.25 + 2.0 * 3.0, round_off);
+  const auto pulled = respond(stop, {0, 0, -0.1}, at, {}, opening);
+  EXPECT_NEAR(pulled.force[0][0], 4.0 * 0.25 - 2.0 * 3.0, round_off);
+  EXPECT_NEAR(pulled.damper[0], -2.0 * 3.0, round_off);
+  // In the step that opens the row the spring is slack and the damper still holds; in the next nothing does.
+  EXPECT_NEAR(respond(stop, {0, 0, -0.1}, {0, 0, 0.2}, {}, opening).force[0][0], -2.0 * 3.0, round_off);
+  EXPECT_EQ(respond(stop, {0, 0, 0.1}, {0, 0, 0.2}, {}, opening).force[0][0], 0.0);
+}
+
 // eps_N = 10, penetration 0.2, mu = 0.3: p = 2, limit 0.6; eps_T = 5 sticks up to a slip of 0.12.
 struct Friction : testing::Test {
   Rows penalty = single_node({.eps_N = 10.0, .eps_T = 5.0, .mu = 0.3});
@@ -172,6 +184,7 @@ void check_tangent(const Rows& penalty, const Vec3& u_begin, const Vec3& u, cons
 TEST(PenaltyTangent, IsTheDerivativeOfTheForce) {
   const Rows frictional = single_node({.eps_N = 10.0, .eps_T = 5.0, .mu = 0.3});
   const Rows damped = single_node({.eps_N = 10.0, .damping = 2.0});
+  const Rows held = single_node({.eps_N = 10.0, .damping = 2.0, .damper_acts = DamperActs::two_sided});
   int sticking = 0, sliding = 0, open = 0, pressed = 0, lifted = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
     const std::vector<double> x = random_vector(12, seed);
@@ -180,6 +193,7 @@ TEST(PenaltyTangent, IsTheDerivativeOfTheForce) {
     SCOPED_TRACE(seed);
     check_tangent(frictional, begin, u, v, history, 3.0);
     check_tangent(damped, begin, u, v, {}, 3.0);
+    check_tangent(held, begin, u, v, {}, 3.0);
     const RowStatus status = respond(frictional, begin, u, history).status[0];
     (status == RowStatus::open ? open : status == RowStatus::stick ? sticking : sliding)++;
     if (begin[2] < 0.0 && u[2] < 0.0) (respond(damped, begin, u, {}, v).force[0][0] > 0.0 ? pressed : lifted)++;

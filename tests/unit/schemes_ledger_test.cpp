@@ -5,6 +5,7 @@
 #include <ostream>
 #include <string>
 
+#include "math/vec3.hpp"
 #include "contact_fixture.hpp"
 #include "schemes_implicit.hpp"
 
@@ -48,9 +49,19 @@ Model on_interface() {
   return model;
 }
 
-Model on_stop(double damping) {
+Model on_stop(double damping, DamperActs acts = DamperActs::compression) {
   Model model = distorted_block();
-  model.contacts.emplace_back(StopContact{"stop", model.mesh->nodes_of("ZMIN"), {0, 0, 1}, 0.05, 3.0, damping});
+  model.contacts.emplace_back(StopContact{"stop", model.mesh->nodes_of("ZMIN"), {0, 0, 1}, 0.05, 3.0, damping, acts});
+  return model;
+}
+
+/// A point mass at one corner, and a spring across the body along the line of its ends.
+Model with_attached() {
+  Model model = distorted_block();
+  model.point_masses.push_back({{3, 30}, 0.4});
+  const Vec3 n = normalized(subtract(model.mesh->coordinates[30], model.mesh->coordinates[3]));
+  model.springs.push_back({{3, 30}, {scaled(n, 2.0 * n[0]), scaled(n, 2.0 * n[1]), scaled(n, 2.0 * n[2])}});
+  model.loads.push_back(NodalForce{{3}, {0.1, 0.02, 0.05}, ramp_and_fall});
   return model;
 }
 
@@ -79,6 +90,8 @@ std::vector<Scenario> scenarios() {
       {"interface_with_friction", on_interface, {0.1, 0.0, -0.2}, 0.05},
       {"stop", [] { return on_stop(0.0); }, {0, 0, -0.2}},
       {"damped_stop", [] { return on_stop(0.5); }, {0, 0, -0.2}},
+      {"stop_that_pulls", [] { return on_stop(5.0, DamperActs::two_sided); }, {0, 0, -0.2}},
+      {"attached", with_attached},
       {"gravity",
        [] {
          return loaded(Gravity{{0.01, 0, -0.05}, ramp_and_fall});
