@@ -28,7 +28,8 @@ void check_spring(CaseSpring& spring, const Node&, const ReadContext& at) {
 SectionSchema<CasePointMass> point_mass_section() {
   SectionSchema<CasePointMass> s(
       "Masses at the nodes of a group, besides those of their cells: for what is fastened to a body and not meshed. "
-      "They have no moments of inertia of their own; gravity pulls at them.");
+      "They have no moments of inertia of their own; gravity pulls at them; mass = \"modified\" moves "
+      "those of contact nodes as it does the mass of cells.");
   s.key("nodes", &CasePointMass::nodes, "Group of nodes or cells.", {.need = Need::required});
   s.key("mass", &CasePointMass::mass, "Mass of each node.", {.unit = Dimension::mass, .range = greater_than(0.0)});
   s.key("total", &CasePointMass::total, "Mass of all nodes together, in equal shares.",

@@ -234,6 +234,19 @@ void lint_touches(const Simulation& s, std::vector<std::string>& out) {
   }
 }
 
+/// A run in which no wave crosses a cell: somewhere a unit is wrong.
+void lint_duration(const Simulation& s, std::vector<std::string>& out) {
+  const bool is_static = std::all_of(s.stages().begin(), s.stages().end(),
+                                     [](const auto& stage) { return stage->settings().kind == SchemeKind::statics; });
+  const double travel = waves(s).speed * s.end(), h = smallest_cell(s);
+  if (is_static || travel >= h) return;
+  const std::string_view length = unit_name(Dimension::length, s.given().units);
+  out.push_back(
+      fmt::format("{}: waves travel {:.3g} {} in the whole run, less than the smallest cell ({:.3g} {}): nothing will "
+                  "deform. Are the mesh, E, rho and the time in one system of units (units = \"{}\")?",
+                  to_string(s.given().time.where), travel, length, h, length, name(s.given().units)));
+}
+
 void lint_scheme(const Simulation& s, std::vector<std::string>& out) {
   if (is_explicit(s.first().settings().kind) || s.first().settings().kind == SchemeKind::statics) return;
   const double courant = waves(s).speed * s.dt() / smallest_cell(s);
@@ -280,6 +293,7 @@ std::vector<std::string> lint_warnings(const Simulation& s) {
   const State state = s.initial_state();
   for (std::size_t c = 0; c < s.given().contacts.size(); ++c) lint_contact(s, c, state, out);
   lint_scheme(s, out);
+  lint_duration(s, out);
   lint_touches(s, out);
   lint_filters(s, out);
   for (std::string& warning : locking_warnings(s)) out.push_back(std::move(warning));
@@ -300,6 +314,11 @@ std::string check_summary(const Simulation& s) {
                         part.name, part.cells.size(), p.mass, unit(Dimension::mass), p.kinetic, unit(Dimension::energy),
                         format_vector(p.momentum));
   }
+  for (const PointMass& point : s.model().point_masses) {
+    text += fmt::format("  masses    {} nodes with {:.6g} {} each\n", point.nodes.size(), point.mass,
+                        unit(Dimension::mass));
+  }
+  if (!s.model().springs.empty()) text += fmt::format("  springs   {}\n", s.model().springs.size());
   for (std::size_t i = 0; i < s.given().contacts.size(); ++i) {
     const Approach a = approach(s, i, state);
     const std::string touch =

@@ -56,6 +56,8 @@ ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& setti
   residual_.resize(system.solid.dof_count());
   correction_.resize(residual_.size());
   stiffness_diagonal_ = system.solid.tangent_diagonal(residual_);
+  for (const double k : stiffness_diagonal_)
+    if (k > 0.0) softest_ = std::min(softest_, k);
   force_parts_.resize(residual_.size());
   closed_diagonal_.assign(residual_.size(), 0.0);
   port_->add_stiffness_diagonal(closed_diagonal_);
@@ -102,8 +104,8 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
     sum[5] += forces.internal[i] * du;
     if (fixed[i]) return;
     sum[0] += residual_[i] * residual_[i];
-    const double missing =
-        eq.s * residual_[i] / (eq.m * mass[i / 3] + force_.factor * eq.k * eq.s * stiffness_diagonal_[i]);
+    const double slope = eq.m * mass[i / 3] + force_.factor * eq.k * eq.s * stiffness_diagonal_[i];
+    const double missing = eq.s * residual_[i] / (slope > 0.0 ? slope : force_.factor * eq.k * eq.s * softest_);
     force_parts_[i] = std::abs(eq.known[i]) + std::abs(forces.internal[i]) + std::abs(forces.contact[i]) +
                       eq.m * mass[i / 3] * std::abs(end.a[i]);
     const double moved = std::abs(begin.q[i]) + std::abs(eq.x_hat[i]) + std::abs(end.q[i]);

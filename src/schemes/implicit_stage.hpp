@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -76,6 +77,7 @@ class ImplicitStage {
   StageForce force_;
   std::vector<double> residual_, correction_, force_parts_;
   std::vector<double> stiffness_diagonal_, closed_diagonal_;  ///< of K and the springs; of all contact rows, closed
+  double softest_ = std::numeric_limits<double>::infinity();  ///< smallest entry of K's diagonal above 0
   double body_force_ = 0.0;  ///< 2-norm of the forces by which rigid bodies that turn round (Solid)
 };
 

@@ -256,7 +256,7 @@ const std::vector<Malformed> malformed{
      "c.toml:11:8: part[0].name: found \"\"; expected a text in quotes"},
     {"cells = \"BAR\"\n",
      "",
-     "c.toml:10:1: part[0].cells: found nothing; expected a text in quotes. Add cells: Group of cells."},
+     "c.toml:10:1: part[0].cells: found nothing; expected a text in quotes. Add cells: Group of cells, or \"all\": all cells of the mesh that the section takes."},
     {"kind = \"plane\"",
      "kind = \"stop\"",
      "c.toml:27:1: contact[0].point: found a key that kind = \"stop\" does not take; expected one of name, kind, moment_point, group, stiffness, normal, gap, damping, damper. It belongs to kind = \"plane\", \"cylinder\"."},

@@ -28,7 +28,7 @@ std::string part(const std::string& section) {
 }
 
 Model model_of(const std::string& text, const Mesh& mesh) {
-  return build_model(parse_case("[mesh]\nfile = \"given.msh\"\n" + text + rest, "case.toml"),
+  return build_model(parse_case("[mesh]\nfile = \"given.msh\"\nunused = \"ignore\"\n" + text + rest, "case.toml"),
                      std::make_shared<const Mesh>(mesh));
 }
 

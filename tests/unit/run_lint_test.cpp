@@ -51,6 +51,18 @@ TEST(Lint, SaysWhenNothingMovesTowardsAContact) {
   }
 }
 
+/// Waves of speed sqrt(2 x 0.7 / (1.3 x 0.4) / 1.5) = 1.34 cross a cell of 1 in 0.75.
+TEST(Lint, SaysWhenNoWaveCrossesACell) {
+  const auto is_short = [](const std::string& end) {
+    const std::string text = case_of_block("[scheme]\nkind = \"central_differences\"\n[time]\nend = " + end + "\n");
+    const std::vector<std::string> warnings = lint_warnings(Simulation(parse_case(text, "case.toml")));
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [](const std::string& w) { return w.find("nothing will deform") != std::string::npos; });
+  };
+  EXPECT_TRUE(is_short("0.7"));
+  EXPECT_FALSE(is_short("0.8"));
+}
+
 TEST(Lint, SaysWhenARigidSurfaceShowsItsBack) {
   const std::string what = "look away from";
   EXPECT_FALSE(is_warned(sheet(-0.1, "FOOT") + moving(-1.0), what));

@@ -39,7 +39,7 @@ nodes = "RIGHT"
 blocked = ["x", "z"]
 [[load]]
 group = "MIDDLE"
-force = [1.0, 0.0, 2.0]
+force = [1e-3, 0.0, 2e-3]
 [output]
 fields = []
 [scheme]
