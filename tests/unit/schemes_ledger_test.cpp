@@ -5,8 +5,8 @@
 #include <ostream>
 #include <string>
 
-#include "math/vec3.hpp"
 #include "contact_fixture.hpp"
+#include "math/vec3.hpp"
 #include "schemes_implicit.hpp"
 
 namespace carom {
