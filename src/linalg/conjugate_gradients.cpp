@@ -18,6 +18,11 @@ double preconditioned_square(std::span<const double> r, std::span<const double> 
   return parallel_sum(r.size(), [&](std::size_t i) { return r[i] * inverse_diagonal[i] * r[i]; });
 }
 
+std::size_t largest(std::span<const double> v) {
+  const auto is_less = [](double a, double b) { return !(std::abs(b) <= std::abs(a)); };
+  return static_cast<std::size_t>(std::max_element(v.begin(), v.end(), is_less) - v.begin());
+}
+
 /// p = D^-1 r + beta p
 void update_direction(std::span<const double> r, std::span<const double> inverse_diagonal, double beta,
                       std::span<double> p) {
@@ -47,12 +52,18 @@ CgResult ConjugateGradients::solve(const LinearOperator& A, std::span<const doub
   double rz_old = 0.0;
   while (!(result.residual <= tolerance)) {
     const double rz = preconditioned_square(r_, inverse_diagonal);
-    if (result.iterations == max_iterations || !(rz > 0.0) || !std::isfinite(rz)) return result;
+    if (result.iterations == max_iterations || !(rz > 0.0) || !std::isfinite(rz)) {
+      result.worst = largest(x);
+      return result;
+    }
     update_direction(r_, inverse_diagonal, result.iterations == 0 ? 0.0 : rz / rz_old, p_);
     rz_old = rz;
     A(p_, Ap_);
     const double pAp = dot(p_, Ap_);
-    if (!(pAp > 0.0) || !std::isfinite(pAp)) return result;
+    if (!(pAp > 0.0) || !std::isfinite(pAp)) {
+      result.worst = largest(p_);
+      return result;
+    }
     const double alpha = rz / pAp;
     result.residual = std::sqrt(parallel_sum(n, [&](std::size_t i) {
       x[i] += alpha * p_[i];

@@ -14,6 +14,9 @@ struct CgResult {
   int iterations = 0;
   double residual = 0.0;  ///< |b - A x|_2, by recurrence
   bool converged = false;
+  /// Where it has not converged: the largest entry of the direction that A does not resist (breakdown), or of x, which
+  /// runs away along such a direction.
+  std::size_t worst = 0;
 };
 
 /// Conjugate gradients with a diagonal (Jacobi) preconditioner (Saad, Iterative Methods for Sparse Linear Systems,

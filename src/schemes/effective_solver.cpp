@@ -116,18 +116,7 @@ class CgSolver final : public EffectiveSolver {
     const CgResult result = cg_.solve(A, inverse_diagonal_, b, x, relative, absolute, most);
     if (result.converged) return {true, result.iterations, result.residual, false};
     const bool broke_down = result.iterations < most;
-    return {false, result.iterations, result.residual, broke_down, largest_residual(b, x)};
-  }
-
-  /// Where the operator is singular, iterations leave of b what no force of it can balance: the motions without
-  /// resistance.
-  std::size_t largest_residual(std::span<const double> b, std::span<const double> x) {
-    std::vector<double> Ax(x.size());
-    apply(tangents_, x, Ax);
-    std::size_t worst = 0;
-    for (std::size_t i = 0; i < b.size(); ++i)
-      if (!(std::abs(b[i] - Ax[i]) <= std::abs(b[worst] - Ax[worst]))) worst = i;
-    return worst;
+    return {false, result.iterations, result.residual, broke_down, result.worst};
   }
 
   void apply(const std::vector<RowTangent>& D, std::span<const double> x, std::span<double> y) {

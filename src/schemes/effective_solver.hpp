@@ -19,7 +19,7 @@ struct LinearSolveReport {
   int iterations = 0;
   double residual = 0.0;       ///< 2-norm; 0 for a direct solve
   bool is_indefinite = false;  ///< it broke down, since the operator is not positive definite
-  std::size_t worst = 0;       ///< dof of the largest residual where it has not converged
+  std::size_t worst = 0;       ///< dof that moves most in what A does not resist, where it has not converged
 };
 
 /// A spring between a dof and the ground.

@@ -199,8 +199,8 @@ std::string ImplicitStage::improve(const StageEquation& eq, double absolute, Sta
   if (!solved.failure.empty()) return solved.failure;
   if (!solved.linear.converged) {
     return fmt::format(
-        "the linear solver stopped after {} iterations at a residual of {:.3g} (asked: {:.3g}){}; the residual "
-        "is largest where {}: if nothing resists that, add a [[support]] or a [[spring]]",
+        "the linear solver stopped after {} iterations at a residual of {:.3g} (asked: {:.3g}){}; it ran "
+        "off where {}: if nothing resists that, add a [[support]] or a [[spring]]",
         solved.linear.iterations, solved.linear.residual, absolute,
         solved.linear.is_indefinite ? ": the tangent is not positive definite, or its numbers are not finite. Shorten "
                                       "the step, or choose solver.kind = \"mumps\""
