@@ -195,6 +195,13 @@ struct CaseSolver {
   int max_contact_iterations = 50;
 };
 
+/// [guards]: what warns and what stops a run on the way.
+struct CaseGuards {
+  double energy_growth = 0.05;    ///< share of the initial and supplied energy
+  double rotation_warning = 1.0;  ///< degrees
+  double rotation_stop = 5.0;     ///< degrees
+};
+
 struct CaseOutput {
   Location where;
   /// Of displacement, velocity, acceleration, stress.
@@ -272,6 +279,7 @@ struct Case {
   CaseTime time;
   std::vector<CaseStage> stages;  ///< after [scheme] and [time]
   CaseSolver solver;
+  CaseGuards guards;
   CaseOutput output;
   std::vector<CaseProbe> probes;
   std::vector<CaseCheck> checks;

@@ -61,6 +61,27 @@ SectionSchema<CaseInitial> initial_section() {
   return s;
 }
 
+SectionSchema<CaseGuards> guards_section() {
+  SectionSchema<CaseGuards> s("What warns and what stops a run on the way, and when.");
+  s.key("energy_growth", &CaseGuards::energy_growth,
+        "The run stops when its mechanical energy has grown by more than this share of the initial and supplied "
+        "energy. Raise it for models that are meant to lend energy for a while, such as stops that chatter.",
+        {.range = greater_than(0.0)});
+  s.key("rotation_warning", &CaseGuards::rotation_warning,
+        "Degrees by which a cell of a small-strain part may turn before the run warns, with the error of its stress.",
+        {.range = greater_than(0.0)});
+  s.key("rotation_stop", &CaseGuards::rotation_stop,
+        "Degrees by which a cell of a small-strain part may turn before the run stops.", {.range = greater_than(0.0)});
+  s.finish = [](CaseGuards& guards, const Node& node, const ReadContext& at) {
+    if (guards.rotation_stop >= guards.rotation_warning) return;
+    const Node* stop = find(node, "rotation_stop");
+    throw CaseError(stop == nullptr ? node.where : stop->where, at.at("rotation_stop").path,
+                    toml_number(guards.rotation_stop),
+                    "at least rotation_warning = " + toml_number(guards.rotation_warning));
+  };
+  return s;
+}
+
 SectionSchema<CaseOutput> output_section() {
   SectionSchema<CaseOutput> s("What is written to the results folder, and how often.");
   s.key("fields", &CaseOutput::fields, "Fields in the .vtu files; those of contact only where there is one.",
@@ -143,6 +164,7 @@ SectionSchema<Case> root_section() {
   s.table("time", &Case::time, time_section(), needed);
   s.tables("stage", &Case::stages, stage_section());
   s.table("solver", &Case::solver, solver_section());
+  s.table("guards", &Case::guards, guards_section());
   s.table("output", &Case::output, output_section());
   s.tables("probe", &Case::probes, probe_section());
   s.tables("check", &Case::checks, checked_value_section());

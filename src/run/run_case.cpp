@@ -25,6 +25,7 @@
 #include "run/lint.hpp"
 #include "run/overlap_watch.hpp"
 #include "run/recorder.hpp"
+#include "run/rotation_watch.hpp"
 #include "run/simulation.hpp"
 #include "run/step_guard.hpp"
 #include "run/verdict.hpp"
@@ -90,13 +91,15 @@ class Run {
         recorder_(simulation, options.folder),
         progress_(stderr, simulation.end(), options.progress),
         state_(simulation.initial_state()),
-        overlap_(simulation, state_) {}
+        overlap_(simulation, state_),
+        rotation_(simulation) {}
 
   void loop(const std::atomic<bool>& stop);
   void fill(Summary& summary) const;
   Recorder& recorder() { return recorder_; }
   Progress& progress() { return progress_; }
   const std::vector<std::string>& log() const { return log_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
   Outcome outcome() const { return outcome_; }
   const std::string& message() const { return message_; }
 
@@ -104,7 +107,7 @@ class Run {
   void begin_stage(const Stage& stage);
   void book_switch(const Stage& stage);
   bool march(const Stage& stage, const std::atomic<bool>& stop);
-  void look_after();
+  void look_after(const Stage& stage);
   bool advance(const Stage& stage);
   void note_solver();
   void record(Recorder::Moment moment);
@@ -116,13 +119,15 @@ class Run {
   Progress progress_;
   State state_, next_;
   OverlapWatch overlap_;
+  RotationWatch rotation_;
   std::optional<EnergyLedger> ledger_;
   std::optional<RunMonitor> monitor_;
   long long step_ = 0;
-  double dt_ = 0.0;               ///< of the last step
-  int iterations_ = 0;            ///< of the last step
-  std::vector<std::string> log_;  ///< changes of scheme and solver on the way
-  std::string solver_;            ///< Scheme::solver_name after the last step
+  double dt_ = 0.0;                    ///< of the last step
+  int iterations_ = 0;                 ///< of the last step
+  std::vector<std::string> log_;       ///< changes of scheme and solver on the way
+  std::vector<std::string> warnings_;  ///< of the guards
+  std::string solver_;                 ///< Scheme::solver_name after the last step
   double dt_smallest_ = 0.0, dt_largest_ = 0.0;
   double body_strain_ = 0.0;  ///< largest so far
   Outcome outcome_ = Outcome::good;
@@ -176,25 +181,13 @@ void Run::record(Recorder::Moment moment) {
   recorder_.record({step_, dt_, iterations_, state_, scheme_->forces(), *ledger_}, scheme_->end_weight(), moment);
 }
 
-/// What is looked at every few steps: the stable step of bodies that change, and the rotation of small-strain parts,
-/// which is looked at after the last step of a stage as well.
-void Run::look_after() {
+/// What is looked at beside the books: the stable step of bodies that change, and the rotation of small-strain parts.
+void Run::look_after(const Stage& stage) {
   constexpr long long every = 10;
-  const bool is_due = step_ % every == 0, at_end = steps_->control().at_end();
-  if (!is_due && !at_end) return;
-  if (!at_end) steps_->follow_stable_step(next_, state_, step_);
-  constexpr double one_degree = 0.017453292519943295;
-  const Rotation rotation = s_.solid().largest_rotation(state_.q);
-  if (rotation.angle <= one_degree) return;
-  const CellRef cell = s_.solid().cells()[rotation.cell];
-  throw RunError(
-      static_cast<int>(step_), state_.t,
-      fmt::format(
-          "cell {} of a small-strain part has turned by {:.3g} degrees; small strain allows 1 (its "
-          "stress is wrong by the square of the angle). Choose law = \"st_venant_kirchhoff\" "
-          "(moderate strain) or \"neo_hookean\" (large strain) in [materials]",
-          s_.mesh().blocks[static_cast<std::size_t>(cell.block)].file_numbers[static_cast<std::size_t>(cell.cell)],
-          rotation.angle / one_degree));
+  const bool at_end = steps_->control().at_end();
+  if (step_ % every == 0 && !at_end) steps_->follow_stable_step(next_, state_, step_);
+  std::string warning = rotation_.look(state_, step_, is_explicit(stage.settings().kind), at_end);
+  if (!warning.empty()) warnings_.push_back(std::move(warning));
 }
 
 /// A tangent that is not positive definite makes the scheme change its solver, once in a stage.
@@ -244,12 +237,12 @@ bool Run::advance(const Stage& stage) {
   ledger_->add(report.books, scheme_->forces().total_momentum);
   monitor_->update();
   body_strain_ = std::max(body_strain_, s_.solid().body_strain(state_.q));
-  const std::string alarm = monitor_->alarm();
+  const std::string alarm = monitor_->alarm(s_.given().guards.energy_growth);
   const bool last = (steps_->control().at_end() && stage.end() == s_.end()) || !alarm.empty();
   record(last ? Recorder::Moment::last : Recorder::Moment::during);
   overlap_.look(state_, last ? OverlapWatch::Moment::last : OverlapWatch::Moment::during);
   progress_.update({state_.t, step_, dt_, iterations_, monitor_->relative_imbalance()});
-  if (alarm.empty()) look_after();
+  if (alarm.empty()) look_after(stage);
   if (alarm.empty()) return true;
   message_ = fmt::format("stopped after step {}, t = {:.6g}: {}; {}", step_, state_.t, alarm, worst_place(s_, state_));
   const std::string remedy = s_.given().contacts.empty() ? "" : touch_remedy(stage);
@@ -470,6 +463,8 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
     for (const std::string& line : run.log()) say("{}\n", line);
   }
   summary.notes.insert(summary.notes.end(), run.log().begin(), run.log().end());
+  summary.warnings.insert(summary.warnings.end(), run.warnings().begin(), run.warnings().end());
+  if (!quiet) say_lines("warning", run.warnings());
   run.recorder().close();
   run.fill(summary);
   summary.cost = {
@@ -478,7 +473,7 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   write_summary(options.folder + "/summary.json", summary);
   write_report(options.folder);
   const bool is_good = summary.outcome == Outcome::good;
-  if (quiet && !is_good) say_lines("warning", warnings);
+  if (quiet && !is_good) say_lines("warning", summary.warnings);
   if (!quiet || !is_good) print_verdict(summary, options.folder);
   return exit_code(summary.outcome);
 }

@@ -63,14 +63,16 @@ double RunMonitor::growth() const {
   return ledger_.growth() + static_.quadrature + static_.algorithmic - (is_lent ? std::max(0.0, lent_) : 0.0);
 }
 
-std::string RunMonitor::alarm() const {
+std::string RunMonitor::alarm(double growth_limit) const {
   constexpr double limit = 0.05;
   const double scale = std::max(this->scale(), lent_);
   if (!std::isfinite(ledger_.now().mechanical())) return "the energy is not finite";
-  if (growth() > limit * scale) {
+  if (growth() > growth_limit * scale) {
     return fmt::format(
-        "the mechanical energy has grown by {:.3g} of the initial and supplied energy; the limit is {:g}",
-        ratio(growth(), scale), limit);
+        "the mechanical energy has grown by {:.3g} of the initial and supplied energy; the limit is {:g} "
+        "(energy_growth "
+        "in [guards])",
+        ratio(growth(), scale), growth_limit);
   }
   if (std::abs(ledger_.imbalance()) > limit * scale) {
     return fmt::format("the balance of powers is off by {:.3g} of the initial and supplied energy; the limit is {:g}",

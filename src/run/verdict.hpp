@@ -33,10 +33,10 @@ class RunMonitor {
 
   void update();
 
-  /// Why the run must stop now: mechanical energy grown, or the balance of powers off, by more than 5 % of the larger
-  /// of initial and supplied energy; "" while all is well. Growth that the scheme lends and takes back is none, unless
-  /// it is for two steps in a row more than a stable step can lend.
-  std::string alarm() const;
+  /// Why the run must stop now: mechanical energy grown by more than growth_limit of the larger of initial and supplied
+  /// energy, or the balance of powers off by more than 5 % of it; "" while all is well. Growth that the scheme lends
+  /// and takes back is none, unless it is for two steps in a row more than a stable step can lend.
+  std::string alarm(double growth_limit) const;
 
   /// What the last item compares: the largest penetration and pressure of the contacts, relative to the smallest cell
   /// and to the smallest Young's modulus.

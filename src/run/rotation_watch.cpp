@@ -1,0 +1,73 @@
+#include "run/rotation_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include "base/errors.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+const Part& part_of(const Model& model, const CellRef& cell) {
+  const CellType type = model.mesh->blocks[static_cast<std::size_t>(cell.block)].type;
+  return *std::find_if(model.parts.begin(), model.parts.end(), [&](const Part& part) {
+    return part.type == type && std::find(part.cells.begin(), part.cells.end(), cell.cell) != part.cells.end();
+  });
+}
+
+}  // namespace
+
+double stress_of_rotation(const LinearElastic& material, Section section, double angle) {
+  const double s = std::sin(0.5 * angle), strain = 2.0 * s * s;  // 1 - cos(angle)
+  if (section == Section::bar) return material.E * strain;
+  if (section == Section::plane_stress) return material.E * strain / (1.0 - material.nu);
+  return material.E * strain / ((1.0 + material.nu) * (1.0 - 2.0 * material.nu));
+}
+
+RotationWatch::RotationWatch(const Simulation& simulation) : simulation_(simulation) {}
+
+std::string RotationWatch::describe(const Rotation& rotation) const {
+  const CellRef cell = simulation_.solid().cells()[static_cast<std::size_t>(rotation.cell)];
+  const CellBlock& block = simulation_.mesh().blocks[static_cast<std::size_t>(cell.block)];
+  const Part& part = part_of(simulation_.model(), cell);
+  const double stress = stress_of_rotation(std::get<LinearElastic>(part.material), part.section, rotation.angle);
+  return fmt::format(
+      "cell {} of part \"{}\" has turned by {:.3g} degrees, which its small-strain law takes for a "
+      "stress of about {:.3g}",
+      block.file_numbers[static_cast<std::size_t>(cell.cell)], part.name, rotation.angle / degree, stress);
+}
+
+std::string RotationWatch::look(const State& state, long long step, bool is_explicit, bool is_last) {
+  if (is_explicit && step < next_ && !is_last) return {};
+  constexpr long long every = 10;
+  const CaseGuards& guards = simulation_.given().guards;
+  const Rotation rotation = simulation_.solid().largest_rotation(state.q);
+  const double angle = rotation.angle / degree;
+  growth_ = std::max(0.0, angle - angle_) / static_cast<double>(std::max(1LL, step - looked_));
+  angle_ = angle;
+  looked_ = step;
+  const double limit = has_warned_ || angle > guards.rotation_warning ? guards.rotation_stop : guards.rotation_warning;
+  next_ = step + (angle + 2.0 * growth_ * static_cast<double>(every) > limit ? 1 : every);
+  if (angle > guards.rotation_stop) {
+    throw RunError(static_cast<int>(step), state.t,
+                   fmt::format("{}; the limit is {:g} degrees (rotation_stop in [guards]). Choose law = "
+                               "\"st_venant_kirchhoff\" (moderate strain) or \"neo_hookean\" (large strain) in "
+                               "[materials]",
+                               describe(rotation), guards.rotation_stop));
+  }
+  if (has_warned_ || angle <= guards.rotation_warning) return {};
+  has_warned_ = true;
+  return fmt::format(
+      "at t = {:.6g}, step {}, {}; the error grows with the square of the angle. Take law = "
+      "\"st_venant_kirchhoff\" or \"neo_hookean\" where that matters (rotation_warning in [guards])",
+      state.t, step, describe(rotation));
+}
+
+}  // namespace carom
