@@ -28,7 +28,7 @@ Case parse_case(std::string_view text, const std::string& name) {
   const Node root = read_toml(text, name);
   Case result;
   result.file = name;
-  case_schema().read(result, root, {root, message_units(root), ""});
+  case_schema().read(result, root, {root, message_units(root), "", case_schema().description});
   check_references(result);
   return result;
 }
@@ -47,6 +47,10 @@ Case read_case(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw CaseError({path, 0, 0}, "", "a file that cannot be read", "a case file (.toml)");
+  if (text.starts_with("$MeshFormat") || text.starts_with("\x89HDF")) {
+    throw CaseError({path, 0, 0}, "", "a mesh file", "a case file (.toml)",
+                    "`carom mesh` describes it; a case names it in [mesh] as file = \"...\".");
+  }
   return parse_case(text, path);
 }
 

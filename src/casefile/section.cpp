@@ -49,11 +49,27 @@ std::string plain_list(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
+/// "[time]", "[[stage]]": the sections of the format that take a key of this name.
+std::vector<std::string> sections_with(const std::string& name, const SectionDescription& format) {
+  std::vector<std::string> sections;
+  for (const KeyDescription& key : format.keys) {
+    if (!key.section || declared_key(*key.section, name, "") == nullptr) continue;
+    sections.push_back(fmt::format(key.shape == Shape::section    ? "[{}]"
+                                   : key.shape == Shape::sections ? "[[{}]]"
+                                                                  : "[{}.NAME]",
+                                   key.key));
+  }
+  return sections;
+}
+
 [[noreturn]] void unknown_key(const Member& member, const SectionDescription& section, const ReadContext& at) {
   const std::vector<std::string> names = all_names(section);
   const std::string near = suggested_key(member.key, section);
+  const std::vector<std::string> elsewhere = sections_with(member.key, at.format);
   throw CaseError(member.where, join(at.path, member.key), "an unknown key", "one of " + plain_list(names),
-                  near.empty() ? "" : fmt::format("Did you mean {}?", near));
+                  !near.empty()       ? fmt::format("Did you mean {}?", near)
+                  : elsewhere.empty() ? ""
+                                      : fmt::format("{} is a key of {}.", member.key, fmt::join(elsewhere, ", ")));
 }
 
 [[noreturn]] void wrong_kind(const Member& member, const SectionDescription& section, const std::string& kind,

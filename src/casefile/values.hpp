@@ -16,10 +16,11 @@ namespace carom {
 struct ReadContext {
   const Node& root;
   UnitSystem units;
-  std::string path;  ///< dotted path of the section or key
+  std::string path;                  ///< dotted path of the section or key
+  const SectionDescription& format;  ///< the root section: where a key that is out of place belongs
 
-  ReadContext at(const std::string& key) const { return {root, units, join(path, key)}; }
-  ReadContext entry(std::size_t i) const { return {root, units, path + "[" + std::to_string(i) + "]"}; }
+  ReadContext at(const std::string& key) const { return {root, units, join(path, key), format}; }
+  ReadContext entry(std::size_t i) const { return {root, units, path + "[" + std::to_string(i) + "]", format}; }
 };
 
 /// Throws the CaseError "found the node; expected what the key takes", with a near spelling among the choices.

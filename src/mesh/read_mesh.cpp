@@ -48,7 +48,9 @@ Mesh read_mesh(std::string_view bytes, const std::string& source) {
   if (bytes.starts_with("\x89HDF\r\n\x1a\n")) return read_med(bytes, source);
   if (first.starts_with("$")) return read_gmsh(bytes, source);
   throw CaseError({source, 0, 0}, "", first.empty() ? "an empty file" : "a file that begins with " + printable(first),
-                  kKnown, "Export the mesh in one of these formats.");
+                  kKnown,
+                  source.ends_with(".toml") ? "`carom check` and `carom run` take cases."
+                                            : "Export the mesh in one of these formats.");
 }
 
 Mesh read_mesh(const std::string& path) {

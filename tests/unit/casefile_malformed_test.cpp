@@ -468,6 +468,22 @@ std::string message_of_file(const std::string& path) {
   return "no error";
 }
 
+TEST(CasefileMalformed, KeysOutOfPlaceAreToldTheirSection) {
+  const auto with = [](const std::string& from, const std::string& line) {
+    return message_of(std::string(base).insert(base.find(from) + from.size(), line));
+  };
+  const auto ends_with = [](const std::string& text, const std::string& end) { return text.ends_with(end); };
+  EXPECT_TRUE(ends_with(with("kind = \"newmark\"\n", "safety = 0.5\n"), " safety is a key of [time], [[stage]]."));
+  EXPECT_TRUE(ends_with(with("step = 1e-6\n", "friction = 0.5\n"), " friction is a key of [[contact]], [exact]."));
+}
+
+TEST(CasefileMalformed, AMeshIsNoCase) {
+  for (const char* mesh : {"sdnv100a.msh", "sdnv100a.med"}) {
+    const std::string message = message_of_file(std::string(CAROM_SOURCE_DIR) + "/cases/sdnv100/meshes/" + mesh);
+    EXPECT_NE(message.find("found a mesh file; expected a case file"), std::string::npos) << message;
+  }
+}
+
 TEST(CasefileMalformed, FilesThatAreNoCases) {
   EXPECT_EQ(message_of_file("no/such.toml"), "no/such.toml: found no such file; expected a case file (.toml)");
   EXPECT_EQ(message_of_file("."), ".: found something that is not a file; expected a case file (.toml)");
