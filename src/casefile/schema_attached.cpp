@@ -41,7 +41,10 @@ SectionSchema<CasePointMass> point_mass_section() {
 SectionSchema<CaseSpring> spring_section() {
   SectionSchema<CaseSpring> s(
       "Linear springs without mass at each node of a group: to the ground along the axes, or to the nodes of another "
-      "group along the line between them at the start. They push and pull, and store what the energies call strain.");
+      "group along the line between them at the start. They push and pull, and store what the energies call strain. "
+      "Their directions do "
+      "not turn: beside finite rotations that costs the balance of angular momentum the sideways motion of their "
+      "ends.");
   s.key("nodes", &CaseSpring::nodes, "Group of nodes or cells.", {.need = Need::required});
   s.key("stiffness", &CaseSpring::stiffness, "To the ground: force of each node per displacement along x, y and z.",
         {.unit = Dimension::force_per_length, .range = at_least(0.0)});

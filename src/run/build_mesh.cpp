@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/errors.hpp"
+#include "casefile/document.hpp"
 #include "mesh/read_mesh.hpp"
 #include "mesh/structured_block.hpp"
 #include "run/attached.hpp"
@@ -19,8 +20,13 @@ Mesh bodies(const Case& given) {
     const auto folder = std::filesystem::path(given.file).parent_path();
     const std::filesystem::path path = file.is_absolute() ? file : folder / file;
     if (!std::filesystem::is_regular_file(path)) {
-      throw CaseError(given.mesh.file.where, "mesh.file", "\"" + *given.mesh.file + "\", and no file " + path.string(),
-                      "a mesh file (.msh, .med)", "The path is relative to the folder of the case file.");
+      const bool has_escapes =
+          std::any_of(file.native().begin(), file.native().end(), [](unsigned char c) { return c < 0x20; });
+      throw CaseError(given.mesh.file.where, "mesh.file",
+                      toml_string(*given.mesh.file) + ", and no file " + toml_string(path.string()),
+                      "a mesh file (.msh, .med)",
+                      has_escapes ? "A backslash in quotes begins a special character: write paths with /."
+                                  : "The path is relative to the folder of the case file.");
     }
     return read_mesh(path.string());
   }

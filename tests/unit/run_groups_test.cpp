@@ -148,6 +148,13 @@ end = 1.0
   EXPECT_EQ(mesh->node_count(), 37U);
 }
 
+TEST(Groups, PathsWithBackslashesAreToldApart) {
+  const std::string text = "[mesh]\nfile = \"meshes\\block.msh\"\n" + part("") + rest;
+  const std::string message = case_error(text).what();
+  EXPECT_NE(message.find("write paths with /"), std::string::npos) << message;
+  EXPECT_EQ(message.find('\b'), std::string::npos);  // no control character reaches the terminal
+}
+
 /// Pairs and pressures on groups that hold nodes only: the faces all of whose nodes belong.
 TEST(Groups, NodesAloneNameTheFacesBetweenThem) {
   const std::string text = R"(units = "SI"
