@@ -337,6 +337,8 @@ std::string check_summary(const Simulation& s) {
   text += fmt::format(
       "  stable    explicit step {:.4g} with contact, {:.4g} without; element estimate (lumped mass) {:.4g}\n",
       stable.dt, stable.dt_free, estimate);
+  if (std::isfinite(stable.dt_closing))
+    text += fmt::format("  closing   contact springs that open and close need {:.4g}\n", stable.dt_closing);
   // 1 million cell-steps per second and core explicit, ten times that work per implicit step: orders of magnitude only.
   const bool implicit_scheme = !is_explicit(s.first().settings().kind);
   const double work =

@@ -83,6 +83,16 @@ std::string worst_place(const Simulation& s, const State& state) {
   return text;
 }
 
+/// The keys that help where a run makes energy.
+std::string energy_remedy(const Stage& stage) {
+  const SchemeSettings& scheme = stage.settings();
+  const bool has_springs = scheme.enforcement == EnforcementKind::penalty && stage.system().contact.slots() > 0;
+  std::string text = stage.time().step ? "Lower time.step" : "Lower time.safety";
+  if (has_springs) text += " or contact.stiffness (contact.stiffness_factor)";
+  if (!is_explicit(scheme.kind)) text += ", or choose a scheme that dissipates or conserves energy";
+  return text;
+}
+
 /// One run: what the loop needs and what the summary is made from.
 class Run {
  public:
@@ -183,9 +193,8 @@ void Run::record(Recorder::Moment moment) {
 
 /// What is looked at beside the books: the stable step of bodies that change, and the rotation of small-strain parts.
 void Run::look_after(const Stage& stage) {
-  constexpr long long every = 10;
   const bool at_end = steps_->control().at_end();
-  if (step_ % every == 0 && !at_end) steps_->follow_stable_step(next_, state_, step_);
+  if (!at_end) steps_->follow_stable_step(state_, step_);
   std::string warning = rotation_.look(state_, step_, is_explicit(stage.settings().kind), at_end);
   if (!warning.empty()) warnings_.push_back(std::move(warning));
 }
@@ -202,6 +211,7 @@ void Run::note_solver() {
 bool Run::advance(const Stage& stage) {
   StepReport report;
   steps_->limit_motion(state_, *scheme_->forces().rows.rows, step_ + 1);
+  EnergyGuard::Books books;
   for (;;) {
     const double dt = steps_->control().dt();
     // A hundredth of the ledger's bound (1e-10 of the energy), shared out over the time of the run; what a step leaves
@@ -214,7 +224,8 @@ bool Run::advance(const Stage& stage) {
       report.failure = "the energy is not finite";
     }
     if (report.converged) {
-      if (!steps_->is_to_be_repeated(state_, next_, scheme_->forces(), step_ + 1)) break;
+      books = {report.books.energy.quadrature, report.books.energy.algorithmic, monitor_->scale()};
+      if (!steps_->is_to_be_repeated(state_, next_, scheme_->forces(), books, step_ + 1)) break;
       scheme_->take_back();
       continue;
     }
@@ -229,7 +240,7 @@ bool Run::advance(const Stage& stage) {
   std::swap(state_, next_);
   dt_ = steps_->control().dt();
   iterations_ = std::max(report.iterations, report.linear_iterations);
-  steps_->accept();
+  steps_->accept(books);
   ++step_;
   note_solver();
   dt_smallest_ = step_ == 1 ? dt_ : std::min(dt_smallest_, dt_);
@@ -246,7 +257,7 @@ bool Run::advance(const Stage& stage) {
   if (alarm.empty()) return true;
   message_ = fmt::format("stopped after step {}, t = {:.6g}: {}; {}", step_, state_.t, alarm, worst_place(s_, state_));
   const std::string remedy = s_.given().contacts.empty() ? "" : touch_remedy(stage);
-  if (!remedy.empty()) message_ += ". " + remedy;
+  message_ += ". " + (remedy.empty() ? energy_remedy(stage) : remedy);
   outcome_ = Outcome::error;
   return false;
 }

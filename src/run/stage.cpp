@@ -139,7 +139,7 @@ void Stage::choose_step() {
   if (explicit_steps) {
     const StableStep stable = this->stable();
     stable_dt = stable.dt;
-    wanted = time_.step ? **time_.step : time_.safety * stable.dt;
+    wanted = time_.step ? **time_.step : time_.safety * stable.advised();
     if (wanted > stable.dt) {
       throw CaseError(
           time_.step->where, "time.step", fmt::format("{:.6g}", wanted),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "base/errors.hpp"
@@ -31,13 +32,17 @@ StepGuard::StepGuard(const Stage& stage)
   if (stage.settings().kind != SchemeKind::statics && stage.system().contact.slots() > 0)
     motion_.emplace(stage.model(), stage.system().solid);
   if (stage.stable_step_changes()) watch_.emplace(stage.watch_stable_step());
+  const SchemeSettings& scheme = stage.settings();
+  if (is_explicit(scheme.kind) && scheme.enforcement == EnforcementKind::penalty && !stage.time().step)
+    energy_.emplace();
 }
 
 bool StepGuard::shorten(const State& now, long long step) {
   if (!is_explicit(stage_.settings().kind)) return control_.halve();
   constexpr int most_failures = 6;
   if (failures_ == most_failures) return false;
-  if (++failures_ == 1) follow_stable_step(now, now, step);
+  is_restless_ = true;
+  if (++failures_ == 1) follow_stable_step(now, step);
   return control_.cut(0.5);
 }
 
@@ -45,12 +50,13 @@ void StepGuard::limit_motion(const State& now, const ConstraintRows& rows, long 
   if (motion_) cut_motion(motion_->foreseen(now, rows, control_.dt()), now.t, step);
 }
 
-bool StepGuard::is_to_be_repeated(const State& begin, const State& end, const Forces& forces, long long step) {
+bool StepGuard::is_to_be_repeated(const State& begin, const State& end, const Forces& forces,
+                                  const EnergyGuard::Books& books, long long step) {
   constexpr int most_cuts = 8;
-  const double dt = control_.dt();
-  if (watch_ && !watch_->knows(forces.rows)) {
-    follow_stable_step(begin, end, step);
-    if (control_.dt() < dt * (1.0 - 1e-9)) return true;
+  if (watch_ && !fits(end, forces)) return true;
+  if (energy_) {
+    const std::optional<double> fraction = energy_->cut(begin, end, forces.rows, books);
+    if (fraction && control_.cut(*fraction)) return true;
   }
   if (cuts_ == most_cuts) return false;
   const bool is_cut = motion_ && cut_motion(motion_->overrun(begin, end, forces.rows), end.t, step);
@@ -82,22 +88,50 @@ bool StepGuard::ends_late(const State& begin, const State& end, const Forces& fo
   return true;
 }
 
-void StepGuard::accept() {
+void StepGuard::accept(const EnergyGuard::Books& books) {
   control_.accept();
+  if (energy_) {
+    energy_->accept(books);
+    if (!watch_ && energy_->share() < 1.0) control_.limit(energy_->share() * stage_.dt());
+  }
   if (is_at_event_) control_.refine(event_tolerance_);
   is_at_event_ = false;
   cuts_ = failures_ = 0;
 }
 
-void StepGuard::follow_stable_step(const State& before, const State& now, long long step) {
+/// The longest step from displacement u, where rows_ stand. The estimate may be a percent or two below that of the
+/// start, for which no step has to change.
+double StepGuard::longest(std::span<const double> u) const {
+  const StableStep steps = watch_->with(rows_ ? *rows_ : ConstraintRows{}, u);
+  if (stage_.time().step) return steps.dt;
+  const double share = energy_ ? energy_->share() : 1.0;
+  return share * std::min(1.0, 1.02 * stage_.time().safety) * steps.advised();
+}
+
+/// False when springs act at the end that need a step at least 2^(1/8) shorter than the one that met them, which is the
+/// length of the next ones then.
+bool StepGuard::fits(const State& end, const Forces& forces) {
+  rows_ = forces.rows.rows;
+  const double longest = this->longest(end.q);
+  const bool springs_act = std::any_of(forces.rows.status.begin(), forces.rows.status.end(),
+                                       [](RowStatus status) { return status != RowStatus::open; });
+  const double dt = control_.dt();
+  if (!springs_act || longest >= dt * std::exp2(-1.0 / 8.0) || !control_.limit(longest)) return true;
+  return control_.dt() >= dt;
+}
+
+void StepGuard::follow_stable_step(const State& now, long long step) {
   if (!watch_) return;
-  const double stable = watch_->update(before, now.q);
-  // The estimate may be a percent or two below that of the start, for which no step has to change.
-  const double share = stage_.time().step ? 1.0 : std::min(1.0, 1.02 * stage_.time().safety);
-  if (control_.limit(share * stable)) return;
+  constexpr long long every = 10;
+  constexpr double restless = 0.05;  // change of the bodies' frequency after which they are looked at again at once
+  const bool is_due = step % every == 0 || is_restless_;
+  if (is_due) is_restless_ = watch_->follow_bodies(now.q) > restless;
+  const double longest = this->longest(now.q);
+  if (!is_due && longest >= control_.dt()) return;
+  if (control_.limit(longest)) return;
   throw RunError(static_cast<int>(step), now.t,
-                 fmt::format("the stable step has fallen to {:.3g}, {:.3g} of what it was at the start", stable,
-                             share * stable / stage_.dt()));
+                 fmt::format("the stable step has fallen to {:.3g}, {:.3g} of what it was at the start", longest,
+                             longest / stage_.dt()));
 }
 
 }  // namespace carom

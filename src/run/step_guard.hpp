@@ -1,8 +1,11 @@
 // What decides the length of the steps of a stage: failures, contact that closes, the stable step.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
 
+#include "run/energy_guard.hpp"
 #include "run/motion_limit.hpp"
 #include "run/stage.hpp"
 #include "run/step_control.hpp"
@@ -14,8 +17,9 @@ namespace carom {
 /// Implicit stages with time.event_tolerance: a step in which rows close earlier before its end than the tolerance, as
 /// a fraction of the usual step, is made again so that it ends at the touch (contact_event); the steps after it are no
 /// longer than the tolerance either, and grow again. Both at most eight times in a step. Explicit stages whose stable
-/// step changes: a step with springs on rows that the last estimate did not know is made again where they make it
-/// unstable.
+/// step changes follow it (StableStepWatch), and a step that meets springs for which it was too long is made again.
+/// Where contact is springs and the case leaves the explicit step to the program, steps that make energy are made again
+/// (EnergyGuard), and what it makes shorter for good stays so for the rest of the stage.
 class StepGuard {
  public:
   explicit StepGuard(const Stage& stage);
@@ -29,24 +33,31 @@ class StepGuard {
   void limit_motion(const State& now, const ConstraintRows& rows, long long step);
   /// True when the converged step from `begin` to `end`, number `step`, has to be made again, its length having been
   /// changed. Throws RunError where contact moves too far in a step that the case fixes.
-  bool is_to_be_repeated(const State& begin, const State& end, const Forces& forces, long long step);
+  bool is_to_be_repeated(const State& begin, const State& end, const Forces& forces, const EnergyGuard::Books& books,
+                         long long step);
   /// The step counts.
-  void accept();
-  /// Re-estimates the stable step, where it changes, after step number `step`. Throws RunError when it has become too
-  /// short.
-  void follow_stable_step(const State& before, const State& now, long long step);
+  void accept(const EnergyGuard::Books& books);
+  /// Looks at the stable step, where it changes, after step number `step`: at that of the contact after every step, at
+  /// that of the bodies after every tenth, or after the next where they have changed; steps grow only then. Throws
+  /// RunError when it has become too short.
+  void follow_stable_step(const State& now, long long step);
 
  private:
   bool cut_motion(const std::optional<MotionLimit::Overrun>& overrun, double t, long long step);
   bool ends_late(const State& begin, const State& end, const Forces& forces);
+  bool fits(const State& end, const Forces& forces);
+  double longest(std::span<const double> u) const;
 
   const Stage& stage_;
   StepControl control_;
-  std::optional<StableStepWatch> watch_;  ///< where the stable step changes
-  std::optional<MotionLimit> motion_;     ///< where there is contact and inertia
-  double event_tolerance_ = 0.0;          ///< time; 0: contact events do not cut the step
-  bool is_at_event_ = false;              ///< the present step has been cut to end at a touch
-  int cuts_ = 0, failures_ = 0;           ///< of the present step
+  std::optional<StableStepWatch> watch_;        ///< where the stable step changes
+  std::shared_ptr<const ConstraintRows> rows_;  ///< of the last step, where it is watched
+  bool is_restless_ = false;                    ///< the bodies stiffen quickly
+  std::optional<EnergyGuard> energy_;           ///< where springs act and the step is the program's choice
+  std::optional<MotionLimit> motion_;           ///< where there is contact and inertia
+  double event_tolerance_ = 0.0;                ///< time; 0: contact events do not cut the step
+  bool is_at_event_ = false;                    ///< the present step has been cut to end at a touch
+  int cuts_ = 0, failures_ = 0;                 ///< of the present step
 };
 
 }  // namespace carom

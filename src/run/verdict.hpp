@@ -52,8 +52,10 @@ class RunMonitor {
   /// Imbalance now, relative to the energy scale.
   double relative_imbalance() const;
 
- private:
+  /// What energies are compared with: the larger of initial and supplied energy, at least the rest energy.
   double scale() const;
+
+ private:
   double growth() const;
   EnergyTerms dynamic() const;
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
+#include "schemes/contact_frequency.hpp"
 #include "schemes/mass_solver.hpp"
 
 namespace carom {
@@ -81,6 +83,11 @@ double step_of(double limit, double omega_squared, double damping_ratio) {
   return 0.5 * limit * (std::sqrt(d * d + 4.0 * omega_squared) - d) / omega_squared;
 }
 
+double closing_step(double limit, double contact_omega_squared) {
+  return contact_omega_squared > 0.0 ? closing_limit * 0.5 * limit / std::sqrt(contact_omega_squared)
+                                     : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 StableStep stable_step(const System& system, double limit, EnforcementKind enforcement) {
@@ -91,10 +98,12 @@ StableStep stable_step(const System& system, double limit, EnforcementKind enfor
   };
   StableStep out;
   out.omega_max_squared = out.omega_max_squared_free = frequency(nullptr);
+  out.dt_closing = std::numeric_limits<double>::infinity();
   double damping_ratio = 0.0;
   if (adds_stiffness(enforcement) && system.contact.slots() > 0) {
     const auto rows = system.contact.rows_at(zero, zero);
-    out.omega_max_squared = frequency(rows);
+    out.omega_max_squared = frequency(std::make_shared<const ConstraintRows>(as_they_close(*rows, zero)));
+    out.dt_closing = closing_step(limit, contact_frequency_bound(system, *rows, zero));
     damping_ratio = largest_damping_ratio(system, *rows);
   }
   out.dt_free = limit / std::sqrt(out.omega_max_squared_free);
@@ -103,37 +112,38 @@ StableStep stable_step(const System& system, double limit, EnforcementKind enfor
 }
 
 StableStepWatch::StableStepWatch(const System& system, double limit, EnforcementKind enforcement)
-    : system_(system), limit_(limit), enforcement_(enforcement) {}
-
-double StableStepWatch::update(const State& begin, std::span<const double> u) {
-  constexpr int iterations = 10, most_rounds = 20;
-  constexpr double settled = 0.02;  // of the bound above the Ritz value: 1 % of the step
-  std::shared_ptr<const ConstraintRows> rows;
-  double damping_ratio = 0.0;
-  if (adds_stiffness(enforcement_) && system_.contact.slots() > 0) {
-    rows = system_.contact.rows_at(begin.q, u, begin.contact);
-    damping_ratio = largest_damping_ratio(system_, *rows);
-    known_.assign(system_.contact.slots(), false);
-    for (const Index slot : rows->slot) known_[static_cast<std::size_t>(slot)] = true;
-  }
-  Vibration vibration(system_, {u.begin(), u.end()}, rows);
-  const Pencil pencil = vibration.pencil();
-  const bool first = vector_.empty();
-  EigenvalueEstimate estimate;
-  for (int round = 0; round < (first ? most_rounds : 1); ++round) {
-    estimate = follow_largest_eigenvalue(pencil, u.size(), vector_, iterations);
-    if (estimate.upper - estimate.value <= settled * estimate.value) break;
-  }
-  return step_of(limit_, estimate.upper, damping_ratio);
+    : system_(system), limit_(limit), enforcement_(enforcement) {
+  const std::vector<double> zero(system.solid.dof_count(), 0.0);
+  Vibration vibration(system, zero, nullptr);
+  omega_squared_ = largest_eigenvalue(vibration.pencil(), zero.size()).upper;
 }
 
-bool StableStepWatch::knows(const ContactResponse& response) const {
-  if (!adds_stiffness(enforcement_)) return true;
-  for (std::size_t r = 0; r < response.status.size(); ++r) {
-    if (response.status[r] == RowStatus::open) continue;
-    if (known_.empty() || !known_[static_cast<std::size_t>(response.rows->slot[r])]) return false;
+double StableStepWatch::follow_bodies(std::span<const double> u) {
+  if (system_.solid.is_linear()) return 0.0;
+  const double before = omega_squared_;
+  constexpr int iterations = 10, most_rounds = 20;
+  constexpr double settled = 0.02;  // of the bound above the Ritz value: 1 % of the step
+  Vibration vibration(system_, {u.begin(), u.end()}, nullptr);
+  const Pencil pencil = vibration.pencil();
+  const bool first = vector_.empty();
+  for (int round = 0; round < (first ? most_rounds : 1); ++round) {
+    const EigenvalueEstimate estimate = follow_largest_eigenvalue(pencil, u.size(), vector_, iterations);
+    omega_squared_ = estimate.upper;
+    if (estimate.upper - estimate.value <= settled * estimate.value) break;
   }
-  return true;
+  return 0.5 * std::abs(omega_squared_ / before - 1.0);
+}
+
+StableStep StableStepWatch::with(const ConstraintRows& rows, std::span<const double> u) const {
+  StableStep out;
+  out.omega_max_squared_free = omega_squared_;
+  out.dt_free = limit_ / std::sqrt(omega_squared_);
+  const bool has_springs = adds_stiffness(enforcement_) && rows.size() > 0;
+  const double contact = has_springs ? contact_frequency_bound(system_, rows, u) : 0.0;
+  out.omega_max_squared = omega_squared_ + contact;
+  out.dt = step_of(limit_, out.omega_max_squared, has_springs ? largest_damping_ratio(system_, rows) : 0.0);
+  out.dt_closing = closing_step(limit_, contact);
+  return out;
 }
 
 }  // namespace carom

@@ -11,42 +11,57 @@
 
 namespace carom {
 
-/// Largest stable step of an explicit scheme with the given stability_limit L: L / omega_max of M^-1 (K + contact
-/// stiffness with every row closed), with the lagged dampers of stops those of central differences scaled by L / 2:
+/// Steps of an explicit scheme with the given stability_limit L.
+///
+/// dt: the stable step of the linear system, L / omega_max of M^-1 (K + contact stiffness with every row closed), with
+/// the lagged dampers of stops those of central differences scaled by L / 2:
 ///   h = L/2 (sqrt(d^2 + 4 omega^2) - d) / omega^2,  d = max damping / mass
 /// (the roots of z^2 - (2 - omega^2 h^2 - d h) z + 1 - d h stay in the unit circle). Only the penalty adds stiffness:
 /// exact enforcements fix what they hold, which lowers no frequency bound. Nodes without mass are held: with the
 /// modified mass they follow statically, which is softer, so that the step is one for the condensed system as well.
+///
+/// dt_closing: the longest step at which springs that open and close make no energy to speak of, closing_limit L / 2
+/// over the frequency of the springs on the masses alone (contact_frequency_bound). A spring that pushes for the whole
+/// step in which it opens, though it touches in a part of it only, gives more than it has stored, by up to
+/// (omega h)^2 / 8 of what it holds; the step in which it closes takes as much on the average only. Far below the
+/// linear limit that averages out, near it chatter grows: see docs/schemes.md for measurements.
 struct StableStep {
   double omega_max_squared = 0.0;       ///< with contact
   double omega_max_squared_free = 0.0;  ///< of the solids alone
   double dt = 0.0;
   double dt_free = 0.0;  ///< without contact
+  double dt_closing = 0.0;
+
+  /// The longest step that a run chooses, before it is multiplied by time.safety.
+  double advised() const { return dt < dt_closing ? dt : dt_closing; }
 };
+/// omega h of contact springs alone at dt_closing, for L = 2.
+inline constexpr double closing_limit = 1.2;
+
 /// At rest, in the reference position.
 StableStep stable_step(const System& system, double limit = 2.0,
                        EnforcementKind enforcement = EnforcementKind::penalty);
 
-/// The stable step through a run, as geometry and contact change: a few Lanczos iterations from the last vector.
+/// The same through a run, as geometry and contact change. Where springs come and go the frequency of the linear system
+/// is not followed but bounded, by the sum of the squares of the bodies' and the contact's own (Weyl).
 class StableStepWatch {
  public:
   StableStepWatch(const System& system, double limit, EnforcementKind enforcement);
 
-  /// Stable step at displacement u, every contact row that there is at u counted as closed; begin: where the
-  /// last step began. The frequency is taken at the upper end of its error bound, which the iterations
-  /// leave: a step on the safe side, as long as the body changes little between two calls. Costs ten actions of the
-  /// tangent; the first call some more.
-  double update(const State& begin, std::span<const double> u);
-  /// False when springs act on rows that the last update did not count, since they were too far from touching to be
-  /// there.
-  bool knows(const ContactResponse& response) const;
+  /// Re-estimates the frequency of the bodies at displacement u, where they are nonlinear, by ten Lanczos iterations
+  /// from the last vector (the first call by more). It is taken at the upper end of its error bound, which the
+  /// iterations leave: a step on the safe side, as long as the bodies change little between two calls. Returns by how
+  /// much of itself the frequency has changed.
+  double follow_bodies(std::span<const double> u);
+  /// The steps with these rows, those of displacement u, every one of them closed. Cheap: two passes over the rows.
+  StableStep with(const ConstraintRows& rows, std::span<const double> u) const;
 
  private:
   const System& system_;
   double limit_;
   EnforcementKind enforcement_;
+  double omega_squared_;  ///< of the bodies
   std::vector<double> vector_;
-  std::vector<bool> known_;  ///< slots of the rows of the last update
 };
 
 }  // namespace carom

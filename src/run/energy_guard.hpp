@@ -1,0 +1,45 @@
+// Explicit steps that make energy: which are made again shorter, and when all become shorter.
+#pragma once
+
+#include <optional>
+
+#include "contact/response.hpp"
+#include "state/state.hpp"
+
+namespace carom {
+
+/// Springs of contact push for whole steps: one that closes within a step, or opens, misplaces up to
+///   1/2 eps_N |g_begin| |g_end|
+/// of the energy, g of either sign (ledger: quadrature), a loss where it closes, a gain where it opens. Bodies of
+/// finite strain misplace energy where they stiffen faster than the stable step is followed. This class says which
+/// steps to make again:
+///   - a step that misplaces more than 2e-4 of the energy scale by a change of contact, so short that it misplaces half
+///     of that, at least a sixteenth of it: large blocks of few cells thus touch and leave at the end of a step;
+///   - a step that gains more than 2e-3 otherwise, or is lent more than 1e-2 by the scheme (ledger: algorithmic), which
+///     the scheme does not take back when the step changes, or whose energy is not finite, by halves; the steps after
+///     it are shorter by 2^(-1/2) for good;
+///   - when the gains of all steps exceed the losses by another 5e-4 of the scale, the steps after it are likewise.
+class EnergyGuard {
+ public:
+  /// Entries of the ledger for a step, and what energies are compared with.
+  struct Books {
+    double quadrature = 0.0, algorithmic = 0.0, scale = 0.0;
+  };
+  /// The fraction of the step from `begin` to `end` to make again.
+  std::optional<double> cut(const State& begin, const State& end, const ContactResponse& response, const Books& books);
+  /// The step counts.
+  void accept(const Books& books);
+  /// What the usual step is multiplied by.
+  double share() const { return share_; }
+
+ private:
+  void shorten();
+
+  double net_ = 0.0;      ///< gains less losses
+  double allowed_ = 0.0;  ///< net_ that shortens the steps, less what the scale allows
+  double share_ = 1.0;
+  int cuts_ = 0;            ///< of the present step
+  bool shortened_ = false;  ///< in the present step
+};
+
+}  // namespace carom
