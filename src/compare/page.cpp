@@ -35,25 +35,25 @@ std::string reference_name(const Comparison& c) {
   return c.reference == ReferenceKind::exact ? "exact" : "finest";
 }
 
-std::string row(const Comparison& c, std::size_t i, const std::vector<std::string>& quantities) {
+TableRow row(const Comparison& c, std::size_t i, const std::vector<std::string>& quantities) {
   const Result& r = c.results[i];
-  const bool recommended = c.recommendation.result == i;
-  const std::string name = fmt::format("<a href=\"variants/{}/report.html\">{}</a>", xml_escape(r.variant.name),
-                                       xml_escape(r.variant.label));
   const double peak = r.reference_peak_force > 0.0 ? r.peak_force / r.reference_peak_force : std::nan("");
-  const std::string steps = r.summary ? std::to_string(r.summary->scheme.steps) : "–";
   const std::vector<std::string> items = r.failed_items();
-  std::string html = recommended ? "<tr class=\"chosen\">" : "<tr>";
-  html += fmt::format("<td>{}{}</td>", name, r.is_reference ? " (reference)" : "") + text_cell(r.variant.enforcement);
+  TableRow row{{fmt::format("<a href=\"variants/{}/report.html\">{}</a>{}{}", xml_escape(r.variant.name),
+                            xml_escape(r.variant.label), r.is_reference ? " (reference)" : "",
+                            c.recommendation.result == i ? " <strong>recommended</strong>" : "")},
+               text_cell(r.variant.enforcement)};
   for (const std::string& quantity : quantities)
-    html += number_cell(r.is_reference ? "–" : percent(r.error(quantity), 3));
-  html += number_cell(number_text(peak, 4)) + number_cell(percent(r.energy_kept, 5)) +
-          number_cell(number_text(r.penetration, 3)) + number_cell(number_text(r.step() / r.variant.element_step, 3)) +
-          number_cell(steps) + number_cell(number_text(r.cpu_seconds(), 3));
+    row.push_back(number_cell(r.is_reference ? "–" : percent(r.error(quantity), 3)));
+  for (const std::string& text :
+       {number_text(peak, 4), percent(r.energy_kept, 5), number_text(r.penetration, 3),
+        number_text(r.step() / r.variant.element_step, 3),
+        r.summary ? std::to_string(r.summary->scheme.steps) : std::string("–"), number_text(r.cpu_seconds(), 3)})
+    row.push_back(number_cell(text));
   const bool pass = items.empty();
-  html += fmt::format("<td class=\"mark {}\">{}</td></tr>\n", pass ? "pass" : "fail",
-                      pass ? std::string("✓ pass") : xml_escape(fmt::format("✗ {}", fmt::join(items, ", "))));
-  return html;
+  row.push_back(pass ? TableCell{"✓ pass", "mark pass"}
+                     : TableCell{xml_escape(fmt::format("✗ {}", fmt::join(items, ", "))), "mark fail"});
+  return row;
 }
 
 /// Whose errors the table shows: force and velocity where they were compared, else what variants are ranked by.
@@ -70,29 +70,24 @@ std::vector<std::string> shown_quantities(const Comparison& c) {
 std::string main_table(const Comparison& c) {
   const Units units = units_of(c.units);
   const std::vector<std::string> quantities = shown_quantities(c);
-  std::string errors;
-  for (const std::string& quantity : quantities)
-    errors += fmt::format("<th class=\"number\">error, {}</th>", xml_escape(quantity));
-  std::string html = fmt::format(
-      "<section>\n<h2>Variants</h2>\n<div class=\"scroll\"><table "
-      "class=\"wide\"><thead><tr><th>Variant</th><th>contact</th>{}"
-      "<th class=\"number\">peak / {}</th><th class=\"number\">energy kept</th>"
-      "<th class=\"number\">penetration{}</th><th class=\"number\">Courant</th><th class=\"number\">steps</th>"
-      "<th class=\"number\">CPU [s]</th><th>verdict</th></tr></thead><tbody>\n",
-      errors, reference_name(c), units.length.empty() ? "" : fmt::format(" [{}]", xml_escape(units.length)));
-  bool any = false;
-  for (std::size_t i = 0; i < c.results.size(); ++i) {
-    if (!c.results[i].failure.empty()) continue;
-    html += row(c, i, quantities);
-    any = true;
-  }
-  if (!any) return "";
+  std::vector<TableColumn> columns{{"Variant"}, {"contact"}};
+  for (const std::string& quantity : quantities) columns.push_back({"error, " + quantity, true});
+  for (const std::string& title :
+       {"peak / " + reference_name(c), std::string("energy kept"),
+        units.length.empty() ? std::string("penetration") : fmt::format("penetration [{}]", units.length),
+        std::string("Courant"), std::string("steps"), std::string("CPU [s]")})
+    columns.push_back({title, true});
+  columns.push_back({"verdict"});
+  std::vector<TableRow> rows;
+  for (std::size_t i = 0; i < c.results.size(); ++i)
+    if (c.results[i].failure.empty()) rows.push_back(row(c, i, quantities));
+  if (rows.empty()) return "";
   const std::string against = c.reference == ReferenceKind::exact
                                   ? "the exact solution of the case"
                                   : fmt::format("the finest run ({})", c.finest()->variant.label);
-  return html +
+  return "<section>\n<h2>Variants</h2>\n" + html_table(columns, rows, "wide") +
          fmt::format(
-             "</tbody></table></div>\n<p class=\"note\">Errors are relative L2 norms over the time of the run, all "
+             "<p class=\"note\">Errors are relative L2 norms over the time of the run, all "
              "columns of the quantity together, against {}. Peak: largest contact force over that of the reference. "
              "Energy kept: 1 minus what the computation lost, over the larger of initial and supplied energy; 100 % is "
              "exact. Courant: step over shortest cell / fastest wave. CPU: processor time of the whole run on one "
@@ -100,14 +95,12 @@ std::string main_table(const Comparison& c) {
              xml_escape(against));
 }
 
-std::string remarks_table(const std::vector<Remark>& remarks, std::string_view title, std::string_view heading) {
+std::string remarks_table(const std::vector<Remark>& remarks, std::string_view title, const std::string& heading) {
   if (remarks.empty()) return "";
-  std::string html = fmt::format(
-      "<section>\n<h2>{}</h2>\n<div class=\"scroll\"><table class=\"wide even\"><thead><tr><th>Variants</th><th>{}</th>"
-      "</tr></thead><tbody>\n",
-      title, heading);
-  for (const Remark& r : remarks) html += fmt::format("<tr>{}{}</tr>\n", text_cell(r.variants), text_cell(r.text));
-  return html + "</tbody></table></div>\n</section>\n";
+  std::vector<TableRow> rows;
+  for (const Remark& r : remarks) rows.push_back({text_cell(r.variants), text_cell(r.text)});
+  return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title,
+                     html_table({{"Variants"}, {heading}}, rows, "wide even"));
 }
 
 /// Ticks of the horizontal axis: where the points are, or at round numbers.
@@ -166,7 +159,7 @@ std::string make_page(const Comparison& comparison, const std::string& case_text
       remarks_table(changes(comparison), "Changes that the choices brought with them", "change") + "<footer>\n" +
       foldable("The case that was varied", case_text) +
       foldable("Licence of dygraphs, which draws the curves", assets::dygraph_licence) + "</footer>\n";
-  return html_document(comparison.title + ": comparison", content, histories, units_of(comparison.units));
+  return html_document(comparison.title + ": comparison", content, {histories, units_of(comparison.units).time});
 }
 
 }  // namespace carom::compare

@@ -173,7 +173,7 @@ std::string csv_table(const Comparison& comparison) {
     text += ended ? fmt::format(",{},{},{},{}", r.peak_force, csv_number(peak_ratio(r)), csv_number(r.energy_kept),
                                 csv_number(r.penetration))
                   : ",,,,";
-    text += "," + csv_text(status_text(r)) + "\n";
+    text += fmt::format(",{}\n", csv_text(status_text(r)));
   }
   return text;
 }

@@ -62,11 +62,12 @@ Json to_json(const MeshSummary& mesh) {
   for (const MeshSummary::Group& group : mesh.groups) {
     groups.push_back({{"name", group.name}, {"nodes", group.nodes}, {"cells", group.cells}});
   }
-  return {{"nodes", mesh.nodes}, {"cells", mesh.cells}, {"groups", groups}};
+  return {{"nodes", mesh.nodes}, {"cells", mesh.cells}, {"groups", groups}, {"reach", number(mesh.reach)}};
 }
 
 MeshSummary mesh_from(const Json& json) {
-  MeshSummary mesh{json.at("nodes").get<std::size_t>(), json.at("cells").get<std::size_t>(), {}};
+  MeshSummary mesh{
+      json.at("nodes").get<std::size_t>(), json.at("cells").get<std::size_t>(), {}, number(json.at("reach"))};
   for (const Json& group : json.at("groups")) {
     mesh.groups.push_back({group.at("name").get<std::string>(), group.at("nodes").get<std::size_t>(),
                            group.at("cells").get<std::size_t>()});
@@ -74,7 +75,56 @@ MeshSummary mesh_from(const Json& json) {
   return mesh;
 }
 
+Json to_json(const PartSummary& part) {
+  return {{"name", part.name},
+          {"mass", number(part.mass)},
+          {"velocity_begin", vector(part.velocity_begin)},
+          {"velocity_end", vector(part.velocity_end)}};
+}
+
+PartSummary part_from(const Json& json) {
+  return {json.at("name").get<std::string>(), number(json.at("mass")), vector(json.at("velocity_begin")),
+          vector(json.at("velocity_end"))};
+}
+
+Json to_json(const StressSummary& stress) {
+  return {{"value", number(stress.value)}, {"time", number(stress.time)},         {"part", stress.part},
+          {"cell", stress.cell},           {"position", vector(stress.position)}, {"instants", stress.instants}};
+}
+
+StressSummary stress_from(const Json& json) {
+  return {number(json.at("value")),           number(json.at("time")),
+          json.at("part").get<std::string>(), json.at("cell").get<std::int64_t>(),
+          vector(json.at("position")),        json.at("instants").get<std::int64_t>()};
+}
+
+Json to_json(const ProbeSummary& probe) {
+  return {{"name", probe.name}, {"place", probe.place}, {"position", vector(probe.position)}};
+}
+
+ProbeSummary probe_from(const Json& json) {
+  return {json.at("name").get<std::string>(), json.at("place").get<std::string>(), vector(json.at("position"))};
+}
+
+Json to_json(const StageSummary& stage) {
+  return {{"name", stage.name}, {"begin", number(stage.begin)}, {"end", number(stage.end)}};
+}
+
+StageSummary stage_from(const Json& json) {
+  return {json.at("name").get<std::string>(), number(json.at("begin")), number(json.at("end"))};
+}
+
+/// The entries of a list, each made by from(json).
+template <class From>
+auto list_from(const Json& json, const From& from) {
+  std::vector<decltype(from(json))> entries;
+  for (const Json& entry : json) entries.push_back(from(entry));
+  return entries;
+}
+
 Json to_json(const SchemeSummary& scheme) {
+  Json stages = Json::array();
+  for (const StageSummary& stage : scheme.stages) stages.push_back(to_json(stage));
   return {{"name", scheme.name},
           {"solver", scheme.solver},
           {"dt_smallest", number(scheme.dt_smallest)},
@@ -84,15 +134,17 @@ Json to_json(const SchemeSummary& scheme) {
           {"time_reached", number(scheme.time_reached)},
           {"added_mass", number(scheme.added_mass)},
           {"added_mass_share", number(scheme.added_mass_share)},
-          {"mass_notes", scheme.mass_notes}};
+          {"mass_notes", scheme.mass_notes},
+          {"stages", stages}};
 }
 
 SchemeSummary scheme_from(const Json& json) {
-  return {json.at("name").get<std::string>(),   json.at("solver").get<std::string>(),
-          number(json.at("dt_smallest")),       number(json.at("dt_largest")),
-          json.at("steps").get<std::int64_t>(), number(json.at("time_end")),
-          number(json.at("time_reached")),      number(json.at("added_mass")),
-          number(json.at("added_mass_share")),  json.at("mass_notes").get<std::vector<std::string>>()};
+  return {json.at("name").get<std::string>(),      json.at("solver").get<std::string>(),
+          number(json.at("dt_smallest")),          number(json.at("dt_largest")),
+          json.at("steps").get<std::int64_t>(),    number(json.at("time_end")),
+          number(json.at("time_reached")),         number(json.at("added_mass")),
+          number(json.at("added_mass_share")),     json.at("mass_notes").get<std::vector<std::string>>(),
+          list_from(json.at("stages"), stage_from)};
 }
 
 Json to_json(const CostSummary& cost) {
@@ -184,6 +236,9 @@ Json to_json(const Summary& s) {
   json["code_aster"] = named_values(s.code_aster);
   json["linear_momentum"] = to_json(s.linear_momentum);
   json["angular_momentum"] = to_json(s.angular_momentum);
+  json["parts"] = list(s.parts);
+  json["stress"] = to_json(s.stress);
+  json["probes"] = list(s.probes);
   json["verdict"] = list(s.verdict);
   json["checks"] = list(s.checks);
   json["warnings"] = s.warnings;
@@ -208,8 +263,11 @@ Summary summary_from(const Json& json) {
   s.code_aster = named_values(json.at("code_aster"));
   s.linear_momentum = momentum_from(json.at("linear_momentum"));
   s.angular_momentum = momentum_from(json.at("angular_momentum"));
-  for (const Json& item : json.at("verdict")) s.verdict.push_back(verdict_item_from(item));
-  for (const Json& check : json.at("checks")) s.checks.push_back(check_from(check));
+  s.parts = list_from(json.at("parts"), part_from);
+  s.stress = stress_from(json.at("stress"));
+  s.probes = list_from(json.at("probes"), probe_from);
+  s.verdict = list_from(json.at("verdict"), verdict_item_from);
+  s.checks = list_from(json.at("checks"), check_from);
   s.warnings = json.at("warnings").get<std::vector<std::string>>();
   s.notes = json.at("notes").get<std::vector<std::string>>();
   return s;

@@ -38,6 +38,36 @@ struct MeshSummary {
   std::size_t nodes = 0;
   std::size_t cells = 0;  ///< solid cells
   std::vector<Group> groups;
+  double reach = 0.0;  ///< largest distance of a node from the origin
+};
+
+/// A deformable body: mass, and the velocity of its centre of mass.
+struct PartSummary {
+  std::string name;
+  double mass = 0.0;
+  Vec3 velocity_begin{}, velocity_end{};
+};
+
+/// The largest von Mises stress of the cells (volume means) at the instants that were looked at.
+struct StressSummary {
+  double value = 0.0, time = 0.0;
+  std::string part;
+  std::int64_t cell = 0;      ///< its number in the mesh file
+  Vec3 position{};            ///< of its centre, in the reference configuration
+  std::int64_t instants = 0;  ///< how many were looked at; 0: nothing is known
+};
+
+/// Where a probe is: on a node, or over a group.
+struct ProbeSummary {
+  std::string name;
+  std::string place;  ///< "node 12", "25 nodes of HEAD"
+  Vec3 position{};    ///< mean reference position
+};
+
+/// One of the schemes that follow each other.
+struct StageSummary {
+  std::string name;
+  double begin = 0.0, end = 0.0;
 };
 
 struct SchemeSummary {
@@ -49,6 +79,7 @@ struct SchemeSummary {
   double time_reached = 0.0;                        ///< less when the run was stopped
   double added_mass = 0.0, added_mass_share = 0.0;  ///< the most that mass scaling has added in a stage
   std::vector<std::string> mass_notes{};            ///< what was done to the mass, and where
+  std::vector<StageSummary> stages{};               ///< in their order, as far as the case has them
 };
 
 struct CostSummary {
@@ -104,6 +135,9 @@ struct Summary {
   std::vector<NamedValue> code_aster;  ///< ENER_CIN, ENER_TOT, TRAV_EXT, TRAV_AMOR, TRAV_LIAI, DISS_SCH at the end
   MomentumSummary linear_momentum, angular_momentum;
   std::vector<CheckSummary> checks;
+  std::vector<PartSummary> parts;
+  StressSummary stress;
+  std::vector<ProbeSummary> probes;
   std::vector<VerdictItem> verdict;
   std::vector<std::string> warnings;  ///< what is doubtful about the case, as `check` says it, and about the run
   std::vector<std::string> notes;     ///< what was chosen or mended

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "report/decimate.hpp"
+#include "report/html.hpp"
+#include "report/readable_unit.hpp"
 
 namespace carom {
 
@@ -17,13 +20,16 @@ namespace {
 
 constexpr std::size_t kIntervals = 1000;
 constexpr double kNegligible = 1e-9;
-constexpr std::array<std::string_view, 3> kKinds{"\"computed\"", "\"filtered\"", "\"exact\""};
+constexpr std::array<std::string_view, 4> kKinds{"\"computed\"", "\"raw\"", "\"filtered\"", "\"exact\""};
 
 /// A chart before its curves are cut down: columns of one table that belong together.
 struct Group {
   std::string section, title, label;
   std::vector<std::string> columns;
 };
+
+/// Stored energies, whose sum is the mechanical energy.
+constexpr std::array<const char*, 3> kStored{"kinetic", "strain", "contact_stored"};
 
 double largest_magnitude(const std::vector<double>& values) {
   double largest = 0.0;
@@ -42,42 +48,43 @@ std::string curve_name(const std::string& column) {
 }
 
 /// A column of another table that is laid over the computed one of the same name.
-struct Overlay {
-  const std::optional<CsvTable>& table;
-  CurveKind kind;
-  std::string_view word;
-};
-
-void add_overlay(Chart& chart, const std::string& column, const Overlay& overlay) {
-  const auto* values = overlay.table ? overlay.table->column(column) : nullptr;
+void add_overlay(Chart& chart, const std::string& column, const std::optional<CsvTable>& table, CurveKind kind,
+                 std::string_view word) {
+  const auto* values = table ? table->column(column) : nullptr;
   if (values == nullptr) return;
-  chart.curves.push_back(
-      make_curve(*overlay.table, *values, fmt::format("{}, {}", curve_name(column), overlay.word), overlay.kind));
+  chart.curves.push_back(make_curve(*table, *values, fmt::format("{}, {}", curve_name(column), word), kind));
 }
 
-/// The chart of a group, or nothing when none of its columns is there or all are zero.
-std::optional<Chart> make_chart(const Group& group, const CsvTable& table, const Tables& tables, const Units& units) {
-  double scale = 0.0;
+double largest_of(const Group& group, const CsvTable& table) {
+  double largest = 0.0;
   for (const std::string& column : group.columns) {
-    if (const auto* values = table.column(column)) scale = std::max(scale, largest_magnitude(*values));
+    if (const auto* values = table.column(column)) largest = std::max(largest, largest_magnitude(*values));
   }
-  if (scale == 0.0) return std::nullopt;
+  return largest;
+}
+
+/// The chart of a group that is not zero.
+Chart make_chart(const Group& group, const CsvTable& table, const Tables& tables, const Units& units) {
   Chart chart{group.section, group.title, group.label, unit_of_column(units, group.columns.front()), {}, {}};
-  std::vector<std::string> left_out;
+  const double scale = largest_of(group, table);
+  std::vector<std::string> left_out, drawn;
   for (const std::string& column : group.columns) {
     const auto* values = table.column(column);
     if (values == nullptr) continue;
-    if (largest_magnitude(*values) < kNegligible * scale) {
-      left_out.push_back(curve_name(column));
-      continue;
-    }
-    chart.curves.push_back(make_curve(table, *values, curve_name(column), CurveKind::computed));
-    add_overlay(chart, column, {tables.probes_filtered, CurveKind::filtered, "filtered"});
-    add_overlay(chart, column, {tables.exact, CurveKind::exact, "exact"});
+    const bool is_negligible = largest_magnitude(*values) < kNegligible * scale;
+    (is_negligible ? left_out : drawn).push_back(column);
   }
-  if (!left_out.empty()) {
+  for (const std::string& column : drawn) {
+    const bool is_filtered = tables.probes_filtered && tables.probes_filtered->column(column) != nullptr;
+    chart.curves.push_back(make_curve(table, *table.column(column), curve_name(column),
+                                      is_filtered ? CurveKind::raw : CurveKind::computed));
+  }
+  for (const std::string& column : drawn)
+    add_overlay(chart, column, tables.probes_filtered, CurveKind::filtered, "filtered");
+  for (const std::string& column : drawn) add_overlay(chart, column, tables.exact, CurveKind::exact, "exact");
+  for (std::string& column : left_out) column = curve_name(column);
+  if (!left_out.empty())
     chart.note = fmt::format("Not drawn, zero or below 1e-9 of the largest: {}.", fmt::join(left_out, ", "));
-  }
   return chart;
 }
 
@@ -135,12 +142,138 @@ std::vector<Group> place_groups(const CsvTable& table, const std::string& sectio
   return groups;
 }
 
+/// What numbers are compared with before they are called round-off.
+struct Scales {
+  double energy = 0.0;    ///< the largest of the run
+  double momentum = 0.0;  ///< of all mass with that energy
+  double reach = 0.0;     ///< of the model from the origin
+};
+
+Scales scales_of(const Tables& tables, const std::optional<Summary>& summary) {
+  Scales scales;
+  if (tables.energy) {
+    for (const char* column : {"kinetic", "strain", "contact_stored", "external_work", "support_work"}) {
+      if (const auto* values = tables.energy->column(column))
+        scales.energy = std::max(scales.energy, largest_magnitude(*values));
+    }
+  }
+  if (!summary) return scales;
+  double mass = 0.0;
+  for (const PartSummary& part : summary->parts) mass += part.mass;
+  scales.momentum = std::sqrt(2.0 * mass * scales.energy);
+  scales.reach = summary->mesh.reach;
+  return scales;
+}
+
+/// Numbers of the group up to this cannot be told from rounding.
+double rounding_of(const Group& group, const CsvTable& table, const Scales& scales) {
+  constexpr double of_its_kind = 1e-12, of_position = 1e-15, of_energy = 1e-10;  // that of the verdict
+  if (group.section == "Energies") return of_energy * scales.energy;
+  if (group.section == "Momentum")
+    return of_its_kind * scales.momentum * (group.columns.front().starts_with("angular") ? scales.reach : 1.0);
+  if (group.section == "Time steps") return 0.0;
+  const auto largest = [&table](std::string_view quantity) {
+    double most = 0.0;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      if (parse_column(table.columns[c]).quantity == quantity)
+        most = std::max(most, largest_magnitude(table.values[c]));
+    }
+    return most;
+  };
+  const std::string_view quantity = parse_column(group.columns.front()).quantity;
+  double rounding = of_its_kind * largest(quantity);
+  if (quantity == "displacement") rounding = std::max(rounding, of_position * scales.reach);
+  if (quantity == "moment") rounding = std::max(rounding, of_its_kind * scales.reach * largest("force"));
+  return rounding;
+}
+
+/// Of an imbalance whose bound the run has kept to: what to say instead of drawing its noise.
+std::optional<std::string> kept_bound(const Group& group, const std::optional<Summary>& summary) {
+  static constexpr std::array<std::array<std::string_view, 2>, 3> items{
+      {{"imbalance", "energy balance"},
+       {"momentum_error", "linear momentum"},
+       {"angular_momentum_error", "angular momentum"}}};
+  constexpr double round_off = 1e-6;  // wider bounds are those of schemes' errors, which are worth a look
+  if (!summary) return std::nullopt;
+  for (const auto& [column, name] : items) {
+    if (group.columns.front() != column) continue;
+    for (const VerdictItem& item : summary->verdict) {
+      if (item.name == name && item.pass && item.limit < round_off)
+        return fmt::format("zero within the bound: at most {:.2g} of {:.2g} allowed, relative.", item.value,
+                           item.limit);
+    }
+  }
+  return std::nullopt;
+}
+
+/// The sum of the stored energies, drawn beside its terms.
+void add_mechanical_energy(Chart& chart, const CsvTable& table) {
+  std::vector<double> sum(table.rows(), 0.0);
+  for (const char* column : kStored) {
+    const auto* values = table.column(column);
+    if (values == nullptr) return;
+    std::transform(sum.begin(), sum.end(), values->begin(), sum.begin(), std::plus<>());
+  }
+  chart.curves.push_back(make_curve(table, sum, "total: kinetic + strain + contact stored", CurveKind::computed));
+}
+
+/// A step that does not change is a line of text.
+std::optional<std::string> constant_step(const Group& group, const CsvTable& table, const Units& units) {
+  const auto* dt = table.column("dt");
+  if (group.columns.front() != "dt" || dt == nullptr || dt->size() < 3) return std::nullopt;
+  const auto [least, most] = std::minmax_element(dt->begin() + 1, dt->end() - 1);  // the first row is before any step
+  const double last = dt->back();
+  if (!(*most - *least <= 1e-9 * *most) || last > *most * (1.0 + 1e-9)) return std::nullopt;
+  const bool is_whole = last >= *most * (1.0 - 1e-9);
+  return fmt::format("{}{}.", with_readable_unit(*most, units.time, 5),
+                     is_whole ? " throughout" : ", the last shorter");
+}
+
 void add_charts(std::vector<Chart>& charts, const std::vector<Group>& groups, const CsvTable& table,
-                const Tables& tables, const Units& units) {
+                const Tables& tables, const Units& units, const std::optional<Summary>& summary) {
   if (table.rows() == 0) return;
-  for (const Group& group : groups) {
+  const Scales scales = scales_of(tables, summary);
+  std::vector<std::string> zero, rounding;
+  std::vector<Chart> said;
+  const auto finish_section = [&](const std::string& section) {
+    if (!rounding.empty())
+      said.push_back({section, "Round-off, not drawn:", {}, {}, {}, fmt::format("{}.", fmt::join(rounding, "; "))});
+    if (!zero.empty())
+      said.push_back({section, "Zero throughout:", {}, {}, {}, fmt::format("{}.", fmt::join(zero, "; "))});
+    charts.insert(charts.end(), said.begin(), said.end());
+    for (auto* list : {&zero, &rounding}) list->clear();
+    said.clear();
+  };
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const Group& group = groups[g];
+    if (g > 0 && group.section != groups[g - 1].section) finish_section(groups[g - 1].section);
     if (group.columns.empty()) continue;
-    if (auto chart = make_chart(group, table, tables, units)) charts.push_back(std::move(*chart));
+    const double largest = largest_of(group, table);
+    auto instead = kept_bound(group, summary);
+    if (!instead) instead = constant_step(group, table, units);
+    if (instead) {
+      if (table.column(group.columns.front()) != nullptr)
+        said.push_back({group.section, group.title + ":", {}, {}, {}, *instead});
+    } else if (largest == 0.0) {
+      const bool is_known = table.column(group.columns.front()) != nullptr;
+      if (is_known && group.section != "Time steps") zero.push_back(group.title);
+    } else if (largest <= rounding_of(group, table, scales)) {
+      rounding.push_back(group.title);
+    } else {
+      charts.push_back(make_chart(group, table, tables, units));
+      if (&group == groups.data() && group.section == "Energies") add_mechanical_energy(charts.back(), table);
+    }
+  }
+  if (!groups.empty()) finish_section(groups.back().section);
+}
+
+void add_places(std::vector<Chart>& charts, const Units& units, const Summary& summary) {
+  for (Chart& chart : charts) {
+    for (const ProbeSummary& probe : summary.probes) {
+      if (chart.section == "Probes" && chart.title.starts_with(probe.name + " · "))
+        chart.place =
+            fmt::format("{} at {}", probe.place, place_text(probe.position, summary.mesh.reach, units.length));
+    }
   }
 }
 
@@ -178,29 +311,52 @@ Curve make_curve(const CsvTable& table, const std::vector<double>& values, std::
   return curve;
 }
 
-std::vector<Chart> make_charts(const Tables& tables, const Units& units) {
+std::vector<Chart> make_charts(const Tables& tables, const Units& units, const std::optional<Summary>& summary) {
   std::vector<Chart> charts;
-  if (tables.probes) add_charts(charts, place_groups(*tables.probes, "Probes"), *tables.probes, tables, units);
-  if (tables.contact) add_charts(charts, place_groups(*tables.contact, "Contact"), *tables.contact, tables, units);
-  if (tables.energy) add_charts(charts, energy_groups(*tables.energy), *tables.energy, tables, units);
+  const auto add = [&](const std::vector<Group>& groups, const CsvTable& table) {
+    add_charts(charts, groups, table, tables, units, summary);
+  };
+  if (tables.probes) add(place_groups(*tables.probes, "Probes"), *tables.probes);
+  if (tables.contact) add(place_groups(*tables.contact, "Contact"), *tables.contact);
+  if (tables.energy) add(energy_groups(*tables.energy), *tables.energy);
+  if (summary) add_places(charts, units, *summary);
+  for (Chart& chart : charts) {
+    const std::string_view label = chart.label;
+    chart.is_count = label == "iterations" || label == "closed" || label == "closings";
+  }
   return charts;
 }
 
-std::string charts_json(const std::vector<Chart>& charts, const Units& units) {
-  std::string text = fmt::format("{{\"time_unit\":{},\"charts\":[", json_string(units.time));
-  for (const Chart& chart : charts) {
-    fmt::format_to(std::back_inserter(text), "\n{{\"label\":{},\"unit\":{},\"curves\":[", json_string(chart.label),
-                   json_string(chart.unit));
+std::string charts_json(const ChartData& data) {
+  double longest = 0.0;
+  for (const Chart& chart : data.charts)
+    for (const Curve& curve : chart.curves) longest = std::max(longest, largest_magnitude(curve.time));
+  const ReadableUnit time = readable_unit(longest, data.time_unit);
+  std::string text =
+      fmt::format("{{\"time_unit\":{},\"time_power\":{},\"marks\":[", json_string(time.name), time.power);
+  const auto end_list = [&text](std::string_view end) {
+    if (text.back() == ',') text.pop_back();
+    text += end;
+  };
+  for (const TimeMark& mark : data.marks)
+    fmt::format_to(std::back_inserter(text), "{{\"t\":{:.8g},\"name\":{}}},", mark.time, json_string(mark.name));
+  end_list("],\"charts\":[");
+  for (const Chart& chart : data.charts) {
+    if (chart.curves.empty()) continue;
+    double largest = 0.0;
+    for (const Curve& curve : chart.curves) largest = std::max(largest, largest_magnitude(curve.values));
+    const ReadableUnit unit = chart.is_count ? ReadableUnit{} : readable_unit(largest, chart.unit);
+    fmt::format_to(std::back_inserter(text), "\n{{\"label\":{},\"unit\":{},\"power\":{},\"count\":{},\"curves\":[",
+                   json_string(chart.label), json_string(unit.name), unit.power, chart.is_count);
     for (const Curve& curve : chart.curves) {
       fmt::format_to(std::back_inserter(text), "{{\"name\":{},\"kind\":{},\"shown\":{},\"t\":{},\"y\":{}}},",
                      json_string(curve.name), kKinds.at(static_cast<std::size_t>(curve.kind)), curve.shown,
                      json_numbers(curve.time), json_numbers(curve.values));
     }
-    if (text.back() == ',') text.pop_back();
-    text += "]},";
+    end_list("]},");
   }
-  if (text.back() == ',') text.pop_back();
-  return text + "]}";
+  end_list("]}");
+  return text;
 }
 
 }  // namespace carom

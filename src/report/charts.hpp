@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "output/summary.hpp"
 #include "output/units.hpp"
 #include "report/csv_table.hpp"
 
 namespace carom {
 
-/// How a curve is drawn: the exact solution is dashed over the computed curve before it.
-enum class CurveKind : std::uint8_t { computed, filtered, exact };
+/// How a curve is drawn: a filtered one over the raw one of its colour, which is then pale; the exact solution dashed
+/// over both.
+enum class CurveKind : std::uint8_t { computed, raw, filtered, exact };
 
 struct Curve {
   std::string name;
@@ -21,13 +23,28 @@ struct Curve {
   bool shown = true;  ///< until the reader clicks its name
 };
 
-/// One picture: curves of one unit over time.
+/// One picture: curves of one unit over time. Without curves it is a statement: the title and the note as text.
 struct Chart {
   std::string section;  ///< "Energies", "Contact", "Probes", "Time steps"
   std::string title;
   std::string label, unit;  ///< of the vertical axis
   std::vector<Curve> curves;
-  std::string note;  ///< what is not drawn and why
+  std::string note;       ///< what is not drawn and why
+  std::string place{};    ///< of a probe
+  bool is_count = false;  ///< whole numbers
+};
+
+/// A moment that is marked in every picture.
+struct TimeMark {
+  double time = 0.0;
+  std::string name;
+};
+
+/// All that curves.js draws.
+struct ChartData {
+  std::vector<Chart> charts;
+  std::string time_unit;
+  std::vector<TimeMark> marks{};
 };
 
 /// The tables of a results folder, as far as they are there.
@@ -39,11 +56,14 @@ struct Tables {
 Curve make_curve(const CsvTable& table, const std::vector<double>& values, std::string name, CurveKind kind);
 
 /// Charts of probes, contact and energies; columns of the same name in probes_filtered.csv and exact.csv are laid over.
-/// Components below 1e-9 of the largest of their chart are named in its note instead of drawn; charts that are zero
-/// throughout are left out.
-std::vector<Chart> make_charts(const Tables& tables, const Units& units);
+/// The mechanical energy is drawn with its terms. Components below 1e-9 of the largest of their chart are named in its
+/// note instead of drawn. What is round-off is said instead of drawn: a whole chart below 1e-12 of the largest of its
+/// quantity, energies below 1e-10 of the largest of the run, imbalances within the bound of a verdict that passed.
+std::vector<Chart> make_charts(const Tables& tables, const Units& units,
+                               const std::optional<Summary>& summary = std::nullopt);
 
-/// The charts as JSON for curves.js, safe inside a <script> element.
-std::string charts_json(const std::vector<Chart>& charts, const Units& units);
+/// The charts that have curves as JSON for curves.js, safe inside a <script> element; numbers as they are, beside the
+/// unit and the power of ten in which they are to be read (readable_unit.hpp).
+std::string charts_json(const ChartData& data);
 
 }  // namespace carom

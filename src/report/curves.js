@@ -3,24 +3,14 @@
   "use strict";
   const data = JSON.parse(document.getElementById("charts").textContent);
   const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  const superscript = (n) => String(n).replace(/[-0-9]/g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);
 
-  // Power of ten, a multiple of three, that brings the largest magnitude between 1 and 1000.
-  function exponent(values) {
-    let largest = 0;
-    for (const v of values) largest = Math.max(largest, Math.abs(v));
-    if (largest === 0 || (largest >= 0.1 && largest < 10000)) return 0;
-    return 3 * Math.floor(Math.log10(largest) / 3);
+  function axisTitle(name, unit) {
+    return unit === "" ? name : name + " [" + unit + "]";
   }
 
-  function axisTitle(name, unit, power) {
-    const scale = power === 0 ? "" : "10" + superscript(power);
-    const inside = [scale, unit].filter((s) => s !== "").join(" ");
-    return inside === "" ? name : name + " [" + inside + "]";
-  }
-
-  function short(value) {
-    return value === null || value === undefined ? "" : String(Number(value.toPrecision(7)));
+  // A number in the readable unit of its axis.
+  function short(value, power) {
+    return value === null || value === undefined ? "" : String(Number((value / Math.pow(10, power)).toPrecision(7)));
   }
 
   // Values of one curve at the times of all curves, straight between its own points as the line is drawn.
@@ -45,10 +35,15 @@
     return times.map((t, i) => [t, ...columns.map((c) => c[i])]);
   }
 
-  // Exact curves are dashes in the colour of text: they lie over the computed curve of any colour.
+  // Exact curves are dashes in the colour of text: they lie over the computed curve of any colour. A filtered curve has
+  // the colour of the raw one below it, which is pale.
   function colours(chart) {
-    let own = 0;
-    return chart.curves.map((c) => css(c.kind === "exact" ? "--ink" : "--curve-" + ((own++ % 8) + 1)));
+    const numbered = chart.curves.filter((c) => c.kind === "computed" || c.kind === "raw").map((c) => c.name);
+    return chart.curves.map((c) => {
+      if (c.kind === "exact") return css("--ink");
+      const own = css("--curve-" + ((numbered.indexOf(c.name.replace(/, filtered$/, "")) % 8) + 1));
+      return c.kind === "raw" ? own + "70" : own;
+    });
   }
 
   function makeLegend(element, chart) {
@@ -71,7 +66,7 @@
   }
 
   const stroke = {
-    computed: { strokeWidth: 2 }, filtered: { strokeWidth: 2 }, exact: { strokePattern: [6, 5], strokeWidth: 1.3 },
+    computed: { strokeWidth: 2 }, raw: { strokeWidth: 1 }, filtered: { strokeWidth: 2 }, exact: { strokePattern: [6, 5], strokeWidth: 1.3 },
   };
   const drawn = [];
   let syncing = false;
@@ -83,34 +78,60 @@
     syncing = false;
   }
 
-  const allTimes = data.charts.flatMap((c) => c.curves.flatMap((k) => [k.t[0], k.t[k.t.length - 1]]));
-  const timePower = exponent(allTimes.filter((t) => t !== undefined));
   const tick = (power) => (v) => String(Number((v / Math.pow(10, power)).toPrecision(6)));
+
+  // Numbers that count have no ticks between them.
+  function wholeTicks(...given) {
+    return Dygraph.numericTicks(...given).filter((t) => Number.isInteger(t.v));
+  }
+
+  // Where another stage begins.
+  function drawMarks(context, area, graph) {
+    const [from, to] = graph.xAxisRange();
+    context.save();
+    context.strokeStyle = css("--soft");
+    context.fillStyle = css("--soft");
+    context.setLineDash([2, 3]);
+    context.font = "11px system-ui, sans-serif";
+    for (const mark of data.marks) {
+      if (mark.t < from || mark.t > to) continue;
+      const x = Math.round(graph.toDomXCoord(mark.t)) + 0.5;
+      context.beginPath();
+      context.moveTo(x, area.y);
+      context.lineTo(x, area.y + area.h);
+      context.stroke();
+      const isRight = x > area.x + 0.6 * area.w;
+      context.textAlign = isRight ? "right" : "left";
+      context.fillText(mark.name, x + (isRight ? -4 : 4), area.y + 11, isRight ? x - area.x - 8 : area.x + area.w - x - 8);
+    }
+    context.restore();
+  }
 
   function draw(element) {
     const chart = data.charts[Number(element.dataset.chart)];
     const isCrowded = chart.curves.length > 5;
     const legend = makeLegend(element.parentElement.querySelector(".legend"), chart);
-    const power = exponent(chart.curves.flatMap((c) => c.y));
+    const power = chart.power;
     const labels = ["t", ...chart.curves.map((c, k) => k + " " + c.name)];
     const series = {};
     chart.curves.forEach((c, k) => {
       series[labels[k + 1]] = isCrowded && c.kind === "computed" ? { strokeWidth: 1.2 } : stroke[c.kind];
     });
     const show = (t, row) => {
-      for (const l of legend) l.value.textContent = row === null ? "" : short(row[l.k + 1]);
-      time.textContent = t === null ? "" : "t = " + short(t) + " " + data.time_unit;
+      for (const l of legend) l.value.textContent = row === null ? "" : short(row[l.k + 1], power);
+      time.textContent = t === null ? "" : "t = " + short(t, data.time_power) + " " + data.time_unit;
     };
     const time = document.createElement("output");
     const content = rows(chart);
     const graph = new Dygraph(element, content, {
       labels, series, visibility: chart.curves.map((c) => c.shown), legend: "never", connectSeparatedPoints: true, animatedZooms: false, rightGap: 12, yRangePad: 8,
-      xlabel: axisTitle("time", data.time_unit, timePower), ylabel: axisTitle(chart.label, chart.unit, power),
+      xlabel: axisTitle("time", data.time_unit), ylabel: axisTitle(chart.label, chart.unit),
       xLabelHeight: 18, yLabelWidth: 18, highlightCircleSize: 3, labelsKMB: false, includeZero: false,
       axes: {
-        x: { axisLabelFormatter: tick(timePower), pixelsPerLabel: 70 },
-        y: { axisLabelFormatter: tick(power), axisLabelWidth: 52, pixelsPerLabel: 36 },
+        x: { axisLabelFormatter: tick(data.time_power), pixelsPerLabel: 70 },
+        y: { axisLabelFormatter: tick(power), axisLabelWidth: 52, pixelsPerLabel: 36, ...(chart.count ? { ticker: wholeTicks } : {}) },
       },
+      underlayCallback: drawMarks,
       highlightCallback: (event, x, points, row) => show(x, content[row]),
       unhighlightCallback: () => show(null, null),
       drawCallback: (g, first) => {

@@ -13,16 +13,43 @@ std::string number_text(double value, int digits) {
   return std::isnan(value) ? "–" : fmt::format("{:.{}g}", value, digits);
 }
 
-std::string text_cell(std::string_view text) {
-  return fmt::format("<td>{}</td>", xml_escape(text));
+std::string place_text(const Vec3& x, double reach, const std::string& unit) {
+  constexpr double rounding = 1e-9;
+  Vec3 shown = x;
+  for (double& c : shown) c = std::abs(c) > rounding * reach ? c : 0.0;
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}){}{}", shown[0], shown[1], shown[2], unit.empty() ? "" : " ", unit);
 }
 
-std::string number_cell(std::string_view text) {
-  return fmt::format("<td class=\"number\">{}</td>", xml_escape(text));
+TableCell text_cell(std::string_view text) {
+  return {xml_escape(text)};
 }
 
-std::string mark_cell(bool pass) {
-  return pass ? "<td class=\"mark pass\">✓ pass</td>" : "<td class=\"mark fail\">✗ fail</td>";
+TableCell number_cell(std::string_view text) {
+  return {xml_escape(text), "number"};
+}
+
+TableCell mark_cell(bool pass) {
+  return pass ? TableCell{"✓ pass", "mark pass"} : TableCell{"✗ fail", "mark fail"};
+}
+
+std::string html_table(const std::vector<TableColumn>& columns, const std::vector<TableRow>& rows,
+                       std::string_view style) {
+  const auto class_of = [](std::string_view name) {
+    return name.empty() ? std::string() : fmt::format(" class=\"{}\"", name);
+  };
+  std::string html = fmt::format("<div class=\"scroll\"><table{}><thead><tr>", class_of(style));
+  for (const TableColumn& c : columns)
+    html += fmt::format("<th{}>{}</th>", class_of(c.is_number ? "number" : ""), xml_escape(c.title));
+  html += "</tr></thead><tbody>\n";
+  for (const TableRow& row : rows) {
+    html += "<tr>";
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      html += fmt::format("<td{} data-label=\"{}\">{}</td>", class_of(row[c].style), xml_escape(columns[c].title),
+                          row[c].html);
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
 }
 
 std::string foldable(std::string_view title, std::string_view text) {
@@ -30,29 +57,40 @@ std::string foldable(std::string_view title, std::string_view text) {
 }
 
 std::string chart_figures(const std::vector<Chart>& charts) {
-  std::string html;
-  std::string section;
-  for (std::size_t i = 0; i < charts.size(); ++i) {
-    const Chart& chart = charts[i];
-    if (chart.section != section) {
-      if (!section.empty()) html += "</div>\n</section>\n";
-      section = chart.section;
-      html += fmt::format("<section>\n<h2>{}</h2>\n<div class=\"charts\">\n", section);
+  std::string html, said;
+  const std::string* section = nullptr;
+  const auto end_section = [&] {
+    if (section != nullptr) html += "</div>\n" + said + "</section>\n";
+    said.clear();
+  };
+  std::size_t drawn = 0;
+  for (const Chart& chart : charts) {
+    if (section == nullptr || chart.section != *section) {
+      end_section();
+      section = &chart.section;
+      html += fmt::format("<section>\n<h2>{}</h2>\n<div class=\"charts\">\n", chart.section);
     }
+    if (chart.curves.empty()) {
+      said += fmt::format("<p class=\"note said\"><strong>{}</strong> {}</p>\n", xml_escape(chart.title),
+                          xml_escape(chart.note));
+      continue;
+    }
+    const std::string place =
+        chart.place.empty() ? "" : fmt::format(" <span class=\"place\">{}</span>", xml_escape(chart.place));
     html += fmt::format(
-        "<figure><figcaption>{}</figcaption><div class=\"legend\"></div><div class=\"chart\" data-chart=\"{}\"></div>"
+        "<figure><figcaption>{}{}</figcaption><div class=\"legend\"></div><div class=\"chart\" data-chart=\"{}\"></div>"
         "<p class=\"note\">{}</p></figure>\n",
-        xml_escape(chart.title), i, xml_escape(chart.note));
+        xml_escape(chart.title), place, drawn++, xml_escape(chart.note));
   }
-  if (section.empty()) return html;
+  end_section();
+  if (drawn == 0) return html;
   return html +
-         "</div>\n</section>\n<p class=\"note\">Drag over a picture to zoom all of them in time, hold shift to move, "
+         "<p class=\"note hint\">Drag over a picture to zoom all of them in time, hold shift to move, "
          "double-click to see all again; click a name to hide or show its curve. Long tables are drawn by the smallest "
          "and largest value in each of 1000 intervals of time; the .csv files hold every row.</p>\n";
 }
 
-std::string html_document(std::string_view title, const std::string& content, const std::vector<Chart>& charts,
-                          const Units& units) {
+std::string html_document(std::string_view title, const std::string& content, const ChartData& data) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
@@ -60,8 +98,7 @@ std::string html_document(std::string_view title, const std::string& content, co
       "<link rel=\"icon\" href=\"data:,\">\n<style>{}\n{}</style>\n</head>\n<body>\n<main>\n",
       xml_escape(title), assets::dygraph_css, assets::page_css);
   html += content;
-  html +=
-      fmt::format("</main>\n<script type=\"application/json\" id=\"charts\">{}</script>\n", charts_json(charts, units));
+  html += fmt::format("</main>\n<script type=\"application/json\" id=\"charts\">{}</script>\n", charts_json(data));
   html += fmt::format("<script>{}</script>\n<script>{}</script>\n</body>\n</html>\n", assets::dygraph_js,
                       assets::curves_js);
   return html;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/types.hpp"
 #include "output/units.hpp"
 #include "report/charts.hpp"
 
@@ -13,21 +14,38 @@ namespace carom {
 /// The number with so many digits, or a dash for NaN.
 std::string number_text(double value, int digits);
 
-// Cells of a table; the text is escaped.
-std::string text_cell(std::string_view text);
-/// Right-aligned, figures of equal width.
-std::string number_cell(std::string_view text);
-std::string mark_cell(bool pass);
+/// "(0, 12.5, 3) mm": a place, without the round-off of coordinates, which is relative to `reach`.
+std::string place_text(const Vec3& x, double reach, const std::string& unit);
+
+/// One cell of a table: HTML, and the style of page.css ("number": right-aligned, figures of equal width).
+struct TableCell {
+  std::string html;
+  std::string_view style = "";
+};
+/// The text is escaped.
+TableCell text_cell(std::string_view text);
+TableCell number_cell(std::string_view text);
+TableCell mark_cell(bool pass);
+
+struct TableColumn {
+  std::string title;  ///< escaped
+  bool is_number = false;
+};
+using TableRow = std::vector<TableCell>;
+
+/// A table that is read row by row on narrow screens, each cell beside the title of its column. `style` is that of
+/// page.css.
+std::string html_table(const std::vector<TableColumn>& columns, const std::vector<TableRow>& rows,
+                       std::string_view style = "");
 
 /// A text of several lines that the reader unfolds.
 std::string foldable(std::string_view title, std::string_view text);
 
-/// Places for the charts, a section for each run of equal Chart::section; "" without charts. The charts themselves go
-/// to html_document.
+/// Places for the charts, a section for each run of equal Chart::section, and below them what is said instead of drawn;
+/// "" without charts. The charts themselves go to html_document.
 std::string chart_figures(const std::vector<Chart>& charts);
 
 /// One document with style, script and the data of the charts inside; `content` is HTML.
-std::string html_document(std::string_view title, const std::string& content, const std::vector<Chart>& charts,
-                          const Units& units);
+std::string html_document(std::string_view title, const std::string& content, const ChartData& data);
 
 }  // namespace carom

@@ -25,6 +25,8 @@ Banner banner_of(const std::optional<Summary>& summary) {
   }
   switch (summary->outcome) {
     case Outcome::good:
+      if (summary->checks.empty())
+        return {"unchecked", "Good, no checks", "The books close; nothing was compared with a reference."};
       return {"good", "Good", "All checks and all items of the verdict passed."};
     case Outcome::failed:
       return {"failed", "Failed", "A check or an item of the verdict did not pass."};
@@ -40,17 +42,39 @@ std::string header(const ReportData& data) {
   const Banner banner = banner_of(data.summary);
   const std::string title = data.summary ? data.summary->case_info.title : data.folder;
   const bool has_message = data.summary && !data.summary->message.empty();
+  const std::size_t warnings = data.summary ? data.summary->warnings.size() : 0;
   std::string html = fmt::format(
       "<header>\n<p class=\"kicker\">Carom · report of a run</p>\n<h1>{}</h1>\n"
-      "<div class=\"banner {}\" role=\"status\"><strong>{}</strong><span>{}</span></div>\n",
+      "<div class=\"banner {}\" role=\"status\"><strong>{}</strong><span>{}</span>{}</div>\n",
       xml_escape(title), banner.style, banner.word,
-      xml_escape(has_message ? std::string_view(data.summary->message) : banner.text));
+      xml_escape(has_message ? std::string_view(data.summary->message) : banner.text),
+      warnings == 0 ? ""
+                    : fmt::format("<span class=\"warned\">{} warning{}</span>", warnings, warnings == 1 ? "" : "s"));
   if (!data.notes.empty()) {
     html += "<ul class=\"notes\">\n";
     for (const std::string& note : data.notes) html += fmt::format("<li>{}</li>\n", xml_escape(note));
     html += "</ul>\n";
   }
   return html + "</header>\n";
+}
+
+std::string figures_list(const std::vector<KeyFigure>& figures) {
+  if (figures.empty()) return "";
+  std::string html = "<section>\n<h2>Key figures</h2>\n<dl class=\"figures\">\n";
+  for (const KeyFigure& f : figures) {
+    html += fmt::format("<div><dt>{}</dt><dd><strong>{}</strong> {}</dd></div>\n", xml_escape(f.title),
+                        xml_escape(f.value), xml_escape(f.remark));
+  }
+  return html + "</dl>\n</section>\n";
+}
+
+/// Where another scheme takes over.
+std::vector<TimeMark> stage_marks(const std::optional<Summary>& summary) {
+  std::vector<TimeMark> marks;
+  if (!summary) return marks;
+  for (const StageSummary& stage : summary->scheme.stages)
+    if (stage.begin > 0.0) marks.push_back({stage.begin, stage.name});
+  return marks;
 }
 
 std::string footer(const ReportData& data) {
@@ -64,18 +88,21 @@ std::string footer(const ReportData& data) {
 
 std::string make_page(const ReportData& data) {
   std::string content = header(data);
+  if (data.summary) content += warnings_list(*data.summary);
+  content += figures_list(data.figures);
   if (data.summary) {
-    content += warnings_list(*data.summary);
-    content += verdict_table(*data.summary);
     content += checks_table(*data.summary, data.units);
+    content += verdict_table(*data.summary);
   }
   content += chart_figures(data.charts);
   if (data.summary) {
+    content += notes_list(*data.summary);
     content += ledger_tables(*data.summary, data.units);
     content += run_table(*data.summary, data.units);
   }
   content += footer(data);
-  return html_document(data.summary ? data.summary->case_info.title : data.folder, content, data.charts, data.units);
+  return html_document(data.summary ? data.summary->case_info.title : data.folder, content,
+                       {data.charts, data.units.time, stage_marks(data.summary)});
 }
 
 }  // namespace carom

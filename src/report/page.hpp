@@ -8,6 +8,7 @@
 #include "output/summary.hpp"
 #include "output/units.hpp"
 #include "report/charts.hpp"
+#include "report/figures.hpp"
 
 namespace carom {
 
@@ -16,6 +17,7 @@ struct ReportData {
   std::string folder;              ///< title of a page without summary
   std::optional<Summary> summary;  ///< nothing when the run was interrupted
   Units units;
+  std::vector<KeyFigure> figures;
   std::vector<Chart> charts;
   std::string case_text;           ///< case.resolved.toml
   std::vector<std::string> notes;  ///< files that are missing or cut short

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <string_view>
@@ -29,41 +30,34 @@ std::string tolerance(const CheckSummary& check) {
   return fmt::format("± {} %", number_text(100.0 * check.tolerance, 3));
 }
 
-std::string value_table(std::string_view title, const std::vector<NamedValue>& values, const std::string& unit) {
+std::string value_table(const std::string& title, const std::vector<NamedValue>& values, const std::string& unit) {
   if (values.empty()) return {};
-  std::string html = fmt::format(
-      "<div class=\"scroll\"><table><thead><tr><th>{}</th><th class=\"number\">{}</th></tr></thead><tbody>\n", title,
-      xml_escape(unit.empty() ? "energy" : fmt::format("energy [{}]", unit)));
+  std::vector<TableRow> rows;
   for (const NamedValue& entry : values) {
     std::string name = entry.name;
-    if (name.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") != 0) {
-      for (char& c : name) c = c == '_' ? ' ' : c;
-    }
-    html += fmt::format("<tr>{}{}</tr>\n", text_cell(name), number_cell(number_text(entry.value, 9)));
+    if (name.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") != 0) std::replace(name.begin(), name.end(), '_', ' ');
+    rows.push_back({text_cell(name), number_cell(number_text(entry.value, 9))});
   }
-  return html + "</tbody></table></div>\n";
+  return html_table({{title}, {unit.empty() ? "energy" : fmt::format("energy [{}]", unit), true}}, rows);
 }
 
-std::string vector_cell(const Vec3& v) {
+TableCell vector_cell(const Vec3& v) {
   return number_cell(fmt::format("({}, {}, {})", number_text(v[0], 5), number_text(v[1], 5), number_text(v[2], 5)));
 }
 
 std::string momentum_table(const Summary& summary, const Units& units) {
-  std::string html =
-      "<div class=\"scroll\"><table><thead><tr><th>Momentum balance</th><th class=\"number\">at the beginning</th>"
-      "<th class=\"number\">at the end</th><th class=\"number\">impulse from outside</th>"
-      "<th class=\"number\">largest error, relative</th></tr></thead><tbody>\n";
-  const auto row = [&html](const std::string& name, const MomentumSummary& m) {
-    html += fmt::format("<tr>{}{}{}{}{}</tr>\n", text_cell(name), vector_cell(m.begin), vector_cell(m.end),
-                        vector_cell(m.impulse), number_cell(number_text(m.error, 2)));
-  };
-  const auto name = [&units](const std::string& text, std::string_view column) {
+  const auto row = [&units](const std::string& text, std::string_view column, const MomentumSummary& m) {
     const std::string unit = unit_of_column(units, column);
-    return unit.empty() ? text : fmt::format("{} [{}]", text, unit);
+    return TableRow{text_cell(unit.empty() ? text : fmt::format("{} [{}]", text, unit)), vector_cell(m.begin),
+                    vector_cell(m.end), vector_cell(m.impulse), number_cell(number_text(m.error, 2))};
   };
-  row(name("linear", "momentum_x"), summary.linear_momentum);
-  row(name("angular", "angular_momentum_x"), summary.angular_momentum);
-  return html + "</tbody></table></div>\n";
+  return html_table({{"Momentum balance"},
+                     {"at the beginning", true},
+                     {"at the end", true},
+                     {"impulse from outside", true},
+                     {"largest error, relative", true}},
+                    {row("linear", "momentum_x", summary.linear_momentum),
+                     row("angular", "angular_momentum_x", summary.angular_momentum)});
 }
 
 std::string phases(const CostSummary& cost) {
@@ -95,44 +89,68 @@ std::string steps(const SchemeSummary& scheme, const Units& units) {
 
 std::string verdict_table(const Summary& summary) {
   if (summary.verdict.empty()) return {};
-  std::string html =
-      "<section>\n<h2>Verdict</h2>\n<div class=\"scroll\"><table><thead><tr><th>Item</th><th "
-      "class=\"number\">value</th>"
-      "<th class=\"number\">limit</th><th></th><th>meaning</th></tr></thead><tbody>\n";
+  std::vector<TableRow> rows, failed;
   for (const VerdictItem& item : summary.verdict) {
-    html += fmt::format("<tr>{}{}{}{}{}</tr>\n", text_cell(item.name), number_cell(number_text(item.value, 3)),
-                        number_cell(fmt::format("≤ {}", number_text(item.limit, 3))), mark_cell(item.pass),
-                        text_cell(item.explanation));
+    rows.push_back({text_cell(item.name), number_cell(number_text(item.value, 3)),
+                    number_cell(fmt::format("≤ {}", number_text(item.limit, 3))), mark_cell(item.pass),
+                    text_cell(item.explanation)});
+    if (!item.pass) failed.push_back(rows.back());
   }
-  return html + "</tbody></table></div>\n</section>\n";
+  const auto table = [](const std::vector<TableRow>& shown) {
+    return html_table({{"Item"}, {"value", true}, {"limit", true}, {""}, {"meaning"}}, shown);
+  };
+  const bool is_at_end = summary.outcome == Outcome::good || summary.outcome == Outcome::failed;
+  if (is_at_end) return "<section>\n<h2>Verdict</h2>\n" + table(rows) + "</section>\n";
+  // What an unfinished run has kept to so far does not say that it is right.
+  return fmt::format(
+      "<section>\n<h2>No verdict: the run did not reach its end</h2>\n{}<details><summary>The items up to there: {} of "
+      "{} "
+      "within their limits</summary>\n{}</details>\n</section>\n",
+      failed.empty() ? "" : table(failed), rows.size() - failed.size(), rows.size(), table(rows));
 }
 
+namespace {
+
+std::string lines_list(std::string_view title, std::string_view style, const std::vector<std::string>& lines) {
+  if (lines.empty()) return {};
+  std::string html = fmt::format("<section>\n<h2>{}</h2>\n<ul class=\"{}\">\n", title, style);
+  for (const std::string& line : lines) html += fmt::format("<li>{}</li>\n", xml_escape(line));
+  return html + "</ul>\n</section>\n";
+}
+
+}  // namespace
+
 std::string warnings_list(const Summary& summary) {
-  const auto list = [](std::string_view title, std::string_view style, const std::vector<std::string>& lines) {
-    std::string html;
-    if (lines.empty()) return html;
-    html = fmt::format("<section>\n<h2>{}</h2>\n<ul class=\"{}\">\n", title, style);
-    for (const std::string& line : lines) html += fmt::format("<li>{}</li>\n", xml_escape(line));
-    return html + "</ul>\n</section>\n";
-  };
-  return list("Warnings", "notes", summary.warnings) + list("Notes", "remarks", summary.notes);
+  return lines_list("Warnings", "notes", summary.warnings);
+}
+
+std::string notes_list(const Summary& summary) {
+  return lines_list("Notes", "remarks", summary.notes);
 }
 
 std::string checks_table(const Summary& summary, const Units& units) {
   if (summary.checks.empty()) return {};
-  std::string html = fmt::format(
-      "<section>\n<h2>Checks</h2>\n<div class=\"scroll\"><table><thead><tr><th>Quantity</th>"
-      "<th class=\"number\">time{}</th><th class=\"number\">value</th><th class=\"number\">reference</th><th>unit</th>"
-      "<th class=\"number\">difference</th><th class=\"number\">tolerance</th><th></th><th>source</th></tr></thead>"
-      "<tbody>\n",
-      units.time.empty() ? "" : fmt::format(" [{}]", xml_escape(units.time)));
+  std::vector<TableRow> rows;
   for (const CheckSummary& check : summary.checks) {
-    html += fmt::format("<tr>{}{}{}{}{}{}{}{}{}</tr>\n", text_cell(check.name), number_cell(number_text(check.time, 6)),
-                        number_cell(number_text(check.value, 9)), number_cell(number_text(check.reference, 9)),
-                        text_cell(unit_of_column(units, check.quantity)), number_cell(difference(check)),
-                        number_cell(tolerance(check)), mark_cell(check.pass), text_cell(check.source));
+    const bool is_reached = !std::isnan(check.value);
+    rows.push_back({text_cell(check.name), number_cell(number_text(check.time, 6)),
+                    number_cell(number_text(check.value, 9)), number_cell(number_text(check.reference, 9)),
+                    text_cell(unit_of_column(units, check.quantity)), number_cell(difference(check)),
+                    number_cell(tolerance(check)),
+                    is_reached ? mark_cell(check.pass) : TableCell{"not reached", "mark"}, text_cell(check.source)});
   }
-  return html + "</tbody></table></div>\n</section>\n";
+  return "<section>\n<h2>Checks</h2>\n" +
+         html_table({{"Quantity"},
+                     {units.time.empty() ? "time" : fmt::format("time [{}]", units.time), true},
+                     {"value", true},
+                     {"reference", true},
+                     {"unit"},
+                     {"difference", true},
+                     {"tolerance", true},
+                     {""},
+                     {"source"}},
+                    rows) +
+         "</section>\n";
 }
 
 std::string ledger_tables(const Summary& summary, const Units& units) {
@@ -152,7 +170,12 @@ std::string run_table(const Summary& summary, const Units& units) {
   entry("Units", fmt::format("{} ({})", summary.case_info.units, units_comment(units).substr(7)));
   entry("Mesh", fmt::format("{} nodes, {} cells", summary.mesh.nodes, summary.mesh.cells));
   entry("Groups", groups(summary.mesh));
-  entry("Scheme", scheme.name);
+  if (scheme.stages.size() < 2) entry("Scheme", scheme.name);
+  for (std::size_t i = 0; i < scheme.stages.size() && scheme.stages.size() > 1; ++i) {
+    const StageSummary& stage = scheme.stages[i];
+    entry(fmt::format("Stage {}", i + 1), fmt::format("{}, from {} to {}", stage.name, number_text(stage.begin, 6),
+                                                      with_unit(number_text(stage.end, 6), units.time)));
+  }
   entry("Linear solver", scheme.solver);
   for (const std::string& note : scheme.mass_notes) entry("Mass", note);
   entry("Steps", steps(scheme, units));

@@ -10,8 +10,10 @@ namespace carom {
 
 /// Items of the verdict with value, limit and explanation.
 std::string verdict_table(const Summary& summary);
-/// What the run was warned of, and what was chosen or mended; "" when there is neither.
+/// What the run was warned of; "" when there is nothing.
 std::string warnings_list(const Summary& summary);
+/// What was chosen or mended; likewise.
+std::string notes_list(const Summary& summary);
 /// Checks with value, reference, difference, tolerance and source; "" when the case has none.
 std::string checks_table(const Summary& summary, const Units& units);
 /// Energies at the end by term, the same in Code_Aster's terms, and the momentum balances.

@@ -71,7 +71,8 @@ void write_report(const std::string& results_folder) {
   if (!tables.energy) data.notes.emplace_back("energy.csv is missing.");
   data.case_text = read_case(folder, data.notes);
   data.units = find_units(data.summary, {&tables.energy, &tables.contact, &tables.probes});
-  data.charts = make_charts(tables, data.units);
+  data.figures = key_figures(tables, data.summary, data.units);
+  data.charts = make_charts(tables, data.units, data.summary);
   write_file((folder / "report.html").string(), make_page(data));
 }
 

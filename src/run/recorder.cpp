@@ -58,6 +58,7 @@ Recorder::Recorder(const Simulation& simulation, std::string folder)
     : simulation_(simulation),
       folder_(std::move(folder)),
       tables_(simulation),
+      figures_(simulation),
       energy_file_(prepared(folder_) + "/energy.csv", tables_.energy.table().columns, comments(simulation, "energies")),
       contact_file_(folder_ + "/contact.csv", tables_.contact.table().columns,
                     comments(simulation, "contact forces on the body")),
@@ -75,6 +76,7 @@ void Recorder::record(const StepView& view, double end_weight, Moment moment) {
   if (view.step != last_sample_) tables_.contact.sample(view, end_weight);  // every step, once: the impulses are sums
   last_sample_ = view.step;
   const bool last = moment == Moment::last;
+  figures_.sample(view, last);
   const bool due = last || view.step % simulation_.given().output.curves_every == 0;
   const bool is_checked = tables_.checks.is_due(view.state.t, simulation_.dt());
   if (due || is_checked) {
@@ -176,6 +178,21 @@ void Recorder::write_filtered() const {
     file.append(row);
   }
   file.close();
+}
+
+void Recorder::fill(Summary& summary) const {
+  summary.parts = figures_.parts();
+  summary.stress = figures_.stress();
+  const Case& given = simulation_.given();
+  for (std::size_t p = 0; p < given.probes.size(); ++p) {
+    const CaseProbe& probe = given.probes[p];
+    const std::vector<Index>& nodes = tables_.probes.nodes(p);
+    summary.probes.push_back(
+        {*probe.name,
+         probe.group ? fmt::format("{} node{} of {}", nodes.size(), nodes.size() == 1 ? "" : "s", **probe.group)
+                     : fmt::format("node {}", simulation_.mesh().node_numbers[static_cast<std::size_t>(nodes[0])]),
+         tables_.probes.positions()[p]});
+  }
 }
 
 void Recorder::close() {

@@ -13,6 +13,7 @@
 #include "run/contact_fields.hpp"
 #include "run/curves.hpp"
 #include "run/exact_curves.hpp"
+#include "run/key_figures.hpp"
 
 namespace carom {
 
@@ -46,6 +47,8 @@ class Recorder {
   const std::vector<std::string>& notes() const { return tables_.probes.notes(); }
   std::vector<CheckSummary> checks() const { return tables_.checks.results(); }
   double worst_relative_penetration() const { return tables_.contact.worst_relative_penetration(); }
+  /// What the summary says of parts, stress and probes.
+  void fill(Summary& summary) const;
   double largest_pressure() const { return tables_.contact.largest_pressure(); }
 
  private:
@@ -55,6 +58,7 @@ class Recorder {
   const Simulation& simulation_;
   std::string folder_;
   RunTables tables_;
+  KeyFigures figures_;
   CsvFile energy_file_, contact_file_, probes_file_;
   std::optional<CsvFile> exact_file_;
   PvdCollection frames_;

@@ -331,6 +331,12 @@ void Run::fill(Summary& summary) const {
     }
     summary.scheme.mass_notes.insert(summary.scheme.mass_notes.end(), notes.lines.begin(), notes.lines.end());
   }
+  double stage_begin = 0.0;
+  for (const auto& stage : s_.stages()) {
+    summary.scheme.stages.push_back({stage->name(), stage_begin, stage->end()});
+    stage_begin = stage->end();
+  }
+  recorder_.fill(summary);
   if (!ledger_) return;
   const EnergyTerms e = ledger_->now();
   summary.ledger = {{"kinetic", e.kinetic},
@@ -364,6 +370,7 @@ Summary summary_of(const Simulation& s) {
   summary.case_info = {s.given().file, s.given().title, std::string(name(s.given().units))};
   summary.mesh.nodes = s.mesh().node_count();
   summary.mesh.cells = s.solid().cell_count();
+  summary.mesh.reach = reach(s.mesh());
   for (const std::string& group : s.mesh().group_names()) {
     const auto cells = s.mesh().cell_groups.find(group);
     summary.mesh.groups.push_back(
@@ -380,9 +387,14 @@ void judge(Summary& summary) {
   const auto checks = failed(summary.checks), items = failed(summary.verdict);
   if (summary.outcome != Outcome::good) return;
   if (checks + items > 0) summary.outcome = Outcome::failed;
-  summary.message = fmt::format("{} of {} checks and {} of {} verdict items passed",
-                                summary.checks.size() - static_cast<std::size_t>(checks), summary.checks.size(),
-                                summary.verdict.size() - static_cast<std::size_t>(items), summary.verdict.size());
+  const std::size_t all = summary.verdict.size(), passed = all - static_cast<std::size_t>(items);
+  if (summary.checks.empty()) {
+    summary.message = fmt::format("{} of {} verdict items passed; no checks: nothing was compared", passed, all);
+    return;
+  }
+  summary.message =
+      fmt::format("{} of {} checks and {} of {} verdict items passed",
+                  summary.checks.size() - static_cast<std::size_t>(checks), summary.checks.size(), passed, all);
 }
 
 /// To stderr; when that has gone, the results are still in the folder.

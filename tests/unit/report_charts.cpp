@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "report/charts.hpp"
+#include "report/readable_unit.hpp"
 
 namespace carom {
 namespace {
@@ -68,6 +69,8 @@ TEST(Charts, FilteredProbesLieOverTheRawOnes) {
   const auto charts = make_charts({.probes = probes, .probes_filtered = filtered}, kUnits);
   ASSERT_EQ(charts.size(), 1U);
   ASSERT_EQ(charts[0].curves.size(), 2U);
+  EXPECT_EQ(charts[0].curves[0].kind, CurveKind::raw);
+  EXPECT_EQ(charts[0].curves[1].kind, CurveKind::filtered);
   EXPECT_EQ(charts[0].curves[1].name, "z, filtered");
   EXPECT_EQ(charts[0].curves[1].values, (std::vector{3.1, 3.9}));
 }
@@ -82,9 +85,65 @@ TEST(Charts, NegligibleComponentsAreNamedInsteadOfDrawn) {
   EXPECT_EQ(charts[0].note, "Not drawn, zero or below 1e-9 of the largest: x.");
 }
 
-TEST(Charts, ZeroThroughoutGivesNoChart) {
+TEST(Charts, ZeroThroughoutIsSaidInALine) {
   const CsvTable contact = table_of({{"time", {0, 1}}, {"wall.force_z", {0, 0}}, {"wall.closed", {0, 0}}});
-  EXPECT_TRUE(make_charts({.contact = contact}, kUnits).empty());
+  const auto charts = make_charts({.contact = contact}, kUnits);
+  ASSERT_EQ(charts.size(), 1U);
+  EXPECT_TRUE(charts[0].curves.empty());
+  EXPECT_EQ(charts[0].title, "Zero throughout:");
+  EXPECT_EQ(charts[0].note, "wall · force; wall · closed.");
+}
+
+// 1e-13 of the largest of its kind is what rounding leaves of zero; 1e-11 may be a result.
+TEST(Charts, RoundOffIsSaidInALine) {
+  const CsvTable probes = table_of(
+      {{"time", {0, 1}}, {"A.velocity_z", {0, 1e-13}}, {"B.velocity_z", {0, -1}}, {"C.velocity_z", {0, 1e-11}}});
+  const auto charts = make_charts({.probes = probes}, kUnits);
+  ASSERT_EQ(charts.size(), 3U);
+  EXPECT_EQ(charts[0].title, "B · velocity");
+  EXPECT_EQ(charts[1].title, "C · velocity");
+  EXPECT_EQ(charts[2].title, "Round-off, not drawn:");
+  EXPECT_EQ(charts[2].note, "A · velocity.");
+}
+
+TEST(Charts, ImbalancesWithinTheirBoundAreSaidInALine) {
+  const CsvTable energy = table_of({{"time", {0, 1}}, {"kinetic", {8, 4}}, {"imbalance", {0, 3e-14}}});
+  Summary summary;
+  summary.verdict = {{"energy balance", 4e-15, 1e-10, true, ""}};
+  const auto kept = make_charts({.energy = energy}, kUnits, summary);
+  const Chart* said = find(kept, "Imbalance of powers:");
+  ASSERT_NE(said, nullptr);
+  EXPECT_TRUE(said->curves.empty());
+  EXPECT_EQ(said->note, "zero within the bound: at most 4e-15 of 1e-10 allowed, relative.");
+  // A broken bound is drawn.
+  const CsvTable off = table_of({{"time", {0, 1}}, {"kinetic", {8, 4}}, {"imbalance", {0, 3e-3}}});
+  summary.verdict = {{"energy balance", 4e-4, 1e-10, false, ""}};
+  const auto broken = make_charts({.energy = off}, kUnits, summary);
+  ASSERT_NE(find(broken, "Imbalance of powers"), nullptr);
+  EXPECT_EQ(find(broken, "Imbalance of powers")->curves.size(), 1U);
+}
+
+TEST(Charts, AConstantStepIsSaidInALine) {
+  const CsvTable energy = table_of({{"time", {0, 2e-6, 4e-6, 5e-6}}, {"dt", {0, 2e-6, 2e-6, 1e-6}}});
+  const auto charts = make_charts({.energy = energy}, kUnits);
+  ASSERT_EQ(charts.size(), 1U);
+  EXPECT_EQ(charts[0].note, "2 µs, the last shorter.");
+}
+
+TEST(Charts, TheMechanicalEnergyIsDrawnWithItsTerms) {
+  const CsvTable energy =
+      table_of({{"time", {0, 1}}, {"kinetic", {8, 4}}, {"strain", {0, 3}}, {"contact_stored", {0, 0.5}}});
+  const auto charts = make_charts({.energy = energy}, kUnits);
+  ASSERT_EQ(charts.at(0).curves.size(), 4U);
+  EXPECT_EQ(charts[0].curves[3].name, "total: kinetic + strain + contact stored");
+  EXPECT_EQ(charts[0].curves[3].values, (std::vector{8.0, 7.5}));
+}
+
+TEST(Charts, CountsHaveWholeTicks) {
+  const CsvTable contact = table_of({{"time", {0, 1}}, {"wall.force_z", {0, 1}}, {"wall.closed", {0, 2}}});
+  const auto json = nlohmann::json::parse(charts_json({make_charts({.contact = contact}, kUnits), "s"}));
+  EXPECT_EQ(json["charts"][0]["count"], false);
+  EXPECT_EQ(json["charts"][1]["count"], true);
 }
 
 TEST(Charts, EnergyColumnsAreGroupedByMeaning) {
@@ -94,7 +153,7 @@ TEST(Charts, EnergyColumnsAreGroupedByMeaning) {
                                     {"kinetic", {8, 4}},
                                     {"strain", {0, 4}},
                                     {"plastic", {0, 1}},
-                                    {"imbalance", {0, 1e-12}},
+                                    {"imbalance", {0, 1e-3}},
                                     {"quadrature", {0, 1e-3}},
                                     {"ENER_CIN", {0, -4}},
                                     {"TRAV_EXT", {0, 0}},
@@ -123,7 +182,7 @@ TEST(Charts, JsonIsSafeInsideAScriptElement) {
   const std::string hostile = "</script><!-- \"\\ é";
   const std::vector<Chart> charts{
       {"Probes", "t", hostile, "m", {{hostile, {0.0, 1.0}, {0.1, 1.0 / 3.0}, CurveKind::exact}}, ""}};
-  const std::string text = charts_json(charts, kUnits);
+  const std::string text = charts_json({charts, "s"});
   EXPECT_EQ(text.find('<'), std::string::npos);
   const auto json = nlohmann::json::parse(text);
   EXPECT_EQ(json["time_unit"], "s");
@@ -133,7 +192,26 @@ TEST(Charts, JsonIsSafeInsideAScriptElement) {
   EXPECT_EQ(json["charts"][0]["curves"][0]["t"], (std::vector{0.0, 1.0}));
   // Eight significant digits of 1/3.
   EXPECT_EQ(json["charts"][0]["curves"][0]["y"][1], 0.33333333);
-  EXPECT_TRUE(nlohmann::json::parse(charts_json({}, kUnits))["charts"].empty());
+  EXPECT_TRUE(nlohmann::json::parse(charts_json({{}, "s"}))["charts"].empty());
+}
+
+TEST(ReadableUnit, TakesPrefixesWhereThereAreSome) {
+  const auto name = [](double largest, const char* unit) { return readable_unit(largest, unit).name; };
+  EXPECT_EQ(name(40600.0, "N"), "kN");
+  EXPECT_EQ(name(5000.0, "mm/s"), "m/s");
+  EXPECT_EQ(name(0.0021, "m"), "mm");
+  EXPECT_EQ(name(4e8, "Pa"), "MPa");
+  EXPECT_EQ(name(2100.0, "MPa"), "GPa");
+  EXPECT_EQ(name(12000.0, "mJ"), "J");
+  EXPECT_EQ(name(4e-4, "s"), "µs");
+  EXPECT_EQ(name(0.002, "N s"), "mN s");
+  EXPECT_EQ(name(226.0, "MPa"), "MPa");
+  EXPECT_EQ(name(5000.0, "kg m/s"), "kg m/s");
+  EXPECT_EQ(name(2e-4, "t mm/s"), "10⁻⁶ t mm/s");
+  EXPECT_EQ(name(2e7, ""), "10⁶");
+  EXPECT_EQ(name(0.0, "N"), "N");
+  EXPECT_EQ(readable_unit(4e8, "Pa").power, 6);
+  EXPECT_EQ(with_readable_unit(-40665.7, "N", 3), "-40.7 kN");
 }
 
 }  // namespace

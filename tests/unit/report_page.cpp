@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/errors.hpp"
+#include "output/summary.hpp"
 #include "report/assets.hpp"
 #include "report/report.hpp"
 #include "report_sample.hpp"
@@ -58,19 +59,77 @@ bool contains(const std::string& text, const std::string& part) {
 TEST_F(ReportPage, ShowsVerdictChecksLedgerAndCase) {
   const std::string html = page();
   EXPECT_TRUE(contains(html, "<strong>Failed</strong><span>1 of 3 checks did not pass: B.velocity_z at t = 4e-05."));
-  EXPECT_TRUE(contains(html, "<td>energy balance</td><td class=\"number\">3.9e-15</td><td class=\"number\">≤ 1e-10"));
+  EXPECT_TRUE(contains(
+      html, "<td data-label=\"Item\">energy balance</td><td class=\"number\" data-label=\"value\">3.9e-15</td>"));
   // 101.2 against 100: 1.2 % above, tolerance 1e-3.
   EXPECT_TRUE(contains(html,
-                       "<td class=\"number\">101.2</td><td class=\"number\">100</td><td>m/s</td>"
-                       "<td class=\"number\">1.2 %</td><td class=\"number\">± 0.1 %</td>"
-                       "<td class=\"mark fail\">✗ fail</td><td>exact solution of the bar</td>"));
+                       "<td class=\"number\" data-label=\"value\">101.2</td><td class=\"number\" "
+                       "data-label=\"reference\">100</td><td data-label=\"unit\">m/s</td>"
+                       "<td class=\"number\" data-label=\"difference\">1.2 %</td><td class=\"number\" "
+                       "data-label=\"tolerance\">± 0.1 %</td><td class=\"mark fail\" data-label=\"\">✗ fail</td>"
+                       "<td data-label=\"source\">exact solution of the bar</td>"));
   // An absolute tolerance with reference 0 has no percent.
-  EXPECT_TRUE(contains(html, "<td class=\"number\">-1.3e-09</td><td class=\"number\">± 1e-06</td>"));
-  EXPECT_TRUE(contains(html, "<td>contact stored</td>"));
-  EXPECT_TRUE(contains(html, "<td>TRAV_LIAI</td><td class=\"number\">0.002</td>"));
+  EXPECT_TRUE(contains(html, ">-1.3e-09</td><td class=\"number\" data-label=\"tolerance\">± 1e-06</td>"));
+  EXPECT_TRUE(contains(html, ">contact stored</td>"));
+  EXPECT_TRUE(contains(html, ">TRAV_LIAI</td><td class=\"number\" data-label=\"energy [J]\">0.002</td>"));
   EXPECT_TRUE(contains(html, "file = &quot;bar.msh&quot;"));
   EXPECT_TRUE(contains(html, "88 nodes, 21 cells"));
   EXPECT_TRUE(contains(html, "SI (m, s, kg, N, Pa, J)"));
+}
+
+// The bar of the sample: 2 ms rho c v A = 4e8 Pa x 1e-4 m2 = 40 kN, ringing by a quarter at the touch (20 us), two wave
+// transits of 4 us each closed.
+TEST_F(ReportPage, KeyFiguresStandOnTop) {
+  const std::string html = page();
+  const std::size_t figures = html.find("<h2>Key figures</h2>"), checks = html.find("<h2>Checks</h2>");
+  ASSERT_NE(figures, std::string::npos);
+  EXPECT_LT(figures, checks);
+  EXPECT_TRUE(contains(html, "<dt>Peak force, wall</dt><dd><strong>49.") || contains(html, "<strong>50 kN</strong>"));
+  EXPECT_TRUE(contains(html, " kN</strong> at 20."));
+  EXPECT_TRUE(contains(html, "<dt>Duration of contact, wall</dt><dd><strong>8 µs</strong> from 20.01 µs"));
+  EXPECT_TRUE(
+      contains(html, "<dt>Rebound speed, bar</dt><dd><strong>98 m/s</strong> 100 m/s at the beginning, ratio 0.98"));
+  EXPECT_TRUE(
+      contains(html, "<strong>410 MPa</strong> in bar, cell 7 at (0.005, 0, 0.001) m, at 22 µs; of 201 instants"));
+}
+
+TEST_F(ReportPage, SaysWhereProbesAreAndMarksStages) {
+  const std::string html = page();
+  EXPECT_TRUE(contains(html, "B · displacement <span class=\"place\">node 1 at (0, 0, 0.02) m</span>"));
+  const auto json = charts(html);
+  ASSERT_EQ(json["marks"].size(), 1U);
+  EXPECT_EQ(json["marks"][0]["t"], 1e-5);
+  EXPECT_EQ(json["marks"][0]["name"], "Newmark beta 0.25 gamma 0.5");
+  EXPECT_EQ(json["time_unit"], "µs");
+  EXPECT_EQ(json["time_power"], -6);
+}
+
+/// The sample's summary with another end.
+class ReportOfOutcome : public ReportPage {
+ protected:
+  std::string page_of(Outcome outcome, bool has_checks) {
+    Summary summary = read_summary((folder_ / "summary.json").string());
+    summary.outcome = outcome;
+    if (!has_checks) summary.checks.clear();
+    std::erase_if(summary.verdict, [](const VerdictItem& item) { return !item.pass; });
+    write_summary((folder_ / "summary.json").string(), summary);
+    return own_page();
+  }
+};
+
+TEST_F(ReportOfOutcome, GoodWithoutChecksIsNotTheGreenOfAValidatedRun) {
+  EXPECT_TRUE(
+      contains(page_of(Outcome::good, true), "<div class=\"banner good\" role=\"status\"><strong>Good</strong>"));
+  EXPECT_TRUE(contains(page_of(Outcome::good, false),
+                       "<div class=\"banner unchecked\" role=\"status\"><strong>Good, no checks</strong>"));
+}
+
+TEST_F(ReportOfOutcome, AnErrorHasNoWallOfPasses) {
+  const std::string html = page_of(Outcome::error, true);
+  EXPECT_TRUE(contains(html,
+                       "<h2>No verdict: the run did not reach its end</h2>\n<details><summary>The items up to there: "
+                       "3 of 3 within their limits</summary>"));
+  EXPECT_FALSE(contains(html, "<h2>Verdict</h2>"));
 }
 
 TEST_F(ReportPage, TextOfTheUserStaysText) {
@@ -123,8 +182,8 @@ TEST_F(ReportPage, InterruptedRunStillHasAReport) {
   EXPECT_TRUE(contains(html, "<li>case.resolved.toml is missing.</li>"));
   EXPECT_TRUE(contains(html, "is not a whole row; it and what follows were left out.</li>"));
   const auto json = charts(html);
-  EXPECT_EQ(json["time_unit"], "s");  // from the tables' comments
-  EXPECT_EQ(json["charts"][0]["unit"], "m");
+  EXPECT_EQ(json["time_unit"], "µs");  // from the tables' comments
+  EXPECT_EQ(json["charts"][0]["unit"], "mm");
 }
 
 TEST_F(ReportPage, EmptyOrDamagedFolderStillHasAReport) {

@@ -106,8 +106,12 @@ Summary sample_summary(int rows) {
   Summary s;
   s.program = {"0.1.0", "GCC 12.2.0", "v3", 2};
   s.case_info = {"cases/bar/case.toml", kHostileTitle, "SI"};
-  s.mesh = {88, 21, {{"ENCASTR", 4, 1}, {"SYMX", 44, 20}, {"BAR", 84, 20}}};
+  s.mesh = {88, 21, {{"ENCASTR", 4, 1}, {"SYMX", 44, 20}, {"BAR", 84, 20}}, 0.022};
+  s.parts = {{"bar", kDensity * kLength * kArea, {0, 0, -kSpeed}, {0, 0, 0.98 * kSpeed}}};
+  s.stress = {4.1e8, 2.2e-5, "bar", 7, {0.005, 1e-19, 0.001}, 201};
+  s.probes = {{"B", "node 1", {0.0, 0.0, 0.02}}};
   s.scheme = {"Newmark beta 0.25 gamma 0.5", "CHOLMOD", kEnd / (rows - 1), kEnd / (rows - 1), rows - 1, kEnd, kEnd};
+  s.scheme.stages = {{"statics", 0.0, 1e-5}, {"Newmark beta 0.25 gamma 0.5", 1e-5, kEnd}};
   s.cost = {0.0834, 0.151, {{"setup", 0.012}, {"steps", 0.061}, {"output", 0.01}}, 23500000};
   s.ledger = {{"kinetic", 80.0},    {"strain", 1.3e-9},     {"contact_stored", 0.0}, {"friction", 0.0},
               {"damping", 0.0},     {"external_work", 0.0}, {"support_work", 0.0},   {"algorithmic", -2.1e-12},

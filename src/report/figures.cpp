@@ -1,0 +1,156 @@
+#include "report/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "report/html.hpp"
+#include "report/readable_unit.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t kMost = 4;
+constexpr double kNegligible = 1e-9;
+
+/// A figure on its way to the list, which keeps those of largest weight.
+struct Weighed {
+  KeyFigure figure;
+  double weight = 0.0;
+};
+
+void keep_largest(std::vector<Weighed>& all, std::vector<KeyFigure>& figures) {
+  double largest = 0.0;
+  for (const Weighed& w : all) largest = std::max(largest, w.weight);
+  std::erase_if(all, [largest](const Weighed& w) { return !(w.weight > kNegligible * largest); });
+  std::stable_sort(all.begin(), all.end(), [](const Weighed& a, const Weighed& b) { return a.weight > b.weight; });
+  for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i) figures.push_back(std::move(all[i].figure));
+}
+
+double length(const Vec3& v) {
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+std::string time_text(double t, const Units& units) {
+  return with_readable_unit(t, units.time, 4);
+}
+
+/// Places of the table that have a quantity, e.g. "closed".
+std::vector<std::string> places_with(const CsvTable& table, std::string_view quantity) {
+  std::vector<std::string> places;
+  for (const std::string& column : table.columns) {
+    const ColumnName name = parse_column(column);
+    if (name.place.empty() || name.quantity != quantity) continue;
+    if (places.empty() || places.back() != name.place) places.emplace_back(name.place);
+  }
+  return places;
+}
+
+/// The vector of a place in a row; components that are not there are zero.
+Vec3 vector_at(const CsvTable& table, const std::string& place, std::string_view quantity, std::size_t row) {
+  Vec3 v{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto* values = table.column(fmt::format("{}.{}_{}", place, quantity, "xyz"[i]));
+    if (values != nullptr) v[i] = (*values)[row];
+  }
+  return v;
+}
+
+void add_peak_forces(const CsvTable& contact, const Units& units, std::vector<KeyFigure>& figures) {
+  std::vector<Weighed> all;
+  for (const std::string& place : places_with(contact, "force")) {
+    double peak = 0.0, when = 0.0;
+    for (std::size_t row = 0; row < contact.rows(); ++row) {
+      const double force = length(vector_at(contact, place, "force", row));
+      if (!(force > peak)) continue;
+      peak = force;
+      when = contact.values.front()[row];
+    }
+    all.push_back(
+        {{"Peak force, " + place, with_readable_unit(peak, units.force, 4), "at " + time_text(when, units)}, peak});
+  }
+  if (!all.empty() && std::all_of(all.begin(), all.end(), [](const Weighed& w) { return w.weight == 0.0; })) {
+    figures.push_back({"Contact force", "none", "nothing was touched"});
+    return;
+  }
+  keep_largest(all, figures);
+}
+
+/// Time with a closed row: an interval between rows of the table counts by half for each of its ends that is closed.
+void add_durations(const CsvTable& contact, const Units& units, std::vector<KeyFigure>& figures) {
+  std::vector<Weighed> all;
+  const std::vector<double>& time = contact.values.front();
+  for (const std::string& place : places_with(contact, "closed")) {
+    const std::vector<double>& closed = *contact.column(place + ".closed");
+    double sum = 0.0, first = std::numeric_limits<double>::quiet_NaN();
+    int touches = 0;
+    for (std::size_t row = 0; row < closed.size(); ++row) {
+      const double before = row > 0 ? closed[row - 1] : 0.0;
+      if (row > 0)
+        sum += 0.5 * (time[row] - time[row - 1]) * ((before > 0.0 ? 1.0 : 0.0) + (closed[row] > 0.0 ? 1 : 0));
+      if (before > 0.0 || !(closed[row] > 0.0)) continue;
+      if (touches++ == 0) first = time[row];
+    }
+    if (touches == 0) continue;
+    std::string remark = "from " + time_text(first, units);
+    if (touches > 1) remark += fmt::format(", in {} touches", touches);
+    if (closed.back() > 0.0) remark += ", and still closed at the end";
+    all.push_back({{"Duration of contact, " + place, time_text(sum, units), std::move(remark)}, sum});
+  }
+  keep_largest(all, figures);
+}
+
+Weighed speed_figure(const std::string& body, const Vec3& begin, const Vec3& end, const Units& units) {
+  const double before = length(begin), after = length(end);
+  const bool is_back = begin[0] * end[0] + begin[1] * end[1] + begin[2] * end[2] < 0.0;
+  const std::string unit = unit_of_column(units, "velocity");
+  std::string remark = with_readable_unit(before, unit, 4) + " at the beginning";
+  if (before > 0.0) remark += fmt::format(", ratio {:.3g}", after / before);
+  return {{(is_back ? "Rebound speed, " : "Speed at the end, ") + body, with_readable_unit(after, unit, 4),
+           std::move(remark)},
+          std::max(before, after)};
+}
+
+void add_speeds(const Tables& tables, const std::optional<Summary>& summary, const Units& units,
+                std::vector<KeyFigure>& figures) {
+  std::vector<Weighed> all;
+  if (summary) {
+    for (const PartSummary& part : summary->parts)
+      all.push_back(speed_figure(part.name, part.velocity_begin, part.velocity_end, units));
+  }
+  if (tables.contact && tables.contact->rows() > 0) {
+    const CsvTable& table = *tables.contact;
+    for (const std::string& place : places_with(table, "velocity")) {
+      all.push_back(speed_figure(place, vector_at(table, place, "velocity", 0),
+                                 vector_at(table, place, "velocity", table.rows() - 1), units));
+    }
+  }
+  keep_largest(all, figures);
+}
+
+void add_stress(const Summary& summary, const Units& units, std::vector<KeyFigure>& figures) {
+  const StressSummary& stress = summary.stress;
+  if (stress.instants == 0 || !(stress.value > 0.0)) return;
+  figures.push_back({"Largest von Mises stress", with_readable_unit(stress.value, units.stress, 4),
+                     fmt::format("in {}, cell {} at {}, at {}; of {} instants", stress.part, stress.cell,
+                                 place_text(stress.position, summary.mesh.reach, units.length),
+                                 time_text(stress.time, units), stress.instants)});
+}
+
+}  // namespace
+
+std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units) {
+  std::vector<KeyFigure> figures;
+  if (tables.contact && tables.contact->rows() > 0) {
+    add_peak_forces(*tables.contact, units, figures);
+    add_durations(*tables.contact, units, figures);
+  }
+  add_speeds(tables, summary, units, figures);
+  if (summary) add_stress(*summary, units, figures);
+  return figures;
+}
+
+}  // namespace carom

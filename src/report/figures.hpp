@@ -1,0 +1,24 @@
+// The key figures at the head of the report.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/summary.hpp"
+#include "output/units.hpp"
+#include "report/charts.hpp"
+
+namespace carom {
+
+/// One number with what it is and a remark.
+struct KeyFigure {
+  std::string title, value, remark;
+};
+
+/// Peak force of each contact and when, how long each was closed, how fast bodies were before and after, the largest
+/// stress and where. From contact.csv and the summary, as far as they are there; of many contacts or parts the
+/// largest four.
+std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units);
+
+}  // namespace carom

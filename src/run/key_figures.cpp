@@ -1,0 +1,113 @@
+#include "run/key_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "math/vec3.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr long long instants = 200;
+
+long long stress_interval(const Simulation& simulation) {
+  const auto is_explicit_stage = [](const auto& stage) { return is_explicit(stage->settings().kind); };
+  const auto& stages = simulation.stages();
+  const long long least = std::any_of(stages.begin(), stages.end(), is_explicit_stage) ? 10 : 1;
+  return std::max(least, (simulation.steps() + instants - 1) / instants);
+}
+
+}  // namespace
+
+double von_mises(const std::array<double, 6>& s) {
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
+
+KeyFigures::KeyFigures(const Simulation& simulation)
+    : simulation_(simulation),
+      cell_mass_(simulation.solid().cell_masses()),
+      stress_every_(stress_interval(simulation)) {}
+
+std::vector<Vec3> KeyFigures::velocities(const std::vector<double>& v) const {
+  const Solid& solid = simulation_.solid();
+  std::vector<Vec3> out;
+  std::size_t k = 0;  // the cells stand part after part
+  for (const Part& part : simulation_.model().parts) {
+    Vec3 momentum{};
+    double mass = 0.0;
+    for (std::size_t c = 0; c < part.cells.size(); ++c, ++k) {
+      const auto nodes = solid.nodes_of_cell(k);
+      const double share = cell_mass_[k] / static_cast<double>(nodes.size());
+      for (const Index n : nodes) {
+        const double* of_node = v.data() + 3 * static_cast<std::size_t>(n);
+        momentum = add(momentum, scaled({of_node[0], of_node[1], of_node[2]}, share));
+      }
+      mass += cell_mass_[k];
+    }
+    out.push_back(scaled(momentum, 1.0 / mass));
+  }
+  return out;
+}
+
+void KeyFigures::look_at_stress(const StepView& view) {
+  const Solid& solid = simulation_.solid();
+  const std::vector<std::array<double, 6>> stress = solid.cell_stress(view.state.q);
+  std::size_t worst = 0, end_of_part = 0;
+  double largest = -1.0;
+  for (std::size_t k = 0; k < stress.size(); ++k) {
+    const double value = von_mises(stress[k]);
+    if (value > largest) {
+      largest = value;
+      worst = k;
+    }
+  }
+  ++stress_.instants;
+  if (!(largest > stress_.value)) return;
+  const Mesh& mesh = simulation_.mesh();
+  stress_.value = largest;
+  stress_.time = view.state.t;
+  for (const Part& part : simulation_.model().parts) {
+    end_of_part += part.cells.size();
+    stress_.part = part.name;
+    if (worst < end_of_part) break;
+  }
+  const CellRef cell = solid.cells()[worst];
+  stress_.cell = mesh.blocks[static_cast<std::size_t>(cell.block)].file_numbers[static_cast<std::size_t>(cell.cell)];
+  stress_.position = {};
+  const auto nodes = solid.nodes_of_cell(worst);
+  for (const Index n : nodes)
+    stress_.position = add(stress_.position, scaled(mesh.coordinates[static_cast<std::size_t>(n)],
+                                                    1.0 / static_cast<double>(nodes.size())));
+}
+
+bool KeyFigures::is_static(double t) const {
+  const auto& stages = simulation_.stages();
+  const double slack = 1e-9 * simulation_.end();
+  const auto now = std::find_if(stages.begin(), stages.end(), [&](const auto& s) { return t <= s->end() + slack; });
+  return now != stages.end() && (*now)->settings().kind == SchemeKind::statics;
+}
+
+void KeyFigures::sample(const StepView& view, bool is_last) {
+  if (begin_.empty() && !is_static(view.state.t)) begin_ = velocities(view.state.v);
+  if (view.step == last_step_ || !(is_last || view.step % stress_every_ == 0)) return;
+  last_step_ = view.step;
+  look_at_stress(view);
+  end_ = velocities(view.state.v);
+}
+
+std::vector<PartSummary> KeyFigures::parts() const {
+  std::vector<PartSummary> out;
+  auto first = cell_mass_.begin();
+  for (std::size_t p = 0; p < end_.size(); ++p) {
+    const Part& part = simulation_.model().parts[p];
+    const auto last = first + static_cast<std::ptrdiff_t>(part.cells.size());
+    out.push_back({part.name, std::accumulate(first, last, 0.0), begin_.empty() ? end_[p] : begin_[p], end_[p]});
+    first = last;
+  }
+  return out;
+}
+
+}  // namespace carom
