@@ -16,7 +16,7 @@ struct Coefficients {
 };
 
 Coefficients coefficients(double dt, double cfc) {
-  const double wd = 2.0 * std::numbers::pi * cfc * 2.0775;
+  const double wd = 2.0 * std::numbers::pi * cfc_limit(cfc);
   const double wa = std::tan(wd * dt / 2.0);
   const double denominator = 1.0 + std::numbers::sqrt2 * wa + wa * wa;
   const double a0 = wa * wa / denominator;
@@ -50,7 +50,7 @@ std::vector<double> cfc_filter(std::span<const double> samples, double dt, doubl
   }
   if (samples.empty()) return {};
   // Continue both ends by point reflection for one period of the cut-off, or as far as the data go.
-  const auto wanted = static_cast<std::size_t>(std::ceil(1.0 / (2.0775 * cfc * dt)));
+  const auto wanted = static_cast<std::size_t>(std::ceil(1.0 / (cfc_limit(cfc) * dt)));
   const std::size_t pad = std::min(wanted, samples.size() - 1);
   std::vector<double> y(samples.size() + 2 * pad);
   std::copy(samples.begin(), samples.end(), y.begin() + static_cast<std::ptrdiff_t>(pad));
@@ -65,6 +65,36 @@ std::vector<double> cfc_filter(std::span<const double> samples, double dt, doubl
   std::reverse(y.begin(), y.end());
   const auto first = y.begin() + static_cast<std::ptrdiff_t>(pad);
   return {first, first + static_cast<std::ptrdiff_t>(samples.size())};
+}
+
+std::vector<double> equal_times(std::span<const double> time, double cfc) {
+  constexpr double rounding = 1e-6;  // far above that of times
+  const double length = time.back() - time.front(), mean = length / static_cast<double>(time.size() - 1);
+  double smallest = mean;
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    const double step = time[i] - time[i - 1];
+    if (step > 1e-9 * mean) smallest = std::min(smallest, step);  // equal times are no interval
+  }
+  const double wanted = std::max(smallest, 1e-3 / cfc);
+  const auto intervals = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(length / wanted - rounding)));
+  std::vector<double> at(intervals + 1);
+  for (std::size_t i = 0; i <= intervals; ++i)
+    at[i] = time.front() + length * (static_cast<double>(i) / static_cast<double>(intervals));
+  return at;
+}
+
+std::vector<double> resampled(std::span<const double> time, std::span<const double> values,
+                              std::span<const double> at) {
+  std::vector<double> out;
+  out.reserve(at.size());
+  std::size_t next = 1;
+  for (const double t : at) {
+    while (next + 1 < time.size() && time[next] < t) ++next;
+    const double step = time[next] - time[next - 1];
+    const double w = step > 0.0 ? std::clamp((t - time[next - 1]) / step, 0.0, 1.0) : 1.0;
+    out.push_back((1.0 - w) * values[next - 1] + w * values[next]);
+  }
+  return out;
 }
 
 }  // namespace carom

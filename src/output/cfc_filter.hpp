@@ -19,4 +19,17 @@ inline constexpr double cfc_longest_sampling = 0.1;
 /// sampling frequency is below 10 cfc (J211's minimum).
 std::vector<double> cfc_filter(std::span<const double> samples, double dt, double cfc);
 
+/// Lowest frequency that the class cuts, 2.0775 cfc in Hz: what is slower than three of its periods is shaped by the
+/// continuation of the ends.
+inline constexpr double cfc_limit(double cfc) {
+  return 2.0775 * cfc;
+}
+
+/// Equal intervals of time over a record for a filter of class cfc: the smallest interval of the record, or 1/1000 of
+/// the period of the class if that is more; whole ones to its end. Times in seconds, ascending, at least two.
+std::vector<double> equal_times(std::span<const double> time, double cfc);
+
+/// Values at the times `at`, linear between those at `time`, whose ends are those of `at`. Both ascending.
+std::vector<double> resampled(std::span<const double> time, std::span<const double> values, std::span<const double> at);
+
 }  // namespace carom

@@ -63,6 +63,23 @@ double largest_of(const Group& group, const CsvTable& table) {
   return largest;
 }
 
+/// What probes_filtered.csv says of the records of a place or of a column.
+std::string remarks_on_filters(const Group& group, const std::optional<CsvTable>& filtered) {
+  std::string text;
+  if (!filtered) return text;
+  const std::string place = fmt::format("note: {}: ", parse_column(group.columns.front()).place);
+  for (const std::string& comment : filtered->comments) {
+    const auto is_of = [&](const std::string& column) { return comment.starts_with(column + ": not filtered"); };
+    if (comment.starts_with(place)) {
+      text += fmt::format(" Filtered: {}.", std::string_view(comment).substr(place.size()));
+    } else if (is_of(group.columns.front())) {
+      text +=
+          fmt::format(" Not filtered: {}.", std::string_view(comment).substr(comment.find(": not filtered: ") + 16));
+    }
+  }
+  return text;
+}
+
 /// The chart of a group that is not zero.
 Chart make_chart(const Group& group, const CsvTable& table, const Tables& tables, const Units& units) {
   Chart chart{group.section, group.title, group.label, unit_of_column(units, group.columns.front()), {}, {}};
@@ -85,6 +102,7 @@ Chart make_chart(const Group& group, const CsvTable& table, const Tables& tables
   for (std::string& column : left_out) column = curve_name(column);
   if (!left_out.empty())
     chart.note = fmt::format("Not drawn, zero or below 1e-9 of the largest: {}.", fmt::join(left_out, ", "));
+  if (group.section == "Probes") chart.note += remarks_on_filters(group, tables.probes_filtered);
   return chart;
 }
 

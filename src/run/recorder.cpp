@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <utility>
 
 #include "base/units.hpp"
 #include "output/cfc_filter.hpp"
@@ -127,53 +127,58 @@ void Recorder::record_frame(const StepView& view) {
 
 namespace {
 
-/// Number of rows from the first on whose times are equidistant: the step may have been halved, and the last row is
-/// written whether it is due or not.
-std::size_t equidistant_rows(const std::vector<std::vector<double>>& rows) {
-  std::size_t n = std::min<std::size_t>(rows.size(), 2);
-  while (n >= 2 && n < rows.size()) {
-    const double first = rows[1][0] - rows[0][0], step = rows[n][0] - rows[n - 1][0];
-    if (std::abs(step - first) > 1e-6 * first) break;  // far above the round-off of times
-    ++n;
-  }
-  return n;
+/// What is to be known of a record beside its class; "" when nothing is.
+std::string shortness(const CaseProbe& probe, double seconds) {
+  constexpr double enough = 3.0;
+  const double periods = seconds * cfc_limit(*probe.cfc);
+  if (periods >= enough) return {};
+  return fmt::format(
+      "note: {}: the record of {:.3g} s is {:.2g} periods of the limit of CFC {:g} ({:.4g} Hz), less than {:g}: how "
+      "the "
+      "filter continues its ends shapes all of it",
+      *probe.name, seconds, periods, *probe.cfc, cfc_limit(*probe.cfc), enough);
 }
 
 }  // namespace
 
-/// Probes with a channel frequency class, filtered after the run: probes_filtered.csv, the classes in its header.
+/// Probes with a channel frequency class, filtered after the run on equal intervals of time: probes_filtered.csv, the
+/// classes in its header.
 void Recorder::write_filtered() const {
-  const std::size_t rows = equidistant_rows(filtered_rows_);
-  if (rows < 3) return;
+  if (filtered_rows_.size() < 3) return;
   const Case& given = simulation_.given();
-  const double seconds = si_factor(Dimension::time, given.units);
-  const double dt = (filtered_rows_[rows - 1][0] - filtered_rows_[0][0]) / static_cast<double>(rows - 1);
+  const double second = si_factor(Dimension::time, given.units);
+  std::vector<double> time;
+  for (const auto& row : filtered_rows_) time.push_back(row[0] * second);
+  double highest = 0.0, longest = 0.0;
+  for (const CaseProbe& probe : given.probes) highest = std::max(highest, probe.cfc.value_or(0.0));
+  for (std::size_t i = 1; i < time.size(); ++i) longest = std::max(longest, time[i] - time[i - 1]);
+  const std::vector<double> at = equal_times(time, highest);
+  const double dt = (at.back() - at.front()) / static_cast<double>(at.size() - 1);
   std::vector<std::string> columns{"time"}, header = comments(simulation_, "filtered probes");
-  if (rows < filtered_rows_.size()) {
-    header.push_back(fmt::format("ends at {}: the rows of probes.csv after it are not equidistant, which filters need",
-                                 filtered_rows_[rows - 1][0]));
-  }
   std::vector<std::vector<double>> values;
   for (const CaseProbe& probe : given.probes) {
     if (!probe.cfc) continue;
+    if (std::string note = shortness(probe, at.back() - at.front()); !note.empty()) header.push_back(std::move(note));
     for (std::size_t c = 1; c < tables_.probes.table().columns.size(); ++c) {
       const std::string& column = tables_.probes.table().columns[c];
       if (column.substr(0, column.rfind('.')) != *probe.name) continue;
       std::vector<double> raw;
-      for (std::size_t i = 0; i < rows; ++i) raw.push_back(filtered_rows_[i][c]);
-      try {
-        values.push_back(cfc_filter(raw, dt * seconds, *probe.cfc));
-      } catch (const std::invalid_argument& e) {
-        header.push_back(fmt::format("{}: not filtered: {}", column, e.what()));
+      for (const auto& row : filtered_rows_) raw.push_back(row[c]);
+      if (longest * *probe.cfc > cfc_longest_sampling * (1.0 + 1e-9)) {
+        header.push_back(fmt::format(
+            "{}: not filtered: CFC {:g} needs a sample at least every {:.3g} s (10 times the class); some are {:.3g} s "
+            "apart",
+            column, *probe.cfc, cfc_longest_sampling / *probe.cfc, longest));
         continue;
       }
+      values.push_back(cfc_filter(resampled(time, raw, at), dt, *probe.cfc));
       columns.push_back(column);
       header.push_back(fmt::format("{}: SAE J211 CFC {:g}", column, *probe.cfc));
     }
   }
   CsvFile file(folder_ + "/probes_filtered.csv", columns, header);
-  for (std::size_t i = 0; i < rows; ++i) {
-    std::vector<double> row{filtered_rows_[i][0]};
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    std::vector<double> row{at[i] / second};
     for (const auto& column : values) row.push_back(column[i]);
     file.append(row);
   }

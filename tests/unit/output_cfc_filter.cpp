@@ -107,5 +107,42 @@ TEST(CfcFilter, TooCoarseSamplingIsRefused) {
   EXPECT_THROW(cfc_filter(x, std::nan(""), 60.0), std::invalid_argument);
 }
 
+// A sine of 50 Hz on steps that change by up to 4: on equal intervals, and through the filter, it is the sine but for
+// the parabola between two rows, h^2 w^2 / 8 = 8e-5 for h = 1e-4 s / 1.25 and less elsewhere.
+TEST(CfcFilter, RecordsOfChangingStepsAreResampledFirst) {
+  std::vector<double> time{0.0}, values;
+  for (int i = 0; time.back() < 0.1; ++i) time.push_back(std::min(0.1, time.back() + (i % 3 == 0 ? 8e-5 : 2e-5)));
+  const double w = 2.0 * std::numbers::pi * 50.0;
+  values.reserve(time.size());
+  for (const double t : time) values.push_back(std::sin(w * t));
+  const std::vector<double> at = equal_times(time, 1000.0);
+  EXPECT_EQ(at.front(), 0.0);
+  EXPECT_EQ(at.back(), 0.1);
+  EXPECT_NEAR(at[1], 2e-5, 1e-9);
+  const std::vector<double> even = resampled(time, values, at);
+  const std::vector<double> filtered = cfc_filter(even, at[1], 1000.0);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    EXPECT_NEAR(even[i], std::sin(w * at[i]), 8e-5);
+    EXPECT_NEAR(filtered[i], std::sin(w * at[i]), 5e-4);  // and 1e-4 of the passband's own at 50 of 1650 Hz
+  }
+}
+
+TEST(CfcFilter, EqualStepsStayAsTheyAre) {
+  std::vector<double> time, values;
+  for (int i = 0; i <= 1000; ++i) {
+    time.push_back(3.7e-4 * i);
+    values.push_back(std::cos(0.1 * i * i));
+  }
+  const std::vector<double> at = equal_times(time, 60.0);
+  ASSERT_EQ(at.size(), time.size());
+  const std::vector<double> even = resampled(time, values, at);
+  for (std::size_t i = 0; i < at.size(); ++i) EXPECT_NEAR(even[i], values[i], 1e-9);  // round-off of 0.37 over 3.7e-4
+}
+
+TEST(CfcFilter, IntervalsAreNoFinerThanTheClassNeeds) {
+  const std::vector<double> time{0.0, 1e-9, 1e-3, 2e-3, 0.1};
+  EXPECT_EQ(equal_times(time, 60.0).size(), 6001U);  // 1/1000 of 1/60 s
+}
+
 }  // namespace
 }  // namespace carom

@@ -31,7 +31,17 @@ Summary sample() {
   s.parts = {{"bar", 0.5, {1, 2, 3}, {-1, -2, -3}}};
   s.stress = {4e8, 1e-4, "bar", 17, {0.5, 0.25, 0.125}, 201};
   s.probes = {{"B", "node 12", {0.1, 0.2, 0.3}}};
-  s.scheme = {"Newmark beta 0.25 gamma 0.5", "CHOLMOD", 1e-6, 2e-6, 150, 3e-4, 2.5e-4, 0.25, 0.0125, {"one", "two"}, {{"statics", 0.0, 1e-4}, {"Newmark", 1e-4, 3e-4}}};
+  s.scheme = {"Newmark beta 0.25 gamma 0.5",
+              "CHOLMOD",
+              1e-6,
+              2e-6,
+              150,
+              3e-4,
+              2.5e-4,
+              0.25,
+              0.0125,
+              {"one", "two"},
+              {{"statics", 0.0, 1e-4}, {"Newmark", 1e-4, 3e-4}}};
   s.cost = {0.11, 0.12, {{"setup", 0.02}, {"steps", 0.07}}, 12345678};
   s.ledger = {{"kinetic", 1.0 / 3.0}, {"strain", 2.5}};
   s.code_aster = {{"ENER_CIN", -1.0}, {"DISS_SCH", 4.5e-12}};
