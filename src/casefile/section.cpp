@@ -54,10 +54,10 @@ std::vector<std::string> sections_with(const std::string& name, const SectionDes
   std::vector<std::string> sections;
   for (const KeyDescription& key : format.keys) {
     if (!key.section || declared_key(*key.section, name, "") == nullptr) continue;
-    sections.push_back(fmt::format(key.shape == Shape::section    ? "[{}]"
-                                   : key.shape == Shape::sections ? "[[{}]]"
-                                                                  : "[{}.NAME]",
-                                   key.key));
+    const bool is_list = key.shape == Shape::sections, is_named = key.shape == Shape::named_sections;
+    sections.push_back(is_list    ? fmt::format("[[{}]]", key.key)
+                       : is_named ? fmt::format("[{}.NAME]", key.key)
+                                  : fmt::format("[{}]", key.key));
   }
   return sections;
 }
