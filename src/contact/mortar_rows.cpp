@@ -261,18 +261,6 @@ void MortarRows::integrate(std::size_t f, const ContactMotion& motion, FacetSums
   }
 }
 
-/// Blocks of a row in the making, one per node, in the order of their first use.
-struct Blocks {
-  std::vector<std::pair<Index, RowBlock>> entries;
-
-  void add(Index n, const Vec3& normal, const Vec3& tangent_1, const Vec3& tangent_2) {
-    auto entry = std::find_if(entries.begin(), entries.end(), [n](const auto& e) { return e.first == n; });
-    if (entry == entries.end()) entry = entries.insert(entry, {n, {}});
-    RowBlock& block = entry->second;
-    block = {carom::add(block[0], normal), carom::add(block[1], tangent_1), carom::add(block[2], tangent_2)};
-  }
-};
-
 void MortarRows::add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const {
   double D = 0.0, gap = 0.0, least_gap = std::numeric_limits<double>::infinity();
   Vec3 direction{};
@@ -288,7 +276,7 @@ void MortarRows::add_row(const Node& node, Index slot, const ContactMotion& moti
   if (!(D > least_coverage * node.measure) || least_gap > size_ || !(length > 0.0)) return;
   rows.add_row(gap / D, scaled(direction, 1.0 / length), motion.x[node.node], D, row_law(law_, D), source_);
   const Vec3 t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
-  Blocks own, others;
+  RowBlocks own, others;
   own.add(node.node, {}, {}, {});  // first of all
   for (const auto& [f, A] : node.facets) {
     const FacetSums& sums = sums_[f];
@@ -308,9 +296,9 @@ void MortarRows::add_row(const Node& node, Index slot, const ContactMotion& moti
       }
     }
   }
-  for (const Blocks* side : {&own, &others})
-    for (const auto& [n, block] : side->entries) rows.add_block(n, block);
-  rows.behind.back() = static_cast<Index>(others.entries.size());
+  own.append_to(rows);
+  others.append_to(rows);
+  rows.behind.back() = static_cast<Index>(others.size());
   finish_row(rows, motion.u, slot);
 }
 

@@ -52,7 +52,8 @@ struct Touching {
     return {carrier < 0 ? Vec3{} : subtract(x[carrier], X[carrier])};
   }
 
-  /// The row of node i at `position`, its distance being that of stand.seen(position).
+  /// The row of node i at `position`, its distance being that of stand.seen(position); at.normal is the gradient of
+  /// at.gap.
   void add_row(std::size_t i, const SignedDistance& at, const Vec3& position, const Stand& stand,
                ConstraintRows& rows) const {
     const auto [n, measure] = nodes[i];
@@ -60,10 +61,11 @@ struct Touching {
       add_turning_row(i, at, position, *stand.placement, rows);
       return;
     }
-    rows.add_row(at.gap, at.normal, position, measure, row_law(law, measure), source);
-    rows.add_node(n, 1.0);
+    rows.add_row(at.gap, normalized(at.normal), position, measure, row_law(law, measure), source);
+    const Vec3 t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
+    rows.add_block(n, {at.normal, t_1, t_2});
     if (carrier < 0) return;
-    rows.add_node(carrier, -1.0);
+    rows.add_block(carrier, {scaled(at.normal, -1.0), scaled(t_1, -1.0), scaled(t_2, -1.0)});
     rows.behind.back() = 1;
   }
 
@@ -166,7 +168,7 @@ class RigidSurfaceRows : public RowMaker {
     append_in_parallel(slots(), rows, [&](std::size_t i, ConstraintRows& made) {
       const std::optional<SurfacePoint> met = search_.find(i);
       if (!met) return;
-      touching_.add_row(i, {met->normal, met->gap}, motion.x[touching_.nodes[i].first], stand, made);
+      touching_.add_row(i, {met->gradient, met->gap}, motion.x[touching_.nodes[i].first], stand, made);
       made.facet.back() = met->facet;
       finish_row(made, motion.u, first_slot + static_cast<Index>(i));
     });
@@ -183,7 +185,10 @@ class RigidSurfaceRows : public RowMaker {
     const std::vector<Facet> own_facets = renumbered(own.facets, own_point);
     const std::vector<Facet> facets = renumbered(rigid.facets, rigid_point);
     const double size = mean_facet_size(x_, facets), reach = std::max(size, mean_facet_size(x_, own_facets));
-    return {points, own_facets, facets, {reach, 0.5 * size, std::vector<double>(facets.size(), reach)}};
+    return {points,
+            own_facets,
+            facets,
+            {reach, 0.5 * size, std::vector<double>(facets.size(), reach), edge_widths(x_, facets)}};
   }
   static std::vector<Facet> renumbered(std::vector<Facet> facets, const std::map<Index, Index>& point) {
     for (Facet& facet : facets)

@@ -32,20 +32,31 @@ std::vector<Index> keys(const std::map<Index, double>& map) {
   return out;
 }
 
-/// Adds the master nodes of the last row.
-void add_master(ConstraintRows& rows, const SurfacePoint& met, const Facet& facet, const PlacedFacet& placed) {
-  const FacetFrame frame = facet_frame(placed, met.xi, met.eta);
-  const FacetShape shape = facet_shape(facet.size, met.xi, met.eta);
-  const Vec3 n = rows.normal.back(), t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
+/// Adds what the last row sees of one facet to its master nodes.
+void add_foot(const ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, const PlacedFacet& placed,
+              RowBlocks& blocks) {
+  const FacetFrame frame = facet_frame(placed, foot.xi, foot.eta);
+  const FacetShape shape = facet_shape(facet.size, foot.xi, foot.eta);
+  const Vec3 n = foot.normal, t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
   TangentDual dual;
   if (std::abs(dot(frame.normal, n)) >= least_cosine) dual = tangent_dual(frame, n);
   for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) {
-    const Vec3 tilt = scaled(add(scaled(dual.dual_1, shape.dN_dxi[a]), scaled(dual.dual_2, shape.dN_deta[a])), met.gap);
-    const double w = -met.N[a];
-    rows.add_block(facet[a], {scaled(n, w), add(scaled(t_1, w), scaled(n, dot(t_1, tilt))),
-                              add(scaled(t_2, w), scaled(n, dot(t_2, tilt)))});
+    const double w = -foot.weight * foot.N[a];
+    const Vec3 tilt = scaled(add(scaled(dual.dual_1, shape.dN_dxi[a]), scaled(dual.dual_2, shape.dN_deta[a])),
+                             foot.weight * foot.gap);
+    blocks.add(facet[a], add(scaled(foot.gradient, -foot.N[a]), scaled(foot.at_closest, -foot.N_closest[a])),
+               add(scaled(t_1, w), scaled(n, dot(t_1, tilt))), add(scaled(t_2, w), scaled(n, dot(t_2, tilt))));
   }
-  rows.behind.back() = facet.size;
+}
+
+/// Adds the nodes of the last row.
+void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, std::span<const Facet> facets,
+               std::span<const Vec3> x) {
+  rows.add_block(slave, {met.gradient, rows.tangent_1.back(), rows.tangent_2.back()});
+  RowBlocks blocks;
+  for (const FacetFoot& foot : met.feet) add_foot(rows, foot, facets[foot.facet], place(facets[foot.facet], x), blocks);
+  blocks.append_to(rows);
+  rows.behind.back() = static_cast<Index>(blocks.size());
 }
 
 /// The nodes of one surface against the facets of another.
@@ -56,7 +67,8 @@ class NodeRows : public RowMaker {
       : measures_(nodal_measures(X, slave)), law_(law), source_(source), search_([&] {
           const double size = mean_facet_size(X, master.facets),
                        reach = std::max(size, mean_facet_size(X, slave.facets));
-          SearchRange range{reach, 0.5 * size, std::vector<double>(master.facets.size(), reach)};
+          SearchRange range{reach, 0.5 * size, std::vector<double>(master.facets.size(), reach),
+                            edge_widths(X, master.facets)};
           if (self) range.depth = half_thickness(X, master.facets, reach);
           return SurfaceSearch(keys(measures_), slave.facets, master.facets, std::move(range));
         }()) {
@@ -70,11 +82,9 @@ class NodeRows : public RowMaker {
       const std::optional<SurfacePoint> met = search_.find(i);
       if (!met) return;
       const Index n = search_.nodes()[i];
-      made.add_row(met->gap, met->normal, motion.x[n], measure_[i], row_law(law_, measure_[i]), source_);
-      made.add_node(n, 1.0);
+      made.add_row(met->gap, normalized(met->gradient), motion.x[n], measure_[i], row_law(law_, measure_[i]), source_);
       made.facet.back() = met->facet;
-      const Facet& facet = search_.facets()[met->facet];
-      add_master(made, *met, facet, place(facet, motion.x));
+      add_nodes(made, n, *met, search_.facets(), motion.x);
       finish_row(made, motion.u, first_slot + static_cast<Index>(i));
     });
   }

@@ -13,9 +13,10 @@ namespace carom {
 /// Nodes against facets (node_to_surface; the ends of bars against facets whatever the method is): one slot per slave
 /// node, by increasing node; its measure is the node's share of the slave surface (nodal_measures). The row stands
 /// where SurfaceSearch finds the node on the master, within the larger mean facet size h of both surfaces and as deep
-/// as that; with `self` half_thickness deep, with limit h. The slave node has the block (n, t_1, t_2), the master node
-/// a
-///   -N_a (n, t_1, t_2) + g (0, t_1 . a^alpha, t_2 . a^alpha) N_a,alpha n
+/// as that; with `self` half_thickness deep, with limit h. With the facets f that it meets (one, or several beside
+/// edges, of weights w_f that add up to 1) the slave node has the block (grad g, t_1, t_2), master node a the sum over
+/// f of
+///   (grad_a g, -w_f N_a t_1, -w_f N_a t_2) + w_f g_f (0, t_1 . a^alpha, t_2 . a^alpha) N_a,alpha n_f
 /// with a^alpha the dual base of the facet's tangents: the tangential motion is that of the node relative to the
 /// turning facet's projected point, and tangential forces act on both sides at one point, so that no moment is left
 /// across a gap (Wriggers, Computational Contact Mechanics, 2nd ed., section 4.1). Only beside edges, where the normal

@@ -1,5 +1,6 @@
 #include "contact/row_maker.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -37,6 +38,17 @@ std::array<double, 4> shares(const PlacedFacet& facet, const Surface& surface) {
 }
 
 }  // namespace
+
+void RowBlocks::add(Index n, const Vec3& normal, const Vec3& tangent_1, const Vec3& tangent_2) {
+  auto entry = std::find_if(entries_.begin(), entries_.end(), [n](const auto& e) { return e.first == n; });
+  if (entry == entries_.end()) entry = entries_.insert(entry, {n, {}});
+  RowBlock& block = entry->second;
+  block = {carom::add(block[0], normal), carom::add(block[1], tangent_1), carom::add(block[2], tangent_2)};
+}
+
+void RowBlocks::append_to(ConstraintRows& rows) const {
+  for (const auto& [n, block] : entries_) rows.add_block(n, block);
+}
 
 RowLaw row_law(const ContactLaw& law, double measure) {
   const double eps_N = law.eps_N.value_or(0.0) * measure, eps_T = law.eps_T.value_or(0.0) * measure;

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "contact/constraint_rows.hpp"
@@ -42,6 +43,19 @@ class RowMaker {
   /// Appends the rows at motion.x, in the order of their slots, which count from first_slot. The stored gap is the
   /// exact one at motion.x less (G u)_n.
   virtual void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const = 0;
+};
+
+/// Blocks of one side of a row in the making, one per node, in the order of their first use.
+class RowBlocks {
+ public:
+  /// Adds to the block of node n.
+  void add(Index n, const Vec3& normal, const Vec3& tangent_1, const Vec3& tangent_2);
+  std::size_t size() const { return entries_.size(); }
+  /// Gives them to the last row.
+  void append_to(ConstraintRows& rows) const;
+
+ private:
+  std::vector<std::pair<Index, RowBlock>> entries_;
 };
 
 /// The law of a contact times the measure of a row. Friction needs a stiffness only where there is friction.

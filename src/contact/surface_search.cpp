@@ -12,6 +12,7 @@ namespace carom {
 namespace {
 
 constexpr double rim_slack = 0.1;  // of the facet's size: continuation beyond a rim
+constexpr double smooth = 0.5;     // product of the normals of facets that pass a node on to each other
 constexpr double tie = 1e-12;      // relative: the same point seen from two facets
 constexpr double tiny = 1e-6;      // of the reach: below, the direction to a corner is round-off
 
@@ -89,6 +90,12 @@ std::vector<Index> pieces(const std::vector<Facet>& facets) {
 }
 
 }  // namespace
+
+std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<const Facet> facets) {
+  std::vector<double> widths;
+  for (const Facet& facet : facets) widths.push_back(rim_slack * size_of(place(facet, coordinates)));
+  return widths;
+}
 
 std::vector<double> half_thickness(std::span<const Vec3> coordinates, const std::vector<Facet>& skin, double limit) {
   BroadPhase broad_phase(skin, skin, limit, 0.0);
@@ -362,6 +369,74 @@ SurfaceSearch::Best SurfaceSearch::followed(const Query& query, Index from) cons
   return best;
 }
 
+/// The node's foot on facet f with its weight, not yet divided by the sum; nothing where the facet takes no part.
+std::optional<FacetFoot> SurfaceSearch::foot_beside(const Query& query, Index f, double least_distance) const {
+  const double width = range_.width[f], most = least_distance + width;
+  if (squared_distance(bounds_[f], query.x) >= most * most) return std::nullopt;
+  const Projection p = project(placed_[f], query.x);
+  if (p.distance >= most || (!query.is_behind && p.gap < -range_.depth[f])) return std::nullopt;
+  FacetFoot out{f, 1.0, p.xi, p.eta, p.N, p.normal, p.gap, {}, {}, p.N};
+  if (p.site == ProjectionSite::interior) return out;
+  const ParentPoint at = foot(placed_[f], query.x, {p.xi, p.eta});
+  const FacetFrame frame = facet_frame(placed_[f], at.xi, at.eta);
+  out.xi = at.xi;
+  out.eta = at.eta;
+  out.N = facet_shape(placed_[f].size, at.xi, at.eta).N;
+  out.normal = frame.normal;
+  out.gap = dot(subtract(query.x, frame.position), frame.normal);
+  const double inside = 1.0 - std::max(0.0, p.distance * p.distance - out.gap * out.gap) / (width * width);
+  if (!(inside > 0.0) || norm(subtract(frame.position, p.point)) > 2.0 * width) return std::nullopt;
+  out.weight = inside * inside;
+  const double slope = -4.0 * inside / (width * width);  // of the weight in (d_f^2 - g_f^2) / 2
+  out.at_closest = scaled(subtract(query.x, p.point), slope);
+  out.gradient = scaled(out.normal, -slope * out.gap);
+  return out;
+}
+
+/// The feet on all facets about the closest point; none where that lies on an edge too sharp to go round.
+std::vector<FacetFoot> SurfaceSearch::feet_around(const Query& query, const Best& best) const {
+  const auto agrees = [&](Index f) { return dot(facet_normals_[f], facet_normals_[best.facet]) > smooth; };
+  std::vector<FacetFoot> feet;
+  if (range_.width.empty() || facets()[best.facet].size == 1 || best.is_beside) return feet;
+  if (best.projection.site != ProjectionSite::interior && !best.is_continued) {
+    const auto& around = facets_at_[facets()[best.facet][static_cast<std::size_t>(best.projection.feature)]];
+    if (!std::all_of(around.begin(), around.end(), [&](Index f) { return !counts(query, f) || agrees(f); }))
+      return feet;
+  }
+  for (const Index f : broad_phase_.targets_of(query.q)) {
+    if (!agrees(f) || !counts(query, f)) continue;
+    if (const std::optional<FacetFoot> one = foot_beside(query, f, best.distance)) feet.push_back(*one);
+  }
+  return feet;
+}
+
+namespace {
+
+/// The mean over the feet, whose gradients are those of their weights.
+SurfacePoint mean_of(std::vector<FacetFoot> feet) {
+  double sum = 0.0;
+  for (const FacetFoot& foot : feet) sum += foot.weight;
+  SurfacePoint met;
+  for (FacetFoot& foot : feet) {
+    foot.weight /= sum;
+    met.gap += foot.weight * foot.gap;
+  }
+  for (FacetFoot& foot : feet) {
+    const double share = (foot.gap - met.gap) / sum;
+    foot.at_closest = scaled(foot.at_closest, share);
+    foot.gradient = add(scaled(foot.gradient, share), scaled(foot.normal, foot.weight));
+    met.gradient = add(met.gradient, add(foot.gradient, foot.at_closest));
+  }
+  met.feet = std::move(feet);
+  return met;
+}
+
+SurfacePoint only(Index f, const Projection& p, const SignedDistance& at) {
+  return {f, {{f, 1.0, p.xi, p.eta, p.N, at.normal, at.gap, at.normal, {}, p.N}}, at.normal, at.gap};
+}
+
+}  // namespace
+
 /// What the closest point found amounts to.
 std::optional<SurfacePoint> SurfaceSearch::met(const Query& query, const Best& best) const {
   if (best.facet < 0) return std::nullopt;
@@ -372,7 +447,11 @@ std::optional<SurfacePoint> SurfaceSearch::met(const Query& query, const Best& b
   // Beside a rim a node is behind some of the facets there and in front of others, and touches none of them.
   if (best.is_beside && at.gap < 0.0) return std::nullopt;
   if (!query.is_behind && at.gap < -range_.depth[best.facet]) return std::nullopt;
-  return SurfacePoint{best.facet, p.xi, p.eta, p.N, p.point, at.normal, at.gap};
+  std::vector<FacetFoot> feet = feet_around(query, best);
+  if (feet.empty()) return only(best.facet, p, at);
+  SurfacePoint mean = mean_of(std::move(feet));
+  mean.facet = best.facet;
+  return mean;
 }
 
 std::optional<SurfacePoint> SurfaceSearch::find(std::size_t q) const {
@@ -391,7 +470,7 @@ std::optional<SurfacePoint> SurfaceSearch::find(std::size_t q) const {
       const Projection p = project(placed_[*crossed], query.x);
       SignedDistance at{p.normal, p.gap};
       if (p.site != ProjectionSite::interior) at = {scaled(subtract(p.point, query.x), 1.0 / p.distance), -p.distance};
-      return SurfacePoint{*crossed, p.xi, p.eta, p.N, p.point, at.normal, at.gap};
+      return only(*crossed, p, at);
     }
   }
   return found;

@@ -11,15 +11,26 @@
 
 namespace carom {
 
-/// The point of a surface that a node meets. grad_x gap = normal and grad_{x_a} gap = -N_a normal for the node a of the
-/// facet.
-struct SurfacePoint {
+/// What a node meets of one facet, on which it has a foot: the point of the perpendicular.
+struct FacetFoot {
   Index facet = -1;
-  double xi = 0.0, eta = 0.0;  ///< a little outside of the facet beyond a rim
+  double weight = 1.0;         ///< share of this facet in what the node meets
+  double xi = 0.0, eta = 0.0;  ///< a little outside of the facet beyond an edge
   std::array<double, 4> N{};
-  Vec3 point{};
-  Vec3 normal{};
-  double gap = 0.0;  ///< (x - point) . normal
+  Vec3 normal{};                      ///< unit vector along x - foot
+  double gap = 0.0;                   ///< (x - foot) . normal
+  Vec3 gradient{};                    ///< of the node's gap: along x, and times -N_a along x_a
+  Vec3 at_closest{};                  ///< the same with N_closest
+  std::array<double, 4> N_closest{};  ///< at the facet's closest point
+};
+
+/// What a node meets: one facet, or beside edges several, whose weights add up to 1. gap = sum_f weight_f gap_f; its
+/// gradient by x is `gradient` (of length 1 where the facets lie in one plane), by the facets' nodes see FacetFoot.
+struct SurfacePoint {
+  Index facet = -1;  ///< the nearest
+  std::vector<FacetFoot> feet;
+  Vec3 gradient{};
+  double gap = 0.0;
 };
 
 /// Two unit normals oppose each other when their product is below this: sides that stand at a right angle do not.
@@ -30,7 +41,11 @@ struct SearchRange {
   double reach = 0.0;         ///< largest distance of a point that counts
   double margin = 0.0;        ///< of the lists that are kept (BroadPhase)
   std::vector<double> depth;  ///< of each facet: largest distance behind it that counts
+  std::vector<double> width;  ///< of each facet: how far it acts beyond its edges (none: where it is nearest only)
 };
+
+/// For SearchRange::width: a tenth of each facet's size.
+std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<const Facet> facets);
 
 /// Half of the least of `limit` and the thickness of the body behind each facet of its skin: the length of the ray from
 /// the facet's centre inwards to the next facet. Deeper points would be taken for points of the far side.
@@ -44,6 +59,11 @@ std::vector<double> half_thickness(std::span<const Vec3> coordinates, const std:
 /// touch the far side of their own thin plate. On an edge or corner the sign of the gap is that of the pseudonormal
 /// (sum of the normals of the facets there, at corners weighted by their angles), which is right at all edges and
 /// corners of closed surfaces (Baerentzen and Aanaes, IEEE Trans. Vis. Comput. Graphics 11(3), 2005).
+///
+/// Beside an edge the node meets every facet f there that counts and is turned by at most 60 degrees: with g_f the
+/// distance from f continued beyond its edges, d_f that from f itself and b_f SearchRange::width, the weights are
+/// (1 - (d_f^2 - g_f^2) / b_f^2)^2 over their sum. So gap and gradient pass from facet to facet without a jump, alike
+/// from all sides and whatever the order of the facets.
 ///
 /// Where the surface ends (or goes on with facets that do not count) a node behind it and beside it touches nothing;
 /// but the facets are continued by a tenth of their size, so that nodes on the common rim of two aligned bodies are not
@@ -85,6 +105,8 @@ class SurfaceSearch {
   std::optional<Index> crossed_facet(const Query& query) const;
   Best followed(const Query& query, Index from) const;
   std::optional<SurfacePoint> met(const Query& query, const Best& best) const;
+  std::optional<FacetFoot> foot_beside(const Query& query, Index f, double least_distance) const;
+  std::vector<FacetFoot> feet_around(const Query& query, const Best& best) const;
 
   std::vector<Index> nodes_;
   std::vector<Facet> own_;

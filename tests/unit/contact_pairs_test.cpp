@@ -88,7 +88,9 @@ TEST(NodeRows, LeaveNoForceAndNoMoment) {
   }
 }
 
-// Where the surfaces see each other from the front, what is found is the closest point over all facets.
+// Where the surfaces see each other from the front, what is found is the closest point over all facets; beside edges
+// the mean over the facets there, whose gaps differ by no more than the width of that zone, 0.1 of a facet of 0.2,
+// times the angle between neighbours, at most 0.3.
 TEST(NodeRows, StandAtTheClosestPointOfAllFacets) {
   for (const bool triangles : {false, true}) {
     const Bumpy bumpy(19, triangles, 0.1);
@@ -97,12 +99,63 @@ TEST(NodeRows, StandAtTheClosestPointOfAllFacets) {
     for (std::size_t i = 0; i < bumpy.u.size(); ++i) x[i / 3][i % 3] += bumpy.u[i];
     const auto rows = contact.rows_at(bumpy.u, bumpy.u);
     ASSERT_EQ(rows->size(), 5U * 8U);
+    int exact = 0;
     for (std::size_t r = 0; r < rows->size(); ++r) {
-      double least = INFINITY;
-      for (const Facet& facet : bumpy.master)
-        least = std::min(least, project(place(facet, x), x[rows->node[rows->begin[r]]]).distance);
-      EXPECT_NEAR(std::abs(rows->gap_at(r, bumpy.u)), least, round_off);
+      Projection closest{.distance = INFINITY};
+      for (const Facet& facet : bumpy.master) {
+        const Projection p = project(place(facet, x), x[rows->node[rows->begin[r]]]);
+        if (p.distance < closest.distance) closest = p;
+      }
+      const double least = closest.distance;
+      const bool is_inside = closest.site == ProjectionSite::interior && rows->behind[r] == bumpy.master.front().size;
+      exact += is_inside ? 1 : 0;
+      EXPECT_NEAR(std::abs(rows->gap_at(r, bumpy.u)), least, is_inside ? round_off : 0.1 * 0.2 * 0.3);
     }
+    EXPECT_GE(exact, 10);
+  }
+}
+
+/// Gap and slave's block of a node at `at` over a roof of four facets that meet at the origin, in any order.
+std::pair<double, Vec3> over_a_roof(const Vec3& at, bool reversed) {
+  Scene scene;
+  auto roof = scene.add_patch(2, 2, [](double s, double t) {
+    return Vec3{2 * s - 1, 2 * t - 1, -0.3 * std::abs(2 * s - 1) - 0.2 * std::abs(2 * t - 1)};
+  });
+  if (reversed) std::reverse(roof.begin(), roof.end());
+  const Surface point{{{{scene.add_node(at), -1, -1, -1}, 1}}};
+  scene.finish().contacts.emplace_back(pair(point, {roof}));
+  const auto u = scene.zero();
+  const auto rows = ContactGeometry(scene.model).rows_at(u, u);
+  return {rows->gap_at(0, u), rows->block[0][0]};
+}
+
+// At the corner, on the edges and beside them the facets share the row by geometry, not by order: mirrored nodes have
+// mirrored rows, and the normal at the corner is vertical.
+TEST(NodeRows, AreSymmetricWhereFacetsMeet) {
+  for (const bool reversed : {false, true}) {
+    for (const double z : {-0.05, 0.0, 1e-9, 0.01}) {
+      const auto [gap, n] = over_a_roof({0, 0, z}, reversed);
+      EXPECT_NEAR(n[0], 0.0, round_off);
+      EXPECT_NEAR(n[1], 0.0, round_off);
+      const auto [gap_p, p] = over_a_roof({0.02, 0.03, z - 0.012}, reversed);
+      const auto [gap_m, m] = over_a_roof({-0.02, 0.03, z - 0.012}, !reversed);
+      EXPECT_NEAR(gap_p, gap_m, round_off);
+      EXPECT_NEAR(p[0], -m[0], round_off);
+      EXPECT_NEAR(p[1], m[1], round_off);
+    }
+  }
+}
+
+// A node that slides over the ridge at a gap of a thousandth of a facet turns its row from one roof's side to the other
+// within a tenth of a facet on both sides, without a jump: 0.58 rad in 200 steps, the steepest less than ten times the
+// mean.
+TEST(NodeRows, PassFromFacetToFacetWithoutAJump) {
+  Vec3 last = over_a_roof({-0.1, 0.5, -0.13 + 0.001}, false).second;
+  for (int i = -99; i <= 100; ++i) {
+    const double x = 0.001 * i;
+    const Vec3 n = over_a_roof({x, 0.5, -0.1 - 0.3 * std::abs(x) + 0.001}, false).second;
+    EXPECT_LT(norm(subtract(n, last)), 10.0 * 0.58 / 200) << x;
+    last = n;
   }
 }
 
@@ -175,7 +228,7 @@ TEST(NodeRows, InThePlaneHaveTheGradientOfTheGapAndNoMoment) {
         const double slope = (gap_of(contact, with_displacement(u, n, d), rows->slot[r]) -
                               gap_of(contact, with_displacement(u, n, scaled(d, -1)), rows->slot[r])) /
                              (2 * step);
-        EXPECT_NEAR(slope, dot(rows->normal[r], d) / step, slope_error);
+        EXPECT_NEAR(slope, dot(rows->block[static_cast<std::size_t>(rows->begin[r])][0], d) / step, slope_error);
       }
     }
   }
