@@ -187,6 +187,7 @@ struct CaseStage {
   Location where;
   CaseScheme scheme;
   CaseTime time;
+  std::vector<CaseInitial> initial;  ///< velocities that begin with it
 };
 
 struct CaseSolver {

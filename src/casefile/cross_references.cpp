@@ -177,11 +177,13 @@ void check_references(const Case& given) {
                 "the name of a [materials.NAME]");
   }
   const Names parts = names_of(given.parts);
-  for (std::size_t i = 0; i < given.initial.size(); ++i) {
-    if (given.initial[i].part) {
-      check_known(*given.initial[i].part, parts, entry_path("initial", i, "part"), "the name of a [[part]]");
-    }
-  }
+  const auto check_initial = [&parts](const std::vector<CaseInitial>& list, const std::string& path) {
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (list[i].part) check_known(*list[i].part, parts, entry_path(path.c_str(), i, "part"), "the name of a [[part]]");
+  };
+  check_initial(given.initial, "initial");
+  for (std::size_t i = 0; i < given.stages.size(); ++i)
+    check_initial(given.stages[i].initial, entry_path("stage", i, "initial"));
   check_functions(given);
   check_stages(given);
   check_enforcement(given, given.scheme);

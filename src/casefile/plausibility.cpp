@@ -121,11 +121,15 @@ class Lint {
   }
 
   void check_speeds() {
-    for (const CaseInitial& initial : case_.initial) {
-      if (!initial.velocity) continue;
-      const Vec3& v = *initial.velocity;
-      check_speed(initial.where, "initial.velocity", std::hypot(v[0], v[1], v[2]));
-    }
+    const auto check_initial = [this](const std::vector<CaseInitial>& list, const char* key) {
+      for (const CaseInitial& initial : list) {
+        if (!initial.velocity) continue;
+        const Vec3& v = *initial.velocity;
+        check_speed(initial.where, key, std::hypot(v[0], v[1], v[2]));
+      }
+    };
+    check_initial(case_.initial, "initial.velocity");
+    for (const CaseStage& stage : case_.stages) check_initial(stage.initial, "stage.initial.velocity");
     for (const CaseSupport& support : case_.supports) {
       for (const CaseSupport::Motion& motion : support.motions) {
         if (motion.kind != CaseSupport::Kind::velocity) continue;

@@ -267,6 +267,18 @@ SectionSchema<CaseTime> time_section() {
   return s;
 }
 
+SectionSchema<CaseInitial> stage_initial_section() {
+  SectionSchema<CaseInitial> s(
+      "Velocities that begin with the stage, whatever the nodes did before; later sections overwrite earlier ones. "
+      "What "
+      "they add to the energy counts as initial energy.");
+  s.key("nodes", &CaseInitial::nodes, "Group of nodes or cells, or \"all\".");
+  s.key("part", &CaseInitial::part, "Name of a [[part]].");
+  s.key("velocity", &CaseInitial::velocity, "The velocity.", {.unit = Dimension::velocity, .need = Need::required});
+  s.description.alternatives = {{Alternatives::Count::exactly_one, {"nodes", "part"}}};
+  return s;
+}
+
 SectionSchema<CaseStage> stage_section() {
   SectionSchema<CaseStage> s(
       "What follows [scheme] and [time], in the order of the file: the state goes on with another scheme.");
@@ -274,8 +286,12 @@ SectionSchema<CaseStage> stage_section() {
       s, [](auto& stage) -> auto& { return stage.scheme; });
   add_time_keys(
       s, [](auto& stage) -> auto& { return stage.time; }, "The stage goes from the end of the one before to here.");
+  s.tables("initial", &CaseStage::initial, stage_initial_section());
   s.finish = [](CaseStage& stage, const Node& node, const ReadContext& at) {
     stage.scheme.where = stage.time.where = stage.where;
+    if (*stage.scheme.kind == SchemeKind::statics && !stage.initial.empty())
+      throw CaseError(stage.initial.front().where, at.at("initial").path, "a velocity in statics",
+                      "velocities in stages with inertia", "Give it to the stage after this one.");
     finish_scheme(stage.scheme, node, at);
     finish_time(stage.time, node, at);
   };

@@ -102,6 +102,15 @@ class EnergyLedger {
     supplied_peak_ = std::fmax(supplied_peak_, std::fabs(total_.supplied()));
   }
 
+  /// Velocities that the case gives to a stage count as if they had been there from the start.
+  void give(double kinetic, const Momentum& momentum) {
+    initial_.kinetic += kinetic;
+    for (std::size_t c = 0; c < 3; ++c) {
+      initial_momentum_.linear[c] += momentum.linear[c];
+      initial_momentum_.angular[c] += momentum.angular[c];
+    }
+  }
+
   /// Stored energies as they stand, and the sums of all others.
   EnergyTerms now() const {
     EnergyTerms terms = total_;

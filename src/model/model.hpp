@@ -81,10 +81,12 @@ struct Gravity {
 
 using Load = std::variant<NodalForce, Pressure, Gravity>;
 
-/// Initial displacement and velocity of nodes; later entries overwrite earlier ones.
+/// Initial displacement and velocity of nodes; later entries overwrite earlier ones. The velocity is that at the
+/// beginning of a stage, counted from 1 as the first after [scheme]; 0: the first stage with inertia.
 struct InitialState {
   std::vector<Index> nodes;
   std::optional<Vec3> displacement, velocity;
+  std::size_t stage = 0;
 };
 
 /// The law of one contact. Stiffnesses are stress per length (force per length on rows that are counted per node); an

@@ -28,7 +28,9 @@ class Builder {
     add_attached(case_, mesh_, groups_, parts_, static_cast<Index>(mesh_.node_count() - appended), model_);
     for (std::size_t i = 0; i < case_.supports.size(); ++i) add_support(case_.supports[i], i);
     for (const CaseLoad& load : case_.loads) add_load(load);
-    for (const CaseInitial& initial : case_.initial) add_initial(initial);
+    for (const CaseInitial& initial : case_.initial) add_initial(initial, 0);
+    for (std::size_t i = 0; i < case_.stages.size(); ++i)
+      for (const CaseInitial& initial : case_.stages[i].initial) add_initial(initial, i + 1);
     for (const CaseContact& contact : case_.contacts) add_contact(contact);
     refuse_unused_cells(case_, mesh_, parts_);
   }
@@ -95,8 +97,9 @@ class Builder {
                     "nodes or faces of parts");
   }
 
-  void add_initial(const CaseInitial& given) {
+  void add_initial(const CaseInitial& given, std::size_t stage) {
     InitialState initial;
+    initial.stage = stage;
     if (given.nodes) {
       initial.nodes = groups_.nodes(*given.nodes, "initial.nodes");
     } else {

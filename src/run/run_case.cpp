@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -102,7 +103,9 @@ class Run {
         progress_(stderr, simulation.end(), options.progress),
         state_(simulation.initial_state()),
         overlap_(simulation, state_),
-        rotation_(simulation) {}
+        rotation_(simulation) {
+    std::fill(state_.v.begin(), state_.v.end(), 0.0);  // they begin with their stage
+  }
 
   void loop(const std::atomic<bool>& stop);
   void fill(Summary& summary) const;
@@ -115,7 +118,12 @@ class Run {
 
  private:
   void begin_stage(const Stage& stage);
-  void book_switch(const Stage& stage);
+  struct GivenMotion {
+    double kinetic = 0.0;
+    Momentum momentum{};
+  };
+  GivenMotion given_motion(const Stage& stage, const std::vector<double>& v_before) const;
+  void book_switch(const Stage& stage, const GivenMotion& given);
   bool march(const Stage& stage, const std::atomic<bool>& stop);
   void look_after(const Stage& stage);
   bool advance(const Stage& stage);
@@ -132,6 +140,7 @@ class Run {
   RotationWatch rotation_;
   std::optional<EnergyLedger> ledger_;
   std::optional<RunMonitor> monitor_;
+  std::size_t stage_number_ = 0;  ///< of the next stage
   long long step_ = 0;
   double dt_ = 0.0;                    ///< of the last step
   int iterations_ = 0;                 ///< of the last step
@@ -144,18 +153,38 @@ class Run {
   std::string message_;
 };
 
+/// What the velocities of the state have more than those before, by the mass of the stage.
+Run::GivenMotion Run::given_motion(const Stage& stage, const std::vector<double>& v_before) const {
+  std::vector<double> p(v_before.size());
+  stage.mass().apply(v_before, p);
+  const double kinetic_before = 0.5 * std::inner_product(p.begin(), p.end(), v_before.begin(), 0.0);
+  const MomentArms arms(stage.system(), state_.q);
+  std::array<double, 6> before{};
+  for (std::size_t i = 0; i < p.size(); ++i) add_with_moment(arms.at(i / 3), i % 3, p[i], before.data());
+  GivenMotion given{scheme_->forces().stored.kinetic - kinetic_before, scheme_->forces().total_momentum};
+  for (std::size_t c = 0; c < 3; ++c) {
+    given.momentum.linear[c] -= before[c];
+    given.momentum.angular[c] -= before[3 + c];
+  }
+  return given;
+}
+
 /// Makes the stage's scheme and lets it take the state over.
 void Run::begin_stage(const Stage& stage) {
   scheme_ = stage.make_scheme();
   solver_ = scheme_->solver_name();
   steps_.emplace(stage);
+  const std::size_t number = stage_number_++;
+  const bool was_static = number > 0 && s_.stages()[number - 1]->settings().kind == SchemeKind::statics;
+  const std::vector<double> v_before = state_.v;
+  const bool gives_velocities = s_.begin_velocities(number, state_);
   try {
     scheme_->start(state_, stage.dt());
   } catch (const std::runtime_error& e) {
     throw RunError(static_cast<int>(step_), state_.t, e.what());
   }
   if (ledger_) {
-    book_switch(stage);
+    book_switch(stage, was_static || gives_velocities ? given_motion(stage, v_before) : GivenMotion{});
     return;
   }
   ledger_.emplace(scheme_->forces().stored, scheme_->forces().total_momentum, reach(s_.mesh()));
@@ -168,8 +197,10 @@ void Run::begin_stage(const Stage& stage) {
 }
 
 /// Another scheme may have another mass, and starts from accelerations of its own: what the stored energies jump by is
-/// the scheme's doing (ledger: algorithmic), what the momentum jumps by an impulse that the log names.
-void Run::book_switch(const Stage& stage) {
+/// the scheme's doing (ledger: algorithmic), what the momentum jumps by an impulse that the log names. What velocities
+/// that begin with the stage add is initial energy.
+void Run::book_switch(const Stage& stage, const GivenMotion& given) {
+  ledger_->give(given.kinetic, given.momentum);
   const EnergyTerms before = ledger_->now(), &after = scheme_->forces().stored;
   LedgerIncrement jump;
   jump.energy.kinetic = after.kinetic - before.kinetic;
@@ -178,8 +209,8 @@ void Run::book_switch(const Stage& stage) {
   jump.energy.algorithmic = -jump.energy.mechanical();
   const Momentum now = scheme_->forces().total_momentum;
   for (std::size_t c = 0; c < 3; ++c) {
-    jump.impulse.linear[c] = now.linear[c] - ledger_->momentum().linear[c];
-    jump.impulse.angular[c] = now.angular[c] - ledger_->momentum().angular[c];
+    jump.impulse.linear[c] = now.linear[c] - ledger_->momentum().linear[c] - given.momentum.linear[c];
+    jump.impulse.angular[c] = now.angular[c] - ledger_->momentum().angular[c] - given.momentum.angular[c];
   }
   ledger_->add(jump, now);
   monitor_->begin_stage(kind_of(stage));

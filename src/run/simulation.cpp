@@ -9,6 +9,7 @@
 
 #include "contact/buried_facets.hpp"
 #include "contact/stiffness.hpp"
+#include "math/vec3.hpp"
 #include "run/build_mesh.hpp"
 #include "run/build_model.hpp"
 
@@ -60,14 +61,31 @@ Simulation::Simulation(const Case& given)
   notes_.insert(notes_.end(), contact_.notes().begin(), contact_.notes().end());
   settle_initial_penetrations();
   const StageContext context{case_, *mesh_, model_, solid_, contact_};
-  stages_.push_back(std::make_unique<Stage>(context, given.scheme, given.time, 0.0));
+  stages_.push_back(std::make_unique<Stage>(context, given.scheme, given.time, 0.0, later_velocities(0)));
   for (const CaseStage& stage : given.stages) {
-    stages_.push_back(std::make_unique<Stage>(context, stage.scheme, stage.time, stages_.back()->end()));
+    stages_.push_back(std::make_unique<Stage>(context, stage.scheme, stage.time, stages_.back()->end(),
+                                              later_velocities(stages_.size())));
   }
   for (const auto& stage : stages_) {
     const std::vector<std::string>& lines = stage->mass_notes().lines;
     notes_.insert(notes_.end(), lines.begin(), lines.end());
   }
+}
+
+/// Flags of the nodes that have been given a velocity which begins after this stage, where this one and all before it
+/// are statics.
+std::vector<bool> Simulation::later_velocities(std::size_t stage) const {
+  const auto is_static = [this](std::size_t i) {
+    return *(i == 0 ? case_.scheme : case_.stages[i - 1].scheme).kind == SchemeKind::statics;
+  };
+  std::vector<bool> later(mesh_->node_count());
+  for (std::size_t i = 0; i <= stage; ++i)
+    if (!is_static(i)) return later;
+  for (const InitialState& initial : model_.initial) {
+    if (!initial.velocity || norm(*initial.velocity) == 0.0) continue;
+    for (const Index n : initial.nodes) later[static_cast<std::size_t>(n)] = true;
+  }
+  return later;
 }
 
 long long Simulation::steps() const {
@@ -154,6 +172,7 @@ State Simulation::initial_state() const {
   state.v = state.a = state.q;
   state.contact.resize(contact_.slots());
   for (const InitialState& initial : model_.initial) {
+    if (initial.stage > 0) continue;
     for (const Index n : initial.nodes) {
       for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t i = 3 * static_cast<std::size_t>(n) + c;
@@ -163,6 +182,21 @@ State Simulation::initial_state() const {
     }
   }
   return state;
+}
+
+bool Simulation::begin_velocities(std::size_t stage, State& state) const {
+  const auto is_dynamic = [](const auto& s) { return s->settings().kind != SchemeKind::statics; };
+  const auto first =
+      static_cast<std::size_t>(std::find_if(stages_.begin(), stages_.end(), is_dynamic) - stages_.begin());
+  bool given = false;
+  for (const InitialState& initial : model_.initial) {
+    if (!initial.velocity || stage != (initial.stage > 0 ? initial.stage : first)) continue;
+    given = true;
+    for (const Index n : initial.nodes)
+      std::copy(initial.velocity->begin(), initial.velocity->end(),
+                state.v.begin() + 3 * static_cast<std::ptrdiff_t>(n));
+  }
+  return given;
 }
 
 }  // namespace carom

@@ -46,10 +46,14 @@ class Simulation {
 
   /// Contact rows at the start.
   std::shared_ptr<const ConstraintRows> initial_rows() const;
-  /// The state of the case's [[initial]] sections, before Scheme::start.
+  /// The state of the case's [[initial]] sections, before Scheme::start; with the velocities that begin later, if the
+  /// first stages are statics.
   State initial_state() const;
+  /// Gives the nodes the velocities that begin with a stage (0: that of [scheme]); false when there are none.
+  bool begin_velocities(std::size_t stage, State& state) const;
 
  private:
+  std::vector<bool> later_velocities(std::size_t stage) const;
   void settle_initial_penetrations();
   void refuse_buried_facets(std::size_t c, const State& state) const;
 

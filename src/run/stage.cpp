@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "schemes/free_modes.hpp"
 #include "schemes/stability_limit.hpp"
 #include "solid/mass_scaling.hpp"
 #include "solid/modified_mass.hpp"
@@ -85,29 +86,70 @@ std::vector<bool> body_nodes(const StageContext& context) {
   return has_mass;
 }
 
-Supports make_supports(const StageContext& context, const std::vector<bool>& has_mass) {
+Supports make_supports(const StageContext& context, const Model& model, const std::vector<bool>& has_mass) {
   const Case& given = context.given;
   try {
-    return {context.model, has_mass};
+    return {model, has_mass};
   } catch (const std::invalid_argument& e) {
     throw CaseError(given.supports.empty() ? Location{given.file} : given.supports.front().where, "support", e.what(),
                     "");
   }
 }
 
+/// Flags of the nodes that forces or pressures act on.
+std::vector<bool> loaded_nodes(const Model& model) {
+  std::vector<bool> loaded(model.mesh->node_count());
+  const auto mark = [&loaded](Index n) {
+    if (n >= 0) loaded[static_cast<std::size_t>(n)] = true;
+  };
+  for (const Load& load : model.loads) {
+    if (const auto* force = std::get_if<NodalForce>(&load))
+      std::for_each(force->nodes.begin(), force->nodes.end(), mark);
+    if (const auto* pressure = std::get_if<Pressure>(&load))
+      for (const Facet& facet : pressure->surface.facets) std::for_each(facet.begin(), facet.end(), mark);
+  }
+  return loaded;
+}
+
 }  // namespace
 
-Stage::Stage(const StageContext& context, const CaseScheme& scheme, const CaseTime& time, double begin)
+Stage::Stage(const StageContext& context, const CaseScheme& scheme, const CaseTime& time, double begin,
+             const std::vector<bool>& later_velocity)
     : context_(context),
       scheme_(scheme),
       time_(time),
       begin_(begin),
       settings_(settings_of(scheme, context.given.solver)),
       mass_(make_mass(context, scheme, settings_, notes_)),
-      supports_(make_supports(context, body_nodes(context))),
+      supports_(make_supports(context, context.model, body_nodes(context))),
       system_{context.mesh, context.solid, mass_, context.contact, supports_} {
+  if (settings_.kind == SchemeKind::statics) hold_bodies_in_flight(later_velocity);
   refuse_massless_contact();
   choose_step();
+}
+
+/// Without inertia nothing keeps a body in the air, and its weight would have to rest on something.
+void Stage::hold_bodies_in_flight(const std::vector<bool>& later_velocity) {
+  const std::vector<bool> loaded = loaded_nodes(context_.model);
+  const auto any_of = [](const std::vector<Index>& nodes, const std::vector<bool>& flags) {
+    return std::any_of(nodes.begin(), nodes.end(), [&](Index n) { return flags[static_cast<std::size_t>(n)]; });
+  };
+  Model model = context_.model;
+  for (const std::vector<Index>& nodes : FreeModes(system_).free_bodies()) {
+    if (!any_of(nodes, later_velocity) || any_of(nodes, loaded)) continue;
+    const Vec3& x = context_.mesh.coordinates[static_cast<std::size_t>(nodes.front())];
+    notes_.lines.push_back(fmt::format(
+        "statics: the body of {} nodes at ({:.4g}, {:.4g}, {:.4g}) has no supports and a velocity for later; "
+        "it stays where it is",
+        nodes.size(), x[0], x[1], x[2]));
+    for (int c = 0; c < 3; ++c) {
+      PrescribedMotion held{"a body in flight", {}, c, MotionKind::velocity, {{0.0}, {0.0}}};
+      std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(held.nodes),
+                   [&](Index n) { return !supports_.is_prescribed(3 * n + c); });
+      model.motions.push_back(std::move(held));
+    }
+  }
+  supports_ = make_supports(context_, model, body_nodes(context_));
 }
 
 /// A contact node that belongs to no part and is held by no support has no equation.

@@ -26,8 +26,10 @@ struct StageContext {
 /// without stepping (CaseError).
 class Stage {
  public:
-  /// From `begin` to time.end.
-  Stage(const StageContext& context, const CaseScheme& scheme, const CaseTime& time, double begin);
+  /// From `begin` to time.end. later_velocity: one flag per node, set where a velocity has been given that begins after
+  /// statics; a free body that has one and no load of its own stays where it is in statics.
+  Stage(const StageContext& context, const CaseScheme& scheme, const CaseTime& time, double begin,
+        const std::vector<bool>& later_velocity);
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
@@ -67,6 +69,7 @@ class Stage {
   std::string name() const;
 
  private:
+  void hold_bodies_in_flight(const std::vector<bool>& later_velocity);
   void refuse_massless_contact() const;
   void choose_step();
 

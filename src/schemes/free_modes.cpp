@@ -171,6 +171,13 @@ Vec3 FreeModes::combine(const Body& body, const Candidate& c, Index node, std::s
   return out;
 }
 
+std::vector<std::vector<Index>> FreeModes::free_bodies() const {
+  std::vector<std::vector<Index>> out;
+  for (const Body& body : bodies_)
+    if (!body.modes.empty()) out.push_back(body.nodes);
+  return out;
+}
+
 Vec3 FreeModes::displacement(std::size_t k, Index node, std::span<const double> u) const {
   const std::size_t b = body_of_mode_[k];
   if (body_of_[static_cast<std::size_t>(node)] != static_cast<int>(b)) return {};

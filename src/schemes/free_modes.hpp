@@ -24,6 +24,8 @@ class FreeModes {
   bool empty() const { return size_ == 0; }
   /// Number of modes of all bodies.
   std::size_t size() const { return size_; }
+  /// The nodes of each body that has modes.
+  std::vector<std::vector<Index>> free_bodies() const;
   /// Displacement of a node in mode k, about the configuration x = X + u (dof vector; small strain: X).
   Vec3 displacement(std::size_t k, Index node, std::span<const double> u) const;
   /// As many dofs as there are modes, so chosen that holding them holds every mode, each with `share` of the smallest
