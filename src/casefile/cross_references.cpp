@@ -179,7 +179,8 @@ void check_references(const Case& given) {
   const Names parts = names_of(given.parts);
   const auto check_initial = [&parts](const std::vector<CaseInitial>& list, const std::string& path) {
     for (std::size_t i = 0; i < list.size(); ++i)
-      if (list[i].part) check_known(*list[i].part, parts, entry_path(path.c_str(), i, "part"), "the name of a [[part]]");
+      if (list[i].part)
+        check_known(*list[i].part, parts, entry_path(path.c_str(), i, "part"), "the name of a [[part]]");
   };
   check_initial(given.initial, "initial");
   for (std::size_t i = 0; i < given.stages.size(); ++i)

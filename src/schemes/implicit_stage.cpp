@@ -20,6 +20,7 @@ struct ImplicitStage::Residual {
   double norm = 0.0;          ///< 2-norm
   double displacement = 0.0;  ///< 2-norm of the step's displacement, and of what the residual would still add to it
   double work = 0.0;          ///< norm x displacement, at least the energy that the residual may leave unbooked
+  double unbooked = 0.0;      ///< what of it the ledger would miss: residual . displacement of the step
   double round_off = 0.0;     ///< the part of `work` that rounding alone leaves
   double supplied = 0.0;      ///< work of the loads or of the internal forces on the step's displacement
 };
@@ -97,13 +98,14 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
     residual_[i] =
         fixed[i] ? 0.0 : eq.known[i] - eq.k * forces.internal[i] + forces.contact[i] - eq.m * forces.inertia[i];
   }
-  const auto sums = parallel_sums<6>(residual_.size(), [&](std::size_t i, std::array<double, 6>& sum) {
+  const auto sums = parallel_sums<7>(residual_.size(), [&](std::size_t i, std::array<double, 7>& sum) {
     const double du = end.q[i] - begin.q[i];
     sum[1] += du * du;
     sum[4] += eq.known[i] * du;
     sum[5] += forces.internal[i] * du;
     if (fixed[i]) return;
     sum[0] += residual_[i] * residual_[i];
+    sum[6] += residual_[i] * du;
     const double slope = eq.m * mass[i / 3] + force_.factor * eq.k * eq.s * stiffness_diagonal_[i];
     const double missing = eq.s * residual_[i] / (slope > 0.0 ? slope : force_.factor * eq.k * eq.s * softest_);
     force_parts_[i] = std::abs(eq.known[i]) + std::abs(forces.internal[i]) + std::abs(forces.contact[i]) +
@@ -120,6 +122,7 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   out.norm = std::sqrt(sums[0]);
   out.displacement = std::sqrt(sums[1]) + std::sqrt(sums[2]);
   out.work = out.norm * out.displacement + contact.work;
+  out.unbooked = std::abs(sums[6]);
   out.supplied = std::max(std::abs(sums[4]), std::abs(sums[5]));
   // A displacement is known to a relative 1e-16 of its terms only, which the stiffness of a node turns into a force.
   constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
@@ -130,12 +133,17 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
 }
 
 /// What rounding may leave is a bound that the many dofs of a fine mesh, and rigid bodies that turn, seldom come near:
-/// a stage that has a share to meet, or such bodies, goes on below it as long as an iteration halves what is left.
+/// a stage that has a share to meet, or such bodies, goes on below it as long as an iteration halves what is left. So
+/// does any other that would leave the ledger more than a third of its bound: a solve of an ill-conditioned operator
+/// leaves a residual whose norm is rounding, but whose work on the displacement another solve still takes away.
 bool ImplicitStage::is_equilibrium(const StageEquation& eq, const Residual& error, double wanted,
-                                   double work_before) const {
+                                   const Residual& before) const {
   if (error.work <= wanted) return true;
   if (error.work > error.round_off) return false;
-  return (eq.share == 0.0 && body_force_ == 0.0) || error.work > 0.5 * work_before;
+  const bool is_strict = eq.share > 0.0 || body_force_ > 0.0;
+  constexpr double third_of_bound = 30.0;  // `wanted` is a hundredth of it
+  const bool is_booked = error.unbooked <= (is_strict ? wanted : third_of_bound * wanted);
+  return (!is_strict || error.work > 0.5 * before.work) && (is_booked || error.unbooked > 0.5 * before.unbooked);
 }
 
 StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, double work_tolerance, State& end,
@@ -148,7 +156,8 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
   port_->begin({&begin, eq.s, eq.r, eq.m, force_.factor * eq.k * eq.s, eq.free, eq.x_predicted, force_parts_});
   StageReport report;
   std::vector<RowStatus> before;
-  double work_before = infinity;
+  const Residual none{.work = infinity, .unbooked = infinity};
+  Residual last = none;
   for (int newton = 0, outer = 0;; ++newton, ++report.iterations) {
     parallel_each(n, [&](std::size_t i) {
       end.q[i] = eq.x_hat[i] + eq.s * end.a[i];
@@ -166,22 +175,24 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
     }
     const double wanted = std::max(work_tolerance, eq.share * error.supplied);
     const double tolerance = std::max(wanted, error.round_off);
-    if (is_equilibrium(eq, error, wanted, work_before)) {
+    if (is_equilibrium(eq, error, wanted, last)) {
       if (port_->settle(end.q, forces.rows)) break;
       if (++outer > max_iterations_) {
         report.failure = fmt::format("the contact forces do not settle in {} updates of the multipliers", outer - 1);
         return report;
       }
       newton = -1;
-      work_before = infinity;
+      last = none;
       continue;
     }
     if (newton == max_iterations_) {
       report.failure = cycling_rows(before, forces);
       return report;
     }
-    work_before = error.work;
-    report.failure = improve(eq, 0.3 * tolerance / error.displacement, end, forces, report);
+    last = error;
+    // Below what rounding may leave, each solve is asked for a hundredth of what is left.
+    const double left = error.work <= error.round_off ? std::max(0.3 * wanted, 0.01 * error.work) : 0.3 * tolerance;
+    report.failure = improve(eq, left / error.displacement, end, forces, report);
     if (!report.failure.empty()) return report;
   }
   take_history(forces.rows, end);

@@ -65,7 +65,8 @@ class ImplicitStage {
  private:
   struct Residual;
   Residual residual(const StageEquation& equation, const State& begin, const State& end, Forces& forces);
-  bool is_equilibrium(const StageEquation& equation, const Residual& error, double wanted, double work_before) const;
+  bool is_equilibrium(const StageEquation& equation, const Residual& error, double wanted,
+                      const Residual& before) const;
   std::string improve(const StageEquation& equation, double absolute, State& end, const Forces& forces,
                       StageReport& report);
   std::string cycling_rows(const std::vector<RowStatus>& before, const Forces& forces) const;
