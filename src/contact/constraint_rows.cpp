@@ -1,5 +1,6 @@
 #include "contact/constraint_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +9,8 @@
 namespace carom {
 
 namespace {
+
+constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
 
 /// A unit vector normal to n, from the axis least aligned with it.
 Vec3 any_tangent(const Vec3& n) {
@@ -66,8 +69,21 @@ void ConstraintRows::scatter(std::size_t r, const Vec3& s, std::span<double> f) 
   }
 }
 
+double ConstraintRows::rounding(std::size_t r, std::span<const double> x) const {
+  double sum = 0.0;
+  for (auto k = static_cast<std::size_t>(begin[r]); k < static_cast<std::size_t>(begin[r + 1]); ++k) {
+    const double* u = x.data() + 3 * static_cast<std::size_t>(node[k]);
+    for (const Vec3& line : block[k])
+      sum = std::max(sum, std::abs(line[0] * u[0]) + std::abs(line[1] * u[1]) + std::abs(line[2] * u[2]));
+  }
+  return precision * sum;
+}
+
+double ConstraintRows::gap_rounding(std::size_t r, std::span<const double> x) const {
+  return rounding(r, x) + precision * (norm(position[r]) + std::abs(gap[r]));
+}
+
 bool ConstraintRows::is_closed(std::size_t r, std::span<const double> x) const {
-  constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
   const Vec3 w = relative(r, x);
   return gap[r] + w[0] <= precision * (norm(position[r]) + std::abs(gap[r]) + norm(w));
 }

@@ -59,6 +59,10 @@ struct ConstraintRows {
   Vec3 relative(std::size_t r, std::span<const double> x) const;
   /// g_r(x)
   double gap_at(std::size_t r, std::span<const double> x) const { return gap[r] + relative(r, x)[0]; }
+  /// How much of (G x)_r rounding may have made: 16 units of round-off of its terms.
+  double rounding(std::size_t r, std::span<const double> x) const;
+  /// The same of g_r(x), whose gap is a difference of positions.
+  double gap_rounding(std::size_t r, std::span<const double> x) const;
   /// True when the gap is not above its own rounding: 16 units of round-off of position, gap and displacement. A body
   /// that rests or slides would else lift off for a step at every gap of 1e-17.
   bool is_closed(std::size_t r, std::span<const double> x) const;

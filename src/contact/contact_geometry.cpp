@@ -1,5 +1,7 @@
 #include "contact/contact_geometry.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -157,6 +159,15 @@ void ContactGeometry::set_initial(std::span<const double> u) {
   for (const Penetration& p : initial_penetrations(u))
     if (takes_offsets(impl_->model.contacts[p.contact])) impl_->offset[p.slot] = -p.depth;
   if (impl_->fixed) impl_->fixed = std::make_shared<const ConstraintRows>(impl_->make({}, {}, {}));
+}
+
+std::string ContactGeometry::describe(const ConstraintRows& rows, std::size_t r) const {
+  const std::string& name = std::visit([](const auto& contact) -> const std::string& { return contact.name; },
+                                       impl_->model.contacts[static_cast<std::size_t>(rows.source[r])]);
+  const Vec3& x = rows.position[r];
+  const Index node = rows.begin[r] < rows.begin[r + 1] ? rows.node[static_cast<std::size_t>(rows.begin[r])] : -1;
+  const std::string at = node < 0 ? "" : fmt::format("node {} ", impl_->model.mesh->node_numbers[node]);
+  return fmt::format("contact \"{}\", {}at ({:.4g}, {:.4g}, {:.4g})", name, at, x[0], x[1], x[2]);
 }
 
 const std::vector<std::string>& ContactGeometry::notes() const {

@@ -55,6 +55,8 @@ class ContactGeometry {
   /// have no offset.
   void set_initial(std::span<const double> u);
 
+  /// A row's contact and place, for messages: 'contact "faces", node 12 at (0.1, 0, 0.2)'.
+  std::string describe(const ConstraintRows& rows, std::size_t r) const;
   /// What was turned or noticed, for the log.
   const std::vector<std::string>& notes() const;
 

@@ -34,8 +34,9 @@ void CentralDifferences::start(State& state, double dt) {
   evaluate_body_forces(system_, state.t, state.q, now_);
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_next_);
   for (const ImposedStep& s : imposed_next_) state.a[s.dof] = acceleration_to_middle(s, dt);
-  if (!contact_->respond({dt, 0.5 * dt, state.q, state.q, state.v, state.a, state.contact}, now_))
-    throw std::runtime_error("no contact force was found for the initial state");
+  const std::string failure =
+      contact_->respond({dt, 0.5 * dt, state.q, state.q, state.v, state.a, state.contact}, now_);
+  if (!failure.empty()) throw std::runtime_error("at the start: " + failure);
   start_accelerations(system_, mass_solver_, state, now_);
 }
 
@@ -66,10 +67,8 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
   // Contact looks at the step that follows.
   imposed_steps(system_.supports, end.t, end.t + h, end.q, imposed_next_);
   for (const ImposedStep& s : imposed_next_) end.a[s.dof] = (s.mean_velocity - v_half_[s.dof]) / h;
-  if (!contact_->respond({h, h, begin.q, end.q, v_half_, end.a, begin.contact}, next_)) {
-    report.failure = "no contact force was found: the forces are not finite, or the cone problem has no solution";
-    return report;
-  }
+  report.failure = contact_->respond({h, h, begin.q, end.q, v_half_, end.a, begin.contact}, next_);
+  if (!report.failure.empty()) return report;
   for (const ImposedStep& s : imposed_) end.a[s.dof] = acceleration_from_middle(s, h);
   force_sum(next_, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);

@@ -1,5 +1,7 @@
 #include "schemes/closing_rows.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -40,10 +42,30 @@ bool mark_closing(const std::vector<ClosingRow>& candidates, const ConstraintRow
   return chosen.size() > before;
 }
 
+/// Relative errors of the motions; see close_rows.
+constexpr double wanted = 1e-12, accepted = 1e-8;
+
+std::string failure(const ContactGeometry& contact, const ConstraintRows& rows, const Delassus& W,
+                    const ConeResult& result) {
+  const std::string where = contact.describe(rows, W.rows[result.worst]);
+  if (std::isinf(result.error))
+    return fmt::format(
+        "the contact forces are not finite: {}. Shorten the step (time.step or time.safety), and look at the "
+        "velocities "
+        "and the stiffness there",
+        where);
+  return fmt::format(
+      "no contact forces were found for {} rows that close together (error {:.2g} of their motion, worst: {}). Where "
+      "nothing there can give way (nodes held on both sides of a gap that closes) a support must go; else shorten the "
+      "step (time.step or time.safety), take less friction, or scheme.kind = \"central_differences\" (penalty)",
+      W.size(), result.error, where);
+}
+
 }  // namespace
 
-bool close_rows(const std::vector<ClosingRow>& candidates, std::span<const RowHistory> history,
-                const ContactOperator& contact_operator, ContactResponse& response, std::span<double> x) {
+std::string close_rows(const ContactGeometry& contact, const std::vector<ClosingRow>& candidates,
+                       std::span<const RowHistory> history, const ContactOperator& contact_operator,
+                       ContactResponse& response, std::span<double> x) {
   const ConstraintRows& rows = *response.rows;
   std::vector<std::size_t> chosen;
   std::fill(x.begin(), x.end(), 0.0);
@@ -52,20 +74,23 @@ bool close_rows(const std::vector<ClosingRow>& candidates, std::span<const RowHi
     chosen = W.rows;
     std::vector<Vec3> b, r;
     std::vector<double> mu;
+    double round_off = 0.0;
     auto candidate = candidates.begin();
     for (const std::size_t row : chosen) {
       candidate = std::find_if(candidate, candidates.end(), [row](const ClosingRow& c) { return c.row == row; });
       b.push_back(candidate->w);
+      round_off = std::max(round_off, candidate->round_off);
       mu.push_back(rows.law[row].mu);
       r.push_back(rows.to_frame(row, history[static_cast<std::size_t>(rows.slot[row])].multiplier));
     }
-    if (!solve_cone(W, b, mu, r).converged) return false;
+    const ConeResult result = solve_cone(W, b, mu, r, wanted, accepted, round_off);
+    if (!result.converged) return failure(contact, rows, W, result);
     for (std::size_t k = 0; k < chosen.size(); ++k) set_multiplier(chosen[k], r[k], response);
     std::fill(x.begin(), x.end(), 0.0);
     response.add_force(x);
     contact_operator.inverse(x);
   }
-  return true;
+  return {};
 }
 
 void open_response(std::shared_ptr<const ConstraintRows> rows, std::size_t slots, ContactResponse& response) {

@@ -8,12 +8,12 @@ class PenaltyContact final : public ExplicitContact {
  public:
   explicit PenaltyContact(const System& system) : system_(system) {}
 
-  bool respond(const ExplicitPoint& at, Forces& forces) override {
+  std::string respond(const ExplicitPoint& at, Forces& forces) override {
     penalty_response(system_.contact.rows_at(at.u_begin, at.u, at.history), at.u_begin, at.u, at.v, at.history,
                      forces.rows);
     forces.contact.assign(at.u.size(), 0.0);
     forces.rows.add_force(forces.contact);
-    return true;
+    return {};
   }
   void book(const State&, const Forces&, const State&, const Forces&, EnergyTerms&) const override {}
 

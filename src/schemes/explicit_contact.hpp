@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 
 #include "schemes/system.hpp"
 
@@ -21,8 +22,9 @@ struct ExplicitPoint {
 class ExplicitContact {
  public:
   virtual ~ExplicitContact() = default;
-  /// Fills forces.rows and forces.contact; internal and external forces are there. False when no force was found.
-  virtual bool respond(const ExplicitPoint& at, Forces& forces) = 0;
+  /// Fills forces.rows and forces.contact; internal and external forces are there. Returns why no force was found, ""
+  /// when one was.
+  virtual std::string respond(const ExplicitPoint& at, Forces& forces) = 0;
   /// Books what central_difference_books leaves in `quadrature` of the work of forces that are no function of the
   /// state.
   virtual void book(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,

@@ -47,7 +47,7 @@ void start_multipliers(const System& system, MassSolver& solver, double dt, Stat
     closing.push_back({r, {a[0] + std::max(0.0, v[0]) / dt, a[1] + v[1] / dt, a[2] + v[2] / dt}});
   }
   std::vector<double> push(state.q.size());
-  if (!close_rows(closing, state.contact, mass_operator(system, solver), forces.rows, push))
+  if (!close_rows(system.contact, closing, state.contact, mass_operator(system, solver), forces.rows, push).empty())
     open_response(shared, state.contact.size(), forces.rows);
   forces.rows.add_force(forces.contact);
   take_history(forces.rows, state);

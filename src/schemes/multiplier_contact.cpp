@@ -12,17 +12,21 @@ namespace carom {
 
 namespace {
 
-/// What a row asks of v_next: (G v_next)_n + bias >= 0; nothing when it takes no part.
-using RowBias = std::optional<double> (*)(const ConstraintRows& rows, std::size_t r, const ExplicitPoint& at);
+/// What a row asks of v_next: (G v_next)_n + bias >= 0.
+struct Bias {
+  double value = 0.0, round_off = 0.0;
+};
+/// Nothing when the row takes no part.
+using RowBias = std::optional<Bias> (*)(const ConstraintRows& rows, std::size_t r, const ExplicitPoint& at);
 
-std::optional<double> impulse_bias(const ConstraintRows& rows, std::size_t r, const ExplicitPoint& at) {
+std::optional<Bias> impulse_bias(const ConstraintRows& rows, std::size_t r, const ExplicitPoint& at) {
   if (!rows.is_closed(r, at.u)) return std::nullopt;
   const double e = rows.law[r].restitution;
-  return e == 0.0 ? 0.0 : e * std::min(0.0, rows.relative(r, at.v)[0]);
+  return Bias{e == 0.0 ? 0.0 : e * std::min(0.0, rows.relative(r, at.v)[0]), 0.0};
 }
 
-std::optional<double> increment_bias(const ConstraintRows& rows, std::size_t r, const ExplicitPoint& at) {
-  return rows.gap_at(r, at.u) / at.h;
+std::optional<Bias> increment_bias(const ConstraintRows& rows, std::size_t r, const ExplicitPoint& at) {
+  return Bias{rows.gap_at(r, at.u) / at.h, rows.gap_rounding(r, at.u) / at.h};
 }
 
 /// Multipliers that keep v_next on the right side of every row: w = (G v_next + bias) / weight, A = M.
@@ -32,24 +36,26 @@ class MultiplierContact final : public ExplicitContact {
       : system_(system), bias_(bias), mass_(system), operator_(mass_operator(system, mass_)) {}
   MultiplierContact(const MultiplierContact&) = delete;
 
-  bool respond(const ExplicitPoint& at, Forces& forces) override {
+  std::string respond(const ExplicitPoint& at, Forces& forces) override {
     forces.contact.assign(at.u.size(), 0.0);
     open_response(system_.contact.rows_at(at.u_begin, at.u, at.history), at.history.size(), forces.rows);
     const ConstraintRows& rows = *forces.rows.rows;
     closing_.clear();
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      if (const auto bias = bias_(rows, r, at)) closing_.push_back({r, {*bias, 0.0, 0.0}});
+      if (const auto bias = bias_(rows, r, at)) closing_.push_back({r, {bias->value, 0.0, 0.0}, bias->round_off});
     }
-    if (closing_.empty()) return true;
-    if (!free_velocity(at, forces)) return false;
+    if (closing_.empty()) return {};
+    if (!free_velocity(at, forces)) return MassSolver::failure;
     for (ClosingRow& c : closing_) {
       const Vec3 w = rows.relative(c.row, v_free_);
       c.w = {(c.w[0] + w[0]) / at.weight, w[1] / at.weight, w[2] / at.weight};
+      c.round_off = (c.round_off + rows.rounding(c.row, v_free_)) / at.weight;
     }
     push_.resize(at.u.size());
-    if (!close_rows(closing_, at.history, operator_, forces.rows, push_)) return false;
+    std::string failure = close_rows(system_.contact, closing_, at.history, operator_, forces.rows, push_);
+    if (!failure.empty()) return failure;
     forces.rows.add_force(forces.contact);
-    return true;
+    return {};
   }
 
   void book(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,

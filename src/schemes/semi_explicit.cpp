@@ -162,8 +162,8 @@ std::string SemiExplicit::equilibrate(const Target& target, std::span<double> u,
                  dw = rows->relative(r, residual_);
       b.closing[r] = {r, {rows->gap[r] + w[0] + dw[0], w[1] - w_begin[1] + dw[1], w[2] - w_begin[2] + dw[2]}};
     }
-    if (!close_rows(b.closing, history, b.contact_operator, forces.rows, push_))
-      return "no contact force was found: the forces are not finite, or the cone problem has no solution";
+    std::string failure = close_rows(system_.contact, b.closing, history, b.contact_operator, forces.rows, push_);
+    if (!failure.empty()) return failure;
     double change = 0.0, size = 0.0, motion = 0.0;
     for (const std::size_t i : b.dofs) {
       const double du = residual_[i] + push_[i];
