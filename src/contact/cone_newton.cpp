@@ -170,12 +170,6 @@ bool newton_step(Problem& p, const RowList& rows) {
   return true;
 }
 
-std::vector<Vec3> forces_of(const Problem& p, const RowList& rows) {
-  std::vector<Vec3> forces;
-  for (const std::size_t i : rows) forces.push_back(p.r[i]);
-  return forces;
-}
-
 void set_forces(Problem& p, const RowList& rows, const std::vector<Vec3>& forces) {
   for (std::size_t k = 0; k < rows.size(); ++k) p.r[rows[k]] = forces[k];
 }
@@ -183,7 +177,7 @@ void set_forces(Problem& p, const RowList& rows, const std::vector<Vec3>& forces
 /// Goes back from r towards `from` by halves until the merit is below that of `from`; false when it does not fall.
 bool shorten(Problem& p, const RowList& rows, const std::vector<Vec3>& from, double merit) {
   constexpr int most_halvings = 6;
-  const std::vector<Vec3> full = forces_of(p, rows);
+  const std::vector<Vec3> full = p.forces(rows);
   double length = 1.0;
   for (int n = 0; n <= most_halvings; ++n, length *= 0.5) {
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -228,7 +222,7 @@ int newton(Problem& p, const RowList& rows, double tolerance, int most) {
   int steps = 0;
   while (steps < most && p.proximal_error(rows) > tolerance) {
     ++steps;
-    const std::vector<Vec3> before = forces_of(p, rows);
+    const std::vector<Vec3> before = p.forces(rows);
     const double merit = p.merit(rows);
     if (!newton_step(p, rows)) {
       set_forces(p, rows, before);

@@ -129,6 +129,13 @@ double Problem::merit(const RowList& rows) const {
   return sum;
 }
 
+std::vector<Vec3> Problem::forces(const RowList& rows) const {
+  std::vector<Vec3> out;
+  out.reserve(rows.size());
+  for (const std::size_t i : rows) out.push_back(r[i]);
+  return out;
+}
+
 void Problem::sweep(const RowList& rows, bool forwards) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::size_t i = rows[forwards ? k : rows.size() - 1 - k];

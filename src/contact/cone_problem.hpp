@@ -54,6 +54,8 @@ class Problem {
   double added(std::size_t i) const { return rho_ * compliance_[i]; }
   double centre(std::size_t i) const { return centre_[i][0]; }
 
+  /// r of the rows, in their order.
+  std::vector<Vec3> forces(const RowList& rows) const;
   /// One Gauss-Seidel sweep over the proximal problem, each row solved exactly for the forces of the others; forwards
   /// or backwards (Jourdan, Alart and Jean, Comput. Methods Appl. Mech. Eng. 155, 1998).
   void sweep(const RowList& rows, bool forwards);

@@ -7,6 +7,7 @@
 
 #include "contact/cone_newton.hpp"
 #include "contact/cone_problem.hpp"
+#include "math/vec3.hpp"
 
 namespace carom {
 
@@ -17,7 +18,7 @@ using cone::RowList;
 
 constexpr int first_sweeps = 3;
 constexpr int most_sweeps = 20000;
-constexpr int most_proximal_steps = 150;
+constexpr int most_proximal_steps = 300;
 /// Least rho: what a factorisation in double precision still tells from nothing.
 constexpr double least_proximal = 1e-13;
 
@@ -31,8 +32,7 @@ struct Best {
     const double now = p.error(rows);
     if (now >= error) return;
     error = now;
-    force.clear();
-    for (const std::size_t i : rows) force.push_back(p.r[i]);
+    force = p.forces(rows);
   }
   void restore(Problem& p, const RowList& rows) const {
     for (std::size_t k = 0; k < force.size(); ++k) p.r[rows[k]] = force[k];
@@ -84,13 +84,42 @@ bool solve_proximal(Problem& p, const RowList& rows, double tolerance, int& step
   return p.proximal_error(rows) <= tolerance;
 }
 
+/// How many times the change d of its force takes a row from r, inside its cone, to the cone; `longest` where that is
+/// more, and on the cone.
+double way_to_cone(const Vec3& r, const Vec3& d, double mu, double longest) {
+  if (mu == 0.0) return d[0] < 0.0 && r[0] > 0.0 ? std::min(longest, -r[0] / d[0]) : longest;
+  // (mu r_n)^2 - |r_T|^2 along r + t d: a + 2 b t + c t^2
+  const double a = mu * mu * r[0] * r[0] - r[1] * r[1] - r[2] * r[2];
+  const double b = mu * mu * r[0] * d[0] - r[1] * d[1] - r[2] * d[2];
+  const double c = mu * mu * d[0] * d[0] - d[1] * d[1] - d[2] * d[2];
+  if (!(a > 1e-9 * mu * mu * r[0] * r[0])) return d[0] < 0.0 && r[0] > 0.0 ? std::min(longest, -r[0] / d[0]) : longest;
+  const double root = b * b - a * c;
+  if (root < 0.0) return longest;
+  const double below = std::sqrt(root) - b;  // a / below is the first positive root, where it is positive
+  return below > 0.0 ? std::min(longest, a / below) : longest;
+}
+
+/// Moves the forces on by their change since `from` until the first row reaches its cone, at most ten times as far.
+void continue_drift(Problem& p, const RowList& rows, const std::vector<Vec3>& from) {
+  double longer = 10.0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Vec3& r = p.r[rows[k]];
+    longer = way_to_cone(r, subtract(r, from[k]), p.mu[rows[k]], longer);
+  }
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    Vec3& r = p.r[rows[k]];
+    r = add(r, scaled(subtract(r, from[k]), longer));
+  }
+}
+
 /// Rows with friction, few enough to factor: proximal steps. Where redundant rows contradict each other by a little,
 /// each step adds contradiction / rho to forces that cancel, until one of the rows slips; so rho falls, slowly where
-/// only such forces grow, and rises where Newton finds no way.
+/// only such forces grow, and rises where Newton finds no way, and after two steps of that kind the next is longer.
 int solve_with_friction(Problem& p, const RowList& rows, double tolerance, double accepted) {
   Best best;
   best.offer(p, rows);
   double rho = 1e-6, last = best.error;
+  std::vector<Vec3> from;
   int steps = 0;
   for (int n = 0; n < most_proximal_steps && best.error > tolerance; ++n) {
     p.regularise(rows, rho);
@@ -98,13 +127,20 @@ int solve_with_friction(Problem& p, const RowList& rows, double tolerance, doubl
     best.offer(p, rows);
     if (!found) {
       rho = std::min(1.0, 10.0 * rho);
+      from.clear();
       continue;
     }
     const double error = p.error(rows);
-    const bool stays = error > 0.5 * last;
+    const bool stays = error > 0.5 * last, drifts = stays && !from.empty();
     if (stays && last <= accepted) break;
-    rho = std::max(least_proximal, (stays ? 0.5 : 0.1) * rho);
     last = error;
+    if (drifts) {
+      continue_drift(p, rows, from);
+      from.clear();
+      continue;
+    }
+    rho = std::max(least_proximal, (stays ? 0.5 : 0.1) * rho);
+    from = p.forces(rows);
   }
   best.restore(p, rows);
   return steps;
