@@ -18,7 +18,6 @@ using cone::RowList;
 
 constexpr int first_sweeps = 3;
 constexpr int most_sweeps = 20000;
-constexpr int most_proximal_steps = 300;
 /// Least rho: what a factorisation in double precision still tells from nothing.
 constexpr double least_proximal = 1e-13;
 
@@ -47,6 +46,7 @@ int solve_frictionless(Problem& p, const RowList& rows, double tolerance, double
     active.push_back(p.normal_compliance(i) > 0.0 && p.normal_compliance(i) * p.r[i][0] > p.motion(i)[0]);
   Best best;
   best.offer(p, rows);
+  constexpr int most_proximal_steps = 60;
   double rho = 1e-10;
   int steps = 0;
   for (int n = 0; n < most_proximal_steps && best.error > tolerance; ++n) {
@@ -115,8 +115,8 @@ void continue_drift(Problem& p, const RowList& rows, const std::vector<Vec3>& fr
 /// Rows with friction, few enough to factor: proximal steps. Where redundant rows contradict each other by a little,
 /// each step adds contradiction / rho to forces that cancel, until one of the rows slips; so rho falls, slowly where
 /// only such forces grow, and rises where Newton finds no way, and after two steps of that kind the next is longer.
-int solve_with_friction(Problem& p, const RowList& rows, double tolerance, double accepted) {
-  Best best;
+int approach(Problem& p, const RowList& rows, double tolerance, double accepted, Best& best) {
+  constexpr int most_proximal_steps = 100;
   best.offer(p, rows);
   double rho = 1e-6, last = best.error;
   std::vector<Vec3> from;
@@ -141,6 +141,21 @@ int solve_with_friction(Problem& p, const RowList& rows, double tolerance, doubl
     }
     rho = std::max(least_proximal, (stays ? 0.5 : 0.1) * rho);
     from = p.forces(rows);
+  }
+  return steps;
+}
+
+/// The same from the forces given, from none, and from the best of both, until they are accepted.
+int solve_with_friction(Problem& p, const RowList& rows, double tolerance, double accepted) {
+  Best best;
+  int steps = approach(p, rows, tolerance, accepted, best);
+  for (const bool from_none : {true, false}) {
+    if (best.error <= accepted) break;
+    best.restore(p, rows);
+    if (from_none) {
+      for (const std::size_t i : rows) p.r[i] = {};
+    }
+    steps += approach(p, rows, tolerance, accepted, best);
   }
   best.restore(p, rows);
   return steps;

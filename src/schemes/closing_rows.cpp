@@ -43,7 +43,7 @@ bool mark_closing(const std::vector<ClosingRow>& candidates, const ConstraintRow
 }
 
 /// Relative errors of the motions; see close_rows.
-constexpr double wanted = 1e-12, accepted = 1e-6;
+constexpr double wanted = 1e-12, accepted = 1e-5;
 
 std::string failure(const ContactGeometry& contact, const ConstraintRows& rows, const Delassus& W,
                     const ConeResult& result) {

@@ -116,16 +116,16 @@ TEST_P(TwoPassCone, RedundantRowsThatAgree) {
   }
 }
 
-// Contradictions from round-off to the size of discretisation errors. 1e-6 of the motion is what the explicit schemes
+// Contradictions from round-off to the size of discretisation errors. 1e-5 of the motion is what the explicit schemes
 // ask for.
 TEST_P(TwoPassCone, RedundantRowsThatContradictEachOther) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     const double size = std::pow(10.0, -15.0 + 0.3 * seed);
     const TwoFaces p = two_faces(1000 + seed, GetParam(), size, size);
     std::vector<Vec3> r;
-    const ConeResult result = solve_cone(p.W, p.b, p.mu, r, 1e-12, 1e-6);
+    const ConeResult result = solve_cone(p.W, p.b, p.mu, r, 1e-12, 1e-5);
     EXPECT_TRUE(result.converged) << seed << ", contradiction " << size << ": " << result.error;
-    EXPECT_LE(violation(p, r), 1e-4) << seed;  // 1e-6 of forces x compliance, which are up to 1e2 of b
+    EXPECT_LE(violation(p, r), 1e-3) << seed;  // 1e-5 of forces x compliance, which are up to 1e2 of b
   }
 }
 
