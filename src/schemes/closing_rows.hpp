@@ -31,8 +31,8 @@ struct ClosingRow {
 /// until none of the others closes under the answer of these. `response` has been opened (open_response) and receives
 /// the multipliers, x receives A^-1 G^T r. Start values are those of the history. Multipliers are good when they are
 /// exact for w that differ from the given ones by 1e-5 of the largest, or by their rounding; as a rule they are to
-/// 1e-12, but rows that contradict each other (twins of two passes, each linearised about another facet) leave more than
-/// that undetermined. Returns why there are none and where, "" when there are.
+/// 1e-12, but rows that contradict each other (twins of two passes, each linearised about another facet) leave more
+/// than that undetermined. Returns why there are none and where, "" when there are.
 std::string close_rows(const ContactGeometry& contact, const std::vector<ClosingRow>& rows,
                        std::span<const RowHistory> history, const ContactOperator& contact_operator,
                        ContactResponse& response, std::span<double> x);
