@@ -19,6 +19,8 @@
 #include "mesh/mesh_summary.hpp"
 #include "mesh/read_mesh.hpp"
 #include "parallel/threads.hpp"
+#include "run/check_summary.hpp"
+#include "run/cost_estimate.hpp"
 #include "run/lint.hpp"
 #include "run/recorder.hpp"
 #include "run/run_case.hpp"
@@ -72,9 +74,12 @@ ExitCode check(const Arguments& arguments) {
   fmt::print("{}", carom::check_summary(simulation));
   for (const std::string& note : simulation.notes()) fmt::print("note: {}\n", note);
   for (const std::string& note : tables.probes.notes()) fmt::print("note: {}\n", note);
-  const std::vector<std::string> warnings = carom::lint_warnings(simulation);
+  std::vector<std::string> warnings = carom::lint_warnings(simulation);
+  for (std::string& warning : carom::cost_warnings(simulation, results_folder(arguments, "")))
+    warnings.push_back(std::move(warning));
   for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
-  fmt::print("{}\n", warnings.empty() ? "ready to run" : fmt::format("{} warning(s)", warnings.size()));
+  fmt::print("{}\n", warnings.empty() ? "ready to run"
+                                      : fmt::format("{} warning{}", warnings.size(), warnings.size() == 1 ? "" : "s"));
   return warnings.empty() ? ExitCode::good : ExitCode::verdict_failed;
 }
 

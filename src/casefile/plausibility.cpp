@@ -51,6 +51,8 @@ class Lint {
     for (const CaseMaterial& m : case_.materials) check_material(m);
     check_speeds();
     for (const CaseLoad& load : case_.loads) check_gravity(load);
+    check_twice();
+    for (const CaseContact& contact : case_.contacts) check_friction(contact);
     check_scheme();
     check_use();
     return std::move(lines_);
@@ -68,6 +70,7 @@ class Lint {
   }
 
   void check_material(const CaseMaterial& m) {
+    check_poisson(m);
     if (plausible(m, case_.units)) return;
     std::string hint;
     for (const UnitSystem other : unit_systems) {
@@ -155,6 +158,45 @@ class Lint {
                                   with_unit(here, Dimension::acceleration)));
       return;
     }
+  }
+
+  /// Loads that act twice in the same way.
+  void check_twice() {
+    const auto group = [](const CaseLoad& load) { return load.group ? **load.group : std::string{}; };
+    const auto function = [](const CaseLoad& load) { return load.function ? **load.function : std::string{}; };
+    for (std::size_t j = 1; j < case_.loads.size(); ++j) {
+      const CaseLoad& second = case_.loads[j];
+      for (std::size_t i = 0; i < j; ++i) {
+        const CaseLoad& first = case_.loads[i];
+        if (first.kind != second.kind || group(first) != group(second) || function(first) != function(second) ||
+            first.vector != second.vector || first.pressure != second.pressure)
+          continue;
+        say(second.where,
+            fmt::format("load: the same as that of line {}, and it counts twice; is it meant?", first.where.line));
+      }
+    }
+  }
+
+  /// Dry friction of engineering surfaces is below 1.5, of rubber on rough ground and clean metals in vacuum about 2
+  /// (B. Bhushan, Principles and Applications of Tribology, 2013, chapter 5).
+  void check_friction(const CaseContact& contact) {
+    constexpr double most = 2.0;
+    if (contact.friction <= most) return;
+    say(contact.where,
+        fmt::format("contact \"{}\": a friction of {:g} is more than dry surfaces have (2 at most); is it "
+                    "an angle in degrees, or in percent?",
+                    *contact.name, contact.friction));
+  }
+
+  /// The bulk modulus over the shear modulus is 2 (1 + nu) / (3 (1 - 2 nu)).
+  void check_poisson(const CaseMaterial& m) {
+    constexpr double most = 0.4999;
+    const double nu = *m.nu;
+    if (nu <= most) return;
+    say(m.nu.where,
+        fmt::format("materials.{}: nu = {:g} makes the bulk modulus {:.2g} times the shear modulus: waves and explicit "
+                    "steps follow the bulk, solids lock, and rounding grows by as much; rubber has 0.499 and less",
+                    toml_key(m.name), nu, 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu))));
   }
 
   void check_scheme() {

@@ -9,6 +9,7 @@
 #include "run/build_mesh.hpp"
 #include "run/groups.hpp"
 #include "run/parts.hpp"
+#include "run/redundant_contacts.hpp"
 #include "run/rigid_bodies.hpp"
 #include "run/unused_cells.hpp"
 
@@ -33,6 +34,8 @@ class Builder {
       for (const CaseInitial& initial : case_.stages[i].initial) add_initial(initial, i + 1);
     for (const CaseContact& contact : case_.contacts) add_contact(contact);
     refuse_unused_cells(case_, mesh_, parts_);
+    refuse_redundant_contacts(case_, model_);
+    refuse_faces_of_parts(case_, model_);
   }
 
  private:

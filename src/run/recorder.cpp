@@ -12,6 +12,7 @@
 #include "output/results_folder.hpp"
 #include "output/units.hpp"
 #include "output/vtu.hpp"
+#include "run/cost_estimate.hpp"
 
 namespace carom {
 
@@ -65,8 +66,7 @@ Recorder::Recorder(const Simulation& simulation, std::string folder)
       probes_file_(folder_ + "/probes.csv", tables_.probes.table().columns, comments(simulation, "probes")),
       frames_(folder_ + "/fields.pvd"),
       cells_(simulation.given().output.fields.empty() ? VtuCells{} : vtu_cells(simulation)),
-      frame_every_(simulation.given().output.fields_every > 0 ? simulation.given().output.fields_every
-                                                              : std::max(1LL, (simulation.steps() + 49) / 50)) {
+      frame_every_(frame_interval(simulation)) {
   if (tables_.exact) {
     exact_file_.emplace(folder_ + "/exact.csv", tables_.exact->table().columns, comments(simulation, "exact solution"));
   }

@@ -22,6 +22,7 @@
 #include "parallel/threads.hpp"
 #include "report/report.hpp"
 #include "run/body_scales.hpp"
+#include "run/cost_estimate.hpp"
 #include "run/inside_out.hpp"
 #include "run/lint.hpp"
 #include "run/overlap_watch.hpp"
@@ -484,7 +485,8 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   const Case given = read_case(case_file);
   const bool quiet = options.progress == ProgressMode::quiet;
   const Simulation simulation(given);
-  const std::vector<std::string> warnings = lint_warnings(simulation);
+  std::vector<std::string> warnings = lint_warnings(simulation);
+  for (std::string& warning : cost_warnings(simulation, options.folder)) warnings.push_back(std::move(warning));
   Run run(simulation, options);
   std::vector<std::string> notes = simulation.notes();
   notes.insert(notes.end(), run.recorder().notes().begin(), run.recorder().notes().end());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "run/approach.hpp"
 #include "run/lint.hpp"
 #include "run/recorder.hpp"
 #include "run_fixture.hpp"
@@ -86,6 +87,79 @@ TEST(Lint, CheckRefusesWhatARunRefuses) {
   EXPECT_NO_THROW(tables_of(probe));
   EXPECT_THROW(tables_of(probe + check), CaseError);
   EXPECT_THROW(tables_of("[[probe]]\nname = \"n\"\nnode = 9999\nquantities = [\"velocity\"]\n"), CaseError);
+}
+
+TEST(Lint, SaysWhenSurfacesLookAwayFromEachOther) {
+  const std::string what = "looks at";
+  const std::string floor =
+      "[[contact]]\nname = \"floor\"\nkind = \"plane\"\npoint = [0.0, 0.0, -0.1]\n"
+      "normal = [0.0, 0.0, 1.0]\ngroup = ";
+  EXPECT_FALSE(is_warned(floor + "\"FOOT\"\n" + moving(-1.0), what));
+  EXPECT_TRUE(is_warned(floor + "\"HEAD\"\n" + moving(-1.0), what));
+  std::string turned = second_body(3.5);
+  turned.replace(turned.find("group = \"HEAD\""), 14, "group = \"FOOT\"");
+  EXPECT_FALSE(is_warned(second_body(3.5) + moving(1.0), what));
+  EXPECT_TRUE(is_warned(turned + moving(1.0), what));
+}
+
+TEST(Lint, SaysWhenSurfacesPassByEachOther) {
+  const std::string what = "do not come together before the end";
+  // 5 ahead: reached in a second at 6, missed at 3, and missed sideways.
+  EXPECT_FALSE(is_warned(second_body(8.0) + moving(6.0), what));
+  EXPECT_TRUE(is_warned(second_body(8.0) + moving(2.0), what));
+  EXPECT_TRUE(is_warned(second_body(8.0) + "[[initial]]\npart = \"body\"\nvelocity = [16.0, 0.0, 6.0]\n", what));
+}
+
+TEST(Lint, FollowsTheFunctionOfAnObstacle) {
+  // A plane 1 above the head comes down at 2 after t = 0.25: touch at 0.75; at 1 it would come after the end.
+  const auto plane = [](double speed) {
+    return "[functions.late]\ntime = [0.0, 0.25, 0.25]\nvalue = [0.0, 0.0, 1.0]\n[[contact]]\nname = \"press\"\n"
+           "kind = \"plane\"\npoint = [0.0, 0.0, 4.0]\nnormal = [0.0, 0.0, -1.0]\ngroup = \"HEAD\"\n"
+           "function = \"late\"\nvelocity = [0.0, 0.0, " +
+           std::to_string(-speed) + "]\n";
+  };
+  const Case given = parse_case(case_of_block(plane(2.0) + central_differences), "case.toml");
+  const Simulation simulation(given);
+  const std::vector<Approach> found = approaches(simulation, simulation.initial_state());
+  EXPECT_NEAR(found.at(0).first_touch, 0.75, 2.0 / 512.0);  // the jump is smeared over an interval
+  EXPECT_FALSE(is_warned(plane(2.0), "is not reached before the end"));
+  EXPECT_TRUE(is_warned(plane(1.0), "is not reached before the end"));
+}
+
+TEST(Lint, AdvisesMoreStiffnessThanIsChosen) {
+  const auto given = parse_case(case_of_block(second_body(3.5) + moving(1.0) + central_differences), "case.toml");
+  for (const std::string& w : lint_warnings(Simulation(given))) {
+    const auto at = w.find("; stiffness ");
+    if (at == std::string::npos) continue;
+    const std::size_t instead = w.find(" instead of ");
+    ASSERT_NE(instead, std::string::npos) << w;
+    EXPECT_GT(std::stod(w.substr(at + 12)), std::stod(w.substr(instead + 12))) << w;
+    return;
+  }
+  ADD_FAILURE() << "an impact at the speed of sound is not called soft";
+}
+
+TEST(Lint, SaysWhichStopMakesTheStepSmall) {
+  const auto stop = [](double stiffness, double damping) {
+    return "[[contact]]\nname = \"stop\"\nkind = \"stop\"\ngroup = \"FOOT\"\nnormal = [0.0, 0.0, 1.0]\ngap = 0.1\n"
+           "stiffness = " +
+           std::to_string(stiffness) + "\ndamping = " + std::to_string(damping) + "\n" + moving(-1.0);
+  };
+  EXPECT_FALSE(is_warned(stop(1.0, 0.0), "explicit step"));
+  EXPECT_TRUE(is_warned(stop(1e6, 0.0), "its stiffness makes the explicit step"));
+  EXPECT_TRUE(is_warned(stop(1.0, 1e4), "its damping makes the explicit step"));
+}
+
+TEST(Lint, SaysWhatIsHardToBelieve) {
+  const std::string floor =
+      "[[contact]]\nname = \"floor\"\nkind = \"plane\"\npoint = [0.0, 0.0, -0.1]\n"
+      "normal = [0.0, 0.0, 1.0]\ngroup = \"FOOT\"\nfriction = ";
+  EXPECT_FALSE(is_warned(floor + "2.0\n", "a friction of"));
+  EXPECT_TRUE(is_warned(floor + "30.0\n", "a friction of 30"));
+  const std::string gravity = "[[load]]\ngravity = [0.0, 0.0, -9.81]\n";
+  EXPECT_FALSE(is_warned(gravity, "counts twice"));
+  EXPECT_TRUE(is_warned(gravity + gravity, "counts twice"));
+  EXPECT_FALSE(is_warned(gravity + "[[load]]\ngravity = [0.0, 9.81, 0.0]\n", "counts twice"));
 }
 
 }  // namespace

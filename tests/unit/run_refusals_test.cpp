@@ -1,4 +1,5 @@
 // What a case is refused for before it runs, beyond its single sections: what no part takes, and where probes stand.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "run/recorder.hpp"
@@ -83,6 +84,45 @@ TEST(SectionForce, NeedsASideAcrossItsSection) {
   // Along the section as much as across it: the cells above are taken whichever way it leans, none below are.
   EXPECT_EQ(probe_notes(section("[1.0, 0.0, 0.5]")).size(), 0U);
   EXPECT_EQ(tables_error(section("[1.0, 0.0, -0.5]")).key(), "probe");
+}
+
+TEST(RedundantContacts, AreRefused) {
+  const auto plane = [](const char* name, double height) {
+    return fmt::format(
+        "[[contact]]\nname = \"{}\"\nkind = \"plane\"\ngroup = \"FOOT\"\npoint = [{}, 0.0, {}]\nnormal = [0.0, 0.0, "
+        "1.0]\n",
+        name, height < -1.0 ? 5.0 : 0.0, height);
+  };
+  const auto key_of = [](const std::string& rest) { return case_error(case_of_block(rest + newmark)).key(); };
+  EXPECT_EQ(key_of(plane("a", -2.0) + plane("b", -2.0)), "contact");
+  const Case two = parse_case(case_of_block(plane("a", -2.0) + plane("b", -0.5) + newmark), "case.toml");
+  EXPECT_NO_THROW(Simulation{two});
+  const std::string other =
+      "[[mesh.block]]\norigin = [0.0, 0.0, 3.5]\nsize = [2.0, 2.0, 1.0]\ndivisions = [1, 1, 1]\n"
+      "groups = { cells = \"OTHER\", zmin = \"UNDER\", zmax = \"OVER\" }\n"
+      "[[part]]\nname = \"other\"\ncells = \"OTHER\"\nmaterial = \"soft\"\n";
+  const auto pair = [](const char* name, const char* group, const char* master) {
+    return fmt::format("[[contact]]\nname = \"{}\"\nkind = \"pair\"\ngroup = \"{}\"\nmaster = \"{}\"\n", name, group,
+                       master);
+  };
+  const std::string all = "[[contact]]\nname = \"all\"\nkind = \"all\"\n";
+  EXPECT_EQ(key_of(other + pair("a", "HEAD", "UNDER") + pair("b", "UNDER", "HEAD")), "contact");
+  EXPECT_EQ(key_of(other + all + pair("b", "UNDER", "HEAD")), "contact");
+  const Case excluded = parse_case(
+      case_of_block(other + all + "exclude = [\"UNDER\"]\n" + pair("b", "UNDER", "HEAD") + newmark), "case.toml");
+  EXPECT_NO_THROW(Simulation{excluded});
+}
+
+TEST(RigidSurface, OfFacesOfAPartThatMovesIsRefused) {
+  const std::string lid =
+      "[[mesh.block]]\norigin = [0.0, 0.0, 3.5]\nsize = [2.0, 2.0, 1.0]\ndivisions = [1, 1, 1]\n"
+      "groups = { cells = \"OTHER\", zmin = \"UNDER\" }\n"
+      "[[part]]\nname = \"other\"\ncells = \"OTHER\"\nmaterial = \"soft\"\n"
+      "[[contact]]\nname = \"lid\"\nkind = \"surface\"\nsurface = \"UNDER\"\ngroup = \"HEAD\"\n";
+  EXPECT_EQ(case_error(case_of_block(lid + newmark)).key(), "contact.surface");
+  const std::string held = "[[support]]\nnodes = \"OTHER\"\nblocked = [\"x\", \"y\", \"z\"]\n";
+  const Case given = parse_case(case_of_block(lid + held + newmark), "case.toml");
+  EXPECT_NO_THROW(Simulation{given});
 }
 
 }  // namespace

@@ -1,0 +1,146 @@
+#include "run/cost_estimate.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "run/recorder.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double gigabyte = 1e9;
+
+bool is_implicit(const Stage& stage) {
+  return !is_explicit(stage.settings().kind);
+}
+
+/// Of one .vtu file: coordinates, cells, and 24 bytes for a vector and 8 for a scalar on a node, 48 for the tensor of a
+/// cell (output/vtu.hpp).
+double frame_bytes(const Simulation& s) {
+  const double nodes = static_cast<double>(s.mesh().node_count()), cells = static_cast<double>(s.solid().cell_count());
+  if (s.given().output.fields.empty()) return 0.0;
+  double connectivity = 0.0;
+  for (std::size_t k = 0; k < s.solid().cell_count(); ++k)
+    connectivity += 8.0 * static_cast<double>(s.solid().nodes_of_cell(k).size()) + 9.0;
+  double bytes = 24.0 * nodes + connectivity;
+  for (const auto& field : s.given().output.fields) {
+    const bool is_cellwise = *field == "stress";
+    const bool is_scalar = *field == "contact_pressure" || *field == "contact_gap" || *field == "contact_status";
+    bytes += is_cellwise ? 48.0 * cells : (is_scalar ? 8.0 : 24.0) * nodes;
+  }
+  return bytes;
+}
+
+/// Numbers in a row of the tables, each with about 14 characters.
+double row_bytes(const Simulation& s) {
+  const RunTables tables(s);
+  const std::size_t columns = tables.energy.table().columns.size() + tables.contact.table().columns.size() +
+                              tables.probes.table().columns.size() +
+                              (tables.exact ? tables.exact->table().columns.size() : 0);
+  return 14.0 * static_cast<double>(columns);
+}
+
+std::string rounded(double value, const char* unit) {
+  const double magnitude = std::pow(10.0, std::floor(std::log10(value)));
+  return fmt::format("about {:g} {}", std::round(value / magnitude) * magnitude, unit);
+}
+
+struct Unit {
+  double size;
+  const char* name;
+};
+
+template <std::size_t n>
+std::string in_units(double value, const std::array<Unit, n>& units) {
+  if (!std::isfinite(value)) return "unknown";
+  const auto fits = std::find_if(units.begin(), units.end(), [&](const Unit& u) { return value >= u.size; });
+  if (fits == units.end()) return fmt::format("less than 1 {}", units.back().name);
+  return rounded(value / fits->size, fits->name);
+}
+
+}  // namespace
+
+long long frame_interval(const Simulation& s) {
+  const int wanted = s.given().output.fields_every;
+  return wanted > 0 ? wanted : std::max(1LL, (s.steps() + 49) / 50);
+}
+
+CostEstimate estimate_cost(const Simulation& s) {
+  const double cells = static_cast<double>(s.solid().cell_count()), nodes = static_cast<double>(s.mesh().node_count());
+  CostEstimate cost;
+  // A core does about two million cells a second in explicit steps, and thirty times that work in an implicit one.
+  for (const auto& stage : s.stages())
+    cost.seconds += cells * static_cast<double>(stage->steps()) * (is_implicit(*stage) ? 30.0 : 1.0) / 2e6;
+  // 1 kB per cell for the mesh, the kernels' tables and the states. A factor of nested dissection has about 8 n^(4/3)
+  // blocks of 3 x 3 over n nodes of a cube (A. George, SIAM J. Numer. Anal. 10, 1973), less where a body is slender.
+  const bool has_matrix =
+      std::any_of(s.stages().begin(), s.stages().end(), [](const auto& stage) { return is_implicit(*stage); });
+  cost.memory_bytes = 2e7 + 1e3 * cells + (has_matrix ? 8.0 * 72.0 * std::pow(nodes, 4.0 / 3.0) : 0.0);
+  cost.frames = s.given().output.fields.empty() ? 0 : s.steps() / frame_interval(s) + 2;
+  const double rows = static_cast<double>(s.steps() / s.given().output.curves_every + 1);
+  cost.disk_bytes = static_cast<double>(cost.frames) * frame_bytes(s) + rows * row_bytes(s);
+  return cost;
+}
+
+std::string about_bytes(double bytes) {
+  return in_units(bytes, std::array<Unit, 4>{{{1e12, "TB"}, {1e9, "GB"}, {1e6, "MB"}, {1e3, "kB"}}});
+}
+
+std::string about_seconds(double seconds) {
+  return in_units(seconds, std::array<Unit, 4>{{{86400.0, "d"}, {3600.0, "h"}, {60.0, "min"}, {1.0, "s"}}});
+}
+
+double available_memory() {
+  double available = infinity;
+  std::ifstream file("/proc/meminfo");
+  for (std::string key, rest; file >> key; std::getline(file, rest)) {
+    double kilobytes = 0.0;
+    if (key == "MemAvailable:" && file >> kilobytes) available = 1024.0 * kilobytes;
+  }
+  rlimit limit{};
+  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA})
+    if (getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+      available = std::min(available, static_cast<double>(limit.rlim_cur));
+  return available;
+}
+
+double available_disk(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::path path = std::filesystem::absolute(folder, error);
+  while (!std::filesystem::exists(path, error) && path.has_relative_path()) path = path.parent_path();
+  const std::filesystem::space_info space = std::filesystem::space(path, error);
+  return error ? infinity : static_cast<double>(space.available);
+}
+
+std::vector<std::string> cost_warnings(const Simulation& s, const std::string& folder) {
+  constexpr double many_bytes = 4.0 * gigabyte, day = 86400.0;
+  const CostEstimate cost = estimate_cost(s);
+  std::vector<std::string> out;
+  const double disk = available_disk(folder), memory = available_memory();
+  if (cost.disk_bytes > std::min(many_bytes, 0.5 * disk)) {
+    out.push_back(
+        fmt::format("the results will take {} ({} files of fields), and {} are free: raise output.fields_every "
+                    "or output.curves_every, or shorten output.fields",
+                    about_bytes(cost.disk_bytes), cost.frames, about_bytes(disk)));
+  }
+  if (cost.memory_bytes > 0.5 * memory) {
+    out.push_back(fmt::format("the run will need {} of memory, and {} are there{}", about_bytes(cost.memory_bytes),
+                              about_bytes(memory),
+                              is_implicit(s.first()) ? ": explicit schemes and solver = \"cg\" need least" : ""));
+  }
+  if (cost.seconds > day) {
+    out.push_back(fmt::format("the run will take {} on one core", about_seconds(cost.seconds)));
+  }
+  return out;
+}
+
+}  // namespace carom

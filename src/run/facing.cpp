@@ -1,0 +1,175 @@
+#include "run/facing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "contact/facet_geometry.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Mean position and velocity of the nodes of facets.
+struct Motion {
+  Vec3 x{}, v{};
+};
+
+Motion mean_motion(const Simulation& s, std::span<const Facet> facets, const State& state) {
+  Motion m;
+  double count = 0.0;
+  for (const Facet& facet : facets) {
+    for (const Index n : facet) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        m.x[c] += s.mesh().coordinates[at(n)][c] + state.q[3 * at(n) + c];
+        m.v[c] += state.v[3 * at(n) + c];
+      }
+      ++count;
+    }
+  }
+  return {scaled(m.x, 1.0 / count), scaled(m.v, 1.0 / count)};
+}
+
+/// A facet as something that looks along its normal.
+struct Look {
+  Vec3 centre{}, normal{};
+  double size = 0.0;  ///< from the centre to the farthest node
+};
+
+Look look(const Simulation& s, const Facet& facet, const State& state) {
+  PlacedFacet placed = place(facet, s.mesh().coordinates);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a)
+    for (std::size_t c = 0; c < 3; ++c) placed.x[a][c] += state.q[3 * at(facet[a]) + c];
+  const ParentPoint middle = facet_centre(facet.size);
+  const FacetFrame frame = facet_frame(placed, middle.xi, middle.eta);
+  Look seen{frame.position, frame.normal, 0.0};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a)
+    seen.size = std::max(seen.size, norm(subtract(placed.x[a], seen.centre)));
+  return seen;
+}
+
+/// Every so manieth facet, so that there are at most `most`.
+std::vector<Look> looks(const Simulation& s, std::span<const Facet> facets, const State& state) {
+  constexpr std::size_t most = 1500;
+  const std::size_t stride = 1 + facets.size() / most;
+  std::vector<Look> list;
+  for (std::size_t i = 0; i < facets.size(); i += stride) list.push_back(look(s, facets[i], state));
+  return list;
+}
+
+bool look_at_each_other(const Look& a, const Look& b) {
+  const Vec3 way = subtract(b.centre, a.centre);
+  const double slack = a.size + b.size;  // they may overlap a little, and stand beside each other
+  return dot(a.normal, b.normal) < 0.0 && dot(a.normal, way) > -slack && dot(b.normal, way) < slack;
+}
+
+bool pair_faces_away(const Simulation& s, const PairContact& pair, const State& state) {
+  if (pair.self || pair.slave.facets.empty() || pair.slave.facets[0].size == 1) return false;
+  const std::vector<Look> slave = looks(s, pair.slave.facets, state), master = looks(s, pair.master.facets, state);
+  return std::none_of(slave.begin(), slave.end(), [&](const Look& a) {
+    return std::any_of(master.begin(), master.end(), [&](const Look& b) { return look_at_each_other(a, b); });
+  });
+}
+
+bool obstacle_faces_away(const Simulation& s, std::size_t c, const ObstacleContact& obstacle, const State& state) {
+  if (obstacle.surface.facets.empty() || obstacle.surface.facets[0].size == 1) return false;
+  std::map<Index, std::vector<Vec3>> normals;
+  for (const Facet& facet : obstacle.surface.facets) {
+    const Vec3 normal = look(s, facet, state).normal;
+    for (const Index n : facet) normals[n].push_back(normal);
+  }
+  const std::shared_ptr<const ConstraintRows> rows = s.initial_rows();
+  bool any = false;
+  for (std::size_t r = 0; r < rows->size(); ++r) {
+    if (at(rows->source[r]) != c) continue;
+    any = true;
+    for (const Vec3& normal : normals[rows->node[at(rows->begin[r])]])
+      if (dot(normal, rows->normal[r]) < 0.0) return false;
+  }
+  return any;
+}
+
+struct Box3 {
+  Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+           std::numeric_limits<double>::infinity()},
+      high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+           -std::numeric_limits<double>::infinity()};
+};
+
+Box3 box_around(const Simulation& s, std::span<const Facet> facets, const State& state) {
+  Box3 box;
+  double size = 0.0;
+  for (const Facet& facet : facets) {
+    size = std::max(size, look(s, facet, state).size);
+    for (const Index n : facet)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double x = s.mesh().coordinates[at(n)][c] + state.q[3 * at(n) + c];
+        box.low[c] = std::min(box.low[c], x);
+        box.high[c] = std::max(box.high[c], x);
+      }
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    box.low[c] -= size;
+    box.high[c] += size;
+  }
+  return box;
+}
+
+}  // namespace
+
+std::optional<double> middle_approach(const Simulation& s, std::size_t c, const State& state) {
+  const auto* pair = std::get_if<PairContact>(&s.model().contacts[c]);
+  if (pair == nullptr || pair->self) return std::nullopt;
+  const Motion slave = mean_motion(s, pair->slave.facets, state), master = mean_motion(s, pair->master.facets, state);
+  const Vec3 way = subtract(master.x, slave.x);
+  return norm(way) > 0.0 ? std::optional(dot(subtract(slave.v, master.v), way) / norm(way)) : std::nullopt;
+}
+
+bool shows_its_back(const Simulation& s, std::size_t c, const State& state) {
+  const auto* obstacle = std::get_if<ObstacleContact>(&s.model().contacts[c]);
+  const auto* rigid = obstacle == nullptr ? nullptr : std::get_if<RigidSurface>(&obstacle->shape);
+  if (rigid == nullptr || obstacle->surface.facets.empty()) return false;
+  const Vec3 middle = mean_motion(s, obstacle->surface.facets, state).x;
+  const auto distance = [&](const Facet& facet) { return norm(subtract(look(s, facet, state).centre, middle)); };
+  const auto nearer = [&](const Facet& a, const Facet& b) { return distance(a) < distance(b); };
+  const std::vector<Facet>&own = obstacle->surface.facets, &others = rigid->surface.facets;
+  const Look here = look(s, *std::min_element(own.begin(), own.end(), nearer), state);
+  const Look there = look(s, *std::min_element(others.begin(), others.end(), nearer), state);
+  return dot(here.normal, there.normal) > 0.5 && dot(subtract(there.centre, here.centre), here.normal) > 0.0;
+}
+
+bool faces_away(const Simulation& s, std::size_t c, const State& state) {
+  const ContactDefinition& contact = s.model().contacts[c];
+  if (const auto* pair = std::get_if<PairContact>(&contact)) return pair_faces_away(s, *pair, state);
+  const auto* obstacle = std::get_if<ObstacleContact>(&contact);
+  return obstacle != nullptr && obstacle_faces_away(s, c, *obstacle, state);
+}
+
+bool passes_by(const Simulation& s, std::size_t c, const State& state) {
+  const auto* pair = std::get_if<PairContact>(&s.model().contacts[c]);
+  if (pair == nullptr || pair->self) return false;
+  const Box3 a = box_around(s, pair->slave.facets, state), b = box_around(s, pair->master.facets, state);
+  const Vec3 v = subtract(mean_motion(s, pair->slave.facets, state).v, mean_motion(s, pair->master.facets, state).v);
+  double enter = 0.0, leave = s.end();
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (v[i] == 0.0) {
+      if (a.high[i] < b.low[i] || a.low[i] > b.high[i]) return true;
+      continue;
+    }
+    const double first = (b.low[i] - a.high[i]) / v[i], second = (b.high[i] - a.low[i]) / v[i];
+    enter = std::max(enter, std::min(first, second));
+    leave = std::min(leave, std::max(first, second));
+  }
+  return enter > leave;
+}
+
+}  // namespace carom

@@ -1,0 +1,25 @@
+// How the surfaces of a contact stand to each other at the start.
+#pragma once
+
+#include <optional>
+
+#include "run/simulation.hpp"
+
+namespace carom {
+
+/// Speed at which the middles of two surfaces approach each other; without a value where that says nothing.
+std::optional<double> middle_approach(const Simulation& simulation, std::size_t contact, const State& state);
+
+/// True when a rigid surface shows its back: the facet nearest to the middle of the touching surface looks the same way
+/// as that does and lies before it.
+bool shows_its_back(const Simulation& simulation, std::size_t contact, const State& state);
+
+/// True when no facet of the contact's surface looks at the obstacle, or no facets of a pair look at each other: what
+/// would touch first is not in the contact.
+bool faces_away(const Simulation& simulation, std::size_t contact, const State& state);
+
+/// True when the boxes around the two surfaces of a pair, each grown by a facet, do not meet before the end at the mean
+/// velocities of the surfaces.
+bool passes_by(const Simulation& simulation, std::size_t contact, const State& state);
+
+}  // namespace carom

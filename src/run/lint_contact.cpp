@@ -1,0 +1,201 @@
+#include "run/lint_contact.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "math/vec3.hpp"
+#include "mesh/skin.hpp"
+#include "run/approach.hpp"
+#include "run/facing.hpp"
+#include "run/groups.hpp"
+#include "run/parts.hpp"
+#include "run/waves.hpp"
+
+namespace carom {
+
+namespace {
+
+/// Area of a facet as Surface counts it, of the section of this part.
+double area_of(const Mesh& mesh, const Facet& facet, const Part& part) {
+  const auto x = [&](std::size_t a) { return mesh.coordinates[static_cast<std::size_t>(facet[a])]; };
+  if (facet.size == 1) return part.thickness;
+  if (facet.size == 4)
+    return 0.5 * norm(cross(subtract(x(2), x(0)), subtract(x(3), x(1))));  // exact for plane quadrilaterals
+  const double ring = std::numbers::pi * (x(0)[0] + x(1)[0]);
+  return norm(subtract(x(1), x(0))) * (part.section == Section::axisymmetric ? ring : part.thickness);
+}
+
+/// Area of the part of the skin that the nodes of a contact make up; 0 when they make up none.
+double surface_area(const Simulation& s, const CaseContact& contact) {
+  const Groups groups(s.mesh());
+  const Parts parts(s.given(), s.mesh(), groups);
+  const std::vector<Index> nodes = groups.nodes(contact.group, "contact.group");
+  const auto is_member = [&](Index n) { return std::binary_search(nodes.begin(), nodes.end(), n); };
+  double area = 0.0;
+  for (const OuterFacet& outer : outer_facets(s.mesh())) {
+    const Part* part = parts.part_of(outer.cell);
+    if (part != nullptr && std::all_of(outer.facet.begin(), outer.facet.end(), is_member))
+      area += area_of(s.mesh(), outer.facet, *part);
+  }
+  return area;
+}
+
+/// Something else than initial velocities that may bring bodies together.
+bool is_driven(const Simulation& s) {
+  const auto moves = [](const PrescribedMotion& motion) {
+    return std::any_of(motion.function.value.begin(), motion.function.value.end(), [](double v) { return v != 0.0; });
+  };
+  return !s.model().loads.empty() || std::any_of(s.model().motions.begin(), s.model().motions.end(), moves);
+}
+
+class ContactLint {
+ public:
+  explicit ContactLint(const Simulation& s)
+      : s_(s),
+        state_(s.initial_state()),
+        approaches_(approaches(s, state_)),
+        impedances_(node_impedances(s)),
+        waves_(waves(s)),
+        cell_(smallest_cell(s)) {}
+
+  std::vector<std::string> run() {
+    for (std::size_t c = 0; c < approaches_.size(); ++c) {
+      where_ = fmt::format("{}: contact \"{}\"", to_string(given(c).where), *given(c).name);
+      check_place(c);
+      check_step(c);
+      check_stiffness(c);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  const CaseContact& given(std::size_t c) const { return s_.given().contacts[c]; }
+
+  template <class... Values>
+  void say(fmt::format_string<Values...> format, Values&&... values) {
+    out_.push_back(where_ + fmt::format(format, std::forward<Values>(values)...));
+  }
+
+  /// Will the surfaces meet at all?
+  void check_place(std::size_t c) {
+    const Approach& a = approaches_[c];
+    if (shows_its_back(s_, c, state_)) {
+      say(": the faces of its rigid surface look away from \"{}\", and what comes from behind passes: turn the faces "
+          "round (the order of their nodes)",
+          *given(c).group);
+      return;
+    }
+    if (faces_away(s_, c, state_)) {
+      const bool is_pair = *given(c).kind == CaseContact::Kind::pair;
+      say(": no face of \"{}\" looks at {}: are these the faces that touch?", *given(c).group,
+          is_pair ? fmt::format("a face of \"{}\"", *given(c).master) : "the obstacle");
+      return;
+    }
+    if (a.speed > 0.0 && a.first_touch > s_.end()) {
+      say(" is not reached before the end: gap {:.4g} at speed {:.4g}, and the run ends at {:.4g}{}", a.gap, a.speed,
+          s_.end(), std::isfinite(a.first_touch) ? fmt::format("; it would close at {:.4g}", a.first_touch) : "");
+      return;
+    }
+    if (is_driven(s_)) return;
+    const double speed = std::isfinite(a.gap) ? a.speed : middle_approach(s_, c, state_).value_or(1.0);
+    if (speed <= 0.0 && a.gap > 0.0) {
+      say(": nothing moves towards it (is the sign of the velocity or of the normal right?)");
+    } else if (!std::isfinite(a.gap) && passes_by(s_, c, state_)) {
+      say(": its surfaces do not come together before the end, at the velocities that they start with");
+    }
+  }
+
+  /// A row alone, with its node, sets this step: 2 / omega, or 2 mass / damping.
+  void check_step(std::size_t c) {
+    const Approach& a = approaches_[c];
+    const Stage& stage = s_.first();
+    const bool has_springs =
+        *given(c).kind == CaseContact::Kind::stop || stage.settings().enforcement == EnforcementKind::penalty;
+    if (!is_explicit(stage.settings().kind) || !has_springs) return;
+    const double of_cells = cell_ / waves_.speed;
+    const double of_spring = a.frequency_squared > 0.0 ? 2.0 / std::sqrt(a.frequency_squared) : of_cells;
+    const double of_damper = a.rate > 0.0 ? 2.0 / a.rate : of_cells;
+    constexpr double too_small = 0.05;
+    const double step = std::min(of_spring, of_damper);
+    if (step >= too_small * of_cells) return;
+    say(": its {} makes the explicit step about {:.2g} times smaller than the cells need ({:.3g} instead of {:.3g}): "
+        "{} it, or take an implicit scheme",
+        of_damper < of_spring ? "damping" : "stiffness", of_cells / step, step, of_cells,
+        of_damper < of_spring ? "lower" : "soften");
+  }
+
+  /// What a plane wave presses with when the bodies meet: rho c v, of two bodies in series.
+  double pressure(std::size_t c) const {
+    const ContactDefinition& contact = s_.model().contacts[c];
+    double z = 0.0;
+    if (const auto* pair = std::get_if<PairContact>(&contact)) {
+      const double slave = mean_impedance(pair->slave.facets, impedances_);
+      const double master = mean_impedance(pair->master.facets, impedances_);
+      z = slave * master / (slave + master);
+    } else if (const auto* obstacle = std::get_if<ObstacleContact>(&contact)) {
+      z = mean_impedance(obstacle->surface.facets, impedances_);
+    }
+    if (z == 0.0) z = *std::max_element(impedances_.begin(), impedances_.end());
+    return z * approaches_[c].speed;
+  }
+
+  /// Area that the rows of a contact stand for, once, where both sides have rows.
+  double area(std::size_t c) const {
+    if (given(c).per_node) return surface_area(s_, given(c));
+    const auto* pair = std::get_if<PairContact>(&s_.model().contacts[c]);
+    const bool has_facets = pair != nullptr && !pair->slave.facets.empty() && pair->slave.facets[0].size > 1;
+    const bool is_twice = has_facets && (pair->self || pair->method == PairMethod::two_pass);
+    return approaches_[c].measure / (is_twice ? 2.0 : 1.0);
+  }
+
+  /// eps_N as the case counts it, given or chosen.
+  double stiffness(std::size_t c) const {
+    const auto of = [](const auto& contact) -> double {
+      if constexpr (requires { contact.law; })
+        return contact.law.eps_N.value_or(0.0);
+      else
+        return contact.stiffness;
+    };
+    return std::visit(of, s_.model().contacts[c]);
+  }
+
+  void check_stiffness(std::size_t c) {
+    const Approach& a = approaches_[c];
+    if (*given(c).kind == CaseContact::Kind::stop || a.stiffness <= 0.0 || area(c) <= 0.0) return;
+    const double per_area = a.stiffness / area(c), penetration = pressure(c) / per_area;
+    // What the user chose is held to a hundredth of a cell; what was chosen from the cells to what the verdict allows.
+    const double most = given(c).stiffness ? 0.01 : 0.05;
+    if (penetration > most * cell_) {
+      say(" is soft: impact at {:.4g} will penetrate by about {:.3g} ({:.3g} cells); stiffness {:.3g} instead of "
+          "{:.3g} "
+          "would keep it below 1 %",
+          a.speed, penetration, penetration / cell_, stiffness(c) * penetration / (0.01 * cell_), stiffness(c));
+    }
+    if (per_area > 20.0 * waves_.modulus / cell_) {
+      say(" is {:.3g} times stiffer than a cell (modulus / cell length = {:.3g}): more stiffness brings noise and, in "
+          "explicit runs, a smaller step, not accuracy",
+          per_area * cell_ / waves_.modulus, waves_.modulus / cell_);
+    }
+  }
+
+  const Simulation& s_;
+  const State state_;
+  const std::vector<Approach> approaches_;
+  const std::vector<double> impedances_;
+  const Waves waves_;
+  const double cell_;
+  std::string where_;
+  std::vector<std::string> out_;
+};
+
+}  // namespace
+
+std::vector<std::string> contact_warnings(const Simulation& simulation) {
+  return simulation.given().contacts.empty() ? std::vector<std::string>{} : ContactLint(simulation).run();
+}
+
+}  // namespace carom

@@ -1,0 +1,63 @@
+#include "run/waves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace carom {
+
+namespace {
+
+const IsotropicElastic& elastic(const Part& part) {
+  return std::visit([](const auto& law) -> const IsotropicElastic& { return law; }, part.material);
+}
+
+}  // namespace
+
+double wave_modulus(const Part& part) {
+  const IsotropicElastic& m = elastic(part);
+  if (part.section == Section::bar) return m.E;
+  if (part.section == Section::plane_stress) return m.E / (1.0 - m.nu * m.nu);
+  return m.p_wave_modulus();
+}
+
+Waves waves(const Simulation& s) {
+  Waves w;
+  for (const Part& part : s.model().parts) {
+    w.modulus = std::max(w.modulus, wave_modulus(part));
+    w.speed = std::max(w.speed, std::sqrt(wave_modulus(part) / elastic(part).rho));
+  }
+  return w;
+}
+
+std::vector<double> node_impedances(const Simulation& s) {
+  std::vector<double> z(s.mesh().node_count(), 0.0);
+  for (const Part& part : s.model().parts) {
+    const double own = std::sqrt(wave_modulus(part) * elastic(part).rho);
+    const std::vector<Index>& connectivity = s.mesh().block(part.type)->connectivity;
+    const auto n = static_cast<std::size_t>(node_count(part.type));
+    for (const Index cell : part.cells)
+      for (std::size_t a = 0; a < n; ++a) {
+        double& at_node = z[static_cast<std::size_t>(connectivity[n * static_cast<std::size_t>(cell) + a])];
+        at_node = std::max(at_node, own);
+      }
+  }
+  return z;
+}
+
+double mean_impedance(std::span<const Facet> facets, std::span<const double> node_impedances) {
+  double sum = 0.0, count = 0.0;
+  for (const Facet& facet : facets)
+    for (const Index n : facet) {
+      sum += node_impedances[static_cast<std::size_t>(n)];
+      ++count;
+    }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+double smallest_cell(const Simulation& s) {
+  const std::vector<double>& lengths = s.solid().cell_lengths();
+  return *std::min_element(lengths.begin(), lengths.end());
+}
+
+}  // namespace carom
