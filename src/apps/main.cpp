@@ -6,11 +6,14 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <new>
 #include <system_error>
 
 #include "base/errors.hpp"
+#include "base/terminal_text.hpp"
 #include "base/version.hpp"
 #include "casefile/read_case.hpp"
 #include "casefile/schema.hpp"
@@ -52,6 +55,12 @@ void stop_at_signals() {
   std::signal(SIGPIPE, SIG_IGN);  // a run outlives the pipe that its progress is written to
 }
 
+/// On stdout, without what could do harm to a terminal.
+template <class... Values>
+void show(fmt::format_string<Values...> format, Values&&... values) {
+  fmt::print("{}", carom::terminal_text(fmt::format(format, std::forward<Values>(values)...)));
+}
+
 std::string results_folder(const Arguments& arguments, const char* ending) {
   if (!arguments.folder.empty()) return arguments.folder;
   return (std::filesystem::path("out") / std::filesystem::path(arguments.case_file).stem()).string() + ending;
@@ -71,13 +80,13 @@ ExitCode check(const Arguments& arguments) {
   const carom::Case given = carom::read_case(arguments.case_file);
   const carom::Simulation simulation(given);
   const carom::RunTables tables(simulation);  // refuses probes and checks that a run would refuse
-  fmt::print("{}", carom::check_summary(simulation));
-  for (const std::string& note : simulation.notes()) fmt::print("note: {}\n", note);
-  for (const std::string& note : tables.probes.notes()) fmt::print("note: {}\n", note);
+  show("{}", carom::check_summary(simulation));
+  for (const std::string& note : simulation.notes()) show("note: {}\n", note);
+  for (const std::string& note : tables.probes.notes()) show("note: {}\n", note);
   std::vector<std::string> warnings = carom::lint_warnings(simulation);
   for (std::string& warning : carom::cost_warnings(simulation, results_folder(arguments, "")))
     warnings.push_back(std::move(warning));
-  for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
+  for (const std::string& warning : warnings) show("warning: {}\n", warning);
   fmt::print("{}\n", warnings.empty() ? "ready to run"
                                       : fmt::format("{} warning{}", warnings.size(), warnings.size() == 1 ? "" : "s"));
   return warnings.empty() ? ExitCode::good : ExitCode::verdict_failed;
@@ -91,7 +100,7 @@ ExitCode compare(const Arguments& arguments) {
 }
 
 ExitCode mesh(const Arguments& arguments) {
-  fmt::print("{}", carom::mesh_summary(carom::read_mesh(arguments.mesh_file)));
+  show("{}", carom::mesh_summary(carom::read_mesh(arguments.mesh_file)));
   return ExitCode::good;
 }
 
@@ -121,6 +130,28 @@ void add_compare(CLI::App& app, Arguments& arguments) {
   command->add_flag("--quiet", arguments.quiet, "Print errors only");
 }
 
+void print_error(const std::string& what) {
+  fmt::print(stderr, "error: {}\n", carom::terminal_text(what));
+}
+
+ExitCode guarded(const CLI::App& app, const Arguments& arguments) {
+  try {
+    const ExitCode code = dispatch(app, arguments);
+    if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "cannot write to stdout");
+    return code;
+  } catch (const carom::CaseError& e) {
+    print_error(e.what());
+    return ExitCode::case_wrong;
+  } catch (const std::bad_alloc&) {
+    print_error(fmt::format("memory ran out while the case was made ready; {} are there",
+                            carom::about_bytes(carom::available_memory())));
+    return ExitCode::run_failed;
+  } catch (const std::exception& e) {
+    print_error(e.what());
+    return ExitCode::run_failed;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -148,15 +179,12 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::case_wrong);
   }
-  try {
-    const ExitCode code = dispatch(app, arguments);
-    if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "cannot write to stdout");
-    return static_cast<int>(code);
-  } catch (const carom::CaseError& e) {
-    fmt::print(stderr, "error: {}\n", e.what());
-    return static_cast<int>(ExitCode::case_wrong);
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "error: {}\n", e.what());
-    return static_cast<int>(ExitCode::run_failed);
+  const ExitCode code = guarded(app, arguments);
+  // A run that failed may have had no memory left, and the exit handlers of the linear algebra have hung for want of
+  // it.
+  if (code == ExitCode::run_failed) {
+    std::fflush(nullptr);
+    std::_Exit(static_cast<int>(code));
   }
+  return static_cast<int>(code);
 }

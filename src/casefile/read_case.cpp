@@ -1,5 +1,9 @@
 #include "casefile/read_case.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -20,6 +24,44 @@ UnitSystem message_units(const Node& root) {
     if (text != nullptr && *text == name(system)) return system;
   }
   return UnitSystem::si;
+}
+
+constexpr const char* utf8 = "a case file (.toml) in UTF-8";
+
+/// Position of the first byte that is not UTF-8 (RFC 3629, but for overlong forms and surrogates, which TOML's reader
+/// finds), or npos.
+std::size_t first_foreign_byte(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const std::size_t length = c < 0x80                  ? 1
+                               : (c >= 0xc2 && c < 0xe0) ? 2
+                               : (c & 0xf0U) == 0xe0     ? 3
+                               : (c >= 0xf0 && c < 0xf5) ? 4
+                                                         : 0;
+    if (length == 0 || i + length > text.size()) return i;
+    for (std::size_t k = 1; k < length; ++k)
+      if ((static_cast<unsigned char>(text[i + k]) & 0xc0U) != 0x80) return i;
+    i += length;
+  }
+  return std::string_view::npos;
+}
+
+void refuse_other_encodings(std::string_view text, const std::string& path) {
+  const std::string remedy = "Open it in the editor and save it as UTF-8.";
+  const bool is_marked = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+  const auto is_zero = [&](std::size_t i) { return i < text.size() && text[i] == '\0'; };
+  const bool is_wide = (is_zero(0) && is_zero(2)) || (is_zero(1) && is_zero(3));
+  if (is_marked || is_wide) throw CaseError({path, 0, 0}, "", "a text in UTF-16", utf8, remedy);
+  if (text.find('\0') != std::string_view::npos) return;  // no text at all: the reader says where
+  const std::size_t foreign = first_foreign_byte(text);
+  if (foreign == std::string_view::npos) return;
+  const std::string_view before = text.substr(0, foreign);
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::size_t begin = before.rfind('\n') + 1;  // npos + 1 is 0
+  throw CaseError({path, static_cast<int>(line), static_cast<int>(foreign - begin) + 1}, "",
+                  fmt::format("the byte 0x{:02x}, which is not UTF-8 (is this Latin-1?)",
+                              static_cast<unsigned char>(text[foreign])),
+                  utf8, remedy);
 }
 
 }  // namespace
@@ -51,6 +93,7 @@ Case read_case(const std::string& path) {
     throw CaseError({path, 0, 0}, "", "a mesh file", "a case file (.toml)",
                     "`carom mesh` describes it; a case names it in [mesh] as file = \"...\".");
   }
+  refuse_other_encodings(text, path);
   return parse_case(text, path);
 }
 

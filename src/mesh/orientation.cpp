@@ -1,11 +1,13 @@
 #include "mesh/orientation.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "math/vec3.hpp"
@@ -83,8 +85,8 @@ bool has_repeated_nodes(std::span<const Index> nodes) {
   return false;
 }
 
-[[noreturn]] void refuse(const Mesh& mesh, const CellBlock& block, std::size_t cell, std::span<const Index> nodes,
-                         const CornerJacobians& J) {
+/// What is wrong with a cell and where it is.
+std::string fault(const Mesh& mesh, std::span<const Index> nodes, const CornerJacobians& J) {
   Vec3 centroid{};
   for (const Index n : nodes)
     centroid =
@@ -96,8 +98,26 @@ bool has_repeated_nodes(std::span<const Index> nodes) {
     what = fmt::format("Jacobians of both signs at the corners (from {:.3g} to {:.3g})", J.min, J.max);
   else
     what = fmt::format("no volume at a corner (Jacobians from {:.3g} to {:.3g})", J.min, J.max);
-  throw CaseError({mesh.report.source, 0, 0}, fmt::format("cell {} ({})", block.file_numbers[cell], name(block.type)),
-                  fmt::format("{}, at ({:.6g}, {:.6g}, {:.6g})", what, centroid[0], centroid[1], centroid[2]),
+  return fmt::format("{}, at ({:.6g}, {:.6g}, {:.6g})", what, centroid[0], centroid[1], centroid[2]);
+}
+
+/// The cells that cannot be computed with.
+struct Faults {
+  std::string first_cell, first_fault;
+  std::vector<std::int64_t> others;
+};
+
+[[noreturn]] void refuse(const Mesh& mesh, const Faults& faults) {
+  constexpr std::size_t most = 1000;
+  std::string found = faults.first_fault;
+  if (!faults.others.empty()) {
+    const std::size_t count = std::min(most, faults.others.size());
+    found +=
+        fmt::format("; {} more cell{} like it: {}{}", faults.others.size(), faults.others.size() == 1 ? "" : "s",
+                    fmt::join(faults.others.begin(), faults.others.begin() + static_cast<std::ptrdiff_t>(count), ", "),
+                    count < faults.others.size() ? ", ..." : "");
+  }
+  throw CaseError({mesh.report.source, 0, 0}, faults.first_cell, found,
                   "a cell with volume, not folded, over distinct nodes",
                   "Mesh the place again, or write the node order of this cell anew.");
 }
@@ -134,6 +154,7 @@ void orient_cells(Mesh& mesh) {
   MeshReport& report = mesh.report;
   report.turned = 0;
   bool any = false;
+  Faults faults;
   const bool flat = is_plane(mesh);
   for (CellBlock& block : mesh.blocks) {
     const bool is_plane_solid = flat && block.type == CellType::quad4;
@@ -147,7 +168,13 @@ void orient_cells(Mesh& mesh) {
           is_plane_solid ? plane_jacobians(mesh, nodes) : corner_jacobians(mesh, block.type, nodes);
       if (J.positive != corners && J.negative != corners) {
         if (has_zero_thickness(mesh, block.type, nodes)) continue;
-        refuse(mesh, block, cell, nodes, J);
+        if (faults.first_cell.empty()) {
+          faults.first_cell = fmt::format("cell {} ({})", block.file_numbers[cell], name(block.type));
+          faults.first_fault = fault(mesh, nodes, J);
+        } else {
+          faults.others.push_back(block.file_numbers[cell]);
+        }
+        continue;
       }
       if (J.negative == corners) {
         std::array<Index, 27> old{};
@@ -162,6 +189,7 @@ void orient_cells(Mesh& mesh) {
       report.worst_cell = block.file_numbers[cell];
     }
   }
+  if (!faults.first_cell.empty()) refuse(mesh, faults);
 }
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace carom {
@@ -28,7 +29,6 @@ double fraction_done(double t, double t_end) {
 }
 
 std::string duration(double seconds) {
-  if (!std::isfinite(seconds)) return "?";
   if (seconds < 59.5) return fmt::format("{:.0f} s", seconds);
   const auto whole = static_cast<long>(std::lround(seconds));
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
@@ -44,10 +44,10 @@ std::string bar(double fraction, int width) {
 }
 
 /// What stands beside the bar, most important first; every character is one column.
-std::vector<std::string> entries(const ProgressUpdate& now, double t_end, double elapsed_seconds) {
+std::vector<std::string> entries(const ProgressUpdate& now, double t_end, double seconds_left) {
   const double fraction = fraction_done(now.t, t_end);
   std::vector<std::string> list{fmt::format("{:3.0f} %", std::floor(100.0 * fraction)), fmt::format("t {:.4g}", now.t)};
-  if (fraction > 0.0) list.push_back("left " + duration(elapsed_seconds * (1.0 - fraction) / fraction));
+  if (std::isfinite(seconds_left)) list.push_back("left " + duration(seconds_left));
   list.push_back(fmt::format("step {}", now.step));
   list.push_back(fmt::format("dt {:.3g}", now.dt));
   if (now.iterations > 0) list.push_back(fmt::format("it {}", now.iterations));
@@ -63,10 +63,10 @@ void show(std::FILE* stream, const std::string& text) {
 
 }  // namespace
 
-std::string progress_line(const ProgressUpdate& now, double t_end, double elapsed_seconds, int width) {
+std::string progress_line(const ProgressUpdate& now, double t_end, double seconds_left, int width) {
   constexpr int kShortestBar = 8, kLongestBar = 30;
   std::string text;
-  for (const std::string& entry : entries(now, t_end, elapsed_seconds)) {
+  for (const std::string& entry : entries(now, t_end, seconds_left)) {
     const std::string longer = text.empty() ? entry : text + "  " + entry;
     if (static_cast<int>(longer.size()) > width) break;
     text = longer;
@@ -77,13 +77,14 @@ std::string progress_line(const ProgressUpdate& now, double t_end, double elapse
 }
 
 Progress::Progress(std::FILE* stream, double t_end, ProgressMode mode)
-    : stream_(stream), t_end_(t_end), mode_(mode), begin_(Clock::now()), last_shown_(begin_ - kLiveInterval) {
+    : stream_(stream), t_end_(t_end), mode_(mode), last_shown_(Clock::now() - kLiveInterval) {
   if (mode_ == ProgressMode::automatic) {
     mode_ = ::isatty(::fileno(stream)) != 0 ? ProgressMode::live : ProgressMode::lines;
   }
 }
 
 void Progress::update(const ProgressUpdate& now) {
+  if (!first_) first_ = First{Clock::now(), now.t};
   if (mode_ == ProgressMode::live) {
     show_live(now);
   } else if (mode_ == ProgressMode::lines) {
@@ -91,13 +92,19 @@ void Progress::update(const ProgressUpdate& now) {
   }
 }
 
+/// At the pace since the first step: what came before it, such as a factorisation, does not come again.
+double Progress::seconds_left(double t) const {
+  if (t >= t_end_) return 0.0;
+  if (!first_ || !(t > first_->t)) return std::numeric_limits<double>::quiet_NaN();
+  return std::chrono::duration<double>(Clock::now() - first_->time).count() * (t_end_ - t) / (t - first_->t);
+}
+
 void Progress::show_live(const ProgressUpdate& now) {
   const Clock::time_point time = Clock::now();
   if (time - last_shown_ < kLiveInterval) return;
   last_shown_ = time;
-  const double elapsed = std::chrono::duration<double>(time - begin_).count();
   // The last column stays free: a full line would wrap on some terminals.
-  show(stream_, "\r" + progress_line(now, t_end_, elapsed, terminal_width(stream_) - 1) + "\x1b[K");
+  show(stream_, "\r" + progress_line(now, t_end_, seconds_left(now.t), terminal_width(stream_) - 1) + "\x1b[K");
   live_shown_ = true;
 }
 
@@ -105,8 +112,7 @@ void Progress::show_line(const ProgressUpdate& now) {
   const double fraction = fraction_done(now.t, t_end_);
   if (fraction < next_line_ - 1e-9) return;
   next_line_ = kLineEvery * (std::floor(fraction / kLineEvery + 1e-9) + 1.0);
-  const double elapsed = std::chrono::duration<double>(Clock::now() - begin_).count();
-  show(stream_, fmt::format("{}\n", fmt::join(entries(now, t_end_, elapsed), "  ")));
+  show(stream_, fmt::format("{}\n", fmt::join(entries(now, t_end_, seconds_left(now.t)), "  ")));
 }
 
 void Progress::clear_live() {

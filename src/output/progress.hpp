@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -37,17 +38,24 @@ class Progress {
   void show_live(const ProgressUpdate& now);
   void show_line(const ProgressUpdate& now);
   void clear_live();
+  double seconds_left(double t) const;
 
   std::FILE* stream_;
   double t_end_;
   ProgressMode mode_;
-  Clock::time_point begin_, last_shown_;
+  /// When the first step was done, and the time that it reached.
+  struct First {
+    Clock::time_point time;
+    double t;
+  };
+  std::optional<First> first_;
+  Clock::time_point last_shown_;
   double next_line_ = 0.05;  ///< fraction of t_end at which the next plain line is due
   bool live_shown_ = false;  ///< a live line stands on the terminal
 };
 
 /// The text of one progress line, at most `width` columns: bar, percentage, t, step, dt, iterations, energy error, time
-/// left. What does not fit is left out from the right, the bar shrinks first.
-std::string progress_line(const ProgressUpdate& now, double t_end, double elapsed_seconds, int width);
+/// left (where it is finite). What does not fit is left out from the right, the bar shrinks first.
+std::string progress_line(const ProgressUpdate& now, double t_end, double seconds_left, int width);
 
 }  // namespace carom

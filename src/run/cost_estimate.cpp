@@ -121,6 +121,11 @@ double available_disk(const std::string& folder) {
   return error ? infinity : static_cast<double>(space.available);
 }
 
+std::string memory_statement(const Simulation& s) {
+  return fmt::format("it needs {} in all, and {} are there", about_bytes(estimate_cost(s).memory_bytes),
+                     about_bytes(available_memory()));
+}
+
 std::vector<std::string> cost_warnings(const Simulation& s, const std::string& folder) {
   constexpr double many_bytes = 4.0 * gigabyte, day = 86400.0;
   const CostEstimate cost = estimate_cost(s);

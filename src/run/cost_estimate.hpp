@@ -29,6 +29,9 @@ std::string about_seconds(double seconds);
 double available_memory();
 double available_disk(const std::string& folder);
 
+/// "it needs about 3 GB in all, and about 2 GB are there".
+std::string memory_statement(const Simulation& simulation);
+
 /// Runs that need more than what is there, or more than a user expects of a run: 4 GB of files, half of the memory, or
 /// a day.
 std::vector<std::string> cost_warnings(const Simulation& simulation, const std::string& folder);

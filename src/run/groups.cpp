@@ -24,10 +24,30 @@ std::array<Index, 4> sorted(std::span<const Index> nodes) {
   return result;
 }
 
+/// How to get a mesh without cells of this type, where carom has no such element.
+std::string other_mesh(CellType found) {
+  switch (found) {
+    case CellType::hexa8:
+    case CellType::quad4:
+    case CellType::line2:
+    case CellType::point1:
+      return {};
+    case CellType::line3:
+    case CellType::quad8:
+    case CellType::quad9:
+    case CellType::hexa20:
+    case CellType::hexa27:
+      return "Save the mesh with cells of first order (Gmsh: Mesh.ElementOrder = 1; Salome: convert to linear).";
+    default:
+      return "Mesh with hexahedra, in two dimensions with quadrilaterals (Gmsh: Transfinite and Recombine; Salome: "
+             "Hexahedron (i, j, k)), of first order.";
+  }
+}
+
 }  // namespace
 
 void Groups::refuse(const Located<std::string>& name, const std::string& key, const std::string& found,
-                    const std::string& expected) const {
+                    const std::string& expected, const std::string& remedy) const {
   const std::vector<std::string> names = mesh_.group_names();
   const std::string near = nearest(*name, names);
   std::string mend = near.empty() || near == *name ? "" : fmt::format("Did you mean \"{}\"? ", near);
@@ -36,7 +56,7 @@ void Groups::refuse(const Located<std::string>& name, const std::string& key, co
   mend += names.empty()
               ? "The mesh has no groups."
               : fmt::format("The mesh has: {}{}.", fmt::join(shown, ", "), names.size() > most ? ", ..." : "");
-  throw CaseError(name.where, key, found, expected, mend);
+  throw CaseError(name.where, key, found, expected, remedy.empty() ? mend : remedy);
 }
 
 void Groups::require(const Located<std::string>& name, const std::string& key) const {
@@ -94,7 +114,7 @@ std::vector<Index> Groups::cells(const Located<std::string>& name, const std::st
       if (found == type) {
         cells.push_back(ref.cell);
       } else if (dimension(found) >= dimension(type)) {
-        refuse(name, key, fmt::format("{} cells in \"{}\"", carom::name(found), *name), expected);
+        refuse(name, key, fmt::format("{} cells in \"{}\"", carom::name(found), *name), expected, other_mesh(found));
       } else {
         others.insert(carom::name(found));
       }

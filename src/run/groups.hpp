@@ -41,7 +41,7 @@ class Groups {
   bool means_all(const std::string& name) const { return name == "all" && !mesh_.has_group(name); }
   void require(const Located<std::string>& name, const std::string& key) const;
   [[noreturn]] void refuse(const Located<std::string>& name, const std::string& key, const std::string& found,
-                           const std::string& expected) const;
+                           const std::string& expected, const std::string& remedy = "") const;
 
   struct Skin {
     std::vector<OuterFacet> facets;

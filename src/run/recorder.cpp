@@ -60,6 +60,7 @@ Recorder::Recorder(const Simulation& simulation, std::string folder)
       folder_(std::move(folder)),
       tables_(simulation),
       figures_(simulation),
+      lock_(folder_),
       energy_file_(prepared(folder_) + "/energy.csv", tables_.energy.table().columns, comments(simulation, "energies")),
       contact_file_(folder_ + "/contact.csv", tables_.contact.table().columns,
                     comments(simulation, "contact forces on the body")),

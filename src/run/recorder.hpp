@@ -8,6 +8,7 @@
 
 #include "output/csv.hpp"
 #include "output/pvd.hpp"
+#include "output/results_lock.hpp"
 #include "output/vtu.hpp"
 #include "run/checks.hpp"
 #include "run/contact_fields.hpp"
@@ -59,6 +60,7 @@ class Recorder {
   std::string folder_;
   RunTables tables_;
   KeyFigures figures_;
+  ResultsLock lock_;
   CsvFile energy_file_, contact_file_, probes_file_;
   std::optional<CsvFile> exact_file_;
   PvdCollection frames_;

@@ -8,10 +8,12 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <new>
 #include <numeric>
 #include <utility>
 
 #include "base/errors.hpp"
+#include "base/terminal_text.hpp"
 #include "base/version.hpp"
 #include "casefile/read_case.hpp"
 #include "casefile/resolved_case.hpp"
@@ -432,7 +434,7 @@ void judge(Summary& summary) {
 /// To stderr; when that has gone, the results are still in the folder.
 template <class... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
-  std::fputs(fmt::format(format, std::forward<Values>(values)...).c_str(), stderr);
+  std::fputs(terminal_text(fmt::format(format, std::forward<Values>(values)...)).c_str(), stderr);
 }
 
 void say_lines(std::string_view kind, const std::vector<std::string>& lines) {
@@ -510,7 +512,9 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
     summary.message = e.what();
   } catch (const OutputError&) {
     throw;
-  } catch (const std::exception& e) {  // a factorisation that fails, memory that runs out
+  } catch (const std::bad_alloc&) {
+    summary.message = "the run could not go on: memory ran out; " + memory_statement(simulation);
+  } catch (const std::exception& e) {  // a factorisation that fails
     summary.message = fmt::format("the run could not go on: {}", e.what());
   }
   const double step_seconds = seconds_since(stepping);

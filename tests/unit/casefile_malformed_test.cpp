@@ -512,5 +512,24 @@ TEST(CasefileMalformed, DeepNestingIsAnError) {
   EXPECT_NE(message_of("title = " + std::string(100000, '[')).find("syntax error"), std::string::npos);
 }
 
+TEST(Encoding, OtherThanUtf8IsNamed) {
+  const auto message = [](const std::string& bytes) -> std::string {
+    const std::string path = testing::TempDir() + "encoding.toml";
+    std::ofstream(path, std::ios::binary) << bytes;
+    try {
+      read_case(path);
+    } catch (const CaseError& e) {
+      return to_string(e.where()).substr(path.size()) + ": " + e.found() + ". " + e.suggestion();
+    }
+    return "";
+  };
+  const std::string remedy = ". Open it in the editor and save it as UTF-8.";
+  EXPECT_EQ(message(std::string("\xff\xfet\0i\0", 6)), ": a text in UTF-16" + remedy);
+  EXPECT_EQ(message(std::string("t\0i\0", 4)), ": a text in UTF-16" + remedy);
+  EXPECT_EQ(message("units = \"SI\"\ntitle = \"Sto\xdf\"\n"),
+            ":2:13: the byte 0xdf, which is not UTF-8 (is this Latin-1?)" + remedy);
+  EXPECT_EQ(message("title = \"Stoß, µ, €\"\n").find("UTF"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace carom

@@ -192,5 +192,19 @@ TEST(MeshOrientation, VeryThinCellsAreCells) {
   EXPECT_FALSE(has_zero_thickness(mesh, CellType::hexa8, mesh.blocks[0].connectivity));
 }
 
+TEST(MeshOrientation, NamesAllCellsThatCannotBeUsed) {
+  std::vector<Vec3> folded = kCorners.at(CellType::hexa8);
+  std::swap(folded[6], folded[5]);
+  Mesh mesh = one_cell(CellType::hexa8, folded);
+  const std::vector<Index> nodes = mesh.blocks[0].connectivity;
+  for (const std::int64_t number : {18, 25}) {
+    mesh.blocks[0].file_numbers.push_back(number);
+    mesh.blocks[0].connectivity.insert(mesh.blocks[0].connectivity.end(), nodes.begin(), nodes.end());
+  }
+  const std::string text = message_of(mesh);
+  EXPECT_NE(text.find("cell 17 (HEXA8)"), std::string::npos) << text;
+  EXPECT_NE(text.find("; 2 more cells like it: 18, 25"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace carom

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <string>
 #include <thread>
@@ -81,7 +82,7 @@ TEST(Progress, LineFitsAnyWidth) {
   }
   EXPECT_EQ(progress_line(now, 3e-4, 90.0, 20), " 41 %  t 0.0001235");
   // 41.152 % done after 90 s: 90 (1 - 0.41152) / 0.41152 = 128.7 s are left.
-  EXPECT_EQ(progress_line(now, 3e-4, 90.0, 60), " 41 %  t 0.0001235  left 2 min 09 s  step 1234567  dt 1e-06");
+  EXPECT_EQ(progress_line(now, 3e-4, 129.0, 60), " 41 %  t 0.0001235  left 2 min 09 s  step 1234567  dt 1e-06");
 }
 
 TEST(Progress, BarIsFilledInProportion) {
@@ -94,6 +95,23 @@ TEST(Progress, BarIsFilledInProportion) {
   }
   EXPECT_EQ(filled, 15);
   EXPECT_EQ(open, 15);
+}
+
+TEST(Progress, TimeLeftCountsFromTheFirstStep) {
+  const std::string text = printed(ProgressMode::lines, [](Progress& p) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // a factorisation
+    p.update({0.5, 1, 0.5, 0, 0.0});
+    p.update({1.0, 2, 0.5, 0, 0.0});
+    p.update({2.0, 3, 0.5, 0, 0.0});
+  });
+  // Nothing is known after one step; then the steps took no time: the 300 ms before them would give 0.3 s, rounded 0.
+  EXPECT_EQ(text.find("left"), text.find("left 0 s  step 2")) << text;
+  const std::string slow = printed(ProgressMode::lines, [](Progress& p) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(900));
+    p.update({1e-3, 1, 1e-3, 0, 0.0});
+    p.update({0.2, 2, 0.2, 0, 0.0});
+  });
+  EXPECT_NE(slow.find("left 0 s"), std::string::npos) << slow;  // by the pace since the start it would be 8 s
 }
 
 TEST(Progress, OddTimesDoNoHarm) {

@@ -7,8 +7,10 @@
 #include <string>
 
 #include "base/errors.hpp"
+#include "base/terminal_text.hpp"
 #include "output/pvd.hpp"
 #include "output/results_folder.hpp"
+#include "output/results_lock.hpp"
 
 namespace carom {
 namespace {
@@ -56,6 +58,26 @@ TEST_F(ResultsFolder, UnwritableIsAnErrorThatNamesThePath) {
   } catch (const OutputError& error) {
     EXPECT_EQ(error.path(), "/proc/carom");
   }
+}
+
+TEST_F(ResultsFolder, IsHeldByOneRunAtATime) {
+  const std::string folder = (base_ / "held").string();
+  {
+    const ResultsLock first(folder);
+    EXPECT_THROW(ResultsLock{folder}, OutputError);
+    EXPECT_NO_THROW(ResultsLock{(base_ / "other").string()});
+  }
+  EXPECT_NO_THROW(ResultsLock{folder});
+  EXPECT_TRUE(fs::is_empty(folder));  // nothing is left that a crash could leave behind
+}
+
+TEST(TerminalText, HasNoControlCharacters) {
+  EXPECT_EQ(terminal_text("a\tb\nc"), "a\tb\nc");
+  EXPECT_EQ(terminal_text("\x1b[2Jx\r\x7f"), "\\x1b[2Jx\\x0d\\x7f");
+  EXPECT_EQ(terminal_text("Stoß µ"), "Stoß µ");
+  EXPECT_EQ(terminal_text("\xc2\x9b"
+                          "31m"),
+            "\\x9b31m");  // CSI of ISO 6429 in UTF-8
 }
 
 }  // namespace

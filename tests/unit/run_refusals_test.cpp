@@ -125,5 +125,36 @@ TEST(RigidSurface, OfFacesOfAPartThatMovesIsRefused) {
   EXPECT_NO_THROW(Simulation{given});
 }
 
+TEST(CellTypes, WithoutAnElementAreRefusedWithARemedy) {
+  const auto message = [](int gmsh_type, const std::string& nodes, const std::string& cell) -> std::string {
+    const std::string file = testing::TempDir() + "other_cells.msh";
+    std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"BODY\"\n"
+                           "$EndPhysicalNames\n$Nodes\n" +
+                               nodes + "$EndNodes\n$Elements\n1\n1 " + std::to_string(gmsh_type) + " 2 1 1 " + cell +
+                               "\n$EndElements\n";
+    return case_error("units = \"SI\"\nmesh.file = \"" + file +
+                      "\"\n[materials.m]\nlaw = \"linear_elastic\"\nE = 1e9\nnu = 0.3\nrho = 1000.0\n"
+                      "[[part]]\nname = \"body\"\ncells = \"BODY\"\nmaterial = \"m\"\n" +
+                      newmark)
+        .what();
+  };
+  const std::string tetra = message(4, "4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n", "1 2 3 4");
+  EXPECT_NE(tetra.find("TETRA4 cells in \"BODY\""), std::string::npos) << tetra;
+  EXPECT_NE(tetra.find("Mesh with hexahedra"), std::string::npos) << tetra;
+  const std::string wedge = message(6, "6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 0 1\n6 0 1 1\n", "1 2 3 4 5 6");
+  EXPECT_NE(wedge.find("Mesh with hexahedra"), std::string::npos) << wedge;
+  std::string nodes = "20\n";
+  constexpr double x[20][3] = {{0, 0, 0},  {1, 0, 0},  {1, 1, 0},  {0, 1, 0},  {0, 0, 1},  {1, 0, 1},  {1, 1, 1},
+                               {0, 1, 1},  {.5, 0, 0}, {0, .5, 0}, {0, 0, .5}, {1, .5, 0}, {1, 0, .5}, {.5, 1, 0},
+                               {1, 1, .5}, {0, 1, .5}, {.5, 0, 1}, {0, .5, 1}, {1, .5, 1}, {.5, 1, 1}};
+  std::string cell;
+  for (int i = 0; i < 20; ++i) {
+    nodes += fmt::format("{} {} {} {}\n", i + 1, x[i][0], x[i][1], x[i][2]);
+    cell += fmt::format("{}{}", i == 0 ? "" : " ", i + 1);
+  }
+  const std::string second_order = message(17, nodes, cell);
+  EXPECT_NE(second_order.find("cells of first order"), std::string::npos) << second_order;
+}
+
 }  // namespace
 }  // namespace carom
