@@ -125,6 +125,10 @@ void add_compare(CLI::App& app, Arguments& arguments) {
   list("--cells", arguments.choices.cells, "Cells along the longest edge of each block")
       ->check(CLI::Range(1, 1'000'000));
   list("--courant", arguments.choices.courants, "Steps, over shortest cell / fastest wave")->check(CLI::PositiveNumber);
+  list("--refine", arguments.choices.refinements, "How often every cell is cut in halves (mesh files too)")
+      ->check(CLI::Range(0, 6));
+  command->add_option("--reference", arguments.choices.reference,
+                      "Text in the name of the run that others are compared with");
   command->add_option("--out", arguments.folder, "Results folder (default: out/<name of the case>_compare)");
   command->add_option("--jobs", arguments.jobs, "Runs at a time (default: all cores)")->check(CLI::Range(0, 1024));
   command->add_flag("--quiet", arguments.quiet, "Print errors only");

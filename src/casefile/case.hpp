@@ -32,6 +32,7 @@ struct CaseMesh {
   Location where;
   Located<std::string> file;  ///< "" when blocks are given; relative to the case file's folder
   std::vector<StructuredBlock> blocks;
+  int refine = 0;  ///< how often every cell is cut in halves
   enum class Unused : std::uint8_t { refuse, ignore };
   Unused unused = Unused::refuse;  ///< cells that no part, interface or rigid surface takes
 };
@@ -205,8 +206,9 @@ struct CaseGuards {
 
 struct CaseOutput {
   Location where;
-  /// Of displacement, velocity, acceleration, stress.
+  /// Of displacement, velocity, acceleration, stress, von_mises, strain, part, and those of contact.
   std::vector<Located<std::string>> fields{{"displacement", {}},  {"velocity", {}},         {"stress", {}},
+                                           {"von_mises", {}},     {"strain", {}},           {"part", {}},
                                            {"contact_force", {}}, {"contact_pressure", {}}, {"contact_gap", {}},
                                            {"contact_status", {}}};
   int fields_every = 0;  ///< steps; 0: about 50 times over the run

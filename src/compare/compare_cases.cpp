@@ -98,7 +98,7 @@ ExitCode compare_cases(const std::string& case_file, const Options& options, con
   comparison.units = std::string(name(given.units));
   comparison.common = label_of(common_choice(options));
   comparison.results = run_all(variants, settings, stop);
-  comparison.reference = measure(comparison.results);
+  comparison.reference = measure(comparison.results, options.reference);
   comparison.quantity = ranking_quantity(comparison.results);
   comparison.recommendation = recommend(comparison.results, comparison.quantity, comparison.reference);
   write_file(settings.folder + "/compare.csv", csv_table(comparison));

@@ -123,7 +123,7 @@ void set_cells(Node& root, int cells) {
   Node* blocks = find_at(root, "mesh.block");
   if (blocks == nullptr) {
     throw CaseError({"command line"}, "--cells", "a case whose mesh comes from a file", "a case of [[mesh.block]]s",
-                    "Compare meshes of files by running a case for each.");
+                    "Meshes of files are made finer by --refine 0,1,2.");
   }
   for (Node& block : std::get<List>(blocks->value)) {
     Node& given = *member(block, "divisions");

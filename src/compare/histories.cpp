@@ -71,7 +71,7 @@ Chart make_history(const Comparison& comparison, const std::vector<std::size_t>&
   if (const CsvTable* reference = reference_table(comparison, order)) {
     const std::vector<double> values = values_of(*reference);
     const Result* finest = comparison.finest();
-    const std::string name = finest != nullptr ? "finest run: " + finest->variant.label : "exact";
+    const std::string name = finest != nullptr ? "reference: " + finest->variant.label : "exact";
     if (!values.empty()) chart.curves.push_back(make_curve(*reference, values, name, CurveKind::exact));
   }
   return chart;

@@ -41,7 +41,8 @@ std::vector<Choice> combinations(const Options& options) {
   choices = crossed(choices, &Choice::enforcement, options.enforcements);
   choices = crossed(choices, &Choice::stiffness, options.stiffnesses);
   choices = crossed(choices, &Choice::cells, options.cells);
-  return crossed(choices, &Choice::courant, options.courants);
+  choices = crossed(choices, &Choice::courant, options.courants);
+  return crossed(choices, &Choice::refine, options.refinements);
 }
 
 Choice common_choice(const Options& options) {
@@ -49,8 +50,8 @@ Choice common_choice(const Options& options) {
     const auto values = values_of(given);
     return values.size() == 1 ? values.front() : std::nullopt;
   };
-  return {only(options.schemes), only(options.enforcements), only(options.stiffnesses), only(options.cells),
-          only(options.courants)};
+  return {only(options.schemes), only(options.enforcements), only(options.stiffnesses),
+          only(options.cells),   only(options.courants),     only(options.refinements)};
 }
 
 Choice varied(Choice choice, const Choice& common) {
@@ -59,6 +60,7 @@ Choice varied(Choice choice, const Choice& common) {
   if (common.stiffness) choice.stiffness.reset();
   if (common.cells) choice.cells.reset();
   if (common.courant) choice.courant.reset();
+  if (common.refine) choice.refine.reset();
   return choice;
 }
 
@@ -72,6 +74,7 @@ std::string label_of(const Choice& choice) {
   if (choice.stiffness) words.push_back("stiffness " + *choice.stiffness);
   if (choice.cells) words.push_back(fmt::format("{} cells", *choice.cells));
   if (choice.courant) words.push_back(fmt::format("Courant {:g}", *choice.courant));
+  if (choice.refine) words.push_back(fmt::format("refined {}", *choice.refine));
   return fmt::format("{}", fmt::join(words, ", "));
 }
 

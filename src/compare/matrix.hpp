@@ -14,6 +14,8 @@ struct Options {
   std::vector<std::string> stiffnesses;   ///< of every [[contact]]
   std::vector<int> cells;                 ///< divisions of each block along its longest edge
   std::vector<double> courants;           ///< step over element_step()
+  std::vector<int> refinements{};         ///< how often every cell is cut in halves
+  std::string reference{};                ///< text in the name of the run that the others are compared with; "": chosen
 };
 
 /// One combination; an empty member leaves what the case says.
@@ -21,12 +23,13 @@ struct Choice {
   std::optional<std::string> scheme, enforcement, stiffness;
   std::optional<int> cells;
   std::optional<double> courant;
+  std::optional<int> refine{};
 
   bool operator==(const Choice&) const = default;
 };
 
-/// All combinations: the Courant number varies fastest, then cells, stiffness, enforcement, scheme. Values that are
-/// given twice are taken once. One empty choice when nothing is varied.
+/// All combinations: refinement varies fastest, then Courant number, cells, stiffness, enforcement, scheme. Values that
+/// are given twice are taken once. One empty choice when nothing is varied.
 std::vector<Choice> combinations(const Options& options);
 
 /// What all combinations have in common: the members of which one value is given.

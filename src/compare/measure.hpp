@@ -59,7 +59,9 @@ struct Result {
   double penetration = 0.0;  ///< largest over contacts and rows
 
   bool compared() const { return failure.empty() && !is_reference; }
-  bool passed() const;                            ///< every item of the verdict
+  /// Every item of the verdict, but for books that are off by rounding: they say nothing against the curves.
+  bool passed() const;
+  bool has_rounding_only() const;                 ///< such books are all that failed
   std::vector<std::string> failed_items() const;  ///< "quadrature 0.12 > 0.05"
   double step() const { return summary ? summary->scheme.dt_largest : 0.0; }
   double cpu_seconds() const { return summary ? summary->cost.cpu_seconds : 0.0; }
@@ -67,16 +69,23 @@ struct Result {
   double error(const std::string& quantity) const;
 };
 
-/// What the curves are compared with.
-enum class ReferenceKind { exact, finest };
+/// What the curves are compared with: the exact solution, the run that the user named, or the finest run of the least
+/// noisy scheme.
+enum class ReferenceKind { exact, named, finest };
+
+/// How much the contact forces go up and down: the sum over their steps of |f_(i+1) - f_i| over twice the largest
+/// magnitude, 1 for a single rise and fall; the largest over the columns of force (of velocity where there is none).
+double variation(const CsvTable& curves);
 
 /// Reads what a run left in its folder; `log` is what it printed.
 Result read_result(const Variant& variant, const std::string& folder, int exit_code, const std::string& log);
 
-/// Fills in the errors, against exact.csv where every run that reached its end has one, else against the run of most
-/// cells and, of those, of most steps: on its rows, the others linear between theirs. Columns that are below 1e-9 of
-/// the largest of their quantity in the reference are left out.
-ReferenceKind measure(std::vector<Result>& results);
+/// Fills in the errors, against exact.csv where every run that reached its end has one and `named` is empty; else
+/// against the run of most cells whose label contains `named`, of those of one number of cells the one of least
+/// variation (runs that passed their verdict before others), and of those the one of most steps: on its rows, the
+/// others linear between theirs. Columns that are below 1e-9 of the largest of their quantity in the reference are left
+/// out. Throws CaseError when no run that reached its end has the name.
+ReferenceKind measure(std::vector<Result>& results, const std::string& named = "");
 
 /// The quantity by which variants are ranked: force, else velocity, else the first that was compared; "" for none.
 std::string ranking_quantity(const std::vector<Result>& results);

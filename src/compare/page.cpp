@@ -32,7 +32,7 @@ std::string header(const Comparison& c) {
 }
 
 std::string reference_name(const Comparison& c) {
-  return c.reference == ReferenceKind::exact ? "exact" : "finest";
+  return c.reference == ReferenceKind::exact ? "exact" : "reference";
 }
 
 TableRow row(const Comparison& c, std::size_t i, const std::vector<std::string>& quantities) {
@@ -82,9 +82,6 @@ std::string main_table(const Comparison& c) {
   for (std::size_t i = 0; i < c.results.size(); ++i)
     if (c.results[i].failure.empty()) rows.push_back(row(c, i, quantities));
   if (rows.empty()) return "";
-  const std::string against = c.reference == ReferenceKind::exact
-                                  ? "the exact solution of the case"
-                                  : fmt::format("the finest run ({})", c.finest()->variant.label);
   return "<section>\n<h2>Variants</h2>\n" + html_table(columns, rows, "wide") +
          fmt::format(
              "<p class=\"note\">Errors are relative L2 norms over the time of the run, all "
@@ -92,7 +89,7 @@ std::string main_table(const Comparison& c) {
              "Energy kept: 1 minus what the computation lost, over the larger of initial and supplied energy; 100 % is "
              "exact. Courant: step over shortest cell / fastest wave. CPU: processor time of the whole run on one "
              "thread. compare.csv and compare.json hold all of it, and L1 norms.</p>\n</section>\n",
-             xml_escape(against));
+             xml_escape(c.reference_text()));
 }
 
 std::string remarks_table(const std::vector<Remark>& remarks, std::string_view title, const std::string& heading) {

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "compare/convergence.hpp"
 
 namespace carom::compare {
 
@@ -36,6 +39,31 @@ void say_which_failed(const std::vector<Result>& results, std::vector<std::strin
   }
 }
 
+std::string share_of_exceeding(const Result& r) {
+  return fmt::format("{}; its verdict fails by rounding alone ({})", r.variant.label,
+                     fmt::join(r.failed_items(), ", "));
+}
+
+/// Why the smallest error speaks for nothing; "" when it does.
+std::string doubt(const std::vector<Result>& results, std::size_t best, const std::string& quantity) {
+  const double error = results[best].error(quantity);
+  if (error > largest_error)
+    return fmt::format(
+        "The smallest error of the {} is {} ({}), above {}: the runs differ too much from the reference to "
+        "choose among them. Refine the mesh and the step, or name another reference.",
+        quantity, percent(error), results[best].variant.label, percent(largest_error));
+  if (error <= small_error) return {};
+  for (const Series& s : series_along(results, Along::cells, quantity)) {
+    const auto is_best = [best](const Point& p) { return p.result == best; };
+    if (std::none_of(s.points.begin(), s.points.end(), is_best) || *s.order >= least_order) continue;
+    return fmt::format(
+        "The smallest error of the {} is {} ({}) and does not fall with the cells (order {:.2g}): the runs "
+        "do not converge to the reference.",
+        quantity, percent(error), results[best].variant.label, *s.order);
+  }
+  return {};
+}
+
 std::string behaviour(const Result& r) {
   std::string text = fmt::format("It keeps {:.5g} % of the energy", 100.0 * r.energy_kept);
   if (r.reference_peak_force > 0.0)
@@ -63,6 +91,12 @@ Recommendation recommend(const std::vector<Result>& results, const std::string& 
   const auto error = [&](std::size_t i) { return results[i].error(quantity); };
   const std::size_t best =
       *std::min_element(fit.begin(), fit.end(), [&](std::size_t a, std::size_t b) { return error(a) < error(b); });
+  if (std::string reason = doubt(results, best, quantity); !reason.empty()) {
+    out.headline = "No variant comes close enough to the reference, so none is recommended.";
+    out.reasons.push_back(std::move(reason));
+    say_which_failed(results, out.reasons);
+    return out;
+  }
   std::size_t chosen = best;
   for (const std::size_t i : fit) {
     const double cost = results[i].cpu_seconds();
@@ -89,9 +123,13 @@ Recommendation recommend(const std::vector<Result>& results, const std::string& 
                     b.variant.label, r.cpu_seconds(), b.cpu_seconds(), as_good));
   }
   out.reasons.push_back(behaviour(r));
-  if (reference == ReferenceKind::finest) {
+  if (reference != ReferenceKind::exact) {
     out.reasons.emplace_back(
-        "Errors are differences to the finest run: what is wrong with that run too does not show in them.");
+        "Errors are differences to the reference run: what is wrong with that run too does not show in them.");
+  }
+  for (const Result& considered : results) {
+    if (considered.failure.empty() && considered.has_rounding_only())
+      out.reasons.push_back(fmt::format("Considered all the same: {}.", share_of_exceeding(considered)));
   }
   say_which_failed(results, out.reasons);
   return out;

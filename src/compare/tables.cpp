@@ -113,6 +113,15 @@ const Result* Comparison::finest() const {
   return found == results.end() ? nullptr : &*found;
 }
 
+std::string Comparison::reference_text() const {
+  const Result* run = finest();
+  if (run == nullptr) return "the exact solution of the case";
+  if (reference == ReferenceKind::named) return fmt::format("the run that was named ({})", run->variant.label);
+  return fmt::format(
+      "the finest run of the least noisy scheme ({}, whose force goes up and down {:.3g} times its peak)",
+      run->variant.label, variation(run->curves));
+}
+
 std::string status_text(const Result& result) {
   if (!result.failure.empty()) return result.failure;
   const std::vector<std::string> items = result.failed_items();
@@ -148,6 +157,7 @@ std::string text_table(const Comparison& comparison) {
                         number(r.cpu_seconds(), 3), status);
   }
   for (const Remark& remark : failures(comparison)) text += fmt::format("{}\n  {}\n", remark.variants, remark.text);
+  if (!comparison.quantity.empty()) text += fmt::format("errors against {}\n", comparison.reference_text());
   const Recommendation& advice = comparison.recommendation;
   text += fmt::format("\n{}{}\n", advice.result ? "Recommended: " : "", advice.headline);
   for (const std::string& reason : advice.reasons) text += "  " + reason + "\n";
@@ -179,12 +189,16 @@ std::string csv_table(const Comparison& comparison) {
 }
 
 std::string json_table(const Comparison& comparison) {
-  Json json = {{"case", {{"file", comparison.file}, {"title", comparison.title}, {"units", comparison.units}}},
-               {"common", comparison.common},
-               {"reference", comparison.reference == ReferenceKind::exact ? "exact" : "finest run"},
-               {"ranked_by", comparison.quantity},
-               {"variants", Json::array()},
-               {"orders", orders_json(comparison)}};
+  Json json = {
+      {"case", {{"file", comparison.file}, {"title", comparison.title}, {"units", comparison.units}}},
+      {"common", comparison.common},
+      {"reference", comparison.reference == ReferenceKind::exact   ? "exact"
+                    : comparison.reference == ReferenceKind::named ? "named run"
+                                                                   : "finest run"},
+      {"reference_run", comparison.finest() == nullptr ? Json(nullptr) : Json(comparison.finest()->variant.name)},
+      {"ranked_by", comparison.quantity},
+      {"variants", Json::array()},
+      {"orders", orders_json(comparison)}};
   for (const Result& r : comparison.results) json["variants"].push_back(result_json(r));
   const Recommendation& advice = comparison.recommendation;
   json["recommendation"] = {

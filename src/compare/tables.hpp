@@ -20,6 +20,8 @@ struct Comparison {
   Recommendation recommendation;
 
   const Result* finest() const;
+  /// What the errors are against, in words.
+  std::string reference_text() const;
 };
 
 /// What was said about variants.

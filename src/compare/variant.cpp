@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <utility>
 
 #include "casefile/read_case.hpp"
 #include "casefile/read_toml.hpp"
@@ -110,20 +111,27 @@ std::string folder_name(std::size_t number, const std::string& label) {
   return name.substr(0, longest);
 }
 
-/// Element steps of the meshes, each built once; 0 cells: as the case says.
+/// The choice's cells and refinement.
+void set_mesh(Node& root, const Choice& choice) {
+  if (choice.cells) set_cells(root, *choice.cells);
+  if (choice.refine) set_key(root, "mesh", "refine", {std::int64_t{*choice.refine}, {}});
+}
+
+/// Element steps of the meshes, each built once.
 class ElementSteps {
  public:
-  double of(const Base& base, int cells) {
-    const auto known = steps_.find(cells);
+  double of(const Base& base, const Choice& choice) {
+    const std::pair key(choice.cells.value_or(0), choice.refine.value_or(-1));
+    const auto known = steps_.find(key);
     if (known != steps_.end()) return known->second;
     Node root = base.root;
-    if (cells != 0) set_cells(root, cells);
+    set_mesh(root, choice);
     Case read = parse_case(write_toml(root), base.file);
-    return steps_.emplace(cells, compare::element_step(read)).first->second;
+    return steps_.emplace(key, compare::element_step(read)).first->second;
   }
 
  private:
-  std::map<int, double> steps_;
+  std::map<std::pair<int, int>, double> steps_;  ///< by cells and refinement
 };
 
 /// Every step that the case gives, times the ratio, so that whole steps reach the end of each stage.
@@ -166,12 +174,12 @@ void build(Variant& v, const Base& base, ElementSteps& steps) {
   }
   if (v.choice.scheme) draft.set_scheme("kind", *v.choice.scheme);
   if (v.choice.enforcement) draft.set_scheme("enforcement", *v.choice.enforcement);
-  if (v.choice.cells) set_cells(draft.root(), *v.choice.cells);
-  v.element_step = steps.of(base, v.choice.cells.value_or(0));
+  set_mesh(draft.root(), v.choice);
+  v.element_step = steps.of(base, v.choice);
   if (v.choice.courant) {
     draft.set_step(dividing_step(*v.choice.courant * v.element_step, base.end));
   } else {
-    scale_steps(draft, v.element_step / steps.of(base, 0));
+    scale_steps(draft, v.element_step / steps.of(base, {}));
   }
   set_key(draft.root(), "output", "fields", {List{}, {}});
   const Case accepted = accept_with_step(draft, base, v.element_step);
@@ -215,7 +223,7 @@ Base read_base(const std::string& file) {
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   Node root = read_toml(text, file);
   const int cells = cells_of(root);
-  return {file, std::move(root), *read.time.end, cells};
+  return {file, std::move(root), *read.time.end, cells, read.mesh.refine};
 }
 
 std::vector<Variant> make_variants(const Base& base, const Options& options, const std::string& folder) {
@@ -238,7 +246,8 @@ std::vector<Variant> make_variants(const Base& base, const Options& options, con
     if (v.label.empty()) v.label = "as the case says";
     v.name = folder_name(variants.size(), v.label);
     v.scheme = v.choice.scheme.value_or(text_at(base.root, "scheme.kind"));
-    v.cells = v.choice.cells.value_or(base.cells);
+    const int along = v.choice.cells.value_or(base.cells), halvings = v.choice.refine.value_or(base.refine);
+    if (along > 0 || v.choice.refine) v.cells = std::max(1, along) * (1 << halvings);
     if (v.refusal.empty()) v.case_text = finished(v, base, folder);
     variants.push_back(std::move(v));
   }

@@ -12,9 +12,10 @@ namespace carom::compare {
 /// The case that is varied.
 struct Base {
   std::string file;
-  Node root;      ///< as the user wrote it, so that defaults follow the scheme
-  double end{};   ///< time.end
-  int cells = 0;  ///< along the longest edge of the first block; 0 for mesh files
+  Node root;       ///< as the user wrote it, so that defaults follow the scheme
+  double end{};    ///< time.end
+  int cells = 0;   ///< along the longest edge of the first block; 0 for mesh files
+  int refine = 0;  ///< mesh.refine
 };
 
 /// Reads and checks the case. Throws CaseError.
@@ -26,11 +27,11 @@ struct Variant {
   std::string label;                ///< what is varied, e.g. "newmark, 50 cells"
   Choice choice, varied;            ///< without what does not apply (see notes); varied: and what all have in common
   std::string scheme, enforcement;  ///< as in the case or the choice; the enforcement that the scheme takes
-  int cells = 0;                    ///< along the longest edge; 0 for mesh files
-  double element_step = 0.0;        ///< of its mesh
-  std::string case_text;            ///< TOML
-  std::string refusal;              ///< why it is not allowed; "" when it is
-  std::vector<std::string> notes;   ///< keys that were left out or chosen
+  int cells = 0;              ///< along the longest edge; of mesh files relative to the file's, 0 where none is refined
+  double element_step = 0.0;  ///< of its mesh
+  std::string case_text;      ///< TOML
+  std::string refusal;        ///< why it is not allowed; "" when it is
+  std::vector<std::string> notes;  ///< keys that were left out or chosen
 };
 
 /// The variants of all combinations, in their order; combinations that come to the same case are kept once.

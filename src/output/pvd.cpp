@@ -11,13 +11,17 @@ namespace carom {
 
 namespace {
 
-std::string collection(const std::vector<std::pair<double, std::string>>& frames) {
+std::string collection(const std::vector<PvdFrame>& frames) {
   std::string text =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
-  for (const auto& [time, file] : frames) {
-    fmt::format_to(std::back_inserter(text), "<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", time,
-                   xml_escape(file));
+  const auto add = [&text](double time, int part, const std::string& file) {
+    fmt::format_to(std::back_inserter(text), "<DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", time,
+                   part, xml_escape(file));
+  };
+  for (const PvdFrame& frame : frames) {
+    add(frame.time, 0, frame.file);
+    if (!frame.obstacles.empty()) add(frame.time, 1, frame.obstacles);
   }
   return text + "</Collection>\n</VTKFile>\n";
 }
@@ -32,8 +36,8 @@ PvdCollection::PvdCollection(std::string path) : path_(std::move(path)) {
   write_file(path_, collection(frames_));
 }
 
-void PvdCollection::add(double time, const std::string& file) {
-  frames_.emplace_back(time, file);
+void PvdCollection::add(double time, const std::string& file, const std::string& obstacles) {
+  frames_.push_back({time, file, obstacles});
   write_file(path_, collection(frames_));
 }
 

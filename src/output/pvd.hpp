@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace carom {
@@ -10,17 +9,23 @@ namespace carom {
 /// "fields/step_000010.vtu" for step 10: the frame's name relative to the results folder.
 std::string frame_file(int step);
 
+struct PvdFrame {
+  double time = 0.0;
+  std::string file, obstacles;
+};
+
 /// A .pvd file that grows frame by frame. Each add() replaces the whole file at once, so it is readable at any moment.
 class PvdCollection {
  public:
   /// Writes an empty collection to `path`. Throws OutputError.
   explicit PvdCollection(std::string path);
-  /// Adds a frame that is already on disk; `file` is relative to the collection's folder. Throws OutputError.
-  void add(double time, const std::string& file);
+  /// Adds a frame that is already on disk; files are relative to the collection's folder. `obstacles` stands beside the
+  /// bodies as a part of its own; "" when there are none. Throws OutputError.
+  void add(double time, const std::string& file, const std::string& obstacles = "");
 
  private:
   std::string path_;
-  std::vector<std::pair<double, std::string>> frames_;
+  std::vector<PvdFrame> frames_;
 };
 
 }  // namespace carom

@@ -18,9 +18,9 @@ constexpr std::array<std::string_view, 10> kFiles{"probes_filtered.csv", "summar
                                                   "probes.csv",          "exact.csv",    "fields.pvd", "mesh.txt",
                                                   "case.resolved.toml",  "report.html"};
 
-/// step_<digits>.vtu, as frame_file() names them, or what an interrupted write of one left.
+/// step_<digits>.vtu or obstacles_<digits>.vtu, as the recorder names them, or what an interrupted write of one left.
 bool is_frame(std::string_view name) {
-  constexpr std::string_view begin = "step_";
+  const std::string_view begin = name.starts_with("step_") ? "step_" : "obstacles_";
   if (!name.starts_with(begin)) return false;
   name.remove_prefix(begin.size());
   const std::size_t digits = name.find_first_not_of("0123456789");

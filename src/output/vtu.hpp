@@ -21,7 +21,7 @@ struct VtuField {
 /// Cells in any order: the points of each, one after the other, and per cell where they end and VTK's number of its
 /// type (VTK file formats, "Linear cells"). The node orders of VTK are ours.
 struct VtuCells {
-  static constexpr std::uint8_t line = 3, quad = 9, hexahedron = 12;
+  static constexpr std::uint8_t line = 3, triangle = 5, quad = 9, hexahedron = 12;
   std::vector<Index> connectivity;
   std::vector<std::int64_t> ends;
   std::vector<std::uint8_t> types;

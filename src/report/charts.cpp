@@ -160,29 +160,6 @@ std::vector<Group> place_groups(const CsvTable& table, const std::string& sectio
   return groups;
 }
 
-/// What numbers are compared with before they are called round-off.
-struct Scales {
-  double energy = 0.0;    ///< the largest of the run
-  double momentum = 0.0;  ///< of all mass with that energy
-  double reach = 0.0;     ///< of the model from the origin
-};
-
-Scales scales_of(const Tables& tables, const std::optional<Summary>& summary) {
-  Scales scales;
-  if (tables.energy) {
-    for (const char* column : {"kinetic", "strain", "contact_stored", "external_work", "support_work"}) {
-      if (const auto* values = tables.energy->column(column))
-        scales.energy = std::max(scales.energy, largest_magnitude(*values));
-    }
-  }
-  if (!summary) return scales;
-  double mass = 0.0;
-  for (const PartSummary& part : summary->parts) mass += part.mass;
-  scales.momentum = std::sqrt(2.0 * mass * scales.energy);
-  scales.reach = summary->mesh.reach;
-  return scales;
-}
-
 /// Numbers of the group up to this cannot be told from rounding.
 double rounding_of(const Group& group, const CsvTable& table, const Scales& scales) {
   constexpr double of_its_kind = 1e-12, of_position = 1e-15, of_energy = 1e-10;  // that of the verdict
@@ -201,6 +178,7 @@ double rounding_of(const Group& group, const CsvTable& table, const Scales& scal
   const std::string_view quantity = parse_column(group.columns.front()).quantity;
   double rounding = of_its_kind * largest(quantity);
   if (quantity == "displacement") rounding = std::max(rounding, of_position * scales.reach);
+  if (quantity == "velocity") rounding = std::max(rounding, of_its_kind * scales.speed);
   if (quantity == "moment") rounding = std::max(rounding, of_its_kind * scales.reach * largest("force"));
   return rounding;
 }
@@ -318,6 +296,23 @@ std::string json_numbers(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+Scales scales_of(const Tables& tables, const std::optional<Summary>& summary) {
+  Scales scales;
+  if (tables.energy) {
+    for (const char* column : {"kinetic", "strain", "contact_stored", "external_work", "support_work"}) {
+      if (const auto* values = tables.energy->column(column))
+        scales.energy = std::max(scales.energy, largest_magnitude(*values));
+    }
+  }
+  if (!summary) return scales;
+  double mass = 0.0;
+  for (const PartSummary& part : summary->parts) mass += part.mass;
+  scales.momentum = std::sqrt(2.0 * mass * scales.energy);
+  if (mass > 0.0) scales.speed = scales.momentum / mass;
+  scales.reach = summary->mesh.reach;
+  return scales;
+}
 
 Curve make_curve(const CsvTable& table, const std::vector<double>& values, std::string name, CurveKind kind) {
   const std::vector<double>& time = table.values.front();

@@ -52,6 +52,15 @@ struct Tables {
   std::optional<CsvTable> energy{}, contact{}, probes{}, probes_filtered{}, exact{};
 };
 
+/// What numbers are compared with before they are called round-off; zero where nothing is known.
+struct Scales {
+  double energy = 0.0;    ///< the largest of the run
+  double momentum = 0.0;  ///< of all mass with that energy
+  double speed = 0.0;     ///< likewise
+  double reach = 0.0;     ///< of the model from the origin
+};
+Scales scales_of(const Tables& tables, const std::optional<Summary>& summary);
+
 /// A column over the table's times, reduced to what a screen can show (decimate.hpp).
 Curve make_curve(const CsvTable& table, const std::vector<double>& values, std::string name, CurveKind kind);
 

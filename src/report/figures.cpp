@@ -128,6 +128,8 @@ void add_speeds(const Tables& tables, const std::optional<Summary>& summary, con
                                  vector_at(table, place, "velocity", table.rows() - 1), units));
     }
   }
+  const double rounding = kNegligible * scales_of(tables, summary).speed;
+  std::erase_if(all, [rounding](const Weighed& w) { return w.weight <= rounding; });
   keep_largest(all, figures);
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "casefile/document.hpp"
 #include "mesh/read_mesh.hpp"
+#include "mesh/split_cells.hpp"
 #include "mesh/structured_block.hpp"
 #include "run/attached.hpp"
 #include "run/rigid_bodies.hpp"
@@ -37,6 +39,7 @@ Mesh bodies(const Case& given) {
 
 Mesh build_mesh(const Case& given) {
   Mesh mesh = bodies(given);
+  for (int i = 0; i < given.mesh.refine; ++i) mesh = split_cells(std::move(mesh));
   std::int64_t last = 0;
   for (const std::int64_t number : mesh.node_numbers) last = std::max(last, number);
   const auto append = [&](const std::vector<Vec3>& positions) {

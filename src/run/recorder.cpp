@@ -13,6 +13,7 @@
 #include "output/units.hpp"
 #include "output/vtu.hpp"
 #include "run/cost_estimate.hpp"
+#include "solid/cell_strain.hpp"
 
 namespace carom {
 
@@ -43,6 +44,14 @@ VtuCells vtu_cells(const Simulation& simulation) {
   return cells;
 }
 
+/// The position of each cell's part in the case, from 0.
+std::vector<double> part_numbers(const Model& model) {
+  std::vector<double> numbers;
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+    numbers.insert(numbers.end(), model.parts[p].cells.size(), static_cast<double>(p));
+  return numbers;
+}
+
 bool wants_filter(const Case& given) {
   return std::any_of(given.probes.begin(), given.probes.end(), [](const CaseProbe& p) { return p.cfc.has_value(); });
 }
@@ -67,6 +76,7 @@ Recorder::Recorder(const Simulation& simulation, std::string folder)
       probes_file_(folder_ + "/probes.csv", tables_.probes.table().columns, comments(simulation, "probes")),
       frames_(folder_ + "/fields.pvd"),
       cells_(simulation.given().output.fields.empty() ? VtuCells{} : vtu_cells(simulation)),
+      obstacles_(simulation),
       frame_every_(frame_interval(simulation)) {
   if (tables_.exact) {
     exact_file_.emplace(folder_ + "/exact.csv", tables_.exact->table().columns, comments(simulation, "exact solution"));
@@ -104,7 +114,14 @@ void Recorder::record_frame(const StepView& view) {
   const CaseOutput& output = s.given().output;
   if (output.fields.empty()) return;
   last_frame_ = view.step;
-  std::vector<std::array<double, 6>> stress;
+  std::vector<std::array<double, 6>> stress, strain;
+  std::vector<double> equivalent, part;
+  const auto tensors = [](const std::vector<std::array<double, 6>>& values) {
+    return std::span<const double>(values.data()->data(), 6 * values.size());
+  };
+  const auto need_stress = [&] {
+    if (stress.empty()) stress = s.solid().cell_stress(view.state.q);
+  };
   const NodalContact contact = nodal_contact(view.forces.rows, view.state.q);
   const bool has_contact = !s.given().contacts.empty();
   std::vector<VtuField> point_fields, cell_fields;
@@ -117,13 +134,34 @@ void Recorder::record_frame(const StepView& view) {
     if (*field == "contact_gap" && has_contact) point_fields.push_back({*field, 1, contact.gap});
     if (*field == "contact_status" && has_contact) point_fields.push_back({*field, 1, contact.status});
     if (*field == "stress") {
-      stress = s.solid().cell_stress(view.state.q);
-      cell_fields.push_back({*field, 6, std::span<const double>(stress.data()->data(), 6 * stress.size())});
+      need_stress();
+      cell_fields.push_back({*field, 6, tensors(stress)});
+    }
+    if (*field == "strain") {
+      strain = cell_strain(s.model(), view.state.q);
+      cell_fields.push_back({*field, 6, tensors(strain)});
+    }
+    if (*field == "von_mises") {
+      need_stress();
+      for (const auto& of_cell : stress) equivalent.push_back(von_mises(of_cell));
+      cell_fields.push_back({*field, 1, equivalent});
+    }
+    if (*field == "part") {
+      part = part_numbers(s.model());
+      cell_fields.push_back({*field, 1, part});
     }
   }
   const std::string file = frame_file(static_cast<int>(view.step));
   write_vtu(folder_ + "/" + file, s.mesh().coordinates, cells_, point_fields, cell_fields);
-  frames_.add(view.state.t, file);
+  frames_.add(view.state.t, file, record_obstacles(view));
+}
+
+/// The file of the obstacles of this frame: one for all of them while none moves.
+std::string Recorder::record_obstacles(const StepView& view) {
+  if (obstacles_.empty() || (!obstacles_file_.empty() && !obstacles_.moves())) return obstacles_file_;
+  obstacles_file_ = fmt::format("fields/obstacles_{:06}.vtu", view.step);
+  obstacles_.write(folder_ + "/" + obstacles_file_, view.state);
+  return obstacles_file_;
 }
 
 namespace {

@@ -15,6 +15,7 @@
 #include "run/curves.hpp"
 #include "run/exact_curves.hpp"
 #include "run/key_figures.hpp"
+#include "run/obstacle_bodies.hpp"
 
 namespace carom {
 
@@ -54,6 +55,7 @@ class Recorder {
 
  private:
   void record_frame(const StepView& view);
+  std::string record_obstacles(const StepView& view);
   void write_filtered() const;
 
   const Simulation& simulation_;
@@ -65,6 +67,8 @@ class Recorder {
   std::optional<CsvFile> exact_file_;
   PvdCollection frames_;
   VtuCells cells_;
+  ObstacleBodies obstacles_;
+  std::string obstacles_file_;  ///< the last that was written
   long long frame_every_;
   long long last_sample_ = -1, last_frame_ = -1, last_row_ = -1;  ///< steps sampled or written last
   std::vector<std::vector<double>> filtered_rows_;  ///< rows of probes.csv, kept when a probe asks for a filter

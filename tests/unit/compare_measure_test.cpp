@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/errors.hpp"
 #include "compare/convergence.hpp"
 #include "compare/histories.hpp"
 #include "compare/log_plot.hpp"
@@ -162,6 +163,56 @@ TEST(CompareRecommend, RecommendsNothingThatFails) {
   finish(c);
   EXPECT_FALSE(c.recommendation.result);
   EXPECT_EQ(c.recommendation.reasons.size(), 4U);
+}
+
+// Books that are off by rounding say nothing against the curves.
+TEST(CompareRecommend, ConsidersRunsWhoseBooksAreOffByRounding) {
+  Comparison c = sample();
+  c.results[1].summary->verdict.push_back({"energy balance", 1.02e-10, 1e-10, false, ""});
+  finish(c);
+  EXPECT_EQ(c.recommendation.result, std::optional<std::size_t>(1));
+  EXPECT_NE(c.recommendation.reasons.back().find("a, 20 cells; its verdict fails by rounding alone"),
+            std::string::npos);
+  c.results[1].summary->verdict.back().value = 1e-6;
+  finish(c);
+  EXPECT_EQ(c.recommendation.result, std::optional<std::size_t>(2));
+}
+
+TEST(CompareRecommend, RecommendsNothingFromErrorsThatSayNothing) {
+  Comparison c;
+  c.results = {result_of("a", 10, 1.35, 1.0), result_of("a", 20, 1.35, 2.0)};  // 35 %, order 0
+  finish(c);
+  EXPECT_FALSE(c.recommendation.result);
+  EXPECT_NE(c.recommendation.reasons.front().find("35 %"), std::string::npos);
+  c.results = {result_of("a", 10, 1.15, 1.0), result_of("a", 20, 1.15, 2.0)};  // 15 %, order 0
+  finish(c);
+  EXPECT_FALSE(c.recommendation.result);
+  EXPECT_NE(c.recommendation.reasons.front().find("does not fall with the cells"), std::string::npos);
+  c.results = {result_of("a", 10, 1.3, 1.0), result_of("a", 20, 1.15, 2.0)};  // 15 %, order 1
+  finish(c);
+  EXPECT_TRUE(c.recommendation.result);
+}
+
+// Of the finest runs the one whose force does not chatter, though the other has more steps.
+TEST(CompareMeasure, TheReferenceIsTheLeastNoisyOfTheFinestRunsOrTheNamedOne) {
+  Comparison c = sample();
+  c.results.push_back(result_of("c", 40, 1.1, 1.0));
+  for (Result& r : c.results) r.exact.reset();
+  Result& noisy = c.results[3];
+  noisy.curves.values[2] = {1.0, -1.0, 1.0};
+  noisy.summary->scheme.steps = 4;
+  EXPECT_DOUBLE_EQ(variation(noisy.curves), 2.0);
+  EXPECT_DOUBLE_EQ(variation(c.results[4].curves), 0.0);
+  c.reference = measure(c.results);
+  EXPECT_EQ(c.finest(), &c.results[4]);
+  EXPECT_NE(c.reference_text().find("least noisy scheme (c, 40 cells"), std::string::npos);
+
+  Comparison named = sample();
+  named.reference = measure(named.results, "a");
+  EXPECT_EQ(named.reference, ReferenceKind::named);
+  EXPECT_EQ(named.finest(), &named.results[1]);  // the finest of a
+  Comparison absent = sample();
+  EXPECT_THROW(measure(absent.results, "zebra"), CaseError);
 }
 
 TEST(CompareConvergence, SeriesShareAllButOneChoice) {

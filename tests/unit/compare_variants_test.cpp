@@ -1,9 +1,11 @@
 // The matrix of a comparison and the cases it comes to.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -186,6 +188,77 @@ TEST_F(CompareVariants, NameTheMeshFileAsSeenFromTheirFolder) {
   EXPECT_EQ(mesh.lexically_normal(), std::filesystem::path(CAROM_SOURCE_DIR) / "cases/interface_friction/block.msh");
   const Variant refused = make_variants(base, options_of({}, {10}, {}), folder)[0];
   EXPECT_NE(refused.refusal.find("a case whose mesh comes from a file"), std::string::npos) << refused.refusal;
+}
+
+constexpr const char* two_cells = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+1
+3 1 "BODY"
+$EndPhysicalNames
+$Nodes
+12
+1 0 0 0
+2 1 0 0
+3 2 0 0
+4 0 1 0
+5 1 1 0
+6 2 1 0
+7 0 0 1
+8 1 0 1
+9 2 0 1
+10 0 1 1
+11 1 1 1
+12 2 1 1
+$EndNodes
+$Elements
+2
+1 5 2 1 1 1 2 5 4 7 8 11 10
+2 5 2 1 1 2 3 6 5 8 9 12 11
+$EndElements
+)";
+
+TEST(CompareVariants, RefineMeshFiles) {
+  const auto folder = std::filesystem::temp_directory_path() / ("carom_refine_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "two.msh") << two_cells;
+  std::ofstream(folder / "case.toml") << R"(units = "SI"
+[mesh]
+file = "two.msh"
+[materials.soft]
+law = "linear_elastic"
+E = 2.0
+nu = 0.3
+rho = 1.5
+[[part]]
+name = "body"
+cells = "BODY"
+material = "soft"
+[scheme]
+kind = "newmark"
+[time]
+end = 1.0
+step = 0.1
+)";
+  Options options;
+  options.refinements = {0, 1};
+  const Base base = read_base((folder / "case.toml").string());
+  const std::vector<Variant> variants = make_variants(base, options, (folder / "out").string());
+  ASSERT_EQ(variants.size(), 2U);
+  EXPECT_EQ(variants[0].refusal, "");
+  EXPECT_EQ(variants[1].refusal, "");
+  EXPECT_EQ(variants[1].label, "refined 1");
+  EXPECT_EQ(variants[0].cells, 1);  // relative to the file
+  EXPECT_EQ(variants[1].cells, 2);
+  EXPECT_NEAR(variants[1].element_step, 0.5 * variants[0].element_step, 1e-14);
+  const Case finer = parse_case(variants[1].case_text, "case.toml");
+  EXPECT_EQ(finer.mesh.refine, 1);
+  EXPECT_NEAR(**finer.time.step, 0.05, 1e-14);
+  options.refinements = {};
+  options.cells = {4};
+  EXPECT_NE(make_variants(base, options, "out")[0].refusal.find("--refine"), std::string::npos);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

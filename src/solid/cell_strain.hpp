@@ -1,0 +1,18 @@
+// Strains of the cells, for output.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace carom {
+
+/// Mean over the reference volume of the strain of each solid cell, in the order of Solid::cells() (part after part):
+/// xx, yy, zz, xy, yz, zx as tensor components (xy is half the shear angle). Small-strain parts: sym(grad u), the
+/// others Green-Lagrange's (F^T F - 1) / 2. zz is the hoop strain of axisymmetric cells; of plane stress it is not
+/// computed and zero, and bars give the tensor of their axial strain alone.
+std::vector<std::array<double, 6>> cell_strain(const Model& model, std::span<const double> u);
+
+}  // namespace carom

@@ -1,0 +1,96 @@
+// Meshes of halves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/errors.hpp"
+#include "math/vec3.hpp"
+#include "mesh/read_mesh.hpp"
+#include "mesh/split_cells.hpp"
+#include "mesh/structured_block.hpp"
+
+namespace carom {
+namespace {
+
+StructuredBlock block(int divisions) {
+  StructuredBlock b;
+  b.size = {1.0, 2.0, 3.0};
+  b.divisions = {divisions, 2 * divisions, 3 * divisions};
+  b.points = {{"CORNER", {1.0, 2.0, 3.0}, {}}};
+  return b;
+}
+
+/// Coordinates in an order of their own.
+std::vector<Vec3> sorted_places(const Mesh& mesh) {
+  std::vector<Vec3> x = mesh.coordinates;
+  std::sort(x.begin(), x.end());
+  return x;
+}
+
+// Halves of a regular grid are the grid of twice the divisions, with its groups.
+TEST(SplitCells, OfABlockAreTheFinerBlock) {
+  const Mesh halves = split_cells(make_structured_blocks({block(2)})), finer = make_structured_blocks({block(4)});
+  const std::vector<Vec3> a = sorted_places(halves), b = sorted_places(finer);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LT(norm(subtract(a[i], b[i])), 1e-14);
+  for (const CellType type : {CellType::hexa8, CellType::quad4}) {
+    ASSERT_NE(halves.block(type), nullptr);
+    EXPECT_EQ(halves.block(type)->size(), finer.block(type)->size());
+  }
+  EXPECT_EQ(halves.group_names(), finer.group_names());
+  for (const std::string& group : finer.group_names()) {
+    EXPECT_EQ(halves.nodes_of(group).size(), finer.nodes_of(group).size()) << group;
+    for (const Index n : halves.nodes_of(group))
+      if (group == "ZMAX") {
+        EXPECT_NEAR(halves.coordinates[static_cast<std::size_t>(n)][2], 3.0, 1e-14);
+      }
+  }
+  EXPECT_EQ(halves.report.turned, 0U);  // no child was inside out
+  EXPECT_NEAR(halves.report.worst_jacobian, 1.0, 1e-12);
+}
+
+TEST(SplitCells, KeepNumbersAndNumberOn) {
+  const Mesh whole = make_structured_blocks({block(1)}), halves = split_cells(whole);
+  std::vector<std::int64_t> numbers = halves.node_numbers;
+  std::sort(numbers.begin(), numbers.end());
+  for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], static_cast<std::int64_t>(i) + 1);
+  for (std::size_t n = 0; n < halves.node_count(); ++n) {
+    const auto old = std::find(whole.node_numbers.begin(), whole.node_numbers.end(), halves.node_numbers[n]);
+    if (old == whole.node_numbers.end()) continue;
+    EXPECT_EQ(halves.coordinates[n], whole.coordinates[static_cast<std::size_t>(old - whole.node_numbers.begin())]);
+  }
+}
+
+constexpr const char* flat = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+8
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 0 0 0
+6 1 0 0
+7 1 1 0
+8 0 1 0
+$EndNodes
+$Elements
+1
+7 5 2 1 1 1 2 3 4 5 6 7 8
+$EndElements
+)";
+
+TEST(SplitCells, RefuseCellsWithoutThickness) {
+  try {
+    split_cells(read_mesh(std::string_view(flat), "flat.msh"));
+    ADD_FAILURE() << "taken";
+  } catch (const CaseError& e) {
+    EXPECT_NE(std::string(e.what()).find("cell 7 of zero thickness"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace carom
