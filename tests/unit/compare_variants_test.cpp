@@ -219,7 +219,7 @@ $Elements
 $EndElements
 )";
 
-TEST(CompareVariants, RefineMeshFiles) {
+TEST(CompareMeshFiles, AreRefinedByHalves) {
   const auto folder = std::filesystem::temp_directory_path() / ("carom_refine_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "two.msh") << two_cells;

@@ -62,6 +62,7 @@ name = "floor"
 kind = "plane"
 group = "FOOT"
 point = [0.0, 0.0, -1.0]
+normal = [0.0, 0.0, 1.0]
 stiffness = 1.0
 [[contact]]
 name = "ram"
