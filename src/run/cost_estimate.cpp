@@ -23,8 +23,8 @@ bool is_implicit(const Stage& stage) {
   return !is_explicit(stage.settings().kind);
 }
 
-/// Of one .vtu file: coordinates, cells, and 24 bytes for a vector and 8 for a scalar on a node, 48 for the tensor of a
-/// cell (output/vtu.hpp).
+/// Of one .vtu file: coordinates, cells, and 24 bytes for a vector and 8 for a scalar on a node, 48 for a tensor and 8
+/// for a scalar of a cell (output/vtu.hpp).
 double frame_bytes(const Simulation& s) {
   const double nodes = static_cast<double>(s.mesh().node_count()), cells = static_cast<double>(s.solid().cell_count());
   if (s.given().output.fields.empty()) return 0.0;
@@ -33,9 +33,10 @@ double frame_bytes(const Simulation& s) {
     connectivity += 8.0 * static_cast<double>(s.solid().nodes_of_cell(k).size()) + 9.0;
   double bytes = 24.0 * nodes + connectivity;
   for (const auto& field : s.given().output.fields) {
-    const bool is_cellwise = *field == "stress";
+    const bool is_scalar_of_cells = *field == "von_mises" || *field == "part";
+    const bool is_cellwise = is_scalar_of_cells || *field == "stress" || *field == "strain";
     const bool is_scalar = *field == "contact_pressure" || *field == "contact_gap" || *field == "contact_status";
-    bytes += is_cellwise ? 48.0 * cells : (is_scalar ? 8.0 : 24.0) * nodes;
+    bytes += is_cellwise ? (is_scalar_of_cells ? 8.0 : 48.0) * cells : (is_scalar ? 8.0 : 24.0) * nodes;
   }
   return bytes;
 }
