@@ -45,14 +45,15 @@ std::string share_of_exceeding(const Result& r) {
 }
 
 /// Why the smallest error speaks for nothing; "" when it does.
-std::string doubt(const std::vector<Result>& results, std::size_t best, const std::string& quantity) {
+std::string doubt(const std::vector<Result>& results, std::size_t best, const std::string& quantity,
+                  ReferenceKind reference) {
   const double error = results[best].error(quantity);
   if (error > largest_error)
     return fmt::format(
         "The smallest error of the {} is {} ({}), above {}: the runs differ too much from the reference to "
         "choose among them. Refine the mesh and the step, or name another reference.",
         quantity, percent(error), results[best].variant.label, percent(largest_error));
-  if (error <= small_error) return {};
+  if (error <= small_error || reference == ReferenceKind::exact) return {};
   for (const Series& s : series_along(results, Along::cells, quantity)) {
     const auto is_best = [best](const Point& p) { return p.result == best; };
     if (std::none_of(s.points.begin(), s.points.end(), is_best) || *s.order >= least_order) continue;
@@ -91,7 +92,7 @@ Recommendation recommend(const std::vector<Result>& results, const std::string& 
   const auto error = [&](std::size_t i) { return results[i].error(quantity); };
   const std::size_t best =
       *std::min_element(fit.begin(), fit.end(), [&](std::size_t a, std::size_t b) { return error(a) < error(b); });
-  if (std::string reason = doubt(results, best, quantity); !reason.empty()) {
+  if (std::string reason = doubt(results, best, quantity, reference); !reason.empty()) {
     out.headline = "No variant comes close enough to the reference, so none is recommended.";
     out.reasons.push_back(std::move(reason));
     say_which_failed(results, out.reasons);

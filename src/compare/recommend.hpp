@@ -16,7 +16,7 @@ constexpr double cheaper = 1.25;
 
 /// A smallest error above this is no measure of a good choice: the curves differ by a quarter of what they are.
 constexpr double largest_error = 0.25;
-/// Nor is one above `small_error` that does not fall on finer meshes: an order below this.
+/// Nor is a difference to a run above `small_error` that does not fall on finer meshes: an order below this.
 constexpr double small_error = 0.1, least_order = 0.2;
 
 struct Recommendation {
