@@ -1,6 +1,7 @@
 // Impulses that change the velocity at once, beside what they do through the equation of the step.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "schemes/exact_port.hpp"
@@ -12,8 +13,8 @@ namespace carom {
 /// velocity with its jump, W is G (A^-1 + ratio M^-1) G^T. The caller adds the jump to the velocity of the stage.
 class JumpPort final : public ImpulsePort {
  public:
-  /// ratio: 0 or greater.
-  JumpPort(const System& system, double ratio);
+  /// ratio: 0 or greater. The solver is shared with the scheme, and factors once rows act.
+  JumpPort(const System& system, double ratio, std::shared_ptr<MassSolver> mass);
 
  protected:
   Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const override;
@@ -23,8 +24,9 @@ class JumpPort final : public ImpulsePort {
 
  private:
   double ratio_;
-  MassSolver mass_solver_;
-  RowCompliance compliance_;  ///< of M
+  std::shared_ptr<MassSolver> mass_;
+  ContactOperator operator_;
+  NodeCompliance nodes_;  ///< of M where it is consistent, which is the same for the whole run
   std::vector<double> load_, jump_;
 };
 

@@ -18,6 +18,16 @@ MassSolver::MassSolver(const System& system) : system_(system) {
   free_.resize(fixed.size());
 }
 
+MassSolver::~MassSolver() = default;
+
+void MassSolver::factorise() {
+  constexpr std::size_t most_dofs = 500'000;
+  if (factors_ || system_.mass.kind() == MassKind::lumped || rhs_.size() > most_dofs) return;
+  auto factors = make_effective_solver(system_, SolverKind::cholesky, 0.0, 0.0);
+  const std::vector<double> at_rest(rhs_.size(), 0.0);
+  if (factors->prepare(1.0, 0.0, at_rest).empty()) factors_ = std::move(factors);
+}
+
 std::string MassSolver::name() const {
   return system_.mass.kind() == MassKind::lumped ? "lumped mass, no solve" : "conjugate gradients on the mass";
 }
@@ -37,6 +47,13 @@ int MassSolver::solve(std::span<const double> f, std::span<double> a) {
   for (std::size_t i = 0; i < n; ++i) {
     rhs_[i] = fixed[i] ? 0.0 : f[i] - rhs_[i];
     free_[i] = fixed[i] ? 0.0 : a[i];
+  }
+  if (factors_) {
+    const bool is_solved = factors_->invert(rhs_, 1).converged;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!fixed[i]) a[i] = rhs_[i];
+    }
+    return is_solved ? 0 : -1;
   }
   const LinearOperator M = [&](std::span<const double> x, std::span<double> y) {
     system_.mass.apply(x, y);

@@ -1,12 +1,14 @@
 // Accelerations from forces.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "linalg/conjugate_gradients.hpp"
 #include "schemes/closing_rows.hpp"
+#include "schemes/effective_solver.hpp"
 #include "schemes/system.hpp"
 
 namespace carom {
@@ -17,6 +19,10 @@ namespace carom {
 class MassSolver {
  public:
   explicit MassSolver(const System& system);
+  ~MassSolver();
+  /// Factors a consistent mass, so that each solve from here on is one back-substitution: where many are to come.
+  /// Systems of more than half a million dofs stay with the conjugate gradients.
+  void factorise();
   /// a holds the prescribed accelerations on fixed dofs on entry (zero where there is no mass); its other entries are
   /// the start value. Returns the number of iterations, or -1 when they do not converge.
   int solve(std::span<const double> f, std::span<double> a);
@@ -30,6 +36,7 @@ class MassSolver {
   const System& system_;
   std::vector<double> inverse_diagonal_, rhs_, free_;
   ConjugateGradients cg_;
+  std::unique_ptr<EffectiveSolver> factors_;
 };
 
 /// A = M: accelerations, or velocities after impulses, that forces on rows make. Refers to the solver.

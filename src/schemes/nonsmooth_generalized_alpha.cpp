@@ -49,11 +49,12 @@ NonsmoothGeneralizedAlpha::NonsmoothGeneralizedAlpha(const System& system, const
     : system_(system),
       parameters_(p),
       kappa_(weight_of_new_force(p)),
+      mass_solver_(std::make_shared<MassSolver>(system)),
       stage_(system, settings, p.beta * kappa_ * dt * dt, omega_max_squared,
-             std::make_unique<JumpPort>(system, (2.0 * p.beta - p.gamma) / (p.gamma * 2.0 * p.beta * kappa_)),
+             std::make_unique<JumpPort>(system, (2.0 * p.beta - p.gamma) / (p.gamma * 2.0 * p.beta * kappa_),
+                                        mass_solver_),
              body_force(system)),
-      start_(system),
-      mass_solver_(system) {
+      start_(system) {
   assert(settings.enforcement == EnforcementKind::impulse && p.gamma > 0.0 && 2.0 * p.beta >= p.gamma);
   const std::size_t n = system.solid.dof_count();
   for (std::vector<double>* v : {&u_hat_, &v_hat_, &carried_, &known_, &u_predicted_, &jump_, &mean_, &mean_inertia_})
@@ -65,7 +66,7 @@ bool NonsmoothGeneralizedAlpha::solve_jump() {
   std::fill(jump_.begin(), jump_.end(), 0.0);
   const std::vector<RowStatus>& status = next_.rows.status;
   if (std::all_of(status.begin(), status.end(), [](RowStatus s) { return s == RowStatus::open; })) return true;
-  return mass_solver_.solve(next_.contact, jump_) >= 0;
+  return mass_solver_->solve(next_.contact, jump_) >= 0;
 }
 
 /// Resultant of p / h and of what the supports answer to it.

@@ -1,6 +1,7 @@
 // Generalised-alpha for the smooth motion, impulses for what contact does to it.
 #pragma once
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -53,9 +54,9 @@ class NonsmoothGeneralizedAlpha final : public Scheme {
   const System& system_;
   GeneralizedAlphaParameters parameters_;
   double kappa_;
+  std::shared_ptr<MassSolver> mass_solver_;
   ImplicitStage stage_;
   StepStart start_;
-  MassSolver mass_solver_;
   Forces now_, next_;
   std::vector<double> u_hat_, v_hat_, carried_, known_, u_predicted_;
   std::vector<double> jump_;  ///< W / h

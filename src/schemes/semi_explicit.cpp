@@ -13,8 +13,18 @@
 #include "schemes/explicit_contact.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "schemes/initial_acceleration.hpp"
+#include "schemes/node_compliance.hpp"
 
 namespace carom {
+
+namespace {
+
+/// Iterations in which rows follow the nodes. A node that comes to the edge between two facets may see the one from the
+/// other's equilibrium and back without end; what is left of the gaps then is of the order of the change between the
+/// last two, far below the motion of the step, and the next step sees it.
+constexpr int most_row_updates = 12;
+
+}  // namespace
 
 /// The dofs b: those without mass that are not imposed and that their cells hold.
 struct SemiExplicit::Boundary {
@@ -43,6 +53,7 @@ struct SemiExplicit::Boundary {
   /// Factors K_bb(u). Throws std::runtime_error when it is not positive definite.
   void factorise(std::span<const double> u) {
     W = {};
+    of_nodes.forget();
     if (dofs.empty()) return;
     const CsrMatrix K = system.solid.tangent(u);
     CsrMatrix K_bb;
@@ -74,6 +85,22 @@ struct SemiExplicit::Boundary {
     }
   }
 
+  /// W on rows that move: linear bodies keep the compliance of their nodes, so that new rows cost no solve.
+  Delassus moving(const ConstraintRows& rows, std::vector<std::size_t> chosen) {
+    const InverseOperator inverse = [this](std::span<double> b, int columns) { invert(b, columns); };
+    if (!system.solid.is_linear() || !of_nodes.extend(rows, chosen, of_dof.size(), inverse))
+      return make_delassus(rows, std::move(chosen), of_dof.size(), inverse);
+    std::vector<std::size_t> components;
+    for (const std::size_t r : chosen) components.push_back(rows.law[r].mu > 0.0 ? 3 : 1);
+    Delassus made;
+    const std::size_t n = chosen.size();
+    made.block = of_nodes.compliance(rows, chosen, components);
+    for (std::size_t i = 0; i <= n; ++i) made.begin.push_back(i * n);
+    for (std::size_t k = 0; k < n * n; ++k) made.column.push_back(k % n);
+    made.rows = std::move(chosen);
+    return made;
+  }
+
   /// W on the chosen rows. Where rows are fixed it is kept, and grows by a quarter at least, with the rows next to
   /// closing, so that a contact that spreads does not make it anew at every step.
   Delassus delassus(const ConstraintRows& rows, std::vector<std::size_t> chosen) {
@@ -81,7 +108,7 @@ struct SemiExplicit::Boundary {
       return make_delassus(rows, std::move(set), of_dof.size(),
                            [this](std::span<double> b, int columns) { invert(b, columns); });
     };
-    if (!system.contact.is_fixed()) return make(std::move(chosen));
+    if (!system.contact.is_fixed()) return moving(rows, std::move(chosen));
     std::vector<std::size_t> set;
     std::set_union(chosen.begin(), chosen.end(), W.rows.begin(), W.rows.end(), std::back_inserter(set));
     if (set.size() == W.size()) return W;
@@ -118,6 +145,7 @@ struct SemiExplicit::Boundary {
   std::optional<Cholesky> factor;
   Delassus W;
   ContactOperator contact_operator;
+  NodeCompliance of_nodes{3800};  ///< of K_bb; 512 MiB
 };
 
 /// What the dofs b are brought into equilibrium for.
@@ -146,46 +174,67 @@ std::string SemiExplicit::solver_name() const {
   return fmt::format("lumped mass, Cholesky factorisation of {} contact dofs", boundary_->dofs.size());
 }
 
+/// What the rows would see at u + residual_, the answer of the dofs b to their residual.
+void SemiExplicit::see_rows(const Target& target, std::span<const double> u, const ConstraintRows& rows) {
+  std::vector<ClosingRow>& closing = boundary_->closing;
+  closing.resize(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Vec3 w = rows.relative(r, u), w_begin = rows.relative(r, target.u_begin), dw = rows.relative(r, residual_);
+    closing[r] = {
+        r, {rows.gap[r] + w[0] + dw[0], w[1] - w_begin[1] + dw[1], w[2] - w_begin[2] + dw[2]}, rows.gap_rounding(r, u)};
+  }
+}
+
+/// u += residual_ + push_ on the dofs b.
+SemiExplicit::Correction SemiExplicit::correct(const Target& target, std::span<double> u) {
+  const bool moves = !system_.contact.is_fixed();
+  double change = 0.0, place = 0.0, motion = 0.0;
+  for (const std::size_t i : boundary_->dofs) {
+    const double du = residual_[i] + push_[i];
+    u[i] += du;
+    const double x = std::abs(u[i]) + (moves ? std::abs(system_.mesh.coordinates[i / 3][i % 3]) : 0.0);
+    change += du * du;
+    place += x * x;
+    motion += (u[i] - target.u_begin[i]) * (u[i] - target.u_begin[i]);
+  }
+  constexpr double round_off = 64.0 * std::numeric_limits<double>::epsilon();
+  return {std::sqrt(change), std::sqrt(motion), 1e-12 * std::sqrt(motion) + round_off * std::sqrt(place)};
+}
+
 /// Finds u on the dofs b and the multipliers. Returns why it failed, empty when it did not.
 std::string SemiExplicit::equilibrate(const Target& target, std::span<double> u, Forces& forces, int& iterations) {
   Boundary& b = *boundary_;
   std::vector<RowHistory> history(target.history.begin(), target.history.end());
-  const bool one_solve = system_.solid.is_linear() && system_.contact.is_fixed();
+  const bool is_linear = system_.solid.is_linear();
+  std::shared_ptr<const ConstraintRows> rows;
   for (iterations = 1;; ++iterations) {
     b.residual(forces.external, u, residual_);
     b.invert(residual_, 1);
-    const auto rows = system_.contact.rows_at(target.u_begin, u, target.history);
+    const bool follows = iterations <= most_row_updates && !system_.contact.is_fixed();
+    if (follows || !rows) rows = system_.contact.rows_at(target.u_begin, u, target.history);
     open_response(rows, history.size(), forces.rows);
-    b.closing.resize(rows->size());
-    for (std::size_t r = 0; r < rows->size(); ++r) {
-      const Vec3 w = rows->relative(r, u), w_begin = rows->relative(r, target.u_begin),
-                 dw = rows->relative(r, residual_);
-      b.closing[r] = {r, {rows->gap[r] + w[0] + dw[0], w[1] - w_begin[1] + dw[1], w[2] - w_begin[2] + dw[2]}};
-    }
+    see_rows(target, u, *rows);
     std::string failure = close_rows(system_.contact, b.closing, history, b.contact_operator, forces.rows, push_);
     if (!failure.empty()) return failure;
-    double change = 0.0, size = 0.0, motion = 0.0;
-    for (const std::size_t i : b.dofs) {
-      const double du = residual_[i] + push_[i];
-      u[i] += du;
-      change += du * du;
-      size += u[i] * u[i];
-      motion += (u[i] - target.u_begin[i]) * (u[i] - target.u_begin[i]);
-    }
-    if (!std::isfinite(change)) return "the forces are not finite";
-    if (one_solve) break;
-    constexpr double round_off = 64.0 * std::numeric_limits<double>::epsilon();
-    if (std::sqrt(change) <= 1e-12 * std::sqrt(motion) + round_off * std::sqrt(size)) break;
-    if (iterations == max_iterations_)
-      return fmt::format("the contact nodes find no equilibrium in {} iterations; the last moved them by {:.3g}",
-                         iterations, std::sqrt(change));
+    const Correction c = correct(target, u);
+    if (!std::isfinite(c.change)) return "the forces are not finite";
+    // Linear bodies are in equilibrium with the forces of any rows; Newton on the others may end once rows are kept.
+    if ((is_linear && !follows) || c.change <= c.negligible) break;
+    if (iterations == max_iterations_) return no_equilibrium(iterations, c);
     history = forces.rows.history;
     constexpr int patience = 8;  // iterations with one factorisation
-    if (iterations % patience == 0 && !system_.solid.is_linear()) b.factorise(u);
+    if (iterations % patience == 0 && !is_linear) b.factorise(u);
   }
   forces.contact.assign(u.size(), 0.0);
   forces.rows.add_force(forces.contact);
   return {};
+}
+
+std::string SemiExplicit::no_equilibrium(int iterations, const Correction& c) const {
+  return fmt::format(
+      "the contact nodes find no equilibrium in {} iterations: the last moved them by {:.3g}, of {:.3g} in this step "
+      "(asked: {:.3g}). Shorten the step (time.step or time.safety)",
+      iterations, c.change, c.motion, c.negligible);
 }
 
 /// Accelerations of the dofs i; those of the imposed ones stand in `state`.

@@ -41,6 +41,13 @@ class SemiExplicit final : public Scheme {
  private:
   struct Boundary;
   struct Target;
+  /// 2-norms over the dofs b: of an iteration's correction, of the motion in the step, and what counts as none.
+  struct Correction {
+    double change = 0.0, motion = 0.0, negligible = 0.0;
+  };
+  void see_rows(const Target& target, std::span<const double> u, const ConstraintRows& rows);
+  Correction correct(const Target& target, std::span<double> u);
+  std::string no_equilibrium(int iterations, const Correction& c) const;
   std::string equilibrate(const Target& target, std::span<double> u, Forces& forces, int& iterations);
   void accelerate(State& state, const Forces& forces) const;
 
