@@ -203,7 +203,8 @@ void ContactCurves::sample(const StepView& view, double end_weight) {
     closed_[c] = closed[c];
     table_.row.insert(table_.row.end(), {penetration[c], closed[c], closings_[c]});
     add_motion(c, view.state);
-    worst_penetration_ = std::max(worst_penetration_, penetration[c]);
+    if (!std::holds_alternative<StopContact>(model_.contacts[c]))  // whose springs are physical
+      worst_penetration_ = std::max(worst_penetration_, penetration[c]);
   }
 }
 

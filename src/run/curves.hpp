@@ -55,7 +55,7 @@ class ContactCurves {
   /// force at the end of the step in its impulse (gamma of Newmark).
   void sample(const StepView& view, double end_weight);
   const CurveTable& table() const { return table_; }
-  /// Largest penetration over all contacts and steps, relative to the cell it belongs to.
+  /// Largest penetration over all contacts but discrete stops, and steps, relative to the smallest cell.
   double worst_relative_penetration() const { return worst_penetration_ / cell_length_; }
   /// Largest pressure on a row over all contacts and steps; rows that are counted per node have none.
   double largest_pressure() const { return largest_pressure_; }

@@ -108,9 +108,10 @@ std::vector<VerdictItem> RunMonitor::items(const Pressing& pressing, double angu
       item("linear momentum", linear_momentum_error(), 1e-9, "change of momentum against the impulses"),
       item("angular momentum", angular_momentum_error(), angular_limit,
            "change of angular momentum against the impulses"),
-      item("penetration", pressing.penetration, std::max(0.05, 2.0 * pressing.strain),
+      item("penetration", pressing.penetration, std::clamp(2.0 * pressing.strain, 0.05, 0.25),
            "largest penetration relative to the smallest cell; the limit is 5 %, or twice the largest contact pressure "
-           "over the smallest Young's modulus: is the penalty stiff enough?"),
+           "over the smallest Young's modulus, but never more than a quarter: is the penalty stiff enough "
+           "(contact.stiffness, contact.stiffness_factor)?"),
   };
 }
 

@@ -75,6 +75,8 @@ TEST(Verdict, AllowsThePenetrationThatCellsAreCompressedBy) {
   EXPECT_FALSE(penetration(0.06, 0.02).pass);
   EXPECT_TRUE(penetration(0.06, 0.04).pass);
   EXPECT_EQ(penetration(0.06, 0.04).limit, 0.08);
+  // The pressure of a spring is its stiffness times its penetration: a soft one must not allow itself any depth.
+  EXPECT_FALSE(penetration(0.3, 10.0).pass);
 }
 
 const std::string statics = R"([scheme]
