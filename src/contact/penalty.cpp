@@ -27,7 +27,8 @@ struct RowForce {
 };
 
 RowForce row_force(const ConstraintRows& rows, std::size_t r, std::span<const double> x_begin,
-                   std::span<const double> x, std::span<const double> v, const RowHistory& history) {
+                   std::span<const double> x, std::span<const double> v, const RowHistory& history,
+                   CountedSlip counted) {
   const RowLaw& law = rows.law[r];
   RowForce out;
   const Vec3 w = rows.relative(r, x);
@@ -46,7 +47,7 @@ RowForce row_force(const ConstraintRows& rows, std::size_t r, std::span<const do
   if (law.eps_T == 0.0) return out;
   const Vec3 w_begin = rows.relative(r, x_begin), kept = rows.to_frame(r, history.slip);
   const double gap_begin = rows.gap[r] + w_begin[0];
-  if (gap_begin > 0.0 && gap < 0.0) {
+  if (counted == CountedSlip::after_touch && gap_begin > 0.0 && gap < 0.0) {
     out.share = gap / (gap - gap_begin);
     out.share_slope = -gap_begin / ((gap - gap_begin) * (gap - gap_begin));
   }
@@ -69,7 +70,7 @@ RowForce row_force(const ConstraintRows& rows, std::size_t r, std::span<const do
 
 void penalty_response(std::shared_ptr<const ConstraintRows> given, std::span<const double> x_begin,
                       std::span<const double> x, std::span<const double> v, std::span<const RowHistory> history,
-                      ContactResponse& response) {
+                      ContactResponse& response, CountedSlip slip) {
   response.rows = std::move(given);
   const ConstraintRows& rows = *response.rows;
   const std::size_t n = rows.size();
@@ -82,7 +83,7 @@ void penalty_response(std::shared_ptr<const ConstraintRows> given, std::span<con
   for (std::size_t r = 0; r < n; ++r) {
     const RowLaw& law = rows.law[r];
     const auto slot = static_cast<std::size_t>(rows.slot[r]);
-    const RowForce out = row_force(rows, r, x_begin, x, v, history[slot]);
+    const RowForce out = row_force(rows, r, x_begin, x, v, history[slot], slip);
     const std::array<double, 2>& s = out.elastic_slip;
     response.force[r] = {out.pressure, -law.eps_T * s[0], -law.eps_T * s[1]};
     response.damper[r] = out.pressure - law.eps_N * out.penetration;
@@ -96,9 +97,9 @@ void penalty_response(std::shared_ptr<const ConstraintRows> given, std::span<con
 
 RowTangent penalty_tangent(const ConstraintRows& rows, std::size_t r, std::span<const double> x_begin,
                            std::span<const double> x, std::span<const double> v, std::span<const RowHistory> history,
-                           double dv_dx) {
+                           double dv_dx, CountedSlip slip) {
   const RowLaw& law = rows.law[r];
-  const RowForce out = row_force(rows, r, x_begin, x, v, history[static_cast<std::size_t>(rows.slot[r])]);
+  const RowForce out = row_force(rows, r, x_begin, x, v, history[static_cast<std::size_t>(rows.slot[r])], slip);
   RowTangent D{};
   if (out.status == RowStatus::open) return D;
   D[0] = out.stiffness + out.damping * dv_dx;

@@ -41,6 +41,7 @@ class PenaltyPort : public ContactPort {
   const System& system_;
   const State* begin_ = nullptr;
   double s_ = 0.0, dv_dx_ = 0.0;
+  CountedSlip slip_ = CountedSlip::after_touch;
   std::vector<RowTangent> tangents_;
 
  private:

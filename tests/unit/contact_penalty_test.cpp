@@ -114,6 +114,17 @@ TEST_F(Friction, FirstTouchCountsTheSlidingInContact) {
   EXPECT_NEAR(slide.slip_work, limit * (0.4 - yield), 10 * round_off);
 }
 
+// Without inertia a body stops at the touch and slides on: nothing says which part of the sliding came before.
+TEST_F(Friction, FirstTouchCountsAllSlidingWithoutInertia) {
+  Vec3 begin = at(0.0);
+  begin[2] = 0.3;
+  ContactResponse slide;
+  const std::vector<RowHistory> history(1);
+  penalty_response(penalty, begin, at(1.0), Vec3{}, history, slide, CountedSlip::whole_step);
+  EXPECT_EQ(slide.status[0], RowStatus::slip);
+  EXPECT_NEAR(slide.slip_work, limit * (1.0 - yield), 10 * round_off);
+}
+
 // Path in many steps: the work of the tangential force is what is stored and what has slipped away. The trapezoidal
 // rule is exact while sticking and while sliding; the one step across the corner misses at most the corner's triangle,
 // 1/2 eps_T (ds/2)^2 / 2 at ds = 0.001 (here the corner falls on a step: round-off only).
