@@ -145,7 +145,9 @@ class MortarRows : public RowMaker {
   std::vector<Node> nodes_;
   mutable BroadPhase broad_phase_;
   mutable std::vector<FacetSums> sums_;
-  mutable std::vector<bool> was_behind_;  ///< by slave facet: a node of it was behind the master at x_begin
+  /// By slave facet: all its nodes were behind the master at x_begin. One is not enough: the facets beside a rim would
+  /// see the far side of the body that the rim touches.
+  mutable std::vector<bool> was_behind_;
 };
 
 MortarRows::MortarRows(const Model& model, const PairContact& contact, const ContactLaw& law, Index source)
@@ -171,10 +173,10 @@ MortarRows::MortarRows(const Model& model, const PairContact& contact, const Con
 
 void MortarRows::append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const {
   broad_phase_.update(motion.x_begin, motion.displacement);
-  was_behind_.assign(sums_.size(), false);
+  was_behind_.assign(sums_.size(), true);
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (motion.behind(first_slot + static_cast<Index>(i)) >= 0)
-      for (const auto& [f, a] : nodes_[i].facets) was_behind_[f] = true;
+    if (motion.behind(first_slot + static_cast<Index>(i)) < 0)
+      for (const auto& [f, a] : nodes_[i].facets) was_behind_[f] = false;
   constexpr std::size_t grain = 16;  // facets per task: some hundred microseconds of work
   parallel_for(sums_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) integrate(f, motion, sums_[f]);
