@@ -34,6 +34,7 @@ void ConstraintRows::add_row(double row_gap, const Vec3& row_normal, const Vec3&
   tangent_1.push_back(any_tangent(row_normal));
   tangent_2.push_back(cross(row_normal, tangent_1.back()));
   position.push_back(row_position);
+  reach.push_back(norm(row_position));
   measure.push_back(row_measure);
   law.push_back(row_law);
   source.push_back(row_source);
@@ -80,12 +81,12 @@ double ConstraintRows::rounding(std::size_t r, std::span<const double> x) const 
 }
 
 double ConstraintRows::gap_rounding(std::size_t r, std::span<const double> x) const {
-  return rounding(r, x) + precision * (norm(position[r]) + std::abs(gap[r]));
+  return rounding(r, x) + precision * (reach[r] + std::abs(gap[r]));
 }
 
 bool ConstraintRows::is_closed(std::size_t r, std::span<const double> x) const {
   const Vec3 w = relative(r, x);
-  return gap[r] + w[0] <= precision * (norm(position[r]) + std::abs(gap[r]) + norm(w));
+  return gap[r] + w[0] <= precision * (reach[r] + std::abs(gap[r]) + norm(w));
 }
 
 Vec3 ConstraintRows::to_space(std::size_t r, const Vec3& s) const {

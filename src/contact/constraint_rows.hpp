@@ -36,6 +36,7 @@ struct ConstraintRows {
   std::vector<double> gap;  ///< at zero displacement
   std::vector<Vec3> normal, tangent_1, tangent_2;
   std::vector<Vec3> position;   ///< where the row acts, for messages, output and moments
+  std::vector<double> reach;    ///< largest length that the gap is a difference of
   std::vector<double> measure;  ///< area that the row stands for, or 1 for a row that is a single node
   std::vector<RowLaw> law;
   std::vector<Index> source;  ///< index in Model::contacts
@@ -61,9 +62,9 @@ struct ConstraintRows {
   double gap_at(std::size_t r, std::span<const double> x) const { return gap[r] + relative(r, x)[0]; }
   /// How much of (G x)_r rounding may have made: 16 units of round-off of its terms.
   double rounding(std::size_t r, std::span<const double> x) const;
-  /// The same of g_r(x), whose gap is a difference of positions.
+  /// The same of g_r(x), whose gap is a difference of lengths up to `reach`.
   double gap_rounding(std::size_t r, std::span<const double> x) const;
-  /// True when the gap is not above its own rounding: 16 units of round-off of position, gap and displacement. A body
+  /// True when the gap is not above its own rounding: 16 units of round-off of reach, gap and displacement. A body
   /// that rests or slides would else lift off for a step at every gap of 1e-17.
   bool is_closed(std::size_t r, std::span<const double> x) const;
   /// f += G_r^T s for the row's force s in its frame.

@@ -67,6 +67,17 @@ bool takes_offsets(const ContactDefinition& definition) {
       definition);
 }
 
+/// Middle of the box around all nodes.
+Vec3 middle_of(const std::vector<Vec3>& coordinates) {
+  Vec3 low{}, high{};
+  for (std::size_t c = 0; c < 3 && !coordinates.empty(); ++c) {
+    const auto [least, most] = std::ranges::minmax(coordinates, {}, [c](const Vec3& X) { return X[c]; });
+    low[c] = least[c];
+    high[c] = most[c];
+  }
+  return scaled(add(low, high), 0.5);
+}
+
 }  // namespace
 
 struct ContactGeometry::Impl {
@@ -79,18 +90,24 @@ struct ContactGeometry::Impl {
   std::vector<double> offset;        ///< by slot, <= 0
   std::vector<std::string> notes;
   std::shared_ptr<const ConstraintRows> fixed;  ///< null when some rows are not fixed
+  Vec3 centre{};                                ///< of all nodes; pairs see positions relative to it
   std::vector<Vec3> x_begin, x, displacement;   ///< scratch of rows_at
 
-  bool place(std::span<const double> u_begin, std::span<const double> u);
+  bool place(const Vec3& origin, std::span<const double> u_begin, std::span<const double> u);
+  /// Where a maker takes positions from: gaps of pairs are differences of positions of nodes, which far from the origin
+  /// would be known to the rounding of their coordinates only; obstacles stand where the case says.
+  Vec3 origin_of(std::size_t maker) const {
+    return std::holds_alternative<PairContact>(model.contacts[maker]) ? centre : Vec3{};
+  }
   ConstraintRows make(std::span<const double> u_begin, std::span<const double> u, std::span<const RowHistory> history);
 };
 
 /// Positions of the nodes; false when one is not finite.
-bool ContactGeometry::Impl::place(std::span<const double> u_begin, std::span<const double> u) {
+bool ContactGeometry::Impl::place(const Vec3& origin, std::span<const double> u_begin, std::span<const double> u) {
   bool is_finite = true;
   for (const Index n : nodes) {
     const auto i = 3 * static_cast<std::size_t>(n);
-    const Vec3& X = model.mesh->coordinates[n];
+    const Vec3 X = subtract(model.mesh->coordinates[n], origin);
     x_begin[n] = add(X, {u_begin[i], u_begin[i + 1], u_begin[i + 2]});
     x[n] = add(X, {u[i], u[i + 1], u[i + 2]});
     displacement[n] = subtract(x[n], x_begin[n]);
@@ -101,11 +118,18 @@ bool ContactGeometry::Impl::place(std::span<const double> u_begin, std::span<con
 
 ConstraintRows ContactGeometry::Impl::make(std::span<const double> u_begin, std::span<const double> u,
                                            std::span<const RowHistory> history) {
-  const bool is_finite = place(u_begin, u);
-  const ContactMotion motion{x_begin, x, displacement, u, history};
   ConstraintRows rows;
-  for (std::size_t i = 0; i < makers.size(); ++i)
-    if (is_finite || makers[i]->is_fixed()) makers[i]->append(motion, first_slot[i], rows);
+  for (std::size_t i = 0; i < makers.size(); ++i) {
+    if (makers[i]->is_fixed()) {
+      makers[i]->append({}, first_slot[i], rows);
+      continue;
+    }
+    const Vec3 origin = origin_of(i);
+    if (!place(origin, u_begin, u)) continue;
+    const std::size_t before = rows.size();
+    makers[i]->append({x_begin, x, displacement, u, history}, first_slot[i], rows);
+    for (std::size_t r = before; r < rows.size(); ++r) rows.position[r] = add(rows.position[r], origin);
+  }
   for (std::size_t r = 0; r < rows.size(); ++r) rows.gap[r] -= offset[rows.slot[r]];
   return rows;
 }
@@ -120,6 +144,7 @@ ContactGeometry::ContactGeometry(const Model& model) : impl_(std::make_unique<Im
   std::sort(impl.nodes.begin(), impl.nodes.end());
   impl.nodes.erase(std::unique(impl.nodes.begin(), impl.nodes.end()), impl.nodes.end());
   impl.offset.assign(slots(), 0.0);
+  impl.centre = middle_of(model.mesh->coordinates);
   if (!impl.nodes.empty()) impl.x_begin = impl.x = impl.displacement = std::vector<Vec3>(model.mesh->node_count());
   const bool is_fixed =
       std::all_of(impl.makers.begin(), impl.makers.end(), [](const auto& m) { return m->is_fixed(); });
@@ -128,6 +153,16 @@ ContactGeometry::ContactGeometry(const Model& model) : impl_(std::make_unique<Im
 ContactGeometry::~ContactGeometry() = default;
 ContactGeometry::ContactGeometry(ContactGeometry&&) noexcept = default;
 
+double ContactGeometry::reach() const {
+  double reach = 0.0;
+  for (std::size_t i = 0; i < impl_->makers.size(); ++i) {
+    if (impl_->makers[i]->is_fixed()) continue;
+    const Vec3 origin = impl_->origin_of(i);
+    for (const Vec3& X : impl_->model.mesh->coordinates)
+      for (std::size_t c = 0; c < 3; ++c) reach = std::max(reach, std::abs(X[c] - origin[c]));
+  }
+  return reach;
+}
 std::size_t ContactGeometry::slots() const {
   return static_cast<std::size_t>(impl_->first_slot.back());
 }

@@ -38,6 +38,8 @@ class ContactGeometry {
 
   /// Number of entries of State::contact; the same for a whole run.
   std::size_t slots() const;
+  /// Largest coordinate that gaps of rows that move are differences of; 0 where all rows are fixed.
+  double reach() const;
   /// True when the rows are the same at every displacement.
   bool is_fixed() const;
   /// Rows at displacement u, when the step began at u_begin (so that what crossed a facet in between is found) with the

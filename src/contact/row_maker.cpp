@@ -93,6 +93,7 @@ void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_s
   append_all(rows.tangent_1, from.tangent_1);
   append_all(rows.tangent_2, from.tangent_2);
   append_all(rows.position, from.position);
+  append_all(rows.reach, from.reach);
   append_all(rows.measure, from.measure);
   append_all(rows.law, from.law);
   append_all(rows.source, from.source);

@@ -13,10 +13,10 @@
 
 namespace carom {
 
-/// Where the nodes stand. Only the entries of nodes that belong to a contact are filled.
+/// Where the nodes stand, X + u - origin. Only the entries of nodes that belong to a contact are filled.
 struct ContactMotion {
-  std::span<const Vec3> x_begin;       ///< X + u_begin
-  std::span<const Vec3> x;             ///< X + u
+  std::span<const Vec3> x_begin;
+  std::span<const Vec3> x;
   std::span<const Vec3> displacement;  ///< x - x_begin
   std::span<const double> u;
   std::span<const RowHistory> history{};  ///< of all slots at x_begin; empty where there is none

@@ -39,10 +39,10 @@ std::size_t components(double mu) {
 
 // 64 Mi numbers of columns, and 3,800 nodes: 512 MiB each, of which one at most is in use.
 ExactPort::ExactPort(const System& system)
-    : system_(system), compliance_(system.solid.dof_count(), std::size_t{1} << 26), nodes_(3800) {
-  if (system.contact.is_fixed()) return;
-  for (const Vec3& X : system.mesh.coordinates) extent_ = std::max(extent_, largest(X));
-}
+    : system_(system),
+      extent_(system.contact.reach()),
+      compliance_(system.solid.dof_count(), std::size_t{1} << 26),
+      nodes_(3800) {}
 
 void ExactPort::begin(const StageStart& start) {
   start_ = start;

@@ -51,7 +51,7 @@ class ExactPort : public ContactPort {
                           std::span<const Vec3> /*force*/) {}
 
   const System& system_;
-  double extent_ = 0.0;  ///< largest coordinate, where rows move: their gaps are known to its rounding
+  double extent_;  ///< ContactGeometry::reach: gaps are known to its rounding
   StageStart start_;
   std::vector<Vec3> multiplier_;  ///< per slot, a vector of space
   std::vector<double>

@@ -51,6 +51,7 @@ ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& setti
                              double omega_max_squared, std::unique_ptr<ContactPort> port, StageForce force)
     : system_(system),
       max_iterations_(settings.max_iterations),
+      reach_(system.contact.reach()),
       solver_(make_effective_solver(system, solver_for(system, settings), ratio, omega_max_squared)),
       port_(std::move(port)),
       force_(std::move(force)) {
@@ -91,7 +92,6 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   system_.mass.apply(end.a, forces.inertia);
   const std::vector<bool>& fixed = system_.supports.fixed();
   const std::vector<double>& mass = system_.mass.node_diagonal();
-  const bool is_fixed = system_.contact.is_fixed();
   // Squares of the residual, of the displacement, of Jacobi's estimate of what is missing, and of the forces that
   // cancel in the residual.
   for (std::size_t i = 0; i < residual_.size(); ++i) {
@@ -112,7 +112,7 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
                       eq.m * mass[i / 3] * std::abs(end.a[i]);
     const double moved = std::abs(begin.q[i]) + std::abs(eq.x_hat[i]) + std::abs(end.q[i]);
     // Gaps of moving rows are differences of positions, those of fixed rows of displacements.
-    const double placed = is_fixed ? moved : moved + std::abs(system_.mesh.coordinates[i / 3][i % 3]);
+    const double placed = moved + reach_;
     const double force = force_parts_[i] + stiffness_diagonal_[i] * moved + closed_diagonal_[i] * placed;
     sum[2] += missing * missing;
     sum[3] += force * force;

@@ -73,6 +73,7 @@ class ImplicitStage {
 
   const System& system_;
   int max_iterations_;
+  double reach_;  ///< ContactGeometry::reach
   std::unique_ptr<EffectiveSolver> solver_;
   std::unique_ptr<ContactPort> port_;
   StageForce force_;

@@ -155,7 +155,11 @@ struct SemiExplicit::Target {
 };
 
 SemiExplicit::SemiExplicit(const System& system, int max_iterations)
-    : system_(system), max_iterations_(max_iterations), start_(system), boundary_(std::make_unique<Boundary>(system)) {
+    : system_(system),
+      max_iterations_(max_iterations),
+      reach_(system.contact.reach()),
+      start_(system),
+      boundary_(std::make_unique<Boundary>(system)) {
   if (system.mass.kind() != MassKind::lumped) throw std::invalid_argument("the modified mass is a lumped one");
   const std::size_t n = system.solid.dof_count();
   v_half_.resize(n);
@@ -187,12 +191,11 @@ void SemiExplicit::see_rows(const Target& target, std::span<const double> u, con
 
 /// u += residual_ + push_ on the dofs b.
 SemiExplicit::Correction SemiExplicit::correct(const Target& target, std::span<double> u) {
-  const bool moves = !system_.contact.is_fixed();
   double change = 0.0, place = 0.0, motion = 0.0;
   for (const std::size_t i : boundary_->dofs) {
     const double du = residual_[i] + push_[i];
     u[i] += du;
-    const double x = std::abs(u[i]) + (moves ? std::abs(system_.mesh.coordinates[i / 3][i % 3]) : 0.0);
+    const double x = std::abs(u[i]) + reach_;
     change += du * du;
     place += x * x;
     motion += (u[i] - target.u_begin[i]) * (u[i] - target.u_begin[i]);

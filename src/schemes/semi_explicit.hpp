@@ -53,6 +53,7 @@ class SemiExplicit final : public Scheme {
 
   const System& system_;
   int max_iterations_;
+  double reach_;  ///< ContactGeometry::reach
   StepStart start_;
   std::unique_ptr<Boundary> boundary_;
   Forces now_, next_;
