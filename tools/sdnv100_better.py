@@ -47,7 +47,7 @@ VARIANTS = {
     "modified mass, 4 layers, Courant 0.5": (SEMI_EXPLICIT + "\nlayers = 4", "step = 1.0e-6", None),
     "CD-Lagrange": ('kind = "cd_lagrange"', COURANT_99, None),
     "forward-increment multipliers": ('kind = "forward_increment"', COURANT_99, None),
-    "central differences, penalty E/h": ('kind = "central_differences"', "safety = 0.99", 2.0e13),
+    "central differences, penalty E/h": ('kind = "central_differences"', "step = 1.795e-6", 2.0e13),
     "Noh-Bathe, penalty E/h": ('kind = "noh_bathe"', "safety = 0.9", 2.0e13),
     "Moreau-Jean, theta 1/2": ('kind = "moreau_jean"', IMPLICIT, None),
     "generalised-alpha, rho_inf 0.5": ('kind = "generalized_alpha"\nrho_inf = 0.5\nenforcement = "lagrange"', IMPLICIT,
