@@ -48,7 +48,7 @@ VARIANTS = {
     "CD-Lagrange": ('kind = "cd_lagrange"', COURANT_99, None),
     "forward-increment multipliers": ('kind = "forward_increment"', COURANT_99, None),
     "central differences, penalty E/h": ('kind = "central_differences"', "step = 1.795e-6", 2.0e13),
-    "Noh-Bathe, penalty E/h": ('kind = "noh_bathe"', "safety = 0.9", 2.0e13),
+    "Noh-Bathe, penalty E/h": ('kind = "noh_bathe"', "step = 3.04348e-06", 2.0e13),
     "Moreau-Jean, theta 1/2": ('kind = "moreau_jean"', IMPLICIT, None),
     "generalised-alpha, rho_inf 0.5": ('kind = "generalized_alpha"\nrho_inf = 0.5\nenforcement = "lagrange"', IMPLICIT,
                                        None),
