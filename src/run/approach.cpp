@@ -71,7 +71,7 @@ class Flight {
 void follow(const Simulation& s, const ConstraintRows& rows, const Flight& flight, std::vector<Approach>& out) {
   std::vector<double> q(s.solid().dof_count()), gap(rows.size()), before(rows.size());
   const double dt = s.end() / intervals;
-  for (std::size_t c = 0; c < out.size(); ++c) out[c].first_touch = std::numeric_limits<double>::infinity();
+  for (Approach& a : out) a.first_touch = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= intervals; ++k) {
     flight.displace(k, q);
     for (std::size_t r = 0; r < rows.size(); ++r) {

@@ -87,8 +87,8 @@ CostEstimate estimate_cost(const Simulation& s) {
       std::any_of(s.stages().begin(), s.stages().end(), [](const auto& stage) { return is_implicit(*stage); });
   cost.memory_bytes = 2e7 + 1e3 * cells + (has_matrix ? 8.0 * 72.0 * std::pow(nodes, 4.0 / 3.0) : 0.0);
   cost.frames = s.given().output.fields.empty() ? 0 : s.steps() / frame_interval(s) + 2;
-  const double rows = static_cast<double>(s.steps() / s.given().output.curves_every + 1);
-  cost.disk_bytes = static_cast<double>(cost.frames) * frame_bytes(s) + rows * row_bytes(s);
+  const long long rows = s.steps() / s.given().output.curves_every + 1;
+  cost.disk_bytes = static_cast<double>(cost.frames) * frame_bytes(s) + static_cast<double>(rows) * row_bytes(s);
   return cost;
 }
 

@@ -9,6 +9,7 @@
 
 #include "math/vec3.hpp"
 #include "run/probe_place.hpp"
+#include "solid/node_lengths.hpp"
 
 namespace carom {
 
@@ -130,7 +131,11 @@ std::vector<Vec3> moment_points(const Case& given) {
 ContactCurves::ContactCurves(const Simulation& simulation)
     : model_(simulation.model()),
       contacts_(simulation.given().contacts.size()),
-      resultants_(model_, moment_points(simulation.given())) {
+      resultants_(model_, moment_points(simulation.given())),
+      node_length_(node_lengths(simulation.solid())) {
+  const double least = *std::min_element(node_length_.begin(), node_length_.end());
+  for (double& length : node_length_)
+    if (!std::isfinite(length)) length = least;  // nodes of no cell, which may be those of an interface
   table_.columns = {"time"};
   for (std::size_t c = 0; c < contacts_; ++c) {
     const auto add_columns = [&](const std::string& place, const auto& names) {
@@ -147,8 +152,16 @@ ContactCurves::ContactCurves(const Simulation& simulation)
   impulse_.resize(resultants_.places().size());
   closed_.resize(contacts_);
   closings_.resize(contacts_);
-  const std::vector<double>& lengths = simulation.solid().cell_lengths();
-  cell_length_ = *std::min_element(lengths.begin(), lengths.end());
+}
+
+/// Over the smallest cell at the nodes of the row; springs of stops are physical and do not count.
+double ContactCurves::relative_penetration(const ConstraintRows& rows, std::size_t r, double depth) const {
+  if (std::holds_alternative<StopContact>(model_.contacts[static_cast<std::size_t>(rows.source[r])])) return 0.0;
+  const auto first = static_cast<std::size_t>(rows.begin[r]), last = static_cast<std::size_t>(rows.begin[r + 1]);
+  double length = node_length_[static_cast<std::size_t>(rows.node[first])];
+  for (std::size_t k = first + 1; k < last; ++k)
+    length = std::min(length, node_length_[static_cast<std::size_t>(rows.node[k])]);
+  return depth / length;
 }
 
 void ContactCurves::add_resultants(std::size_t contact, const std::vector<ContactResultant>& resultants, double dt,
@@ -192,7 +205,9 @@ void ContactCurves::sample(const StepView& view, double end_weight) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (view.forces.rows.status[r] == RowStatus::open) continue;
     const auto c = static_cast<std::size_t>(rows.source[r]);
-    penetration[c] = std::max(penetration[c], -rows.gap_at(r, view.state.q));
+    const double depth = -rows.gap_at(r, view.state.q);
+    penetration[c] = std::max(penetration[c], depth);
+    worst_penetration_ = std::max(worst_penetration_, relative_penetration(rows, r, depth));
     closed[c] += 1.0;
     largest_pressure_ = std::max(largest_pressure_, passes_[c] * view.forces.rows.force[r][0] / rows.measure[r]);
   }
@@ -203,8 +218,6 @@ void ContactCurves::sample(const StepView& view, double end_weight) {
     closed_[c] = closed[c];
     table_.row.insert(table_.row.end(), {penetration[c], closed[c], closings_[c]});
     add_motion(c, view.state);
-    if (!std::holds_alternative<StopContact>(model_.contacts[c]))  // whose springs are physical
-      worst_penetration_ = std::max(worst_penetration_, penetration[c]);
   }
 }
 

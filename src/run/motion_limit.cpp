@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "math/vec3.hpp"
+#include "solid/node_lengths.hpp"
 
 namespace carom {
 
@@ -33,10 +34,7 @@ struct MostOfContact {
 
 }  // namespace
 
-MotionLimit::MotionLimit(const Model& model, const Solid& solid) : length_(solid.node_count(), infinity) {
-  for (std::size_t k = 0; k < solid.cell_count(); ++k)
-    for (const Index n : solid.nodes_of_cell(k))
-      length_[static_cast<std::size_t>(n)] = std::min(length_[static_cast<std::size_t>(n)], solid.cell_lengths()[k]);
+MotionLimit::MotionLimit(const Model& model, const Solid& solid) : length_(node_lengths(solid)) {
   for (const ContactDefinition& contact : model.contacts) most_.push_back(std::visit(MostOfContact{}, contact));
 }
 

@@ -109,7 +109,8 @@ std::vector<VerdictItem> RunMonitor::items(const Pressing& pressing, double angu
       item("angular momentum", angular_momentum_error(), angular_limit,
            "change of angular momentum against the impulses"),
       item("penetration", pressing.penetration, std::clamp(2.0 * pressing.strain, 0.05, 0.25),
-           "largest penetration relative to the smallest cell; the limit is 5 %, or twice the largest contact pressure "
+           "largest penetration relative to the smallest cell there; the limit is 5 %, or twice the largest contact "
+           "pressure "
            "over the smallest Young's modulus, but never more than a quarter: is the penalty stiff enough "
            "(contact.stiffness, contact.stiffness_factor)?"),
   };
