@@ -164,8 +164,10 @@ ContactWork PenaltyPort::work(const State& begin, const Forces& f0, const State&
 /// Tangential springs are stiffened less: with stiff ones Newton's method jumps between opposite directions of slip.
 static constexpr double tangential_share = 0.1;
 
-/// Multipliers have settled when their update changes no force by more than this share of the largest: forces that are
-/// carried on from step to step are then right to 1 % (a bar on a wall against exact multipliers: 1.5 % at 0.01).
+/// Multipliers without friction have settled when their update changes no force by more than this share of the largest:
+/// forces that are carried on from step to step are then right to 1 % (a bar on a wall against exact multipliers: 1.5 %
+/// at 0.01). With friction the penetration alone decides: further updates may push rows to and fro between stick and
+/// slip.
 static constexpr double settled = 0.003;
 
 AugmentedLagrangianPort::AugmentedLagrangianPort(const System& system, double penetration)
@@ -255,11 +257,13 @@ bool AugmentedLagrangianPort::settle(std::span<const double> x, const ContactRes
   const ConstraintRows& rows = *response.rows;
   double worst = 0.0, change = 0.0, largest = 0.0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    const Vec3 w = rows.relative(r, x), &force = response.force[r];
+    const Vec3 w = rows.relative(r, x);
     const double gap = rows.gap[r] + w[0];
-    largest = std::max(largest, norm(force));
-    change =
-        std::max(change, norm(subtract(force, rows.to_frame(r, multiplier_[static_cast<std::size_t>(rows.slot[r])]))));
+    const double force = response.force[r][0];
+    const double multiplier = rows.to_frame(r, multiplier_[static_cast<std::size_t>(rows.slot[r])])[0];
+    largest = std::max(largest, force);
+    const bool is_judged = rows.law[r].mu == 0.0 && std::abs(gap) > rows.gap_rounding(r, x);
+    if (is_judged) change = std::max(change, std::abs(force - multiplier));
     if (response.force[r][0] == 0.0 && response.status[r] != RowStatus::open) {
       worst = std::numeric_limits<double>::infinity();
     }

@@ -317,7 +317,7 @@ TEST(NodeRows, DoNotTakeTheFarSideOfAThinPlate) {
   ASSERT_EQ(rows->size(), 16U);
   for (std::size_t r = 0; r < 16; ++r) {
     EXPECT_NEAR(rows->gap[r], -0.015, round_off);
-    EXPECT_EQ(rows->normal[r], (Vec3{0, 0, 1}));
+    EXPECT_NEAR(norm(subtract(rows->normal[r], {0, 0, 1})), 0.0, round_off);
   }
 }
 
