@@ -17,8 +17,9 @@ test:    ## the same set-up, then all tests through ctest
 	@tools/build release all
 	@ctest --preset release -j "$$(nproc)"
 
-verify: build ## long verification cases, one by one and resumable; writes docs/verification.md
+verify: build ## long verification cases, resumable, writes docs/verification.md; then 300 impacts with defaults
 	@tools/verify
+	@/usr/bin/python3 tests/verification/impact_trial.py build/release/carom --jobs "$$(nproc)"
 
 bench:   ## kernel benchmarks (elements per second) with STREAM triad beside them
 	@tools/setup build bench
