@@ -189,7 +189,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
       report.failure = cycling_rows(before, forces);
       return report;
     }
-    last = error;
+    last = newton == 0 ? none : error;  // before the first solve, the work is of a displacement that is a guess
     // Below what rounding may leave, each solve is asked for a hundredth of what is left.
     const double left = error.work <= error.round_off ? std::max(0.3 * wanted, 0.01 * error.work) : 0.3 * tolerance;
     report.failure = improve(eq, left / error.displacement, end, forces, report);
