@@ -394,7 +394,7 @@ def depth(points, body, corners, other):
 
 
 def is_inside(x, corner):
-    """By Newton's method on the trilinear map."""
+    """By Newton's method on the trilinear map; where that does not converge, x is far from the cell."""
     if any(x[c] < min(p[c] for p in corner) or x[c] > max(p[c] for p in corner) for c in range(3)):
         return False
     xi = [0.0, 0.0, 0.0]
@@ -413,12 +413,12 @@ def is_inside(x, corner):
         det = dot(columns[0], cross(columns[1], columns[2]))
         if det == 0.0:
             return False
-        xi[0] += dot(residual, cross(columns[1], columns[2])) / det
-        xi[1] += dot(columns[0], cross(residual, columns[2])) / det
-        xi[2] += dot(columns[0], cross(columns[1], residual)) / det
+        change = [dot(residual, cross(columns[1], columns[2])) / det, dot(columns[0], cross(residual, columns[2])) / det,
+                  dot(columns[0], cross(columns[1], residual)) / det]
+        xi = [a + b for a, b in zip(xi, change)]
         if max(map(abs, xi)) > 5.0:
             return False
-    return max(map(abs, xi)) < 1.0
+    return max(map(abs, xi)) < 1.0 and max(map(abs, change)) < 1e-6
 
 
 def dot(a, b):
