@@ -35,7 +35,10 @@ std::string series_name(const Variant& variant, bool with_stiffness, bool with_c
   Choice shared = variant.varied;
   shared.scheme = variant.scheme;
   if (!with_stiffness) shared.stiffness.reset();
-  if (!with_cells) shared.cells.reset();
+  if (!with_cells) {
+    shared.cells.reset();
+    shared.refine.reset();
+  }
   if (!with_courant) shared.courant.reset();
   return label_of(shared);
 }

@@ -132,8 +132,11 @@ std::string plots(const Comparison& c) {
   const auto add = [&](const std::vector<Series>& all, const char* title, const std::string& x_label, Ticks ticks) {
     if (!all.empty()) html += log_plot(plot_of(c, all, title, x_label, ticks));
   };
-  add(series_along(c.results, Along::cells, c.quantity), "Convergence with the mesh", "cells along the longest edge",
-      Ticks::points);
+  const bool halves_a_file = std::all_of(c.results.begin(), c.results.end(), [](const Result& r) {
+    return r.variant.choice.refine && r.variant.cells == 1 << *r.variant.choice.refine;
+  });
+  add(series_along(c.results, Along::cells, c.quantity), "Convergence with the mesh",
+      halves_a_file ? "cells along each edge of a cell of the mesh" : "cells along the longest edge", Ticks::points);
   add(series_along(c.results, Along::step, c.quantity), "Convergence with the step", in("time step", units.time),
       Ticks::round);
   add(series_along(c.results, Along::stiffness, c.quantity), "Influence of the contact stiffness", "stiffness",

@@ -124,7 +124,7 @@
     const time = document.createElement("output");
     const content = rows(chart);
     const graph = new Dygraph(element, content, {
-      labels, series, visibility: chart.curves.map((c) => c.shown), legend: "never", connectSeparatedPoints: true, animatedZooms: false, rightGap: 12, yRangePad: 8,
+      labels, series, visibility: chart.curves.map((c) => c.shown), legend: "never", connectSeparatedPoints: true, animatedZooms: false, rightGap: 12, yRangePad: data.marks.length > 0 ? 18 : 8,
       xlabel: axisTitle("time", data.time_unit), ylabel: axisTitle(chart.label, chart.unit),
       xLabelHeight: 18, yLabelWidth: 18, highlightCircleSize: 3, labelsKMB: false, includeZero: false,
       axes: {

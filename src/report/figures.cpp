@@ -104,7 +104,7 @@ void add_durations(const CsvTable& contact, const Units& units, std::vector<KeyF
 }
 
 Weighed speed_figure(const std::string& body, const Vec3& begin, const Vec3& end, const Units& units) {
-  const double before = length(begin), after = length(end);
+  const double after = length(end), before = length(begin) > 1e-9 * after ? length(begin) : 0.0;  // not round-off
   const bool is_back = begin[0] * end[0] + begin[1] * end[1] + begin[2] * end[2] < 0.0;
   const std::string unit = unit_of_column(units, "velocity");
   std::string remark = with_readable_unit(before, unit, 4) + " at the beginning";

@@ -232,6 +232,21 @@ TEST(CompareConvergence, SeriesShareAllButOneChoice) {
   EXPECT_EQ(cost[1].points[0].x, 0.1);  // ascending in time
 }
 
+// The same runs, their cells doubled by --refine.
+TEST(CompareConvergence, RefinementsAreOneSeries) {
+  Comparison c = sample();
+  for (Result& r : c.results) {
+    r.variant.varied.cells.reset();
+    r.variant.varied.refine = r.variant.choice.refine = r.variant.cells / 20;
+  }
+  finish(c);
+  const std::vector<Series> all = series_along(c.results, Along::cells, c.quantity);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].name, "a");
+  EXPECT_NEAR(*all[0].order, 1.0, 1e-13);  // 0.2 to 0.1 on twice the cells
+  EXPECT_EQ(series_of_cost(c.results, c.quantity).size(), 2U);
+}
+
 TEST(CompareTables, HoldEveryVariant) {
   Comparison c = sample();
   Result refused;

@@ -123,6 +123,13 @@ TEST_F(ReportOfOutcome, GoodWithoutChecksIsNotTheGreenOfAValidatedRun) {
                        "<div class=\"banner unchecked\" role=\"status\"><strong>Good, no checks</strong>"));
 }
 
+TEST_F(ReportOfOutcome, ASpeedOfRoundOffIsNoneAtTheBeginning) {
+  Summary summary = read_summary((folder_ / "summary.json").string());
+  summary.parts.front().velocity_begin = {0.0, 0.0, -1e-16};
+  write_summary((folder_ / "summary.json").string(), summary);
+  EXPECT_TRUE(contains(own_page(), "<strong>98 m/s</strong> 0 m/s at the beginning</dd>"));
+}
+
 TEST_F(ReportOfOutcome, AnErrorHasNoWallOfPasses) {
   const std::string html = page_of(Outcome::error, true);
   EXPECT_TRUE(contains(html,
