@@ -421,14 +421,17 @@ void judge(Summary& summary) {
   const auto checks = failed(summary.checks), items = failed(summary.verdict);
   if (summary.outcome != Outcome::good) return;
   if (checks + items > 0) summary.outcome = Outcome::failed;
-  const std::size_t all = summary.verdict.size(), passed = all - static_cast<std::size_t>(items);
-  if (summary.checks.empty()) {
-    summary.message = fmt::format("{} of {} verdict items passed; no checks: nothing was compared", passed, all);
-    return;
+  std::string verdict = fmt::format("{} of {} verdict items passed",
+                                    summary.verdict.size() - static_cast<std::size_t>(items), summary.verdict.size());
+  const char* before = " (not ";
+  for (const VerdictItem& item : summary.verdict) {
+    if (!item.pass) verdict += std::exchange(before, ", ") + item.name;
   }
-  summary.message =
-      fmt::format("{} of {} checks and {} of {} verdict items passed",
-                  summary.checks.size() - static_cast<std::size_t>(checks), summary.checks.size(), passed, all);
+  if (items > 0) verdict += ")";
+  summary.message = summary.checks.empty() ? verdict + "; no checks: nothing was compared"
+                                           : fmt::format("{} of {} checks and {}",
+                                                         summary.checks.size() - static_cast<std::size_t>(checks),
+                                                         summary.checks.size(), verdict);
 }
 
 /// To stderr; when that has gone, the results are still in the folder.

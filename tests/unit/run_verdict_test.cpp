@@ -197,6 +197,7 @@ TEST(Guards, OfEnergyHaveAKey) {
   EXPECT_EQ(strict.run(), ExitCode::run_failed);
   EXPECT_NE(strict.result("summary.json").find("energy_growth in [guards]"), std::string::npos);
   EXPECT_EQ(patient.run(), ExitCode::verdict_failed);  // to the end, where the verdict says what it thinks of it
+  EXPECT_NE(patient.result("summary.json").find(" (not "), std::string::npos) << patient.result("summary.json");
 }
 
 }  // namespace
