@@ -69,6 +69,7 @@ Mass make_mass(const StageContext& context, const CaseScheme& scheme, const Sche
     try {
       ModifiedMass modified = modify_mass(context.solid, context.model, how);
       notes.lines = describe(modified.shift);
+      notes.moved_share = modified.shift.moved / modified.shift.total;
       return std::move(modified.mass);
     } catch (const std::invalid_argument& e) {
       throw CaseError(scheme.mass->where, "scheme.mass", e.what(),

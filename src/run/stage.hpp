@@ -63,6 +63,7 @@ class Stage {
   struct MassNotes {
     std::vector<std::string> lines;
     double added = 0.0, added_share = 0.0;  ///< by mass scaling: mass, and over the total
+    double moved_share = 0.0;               ///< from contact nodes by the modified mass, over the total
   };
   const MassNotes& mass_notes() const { return notes_; }
   /// "Newmark beta 0.28 gamma 0.55, consistent mass"

@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -91,39 +92,118 @@ std::vector<bool> massless_flags(const Model& model, const std::vector<double>& 
   return flags;
 }
 
-void spread_over_layers(const CsrMatrix& graph, const std::vector<bool>& massless, int layers,
-                        const std::vector<double>& before, std::vector<double>& after) {
-  std::vector<bool> seen(before.size());
-  for (const std::vector<Index>& patch : connected_sets(graph, massless)) {
-    seen = massless;
-    std::vector<std::vector<Index>> found;
-    std::vector<Index> front = patch;
-    while (static_cast<int>(found.size()) < layers) {
-      std::vector<Index> next;
-      for (const Index n : front) {
-        for (const Index m : neighbours(graph, n)) {
-          if (seen[at(m)]) continue;
-          seen[at(m)] = true;
-          next.push_back(m);
-        }
+/// Nodes of `from` and of what is reached from there through nodes that may be taken, one front of neighbours after the
+/// other, at most `most` of them; `from` is not among them. Takes the flag off those that are found.
+std::vector<std::vector<Index>> fronts(const CsrMatrix& graph, const std::vector<Index>& from, std::vector<bool>& free,
+                                       std::size_t most) {
+  std::vector<std::vector<Index>> found;
+  const std::vector<Index>* front = &from;
+  while (found.size() < most) {
+    std::vector<Index> next;
+    for (const Index n : *front) {
+      for (const Index m : neighbours(graph, n)) {
+        if (!free[at(m)]) continue;
+        free[at(m)] = false;
+        next.push_back(m);
       }
-      if (next.empty()) break;
-      found.push_back(next);
-      front = std::move(next);
     }
-    if (found.empty()) {
-      throw std::invalid_argument(
-          "the modified mass finds no node without contact beside a contact surface that could take its mass; refine "
-          "the mesh, or choose another scheme");
+    if (next.empty()) break;
+    found.push_back(std::move(next));
+    front = &found.back();
+  }
+  return found;
+}
+
+/// The mass of one patch after the other on its way to the layers.
+class PatchSpread {
+ public:
+  PatchSpread(const CsrMatrix& consistent, const std::vector<bool>& massless, int layers)
+      : graph_(consistent),
+        layers_(at(layers)),
+        is_free_(massless),
+        in_patch_(massless.size(), false),
+        rank_(massless.size(), -1),
+        depth_(massless.size(), 0),
+        carried_(massless.size(), 0.0) {
+    is_free_.flip();
+  }
+
+  /// Takes the mass `before` of the patch's nodes to `after` of the layers. False when there is no layer.
+  bool operator()(const std::vector<Index>& patch, const std::vector<double>& before, std::vector<double>& after) {
+    const std::vector<std::vector<Index>> layers = fronts(graph_, patch, is_free_, layers_);
+    if (layers.empty()) return false;
+    for (const Index n : patch) in_patch_[at(n)] = true;
+    std::vector<std::vector<Index>> way = fronts(graph_, layers.front(), in_patch_, patch.size());
+    std::reverse(way.begin(), way.end());
+    way.insert(way.end(), layers.begin(), layers.end());
+    for (std::size_t f = 0; f < way.size(); ++f) {
+      for (const Index n : way[f]) {
+        rank_[at(n)] = static_cast<int>(f);
+        carried_[at(n)] = f + layers.size() < way.size() ? before[at(n)] : 0.0;
+      }
     }
-    double moved = 0.0;
-    for (const Index n : patch) moved += before[at(n)];
-    for (const std::vector<Index>& layer : found) {
-      double weight = 0.0;
-      for (const Index n : layer) weight += before[at(n)];
-      const double factor = moved / static_cast<double>(found.size()) / weight;
-      for (const Index n : layer) after[at(n)] += factor * before[at(n)];
+    count_depth(layers);
+    for (const std::vector<Index>& front : way) {
+      for (const Index n : front) pass_on(n, after);
     }
+    for (const std::vector<Index>& front : way) {
+      for (const Index n : front) rank_[at(n)] = -1;
+    }
+    for (const std::vector<Index>& layer : layers) {
+      for (const Index n : layer) {
+        depth_[at(n)] = 0;
+        is_free_[at(n)] = true;
+      }
+    }
+    return true;
+  }
+
+ private:
+  /// Calls visit(m, M_nm) for the neighbours of n in the next front.
+  template <class Visit>
+  void each_next(Index n, const Visit& visit) const {
+    for (std::int64_t k = graph_.row_begin[at(n)]; k < graph_.row_begin[at(n) + 1]; ++k) {
+      const Index m = graph_.column[static_cast<std::size_t>(k)];
+      if (rank_[at(m)] == rank_[at(n)] + 1) visit(m, graph_.value[static_cast<std::size_t>(k)]);
+    }
+  }
+
+  /// How many layers a node's mass can reach, its own among them.
+  void count_depth(const std::vector<std::vector<Index>>& layers) {
+    for (std::size_t f = layers.size(); f-- > 0;) {
+      for (const Index n : layers[f]) {
+        int below = 0;
+        each_next(n, [&](Index m, double) { below = std::max(below, depth_[at(m)]); });
+        depth_[at(n)] = below + 1;
+      }
+    }
+  }
+
+  void pass_on(Index n, std::vector<double>& after) {
+    const double kept = depth_[at(n)] > 0 ? carried_[at(n)] / depth_[at(n)] : 0.0, rest = carried_[at(n)] - kept;
+    after[at(n)] += kept;
+    double weight = 0.0;
+    each_next(n, [&](Index, double M) { weight += M; });
+    each_next(n, [&](Index m, double M) { carried_[at(m)] += rest * (M / weight); });
+  }
+
+  const CsrMatrix& graph_;
+  std::size_t layers_;
+  std::vector<bool> is_free_;  ///< nodes of no contact
+  std::vector<bool> in_patch_;
+  std::vector<int> rank_;   ///< front of a node on the way of the present patch, -1 elsewhere
+  std::vector<int> depth_;  ///< of the nodes of the layers
+  std::vector<double> carried_;
+};
+
+void spread_over_layers(const CsrMatrix& consistent, const std::vector<bool>& massless, int layers,
+                        const std::vector<double>& before, std::vector<double>& after) {
+  PatchSpread spread(consistent, massless, layers);
+  for (const std::vector<Index>& patch : connected_sets(consistent, massless)) {
+    if (spread(patch, before, after)) continue;
+    throw std::invalid_argument(
+        "the modified mass finds no node without contact beside a contact surface that could take its mass; refine "
+        "the mesh, or choose another scheme");
   }
 }
 
@@ -142,6 +222,49 @@ void spread_by_least_squares(const Mesh& mesh, const CsrMatrix& graph, const std
     if (removed.empty()) continue;
     const std::vector<double> change = redistribute(kept, removed, 0.25);
     for (std::size_t k = 0; k < nodes.size(); ++k) after[at(nodes[k])] += change[k];
+  }
+}
+
+/// Distance of the farthest of the nodes from the line through the first of them and the one farthest from it.
+double off_line(const Mesh& mesh, const std::vector<Index>& nodes) {
+  const Vec3 origin = mesh.coordinates[at(nodes.front())];
+  Vec3 along{};
+  for (const Index n : nodes) {
+    const Vec3 r = subtract(mesh.coordinates[at(n)], origin);
+    if (norm(r) > norm(along)) along = r;
+  }
+  double most = 0.0;
+  const double length = norm(along);
+  for (const Index n : nodes) {
+    const Vec3 r = subtract(mesh.coordinates[at(n)], origin);
+    most = std::max(most, length > 0.0 ? norm(cross(r, along)) / length : 0.0);
+  }
+  return most;
+}
+
+/// A body whose mass is left on one line turns around it without inertia, and nothing balances its contact nodes.
+void refuse_bodies_on_a_line(const Model& model, const CsrMatrix& graph, const std::vector<bool>& massless,
+                             const std::vector<double>& before) {
+  std::vector<bool> has_mass(before.size());
+  std::transform(before.begin(), before.end(), has_mass.begin(), [](double m) { return m > 0.0; });
+  std::vector<bool> imposed(before.size(), false);
+  for (const PrescribedMotion& motion : model.motions) {
+    for (const Index n : motion.nodes) imposed[at(n)] = true;
+  }
+  for (const std::vector<Index>& body : connected_sets(graph, has_mass)) {
+    std::vector<Index> kept;
+    std::copy_if(body.begin(), body.end(), std::back_inserter(kept), [&](Index n) { return !massless[at(n)]; });
+    const bool is_held = std::any_of(body.begin(), body.end(), [&](Index n) { return imposed[at(n)]; });
+    if (is_held || kept.empty() || kept.size() == body.size()) continue;
+    constexpr double flat = 1e-6;  // of the body's own width; far above the rounding of coordinates
+    if (off_line(*model.mesh, kept) > flat * off_line(*model.mesh, body) || off_line(*model.mesh, body) == 0.0)
+      continue;
+    const Vec3& x = model.mesh->coordinates[at(kept.front())];
+    throw std::invalid_argument(fmt::format(
+        "without the mass of its contact nodes, the body around ({:.6g}, {:.6g}, {:.6g}) has mass on {} nodes of one "
+        "line alone, around which it would turn without inertia; let the contact group hold only the faces that can "
+        "touch, refine the mesh across the body, or choose another scheme",
+        x[0], x[1], x[2], kept.size()));
   }
 }
 
@@ -232,6 +355,7 @@ ModifiedMass modify_mass(const Solid& solid, const Model& model, const MassModif
       spread_by_least_squares(*model.mesh, graph, massless, before, after);
       break;
   }
+  refuse_bodies_on_a_line(model, graph, massless, before);
   CsrMatrix diagonal;
   diagonal.size = graph.size;
   diagonal.value = after;

@@ -13,9 +13,11 @@ namespace carom {
 /// Where the mass of the contact nodes goes (Khenous, Laborde and Renard, Eur. J. Mech. A/Solids 27, 2008; Hager,
 /// Hueber and Wohlmuth, Int. J. Numer. Methods Eng. 73, 2008).
 enum class MassSpread : std::uint8_t {
-  /// In equal parts to each of the next layers of nodes, and within a layer in proportion to the nodes' own mass. The
-  /// layer of a node is its distance from the contact nodes in cells. Contact nodes that are neighbours form a patch,
-  /// which keeps its mass to its own layers.
+  /// In equal parts to each of the next layers of nodes, from each node to its neighbours in the next layer in
+  /// proportion to the consistent mass M_nm between them (on regular meshes: to those below in proportion to their own
+  /// mass). The layer of a node is its distance from the contact nodes in cells. Contact nodes that are neighbours form
+  /// a patch, which keeps its mass to its own layers; those of them that are not beside the first layer pass theirs on
+  /// to those that are.
   layers,
   /// Over all other nodes of the body, so that its mass, centre and inertia stay: minimise sum of (dm_a)^2 / m_a under
   /// these (at most ten) conditions and m_a + dm_a >= m_a / 4.
@@ -53,7 +55,8 @@ std::vector<Index> contact_nodes(const Model& model);
 
 /// Lumped mass of the solid without inertia on contact nodes. A node all of whose components are imposed keeps its
 /// mass, which has no part in the motion. Throws std::invalid_argument when a contact patch (layers) or a body
-/// (least_squares) has no other node, or when no masses of at least m_a / 4 keep centre and inertia.
+/// (least_squares) has no other node, when the other nodes of a free body lie on a line, or when no masses of at least
+/// m_a / 4 keep centre and inertia.
 ModifiedMass modify_mass(const Solid& solid, const Model& model, const MassModification& how);
 
 }  // namespace carom

@@ -150,6 +150,20 @@ TEST(Lint, SaysWhichStopMakesTheStepSmall) {
   EXPECT_TRUE(is_warned(stop(1.0, 1e4), "its damping makes the explicit step"));
 }
 
+/// A block of three layers of cells gives a sixth of its mass away by its foot, a third of it by foot and head.
+TEST(Lint, SaysWhenTheModifiedMassTakesMostOfABody) {
+  const auto is_told = [](const std::string& contacts) {
+    const std::string scheme = "[scheme]\nkind = \"modified_mass\"\n[time]\nend = 1.0\n";
+    const std::vector<std::string> warnings =
+        lint_warnings(Simulation(parse_case(case_of_block(contacts + scheme), "case.toml")));
+    return std::ranges::any_of(
+        warnings, [](const std::string& w) { return w.find("of all mass from contact nodes") != std::string::npos; });
+  };
+  EXPECT_FALSE(is_told(sheet(-0.1, "FOOT")));
+  EXPECT_TRUE(is_told(sheet(-0.1, "FOOT") + "[[contact]]\nname = \"roof\"\nkind = \"plane\"\nnormal = [0.0, 0.0, "
+                                            "-1.0]\npoint = [0.0, 0.0, 4.0]\ngroup = \"HEAD\"\n"));
+}
+
 TEST(Lint, SaysWhatIsHardToBelieve) {
   const std::string floor =
       "[[contact]]\nname = \"floor\"\nkind = \"plane\"\npoint = [0.0, 0.0, -0.1]\n"

@@ -483,6 +483,53 @@ TEST(ModifiedMass, RefusesABodyOfContactNodesAlone) {
   EXPECT_THROW(modify_mass(solid, model, {.spread = MassSpread::least_squares}), std::invalid_argument);
 }
 
+/// A column of cells all of whose skin is in contact.
+Model column_in_contact(const std::array<int, 3>& cells) {
+  Model model = one_part(block_mesh(cells, 0.0));
+  ObstacleContact plane = plane_below(model, 0.1, 1.0);
+  plane.surface.facets.clear();
+  for (const char* group : {"XMIN", "XMAX", "YMIN", "YMAX", "ZMIN", "ZMAX"}) {
+    for (const Facet& facet : faces_of(*model.mesh, group)) plane.surface.facets.push_back(facet);
+  }
+  model.contacts.emplace_back(plane);
+  return model;
+}
+
+// The skin's mass stays at its height: each inner section holds one cell's height of the column, the first and the last
+// the half cell at the end besides. (Spread over the whole patch, all nine would hold 10/9.) A section's skin, 5/9 of
+// it, goes up, level and down as 1 : 4 : 1, but at the first one, which has nothing below, 1/5 goes up for 1/6 that
+// comes.
+TEST(ModifiedMass, StaysWhereItIsAlongABodyWhoseWholeSkinIsInContact) {
+  const Model model = column_in_contact({3, 3, 10});
+  const Solid solid(model);
+  const ModifiedMass after = modify_mass(solid, model, {});
+  std::map<long, double> sections;
+  for (std::size_t n = 0; n < model.mesh->node_count(); ++n)
+    sections[std::lround(model.mesh->coordinates[n][2])] += after.mass.node_diagonal()[n];
+  const double of_cells = unit_material.rho * 9.0;
+  for (const auto& [z, mass] : sections) {
+    const long from_end = std::min(z, 10 - z);
+    const double change = 5.0 / 9.0 * (1.0 / 5.0 - 1.0 / 6.0);
+    const double wanted = from_end == 0 ? 0.0 : from_end == 1 ? 1.5 - change : from_end == 2 ? 1.0 + change : 1.0;
+    EXPECT_NEAR(mass, wanted * of_cells, 1e-13 * 10.0 * of_cells) << z;
+  }
+}
+
+// Two cells across leave one line of inner nodes, around which the skin would turn without inertia; held, it does not.
+TEST(ModifiedMass, RefusesABodyWhoseMassIsLeftOnALine) {
+  for (const auto& [across, turns] : {std::pair{2, true}, {3, false}}) {
+    Model model = column_in_contact({across, across, 6});
+    const Solid solid(model);
+    if (turns) {
+      EXPECT_THROW(modify_mass(solid, model, {}), std::invalid_argument);
+    } else {
+      EXPECT_NO_THROW(modify_mass(solid, model, {}));
+    }
+    block(model, "ZMAX", {0, 1, 2});
+    EXPECT_NO_THROW(modify_mass(solid, model, {}));
+  }
+}
+
 // ---- the stable step through a run
 
 // The sum of the squares of both frequencies bounds that of the sum, and is at most twice as large (Weyl).
