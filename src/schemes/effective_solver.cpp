@@ -317,13 +317,18 @@ std::string describe_motion(const Mesh& mesh, std::size_t dof) {
                      "xyz"[dof % 3]);
 }
 
-std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind, double ratio,
-                                                       double omega_max_squared) {
-  if (kind == SolverKind::automatic) {
-    const double iterations = 0.5 * std::sqrt(1.0 + ratio * omega_max_squared) * std::log(2.0 / 1e-12);
-    const bool large = system.solid.dof_count() > 2'000'000 || system.contact.slots() > 1000;
-    kind = iterations <= 60.0 || large ? SolverKind::conjugate_gradients : SolverKind::cholesky;
-  }
+SolverKind chosen_solver(const System& system, SolverKind kind, EnforcementKind enforcement, double ratio,
+                         double omega_max_squared) {
+  if (kind != SolverKind::automatic) return kind;
+  const std::size_t dofs = system.solid.dof_count(), rows = system.contact.slots();
+  const bool is_exact = enforcement == EnforcementKind::lagrange || enforcement == EnforcementKind::impulse;
+  if (is_exact && rows > 0 && dofs <= (system.solid.is_linear() ? 500'000U : 50'000U)) return SolverKind::cholesky;
+  const double iterations = 0.5 * std::sqrt(1.0 + ratio * omega_max_squared) * std::log(2.0 / 1e-12);
+  const bool is_large = dofs > 2'000'000 || rows > 1000;
+  return iterations <= 60.0 || is_large ? SolverKind::conjugate_gradients : SolverKind::cholesky;
+}
+
+std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind) {
   if (kind == SolverKind::cholesky) return std::make_unique<DirectSolver>(system, TangentFactors::Method::cholesky);
   if (kind == SolverKind::ldlt) return std::make_unique<DirectSolver>(system, TangentFactors::Method::ldlt);
   return std::make_unique<CgSolver>(system);

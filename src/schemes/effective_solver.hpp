@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/compatibility.hpp"
 #include "schemes/system.hpp"
 
 namespace carom {
@@ -56,14 +57,19 @@ class EffectiveSolver {
 /// "node 17 at (0, 1, 2) moves along z", for messages.
 std::string describe_motion(const Mesh& mesh, std::size_t dof);
 
-/// ratio: c / m of the usual step (infinite for statics). `automatic` takes conjugate gradients where the
-/// Jacobi-preconditioned operator is well conditioned,
-///   kappa about 1 + (c / m) omega_max^2, so that sqrt(kappa)/2 ln(2/1e-12) iterations stay below 60, and the
-///   factorisation
-/// elsewhere, unless the mesh has more than two million dofs or contact more than a thousand rows (one
-/// back-substitution and a line of a dense matrix each). Cholesky factors give way to L D L^T where the operator is not
-/// positive definite (TangentFactors).
-std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind, double ratio,
-                                                       double omega_max_squared);
+/// What `automatic` stands for; any other kind as it is. ratio: c / m of the usual step (infinite for statics).
+/// Conjugate gradients where the Jacobi-preconditioned operator is well conditioned,
+///   kappa about 1 + (c / m) omega_max^2, so that sqrt(kappa)/2 ln(2/1e-12) iterations stay below 60,
+/// or the mesh has more than two million dofs or contact more than a thousand rows (one back-substitution and a line of
+/// a dense matrix each); the factorisation elsewhere. Exact contact asks for a column of the inverse per row, or three
+/// per contact node where rows of linear bodies move: a factorisation gives them cheaply, conjugate gradients do not.
+/// Linear bodies factor once, and half a million dofs take some gigabytes; the others factor in every iteration, which
+/// pays while that is a matter of seconds.
+SolverKind chosen_solver(const System& system, SolverKind kind, EnforcementKind enforcement, double ratio,
+                         double omega_max_squared);
+
+/// kind: not automatic. Cholesky factors give way to L D L^T where the operator is not positive definite
+/// (TangentFactors).
+std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind);
 
 }  // namespace carom

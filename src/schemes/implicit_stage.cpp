@@ -29,18 +29,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Exact contact asks for a column of the inverse per row, or three per contact node where rows of linear bodies move:
-/// a factorisation gives them cheaply, conjugate gradients do not. Linear bodies factor once, and half a million dofs
-/// take some gigabytes; the others factor in every iteration, which pays while that is a matter of seconds.
-SolverKind solver_for(const System& system, const ImplicitSettings& settings) {
-  const bool is_exact =
-      settings.enforcement == EnforcementKind::lagrange || settings.enforcement == EnforcementKind::impulse;
-  const bool is_small = system.solid.dof_count() <= (system.solid.is_linear() ? 500'000U : 50'000U);
-  if (settings.solver == SolverKind::automatic && is_exact && system.contact.slots() > 0 && is_small)
-    return SolverKind::cholesky;
-  return settings.solver;
-}
-
 }  // namespace
 
 ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& settings, double ratio,
@@ -52,7 +40,8 @@ ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& setti
     : system_(system),
       max_iterations_(settings.max_iterations),
       reach_(system.contact.reach()),
-      solver_(make_effective_solver(system, solver_for(system, settings), ratio, omega_max_squared)),
+      solver_(make_effective_solver(
+          system, chosen_solver(system, settings.solver, settings.enforcement, ratio, omega_max_squared))),
       port_(std::move(port)),
       force_(std::move(force)) {
   residual_.resize(system.solid.dof_count());

@@ -23,7 +23,7 @@ MassSolver::~MassSolver() = default;
 void MassSolver::factorise() {
   constexpr std::size_t most_dofs = 500'000;
   if (factors_ || system_.mass.kind() == MassKind::lumped || rhs_.size() > most_dofs) return;
-  auto factors = make_effective_solver(system_, SolverKind::cholesky, 0.0, 0.0);
+  auto factors = make_effective_solver(system_, SolverKind::cholesky);
   const std::vector<double> at_rest(rhs_.size(), 0.0);
   if (factors->prepare(1.0, 0.0, at_rest).empty()) factors_ = std::move(factors);
 }

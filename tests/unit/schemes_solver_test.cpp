@@ -94,7 +94,7 @@ std::vector<RowTangent> random_tangents(std::size_t count, unsigned seed, Draw d
 
 TEST(EffectiveSolver, CholeskyCorrectsForAnyContactTangent) {
   const Problem p(many_rows());
-  const auto solver = make_effective_solver(p.system, SolverKind::cholesky, 0.1, 1.0);
+  const auto solver = make_effective_solver(p.system, SolverKind::cholesky);
   for (const double s : {0.1, 3.0}) {  // the second factor throws the columns of the first away
     for (unsigned seed = 1; seed <= 5; ++seed) {
       // 1e-11: round-off 1e-16 times a condition number of M + s K of some hundred, and the correction's
@@ -106,7 +106,7 @@ TEST(EffectiveSolver, CholeskyCorrectsForAnyContactTangent) {
 
 TEST(EffectiveSolver, ConjugateGradientsSolveSymmetricTangents) {
   const Problem p(many_rows());
-  const auto solver = make_effective_solver(p.system, SolverKind::conjugate_gradients, 0.1, 1.0);
+  const auto solver = make_effective_solver(p.system, SolverKind::conjugate_gradients);
   for (const double s : {0.1, 3.0}) {
     // 1e-10: a residual of 1e-14 times the condition number
     expect_dense_solution(p, *solver, s, random_tangents(p.contact.slots(), 7, Draw::symmetric), 1e-10);
@@ -115,7 +115,7 @@ TEST(EffectiveSolver, ConjugateGradientsSolveSymmetricTangents) {
 
 TEST(EffectiveSolver, LdltCorrectsForAnyContactTangent) {
   const Problem p(many_rows());
-  const auto solver = make_effective_solver(p.system, SolverKind::ldlt, 0.1, 1.0);
+  const auto solver = make_effective_solver(p.system, SolverKind::ldlt);
   EXPECT_EQ(solver->name(), "LDL^T factorisation");
   for (const double s : {0.1, 3.0}) {
     for (unsigned seed = 1; seed <= 3; ++seed) {  // 1e-11: as for Cholesky
@@ -127,7 +127,7 @@ TEST(EffectiveSolver, LdltCorrectsForAnyContactTangent) {
 // s < 0 stands for a tangent with negative stiffness: M - 3 K is indefinite.
 TEST(EffectiveSolver, CholeskyGivesWayToLdltWhereTheOperatorIsIndefinite) {
   const Problem p(many_rows());
-  const auto solver = make_effective_solver(p.system, SolverKind::cholesky, 0.1, 1.0);
+  const auto solver = make_effective_solver(p.system, SolverKind::cholesky);
   expect_dense_solution(p, *solver, 0.1, random_tangents(p.contact.slots(), 100, Draw::general), 1e-11);
   EXPECT_EQ(solver->name(), "Cholesky factorisation");
   // 1e-10: M - 3 K may have an eigenvalue near zero, so that the condition number is some thousand
@@ -140,7 +140,7 @@ TEST(EffectiveSolver, CholeskyGivesWayToLdltWhereTheOperatorIsIndefinite) {
 
 TEST(EffectiveSolver, ConjugateGradientsSayThatTheOperatorIsIndefinite) {
   const Problem p(many_rows());
-  const auto solver = make_effective_solver(p.system, SolverKind::conjugate_gradients, 0.1, 1.0);
+  const auto solver = make_effective_solver(p.system, SolverKind::conjugate_gradients);
   const std::vector<double> b = free_random(p, 3);
   std::vector<double> x(b.size());
   EXPECT_EQ(solver->prepare(1.0, -3.0, x), "");
@@ -152,7 +152,7 @@ TEST(EffectiveSolver, ConjugateGradientsSayThatTheOperatorIsIndefinite) {
 // Sliding makes the tangent unsymmetric, which conjugate gradients cannot take: they leave the one-way coupling out.
 TEST(EffectiveSolver, ConjugateGradientsLeaveOneWayCouplingOut) {
   const Problem p(many_rows());
-  const auto solver = make_effective_solver(p.system, SolverKind::conjugate_gradients, 0.1, 1.0);
+  const auto solver = make_effective_solver(p.system, SolverKind::conjugate_gradients);
   std::vector<RowTangent> coupled(p.contact.slots(), {5.0, 0, 0, -1.5, 1.0, 0, 0.5, 0, 2.0});
   const std::vector<RowTangent> uncoupled(coupled.size(), {5.0, 0, 0, 0, 1.0, 0, 0, 0, 2.0});
   const std::vector<double> b = free_random(p, 3);
@@ -168,7 +168,9 @@ TEST(EffectiveSolver, AutomaticTakesTheFactorisationForLongSteps) {
   const double omega_squared = stable_step(p.system).omega_max_squared_free;
   const auto name_for = [&](double courant) {
     const double h = courant * 2.0 / std::sqrt(omega_squared);
-    return make_effective_solver(p.system, SolverKind::automatic, 0.25 * h * h, omega_squared)->name();
+    const SolverKind kind =
+        chosen_solver(p.system, SolverKind::automatic, EnforcementKind::penalty, 0.25 * h * h, omega_squared);
+    return make_effective_solver(p.system, kind)->name();
   };
   // kappa = 1 + courant^2: 60 iterations at sqrt(kappa) / 2 ln(2e12) = 60, a Courant number of about 4.1
   EXPECT_EQ(name_for(1.0), "conjugate gradients");
