@@ -10,10 +10,11 @@
 #include "contact/facet_geometry.hpp"
 #include "contact/facet_projection.hpp"
 #include "contact/rigid_shapes.hpp"
+#include "element/cell_shapes.hpp"
 #include "element/hexa8.hpp"
-#include "element/quad4.hpp"
 #include "math/vec3.hpp"
 #include "mesh/skin.hpp"
+#include "model/node_lengths.hpp"
 #include "parallel/threads.hpp"
 
 namespace carom {
@@ -22,15 +23,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Faces by the parent coordinate k and the side: face 2 k at xi_k = -1, 2 k + 1 at xi_k = +1.
 constexpr std::size_t face_count = 6;
-
-/// Volume over the largest face, or area over the longest edge.
-double length_of(const Corners& corners, std::size_t nodes) {
-  if (nodes == 8) return hexa8::length(corners);
-  const std::array<Vec3, 4> x{corners[0], corners[1], corners[2], corners[3]};
-  double longest = 0.0;
-  for (std::size_t a = 0; a < 4; ++a) longest = std::max(longest, norm(subtract(x[(a + 1) % 4], x[a])));
-  return quad4::area(x) / longest;
-}
 
 /// A signed distance from the surface that faces the node within `reach`, infinite where none does.
 double distance_behind(const Surface& surface, std::span<const Vec3> X, const Vec3& x, double reach) {
@@ -89,10 +81,9 @@ struct BodyOverlap::Impl {
 };
 
 BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
-    : model(of), reference(of, of.mesh->coordinates), node_length(of.mesh->node_count(), infinity) {
+    : model(of), reference(of, of.mesh->coordinates), node_length(node_lengths(of)) {
   for (std::size_t k = 0; k < reference.ref.size(); ++k) {
-    length.push_back(length_of(reference.corners[k], reference.nodes[k].size()));
-    for (const Index n : reference.nodes[k]) node_length[n] = std::min(node_length[n], length[k]);
+    length.push_back(cell_length(std::span(reference.corners[k]).first(reference.nodes[k].size())));
   }
   find_skin();
   find_bodies();
@@ -183,7 +174,7 @@ double BodyOverlap::Impl::depth(const PlacedCells& cells, std::size_t skin_node,
     for (std::size_t a = 0; a < 8; ++a)
       if (!is_skin[nodes[a % nodes.size()]]) share += N[a];
   }
-  const double now = share * length_of(cells.corners[cell], cells.nodes[cell].size());
+  const double now = share * cell_length(std::span(cells.corners[cell]).first(cells.nodes[cell].size()));
   return now / std::min(length[cell], node_length[skin_nodes[skin_node]]);
 }
 

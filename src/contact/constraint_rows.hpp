@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,9 @@ namespace carom {
 /// What a row sees of one node: the rows n, t_1, t_2 of the node's 3 x 3 block of G.
 using RowBlock = std::array<Vec3, 3>;
 
-/// The law of one row, times its measure: force per length (eps_N, eps_T), force per velocity (damping).
+/// The law of one row, times its measure: force per length (eps_N, eps_T), force per velocity (damping). The normal
+/// spring of the penalty is linear down to linear_depth and hardens below: at depth d
+///   force eps_N (d + <d - d_0>^3 / d_0^2),  d_0 = linear_depth.
 struct RowLaw {
   double eps_N = 0.0;
   double eps_T = 0.0;
@@ -21,6 +24,20 @@ struct RowLaw {
   double mu = 0.0;           ///< Coulomb's coefficient
   double restitution = 0.0;  ///< Newton's coefficient
   DamperActs damper_acts = DamperActs::compression;
+  double linear_depth = std::numeric_limits<double>::infinity();
+
+  /// Force, slope and energy of the normal spring at a depth d >= 0.
+  double spring_force(double d) const { return eps_N * d + hardening() * cubed(beyond(d)); }
+  double spring_slope(double d) const { return eps_N + 3.0 * hardening() * beyond(d) * beyond(d); }
+  double spring_energy(double d) const {
+    return 0.5 * eps_N * d * d + 0.25 * hardening() * cubed(beyond(d)) * beyond(d);
+  }
+  /// How far d is beyond linear_depth, and the factor of its cube in the force.
+  double beyond(double d) const { return d > linear_depth ? d - linear_depth : 0.0; }
+  double hardening() const { return eps_N / (linear_depth * linear_depth); }
+
+ private:
+  static double cubed(double x) { return x * x * x; }
 };
 
 /// Rows of unilateral constraints. Row r sees the displacements of its nodes, in its frame (normal, tangent_1,

@@ -37,9 +37,9 @@ RowForce row_force(const ConstraintRows& rows, std::size_t r, std::span<const do
   const bool pulls = damped && law.damper_acts == DamperActs::two_sided;
   out.penetration = std::max(0.0, -gap);
   const double damper = damped ? -law.damping * rows.relative(r, v)[0] : 0.0;
-  out.pressure = (damped && !pulls ? -law.eps_N * gap : law.eps_N * out.penetration) + damper;
+  out.pressure = (damped && !pulls && gap > 0.0 ? -law.eps_N * gap : law.spring_force(out.penetration)) + damper;
   if (!pulls) out.pressure = std::max(0.0, out.pressure);
-  if (pulls ? gap < 0.0 : out.pressure > 0.0) out.stiffness = law.eps_N;
+  if (pulls ? gap < 0.0 : out.pressure > 0.0) out.stiffness = law.spring_slope(out.penetration);
   if (pulls || (damped && out.pressure > 0.0)) out.damping = law.damping;
   if (gap >= 0.0 && out.pressure == 0.0) return out;
   out.status = RowStatus::stick;
@@ -86,10 +86,10 @@ void penalty_response(std::shared_ptr<const ConstraintRows> given, std::span<con
     const RowForce out = row_force(rows, r, x_begin, x, v, history[slot], slip);
     const std::array<double, 2>& s = out.elastic_slip;
     response.force[r] = {out.pressure, -law.eps_T * s[0], -law.eps_T * s[1]};
-    response.damper[r] = out.pressure - law.eps_N * out.penetration;
+    response.damper[r] = out.pressure - law.spring_force(out.penetration);
     response.status[r] = out.status;
     response.history[slot].slip = rows.to_space(r, {0.0, s[0], s[1]});
-    response.stored += 0.5 * law.eps_N * out.penetration * out.penetration;
+    response.stored += law.spring_energy(out.penetration);
     response.stored += 0.5 * law.eps_T * (s[0] * s[0] + s[1] * s[1]);
     response.slip_work += out.slip_work;
   }

@@ -52,7 +52,9 @@ void RowBlocks::append_to(ConstraintRows& rows) const {
 
 RowLaw row_law(const ContactLaw& law, double measure) {
   const double eps_N = law.eps_N.value_or(0.0) * measure, eps_T = law.eps_T.value_or(0.0) * measure;
-  return {eps_N, law.mu > 0.0 ? eps_T : 0.0, 0.0, law.mu, law.restitution};
+  RowLaw out{eps_N, law.mu > 0.0 ? eps_T : 0.0, 0.0, law.mu, law.restitution};
+  out.linear_depth = law.linear_depth;
+  return out;
 }
 
 std::map<Index, double> nodal_measures(std::span<const Vec3> coordinates, const Surface& surface) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -17,6 +18,7 @@
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
 #include "mesh/skin.hpp"
+#include "model/node_lengths.hpp"
 
 namespace carom {
 
@@ -201,6 +203,47 @@ struct Chooser {
   }
 };
 
+/// The depth down to which springs that are chosen are linear; infinite where all bodies are of small strain.
+class LinearDepth {
+ public:
+  explicit LinearDepth(const Model& model) : mesh_(*model.mesh) {
+    const auto is_finite = [](const Part& part) { return !std::holds_alternative<LinearElastic>(part.material); };
+    if (std::any_of(model.parts.begin(), model.parts.end(), is_finite)) length_ = node_lengths(model);
+  }
+
+  double operator()(const InterfaceContact& contact) const {
+    const std::span<const Index> nodes = mesh_.block(CellType::hexa8)->connectivity;
+    double least = infinity;
+    for (const Index cell : contact.cells)
+      least = std::min(least, shortest(nodes.subspan(8 * static_cast<std::size_t>(cell), 8)));
+    return share * least;
+  }
+  double operator()(const ObstacleContact& contact) const {
+    return share * std::min(shortest(contact.surface), shortest(contact.nodes));
+  }
+  double operator()(const PairContact& contact) const {
+    return share * std::min(shortest(contact.slave), shortest(contact.master));
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity(), share = 0.02;
+
+  double shortest(std::span<const Index> nodes) const {
+    double least = infinity;
+    if (!length_.empty())
+      for (const Index n : nodes) least = std::min(least, length_[static_cast<std::size_t>(n)]);
+    return least;
+  }
+  double shortest(const Surface& surface) const {
+    double least = infinity;
+    for (const Facet& facet : surface.facets) least = std::min(least, shortest({facet.begin(), facet.end()}));
+    return least;
+  }
+
+  const Mesh& mesh_;
+  std::vector<double> length_;  ///< by node
+};
+
 std::string sentence(const std::string& contact, double stiffness, const Choice& choice, double factor) {
   std::string text = fmt::format("contact \"{}\": stiffness {:.4g} chosen", contact, stiffness);
   const char* join = " from";
@@ -219,6 +262,7 @@ std::string sentence(const std::string& contact, double stiffness, const Choice&
 std::vector<std::string> choose_stiffness(Model& model) {
   std::vector<std::string> notes;
   std::optional<PartCells> cells;  // made when first needed
+  const LinearDepth linear_depth(model);
   const auto choose = [&](auto& contact) {
     if constexpr (!std::is_same_v<std::decay_t<decltype(contact)>, StopContact>) {
       ContactLaw& law = contact.law;
@@ -226,6 +270,7 @@ std::vector<std::string> choose_stiffness(Model& model) {
         if (!cells) cells.emplace(model);
         const Choice choice = Chooser{*model.mesh, *cells}(contact);
         law.eps_N = law.stiffness_factor * choice.stiffness();
+        law.linear_depth = linear_depth(contact);
         notes.push_back(sentence(contact.name, *law.eps_N, choice, law.stiffness_factor));
       }
       if (!law.eps_T && law.mu > 0.0) law.eps_T = law.eps_N;

@@ -146,4 +146,13 @@ double BarShape::length(const Nodes& x) {
   return line2::length(x);
 }
 
+double cell_length(std::span<const Vec3> x) {
+  const auto of = [x]<class Shape>(Shape) {
+    typename Shape::Nodes nodes;
+    std::copy_n(x.begin(), Shape::nodes, nodes.begin());
+    return Shape::length(nodes);
+  };
+  return x.size() == 8 ? of(HexaShape{}) : x.size() == 4 ? of(PlaneShape{}) : of(BarShape{});
+}
+
 }  // namespace carom

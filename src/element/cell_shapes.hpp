@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "base/types.hpp"
 #include "element/hexa8_kernel.hpp"
@@ -71,6 +72,9 @@ struct BarShape : CellShape<2, 1, 3> {
   /// Square of the axial stretch.
   static double jacobian(const double F[3][3]) { return F[0][0] * F[0][0] + F[1][0] * F[1][0] + F[2][0] * F[2][0]; }
 };
+
+/// The shape's length of a cell by the number of its nodes: 8, 4 or 2.
+double cell_length(std::span<const Vec3> x);
 
 /// H at a point, of nodal displacements.
 template <class Shape>

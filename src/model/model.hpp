@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -96,8 +97,9 @@ struct ContactLaw {
   std::optional<double> eps_N;    ///< normal
   std::optional<double> eps_T;    ///< tangential (regularised friction); absent: as eps_N
   double stiffness_factor = 1.0;  ///< multiplies the chosen stiffness
-  double mu = 0.0;                ///< Coulomb's coefficient
-  double restitution = 0.0;       ///< Newton's coefficient e, for impulses
+  double linear_depth = std::numeric_limits<double>::infinity();  ///< below, the spring of the penalty hardens
+  double mu = 0.0;                                                ///< Coulomb's coefficient
+  double restitution = 0.0;                                       ///< Newton's coefficient e, for impulses
 };
 
 /// Contact by HEXA8 cells whose two opposite faces coincide: traction = eps_N x penetration (force per area).

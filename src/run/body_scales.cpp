@@ -28,10 +28,4 @@ double rest_energy(const Solid& solid, double reach) {
   return 0.5 * sum * u * u;
 }
 
-double smallest_youngs_modulus(const Model& model) {
-  double E = std::numeric_limits<double>::infinity();
-  for (const Part& part : model.parts) std::visit([&](const auto& law) { E = std::min(E, law.E); }, part.material);
-  return E;
-}
-
 }  // namespace carom

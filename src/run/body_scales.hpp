@@ -18,7 +18,4 @@ double reach(const Mesh& mesh);
 /// reach would store. Less is rounding of positions, to the verdict's 1e-10 of it.
 double rest_energy(const Solid& solid, double reach);
 
-/// Of the parts; infinite when there are none.
-double smallest_youngs_modulus(const Model& model);
-
 }  // namespace carom

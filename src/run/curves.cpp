@@ -9,7 +9,6 @@
 
 #include "math/vec3.hpp"
 #include "run/probe_place.hpp"
-#include "solid/node_lengths.hpp"
 
 namespace carom {
 
@@ -107,16 +106,6 @@ std::vector<std::string> motion_columns(const Model& model, std::size_t contact)
 
 namespace {
 
-/// How many rows share the pressure at a place: two where both sides have rows, none where rows have no area.
-double passes(const ContactDefinition& contact) {
-  if (std::holds_alternative<StopContact>(contact)) return 0.0;
-  if (const auto* obstacle = std::get_if<ObstacleContact>(&contact))
-    return obstacle->measure == RowMeasure::per_area ? 1.0 : 0.0;
-  const auto* pair = std::get_if<PairContact>(&contact);
-  if (pair == nullptr || pair->slave.facets.empty() || pair->slave.facets[0].size == 1) return 1.0;
-  return pair->self || pair->method == PairMethod::two_pass ? 2.0 : 1.0;
-}
-
 constexpr std::array resultant_columns{"force_x",   "force_y",  "force_z",  "impulse_x", "impulse_y",
                                        "impulse_z", "moment_x", "moment_y", "moment_z"};
 
@@ -131,11 +120,7 @@ std::vector<Vec3> moment_points(const Case& given) {
 ContactCurves::ContactCurves(const Simulation& simulation)
     : model_(simulation.model()),
       contacts_(simulation.given().contacts.size()),
-      resultants_(model_, moment_points(simulation.given())),
-      node_length_(node_lengths(simulation.solid())) {
-  const double least = *std::min_element(node_length_.begin(), node_length_.end());
-  for (double& length : node_length_)
-    if (!std::isfinite(length)) length = least;  // nodes of no cell, which may be those of an interface
+      resultants_(model_, moment_points(simulation.given())) {
   table_.columns = {"time"};
   for (std::size_t c = 0; c < contacts_; ++c) {
     const auto add_columns = [&](const std::string& place, const auto& names) {
@@ -146,22 +131,11 @@ ContactCurves::ContactCurves(const Simulation& simulation)
     const std::string& contact = *simulation.given().contacts[c].name;
     add_columns(contact, std::array{"penetration", "closed", "closings"});
     add_columns(contact, motion_columns(model_, c));
-    passes_.push_back(passes(model_.contacts[c]));
   }
   force_.resize(resultants_.places().size());
   impulse_.resize(resultants_.places().size());
   closed_.resize(contacts_);
   closings_.resize(contacts_);
-}
-
-/// Over the smallest cell at the nodes of the row; springs of stops are physical and do not count.
-double ContactCurves::relative_penetration(const ConstraintRows& rows, std::size_t r, double depth) const {
-  if (std::holds_alternative<StopContact>(model_.contacts[static_cast<std::size_t>(rows.source[r])])) return 0.0;
-  const auto first = static_cast<std::size_t>(rows.begin[r]), last = static_cast<std::size_t>(rows.begin[r + 1]);
-  double length = node_length_[static_cast<std::size_t>(rows.node[first])];
-  for (std::size_t k = first + 1; k < last; ++k)
-    length = std::min(length, node_length_[static_cast<std::size_t>(rows.node[k])]);
-  return depth / length;
 }
 
 void ContactCurves::add_resultants(std::size_t contact, const std::vector<ContactResultant>& resultants, double dt,
@@ -205,11 +179,8 @@ void ContactCurves::sample(const StepView& view, double end_weight) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (view.forces.rows.status[r] == RowStatus::open) continue;
     const auto c = static_cast<std::size_t>(rows.source[r]);
-    const double depth = -rows.gap_at(r, view.state.q);
-    penetration[c] = std::max(penetration[c], depth);
-    worst_penetration_ = std::max(worst_penetration_, relative_penetration(rows, r, depth));
+    penetration[c] = std::max(penetration[c], -rows.gap_at(r, view.state.q));
     closed[c] += 1.0;
-    largest_pressure_ = std::max(largest_pressure_, passes_[c] * view.forces.rows.force[r][0] / rows.measure[r]);
   }
   table_.row = {view.state.t};
   for (std::size_t c = 0; c < contacts_; ++c) {

@@ -55,17 +55,11 @@ class ContactCurves {
   /// force at the end of the step in its impulse (gamma of Newmark).
   void sample(const StepView& view, double end_weight);
   const CurveTable& table() const { return table_; }
-  /// Largest penetration over all contacts but discrete stops, and steps, relative to the smallest cell at the nodes of
-  /// the row.
-  double worst_relative_penetration() const { return worst_penetration_; }
-  /// Largest pressure on a row over all contacts and steps; rows that are counted per node have none.
-  double largest_pressure() const { return largest_pressure_; }
 
  private:
   void add_resultants(std::size_t contact, const std::vector<ContactResultant>& resultants, double dt,
                       double end_weight);
   void add_motion(std::size_t contact, const State& state);
-  double relative_penetration(const ConstraintRows& rows, std::size_t r, double depth) const;
 
   const Model& model_;
   std::size_t contacts_;
@@ -73,10 +67,6 @@ class ContactCurves {
   CurveTable table_;
   std::vector<Vec3> force_, impulse_;  ///< of each resultant
   std::vector<double> closed_, closings_;
-  std::vector<double> node_length_;
-  double worst_penetration_ = 0.0;  ///< relative to the cells at its row
-  double largest_pressure_ = 0.0;
-  std::vector<double> passes_;  ///< how many rows share the pressure at a place of each contact; 0: rows have no area
 };
 
 /// probes.csv: displacement, velocity, acceleration and stress at the probes, and section forces: what the cells on the

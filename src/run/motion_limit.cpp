@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "math/vec3.hpp"
-#include "solid/node_lengths.hpp"
+#include "model/node_lengths.hpp"
 
 namespace carom {
 
@@ -34,7 +34,7 @@ struct MostOfContact {
 
 }  // namespace
 
-MotionLimit::MotionLimit(const Model& model, const Solid& solid) : length_(node_lengths(solid)) {
+MotionLimit::MotionLimit(const Model& model) : length_(node_lengths(model)) {
   for (const ContactDefinition& contact : model.contacts) most_.push_back(std::visit(MostOfContact{}, contact));
 }
 

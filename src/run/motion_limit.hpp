@@ -18,7 +18,7 @@ namespace carom {
 /// stops have no far side and are left alone.
 class MotionLimit {
  public:
-  MotionLimit(const Model& model, const Solid& solid);
+  explicit MotionLimit(const Model& model);
 
   /// A row that is carried too far.
   struct Overrun {

@@ -48,10 +48,8 @@ class Recorder {
   /// Where probes stand.
   const std::vector<std::string>& notes() const { return tables_.probes.notes(); }
   std::vector<CheckSummary> checks() const { return tables_.checks.results(); }
-  double worst_relative_penetration() const { return tables_.contact.worst_relative_penetration(); }
   /// What the summary says of parts, stress and probes.
   void fill(Summary& summary) const;
-  double largest_pressure() const { return tables_.contact.largest_pressure(); }
 
  private:
   void record_frame(const StepView& view);

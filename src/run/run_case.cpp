@@ -28,6 +28,7 @@
 #include "run/inside_out.hpp"
 #include "run/lint.hpp"
 #include "run/overlap_watch.hpp"
+#include "run/penetration_watch.hpp"
 #include "run/recorder.hpp"
 #include "run/rotation_watch.hpp"
 #include "run/simulation.hpp"
@@ -106,6 +107,7 @@ class Run {
         progress_(stderr, simulation.end(), options.progress),
         state_(simulation.initial_state()),
         overlap_(simulation, state_),
+        penetration_(simulation.model()),
         rotation_(simulation) {
     std::fill(state_.v.begin(), state_.v.end(), 0.0);  // they begin with their stage
   }
@@ -140,6 +142,7 @@ class Run {
   Progress progress_;
   State state_, next_;
   OverlapWatch overlap_;
+  PenetrationWatch penetration_;
   RotationWatch rotation_;
   std::optional<EnergyLedger> ledger_;
   std::optional<RunMonitor> monitor_;
@@ -285,6 +288,7 @@ bool Run::advance(const Stage& stage) {
   const std::string alarm = monitor_->alarm(s_.given().guards.energy_growth);
   const bool last = (steps_->control().at_end() && stage.end() == s_.end()) || !alarm.empty();
   record(last ? Recorder::Moment::last : Recorder::Moment::during);
+  penetration_.look(scheme_->forces().rows, state_.q);
   overlap_.look(state_, last ? OverlapWatch::Moment::last : OverlapWatch::Moment::during);
   progress_.update({state_.t, step_, dt_, iterations_, monitor_->relative_imbalance()});
   if (alarm.empty()) look_after(stage);
@@ -391,9 +395,8 @@ void Run::fill(Summary& summary) const {
   summary.linear_momentum = {begin.linear, end.linear, impulse.linear, monitor_->linear_momentum_error()};
   summary.angular_momentum = {begin.angular, end.angular, impulse.angular, monitor_->angular_momentum_error()};
   summary.checks = recorder_.checks();
-  summary.verdict = monitor_->items(
-      {recorder_.worst_relative_penetration(), recorder_.largest_pressure() / smallest_youngs_modulus(s_.model())},
-      angular_limit(s_));
+  summary.verdict = monitor_->items(angular_limit(s_));
+  summary.verdict.push_back(penetration_.item());
   summary.verdict.push_back(overlap_.item());
   if (!s_.model().turning_bodies.empty()) summary.verdict.push_back(body_strain_item(body_strain_));
 }

@@ -30,7 +30,7 @@ StepGuard::StepGuard(const Stage& stage)
       control_(stage.begin(), stage.dt(), stage.steps(), halving_of(stage)),
       event_tolerance_(stage.time().event_tolerance.value_or(0.0) * stage.dt()) {
   if (stage.settings().kind != SchemeKind::statics && stage.system().contact.slots() > 0)
-    motion_.emplace(stage.model(), stage.system().solid);
+    motion_.emplace(stage.model());
   if (stage.stable_step_changes()) watch_.emplace(stage.watch_stable_step());
   const SchemeSettings& scheme = stage.settings();
   if (is_explicit(scheme.kind) && scheme.enforcement == EnforcementKind::penalty && !stage.time().step)

@@ -91,7 +91,7 @@ double RunMonitor::angular_momentum_error() const {
   return ratio(angular_error_, angular_scale_);
 }
 
-std::vector<VerdictItem> RunMonitor::items(const Pressing& pressing, double angular_limit) const {
+std::vector<VerdictItem> RunMonitor::items(double angular_limit) const {
   const double scale = this->scale();
   const auto item = [](const char* name, double value, double limit, const char* explanation) {
     return VerdictItem{name, value, limit, value <= limit, explanation};
@@ -108,11 +108,6 @@ std::vector<VerdictItem> RunMonitor::items(const Pressing& pressing, double angu
       item("linear momentum", linear_momentum_error(), 1e-9, "change of momentum against the impulses"),
       item("angular momentum", angular_momentum_error(), angular_limit,
            "change of angular momentum against the impulses"),
-      item("penetration", pressing.penetration, std::clamp(2.0 * pressing.strain, 0.05, 0.25),
-           "largest penetration relative to the smallest cell there; the limit is 5 %, or twice the largest contact "
-           "pressure "
-           "over the smallest Young's modulus, but never more than a quarter: is the penalty stiff enough "
-           "(contact.stiffness, contact.stiffness_factor)?"),
   };
 }
 

@@ -38,15 +38,10 @@ class RunMonitor {
   /// and takes back is none, unless it is for two steps in a row more than a stable step can lend.
   std::string alarm(double growth_limit) const;
 
-  /// What the last item compares: the largest penetration and pressure of the contacts, relative to the smallest cell
-  /// and to the smallest Young's modulus.
-  struct Pressing {
-    double penetration = 0.0, strain = 0.0;
-  };
-  /// balance of powers, quadrature, algorithmic, linear and angular momentum, penetration. What static stages book as
+  /// balance of powers, quadrature, algorithmic, linear and angular momentum. What static stages book as
   /// quadrature and algorithmic is left out: without inertia it says nothing about the step.
   /// angular_limit: what the error of angular momentum may be with the schemes of the run.
-  std::vector<VerdictItem> items(const Pressing& pressing, double angular_limit) const;
+  std::vector<VerdictItem> items(double angular_limit) const;
   double linear_momentum_error() const;
   double angular_momentum_error() const;
   /// Imbalance now, relative to the energy scale.

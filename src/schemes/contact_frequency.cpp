@@ -17,9 +17,8 @@ RowBlock without_turn(const ConstraintRows& rows, std::size_t r, const RowBlock&
   return {b[0], scaled(t_1, dot(t_1, b[1])), scaled(t_2, dot(t_2, b[2]))};
 }
 
-/// |A| of a row at a node: see the header.
-double size_of(const RowBlock& b, const RowLaw& law, const Vec3& inverse_mass) {
-  const std::array<double, 3> D{law.eps_N, law.eps_T, law.eps_T};
+/// |A| of a row at a node: see the header. D: slopes of the row's springs
+double size_of(const RowBlock& b, const Vec3& D, const Vec3& inverse_mass) {
   double largest = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     double sum = 0.0;
@@ -48,10 +47,13 @@ Vec3 inverse_mass_of(const System& system, Index node) {
 std::vector<double> sizes(const System& system, const ConstraintRows& rows, std::span<const double> u) {
   std::vector<double> size(rows.node.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    const bool is_open = rows.gap_at(r, u) > 0.0;
+    const double gap = rows.gap_at(r, u);
+    const bool is_open = gap > 0.0;
+    const RowLaw& law = rows.law[r];
+    const Vec3 slopes{law.spring_slope(std::max(0.0, -gap)), law.eps_T, law.eps_T};
     for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
       const RowBlock block = is_open ? without_turn(rows, r, rows.block[k]) : rows.block[k];
-      size[k] = size_of(block, rows.law[r], inverse_mass_of(system, rows.node[k]));
+      size[k] = size_of(block, slopes, inverse_mass_of(system, rows.node[k]));
     }
   }
   return size;

@@ -13,9 +13,10 @@ namespace carom {
 ConstraintRows as_they_close(const ConstraintRows& rows, std::span<const double> u);
 
 /// Upper bound of omega^2 of the springs of all rows, closed, on the free masses alone. The largest eigenvalue of
-/// M^-1 G^T D G with D = (eps_N, eps_T, eps_T) per row is that of the blocks sum over n of A_rn A_sn^T,
-/// A_rn = D_r^1/2 G_rn M_n^-1/2, over the nodes n that the rows r and s share. It is at most that of the matrix
-/// B_rs = sum over n of |A_rn| |A_sn|, |A|^2 the largest row sum of |A A^T|, and B has no negative entries, so that
+/// M^-1 G^T D G with D = (slope of the normal spring at u, eps_T, eps_T) per row is that of the blocks sum over n of
+/// A_rn A_sn^T, A_rn = D_r^1/2 G_rn M_n^-1/2, over the nodes n that the rows r and s share. It is at most that of the
+/// matrix B_rs = sum over n of |A_rn| |A_sn|, |A|^2 the largest row sum of |A A^T|, and B has no negative entries, so
+/// that
 ///   max over r of (B x)_r / x_r
 /// is a bound for every x > 0 (Collatz and Wielandt; Horn and Johnson, Matrix Analysis, theorem 8.1.26). x is that of a
 /// few power iterations from 1, which lower the bound. For the consistent mass of parallelepipeds M >= 1/8 of its

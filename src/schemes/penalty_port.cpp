@@ -55,8 +55,8 @@ bool PenaltyPort::settle(std::span<const double> /*x*/, const ContactResponse& /
 PenaltyPort::ClosedSpring PenaltyPort::closed_spring(const ConstraintRows& rows, std::size_t r,
                                                      std::span<const double> x) const {
   const RowLaw& law = rows.law[r];
-  return {{s_ * law.eps_N, 0.0, 0.0, 0.0, s_ * law.eps_T, 0.0, 0.0, 0.0, s_ * law.eps_T},
-          -law.eps_N * rows.gap_at(r, x)};
+  const double slope = law.spring_slope(std::max(0.0, -rows.gap_at(r, x)));
+  return {{s_ * slope, 0.0, 0.0, 0.0, s_ * law.eps_T, 0.0, 0.0, 0.0, s_ * law.eps_T}, -law.eps_N * rows.gap_at(r, x)};
 }
 
 /// Closes the open rows that the motion reaches first. False when it reaches none.

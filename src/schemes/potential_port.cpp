@@ -15,13 +15,29 @@ struct NormalForce {
   double slope = 0.0;
 };
 
-NormalForce discrete_derivative(double eps_N, double g0, double g1) {
+NormalForce of_linear_spring(double eps_N, double g0, double g1) {
   const double P0 = std::max(0.0, -g0), P1 = std::max(0.0, -g1);
   if (P0 == 0.0 && P1 == 0.0) return {};
   if (P0 > 0.0 && P1 > 0.0) return {0.5 * eps_N * (P0 + P1), 0.5 * eps_N};
   const double closing = g0 - g1;  // at least as large as the penetration: one gap is open
   const double p = 0.5 * eps_N * (P1 - P0) * (P1 + P0) / closing;
   return {p, (eps_N * P1 - p) / closing};
+}
+
+/// What the spring has more beyond its linear depth: quotients of E = 1/4 h q^4.
+NormalForce of_hardening(const RowLaw& law, double g0, double g1) {
+  const double q0 = law.beyond(-g0), q1 = law.beyond(-g1), h = law.hardening();
+  if (q0 == 0.0 && q1 == 0.0) return {};
+  if (q0 > 0.0 && q1 > 0.0)
+    return {0.25 * h * (q0 + q1) * (q0 * q0 + q1 * q1), 0.25 * h * (q0 * q0 + 2.0 * q0 * q1 + 3.0 * q1 * q1)};
+  const double closing = g0 - g1;  // at least as large as q0 or q1
+  const double p = 0.25 * h * (q1 - q0) * (q1 + q0) * (q0 * q0 + q1 * q1) / closing;
+  return {p, (h * q1 * q1 * q1 - p) / closing};
+}
+
+NormalForce discrete_derivative(const RowLaw& law, double g0, double g1) {
+  const NormalForce linear = of_linear_spring(law.eps_N, g0, g1), more = of_hardening(law, g0, g1);
+  return {linear.p + more.p, linear.slope + more.slope};
 }
 
 }  // namespace
@@ -47,8 +63,8 @@ void PotentialPort::respond(std::span<const double> x, std::span<const double> /
     const RowLaw& law = rows.law[r];
     const Vec3 w0 = rows.relative(r, x0), w1 = rows.relative(r, x), dw = subtract(w1, w0);
     const double g0 = rows.gap[r] + w0[0], g1 = rows.gap[r] + w1[0], P1 = std::max(0.0, -g1);
-    response.stored += 0.5 * law.eps_N * P1 * P1;
-    NormalForce normal = discrete_derivative(law.eps_N, g0, g1);
+    response.stored += law.spring_energy(P1);
+    NormalForce normal = discrete_derivative(law, g0, g1);
     const double spring = normal.p;
     if (law.damping > 0.0 && g0 < 0.0 && h_ > 0.0) {
       normal.p -= law.damping * dw[0] / h_;

@@ -8,7 +8,8 @@
 namespace carom {
 
 /// Forces over a step from x0 to x on the rows made at its middle (see EnergyMomentum):
-///   p = -(Phi(g) - Phi(g0)) / (g - g0), Phi = 1/2 eps_N <-g>^2; dampers act on the mean velocity where the step begins
+///   p = -(Phi(g) - Phi(g0)) / (g - g0), Phi = RowLaw::spring_energy(<-g>); dampers act on the mean velocity where the
+///   step begins
 /// closed; friction by the return mapping of penalty_response at the middle.
 class PotentialPort final : public PenaltyPort {
  public:

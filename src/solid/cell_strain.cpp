@@ -1,6 +1,7 @@
 #include "solid/cell_strain.hpp"
 
 #include "element/cell_shapes.hpp"
+#include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
 namespace carom {
@@ -62,7 +63,47 @@ MeanStrain mean_strain_of(Section section) {
   }
 }
 
+/// Distance at u of two material planes with the normal n at u, over their reference distance: |F^T n|.
+template <class Shape>
+double stretch_between(const typename Shape::Nodes& x, const typename Shape::Nodes& d, const Vec3& n,
+                       double thickness) {
+  const typename Shape::Point point = Shape::centre(x, thickness);
+  double H[3][3];
+  displacement_gradient<Shape>(point, d, H);
+  Vec3 back = n;  // F^T n = n + A H^T n, A the directions of H's columns
+  for (std::size_t j = 0; j < 3; ++j) {
+    const double along = H[0][j] * n[0] + H[1][j] * n[1] + H[2][j] * n[2];
+    for (std::size_t i = 0; i < 3; ++i) back[i] += point.frame[i][j] * along;
+  }
+  return norm(back);
+}
+
+template <class Shape>
+double shortening(const Mesh& mesh, const Part& part, Index cell, const Vec3& n, std::span<const double> u) {
+  typename Shape::Nodes x{}, d{};
+  const Index* nodes = mesh.block(part.type)->connectivity.data() + Shape::nodes * static_cast<std::size_t>(cell);
+  for (std::size_t a = 0; a < Shape::nodes; ++a) {
+    const auto node = static_cast<std::size_t>(nodes[a]);
+    x[a] = mesh.coordinates[node];
+    d[a] = {u[3 * node], u[3 * node + 1], u[3 * node + 2]};
+  }
+  return (1.0 - stretch_between<Shape>(x, d, n, part.thickness)) * Shape::length(x);
+}
+
 }  // namespace
+
+double cell_shortening(const Mesh& mesh, const Part& part, Index cell, const Vec3& n, std::span<const double> u) {
+  switch (part.section) {
+    case Section::solid:
+      return shortening<HexaShape>(mesh, part, cell, n, u);
+    case Section::axisymmetric:
+      return shortening<AxisymmetricShape>(mesh, part, cell, n, u);
+    case Section::bar:
+      return shortening<BarShape>(mesh, part, cell, n, u);
+    default:
+      return shortening<PlaneShape>(mesh, part, cell, n, u);
+  }
+}
 
 std::vector<Strain> cell_strain(const Model& model, std::span<const double> u) {
   std::vector<Strain> strain;

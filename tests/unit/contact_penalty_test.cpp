@@ -50,6 +50,26 @@ TEST(PenaltyForce, IsProportionalToThePenetrationAndNeverTensile) {
   }
 }
 
+// eps_N = 4, d_0 = 0.1: at 0.1 still 0.4, at 0.3 it is 4 (0.3 + 0.2^3 / 0.1^2) = 4.4. Force and slope are derivatives
+// of the stored energy (central differences of polynomials of degree 4: h^2 / 6 times their third derivative, 1e-7
+// here).
+TEST(PenaltyForce, HardensBelowItsLinearDepth) {
+  RowLaw law{.eps_N = 4.0};
+  law.linear_depth = 0.1;
+  const Rows penalty = single_node(law);
+  const auto at = [&](double depth) { return respond(penalty, {}, {0, 0, -depth}); };
+  EXPECT_NEAR(at(0.1).force[0][0], 0.4, round_off);
+  EXPECT_NEAR(at(0.3).force[0][0], 4.4, round_off);
+  constexpr double h = 1e-5;
+  const std::vector<RowHistory> history(1);
+  for (const double depth : {0.05, 0.11, 0.25}) {
+    EXPECT_NEAR((at(depth + h).stored - at(depth - h).stored) / (2.0 * h), at(depth).force[0][0], 1e-6);
+    const Vec3 begin{}, u{0, 0, -depth};
+    EXPECT_NEAR(penalty_tangent(*penalty, 0, begin, u, begin, history, 0.0)[0],
+                (at(depth + h).force[0][0] - at(depth - h).force[0][0]) / (2.0 * h), 1e-6);
+  }
+}
+
 TEST(PenaltyForce, OfADamperActsOnlyInStepsThatBeginClosedAndNeverPulls) {
   const Rows stop = single_node({.eps_N = 4.0, .damping = 2.0});
   const Vec3 closing{0, 0, -3.0}, opening{0, 0, 3.0}, at{0, 0, -0.25};

@@ -95,6 +95,23 @@ TEST(Stiffness, AgainstAnObstacleIsTheModulusOverTheHeightOfTheCells) {
   EXPECT_EQ(notes[0], "contact \"floor\": stiffness 5.385 chosen from modulus 2.692 over cell height 0.5");
 }
 
+// The smallest cells at the contact are 0.125 high and the upper block is of finite strain.
+TEST(Stiffness, HardensBelowTwoPercentOfTheSmallestCellWhereItIsChosen) {
+  Model model = two_blocks();
+  ContactLaw given;
+  given.eps_N = 7.0;
+  model.contacts.emplace_back(pair_of(*model.mesh));
+  model.contacts.emplace_back(pair_of(*model.mesh, given));
+  choose_stiffness(model);
+  expect_relative(std::get<PairContact>(model.contacts[0]).law.linear_depth, 0.02 * 0.125);
+  EXPECT_TRUE(std::isinf(std::get<PairContact>(model.contacts[1]).law.linear_depth));
+  Model small_strain = two_blocks();
+  small_strain.parts.pop_back();
+  small_strain.contacts.emplace_back(floor_under(facets_of(*small_strain.mesh, "TOP")));
+  choose_stiffness(small_strain);
+  EXPECT_TRUE(std::isinf(std::get<ObstacleContact>(small_strain.contacts[0]).law.linear_depth));
+}
+
 TEST(Stiffness, OfAPairIsTwiceItsCellsInSeriesWhicheverSideIsTheSlave) {
   Model model = two_blocks();
   model.contacts.emplace_back(pair_of(*model.mesh));

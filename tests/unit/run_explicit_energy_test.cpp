@@ -100,7 +100,8 @@ TEST(ExplicitPairs, MakeNoEnergyAndPressRightAtDefaultSettings) {
 }
 
 // A rigid ball at half the wave speed of a gelatine block: in the ten steps between two looks at the stable step the
-// cells below it were crushed flat. Energy books of the whole run, lent included, within the verdict's limits.
+// cells below it were crushed flat, and a spring of one slope let the ball in by 1.5 cells. Energy books of the whole
+// run, lent included, within the verdict's limits.
 TEST(SoftBodies, AreCrushedAtDefaultSettings) {
   const TemporaryCase one(R"(
 [[mesh.block]]
@@ -135,7 +136,7 @@ end = 0.005
 [output]
 fields = []
 )");
-  EXPECT_NE(one.run(), ExitCode::run_failed) << one.result("summary.json");
+  EXPECT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
   const std::string energy = one.result("energy.csv");
   const std::vector<double> kinetic = column(energy, "kinetic"), strain = column(energy, "strain"),
                             stored = column(energy, "contact_stored");

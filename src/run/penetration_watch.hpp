@@ -1,0 +1,42 @@
+// Are the springs of contact stiff enough for the bodies behind them?
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contact/response.hpp"
+#include "model/model.hpp"
+#include "output/summary.hpp"
+
+namespace carom {
+
+/// The deepest penetration of a run against what it may be there: 5 % of the smallest cell at the nodes of the row, or,
+/// where the cells at those nodes are shortened by more along the row's normal, half of that length; never more than a
+/// quarter of the cell. The shortening is that of the cells' own displacement (solid/cell_strain.hpp), so that a soft
+/// spring cannot allow itself any depth. Both are the largest at a place (slot) so far: a spring answers before the
+/// cells behind it do. Springs of discrete stops are physical and do not count.
+class PenetrationWatch {
+ public:
+  explicit PenetrationWatch(const Model& model);
+
+  /// At displacement u, after each step. Rows below 5 % cost nothing but their gap.
+  void look(const ContactResponse& response, std::span<const double> u);
+  VerdictItem item() const;
+
+ private:
+  struct Place {
+    double depth = 0.0, shortening = 0.0;  ///< largest so far, over the smallest cell there
+    double limit() const;
+  };
+  void find_cells();
+  double smallest_cell(const ConstraintRows& rows, std::size_t r) const;
+  double shortening(const ConstraintRows& rows, std::size_t r, std::span<const double> u);
+
+  const Model& model_;
+  std::vector<double> node_length_;
+  std::vector<std::size_t> begin_;  ///< by node, in cells_; made when first needed
+  std::vector<std::pair<const Part*, Index>> cells_;
+  std::vector<Place> places_;  ///< by slot
+};
+
+}  // namespace carom
