@@ -178,6 +178,8 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
       report.failure = cycling_rows(before, forces);
       return report;
     }
+    // Rows that move leave their motion out of the tangent; a new set of acting rows is another equation.
+    if (newton == 0 || system_.contact.is_fixed() || before != forces.rows.status) mixing_.forget();
     last = newton == 0 ? none : error;  // before the first solve, the work is of a displacement that is a guess
     // Below what rounding may leave, each solve is asked for a hundredth of what is left.
     const double left = error.work <= error.round_off ? std::max(0.3 * wanted, 0.01 * error.work) : 0.3 * tolerance;
@@ -207,7 +209,7 @@ std::string ImplicitStage::improve(const StageEquation& eq, double absolute, Sta
                                     : "",
         describe_motion(system_.mesh, solved.linear.worst));
   }
-  for (std::size_t i = 0; i < end.a.size(); ++i) end.a[i] += correction_[i];
+  mixing_.advance(end.a, correction_);
   return {};
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "schemes/anderson_mixing.hpp"
 #include "schemes/contact_port.hpp"
 #include "schemes/implicit_settings.hpp"
 #include "schemes/imposed_motion.hpp"
@@ -40,7 +41,8 @@ struct StageForce {
 };
 
 /// Newton's method with m M + k s K(x) and the contact of a port. Equilibrium is reached when the residual could leave
-/// no more energy unbooked than the given tolerance, or rounding leaves more.
+/// no more energy unbooked than the given tolerance, or rounding leaves more. The tangent of rows that move (turning
+/// normals, changing weights) is not complete; AndersonMixing makes up for what is missing.
 class ImplicitStage {
  public:
   /// ratio: k s / m of the usual step; omega_max_squared: a bound of the spectrum of M^-1 K. Both choose the solver.
@@ -77,6 +79,7 @@ class ImplicitStage {
   std::unique_ptr<EffectiveSolver> solver_;
   std::unique_ptr<ContactPort> port_;
   StageForce force_;
+  AndersonMixing mixing_;
   std::vector<double> residual_, correction_, force_parts_;
   std::vector<double> stiffness_diagonal_, closed_diagonal_;  ///< of K and the springs; of all contact rows, closed
   double softest_ = std::numeric_limits<double>::infinity();  ///< smallest entry of K's diagonal above 0

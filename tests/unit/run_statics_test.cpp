@@ -1,4 +1,6 @@
 // Statics: what it solves to.
+#include <cmath>
+
 #include "run_fixture.hpp"
 
 namespace carom {
@@ -35,6 +37,60 @@ end = 1.0
 step = 1.0
 )");
   EXPECT_EQ(plate.run(), ExitCode::good) << plate.result("summary.json");  // the verdict's balance: 1e-10
+}
+
+/// A rigid cylinder of radius 0.3 indents half of a neo-Hookean block by 0.5; ends in `time`.
+std::string indentation(const std::string& time) {
+  return R"(units = "SI"
+[[mesh.block]]
+size = [2.0, 0.1, 1.5]
+divisions = [10, 1, 6]
+[materials.soft]
+law = "neo_hookean"
+E = 1.0
+nu = 0.3
+rho = 1.0
+[[part]]
+name = "body"
+cells = "BLOCK"
+material = "soft"
+[[support]]
+nodes = "XMIN"
+symmetry = "x"
+[[support]]
+nodes = "all"
+blocked = ["y"]
+[[support]]
+nodes = "ZMIN"
+displacement = { z = 0.5, function = "ramp" }
+[functions.ramp]
+time = [0.0, 0.5]
+value = [0.0, 1.0]
+[[contact]]
+name = "roll"
+kind = "cylinder"
+group = "ZMAX"
+point = [0.0, 0.0, 1.8]
+axis = [0.0, 1.0, 0.0]
+radius = 0.3
+[scheme]
+kind = "statics"
+enforcement = "lagrange"
+[time]
+end = 0.5
+)" + time;
+}
+
+// The rows turn under a pressure of the order of Young's modulus. From t = 0.4 on, iterations that leave the turning of
+// their normals out of the tangent do not come to their end in 50. An elastic body without friction does not know its
+// path: the force is that of five times as many steps, to what equilibrium is solved to.
+TEST(Statics, SolvesForRowsThatTurnUnderPressure) {
+  const TemporaryCase given(indentation("step = 0.05\nfixed = true\n")), fine(indentation("step = 0.01\n"));
+  EXPECT_EQ(given.run(), ExitCode::good) << given.result("summary.json");
+  fine.run();
+  const double force = last_row(given.result("contact.csv"))["roll.force_z"];
+  EXPECT_LT(force, 0.0);
+  EXPECT_NEAR(force, last_row(fine.result("contact.csv"))["roll.force_z"], 1e-9 * std::abs(force));
 }
 
 }  // namespace
