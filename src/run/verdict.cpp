@@ -23,12 +23,16 @@ void RunMonitor::update() {
   if (stage_.is_static) {
     static_.quadrature += total.quadrature - before_.quadrature;
     static_.algorithmic += total.algorithmic - before_.algorithmic;
+    static_.impact += total.impact - before_.impact;
   }
+  if (!stage_.is_explicit) implicit_loss_ += total.algorithmic - before_.algorithmic;
   before_ = total;
   const EnergyTerms now = dynamic();
   imbalance_ = std::max(imbalance_, std::abs(ledger_.imbalance()));
   quadrature_ = std::max(quadrature_, std::abs(now.quadrature));
   algorithmic_ = std::max(algorithmic_, std::abs(now.algorithmic));
+  const double taken_back = std::max(0.0, implicit_loss_ - static_.algorithmic);
+  gained_ = std::max(gained_, std::max(0.0, -now.quadrature) + std::max(0.0, -now.impact - taken_back));
   lent_before_ = std::exchange(lent_, -now.algorithmic);
   const Momentum error = ledger_.momentum_error(), impulse = ledger_.impulse();
   const Momentum &momentum = ledger_.momentum(), &begin = ledger_.initial_momentum();
@@ -53,6 +57,7 @@ EnergyTerms RunMonitor::dynamic() const {
   EnergyTerms terms = ledger_.now();
   terms.quadrature -= static_.quadrature;
   terms.algorithmic -= static_.algorithmic;
+  terms.impact -= static_.impact;
   return terms;
 }
 
@@ -91,7 +96,7 @@ double RunMonitor::angular_momentum_error() const {
   return ratio(angular_error_, angular_scale_);
 }
 
-std::vector<VerdictItem> RunMonitor::items(double angular_limit) const {
+std::vector<VerdictItem> RunMonitor::items(const Limits& limits) const {
   const double scale = this->scale();
   const auto item = [](const char* name, double value, double limit, const char* explanation) {
     return VerdictItem{name, value, limit, value <= limit, explanation};
@@ -103,10 +108,14 @@ std::vector<VerdictItem> RunMonitor::items(double angular_limit) const {
       item("quadrature", ratio(quadrature_, scale), 0.05,
            "work of internal and contact forces that the trapezoidal rule misplaces: is the step fine enough for the "
            "contact?"),
+      item("energy gained", ratio(gained_, scale), limits.energy_gained,
+           "energy that contact or the internal forces have made (energy that the scheme lends is none): a shorter "
+           "step, "
+           "or a scheme that keeps or dissipates energy?"),
       item("algorithmic dissipation", ratio(algorithmic_, scale), 0.1,
            "energy that the time scheme takes out (or adds)"),
       item("linear momentum", linear_momentum_error(), 1e-9, "change of momentum against the impulses"),
-      item("angular momentum", angular_momentum_error(), angular_limit,
+      item("angular momentum", angular_momentum_error(), limits.angular_momentum,
            "change of angular momentum against the impulses"),
   };
 }

@@ -20,10 +20,15 @@ class RunMonitor {
     double rest_energy = 0.0;  ///< energies below cannot be told from rounding: the least scale of all energies
     Momenta momenta = Momenta::all;
   };
-  /// One stage: Stage::reversible_energy(), and whether it has inertia.
+  /// One stage: Stage::reversible_energy(), whether it has no inertia, whether its steps are explicit.
   struct StageKind {
     double reversible = 1.0;
     bool is_static = false;
+    bool is_explicit = false;
+  };
+  /// Limits of the items that depend on the schemes of the run.
+  struct Limits {
+    double angular_momentum = 1e-9, energy_gained = 0.005;
   };
   RunMonitor(const EnergyLedger& ledger, const Bodies& bodies, const StageKind& stage)
       : ledger_(ledger), bodies_(bodies), stage_(stage) {}
@@ -38,10 +43,11 @@ class RunMonitor {
   /// and takes back is none, unless it is for two steps in a row more than a stable step can lend.
   std::string alarm(double growth_limit) const;
 
-  /// balance of powers, quadrature, algorithmic, linear and angular momentum. What static stages book as
-  /// quadrature and algorithmic is left out: without inertia it says nothing about the step.
-  /// angular_limit: what the error of angular momentum may be with the schemes of the run.
-  std::vector<VerdictItem> items(double angular_limit) const;
+  /// balance of powers, quadrature, energy gained, algorithmic, linear and angular momentum. What static stages book as
+  /// quadrature and algorithmic is left out: without inertia it says nothing about the step. Gained: what the
+  /// quadrature has given net, and what exact contact has given net, less what implicit schemes have taken out beside
+  /// it: they book the jump of the velocities at a touch on either side.
+  std::vector<VerdictItem> items(const Limits& limits) const;
   double linear_momentum_error() const;
   double angular_momentum_error() const;
   /// Imbalance now, relative to the energy scale.
@@ -59,9 +65,10 @@ class RunMonitor {
   StageKind stage_;
   EnergyTerms before_{}, static_{};  ///< totals at the last update, and how much of them static stages have booked
   double lent_ = 0.0, lent_before_ = 0.0;  ///< energy lent by the scheme, after this step and the one before
-  double imbalance_ = 0.0, quadrature_ = 0.0, algorithmic_ = 0.0;  ///< largest so far, energies
-  double linear_error_ = 0.0, angular_error_ = 0.0;                ///< largest so far, momenta
-  double linear_scale_ = 0.0, angular_scale_ = 0.0;                ///< largest momentum or impulse so far
+  double imbalance_ = 0.0, quadrature_ = 0.0, algorithmic_ = 0.0, gained_ = 0.0;  ///< largest so far, energies
+  double implicit_loss_ = 0.0;                       ///< algorithmic of implicit and static stages
+  double linear_error_ = 0.0, angular_error_ = 0.0;  ///< largest so far, momenta
+  double linear_scale_ = 0.0, angular_scale_ = 0.0;  ///< largest momentum or impulse so far
 };
 
 }  // namespace carom
