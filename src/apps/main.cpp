@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -10,7 +11,9 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "base/terminal_text.hpp"
@@ -156,6 +159,18 @@ ExitCode guarded(const CLI::App& app, const Arguments& arguments) {
   }
 }
 
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+/// Is the first word one that should be a command and is none?
+bool starts_with_no_command(int argc, const char* const* argv, const std::vector<std::string>& commands) {
+  if (argc < 2 || argv[1][0] == '-' || argv[1][0] == '\0') return false;
+  return std::find(commands.begin(), commands.end(), argv[1]) == commands.end();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -178,6 +193,11 @@ int main(int argc, char** argv) {
   CLI::App* mesh_command = app.add_subcommand("mesh", "Describe a mesh file");
   mesh_command->add_option("file", arguments.mesh_file, "Mesh file (Gmsh 2.2 or 4.1, MED)")->required();
   app.add_subcommand("schema", "Print the JSON Schema of the case format");
+  if (const std::vector<std::string> commands = command_names(app); starts_with_no_command(argc, argv, commands)) {
+    print_error(
+        fmt::format("\"{}\" is no command of carom; it has {} (carom --help)", argv[1], fmt::join(commands, ", ")));
+    return static_cast<int>(ExitCode::case_wrong);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -53,4 +53,8 @@ Mesh build_mesh(const Case& given) {
   return mesh;
 }
 
+std::size_t given_nodes(const Case& given, const Mesh& mesh) {
+  return mesh.node_count() - ground_positions(given, mesh).size() - carrier_nodes(given);
+}
+
 }  // namespace carom

@@ -25,8 +25,7 @@ class Builder {
   void build() {
     model_.parts = parts_.parts();
     model_.motions = parts_.held();
-    const std::size_t appended = ground_positions(case_, mesh_).size() + carrier_nodes(case_);
-    add_attached(case_, mesh_, groups_, parts_, static_cast<Index>(mesh_.node_count() - appended), model_);
+    add_attached(case_, mesh_, groups_, parts_, static_cast<Index>(given_nodes(case_, mesh_)), model_);
     for (std::size_t i = 0; i < case_.supports.size(); ++i) add_support(case_.supports[i], i);
     for (const CaseLoad& load : case_.loads) add_load(load);
     for (const CaseInitial& initial : case_.initial) add_initial(initial, 0);

@@ -10,6 +10,7 @@
 #include "base/units.hpp"
 #include "math/vec3.hpp"
 #include "run/approach.hpp"
+#include "run/build_mesh.hpp"
 #include "run/cost_estimate.hpp"
 #include "run/waves.hpp"
 
@@ -80,10 +81,11 @@ std::string check_summary(const Simulation& s) {
   const UnitSystem units = s.given().units;
   const auto unit = [&](Dimension d) { return unit_name(d, units); };
   const State state = s.initial_state();
-  std::string text = fmt::format("{}\n  units     {}\n  mesh      {}, {}, smallest cell {:.4g} {}\n", s.given().title,
-                                 name(units), count_of(static_cast<long long>(s.mesh().node_count()), "node"),
-                                 count_of(static_cast<long long>(s.solid().cell_count()), "solid cell"),
-                                 smallest_cell(s), unit(Dimension::length));
+  std::string text =
+      fmt::format("{}\n  units     {}\n  mesh      {}, {}, smallest cell {:.4g} {}\n", s.given().title, name(units),
+                  count_of(static_cast<long long>(given_nodes(s.given(), s.mesh())), "node"),
+                  count_of(static_cast<long long>(s.solid().cell_count()), "solid cell"), smallest_cell(s),
+                  unit(Dimension::length));
   for (const Part& part : s.model().parts) {
     const PartSummary p = summarise(s, part, state);
     text += fmt::format("  part      \"{}\": {}, mass {:.6g} {}, kinetic energy {:.6g} {}, momentum {}\n", part.name,

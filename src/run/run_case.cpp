@@ -24,6 +24,7 @@
 #include "parallel/threads.hpp"
 #include "report/report.hpp"
 #include "run/body_scales.hpp"
+#include "run/build_mesh.hpp"
 #include "run/cost_estimate.hpp"
 #include "run/inside_out.hpp"
 #include "run/lint.hpp"
@@ -411,7 +412,7 @@ Summary summary_of(const Simulation& s) {
   Summary summary;
   summary.program = {version(), compiler(), std::string(name(s.solid().isa())), thread_count()};
   summary.case_info = {s.given().file, s.given().title, std::string(name(s.given().units))};
-  summary.mesh.nodes = s.mesh().node_count();
+  summary.mesh.nodes = given_nodes(s.given(), s.mesh());
   summary.mesh.cells = s.solid().cell_count();
   summary.mesh.reach = reach(s.mesh());
   for (const std::string& group : s.mesh().group_names()) {

@@ -1,0 +1,36 @@
+"""What the command line says to words that it does not know, and what `check` counts."""
+
+import pathlib
+import subprocess
+import sys
+import unittest
+
+CAROM = str(pathlib.Path(sys.argv.pop(1)).resolve())
+CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
+
+
+def carom(*words):
+    done = subprocess.run([CAROM, *words], capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+class CommandLine(unittest.TestCase):
+    def test_a_word_that_is_no_command_is_named_with_those_that_are(self):
+        code, out, error = carom("runn", "case.toml")
+        self.assertEqual((code, out), (2, ""))
+        self.assertEqual(error, 'error: "runn" is no command of carom; it has run, check, compare, mesh, schema '
+                                "(carom --help)\n")
+
+    def test_no_command_at_all(self):
+        code, _, error = carom()
+        self.assertEqual(code, 2)
+        self.assertIn("subcommand is required", error)
+
+    def test_nodes_where_springs_end_in_the_ground_are_not_counted(self):
+        code, out, _ = carom("check", str(CASES / "springs/block_on_springs.toml"))
+        self.assertEqual(code, 0)
+        self.assertIn(" 8 nodes, 1 solid cell,", out)  # one cell of eight nodes, a spring at each
+
+
+if __name__ == "__main__":
+    unittest.main()
