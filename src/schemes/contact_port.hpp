@@ -48,6 +48,9 @@ class ContactPort {
   virtual void begin(const StageStart& start) = 0;
   /// True when displacement and velocity decide the forces; else conditions do, and a start has to find them.
   virtual bool is_law() const = 0;
+  /// True when respond() answers at any displacement and velocity, until settle() changes its forces; false when
+  /// solve() brings forces that belong to the whole of its correction.
+  virtual bool is_function() const { return false; }
   /// Forces on the rows at displacement x and velocity v.
   virtual void respond(std::span<const double> x, std::span<const double> v, ContactResponse& response) = 0;
   /// Violation of the conditions that `response`, the answer at x and v, does not satisfy by its law.

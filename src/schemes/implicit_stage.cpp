@@ -29,6 +29,18 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Displacements and velocities of end.a.
+void follow(const StageEquation& eq, State& end) {
+  parallel_each(end.a.size(), [&](std::size_t i) {
+    end.q[i] = eq.x_hat[i] + eq.s * end.a[i];
+    end.v[i] = eq.v_hat[i] + eq.r * end.a[i];
+  });
+  for (const ImposedStep& s : eq.imposed) {
+    end.q[s.dof] = s.u;
+    end.v[s.dof] = s.v;
+  }
+}
+
 }  // namespace
 
 ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& settings, double ratio,
@@ -72,8 +84,9 @@ void ImplicitStage::start(const State& state, Forces& forces) {
   forces.rows.add_force(forces.contact);
 }
 
-ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const State& begin, const State& end,
+ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const State& begin, State& end,
                                                 Forces& forces) {
+  follow(eq, end);
   force_.value(end.q, forces.internal);
   forces.contact.assign(end.q.size(), 0.0);
   port_->respond(end.q, end.v, forces.rows);
@@ -148,16 +161,10 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
   const Residual none{.work = infinity, .unbooked = infinity};
   Residual last = none;
   for (int newton = 0, outer = 0;; ++newton, ++report.iterations) {
-    parallel_each(n, [&](std::size_t i) {
-      end.q[i] = eq.x_hat[i] + eq.s * end.a[i];
-      end.v[i] = eq.v_hat[i] + eq.r * end.a[i];
-    });
-    for (const ImposedStep& s : eq.imposed) {
-      end.q[s.dof] = s.u;
-      end.v[s.dof] = s.v;
-    }
     before.swap(forces.rows.status);
-    const Residual error = residual(eq, begin, end, forces);
+    Residual error = residual(eq, begin, end, forces);
+    if (newton > 0 && error.work > error.round_off && port_->is_function())
+      error = shorten(eq, begin, error, end, forces);
     if (!std::isfinite(error.norm)) {
       report.failure = "the forces are not finite";
       return report;
@@ -191,6 +198,33 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
   return report;
 }
 
+/// Cuts a step that overshoots, so that the residual along it turns round by more than `share`, to where it is
+/// below that (Illinois' form of regula falsi): Newton's method alone may jump to and fro between two directions of
+/// slip.
+ImplicitStage::Residual ImplicitStage::shorten(const StageEquation& eq, const State& begin, Residual error, State& end,
+                                               Forces& forces) {
+  constexpr double share = 0.5;
+  constexpr int most = 20;
+  double slope = dot(residual_, step_), at = 1.0;
+  double low = 0.0, slope_low = slope_, high = 1.0, slope_high = slope;
+  for (int i = 0; i < most && slope_ > 0.0 && std::abs(slope) > share * slope_ && slope_high < 0.0; ++i) {
+    const double next = low + (high - low) * slope_low / (slope_low - slope_high);
+    parallel_each(end.a.size(), [&](std::size_t k) { end.a[k] += (next - at) * step_[k]; });
+    error = residual(eq, begin, end, forces);
+    slope = dot(residual_, step_);
+    const bool was_low = at == low;
+    at = next;
+    if (slope > 0.0) {
+      if (was_low) slope_high *= 0.5;
+      low = next, slope_low = slope;
+    } else {
+      if (!was_low) slope_low *= 0.5;
+      high = next, slope_high = slope;
+    }
+  }
+  return error;
+}
+
 /// One Newton step. Returns why there is none, "" when there is.
 std::string ImplicitStage::improve(const StageEquation& eq, double absolute, State& end, const Forces& forces,
                                    StageReport& report) {
@@ -209,7 +243,10 @@ std::string ImplicitStage::improve(const StageEquation& eq, double absolute, Sta
                                     : "",
         describe_motion(system_.mesh, solved.linear.worst));
   }
+  step_ = end.a;
   mixing_.advance(end.a, correction_);
+  parallel_each(step_.size(), [&](std::size_t i) { step_[i] = end.a[i] - step_[i]; });
+  slope_ = dot(residual_, step_);
   return {};
 }
 

@@ -66,7 +66,8 @@ class ImplicitStage {
 
  private:
   struct Residual;
-  Residual residual(const StageEquation& equation, const State& begin, const State& end, Forces& forces);
+  Residual residual(const StageEquation& equation, const State& begin, State& end, Forces& forces);
+  Residual shorten(const StageEquation& equation, const State& begin, Residual error, State& end, Forces& forces);
   bool is_equilibrium(const StageEquation& equation, const Residual& error, double wanted,
                       const Residual& before) const;
   std::string improve(const StageEquation& equation, double absolute, State& end, const Forces& forces,
@@ -80,8 +81,9 @@ class ImplicitStage {
   std::unique_ptr<ContactPort> port_;
   StageForce force_;
   AndersonMixing mixing_;
-  std::vector<double> residual_, correction_, force_parts_;
+  std::vector<double> residual_, correction_, step_, force_parts_;
   std::vector<double> stiffness_diagonal_, closed_diagonal_;  ///< of K and the springs; of all contact rows, closed
+  double slope_ = 0.0;                                        ///< of the residual along the last step, before it
   double softest_ = std::numeric_limits<double>::infinity();  ///< smallest entry of K's diagonal above 0
   double body_force_ = 0.0;  ///< 2-norm of the forces by which rigid bodies that turn round (Solid)
 };

@@ -161,13 +161,9 @@ ContactWork PenaltyPort::work(const State& begin, const Forces& f0, const State&
   return out;
 }
 
-/// Tangential springs are stiffened less: with stiff ones Newton's method jumps between opposite directions of slip.
-static constexpr double tangential_share = 0.1;
-
-/// Multipliers without friction have settled when their update changes no force by more than this share of the largest:
+/// Multipliers have settled when their update changes no force by more than this share of the largest normal one:
 /// forces that are carried on from step to step are then right to 1 % (a bar on a wall against exact multipliers: 1.5 %
-/// at 0.01). With friction the penetration alone decides: further updates may push rows to and fro between stick and
-/// slip.
+/// at 0.01).
 static constexpr double settled = 0.003;
 
 AugmentedLagrangianPort::AugmentedLagrangianPort(const System& system, double penetration)
@@ -212,7 +208,7 @@ void AugmentedLagrangianPort::respond(std::span<const double> x, std::span<const
     const auto slot = static_cast<std::size_t>(rows.slot[r]);
     const Vec3 lambda = rows.to_frame(r, multiplier_[slot]), w = rows.relative(r, x);
     const double factor = stiffening(rows, r), eps_N = factor * rows.law[r].eps_N;
-    const double eps_T = std::max(1.0, tangential_share * factor) * rows.law[r].eps_T;
+    const double eps_T = factor * rows.law[r].eps_T;
     Vec3& force = response.force[r];
     RowTangent& D = tangents_[r];
     force[0] = std::max(0.0, lambda[0] - eps_N * (rows.gap[r] + w[0]));
@@ -248,7 +244,7 @@ PortSolve AugmentedLagrangianPort::solve(EffectiveSolver& solver, std::span<cons
 PenaltyPort::ClosedSpring AugmentedLagrangianPort::closed_spring(const ConstraintRows& rows, std::size_t r,
                                                                  std::span<const double> x) const {
   const double factor = stiffening(rows, r), eps_N = factor * rows.law[r].eps_N;
-  const double eps_T = rows.law[r].mu > 0.0 ? std::max(1.0, tangential_share * factor) * rows.law[r].eps_T : 0.0;
+  const double eps_T = rows.law[r].mu > 0.0 ? factor * rows.law[r].eps_T : 0.0;
   const Vec3 lambda = rows.to_frame(r, multiplier_[static_cast<std::size_t>(rows.slot[r])]);
   return {{s_ * eps_N, 0.0, 0.0, 0.0, s_ * eps_T, 0.0, 0.0, 0.0, s_ * eps_T}, lambda[0] - eps_N * rows.gap_at(r, x)};
 }
@@ -259,11 +255,11 @@ bool AugmentedLagrangianPort::settle(std::span<const double> x, const ContactRes
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Vec3 w = rows.relative(r, x);
     const double gap = rows.gap[r] + w[0];
-    const double force = response.force[r][0];
-    const double multiplier = rows.to_frame(r, multiplier_[static_cast<std::size_t>(rows.slot[r])])[0];
-    largest = std::max(largest, force);
-    const bool is_judged = rows.law[r].mu == 0.0 && std::abs(gap) > rows.gap_rounding(r, x);
-    if (is_judged) change = std::max(change, std::abs(force - multiplier));
+    const Vec3 update =
+        subtract(response.force[r], rows.to_frame(r, multiplier_[static_cast<std::size_t>(rows.slot[r])]));
+    largest = std::max(largest, response.force[r][0]);
+    const bool is_judged = std::abs(gap) > rows.gap_rounding(r, x);
+    if (is_judged) change = std::max(change, norm(update));
     if (response.force[r][0] == 0.0 && response.status[r] != RowStatus::open) {
       worst = std::numeric_limits<double>::infinity();
     }

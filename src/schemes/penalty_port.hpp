@@ -14,6 +14,7 @@ class PenaltyPort : public ContactPort {
 
   void begin(const StageStart& start) override;
   bool is_law() const override { return true; }
+  bool is_function() const override { return true; }
   void respond(std::span<const double> x, std::span<const double> v, ContactResponse& response) override;
   ContactError error(std::span<const double> x, std::span<const double> v,
                      const ContactResponse& response) const override;

@@ -132,7 +132,7 @@ TEST(SurfaceToSurface, DoesNotTakeTheSidesOfAlignedBarsForDeep) {
 }
 
 /// A bar of ten cells at a five-hundredth of the wave's speed onto a rigid plane.
-std::string bar_on_plane(const std::string& enforcement) {
+std::string bar_on_plane(double sideways, double friction, const std::string& enforcement) {
   return fmt::format(R"(units = "SI"
 [[mesh.block]]
 origin = [0.0, 0.0, 1e-6]
@@ -150,13 +150,14 @@ cells = "BAR"
 material = "steel"
 [[initial]]
 part = "bar"
-velocity = [0.0, 0.0, -10.0]
+velocity = [{}, 0.0, -10.0]
 [[contact]]
 name = "wall"
 kind = "plane"
 group = "FOOT"
 point = [0.0, 0.0, 0.0]
 normal = [0.0, 0.0, 1.0]
+friction = {}
 [scheme]
 kind = "newmark"
 beta = 0.5
@@ -169,23 +170,29 @@ fixed = true
 [output]
 fields = []
 )",
-                     enforcement);
+                     sideways, friction, enforcement);
 }
 
 // A penetration of a thousandth of a cell, the default tolerance, is half of what this impact shortens a cell by. The
 // peak of the force, and the force at every step, are to be right to 1 % of the peak, by exact multipliers.
 TEST(AugmentedLagrangian, PressesAsMultipliersDoAtItsDefaultTolerance) {
-  std::vector<std::vector<double>> forces;
-  for (const char* enforcement : {"lagrange", "augmented_lagrangian"}) {
-    const TemporaryCase given(bar_on_plane(enforcement));
-    given.run();
-    forces.push_back(column(given.result("contact.csv"), "wall.force_z"));
+  for (const auto& [sideways, friction] : {std::pair{0.0, 0.0}, {0.5, 0.3}, {5.0, 0.3}}) {
+    SCOPED_TRACE(fmt::format("sideways {}, friction {}", sideways, friction));
+    std::vector<std::vector<double>> forces, tangential;
+    for (const char* enforcement : {"lagrange", "augmented_lagrangian"}) {
+      const TemporaryCase given(bar_on_plane(sideways, friction, enforcement));
+      given.run();
+      forces.push_back(column(given.result("contact.csv"), "wall.force_z"));
+      tangential.push_back(column(given.result("contact.csv"), "wall.force_x"));
+    }
+    ASSERT_EQ(forces[0].size(), forces[1].size());
+    const double peak = *std::max_element(forces[0].begin(), forces[0].end());
+    EXPECT_GT(peak, 0.0);
+    for (std::size_t i = 0; i < forces[0].size(); ++i) {
+      EXPECT_NEAR(forces[1][i], forces[0][i], 0.01 * peak) << "row " << i;
+      EXPECT_NEAR(tangential[1][i], tangential[0][i], 0.01 * peak) << "row " << i;
+    }
   }
-  ASSERT_EQ(forces[0].size(), forces[1].size());
-  const double peak = *std::max_element(forces[0].begin(), forces[0].end());
-  EXPECT_GT(peak, 0.0);
-  for (std::size_t i = 0; i < forces[0].size(); ++i)
-    EXPECT_NEAR(forces[1][i], forces[0][i], 0.01 * peak) << "row " << i;
 }
 
 }  // namespace
