@@ -16,7 +16,7 @@ enum class CountedSlip : std::uint8_t { after_touch, whole_step };
 /// The penalty port of contact (Wriggers, Computational Contact Mechanics, 2nd ed., sections 5.2 and 10.5):
 ///   p = eps_N <-g>, and with a damper p = max(0, -eps_N g - c dg/dt) in the steps that begin with the row closed: a
 ///   damper that acted at first touch would make the force jump within an implicit step, which then has no solution
-///   (of two sides: p = eps_N <-g> - c dg/dt, which may pull);
+///   (of two sides: p = eps_N <-g> - c dg/dt, which may pull), with RowLaw::spring_force for eps_N <-g>;
 ///   trial t = eps_T (s_e + c (w_T(x) - w_T(x_begin))), returned to |t| <= mu p; open rows forget their slip;
 ///   c = 1, but in a step that closes the row c = g / (g - g_begin): what is left of a straight path after first touch
 ///   (CountedSlip::after_touch). Without inertia the path has a corner at the touch, where the body stops and slides

@@ -22,7 +22,7 @@ struct ContactResponse {
   std::vector<double> damper;  ///< part of the normal force that a damper gives
   std::vector<RowStatus> status;
   std::vector<RowHistory> history;
-  double stored = 0.0;     ///< sum of 1/2 eps_N <-g>^2 + 1/2 eps_T |s_e|^2 (ledger: contact_stored)
+  double stored = 0.0;     ///< sum of RowLaw::spring_energy + 1/2 eps_T |s_e|^2 (ledger: contact_stored)
   double slip_work = 0.0;  ///< work of the friction forces on the slip of the step (ledger: friction)
 
   /// f += G^T force.

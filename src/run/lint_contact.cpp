@@ -163,13 +163,24 @@ class ContactLint {
     return std::visit(of, s_.model().contacts[c]);
   }
 
+  /// Springs that harden keep to the verdict's limits by themselves.
+  bool hardens(std::size_t c) const {
+    const auto of = [](const auto& contact) {
+      if constexpr (requires { contact.law; })
+        return std::isfinite(contact.law.linear_depth);
+      else
+        return false;
+    };
+    return std::visit(of, s_.model().contacts[c]);
+  }
+
   void check_stiffness(std::size_t c) {
     const Approach& a = approaches_[c];
     if (*given(c).kind == CaseContact::Kind::stop || a.stiffness <= 0.0 || area(c) <= 0.0) return;
     const double per_area = a.stiffness / area(c), penetration = pressure(c) / per_area;
     // What the user chose is held to a hundredth of a cell; what was chosen from the cells to what the verdict allows.
     const double most = given(c).stiffness ? 0.01 : 0.05;
-    if (penetration > most * cell_) {
+    if (penetration > most * cell_ && !hardens(c)) {
       say(" is soft: impact at {:.4g} will penetrate by about {:.3g} ({:.3g} cells); stiffness {:.3g} instead of "
           "{:.3g} "
           "would keep it below 1 %",

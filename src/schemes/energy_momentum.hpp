@@ -12,7 +12,7 @@ namespace carom {
 /// u1 = u0 + h/2 (v0 + v1),  M (v1 - v0) = h (f~ - F~ + C~),
 /// with f~ the mean of the loads at both ends, F~ the discrete gradient of the strain energy (Solid::
 /// discrete_gradient_force; Simo and Tarnow, ZAMP 43, 1992; Gonzalez, Comput. Methods Appl. Mech. Eng. 190, 2000) and
-/// C~ that of the contact potential Phi = 1/2 eps_N <-g>^2 (Laursen and Chawla, Int. J. Numer. Methods Eng. 40, 1997;
+/// C~ that of the contact potential Phi, that of RowLaw (Laursen and Chawla, Int. J. Numer. Methods Eng. 40, 1997;
 /// Armero and Petocz, Comput. Methods Appl. Mech. Eng. 158, 1998), on the rows made at the middle:
 ///   p = -(Phi(g1) - Phi(g0)) / (g1 - g0).
 /// Regularised friction is the return mapping at the middle of the step, its slip s1 = 2 s_mid - s0, so that its work

@@ -137,6 +137,7 @@ end = 0.005
 fields = []
 )");
   EXPECT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
+  EXPECT_EQ(one.result("summary.json").find("is soft"), std::string::npos);  // p / M = 0.5, not 0.5 of a cell
   const std::string energy = one.result("energy.csv");
   const std::vector<double> kinetic = column(energy, "kinetic"), strain = column(energy, "strain"),
                             stored = column(energy, "contact_stored");
