@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "contact/row_maker.hpp"
 #include "math/vec3.hpp"
 #include "mesh/skin.hpp"
 #include "run/approach.hpp"
@@ -66,6 +67,7 @@ class ContactLint {
     for (std::size_t c = 0; c < approaches_.size(); ++c) {
       where_ = fmt::format("{}: contact \"{}\"", to_string(given(c).where), *given(c).name);
       check_place(c);
+      check_sides(c);
       check_step(c);
       check_stiffness(c);
     }
@@ -107,6 +109,19 @@ class ContactLint {
     } else if (!std::isfinite(a.gap) && passes_by(s_, c, state_)) {
       say(": its surfaces do not come together before the end, at the velocities that they start with");
     }
+  }
+
+  /// Only the nodes of the group are seen: a finer master enters between them.
+  void check_sides(std::size_t c) {
+    const auto* pair = std::get_if<PairContact>(&s_.model().contacts[c]);
+    if (pair == nullptr || pair->self || pair->method == PairMethod::two_pass) return;
+    constexpr double coarser = 1.5;
+    const double slave = mean_facet_size(s_.mesh().coordinates, pair->slave.facets);
+    const double master = mean_facet_size(s_.mesh().coordinates, pair->master.facets);
+    if (slave <= coarser * master) return;
+    say(": facets of its group are {:.2g} times as long as those of its master, which enters between its nodes unseen: "
+        "exchange group and master, or take method = \"two_pass\"",
+        slave / master);
   }
 
   /// A row alone, with its node, sets this step: 2 / omega, or 2 mass / damping.

@@ -102,6 +102,18 @@ TEST(Lint, SaysWhenSurfacesLookAwayFromEachOther) {
   EXPECT_TRUE(is_warned(turned + moving(1.0), what));
 }
 
+/// A body of one facet of 2 x 2 over four of 1 x 1.
+TEST(Lint, SaysWhenTheMasterIsMuchFiner) {
+  const std::string what = "2 times as long as those of its master";
+  std::string exchanged = second_body(3.5);
+  exchanged.replace(exchanged.find("group = \"HEAD\"\nmaster = \"UNDER\""), 31, "group = \"UNDER\"\nmaster = \"HEAD\"");
+  for (const std::string method : {"node_to_surface", "surface_to_surface", "two_pass"}) {
+    const std::string key = "method = \"" + method + "\"\n" + moving(1.0);
+    EXPECT_FALSE(is_warned(second_body(3.5) + key, what)) << method;
+    EXPECT_EQ(is_warned(exchanged + key, what), method != "two_pass") << method;
+  }
+}
+
 TEST(Lint, SaysWhenSurfacesPassByEachOther) {
   const std::string what = "do not come together before the end";
   // 5 ahead: reached in a second at 6, missed at 3, and missed sideways.
