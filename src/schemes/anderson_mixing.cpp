@@ -68,12 +68,7 @@ std::vector<double> AndersonMixing::combination(std::span<const double> f) const
 }
 
 void AndersonMixing::advance(std::span<double> y, std::span<const double> f) {
-  if (is_slow(f)) {
-    push(y, f);
-  } else {
-    dy_.clear();
-    df_.clear();
-  }
+  if (!dy_.empty() || is_slow(f)) push(y, f);
   const std::vector<double> c = combination(f);
   y_.assign(y.begin(), y.end());
   f_.assign(f.begin(), f.end());

@@ -11,8 +11,8 @@ namespace carom {
 /// the correction that a Newton step with an incomplete tangent finds:
 ///   y + f - (dY + dF) c,  c = argmin |f - dF c|,
 /// dY and dF being the last differences of y and of f, at most five. What the tangent leaves out then costs an
-/// iteration for each of its few modes, even where it makes the plain iteration diverge. Where a correction is less
-/// than a tenth of the last, the plain step is taken and the past forgotten.
+/// iteration for each of its few modes, even where it makes the plain iteration diverge. It begins with a
+/// correction of more than a tenth of the last: quicker iterations are left as they are.
 class AndersonMixing {
  public:
   void forget() {
