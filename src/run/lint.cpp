@@ -86,7 +86,7 @@ std::string touch_remedy(const Stage& stage) {
   if (!rebound || !has_inertia || *rebound <= largest_touch_rebound) return {};
   return fmt::format(
       "{} with multipliers throws a node that touches for one step back with up to {:.3g} times its speed, and so "
-      "makes energy where touches are short; generalized_alpha (at most 1.25 times), bathe, "
+      "makes energy where touches are short; generalized_alpha (at most 1.25 times), "
       "contact_stabilized_newmark, moreau_jean, or mass = \"modified\" do not",
       describe(stage.settings()), *rebound);
 }

@@ -5,7 +5,8 @@
 namespace carom {
 
 std::optional<double> touch_rebound(const SchemeSettings& s) {
-  if (s.enforcement != EnforcementKind::lagrange) return std::nullopt;
+  if (s.enforcement != EnforcementKind::lagrange && s.enforcement != EnforcementKind::augmented_lagrangian)
+    return std::nullopt;
   const auto of = [](const GeneralizedAlphaParameters& p) { return (1.0 - p.alpha_m) / p.beta - 1.0; };
   switch (s.kind) {
     case SchemeKind::newmark:
@@ -16,6 +17,8 @@ std::optional<double> touch_rebound(const SchemeSettings& s) {
       return of(wbz_parameters(s.alpha));
     case SchemeKind::generalized_alpha:
       return of(chung_hulbert_parameters(s.rho_inf));
+    case SchemeKind::bathe:
+      return 2.0;
     default:
       return std::nullopt;
   }

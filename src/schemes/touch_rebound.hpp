@@ -1,4 +1,4 @@
-// What the alpha family on multipliers makes of a node that touches for one step.
+// What implicit schemes on multipliers make of a node that touches for one step.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,10 @@ inline constexpr double largest_touch_rebound = 1.5;
 /// equation of motion (1 - alpha_m) a2 + alpha_m a1 = 0 still remembers a1; the sum of what the velocity gains is
 ///   h (a1 + a2 + ...) = (1 - alpha_m) h a1 = (1 - alpha_m) v / beta,
 /// so that the mass leaves with (1 - alpha_m) / beta - 1 times its speed: 1 for Chung and Hulbert with rho_inf = 1, 3
-/// for Newmark with beta = 1/4. Above 1 touches make energy, whatever the step, fixed wall or free. Empty for schemes
-/// of other families and other enforcements.
+/// for Newmark with beta = 1/4. For Bathe's scheme the mass that reaches the row at the middle of a step is thrown back
+/// furthest: the backward formula stops it at v / 2 with h a = 9/4 v, the next sub-step of the trapezoidal rule adds
+/// h a / 2, and the backward formula makes (4 (1/2 + 9/8) - 1/2) / 3 = 2 of it. Above 1 touches make energy, whatever
+/// the step, fixed wall or free. Empty for schemes of other families and other enforcements.
 std::optional<double> touch_rebound(const SchemeSettings& settings);
 
 }  // namespace carom

@@ -1,7 +1,8 @@
 // The impact bar of cases/impact_bar/free_mass.toml on free rigid masses, with several schemes; and why the alpha
-// family makes energy on multipliers.
+// family and Bathe's scheme make energy on multipliers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -111,6 +112,22 @@ double speed_after_touch(const GeneralizedAlphaParameters& p, double overshoot) 
   return v;
 }
 
+/// The same with the recurrence of bathe.hpp.
+double speed_after_touch_by_bathe(double overshoot) {
+  double u = 1.0 - overshoot, v = -1.0, a = 0.0;
+  const auto contact = [](double free, double r) { return free < 0.0 ? -free / (r * r) : 0.0; };
+  for (int step = 0; step < 60; ++step) {
+    const double v_free = v + 0.25 * a, u_free = u + 0.25 * (v + v_free);
+    const double a_half = contact(u_free, 0.25);
+    const double v_half = v_free + 0.25 * a_half, u_half = u_free + a_half / 16.0;
+    const double v_back = (4.0 * v_half - v) / 3.0, u_back = (v_back + 4.0 * u_half - u) / 3.0;
+    a = contact(u_back, 1.0 / 3.0);
+    v = v_back + a / 3.0;
+    u = u_back + a / 9.0;
+  }
+  return v;
+}
+
 TEST(FreeMass, ReboundOfATouchIsThatOfTheRecurrence) {
   SchemeSettings s;
   s.enforcement = EnforcementKind::lagrange;
@@ -131,6 +148,10 @@ TEST(FreeMass, ReboundOfATouchIsThatOfTheRecurrence) {
     expect(SchemeKind::generalized_alpha, chung_hulbert_parameters(rho));
     EXPECT_NEAR(*touch_rebound(s), 1.0 + rho * (1.0 - rho), 1e-12);
   }
+  s.kind = SchemeKind::bathe;
+  double most = 0.0;
+  for (int i = 0; i <= 1000; ++i) most = std::max(most, speed_after_touch_by_bathe(0.001 * i));
+  EXPECT_NEAR(most, *touch_rebound(s), 1e-12);
   s.enforcement = EnforcementKind::penalty;
   EXPECT_FALSE(touch_rebound(s).has_value());
 }
@@ -157,6 +178,8 @@ TEST(FreeMass, SchemesThatThrowBackAreNamed) {
     EXPECT_NE(said.find("with up to 2.63 times its speed", first + 1), std::string::npos) << said;
   }
   EXPECT_EQ(verdict_and_warnings(generalized_alpha, mass(10.0), ExitCode::good).find("times its speed"),
+            std::string::npos);
+  EXPECT_NE(verdict_and_warnings(bathe, mass(10.0), ExitCode::good).find("with up to 2 times its speed"),
             std::string::npos);
 }
 
