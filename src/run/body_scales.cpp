@@ -1,9 +1,7 @@
 #include "run/body_scales.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
-#include <variant>
 #include <vector>
 
 #include "math/vec3.hpp"

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
 #include "math/vec3.hpp"
 #include "run/probe_place.hpp"

@@ -1,7 +1,9 @@
 // Are the springs of contact stiff enough for the bodies behind them?
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "contact/response.hpp"
