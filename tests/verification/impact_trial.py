@@ -187,18 +187,21 @@ class Impact:
         c1, c2 = self.waves()
         other = 1.6 * length * c2 / c1 if self.stiffer != 0.01 else 1.3 * length  # the lower bar's travel time is longer
         other = max(other, 0.16) if self.stiffer != 100.0 else max(0.35 * length, other)
-        self.upper = box((wide, wide, length), (n, n, count))
-        self.lower = box((wide, wide, other), (m, m, max(14, min(60, round(other / (cell * self.ratio))))))
+        counts = count, max(14, min(60, round(other / (cell * self.ratio))))
+        self.upper = box((wide, wide, length), (n, n, counts[0]))
+        self.lower = box((wide, wide, other), (m, m, counts[1]))
         self.fly()
         trip = [2.0 * L / c for L, c in ((length, c1), (other, c2))]
         Z = [math.sqrt(E * rho) for E, rho in zip(self.modulus(), self.density)]
         short = 0 if trip[0] <= trip[1] else 1
         z_1, z_2 = Z[short], Z[1 - short]
         flight = self.gap / self.normal_speed()
-        # until the wave is back from the far end of the longer bar, or soon after the bars have parted
-        until = 0.96 * trip[1 - short] if z_1 > z_2 else min(1.25 * trip[short], 0.98 * max(trip))
+        # Until the wave is back from the far end of the longer bar, less the two cells over which a mesh smears its
+        # front, or soon after the bars have parted.
+        back = [t * (1.0 - 2.0 / n) for t, n in zip(trip, counts)]
+        until = back[1 - short] if z_1 > z_2 else min(1.25 * trip[short], max(back))
         if trip[1 - short] <= trip[short] * 1.02:
-            until = 0.96 * trip[1 - short]
+            until = back[1 - short]
         force = Z[0] * Z[1] / (Z[0] + Z[1]) * self.normal_speed() * wide * wide
         impulse, begin = 0.0, 0.0
         while begin < until and force > 1e-12 * Z[0]:
