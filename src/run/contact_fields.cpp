@@ -1,6 +1,9 @@
 #include "run/contact_fields.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "math/vec3.hpp"
@@ -19,17 +22,59 @@ Entries entries_of_side(const ConstraintRows& rows, std::size_t r, bool is_other
   return is_other ? Entries{split, last} : Entries{first, split};
 }
 
-}  // namespace
+/// Nodes with a row of their own in a contact of two passes by multipliers. What each pass carries there is one of many
+/// answers (the rows depend on each other), but the force on a node is unique: it balances the cells. So it makes the
+/// pressure. Springs, which store energy, have no such nodes: the force of each row follows from its own gap.
+class TwoPassNodes {
+ public:
+  explicit TwoPassNodes(const ContactResponse& response) : response_(response) {
+    const ConstraintRows& rows = *response.rows;
+    if (response.stored > 0.0) return;
+    std::set<Index> sources;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (rows.is_back[r]) sources.insert(rows.source[r]);
+    }
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const auto [begin, end] = entries_of_side(rows, r, false);
+      if (end - begin == 1 && sources.contains(rows.source[r]))
+        own_[{rows.source[r], rows.node[begin]}] = {rows.measure[r], rows.normal[r]};
+    }
+  }
+  bool has(std::size_t r, Index node) const { return own_.contains({response_.rows->source[r], node}); }
 
-namespace {
+  /// Adds the normal forces of all rows on these nodes, over the areas that their own rows stand for.
+  void add_to(std::vector<double>& pressure) const {
+    const ConstraintRows& rows = *response_.rows;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      for (std::int64_t k = rows.begin[r]; k < rows.begin[r + 1]; ++k) {
+        const Index node = rows.node[static_cast<std::size_t>(k)];
+        const auto own = own_.find({rows.source[r], node});
+        if (own == own_.end()) continue;
+        pressure[static_cast<std::size_t>(node)] +=
+            response_.force[r][0] * dot(rows.block[static_cast<std::size_t>(k)][0], own->second.normal) /
+            own->second.area;
+      }
+    }
+  }
 
-/// Means over the rows that see a node from one side, by their weights along the normal.
+ private:
+  struct Own {
+    double area;
+    Vec3 normal;
+  };
+  const ContactResponse& response_;
+  std::map<std::pair<Index, Index>, Own> own_;  ///< by source and node
+};
+
+/// Means over the rows that see a node from one side, by their weights along the normal; pressures without the nodes of
+/// two passes.
 struct SideMeans {
   std::vector<double> pressure, gap, status, weight;
 
-  SideMeans(const ContactResponse& response, std::span<const double> u, bool is_other)
+  SideMeans(const ContactResponse& response, const TwoPassNodes& two_pass, std::span<const double> u, bool is_other)
       : pressure(u.size() / 3, 0.0), gap(pressure), status(pressure), weight(pressure) {
     const ConstraintRows& rows = *response.rows;
+    std::vector<double> pressing = weight;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const auto [begin, end] = entries_of_side(rows, r, is_other);
       for (std::size_t k = begin; k < end; ++k) {
@@ -37,15 +82,16 @@ struct SideMeans {
         if (w <= 0.0) continue;
         const auto n = static_cast<std::size_t>(rows.node[k]);
         weight[n] += w;
-        pressure[n] += w * response.force[r][0] / rows.measure[r];
         gap[n] += w * rows.gap_at(r, u);
         status[n] = std::max(status[n], 1.0 + static_cast<double>(response.status[r]));
+        if (two_pass.has(r, rows.node[k])) continue;
+        pressing[n] += w;
+        pressure[n] += w * response.force[r][0] / rows.measure[r];
       }
     }
     for (std::size_t n = 0; n < weight.size(); ++n) {
-      if (weight[n] == 0.0) continue;
-      pressure[n] /= weight[n];
-      gap[n] /= weight[n];
+      if (pressing[n] > 0.0) pressure[n] /= pressing[n];
+      if (weight[n] > 0.0) gap[n] /= weight[n];
     }
   }
 };
@@ -53,13 +99,15 @@ struct SideMeans {
 }  // namespace
 
 NodalContact nodal_contact(const ContactResponse& response, std::span<const double> u) {
-  SideMeans own(response, u, false);
-  const SideMeans other(response, u, true);
+  const TwoPassNodes two_pass(response);
+  SideMeans own(response, two_pass, u, false);
+  const SideMeans other(response, two_pass, u, true);
   for (std::size_t n = 0; n < own.weight.size(); ++n) {
     own.pressure[n] += other.pressure[n];
     own.status[n] = std::max(own.status[n], other.status[n]);
     if (own.weight[n] == 0.0) own.gap[n] = other.gap[n];
   }
+  two_pass.add_to(own.pressure);
   return {std::move(own.pressure), std::move(own.gap), std::move(own.status)};
 }
 

@@ -1,6 +1,11 @@
 // Contact at the nodes.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
 #include "contact_rows_fixture.hpp"
 #include "run/contact_fields.hpp"
 #include "run/contact_resultants.hpp"
@@ -38,6 +43,75 @@ TEST(NodalContact, HasTheWholePressureOnBothSidesByEveryMethod) {
     for (const double status : nodes.status) EXPECT_EQ(status, 2.0);
     const ContactResultant sum = ContactResultants(scene.model, {Vec3{}}).of(response, u)[0];
     EXPECT_NEAR(std::abs(sum.force[2]), pressure, 1e-12);  // on unit area: the body of the group has all of it
+  }
+}
+
+/// Normal forces s of the rows with G^T s = f, the nearest to `start`: conjugate gradients on G G^T s = G f, which may
+/// be singular.
+std::vector<double> row_forces(const ConstraintRows& rows, const std::vector<double>& f, std::vector<double> start) {
+  const std::size_t n = rows.size();
+  const auto to_nodes = [&](const std::vector<double>& s) {
+    std::vector<double> sum(f.size(), 0.0);
+    for (std::size_t r = 0; r < n; ++r) rows.scatter(r, {s[r], 0.0, 0.0}, sum);
+    return sum;
+  };
+  const auto to_rows = [&](const std::vector<double>& nodes) {
+    std::vector<double> w(n);
+    for (std::size_t r = 0; r < n; ++r) w[r] = rows.relative(r, nodes)[0];
+    return w;
+  };
+  const auto product = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  };
+  std::vector<double> s = std::move(start), rest = f;
+  const std::vector<double> first = to_nodes(s);
+  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= first[i];
+  std::vector<double> residual = to_rows(rest), way = residual;
+  double size = product(residual, residual);
+  const double enough = 1e-28 * size;
+  for (int k = 0; k < 1000 && size > enough; ++k) {
+    const std::vector<double> moved = to_nodes(way), image = to_rows(moved);
+    const double length = size / product(way, image);
+    for (std::size_t r = 0; r < n; ++r) {
+      s[r] += length * way[r];
+      residual[r] -= length * image[r];
+    }
+    const double next = product(residual, residual);
+    for (std::size_t r = 0; r < n; ++r) way[r] = residual[r] + next / size * way[r];
+    size = next;
+  }
+  return s;
+}
+
+// Faces of 2 x 2 and 5 x 5 facets under a uniform pressure p: the cells of both sides ask for p A_n at each node. Of
+// the shares of the two passes that give these forces any may be found; the pressure is p for each of them, where the
+// mean of the shares scatters by some tenths.
+TEST(NodalContact, IsUniformWhateverTheSharesOfTwoPasses) {
+  constexpr double pressure = 7.0;
+  Scene scene;
+  const auto master = scene.add_patch(2, 2, [](double s, double t) { return Vec3{s, t, 0.0}; });
+  const auto slave = scene.add_patch(5, 5, [](double s, double t) { return Vec3{t, s, 0.0}; });
+  PairContact contact;
+  contact.name = "pair";
+  contact.slave = {slave};
+  contact.master = {master};
+  scene.finish().contacts.emplace_back(contact);
+  const auto u = scene.zero();
+  ContactResponse response;
+  response.rows = ContactGeometry(scene.model).rows_at(u, u);
+  const ConstraintRows& rows = *response.rows;
+  std::vector<double> wanted = u;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto n = static_cast<std::size_t>(rows.node[static_cast<std::size_t>(rows.begin[r])]);
+    wanted[3 * n + 2] = pressure * rows.measure[r] * rows.normal[r][2];
+  }
+  response.status.assign(rows.size(), RowStatus::stick);
+  for (const double size : {0.0, 3.0}) {
+    std::vector<double> start;
+    for (std::size_t r = 0; r < rows.size(); ++r) start.push_back(size * std::sin(static_cast<double>(r)));
+    response.force.clear();
+    for (const double s : row_forces(rows, wanted, start)) response.force.push_back({s, 0.0, 0.0});
+    for (const double p : nodal_contact(response, u).pressure) EXPECT_NEAR(p, pressure, 1e-10) << size;
   }
 }
 
