@@ -371,7 +371,9 @@ SurfaceSearch::Best SurfaceSearch::followed(const Query& query, Index from) cons
 
 /// The node's foot on facet f with its weight, not yet divided by the sum; nothing where the facet takes no part.
 std::optional<FacetFoot> SurfaceSearch::foot_beside(const Query& query, Index f, double least_distance) const {
-  const double width = range_.width[f], most = least_distance + width;
+  // Where the nearest facet is turned by 60 degrees, f still has a weight at (1 + tan 60) least_distance + 2 width. Far
+  // rows, which nobody touches, need no such care.
+  const double width = range_.width[f], most = least_distance + 2.0 * (width + std::min(least_distance, width));
   if (squared_distance(bounds_[f], query.x) >= most * most) return std::nullopt;
   const Projection p = project(placed_[f], query.x);
   if (p.distance >= most || (!query.is_behind && p.gap < -range_.depth[f])) return std::nullopt;
