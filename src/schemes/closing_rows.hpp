@@ -32,7 +32,12 @@ struct ClosingRow {
 /// the multipliers, x receives A^-1 G^T r. Start values are those of the history. Multipliers are good when they are
 /// exact for w that differ from the given ones by 1e-5 of the largest, or by their rounding; as a rule they are to
 /// 1e-12, but rows that contradict each other (twins of two passes, each linearised about another facet) leave more
-/// than that undetermined. Returns why there are none and where, "" when there are.
+/// than that undetermined. What is accepted lets closed surfaces come together by 1e-5 of the way that the fastest row
+/// moves, and does that part of the work of the forces, which the ledger books; rows are linear in the motion of a
+/// step, and leave out more: motion over facet size, some 1e-3 in impacts. To ask for less is to ask forces that cancel
+/// to grow until a row slips (two balls of 4,600 cells with friction, the first third: 76 % of the solutions of two
+/// passes end between 1e-7 and 1e-5, of surface to surface 0.3 %; the normal speeds of rebound agree to 2e-5). Returns
+/// why there are none and where, "" when there are.
 std::string close_rows(const ContactGeometry& contact, const std::vector<ClosingRow>& rows,
                        std::span<const RowHistory> history, const ContactOperator& contact_operator,
                        ContactResponse& response, std::span<double> x);
