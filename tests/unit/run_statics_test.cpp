@@ -93,5 +93,13 @@ TEST(Statics, SolvesForRowsThatTurnUnderPressure) {
   EXPECT_NEAR(force, last_row(fine.result("contact.csv"))["roll.force_z"], 1e-9 * std::abs(force));
 }
 
+// Two iterations do not find the equilibrium of the first step.
+TEST(Statics, SaysWhatHelpsWhereItFindsNoEquilibrium) {
+  const TemporaryCase given(indentation("step = 0.05\nfixed = true\n[solver]\nmax_contact_iterations = 2\n"));
+  EXPECT_EQ(given.run(), ExitCode::run_failed);
+  const std::string summary = given.result("summary.json");
+  EXPECT_NE(summary.find("scheme with inertia"), std::string::npos) << summary;
+}
+
 }  // namespace
 }  // namespace carom
