@@ -139,7 +139,8 @@ TEST(PlaneRows, PerNodeAndTilted) {
   Model model = one_part(block_mesh({1, 1, 1}, 0.0));
   const double s = std::sqrt(0.5);
   const auto nodes = model.mesh->nodes_of("XMIN");
-  model.contacts.emplace_back(per_node("tilted", Plane{{0, 0, -1}, {s, 0, s}}, nodes, {.eps_N = 3.0, .eps_T = 2.0, .mu = 0.25}));
+  model.contacts.emplace_back(
+      per_node("tilted", Plane{{0, 0, -1}, {s, 0, s}}, nodes, {.eps_N = 3.0, .eps_T = 2.0, .mu = 0.25}));
   const ConstraintRows rows = rows_of(model);
   ASSERT_EQ(rows.size(), 4U);
   for (std::size_t r = 0; r < rows.size(); ++r) {
