@@ -52,9 +52,8 @@ SectionSchema<CasePart> part_section() {
 SectionSchema<CaseInitial> initial_section() {
   SectionSchema<CaseInitial> s(
       "Initial displacement and velocity; later sections overwrite earlier ones. Velocities are those at the beginning "
-      "of the first stage that is no statics; until then a body without supports and loads of its own that has one "
-      "stays "
-      "where it is.");
+      "of the first stage that is no statics; until then a body that has one stays where it is, unless it has "
+      "supports, a force or a pressure of its own, or touches what its weight can rest on.");
   s.key("nodes", &CaseInitial::nodes, "Group of nodes or cells, or \"all\".");
   s.key("part", &CaseInitial::part, "Name of a [[part]].");
   s.key("displacement", &CaseInitial::displacement, "Initial displacement, stress-free where it is uniform.",

@@ -148,7 +148,7 @@ SectionSchema<CaseMesh> mesh_section() {
   s.key("refine", &CaseMesh::refine,
         "How often every cell is cut in halves along each direction (HEXA8 into 8, QUAD4 and TRIA3 into 4, LINE2 into "
         "2); "
-        "groups are inherited.",
+        "groups are inherited; new nodes lie on the old faces, so that curved surfaces stay faceted.",
         {.range = {Bound{0.0, Bound::Side::closed}, Bound{6.0, Bound::Side::closed}}});
   s.key("unused", &CaseMesh::unused,
         "What is done about cells that belong to no part, no interface, no rigid surface, and are no piece of the "

@@ -68,7 +68,10 @@ void lint_moved_mass(const Simulation& s, std::vector<std::string>& out) {
 
 /// A filter that would not be applied, since the rows of probes.csv are too far apart.
 void lint_filters(const Simulation& s, std::vector<std::string>& out) {
-  const double sampling = s.dt() * s.given().output.curves_every * si_factor(Dimension::time, s.given().units);
+  double dt = 0.0;
+  for (const auto& stage : s.stages())
+    if (stage->settings().kind != SchemeKind::statics) dt = std::max(dt, stage->dt());
+  const double sampling = dt * s.given().output.curves_every * si_factor(Dimension::time, s.given().units);
   for (const CaseProbe& probe : s.given().probes) {
     if (!probe.cfc || sampling * *probe.cfc <= cfc_longest_sampling * (1.0 + 1e-9)) continue;
     out.push_back(fmt::format(

@@ -259,7 +259,7 @@ std::vector<std::string> locking_warnings(const Simulation& s) {
   }
   std::vector<std::string> out;
   for (std::size_t p = 0; p < all.size(); ++p) {
-    constexpr double bent_too_stiff = 1.2, bulged_too_stiff = 1.5;
+    constexpr double bent_too_stiff = 1.1, bulged_too_stiff = 1.5;
     const Part& part = s.model().parts[p];
     const Findings& found = all[p];
     const double ratio = found.thin_volume > 0.0 ? found.ratio_sum / found.thin_volume : 1.0;

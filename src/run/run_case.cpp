@@ -133,6 +133,7 @@ class Run {
   bool march(const Stage& stage, const std::atomic<bool>& stop);
   void look_after(const Stage& stage);
   bool advance(const Stage& stage);
+  double load_impulse(const Stage& stage) const;
   void note_solver();
   void record(Recorder::Moment moment);
 
@@ -245,6 +246,14 @@ void Run::note_solver() {
   solver_ = std::move(now);
 }
 
+/// Magnitude of the impulse of the loads over a step, by their forces at its end; static stages have none.
+double Run::load_impulse(const Stage& stage) const {
+  if (s_.model().loads.empty() || stage.settings().kind == SchemeKind::statics) return 0.0;
+  const std::vector<double>& f = scheme_->forces().external;
+  const auto sum = parallel_sums<3>(f.size(), [&f](std::size_t i, std::array<double, 3>& s) { s[i % 3] += f[i]; });
+  return norm(sum) * dt_;
+}
+
 /// One accepted step. Returns false when the run cannot go on; message_ says why.
 bool Run::advance(const Stage& stage) {
   StepReport report;
@@ -284,7 +293,7 @@ bool Run::advance(const Stage& stage) {
   dt_smallest_ = step_ == 1 ? dt_ : std::min(dt_smallest_, dt_);
   dt_largest_ = std::max(dt_largest_, dt_);
   ledger_->add(report.books, scheme_->forces().total_momentum);
-  monitor_->update();
+  monitor_->update(load_impulse(stage));
   body_strain_ = std::max(body_strain_, s_.solid().body_strain(state_.q));
   const std::string alarm = monitor_->alarm(s_.given().guards.energy_growth);
   const bool last = (steps_->control().at_end() && stage.end() == s_.end()) || !alarm.empty();

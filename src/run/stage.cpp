@@ -97,6 +97,22 @@ Supports make_supports(const StageContext& context, const Model& model, const st
   }
 }
 
+/// Flags of the nodes that touch something at the start, where there is a weight to rest on it.
+std::vector<bool> resting_nodes(const StageContext& context) {
+  std::vector<bool> resting(context.mesh.node_count());
+  const std::vector<Load>& loads = context.model.loads;
+  const auto is_weight = [](const Load& load) { return std::holds_alternative<Gravity>(load); };
+  if (std::none_of(loads.begin(), loads.end(), is_weight)) return resting;
+  const std::vector<double> zero(context.solid.dof_count(), 0.0);
+  const std::shared_ptr<const ConstraintRows> rows = context.contact.rows_at(zero, zero);
+  for (std::size_t r = 0; r < rows->size(); ++r) {
+    if (!rows->is_closed(r, zero)) continue;
+    for (auto k = static_cast<std::size_t>(rows->begin[r]); k < static_cast<std::size_t>(rows->begin[r + 1]); ++k)
+      resting[static_cast<std::size_t>(rows->node[k])] = true;
+  }
+  return resting;
+}
+
 /// Flags of the nodes that forces or pressures act on.
 std::vector<bool> loaded_nodes(const Model& model) {
   std::vector<bool> loaded(model.mesh->node_count());
@@ -129,19 +145,19 @@ Stage::Stage(const StageContext& context, const CaseScheme& scheme, const CaseTi
   choose_step();
 }
 
-/// Without inertia nothing keeps a body in the air, and its weight would have to rest on something.
+/// Without inertia nothing keeps a body in the air. Its weight alone is a load only where it rests on something.
 void Stage::hold_bodies_in_flight(const std::vector<bool>& later_velocity) {
-  const std::vector<bool> loaded = loaded_nodes(context_.model);
+  const std::vector<bool> loaded = loaded_nodes(context_.model), resting = resting_nodes(context_);
   const auto any_of = [](const std::vector<Index>& nodes, const std::vector<bool>& flags) {
     return std::any_of(nodes.begin(), nodes.end(), [&](Index n) { return flags[static_cast<std::size_t>(n)]; });
   };
   Model model = context_.model;
   for (const std::vector<Index>& nodes : FreeModes(system_).free_bodies()) {
-    if (!any_of(nodes, later_velocity) || any_of(nodes, loaded)) continue;
+    if (!any_of(nodes, later_velocity) || any_of(nodes, loaded) || any_of(nodes, resting)) continue;
     const Vec3& x = context_.mesh.coordinates[static_cast<std::size_t>(nodes.front())];
     notes_.lines.push_back(fmt::format(
-        "statics: the body of {} nodes at ({:.4g}, {:.4g}, {:.4g}) has no supports and a velocity for later; "
-        "it stays where it is",
+        "statics: the body of {} nodes at ({:.4g}, {:.4g}, {:.4g}) has no supports, touches nothing and has a velocity "
+        "for later; it stays where it is",
         nodes.size(), x[0], x[1], x[2]));
     for (int c = 0; c < 3; ++c) {
       PrescribedMotion held{"a body in flight", {}, c, MotionKind::velocity, {{0.0}, {0.0}}};

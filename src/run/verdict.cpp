@@ -18,7 +18,7 @@ double ratio(double error, double scale) {
 
 }  // namespace
 
-void RunMonitor::update() {
+void RunMonitor::update(double load_impulse) {
   const EnergyTerms total = ledger_.now();
   if (stage_.is_static) {
     static_.quadrature += total.quadrature - before_.quadrature;
@@ -39,9 +39,11 @@ void RunMonitor::update() {
   const bool is_axial = bodies_.momenta == Momenta::axial;
   linear_error_ = std::max(linear_error_, is_axial ? std::abs(error.linear[1]) : norm(error.linear));
   if (!is_axial) angular_error_ = std::max(angular_error_, norm(error.angular));
-  // The last entry stands for bodies whose momenta cancel: the momentum of all mass with the run's energy.
+  // The last entries stand for bodies at rest under their loads, and for those whose momenta cancel: the momentum of
+  // all mass with the run's energy.
+  load_impulse_ += load_impulse;
   linear_scale_ = std::max({linear_scale_, norm(begin.linear), norm(momentum.linear), norm(impulse.linear),
-                            std::sqrt(2.0 * bodies_.mass * scale())});
+                            load_impulse_, std::sqrt(2.0 * bodies_.mass * scale())});
   // Moments are compared with what the forces would do at the far end of the bodies, not with a sum that may vanish by
   // symmetry.
   angular_scale_ = std::max({angular_scale_, norm(begin.angular), norm(momentum.angular), norm(impulse.angular),

@@ -36,7 +36,8 @@ class RunMonitor {
   /// Another scheme goes on.
   void begin_stage(const StageKind& stage) { stage_ = stage; }
 
-  void update();
+  /// One step; load_impulse: magnitude of what the loads alone gave, which supports and contact may cancel.
+  void update(double load_impulse = 0.0);
 
   /// Why the run must stop now: mechanical energy grown by more than growth_limit of the larger of initial and supplied
   /// energy, or the balance of powers off by more than 5 % of it; "" while all is well. Growth that the scheme lends
@@ -69,6 +70,7 @@ class RunMonitor {
   double implicit_loss_ = 0.0;                       ///< algorithmic of implicit and static stages
   double linear_error_ = 0.0, angular_error_ = 0.0;  ///< largest so far, momenta
   double linear_scale_ = 0.0, angular_scale_ = 0.0;  ///< largest momentum or impulse so far
+  double load_impulse_ = 0.0;                        ///< sum of the magnitudes
 };
 
 }  // namespace carom

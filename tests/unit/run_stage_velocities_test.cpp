@@ -90,6 +90,39 @@ velocity = [0.25, 0.0, 0.5]
   EXPECT_NEAR(last_row(probes).at("flyer.displacement_x"), 0.25, 1e-12);
 }
 
+// A block of mass 18 rests on a floor: 0.18 of weight in statics, whether it is pushed along the floor later or not; at
+// rest its momentum is rounding, to be compared with the impulse of its weight.
+TEST(StageVelocities, LetBodiesRestOnWhatTheyTouch) {
+  const std::string resting = case_of_block(R"(
+[[load]]
+gravity = [0.0, 0.0, -0.01]
+[[contact]]
+name = "floor"
+kind = "plane"
+group = "FOOT"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+friction = 0.3
+[scheme]
+kind = "statics"
+[time]
+end = 1.0
+step = 0.5
+[[stage]]
+kind = "generalized_alpha"
+end = 2.0
+step = 0.02
+)");
+  const std::string pushed = "[[stage.initial]]\npart = \"body\"\nvelocity = [0.001, 0.0, 0.0]\n";
+  for (const std::string& later : {std::string(), pushed}) {
+    const TemporaryCase one(resting + later);
+    EXPECT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
+    const std::vector<double> force = column(one.result("contact.csv"), "floor.force_z");
+    EXPECT_NEAR(force.at(1), 0.18, 1e-10);  // 1e-10: solver, of sums of some 30 forces
+    EXPECT_NEAR(force.at(2), 0.18, 1e-10);
+  }
+}
+
 TEST(StageVelocities, AreNoneInStatics) {
   const std::string text = preload(R"(
 [[stage]]
