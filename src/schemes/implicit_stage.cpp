@@ -28,6 +28,7 @@ struct ImplicitStage::Residual {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr const char* with_inertia = ". Lower time.step, or choose another enforcement or method of contact";
 constexpr const char* without_inertia =
     ". There may be none near, as where a body snaps through or a node slips over a sharp edge: follow the motion by a "
     "scheme with inertia, or soften a contact (enforcement = \"penalty\", less stiffness)";
@@ -185,8 +186,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
       continue;
     }
     if (newton == max_iterations_) {
-      report.failure = cycling_rows(before, forces);
-      if (eq.m == 0.0) report.failure += without_inertia;
+      report.failure = cycling_rows(before, forces) + (eq.m == 0.0 ? without_inertia : with_inertia);
       return report;
     }
     // Rows that move leave their motion out of the tangent; a new set of acting rows is another equation.
