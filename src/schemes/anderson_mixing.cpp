@@ -37,6 +37,7 @@ void AndersonMixing::push(std::span<const double> y, std::span<const double> f) 
 std::vector<double> AndersonMixing::combination(std::span<const double> f) const {
   constexpr double independent = 1e-6;
   const std::size_t m = df_.size();
+  if (m == 0) return {};
   std::vector<std::vector<double>> q;
   std::vector<std::size_t> of;         // difference of each column of q
   std::vector<std::vector<double>> r;  // r[j][i] = q_i . df_(of[j])

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """300 impacts of two bodies with default settings, drawn from a seed: every one must end good and be right.
 
-    python3 impact_trial.py build/release/carom                 all, about half an hour
+    python3 impact_trial.py build/release/carom                 all, about an hour
     python3 impact_trial.py build/release/carom --small         one in twenty of them, about a minute
     python3 impact_trial.py build/release/carom --only 17,203   these alone; --keep DIR keeps decks and results
 
@@ -28,7 +28,7 @@ The exact impulse of bars: characteristics of the one-dimensional wave equation 
 1975, section 2.4): the contact force is F = Z1 Z2 V / (Z1 + Z2) while the first wave runs to the free end of the bar
 with the shorter travel time and back; each later round trip multiplies it by (Z1 - Z2) / (Z1 + Z2), Z1 being that bar;
 where that is not positive, the bars part.
-Standard library only.
+Standard library only, and prlimit of util-linux.
 """
 
 import argparse
@@ -38,7 +38,6 @@ import json
 import math
 import pathlib
 import random
-import resource
 import shutil
 import signal
 import statistics
@@ -270,10 +269,6 @@ class Impact:
                 f"slide {self.slide:g} {self.distance:g} m {self.units}")
 
 
-def limit_processor_time():
-    resource.setrlimit(resource.RLIMIT_CPU, (TIME_LIMIT, TIME_LIMIT + 5))
-
-
 class Variant:
     """One run of an impact."""
 
@@ -333,8 +328,8 @@ class Variant:
         self.write(folder)
         begin = time.monotonic()
         record = {"number": self.number, "impact": self.impact.number, "name": self.name(), "fault": "", "message": ""}
-        run = subprocess.run([carom, "run", "case.toml", "--out", "out", "--quiet", "--threads", "1"], cwd=folder,
-                             text=True, capture_output=True, check=False, preexec_fn=limit_processor_time)
+        run = subprocess.run(["prlimit", f"--cpu={TIME_LIMIT}:{TIME_LIMIT + 5}", carom, "run", "case.toml", "--out", "out",
+                              "--quiet", "--threads", "1"], cwd=folder, text=True, capture_output=True, check=False)
         record |= {"wall": time.monotonic() - begin, "code": run.returncode}
         if run.returncode == -signal.SIGXCPU:
             return record | {"fault": f"over {TIME_LIMIT} s of processor time"}
