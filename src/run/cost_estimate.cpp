@@ -97,8 +97,8 @@ CostEstimate estimate_cost(const Simulation& s) {
     cost.seconds +=
         cells * static_cast<double>(stage->steps()) * (is_implicit(*stage) ? implicit_work : explicit_work) / 2e6;
   // 1 kB per cell for the mesh, the kernels' tables and the states. A factor of nested dissection has about 8 n^(4/3)
-  // blocks of 3 x 3 over n nodes of a cube (A. George, SIAM J. Numer. Anal. 10, 1973), less where a body is slender; with
-  // the matrix and the space of its factorisation 14 (measured: 0.90 GB for 28^3 cells, 0.28 GB for 8 x 8 x 160).
+  // blocks of 3 x 3 over n nodes of a cube (A. George, SIAM J. Numer. Anal. 10, 1973), less where a body is slender;
+  // with the matrix and the space of its factorisation 14 (measured: 0.90 GB for 28^3 cells, 0.28 GB for 8 x 8 x 160).
   const bool has_matrix =
       std::any_of(s.stages().begin(), s.stages().end(), [](const auto& stage) { return has_factor(*stage); });
   cost.memory_bytes = 2.4e7 + 1e3 * cells + (has_matrix ? 14.0 * 72.0 * std::pow(nodes, 4.0 / 3.0) : 0.0);
