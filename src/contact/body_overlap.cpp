@@ -59,7 +59,8 @@ struct GapOfShape {
 
 struct BodyOverlap::Impl {
   const Model& model;
-  PlacedCells reference;
+  PlacedCells cells;                                   ///< where they were looked at last
+  BoxTree tree;                                        ///< of their bounds
   std::vector<double> length;                          ///< by cell
   std::vector<std::array<bool, face_count>> on_skin;   ///< by cell: which faces
   std::vector<double> node_length;                     ///< by node: the least of its cells, infinite without
@@ -75,16 +76,17 @@ struct BodyOverlap::Impl {
   void find_skin();
   void find_bodies();
   bool may_meet(std::size_t skin_node, Index cell) const;
-  double depth(const PlacedCells& cells, std::size_t skin_node, Index cell, const Vec3& x) const;
-  std::vector<Overlap> depths(std::span<const Vec3> x) const;
+  double depth(std::size_t skin_node, Index cell, const Vec3& x) const;
+  std::vector<Overlap> depths(std::span<const Vec3> x);
   std::vector<double> obstacle_depths(std::size_t c, std::span<const Vec3> x) const;
 };
 
 BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
-    : model(of), reference(of, of.mesh->coordinates), node_length(node_lengths(of)) {
-  for (std::size_t k = 0; k < reference.ref.size(); ++k) {
-    length.push_back(cell_length(std::span(reference.corners[k]).first(reference.nodes[k].size())));
+    : model(of), cells(of, of.mesh->coordinates), node_length(node_lengths(of)) {
+  for (std::size_t k = 0; k < cells.ref.size(); ++k) {
+    length.push_back(cell_length(std::span(cells.corners[k]).first(cells.nodes[k].size())));
   }
+  tree.build(cells.bounds);
   find_skin();
   find_bodies();
   const std::vector<Vec3> x = current_positions(*model.mesh, u);
@@ -106,15 +108,15 @@ BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
 /// The faces of cells that the skin of the mesh consists of.
 void BodyOverlap::Impl::find_skin() {
   is_skin.assign(model.mesh->node_count(), false);
-  on_skin.assign(reference.ref.size(), {});
+  on_skin.assign(cells.ref.size(), {});
   std::vector<std::pair<CellRef, std::size_t>> numbers;
-  for (std::size_t k = 0; k < reference.ref.size(); ++k) numbers.emplace_back(reference.ref[k], k);
+  for (std::size_t k = 0; k < cells.ref.size(); ++k) numbers.emplace_back(cells.ref[k], k);
   std::sort(numbers.begin(), numbers.end());
   for (const OuterFacet& outer : outer_facets(*model.mesh)) {
     const auto at = std::lower_bound(numbers.begin(), numbers.end(), std::pair(outer.cell, std::size_t{0}));
     if (at == numbers.end() || at->first != outer.cell) continue;
     const std::size_t k = at->second;
-    const std::span<const Index> nodes = reference.nodes[k];
+    const std::span<const Index> nodes = cells.nodes[k];
     Vec3 sum{};  // of the parent coordinates of the facet's nodes: +-their number along the normal, zero across
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       if (std::find(outer.facet.begin(), outer.facet.end(), nodes[a]) == outer.facet.end()) continue;
@@ -132,8 +134,8 @@ void BodyOverlap::Impl::find_skin() {
     skin_nodes.push_back(static_cast<Index>(n));
   }
   cells_at.resize(skin_nodes.size());
-  for (std::size_t k = 0; k < reference.ref.size(); ++k)
-    for (const Index n : reference.nodes[k])
+  for (std::size_t k = 0; k < cells.ref.size(); ++k)
+    for (const Index n : cells.nodes[k])
       if (position[n] >= 0) cells_at[position[n]].push_back(static_cast<Index>(k));
 }
 
@@ -144,23 +146,23 @@ void BodyOverlap::Impl::find_bodies() {
     while (body[n] != n) n = body[n] = body[body[n]];
     return n;
   };
-  for (const std::span<const Index> nodes : reference.nodes)
+  for (const std::span<const Index> nodes : cells.nodes)
     for (const Index n : nodes) body[root(n)] = root(nodes[0]);
   for (std::size_t n = 0; n < body.size(); ++n) body[n] = root(static_cast<Index>(n));
 }
 
 /// False for cells of the node and their neighbours.
 bool BodyOverlap::Impl::may_meet(std::size_t skin_node, Index cell) const {
-  const std::span<const Index> nodes = reference.nodes[cell];
+  const std::span<const Index> nodes = cells.nodes[cell];
   if (body[nodes[0]] != body[skin_nodes[skin_node]]) return true;
   return std::none_of(cells_at[skin_node].begin(), cells_at[skin_node].end(), [&](Index own) {
-    const std::span<const Index> others = reference.nodes[own];
+    const std::span<const Index> others = cells.nodes[own];
     return std::find_first_of(nodes.begin(), nodes.end(), others.begin(), others.end()) != nodes.end();
   });
 }
 
 /// In cells; zero outside of the cell.
-double BodyOverlap::Impl::depth(const PlacedCells& cells, std::size_t skin_node, Index cell, const Vec3& x) const {
+double BodyOverlap::Impl::depth(std::size_t skin_node, Index cell, const Vec3& x) const {
   const std::optional<Vec3> xi = parent_point(cells.corners[cell], x);
   if (!xi || std::max({std::abs((*xi)[0]), std::abs((*xi)[1]), std::abs((*xi)[2])}) >= 1.0) return 0.0;
   double share = infinity;
@@ -179,10 +181,9 @@ double BodyOverlap::Impl::depth(const PlacedCells& cells, std::size_t skin_node,
 }
 
 /// One entry per skin node: its deepest cell.
-std::vector<Overlap> BodyOverlap::Impl::depths(std::span<const Vec3> x) const {
-  const PlacedCells cells(model, x);
-  BoxTree tree;
-  tree.build(cells.bounds);
+std::vector<Overlap> BodyOverlap::Impl::depths(std::span<const Vec3> x) {
+  cells.place(x);
+  tree.refit(cells.bounds);
   std::vector<Overlap> found(skin_nodes.size());
   constexpr std::size_t grain = 64;
   parallel_for(skin_nodes.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -195,7 +196,7 @@ std::vector<Overlap> BodyOverlap::Impl::depths(std::span<const Vec3> x) const {
       std::sort(near.begin(), near.end());
       for (const Index cell : near) {
         if (!may_meet(i, cell)) continue;
-        const double d = depth(cells, i, cell, x[skin_nodes[i]]);
+        const double d = depth(i, cell, x[skin_nodes[i]]);
         if (d > found[i].depth) found[i] = {d, skin_nodes[i], x[skin_nodes[i]], cells.ref[cell]};
       }
     }
@@ -226,8 +227,8 @@ BodyOverlap::BodyOverlap(const Model& model, std::span<const double> u) : impl_(
 BodyOverlap::~BodyOverlap() = default;
 BodyOverlap::BodyOverlap(BodyOverlap&&) noexcept = default;
 
-Overlap BodyOverlap::deepest(std::span<const double> u) const {
-  const Impl& impl = *impl_;
+Overlap BodyOverlap::deepest(std::span<const double> u) {
+  Impl& impl = *impl_;
   Overlap worst;
   const bool is_finite = std::all_of(u.begin(), u.end(), [](double value) { return std::isfinite(value); });
   if (!is_finite) return worst;
@@ -251,16 +252,16 @@ Overlap BodyOverlap::deepest(std::span<const double> u) const {
 }
 
 Index BodyOverlap::part_of(Index node) const {
-  const auto& nodes = impl_->reference.nodes;
+  const auto& nodes = impl_->cells.nodes;
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (std::find(nodes[k].begin(), nodes[k].end(), node) != nodes[k].end()) return impl_->reference.part[k];
+    if (std::find(nodes[k].begin(), nodes[k].end(), node) != nodes[k].end()) return impl_->cells.part[k];
   return -1;
 }
 
 Index BodyOverlap::part_of(const CellRef& cell) const {
-  const auto& ref = impl_->reference.ref;
+  const auto& ref = impl_->cells.ref;
   const auto at = std::find(ref.begin(), ref.end(), cell);
-  return at == ref.end() ? -1 : impl_->reference.part[static_cast<std::size_t>(at - ref.begin())];
+  return at == ref.end() ? -1 : impl_->cells.part[static_cast<std::size_t>(at - ref.begin())];
 }
 
 }  // namespace carom

@@ -34,7 +34,7 @@ class BodyOverlap {
   BodyOverlap(BodyOverlap&&) noexcept;
 
   /// The deepest node at displacement u. Costs about as much as a few explicit steps.
-  Overlap deepest(std::span<const double> u) const;
+  Overlap deepest(std::span<const double> u);
 
   /// Numbers of the parts of the node and of the cell (Model::parts); -1: none.
   Index part_of(Index node) const;

@@ -44,6 +44,20 @@ void BoxTree::build(std::span<const Bounds> boxes) {
   for (std::size_t k = 0; k < order_.size(); ++k) boxes_[k] = boxes[order_[k]];
 }
 
+void BoxTree::refit(std::span<const Bounds> boxes) {
+  for (std::size_t k = 0; k < order_.size(); ++k) boxes_[k] = boxes[order_[k]];
+  for (std::size_t self = nodes_.size(); self-- > 0;) {  // children follow their parents
+    Node& node = nodes_[self];
+    node.box = Bounds{};
+    if (node.right == 0) {
+      for (Index k = node.begin; k < node.end; ++k) node.box.include(boxes_[k]);
+    } else {
+      node.box.include(nodes_[self + 1].box);
+      node.box.include(nodes_[node.right].box);
+    }
+  }
+}
+
 void BoxTree::split(Index begin, Index end) {
   constexpr Index leaf_size = 4;
   const std::size_t self = nodes_.size();

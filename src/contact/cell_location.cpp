@@ -39,16 +39,24 @@ PlacedCells::PlacedCells(const Model& model, std::span<const Vec3> x) {
       nodes.push_back(std::span(block.connectivity).subspan(n * static_cast<std::size_t>(c), n));
       ref.push_back({static_cast<Index>(&block - model.mesh->blocks.data()), c});
       part.push_back(static_cast<Index>(p));
-      Corners corner;
-      for (std::size_t a = 0; a < 8; ++a) corner[a] = x[nodes.back()[a % n]];
-      if (n == 4) {
-        const double half = 0.5 * norm(subtract(corner[2], corner[0]));
-        for (std::size_t a = 0; a < 8; ++a) corner[a][2] += a < 4 ? -half : half;
-      }
-      corners.push_back(corner);
-      bounds.emplace_back();
-      for (const Vec3& at : corner) bounds.back().include(at);
     }
+  }
+  corners.resize(nodes.size());
+  bounds.resize(nodes.size());
+  place(x);
+}
+
+void PlacedCells::place(std::span<const Vec3> x) {
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const std::size_t n = nodes[k].size();
+    Corners& corner = corners[k];
+    for (std::size_t a = 0; a < 8; ++a) corner[a] = x[nodes[k][a % n]];
+    if (n == 4) {
+      const double half = 0.5 * norm(subtract(corner[2], corner[0]));
+      for (std::size_t a = 0; a < 8; ++a) corner[a][2] += a < 4 ? -half : half;
+    }
+    bounds[k] = Bounds{};
+    for (const Vec3& at : corner) bounds[k].include(at);
   }
 }
 

@@ -27,6 +27,8 @@ struct PlacedCells {
   std::vector<Bounds> bounds;
 
   PlacedCells(const Model& model, std::span<const Vec3> x);
+  /// The nodes have moved.
+  void place(std::span<const Vec3> x);
 };
 
 /// X + u of all nodes.

@@ -13,23 +13,29 @@ LedgerIncrement central_difference_books(const System& system, const State& begi
                                          double h) {
   // The forces of each end act where the nodes stand then: with a lumped mass that is the exact change of momentum.
   const MomentArms arms_0(system, begin.q), arms_1(system, end.q);
-  // Works of internal, contact, external and support forces, impulses and their moments, da . (M a0 + M a1).
-  const auto sums = parallel_sums<11>(end.q.size(), [&](std::size_t i, std::array<double, 11>& s) {
-    const double du = end.q[i] - begin.q[i];
-    s[0] += 0.5 * (f0.internal[i] + f1.internal[i]) * du;
-    s[1] += 0.5 * (f0.contact[i] + f1.contact[i]) * du;
-    s[2] += 0.5 * (f0.external[i] + f1.external[i]) * du;
-    if (system.supports.is_prescribed(static_cast<Index>(i)))
-      s[3] += support_work(i, begin, f0, end, f1, 0.5);
-    else
-      s[10] += (end.a[i] - a_begin[i]) * (f0.inertia[i] + f1.inertia[i]);
-    const double half = 0.5 * h;
-    const double impulse_0 = half * (f0.external[i] + f0.contact[i] + f0.reaction[i]);
-    const double impulse_1 = half * (f1.external[i] + f1.contact[i] + f1.reaction[i]);
-    add_with_moment(arms_0.at(i / 3), i % 3, impulse_0, s.data() + 4);
-    add_with_moment(arms_1.at(i / 3), i % 3, impulse_1, s.data() + 4);
+  // Works of internal, contact and external forces, impulses and their moments.
+  const double half = 0.5 * h;
+  const auto sums = parallel_sums<9>(end.q.size() / 3, [&](std::size_t node, std::array<double, 9>& s) {
+    Vec3 impulse_0, impulse_1;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t i = 3 * node + c;
+      const double du = end.q[i] - begin.q[i];
+      s[0] += 0.5 * (f0.internal[i] + f1.internal[i]) * du;
+      s[1] += 0.5 * (f0.contact[i] + f1.contact[i]) * du;
+      s[2] += 0.5 * (f0.external[i] + f1.external[i]) * du;
+      impulse_0[c] = half * (f0.external[i] + f0.contact[i] + f0.reaction[i]);
+      impulse_1[c] = half * (f1.external[i] + f1.contact[i] + f1.reaction[i]);
+    }
+    add_with_moment(arms_0.at(node), impulse_0, s.data() + 3);
+    add_with_moment(arms_1.at(node), impulse_1, s.data() + 3);
   });
   const double internal_work = sums[0], contact_work = sums[1];
+  double support = 0.0, inertia_power = f1.inertia_power - f0.inertia_power;  // da . (M a0 + M a1), as M is symmetric
+  for (const PrescribedDof& p : system.supports.prescribed()) {
+    const auto i = static_cast<std::size_t>(p.dof);
+    support += support_work(i, begin, f0, end, f1, 0.5);
+    inertia_power -= (end.a[i] - a_begin[i]) * (f0.inertia[i] + f1.inertia[i]);
+  }
   LedgerIncrement step;
   EnergyTerms& energy = step.energy;
   energy.kinetic = f1.stored.kinetic - f0.stored.kinetic;
@@ -38,15 +44,15 @@ LedgerIncrement central_difference_books(const System& system, const State& begi
   energy.friction = f1.rows.slip_work;
   energy.damping = damping_work(begin, f0, end, f1);
   energy.external_work = sums[2];
-  energy.support_work = sums[3];
-  energy.algorithmic = -0.125 * h * h * sums[10];
+  energy.support_work = support;
+  energy.algorithmic = -0.125 * h * h * inertia_power;
   energy.quadrature =
       internal_work - energy.strain - contact_work - energy.contact_stored - energy.friction - energy.damping;
   step.aster.ENER_CIN = energy.kinetic;
   step.aster.ENER_TOT = internal_work;
   step.aster.TRAV_EXT = energy.external_work + energy.support_work;
   step.aster.TRAV_LIAI = -contact_work;
-  step.impulse = momentum_from(sums.data() + 4);
+  step.impulse = momentum_from(sums.data() + 3);
   return step;
 }
 

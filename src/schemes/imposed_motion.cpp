@@ -102,6 +102,7 @@ bool StepStart::set(std::span<const double> a, double h, std::span<const Imposed
   are_forces_changed_ = is_changed_;
   inertia_.resize(a.size());
   system_.mass.apply(a_, inertia_);
+  forces.inertia_power = dot(a_, inertia_);
   for (const ImposedStep& s : steps) {
     const std::size_t i = s.dof;
     forces.inertia[i] = inertia_[i];

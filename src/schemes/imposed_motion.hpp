@@ -55,7 +55,7 @@ class StepStart {
   /// a: accelerations from the left; wanted(s): that of the dof of an ImposedStep s from the right. False when the mass
   /// matrix cannot be solved.
   bool set(std::span<const double> a, double h, std::span<const ImposedStep> steps, const Wanted& wanted);
-  /// The same; inertia and reactions of the forces at the beginning follow.
+  /// The same; inertia, its power and reactions of the forces at the beginning follow.
   bool set(std::span<const double> a, double h, std::span<const ImposedStep> steps, const Wanted& wanted,
            Forces& forces);
   /// Accelerations from the right; refers to those from the left where nothing has changed.

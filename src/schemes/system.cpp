@@ -48,11 +48,16 @@ void complete_forces(const System& system, const State& state, Forces& forces) {
   }
   const MomentArms arms(system, state.q);
   // v.Mv, u.F, a.Ma, momentum and its moment
-  const auto sums = parallel_sums<9>(n, [&](std::size_t i, std::array<double, 9>& s) {
-    s[0] += state.v[i] * forces.momentum[i];
-    s[1] += state.q[i] * forces.internal[i];
-    s[2] += state.a[i] * forces.inertia[i];
-    add_with_moment(arms.at(i / 3), i % 3, forces.momentum[i], s.data() + 3);
+  const auto sums = parallel_sums<9>(n / 3, [&](std::size_t node, std::array<double, 9>& s) {
+    Vec3 p;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t i = 3 * node + c;
+      p[c] = forces.momentum[i];
+      s[0] += state.v[i] * p[c];
+      s[1] += state.q[i] * forces.internal[i];
+      s[2] += state.a[i] * forces.inertia[i];
+    }
+    add_with_moment(arms.at(node), p, s.data() + 3);
   });
   forces.stored.kinetic = 0.5 * sums[0];
   forces.stored.strain = system.solid.is_linear() ? 0.5 * sums[1] : system.solid.strain_energy(state.q);

@@ -7,6 +7,7 @@
 #include "contact/contact_geometry.hpp"
 #include "contact/penalty.hpp"
 #include "energy/ledger.hpp"
+#include "math/vec3.hpp"
 #include "schemes/supports.hpp"
 #include "solid/solid.hpp"
 #include "state/state.hpp"
@@ -44,14 +45,22 @@ void evaluate_forces(const System& system, double t, std::span<const double> u_b
 /// total momentum (angular momentum about the origin on the reference positions). evaluate_forces has been called.
 void complete_forces(const System& system, const State& state, Forces& forces);
 
-/// Adds component c of a nodal force or momentum p at x, and its moment about the origin, to six sums; and the sums as
-/// a Momentum.
+/// Adds component c of a nodal force or momentum p at x, and its moment about the origin, to six sums.
 inline void add_with_moment(const Vec3& x, std::size_t c, double p, double* sums) {
   const std::size_t d = (c + 1) % 3, e = (c + 2) % 3;
   sums[c] += p;
   sums[3 + d] += x[e] * p;  // (x cross p)_d = x_e p_c - x_c p_e
   sums[3 + e] -= x[d] * p;
 }
+/// The same of all three components of a node.
+inline void add_with_moment(const Vec3& x, const Vec3& p, double* sums) {
+  const Vec3 moment = cross(x, p);
+  for (std::size_t c = 0; c < 3; ++c) {
+    sums[c] += p[c];
+    sums[3 + c] += moment[c];
+  }
+}
+/// The six sums.
 Momentum momentum_from(const double* sums);
 
 /// Where nodes stand for moments: at X where all bodies are linear (small displacements; their internal forces balance

@@ -97,29 +97,49 @@ bool includes(const Pairs& all, const Pairs& some) {
   return std::includes(all.begin(), all.end(), some.begin(), some.end());
 }
 
+std::vector<Bounds> random_boxes(int count, Random& random) {
+  std::vector<Bounds> boxes;
+  for (int i = 0; i < count; ++i) {
+    Bounds box;
+    const Vec3 centre = random.vector(1.0);
+    for (int k = 0; k < 2; ++k) box.include(add(centre, random.vector(std::pow(10.0, random(-3.0, 0.0)))));
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+void expect_brute_force(const BoxTree& tree, std::span<const Bounds> boxes, Random& random) {
+  for (int trial = 0; trial < 100; ++trial) {
+    Bounds box;
+    box.include(random.vector(1.0));
+    box.grow(0.1);
+    std::vector<Index> found, expected;
+    tree.find(box, found);
+    std::sort(found.begin(), found.end());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      if (boxes[i].overlaps(box)) expected.push_back(static_cast<Index>(i));
+    EXPECT_EQ(found, expected);
+  }
+}
+
 TEST(BoxTree, FindsWhatBruteForceFinds) {
   Random random(1);
   for (const int count : {0, 1, 4, 5, 300}) {
-    std::vector<Bounds> boxes;
-    for (int i = 0; i < count; ++i) {
-      Bounds box;
-      const Vec3 centre = random.vector(1.0);
-      for (int k = 0; k < 2; ++k) box.include(add(centre, random.vector(std::pow(10.0, random(-3.0, 0.0)))));
-      boxes.push_back(box);
-    }
+    const std::vector<Bounds> boxes = random_boxes(count, random);
     BoxTree tree;
     tree.build(boxes);
-    for (int trial = 0; trial < 100; ++trial) {
-      Bounds box;
-      box.include(random.vector(1.0));
-      box.grow(0.1);
-      std::vector<Index> found, expected;
-      tree.find(box, found);
-      std::sort(found.begin(), found.end());
-      for (Index i = 0; i < count; ++i)
-        if (boxes[i].overlaps(box)) expected.push_back(i);
-      EXPECT_EQ(found, expected);
-    }
+    expect_brute_force(tree, boxes, random);
+  }
+}
+
+TEST(BoxTree, FindsBoxesThatMoved) {
+  Random random(3);
+  for (const int count : {0, 1, 4, 5, 300}) {
+    BoxTree tree;
+    tree.build(random_boxes(count, random));
+    const std::vector<Bounds> moved = random_boxes(count, random);
+    tree.refit(moved);
+    expect_brute_force(tree, moved, random);
   }
 }
 
