@@ -219,8 +219,10 @@ void add_time_keys(SectionSchema<S>& s, Access time_of, const std::string& end_d
             .required_for = implicit_schemes(),
             .aliases = {"dt"},
             .default_phrase = "implicit schemes: required; explicit ones: from the stable step"});
-  s.key_by("fixed", [time_of](auto& section) -> auto& { return time_of(section).fixed; },
-           "Never halve the step: a step that fails ends the run.", {.kinds = implicit_schemes()});
+  s.key_by(
+      "fixed", [time_of](auto& section) -> auto& { return time_of(section).fixed; },
+      "Never shorten the step, neither where contact springs make energy nor where a step fails, which ends the run.",
+      {.kinds = implicit_schemes()});
   s.key_by(
       "event_tolerance", [time_of](auto& section) -> auto& { return time_of(section).event_tolerance; },
       "A step in which contact closes is made again so that it ends at the touch, to this fraction of the step; the "

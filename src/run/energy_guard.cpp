@@ -51,6 +51,14 @@ std::optional<double> EnergyGuard::cut(const State& begin, const State& end, con
   return fraction;
 }
 
+bool EnergyGuard::gains_too_much(const Books& books) {
+  constexpr int most_cuts = 4;
+  const double gain = -books.quadrature, allowed = in_all * books.scale;
+  if (cuts_ == most_cuts || gain <= allowed || net_ + gain <= allowed_ + allowed) return false;
+  ++cuts_;
+  return true;
+}
+
 void EnergyGuard::accept(const Books& books) {
   cuts_ = 0;
   shortened_ = false;

@@ -1,4 +1,4 @@
-// Explicit steps that make energy: which are made again shorter, and when all become shorter.
+// Steps that make energy: which are made again shorter, and when all become shorter.
 #pragma once
 
 #include <optional>
@@ -27,6 +27,9 @@ class EnergyGuard {
   };
   /// The fraction of the step from `begin` to `end` to make again.
   std::optional<double> cut(const State& begin, const State& end, const ContactResponse& response, const Books& books);
+  /// Of implicit steps, which may lose what they like: true for one that gains more than 5e-4 of the scale by itself,
+  /// if no losses make up for that; it is to be halved, four times at most.
+  bool gains_too_much(const Books& books);
   /// The step counts.
   void accept(const Books& books);
   /// What the usual step is multiplied by.

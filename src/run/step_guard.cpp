@@ -18,6 +18,13 @@ StepControl::Halving halving_of(const Stage& stage) {
   return may_halve ? StepControl::Halving::allowed : StepControl::Halving::forbidden;
 }
 
+/// True where the length of the steps is left to the program: of explicit ones altogether, of implicit ones below what
+/// the case gives.
+bool may_shorten(const Stage& stage) {
+  if (is_explicit(stage.settings().kind)) return !stage.time().step;
+  return stage.settings().kind != SchemeKind::statics && !stage.time().fixed && stage.system().contact.slots() > 0;
+}
+
 const std::string& contact_name(const Model& model, Index contact) {
   return std::visit([](const auto& c) -> const std::string& { return c.name; },
                     model.contacts[static_cast<std::size_t>(contact)]);
@@ -32,9 +39,7 @@ StepGuard::StepGuard(const Stage& stage)
   if (stage.settings().kind != SchemeKind::statics && stage.system().contact.slots() > 0)
     motion_.emplace(stage.model());
   if (stage.stable_step_changes()) watch_.emplace(stage.watch_stable_step());
-  const SchemeSettings& scheme = stage.settings();
-  if (is_explicit(scheme.kind) && scheme.enforcement == EnforcementKind::penalty && !stage.time().step)
-    energy_.emplace();
+  if (stage.settings().enforcement == EnforcementKind::penalty && may_shorten(stage)) energy_.emplace();
 }
 
 bool StepGuard::shorten(const State& now, long long step) {
@@ -54,9 +59,11 @@ bool StepGuard::is_to_be_repeated(const State& begin, const State& end, const Fo
                                   const EnergyGuard::Books& books, long long step) {
   constexpr int most_cuts = 8;
   if (watch_ && !fits(end, forces)) return true;
-  if (energy_) {
+  if (energy_ && is_explicit(stage_.settings().kind)) {
     const std::optional<double> fraction = energy_->cut(begin, end, forces.rows, books);
     if (fraction && control_.cut(*fraction)) return true;
+  } else if (energy_ && energy_->gains_too_much(books) && control_.halve()) {
+    return true;
   }
   if (cuts_ == most_cuts) return false;
   const bool is_cut = motion_ && cut_motion(motion_->overrun(begin, end, forces.rows), end.t, step);

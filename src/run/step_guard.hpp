@@ -19,7 +19,8 @@ namespace carom {
 /// longer than the tolerance either, and grow again. Both at most eight times in a step. Explicit stages whose stable
 /// step changes follow it (StableStepWatch), and a step that meets springs for which it was too long is made again.
 /// Where contact is springs and the case leaves the explicit step to the program, steps that make energy are made again
-/// (EnergyGuard), and what it makes shorter for good stays so for the rest of the stage.
+/// (EnergyGuard), and what it makes shorter for good stays so for the rest of the stage; so are implicit ones that
+/// gain, unless the step is fixed.
 class StepGuard {
  public:
   explicit StepGuard(const Stage& stage);
@@ -53,7 +54,7 @@ class StepGuard {
   std::optional<StableStepWatch> watch_;        ///< where the stable step changes
   std::shared_ptr<const ConstraintRows> rows_;  ///< of the last step, where it is watched
   bool is_restless_ = false;                    ///< the bodies stiffen quickly
-  std::optional<EnergyGuard> energy_;           ///< where springs act and the step is the program's choice
+  std::optional<EnergyGuard> energy_;           ///< where springs act and steps may be shortened
   std::optional<MotionLimit> motion_;           ///< where there is contact and inertia
   double event_tolerance_ = 0.0;                ///< time; 0: contact events do not cut the step
   bool is_at_event_ = false;                    ///< the present step has been cut to end at a touch
