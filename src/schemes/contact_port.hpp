@@ -48,8 +48,8 @@ class ContactPort {
   virtual void begin(const StageStart& start) = 0;
   /// True when displacement and velocity decide the forces; else conditions do, and a start has to find them.
   virtual bool is_law() const = 0;
-  /// True when respond() answers at any displacement and velocity, until settle() changes its forces; false when
-  /// solve() brings forces that belong to the whole of its correction.
+  /// True when respond() answers at any displacement and velocity, until settle() or renew() change its forces; false
+  /// when solve() brings forces that belong to the whole of its correction.
   virtual bool is_function() const { return false; }
   /// Forces on the rows at displacement x and velocity v.
   virtual void respond(std::span<const double> x, std::span<const double> v, ContactResponse& response) = 0;
@@ -64,6 +64,10 @@ class ContactPort {
   /// At equilibrium: true when the contact conditions are met; else the forces have been changed and equilibrium must
   /// be found again.
   virtual bool settle(std::span<const double> x, const ContactResponse& response) = 0;
+  /// Short of equilibrium, whose residual has this 2-norm: true when the forces have been changed all the same.
+  virtual bool renew(std::span<const double> /*x*/, const ContactResponse& /*response*/, double /*residual*/) {
+    return false;
+  }
   /// d += the stiffness of contact on the diagonal, for the round-off of equilibrium.
   virtual void add_stiffness_diagonal(std::span<double> d) const = 0;
   /// Work over a step. Multipliers work as supports do (StepWeights::support_work), (1 - end_weight) times those of the

@@ -8,6 +8,7 @@
 
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
+#include "parallel/threads.hpp"
 #include "schemes/books.hpp"
 
 namespace carom {
@@ -161,10 +162,13 @@ ContactWork PenaltyPort::work(const State& begin, const Forces& f0, const State&
   return out;
 }
 
-/// Multipliers have settled when their update changes no force by more than this share of the largest normal one:
+/// Multipliers have settled when their update changes no node's acceleration by more than this share of the largest:
 /// forces that are carried on from step to step are then right to 1 % (a bar on a wall against exact multipliers: 1.5 %
 /// at 0.01).
 static constexpr double settled = 0.003;
+
+/// Share of an update of the multipliers at which a residual is small enough for the update to be made.
+static constexpr double near_equilibrium = 0.1;
 
 AugmentedLagrangianPort::AugmentedLagrangianPort(const System& system, double penetration)
     : PenaltyPort(system), penetration_(penetration) {
@@ -249,28 +253,72 @@ PenaltyPort::ClosedSpring AugmentedLagrangianPort::closed_spring(const Constrain
   return {{s_ * eps_N, 0.0, 0.0, 0.0, s_ * eps_T, 0.0, 0.0, 0.0, s_ * eps_T}, lambda[0] - eps_N * rows.gap_at(r, x)};
 }
 
-bool AugmentedLagrangianPort::settle(std::span<const double> x, const ContactResponse& response) {
+/// Rounding of gaps, which the stiffened springs turn into forces.
+ContactError AugmentedLagrangianPort::error(std::span<const double> x, std::span<const double> /*v*/,
+                                            const ContactResponse& response) const {
   const ConstraintRows& rows = *response.rows;
-  double worst = 0.0, change = 0.0, largest = 0.0;
+  std::vector<double> rounding(x.size(), 0.0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    const Vec3 w = rows.relative(r, x);
+    if (response.force[r][0] == 0.0) continue;
+    const double force = stiffening(rows, r) * rows.law[r].eps_N * rows.gap_rounding(r, x);
+    for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        rounding[3 * static_cast<std::size_t>(rows.node[k]) + c] += force * std::abs(rows.block[k][0][c]);
+  }
+  double moved = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) moved += (x[i] - begin_->q[i]) * (x[i] - begin_->q[i]);
+  return {0.0, std::sqrt(moved * dot(rounding, rounding))};
+}
+
+/// What an update of the multipliers would change.
+AugmentedLagrangianPort::Update AugmentedLagrangianPort::update(std::span<const double> x,
+                                                                const ContactResponse& response) const {
+  const ConstraintRows& rows = *response.rows;
+  Update out;
+  std::vector<double> force(x.size(), 0.0), change(x.size(), 0.0);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Vec3 w = rows.relative(r, x), &now = response.force[r];
     const double gap = rows.gap[r] + w[0];
-    const Vec3 update =
-        subtract(response.force[r], rows.to_frame(r, multiplier_[static_cast<std::size_t>(rows.slot[r])]));
-    largest = std::max(largest, response.force[r][0]);
-    const bool is_judged = std::abs(gap) > rows.gap_rounding(r, x);
-    if (is_judged) change = std::max(change, norm(update));
-    if (response.force[r][0] == 0.0 && response.status[r] != RowStatus::open) {
-      worst = std::numeric_limits<double>::infinity();
-    }
-    worst = std::max(worst, response.force[r][0] > 0.0 ? std::abs(gap) : -gap);
+    rows.scatter(r, now, force);
+    if (std::abs(gap) > rows.gap_rounding(r, x))
+      rows.scatter(r, subtract(now, rows.to_frame(r, multiplier_[static_cast<std::size_t>(rows.slot[r])])), change);
+    if (now[0] == 0.0 && response.status[r] != RowStatus::open) out.violation = std::numeric_limits<double>::infinity();
+    out.violation = std::max(out.violation, now[0] > 0.0 ? std::abs(gap) : -gap);
     if (response.status[r] != RowStatus::stick || rows.law[r].mu == 0.0) continue;
     const Vec3 w_begin = rows.relative(r, begin_->q);
-    worst = std::max(worst, std::hypot(w[1] - w_begin[1], w[2] - w_begin[2]));
+    out.violation = std::max(out.violation, std::hypot(w[1] - w_begin[1], w[2] - w_begin[2]));
   }
-  if (worst <= penetration_ && change <= settled * largest) return true;
-  for (std::size_t i = 0; i < multiplier_.size(); ++i) multiplier_[i] = response.history[i].multiplier;
+  double largest = 0.0, most = 0.0;
+  for (std::size_t n = 0; 3 * n < x.size(); ++n) {
+    const double stiffness = diagonal_[3 * n] + diagonal_[3 * n + 1] + diagonal_[3 * n + 2];
+    const double resistance = m_ * system_.mass.node_diagonal()[n] + c_ * stiffness / 3.0;
+    if (!(resistance > 0.0)) continue;
+    const auto size = [&](const std::vector<double>& f) {
+      return norm(Vec3{f[3 * n], f[3 * n + 1], f[3 * n + 2]}) / resistance;
+    };
+    largest = std::max(largest, size(force));
+    most = std::max(most, size(change));
+  }
+  out.is_settled = out.violation <= penetration_ && most <= settled * largest;
+  out.force = std::sqrt(dot(change, change));
+  return out;
+}
+
+bool AugmentedLagrangianPort::settle(std::span<const double> x, const ContactResponse& response) {
+  if (update(x, response).is_settled) return true;
+  take_forces(response);
   return false;
+}
+
+bool AugmentedLagrangianPort::renew(std::span<const double> x, const ContactResponse& response, double residual) {
+  const Update made = update(x, response);
+  if (made.is_settled || residual > near_equilibrium * made.force) return false;
+  take_forces(response);
+  return true;
+}
+
+void AugmentedLagrangianPort::take_forces(const ContactResponse& response) {
+  for (std::size_t i = 0; i < multiplier_.size(); ++i) multiplier_[i] = response.history[i].multiplier;
 }
 
 ContactWork AugmentedLagrangianPort::work(const State& begin, const Forces& f0, const State& end, const Forces& f1,

@@ -60,10 +60,12 @@ class PenaltyPort : public ContactPort {
 
 /// Uzawa's iteration around it (Wriggers, Computational Contact Mechanics, 2nd ed., section 6.3.2):
 ///   p = <lambda_n - eps_N g>,  t = lambda_t - eps_T slip, returned to |t| <= mu lambda_n,
-/// the slip being that of the step; at equilibrium the multipliers become the forces, until no row
-/// penetrates, no pressed row is open, and no sticking row slips by more than the given length. The springs are a means
-/// only: they store nothing, friction is exact in the limit, and where inertia would make an iteration gain little,
-/// they are stiffened to ten times what the body's own diagonal answers. Dampers have no part in it.
+/// the slip being that of the step; the multipliers become the forces wherever the residual is small against the
+/// change, and at equilibrium, until no row penetrates, no pressed row is open, and no sticking row slips by more than
+/// the given length, and the nodes' accelerations (displacements, without inertia) change no more. Rows of nearly
+/// dependent constraints share their forces at will: these alone never settle. The springs are a means only: they store
+/// nothing, friction is exact in the limit, and where inertia would make an iteration gain little, they are stiffened
+/// to ten times what the body's own diagonal answers. Dampers have no part in it.
 class AugmentedLagrangianPort final : public PenaltyPort {
  public:
   AugmentedLagrangianPort(const System& system, double penetration);
@@ -74,11 +76,21 @@ class AugmentedLagrangianPort final : public PenaltyPort {
   PortSolve solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
                   const ContactResponse& response, std::span<const double> residual, double absolute,
                   std::span<double> dy) override;
+  ContactError error(std::span<const double> x, std::span<const double> v,
+                     const ContactResponse& response) const override;
   bool settle(std::span<const double> x, const ContactResponse& response) override;
+  bool renew(std::span<const double> x, const ContactResponse& response, double residual) override;
   ContactWork work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
                    double end_weight) const override;
 
  private:
+  struct Update {
+    double violation = 0.0;  ///< largest penetration, opening of a pressed row or slip of a sticking one
+    double force = 0.0;      ///< 2-norm of the change of the nodal forces
+    bool is_settled = false;
+  };
+  Update update(std::span<const double> x, const ContactResponse& response) const;
+  void take_forces(const ContactResponse& response);
   ClosedSpring closed_spring(const ConstraintRows& rows, std::size_t r, std::span<const double> x) const override;
   double stiffening(const ConstraintRows& rows, std::size_t r) const;
 
