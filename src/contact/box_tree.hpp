@@ -27,8 +27,8 @@ class BoxTree {
   /// Boxes with finite corners, numbered as given. The storage of an earlier build is used again.
   void build(std::span<const Bounds> boxes);
 
-  /// The boxes have moved: the same tree about them, in O(n). What is found is the same as after a build; it is found as
-  /// fast while neighbours stay neighbours. As many boxes as were built.
+  /// The boxes have moved: the same tree about them, in O(n). What is found is the same as after a build; it is found
+  /// as fast while neighbours stay neighbours. As many boxes as were built.
   void refit(std::span<const Bounds> boxes);
 
   /// Appends the numbers of all boxes that overlap `box`, in no particular order.

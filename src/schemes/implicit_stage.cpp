@@ -141,15 +141,18 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
 /// What rounding may leave is a bound that the many dofs of a fine mesh, and rigid bodies that turn, seldom come near:
 /// a stage that has a share to meet, or such bodies, goes on below it as long as an iteration halves what is left. So
 /// does any other that would leave the ledger more than a third of its bound: a solve of an ill-conditioned operator
-/// leaves a residual whose norm is rounding, but whose work on the displacement another solve still takes away.
+/// leaves a residual whose norm is rounding, but whose work on the displacement another solve still takes away. What is
+/// unbooked may be small by chance (its terms cancel), and a single solve may fail to help: neither that nor the work
+/// falls in two of them. before, earlier: one and two iterations ago.
 bool ImplicitStage::is_equilibrium(const StageEquation& eq, const Residual& error, double wanted,
-                                   const Residual& before) const {
+                                   const Residual& before, const Residual& earlier) const {
   if (error.work <= wanted) return true;
   if (error.work > error.round_off) return false;
   const bool is_strict = eq.share > 0.0 || body_force_ > 0.0;
   constexpr double third_of_bound = 30.0;  // `wanted` is a hundredth of it
   const bool is_booked = error.unbooked <= (is_strict ? wanted : third_of_bound * wanted);
-  return (!is_strict || error.work > 0.5 * before.work) && (is_booked || error.unbooked > 0.5 * before.unbooked);
+  const bool stays = error.work > 0.5 * earlier.work && error.unbooked > 0.5 * earlier.unbooked;
+  return (!is_strict || error.work > 0.5 * before.work) && (is_booked || stays);
 }
 
 StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, double work_tolerance, State& end,
@@ -163,7 +166,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
   StageReport report;
   std::vector<RowStatus> before;
   const Residual none{.work = infinity, .unbooked = infinity};
-  Residual last = none;
+  Residual last = none, earlier = none;
   for (int newton = 0, outer = 0;; ++newton, ++report.iterations) {
     before.swap(forces.rows.status);
     Residual error = residual(eq, begin, end, forces);
@@ -175,7 +178,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
     }
     const double wanted = std::max(work_tolerance, eq.share * error.supplied);
     const double tolerance = std::max(wanted, error.round_off);
-    const bool is_found = is_equilibrium(eq, error, wanted, last);
+    const bool is_found = is_equilibrium(eq, error, wanted, last, earlier);
     if (is_found && port_->settle(end.q, forces.rows)) break;
     if (is_found || port_->renew(end.q, forces.rows, error.norm)) {
       if (++outer > max_iterations_) {
@@ -183,7 +186,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
         return report;
       }
       newton = -1;
-      last = none;
+      last = earlier = none;
       continue;
     }
     if (newton == max_iterations_) {
@@ -192,6 +195,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
     }
     // Rows that move leave their motion out of the tangent; a new set of acting rows is another equation.
     if (newton == 0 || system_.contact.is_fixed() || before != forces.rows.status) mixing_.forget();
+    earlier = last;
     last = newton == 0 ? none : error;  // before the first solve, the work is of a displacement that is a guess
     // Below what rounding may leave, each solve is asked for a hundredth of what is left.
     const double left = error.work <= error.round_off ? std::max(0.3 * wanted, 0.01 * error.work) : 0.3 * tolerance;

@@ -68,8 +68,8 @@ class ImplicitStage {
   struct Residual;
   Residual residual(const StageEquation& equation, const State& begin, State& end, Forces& forces);
   Residual shorten(const StageEquation& equation, const State& begin, Residual error, State& end, Forces& forces);
-  bool is_equilibrium(const StageEquation& equation, const Residual& error, double wanted,
-                      const Residual& before) const;
+  bool is_equilibrium(const StageEquation& equation, const Residual& error, double wanted, const Residual& before,
+                      const Residual& earlier) const;
   std::string improve(const StageEquation& equation, double absolute, State& end, const Forces& forces,
                       StageReport& report);
   std::string cycling_rows(const std::vector<RowStatus>& before, const Forces& forces) const;
