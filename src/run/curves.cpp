@@ -136,17 +136,19 @@ ContactCurves::ContactCurves(const Simulation& simulation)
   closings_.resize(contacts_);
 }
 
-void ContactCurves::add_resultants(std::size_t contact, const std::vector<ContactResultant>& resultants, double dt,
-                                   double end_weight) {
-  for (std::size_t k = 0; k < resultants.size(); ++k) {
-    if (resultants_.places()[k].contact != contact) continue;
-    const auto& [force, moment] = resultants[k];
-    for (std::size_t i = 0; i < 3; ++i)
-      impulse_[k][i] += dt * ((1.0 - end_weight) * force_[k][i] + end_weight * force[i]);
-    force_[k] = force;
-    for (const Vec3* v : std::array<const Vec3*, 3>{&force, &impulse_[k], &moment})
-      table_.row.insert(table_.row.end(), v->begin(), v->end());
+void ContactCurves::add_impulses(const StepView& view, const std::vector<ContactResultant>& now) {
+  if (view.step > 0) {
+    std::vector<ContactResultant> within(now.size());
+    if (view.within.weight > 0.0) within = resultants_.of(*view.within.rows, view.within.u);
+    const double ends = 1.0 - view.within.weight;
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      for (std::size_t i = 0; i < 3; ++i)
+        impulse_[k][i] +=
+            view.dt * (ends * (1.0 - view.end_weight) * force_[k][i] + ends * view.end_weight * now[k].force[i] +
+                       view.within.weight * within[k].force[i]);
+    }
   }
+  for (std::size_t k = 0; k < now.size(); ++k) force_[k] = now[k].force;
 }
 
 void ContactCurves::add_motion(std::size_t contact, const State& state) {
@@ -170,7 +172,7 @@ void ContactCurves::add_motion(std::size_t contact, const State& state) {
   append(angular_velocity(position, velocity));
 }
 
-void ContactCurves::sample(const StepView& view, double end_weight) {
+void ContactCurves::sample(const StepView& view) {
   const ConstraintRows& rows = *view.forces.rows.rows;
   const std::vector<ContactResultant> resultants = resultants_.of(view.forces.rows, view.state.q);
   std::vector<double> penetration(contacts_, 0.0), closed(contacts_, 0.0);
@@ -181,8 +183,13 @@ void ContactCurves::sample(const StepView& view, double end_weight) {
     closed[c] += 1.0;
   }
   table_.row = {view.state.t};
+  add_impulses(view, resultants);
   for (std::size_t c = 0; c < contacts_; ++c) {
-    add_resultants(c, resultants, view.dt, end_weight);
+    for (std::size_t k = 0; k < resultants.size(); ++k) {
+      if (resultants_.places()[k].contact != c) continue;
+      for (const Vec3* v : std::array<const Vec3*, 3>{&resultants[k].force, &impulse_[k], &resultants[k].moment})
+        table_.row.insert(table_.row.end(), v->begin(), v->end());
+    }
     if (closed_[c] == 0.0 && closed[c] > 0.0) closings_[c] += 1.0;
     closed_[c] = closed[c];
     table_.row.insert(table_.row.end(), {penetration[c], closed[c], closings_[c]});

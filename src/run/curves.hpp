@@ -11,6 +11,7 @@
 #include "run/contact_resultants.hpp"
 #include "run/probe_place.hpp"
 #include "run/simulation.hpp"
+#include "schemes/scheme.hpp"
 
 namespace carom {
 
@@ -22,6 +23,8 @@ struct StepView {
   const State& state;
   const Forces& forces;
   const EnergyLedger& ledger;
+  double end_weight = 1.0;  ///< of the force at the end in the impulse (Scheme::end_weight)
+  ContactWithin within{};
 };
 
 /// Names and values of one table; the first column is always `time`.
@@ -51,21 +54,20 @@ class EnergyCurves {
 class ContactCurves {
  public:
   explicit ContactCurves(const Simulation& simulation);
-  /// Resultants at this state; before the first step and after each one. `end_weight` is the scheme's weight of the
-  /// force at the end of the step in its impulse (gamma of Newmark).
-  void sample(const StepView& view, double end_weight);
+  /// Resultants at this state; before the first step and after each one. Impulses are those that the scheme has
+  /// exerted, by its own weights.
+  void sample(const StepView& view);
   const CurveTable& table() const { return table_; }
 
  private:
-  void add_resultants(std::size_t contact, const std::vector<ContactResultant>& resultants, double dt,
-                      double end_weight);
+  void add_impulses(const StepView& view, const std::vector<ContactResultant>& now);
   void add_motion(std::size_t contact, const State& state);
 
   const Model& model_;
   std::size_t contacts_;
   ContactResultants resultants_;
   CurveTable table_;
-  std::vector<Vec3> force_, impulse_;  ///< of each resultant
+  std::vector<Vec3> force_, impulse_;  ///< of each resultant, so far
   std::vector<double> closed_, closings_;
 };
 

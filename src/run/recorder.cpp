@@ -83,8 +83,8 @@ Recorder::Recorder(const Simulation& simulation, std::string folder)
   }
 }
 
-void Recorder::record(const StepView& view, double end_weight, Moment moment) {
-  if (view.step != last_sample_) tables_.contact.sample(view, end_weight);  // every step, once: the impulses are sums
+void Recorder::record(const StepView& view, Moment moment) {
+  if (view.step != last_sample_) tables_.contact.sample(view);  // every step, once: the impulses are sums
   last_sample_ = view.step;
   const bool last = moment == Moment::last;
   figures_.sample(view, last);

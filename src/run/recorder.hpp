@@ -41,7 +41,7 @@ class Recorder {
 
   /// To be called for the initial state and after every step; `last` forces everything out.
   enum class Moment : std::uint8_t { during, last };
-  void record(const StepView& view, double end_weight, Moment moment);
+  void record(const StepView& view, Moment moment);
   /// Writes the filtered curves and closes all files.
   void close();
 

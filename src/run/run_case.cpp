@@ -227,7 +227,9 @@ void Run::book_switch(const Stage& stage, const GivenMotion& given) {
 }
 
 void Run::record(Recorder::Moment moment) {
-  recorder_.record({step_, dt_, iterations_, state_, scheme_->forces(), *ledger_}, scheme_->end_weight(), moment);
+  recorder_.record(
+      {step_, dt_, iterations_, state_, scheme_->forces(), *ledger_, scheme_->end_weight(), scheme_->contact_within()},
+      moment);
 }
 
 /// What is looked at beside the books: the stable step of bodies that change, and the rotation of small-strain parts.

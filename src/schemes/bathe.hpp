@@ -14,8 +14,7 @@ namespace carom {
 ///   h v1 = u0 - 4 u_half + 3 u1,  h a1 = v0 - 4 v_half + 3 v1,
 /// M a = f - F + contact at h/2 and at h (Bathe and Baig, Computers and Structures 83, 2005). Order 2; unconditionally
 /// stable (linear), spectral radius 0 at infinite frequency. Conserves linear momentum, whose impulse is
-/// h/3 (P0 + P_half + P1); energy decays. The ledger books both sub-steps. end_weight() is that of the trapezoidal
-/// rule: the force at the middle is not seen from outside.
+/// h/3 (P0 + P_half + P1); energy decays. The ledger books both sub-steps.
 class Bathe final : public Scheme {
  public:
   Bathe(const System& system, const ImplicitSettings& settings, double dt, double omega_max_squared);
@@ -25,6 +24,7 @@ class Bathe final : public Scheme {
   void take_back() override { std::swap(now_, next_); }
   const Forces& forces() const override { return now_; }
   double end_weight() const override { return 0.5; }
+  ContactWithin contact_within() const override { return {1.0 / 3.0, &half_.rows, middle_.q}; }
   std::string solver_name() const override { return second_.solver_name(); }
 
  private:

@@ -26,6 +26,15 @@ NohBathe::NohBathe(const System& system, double p)
   q0_ = 0.5 - q1_ - q2_;
 }
 
+// The impulse of a step is h (p/2 (f0 + f_p) + (1 - p) (q0 f0 + (1/2 + q1) f_p + q2 f1)).
+double NohBathe::end_weight() const {
+  return (1.0 - p_) * q2_ / (1.0 - contact_within().weight);
+}
+
+ContactWithin NohBathe::contact_within() const {
+  return {0.5 * p_ + (1.0 - p_) * (0.5 + q1_), &middle_forces_.rows, middle_.q};
+}
+
 void NohBathe::start(State& state, double dt) {
   start_with_supports(system_, state);
   evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, now_);

@@ -24,7 +24,8 @@ class NohBathe final : public Scheme {
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
   void take_back() override { std::swap(now_, next_); }
   const Forces& forces() const override { return now_; }
-  double end_weight() const override { return 0.5; }
+  double end_weight() const override;
+  ContactWithin contact_within() const override;
   std::string solver_name() const override { return mass_solver_.name(); }
 
  private:

@@ -1,6 +1,7 @@
 // The interface of a time scheme: one step, state in, state out.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "schemes/system.hpp"
@@ -23,6 +24,14 @@ struct StepReport {
   LedgerIncrement books;
 };
 
+/// Contact at an instant within a step, for schemes that solve for it there, and the weight of its forces in the
+/// impulse of the step (0: there is none).
+struct ContactWithin {
+  double weight = 0.0;
+  const ContactResponse* rows = nullptr;
+  std::span<const double> u{};
+};
+
 /// One step of a scheme. start() makes velocities and accelerations consistent with the supports and the forces at
 /// state.t; step() must be given the state that start() or the last converged step() has left.
 class Scheme {
@@ -35,8 +44,11 @@ class Scheme {
   virtual void take_back() = 0;
   /// Forces of the last started or converged state.
   virtual const Forces& forces() const = 0;
-  /// Weight of the force at the end of a step in its impulse, 1 minus that of the force at its beginning.
+  /// Weight of the force at the end of a step in its impulse, 1 minus that of the force at its beginning: of what
+  /// contact_within() leaves.
   virtual double end_weight() const = 0;
+  /// Of the last converged step.
+  virtual ContactWithin contact_within() const { return {}; }
   /// Name of the linear solver that serves the scheme, for the log.
   virtual std::string solver_name() const = 0;
 };
