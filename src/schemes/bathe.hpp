@@ -1,11 +1,13 @@
 // Bathe's composite scheme: the trapezoidal rule, then a three-point backward formula.
 #pragma once
 
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "schemes/implicit_stage.hpp"
 #include "schemes/scheme.hpp"
+#include "schemes/velocity_impulses.hpp"
 
 namespace carom {
 
@@ -15,6 +17,16 @@ namespace carom {
 /// M a = f - F + contact at h/2 and at h (Bathe and Baig, Computers and Structures 83, 2005). Order 2; unconditionally
 /// stable (linear), spectral radius 0 at infinite frequency. Conserves linear momentum, whose impulse is
 /// h/3 (P0 + P_half + P1); energy decays. The ledger books both sub-steps.
+///
+/// So it is where contact is a law. Multipliers lambda on contact nodes with mass would make energy at every touch: the
+/// trapezoidal rule reflects what it stops, the backward formula makes 5/3 of that, and the multiplier of a row that
+/// has opened pushes on through a0. There, with s = M^-1 (f - F),
+///   u_half = u0 + h/2 v0 + h^2/16 (s0 + s_half) + h^2/8 M^-1 G^T lambda_half,
+///   v_half = v0 + h/4 (s0 + s_half) + h/2 M^-1 G^T Lambda,
+/// the contact force of the first sub-step being that of its end (Kane, Repetto, Ortiz and Marsden, Comput. Methods
+/// Appl. Mech. Eng. 180, 1999), and its velocity having forces Lambda of its own (VelocityImpulses): what touches is
+/// stopped. The impulse of contact is then h/3 (2 Lambda + lambda_1), order 2 while contact lasts; lambda_half is the
+/// mean of the first sub-step, and does its work.
 class Bathe final : public Scheme {
  public:
   Bathe(const System& system, const ImplicitSettings& settings, double dt, double omega_max_squared);
@@ -23,22 +35,31 @@ class Bathe final : public Scheme {
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
   void take_back() override { std::swap(now_, next_); }
   const Forces& forces() const override { return now_; }
-  double end_weight() const override { return 0.5; }
-  ContactWithin contact_within() const override { return {1.0 / 3.0, &half_.rows, middle_.q}; }
+  double end_weight() const override { return impulses_ ? 1.0 : 0.5; }
+  ContactWithin contact_within() const override;
   std::string solver_name() const override { return second_.solver_name(); }
 
  private:
-  /// Solves one sub-step for its acceleration, completes its forces and adds its energies to the report.
-  bool solve(ImplicitStage& stage, const StageEquation& equation, const StepRequest& request, const State& begin,
-             const Forces& forces_begin, State& end, Forces& forces_end, StepReport& report);
+  bool to_middle(const State& begin, const StepRequest& request, StepReport& report);
+  bool to_end(const State& begin, const StepRequest& request, State& end, StepReport& report);
+  /// Solves one sub-step for its unknown, its equation being multiplied by `share`.
+  bool solve(ImplicitStage& stage, double share, double s, double r, const StepRequest& request, const State& begin,
+             State& end, Forces& forces_end, StepReport& report);
+  bool stop_at_rows(double k, StepReport& report);
+  /// Adds the energies of a sub-step to the report.
+  void book(const ContactWork& contact, const State& begin, const Forces& forces_begin, const State& end,
+            const Forces& forces_end, StepReport& report) const;
+  Momentum impulse(double h, const State& begin, const State& end);
 
   const System& system_;
   StepStart start_;
   ImplicitStage first_, second_;
+  std::unique_ptr<VelocityImpulses> impulses_;  ///< none where contact is a law, or its nodes have no mass
   Forces now_, half_, next_;
   State middle_;
-  std::vector<ImposedStep> imposed_;  ///< of the sub-step under way
-  std::vector<double> x_hat_, v_hat_;
+  std::vector<ImposedStep> imposed_;                ///< of the sub-step under way
+  std::vector<double> pushed_begin_, pushed_half_;  ///< M^-1 G^T lambda at the beginning and in the middle
+  std::vector<double> x_hat_, v_hat_, known_;
 };
 
 }  // namespace carom

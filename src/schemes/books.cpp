@@ -89,6 +89,14 @@ Momentum resultant(const System& system, std::span<const double> u, const Forces
   return momentum_from(sums.data());
 }
 
+Momentum resultant(const System& system, std::span<const double> u, std::span<const double> force) {
+  const MomentArms arms(system, u);
+  const auto sums = parallel_sums<6>(force.size(), [&](std::size_t i, std::array<double, 6>& s) {
+    add_with_moment(arms.at(i / 3), i % 3, force[i], s.data());
+  });
+  return momentum_from(sums.data());
+}
+
 double trapezoidal_work(const State& begin, std::span<const double> f0, const State& end, std::span<const double> f1) {
   return parallel_sum(f0.size(), [&](std::size_t i) { return 0.5 * (f0[i] + f1[i]) * (end.q[i] - begin.q[i]); });
 }

@@ -48,6 +48,9 @@ Momentum combine(double a, const Momentum& p, double b, const Momentum& q);
 /// Resultant of external, contact and support forces at one instant.
 Momentum resultant(const System& system, std::span<const double> u, const Forces& forces);
 
+/// Of one force.
+Momentum resultant(const System& system, std::span<const double> u, std::span<const double> force);
+
 /// Work of a force over the step by the trapezoidal rule.
 double trapezoidal_work(const State& begin, std::span<const double> force_begin, const State& end,
                         std::span<const double> force_end);

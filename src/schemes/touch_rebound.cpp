@@ -18,7 +18,7 @@ std::optional<double> touch_rebound(const SchemeSettings& s) {
     case SchemeKind::generalized_alpha:
       return of(chung_hulbert_parameters(s.rho_inf));
     case SchemeKind::bathe:
-      return 2.0;
+      return 0.5;
     default:
       return std::nullopt;
   }
