@@ -15,6 +15,7 @@
 #include <variant>
 
 #include "contact/facet_geometry.hpp"
+#include "contact/facing_facets.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
 #include "mesh/skin.hpp"
@@ -49,8 +50,8 @@ struct Side {
     stiffness += b.measure * b.stiffness();
     modulus += b.measure * b.modulus;
   }
-  double mean_stiffness() const { return stiffness / measure; }
   double mean_modulus() const { return modulus / measure; }
+  double mean_height() const { return modulus / stiffness; }
 };
 
 /// Finds the cells of parts by their nodes.
@@ -141,15 +142,16 @@ struct Choice {
   double node_measure = 1.0;  ///< per_node: mean measure of a node
 
   double stiffness() const {
-    const double first = sides[0].mean_stiffness();
-    const double both = sides.size() == 1 ? first : 2.0 / (1.0 / first + 1.0 / sides[1].mean_stiffness());
-    return both * node_measure;
+    const Side &first = sides.front(), &last = sides.back();
+    const double modulus = 2.0 / (1.0 / first.mean_modulus() + 1.0 / last.mean_modulus());
+    return modulus / std::min(first.mean_height(), last.mean_height()) * node_measure;
   }
 };
 
 struct Chooser {
-  const Mesh& mesh;
+  const Model& model;
   const PartCells& cells;
+  const Mesh& mesh = *model.mesh;
 
   /// The sides are told apart by softness, cell by cell: which face of an interface comes first means nothing.
   Choice operator()(const InterfaceContact& contact) const {
@@ -177,7 +179,8 @@ struct Chooser {
   }
 
   Choice operator()(const PairContact& contact) const {
-    return {{side_of(cells, contact.slave.facets, contact.name), side_of(cells, contact.master.facets, contact.name)}};
+    const FacingFacets facing = facing_facets(model, contact);
+    return {{side_of(cells, facing.slave, contact.name), side_of(cells, facing.master, contact.name)}};
   }
 
   Choice per_node(const ObstacleContact& contact) const {
@@ -248,8 +251,7 @@ std::string sentence(const std::string& contact, double stiffness, const Choice&
   std::string text = fmt::format("contact \"{}\": stiffness {:.4g} chosen", contact, stiffness);
   const char* join = " from";
   for (const Side& side : choice.sides) {
-    text += fmt::format("{} modulus {:.4g} over cell height {:.4g}", join, side.mean_modulus(),
-                        side.mean_modulus() / side.mean_stiffness());
+    text += fmt::format("{} modulus {:.4g} over cell height {:.4g}", join, side.mean_modulus(), side.mean_height());
     join = " and";
   }
   if (choice.node_measure != 1.0) text += fmt::format(", times {:.4g} per node", choice.node_measure);
@@ -268,7 +270,7 @@ std::vector<std::string> choose_stiffness(Model& model) {
       ContactLaw& law = contact.law;
       if (!law.eps_N) {
         if (!cells) cells.emplace(model);
-        const Choice choice = Chooser{*model.mesh, *cells}(contact);
+        const Choice choice = Chooser{model, *cells}(contact);
         law.eps_N = law.stiffness_factor * choice.stiffness();
         law.linear_depth = linear_depth(contact);
         notes.push_back(sentence(contact.name, *law.eps_N, choice, law.stiffness_factor));

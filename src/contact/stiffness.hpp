@@ -13,14 +13,14 @@ namespace carom {
 ///   eps = M / h   (stress per length),
 /// M the modulus of uniaxial strain (p-wave modulus; plane stress: E / (1 - nu^2); bars: E) of the cell's material, h
 /// the cell's extent normal to the facet: twice the distance of its centroid from the facet, which is volume / area for
-/// cells of constant section. A side of a contact has the mean of its facets, weighted by their measures:
+/// cells of constant section. A side of a contact has the mean of its facets, weighted by their measures; of a pair only
+/// facets count that look at the other side (FacingFacets):
 ///   - against an obstacle: eps_N = eps of the body, so that the penetration is the shortening of one cell under the
 ///     contact pressure p, p / M of its height. At M / h central differences keep 0.91 of their stable step in one
 ///     dimension, and peaks stay near the exact ones; 10 M / h has peaks many times too high;
-///   - two sides: eps_N = 2 / (1 / eps_1 + 1 / eps_2), twice the two cells in series: M / h for equal bodies, and at
-///   most
-///     2 M / h of the softer side however stiff the other one is, so that a fine or stiff side cannot be overrun: the
-///     penetration is the mean of p / M times height of the two cells. The stable step keeps 0.79.
+///   - two sides: eps_N = 2 / (1 / M_1 + 1 / M_2) / min(h_1, h_2), the moduli in series over the finer cell: M / h for
+///     equal bodies, at most 2 M of the softer side over h however stiff the other one is. The finer mesh tells how
+///     small the region is that is pressed: the springs give as much as that at most. The stable step keeps 0.79.
 /// In models with parts of finite strain the springs harden (RowLaw) below 2 % of the smallest cell at the contact:
 /// what crushes the cells behind by 10, 50 or 300 % of M sinks in by 4.8, 7.6 or 12.6 % of a cell, not by the same 10,
 /// 50 or 300 %. Explicit steps follow the slope, and pay for it there and then alone; small-strain bodies, which no

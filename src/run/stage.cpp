@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "contact/facing_facets.hpp"
 #include "schemes/free_modes.hpp"
 #include "schemes/stability_limit.hpp"
 #include "solid/mass_scaling.hpp"
@@ -67,7 +68,7 @@ Mass make_mass(const StageContext& context, const CaseScheme& scheme, const Sche
     else
       how.layers = *scheme.layers;
     try {
-      ModifiedMass modified = modify_mass(context.solid, context.model, how);
+      ModifiedMass modified = modify_mass(context.solid, with_facing_facets(context.model), how);
       notes.lines = describe(modified.shift);
       notes.moved_share = modified.shift.moved / modified.shift.total;
       return std::move(modified.mass);

@@ -189,6 +189,29 @@ void SemiExplicit::see_rows(const Target& target, std::span<const double> u, con
   }
 }
 
+/// Names a row that closes between nodes that all have their mass, which multipliers cannot move; empty without one.
+std::string SemiExplicit::unanswered(const ConstraintRows& rows) const {
+  const std::vector<double>& mass = system_.mass.node_diagonal();
+  for (const ClosingRow& c : boundary_->closing) {
+    if (c.w[0] >= -c.round_off) continue;
+    bool gives_way = false, has_mass = false;
+    for (auto k = static_cast<std::size_t>(rows.begin[c.row]); k < static_cast<std::size_t>(rows.begin[c.row + 1]);
+         ++k) {
+      for (Index i = 3 * rows.node[k]; i < 3 * rows.node[k] + 3; ++i) {
+        gives_way = gives_way || boundary_->of_dof[static_cast<std::size_t>(i)] >= 0;
+        has_mass = has_mass || (mass[static_cast<std::size_t>(i / 3)] > 0.0 && !system_.supports.is_prescribed(i));
+      }
+    }
+    if (gives_way || !has_mass) continue;
+    return fmt::format(
+        "contact closes between faces that did not look at each other at the start, so that their nodes have kept "
+        "their "
+        "mass: {}. Choose another scheme (cd_lagrange), or contact of kind = \"all\", whose nodes all go without mass",
+        system_.contact.describe(rows, c.row));
+  }
+  return {};
+}
+
 /// u += residual_ + push_ on the dofs b.
 SemiExplicit::Correction SemiExplicit::correct(const Target& target, std::span<double> u) {
   double change = 0.0, place = 0.0, motion = 0.0;
@@ -217,7 +240,9 @@ std::string SemiExplicit::equilibrate(const Target& target, std::span<double> u,
     if (follows || !rows) rows = system_.contact.rows_at(target.u_begin, u, target.history);
     open_response(rows, history.size(), forces.rows);
     see_rows(target, u, *rows);
-    std::string failure = close_rows(system_.contact, b.closing, history, b.contact_operator, forces.rows, push_);
+    std::string failure = unanswered(*rows);
+    if (failure.empty())
+      failure = close_rows(system_.contact, b.closing, history, b.contact_operator, forces.rows, push_);
     if (!failure.empty()) return failure;
     const Correction c = correct(target, u);
     if (!std::isfinite(c.change)) return "the forces are not finite";

@@ -24,7 +24,7 @@ namespace carom {
 /// touch them; K_bb is factored again where that converges slowly. Order 2 away from changes of contact; stable for
 /// omega h <= 2 on the dofs i with the others held; no penetration; momenta exact; algorithmic energy as for central
 /// differences. Velocities of the dofs b are differences over the last step. Dofs b without stiffness (bars across
-/// their axis) keep their velocity. start() brings the dofs b into equilibrium.
+/// their axis) keep their velocity. A row must have a node without mass. start() brings the dofs b into equilibrium.
 class SemiExplicit final : public Scheme {
  public:
   /// Throws std::invalid_argument when the mass is not lumped or the contact nodes are not held by their cells.
@@ -46,6 +46,7 @@ class SemiExplicit final : public Scheme {
     double change = 0.0, motion = 0.0, negligible = 0.0;
   };
   void see_rows(const Target& target, std::span<const double> u, const ConstraintRows& rows);
+  std::string unanswered(const ConstraintRows& rows) const;
   Correction correct(const Target& target, std::span<double> u);
   std::string no_equilibrium(int iterations, const Correction& c) const;
   std::string equilibrate(const Target& target, std::span<double> u, Forces& forces, int& iterations);

@@ -9,6 +9,7 @@
 
 #include "contact_fixture.hpp"
 #include "math/vec3.hpp"
+#include "mesh/structured_block.hpp"
 #include "schemes/hulbert_chung.hpp"
 #include "schemes/noh_bathe.hpp"
 #include "schemes/stability_limit.hpp"
@@ -512,6 +513,32 @@ TEST(ModifiedMass, StaysWhereItIsAlongABodyWhoseWholeSkinIsInContact) {
     const double change = 5.0 / 9.0 * (1.0 / 5.0 - 1.0 / 6.0);
     const double wanted = from_end == 0 ? 0.0 : from_end == 1 ? 1.5 - change : from_end == 2 ? 1.0 + change : 1.0;
     EXPECT_NEAR(mass, wanted * of_cells, 1e-13 * 10.0 * of_cells) << z;
+  }
+}
+
+// Multipliers move nodes without mass only. Where a row closes between two that have kept theirs, the step says so.
+TEST(ModifiedMass, NamesContactBetweenNodesThatHaveKeptTheirMass) {
+  StructuredBlock lower, upper;
+  lower.size = upper.size = {1.0, 1.0, 1.0};
+  upper.origin = {0.0, 0.0, 0.99};
+  lower.face_groups = {"", "", "", "", "", "TOP"};
+  upper.face_groups = {"", "", "", "", "BOTTOM", ""};
+  Model model = one_part(make_structured_blocks({lower, upper}));
+  PairContact pair;
+  pair.name = "two";
+  pair.slave.facets = faces_of(*model.mesh, "BOTTOM");
+  pair.master.facets = faces_of(*model.mesh, "TOP");
+  model.contacts.emplace_back(pair);
+  const Problem problem(model, MassKind::lumped);
+  SemiExplicit scheme(problem.system);
+  State state = problem.moving({0.0, 0.0, 0.0});
+  try {
+    scheme.start(state, 1e-3);
+    ADD_FAILURE() << "a row without compliance has closed";
+  } catch (const std::runtime_error& e) {
+    const std::string what = e.what();
+    EXPECT_NE(what.find("\"two\""), std::string::npos) << what;
+    EXPECT_NE(what.find("Choose another scheme"), std::string::npos) << what;
   }
 }
 
