@@ -54,9 +54,9 @@ struct ModifiedMass {
 std::vector<Index> contact_nodes(const Model& model);
 
 /// Lumped mass of the solid without inertia on contact nodes (stages hand over the facets of pairs alone that look at
-/// each other). A node all of whose components are imposed keeps its mass, which has no part in the motion. Throws std::invalid_argument when a contact patch (layers) or a body
-/// (least_squares) has no other node, when the other nodes of a free body lie on a line, or when no masses of at least
-/// m_a / 4 keep centre and inertia.
+/// each other). A node all of whose components are imposed keeps its mass, which has no part in the motion. Throws
+/// std::invalid_argument when a contact patch (layers) or a body (least_squares) has no other node, when the other
+/// nodes of a free body lie on a line, or when no masses of at least m_a / 4 keep centre and inertia.
 ModifiedMass modify_mass(const Solid& solid, const Model& model, const MassModification& how);
 
 }  // namespace carom
