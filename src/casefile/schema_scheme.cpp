@@ -59,8 +59,8 @@ void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
          {"newmark"}, "0.25; with multipliers 0.5, which throws no node back faster than it came");
   number("gamma", &CaseScheme::gamma, "Newmark's gamma; above 0.5 the scheme dissipates.", closed(0.5, 1.0),
          {"newmark", "contact_stabilized_newmark"});
-  number("alpha", &CaseScheme::alpha, "Dissipation of HHT and WBZ; 0 is Newmark's trapezoidal rule.",
-         closed(-1.0 / 3.0, 0.0), {"hht", "wbz"}, "-0.05; with multipliers -1/3, which throws nodes back least");
+  number("alpha", &CaseScheme::alpha, "Dissipation of HHT (from -1/3 on) and WBZ; 0 is Newmark's trapezoidal rule.",
+         closed(-1.0, 0.0), {"hht", "wbz"}, "-0.05; with multipliers, which throw nodes back: hht -1/3, wbz -0.6");
   number("rho_inf", &CaseScheme::rho_inf, "Spectral radius at high frequency (Hulbert-Chung: at bifurcation).",
          closed(0.0, 1.0), {"generalized_alpha", "nonsmooth_generalized_alpha", "hulbert_chung"});
   number("theta", &CaseScheme::theta, "Weight of the end of the step; above 0.5 the scheme dissipates.",
@@ -161,15 +161,25 @@ void check_mass_scaling(CaseScheme& scheme, const Node& node, const ReadContext&
   if (!scheme.mass_scaling_limit) scheme.mass_scaling_limit = 0.05;
 }
 
+constexpr double least_alpha_of_hht = -1.0 / 3.0;
+
 /// Multipliers on contact nodes with inertia make the alpha family throw back what touches
-/// (schemes/touch_rebound.hpp): its parameters of least rebound, where the case gives none.
+/// (schemes/touch_rebound.hpp): its parameters of least rebound, where the case gives none, and of WBZ, whose
+/// dissipation grows as the rebound falls, the least dissipative that are not warned of.
 void choose_parameters(CaseScheme& scheme, const Node& node) {
   const EnforcementKind enforcement = **scheme.enforcement;
   const bool has_multipliers =
       enforcement == EnforcementKind::lagrange || enforcement == EnforcementKind::augmented_lagrangian;
   if (!has_multipliers || **scheme.mass == CaseScheme::Mass::modified) return;
   if (find(node, "beta") == nullptr && find(node, "gamma") == nullptr) scheme.beta = 0.5;
-  if (find(node, "alpha") == nullptr) scheme.alpha = -1.0 / 3.0;
+  if (find(node, "alpha") == nullptr) scheme.alpha = *scheme.kind == SchemeKind::wbz ? -0.6 : least_alpha_of_hht;
+}
+
+void check_alpha(const CaseScheme& scheme, const Node& node, const ReadContext& at) {
+  const Node* alpha = find(node, "alpha");
+  if (alpha == nullptr || *scheme.kind != SchemeKind::hht || scheme.alpha >= least_alpha_of_hht) return;
+  throw CaseError(alpha->where, at.at("alpha").path, fmt::format("{:g} with scheme hht", scheme.alpha),
+                  "a number >= -1/3 and <= 0", "Below, HHT dissipates less again: choose -1/3, or scheme wbz.");
 }
 
 void finish_scheme(CaseScheme& scheme, const Node& node, const ReadContext& at) {
@@ -185,6 +195,7 @@ void finish_scheme(CaseScheme& scheme, const Node& node, const ReadContext& at) 
   }
   check_mass(scheme, node, at);
   check_mass_scaling(scheme, node, at);
+  check_alpha(scheme, node, at);
   choose_parameters(scheme, node);
 }
 

@@ -22,7 +22,8 @@ constexpr GeneralizedAlphaParameters newmark_parameters(double beta, double gamm
 constexpr GeneralizedAlphaParameters hht_parameters(double alpha) {
   return {0.0, -alpha, 0.25 * (1.0 - alpha) * (1.0 - alpha), 0.5 - alpha};
 }
-/// Wood, Bossak and Zienkiewicz, Int. J. Numer. Methods Eng. 15, 1980; alpha <= 0, -1/3 the largest sensible damping.
+/// Wood, Bossak and Zienkiewicz, Int. J. Numer. Methods Eng. 15, 1980; alpha in [-1, 0], with the spectral
+/// radius (1 + alpha) / (1 - alpha) at high frequencies (Chung and Hulbert, 1993).
 constexpr GeneralizedAlphaParameters wbz_parameters(double alpha) {
   return {alpha, 0.0, 0.25 * (1.0 - alpha) * (1.0 - alpha), 0.5 - alpha};
 }

@@ -10,7 +10,7 @@ struct SchemeSettings {
   SchemeKind kind = SchemeKind::newmark;
   EnforcementKind enforcement = EnforcementKind::penalty;
   double beta = 0.25, gamma = 0.5;  ///< newmark; gamma also contact_stabilized_newmark
-  double alpha = -0.05;             ///< hht (-1/3 ... 0); wbz: alpha_m <= 0
+  double alpha = -0.05;             ///< hht (-1/3 ... 0); wbz (-1 ... 0)
   double rho_inf = 0.8;             ///< generalized_alpha, nonsmooth_generalized_alpha, hulbert_chung: spectral radius
   double theta = 0.5;               ///< moreau_jean (1/2 ... 1)
   double phi = 1.033;               ///< tchamwa_wielgosz
