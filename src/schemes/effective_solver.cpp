@@ -119,7 +119,9 @@ class CgSolver final : public EffectiveSolver {
   /// diagonal changed by more, and nothing but the number of iterations hangs on it.
   bool has_moved() const {
     double most = 0.0;
-    for (std::size_t i = 0; i < u_.size(); ++i) most = std::max(most, std::abs(u_[i] - diagonal_at_[i]));
+    for (std::size_t i = 0; i < u_.size(); i += 3)
+      most = std::max(
+          most, std::hypot(u_[i] - diagonal_at_[i], u_[i + 1] - diagonal_at_[i + 1], u_[i + 2] - diagonal_at_[i + 2]));
     return !(most < 0.01 * shortest_);
   }
 
