@@ -56,7 +56,7 @@ void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
            {.choices = Names(enforcement_names.begin(), enforcement_names.end()),
             .default_phrase = "the first that the scheme takes"});
   number("beta", &CaseScheme::beta, "Newmark's beta.", {Bound{0.0, Bound::Side::open}, Bound{0.5, Bound::Side::closed}},
-         {"newmark"}, "0.25; with multipliers 0.5, which throws no node back faster than it came");
+         {"newmark"}, "0.25");
   number("gamma", &CaseScheme::gamma, "Newmark's gamma; above 0.5 the scheme dissipates.", closed(0.5, 1.0),
          {"newmark", "contact_stabilized_newmark"});
   number("alpha", &CaseScheme::alpha, "Dissipation of HHT (from -1/3 on) and WBZ; 0 is Newmark's trapezoidal rule.",
@@ -171,7 +171,6 @@ void choose_parameters(CaseScheme& scheme, const Node& node) {
   const bool has_multipliers =
       enforcement == EnforcementKind::lagrange || enforcement == EnforcementKind::augmented_lagrangian;
   if (!has_multipliers || **scheme.mass == CaseScheme::Mass::modified) return;
-  if (find(node, "beta") == nullptr && find(node, "gamma") == nullptr) scheme.beta = 0.5;
   if (find(node, "alpha") == nullptr) scheme.alpha = *scheme.kind == SchemeKind::wbz ? -0.6 : least_alpha_of_hht;
 }
 

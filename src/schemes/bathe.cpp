@@ -7,26 +7,13 @@
 
 namespace carom {
 
-namespace {
-
-bool has_mass_everywhere(const System& system) {
-  const std::vector<double>& mass = system.mass.node_diagonal();
-  const std::vector<bool>& fixed = system.supports.fixed();
-  for (std::size_t i = 0; i < fixed.size(); ++i) {
-    if (mass[i / 3] == 0.0 && !fixed[i]) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
 Bathe::Bathe(const System& system, const ImplicitSettings& settings, double dt, double omega_max_squared)
     : system_(system),
       start_(system),
       first_(system, settings, dt * dt / 16.0, omega_max_squared),
-      second_(system, settings, dt * dt / 9.0, omega_max_squared) {
+      second_(system, settings, dt * dt / 9.0, omega_max_squared),
+      impulses_(velocity_impulses(system, settings.enforcement)) {
   const std::size_t n = system.solid.dof_count();
-  if (!first_.port().is_law() && has_mass_everywhere(system)) impulses_ = std::make_unique<VelocityImpulses>(system);
   for (std::vector<double>* x : {&x_hat_, &v_hat_, &known_, &pushed_begin_, &pushed_half_}) x->resize(n);
 }
 

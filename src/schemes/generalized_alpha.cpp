@@ -3,7 +3,6 @@
 #include <cassert>
 #include <utility>
 
-#include "parallel/threads.hpp"
 #include "schemes/books.hpp"
 
 namespace carom {
@@ -17,16 +16,22 @@ std::vector<double> packed(const Momentum& p) {
 }  // namespace
 
 GeneralizedAlpha::GeneralizedAlpha(const System& system, const GeneralizedAlphaParameters& p,
-                                   const ImplicitSettings& settings, double dt, double omega_max_squared)
+                                   const ImplicitSettings& settings, double dt, double omega_max_squared,
+                                   std::unique_ptr<VelocityImpulses> impulses)
     : system_(system),
       parameters_(p),
       start_(system),
-      stage_(system, settings, (1.0 - p.alpha_f) / (1.0 - p.alpha_m) * p.beta * dt * dt, omega_max_squared) {
+      stage_(system, settings, (1.0 - p.alpha_f) / (1.0 - p.alpha_m) * p.beta * dt * dt, omega_max_squared),
+      impulses_(std::move(impulses)) {
   assert(p.beta > 0.0 && p.alpha_m < 1.0 && p.alpha_f < 1.0);
   const std::size_t n = system.solid.dof_count();
-  u_predicted_.resize(n);
-  v_predicted_.resize(n);
-  known_.resize(n);
+  for (std::vector<double>* x : {&u_predicted_, &v_predicted_, &known_, &inertia_, &pushed_begin_, &pushed_end_})
+    x->resize(n);
+}
+
+ContactWithin GeneralizedAlpha::contact_within() const {
+  if (!impulses_) return {};
+  return {1.0, &impulses_->response(), u_end_};
 }
 
 void GeneralizedAlpha::start(State& state, double dt) {
@@ -34,27 +39,78 @@ void GeneralizedAlpha::start(State& state, double dt) {
   state.memory = packed(resultant(system_, state.q, now_));
 }
 
+/// What is known before the solve, and its start value. False when the mass matrix cannot be solved.
+bool GeneralizedAlpha::predict(const State& begin, double h, State& end) {
+  const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
+  imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
+  if (!start_.set(
+          begin.a, h, imposed_, [](const ImposedStep& s) { return s.a_begin; }, now_) ||
+      (impulses_ && !impulses_->accelerations(now_.contact, pushed_begin_)))
+    return false;
+  const std::span<const double> a_begin = start_.a();
+  if (impulses_) system_.mass.apply(pushed_begin_, inertia_);
+  for (std::size_t i = 0; i < begin.q.size(); ++i) {
+    const double smooth = a_begin[i] - pushed_begin_[i];
+    u_predicted_[i] = begin.q[i] + h * begin.v[i] + h * h * (0.5 - beta) * smooth;
+    v_predicted_[i] = begin.v[i] + h * (1.0 - gamma) * smooth;
+    known_[i] = (1.0 - alpha_f) * next_.external[i] + alpha_f * (now_.external[i] - now_.internal[i]) -
+                alpha_m * (now_.inertia[i] - inertia_[i]);
+    end.a[i] += (0.5 / beta - 1.0) * pushed_begin_[i];
+  }
+  return true;
+}
+
+/// From the unknown s + M^-1 G^T lambda / (2 beta) to the acceleration, and to the velocity of VelocityImpulses.
+bool GeneralizedAlpha::stop_at_rows(double h, State& end, StepReport& report) {
+  if (!impulses_->accelerations(next_.contact, pushed_end_)) {
+    report.failure = MassSolver::failure;
+    return false;
+  }
+  const double share = 0.5 / parameters_.beta;
+  for (std::size_t i = 0; i < end.a.size(); ++i) {
+    end.a[i] += (1.0 - share) * pushed_end_[i];
+    end.v[i] -= parameters_.gamma * h * share * pushed_end_[i];
+  }
+  report.failure = impulses_->respond(h, next_.rows, end.v);
+  return report.failure.empty();
+}
+
+Momentum GeneralizedAlpha::resultant_of(std::span<const double> u, std::span<const double> acceleration) {
+  system_.mass.apply(acceleration, inertia_);
+  return resultant(system_, u, inertia_);
+}
+
+/// force: the resultant in the equation of motion.
+Momentum GeneralizedAlpha::impulse(double h, const State& begin, State& end, const Momentum& force) {
+  const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
+  const std::vector<double>& m = begin.memory;
+  Momentum before = combine(1.0, {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}}, 1.0, start_.change(begin.q));
+  Momentum after = combine(1.0 / (1.0 - alpha_m), force, -alpha_m / (1.0 - alpha_m), before);
+  end.memory = packed(after);
+  Momentum of_contact;
+  if (impulses_) {
+    before = combine(1.0, before, -1.0, resultant_of(begin.q, pushed_begin_));
+    after = combine(1.0, after, -1.0, resultant_of(end.q, pushed_end_));
+    of_contact = resultant_of(end.q, impulses_->push());
+  }
+  return combine(1.0, combine(h * (1.0 - gamma), before, h * gamma, after), h, of_contact);
+}
+
 StepReport GeneralizedAlpha::step(const State& begin, const StepRequest& request, State& end) {
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
   const double h = request.dt;
-  const std::size_t n = begin.q.size();
   end = begin;
   end.t = request.t_end;
-  next_.external.resize(n);
+  next_.external.resize(begin.q.size());
   system_.solid.external_force(end.t, system_.mass, next_.external);
-  imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
-  if (!start_.set(
-          begin.a, h, imposed_, [](const ImposedStep& s) { return s.a_begin; }, now_))
-    return {false, 0, 0, MassSolver::failure, {}};
-  const std::span<const double> a_begin = start_.a();
-  for (std::size_t i = 0; i < n; ++i) {
-    u_predicted_[i] = begin.q[i] + h * begin.v[i] + h * h * (0.5 - beta) * a_begin[i];
-    v_predicted_[i] = begin.v[i] + h * (1.0 - gamma) * a_begin[i];
-    known_[i] = (1.0 - alpha_f) * next_.external[i] + alpha_f * (now_.external[i] - now_.internal[i]) -
-                alpha_m * now_.inertia[i];
+  if (!predict(begin, h, end)) return {false, 0, 0, MassSolver::failure, {}};
+  // Times 2 beta / (1 - alpha_m) the equation has the multipliers as they are.
+  const double share = impulses_ ? 2.0 * beta / (1.0 - alpha_m) : 1.0;
+  if (impulses_) {
+    for (double& f : known_) f *= share;
   }
-  const StageEquation equation{.m = 1.0 - alpha_m,
-                               .k = 1.0 - alpha_f,
+  const StageEquation equation{.m = share * (1.0 - alpha_m),
+                               .k = share * (1.0 - alpha_f),
                                .s = beta * h * h,
                                .r = gamma * h,
                                .x_hat = u_predicted_,
@@ -62,19 +118,19 @@ StepReport GeneralizedAlpha::step(const State& begin, const StepRequest& request
                                .known = known_,
                                .imposed = imposed_};
   impose_on_stage(equation, end.a);
-  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
-  StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
-  if (!report.converged) return report;
+  StageReport solved = stage_.solve(equation, begin, share * request.work_tolerance, end, next_);
+  StepReport report{false, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
+  if (!solved.converged || (impulses_ && !stop_at_rows(h, end, report))) return report;
   complete_forces(system_, end, next_);
-  const StepWeights weights{.inertia = 1.0 - alpha_m, .force = 1.0 - alpha_f, .contact = 1.0};
-  const StepBooks books = step_books(system_, begin, now_, end, next_, weights,
-                                     stage_.port().work(begin, now_, end, next_, weights.support_work));
+  const StepWeights weights{
+      .inertia = 1.0 - alpha_m, .force = 1.0 - alpha_f, .contact = impulses_ ? 1.0 - alpha_m : 1.0};
+  const StepBooks books =
+      step_books(system_, begin, now_, end, next_, weights,
+                 stage_.port().work(begin, now_, end, next_, impulses_ ? 1.0 : weights.support_work));
   report.books = books.increment;
-  const std::vector<double>& m = begin.memory;
-  const Momentum before = combine(1.0, {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}}, 1.0, start_.change(begin.q));
-  const Momentum after = combine(1.0 / (1.0 - alpha_m), books.force, -alpha_m / (1.0 - alpha_m), before);
-  report.books.impulse = combine(h * (1.0 - gamma), before, h * gamma, after);
-  end.memory = packed(after);
+  report.books.impulse = impulse(h, begin, end, books.force);
+  report.converged = true;
+  u_end_ = end.q;
   std::swap(now_, next_);
   return report;
 }

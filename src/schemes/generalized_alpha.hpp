@@ -1,11 +1,13 @@
 // The generalised-alpha family: Newmark, HHT, WBZ and Chung-Hulbert as parameters of one scheme.
 #pragma once
 
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "schemes/implicit_stage.hpp"
 #include "schemes/scheme.hpp"
+#include "schemes/velocity_impulses.hpp"
 
 namespace carom {
 
@@ -45,27 +47,42 @@ constexpr GeneralizedAlphaParameters chung_hulbert_parameters(double rho_inf) {
 /// through a consistent mass. The impulses of the ledger follow from M a: with e1 the resultant that
 /// (1 - alpha_m) e1 + alpha_m e0 = forces of the equation defines, it is h ((1 - gamma) e0 + gamma e1); e is the
 /// scheme's memory.
+///
+/// With VelocityImpulses contact is implicit (Kane, Repetto, Ortiz and Marsden, Comput. Methods Appl. Mech. Eng. 180,
+/// 1999): s = a - M^-1 G^T lambda takes the place of a above, and the multipliers lambda and the forces Lambda of the
+/// velocities act for the whole step,
+///   u1 = ... + h^2/2 M^-1 G^T lambda1,  v1 = ... + h M^-1 G^T Lambda.
+/// What touches is stopped, and nothing of it is remembered. Newmark with 1/4, 1/2 keeps the energy between touches.
 class GeneralizedAlpha final : public Scheme {
  public:
   /// omega_max_squared: a bound of the spectrum of M^-1 K, for the choice of the solver; dt: the usual step.
   GeneralizedAlpha(const System& system, const GeneralizedAlphaParameters& parameters, const ImplicitSettings& settings,
-                   double dt, double omega_max_squared);
+                   double dt, double omega_max_squared, std::unique_ptr<VelocityImpulses> impulses = nullptr);
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
   void take_back() override { std::swap(now_, next_); }
   const Forces& forces() const override { return now_; }
   double end_weight() const override { return parameters_.gamma; }
+  ContactWithin contact_within() const override;
   std::string solver_name() const override { return stage_.solver_name(); }
 
  private:
+  bool predict(const State& begin, double h, State& end);
+  bool stop_at_rows(double h, State& end, StepReport& report);
+  Momentum impulse(double h, const State& begin, State& end, const Momentum& force);
+  Momentum resultant_of(std::span<const double> u, std::span<const double> acceleration);
+
   const System& system_;
   GeneralizedAlphaParameters parameters_;
   StepStart start_;
   ImplicitStage stage_;
   Forces now_, next_;
   std::vector<ImposedStep> imposed_;
-  std::vector<double> u_predicted_, v_predicted_, known_;
+  std::unique_ptr<VelocityImpulses> impulses_;
+  std::vector<double> pushed_begin_, pushed_end_;  ///< M^-1 G^T lambda, with impulses
+  std::vector<double> u_predicted_, v_predicted_, known_, inertia_;
+  std::vector<double> u_end_;  ///< of the last step
 };
 
 }  // namespace carom

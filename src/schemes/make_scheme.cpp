@@ -27,7 +27,8 @@ std::unique_ptr<Scheme> make_scheme(const System& system, const SchemeSettings& 
   };
   switch (s.kind) {
     case SchemeKind::newmark:
-      return alpha_family(newmark_parameters(s.beta, s.gamma));
+      return std::make_unique<GeneralizedAlpha>(system, newmark_parameters(s.beta, s.gamma), implicit, dt,
+                                                omega_max_squared, velocity_impulses(system, s.enforcement));
     case SchemeKind::hht:
       return alpha_family(hht_parameters(s.alpha));
     case SchemeKind::wbz:

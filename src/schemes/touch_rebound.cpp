@@ -10,7 +10,7 @@ std::optional<double> touch_rebound(const SchemeSettings& s) {
   const auto of = [](const GeneralizedAlphaParameters& p) { return (1.0 - p.alpha_m) / p.beta - 1.0; };
   switch (s.kind) {
     case SchemeKind::newmark:
-      return of(newmark_parameters(s.beta, s.gamma));
+      return 0.0;
     case SchemeKind::hht:
       return of(hht_parameters(s.alpha));
     case SchemeKind::wbz:

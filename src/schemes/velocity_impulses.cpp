@@ -59,4 +59,14 @@ std::string VelocityImpulses::respond(double k, const ContactResponse& closed, s
   return failure;
 }
 
+std::unique_ptr<VelocityImpulses> velocity_impulses(const System& system, EnforcementKind enforcement) {
+  if (enforcement != EnforcementKind::lagrange && enforcement != EnforcementKind::augmented_lagrangian) return nullptr;
+  const std::vector<double>& mass = system.mass.node_diagonal();
+  const std::vector<bool>& fixed = system.supports.fixed();
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    if (mass[i / 3] == 0.0 && !fixed[i]) return nullptr;
+  }
+  return std::make_unique<VelocityImpulses>(system);
+}
+
 }  // namespace carom

@@ -1,10 +1,12 @@
 // Velocities that the rows in contact allow, where multipliers decide the displacements.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "model/compatibility.hpp"
 #include "schemes/closing_rows.hpp"
 #include "schemes/mass_solver.hpp"
 #include "schemes/node_compliance.hpp"
@@ -47,5 +49,8 @@ class VelocityImpulses {
   std::vector<ClosingRow> closing_;
   std::vector<double> push_;
 };
+
+/// None where contact is a law, or where free nodes have no mass (a modified mass): nothing is to be stopped there.
+std::unique_ptr<VelocityImpulses> velocity_impulses(const System& system, EnforcementKind enforcement);
 
 }  // namespace carom

@@ -134,8 +134,8 @@ TEST(FreeMass, ReboundOfATouchIsThatOfTheRecurrence) {
     ASSERT_TRUE(touch_rebound(s).has_value());
     EXPECT_NEAR(speed_after_touch(p, 1.0 - 1e-9), *touch_rebound(s), 1e-7);
   };
-  expect(SchemeKind::newmark, newmark_parameters(s.beta, s.gamma));
-  EXPECT_DOUBLE_EQ(*touch_rebound(s), 3.0);
+  s.kind = SchemeKind::newmark;
+  EXPECT_EQ(*touch_rebound(s), 0.0);
   for (const double alpha : {-0.05, -0.2, -1.0 / 3.0}) {
     s.alpha = alpha;
     expect(SchemeKind::hht, hht_parameters(alpha));

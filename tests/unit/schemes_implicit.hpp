@@ -65,6 +65,14 @@ inline std::vector<ImplicitScheme> implicit_schemes() {
                      return std::make_unique<Bathe>(p.system, settings, h, omega_squared);
                    }});
   }
+  for (const EnforcementKind e : {EnforcementKind::augmented_lagrangian, EnforcementKind::lagrange}) {
+    all.push_back({"trapezoidal_that_stops_" + std::string(name(e)),
+                   {.enforcement = e},
+                   [e](const Problem& p, const ImplicitSettings& settings, double h, double omega_squared) {
+                     return std::make_unique<GeneralizedAlpha>(p.system, newmark_parameters(0.25, 0.5), settings, h,
+                                                               omega_squared, velocity_impulses(p.system, e));
+                   }});
+  }
   all.push_back({"contact_stabilized",
                  {.enforcement = EnforcementKind::lagrange},
                  [](const Problem& p, const ImplicitSettings& settings, double h, double omega_squared) {
