@@ -72,10 +72,12 @@ void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
   s.key_by("penetration", [scheme_of](auto& section) -> auto& { return scheme_of(section).penetration; },
            "With enforcement = \"augmented_lagrangian\": largest penetration, relative to the smallest cell.",
            {.range = greater_than(0.0), .kinds = schemes_with(augmented), .default_phrase = "1e-3"});
-  s.key_by("mass", [scheme_of](auto& section) -> auto& { return scheme_of(section).mass; },
-           "Mass matrix; modified: no inertia on contact nodes, theirs given to their neighbours.",
-           {.choices = {"consistent", "lumped", "modified"},
-            .default_phrase = "implicit: consistent; explicit: lumped; modified_mass: modified"});
+  s.key_by(
+      "mass", [scheme_of](auto& section) -> auto& { return scheme_of(section).mass; },
+      "Mass matrix; modified: no inertia on contact nodes (of pairs: of the faces that look at the other side at the "
+      "start), theirs given to their neighbours.",
+      {.choices = {"consistent", "lumped", "modified"},
+       .default_phrase = "implicit: consistent; explicit: lumped; modified_mass: modified"});
   s.key_by("layers", [scheme_of](auto& section) -> auto& { return scheme_of(section).layers; },
            "With a modified mass: layers of nodes that take the mass of the contact nodes.",
            {.range = at_least(1.0), .default_phrase = "4"});
