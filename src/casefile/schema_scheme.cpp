@@ -60,7 +60,7 @@ void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
   number("gamma", &CaseScheme::gamma, "Newmark's gamma; above 0.5 the scheme dissipates.", closed(0.5, 1.0),
          {"newmark", "contact_stabilized_newmark"});
   number("alpha", &CaseScheme::alpha, "Dissipation of HHT (from -1/3 on) and WBZ; 0 is Newmark's trapezoidal rule.",
-         closed(-1.0, 0.0), {"hht", "wbz"}, "-0.05; with multipliers, which throw nodes back: hht -1/3, wbz -0.6");
+         closed(-1.0, 0.0), {"hht", "wbz"}, "-0.05; hht with multipliers, which throw nodes back: -1/3");
   number("rho_inf", &CaseScheme::rho_inf, "Spectral radius at high frequency (Hulbert-Chung: at bifurcation).",
          closed(0.0, 1.0), {"generalized_alpha", "nonsmooth_generalized_alpha", "hulbert_chung"});
   number("theta", &CaseScheme::theta, "Weight of the end of the step; above 0.5 the scheme dissipates.",
@@ -173,7 +173,7 @@ void choose_parameters(CaseScheme& scheme, const Node& node) {
   const bool has_multipliers =
       enforcement == EnforcementKind::lagrange || enforcement == EnforcementKind::augmented_lagrangian;
   if (!has_multipliers || **scheme.mass == CaseScheme::Mass::modified) return;
-  if (find(node, "alpha") == nullptr) scheme.alpha = *scheme.kind == SchemeKind::wbz ? -0.6 : least_alpha_of_hht;
+  if (*scheme.kind == SchemeKind::hht && find(node, "alpha") == nullptr) scheme.alpha = least_alpha_of_hht;
 }
 
 void check_alpha(const CaseScheme& scheme, const Node& node, const ReadContext& at) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "schemes/bathe.hpp"
 #include "schemes/central_differences.hpp"
@@ -22,19 +23,18 @@ namespace carom {
 std::unique_ptr<Scheme> make_scheme(const System& system, const SchemeSettings& s, double dt,
                                     double omega_max_squared) {
   const ImplicitSettings implicit{s.enforcement, s.max_iterations, s.penetration, s.solver};
-  const auto alpha_family = [&](const GeneralizedAlphaParameters& parameters) {
-    return std::make_unique<GeneralizedAlpha>(system, parameters, implicit, dt, omega_max_squared);
+  const auto alpha_family = [&](const GeneralizedAlphaParameters& p, std::unique_ptr<VelocityImpulses> impulses) {
+    return std::make_unique<GeneralizedAlpha>(system, p, implicit, dt, omega_max_squared, std::move(impulses));
   };
   switch (s.kind) {
     case SchemeKind::newmark:
-      return std::make_unique<GeneralizedAlpha>(system, newmark_parameters(s.beta, s.gamma), implicit, dt,
-                                                omega_max_squared, velocity_impulses(system, s.enforcement));
+      return alpha_family(newmark_parameters(s.beta, s.gamma), velocity_impulses(system, s.enforcement));
     case SchemeKind::hht:
-      return alpha_family(hht_parameters(s.alpha));
+      return alpha_family(hht_parameters(s.alpha), nullptr);
     case SchemeKind::wbz:
-      return alpha_family(wbz_parameters(s.alpha));
+      return alpha_family(wbz_parameters(s.alpha), velocity_impulses(system, s.enforcement));
     case SchemeKind::generalized_alpha:
-      return alpha_family(chung_hulbert_parameters(s.rho_inf));
+      return alpha_family(chung_hulbert_parameters(s.rho_inf), nullptr);
     case SchemeKind::bathe:
       return std::make_unique<Bathe>(system, implicit, dt, omega_max_squared);
     case SchemeKind::contact_stabilized_newmark:

@@ -10,11 +10,10 @@ std::optional<double> touch_rebound(const SchemeSettings& s) {
   const auto of = [](const GeneralizedAlphaParameters& p) { return (1.0 - p.alpha_m) / p.beta - 1.0; };
   switch (s.kind) {
     case SchemeKind::newmark:
+    case SchemeKind::wbz:
       return 0.0;
     case SchemeKind::hht:
       return of(hht_parameters(s.alpha));
-    case SchemeKind::wbz:
-      return of(wbz_parameters(s.alpha));
     case SchemeKind::generalized_alpha:
       return of(chung_hulbert_parameters(s.rho_inf));
     case SchemeKind::bathe:

@@ -17,8 +17,8 @@ inline constexpr double largest_touch_rebound = 1.5;
 ///   h (a1 + a2 + ...) = (1 - alpha_m) h a1 = (1 - alpha_m) v / beta,
 /// so that the mass leaves with (1 - alpha_m) / beta - 1 times its speed: 1 for Chung and Hulbert with rho_inf = 1, 3
 /// for Newmark's parameters with beta = 1/4. Above 1 touches make energy, whatever the step, fixed wall or free. With
-/// VelocityImpulses a touch stops: 0 for Newmark; Bathe's backward formula still leaves a mass that reaches the row
-/// right after the middle with v / 2, the most. Empty for schemes of other families and other enforcements.
+/// VelocityImpulses a touch stops: 0 for Newmark and WBZ; Bathe's backward formula still leaves a mass that reaches the
+/// row right after the middle with v / 2, the most. Empty for schemes of other families and other enforcements.
 std::optional<double> touch_rebound(const SchemeSettings& settings);
 
 }  // namespace carom

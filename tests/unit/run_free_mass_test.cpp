@@ -134,12 +134,13 @@ TEST(FreeMass, ReboundOfATouchIsThatOfTheRecurrence) {
     ASSERT_TRUE(touch_rebound(s).has_value());
     EXPECT_NEAR(speed_after_touch(p, 1.0 - 1e-9), *touch_rebound(s), 1e-7);
   };
-  s.kind = SchemeKind::newmark;
-  EXPECT_EQ(*touch_rebound(s), 0.0);
+  for (const SchemeKind kind : {SchemeKind::newmark, SchemeKind::wbz}) {
+    s.kind = kind;
+    EXPECT_EQ(*touch_rebound(s), 0.0);
+  }
   for (const double alpha : {-0.05, -0.2, -1.0 / 3.0}) {
     s.alpha = alpha;
     expect(SchemeKind::hht, hht_parameters(alpha));
-    expect(SchemeKind::wbz, wbz_parameters(alpha));
   }
   for (const double rho : {0.0, 0.5, 0.8, 1.0}) {
     s.rho_inf = rho;

@@ -66,12 +66,15 @@ inline std::vector<ImplicitScheme> implicit_schemes() {
                    }});
   }
   for (const EnforcementKind e : {EnforcementKind::augmented_lagrangian, EnforcementKind::lagrange}) {
-    all.push_back({"trapezoidal_that_stops_" + std::string(name(e)),
-                   {.enforcement = e},
-                   [e](const Problem& p, const ImplicitSettings& settings, double h, double omega_squared) {
-                     return std::make_unique<GeneralizedAlpha>(p.system, newmark_parameters(0.25, 0.5), settings, h,
-                                                               omega_squared, velocity_impulses(p.system, e));
-                   }});
+    for (const auto& [title, parameters] : {std::pair{"trapezoidal_that_stops_", newmark_parameters(0.25, 0.5)},
+                                            {"wbz_that_stops_", wbz_parameters(-0.05)}})
+      all.push_back({title + std::string(name(e)),
+                     {.enforcement = e},
+                     [e, parameters = parameters](const Problem& p, const ImplicitSettings& settings, double h,
+                                                  double omega_squared) {
+                       return std::make_unique<GeneralizedAlpha>(p.system, parameters, settings, h, omega_squared,
+                                                                 velocity_impulses(p.system, e));
+                     }});
   }
   all.push_back({"contact_stabilized",
                  {.enforcement = EnforcementKind::lagrange},

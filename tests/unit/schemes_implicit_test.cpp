@@ -264,7 +264,7 @@ TEST(ImpactBarTable, IsReached) {
 /// energy by up to 3.3 here. 1e-10: the tolerance of the ledger.
 TEST(ImpactBarTable, WhatStopsAtTouchesMakesNoEnergy) {
   for (const ImplicitScheme& one : implicit_schemes()) {
-    if (!one.name.starts_with("trapezoidal_that_stops") && one.name != "bathe_lagrange" &&
+    if (one.name.find("that_stops") == std::string::npos && one.name != "bathe_lagrange" &&
         one.name != "bathe_augmented_lagrangian")
       continue;
     for (const auto& [cells, courant] : {std::pair{4, 0.15}, {5, 0.15}, {7, 0.15}, {9, 0.5}, {12, 0.5}, {12, 1.0}}) {
