@@ -124,7 +124,7 @@ struct Cubes {
 
 TEST(BodyOverlap, IsTheDepthUnderTheSkinInCells) {
   const Cubes cubes(4);
-  const BodyOverlap overlap(cubes.model, cubes.u);
+  BodyOverlap overlap(cubes.model, cubes.u);
   EXPECT_EQ(overlap.deepest(cubes.u).depth, 0.0);
   // A tenth of a cell deep, then more than a cell: of cells without skin faces one counts.
   EXPECT_NEAR(overlap.deepest(cubes.lowered(0.025)).depth, 0.1, round_off);
@@ -136,7 +136,7 @@ TEST(BodyOverlap, IsTheDepthUnderTheSkinInCells) {
 
 TEST(BodyOverlap, LeavesOutWhatTheBodiesStartWith) {
   const Cubes cubes(4);
-  const BodyOverlap overlap(cubes.model, cubes.lowered(0.025));
+  BodyOverlap overlap(cubes.model, cubes.lowered(0.025));
   EXPECT_NEAR(overlap.deepest(cubes.lowered(0.025)).depth, 0.0, round_off);
   EXPECT_NEAR(overlap.deepest(cubes.lowered(0.1)).depth, 0.3, round_off);
 }
@@ -148,7 +148,7 @@ TEST(BodyOverlap, CountsObstacles) {
   contact.measure = RowMeasure::per_node;
   contact.nodes = cubes.model.mesh->nodes_of("LOWER");
   cubes.model.contacts.emplace_back(contact);
-  const BodyOverlap overlap(cubes.model, cubes.u);
+  BodyOverlap overlap(cubes.model, cubes.u);
   std::vector<double> u = cubes.u;
   for (std::size_t i = 2; i < u.size(); i += 3) u[i] = -0.2;  // both cubes; cells of 1/2
   EXPECT_NEAR(overlap.deepest(u).depth, 0.4, round_off);
