@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "energy/energy_terms.hpp"
 #include "output/units.hpp"
 
 namespace carom::compare {
@@ -31,8 +32,9 @@ std::vector<std::size_t> ranked(const Comparison& comparison) {
 
 std::vector<double> mechanical_energy(const CsvTable& table) {
   std::vector<double> sum(table.rows(), 0.0);
-  for (const char* column : {"kinetic", "strain", "contact_stored"}) {
-    const std::vector<double>* values = table.column(column);
+  for (const EnergyTerm& term : energy_terms) {
+    if (term.kind != TermKind::stored) continue;
+    const std::vector<double>* values = table.column(std::string(term.name));
     if (values == nullptr) return {};
     std::transform(sum.begin(), sum.end(), values->begin(), sum.begin(), std::plus<>());
   }

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "base/errors.hpp"
+#include "energy/energy_terms.hpp"
 #include "output/units.hpp"
 
 namespace carom::compare {
@@ -34,7 +35,8 @@ bool is_compared(const std::string& column) {
   if (!name.place.empty())
     return name.quantity != "impulse" && name.quantity != "moment" && name.quantity != "penetration" &&
            name.quantity != "closed" && name.quantity != "closings";
-  return column == "kinetic" || column == "strain" || column == "contact_stored";
+  return std::any_of(energy_terms.begin(), energy_terms.end(),
+                     [&](const EnergyTerm& term) { return term.kind == TermKind::stored && term.name == column; });
 }
 
 /// Curves with the times they stand at.
@@ -173,19 +175,21 @@ std::vector<double> interpolated(std::span<const double> from, std::span<const d
 }
 
 double energy_kept(const CsvTable& energy) {
-  const auto at = [&energy](const char* column, std::size_t row) {
-    const std::vector<double>* values = energy.column(column);
-    return values == nullptr ? kNone : (*values)[row];
-  };
   if (energy.rows() == 0) return kNone;
-  const auto mechanical = [&](std::size_t row) {
-    return at("kinetic", row) + at("strain", row) + at("contact_stored", row);
+  const auto terms_at = [&](std::size_t row) {
+    EnergyTerms terms;
+    for (const EnergyTerm& term : energy_terms) {
+      const std::vector<double>* values = energy.column(std::string(term.name));
+      terms.*term.value = values == nullptr ? kNone : (*values)[row];
+    }
+    return terms;
   };
-  const auto supplied = [&](std::size_t row) { return at("external_work", row) + at("support_work", row); };
   const std::size_t last = energy.rows() - 1;
-  double scale = mechanical(0);
-  for (std::size_t row = 0; row <= last; ++row) scale = std::max(scale, std::abs(supplied(row)));
-  const double lost = mechanical(0) + supplied(last) - at("friction", last) - at("damping", last) - mechanical(last);
+  const double begin = terms_at(0).mechanical();
+  double scale = begin;
+  for (std::size_t row = 0; row <= last; ++row) scale = std::max(scale, std::abs(terms_at(row).supplied()));
+  const EnergyTerms end = terms_at(last);
+  const double lost = begin + end.supplied() - end.friction - end.damping - end.mechanical();
   return scale > 0.0 ? 1.0 - lost / scale : kNone;
 }
 

@@ -5,49 +5,9 @@
 #include <cmath>
 
 #include "base/types.hpp"
+#include "energy/energy_terms.hpp"
 
 namespace carom {
-
-/// Energies (or their increments over a step), in the unit of energy.
-/// Stored: kinetic, strain, contact_stored are functions of the state. Dissipated: friction, damping, impact (what
-/// contact enforced by multipliers or impulses takes out along the normals).
-/// Supplied: external_work (loads), support_work (reactions of imposed motions), by the trapezoidal rule.
-/// algorithmic: what the scheme takes out by its own identity. quadrature: trapezoidal work of internal and contact
-/// forces minus the change of what they store and dissipate: zero for linear bodies without a change of contact.
-struct EnergyTerms {
-  double kinetic = 0.0;
-  double strain = 0.0;
-  double contact_stored = 0.0;
-  double friction = 0.0;
-  double damping = 0.0;
-  double impact = 0.0;
-  double external_work = 0.0;
-  double support_work = 0.0;
-  double algorithmic = 0.0;
-  double quadrature = 0.0;
-
-  EnergyTerms& operator+=(const EnergyTerms& o) {
-    kinetic += o.kinetic;
-    strain += o.strain;
-    contact_stored += o.contact_stored;
-    friction += o.friction;
-    damping += o.damping;
-    impact += o.impact;
-    external_work += o.external_work;
-    support_work += o.support_work;
-    algorithmic += o.algorithmic;
-    quadrature += o.quadrature;
-    return *this;
-  }
-
-  /// What the bodies and the contact springs hold.
-  double mechanical() const { return kinetic + strain + contact_stored; }
-  double supplied() const { return external_work + support_work; }
-  /// Residual of the balance of powers; zero when forces, solves and formulas agree.
-  double imbalance() const {
-    return mechanical() + friction + damping + impact + algorithmic + quadrature - supplied();
-  }
-};
 
 /// The same books in Code_Aster's terms (U4.84 ENERGIE), accumulated from zero at the start.
 struct AsterTerms {
@@ -68,6 +28,13 @@ struct AsterTerms {
   /// Dissipated by the scheme: TRAV_EXT - ENER_CIN - ENER_TOT - TRAV_AMOR - TRAV_LIAI.
   double DISS_SCH() const { return TRAV_EXT - ENER_CIN - ENER_TOT - TRAV_AMOR - TRAV_LIAI; }
 };
+
+/// As columns and entries of the summary.
+inline constexpr std::array<std::string_view, 6> aster_names{"ENER_CIN",  "ENER_TOT",  "TRAV_EXT",
+                                                             "TRAV_AMOR", "TRAV_LIAI", "DISS_SCH"};
+inline std::array<double, 6> aster_values(const AsterTerms& a) {
+  return {a.ENER_CIN, a.ENER_TOT, a.TRAV_EXT, a.TRAV_AMOR, a.TRAV_LIAI, a.DISS_SCH()};
+}
 
 /// Linear momentum, and angular momentum about the origin with the reference positions (small displacements).
 struct Momentum {
@@ -114,9 +81,7 @@ class EnergyLedger {
   /// Stored energies as they stand, and the sums of all others.
   EnergyTerms now() const {
     EnergyTerms terms = total_;
-    terms.kinetic += initial_.kinetic;
-    terms.strain += initial_.strain;
-    terms.contact_stored += initial_.contact_stored;
+    terms += initial_;
     return terms;
   }
   const EnergyTerms& initial() const { return initial_; }

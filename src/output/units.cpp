@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <vector>
 
 #include "base/units.hpp"
+#include "energy/ledger.hpp"
 
 namespace carom {
 
@@ -82,13 +83,10 @@ std::string unit_of_column(const Units& units, std::string_view column) {
   if (quantity == "momentum" || quantity == "momentum_error") return product(units.mass, velocity);
   if (quantity == "angular_momentum" || quantity == "angular_momentum_error")
     return velocity.empty() ? std::string() : product(units.mass, units.length + "²/" + units.time);
-  constexpr std::array<std::string_view, 17> energies{
-      "kinetic",       "strain",       "contact_stored", "friction",   "damping",   "impact",
-      "external_work", "support_work", "algorithmic",    "quadrature", "imbalance", "ENER_CIN",
-      "ENER_TOT",      "TRAV_EXT",     "TRAV_AMOR",      "TRAV_LIAI",  "DISS_SCH"};
-  for (const std::string_view energy : energies) {
-    if (quantity == energy) return units.energy;
-  }
+  const auto is_term = [&](const EnergyTerm& term) { return term.name == quantity; };
+  const bool is_energy = std::any_of(energy_terms.begin(), energy_terms.end(), is_term) ||
+                         std::find(aster_names.begin(), aster_names.end(), quantity) != aster_names.end();
+  if (is_energy || quantity == "imbalance") return units.energy;
   return {};
 }
 

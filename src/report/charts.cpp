@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "energy/energy_terms.hpp"
 #include "report/decimate.hpp"
 #include "report/html.hpp"
 #include "report/readable_unit.hpp"
@@ -27,9 +28,6 @@ struct Group {
   std::string section, title, label;
   std::vector<std::string> columns;
 };
-
-/// Stored energies, whose sum is the mechanical energy.
-constexpr std::array<const char*, 3> kStored{"kinetic", "strain", "contact_stored"};
 
 double largest_magnitude(const std::vector<double>& values) {
   double largest = 0.0;
@@ -205,12 +203,16 @@ std::optional<std::string> kept_bound(const Group& group, const std::optional<Su
 /// The sum of the stored energies, drawn beside its terms.
 void add_mechanical_energy(Chart& chart, const CsvTable& table) {
   std::vector<double> sum(table.rows(), 0.0);
-  for (const char* column : kStored) {
-    const auto* values = table.column(column);
+  std::string name = "total: ";
+  for (const EnergyTerm& term : energy_terms) {
+    if (term.kind != TermKind::stored) continue;
+    const auto* values = table.column(std::string(term.name));
     if (values == nullptr) return;
     std::transform(sum.begin(), sum.end(), values->begin(), sum.begin(), std::plus<>());
+    if (!name.ends_with(' ')) name += " + ";
+    name += with_spaces(term.name);
   }
-  chart.curves.push_back(make_curve(table, sum, "total: kinetic + strain + contact stored", CurveKind::computed));
+  chart.curves.push_back(make_curve(table, sum, std::move(name), CurveKind::computed));
 }
 
 /// A step that does not change is a line of text.
@@ -300,9 +302,10 @@ std::string json_numbers(const std::vector<double>& values) {
 Scales scales_of(const Tables& tables, const std::optional<Summary>& summary) {
   Scales scales;
   if (tables.energy) {
-    for (const char* column : {"kinetic", "strain", "contact_stored", "external_work", "support_work"}) {
-      if (const auto* values = tables.energy->column(column))
-        scales.energy = std::max(scales.energy, largest_magnitude(*values));
+    for (const EnergyTerm& term : energy_terms) {
+      const bool is_counted = term.kind == TermKind::stored || term.kind == TermKind::supplied;
+      const auto* values = is_counted ? tables.energy->column(std::string(term.name)) : nullptr;
+      if (values != nullptr) scales.energy = std::max(scales.energy, largest_magnitude(*values));
     }
   }
   if (!summary) return scales;

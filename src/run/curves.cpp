@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "energy/ledger.hpp"
 #include "math/vec3.hpp"
 #include "run/probe_place.hpp"
 
@@ -17,70 +18,25 @@ std::optional<std::size_t> CurveTable::find(const std::string& column) const {
 }
 
 EnergyCurves::EnergyCurves() {
-  table_.columns = {"time",
-                    "step",
-                    "dt",
-                    "iterations",
-                    "kinetic",
-                    "strain",
-                    "contact_stored",
-                    "friction",
-                    "damping",
-                    "impact",
-                    "external_work",
-                    "support_work",
-                    "algorithmic",
-                    "quadrature",
-                    "imbalance",
-                    "ENER_CIN",
-                    "ENER_TOT",
-                    "TRAV_EXT",
-                    "TRAV_AMOR",
-                    "TRAV_LIAI",
-                    "DISS_SCH",
-                    "momentum_x",
-                    "momentum_y",
-                    "momentum_z",
-                    "angular_momentum_x",
-                    "angular_momentum_y",
-                    "angular_momentum_z",
-                    "momentum_error",
-                    "angular_momentum_error"};
+  table_.columns = {"time", "step", "dt", "iterations"};
+  for (const EnergyTerm& term : energy_terms) table_.columns.emplace_back(term.name);
+  table_.columns.emplace_back("imbalance");
+  table_.columns.insert(table_.columns.end(), aster_names.begin(), aster_names.end());
+  table_.columns.insert(table_.columns.end(),
+                        {"momentum_x", "momentum_y", "momentum_z", "angular_momentum_x", "angular_momentum_y",
+                         "angular_momentum_z", "momentum_error", "angular_momentum_error"});
 }
 
 void EnergyCurves::sample(const StepView& view) {
   const EnergyTerms e = view.ledger.now();
-  const AsterTerms& a = view.ledger.aster();
+  const std::array<double, 6> aster = aster_values(view.ledger.aster());
   const Momentum &p = view.ledger.momentum(), error = view.ledger.momentum_error();
-  table_.row = {view.state.t,
-                static_cast<double>(view.step),
-                view.dt,
-                static_cast<double>(view.iterations),
-                e.kinetic,
-                e.strain,
-                e.contact_stored,
-                e.friction,
-                e.damping,
-                e.impact,
-                e.external_work,
-                e.support_work,
-                e.algorithmic,
-                e.quadrature,
-                view.ledger.imbalance(),
-                a.ENER_CIN,
-                a.ENER_TOT,
-                a.TRAV_EXT,
-                a.TRAV_AMOR,
-                a.TRAV_LIAI,
-                a.DISS_SCH(),
-                p.linear[0],
-                p.linear[1],
-                p.linear[2],
-                p.angular[0],
-                p.angular[1],
-                p.angular[2],
-                norm(error.linear),
-                norm(error.angular)};
+  table_.row = {view.state.t, static_cast<double>(view.step), view.dt, static_cast<double>(view.iterations)};
+  for (const EnergyTerm& term : energy_terms) table_.row.push_back(e.*term.value);
+  table_.row.push_back(view.ledger.imbalance());
+  table_.row.insert(table_.row.end(), aster.begin(), aster.end());
+  table_.row.insert(table_.row.end(), {p.linear[0], p.linear[1], p.linear[2], p.angular[0], p.angular[1], p.angular[2],
+                                       norm(error.linear), norm(error.angular)});
 }
 
 namespace {

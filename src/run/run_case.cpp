@@ -211,9 +211,7 @@ void Run::book_switch(const Stage& stage, const GivenMotion& given) {
   ledger_->give(given.kinetic, given.momentum);
   const EnergyTerms before = ledger_->now(), &after = scheme_->forces().stored;
   LedgerIncrement jump;
-  jump.energy.kinetic = after.kinetic - before.kinetic;
-  jump.energy.strain = after.strain - before.strain;
-  jump.energy.contact_stored = after.contact_stored - before.contact_stored;
+  jump.energy = change_of_stored(before, after);
   jump.energy.algorithmic = -jump.energy.mechanical();
   const Momentum now = scheme_->forces().total_momentum;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -395,20 +393,10 @@ void Run::fill(Summary& summary) const {
   recorder_.fill(summary);
   if (!ledger_) return;
   const EnergyTerms e = ledger_->now();
-  summary.ledger = {{"kinetic", e.kinetic},
-                    {"strain", e.strain},
-                    {"contact_stored", e.contact_stored},
-                    {"friction", e.friction},
-                    {"damping", e.damping},
-                    {"impact", e.impact},
-                    {"external_work", e.external_work},
-                    {"support_work", e.support_work},
-                    {"algorithmic", e.algorithmic},
-                    {"quadrature", e.quadrature},
-                    {"imbalance", ledger_->imbalance()}};
-  const AsterTerms& a = ledger_->aster();
-  summary.code_aster = {{"ENER_CIN", a.ENER_CIN},   {"ENER_TOT", a.ENER_TOT},   {"TRAV_EXT", a.TRAV_EXT},
-                        {"TRAV_AMOR", a.TRAV_AMOR}, {"TRAV_LIAI", a.TRAV_LIAI}, {"DISS_SCH", a.DISS_SCH()}};
+  for (const EnergyTerm& term : energy_terms) summary.ledger.push_back({std::string(term.name), e.*term.value});
+  summary.ledger.push_back({"imbalance", ledger_->imbalance()});
+  const std::array<double, 6> aster = aster_values(ledger_->aster());
+  for (std::size_t i = 0; i < aster.size(); ++i) summary.code_aster.push_back({std::string(aster_names[i]), aster[i]});
   const Momentum begin = ledger_->initial_momentum(), end = ledger_->momentum(), impulse = ledger_->impulse();
   summary.linear_momentum = {begin.linear, end.linear, impulse.linear, monitor_->linear_momentum_error()};
   summary.angular_momentum = {begin.angular, end.angular, impulse.angular, monitor_->angular_momentum_error()};

@@ -44,9 +44,7 @@ StepBooks step_books(const System& system, const State& begin, const Forces& f0,
   out.force = momentum_from(sums.data() + 6);
   LedgerIncrement& step = out.increment;
   EnergyTerms& energy = step.energy;
-  energy.kinetic = f1.stored.kinetic - f0.stored.kinetic;
-  energy.strain = f1.stored.strain - f0.stored.strain;
-  energy.contact_stored = f1.stored.contact_stored - f0.stored.contact_stored;
+  energy = change_of_stored(f0.stored, f1.stored);
   energy.friction = contact.friction;
   energy.damping = contact.damping;
   energy.impact = contact.impact;

@@ -38,9 +38,7 @@ LedgerIncrement central_difference_books(const System& system, const State& begi
   }
   LedgerIncrement step;
   EnergyTerms& energy = step.energy;
-  energy.kinetic = f1.stored.kinetic - f0.stored.kinetic;
-  energy.strain = f1.stored.strain - f0.stored.strain;
-  energy.contact_stored = f1.stored.contact_stored - f0.stored.contact_stored;
+  energy = change_of_stored(f0.stored, f1.stored);
   energy.friction = f1.rows.slip_work;
   energy.damping = damping_work(begin, f0, end, f1);
   energy.external_work = sums[2];

@@ -1,6 +1,10 @@
 // The sums of the energy ledger, with numbers that are exact in binary.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
+#include <string>
+
 #include "energy/ledger.hpp"
 
 namespace carom {
@@ -78,6 +82,30 @@ TEST(AsterTerms, SchemeDissipationIsWhatRemains) {
   EXPECT_EQ(terms.DISS_SCH(), 12.25);
   terms += terms;
   EXPECT_EQ(terms.DISS_SCH(), 24.5);
+}
+
+// Each term is given 1 in turn: stored, dissipated and scheme's terms leave a balance of 1, supplied ones of -1.
+TEST(EnergyTerms, EnterTheBalanceByTheirKind) {
+  for (const EnergyTerm& term : energy_terms) {
+    EnergyTerms terms;
+    terms.*term.value = 1.0;
+    EXPECT_EQ(terms.imbalance(), term.kind == TermKind::supplied ? -1.0 : 1.0) << term.name;
+    EXPECT_EQ(terms.mechanical(), term.kind == TermKind::stored ? 1.0 : 0.0) << term.name;
+    EXPECT_EQ(change_of_stored({}, terms).mechanical(), terms.mechanical()) << term.name;
+    terms += terms;
+    EXPECT_EQ(terms.*term.value, 2.0) << term.name;
+  }
+}
+
+TEST(EnergyTerms, AreTheManuals) {
+  std::ostringstream manual;
+  manual << std::ifstream(CAROM_SOURCE_DIR "/docs/architecture.md").rdbuf();
+  const char* kinds[] = {"stored", "dissipated", "supplied", "scheme"};
+  for (const EnergyTerm& term : energy_terms) {
+    const std::string row = "| `" + std::string(term.name) + "` | " + kinds[static_cast<int>(term.kind)] + " | " +
+                            std::string(term.definition) + " |\n";
+    EXPECT_NE(manual.str().find(row), std::string::npos) << row;
+  }
 }
 
 }  // namespace
