@@ -40,6 +40,7 @@ inline std::array<double, 6> aster_values(const AsterTerms& a) {
 struct Momentum {
   Vec3 linear{};
   Vec3 angular{};
+  friend bool operator==(const Momentum&, const Momentum&) = default;
 };
 
 /// What one step adds to the books.

@@ -7,14 +7,6 @@
 
 namespace carom {
 
-namespace {
-
-std::vector<double> packed(const Momentum& p) {
-  return {p.linear[0], p.linear[1], p.linear[2], p.angular[0], p.angular[1], p.angular[2]};
-}
-
-}  // namespace
-
 GeneralizedAlpha::GeneralizedAlpha(const System& system, const GeneralizedAlphaParameters& p,
                                    const ImplicitSettings& settings, double dt, double omega_max_squared,
                                    std::unique_ptr<VelocityImpulses> impulses)
@@ -36,7 +28,7 @@ ContactWithin GeneralizedAlpha::contact_within() const {
 
 void GeneralizedAlpha::start(State& state, double dt) {
   start_in_equilibrium(system_, stage_, dt, state, now_);
-  state.memory = packed(resultant(system_, state.q, now_));
+  state.memory = GeneralizedAlphaMemory{resultant(system_, state.q, now_)};
 }
 
 /// What is known before the solve, and its start value. False when the mass matrix cannot be solved.
@@ -83,10 +75,9 @@ Momentum GeneralizedAlpha::resultant_of(std::span<const double> u, std::span<con
 /// force: the resultant in the equation of motion.
 Momentum GeneralizedAlpha::impulse(double h, const State& begin, State& end, const Momentum& force) {
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
-  const std::vector<double>& m = begin.memory;
-  Momentum before = combine(1.0, {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}}, 1.0, start_.change(begin.q));
+  Momentum before = combine(1.0, std::get<GeneralizedAlphaMemory>(begin.memory).force, 1.0, start_.change(begin.q));
   Momentum after = combine(1.0 / (1.0 - alpha_m), force, -alpha_m / (1.0 - alpha_m), before);
-  end.memory = packed(after);
+  end.memory = GeneralizedAlphaMemory{after};
   Momentum of_contact;
   if (impulses_) {
     before = combine(1.0, before, -1.0, resultant_of(begin.q, pushed_begin_));

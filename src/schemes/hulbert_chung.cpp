@@ -13,26 +13,6 @@
 
 namespace carom {
 
-namespace {
-
-/// State::memory: the scheme's accelerations, then the resultant of forces filtered like them.
-constexpr std::size_t resultant_size = 6;
-
-Momentum stored_resultant(const std::vector<double>& memory) {
-  const double* p = memory.data() + memory.size() - resultant_size;
-  return {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}};
-}
-
-void store_resultant(const Momentum& m, std::vector<double>& memory) {
-  double* p = memory.data() + memory.size() - resultant_size;
-  for (std::size_t c = 0; c < 3; ++c) {
-    p[c] = m.linear[c];
-    p[3 + c] = m.angular[c];
-  }
-}
-
-}  // namespace
-
 HulbertChung::HulbertChung(const System& system, double rho)
     : system_(system),
       alpha_m_((2.0 * rho - 1.0) / (1.0 + rho)),
@@ -53,19 +33,19 @@ void HulbertChung::start(State& state, double dt) {
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = mean_acceleration(s, dt);
   start_accelerations(system_, mass_solver_, state, now_);
-  state.memory = state.a;
-  state.memory.resize(state.a.size() + resultant_size);
-  store_resultant(resultant(system_, state.q, now_), state.memory);
+  state.memory = HulbertChungMemory{state.a, resultant(system_, state.q, now_)};
 }
 
 StepReport HulbertChung::step(const State& begin, const StepRequest& request, State& end) {
   const double h = request.dt, share = 1.0 / (1.0 - alpha_m_);
   end = begin;
   end.t = request.t_end;
+  const auto& memory = std::get<HulbertChungMemory>(begin.memory);
+  auto& memory_end = std::get<HulbertChungMemory>(end.memory);
   StepReport report;
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   const auto wanted = [&](const ImposedStep& s) {
-    const double e0 = begin.memory[s.dof], e1 = (mean_acceleration(s, h) - (1.0 - gamma_) * e0) / gamma_;
+    const double e0 = memory.e[s.dof], e1 = (mean_acceleration(s, h) - (1.0 - gamma_) * e0) / gamma_;
     return (1.0 - alpha_m_) * e1 + alpha_m_ * e0;
   };
   if (!start_.set(begin.a, h, imposed_, wanted, now_)) {
@@ -74,8 +54,8 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
   }
   const std::span<const double> a_begin = start_.a();
   parallel_each(end.q.size(), [&](std::size_t i) {
-    const double e0 = begin.memory[i], e1 = share * (a_begin[i] - alpha_m_ * e0);
-    end.memory[i] = e1;
+    const double e0 = memory.e[i], e1 = share * (a_begin[i] - alpha_m_ * e0);
+    memory_end.e[i] = e1;
     B_[i] = (0.5 - beta_) * e0 + beta_ * e1;
     A_[i] = (1.0 - gamma_) * e0 + gamma_ * e1;
     end.q[i] = begin.q[i] + h * begin.v[i] + h * h * B_[i];
@@ -96,10 +76,8 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
   take_history(next_.rows, end);
   complete_forces(system_, end, next_);
   report.books = explicit_books(system_, begin, now_, end, next_, A_, B_, h);
-  const Momentum before = stored_resultant(begin.memory);
-  const Momentum filtered = combine(share, resultant(system_, begin.q, now_), -share * alpha_m_, before);
-  store_resultant(filtered, end.memory);
-  report.books.impulse = combine(h * (1.0 - gamma_), before, h * gamma_, filtered);
+  memory_end.force = combine(share, resultant(system_, begin.q, now_), -share * alpha_m_, memory.force);
+  report.books.impulse = combine(h * (1.0 - gamma_), memory.force, h * gamma_, memory_end.force);
   report.converged = true;
   std::swap(now_, next_);
   return report;

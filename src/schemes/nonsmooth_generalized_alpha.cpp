@@ -24,23 +24,6 @@ StageForce body_force(const System& system) {
           [](std::span<const double> x) { return x; }, 1.0};
 }
 
-/// State::memory: a, z, and the resultants of M a and M z, as forces.
-struct Memory {
-  explicit Memory(const std::vector<double>& memory) : data(memory.data()), n((memory.size() - 12) / 2) {}
-  double a(std::size_t i) const { return data[i]; }
-  double z(std::size_t i) const { return data[n + i]; }
-  Momentum of_a() const { return momentum_from(data + 2 * n); }
-  Momentum of_z() const { return momentum_from(data + 2 * n + 6); }
-
-  const double* data;
-  std::size_t n;
-};
-
-void store(const Momentum& p, double* where) {
-  std::copy(p.linear.begin(), p.linear.end(), where);
-  std::copy(p.angular.begin(), p.angular.end(), where + 3);
-}
-
 }  // namespace
 
 NonsmoothGeneralizedAlpha::NonsmoothGeneralizedAlpha(const System& system, const GeneralizedAlphaParameters& p,
@@ -84,27 +67,23 @@ void NonsmoothGeneralizedAlpha::start(State& state, double dt) {
   start_in_equilibrium(system_, stage_, dt, state, next_);
   if (!solve_jump()) throw std::runtime_error(MassSolver::failure);
   const std::size_t n = state.q.size();
-  state.memory.resize(2 * n + 12);
-  for (std::size_t i = 0; i < n; ++i) state.memory[i] = state.memory[n + i] = state.a[i] - jump_[i];
-  const Momentum smooth = combine(1.0, resultant(system_, state.q, next_), -1.0, jump_resultant(state));
-  store(smooth, state.memory.data() + 2 * n);
-  store(smooth, state.memory.data() + 2 * n + 6);
+  NonsmoothMemory::Acceleration smooth{std::vector<double>(n),
+                                       combine(1.0, resultant(system_, state.q, next_), -1.0, jump_resultant(state))};
+  for (std::size_t i = 0; i < n; ++i) smooth.value[i] = state.a[i] - jump_[i];
+  state.memory = NonsmoothMemory{smooth, smooth};
   std::swap(now_, next_);
 }
 
-/// memory_: begin.memory with the accelerations of the supports that the step begins with.
+/// old_: the memory of the beginning with the accelerations of the supports that the step begins with.
 bool NonsmoothGeneralizedAlpha::start_from_the_right(const State& begin, double h) {
-  memory_ = begin.memory;
-  const std::size_t n = begin.q.size();
-  const std::span<const double> all(begin.memory);
-  for (const std::size_t part : {std::size_t{0}, std::size_t{1}}) {
-    const std::span<const double> a = all.subspan(part * n, n);
-    if (!start_.set(a, h, imposed_, [](const ImposedStep& s) { return s.a_begin; })) return false;
-    std::copy(start_.a().begin(), start_.a().end(), memory_.begin() + static_cast<std::ptrdiff_t>(part * n));
-    const std::size_t place = 2 * n + 6 * part;
-    store(combine(1.0, momentum_from(all.data() + place), 1.0, start_.change(begin.q)), memory_.data() + place);
-  }
-  return true;
+  const auto& memory = std::get<NonsmoothMemory>(begin.memory);
+  const auto follow = [&](const NonsmoothMemory::Acceleration& from, NonsmoothMemory::Acceleration& to) {
+    if (!start_.set(from.value, h, imposed_, [](const ImposedStep& s) { return s.a_begin; })) return false;
+    to.value.assign(start_.a().begin(), start_.a().end());
+    to.force = combine(1.0, from.force, 1.0, start_.change(begin.q));
+    return true;
+  };
+  return follow(memory.a, old_.a) && follow(memory.z, old_.z);
 }
 
 StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest& request, State& end) {
@@ -117,11 +96,10 @@ StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest
   system_.solid.external_force(end.t, system_.mass, next_.external);
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   if (!start_from_the_right(begin, h)) return {false, 0, 0, MassSolver::failure, {}};
-  const Memory old(memory_);
   for (std::size_t i = 0; i < n; ++i) {
-    carried_[i] = (alpha_f * old.z(i) - alpha_m * old.a(i)) / (1.0 - alpha_m);
-    u_hat_[i] = begin.q[i] + h * begin.v[i] + h * h * ((0.5 - beta) * old.a(i) + beta * carried_[i]);
-    v_hat_[i] = begin.v[i] + h * ((1.0 - gamma) * old.a(i) + gamma * carried_[i]);
+    carried_[i] = (alpha_f * old_.z.value[i] - alpha_m * old_.a.value[i]) / (1.0 - alpha_m);
+    u_hat_[i] = begin.q[i] + h * begin.v[i] + h * h * ((0.5 - beta) * old_.a.value[i] + beta * carried_[i]);
+    v_hat_[i] = begin.v[i] + h * ((1.0 - gamma) * old_.a.value[i] + gamma * carried_[i]);
     u_predicted_[i] = begin.q[i] + 0.5 * h * begin.v[i];
     known_[i] = scale * next_.external[i];
   }
@@ -155,14 +133,14 @@ StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest
 /// end.a = y becomes z1 and a1 in the memory, and z1 + W/h; end.v receives what is missing of the jump.
 void NonsmoothGeneralizedAlpha::split(double h, State& end) {
   const double beta = parameters_.beta, gamma = parameters_.gamma;
-  const std::size_t n = end.q.size();
-  parallel_each(n, [&](std::size_t i) {
+  auto& memory = std::get<NonsmoothMemory>(end.memory);
+  parallel_each(end.q.size(), [&](std::size_t i) {
     const double z = end.a[i] - jump_[i] / (2.0 * beta * kappa_);
     end.v[i] += h * (1.0 - gamma / (2.0 * beta)) * jump_[i];
     end.a[i] = z + jump_[i];
-    end.memory[i] = kappa_ * z + carried_[i];
-    end.memory[n + i] = z;
-    mean_[i] = 0.5 * (memory_[n + i] + z) + jump_[i];
+    memory.a.value[i] = kappa_ * z + carried_[i];
+    memory.z.value[i] = z;
+    mean_[i] = 0.5 * (old_.z.value[i] + z) + jump_[i];
   });
   for (const ImposedStep& s : imposed_) end.v[s.dof] = s.v;
 }
@@ -170,14 +148,12 @@ void NonsmoothGeneralizedAlpha::split(double h, State& end) {
 /// The books, and the resultants in the memory of the end.
 LedgerIncrement NonsmoothGeneralizedAlpha::books(const State& begin, double h, State& end) {
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
-  const std::size_t n = begin.q.size();
-  const Memory old(memory_);
   const Momentum jump = jump_resultant(end);
   const Momentum of_z = combine(1.0, resultant(system_, end.q, next_), -1.0, jump);
-  const Momentum carried = combine(alpha_f / (1.0 - alpha_m), old.of_z(), -alpha_m / (1.0 - alpha_m), old.of_a());
-  const Momentum of_a = combine(kappa_, of_z, 1.0, carried);
-  store(of_a, end.memory.data() + 2 * n);
-  store(of_z, end.memory.data() + 2 * n + 6);
+  const Momentum carried = combine(alpha_f / (1.0 - alpha_m), old_.z.force, -alpha_m / (1.0 - alpha_m), old_.a.force);
+  auto& memory = std::get<NonsmoothMemory>(end.memory);
+  memory.a.force = combine(kappa_, of_z, 1.0, carried);
+  memory.z.force = of_z;
   // The equation of the step is M (z_bar + W/h) + F_bar = f_bar + p/h + mean reactions: given as inertia and reactions
   // of the end, with the weight 1.
   system_.mass.apply(mean_, mean_inertia_);
@@ -190,7 +166,7 @@ LedgerIncrement NonsmoothGeneralizedAlpha::books(const State& begin, double h, S
                             .increment;
   next_.inertia.swap(mean_inertia_);
   next_.reaction = reaction_;
-  out.impulse = combine(1.0, combine(h * (1.0 - gamma), old.of_a(), h * gamma, of_a), h, jump);
+  out.impulse = combine(1.0, combine(h * (1.0 - gamma), old_.a.force, h * gamma, memory.a.force), h, jump);
   return out;
 }
 

@@ -60,7 +60,8 @@ class NonsmoothGeneralizedAlpha final : public Scheme {
   Forces now_, next_;
   std::vector<double> u_hat_, v_hat_, carried_, known_, u_predicted_;
   std::vector<double> jump_;  ///< W / h
-  std::vector<double> mean_, mean_inertia_, reaction_, memory_;
+  std::vector<double> mean_, mean_inertia_, reaction_;
+  NonsmoothMemory old_;
   std::vector<ImposedStep> imposed_;
 };
 

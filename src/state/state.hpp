@@ -1,9 +1,11 @@
 // State: everything that evolves, as a value.
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include "base/types.hpp"
+#include "energy/ledger.hpp"
 
 namespace carom {
 
@@ -15,6 +17,34 @@ struct RowHistory {
   friend bool operator==(const RowHistory&, const RowHistory&) = default;
 };
 
+/// What the generalised-alpha family carries from step to step.
+struct GeneralizedAlphaMemory {
+  Momentum force;  ///< resultant of the forces, filtered like the accelerations
+  friend bool operator==(const GeneralizedAlphaMemory&, const GeneralizedAlphaMemory&) = default;
+};
+
+/// What Hulbert and Chung's scheme carries.
+struct HulbertChungMemory {
+  std::vector<double> e;  ///< the scheme's accelerations
+  Momentum force;         ///< resultant of the forces, filtered like them
+  friend bool operator==(const HulbertChungMemory&, const HulbertChungMemory&) = default;
+};
+
+/// What the nonsmooth generalised-alpha scheme carries.
+struct NonsmoothMemory {
+  struct Acceleration {
+    std::vector<double> value;
+    Momentum force;  ///< resultant of M times it, as a force
+    friend bool operator==(const Acceleration&, const Acceleration&) = default;
+  };
+  Acceleration a;  ///< algorithmic
+  Acceleration z;  ///< smooth
+  friend bool operator==(const NonsmoothMemory&, const NonsmoothMemory&) = default;
+};
+
+/// Made by Scheme::start.
+using SchemeMemory = std::variant<std::monostate, GeneralizedAlphaMemory, HulbertChungMemory, NonsmoothMemory>;
+
 /// Everything that decides the next step. v and a are always those at time t. Copying a State is a checkpoint.
 struct State {
   double t = 0.0;
@@ -22,7 +52,7 @@ struct State {
   std::vector<double> v;            ///< velocity
   std::vector<double> a;            ///< acceleration
   std::vector<RowHistory> contact;  ///< one entry per contact slot (ConstraintRows::slot)
-  std::vector<double> memory;       ///< what else a scheme carries from step to step; made by Scheme::start
+  SchemeMemory memory;              ///< what else the scheme carries
 
   friend bool operator==(const State&, const State&) = default;
 };
