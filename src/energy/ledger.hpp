@@ -36,7 +36,8 @@ inline std::array<double, 6> aster_values(const AsterTerms& a) {
   return {a.ENER_CIN, a.ENER_TOT, a.TRAV_EXT, a.TRAV_AMOR, a.TRAV_LIAI, a.DISS_SCH()};
 }
 
-/// Linear momentum, and angular momentum about the origin with the reference positions (small displacements).
+/// Linear momentum, and angular momentum about the origin: of the reference positions where all bodies are linear, else
+/// of the current ones.
 struct Momentum {
   Vec3 linear{};
   Vec3 angular{};

@@ -42,7 +42,7 @@ void evaluate_forces(const System& system, double t, std::span<const double> u_b
                      Forces& forces);
 
 /// Fills what the accelerations and velocities of the state add: inertia, momentum, reactions, stored energies and
-/// total momentum (angular momentum about the origin on the reference positions). evaluate_forces has been called.
+/// total momentum (moments by MomentArms). evaluate_forces has been called.
 void complete_forces(const System& system, const State& state, Forces& forces);
 
 /// Adds component c of a nodal force or momentum p at x, and its moment about the origin, to six sums.
