@@ -40,6 +40,7 @@ void ConstraintRows::add_row(double row_gap, const Vec3& row_normal, const Vec3&
   source.push_back(row_source);
   behind.push_back(0);
   is_back.push_back(false);
+  rounded.push_back(0.0);
   facet.push_back(0);
 }
 

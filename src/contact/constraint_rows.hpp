@@ -56,11 +56,12 @@ struct ConstraintRows {
   std::vector<double> reach;    ///< largest length that the gap is a difference of
   std::vector<double> measure;  ///< area that the row stands for, or 1 for a row that is a single node
   std::vector<RowLaw> law;
-  std::vector<Index> source;  ///< index in Model::contacts
-  std::vector<Index> behind;  ///< how many of the row's last nodes belong to the other side: master or obstacle
-  std::vector<bool> is_back;  ///< the row's positive side is not the contact's group but the other body (two passes)
-  std::vector<Index> facet;   ///< what the row meets: facet of the other surface, face of a box, 0 where there is one
-  std::vector<Index> slot;    ///< entry of State::contact; at most one row per slot
+  std::vector<Index> source;    ///< index in Model::contacts
+  std::vector<Index> behind;    ///< how many of the row's last nodes belong to the other side: master or obstacle
+  std::vector<bool> is_back;    ///< the row's positive side is not the contact's group but the other body (two passes)
+  std::vector<double> rounded;  ///< what going round the edges of the other surface has taken from the gap, >= 0
+  std::vector<Index> facet;     ///< what the row meets: facet of the other surface, face of a box, 0 where there is one
+  std::vector<Index> slot;      ///< entry of State::contact; at most one row per slot
 
   std::size_t size() const { return gap.size(); }
 

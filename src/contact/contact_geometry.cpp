@@ -180,7 +180,8 @@ std::vector<Penetration> ContactGeometry::initial_penetrations(std::span<const d
   std::vector<Penetration> found;
   for (std::size_t r = 0; r < rows->size(); ++r) {
     const double gap = rows->gap_at(r, u);
-    if (gap < 0.0) found.push_back({rows->slot[r], rows->source[r], rows->position[r], -gap});
+    if (gap < 0.0)
+      found.push_back({rows->slot[r], rows->source[r], rows->position[r], -gap, std::min(-gap, rows->rounded[r])});
   }
   std::sort(found.begin(), found.end(), [](const Penetration& a, const Penetration& b) {
     return std::tuple(-a.depth, a.slot) < std::tuple(-b.depth, b.slot);
@@ -192,7 +193,7 @@ void ContactGeometry::set_initial(std::span<const double> u) {
   impl_->offset.assign(slots(), 0.0);
   if (impl_->fixed) impl_->fixed = std::make_shared<const ConstraintRows>(impl_->make({}, {}, {}));
   for (const Penetration& p : initial_penetrations(u))
-    if (takes_offsets(impl_->model.contacts[p.contact])) impl_->offset[p.slot] = -p.depth;
+    impl_->offset[p.slot] = takes_offsets(impl_->model.contacts[p.contact]) ? -p.depth : -p.rounded;
   if (impl_->fixed) impl_->fixed = std::make_shared<const ConstraintRows>(impl_->make({}, {}, {}));
 }
 

@@ -17,7 +17,8 @@ struct Penetration {
   Index slot = -1;
   Index contact = -1;  ///< index in Model::contacts
   Vec3 position{};
-  double depth = 0.0;  ///< - gap, positive
+  double depth = 0.0;    ///< - gap, positive
+  double rounded = 0.0;  ///< how much of it is the rounding of edges alone (ConstraintRows::rounded)
 };
 
 /// Makes the rows of all contacts of a model:
@@ -53,8 +54,8 @@ class ContactGeometry {
   /// What penetrates at displacement u, worst first; offsets of set_initial count as they stand.
   std::vector<Penetration> initial_penetrations(std::span<const double> u) const;
   /// Takes the penetrations at displacement u as free of strain in the contacts that say so
-  /// (InitialPenetration::strain_free_offset): their gaps are subtracted from the slots' gaps from here on. Open slots
-  /// have no offset.
+  /// (InitialPenetration::strain_free_offset), and in all others what is the rounding of edges alone: their gaps are
+  /// subtracted from the slots' gaps from here on. Open slots have no offset.
   void set_initial(std::span<const double> u);
 
   /// A row's contact and place, for messages: 'contact "faces", node 12 at (0.1, 0, 0.2)'.

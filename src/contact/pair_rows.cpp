@@ -84,6 +84,7 @@ class NodeRows : public RowMaker {
       const Index n = search_.nodes()[i];
       made.add_row(met->gap, normalized(met->gradient), motion.x[n], measure_[i], row_law(law_, measure_[i]), source_);
       made.facet.back() = met->facet;
+      made.rounded.back() = met->rounded;
       add_nodes(made, n, *met, search_.facets(), motion.x);
       finish_row(made, motion.u, first_slot + static_cast<Index>(i));
     });

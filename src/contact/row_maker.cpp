@@ -91,6 +91,7 @@ void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_s
   append_all(rows.block, from.block);
   append_all(rows.gap, from.gap);
   append_all(rows.is_back, from.is_back);
+  append_all(rows.rounded, from.rounded);
   append_all(rows.normal, from.normal);
   append_all(rows.tangent_1, from.tangent_1);
   append_all(rows.tangent_2, from.tangent_2);

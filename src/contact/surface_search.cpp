@@ -453,6 +453,7 @@ std::optional<SurfacePoint> SurfaceSearch::met(const Query& query, const Best& b
   if (feet.empty()) return only(best.facet, p, at);
   SurfacePoint mean = mean_of(std::move(feet));
   mean.facet = best.facet;
+  mean.rounded = std::max(0.0, at.gap - mean.gap);
   return mean;
 }
 

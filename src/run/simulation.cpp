@@ -106,7 +106,7 @@ void Simulation::settle_initial_penetrations() {
     double worst = 0.0;
     std::string list;
     for (const Penetration& p : contact_.initial_penetrations(state.q)) {
-      if (static_cast<std::size_t>(p.contact) != c || p.depth <= round_off) continue;
+      if (static_cast<std::size_t>(p.contact) != c || p.depth - p.rounded <= round_off) continue;
       worst = std::max(worst, p.depth);
       if (++count > 3) continue;
       list += fmt::format("{}{:.4g} at ({:.4g}, {:.4g}, {:.4g})", list.empty() ? "" : ", ", p.depth, p.position[0],

@@ -146,6 +146,28 @@ TEST(NodeRows, AreSymmetricWhereFacetsMeet) {
   }
 }
 
+// Beside the ridge a row's surface is rounded: it lies outside of the facets. What that takes from the gap of a node in
+// front of its facet is no penetration, and is taken off at the start; a node behind it penetrates by its distance
+// from the facet, (0.3, 0.2, 1) times which is vertical.
+TEST(NodeRows, TellRoundedEdgesFromPenetration) {
+  for (const double above : {1e-4, -1e-3}) {
+    Scene scene;
+    const auto roof = scene.add_patch(2, 2, [](double s, double t) {
+      return Vec3{2 * s - 1, 2 * t - 1, -0.3 * std::abs(2 * s - 1) - 0.2 * std::abs(2 * t - 1)};
+    });
+    const Surface point{{{{scene.add_node({0.03, 0.5, -0.1 - 0.3 * 0.03 + above}), -1, -1, -1}, 1}}};
+    scene.finish().contacts.emplace_back(pair(point, {roof}));
+    ContactGeometry geometry(scene.model);
+    const std::vector<Penetration> found = geometry.initial_penetrations(scene.zero());
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_GT(found[0].rounded, 1e-3);
+    const double depth = std::max(0.0, -above) / std::sqrt(1.0 + 0.3 * 0.3 + 0.2 * 0.2);
+    EXPECT_NEAR(found[0].depth - found[0].rounded, depth, round_off);
+    geometry.set_initial(scene.zero());
+    EXPECT_NEAR(geometry.rows_at(scene.zero(), scene.zero())->gap_at(0, scene.zero()), -depth, round_off);
+  }
+}
+
 // A node that slides over the ridge, touching it or a little above, turns its row from one roof's side to the other
 // within about a tenth of a facet on both sides, without a jump: 0.58 rad in 200 of 400 steps, the steepest less than
 // fifteen times the mean.

@@ -4,6 +4,7 @@
     python3 impact_trial.py build/release/carom                 all, about an hour
     python3 impact_trial.py build/release/carom --small         one in twenty of them, about a minute
     python3 impact_trial.py build/release/carom --only 17,203   these alone; --keep DIR keeps decks and results
+    python3 impact_trial.py build/release/carom --seed 31337    300 others
 
 Thirty impacts of four kinds: two bars in line, a ball on a plate, a block on a block, a cylinder across a beam. Each is
 drawn with stiffnesses equal or 1 : 100, cells 1 : 4 to 4 : 1, a speed of 3e-4 to 3e-3 of the wave's, a tilt (blocks and
@@ -127,8 +128,8 @@ def rotation(axis, angle):
 class Impact:
     """One geometry: two bodies, the flying one above the other (along z before it is turned), all drawn."""
 
-    def __init__(self, number, friction):
-        draw = random.Random(f"{SEED} impact {number}")
+    def __init__(self, number, friction, seed):
+        draw = random.Random(f"{seed} impact {number}")
         self.number = number
         self.kind = ("bars", "ball", "blocks", "cylinder")[number % 4]
         self.friction = draw.choice((0.1, 0.3)) if friction else 0.0
@@ -468,17 +469,17 @@ def to_triangle(p, a, b, c):
 
 
 # --------------------------------------------------------------------------------------------------------- the trial
-def variants():
+def variants(seed):
     """All variants in order: each impact with DRAWS draws from a deck that holds every combination twice."""
     decks = {}
     for friction in (False, True):
         deck = [c + (m,) for c in COMBINATIONS for m in METHODS] * 2
-        random.Random(f"{SEED} deck {friction}").shuffle(deck)
+        random.Random(f"{seed} deck {friction}").shuffle(deck)
         decks[friction] = iter(deck)
     out = []
     for i in range(IMPACTS):
         friction = (i + i // 4) % 2 == 1
-        impact = Impact(i, friction)
+        impact = Impact(i, friction, seed)
         out += [Variant(DRAWS * i + k, impact, *next(decks[friction])) for k in range(DRAWS)]
     return out
 
@@ -510,8 +511,9 @@ def main():
     parser.add_argument("--only", help="numbers of variants, or of impacts as i3, separated by commas")
     parser.add_argument("--keep", type=pathlib.Path, help="keep decks and results here")
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=SEED)
     given = parser.parse_args()
-    chosen = variants()
+    chosen = variants(given.seed)
     if given.only:
         wanted = given.only.split(",")
         chosen = [v for v in chosen if str(v.number) in wanted or f"i{v.impact.number}" in wanted]
