@@ -25,7 +25,7 @@ void RunMonitor::update(double load_impulse) {
     static_.algorithmic += total.algorithmic - before_.algorithmic;
     static_.impact += total.impact - before_.impact;
   }
-  if (!stage_.is_explicit) implicit_loss_ += total.algorithmic - before_.algorithmic;
+  (stage_.is_explicit ? explicit_loss_ : implicit_loss_) += total.algorithmic - before_.algorithmic;
   before_ = total;
   const EnergyTerms now = dynamic();
   imbalance_ = std::max(imbalance_, std::abs(ledger_.imbalance()));
@@ -99,7 +99,7 @@ double RunMonitor::angular_momentum_error() const {
 }
 
 std::vector<VerdictItem> RunMonitor::items(const Limits& limits) const {
-  const double scale = this->scale();
+  const double scale = this->scale(), gained = std::max(gained_, -explicit_loss_ - limits.lent);
   const auto item = [](const char* name, double value, double limit, const char* explanation) {
     return VerdictItem{name, value, limit, value <= limit, explanation};
   };
@@ -110,8 +110,8 @@ std::vector<VerdictItem> RunMonitor::items(const Limits& limits) const {
       item("quadrature", ratio(quadrature_, scale), 0.05,
            "work of internal and contact forces that the trapezoidal rule misplaces: is the step fine enough for the "
            "contact?"),
-      item("energy gained", ratio(gained_, scale), limits.energy_gained,
-           "energy that contact or the internal forces have made (energy that the scheme lends is none): a shorter "
+      item("energy gained", ratio(gained, scale), limits.energy_gained,
+           "energy that contact, the internal forces or the scheme have made (what a scheme lends is none): a shorter "
            "step, "
            "or a scheme that keeps or dissipates energy?"),
       item("algorithmic dissipation", ratio(algorithmic_, scale), 0.1,

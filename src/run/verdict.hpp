@@ -29,6 +29,7 @@ class RunMonitor {
   /// Limits of the items that depend on the schemes of the run.
   struct Limits {
     double angular_momentum = 1e-9, energy_gained = 0.005;
+    double lent = 0.0;  ///< energy that explicit steps may have lent at the end
   };
   RunMonitor(const EnergyLedger& ledger, const Bodies& bodies, const StageKind& stage)
       : ledger_(ledger), bodies_(bodies), stage_(stage) {}
@@ -47,7 +48,8 @@ class RunMonitor {
   /// balance of powers, quadrature, energy gained, algorithmic, linear and angular momentum. What static stages book as
   /// quadrature and algorithmic is left out: without inertia it says nothing about the step. Gained: what the
   /// quadrature has given net, and what exact contact has given net, less what implicit schemes have taken out beside
-  /// it: they book the jump of the velocities at a touch on either side.
+  /// it: they book the jump of the velocities at a touch on either side; or what explicit steps have given at the end
+  /// and cannot take back.
   std::vector<VerdictItem> items(const Limits& limits) const;
   double linear_momentum_error() const;
   double angular_momentum_error() const;
@@ -67,10 +69,10 @@ class RunMonitor {
   EnergyTerms before_{}, static_{};  ///< totals at the last update, and how much of them static stages have booked
   double lent_ = 0.0, lent_before_ = 0.0;  ///< energy lent by the scheme, after this step and the one before
   double imbalance_ = 0.0, quadrature_ = 0.0, algorithmic_ = 0.0, gained_ = 0.0;  ///< largest so far, energies
-  double implicit_loss_ = 0.0;                       ///< algorithmic of implicit and static stages
-  double linear_error_ = 0.0, angular_error_ = 0.0;  ///< largest so far, momenta
-  double linear_scale_ = 0.0, angular_scale_ = 0.0;  ///< largest momentum or impulse so far
-  double load_impulse_ = 0.0;                        ///< sum of the magnitudes
+  double implicit_loss_ = 0.0, explicit_loss_ = 0.0;  ///< algorithmic of implicit and static stages, of explicit ones
+  double linear_error_ = 0.0, angular_error_ = 0.0;   ///< largest so far, momenta
+  double linear_scale_ = 0.0, angular_scale_ = 0.0;   ///< largest momentum or impulse so far
+  double load_impulse_ = 0.0;                         ///< sum of the magnitudes
 };
 
 }  // namespace carom

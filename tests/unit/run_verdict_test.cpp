@@ -94,6 +94,7 @@ TEST(Verdict, JudgesGainsApartFromLosses) {
     EXPECT_TRUE(gained({lent, back}, stage).pass);
     EXPECT_FALSE(gained({thrown}, stage).pass);
   }
+  EXPECT_FALSE(gained({lent}, steps_of_its_own).pass);  // and keeps it
   EXPECT_TRUE(gained({thrown, made, made}, {.is_static = true}).pass);
   EXPECT_FALSE(gained({lost, thrown}, steps_of_its_own).pass);
   EXPECT_TRUE(gained({lost, thrown}, implicit).pass);  // both sides of the jump of velocities at a touch
