@@ -99,7 +99,10 @@ double RunMonitor::angular_momentum_error() const {
 }
 
 std::vector<VerdictItem> RunMonitor::items(const Limits& limits) const {
-  const double scale = this->scale(), gained = std::max(gained_, -explicit_loss_ - limits.lent);
+  const double scale = this->scale(), kept = -explicit_loss_ - limits.lent;
+  // A step that changes its length changes what the scheme keeps: 0.5 % where bodies are crushed.
+  constexpr double least_kept = 0.02;
+  const double gained = std::max(gained_, kept > least_kept * scale ? kept : 0.0);
   const auto item = [](const char* name, double value, double limit, const char* explanation) {
     return VerdictItem{name, value, limit, value <= limit, explanation};
   };

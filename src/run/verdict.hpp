@@ -49,7 +49,7 @@ class RunMonitor {
   /// quadrature and algorithmic is left out: without inertia it says nothing about the step. Gained: what the
   /// quadrature has given net, and what exact contact has given net, less what implicit schemes have taken out beside
   /// it: they book the jump of the velocities at a touch on either side; or what explicit steps have given at the end
-  /// and cannot take back.
+  /// and cannot take back, if it is more than 2 %.
   std::vector<VerdictItem> items(const Limits& limits) const;
   double linear_momentum_error() const;
   double angular_momentum_error() const;
