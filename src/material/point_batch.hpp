@@ -3,24 +3,34 @@
 
 namespace carom {
 
-/// Points of one batch, structure of arrays: component c of point p, lane l stands at [(6 p + c) lanes + l] in strain
-/// and stress, at [p lanes + l] in energy. Voigt order xx, yy, zz, xy, yz, zx; shear strains are 2 eps_ij. Strain and
-/// stress are small strain and Cauchy stress, or Green-Lagrange strain and second Piola-Kirchhoff stress: the
-/// kinematics belong to the element. The law fills stress (force per area) and, unless the pointer is null, the stored
-/// energy density; laws under zero lateral stress also write the lateral strains that follow from it.
+/// Points of one batch, structure of arrays: component c of n of point p, lane l stands at [(n p + c) lanes + l]; n is
+/// 6 for strain and stress, the law's number of history variables for history and new_history, 1 for the rest. Voigt
+/// order xx, yy, zz, xy, yz, zx; shear strains are 2 eps_ij. Strain and stress are small strain and Cauchy stress, or
+/// Green-Lagrange strain and second Piola-Kirchhoff stress: the kinematics belong to the element. The law fills stress
+/// (force per area) and, where the pointer is not null, the rest; laws under zero lateral stress also write the lateral
+/// strains that follow from it. The history is that at the beginning of the step of length dt, and its end may not
+/// stand in the same place; a null history is that of the body at rest.
 struct PointBatch {
   int points = 0;
   double* strain = nullptr;
   double* stress = nullptr;
-  double* energy = nullptr;
+  double* energy = nullptr;  ///< stored energy density, per reference volume
+  double dt = 0.0;
+  const double* history = nullptr;
+  double* new_history = nullptr;
+  double* dissipation = nullptr;   ///< dissipated energy density since the start, a function of the history at the end
+  double* wave_modulus = nullptr;  ///< largest rho c^2 of the point
 };
 
-/// Changes of stress with changes of strain at given strains; layout as in PointBatch.
+/// Changes of stress with changes of strain at given strains and history at the beginning of the step; layout as in
+/// PointBatch.
 struct TangentBatch {
   int points = 0;
   const double* strain = nullptr;
   const double* strain_change = nullptr;
   double* stress_change = nullptr;
+  double dt = 0.0;
+  const double* history = nullptr;
 };
 
 /// The update and the tangent of one law for one lane count; parameters points to what that law expects. They do not
