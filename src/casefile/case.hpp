@@ -104,7 +104,14 @@ struct CaseInitial {
   Location where;
   std::optional<Located<std::string>> nodes;  ///< node or cell group; exactly one of nodes, part
   std::optional<Located<std::string>> part;
-  std::optional<Vec3> displacement, velocity;
+  std::optional<Vec3> displacement;
+  // The velocity is the sum of what is given of these.
+  std::optional<Vec3> velocity;
+  std::optional<Vec3> angular_velocity;
+  std::optional<Vec3> centre;                                         ///< of the rotation
+  std::optional<std::array<Located<std::string>, 3>> velocity_field;  ///< a formula in x, y, z for each component
+
+  bool has_velocity() const { return velocity || angular_velocity || velocity_field; }
 };
 
 /// [[contact]]

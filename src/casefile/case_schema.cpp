@@ -49,21 +49,6 @@ SectionSchema<CasePart> part_section() {
   return s;
 }
 
-SectionSchema<CaseInitial> initial_section() {
-  SectionSchema<CaseInitial> s(
-      "Initial displacement and velocity; later sections overwrite earlier ones. Velocities are those at the beginning "
-      "of the first stage that is no statics; until then a body that has one stays where it is, unless it has "
-      "supports, a force or a pressure of its own, or touches what its weight can rest on.");
-  s.key("nodes", &CaseInitial::nodes, "Group of nodes or cells, or \"all\".");
-  s.key("part", &CaseInitial::part, "Name of a [[part]].");
-  s.key("displacement", &CaseInitial::displacement, "Initial displacement, stress-free where it is uniform.",
-        {.unit = Dimension::length});
-  s.key("velocity", &CaseInitial::velocity, "Initial velocity.", {.unit = Dimension::velocity});
-  s.description.alternatives = {{Alternatives::Count::exactly_one, {"nodes", "part"}},
-                                {Alternatives::Count::at_least_one, {"displacement", "velocity"}}};
-  return s;
-}
-
 SectionSchema<CaseGuards> guards_section() {
   SectionSchema<CaseGuards> s("What warns and what stops a run on the way, and when.");
   s.key("energy_growth", &CaseGuards::energy_growth,

@@ -13,6 +13,8 @@ const SectionSchema<Case>& case_schema();
 SectionSchema<CaseMesh> mesh_section();
 SectionSchema<CaseSupport> support_section();
 SectionSchema<CaseLoad> load_section();
+SectionSchema<CaseInitial> initial_section();
+SectionSchema<CaseInitial> stage_initial_section();
 SectionSchema<CasePointMass> point_mass_section();
 SectionSchema<CaseSpring> spring_section();
 SectionSchema<CaseContact> contact_section();

@@ -81,6 +81,8 @@ Json shape_schema(const KeyDescription& key) {
       return list_schema(number_schema("number", options));
     case Shape::texts:
       return list_schema(text_schema(options));
+    case Shape::formulas:
+      return tuple_schema(3, text_schema(options));
     case Shape::named_vectors:
       return named_schema(tuple_schema(3, number_schema("number", options)));
     case Shape::section:

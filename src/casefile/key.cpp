@@ -55,6 +55,8 @@ std::string shape_text(const KeyDescription& key) {
       return "a list of numbers";
     case Shape::texts:
       return choices.empty() ? "a list of texts" : "a list of some of " + quoted_list(choices);
+    case Shape::formulas:
+      return "three formulas [\"...\", \"...\", \"...\"] in quotes, of x, y and z";
     case Shape::named_vectors:
       return "a table { NAME = [x, y, z], ... }";
     case Shape::section:

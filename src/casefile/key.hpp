@@ -24,6 +24,7 @@ enum class Shape : std::uint8_t {
   integer_pair,   ///< [nx, ny]
   numbers,        ///< list of numbers
   texts,          ///< list of texts
+  formulas,       ///< ["...", "...", "..."], of x, y and z
   named_vectors,  ///< { NAME = [x, y, z], ... }
   section,        ///< [key] or key = { ... }
   sections,       ///< [[key]]

@@ -281,18 +281,6 @@ SectionSchema<CaseTime> time_section() {
   return s;
 }
 
-SectionSchema<CaseInitial> stage_initial_section() {
-  SectionSchema<CaseInitial> s(
-      "Velocities that begin with the stage, whatever the nodes did before; later sections overwrite earlier ones. "
-      "What "
-      "they add to the energy counts as initial energy.");
-  s.key("nodes", &CaseInitial::nodes, "Group of nodes or cells, or \"all\".");
-  s.key("part", &CaseInitial::part, "Name of a [[part]].");
-  s.key("velocity", &CaseInitial::velocity, "The velocity.", {.unit = Dimension::velocity, .need = Need::required});
-  s.description.alternatives = {{Alternatives::Count::exactly_one, {"nodes", "part"}}};
-  return s;
-}
-
 SectionSchema<CaseStage> stage_section() {
   SectionSchema<CaseStage> s(
       "What follows [scheme] and [time], in the order of the file: the state goes on with another scheme.");

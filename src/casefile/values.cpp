@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 namespace carom {
 
@@ -79,6 +80,12 @@ template <class Number, class Values>
 Node encode_list(const Values& values) {
   List entries;
   for (const auto entry : values) entries.push_back({Number{entry}, {}});
+  return Node{entries, {}};
+}
+
+Node encode_texts(std::span<const Located<std::string>> values) {
+  List entries;
+  for (const Located<std::string>& entry : values) entries.push_back({*entry, {}});
   return Node{entries, {}};
 }
 
@@ -170,6 +177,13 @@ void decode(const Node& node, const KeyDescription& key, const ReadContext& at,
   }
 }
 
+void decode(const Node& node, const KeyDescription& key, const ReadContext& at,
+            std::array<Located<std::string>, 3>& value) {
+  const List& entries = list(node, key, at);
+  if (entries.size() != value.size()) refuse(node, key, at);
+  for (std::size_t i = 0; i < value.size(); ++i) decode(entries[i], entry_of(key, Shape::text), at.entry(i), value[i]);
+}
+
 std::optional<Node> encode(bool value, const KeyOptions& options) {
   if (options.choices.empty()) return Node{value, {}};
   return Node{options.choices.at(value ? 1 : 0), {}};
@@ -222,9 +236,11 @@ std::optional<Node> encode(const std::vector<double>& value, const KeyOptions&) 
 }
 
 std::optional<Node> encode(const std::vector<Located<std::string>>& value, const KeyOptions&) {
-  List entries;
-  for (const Located<std::string>& entry : value) entries.push_back({*entry, {}});
-  return Node{entries, {}};
+  return encode_texts(value);
+}
+
+std::optional<Node> encode(const std::array<Located<std::string>, 3>& value, const KeyOptions&) {
+  return encode_texts(value);
 }
 
 }  // namespace carom

@@ -44,6 +44,8 @@ void decode(const Node& node, const KeyDescription& key, const ReadContext& at, 
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::vector<double>& value);
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at,
             std::vector<Located<std::string>>& value);
+void decode(const Node& node, const KeyDescription& key, const ReadContext& at,
+            std::array<Located<std::string>, 3>& value);
 
 template <class T>
 requires std::is_enum_v<T>
@@ -75,6 +77,7 @@ std::optional<Node> encode(const std::array<int, 2>& value, const KeyOptions& op
 std::optional<Node> encode(const std::array<bool, 3>& axes, const KeyOptions& options);
 std::optional<Node> encode(const std::vector<double>& value, const KeyOptions& options);
 std::optional<Node> encode(const std::vector<Located<std::string>>& value, const KeyOptions& options);
+std::optional<Node> encode(const std::array<Located<std::string>, 3>& value, const KeyOptions& options);
 
 template <class T>
 requires std::is_enum_v<T> std::optional<Node> encode(T value, const KeyOptions& options) {
@@ -108,6 +111,8 @@ Shape shape_of(const KeyOptions& options) {
     return Shape::texts;
   else if constexpr (std::is_same_v<T, std::vector<Located<std::string>>>)
     return Shape::texts;
+  else if constexpr (std::is_same_v<T, std::array<Located<std::string>, 3>>)
+    return Shape::formulas;
   else if constexpr (std::is_same_v<T, std::vector<double>>)
     return Shape::numbers;
   else if constexpr (std::is_same_v<T, std::array<int, 3>>)

@@ -82,11 +82,12 @@ struct Gravity {
 
 using Load = std::variant<NodalForce, Pressure, Gravity>;
 
-/// Initial displacement and velocity of nodes; later entries overwrite earlier ones. The velocity is that at the
+/// Initial displacement and velocities of nodes; later entries overwrite earlier ones. The velocities are those at the
 /// beginning of a stage, counted from 1 as the first after [scheme]; 0: the first stage with inertia.
 struct InitialState {
   std::vector<Index> nodes;
-  std::optional<Vec3> displacement, velocity;
+  std::optional<Vec3> displacement;
+  std::vector<Vec3> velocity;  ///< one for each of the nodes, or empty
   std::size_t stage = 0;
 };
 

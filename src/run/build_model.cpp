@@ -8,6 +8,7 @@
 #include "run/attached.hpp"
 #include "run/build_mesh.hpp"
 #include "run/groups.hpp"
+#include "run/initial_velocities.hpp"
 #include "run/parts.hpp"
 #include "run/redundant_contacts.hpp"
 #include "run/rigid_bodies.hpp"
@@ -110,7 +111,7 @@ class Builder {
       initial.nodes = parts_.nodes_of(*part);
     }
     initial.displacement = given.displacement;
-    initial.velocity = given.velocity;
+    initial.velocity = initial_velocities(given, mesh_, initial.nodes);
     model_.initial.push_back(std::move(initial));
   }
 
@@ -212,7 +213,7 @@ class Builder {
     obstacle.carrier = first;
     const std::vector<Index> node{first};
     const Vec3 velocity = *given.velocity;
-    model_.initial.push_back({node, std::nullopt, velocity});
+    model_.initial.push_back({node, std::nullopt, {velocity}});
     const std::string label = fmt::format("velocity of contact \"{}\" (line {})", *given.name, given.where.line);
     for (std::size_t c = 0; c < 3; ++c)
       model_.motions.push_back(

@@ -105,8 +105,9 @@ class Actions {
   }
   bool flies() const {
     const std::vector<InitialState>& initial = s_.model().initial;
-    return std::any_of(initial.begin(), initial.end(),
-                       [&](const InitialState& i) { return i.velocity && thin_.is_along(*i.velocity); });
+    return std::any_of(initial.begin(), initial.end(), [&](const InitialState& i) {
+      return std::any_of(i.velocity.begin(), i.velocity.end(), [&](const Vec3& v) { return thin_.is_along(v); });
+    });
   }
 
   const Simulation& s_;

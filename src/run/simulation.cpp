@@ -82,7 +82,8 @@ std::vector<bool> Simulation::later_velocities(std::size_t stage) const {
   for (std::size_t i = 0; i <= stage; ++i)
     if (!is_static(i)) return later;
   for (const InitialState& initial : model_.initial) {
-    if (!initial.velocity || norm(*initial.velocity) == 0.0) continue;
+    const std::vector<Vec3>& v = initial.velocity;
+    if (std::all_of(v.begin(), v.end(), [](const Vec3& velocity) { return norm(velocity) == 0.0; })) continue;
     for (const Index n : initial.nodes) later[static_cast<std::size_t>(n)] = true;
   }
   return later;
@@ -173,11 +174,11 @@ State Simulation::initial_state() const {
   state.contact.resize(contact_.slots());
   for (const InitialState& initial : model_.initial) {
     if (initial.stage > 0) continue;
-    for (const Index n : initial.nodes) {
+    for (std::size_t k = 0; k < initial.nodes.size(); ++k) {
       for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t i = 3 * static_cast<std::size_t>(n) + c;
+        const std::size_t i = 3 * static_cast<std::size_t>(initial.nodes[k]) + c;
         if (initial.displacement) state.q[i] = (*initial.displacement)[c];
-        if (initial.velocity) state.v[i] = (*initial.velocity)[c];
+        if (!initial.velocity.empty()) state.v[i] = initial.velocity[k][c];
       }
     }
   }
@@ -190,11 +191,11 @@ bool Simulation::begin_velocities(std::size_t stage, State& state) const {
       static_cast<std::size_t>(std::find_if(stages_.begin(), stages_.end(), is_dynamic) - stages_.begin());
   bool given = false;
   for (const InitialState& initial : model_.initial) {
-    if (!initial.velocity || stage != (initial.stage > 0 ? initial.stage : first)) continue;
+    if (initial.velocity.empty() || stage != (initial.stage > 0 ? initial.stage : first)) continue;
     given = true;
-    for (const Index n : initial.nodes)
-      std::copy(initial.velocity->begin(), initial.velocity->end(),
-                state.v.begin() + 3 * static_cast<std::ptrdiff_t>(n));
+    for (std::size_t k = 0; k < initial.nodes.size(); ++k)
+      std::copy(initial.velocity[k].begin(), initial.velocity[k].end(),
+                state.v.begin() + 3 * static_cast<std::ptrdiff_t>(initial.nodes[k]));
   }
   return given;
 }

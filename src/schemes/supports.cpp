@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <set>
 #include <stdexcept>
 
 namespace carom {
@@ -45,11 +44,13 @@ Supports::Supports(const Model& model, const std::vector<bool>& has_mass) {
     fixed_[static_cast<std::size_t>(dof)] = prescribed_flag_[static_cast<std::size_t>(dof)] = true;
   }
   for (const InitialState& initial : model.initial) {
-    if (!initial.velocity) continue;
-    const std::set<Index> nodes(initial.nodes.begin(), initial.nodes.end());
+    if (initial.velocity.empty()) continue;
+    std::map<Index, Vec3> velocity;
+    for (std::size_t k = 0; k < initial.nodes.size(); ++k) velocity[initial.nodes[k]] = initial.velocity[k];
     for (PrescribedDof& p : prescribed_) {
-      if (motions_[p.motion].kind == MotionKind::acceleration && nodes.contains(p.dof / 3))
-        p.start_velocity = (*initial.velocity)[static_cast<std::size_t>(p.dof % 3)];
+      if (motions_[p.motion].kind != MotionKind::acceleration) continue;
+      const auto given = velocity.find(p.dof / 3);
+      if (given != velocity.end()) p.start_velocity = given->second[static_cast<std::size_t>(p.dof % 3)];
     }
   }
 }
