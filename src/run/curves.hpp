@@ -7,25 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "energy/ledger.hpp"
 #include "run/contact_resultants.hpp"
+#include "run/observer.hpp"
 #include "run/probe_place.hpp"
 #include "run/simulation.hpp"
-#include "schemes/scheme.hpp"
 
 namespace carom {
-
-/// What is known at the end of a step.
-struct StepView {
-  long long step = 0;
-  double dt = 0.0;
-  int iterations = 0;
-  const State& state;
-  const Forces& forces;
-  const EnergyLedger& ledger;
-  double end_weight = 1.0;  ///< of the force at the end in the impulse (Scheme::end_weight)
-  ContactWithin within{};
-};
 
 /// Names and values of one table; the first column is always `time`.
 struct CurveTable {

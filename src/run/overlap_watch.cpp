@@ -57,8 +57,9 @@ OverlapWatch::OverlapWatch(const Simulation& simulation, const State& start)
       next_(simulation.end() / 50.0),
       every_(simulation.end() / 50.0) {}
 
-void OverlapWatch::look(const State& state, Moment moment) {
-  if (state.t < next_ && moment != Moment::last) return;
+void OverlapWatch::see(const StepView& view) {
+  const State& state = view.state;
+  if (view.step == 0 || (state.t < next_ && !view.is_last())) return;
   while (next_ <= state.t) next_ += every_;
   const Overlap now = overlap_.deepest(state.q);
   if (now.depth <= worst_.depth) return;

@@ -5,20 +5,18 @@
 
 #include "contact/body_overlap.hpp"
 #include "output/summary.hpp"
+#include "run/observer.hpp"
 #include "run/simulation.hpp"
-#include "state/state.hpp"
 
 namespace carom {
 
 /// About fifty looks over the run, and one at its end. Contact is judged by what it has not prevented, whether it was
 /// defined or not.
-class OverlapWatch {
+class OverlapWatch : public Observer {
  public:
   explicit OverlapWatch(const Simulation& simulation, const State& start);
 
-  /// After every step. `last` looks in any case.
-  enum class Moment : std::uint8_t { during, last };
-  void look(const State& state, Moment moment);
+  void see(const StepView& view) override;
   /// "overlap": the deepest so far in cells, and where, when and between whom.
   VerdictItem item() const;
 

@@ -9,6 +9,7 @@
 #include "contact/response.hpp"
 #include "model/model.hpp"
 #include "output/summary.hpp"
+#include "run/observer.hpp"
 
 namespace carom {
 
@@ -17,10 +18,13 @@ namespace carom {
 /// quarter of the cell. The shortening is that of the cells' own displacement (solid/cell_strain.hpp), so that a soft
 /// spring cannot allow itself any depth. Both are the largest at a place (slot) so far: a spring answers before the
 /// cells behind it do. Springs of discrete stops are physical and do not count.
-class PenetrationWatch {
+class PenetrationWatch : public Observer {
  public:
   explicit PenetrationWatch(const Model& model);
 
+  void see(const StepView& view) override {
+    if (view.step > 0) look(view.forces.rows, view.state.q);
+  }
   /// At displacement u, after each step. Rows below 5 % cost nothing but their gap.
   void look(const ContactResponse& response, std::span<const double> u);
   VerdictItem item() const;

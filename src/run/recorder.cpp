@@ -83,12 +83,11 @@ Recorder::Recorder(const Simulation& simulation, std::string folder)
   }
 }
 
-void Recorder::record(const StepView& view, Moment moment) {
+void Recorder::record(const StepView& view, bool is_last) {
   if (view.step != last_sample_) tables_.contact.sample(view);  // every step, once: the impulses are sums
   last_sample_ = view.step;
-  const bool last = moment == Moment::last;
-  figures_.sample(view, last);
-  const bool due = last || view.step % simulation_.given().output.curves_every == 0;
+  figures_.sample(view, is_last);
+  const bool due = is_last || view.step % simulation_.given().output.curves_every == 0;
   const bool is_checked = tables_.checks.is_due(view.state.t, simulation_.dt());
   if (due || is_checked) {
     tables_.energy.sample(view);
@@ -106,7 +105,7 @@ void Recorder::record(const StepView& view, Moment moment) {
       exact_file_->append(tables_.exact->table().row);
     }
   }
-  if ((last || view.step % frame_every_ == 0) && view.step != last_frame_) record_frame(view);
+  if ((is_last || view.step % frame_every_ == 0) && view.step != last_frame_) record_frame(view);
 }
 
 void Recorder::record_frame(const StepView& view) {

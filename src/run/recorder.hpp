@@ -34,14 +34,14 @@ struct RunTables {
 };
 
 /// Samples the curves, the checks and the fields at the steps where they are due.
-class Recorder {
+class Recorder : public Observer {
  public:
   /// Prepares the folder and opens its files. Throws OutputError, and CaseError as RunTables does.
   Recorder(const Simulation& simulation, std::string folder);
 
-  /// To be called for the initial state and after every step; `last` forces everything out.
-  enum class Moment : std::uint8_t { during, last };
-  void record(const StepView& view, Moment moment);
+  /// The last step forces everything out.
+  void see(const StepView& view) override { record(view, view.is_last()); }
+  void leave(const StepView& view) override { record(view, true); }
   /// Writes the filtered curves and closes all files.
   void close();
 
@@ -52,6 +52,7 @@ class Recorder {
   void fill(Summary& summary) const;
 
  private:
+  void record(const StepView& view, bool is_last);
   void record_frame(const StepView& view);
   std::string record_obstacles(const StepView& view);
   void write_filtered() const;

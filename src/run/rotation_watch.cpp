@@ -44,8 +44,11 @@ std::string RotationWatch::describe(const Rotation& rotation) const {
       block.file_numbers[static_cast<std::size_t>(cell.cell)], part.name, rotation.angle / degree, stress);
 }
 
-std::string RotationWatch::look(const State& state, long long step, bool is_explicit, bool is_last) {
-  if (is_explicit && step < next_ && !is_last) return {};
+void RotationWatch::see(const StepView& view) {
+  const State& state = view.state;
+  const long long step = view.step;
+  if (step == 0 || !view.alarm.empty()) return;
+  if (is_explicit(view.stage.settings().kind) && step < next_ && !view.ends_stage) return;
   constexpr long long every = 10;
   const CaseGuards& guards = simulation_.given().guards;
   const Rotation rotation = simulation_.solid().largest_rotation(state.q);
@@ -53,7 +56,8 @@ std::string RotationWatch::look(const State& state, long long step, bool is_expl
   growth_ = std::max(0.0, angle - angle_) / static_cast<double>(std::max(1LL, step - looked_));
   angle_ = angle;
   looked_ = step;
-  const double limit = has_warned_ || angle > guards.rotation_warning ? guards.rotation_stop : guards.rotation_warning;
+  const bool has_warned = !warnings_.empty();
+  const double limit = has_warned || angle > guards.rotation_warning ? guards.rotation_stop : guards.rotation_warning;
   next_ = step + (angle + 2.0 * growth_ * static_cast<double>(every) > limit ? 1 : every);
   if (angle > guards.rotation_stop) {
     throw RunError(static_cast<int>(step), state.t,
@@ -62,12 +66,11 @@ std::string RotationWatch::look(const State& state, long long step, bool is_expl
                                "[materials]",
                                describe(rotation), guards.rotation_stop));
   }
-  if (has_warned_ || angle <= guards.rotation_warning) return {};
-  has_warned_ = true;
-  return fmt::format(
-      "at t = {:.6g}, step {}, {}; the error grows with the square of the angle. Take law = "
-      "\"st_venant_kirchhoff\" or \"neo_hookean\" where that matters (rotation_warning in [guards])",
-      state.t, step, describe(rotation));
+  if (has_warned || angle <= guards.rotation_warning) return;
+  warnings_.push_back(
+      fmt::format("at t = {:.6g}, step {}, {}; the error grows with the square of the angle. Take law = "
+                  "\"st_venant_kirchhoff\" or \"neo_hookean\" where that matters (rotation_warning in [guards])",
+                  state.t, step, describe(rotation)));
 }
 
 }  // namespace carom

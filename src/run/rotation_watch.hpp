@@ -2,23 +2,24 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "run/observer.hpp"
 #include "run/simulation.hpp"
-#include "state/state.hpp"
 
 namespace carom {
 
 /// Looks every step of an implicit stage. Looking costs about as much as an explicit step: those are looked at every
 /// ten steps, and every step while the largest angle, at twice the rate at which it has grown, might reach a limit
 /// before the next look.
-class RotationWatch {
+class RotationWatch : public Observer {
  public:
   explicit RotationWatch(const Simulation& simulation);
 
-  /// After step number `step`, `last` of its stage. Returns a warning, "" for none, once, when a cell has turned by
-  /// more than guards.rotation_warning, with the stress that its rotation alone makes. Throws RunError beyond
-  /// guards.rotation_stop.
-  std::string look(const State& state, long long step, bool is_explicit, bool is_last);
+  /// Throws RunError when a cell has turned by more than guards.rotation_stop.
+  void see(const StepView& view) override;
+  /// One, once a cell has turned by more than guards.rotation_warning, with the stress that its rotation alone makes.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   std::string describe(const Rotation& rotation) const;
@@ -26,7 +27,7 @@ class RotationWatch {
   const Simulation& simulation_;
   double angle_ = 0.0, growth_ = 0.0;  ///< degrees at the last look, and per step before it
   long long looked_ = 0, next_ = 1;    ///< steps
-  bool has_warned_ = false;
+  std::vector<std::string> warnings_;
 };
 
 /// Stress of a linear elastic cell that only turns, by an angle in radian: its strain is cos(angle) - 1 along the two

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "contact/buried_facets.hpp"
 #include "contact/stiffness.hpp"
@@ -52,17 +53,17 @@ ContactGeometry make_contact(const Case& given, const Model& model) {
 
 }  // namespace
 
-Simulation::Simulation(const Case& given)
-    : case_(given),
-      mesh_(std::make_shared<const Mesh>(build_mesh(given))),
-      model_(make_model(given, mesh_, notes_)),
+Simulation::Simulation(Case given)
+    : case_(std::move(given)),
+      mesh_(std::make_shared<const Mesh>(build_mesh(case_))),
+      model_(make_model(case_, mesh_, notes_)),
       solid_(model_),
-      contact_(make_contact(given, model_)) {
+      contact_(make_contact(case_, model_)) {
   notes_.insert(notes_.end(), contact_.notes().begin(), contact_.notes().end());
   settle_initial_penetrations();
   const StageContext context{case_, *mesh_, model_, solid_, contact_};
-  stages_.push_back(std::make_unique<Stage>(context, given.scheme, given.time, 0.0, later_velocities(0)));
-  for (const CaseStage& stage : given.stages) {
+  stages_.push_back(std::make_unique<Stage>(context, case_.scheme, case_.time, 0.0, later_velocities(0)));
+  for (const CaseStage& stage : case_.stages) {
     stages_.push_back(std::make_unique<Stage>(context, stage.scheme, stage.time, stages_.back()->end(),
                                               later_velocities(stages_.size())));
   }

@@ -18,8 +18,7 @@ namespace carom {
 /// every error that can be found without stepping (CaseError).
 class Simulation {
  public:
-  /// The case must outlive the simulation.
-  explicit Simulation(const Case& given);
+  explicit Simulation(Case given);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
@@ -57,7 +56,7 @@ class Simulation {
   void settle_initial_penetrations();
   void refuse_buried_facets(std::size_t c, const State& state) const;
 
-  const Case& case_;
+  const Case case_;
   std::shared_ptr<const Mesh> mesh_;
   std::vector<std::string> notes_;
   Model model_;

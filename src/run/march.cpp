@@ -1,0 +1,216 @@
+#include "run/march.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "math/vec3.hpp"
+#include "parallel/threads.hpp"
+#include "run/body_scales.hpp"
+#include "run/build_mesh.hpp"
+#include "run/failure_text.hpp"
+#include "run/inside_out.hpp"
+#include "run/lint.hpp"
+
+namespace carom {
+
+namespace {
+
+RunMonitor::StageKind kind_of(const Stage& stage) {
+  return {stage.reversible_energy(), stage.settings().kind == SchemeKind::statics, is_explicit(stage.settings().kind)};
+}
+
+}  // namespace
+
+March::March(const Simulation& simulation) : s_(simulation), state_(simulation.initial_state()) {
+  std::fill(state_.v.begin(), state_.v.end(), 0.0);  // they begin with their stage
+}
+
+bool March::at_end() const {
+  return steps_->control().at_end() && stage_number_ + 1 == s_.stages().size();
+}
+
+void March::start() {
+  begin_stage();
+  show();
+}
+
+void March::leave() {
+  for (Observer* observer : observers_) observer->leave(view());
+}
+
+void March::show() {
+  for (Observer* observer : observers_) observer->see(view());
+}
+
+StepView March::view() const {
+  return {step_,
+          dt_,
+          iterations_,
+          state_,
+          scheme_->forces(),
+          *ledger_,
+          *monitor_,
+          stage(),
+          scheme_->end_weight(),
+          scheme_->contact_within(),
+          steps_->control().at_end(),
+          at_end(),
+          alarm_};
+}
+
+/// What the velocities of the state have more than those before, by the mass of the stage.
+March::GivenMotion March::given_motion(const std::vector<double>& v_before) const {
+  std::vector<double> p(v_before.size());
+  stage().mass().apply(v_before, p);
+  const double kinetic_before = 0.5 * std::inner_product(p.begin(), p.end(), v_before.begin(), 0.0);
+  const MomentArms arms(stage().system(), state_.q);
+  std::array<double, 6> before{};
+  for (std::size_t i = 0; i < p.size(); ++i) add_with_moment(arms.at(i / 3), i % 3, p[i], before.data());
+  GivenMotion given{scheme_->forces().stored.kinetic - kinetic_before, scheme_->forces().total_momentum};
+  for (std::size_t c = 0; c < 3; ++c) {
+    given.momentum.linear[c] -= before[c];
+    given.momentum.angular[c] -= before[3 + c];
+  }
+  return given;
+}
+
+/// Makes the stage's scheme and lets it take the state over.
+void March::begin_stage() {
+  scheme_ = stage().make_scheme();
+  solver_ = scheme_->solver_name();
+  steps_.emplace(stage());
+  const bool was_static = stage_number_ > 0 && s_.stages()[stage_number_ - 1]->settings().kind == SchemeKind::statics;
+  const std::vector<double> v_before = state_.v;
+  const bool gives_velocities = s_.begin_velocities(stage_number_, state_);
+  try {
+    scheme_->start(state_, stage().dt());
+  } catch (const std::runtime_error& e) {
+    throw RunError(static_cast<int>(step_), state_.t, e.what());
+  }
+  if (ledger_) {
+    book_switch(was_static || gives_velocities ? given_motion(v_before) : GivenMotion{});
+  } else {
+    begin_books();
+  }
+}
+
+void March::begin_books() {
+  ledger_.emplace(scheme_->forces().stored, scheme_->forces().total_momentum, reach(s_.mesh()));
+  const std::vector<double>& masses = stage().mass().node_diagonal();
+  monitor_.emplace(*ledger_,
+                   RunMonitor::Bodies{std::accumulate(masses.begin(), masses.end(), 0.0),
+                                      rest_energy(s_.solid(), reach(s_.mesh())), momenta_of(s_.model())},
+                   kind_of(stage()));
+}
+
+/// Another scheme may have another mass, and starts from accelerations of its own: what the stored energies jump by is
+/// the scheme's doing (ledger: algorithmic), what the momentum jumps by an impulse that the log names. What velocities
+/// that begin with the stage add is initial energy.
+void March::book_switch(const GivenMotion& given) {
+  ledger_->give(given.kinetic, given.momentum);
+  const EnergyTerms before = ledger_->now(), &after = scheme_->forces().stored;
+  LedgerIncrement jump;
+  jump.energy = change_of_stored(before, after);
+  jump.energy.algorithmic = -jump.energy.mechanical();
+  const Momentum now = scheme_->forces().total_momentum;
+  for (std::size_t c = 0; c < 3; ++c) {
+    jump.impulse.linear[c] = now.linear[c] - ledger_->momentum().linear[c] - given.momentum.linear[c];
+    jump.impulse.angular[c] = now.angular[c] - ledger_->momentum().angular[c] - given.momentum.angular[c];
+  }
+  ledger_->add(jump, now);
+  monitor_->begin_stage(kind_of(stage()));
+  log_.push_back(fmt::format("stage: at t = {:.6g} from step {} on: {}; stored energy jumps by {:.3g}", state_.t, step_,
+                             stage().name(), jump.energy.mechanical()));
+}
+
+/// A tangent that is not positive definite makes the scheme change its solver, once in a stage.
+void March::note_solver() {
+  std::string now = scheme_->solver_name();
+  if (now == solver_) return;
+  log_.push_back(fmt::format("solver: at t = {:.6g} from step {} on: {}", state_.t, step_, now));
+  solver_ = std::move(now);
+}
+
+/// Magnitude of the impulse of the loads over a step, by their forces at its end; static stages have none.
+double March::load_impulse() const {
+  if (s_.model().loads.empty() || stage().settings().kind == SchemeKind::statics) return 0.0;
+  const std::vector<double>& f = scheme_->forces().external;
+  const auto sum = parallel_sums<3>(f.size(), [&f](std::size_t i, std::array<double, 3>& s) { s[i % 3] += f[i]; });
+  return norm(sum) * dt_;
+}
+
+/// A step to next_ that holds; nothing when there is none, and message_ says why.
+std::optional<StepReport> March::make_step() {
+  steps_->limit_motion(state_, *scheme_->forces().rows.rows, step_ + 1);
+  for (;;) {
+    const double dt = steps_->control().dt();
+    // A hundredth of the ledger's bound (1e-10 of the energy), shared out over the time of the run; what a step leaves
+    // unbooked is at most its residual's work.
+    const double tolerance = 1e-12 * ledger_->scale() * dt / s_.end();
+    StepReport report = scheme_->step(state_, {steps_->control().t_end_of_step(), dt, tolerance}, next_);
+    if (report.converged && !std::isfinite(scheme_->forces().stored.mechanical())) {
+      scheme_->take_back();
+      report.converged = false;
+      report.failure = "the energy is not finite";
+    }
+    if (report.converged) {
+      const EnergyGuard::Books books{report.books.energy.quadrature, report.books.energy.algorithmic,
+                                     monitor_->scale()};
+      if (!steps_->is_to_be_repeated(state_, next_, scheme_->forces(), books, step_ + 1)) {
+        dt_ = dt;
+        steps_->accept(books);
+        return report;
+      }
+      scheme_->take_back();
+      continue;
+    }
+    if (steps_->shorten(state_, step_ + 1)) continue;
+    if (const std::string inverted = inside_out(s_, next_.q); !inverted.empty()) report.failure = inverted;
+    message_ = fmt::format("step {} from t = {:.6g} failed: {}{}", step_ + 1, state_.t, report.failure,
+                           stage().time().fixed ? "; the case fixes the step, so it was not halved" : "");
+    return std::nullopt;
+  }
+}
+
+/// The books of the step that has become the present one.
+void March::book(const StepReport& report) {
+  iterations_ = std::max(report.iterations, report.linear_iterations);
+  note_solver();
+  dt_smallest_ = step_ == 1 ? dt_ : std::min(dt_smallest_, dt_);
+  dt_largest_ = std::max(dt_largest_, dt_);
+  ledger_->add(report.books, scheme_->forces().total_momentum);
+  monitor_->update(load_impulse());
+  body_strain_ = std::max(body_strain_, s_.solid().body_strain(state_.q));
+  alarm_ = monitor_->alarm(s_.given().guards.energy_growth);
+}
+
+void March::step() {
+  if (steps_->control().at_end()) {
+    ++stage_number_;
+    begin_stage();
+  }
+  const std::optional<StepReport> report = make_step();
+  if (!report) {
+    leave();
+    return;
+  }
+  std::swap(state_, next_);
+  ++step_;
+  book(*report);
+  show();
+  if (alarm_.empty()) {
+    if (!steps_->control().at_end()) steps_->follow_stable_step(state_, step_);
+    return;
+  }
+  message_ = fmt::format("stopped after step {}, t = {:.6g}: {}; {}", step_, state_.t, alarm_, worst_place(s_, state_));
+  const std::string remedy = s_.given().contacts.empty() ? "" : touch_remedy(stage());
+  message_ += ". " + (remedy.empty() ? energy_remedy(stage()) : remedy);
+}
+
+}  // namespace carom
