@@ -159,9 +159,9 @@ struct Chooser {
     Side softer, stiffer;
     for (const Index cell : contact.cells) {
       std::vector<Backing> found;
-      for (const auto& face : hexa8_faces) {
+      for (const CellFace& face : cell_faces(CellType::hexa8)) {
         Facet facet{{}, 4};
-        for (std::size_t a = 0; a < 4; ++a) facet.node[a] = nodes[8 * static_cast<std::size_t>(cell) + face[a]];
+        for (std::size_t a = 0; a < 4; ++a) facet.node[a] = nodes[8 * static_cast<std::size_t>(cell) + face.node[a]];
         if (const auto backing = cells.behind(facet)) found.push_back(*backing);
       }
       std::ranges::sort(found, {}, &Backing::stiffness);

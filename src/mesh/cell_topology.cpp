@@ -13,6 +13,11 @@ constexpr std::array<CornerFrame, 6> kPentaFrames{
 constexpr std::array<CornerFrame, 8> kHexaFrames{
     {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}}};
 
+constexpr std::array<LocalNode, 3> kTria3Mirror{0, 2, 1};
+constexpr std::array<LocalNode, 6> kTria6Mirror{0, 2, 1, 5, 4, 3};
+constexpr std::array<LocalNode, 4> kQuad4Mirror{0, 3, 2, 1};
+constexpr std::array<LocalNode, 8> kQuad8Mirror{0, 3, 2, 1, 7, 6, 5, 4};
+constexpr std::array<LocalNode, 9> kQuad9Mirror{0, 3, 2, 1, 7, 6, 5, 4, 8};
 constexpr std::array<LocalNode, 4> kTetra4Mirror{0, 2, 1, 3};
 constexpr std::array<LocalNode, 10> kTetra10Mirror{0, 2, 1, 3, 6, 5, 4, 7, 9, 8};
 constexpr std::array<LocalNode, 5> kPyra5Mirror{0, 3, 2, 1, 4};
@@ -59,6 +64,16 @@ std::span<const CornerFrame> corner_frames(CellType type) {
 
 std::span<const LocalNode> mirrored_order(CellType type) {
   switch (type) {
+    case CellType::tria3:
+      return kTria3Mirror;
+    case CellType::tria6:
+      return kTria6Mirror;
+    case CellType::quad4:
+      return kQuad4Mirror;
+    case CellType::quad8:
+      return kQuad8Mirror;
+    case CellType::quad9:
+      return kQuad9Mirror;
     case CellType::tetra4:
       return kTetra4Mirror;
     case CellType::tetra10:

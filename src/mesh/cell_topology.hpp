@@ -1,4 +1,4 @@
-// Corners, mirrored node orders and faces of the cell types, as tables.
+// Corners, edges, faces, mirrored node orders and VTK's numbers of the cell types, as tables.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ std::span<const CornerFrame> corner_frames(CellType type);
 
 /// The node order of the mirror image: entry i is the old local index of the new node i. Applied to a cell of negative
 /// volume it gives a positive one over the same nodes, mid-side nodes included. It is its own inverse, and it is also
-/// what leads from MED's order to ours for solids. Empty for points, lines and faces.
+/// what leads from MED's order to ours for solids. Faces are turned over; empty for points and lines.
 std::span<const LocalNode> mirrored_order(CellType type);
 
 /// Pairings of the corners of opposite faces (edges of a QUAD4): three of four pairs for hexahedra, one of three pairs
@@ -31,9 +31,48 @@ std::span<const LocalNode> mirrored_order(CellType type);
 /// of zero thickness.
 std::span<const std::span<const std::array<LocalNode, 2>>> opposite_faces(CellType type);
 
-/// The six faces of a HEXA8 with outward normals.
-inline constexpr std::array<std::array<LocalNode, 4>, 6> hexa8_faces{
-    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+/// Number of corners: the nodes of the linear cell, which come first. Mid-side nodes follow in the order of cell_edges,
+/// then the centres of faces and of the cell.
+int corner_count(CellType type);
+
+/// The edges as pairs of corners; one edge of a line, none of a point. Of a quadratic cell the middle of edge e is node
+/// corner_count + e.
+std::span<const std::array<LocalNode, 2>> cell_edges(CellType type);
+
+/// One piece of the boundary of a cell, itself a cell of one dimension less over nodes of it.
+struct CellFace {
+  CellType type{};
+  std::array<LocalNode, 9> node{};
+
+  std::span<const LocalNode> nodes() const { return {node.data(), static_cast<std::size_t>(node_count(type))}; }
+  std::span<const LocalNode> corners() const { return {node.data(), static_cast<std::size_t>(corner_count(type))}; }
+};
+
+/// Faces of a solid, whose right-hand normal points outward; edges of a plane cell, which has them on its left if it is
+/// counter-clockwise; ends of a line; nothing of a point.
+std::span<const CellFace> cell_faces(CellType type);
+
+/// A linear piece of a face: a point, a segment, a triangle or a quadrilateral.
+struct FacePiece {
+  std::array<LocalNode, 4> node{};
+  int size = 0;
+};
+
+/// The linear pieces over the nodes of a point, line or face that contact sees in its place, oriented as it is. Linear
+/// ones stand for themselves; LINE3: two segments; TRIA6: four triangles; QUAD9: four quadrilaterals; QUAD8: the
+/// quadrilateral of the mid-side nodes and four triangles at the corners. Their shape functions share a pressure among
+/// the nodes with positive weights (of the area: TRIA6 1/12 at corners, 1/4 at middles; QUAD8 1/24 and 5/24), where
+/// those of the quadratic face have zero or negative ones at the corners, which no contact force can have.
+std::span<const FacePiece> face_pieces(CellType type);
+
+/// VTK's number of the type (VTK file formats, "VTK cell types") and its node order: entry i is our local index of
+/// VTK's node i; empty where the orders are the same. They are but for pentahedra: the base of VTK's wedge looks
+/// outward.
+struct VtkCellType {
+  std::uint8_t number = 0;
+  std::span<const LocalNode> order;
+};
+VtkCellType vtk_cell_type(CellType type);
 
 /// Per node the highest dimension of the cells it belongs to; 0 for nodes without cells. A cell is a piece of the
 /// boundary of others (on_boundary) where all its nodes belong to cells of higher dimension.

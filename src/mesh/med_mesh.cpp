@@ -232,7 +232,7 @@ class MedReader {
            fmt::format("{} for each of at most 2147483647 cells", per_cell));
     const auto* numbers = per_entity(path + "/NUM", count);
     const auto* family = per_entity(path + "/FAM", count);
-    const auto mirror = mirrored_order(type);
+    const auto mirror = dimension(type) == 3 ? mirrored_order(type) : std::span<const LocalNode>{};
     CellBlock block{type, {}, {}};
     block.connectivity.reserve(nodes.size());
     for (std::size_t cell = 0; cell < count; ++cell) {

@@ -52,12 +52,13 @@ CornerJacobians corner_jacobians(const Mesh& mesh, CellType type, std::span<cons
   return J;
 }
 
-CornerJacobians plane_jacobians(const Mesh& mesh, std::span<const Index> nodes) {
+CornerJacobians plane_jacobians(const Mesh& mesh, std::span<const Index> corners) {
   CornerJacobians J;
-  for (LocalNode corner = 0; corner < 4; ++corner) {
-    const Vec3& origin = position(mesh, nodes, corner);
-    const Vec3 a = subtract(position(mesh, nodes, (corner + 1) % 4), origin);
-    const Vec3 b = subtract(position(mesh, nodes, (corner + 3) % 4), origin);
+  const auto n = static_cast<LocalNode>(corners.size());
+  for (LocalNode corner = 0; corner < n; ++corner) {
+    const Vec3& origin = position(mesh, corners, corner);
+    const Vec3 a = subtract(position(mesh, corners, static_cast<LocalNode>((corner + 1) % n)), origin);
+    const Vec3 b = subtract(position(mesh, corners, static_cast<LocalNode>((corner + n - 1) % n)), origin);
     count(a[0] * b[1] - a[1] * b[0], dot(a, a) * dot(b, b), J);
   }
   return J;
@@ -144,28 +145,28 @@ bool has_zero_thickness(const Mesh& mesh, CellType type, std::span<const Index> 
   return collapsed == 1 && !has_repeated_nodes(nodes);
 }
 
-int plane_turn(const Mesh& mesh, std::span<const Index> nodes) {
-  const CornerJacobians J = plane_jacobians(mesh, nodes);
-  return J.positive == 4 ? 1 : (J.negative == 4 ? -1 : 0);
+int plane_turn(const Mesh& mesh, std::span<const Index> corners) {
+  const CornerJacobians J = plane_jacobians(mesh, corners);
+  return J.positive == corners.size() ? 1 : (J.negative == corners.size() ? -1 : 0);
 }
 
 void orient_cells(Mesh& mesh) {
-  constexpr std::array<LocalNode, 4> kQuadMirror{0, 3, 2, 1};
   MeshReport& report = mesh.report;
   report.turned = 0;
   bool any = false;
   Faults faults;
   const bool flat = is_plane(mesh);
   for (CellBlock& block : mesh.blocks) {
-    const bool is_plane_solid = flat && block.type == CellType::quad4;
-    const std::span<const LocalNode> mirror = is_plane_solid ? kQuadMirror : mirrored_order(block.type);
-    const std::size_t corners = is_plane_solid ? 4 : corner_frames(block.type).size();
+    const bool is_plane_solid = flat && dimension(block.type) == 2;
+    if (!is_plane_solid && dimension(block.type) < 3) continue;
+    const std::span<const LocalNode> mirror = mirrored_order(block.type);
+    const auto plane_corners = static_cast<std::size_t>(corner_count(block.type));
+    const std::size_t corners = is_plane_solid ? plane_corners : corner_frames(block.type).size();
     const auto n = static_cast<std::size_t>(node_count(block.type));
-    if (corners == 0) continue;
     for (std::size_t cell = 0; cell < block.size(); ++cell) {
       const std::span<Index> nodes(&block.connectivity[cell * n], n);
       const CornerJacobians J =
-          is_plane_solid ? plane_jacobians(mesh, nodes) : corner_jacobians(mesh, block.type, nodes);
+          is_plane_solid ? plane_jacobians(mesh, nodes.first(corners)) : corner_jacobians(mesh, block.type, nodes);
       if (J.positive != corners && J.negative != corners) {
         if (has_zero_thickness(mesh, block.type, nodes)) continue;
         if (faults.first_cell.empty()) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <span>
 
@@ -16,83 +17,83 @@ std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
 
-/// A facet as its cell has it, and its nodes in increasing order, by which its twins are found.
+constexpr Index none = std::numeric_limits<Index>::max();
+
+/// A face of a cell, and its corners in increasing order, by which its twins are found; the rest none.
 struct Candidate {
-  OuterFacet outer;
+  CellRef cell;
+  int face;
   std::array<Index, 4> sorted;
 };
 
-/// Corners of the facets of a cell, `size` to each facet.
-struct FacetTable {
-  std::size_t size;
-  std::span<const LocalNode> corners;
-};
-
-FacetTable facet_table(CellType type) {
-  static constexpr std::array<LocalNode, 24> kHexaFaces = [] {
-    std::array<LocalNode, 24> flat{};
-    for (std::size_t i = 0; i < 24; ++i) flat[i] = hexa8_faces[i / 4][i % 4];
-    return flat;
-  }();
-  static constexpr std::array<LocalNode, 8> kQuadEdges{0, 1, 1, 2, 2, 3, 3, 0};
-  static constexpr std::array<LocalNode, 2> kLineEnds{0, 1};
-  switch (type) {
-    case CellType::hexa8:
-      return {4, kHexaFaces};
-    case CellType::quad4:
-      return {2, kQuadEdges};
-    case CellType::line2:
-      return {1, kLineEnds};
-    default:
-      return {1, {}};
-  }
+std::span<const Index> nodes_of(const Mesh& mesh, const CellRef& cell) {
+  const CellBlock& block = mesh.blocks[at(cell.block)];
+  const auto n = static_cast<std::size_t>(node_count(block.type));
+  return std::span(block.connectivity).subspan(n * at(cell.cell), n);
 }
 
-std::vector<Candidate> facets_of(const Mesh& mesh, std::size_t block, std::span<const std::uint8_t> dimensions) {
+/// Appends the faces of the cells of a block that may be on a skin.
+void append_candidates(const Mesh& mesh, std::size_t block, std::span<const std::uint8_t> dimensions,
+                       std::vector<Candidate>& candidates) {
   const CellBlock& cells = mesh.blocks[block];
-  const FacetTable table = facet_table(cells.type);
-  if (table.corners.empty()) return {};
-  const auto n = static_cast<std::size_t>(node_count(cells.type));
-  std::vector<Candidate> candidates;
-  candidates.reserve(cells.size() * table.corners.size() / table.size);
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    const std::span<const Index> nodes(&cells.connectivity[n * cell], n);
+  const std::span<const CellFace> faces = cell_faces(cells.type);
+  candidates.reserve(candidates.size() + cells.size() * faces.size());
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const CellRef cell{static_cast<Index>(block), static_cast<Index>(k)};
+    const std::span<const Index> nodes = nodes_of(mesh, cell);
     if (on_boundary(nodes, cells.type, dimensions) || has_zero_thickness(mesh, cells.type, nodes)) continue;
-    for (std::size_t first = 0; first < table.corners.size(); first += table.size) {
-      Facet facet{{-1, -1, -1, -1}, static_cast<int>(table.size)};
-      for (std::size_t a = 0; a < table.size; ++a) facet.node[a] = nodes[table.corners[first + a]];
-      if (on_boundary({facet.begin(), facet.end()}, cells.type, dimensions)) continue;  // it ends in a body
-      Candidate& candidate = candidates.emplace_back(
-          Candidate{{facet, {static_cast<Index>(block), static_cast<Index>(cell)}}, facet.node});
-      std::sort(candidate.sorted.begin(), candidate.sorted.begin() + static_cast<std::ptrdiff_t>(table.size));
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      Candidate candidate{cell, static_cast<int>(f), {none, none, none, none}};
+      const std::span<const LocalNode> corners = faces[f].corners();
+      std::transform(corners.begin(), corners.end(), candidate.sorted.begin(), [&](LocalNode a) { return nodes[a]; });
+      const auto end = candidate.sorted.begin() + static_cast<std::ptrdiff_t>(corners.size());
+      if (on_boundary({candidate.sorted.begin(), end}, cells.type, dimensions)) continue;  // it ends in a body
+      std::sort(candidate.sorted.begin(), candidate.sorted.end());
+      candidates.push_back(candidate);
     }
   }
-  return candidates;
 }
 
-/// Appends the candidates without a twin, in their order. Twins are looked for among those with the same smallest node.
-void append_single(const std::vector<Candidate>& candidates, std::size_t node_count, std::vector<OuterFacet>& outer) {
+/// Appends the linear facets of a face.
+void append_facets(const Mesh& mesh, const Candidate& candidate, std::vector<OuterFacet>& outer) {
+  const std::span<const Index> nodes = nodes_of(mesh, candidate.cell);
+  const CellFace& face =
+      cell_faces(mesh.blocks[at(candidate.cell.block)].type)[static_cast<std::size_t>(candidate.face)];
+  for (const FacePiece& piece : face_pieces(face.type)) {
+    Facet facet{{-1, -1, -1, -1}, piece.size};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(piece.size); ++a)
+      facet.node[a] = nodes[face.node[piece.node[a]]];
+    outer.push_back({facet, candidate.cell, candidate.face});
+  }
+}
+
+/// The candidates without a twin, in their order. Twins are looked for among those with the same smallest node.
+std::vector<Candidate> single(const std::vector<Candidate>& candidates, std::size_t node_count) {
   std::vector<std::size_t> begin(node_count + 1, 0), place(candidates.size());
   for (const Candidate& c : candidates) ++begin[at(c.sorted[0]) + 1];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
   for (std::size_t i = 0; i < candidates.size(); ++i) place[next[at(candidates[i].sorted[0])]++] = i;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const std::size_t node = at(candidates[i].sorted[0]);
+  std::vector<Candidate> found;
+  for (const Candidate& candidate : candidates) {
+    const std::size_t node = at(candidate.sorted[0]);
     const auto first = place.begin() + static_cast<std::ptrdiff_t>(begin[node]);
     const auto last = place.begin() + static_cast<std::ptrdiff_t>(begin[node + 1]);
-    const auto is_twin = [&](std::size_t j) { return candidates[j].sorted == candidates[i].sorted; };
-    if (std::count_if(first, last, is_twin) == 1) outer.push_back(candidates[i].outer);
+    const auto is_twin = [&](std::size_t j) { return candidates[j].sorted == candidate.sorted; };
+    if (std::count_if(first, last, is_twin) == 1) found.push_back(candidate);
   }
+  return found;
 }
 
 }  // namespace
 
 std::vector<OuterFacet> outer_facets(const Mesh& mesh) {
   const std::vector<std::uint8_t> dimensions = node_dimensions(mesh);
-  std::vector<OuterFacet> outer;
+  std::vector<Candidate> candidates;
   for (std::size_t block = 0; block < mesh.blocks.size(); ++block)
-    append_single(facets_of(mesh, block, dimensions), mesh.node_count(), outer);
+    append_candidates(mesh, block, dimensions, candidates);
+  std::vector<OuterFacet> outer;
+  for (const Candidate& candidate : single(candidates, mesh.node_count())) append_facets(mesh, candidate, outer);
   return outer;
 }
 

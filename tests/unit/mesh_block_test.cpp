@@ -120,9 +120,9 @@ std::vector<Facet> skin_by_brute_force(const Mesh& mesh) {
   std::vector<std::array<Index, 4>> faces, sorted;
   std::vector<Facet> outer;
   for (std::size_t c = 0; c < hexas.size(); ++c)
-    for (const auto& local : hexa8_faces) {
+    for (const CellFace& local : cell_faces(CellType::hexa8)) {
       std::array<Index, 4> face{};
-      for (std::size_t i = 0; i < 4; ++i) face[i] = hexas.connectivity[8 * c + local[i]];
+      for (std::size_t i = 0; i < 4; ++i) face[i] = hexas.connectivity[8 * c + local.node[i]];
       faces.push_back(face);
       std::sort(face.begin(), face.end());
       sorted.push_back(face);
