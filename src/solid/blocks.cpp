@@ -179,11 +179,6 @@ void cut_and_colour(SolidCells& solid) {
 
 }  // namespace
 
-CellMatrix Block::stiffness(const CellNodes& x, const CellNodes& u) const {
-  const BatchLaw one_lane{cell_law.update, cell_law.tangent, &lame};
-  return (small_strain ? operations->small_stiffness : operations->finite_stiffness)(x, u, thickness, one_lane);
-}
-
 std::span<const Index> SolidCells::nodes_of(std::size_t position) const {
   return connectivity_of(*mesh, cells[position]);
 }
@@ -200,8 +195,41 @@ CellNodes SolidCells::values_of(std::size_t position, std::span<const double> u)
   return values;
 }
 
-CellBatches SolidCells::batches(const Block& block, Index first, Index count) const {
-  return {mesh->coordinates.front().data(), block.offset.data() + block.nodes() * at(first), count, block.thickness};
+CellBatches SolidCells::batches(const Block& block, Index first, Index count, const PointStep& step,
+                                std::span<double> end) const {
+  CellBatches view{mesh->coordinates.front().data(),
+                   block.offset.data() + block.nodes() * at(first),
+                   count,
+                   block.thickness,
+                   step.dt,
+                   block.history_variables};
+  const std::size_t begin = block.history_first + block.history_per_cell() * at(first);
+  if (block.history_variables == 0) return view;
+  if (!step.history.empty()) view.history = step.history.data() + begin;
+  if (!end.empty()) view.new_history = end.data() + begin;
+  return view;
+}
+
+CellMatrix SolidCells::stiffness(std::size_t position, const Block& block, std::span<const double> u,
+                                 const PointStep& step) const {
+  const CellNodes x = coordinates_of(position), values = u.empty() ? CellNodes{} : values_of(position, u);
+  const auto cell = static_cast<Index>(position) - block.first;
+  const BatchLaw law{block.cell_law.update, block.cell_law.tangent, &block.lame};
+  const CellOperations& of = *block.operations;
+  return (block.small_strain ? of.small_stiffness : of.finite_stiffness)(x, values, batches(block, cell, 1, step), law);
+}
+
+std::vector<double> SolidCells::repeated_history(const Block& block, Index cell, const PointStep& step) const {
+  if (step.history.empty()) return {};
+  const std::size_t lanes = at(block.lanes), size = block.history_per_cell();
+  const double* batch = step.history.data() + block.history_first + size * (at(cell) / lanes * lanes);
+  std::vector<double> history;
+  for (std::size_t k = 0; k < size; ++k) history.insert(history.end(), lanes, batch[k * lanes + at(cell) % lanes]);
+  return history;
+}
+
+std::size_t SolidCells::history_size() const {
+  return blocks.empty() ? 0 : blocks.back().history_first + blocks.back().history_size();
 }
 
 SolidCells make_solid_cells(const Model& model, const KernelTable& table) {
@@ -213,7 +241,9 @@ SolidCells make_solid_cells(const Model& model, const KernelTable& table) {
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const std::vector<CellRef> cells = cells_of(mesh, model.parts, p, owners);
     if (cells.empty()) continue;
+    const std::size_t history_first = solid.history_size();
     solid.blocks.push_back(make_block(mesh, model.parts[p], cells, table));
+    solid.blocks.back().history_first = history_first;
     solid.blocks.back().first = static_cast<Index>(solid.cells.size());
     solid.cells.insert(solid.cells.end(), cells.begin(), cells.end());
   }

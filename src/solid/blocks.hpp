@@ -28,10 +28,15 @@ struct Block {
   LawKernels batch_law;  ///< for the kernels
   LawKernels cell_law;   ///< for the operations, one lane
   std::vector<Index> offset;
+  int history_variables = 0;      ///< of the law, at each point
+  std::size_t history_first = 0;  ///< where the block's history begins among the points of all blocks
 
   std::size_t nodes() const { return operations->nodes; }
   BatchLaw law() const { return {batch_law.update, batch_law.tangent, &lame}; }
-  CellMatrix stiffness(const CellNodes& x, const CellNodes& u) const;
+  /// Numbers of history of one lane: batches, filled up, follow each other as PointBatch::history.
+  std::size_t history_per_cell() const { return operations->points * static_cast<std::size_t>(history_variables); }
+  /// Numbers of history of the block.
+  std::size_t history_size() const { return history_per_cell() * offset.size() / nodes(); }
 };
 
 /// Consecutive cells of one block, whole batches but for the block's last.
@@ -56,7 +61,16 @@ struct SolidCells {
   /// Entries of a dof vector at its nodes.
   CellNodes values_of(std::size_t position, std::span<const double> u) const;
   /// The kernels' view of `count` cells of a block from its cell `first` on, which must be a multiple of the lanes.
-  CellBatches batches(const Block& block, Index first, Index count) const;
+  /// The history at the end of the step goes to `end` unless it is empty.
+  CellBatches batches(const Block& block, Index first, Index count, const PointStep& step = {},
+                      std::span<double> end = {}) const;
+  /// Stiffness matrix of the cell at a position in `cells`, at u.
+  CellMatrix stiffness(std::size_t position, const Block& block, std::span<const double> u,
+                       const PointStep& step = {}) const;
+  /// The history of one cell of a block, a position in it, in every lane of a batch. Empty where there is none.
+  std::vector<double> repeated_history(const Block& block, Index cell, const PointStep& step) const;
+  /// Numbers of history of all points.
+  std::size_t history_size() const;
 
   /// Calls body(chunk) for all chunks; those of one colour at the same time, colours one after the other.
   template <class Body>

@@ -54,6 +54,7 @@ struct CellState {
   std::array<typename Shape::Point, Shape::points> point;
   double A[Shape::points][3][3];
   double strain[6 * Shape::points], stress[6 * Shape::points], energy[Shape::points];
+  double dissipation[Shape::points] = {};
 
   CellState(const typename Shape::Nodes& x, double thickness) {
     for (std::size_t p = 0; p < Shape::points; ++p) point[p] = Shape::point(x, p, thickness);
@@ -67,13 +68,19 @@ struct CellState {
     }
   }
 
-  void apply(const BatchLaw& law) {
-    law.update(law.parameters, {static_cast<int>(Shape::points), strain, stress, energy});
+  /// Stress, energy and dissipation of cell c.
+  void apply(const CellBatches& cells, Index c, const BatchLaw& law) {
+    PointBatch points = point_batch(cells, c, static_cast<int>(Shape::points), strain, stress);
+    points.energy = energy;
+    if (cells.history_variables > 0) points.dissipation = dissipation;
+    law.update(law.parameters, points);
   }
 
-  /// dS of the stress changes that belong to dE, at the present strain.
-  void change(const BatchLaw& law, const double* strain_change, double* stress_change) const {
-    law.tangent(law.parameters, {static_cast<int>(Shape::points), strain, strain_change, stress_change});
+  /// dS of the stress changes that belong to dE, at the present strain of cell c.
+  void change(const CellBatches& cells, Index c, const BatchLaw& law, const double* strain_change,
+              double* stress_change) const {
+    const PointBatch points = point_batch(cells, c, static_cast<int>(Shape::points), nullptr, nullptr);
+    law.tangent(law.parameters, {points.points, strain, strain_change, stress_change, points.dt, points.history});
   }
 };
 
@@ -118,18 +125,25 @@ struct ShapeKernels {
     scatter(f_cell, offset, f);
   }
 
-  static void add_internal_force(const CellBatches& cells, const BatchLaw& law, const double* u, double* f) {
-    for_each_cell(cells, [&](const Index* offset, Index, State& state) {
+  static void add_internal_force(const CellBatches& cells, const BatchLaw& law, const double* u, double* f,
+                                 SolidEnergies* energies) {
+    SolidEnergies sum;
+    for_each_cell(cells, [&](const Index* offset, Index c, State& state) {
       state.set_strain(gather_cell<Shape>(u, offset));
-      state.apply(law);
+      state.apply(cells, c, law);
       scatter_force(state, offset, f);
+      for (std::size_t p = 0; p < Shape::points; ++p) {
+        sum.strain += state.point[p].weight * state.energy[p];
+        sum.plastic += state.point[p].weight * state.dissipation[p];
+      }
     });
+    if (energies != nullptr) energies->add(sum);
   }
 
   /// dP = dH S + A dS, dS = D : sym(A^T dH); the first term of finite strain alone.
   static void add_tangent_action(const CellBatches& cells, const BatchLaw& law, const double* u, const double* x,
                                  double* y) {
-    for_each_cell(cells, [&](const Index* offset, Index, State& state) {
+    for_each_cell(cells, [&](const Index* offset, Index c, State& state) {
       state.set_strain(gather_cell<Shape>(u, offset));
       const Nodes x_cell = gather_cell<Shape>(x, offset);
       double dH[Shape::points][3][3], dE[6 * Shape::points], dS[6 * Shape::points];
@@ -137,8 +151,8 @@ struct ShapeKernels {
         displacement_gradient<Shape>(state.point[p], x_cell, dH[p]);
         symmetric_product(state.A[p], dH[p], dE + 6 * p);
       }
-      state.change(law, dE, dS);
-      if constexpr (Kinematics::has_geometric_stiffness) state.apply(law);
+      state.change(cells, c, law, dE, dS);
+      if constexpr (Kinematics::has_geometric_stiffness) state.apply(cells, c, law);
       Nodes y_cell{};
       for (std::size_t p = 0; p < Shape::points; ++p) {
         double P[3][3];
@@ -155,7 +169,7 @@ struct ShapeKernels {
 
   static void add_discrete_gradient_force(const CellBatches& cells, const BatchLaw& law, const double* u_0,
                                           const double* u_1, double* f) {
-    for_each_cell(cells, [&](const Index* offset, Index, State& state) {
+    for_each_cell(cells, [&](const Index* offset, Index c, State& state) {
       State end = state;
       state.set_strain(gather_cell<Shape>(u_0, offset));
       end.set_strain(gather_cell<Shape>(u_1, offset));
@@ -163,11 +177,11 @@ struct ShapeKernels {
       std::array<double, 6 * Shape::points> e_0, e_1;  // the law writes into those of the states
       std::copy_n(state.strain, e_0.size(), e_0.begin());
       std::copy_n(end.strain, e_1.size(), e_1.begin());
-      for (std::size_t c = 0; c < e_0.size(); ++c) middle.strain[c] = 0.5 * (e_0[c] + e_1[c]);
+      for (std::size_t k = 0; k < e_0.size(); ++k) middle.strain[k] = 0.5 * (e_0[k] + e_1[k]);
       for (std::size_t p = 0; p < Shape::points; ++p)
-        for (int c = 0; c < 9; ++c)
-          middle.A[p][c / 3][c % 3] = 0.5 * (state.A[p][c / 3][c % 3] + end.A[p][c / 3][c % 3]);
-      for (State* s : {&state, &end, &middle}) s->apply(law);
+        for (int k = 0; k < 9; ++k)
+          middle.A[p][k / 3][k % 3] = 0.5 * (state.A[p][k / 3][k % 3] + end.A[p][k / 3][k % 3]);
+      for (State* s : {&state, &end, &middle}) s->apply(cells, c, law);
       for (std::size_t p = 0; p < Shape::points; ++p) {
         double* S = middle.stress + 6 * p;
         Kinematics::discrete_stress(e_0.data() + 6 * p, e_1.data() + 6 * p, S, state.energy[p], end.energy[p], S);
@@ -176,20 +190,10 @@ struct ShapeKernels {
     });
   }
 
-  static double strain_energy(const CellBatches& cells, const BatchLaw& law, const double* u) {
-    double sum = 0.0;
-    for_each_cell(cells, [&](const Index* offset, Index, State& state) {
-      state.set_strain(gather_cell<Shape>(u, offset));
-      state.apply(law);
-      for (std::size_t p = 0; p < Shape::points; ++p) sum += state.point[p].weight * state.energy[p];
-    });
-    return sum;
-  }
-
   static void mean_stress(const CellBatches& cells, const BatchLaw& law, const double* u, double* stress) {
     for_each_cell(cells, [&](const Index* offset, Index cell, State& state) {
       state.set_strain(gather_cell<Shape>(u, offset));
-      state.apply(law);
+      state.apply(cells, cell, law);
       double volume = 0.0, *mean = stress + 6 * cell;
       std::fill_n(mean, 6, 0.0);
       for (std::size_t p = 0; p < Shape::points; ++p) {
@@ -204,7 +208,7 @@ struct ShapeKernels {
   }
 
   static constexpr CellKernels kernels() {
-    return {add_internal_force, add_tangent_action, add_discrete_gradient_force, strain_energy, mean_stress};
+    return {add_internal_force, add_tangent_action, add_discrete_gradient_force, mean_stress};
   }
 };
 

@@ -39,13 +39,13 @@ using VoigtMatrix = std::array<std::array<double, 6>, 6>;
 
 /// D of every point, column by column.
 template <class State>
-auto tangents(const State& state, const BatchLaw& law) {
+auto tangents(const State& state, const CellBatches& cell, const BatchLaw& law) {
   constexpr std::size_t points = std::tuple_size_v<decltype(state.point)>;
   std::array<VoigtMatrix, points> D{};
   for (std::size_t column = 0; column < 6; ++column) {
     std::array<double, 6 * points> unit{}, result{};
     for (std::size_t p = 0; p < points; ++p) unit[6 * p + column] = 1.0;
-    state.change(law, unit.data(), result.data());
+    state.change(cell, 0, law, unit.data(), result.data());
     for (std::size_t p = 0; p < points; ++p)
       for (std::size_t row = 0; row < 6; ++row) D[p][row][column] = result[6 * p + row];
   }
@@ -74,12 +74,12 @@ void add_geometric(const typename Shape::Point& point, const double* S, std::siz
 }
 
 template <class Shape, template <class> class Kinematics>
-CellMatrix stiffness(const CellNodes& x, const CellNodes& u, double thickness, const BatchLaw& law) {
+CellMatrix stiffness(const CellNodes& x, const CellNodes& u, const CellBatches& cell, const BatchLaw& law) {
   constexpr std::size_t dofs = 3 * Shape::nodes;
-  CellState<Shape, Kinematics<Shape>> state(nodes_of<Shape>(x), thickness);
+  CellState<Shape, Kinematics<Shape>> state(nodes_of<Shape>(x), cell.thickness);
   state.set_strain(nodes_of<Shape>(u));
-  const auto D = tangents(state, law);
-  if constexpr (Kinematics<Shape>::has_geometric_stiffness) state.apply(law);
+  const auto D = tangents(state, cell, law);
+  if constexpr (Kinematics<Shape>::has_geometric_stiffness) state.apply(cell, 0, law);
   CellMatrix K{};
   for (std::size_t p = 0; p < Shape::points; ++p) {
     std::array<StrainMatrix, Shape::nodes> B;
@@ -136,6 +136,7 @@ double rotation(const CellNodes& x, const CellNodes& u, double thickness) {
 template <class Shape>
 constexpr CellOperations operations() {
   return {Shape::nodes,
+          Shape::points,
           ShapeKernels<Shape, SmallStrain>::kernels(),
           ShapeKernels<Shape, GreenLagrangeStrain>::kernels(),
           measure<Shape>,

@@ -28,14 +28,15 @@ struct CellMeasure {
 
 /// What the solid needs of the cells of one section, cell by cell in plain double.
 struct CellOperations {
-  std::size_t nodes = 0;
+  std::size_t nodes = 0, points = 0;
   CellKernels small_strain, finite_strain;
   CellMeasure (*measure)(const CellNodes& x, double thickness) = nullptr;
   /// M_ab = integral of rho N_a N_b over the reference volume, by rules that are exact on distorted cells too
   NodeMatrix (*mass)(const CellNodes& x, double thickness, double rho) = nullptr;
-  /// K_e(u) = integral of B^T D B, and under finite strain of dN_a/dX S dN_b/dX 1
-  CellMatrix (*small_stiffness)(const CellNodes& x, const CellNodes& u, double thickness, const BatchLaw&) = nullptr;
-  CellMatrix (*finite_stiffness)(const CellNodes& x, const CellNodes& u, double thickness, const BatchLaw&) = nullptr;
+  /// K_e(u) = integral of B^T D B, and under finite strain of dN_a/dX S dN_b/dX 1; thickness, step and history of
+  /// the cell stand in CellBatches
+  CellMatrix (*small_stiffness)(const CellNodes& x, const CellNodes& u, const CellBatches&, const BatchLaw&) = nullptr;
+  CellMatrix (*finite_stiffness)(const CellNodes& x, const CellNodes& u, const CellBatches&, const BatchLaw&) = nullptr;
   /// Angle (radian) of the rotation R of F = R U at the centre; pi where F is inverted or not a number.
   double (*rotation)(const CellNodes& x, const CellNodes& u, double thickness) = nullptr;
 };

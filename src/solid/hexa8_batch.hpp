@@ -122,10 +122,11 @@ template <class Real, class Body>
   }
 }
 
-/// Adds 512 x the stored energy of the `count` cells of a batch, density[p lanes], to sum.
+/// Adds 512 x the integral over the `count` cells of a batch of density[p lanes] to sum.
 template <class Real>
-[[gnu::always_inline]] static inline void add_energy(const double* density, const hexa8::PointGeometry<Real>& geometry,
-                                                     int count, double& sum) {
+[[gnu::always_inline]] static inline void add_integral(const double* density,
+                                                       const hexa8::PointGeometry<Real>& geometry, int count,
+                                                       double& sum) {
   constexpr int n = lanes<Real>;
   Real cell = load<Real>(density) * geometry.det[0];
   for (int p = 1; p < 8; ++p) cell += load<Real>(density + p * n) * geometry.det[p];

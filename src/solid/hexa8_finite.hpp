@@ -81,10 +81,10 @@ struct BatchState {
   PointValues<Real, 1> energy;
 };
 
-/// Geometry, F, strain, stress. energy: where the stored energy density goes, or null.
+/// Geometry, F, strain, stress, and the stored energy density if it is wanted.
 template <class Real>
 [[gnu::always_inline]] static inline void evaluate(const double* x, const Index* offset, const BatchLaw& law,
-                                                   const double* u, BatchState<Real>& state, double* energy) {
+                                                   const double* u, BatchState<Real>& state, bool with_energy) {
   gather_geometry(x, offset, state.geometry);
   for_each_gradient(
       u, offset, state.geometry, [&](int p, Real H[3][3]) __attribute__((always_inline)) {
@@ -93,7 +93,8 @@ template <class Real>
         store_matrix(H, p, state.F);
         store_voigt(E, p, state.strain);
       });
-  law.update(law.parameters, {8, state.strain.data(), state.stress.data(), energy});
+  law.update(law.parameters,
+             {8, state.strain.data(), state.stress.data(), with_energy ? state.energy.data() : nullptr});
 }
 
 /// Integrates P = F S and adds it to the nodes.
@@ -114,13 +115,17 @@ template <class Real>
 }
 
 template <class Real>
-static void add_internal_force(const CellBatches& batches, const BatchLaw& law, const double* u, double* f) {
+static void add_internal_force(const CellBatches& batches, const BatchLaw& law, const double* u, double* f,
+                               SolidEnergies* energies) {
+  double sum = 0.0;
   for_each_batch<Real>(
       batches, [&](const Index* offset, int count, Index) __attribute__((always_inline)) {
         BatchState<Real> state;
-        evaluate(batches.x, offset, law, u, state, nullptr);
+        evaluate(batches.x, offset, law, u, state, energies != nullptr);
         add_force(state, offset, count, f);
+        if (energies != nullptr) add_integral(state.energy.data(), state.geometry, count, sum);
       });
+  if (energies != nullptr) energies->strain += sum / 512.0;
 }
 
 /// dP = dH S + F dS, dS = D : sym(F^T dH).
@@ -132,7 +137,7 @@ static void add_tangent_action(const CellBatches& batches, const BatchLaw& law, 
         BatchState<Real> state;
         PointValues<Real, 9> gradient;
         PointValues<Real, 6> strain_change, stress_change;
-        evaluate(batches.x, offset, law, u, state, nullptr);
+        evaluate(batches.x, offset, law, u, state, false);
         for_each_gradient(
             x, offset, state.geometry, [&](int p, Real dH[3][3]) __attribute__((always_inline)) {
               Real F[3][3], dE[6];
@@ -170,7 +175,7 @@ static void add_discrete_gradient_force(const CellBatches& batches, const BatchL
         BatchState<Real> state;
         PointValues<Real, 6> start, end;
         PointValues<Real, 1> end_energy;
-        evaluate(batches.x, offset, law, u_0, state, state.energy.data());
+        evaluate(batches.x, offset, law, u_0, state, true);
         start = state.strain;
         for_each_gradient(
             u_1, offset, state.geometry, [&](int p, Real F_1[3][3]) __attribute__((always_inline)) {
@@ -200,23 +205,11 @@ static void add_discrete_gradient_force(const CellBatches& batches, const BatchL
 }
 
 template <class Real>
-static double strain_energy(const CellBatches& batches, const BatchLaw& law, const double* u) {
-  double sum = 0.0;
-  for_each_batch<Real>(
-      batches, [&](const Index* offset, int count, Index) __attribute__((always_inline)) {
-        BatchState<Real> state;
-        evaluate(batches.x, offset, law, u, state, state.energy.data());
-        add_energy(state.energy.data(), state.geometry, count, sum);
-      });
-  return sum / 512.0;
-}
-
-template <class Real>
 static void mean_stress(const CellBatches& batches, const BatchLaw& law, const double* u, double* stress) {
   for_each_batch<Real>(
       batches, [&](const Index* offset, int count, Index first) __attribute__((always_inline)) {
         BatchState<Real> state;
-        evaluate(batches.x, offset, law, u, state, nullptr);
+        evaluate(batches.x, offset, law, u, state, false);
         for (int p = 0; p < 8; ++p) {
           Real F[3][3], P[3][3], S[6];
           load_matrix(state.F, p, F);
@@ -231,8 +224,7 @@ static void mean_stress(const CellBatches& batches, const BatchLaw& law, const d
 
 template <class Real>
 static constexpr CellKernels kernels() {
-  return {add_internal_force<Real>, add_tangent_action<Real>, add_discrete_gradient_force<Real>, strain_energy<Real>,
-          mean_stress<Real>};
+  return {add_internal_force<Real>, add_tangent_action<Real>, add_discrete_gradient_force<Real>, mean_stress<Real>};
 }
 
 }  // namespace carom::hexa8_finite

@@ -1,34 +1,52 @@
 // The batch kernels of the solid: those of HEXA8 compiled once per instruction set, those of plane cells and bars once.
 #pragma once
 
+#include <cstddef>
+
 #include "base/types.hpp"
 #include "material/point_batch.hpp"
+#include "solid/evaluation.hpp"
 
 namespace carom {
 
 /// Cells of one type, section and material, `lanes` of them per batch. offset[(n b + a) lanes + l] is 3 x the node
 /// number of local node a (of n) of cell b lanes + l. The last batch is filled up by repeating its last cell; such
-/// lanes are never written back.
+/// lanes are never written back, but in their history, which is that of the repeated cell.
 struct CellBatches {
   const double* x = nullptr;  ///< coordinates, 3 per node
   const Index* offset = nullptr;
   Index cells = 0;
   double thickness = 1.0;  ///< of plane cells; area of the section of bars
+  double dt = 0.0;         ///< length of the step, for laws with rates
+  int history_variables = 0;
+  /// At the beginning of the step: one PointBatch::history after the other. Null: at rest.
+  const double* history = nullptr;
+  double* new_history = nullptr;  ///< at its end; null: not wanted
 };
+
+/// The buffer of a batch that begins with cell `first`, of `points` points a cell.
+[[gnu::always_inline]] static inline PointBatch point_batch(const CellBatches& cells, Index first, int points,
+                                                            double* strain, double* stress) {
+  const auto skip = static_cast<std::ptrdiff_t>(first) * points * cells.history_variables;
+  PointBatch batch{points, strain, stress};
+  batch.dt = cells.dt;
+  if (cells.history != nullptr) batch.history = cells.history + skip;
+  if (cells.new_history != nullptr) batch.new_history = cells.new_history + skip;
+  return batch;
+}
 
 /// The kernels of one cell type under one kinematics, small strain or total Lagrangian. Dof vectors have 3 entries per
 /// node. None of them allocates. An inverted cell under finite strain gives forces and energies that are not numbers.
 struct CellKernels {
-  /// f += F(u) of the cells.
-  void (*add_internal_force)(const CellBatches&, const BatchLaw&, const double* u, double* f) = nullptr;
+  /// f += F(u) of the cells; fills the new history, and adds to the energies unless they are null.
+  void (*add_internal_force)(const CellBatches&, const BatchLaw&, const double* u, double* f,
+                             SolidEnergies* energies) = nullptr;
   /// y += K(u) x of the cells.
   void (*add_tangent_action)(const CellBatches&, const BatchLaw&, const double* u, const double* x,
                              double* y) = nullptr;
   /// f += energy-momentum force between u_0 and u_1 (Solid::discrete_gradient_force).
   void (*add_discrete_gradient_force)(const CellBatches&, const BatchLaw&, const double* u_0, const double* u_1,
                                       double* f) = nullptr;
-  /// Sum over the cells of the integral of the stored energy density.
-  double (*strain_energy)(const CellBatches&, const BatchLaw&, const double* u) = nullptr;
   /// stress[6 cell + c] = volume mean of the Cauchy stress.
   void (*mean_stress)(const CellBatches&, const BatchLaw&, const double* u, double* stress) = nullptr;
 };

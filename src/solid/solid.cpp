@@ -64,9 +64,8 @@ struct Solid::Impl {
     turning_bodies.add_mass(M);
   }
   const Block& block(const Chunk& chunk) const { return solid.blocks[at(chunk.block)]; }
-  CellBatches batches(const Chunk& chunk) const { return solid.batches(block(chunk), chunk.first, chunk.cells); }
-  CellMatrix stiffness(std::size_t c, const Block& b, std::span<const double> u) const {
-    return b.stiffness(solid.coordinates_of(c), solid.values_of(c, u));
+  CellBatches batches(const Chunk& chunk, const PointStep& step = {}, std::span<double> end = {}) const {
+    return solid.batches(block(chunk), chunk.first, chunk.cells, step, end);
   }
   NodeMatrix mass(std::size_t c, const Block& b) const {
     return b.operations->mass(solid.coordinates_of(c), b.thickness, b.rho);
@@ -75,7 +74,7 @@ struct Solid::Impl {
   std::vector<double> frequency_bounds() const {
     std::vector<double> bounds(solid.cells.size());
     solid.for_each_cell([&](std::size_t c, const Block& b) {
-      bounds[c] = frequency_bound(b.stiffness(solid.coordinates_of(c), {}), lumped(mass(c, b), b.nodes()), b.nodes());
+      bounds[c] = frequency_bound(solid.stiffness(c, b, {}), lumped(mass(c, b), b.nodes()), b.nodes());
     });
     return bounds;
   }
@@ -85,14 +84,13 @@ struct Solid::Impl {
     return std::sqrt(largest);
   }
 
-  /// Overwrites f with the sum over the chunks of add(kernels, batches, law, f), colour by colour.
+  /// Overwrites f with the sum over the chunks of add(chunk, block, f), colour by colour.
   template <class Add>
   void sum_over_chunks(std::span<double> f, const Add& add) const {
     constexpr std::size_t zeros_per_task = 1 << 15;
     parallel_for(f.size(), zeros_per_task,
                  [&](std::size_t begin, std::size_t end) { std::fill(f.data() + begin, f.data() + end, 0.0); });
-    solid.for_each_chunk(
-        [&](const Chunk& chunk) { add(block(chunk).kernels, batches(chunk), block(chunk).law(), f.data()); });
+    solid.for_each_chunk([&](const Chunk& chunk) { add(chunk, block(chunk), f.data()); });
   }
 
   Isa isa;
@@ -140,14 +138,38 @@ const std::vector<double>& Solid::cell_lengths() const {
   return impl_->lengths;
 }
 
-void Solid::internal_force(std::span<const double> u, std::span<double> f) const {
-  impl_->sum_over_chunks(f, [&](const CellKernels& kernels, const CellBatches& cells, const BatchLaw& law,
-                                double* sum) { kernels.add_internal_force(cells, law, u.data(), sum); });
+std::size_t Solid::history_size() const {
+  return impl_->solid.history_size();
+}
+std::vector<double> Solid::initial_history() const {
+  return std::vector<double>(history_size(), 0.0);
+}
+
+SolidEnergies Solid::evaluate(std::span<const double> u, const PointStep& step, std::span<double> f,
+                              std::span<double> end) const {
+  std::vector<SolidEnergies> partial(impl_->solid.chunks.size());
+  impl_->sum_over_chunks(f, [&](const Chunk& chunk, const Block& block, double* sum) {
+    SolidEnergies& energies = partial[at(&chunk - impl_->solid.chunks.data())];
+    block.kernels.add_internal_force(impl_->batches(chunk, step, end), block.law(), u.data(), sum, &energies);
+  });
+  SolidEnergies total;
+  for (const SolidEnergies& energies : partial) total.add(energies);
+  impl_->springs.add_force(1.0, u, f);
+  impl_->turning_bodies.add_internal_force(u, f);
+  total.strain = total.strain + impl_->springs.energy(u) + impl_->turning_bodies.energy(u);
+  return total;
+}
+
+void Solid::internal_force(std::span<const double> u, std::span<double> f, const PointStep& step) const {
+  impl_->sum_over_chunks(f, [&](const Chunk& chunk, const Block& block, double* sum) {
+    block.kernels.add_internal_force(impl_->batches(chunk, step), block.law(), u.data(), sum, nullptr);
+  });
   impl_->springs.add_force(1.0, u, f);
   impl_->turning_bodies.add_internal_force(u, f);
 }
 
-void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const double> u, std::span<double> f) const {
+void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const double> u, std::span<double> f,
+                                  const PointStep& step) const {
   std::array<Index, 64> offset{};  // one batch of at most 8 lanes, filled up with one cell
   for (const Index cell : cells) {
     const Block& block = *std::find_if(impl_->solid.blocks.begin(), impl_->solid.blocks.end(),
@@ -156,36 +178,39 @@ void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const 
     const auto n = at(block.lanes);
     for (std::size_t a = 0; a < nodes.size(); ++a)
       std::fill_n(offset.begin() + static_cast<std::ptrdiff_t>(a * n), n, 3 * nodes[a]);
-    CellBatches batch = impl_->solid.batches(block, 0, 1);
+    CellBatches batch = impl_->solid.batches(block, 0, 1, step);
     batch.offset = offset.data();
-    block.kernels.add_internal_force(batch, block.law(), u.data(), f.data());
+    const std::vector<double> history = impl_->solid.repeated_history(block, cell - block.first, step);
+    if (!history.empty()) batch.history = history.data();
+    block.kernels.add_internal_force(batch, block.law(), u.data(), f.data(), nullptr);
   }
 }
 
-void Solid::tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y) const {
-  impl_->sum_over_chunks(y, [&](const CellKernels& kernels, const CellBatches& cells, const BatchLaw& law,
-                                double* sum) { kernels.add_tangent_action(cells, law, u.data(), x.data(), sum); });
+void Solid::tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y,
+                           const PointStep& step) const {
+  impl_->sum_over_chunks(y, [&](const Chunk& chunk, const Block& block, double* sum) {
+    block.kernels.add_tangent_action(impl_->batches(chunk, step), block.law(), u.data(), x.data(), sum);
+  });
   impl_->springs.add_force(1.0, x, y);
   impl_->turning_bodies.add_tangent_action(u, x, y);
 }
 
 void Solid::discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1,
                                     std::span<double> f) const {
-  impl_->sum_over_chunks(f,
-                         [&](const CellKernels& kernels, const CellBatches& cells, const BatchLaw& law, double* sum) {
-                           kernels.add_discrete_gradient_force(cells, law, u_0.data(), u_1.data(), sum);
-                         });
+  impl_->sum_over_chunks(f, [&](const Chunk& chunk, const Block& block, double* sum) {
+    block.kernels.add_discrete_gradient_force(impl_->batches(chunk), block.law(), u_0.data(), u_1.data(), sum);
+  });
   impl_->springs.add_force(0.5, u_0, f);
   impl_->springs.add_force(0.5, u_1, f);
   impl_->turning_bodies.add_discrete_gradient_force(u_0, u_1, f);
 }
 
-CsrMatrix Solid::tangent(std::span<const double> u) const {
+CsrMatrix Solid::tangent(std::span<const double> u, const PointStep& step) const {
   CsrMatrix graph = node_graph(impl_->solid, impl_->springs.all());
   impl_->turning_bodies.add_rows(graph);
   CsrMatrix K = dof_graph(graph);
   impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
-    const CellMatrix cell = impl_->stiffness(c, block, u);
+    const CellMatrix cell = impl_->solid.stiffness(c, block, u, step);
     const auto nodes = impl_->solid.nodes_of(c);
     const std::size_t dofs = 3 * nodes.size();
     for (std::size_t a = 0; a < nodes.size(); ++a)
@@ -200,10 +225,10 @@ CsrMatrix Solid::tangent(std::span<const double> u) const {
   return K;
 }
 
-std::vector<double> Solid::tangent_diagonal(std::span<const double> u) const {
+std::vector<double> Solid::tangent_diagonal(std::span<const double> u, const PointStep& step) const {
   std::vector<double> diagonal(dof_count(), 0.0);
   impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
-    const CellMatrix cell = impl_->stiffness(c, block, u);
+    const CellMatrix cell = impl_->solid.stiffness(c, block, u, step);
     const auto nodes = impl_->solid.nodes_of(c);
     const std::size_t dofs = 3 * nodes.size();
     for (std::size_t r = 0; r < dofs; ++r) diagonal[3 * at(nodes[r / 3]) + r % 3] += cell[r * (dofs + 1)];
@@ -214,14 +239,8 @@ std::vector<double> Solid::tangent_diagonal(std::span<const double> u) const {
 }
 
 double Solid::strain_energy(std::span<const double> u) const {
-  const std::vector<Chunk>& chunks = impl_->solid.chunks;
-  std::vector<double> partial(chunks.size());
-  parallel_for(chunks.size(), 1, [&](std::size_t c, std::size_t) {
-    const Block& block = impl_->block(chunks[c]);
-    partial[c] = block.kernels.strain_energy(impl_->batches(chunks[c]), block.law(), u.data());
-  });
-  return std::accumulate(partial.begin(), partial.end(), 0.0) + impl_->springs.energy(u) +
-         impl_->turning_bodies.energy(u);
+  std::vector<double> f(dof_count());
+  return evaluate(u, {}, f, {}).strain;
 }
 
 double Solid::body_strain(std::span<const double> u) const {
@@ -323,13 +342,13 @@ bool Solid::has_loads() const {
   return !impl_->loads.empty() || !impl_->gravity.empty();
 }
 
-std::vector<std::array<double, 6>> Solid::cell_stress(std::span<const double> u) const {
+std::vector<std::array<double, 6>> Solid::cell_stress(std::span<const double> u, const PointStep& step) const {
   std::vector<std::array<double, 6>> stress(cell_count());
   parallel_for(impl_->solid.chunks.size(), 1, [&](std::size_t c, std::size_t) {
     const Chunk& chunk = impl_->solid.chunks[c];
     const Block& block = impl_->block(chunk);
     double* first = stress[at(block.first + chunk.first)].data();
-    block.kernels.mean_stress(impl_->batches(chunk), block.law(), u.data(), first);
+    block.kernels.mean_stress(impl_->batches(chunk, step), block.law(), u.data(), first);
   });
   return stress;
 }

@@ -9,6 +9,7 @@
 
 #include "linalg/csr_matrix.hpp"
 #include "model/model.hpp"
+#include "solid/evaluation.hpp"
 #include "solid/mass.hpp"
 
 namespace carom {
@@ -57,14 +58,27 @@ class Solid {
   /// True when internal_force is linear in u: then K is constant and may be prepared once per run.
   bool is_linear() const;
 
-  /// f = F(u) = sum over cells of the integral of B^T sigma(B u), small strain, or P dN/dX with P = F S(E); overwrites
-  /// f. Not a number at the nodes of an inverted cell of finite strain (det F <= 0 at a quadrature point). Threaded in
-  /// coloured chunks, the same bits for any thread count. Does not allocate.
-  void internal_force(std::span<const double> u, std::span<double> f) const;
+  /// Numbers that the quadrature points remember, their history variables: the order is that of the kernels and
+  /// depends on the instruction set. None for elastic bodies.
+  std::size_t history_size() const;
+  /// That of bodies at rest.
+  std::vector<double> initial_history() const;
+
+  /// One sweep over the cells: f = F(u) = sum over cells of the integral of B^T sigma(B u), small strain, or P dN/dX
+  /// with P = F S(E), for the step that ends at u; overwrites f and the history at the end of the step (`end`; empty:
+  /// not wanted; it may not be step.history). Returns the energies at its end. f and the energies are not numbers where
+  /// a cell of finite strain is inverted (det F <= 0 at a quadrature point). Threaded in coloured chunks, the same bits
+  /// for any thread count.
+  SolidEnergies evaluate(std::span<const double> u, const PointStep& step, std::span<double> f,
+                         std::span<double> end) const;
+  /// The force of `evaluate` alone. Does not allocate.
+  void internal_force(std::span<const double> u, std::span<double> f, const PointStep& step = {}) const;
   /// Adds to f the internal force of the listed solid cells alone (positions in cells()); for section forces.
-  void add_internal_force_of(std::span<const Index> cells, std::span<const double> u, std::span<double> f) const;
+  void add_internal_force_of(std::span<const Index> cells, std::span<const double> u, std::span<double> f,
+                             const PointStep& step = {}) const;
   /// y = K(u) x, the derivative of F at u in the direction x; overwrites y. As internal_force.
-  void tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y) const;
+  void tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y,
+                      const PointStep& step = {}) const;
   /// The energy-momentum force of a step from u_0 to u_1; overwrites f. As internal_force.
   /// f = integral of F_mid S_alg dN/dX, F_mid = (F_0 + F_1) / 2, S_alg the discrete gradient of the stored energy
   /// (material/discrete_gradient.hpp; Gonzalez, Comput. Methods Appl. Mech. Eng. 190, 2000), so that
@@ -74,10 +88,10 @@ class Solid {
   /// (u_0 + u_1) / 2, halved, is a symmetric approximation to first order in u_1 - u_0 for Newton's method.
   void discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1, std::span<double> f) const;
   /// Assembled K(u), 3 nodes x 3 nodes.
-  CsrMatrix tangent(std::span<const double> u) const;
+  CsrMatrix tangent(std::span<const double> u, const PointStep& step = {}) const;
   /// Diagonal of K(u).
-  std::vector<double> tangent_diagonal(std::span<const double> u) const;
-  /// Integral of the stored energy density; a function of u alone (ledger term `strain`).
+  std::vector<double> tangent_diagonal(std::span<const double> u, const PointStep& step = {}) const;
+  /// The strain energy of `evaluate` for points at rest before; allocates.
   double strain_energy(std::span<const double> u) const;
 
   /// Largest rotation of a small-strain cell: the angle of R in F = R U at its centre, bars: the angle by which the
@@ -114,7 +128,7 @@ class Solid {
   std::span<const Index> nodes_of_cell(std::size_t k) const;
   /// Mean over the reference volume of the Cauchy stress of each solid cell: xx, yy, zz, xy, yz, zx. zz is the hoop
   /// stress of axisymmetric cells; bars give the tensor of their axial stress.
-  std::vector<std::array<double, 6>> cell_stress(std::span<const double> u) const;
+  std::vector<std::array<double, 6>> cell_stress(std::span<const double> u, const PointStep& step = {}) const;
   /// Reference volume of each solid cell (axisymmetric: of the ring) and a length: volume over the largest face area of
   /// HEXA8, area over the longest edge of QUAD4, the length of a bar.
   const std::vector<double>& cell_volumes() const;

@@ -7,6 +7,7 @@
 #include "solid/blocks.hpp"
 #include "solid/colouring.hpp"
 #include "solid/hexa8_table.hpp"
+#include "solid_bodies.hpp"
 #include "solid_fixture.hpp"
 
 namespace carom::test {
@@ -24,9 +25,10 @@ Answer run(const KernelTable& kernel, const Model& model, const std::vector<doub
   const BatchLaw law = block.law();
   Answer answer{std::vector<double>(u.size(), 0.0), std::vector<double>(6 * static_cast<std::size_t>(block.cells)),
                 0.0};
-  block.kernels.add_internal_force(batches, law, u.data(), answer.force.data());
+  SolidEnergies energies;
+  block.kernels.add_internal_force(batches, law, u.data(), answer.force.data(), &energies);
   block.kernels.mean_stress(batches, law, u.data(), answer.stress.data());
-  answer.energy = block.kernels.strain_energy(batches, law, u.data());
+  answer.energy = energies.strain;
   return answer;
 }
 
@@ -54,6 +56,39 @@ TEST(SolidKernels, EveryBatchSizeIsFilledUpCorrectly) {
               1e-12)
         << cells;
   }
+}
+
+/// A law without stress whose history is the time and the work of a unit stress along x; the latter is dissipated.
+void remember(const void*, const PointBatch& batch) {
+  for (int p = 0; p < batch.points; ++p) {
+    std::fill_n(batch.stress + 6 * p, 6, 0.0);
+    batch.energy[p] = 0.0;
+    batch.new_history[2 * p] = batch.history[2 * p] + batch.dt;
+    batch.new_history[2 * p + 1] = batch.history[2 * p + 1] + batch.strain[6 * p];
+    batch.dissipation[p] = batch.new_history[2 * p + 1];
+  }
+}
+
+TEST(SolidKernels, HistoryGoesFromTheBeginningOfTheStepToItsEnd) {
+  const Model model = body(distorted_mesh(Section::plane_strain), Section::plane_strain, unit_material);
+  SolidCells solid = make_solid_cells(model, kernels_reference());
+  Block& block = solid.blocks[0];
+  block.history_variables = 2;
+  block.batch_law.update = remember;
+  ASSERT_EQ(solid.history_size(), 8 * static_cast<std::size_t>(block.cells));
+  const std::vector<double> u = affine(*model.mesh, {{{0.5, 0.0, 0.0}}});
+  std::vector<double> begin(solid.history_size()), end(begin.size()), f(u.size());
+  for (int step = 0; step < 3; ++step) {
+    SolidEnergies energies;
+    block.kernels.add_internal_force(solid.batches(block, 0, block.cells, {0.25, begin}, end), block.law(), u.data(),
+                                     f.data(), &energies);
+    double volume = 0.0;
+    for (std::size_t c = 0; c < solid.cells.size(); ++c)
+      volume += block.operations->measure(solid.coordinates_of(c), block.thickness).volume;
+    EXPECT_NEAR(energies.plastic, 0.5 * (step + 1) * volume, 1e-13 * volume) << "round-off of some hundred operations";
+    std::swap(begin, end);
+  }
+  for (std::size_t k = 0; k < begin.size(); ++k) EXPECT_NEAR(begin[k], k % 2 == 0 ? 0.75 : 1.5, 1e-14) << k;
 }
 
 std::set<Index> nodes_of(const SolidCells& solid, const Chunk& chunk) {

@@ -1,0 +1,27 @@
+// What an evaluation of the solids needs beside the displacement, and what it gives beside the forces.
+#pragma once
+
+#include <span>
+
+namespace carom {
+
+/// The step that ends at the displacement: its length, for laws with rates, and the history of the quadrature points at
+/// its beginning (Solid::initial_history). Empty: the points at rest.
+struct PointStep {
+  double dt = 0.0;
+  std::span<const double> history;
+};
+
+/// Integrals over the bodies of what is stored (strain, hourglass) and what their points have dissipated since the
+/// start (plastic). Functions of displacement and history: the ledger's terms of these names, or their increments.
+struct SolidEnergies {
+  double strain = 0.0, plastic = 0.0, hourglass = 0.0;
+
+  void add(const SolidEnergies& other) {
+    strain += other.strain;
+    plastic += other.plastic;
+    hourglass += other.hourglass;
+  }
+};
+
+}  // namespace carom
