@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -11,6 +12,7 @@
 #include "base/errors.hpp"
 #include "base/types.hpp"
 #include "base/units.hpp"
+#include "material/law.hpp"
 #include "math/time_function.hpp"
 #include "mesh/structured_block.hpp"
 #include "model/compatibility.hpp"
@@ -40,8 +42,13 @@ struct CaseMesh {
 struct CaseMaterial {
   std::string name;
   Location where;
-  Located<std::string> law;  ///< "linear_elastic", "st_venant_kirchhoff" or "neo_hookean"
-  Located<double> E, nu, rho;
+  Located<std::string> law;  ///< the name of a row of the table of laws
+  Located<double> rho;
+  std::map<std::string, Located<double>> values;  ///< of the parameters of the law, by their keys
+  Located<std::vector<std::array<double, 2>>> curve;
+
+  const Located<double>& value(const std::string& key) const { return values.at(key); }
+  Material made() const;
 };
 
 struct CasePart {

@@ -10,24 +10,6 @@ using Need = KeyOptions::Need;
 
 const std::vector<std::string> axes{"x", "y", "z"};
 
-SectionSchema<CaseMaterial> material_section() {
-  SectionSchema<CaseMaterial> s("A material; NAME is what [[part]] refers to.");
-  s.key("law", &CaseMaterial::law,
-        "Hooke's law for small strains and rotations, or the St-Venant-Kirchhoff or compressible neo-Hookean law for "
-        "finite ones.",
-        {.choices = {"linear_elastic", "st_venant_kirchhoff", "neo_hookean"}, .need = Need::required});
-  s.key("E", &CaseMaterial::E, "Young's modulus.",
-        {.unit = Dimension::stress,
-         .range = greater_than(0.0),
-         .need = Need::required,
-         .aliases = {"young", "youngs_modulus", "modulus"}});
-  s.key("nu", &CaseMaterial::nu, "Poisson's ratio.",
-        {.range = between_open(-1.0, 0.5), .need = Need::required, .aliases = {"poisson", "poissons_ratio"}});
-  s.key("rho", &CaseMaterial::rho, "Density.",
-        {.unit = Dimension::density, .range = greater_than(0.0), .need = Need::required, .aliases = {"density"}});
-  return s;
-}
-
 SectionSchema<CasePart> part_section() {
   SectionSchema<CasePart> s("A deformable body: a group of cells made of one material.");
   s.key("name", &CasePart::name, "Name in results and messages.", {.need = Need::required});

@@ -11,6 +11,7 @@ const SectionSchema<Case>& case_schema();
 
 // The sections that are declared in files of their own.
 SectionSchema<CaseMesh> mesh_section();
+SectionSchema<CaseMaterial> material_section();
 SectionSchema<CaseSupport> support_section();
 SectionSchema<CaseLoad> load_section();
 SectionSchema<CaseInitial> initial_section();

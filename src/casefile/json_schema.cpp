@@ -79,6 +79,8 @@ Json shape_schema(const KeyDescription& key) {
       return tuple_schema(2, number_schema("integer", options));
     case Shape::numbers:
       return list_schema(number_schema("number", options));
+    case Shape::pairs:
+      return list_schema(tuple_schema(2, number_schema("number", options)));
     case Shape::texts:
       return list_schema(text_schema(options));
     case Shape::formulas:

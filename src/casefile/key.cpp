@@ -53,6 +53,8 @@ std::string shape_text(const KeyDescription& key) {
       return "two integers [nx, ny]";
     case Shape::numbers:
       return "a list of numbers";
+    case Shape::pairs:
+      return "a list of rows [x, y], each of two numbers";
     case Shape::texts:
       return choices.empty() ? "a list of texts" : "a list of some of " + quoted_list(choices);
     case Shape::formulas:

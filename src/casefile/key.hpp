@@ -23,6 +23,7 @@ enum class Shape : std::uint8_t {
   integers,       ///< [nx, ny, nz]
   integer_pair,   ///< [nx, ny]
   numbers,        ///< list of numbers
+  pairs,          ///< list of [x, y]
   texts,          ///< list of texts
   formulas,       ///< ["...", "...", "..."], of x, y and z
   named_vectors,  ///< { NAME = [x, y, z], ... }

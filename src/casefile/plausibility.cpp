@@ -35,8 +35,8 @@ bool within(double value, const Plausible& range, UnitSystem units) {
 
 /// Do these properties make sense together in this unit system?
 bool plausible(const CaseMaterial& m, UnitSystem units) {
-  return within(*m.rho, density, units) && within(*m.E, modulus, units) &&
-         within(std::sqrt(*m.E / *m.rho), wave_speed, units);
+  return within(*m.rho, density, units) && within(*m.value("E"), modulus, units) &&
+         within(std::sqrt(*m.value("E") / *m.rho), wave_speed, units);
 }
 
 std::string place(const Location& where) {
@@ -80,8 +80,9 @@ class Lint {
     if (hint.empty()) hint = mixed_units_hint(m);
     const std::size_t before = lines_.size();
     check_value(m, m.rho.where, *m.rho, density, hint);
-    check_value(m, m.E.where, *m.E, modulus, hint);
-    if (lines_.size() == before) check_value(m, m.E.where, std::sqrt(*m.E / *m.rho), wave_speed, hint);
+    check_value(m, m.value("E").where, *m.value("E"), modulus, hint);
+    if (lines_.size() == before)
+      check_value(m, m.value("E").where, std::sqrt(*m.value("E") / *m.rho), wave_speed, hint);
   }
 
   /// Is one of the two values in the unit of another system?
@@ -90,7 +91,7 @@ class Lint {
       const double E_factor = si_factor(Dimension::stress, other) / si_factor(Dimension::stress, case_.units);
       const double rho_factor = si_factor(Dimension::density, other) / si_factor(Dimension::density, case_.units);
       CaseMaterial with_E = m;
-      with_E.E.value *= E_factor;
+      with_E.values["E"].value *= E_factor;
       if (plausible(with_E, case_.units)) return fmt::format("is E in {}?", unit_name(Dimension::stress, other));
       CaseMaterial with_rho = m;
       with_rho.rho.value *= rho_factor;
@@ -191,9 +192,9 @@ class Lint {
   /// The bulk modulus over the shear modulus is 2 (1 + nu) / (3 (1 - 2 nu)).
   void check_poisson(const CaseMaterial& m) {
     constexpr double most = 0.4999;
-    const double nu = *m.nu;
+    const double nu = *m.value("nu");
     if (nu <= most) return;
-    say(m.nu.where,
+    say(m.value("nu").where,
         fmt::format("materials.{}: nu = {:g} makes the bulk modulus {:.2g} times the shear modulus: waves and explicit "
                     "steps follow the bulk, solids lock, and rounding grows by as much; rubber has 0.499 and less",
                     toml_key(m.name), nu, 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu))));

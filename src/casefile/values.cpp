@@ -163,6 +163,15 @@ void decode(const Node& node, const KeyDescription& key, const ReadContext& at, 
 }
 
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at,
+            std::vector<std::array<double, 2>>& value) {
+  const List& rows = list(node, key, at);
+  if (rows.empty()) refuse(node, key, at);
+  value.clear();
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    decode(rows[i], entry_of(key, Shape::pair), at.entry(i), value.emplace_back());
+}
+
+void decode(const Node& node, const KeyDescription& key, const ReadContext& at,
             std::vector<Located<std::string>>& value) {
   const List& entries = list(node, key, at);
   value.clear();
@@ -233,6 +242,12 @@ std::optional<Node> encode(const std::array<bool, 3>& axes, const KeyOptions& op
 
 std::optional<Node> encode(const std::vector<double>& value, const KeyOptions&) {
   return encode_list<double>(value);
+}
+
+std::optional<Node> encode(const std::vector<std::array<double, 2>>& value, const KeyOptions& options) {
+  List rows;
+  for (const std::array<double, 2>& row : value) rows.push_back(*encode(row, options));
+  return Node{rows, {}};
 }
 
 std::optional<Node> encode(const std::vector<Located<std::string>>& value, const KeyOptions&) {

@@ -43,6 +43,8 @@ void decode(const Node& node, const KeyDescription& key, const ReadContext& at, 
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::array<bool, 3>& axes);
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::vector<double>& value);
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at,
+            std::vector<std::array<double, 2>>& value);
+void decode(const Node& node, const KeyDescription& key, const ReadContext& at,
             std::vector<Located<std::string>>& value);
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at,
             std::array<Located<std::string>, 3>& value);
@@ -76,6 +78,7 @@ std::optional<Node> encode(const std::array<int, 3>& value, const KeyOptions& op
 std::optional<Node> encode(const std::array<int, 2>& value, const KeyOptions& options);
 std::optional<Node> encode(const std::array<bool, 3>& axes, const KeyOptions& options);
 std::optional<Node> encode(const std::vector<double>& value, const KeyOptions& options);
+std::optional<Node> encode(const std::vector<std::array<double, 2>>& value, const KeyOptions& options);
 std::optional<Node> encode(const std::vector<Located<std::string>>& value, const KeyOptions& options);
 std::optional<Node> encode(const std::array<Located<std::string>, 3>& value, const KeyOptions& options);
 

@@ -13,10 +13,8 @@ namespace carom::compare {
 double element_step(const Case& given) {
   const Model model = build_model(given, std::make_shared<const Mesh>(build_mesh(given)));
   double fastest = 0.0;
-  for (const Part& part : model.parts) {
-    const auto speed = [](const auto& material) { return std::sqrt(material.p_wave_modulus() / material.rho); };
-    fastest = std::max(fastest, std::visit(speed, part.material));
-  }
+  for (const Part& part : model.parts)
+    fastest = std::max(fastest, std::sqrt(part.material.at_rest().p_wave_modulus() / part.material.rho));
   const Solid solid(model);
   return *std::min_element(solid.cell_lengths().begin(), solid.cell_lengths().end()) / fastest;
 }

@@ -20,18 +20,11 @@
 #include "mesh/cell_topology.hpp"
 #include "mesh/skin.hpp"
 #include "model/node_lengths.hpp"
+#include "model/wave_modulus.hpp"
 
 namespace carom {
 
 namespace {
-
-/// Modulus of a cell that is compressed between a facet and its opposite one.
-double compression_modulus(const Part& part) {
-  const IsotropicElastic& law = std::visit([](const auto& m) -> const IsotropicElastic& { return m; }, part.material);
-  if (part.section == Section::bar) return law.E;
-  if (part.section == Section::plane_stress) return law.E / (1.0 - law.nu * law.nu);
-  return law.p_wave_modulus();
-}
 
 /// The cell behind a facet, as contact sees it.
 struct Backing {
@@ -113,7 +106,7 @@ class PartCells {
     double size = measure(placed);
     if (part.section == Section::axisymmetric) size *= 2.0 * std::numbers::pi * frame.position[0];
     if (part.section != Section::axisymmetric && part.section != Section::solid) size *= part.thickness;
-    return {compression_modulus(part), 2.0 * half, size};
+    return {wave_modulus(part), 2.0 * half, size};
   }
 
   const Mesh& mesh_;
@@ -210,7 +203,7 @@ struct Chooser {
 class LinearDepth {
  public:
   explicit LinearDepth(const Model& model) : mesh_(*model.mesh) {
-    const auto is_finite = [](const Part& part) { return !std::holds_alternative<LinearElastic>(part.material); };
+    const auto is_finite = [](const Part& part) { return part.material.law->measure != Measure::small_strain; };
     if (std::any_of(model.parts.begin(), model.parts.end(), is_finite)) length_ = node_lengths(model);
   }
 

@@ -50,4 +50,13 @@ static void linear_elastic_tangent(const void* parameters, const TangentBatch& b
   }
 }
 
+template <class Real>
+static constexpr LawKernels linear_elastic_kernels() {
+  return {linear_elastic_update<Real>, linear_elastic_tangent<Real>};
+}
+template <class Real>
+static constexpr LawKernels st_venant_kirchhoff_kernels() {
+  return linear_elastic_kernels<Real>();
+}
+
 }  // namespace carom

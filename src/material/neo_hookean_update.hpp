@@ -121,4 +121,9 @@ static void neo_hookean_tangent(const void* parameters, const TangentBatch& batc
   }
 }
 
+template <class Real>
+static constexpr LawKernels neo_hookean_kernels() {
+  return {neo_hookean_update<Real>, neo_hookean_tangent<Real>};
+}
+
 }  // namespace carom

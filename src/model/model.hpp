@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "material/isotropic_elastic.hpp"
+#include "material/law.hpp"
 #include "math/time_function.hpp"
 #include "mesh/facet.hpp"
 #include "mesh/mesh.hpp"
@@ -20,10 +20,6 @@
 #include "model/turning_body.hpp"
 
 namespace carom {
-
-/// Parameters of a material law; one alternative per law. linear_elastic is small strain, the others are
-/// total-Lagrangian and take finite rotations and strains.
-using Material = std::variant<LinearElastic, StVenantKirchhoff, NeoHookean>;
 
 /// What the cells of a part are a section of. Plane cells (QUAD4) lie in the x-y plane, numbered counter-clockwise;
 /// axisymmetric ones turn about the y axis, with x >= 0 the radius, and stand for the whole circumference (2 pi x);

@@ -26,7 +26,7 @@ struct PartSummary {
 
 PartSummary summarise(const Simulation& s, const Part& part, const State& state) {
   PartSummary sum;
-  const double rho = std::visit([](const auto& material) { return material.rho; }, part.material);
+  const double rho = part.material.rho;
   const Solid& solid = s.solid();
   std::vector<char> is_member(s.mesh().block(part.type)->size(), 0);
   for (const Index cell : part.cells) is_member[static_cast<std::size_t>(cell)] = 1;

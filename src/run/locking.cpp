@@ -19,10 +19,6 @@ std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
 
-const IsotropicElastic& elastic(const Part& part) {
-  return std::visit([](const auto& law) -> const IsotropicElastic& { return law; }, part.material);
-}
-
 /// Along which directions a part is thin: the mean of t t^T over its thin cells, t along their thickness.
 class Thinness {
  public:
@@ -150,7 +146,7 @@ class Examiner {
       ++spans;
     }
     if (spans == 0 || is_held(through)) return std::nullopt;
-    Thin found{through.direction, {through.cells, length / through.length, elastic(part).nu}, 1.0};
+    Thin found{through.direction, {through.cells, length / through.length, part.material.at_rest().nu}, 1.0};
     const bool is_plate = spans == 2 || part.section == Section::plane_strain || part.section == Section::axisymmetric;
     found.ratio = is_plate ? plate_stiffness_ratio(found.layer) : strip_stiffness_ratio(found.layer);
     return found;
@@ -211,7 +207,7 @@ std::string bending_warning(const Part& part, const Findings& found, double rati
 }
 
 std::string volume_warning(const Part& part, int cells, double ratio) {
-  const double nu = elastic(part).nu;
+  const double nu = part.material.at_rest().nu;
   return fmt::format(
       "part \"{}\": nu = {:g} is nearly incompressible, and fully integrated cells lock where shape changes at "
       "constant "
@@ -270,7 +266,7 @@ std::vector<std::string> locking_warnings(const Simulation& s) {
       continue;
     }
     if (found.fewest == std::numeric_limits<int>::max()) continue;
-    const double bulging = plate_stiffness_ratio({found.fewest, 0.0, elastic(part).nu});
+    const double bulging = plate_stiffness_ratio({found.fewest, 0.0, part.material.at_rest().nu});
     if (bulging > bulged_too_stiff) out.push_back(volume_warning(part, found.fewest, bulging));
   }
   return out;

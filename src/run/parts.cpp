@@ -27,13 +27,6 @@ CellType cell_type(Section section) {
   }
 }
 
-Material make_material(const CaseMaterial& given) {
-  const IsotropicElastic elastic{*given.E, *given.nu, *given.rho};
-  if (*given.law == "st_venant_kirchhoff") return StVenantKirchhoff{elastic};
-  if (*given.law == "neo_hookean") return NeoHookean{elastic};
-  return LinearElastic{elastic};
-}
-
 std::string describe(const Part& part) {
   if (part.section == Section::solid || part.section == Section::axisymmetric)
     return fmt::format("\"{}\" ({})", part.name, name(part.section));
@@ -60,7 +53,7 @@ void Parts::add(const Case& given, const CasePart& wanted, const Groups& groups)
                                      [&](const CaseMaterial& m) { return m.name == *wanted.material; });
   Part part;
   part.name = *wanted.name;
-  part.material = make_material(*material);
+  part.material = material->made();
   part.section = static_cast<Section>(wanted.section);  // declared in the same order
   part.type = cell_type(part.section);
   part.thickness = part.section == Section::bar ? wanted.area : wanted.thickness;

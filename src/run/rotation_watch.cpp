@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <variant>
 
 #include "base/errors.hpp"
 
@@ -24,7 +23,7 @@ const Part& part_of(const Model& model, const CellRef& cell) {
 
 }  // namespace
 
-double stress_of_rotation(const LinearElastic& material, Section section, double angle) {
+double stress_of_rotation(const IsotropicElastic& material, Section section, double angle) {
   const double s = std::sin(0.5 * angle), strain = 2.0 * s * s;  // 1 - cos(angle)
   if (section == Section::bar) return material.E * strain;
   if (section == Section::plane_stress) return material.E * strain / (1.0 - material.nu);
@@ -33,11 +32,15 @@ double stress_of_rotation(const LinearElastic& material, Section section, double
 
 RotationWatch::RotationWatch(const Simulation& simulation) : simulation_(simulation) {}
 
+const Part& RotationWatch::turned_part(const Rotation& rotation) const {
+  return part_of(simulation_.model(), simulation_.solid().cells()[static_cast<std::size_t>(rotation.cell)]);
+}
+
 std::string RotationWatch::describe(const Rotation& rotation) const {
   const CellRef cell = simulation_.solid().cells()[static_cast<std::size_t>(rotation.cell)];
   const CellBlock& block = simulation_.mesh().blocks[static_cast<std::size_t>(cell.block)];
-  const Part& part = part_of(simulation_.model(), cell);
-  const double stress = stress_of_rotation(std::get<LinearElastic>(part.material), part.section, rotation.angle);
+  const Part& part = turned_part(rotation);
+  const double stress = stress_of_rotation(part.material.at_rest(), part.section, rotation.angle);
   return fmt::format(
       "cell {} of part \"{}\" has turned by {:.3g} degrees, which its small-strain law takes for a "
       "stress of about {:.3g}",
@@ -60,17 +63,17 @@ void RotationWatch::see(const StepView& view) {
   const double limit = has_warned || angle > guards.rotation_warning ? guards.rotation_stop : guards.rotation_warning;
   next_ = step + (angle + 2.0 * growth_ * static_cast<double>(every) > limit ? 1 : every);
   if (angle > guards.rotation_stop) {
-    throw RunError(static_cast<int>(step), state.t,
-                   fmt::format("{}; the limit is {:g} degrees (rotation_stop in [guards]). Choose law = "
-                               "\"st_venant_kirchhoff\" (moderate strain) or \"neo_hookean\" (large strain) in "
-                               "[materials]",
-                               describe(rotation), guards.rotation_stop));
+    throw RunError(
+        static_cast<int>(step), state.t,
+        fmt::format("{}; the limit is {:g} degrees (rotation_stop in [guards]). Choose law = {} in "
+                    "[materials]",
+                    describe(rotation), guards.rotation_stop, turned_part(rotation).material.law->when_turning));
   }
   if (has_warned || angle <= guards.rotation_warning) return;
   warnings_.push_back(
-      fmt::format("at t = {:.6g}, step {}, {}; the error grows with the square of the angle. Take law = "
-                  "\"st_venant_kirchhoff\" or \"neo_hookean\" where that matters (rotation_warning in [guards])",
-                  state.t, step, describe(rotation)));
+      fmt::format("at t = {:.6g}, step {}, {}; the error grows with the square of the angle. Take law = {} where that "
+                  "matters (rotation_warning in [guards])",
+                  state.t, step, describe(rotation), turned_part(rotation).material.law->when_turning));
 }
 
 }  // namespace carom

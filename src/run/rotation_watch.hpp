@@ -22,6 +22,7 @@ class RotationWatch : public Observer {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
+  const Part& turned_part(const Rotation& rotation) const;
   std::string describe(const Rotation& rotation) const;
 
   const Simulation& simulation_;
@@ -30,9 +31,9 @@ class RotationWatch : public Observer {
   std::vector<std::string> warnings_;
 };
 
-/// Stress of a linear elastic cell that only turns, by an angle in radian: its strain is cos(angle) - 1 along the two
+/// Stress of a cell of small strain that only turns, by an angle in radian: its strain is cos(angle) - 1 along the two
 /// directions across the axis of rotation, so that sigma = E (1 - cos) / ((1 + nu)(1 - 2 nu)); plane stress
 /// E (1 - cos) / (1 - nu), bars E (1 - cos).
-double stress_of_rotation(const LinearElastic& material, Section section, double angle);
+double stress_of_rotation(const IsotropicElastic& material, Section section, double angle);
 
 }  // namespace carom

@@ -32,7 +32,7 @@ double angular_limit(const Simulation& s) {
         return false;
     }
   };
-  const auto is_small_strain = [](const Part& part) { return std::holds_alternative<LinearElastic>(part.material); };
+  const auto is_small_strain = [](const Part& part) { return part.material.law->measure == Measure::small_strain; };
   const std::vector<Part>& parts = s.model().parts;
   // Moments are taken where nodes stand; the internal forces of small strain and springs balance where nodes stood.
   const bool is_mixed = !s.solid().is_linear() &&

@@ -2,30 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 namespace carom {
-
-namespace {
-
-const IsotropicElastic& elastic(const Part& part) {
-  return std::visit([](const auto& law) -> const IsotropicElastic& { return law; }, part.material);
-}
-
-}  // namespace
-
-double wave_modulus(const Part& part) {
-  const IsotropicElastic& m = elastic(part);
-  if (part.section == Section::bar) return m.E;
-  if (part.section == Section::plane_stress) return m.E / (1.0 - m.nu * m.nu);
-  return m.p_wave_modulus();
-}
 
 Waves waves(const Simulation& s) {
   Waves w;
   for (const Part& part : s.model().parts) {
     w.modulus = std::max(w.modulus, wave_modulus(part));
-    w.speed = std::max(w.speed, std::sqrt(wave_modulus(part) / elastic(part).rho));
+    w.speed = std::max(w.speed, std::sqrt(wave_modulus(part) / part.material.rho));
   }
   return w;
 }
@@ -33,7 +17,7 @@ Waves waves(const Simulation& s) {
 std::vector<double> node_impedances(const Simulation& s) {
   std::vector<double> z(s.mesh().node_count(), 0.0);
   for (const Part& part : s.model().parts) {
-    const double own = std::sqrt(wave_modulus(part) * elastic(part).rho);
+    const double own = std::sqrt(wave_modulus(part) * part.material.rho);
     const std::vector<Index>& connectivity = s.mesh().block(part.type)->connectivity;
     const auto n = static_cast<std::size_t>(node_count(part.type));
     for (const Index cell : part.cells)

@@ -4,13 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "model/wave_modulus.hpp"
 #include "run/simulation.hpp"
 
 namespace carom {
-
-/// Stress over strain of the fastest wave that a part carries: E of bars, E / (1 - nu^2) of plane stress, else the
-/// P-wave modulus (K. F. Graff, Wave Motion in Elastic Solids, 1975, sections 2.1, 8.3 and 5.1).
-double wave_modulus(const Part& part);
 
 /// The fastest wave of all parts, and the largest modulus.
 struct Waves {

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/errors.hpp"
-#include "material/lateral.hpp"
 #include "solid/colouring.hpp"
 
 namespace carom {
@@ -106,25 +105,24 @@ std::vector<Index> batch_offsets(const Mesh& mesh, const std::vector<CellRef>& c
   return offset;
 }
 
+/// How many of the last of x, y, z are without stress.
+int free_directions(Section section) {
+  if (section == Section::bar) return 2;
+  return section == Section::plane_stress ? 1 : 0;
+}
+
 /// Kernels and laws of a part: its section chooses the element and what stresses are eliminated, its material the
 /// kinematics and the law.
 void choose_kernels(const Part& part, const KernelTable& table, Block& block) {
   const bool solid = part.section == Section::solid;
-  const bool neo_hookean = std::holds_alternative<NeoHookean>(part.material);
   const CellOperations& operations = *block.operations;
-  if (solid) {
+  if (solid)
     block.kernels = block.small_strain ? table.small_strain : table.finite_strain;
-    block.batch_law = neo_hookean ? table.neo_hookean : table.linear;
-  } else {
-    block.kernels = block.small_strain ? operations.small_strain : operations.finite_strain;
-  }
-  if (part.section == Section::plane_stress)
-    block.cell_law = neo_hookean ? plane_stress_neo_hookean() : plane_stress_linear();
-  else if (part.section == Section::bar)
-    block.cell_law = neo_hookean ? bar_neo_hookean() : bar_linear();
   else
-    block.cell_law = neo_hookean ? kernels_reference().neo_hookean : kernels_reference().linear;
-  if (!solid) block.batch_law = block.cell_law;
+    block.kernels = block.small_strain ? operations.small_strain : operations.finite_strain;
+  const int free = free_directions(part.section);
+  block.cell_law = prepare(part.material, free, kernels_reference().laws);
+  block.batch_law = solid ? prepare(part.material, free, table.laws) : block.cell_law;
 }
 
 Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>& cells, const KernelTable& table) {
@@ -133,15 +131,11 @@ Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>&
   block.lanes = part.section == Section::solid ? table.lanes : 1;
   block.section = part.section;
   block.thickness = part.thickness;
-  block.small_strain = std::holds_alternative<LinearElastic>(part.material);
-  std::visit(
-      [&](const IsotropicElastic& material) {
-        block.rho = material.rho;
-        block.lame = material.lame();
-      },
-      part.material);
+  block.rho = part.material.rho;
+  block.small_strain = part.material.law->measure == Measure::small_strain;
   block.operations = &cell_operations(part.section);
   choose_kernels(part, table, block);
+  block.history_variables = block.batch_law.history;
   block.offset = batch_offsets(mesh, cells, block.nodes(), block.lanes);
   return block;
 }
@@ -214,7 +208,7 @@ CellMatrix SolidCells::stiffness(std::size_t position, const Block& block, std::
                                  const PointStep& step) const {
   const CellNodes x = coordinates_of(position), values = u.empty() ? CellNodes{} : values_of(position, u);
   const auto cell = static_cast<Index>(position) - block.first;
-  const BatchLaw law{block.cell_law.update, block.cell_law.tangent, &block.lame};
+  const BatchLaw law = block.cell_law.batch();
   const CellOperations& of = *block.operations;
   return (block.small_strain ? of.small_stiffness : of.finite_stiffness)(x, values, batches(block, cell, 1, step), law);
 }

@@ -21,18 +21,17 @@ struct Block {
   int lanes = 1;
   Section section = Section::solid;
   double thickness = 1.0, rho = 0.0;
-  bool small_strain = true;  ///< LinearElastic; the other laws are total Lagrangian
-  LameParameters lame;
+  bool small_strain = true;  ///< the measure of its law; the others are total Lagrangian
   const CellOperations* operations = nullptr;
   CellKernels kernels;
-  LawKernels batch_law;  ///< for the kernels
-  LawKernels cell_law;   ///< for the operations, one lane
+  PreparedLaw batch_law;  ///< for the kernels
+  PreparedLaw cell_law;   ///< for the operations, one lane
   std::vector<Index> offset;
   int history_variables = 0;      ///< of the law, at each point
   std::size_t history_first = 0;  ///< where the block's history begins among the points of all blocks
 
   std::size_t nodes() const { return operations->nodes; }
-  BatchLaw law() const { return {batch_law.update, batch_law.tangent, &lame}; }
+  BatchLaw law() const { return batch_law.batch(); }
   /// Numbers of history of one lane: batches, filled up, follow each other as PointBatch::history.
   std::size_t history_per_cell() const { return operations->points * static_cast<std::size_t>(history_variables); }
   /// Numbers of history of the block.

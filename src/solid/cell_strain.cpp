@@ -111,7 +111,7 @@ std::vector<Strain> cell_strain(const Model& model, std::span<const double> u) {
     const std::size_t first = strain.size();
     strain.resize(first + part.cells.size());
     const MeanStrain mean = mean_strain_of(part.section);
-    const double finite = std::holds_alternative<LinearElastic>(part.material) ? 0.0 : 1.0;
+    const double finite = part.material.law->measure == Measure::small_strain ? 0.0 : 1.0;
     const auto nodes = static_cast<std::size_t>(node_count(part.type));
     const Index* connectivity = model.mesh->block(part.type)->connectivity.data();
     constexpr std::size_t grain = 256;

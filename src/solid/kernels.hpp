@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "base/types.hpp"
+#include "material/law_kernels.hpp"
 #include "material/point_batch.hpp"
 #include "solid/evaluation.hpp"
 
@@ -55,7 +56,7 @@ struct CellKernels {
 struct KernelTable {
   int lanes = 1;
   CellKernels small_strain, finite_strain;
-  LawKernels linear, neo_hookean;
+  LawTable laws;
 };
 
 const KernelTable& kernels_reference();

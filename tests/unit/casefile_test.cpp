@@ -69,7 +69,7 @@ TEST(Casefile, DefaultsOfAMinimalCase) {
 TEST(Casefile, EveryValueKnowsItsPlace) {
   const Case c = parse_case(minimal, "minimal.toml");
   // Lines counted in `minimal`, whose first line is empty; columns of the values.
-  EXPECT_EQ(to_string(c.materials[0].E.where), "minimal.toml:6:5");
+  EXPECT_EQ(to_string(c.materials[0].value("E").where), "minimal.toml:6:5");
   EXPECT_EQ(to_string(c.parts[0].material.where), "minimal.toml:12:12");
   EXPECT_EQ(to_string(c.time.step->where), "minimal.toml:17:8");
   EXPECT_EQ(c.materials[0].where.line, 4);
@@ -123,7 +123,7 @@ TEST(Casefile, BlocksAndMaterials) {
   EXPECT_EQ(c.mesh.blocks[1].cells_group, "BLOCK");
   ASSERT_EQ(c.materials.size(), 2U);
   EXPECT_EQ(c.materials[1].name, "soft rubber");
-  EXPECT_EQ(*c.materials[0].E, 210000.0);
+  EXPECT_EQ(*c.materials[0].value("E"), 210000.0);
   EXPECT_EQ(*c.parts[1].material, "soft rubber");
 }
 

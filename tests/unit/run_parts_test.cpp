@@ -75,14 +75,14 @@ TEST(Parts, KeepSectionThicknessAreaAndLaw) {
   EXPECT_EQ(model.parts[1].section, Section::bar);
   EXPECT_EQ(model.parts[1].thickness, 0.1);
   EXPECT_EQ(model.parts[2].section, Section::solid);
-  EXPECT_TRUE(std::holds_alternative<NeoHookean>(model.parts[2].material));
+  EXPECT_EQ(model.parts[2].material.law->name, "neo_hookean");
 }
 
 TEST(Parts, EachLawHasItsMaterial) {
-  EXPECT_TRUE(std::holds_alternative<LinearElastic>(model_of(text_of(box + box_part)).parts[0].material));
+  EXPECT_EQ(model_of(text_of(box + box_part)).parts[0].material.law->name, "linear_elastic");
   const Model finite = model_of(text_of(box + box_part, "st_venant_kirchhoff"));
-  ASSERT_TRUE(std::holds_alternative<StVenantKirchhoff>(finite.parts[0].material));
-  EXPECT_EQ(std::get<StVenantKirchhoff>(finite.parts[0].material).E, 2.0);
+  ASSERT_EQ(finite.parts[0].material.law->name, "st_venant_kirchhoff");
+  EXPECT_EQ(finite.parts[0].material.value("E"), 2.0);
 }
 
 TEST(Parts, PlaneOnesAreHeldAlongZ) {

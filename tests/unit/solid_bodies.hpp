@@ -82,7 +82,7 @@ struct Body {
 inline std::string name_of(const Body& body) {
   static const char* const sections[] = {"Solid", "PlaneStrain", "PlaneStress", "Axisymmetric", "Bar"};
   static const char* const laws[] = {"LinearElastic", "StVenantKirchhoff", "NeoHookean"};
-  return std::string(sections[static_cast<std::size_t>(body.section)]) + laws[body.material.index()];
+  return std::string(sections[static_cast<std::size_t>(body.section)]) + laws[index_of(*body.material.law)];
 }
 
 inline std::vector<Material> all_materials() {
@@ -98,7 +98,7 @@ inline std::vector<Body> all_bodies() {
 }
 
 inline bool is_finite_strain(const Body& body) {
-  return !std::holds_alternative<LinearElastic>(body.material);
+  return body.material.law->measure == Measure::green_lagrange;
 }
 
 /// Displacement components that strain the cells.

@@ -37,7 +37,7 @@ inline Mesh block_mesh(std::array<int, 3> divisions, double distortion, double e
 }
 
 /// One part of all HEXA8 cells.
-inline Model one_part(Mesh mesh, const LinearElastic& material = unit_material) {
+inline Model one_part(Mesh mesh, const Material& material = unit_material) {
   Model model;
   Part part{.name = "body", .cells = {}, .material = material};
   for (std::size_t c = 0; c < mesh.block(CellType::hexa8)->size(); ++c) part.cells.push_back(static_cast<Index>(c));

@@ -1,0 +1,18 @@
+#include "material/isotropic_parameters.hpp"
+
+namespace carom {
+
+std::vector<LawParameter> isotropic_parameters() {
+  return {{"E", "Young's modulus.", Dimension::stress, {.low = 0.0}, {}, {"young", "youngs_modulus", "modulus"}},
+          {"nu", "Poisson's ratio.", Dimension::none, {-1.0, 0.5}, {}, {"poisson", "poissons_ratio"}}};
+}
+
+IsotropicElastic isotropic_at_rest(const Material& material) {
+  return {material.value("E"), material.value("nu"), material.rho};
+}
+
+std::shared_ptr<const void> prepare_lame(const Material& material) {
+  return std::make_shared<const LameParameters>(material.at_rest().lame());
+}
+
+}  // namespace carom

@@ -1,0 +1,101 @@
+// A constitutive law as a row of the table, and a material: a law with the values of its parameters.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/units.hpp"
+#include "material/isotropic_elastic.hpp"
+
+namespace carom {
+
+/// low < value < high, or low <= value where closed.
+struct Interval {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+  bool is_closed = false;  ///< at low
+
+  bool operator==(const Interval&) const = default;
+};
+
+/// A number that the user of a law gives.
+struct LawParameter {
+  std::string key;      ///< in case files
+  std::string meaning;  ///< one sentence, with its symbol where that is not the key
+  Dimension unit = Dimension::none;
+  Interval range{};
+  std::optional<double> initial{};     ///< its value where it is not given; empty: it must be
+  std::vector<std::string> aliases{};  ///< other names that people try
+
+  bool operator==(const LawParameter&) const = default;
+};
+
+/// What is wrong about values that are each in their range.
+struct LawProblem {
+  std::string key, found, expected, remedy;
+};
+
+struct Law;
+
+/// A law with the values that it was given.
+struct Material {
+  const Law* law = nullptr;                  ///< a row of laws()
+  double rho = 0.0;                          ///< mass per (reference) volume
+  std::vector<double> values;                ///< in the order of Law::parameters
+  std::vector<std::array<double, 2>> curve;  ///< of the law's key curve_key; empty: not given
+
+  /// Hooke's law without stiffness.
+  Material() : Material(LinearElastic{}) {}
+  Material(const LinearElastic& given);
+  Material(const StVenantKirchhoff& given);
+  Material(const NeoHookean& given);
+  /// Values by their keys; those that are not named have their initial values. Throws std::invalid_argument for names
+  /// that are not in the table.
+  Material(std::string_view law, double rho, const std::vector<std::pair<std::string_view, double>>& values);
+
+  /// The value of a parameter of the law; throws std::invalid_argument for others.
+  double value(std::string_view key) const;
+  /// The moduli of small changes of the body at rest.
+  IsotropicElastic at_rest() const;
+};
+
+/// What the strain and the stress of a law are (material/point_batch.hpp).
+enum class Measure : std::uint8_t { small_strain, green_lagrange };
+
+/// One row of the table: all that is known of a law but for its kernels (material/law_table.hpp).
+struct Law {
+  std::string name;     ///< in case files
+  std::string summary;  ///< a phrase
+  std::string formula;  ///< formulas with their sources, for docs/material_laws.md
+  Measure measure = Measure::small_strain;
+  /// Of small strain: the laws to take where cells turn, for messages.
+  std::string when_turning{};
+  std::vector<LawParameter> parameters;
+  std::string curve_key{}, curve_meaning{};  ///< a table of pairs (abscissa, stress); "": the law takes none
+  /// Names of the variables that a point remembers. All are 0 at rest.
+  std::vector<std::string> history{};
+  bool has_symmetric_tangent = true;
+  IsotropicElastic (*at_rest)(const Material&) = nullptr;
+  /// What the kernels take as their parameters.
+  std::shared_ptr<const void> (*prepare)(const Material&) = nullptr;
+  /// Rules between the values; nothing when all is well.
+  std::optional<LawProblem> (*check)(const Material&) = nullptr;
+  /// The strain in the last `count` directions under which the stress there vanishes, where it has a closed form: of
+  /// what prepare() made, and the other strains. Null: it is found by iteration.
+  double (*lateral_strain)(const void* parameters, const double strain[6], int count) = nullptr;
+};
+
+/// The table.
+const std::vector<Law>& laws();
+/// The row of this name; nullptr when there is none.
+const Law* find_law(std::string_view name);
+/// Its position in the table.
+std::size_t index_of(const Law& law);
+
+}  // namespace carom

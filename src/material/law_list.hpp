@@ -1,0 +1,25 @@
+// The laws there are: one line each.
+#pragma once
+
+#include <cstddef>
+
+#include "material/law.hpp"
+
+/// For X(law): law_row() gives its row, defined in material/law.cpp; law_kernels<Real>() its kernels, defined in a
+/// header that material/law_table.hpp includes.
+#define CAROM_LAWS(X)    \
+  X(linear_elastic)      \
+  X(st_venant_kirchhoff) \
+  X(neo_hookean)
+
+namespace carom {
+
+#define CAROM_DECLARE_LAW(law) Law law##_row();
+CAROM_LAWS(CAROM_DECLARE_LAW)
+#undef CAROM_DECLARE_LAW
+
+#define CAROM_COUNT_LAW(law) +1
+inline constexpr std::size_t law_count = 0 CAROM_LAWS(CAROM_COUNT_LAW);
+#undef CAROM_COUNT_LAW
+
+}  // namespace carom

@@ -1,0 +1,20 @@
+// The kernels of all laws over one number type.
+#pragma once
+
+#include "material/lateral_update.hpp"
+#include "material/law_kernels.hpp"
+#include "material/law_list.hpp"
+#include "material/linear_elastic_update.hpp"
+#include "material/neo_hookean_update.hpp"
+
+// Internal linkage throughout: see math/pack.hpp.
+namespace carom {
+
+template <class Real>
+static constexpr LawTable make_law_table() {
+#define CAROM_LAW_KERNELS(law) law##_kernels<Real>(),
+  return {{CAROM_LAWS(CAROM_LAW_KERNELS)}, lateral_kernels<Real>()};
+#undef CAROM_LAW_KERNELS
+}
+
+}  // namespace carom
