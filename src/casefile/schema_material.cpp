@@ -10,7 +10,7 @@ namespace {
 using Need = KeyOptions::Need;
 
 std::string summaries() {
-  std::string text = "The constitutive law (docs/material_laws.md): ";
+  std::string text = "The constitutive law: ";
   for (const Law& law : laws()) text += (&law == &laws().front() ? "" : "; ") + law.summary;
   return text + ".";
 }
