@@ -36,6 +36,8 @@ struct RowLaw {
   double beyond(double d) const { return d > linear_depth ? d - linear_depth : 0.0; }
   double hardening() const { return eps_N / (linear_depth * linear_depth); }
 
+  friend bool operator==(const RowLaw&, const RowLaw&) = default;
+
  private:
   static double cubed(double x) { return x * x * x; }
 };
@@ -90,6 +92,8 @@ struct ConstraintRows {
   /// The vector of space with components s in the row's frame, and back.
   Vec3 to_space(std::size_t r, const Vec3& s) const;
   Vec3 to_frame(std::size_t r, const Vec3& vector) const;
+
+  friend bool operator==(const ConstraintRows&, const ConstraintRows&) = default;
 };
 
 }  // namespace carom

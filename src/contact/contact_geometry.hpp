@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "contact/constraint_rows.hpp"
+#include "contact/row_history.hpp"
 #include "model/model.hpp"
-#include "state/state.hpp"
 
 namespace carom {
 

@@ -1,5 +1,7 @@
 #include "contact/response.hpp"
 
+#include <tuple>
+
 namespace carom {
 
 void ContactResponse::add_force(std::span<double> f) const {
@@ -8,11 +10,19 @@ void ContactResponse::add_force(std::span<double> f) const {
   }
 }
 
-void take_history(const ContactResponse& response, State& state) {
-  state.contact = response.history;
+bool operator==(const ContactResponse& a, const ContactResponse& b) {
+  const bool have_rows = a.rows && b.rows;
+  const auto values = [](const ContactResponse& r) {
+    return std::tie(r.force, r.damper, r.status, r.history, r.stored, r.slip_work);
+  };
+  return (a.rows == b.rows || (have_rows && *a.rows == *b.rows)) && values(a) == values(b);
+}
+
+void take_history(const ContactResponse& response, std::span<const double> u, std::vector<RowHistory>& history) {
+  history = response.history;
   const ConstraintRows& rows = *response.rows;
   for (std::size_t r = 0; r < rows.size(); ++r)
-    if (rows.gap_at(r, state.q) < 0.0) state.contact[static_cast<std::size_t>(rows.slot[r])].facet = rows.facet[r];
+    if (rows.gap_at(r, u) < 0.0) history[static_cast<std::size_t>(rows.slot[r])].facet = rows.facet[r];
 }
 
 }  // namespace carom

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contact/constraint_rows.hpp"
-#include "state/state.hpp"
+#include "contact/row_history.hpp"
 
 namespace carom {
 
@@ -27,11 +27,13 @@ struct ContactResponse {
 
   /// f += G^T force.
   void add_force(std::span<double> f) const;
+  /// By value, the rows too.
+  friend bool operator==(const ContactResponse& a, const ContactResponse& b);
 };
 
-/// state.contact = the history of the response, and what its rows are behind at state.q: a row whose gap is negative is
-/// taken to be behind the same facet in the next step, however deep it goes, until it comes out in front.
-void take_history(const ContactResponse& response, State& state);
+/// history = that of the response, and what its rows are behind at displacement u: a row whose gap is negative is taken
+/// to be behind the same facet in the next step, however deep it goes, until it comes out in front.
+void take_history(const ContactResponse& response, std::span<const double> u, std::vector<RowHistory>& history);
 
 /// 3 x 3 tangent of one row in its frame, row-major: -d(force)/d(w).
 using RowTangent = std::array<double, 9>;

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "contact/constraint_rows.hpp"
+#include "contact/row_history.hpp"
 #include "model/model.hpp"
 #include "parallel/threads.hpp"
-#include "state/state.hpp"
 
 namespace carom {
 

@@ -41,6 +41,7 @@ struct EnergyTerms {
 #undef CAROM_MEMBER
 
   EnergyTerms& operator+=(const EnergyTerms& other);
+  friend bool operator==(const EnergyTerms&, const EnergyTerms&) = default;
   /// Of the terms of one kind.
   double sum(TermKind kind) const;
   /// What the bodies and the contact springs hold.

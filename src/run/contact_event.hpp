@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "contact/response.hpp"
+#include "state/state.hpp"
 
 namespace carom {
 

@@ -95,7 +95,7 @@ ContactCurves::ContactCurves(const Simulation& simulation)
 void ContactCurves::add_impulses(const StepView& view, const std::vector<ContactResultant>& now) {
   if (view.step > 0) {
     std::vector<ContactResultant> within(now.size());
-    if (view.within.weight > 0.0) within = resultants_.of(*view.within.rows, view.within.u);
+    if (view.within.weight > 0.0) within = resultants_.of(view.within.rows, view.within.u);
     const double ends = 1.0 - view.within.weight;
     for (std::size_t k = 0; k < now.size(); ++k) {
       for (std::size_t i = 0; i < 3; ++i)

@@ -53,12 +53,12 @@ StepView March::view() const {
           dt_,
           iterations_,
           state_,
-          scheme_->forces(),
+          state_.forces,
           *ledger_,
           *monitor_,
           stage(),
           scheme_->end_weight(),
-          scheme_->contact_within(),
+          state_.within,
           steps_->control().at_end(),
           at_end(),
           alarm_};
@@ -72,7 +72,7 @@ March::GivenMotion March::given_motion(const std::vector<double>& v_before) cons
   const MomentArms arms(stage().system(), state_.q);
   std::array<double, 6> before{};
   for (std::size_t i = 0; i < p.size(); ++i) add_with_moment(arms.at(i / 3), i % 3, p[i], before.data());
-  GivenMotion given{scheme_->forces().stored.kinetic - kinetic_before, scheme_->forces().total_momentum};
+  GivenMotion given{state_.forces.stored.kinetic - kinetic_before, state_.forces.total_momentum};
   for (std::size_t c = 0; c < 3; ++c) {
     given.momentum.linear[c] -= before[c];
     given.momentum.angular[c] -= before[3 + c];
@@ -83,7 +83,6 @@ March::GivenMotion March::given_motion(const std::vector<double>& v_before) cons
 /// Makes the stage's scheme and lets it take the state over.
 void March::begin_stage() {
   scheme_ = stage().make_scheme();
-  solver_ = scheme_->solver_name();
   steps_.emplace(stage());
   const bool was_static = stage_number_ > 0 && s_.stages()[stage_number_ - 1]->settings().kind == SchemeKind::statics;
   const std::vector<double> v_before = state_.v;
@@ -93,6 +92,7 @@ void March::begin_stage() {
   } catch (const std::runtime_error& e) {
     throw RunError(static_cast<int>(step_), state_.t, e.what());
   }
+  solver_ = scheme_->solver_name(state_);
   if (ledger_) {
     book_switch(was_static || gives_velocities ? given_motion(v_before) : GivenMotion{});
   } else {
@@ -101,7 +101,7 @@ void March::begin_stage() {
 }
 
 void March::begin_books() {
-  ledger_.emplace(scheme_->forces().stored, scheme_->forces().total_momentum, reach(s_.mesh()));
+  ledger_.emplace(state_.forces.stored, state_.forces.total_momentum, reach(s_.mesh()));
   const std::vector<double>& masses = stage().mass().node_diagonal();
   monitor_.emplace(*ledger_,
                    RunMonitor::Bodies{std::accumulate(masses.begin(), masses.end(), 0.0),
@@ -114,11 +114,11 @@ void March::begin_books() {
 /// that begin with the stage add is initial energy.
 void March::book_switch(const GivenMotion& given) {
   ledger_->give(given.kinetic, given.momentum);
-  const EnergyTerms before = ledger_->now(), &after = scheme_->forces().stored;
+  const EnergyTerms before = ledger_->now(), &after = state_.forces.stored;
   LedgerIncrement jump;
   jump.energy = change_of_stored(before, after);
   jump.energy.algorithmic = -jump.energy.mechanical();
-  const Momentum now = scheme_->forces().total_momentum;
+  const Momentum now = state_.forces.total_momentum;
   for (std::size_t c = 0; c < 3; ++c) {
     jump.impulse.linear[c] = now.linear[c] - ledger_->momentum().linear[c] - given.momentum.linear[c];
     jump.impulse.angular[c] = now.angular[c] - ledger_->momentum().angular[c] - given.momentum.angular[c];
@@ -131,7 +131,7 @@ void March::book_switch(const GivenMotion& given) {
 
 /// A tangent that is not positive definite makes the scheme change its solver, once in a stage.
 void March::note_solver() {
-  std::string now = scheme_->solver_name();
+  std::string now = scheme_->solver_name(state_);
   if (now == solver_) return;
   log_.push_back(fmt::format("solver: at t = {:.6g} from step {} on: {}", state_.t, step_, now));
   solver_ = std::move(now);
@@ -140,34 +140,32 @@ void March::note_solver() {
 /// Magnitude of the impulse of the loads over a step, by their forces at its end; static stages have none.
 double March::load_impulse() const {
   if (s_.model().loads.empty() || stage().settings().kind == SchemeKind::statics) return 0.0;
-  const std::vector<double>& f = scheme_->forces().external;
+  const std::vector<double>& f = state_.forces.external;
   const auto sum = parallel_sums<3>(f.size(), [&f](std::size_t i, std::array<double, 3>& s) { s[i % 3] += f[i]; });
   return norm(sum) * dt_;
 }
 
 /// A step to next_ that holds; nothing when there is none, and message_ says why.
 std::optional<StepReport> March::make_step() {
-  steps_->limit_motion(state_, *scheme_->forces().rows.rows, step_ + 1);
+  steps_->limit_motion(state_, *state_.forces.rows.rows, step_ + 1);
   for (;;) {
     const double dt = steps_->control().dt();
     // A hundredth of the ledger's bound (1e-10 of the energy), shared out over the time of the run; what a step leaves
     // unbooked is at most its residual's work.
     const double tolerance = 1e-12 * ledger_->scale() * dt / s_.end();
     StepReport report = scheme_->step(state_, {steps_->control().t_end_of_step(), dt, tolerance}, next_);
-    if (report.converged && !std::isfinite(scheme_->forces().stored.mechanical())) {
-      scheme_->take_back();
+    if (report.converged && !std::isfinite(next_.forces.stored.mechanical())) {
       report.converged = false;
       report.failure = "the energy is not finite";
     }
     if (report.converged) {
       const EnergyGuard::Books books{report.books.energy.quadrature, report.books.energy.algorithmic,
                                      monitor_->scale()};
-      if (!steps_->is_to_be_repeated(state_, next_, scheme_->forces(), books, step_ + 1)) {
+      if (!steps_->is_to_be_repeated(state_, next_, books, step_ + 1)) {
         dt_ = dt;
         steps_->accept(books);
         return report;
       }
-      scheme_->take_back();
       continue;
     }
     if (steps_->shorten(state_, step_ + 1)) continue;
@@ -184,7 +182,7 @@ void March::book(const StepReport& report) {
   note_solver();
   dt_smallest_ = step_ == 1 ? dt_ : std::min(dt_smallest_, dt_);
   dt_largest_ = std::max(dt_largest_, dt_);
-  ledger_->add(report.books, scheme_->forces().total_momentum);
+  ledger_->add(report.books, state_.forces.total_momentum);
   monitor_->update(load_impulse());
   body_strain_ = std::max(body_strain_, s_.solid().body_strain(state_.q));
   alarm_ = monitor_->alarm(s_.given().guards.energy_growth);

@@ -7,6 +7,7 @@
 #include "contact/response.hpp"
 #include "model/model.hpp"
 #include "solid/solid.hpp"
+#include "state/state.hpp"
 
 namespace carom {
 

@@ -21,7 +21,7 @@ struct StepView {
   const RunMonitor& monitor;
   const Stage& stage;
   double end_weight = 1.0;  ///< of the force at the end in the impulse (Scheme::end_weight)
-  ContactWithin within{};
+  const ContactWithin& within;
   bool ends_stage = false;
   bool ends_run = false;
   std::string_view alarm{};  ///< why the run cannot go on after this step; "" where it can

@@ -55,19 +55,19 @@ void StepGuard::limit_motion(const State& now, const ConstraintRows& rows, long 
   if (motion_) cut_motion(motion_->foreseen(now, rows, control_.dt()), now.t, step);
 }
 
-bool StepGuard::is_to_be_repeated(const State& begin, const State& end, const Forces& forces,
-                                  const EnergyGuard::Books& books, long long step) {
+bool StepGuard::is_to_be_repeated(const State& begin, const State& end, const EnergyGuard::Books& books,
+                                  long long step) {
   constexpr int most_cuts = 8;
-  if (watch_ && !fits(end, forces)) return true;
+  if (watch_ && !fits(end)) return true;
   if (energy_ && is_explicit(stage_.settings().kind)) {
-    const std::optional<double> fraction = energy_->cut(begin, end, forces.rows, books);
+    const std::optional<double> fraction = energy_->cut(begin, end, end.forces.rows, books);
     if (fraction && control_.cut(*fraction)) return true;
   } else if (energy_ && energy_->gains_too_much(books) && control_.halve()) {
     return true;
   }
   if (cuts_ == most_cuts) return false;
-  const bool is_cut = motion_ && cut_motion(motion_->overrun(begin, end, forces.rows), end.t, step);
-  if (!is_cut && !ends_late(begin, end, forces)) return false;
+  const bool is_cut = motion_ && cut_motion(motion_->overrun(begin, end, end.forces.rows), end.t, step);
+  if (!is_cut && !ends_late(begin, end)) return false;
   ++cuts_;
   return true;
 }
@@ -87,9 +87,9 @@ bool StepGuard::cut_motion(const std::optional<MotionLimit::Overrun>& overrun, d
 }
 
 /// Cuts a step in which contact closes long before the end.
-bool StepGuard::ends_late(const State& begin, const State& end, const Forces& forces) {
+bool StepGuard::ends_late(const State& begin, const State& end) {
   if (event_tolerance_ == 0.0) return false;
-  const std::optional<double> fraction = contact_event(begin, end, forces.rows, event_tolerance_);
+  const std::optional<double> fraction = contact_event(begin, end, end.forces.rows, event_tolerance_);
   if (!fraction || !control_.cut(*fraction)) return false;
   is_at_event_ = true;
   return true;
@@ -117,7 +117,8 @@ double StepGuard::longest(std::span<const double> u) const {
 
 /// False when springs act at the end that need a step at least 2^(1/8) shorter than the one that met them, which is the
 /// length of the next ones then.
-bool StepGuard::fits(const State& end, const Forces& forces) {
+bool StepGuard::fits(const State& end) {
+  const Forces& forces = end.forces;
   rows_ = forces.rows.rows;
   const double longest = this->longest(end.q);
   const bool springs_act = std::any_of(forces.rows.status.begin(), forces.rows.status.end(),

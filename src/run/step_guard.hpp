@@ -34,8 +34,7 @@ class StepGuard {
   void limit_motion(const State& now, const ConstraintRows& rows, long long step);
   /// True when the converged step from `begin` to `end`, number `step`, has to be made again, its length having been
   /// changed. Throws RunError where contact moves too far in a step that the case fixes.
-  bool is_to_be_repeated(const State& begin, const State& end, const Forces& forces, const EnergyGuard::Books& books,
-                         long long step);
+  bool is_to_be_repeated(const State& begin, const State& end, const EnergyGuard::Books& books, long long step);
   /// The step counts.
   void accept(const EnergyGuard::Books& books);
   /// Looks at the stable step, where it changes, after step number `step`: at that of the contact after every step, at
@@ -45,8 +44,8 @@ class StepGuard {
 
  private:
   bool cut_motion(const std::optional<MotionLimit::Overrun>& overrun, double t, long long step);
-  bool ends_late(const State& begin, const State& end, const Forces& forces);
-  bool fits(const State& end, const Forces& forces);
+  bool ends_late(const State& begin, const State& end);
+  bool fits(const State& end);
   double longest(std::span<const double> u) const;
 
   const Stage& stage_;

@@ -64,7 +64,7 @@ VerdictItem body_strain_item(double strain) {
 }
 
 void fill(Summary& summary, const Simulation& s, const March& march) {
-  summary.scheme = {scheme_names(s),     march.is_started() ? march.scheme().solver_name() : "",
+  summary.scheme = {scheme_names(s),     march.is_started() ? march.scheme().solver_name(march.state()) : "",
                     march.dt_smallest(), march.dt_largest(),
                     march.steps(),       s.end(),
                     march.state().t};
@@ -93,7 +93,7 @@ void fill(Summary& summary, const Simulation& s, const March& march) {
   summary.linear_momentum = {begin.linear, end.linear, impulse.linear, monitor.linear_momentum_error()};
   summary.angular_momentum = {begin.angular, end.angular, impulse.angular, monitor.angular_momentum_error()};
   // Energies at whole steps and the one that explicit schemes keep, differ by h^2/8 a.Ma with central differences.
-  const double lent = 0.25 * march.dt_largest() * march.dt_largest() * march.scheme().forces().inertia_power;
+  const double lent = 0.25 * march.dt_largest() * march.dt_largest() * march.state().forces.inertia_power;
   summary.verdict = monitor.items({angular_limit(s), gain_limit(s), lent});
 }
 

@@ -33,29 +33,30 @@ class Bathe final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
-  void take_back() override { std::swap(now_, next_); }
-  const Forces& forces() const override { return now_; }
   double end_weight() const override { return impulses_ ? 1.0 : 0.5; }
-  ContactWithin contact_within() const override;
-  std::string solver_name() const override { return second_.solver_name(); }
+  std::string solver_name(const State& state) const override { return second_.solver_name(state, 1); }
 
  private:
   bool to_middle(const State& begin, const StepRequest& request, StepReport& report);
   bool to_end(const State& begin, const StepRequest& request, State& end, StepReport& report);
-  /// Solves one sub-step for its unknown, its equation being multiplied by `share`.
-  bool solve(ImplicitStage& stage, double share, double s, double r, const StepRequest& request, const State& begin,
-             State& end, Forces& forces_end, StepReport& report);
+  /// Place of its stage, what its equation is multiplied by, and how displacement and velocity follow the unknown.
+  struct SubStep {
+    std::size_t place;
+    double share, s, r;
+  };
+  /// Solves one sub-step for its unknown.
+  bool solve(ImplicitStage& stage, const SubStep& sub_step, const StepRequest& request, const State& begin, State& end,
+             StepReport& report);
   bool stop_at_rows(double k, StepReport& report);
   /// Adds the energies of a sub-step to the report.
-  void book(const ContactWork& contact, const State& begin, const Forces& forces_begin, const State& end,
-            const Forces& forces_end, StepReport& report) const;
+  void book(const ContactWork& contact, const State& begin, const Balance& balance, const State& end,
+            StepReport& report) const;
   Momentum impulse(double h, const State& begin, const State& end);
 
   const System& system_;
   StepStart start_;
   ImplicitStage first_, second_;
   std::unique_ptr<VelocityImpulses> impulses_;  ///< none where contact is a law, or its nodes have no mass
-  Forces now_, half_, next_;
   State middle_;
   std::vector<ImposedStep> imposed_;                ///< of the sub-step under way
   std::vector<double> pushed_begin_, pushed_half_;  ///< M^-1 G^T lambda at the beginning and in the middle

@@ -14,18 +14,20 @@ double mix(double w, double x0, double x1) {
 
 }  // namespace
 
-double support_work(std::size_t i, const State& begin, const Forces& f0, const State& end, const Forces& f1, double w) {
-  const double rest = mix(w, f0.reaction[i] - f0.inertia[i], f1.reaction[i] - f1.inertia[i]);
-  return 0.5 * (begin.v[i] + end.v[i]) * (f1.momentum[i] - f0.momentum[i]) + rest * (end.q[i] - begin.q[i]);
+double support_work(std::size_t i, const State& begin, const Balance& b0, const State& end, double w) {
+  const Forces& f1 = end.forces;
+  const double rest = mix(w, b0.reaction[i] - b0.inertia[i], f1.reaction[i] - f1.inertia[i]);
+  return 0.5 * (begin.v[i] + end.v[i]) * (f1.momentum[i] - begin.forces.momentum[i]) + rest * (end.q[i] - begin.q[i]);
 }
 
-StepBooks step_books(const System& system, const State& begin, const Forces& f0, const State& end, const Forces& f1,
+StepBooks step_books(const System& system, const State& begin, const Balance& b0, const State& end,
                      const StepWeights& w, const ContactWork& contact, std::span<const double> mean_internal) {
+  const Forces &f0 = begin.forces, &f1 = end.forces;
   const MomentArms arms(system, begin.q, end.q, 0.5);
   // Works of internal, external and support forces; du . M a~, du . (f~ + R~ - F~), du . C~; the resultant.
   const auto sums = parallel_sums<12>(end.q.size(), [&](std::size_t i, std::array<double, 12>& s) {
     const double du = end.q[i] - begin.q[i];
-    const double inertia = mix(w.inertia, f0.inertia[i], f1.inertia[i]);
+    const double inertia = mix(w.inertia, b0.inertia[i], f1.inertia[i]);
     const bool is_given = !mean_internal.empty();
     const double internal = is_given ? mean_internal[i] : mix(w.force, f0.internal[i], f1.internal[i]);
     const double external = mix(w.force, f0.external[i], f1.external[i]);
@@ -34,7 +36,7 @@ StepBooks step_books(const System& system, const State& begin, const Forces& f0,
     const double support = system.supports.is_prescribed(dof) ? inertia + internal - external - in_contact : 0.0;
     s[0] += (is_given ? internal : 0.5 * (f0.internal[i] + f1.internal[i])) * du;
     s[1] += 0.5 * (f0.external[i] + f1.external[i]) * du;
-    if (system.supports.is_prescribed(dof)) s[2] += support_work(i, begin, f0, end, f1, w.support_work);
+    if (system.supports.is_prescribed(dof)) s[2] += support_work(i, begin, b0, end, w.support_work);
     s[3] += inertia * du;
     s[4] += (external + support - internal) * du;
     s[5] += in_contact * du;
@@ -60,8 +62,10 @@ StepBooks step_books(const System& system, const State& begin, const Forces& f0,
   return out;
 }
 
-void set_mean_reactions(const System& system, const Forces& f0, const StepWeights& w, Forces& f1,
+void set_mean_reactions(const System& system, const State& begin, const StepWeights& w, State& end,
                         std::span<const double> mean_internal) {
+  const Forces& f0 = begin.forces;
+  Forces& f1 = end.forces;
   for (const PrescribedDof& p : system.supports.prescribed()) {
     const auto i = static_cast<std::size_t>(p.dof);
     const double internal = mean_internal.empty() ? mix(w.force, f0.internal[i], f1.internal[i]) : mean_internal[i];
@@ -79,12 +83,17 @@ Momentum combine(double a, const Momentum& p, double b, const Momentum& q) {
   return out;
 }
 
-Momentum resultant(const System& system, std::span<const double> u, const Forces& forces) {
-  const MomentArms arms(system, u);
+Momentum resultant(const System& system, const State& state, const Balance& balance) {
+  const MomentArms arms(system, state.q);
+  const Forces& forces = state.forces;
   const auto sums = parallel_sums<6>(forces.contact.size(), [&](std::size_t i, std::array<double, 6>& s) {
-    add_with_moment(arms.at(i / 3), i % 3, forces.external[i] + forces.contact[i] + forces.reaction[i], s.data());
+    add_with_moment(arms.at(i / 3), i % 3, forces.external[i] + forces.contact[i] + balance.reaction[i], s.data());
   });
   return momentum_from(sums.data());
+}
+
+Momentum resultant(const System& system, const State& state) {
+  return resultant(system, state, Balance(state.forces));
 }
 
 Momentum resultant(const System& system, std::span<const double> u, std::span<const double> force) {

@@ -18,9 +18,8 @@ struct StepWeights {
 
 /// Work of a support on dof i: what its inertia takes, v_bar (M dv) with v_bar the mean of both ends, and what balances
 /// the forces, ((1 - w) (R0 - M a0) + w (R1 - M a1)) du. The first is the change of kinetic energy, whatever the
-/// velocity does within the step.
-double support_work(std::size_t i, const State& begin, const Forces& forces_begin, const State& end,
-                    const Forces& forces_end, double w);
+/// velocity does within the step. balance: M a0 and R0, here and below (StepStart::balance).
+double support_work(std::size_t i, const State& begin, const Balance& balance, const State& end, double w);
 
 /// The energies of a step, and the resultant of external, contact and support forces in the scheme's equation.
 struct StepBooks {
@@ -34,19 +33,20 @@ struct StepBooks {
 /// which is zero for the trapezoidal rule (a~ = dv/h, du = h (v0 + v1)/2). R~ closes the equation where motions are
 /// imposed. A scheme whose F~ is not a weighted mean of both ends gives it as mean_internal; its work is then du . F~.
 /// The imbalance of the ledger is then du . (M a~ + F~ - f~ - C~) on the free dofs: it checks the solve.
-StepBooks step_books(const System& system, const State& begin, const Forces& forces_begin, const State& end,
-                     const Forces& forces_end, const StepWeights& weights, const ContactWork& contact,
+StepBooks step_books(const System& system, const State& begin, const Balance& balance, const State& end,
+                     const StepWeights& weights, const ContactWork& contact,
                      std::span<const double> mean_internal = {});
 
 /// Replaces the reactions at the end, for schemes whose acceleration is the mean of the step, by R~.
-void set_mean_reactions(const System& system, const Forces& forces_begin, const StepWeights& weights,
-                        Forces& forces_end, std::span<const double> mean_internal = {});
+void set_mean_reactions(const System& system, const State& begin, const StepWeights& weights, State& end,
+                        std::span<const double> mean_internal = {});
 
 /// a p + b q
 Momentum combine(double a, const Momentum& p, double b, const Momentum& q);
 
 /// Resultant of external, contact and support forces at one instant.
-Momentum resultant(const System& system, std::span<const double> u, const Forces& forces);
+Momentum resultant(const System& system, const State& state, const Balance& balance);
+Momentum resultant(const System& system, const State& state);
 
 /// Of one force.
 Momentum resultant(const System& system, std::span<const double> u, std::span<const double> force);

@@ -31,13 +31,13 @@ CentralDifferences::CentralDifferences(const System& system, std::unique_ptr<Exp
 
 void CentralDifferences::start(State& state, double dt) {
   start_with_supports(system_, state);
-  evaluate_body_forces(system_, state.t, state.q, now_);
+  evaluate_body_forces(system_, state.t, state.q, state.forces);
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_next_);
   for (const ImposedStep& s : imposed_next_) state.a[s.dof] = acceleration_to_middle(s, dt);
   const std::string failure =
-      contact_->respond({dt, 0.5 * dt, state.q, state.q, state.v, state.a, state.contact}, now_);
+      contact_->respond({dt, 0.5 * dt, state.q, state.q, state.v, state.a, state.contact}, state.forces);
   if (!failure.empty()) throw std::runtime_error("at the start: " + failure);
-  start_accelerations(system_, mass_solver_, state, now_);
+  start_accelerations(system_, mass_solver_, state);
 }
 
 StepReport CentralDifferences::step(const State& begin, const StepRequest& request, State& end) {
@@ -47,10 +47,10 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
   end.q.resize(n);
   end.v.resize(n);
   end.a = begin.a;
+  carry_memory(begin, end);
   StepReport report;
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
-  if (!start_.set(
-          begin.a, h, imposed_, [h](const ImposedStep& s) { return acceleration_to_middle(s, h); }, now_)) {
+  if (!start_.set(begin, h, imposed_, [h](const ImposedStep& s) { return acceleration_to_middle(s, h); })) {
     report.failure = MassSolver::failure;
     return report;
   }
@@ -63,27 +63,26 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
     v_half_[s.dof] = s.mean_velocity;
     end.q[s.dof] = s.u;
   }
-  evaluate_body_forces(system_, request.t_end, end.q, next_);
+  evaluate_body_forces(system_, request.t_end, end.q, end.forces);
   // Contact looks at the step that follows.
   imposed_steps(system_.supports, end.t, end.t + h, end.q, imposed_next_);
   for (const ImposedStep& s : imposed_next_) end.a[s.dof] = (s.mean_velocity - v_half_[s.dof]) / h;
-  report.failure = contact_->respond({h, h, begin.q, end.q, v_half_, end.a, begin.contact}, next_);
+  report.failure = contact_->respond({h, h, begin.q, end.q, v_half_, end.a, begin.contact}, end.forces);
   if (!report.failure.empty()) return report;
   for (const ImposedStep& s : imposed_) end.a[s.dof] = acceleration_from_middle(s, h);
-  force_sum(next_, rhs_);
+  force_sum(end.forces, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);
   if (report.linear_iterations < 0) {
     report.failure = MassSolver::failure;
     return report;
   }
   parallel_each(n, [&](std::size_t i) { end.v[i] = v_half_[i] + 0.5 * h * end.a[i]; });
-  take_history(next_.rows, end);
+  take_history(end.forces.rows, end.q, end.contact);
   for (const ImposedStep& s : imposed_) end.v[s.dof] = s.v;
-  complete_forces(system_, end, next_);
-  report.books = central_difference_books(system_, begin, now_, a_begin, end, next_, h);
-  contact_->book(begin, now_, end, next_, report.books.energy);
+  complete_forces(system_, end);
+  report.books = central_difference_books(system_, begin, start_.balance(), a_begin, end, h);
+  contact_->book(begin, end, report.books.energy);
   report.converged = true;
-  std::swap(now_, next_);
   return report;
 }
 

@@ -27,17 +27,14 @@ class CentralDifferences final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
-  void take_back() override { std::swap(now_, next_); }
-  const Forces& forces() const override { return now_; }
   double end_weight() const override { return 0.5; }
-  std::string solver_name() const override { return mass_solver_.name(); }
+  std::string solver_name(const State& /*state*/) const override { return mass_solver_.name(); }
 
  private:
   const System& system_;
   std::unique_ptr<ExplicitContact> contact_;
   MassSolver mass_solver_;
   StepStart start_;
-  Forces now_, next_;
   std::vector<double> v_half_, rhs_;
   std::vector<ImposedStep> imposed_, imposed_next_;
 };

@@ -15,6 +15,7 @@ namespace carom {
 /// Where a stage begins and how its state follows its unknown y: x = x_hat + s y, v = v_hat + r y.
 struct StageStart {
   const State* begin = nullptr;
+  const StageMemory* memory = nullptr;  ///< of the stage, in `begin`
   double s = 0.0, r = 0.0;
   double m = 1.0, c = 0.0;                ///< the operator of the stage is m M + c K
   const FreeModes* free = nullptr;        ///< see StageEquation
@@ -72,8 +73,9 @@ class ContactPort {
   virtual void add_stiffness_diagonal(std::span<double> d) const = 0;
   /// Work over a step. Multipliers work as supports do (StepWeights::support_work), (1 - end_weight) times those of the
   /// beginning and end_weight times those of the end.
-  virtual ContactWork work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
-                           double end_weight) const = 0;
+  virtual ContactWork work(const State& begin, const State& end, double end_weight) const = 0;
+  /// Writes what the port has kept of the stage, whose solve() has been called, to where the next one looks for it.
+  virtual void leave(StageMemory& /*memory*/) const {}
 };
 
 /// The port of settings.enforcement.

@@ -32,7 +32,8 @@ ContactStabilizedNewmark::ContactStabilizedNewmark(const System& system, double 
 }
 
 void ContactStabilizedNewmark::start(State& state, double dt) {
-  start_in_equilibrium(system_, stage_, dt, state, now_);
+  start_in_equilibrium(system_, stage_, dt, state, 1);
+  projection_.start_memory(state, 0);
 }
 
 /// projected_.q = u_hat
@@ -40,12 +41,12 @@ StageReport ContactStabilizedNewmark::project(const State& begin, const StepRequ
   for (std::size_t i = 0; i < begin.q.size(); ++i) x_predicted_[i] = begin.q[i] + request.dt * begin.v[i];
   imposed_steps(system_.supports, begin.t, request.t_end, begin.q, imposed_);
   for (const ImposedStep& s : imposed_) x_predicted_[s.dof] = s.u;
-  projected_ = begin;
+  go_on_from(begin, projected_);
   std::fill(projected_.a.begin(), projected_.a.end(), 0.0);
   const StageEquation equation{.s = 1.0, .x_hat = x_predicted_, .v_hat = zero_, .known = zero_};
   // M u_hat is a force times h^2: what the tolerance leaves of work is that much less.
   const double tolerance = request.work_tolerance * request.dt * request.dt;
-  return projection_.solve(equation, begin, tolerance, projected_, next_);
+  return projection_.solve(equation, begin, tolerance, projected_);
 }
 
 StepReport ContactStabilizedNewmark::step(const State& begin, const StepRequest& request, State& end) {
@@ -54,35 +55,38 @@ StepReport ContactStabilizedNewmark::step(const State& begin, const StepRequest&
   StageReport projected = project(begin, request);
   StepReport report{false, projected.iterations, projected.linear_iterations, std::move(projected.failure), {}};
   if (!projected.converged) return report;
-  end = begin;
+  go_on_from(begin, end);
+  end.stages.front() = projected_.stages.front();
   end.t = request.t_end;
-  next_.external.resize(n);
-  system_.solid.external_force(end.t, system_.mass, next_.external);
+  const Forces& now = begin.forces;
+  Forces& next = end.forces;
+  next.external.resize(n);
+  system_.solid.external_force(end.t, system_.mass, next.external);
   for (std::size_t i = 0; i < n; ++i) {
-    known_[i] = gamma_ * next_.external[i] + (1.0 - gamma_) * (now_.external[i] - now_.internal[i]);
+    known_[i] = gamma_ * next.external[i] + (1.0 - gamma_) * (now.external[i] - now.internal[i]);
   }
   const StageEquation equation{.k = gamma_,
                                .s = 0.5 * h * h,
                                .r = h,
+                               .place = 1,
                                .x_hat = projected_.q,
                                .v_hat = begin.v,
                                .known = known_,
                                .imposed = imposed_};
   impose_on_stage(equation, end.a);
-  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
+  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
   report.converged = solved.converged;
   report.iterations += solved.iterations;
   report.linear_iterations += solved.linear_iterations;
   report.failure = std::move(solved.failure);
   if (!report.converged) return report;
-  complete_forces(system_, end, next_);
+  complete_forces(system_, end);
   const StepWeights weights{.inertia = 1.0, .force = gamma_, .contact = 1.0, .support_work = 1.0};
-  set_mean_reactions(system_, now_, weights, next_);
-  const StepBooks books = step_books(system_, begin, now_, end, next_, weights,
-                                     stage_.port().work(begin, now_, end, next_, weights.support_work));
+  set_mean_reactions(system_, begin, weights, end);
+  const StepBooks books =
+      step_books(system_, begin, Balance(now), end, weights, stage_.port().work(begin, end, weights.support_work));
   report.books = books.increment;
   report.books.impulse = combine(h, books.force, 0.0, {});
-  std::swap(now_, next_);
   return report;
 }
 

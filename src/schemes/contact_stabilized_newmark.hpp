@@ -26,10 +26,8 @@ class ContactStabilizedNewmark final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
-  void take_back() override { std::swap(now_, next_); }
-  const Forces& forces() const override { return now_; }
   double end_weight() const override { return 1.0; }
-  std::string solver_name() const override { return stage_.solver_name(); }
+  std::string solver_name(const State& state) const override { return stage_.solver_name(state, 1); }
 
  private:
   StageReport project(const State& begin, const StepRequest& request);
@@ -38,7 +36,6 @@ class ContactStabilizedNewmark final : public Scheme {
   double gamma_;
   ImplicitStage projection_, stage_;
   State projected_;
-  Forces now_, next_;
   std::vector<ImposedStep> imposed_;
   std::vector<double> x_predicted_, zero_, known_;
 };

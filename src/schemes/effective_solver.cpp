@@ -69,6 +69,17 @@ class CgSolver final : public EffectiveSolver {
     if (!lengths.empty()) shortest_ = *std::min_element(lengths.begin(), lengths.end());
   }
 
+  void begin(const StageMemory& memory) override {
+    if (system_.solid.is_linear()) return;
+    diagonal_at_ = memory.diagonal_at;
+    stiffness_diagonal_ = memory.diagonal;
+  }
+  void leave(StageMemory& memory) const override {
+    if (system_.solid.is_linear()) return;
+    memory.diagonal_at = diagonal_at_;
+    memory.diagonal = stiffness_diagonal_;
+  }
+
   std::string prepare(double m, double c, std::span<const double> u) override {
     const bool is_linear = system_.solid.is_linear();
     if (is_linear && m == m_ && c == c_) return {};
@@ -111,7 +122,7 @@ class CgSolver final : public EffectiveSolver {
     return all;
   }
 
-  std::string name() const override { return "conjugate gradients"; }
+  std::string name(const StageMemory& /*memory*/) const override { return "conjugate gradients"; }
 
  private:
   /// True when a node has moved by a hundredth of the smallest cell since the diagonal was made, which costs as much as
@@ -201,6 +212,16 @@ class DirectSolver final : public EffectiveSolver {
     stiffness_ = system.solid.tangent(zero);
   }
 
+  void begin(const StageMemory& memory) override {
+    memory_ = &memory;
+    is_compliance_ready_ = false;
+    factors_.go_on(memory.negative_eigenvalues);
+  }
+  void leave(StageMemory& memory) const override {
+    memory.negative_eigenvalues = factors_.negative_eigenvalues();
+    if (is_compliance_ready_) memory.solver_rows = compliance_.growth();
+  }
+
   std::string prepare(double m, double c, std::span<const double> u) override {
     const bool is_linear = system_.solid.is_linear();
     if (factors_.has_factors() && is_linear && m == m_ && c == c_) return {};
@@ -221,6 +242,7 @@ class DirectSolver final : public EffectiveSolver {
     const std::vector<RowComponent> active = active_components(D);
     if (active.empty()) return {true, 1, 0.0, false};
     compliance_.use(rows);
+    go_on();
     const std::vector<double> w = contact_displacements(*rows, D, active, x);
     std::copy(b.begin(), b.end(), x.begin());
     subtract_contact(*rows, D, active, w, x);
@@ -233,9 +255,17 @@ class DirectSolver final : public EffectiveSolver {
     return {true, columns, 0.0, false};
   }
 
-  std::string name() const override { return factors_.name(); }
+  std::string name(const StageMemory& memory) const override { return factors_.name(memory.negative_eigenvalues); }
 
  private:
+  /// Brings the compliance of fixed rows to where the memory has it, if it belongs to this operator.
+  void go_on() {
+    if (is_compliance_ready_ || memory_ == nullptr || !system_.solid.is_linear() || !system_.contact.is_fixed()) return;
+    const bool is_same = memory_->m == m_ && memory_->c == c_;
+    compliance_.grow_as(is_same ? memory_->solver_rows : Growth{},
+                        [this](std::span<double> b, int columns) { back_substitute(b, columns); });
+    is_compliance_ready_ = true;
+  }
   CsrMatrix assemble() const;
   std::vector<RowComponent> active_components(const std::vector<RowTangent>& D) const;
   void back_substitute(std::span<double> b, int columns) const;
@@ -248,6 +278,8 @@ class DirectSolver final : public EffectiveSolver {
   std::vector<Index> compressed_of_;  ///< unknown of each dof, -1 when fixed
   TangentFactors factors_;
   RowCompliance compliance_;
+  const StageMemory* memory_ = nullptr;  ///< at the beginning of the stage
+  bool is_compliance_ready_ = false;     ///< compliance_ goes on from it
   double m_ = 1.0, c_ = 0.0;
 };
 

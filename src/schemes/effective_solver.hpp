@@ -36,6 +36,10 @@ class EffectiveSolver {
   virtual ~EffectiveSolver() = default;
   /// Springs that are part of A from the next prepare() on, none of them on a fixed dof.
   void hold(std::vector<DofSpring> springs) { springs_ = std::move(springs); }
+  /// A stage begins: what follows goes on from what its memory holds. The memory outlives the stage.
+  virtual void begin(const StageMemory& memory) = 0;
+  /// Writes what the next stage goes on from; before the first one, what that goes on from.
+  virtual void leave(StageMemory& memory) const = 0;
   /// Makes A ready at the displacement u; a linear body does nothing when m and c are the last ones. Returns what is
   /// wrong with A, "" when nothing is.
   virtual std::string prepare(double m, double c, std::span<const double> u) = 0;
@@ -45,7 +49,8 @@ class EffectiveSolver {
                                   const std::vector<RowTangent>& D, double absolute, std::span<double> x) = 0;
   /// Overwrites the dof vectors b (one after the other, zero on fixed dofs) by A^-1 b, close to round-off.
   virtual LinearSolveReport invert(std::span<double> b, int columns) = 0;
-  virtual std::string name() const = 0;
+  /// Of the solver that goes on from this memory, for the log.
+  virtual std::string name(const StageMemory& memory) const = 0;
   /// Grows whenever A becomes another operator.
   std::size_t operators_made() const { return operators_made_; }
 

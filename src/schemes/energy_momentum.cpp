@@ -31,38 +31,39 @@ StageForce EnergyMomentum::discrete_gradient() {
 }
 
 void EnergyMomentum::start(State& state, double dt) {
-  start_in_equilibrium(system_, stage_, dt, state, now_);
+  start_in_equilibrium(system_, stage_, dt, state);
 }
 
 StepReport EnergyMomentum::step(const State& begin, const StepRequest& request, State& end) {
   const double h = request.dt;
   const std::size_t n = begin.q.size();
   begin_ = &begin;
-  end = begin;
+  go_on_from(begin, end);
   end.t = request.t_end;
-  next_.external.resize(n);
-  system_.solid.external_force(end.t, system_.mass, next_.external);
+  const Forces& now = begin.forces;
+  Forces& next = end.forces;
+  next.external.resize(n);
+  system_.solid.external_force(end.t, system_.mass, next.external);
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   for (std::size_t i = 0; i < n; ++i) {
     x_hat_[i] = begin.q[i] + h * begin.v[i];
-    known_[i] = 0.5 * (now_.external[i] + next_.external[i]);
+    known_[i] = 0.5 * (now.external[i] + next.external[i]);
   }
   const StageEquation equation{
       .s = 0.5 * h * h, .r = h, .x_hat = x_hat_, .v_hat = begin.v, .known = known_, .imposed = imposed_};
   impose_on_stage(equation, end.a);
-  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
+  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
-  mean_internal_ = next_.internal;
-  system_.solid.internal_force(end.q, next_.internal);
-  complete_forces(system_, end, next_);
+  mean_internal_ = next.internal;
+  system_.solid.internal_force(end.q, next.internal);
+  complete_forces(system_, end);
   const StepWeights weights{.inertia = 1.0, .force = 0.5, .contact = 1.0, .support_work = 1.0};
-  set_mean_reactions(system_, now_, weights, next_, mean_internal_);
-  const StepBooks books = step_books(system_, begin, now_, end, next_, weights,
-                                     stage_.port().work(begin, now_, end, next_, weights.support_work), mean_internal_);
+  set_mean_reactions(system_, begin, weights, end, mean_internal_);
+  const StepBooks books = step_books(system_, begin, Balance(now), end, weights,
+                                     stage_.port().work(begin, end, weights.support_work), mean_internal_);
   report.books = books.increment;
   report.books.impulse = combine(h, books.force, 0.0, {});
-  std::swap(now_, next_);
   return report;
 }
 

@@ -28,10 +28,8 @@ class EnergyMomentum final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
-  void take_back() override { std::swap(now_, next_); }
-  const Forces& forces() const override { return now_; }
   double end_weight() const override { return 1.0; }
-  std::string solver_name() const override { return stage_.solver_name(); }
+  std::string solver_name(const State& state) const override { return stage_.solver_name(state); }
 
  private:
   StageForce discrete_gradient();
@@ -39,7 +37,6 @@ class EnergyMomentum final : public Scheme {
   const System& system_;
   const State* begin_ = nullptr;  ///< of the step under way
   ImplicitStage stage_;
-  Forces now_, next_;
   std::vector<ImposedStep> imposed_;
   std::vector<double> x_hat_, known_, mean_internal_;
   std::vector<double> middle_;  ///< (u0 + u1) / 2 of the iterate

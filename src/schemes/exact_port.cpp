@@ -78,9 +78,18 @@ bool ExactPort::settle(std::span<const double> /*x*/, const ContactResponse& /*r
 
 void ExactPort::add_stiffness_diagonal(std::span<double> /*d*/) const {}
 
-ContactWork ExactPort::work(const State& begin, const Forces& f0, const State& end, const Forces& f1,
-                            double end_weight) const {
-  return multiplier_work(begin, f0, end, f1, end_weight);
+ContactWork ExactPort::work(const State& begin, const State& end, double end_weight) const {
+  return multiplier_work(begin, end, end_weight);
+}
+
+void ExactPort::leave(StageMemory& memory) const {
+  if (!is_solved_ || !system_.solid.is_linear()) return;
+  if (system_.contact.is_fixed()) {
+    memory.port_rows = compliance_.growth();
+    memory.chosen_rows.assign(chosen_.begin(), chosen_.end());
+  } else {
+    memory.port_nodes = nodes_.growth();
+  }
 }
 
 /// moved_ = z + slope dy; adds to chosen_ the rows that this violates. Returns true when there are such rows.
@@ -111,19 +120,12 @@ bool ExactPort::assemble(EffectiveSolver& solver, const std::shared_ptr<const Co
   std::copy_if(chosen_.begin(), chosen_.end(), std::back_inserter(acting), [&](std::size_t r) { return may_act(r); });
   if (W_.rows == acting) return true;
   for (const std::size_t r : acting) counts.push_back(components(friction(rows.law[r])));
-  bool converged = true;
-  const InverseOperator inverse = [&](std::span<double> b, int columns) {
-    const std::vector<bool>& fixed = system_.supports.fixed();
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      if (fixed[i % fixed.size()]) b[i] = 0.0;
-    }
-    const LinearSolveReport report = solver.invert(b, columns);
-    converged = converged && report.converged;
-    linear.iterations += report.iterations;
-  };
+  LinearSolveReport columns{true};
+  const InverseOperator inverse = this->inverse(solver, columns);
   const bool moves = system_.solid.is_linear() && !system_.contact.is_fixed();
   by_nodes_ = moves && nodes_.extend(rows, acting, system_.solid.dof_count(), inverse);
   W_.block = by_nodes_ ? nodes_.compliance(rows, acting, counts) : compliance_.blocks(acting, counts, inverse);
+  linear.iterations += columns.iterations;
   add_direct_compliance(shared, acting, counts, W_.block);
   const std::size_t n = acting.size();
   W_.begin.assign(1, 0);
@@ -133,7 +135,7 @@ bool ExactPort::assemble(EffectiveSolver& solver, const std::shared_ptr<const Co
     W_.begin.push_back(W_.column.size());
   }
   W_.rows = std::move(acting);
-  if (converged) return true;
+  if (columns.converged) return true;
   W_ = {};
   compliance_.forget();
   nodes_.forget();
@@ -181,16 +183,55 @@ std::string ExactPort::solve_rows(const ContactResponse& response) {
                      result.iterations, result.error);
 }
 
-/// The rows that W was made for last are forgotten where they or the operator may have changed.
-void ExactPort::forget_stale(const EffectiveSolver& solver, const ConstraintRows& rows) {
-  const bool is_kept = system_.solid.is_linear() && system_.contact.is_fixed();
-  if (is_kept && operator_ == solver.operators_made() && is_chosen_.size() == rows.size()) return;
-  if (operator_ != solver.operators_made()) nodes_.forget();
+/// What W was made for last is forgotten where the operator or the rows may have changed. False when the operator
+/// cannot be inverted.
+bool ExactPort::forget_stale(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& rows) {
+  const bool is_linear = system_.solid.is_linear(), is_fixed = system_.contact.is_fixed();
+  const bool is_other = operator_ != solver.operators_made();
   operator_ = solver.operators_made();
-  compliance_.forget();
-  chosen_.clear();
-  is_chosen_.assign(rows.size(), false);
-  W_ = {};
+  if (is_other) nodes_.forget();
+  if (is_other || !is_linear || !is_fixed) {
+    compliance_.forget();
+    chosen_.clear();
+    W_ = {};
+  }
+  compliance_.use(rows);
+  is_chosen_.resize(rows->size());
+  std::fill(is_chosen_.begin(), is_chosen_.end(), false);
+  if (!is_solved_ && go_on_directly()) W_ = {};
+  const bool is_good = is_solved_ || !is_linear || go_on(solver);
+  for (const std::size_t r : chosen_) is_chosen_[r] = true;
+  return is_good;
+}
+
+/// Brings what is kept to where the state at the beginning of the stage has it.
+bool ExactPort::go_on(EffectiveSolver& solver) {
+  static const StageMemory none;
+  const bool is_same = start_.memory->m == start_.m && start_.memory->c == start_.c;
+  const StageMemory& memory = is_same ? *start_.memory : none;
+  LinearSolveReport anew{true};  // what is made anew has been counted before
+  const InverseOperator inverse = this->inverse(solver, anew);
+  if (!system_.contact.is_fixed()) {
+    nodes_.grow_as(memory.port_nodes, system_.solid.dof_count(), inverse);
+    return anew.converged;
+  }
+  const std::vector<std::size_t> chosen(memory.chosen_rows.begin(), memory.chosen_rows.end());
+  if (compliance_.grow_as(memory.port_rows, inverse) || chosen != chosen_) W_ = {};
+  chosen_ = chosen;
+  return anew.converged;
+}
+
+/// A^-1 on the free dofs.
+InverseOperator ExactPort::inverse(EffectiveSolver& solver, LinearSolveReport& linear) const {
+  return [this, &solver, &linear](std::span<double> b, int columns) {
+    const std::vector<bool>& fixed = system_.supports.fixed();
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (fixed[i % fixed.size()]) b[i] = 0.0;
+    }
+    const LinearSolveReport report = solver.invert(b, columns);
+    linear.converged = linear.converged && report.converged;
+    linear.iterations += report.iterations;
+  };
 }
 
 PortSolve ExactPort::solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
@@ -198,8 +239,8 @@ PortSolve ExactPort::solve(EffectiveSolver& solver, std::span<const double> x, s
                            std::span<double> dy) {
   const ConstraintRows& rows = *response.rows;
   const std::span<const double> z = seen(x, v);
-  forget_stale(solver, rows);
-  compliance_.use(response.rows);
+  constexpr const char* no_compliance = "the linear solver does not find the compliance of the rows in contact";
+  if (!forget_stale(solver, response.rows)) return {{}, no_compliance};
   is_solved_ = true;
   free_.resize(dy.size());
   PortSolve out{solver.solve(residual, response.rows, {}, absolute, free_), {}};
@@ -215,7 +256,7 @@ PortSolve ExactPort::solve(EffectiveSolver& solver, std::span<const double> x, s
   for (std::size_t before = 0; before != chosen_.size();) {
     before = chosen_.size();
     if (!assemble(solver, response.rows, out.linear)) {
-      out.failure = "the linear solver does not find the compliance of the rows in contact";
+      out.failure = no_compliance;
       return out;
     }
     note_compliances(rows);

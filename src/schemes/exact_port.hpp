@@ -16,7 +16,8 @@ namespace carom {
 /// what has been solved for is kept for the run: with fixed rows the columns A^-1 G^T, so that an iteration with
 /// contact costs one back-substitution and products with the columns; with moving rows the compliance of their nodes,
 /// so that it costs two. With nonlinear bodies columns are made anew for the rows in question at every iterate.
-/// Multipliers go on from step to step as start values, in State::contact.
+/// Multipliers go on from step to step as start values, in State::contact; in which order the compliances have grown
+/// stands in StageMemory.
 class ExactPort : public ContactPort {
  public:
   explicit ExactPort(const System& system);
@@ -29,8 +30,8 @@ class ExactPort : public ContactPort {
                   std::span<double> dy) override;
   bool settle(std::span<const double> x, const ContactResponse& response) override;
   void add_stiffness_diagonal(std::span<double> d) const override;
-  ContactWork work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
-                   double end_weight) const override;
+  ContactWork work(const State& begin, const State& end, double end_weight) const override;
+  void leave(StageMemory& memory) const override;
 
  protected:
   virtual std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> x) const = 0;
@@ -46,6 +47,9 @@ class ExactPort : public ContactPort {
   virtual void add_direct_compliance(const std::shared_ptr<const ConstraintRows>& /*rows*/,
                                      std::span<const std::size_t> /*acting*/, std::span<const std::size_t> /*counts*/,
                                      std::vector<FrameBlock>& /*W*/) {}
+  /// Brings what add_direct_compliance keeps to where the state at the beginning of the stage has it. True when that is
+  /// something else.
+  virtual bool go_on_directly() { return false; }
   /// value() is to include from now on what these forces (in the frames of the listed rows) do directly.
   virtual void see_forces(const ConstraintRows& /*rows*/, std::span<const std::size_t> /*which*/,
                           std::span<const Vec3> /*force*/) {}
@@ -59,7 +63,9 @@ class ExactPort : public ContactPort {
   bool is_solved_ = false;
 
  private:
-  void forget_stale(const EffectiveSolver& solver, const ConstraintRows& rows);
+  bool forget_stale(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& rows);
+  bool go_on(EffectiveSolver& solver);
+  InverseOperator inverse(EffectiveSolver& solver, LinearSolveReport& linear) const;
   bool choose(const ConstraintRows& rows, std::span<const double> z, std::span<const double> dy);
   void add(std::size_t r);
   bool assemble(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& shared,

@@ -9,19 +9,17 @@ namespace carom {
 
 /// Books of a step of central differences of length h. With x_bar the mean and d the difference of both ends, the
 /// kinematics give d(1/2 v.Mv) = du . (M a)_bar + h^2/8 d(a.Ma), so that algorithmic = -h^2/8 da . (M a0 + M a1) on the
-/// free dofs; those of the supports are in their work. a_begin: accelerations at the beginning (StepStart) (Krenk,
+/// free dofs; those of the supports are in their work. balance, a_begin: at the beginning (StepStart) (Krenk,
 /// Computer Methods in Applied Mechanics and Engineering 195, 2006, eq. 11 with beta = 0, gamma = 1/2, with forces
 /// instead of K u; it holds with whatever forces contact adds). Friction and damping are those of the penalty.
-LedgerIncrement central_difference_books(const System& system, const State& begin, const Forces& forces_begin,
-                                         std::span<const double> a_begin, const State& end, const Forces& forces_end,
-                                         double h);
+LedgerIncrement central_difference_books(const System& system, const State& begin, const Balance& balance,
+                                         std::span<const double> a_begin, const State& end, double h);
 
 /// Books of a step with u1 = u0 + h v0 + h^2 B,  v1 = v0 + h A. With x_bar the mean of both ends and R = M a the
 /// inertia that balances the forces at each end,
 ///   d(1/2 v.Mv) = v_bar . M dv = du . M A + h^2 (A/2 - B) . M A,
 /// so that algorithmic = du . (R_bar - M A) - h^2 (A/2 - B) . M A, on the free dofs. The impulse is left to the caller.
-LedgerIncrement explicit_books(const System& system, const State& begin, const Forces& forces_begin, const State& end,
-                               const Forces& forces_end, std::span<const double> A, std::span<const double> B,
-                               double h);
+LedgerIncrement explicit_books(const System& system, const State& begin, const Balance& balance, const State& end,
+                               std::span<const double> A, std::span<const double> B, double h);
 
 }  // namespace carom

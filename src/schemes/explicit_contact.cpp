@@ -15,7 +15,7 @@ class PenaltyContact final : public ExplicitContact {
     forces.rows.add_force(forces.contact);
     return {};
   }
-  void book(const State&, const Forces&, const State&, const Forces&, EnergyTerms&) const override {}
+  void book(const State&, const State&, EnergyTerms&) const override {}
 
  private:
   const System& system_;
@@ -27,10 +27,9 @@ std::unique_ptr<ExplicitContact> penalty_contact(const System& system) {
   return std::make_unique<PenaltyContact>(system);
 }
 
-void book_multipliers(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
-                      EnergyTerms& energy) {
+void book_multipliers(const State& begin, const State& end, EnergyTerms& energy) {
   double normal = 0.0, tangential = 0.0;
-  for (const Forces* forces : {&forces_begin, &forces_end}) {
+  for (const Forces* forces : {&begin.forces, &end.forces}) {
     const ConstraintRows& rows = *forces->rows.rows;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       if (forces->rows.status[r] == RowStatus::open) continue;

@@ -27,8 +27,7 @@ class ExplicitContact {
   virtual std::string respond(const ExplicitPoint& at, Forces& forces) = 0;
   /// Books what central_difference_books leaves in `quadrature` of the work of forces that are no function of the
   /// state.
-  virtual void book(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
-                    EnergyTerms& energy) const = 0;
+  virtual void book(const State& begin, const State& end, EnergyTerms& energy) const = 0;
 };
 
 /// Penalty springs: c = c(u, v).
@@ -48,7 +47,6 @@ std::unique_ptr<ExplicitContact> forward_increment_contact(const System& system)
 
 /// Trapezoidal work of multipliers over a step, each force on its own end's rows: along the normals to `impact`, along
 /// the tangents to `friction`, both taken out of `quadrature`.
-void book_multipliers(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
-                      EnergyTerms& energy);
+void book_multipliers(const State& begin, const State& end, EnergyTerms& energy);
 
 }  // namespace carom

@@ -21,32 +21,28 @@ GeneralizedAlpha::GeneralizedAlpha(const System& system, const GeneralizedAlphaP
     x->resize(n);
 }
 
-ContactWithin GeneralizedAlpha::contact_within() const {
-  if (!impulses_) return {};
-  return {1.0, &impulses_->response(), u_end_};
-}
-
 void GeneralizedAlpha::start(State& state, double dt) {
-  start_in_equilibrium(system_, stage_, dt, state, now_);
-  state.memory = GeneralizedAlphaMemory{resultant(system_, state.q, now_)};
+  start_in_equilibrium(system_, stage_, dt, state);
+  state.memory = GeneralizedAlphaMemory{resultant(system_, state)};
 }
 
 /// What is known before the solve, and its start value. False when the mass matrix cannot be solved.
 bool GeneralizedAlpha::predict(const State& begin, double h, State& end) {
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
-  if (!start_.set(
-          begin.a, h, imposed_, [](const ImposedStep& s) { return s.a_begin; }, now_) ||
-      (impulses_ && !impulses_->accelerations(now_.contact, pushed_begin_)))
+  if (!start_.set(begin, h, imposed_, [](const ImposedStep& s) { return s.a_begin; }) ||
+      (impulses_ && !impulses_->accelerations(begin.forces.contact, pushed_begin_)))
     return false;
+  const Forces& now = begin.forces;
+  const std::span<const double> inertia = start_.balance().inertia;
   const std::span<const double> a_begin = start_.a();
   if (impulses_) system_.mass.apply(pushed_begin_, inertia_);
   for (std::size_t i = 0; i < begin.q.size(); ++i) {
     const double smooth = a_begin[i] - pushed_begin_[i];
     u_predicted_[i] = begin.q[i] + h * begin.v[i] + h * h * (0.5 - beta) * smooth;
     v_predicted_[i] = begin.v[i] + h * (1.0 - gamma) * smooth;
-    known_[i] = (1.0 - alpha_f) * next_.external[i] + alpha_f * (now_.external[i] - now_.internal[i]) -
-                alpha_m * (now_.inertia[i] - inertia_[i]);
+    known_[i] = (1.0 - alpha_f) * end.forces.external[i] + alpha_f * (now.external[i] - now.internal[i]) -
+                alpha_m * (inertia[i] - inertia_[i]);
     end.a[i] += (0.5 / beta - 1.0) * pushed_begin_[i];
   }
   return true;
@@ -54,7 +50,7 @@ bool GeneralizedAlpha::predict(const State& begin, double h, State& end) {
 
 /// From the unknown s + M^-1 G^T lambda / (2 beta) to the acceleration, and to the velocity of VelocityImpulses.
 bool GeneralizedAlpha::stop_at_rows(double h, State& end, StepReport& report) {
-  if (!impulses_->accelerations(next_.contact, pushed_end_)) {
+  if (!impulses_->accelerations(end.forces.contact, pushed_end_)) {
     report.failure = MassSolver::failure;
     return false;
   }
@@ -63,7 +59,7 @@ bool GeneralizedAlpha::stop_at_rows(double h, State& end, StepReport& report) {
     end.a[i] += (1.0 - share) * pushed_end_[i];
     end.v[i] -= parameters_.gamma * h * share * pushed_end_[i];
   }
-  report.failure = impulses_->respond(h, next_.rows, end.v);
+  report.failure = impulses_->respond(h, end.forces.rows, end.stages.front().mass_nodes, end.v);
   return report.failure.empty();
 }
 
@@ -90,10 +86,10 @@ Momentum GeneralizedAlpha::impulse(double h, const State& begin, State& end, con
 StepReport GeneralizedAlpha::step(const State& begin, const StepRequest& request, State& end) {
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
   const double h = request.dt;
-  end = begin;
+  go_on_from(begin, end);
   end.t = request.t_end;
-  next_.external.resize(begin.q.size());
-  system_.solid.external_force(end.t, system_.mass, next_.external);
+  end.forces.external.resize(begin.q.size());
+  system_.solid.external_force(end.t, system_.mass, end.forces.external);
   if (!predict(begin, h, end)) return {false, 0, 0, MassSolver::failure, {}};
   // Times 2 beta / (1 - alpha_m) the equation has the multipliers as they are.
   const double share = impulses_ ? 2.0 * beta / (1.0 - alpha_m) : 1.0;
@@ -109,20 +105,18 @@ StepReport GeneralizedAlpha::step(const State& begin, const StepRequest& request
                                .known = known_,
                                .imposed = imposed_};
   impose_on_stage(equation, end.a);
-  StageReport solved = stage_.solve(equation, begin, share * request.work_tolerance, end, next_);
+  StageReport solved = stage_.solve(equation, begin, share * request.work_tolerance, end);
   StepReport report{false, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!solved.converged || (impulses_ && !stop_at_rows(h, end, report))) return report;
-  complete_forces(system_, end, next_);
+  complete_forces(system_, end);
   const StepWeights weights{
       .inertia = 1.0 - alpha_m, .force = 1.0 - alpha_f, .contact = impulses_ ? 1.0 - alpha_m : 1.0};
-  const StepBooks books =
-      step_books(system_, begin, now_, end, next_, weights,
-                 stage_.port().work(begin, now_, end, next_, impulses_ ? 1.0 : weights.support_work));
+  const StepBooks books = step_books(system_, begin, start_.balance(), end, weights,
+                                     stage_.port().work(begin, end, impulses_ ? 1.0 : weights.support_work));
   report.books = books.increment;
   report.books.impulse = impulse(h, begin, end, books.force);
   report.converged = true;
-  u_end_ = end.q;
-  std::swap(now_, next_);
+  if (impulses_) end.within = {1.0, impulses_->response(), end.q};
   return report;
 }
 

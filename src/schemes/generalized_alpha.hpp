@@ -61,11 +61,8 @@ class GeneralizedAlpha final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
-  void take_back() override { std::swap(now_, next_); }
-  const Forces& forces() const override { return now_; }
   double end_weight() const override { return parameters_.gamma; }
-  ContactWithin contact_within() const override;
-  std::string solver_name() const override { return stage_.solver_name(); }
+  std::string solver_name(const State& state) const override { return stage_.solver_name(state); }
 
  private:
   bool predict(const State& begin, double h, State& end);
@@ -77,12 +74,10 @@ class GeneralizedAlpha final : public Scheme {
   GeneralizedAlphaParameters parameters_;
   StepStart start_;
   ImplicitStage stage_;
-  Forces now_, next_;
   std::vector<ImposedStep> imposed_;
   std::unique_ptr<VelocityImpulses> impulses_;
   std::vector<double> pushed_begin_, pushed_end_;  ///< M^-1 G^T lambda, with impulses
   std::vector<double> u_predicted_, v_predicted_, known_, inertia_;
-  std::vector<double> u_end_;  ///< of the last step
 };
 
 }  // namespace carom

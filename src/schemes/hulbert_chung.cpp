@@ -28,17 +28,17 @@ HulbertChung::HulbertChung(const System& system, double rho)
 
 void HulbertChung::start(State& state, double dt) {
   start_with_supports(system_, state);
-  evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, now_);
+  evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, state.forces);
   // e0 = e1 = a0
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = mean_acceleration(s, dt);
-  start_accelerations(system_, mass_solver_, state, now_);
-  state.memory = HulbertChungMemory{state.a, resultant(system_, state.q, now_)};
+  start_accelerations(system_, mass_solver_, state);
+  state.memory = HulbertChungMemory{state.a, resultant(system_, state)};
 }
 
 StepReport HulbertChung::step(const State& begin, const StepRequest& request, State& end) {
   const double h = request.dt, share = 1.0 / (1.0 - alpha_m_);
-  end = begin;
+  go_on_from(begin, end);
   end.t = request.t_end;
   const auto& memory = std::get<HulbertChungMemory>(begin.memory);
   auto& memory_end = std::get<HulbertChungMemory>(end.memory);
@@ -48,7 +48,7 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
     const double e0 = memory.e[s.dof], e1 = (mean_acceleration(s, h) - (1.0 - gamma_) * e0) / gamma_;
     return (1.0 - alpha_m_) * e1 + alpha_m_ * e0;
   };
-  if (!start_.set(begin.a, h, imposed_, wanted, now_)) {
+  if (!start_.set(begin, h, imposed_, wanted)) {
     report.failure = MassSolver::failure;
     return report;
   }
@@ -65,21 +65,20 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
     end.q[s.dof] = s.u;
     end.v[s.dof] = s.v;
   }
-  evaluate_forces(system_, request.t_end, begin.q, begin.contact, end.q, end.v, next_);
+  evaluate_forces(system_, request.t_end, begin.q, begin.contact, end.q, end.v, end.forces);
   for (const ImposedStep& s : imposed_) end.a[s.dof] = mean_acceleration(s, h);
-  force_sum(next_, rhs_);
+  force_sum(end.forces, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);
   if (report.linear_iterations < 0) {
     report.failure = MassSolver::failure;
     return report;
   }
-  take_history(next_.rows, end);
-  complete_forces(system_, end, next_);
-  report.books = explicit_books(system_, begin, now_, end, next_, A_, B_, h);
-  memory_end.force = combine(share, resultant(system_, begin.q, now_), -share * alpha_m_, memory.force);
+  take_history(end.forces.rows, end.q, end.contact);
+  complete_forces(system_, end);
+  report.books = explicit_books(system_, begin, start_.balance(), end, A_, B_, h);
+  memory_end.force = combine(share, resultant(system_, begin, start_.balance()), -share * alpha_m_, memory.force);
   report.books.impulse = combine(h * (1.0 - gamma_), memory.force, h * gamma_, memory_end.force);
   report.converged = true;
-  std::swap(now_, next_);
   return report;
 }
 

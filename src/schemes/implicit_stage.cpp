@@ -81,15 +81,23 @@ void ImplicitStage::hold(const std::vector<DofSpring>& springs) {
   for (const DofSpring& spring : springs) stiffness_diagonal_[spring.dof] += spring.stiffness;
 }
 
-void ImplicitStage::start(const State& state, Forces& forces) {
-  port_->begin({&state, 1.0, 0.0, 1.0, 0.0, nullptr, state.q, {}});
+void ImplicitStage::start_memory(State& state, std::size_t place) const {
+  state.stages.resize(std::max(state.stages.size(), place + 1));
+  state.stages[place] = {};
+  solver_->leave(state.stages[place]);
+}
+
+void ImplicitStage::start(State& state, std::size_t place) {
+  Forces& forces = state.forces;
+  start_memory(state, place);
+  port_->begin({&state, &state.stages[place], 1.0, 0.0, 1.0, 0.0, nullptr, state.q, {}});
   port_->respond(state.q, state.v, forces.rows);
   forces.contact.assign(state.q.size(), 0.0);
   forces.rows.add_force(forces.contact);
 }
 
-ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const State& begin, State& end,
-                                                Forces& forces) {
+ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const State& begin, State& end) {
+  Forces& forces = end.forces;
   follow(eq, end);
   force_.value(end.q, forces.internal);
   forces.contact.assign(end.q.size(), 0.0);
@@ -155,23 +163,25 @@ bool ImplicitStage::is_equilibrium(const StageEquation& eq, const Residual& erro
   return (!is_strict || error.work > 0.5 * before.work) && (is_booked || stays);
 }
 
-StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, double work_tolerance, State& end,
-                                 Forces& forces) {
+StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, double work_tolerance, State& end) {
   const std::size_t n = begin.q.size();
+  const StageMemory& memory = begin.stages[eq.place];
+  Forces& forces = end.forces;
   forces.internal.resize(n);
   forces.inertia.resize(n);
   end.q.resize(n);
   end.v.resize(n);
-  port_->begin({&begin, eq.s, eq.r, eq.m, force_.factor * eq.k * eq.s, eq.free, eq.x_predicted, force_parts_});
+  port_->begin({&begin, &memory, eq.s, eq.r, eq.m, stiffness_share(eq), eq.free, eq.x_predicted, force_parts_});
+  solver_->begin(memory);
+  is_improved_ = false;
   StageReport report;
   std::vector<RowStatus> before;
   const Residual none{.work = infinity, .unbooked = infinity};
   Residual last = none, earlier = none;
   for (int newton = 0, outer = 0;; ++newton, ++report.iterations) {
     before.swap(forces.rows.status);
-    Residual error = residual(eq, begin, end, forces);
-    if (newton > 0 && error.work > error.round_off && port_->is_function())
-      error = shorten(eq, begin, error, end, forces);
+    Residual error = residual(eq, begin, end);
+    if (newton > 0 && error.work > error.round_off && port_->is_function()) error = shorten(eq, begin, error, end);
     if (!std::isfinite(error.norm)) {
       report.failure = "the forces are not finite";
       return report;
@@ -199,19 +209,32 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
     last = newton == 0 ? none : error;  // before the first solve, the work is of a displacement that is a guess
     // Below what rounding may leave, each solve is asked for a hundredth of what is left.
     const double left = error.work <= error.round_off ? std::max(0.3 * wanted, 0.01 * error.work) : 0.3 * tolerance;
-    report.failure = improve(eq, left / error.displacement, end, forces, report);
+    report.failure = improve(eq, left / error.displacement, end, report);
     if (!report.failure.empty()) return report;
   }
-  take_history(forces.rows, end);
+  take_history(forces.rows, end.q, end.contact);
+  if (is_improved_) leave(eq, end.stages[eq.place]);
   report.converged = true;
   return report;
+}
+
+/// What has been made for this operator goes on from what the memory holds of it; of another operator nothing does.
+void ImplicitStage::leave(const StageEquation& eq, StageMemory& memory) const {
+  if (memory.m != eq.m || memory.c != stiffness_share(eq)) {
+    memory.m = eq.m;
+    memory.c = stiffness_share(eq);
+    memory.solver_rows = memory.port_rows = memory.port_nodes = {};
+    memory.chosen_rows.clear();
+  }
+  solver_->leave(memory);
+  port_->leave(memory);
 }
 
 /// Cuts a step that overshoots, so that the residual along it turns round by more than `share`, to where it is
 /// below that (Illinois' form of regula falsi): Newton's method alone may jump to and fro between two directions of
 /// slip.
-ImplicitStage::Residual ImplicitStage::shorten(const StageEquation& eq, const State& begin, Residual error, State& end,
-                                               Forces& forces) {
+ImplicitStage::Residual ImplicitStage::shorten(const StageEquation& eq, const State& begin, Residual error,
+                                               State& end) {
   constexpr double share = 0.5;
   constexpr int most = 20;
   double slope = dot(residual_, step_), at = 1.0;
@@ -219,7 +242,7 @@ ImplicitStage::Residual ImplicitStage::shorten(const StageEquation& eq, const St
   for (int i = 0; i < most && slope_ > 0.0 && std::abs(slope) > share * slope_ && slope_high < 0.0; ++i) {
     const double next = low + (high - low) * slope_low / (slope_low - slope_high);
     parallel_each(end.a.size(), [&](std::size_t k) { end.a[k] += (next - at) * step_[k]; });
-    error = residual(eq, begin, end, forces);
+    error = residual(eq, begin, end);
     slope = dot(residual_, step_);
     const bool was_low = at == low;
     at = next;
@@ -235,11 +258,11 @@ ImplicitStage::Residual ImplicitStage::shorten(const StageEquation& eq, const St
 }
 
 /// One Newton step. Returns why there is none, "" when there is.
-std::string ImplicitStage::improve(const StageEquation& eq, double absolute, State& end, const Forces& forces,
-                                   StageReport& report) {
-  std::string failure = solver_->prepare(eq.m, force_.factor * eq.k * eq.s, force_.tangent_at(end.q));
+std::string ImplicitStage::improve(const StageEquation& eq, double absolute, State& end, StageReport& report) {
+  is_improved_ = true;
+  std::string failure = solver_->prepare(eq.m, stiffness_share(eq), force_.tangent_at(end.q));
   if (!failure.empty()) return failure;
-  const PortSolve solved = port_->solve(*solver_, end.q, end.v, forces.rows, residual_, absolute, correction_);
+  const PortSolve solved = port_->solve(*solver_, end.q, end.v, end.forces.rows, residual_, absolute, correction_);
   report.linear_iterations += solved.linear.iterations;
   if (!solved.failure.empty()) return solved.failure;
   if (!solved.linear.converged) {
@@ -282,20 +305,21 @@ void impose_on_stage(const StageEquation& eq, std::span<double> y) {
   for (const ImposedStep& s : eq.imposed) y[s.dof] = (s.v - eq.v_hat[s.dof]) / eq.r;
 }
 
-void start_in_equilibrium(const System& system, ImplicitStage& stage, double dt, State& state, Forces& forces) {
+void start_in_equilibrium(const System& system, ImplicitStage& stage, double dt, State& state, std::size_t place) {
   start_with_supports(system, state);
+  Forces& forces = state.forces;
   const std::size_t n = state.q.size();
   forces.internal.resize(n);
   forces.external.resize(n);
   system.solid.internal_force(state.q, forces.internal);
   system.solid.external_force(state.t, system.mass, forces.external);
-  stage.start(state, forces);
+  stage.start(state, place);
   std::vector<ImposedStep> imposed;
   imposed_steps(system.supports, state.t, state.t + dt, state.q, imposed);
   for (const ImposedStep& s : imposed) state.a[s.dof] = s.a_begin;
   MassSolver mass_solver(system);
-  if (!stage.port().is_law()) start_multipliers(system, mass_solver, dt, state, forces);
-  start_accelerations(system, mass_solver, state, forces);
+  if (!stage.port().is_law()) start_multipliers(system, mass_solver, dt, state);
+  start_accelerations(system, mass_solver, state);
 }
 
 }  // namespace carom

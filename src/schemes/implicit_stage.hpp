@@ -20,7 +20,8 @@ namespace carom {
 struct StageEquation {
   double m = 1.0, k = 1.0;
   double s = 0.0, r = 0.0;
-  double share = 0.0;  ///< of the stage's own work that its residual may leave unbooked, whatever else is asked
+  std::size_t place = 0;  ///< of the stage in State::stages
+  double share = 0.0;     ///< of the stage's own work that its residual may leave unbooked, whatever else is asked
   const FreeModes* free = nullptr;  ///< where m = 0 leaves motions that only contact holds
   std::span<const double> x_hat{}, v_hat{}, known{};
   std::span<const double> x_predicted{};  ///< see StageStart
@@ -51,28 +52,35 @@ class ImplicitStage {
   ImplicitStage(const System& system, const ImplicitSettings& settings, double ratio, double omega_max_squared,
                 std::unique_ptr<ContactPort> port, StageForce force);
 
-  /// Solves for end.a = y, whose prescribed entries are given and whose others are the start value; end.q and end.v
-  /// follow. forces: external is given; internal, contact and rows are filled.
-  StageReport solve(const StageEquation& equation, const State& begin, double work_tolerance, State& end,
-                    Forces& forces);
-  /// Contact forces at a state that a run begins with, its history included.
-  void start(const State& state, Forces& forces);
+  /// Solves for end.a = y, whose prescribed entries are given and whose others are the start value; end.q, end.v, the
+  /// contact history and the memory of the stage (that of the beginning on entry) follow. end.forces: external is
+  /// given; internal, contact and rows are filled.
+  StageReport solve(const StageEquation& equation, const State& begin, double work_tolerance, State& end);
+  /// The memory of the stage at a state that a run begins with.
+  void start_memory(State& state, std::size_t place) const;
+  /// The same, and the contact forces, their history included.
+  void start(State& state, std::size_t place);
 
   /// Springs on the operator, not on the equation, so that it has an inverse where only contact holds a body.
   void hold(const std::vector<DofSpring>& springs);
 
   const ContactPort& port() const { return *port_; }
-  std::string solver_name() const { return solver_->name(); }
+  std::string solver_name(const State& state, std::size_t place = 0) const {
+    return solver_->name(place < state.stages.size() ? state.stages[place] : StageMemory{});
+  }
 
  private:
   struct Residual;
-  Residual residual(const StageEquation& equation, const State& begin, State& end, Forces& forces);
-  Residual shorten(const StageEquation& equation, const State& begin, Residual error, State& end, Forces& forces);
+  Residual residual(const StageEquation& equation, const State& begin, State& end);
+  Residual shorten(const StageEquation& equation, const State& begin, Residual error, State& end);
   bool is_equilibrium(const StageEquation& equation, const Residual& error, double wanted, const Residual& before,
                       const Residual& earlier) const;
-  std::string improve(const StageEquation& equation, double absolute, State& end, const Forces& forces,
-                      StageReport& report);
+  std::string improve(const StageEquation& equation, double absolute, State& end, StageReport& report);
+  void leave(const StageEquation& equation, StageMemory& memory) const;
   std::string cycling_rows(const std::vector<RowStatus>& before, const Forces& forces) const;
+
+  /// c of the operator m M + c K.
+  double stiffness_share(const StageEquation& equation) const { return force_.factor * equation.k * equation.s; }
 
   const System& system_;
   int max_iterations_;
@@ -83,6 +91,7 @@ class ImplicitStage {
   AndersonMixing mixing_;
   std::vector<double> residual_, correction_, step_, force_parts_;
   std::vector<double> stiffness_diagonal_, closed_diagonal_;  ///< of K and the springs; of all contact rows, closed
+  bool is_improved_ = false;                                  ///< the stage under way has made a Newton step
   double slope_ = 0.0;                                        ///< of the residual along the last step, before it
   double softest_ = std::numeric_limits<double>::infinity();  ///< smallest entry of K's diagonal above 0
   double body_force_ = 0.0;  ///< 2-norm of the forces by which rigid bodies that turn round (Solid)
@@ -94,6 +103,6 @@ void impose_on_stage(const StageEquation& equation, std::span<double> y);
 
 /// What the implicit schemes begin with: start_with_supports, the forces (multipliers included), and accelerations in
 /// equilibrium. dt: the first step.
-void start_in_equilibrium(const System& system, ImplicitStage& stage, double dt, State& state, Forces& forces);
+void start_in_equilibrium(const System& system, ImplicitStage& stage, double dt, State& state, std::size_t place = 0);
 
 }  // namespace carom

@@ -86,39 +86,42 @@ bool StepStart::set(std::span<const double> a, double h, std::span<const Imposed
     change_[s.dof] = change;
   }
   if (!is_changed_) return true;
-  inertia_.assign(a.size(), 0.0);
-  if (mass_solver_.solve(inertia_, change_) < 0) return false;
+  product_.assign(a.size(), 0.0);
+  if (mass_solver_.solve(product_, change_) < 0) return false;
   own_.resize(a.size());
   parallel_each(own_.size(), [&](std::size_t i) { own_[i] = a[i] + change_[i]; });
   a_ = own_;
   return true;
 }
 
-bool StepStart::set(std::span<const double> a, double h, std::span<const ImposedStep> steps, const Wanted& wanted,
-                    Forces& forces) {
-  if (!set(a, h, steps, wanted)) return false;
-  // A step that is made again finds the forces of its first try.
-  if (!is_changed_ && !are_forces_changed_) return true;
-  are_forces_changed_ = is_changed_;
-  inertia_.resize(a.size());
-  system_.mass.apply(a_, inertia_);
-  forces.inertia_power = dot(a_, inertia_);
+bool StepStart::set(const State& begin, double h, std::span<const ImposedStep> steps, const Wanted& wanted) {
+  const Forces& forces = begin.forces;
+  balance_.emplace(forces);
+  if (!set(begin.a, h, steps, wanted)) return false;
+  if (!is_changed_) return true;
+  product_.resize(a_.size());
+  system_.mass.apply(a_, product_);
+  inertia_ = forces.inertia;
+  reaction_ = forces.reaction;
   for (const ImposedStep& s : steps) {
     const std::size_t i = s.dof;
-    forces.inertia[i] = inertia_[i];
-    forces.reaction[i] = forces.inertia[i] + forces.internal[i] - forces.external[i] - forces.contact[i];
+    inertia_[i] = product_[i];
+    reaction_[i] = inertia_[i] + forces.internal[i] - forces.external[i] - forces.contact[i];
   }
+  balance_->inertia = inertia_;
+  balance_->reaction = reaction_;
+  balance_->inertia_power = dot(a_, product_);
   return true;
 }
 
 Momentum StepStart::change(std::span<const double> u) {
   if (!is_changed_) return {};
-  system_.mass.apply(change_, inertia_);
+  system_.mass.apply(change_, product_);
   const MomentArms arms(system_, u);
   std::array<double, 6> sums{};
   for (const PrescribedDof& p : system_.supports.prescribed()) {
     const auto i = static_cast<std::size_t>(p.dof);
-    add_with_moment(arms.at(i / 3), i % 3, inertia_[i], sums.data());
+    add_with_moment(arms.at(i / 3), i % 3, product_[i], sums.data());
   }
   return momentum_from(sums.data());
 }

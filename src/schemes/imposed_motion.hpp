@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -55,20 +56,23 @@ class StepStart {
   /// a: accelerations from the left; wanted(s): that of the dof of an ImposedStep s from the right. False when the mass
   /// matrix cannot be solved.
   bool set(std::span<const double> a, double h, std::span<const ImposedStep> steps, const Wanted& wanted);
-  /// The same; inertia, its power and reactions of the forces at the beginning follow.
-  bool set(std::span<const double> a, double h, std::span<const ImposedStep> steps, const Wanted& wanted,
-           Forces& forces);
+  /// Of the beginning of a step, whose accelerations are those from the left; balance() follows.
+  bool set(const State& begin, double h, std::span<const ImposedStep> steps, const Wanted& wanted);
   /// Accelerations from the right; refers to those from the left where nothing has changed.
   std::span<const double> a() const { return a_; }
+  /// What balances the forces then; refers to the state at the beginning where nothing has changed.
+  const Balance& balance() const { return *balance_; }
   /// Resultant of M times their change, on the imposed dofs; u: displacement at the beginning.
   Momentum change(std::span<const double> u);
 
  private:
   const System& system_;
   MassSolver mass_solver_;
-  std::vector<double> own_, change_, inertia_;
+  std::vector<double> own_, change_, product_;
+  std::vector<double> inertia_, reaction_;  ///< of a changed beginning
   std::span<const double> a_;
-  bool is_changed_ = false, are_forces_changed_ = false;
+  std::optional<Balance> balance_;
+  bool is_changed_ = false;
 };
 
 }  // namespace carom

@@ -15,6 +15,7 @@ void start_with_supports(const System& system, State& state) {
   state.v.resize(n, 0.0);
   state.a.assign(n, 0.0);
   state.contact.resize(system.contact.slots());
+  carry_memory({}, state);
   const std::vector<bool>& fixed = system.supports.fixed();
   for (std::size_t i = 0; i < n; ++i) {
     if (fixed[i]) state.v[i] = 0.0;
@@ -32,7 +33,8 @@ void force_sum(const Forces& forces, std::span<double> rhs) {
                 [&](std::size_t i) { rhs[i] = forces.external[i] - forces.internal[i] + forces.contact[i]; });
 }
 
-void start_multipliers(const System& system, MassSolver& solver, double dt, State& state, Forces& forces) {
+void start_multipliers(const System& system, MassSolver& solver, double dt, State& state) {
+  Forces& forces = state.forces;
   const std::shared_ptr<const ConstraintRows> shared = forces.rows.rows;
   const ConstraintRows& rows = *shared;
   forces.contact.assign(state.q.size(), 0.0);
@@ -50,14 +52,14 @@ void start_multipliers(const System& system, MassSolver& solver, double dt, Stat
   if (!close_rows(system.contact, closing, state.contact, mass_operator(system, solver), forces.rows, push).empty())
     open_response(shared, state.contact.size(), forces.rows);
   forces.rows.add_force(forces.contact);
-  take_history(forces.rows, state);
+  take_history(forces.rows, state.q, state.contact);
 }
 
-void start_accelerations(const System& system, MassSolver& solver, State& state, Forces& forces) {
+void start_accelerations(const System& system, MassSolver& solver, State& state) {
   std::vector<double> rhs(state.a.size());
-  force_sum(forces, rhs);
+  force_sum(state.forces, rhs);
   if (solver.solve(rhs, state.a) < 0) throw std::runtime_error("the initial accelerations cannot be solved for");
-  complete_forces(system, state, forces);
+  complete_forces(system, state);
 }
 
 }  // namespace carom

@@ -7,19 +7,20 @@
 namespace carom {
 
 /// Sizes the state's vectors and sets the prescribed displacements and velocities at state.t (and their rates: the
-/// velocity of an imposed displacement is the derivative of its function). Nodes without mass get no velocity.
+/// velocity of an imposed displacement is the derivative of its function). Nodes without mass get no velocity. What
+/// another scheme has left is cleared.
 void start_with_supports(const System& system, State& state);
 
-/// Finds the multipliers that the rows of forces.rows need at the start, and puts them into forces and history: where a
-/// row is closed, 0 <= a_n + max(0, v_n) / dt perpendicular to lambda_n >= 0 and Coulomb's conditions on a_t + v_t /
+/// Finds the multipliers that the rows of state.forces need at the start, and puts them into forces and history: where
+/// a row is closed, 0 <= a_n + max(0, v_n) / dt perpendicular to lambda_n >= 0 and Coulomb's conditions on a_t + v_t /
 /// dt, a = M^-1 (f - F(u) + G^T lambda). Without them a body that rests would start with the acceleration of one that
 /// falls, which schemes without dissipation never forget. Leaves the rows open where no such forces are found.
 /// start_accelerations is to follow.
-void start_multipliers(const System& system, MassSolver& solver, double dt, State& state, Forces& forces);
+void start_multipliers(const System& system, MassSolver& solver, double dt, State& state);
 
 /// Solves M a = f - F(u) + contact for the free accelerations, the prescribed ones standing in state.a, and completes
 /// the forces. Throws std::runtime_error when the mass matrix cannot be solved.
-void start_accelerations(const System& system, MassSolver& solver, State& state, Forces& forces);
+void start_accelerations(const System& system, MassSolver& solver, State& state);
 
 /// rhs = f - F(u) + contact.
 void force_sum(const Forces& forces, std::span<double> rhs);

@@ -17,6 +17,22 @@ JumpPort::JumpPort(const System& system, double ratio, std::shared_ptr<MassSolve
   jump_.resize(load_.size());
 }
 
+void JumpPort::leave(StageMemory& memory) const {
+  ImpulsePort::leave(memory);
+  if (is_solved_) memory.mass_nodes = nodes_.growth();
+}
+
+void JumpPort::invert(std::span<double> b, int columns) {
+  const std::size_t dofs = load_.size();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) operator_.inverse(b.subspan(k * dofs, dofs));
+}
+
+bool JumpPort::go_on_directly() {
+  const Growth& grown = start_.memory->mass_nodes;
+  if (!grown.entries.empty()) mass_->factorise();
+  return nodes_.grow_as(grown, load_.size(), [this](std::span<double> b, int columns) { invert(b, columns); });
+}
+
 Vec3 JumpPort::value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const {
   Vec3 w = ImpulsePort::value(rows, r, z);
   if (ratio_ == 0.0) return w;
@@ -31,9 +47,7 @@ void JumpPort::add_direct_compliance(const std::shared_ptr<const ConstraintRows>
   if (ratio_ == 0.0) return;
   mass_->factorise();
   const std::size_t n = acting.size(), dofs = load_.size();
-  const InverseOperator inverse = [&](std::span<double> b, int columns) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) operator_.inverse(b.subspan(k * dofs, dofs));
-  };
+  const InverseOperator inverse = [this](std::span<double> b, int columns) { invert(b, columns); };
   const auto add = [&](std::size_t i, std::size_t j, const FrameBlock& direct) {
     for (std::size_t k = 0; k < direct.size(); ++k) W[i * n + j][k] += ratio_ * direct[k];
   };

@@ -16,13 +16,18 @@ class JumpPort final : public ImpulsePort {
   /// ratio: 0 or greater. The solver is shared with the scheme, and factors once rows act.
   JumpPort(const System& system, double ratio, std::shared_ptr<MassSolver> mass);
 
+  void leave(StageMemory& memory) const override;
+
  protected:
   Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const override;
+  bool go_on_directly() override;
   void add_direct_compliance(const std::shared_ptr<const ConstraintRows>& rows, std::span<const std::size_t> acting,
                              std::span<const std::size_t> counts, std::vector<FrameBlock>& W) override;
   void see_forces(const ConstraintRows& rows, std::span<const std::size_t> which, std::span<const Vec3> force) override;
 
  private:
+  void invert(std::span<double> b, int columns);
+
   double ratio_;
   std::shared_ptr<MassSolver> mass_;
   ContactOperator operator_;

@@ -17,20 +17,22 @@ MoreauJean::MoreauJean(const System& system, double theta, const ImplicitSetting
 }
 
 void MoreauJean::start(State& state, double dt) {
-  start_in_equilibrium(system_, stage_, dt, state, now_);
+  start_in_equilibrium(system_, stage_, dt, state);
 }
 
 StepReport MoreauJean::step(const State& begin, const StepRequest& request, State& end) {
   const double h = request.dt;
   const std::size_t n = begin.q.size();
-  end = begin;
+  go_on_from(begin, end);
   end.t = request.t_end;
-  next_.external.resize(n);
-  system_.solid.external_force(end.t, system_.mass, next_.external);
+  const Forces& now = begin.forces;
+  Forces& next = end.forces;
+  next.external.resize(n);
+  system_.solid.external_force(end.t, system_.mass, next.external);
   for (std::size_t i = 0; i < n; ++i) {
     x_hat_[i] = begin.q[i] + h * begin.v[i];
     x_predicted_[i] = begin.q[i] + 0.5 * h * begin.v[i];
-    known_[i] = theta_ * next_.external[i] + (1.0 - theta_) * (now_.external[i] - now_.internal[i]);
+    known_[i] = theta_ * next.external[i] + (1.0 - theta_) * (now.external[i] - now.internal[i]);
   }
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   for (const ImposedStep& s : imposed_) x_predicted_[s.dof] = 0.5 * (begin.q[s.dof] + s.u);
@@ -43,17 +45,16 @@ StepReport MoreauJean::step(const State& begin, const StepRequest& request, Stat
                                .x_predicted = x_predicted_,
                                .imposed = imposed_};
   impose_on_stage(equation, end.a);
-  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
+  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
-  complete_forces(system_, end, next_);
+  complete_forces(system_, end);
   const StepWeights weights{.inertia = 1.0, .force = theta_, .contact = 1.0, .support_work = 1.0};
-  set_mean_reactions(system_, now_, weights, next_);
-  const StepBooks books = step_books(system_, begin, now_, end, next_, weights,
-                                     stage_.port().work(begin, now_, end, next_, weights.support_work));
+  set_mean_reactions(system_, begin, weights, end);
+  const StepBooks books =
+      step_books(system_, begin, Balance(now), end, weights, stage_.port().work(begin, end, weights.support_work));
   report.books = books.increment;
   report.books.impulse = combine(h, books.force, 0.0, {});
-  std::swap(now_, next_);
   return report;
 }
 

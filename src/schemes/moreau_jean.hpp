@@ -25,16 +25,13 @@ class MoreauJean final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
-  void take_back() override { std::swap(now_, next_); }
-  const Forces& forces() const override { return now_; }
   double end_weight() const override { return 1.0; }
-  std::string solver_name() const override { return stage_.solver_name(); }
+  std::string solver_name(const State& state) const override { return stage_.solver_name(state); }
 
  private:
   const System& system_;
   double theta_;
   ImplicitStage stage_;
-  Forces now_, next_;
   std::vector<ImposedStep> imposed_;
   std::vector<double> x_hat_, x_predicted_, known_;
 };

@@ -58,9 +58,8 @@ class MultiplierContact final : public ExplicitContact {
     return {};
   }
 
-  void book(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
-            EnergyTerms& energy) const override {
-    book_multipliers(begin, forces_begin, end, forces_end, energy);
+  void book(const State& begin, const State& end, EnergyTerms& energy) const override {
+    book_multipliers(begin, end, energy);
   }
 
  private:

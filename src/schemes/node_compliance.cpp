@@ -31,7 +31,7 @@ std::size_t first_entry(const ConstraintRows& rows, std::size_t r) {
 }  // namespace
 
 void NodeCompliance::forget() {
-  nodes_.clear();
+  growth_ = {};
   place_.clear();
   lower_.clear();
 }
@@ -47,7 +47,27 @@ bool NodeCompliance::extend(const ConstraintRows& rows, std::span<const std::siz
   }
   std::sort(missing.begin(), missing.end());
   missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-  if (nodes_.size() + missing.size() > most_nodes_) return false;
+  if (growth_.entries.size() + missing.size() > most_nodes_) return false;
+  add(missing, dof_count, inverse);
+  return true;
+}
+
+bool NodeCompliance::grow_as(const Growth& growth, std::size_t dof_count, const InverseOperator& inverse) {
+  const std::size_t calls = calls_in_common(growth_, growth);
+  if (calls == growth_.calls.size() && calls == growth.calls.size()) return false;
+  for (std::size_t k = calls; k < growth_.calls.size(); ++k)
+    for (const Index n : entries_of_call(growth_, k)) place_[static_cast<std::size_t>(n)] = -1;
+  cut_growth(growth_, calls);
+  lower_.resize(3 * growth_.entries.size());
+  place_.resize(dof_count / 3, -1);
+  for (std::size_t k = calls; k < growth.calls.size(); ++k) add(entries_of_call(growth, k), dof_count, inverse);
+  return true;
+}
+
+void NodeCompliance::add(std::span<const Index> missing, std::size_t dof_count, const InverseOperator& inverse) {
+  if (missing.empty()) return;
+  std::size_t known = growth_.entries.size();
+  add_call(growth_, missing);
   constexpr std::size_t most = 10;  // nodes per call: 30 columns, enough for matrix-matrix kernels
   for (std::size_t first = 0; first < missing.size(); first += most) {
     const std::size_t count = std::min(most, missing.size() - first);
@@ -58,18 +78,16 @@ bool NodeCompliance::extend(const ConstraintRows& rows, std::span<const std::siz
     inverse(columns, static_cast<int>(3 * count));
     for (std::size_t k = 0; k < 3 * count; ++k) {
       if (k % 3 == 0) {
-        place_[static_cast<std::size_t>(missing[first + k / 3])] = static_cast<Index>(nodes_.size());
-        nodes_.push_back(missing[first + k / 3]);
+        place_[static_cast<std::size_t>(missing[first + k / 3])] = static_cast<Index>(known++);
       }
       std::vector<double>& line = lower_.emplace_back();
-      line.reserve(3 * nodes_.size());
-      for (const Index n : nodes_) {
+      line.reserve(3 * known);
+      for (const Index n : std::span(growth_.entries).first(known)) {
         const double* at_node = &columns[k * dof_count + 3 * static_cast<std::size_t>(n)];
         line.insert(line.end(), at_node, at_node + 3);
       }
     }
   }
-  return true;
 }
 
 /// C(a, b) for places a and b.
@@ -85,11 +103,11 @@ FrameBlock NodeCompliance::block(std::size_t a, std::size_t b) const {
 std::vector<FrameBlock> NodeCompliance::compliance(const ConstraintRows& rows, std::span<const std::size_t> chosen,
                                                    std::span<const std::size_t> components) const {
   const std::size_t n = chosen.size();
-  std::vector<FrameBlock> W(n * n, FrameBlock{}), answer(nodes_.size());
+  std::vector<FrameBlock> W(n * n, FrameBlock{}), answer(growth_.entries.size());
   for (std::size_t j = 0; j < n; ++j) {
     // answer = C G_j^T at the nodes of the rows from j on
     std::fill(answer.begin(), answer.end(), FrameBlock{});
-    std::vector<bool> is_made(nodes_.size(), false);
+    std::vector<bool> is_made(growth_.entries.size(), false);
     for (std::size_t i = j; i < n; ++i) {
       FrameBlock& entry = W[i * n + j];
       for (std::size_t k = first_entry(rows, chosen[i]); k < first_entry(rows, chosen[i] + 1); ++k) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/delassus.hpp"
+#include "schemes/growth.hpp"
 
 namespace carom {
 
@@ -22,6 +23,10 @@ class NodeCompliance {
   /// Takes in the nodes of the chosen rows. Returns false, and does nothing, when there would be too many.
   bool extend(const ConstraintRows& rows, std::span<const std::size_t> chosen, std::size_t dof_count,
               const InverseOperator& inverse);
+  /// How it has grown, as nodes: made anew in the same way, it has the same bits.
+  const Growth& growth() const { return growth_; }
+  /// Becomes what this growth has made. True when it was something else.
+  bool grow_as(const Growth& growth, std::size_t dof_count, const InverseOperator& inverse);
   /// Blocks W_ij of the chosen rows, whose nodes have been taken in, row by row (chosen.size()^2 of them). Row
   /// chosen[i] has components[i] components (1: the normal; 3); the entries of others are zero.
   std::vector<FrameBlock> compliance(const ConstraintRows& rows, std::span<const std::size_t> chosen,
@@ -29,9 +34,10 @@ class NodeCompliance {
 
  private:
   FrameBlock block(std::size_t a, std::size_t b) const;
+  void add(std::span<const Index> missing, std::size_t dof_count, const InverseOperator& inverse);
 
   std::size_t most_nodes_;
-  std::vector<Index> nodes_;                ///< in the order in which they came
+  Growth growth_;                           ///< the nodes, in the order in which they came
   std::vector<Index> place_;                ///< of each node of the mesh in nodes_, -1: not there
   std::vector<std::vector<double>> lower_;  ///< line 3 a + i: C(a i, b j) for all b <= a and all j
 };

@@ -28,30 +28,29 @@ NohBathe::NohBathe(const System& system, double p)
 
 // The impulse of a step is h (p/2 (f0 + f_p) + (1 - p) (q0 f0 + (1/2 + q1) f_p + q2 f1)).
 double NohBathe::end_weight() const {
-  return (1.0 - p_) * q2_ / (1.0 - contact_within().weight);
+  return (1.0 - p_) * q2_ / (1.0 - middle_weight());
 }
-
-ContactWithin NohBathe::contact_within() const {
-  return {0.5 * p_ + (1.0 - p_) * (0.5 + q1_), &middle_forces_.rows, middle_.q};
+double NohBathe::middle_weight() const {
+  return 0.5 * p_ + (1.0 - p_) * (0.5 + q1_);
 }
 
 void NohBathe::start(State& state, double dt) {
   start_with_supports(system_, state);
-  evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, now_);
+  evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, state.forces);
   const double k = p_ * dt;
   imposed_steps(system_.supports, state.t, state.t + k, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = acceleration_to_middle(s, k);
-  start_accelerations(system_, mass_solver_, state, now_);
+  start_accelerations(system_, mass_solver_, state);
 }
 
 /// To t_p, a step of central differences. -1 when the mass matrix cannot be solved.
 int NohBathe::first_part(const State& begin, const StepRequest& request) {
   const double k = p_ * request.dt, rest = request.dt - k;
-  middle_ = begin;
+  go_on_from(begin, middle_);
   middle_.t = request.t_end - rest;
   imposed_steps(system_.supports, begin.t, middle_.t, begin.q, imposed_);
   const auto wanted = [k](const ImposedStep& s) { return acceleration_to_middle(s, k); };
-  if (!start_.set(begin.a, k, imposed_, wanted, now_)) return -1;
+  if (!start_.set(begin, k, imposed_, wanted)) return -1;
   const std::span<const double> a_begin = start_.a();
   parallel_each(begin.q.size(), [&](std::size_t i) {
     predicted_[i] = begin.v[i] + 0.5 * k * a_begin[i];
@@ -61,14 +60,14 @@ int NohBathe::first_part(const State& begin, const StepRequest& request) {
     predicted_[s.dof] = s.mean_velocity;
     middle_.q[s.dof] = s.u;
   }
-  evaluate_forces(system_, middle_.t, begin.q, begin.contact, middle_.q, predicted_, middle_forces_);
+  evaluate_forces(system_, middle_.t, begin.q, begin.contact, middle_.q, predicted_, middle_.forces);
   for (const ImposedStep& s : imposed_) middle_.a[s.dof] = acceleration_from_middle(s, k);
-  force_sum(middle_forces_, rhs_);
+  force_sum(middle_.forces, rhs_);
   const int iterations = mass_solver_.solve(rhs_, middle_.a);
   parallel_each(begin.q.size(), [&](std::size_t i) { middle_.v[i] = predicted_[i] + 0.5 * k * middle_.a[i]; });
-  take_history(middle_forces_.rows, middle_);
+  take_history(middle_.forces.rows, middle_.q, middle_.contact);
   for (const ImposedStep& s : imposed_) middle_.v[s.dof] = s.v;
-  complete_forces(system_, middle_, middle_forces_);
+  complete_forces(system_, middle_);
   return iterations;
 }
 
@@ -76,7 +75,7 @@ int NohBathe::first_part(const State& begin, const StepRequest& request) {
 int NohBathe::second_part(const StepRequest& request, State& end) {
   const double rest = (1.0 - p_) * request.dt;
   const std::span<const double> a_begin = start_.a();
-  end = middle_;
+  go_on_from(middle_, end);
   end.t = request.t_end;
   parallel_each(middle_.q.size(), [&](std::size_t i) {
     end.q[i] = middle_.q[i] + rest * middle_.v[i] + 0.5 * rest * rest * middle_.a[i];
@@ -89,27 +88,28 @@ int NohBathe::second_part(const StepRequest& request, State& end) {
     end.v[s.dof] = s.v;
     end.a[s.dof] = (s.v - predicted_[s.dof]) / (rest * q2_);
   }
-  evaluate_forces(system_, request.t_end, middle_.q, middle_.contact, end.q, end.v, next_);
-  force_sum(next_, rhs_);
+  evaluate_forces(system_, request.t_end, middle_.q, middle_.contact, end.q, end.v, end.forces);
+  force_sum(end.forces, rhs_);
   const int iterations = mass_solver_.solve(rhs_, end.a);
   parallel_each(end.q.size(), [&](std::size_t i) { end.v[i] = predicted_[i] + rest * q2_ * end.a[i]; });
-  take_history(next_.rows, end);
+  take_history(end.forces.rows, end.q, end.contact);
   for (const ImposedStep& s : imposed_) end.v[s.dof] = s.v;
-  complete_forces(system_, end, next_);
+  complete_forces(system_, end);
   return iterations;
 }
 
 LedgerIncrement NohBathe::books(const State& begin, const StepRequest& request, const State& end) {
   const double k = p_ * request.dt, rest = request.dt - k;
-  LedgerIncrement sum = central_difference_books(system_, begin, now_, start_.a(), middle_, middle_forces_, k);
+  LedgerIncrement sum = central_difference_books(system_, begin, start_.balance(), start_.a(), middle_, k);
   const std::span<const double> a_begin = start_.a();
   parallel_each(begin.q.size(), [&](std::size_t i) {
     B_[i] = 0.5 * middle_.a[i];
     A_[i] = q0_ * a_begin[i] + (0.5 + q1_) * middle_.a[i] + q2_ * end.a[i];
   });
-  LedgerIncrement second = explicit_books(system_, middle_, middle_forces_, end, next_, A_, B_, rest);
-  const Momentum middle = resultant(system_, middle_.q, middle_forces_);
-  second.impulse = combine(rest * q0_, resultant(system_, begin.q, now_), rest * q2_, resultant(system_, end.q, next_));
+  LedgerIncrement second = explicit_books(system_, middle_, Balance(middle_.forces), end, A_, B_, rest);
+  const Momentum middle = resultant(system_, middle_);
+  second.impulse =
+      combine(rest * q0_, resultant(system_, begin, start_.balance()), rest * q2_, resultant(system_, end));
   second.impulse = combine(1.0, second.impulse, rest * (0.5 + q1_), middle);
   sum.energy += second.energy;
   sum.aster += second.aster;
@@ -127,8 +127,10 @@ StepReport NohBathe::step(const State& begin, const StepRequest& request, State&
   }
   report.linear_iterations = first + second;
   report.books = books(begin, request, end);
+  end.within.weight = middle_weight();
+  std::swap(end.within.rows, middle_.forces.rows);
+  end.within.u = middle_.q;
   report.converged = true;
-  std::swap(now_, next_);
   return report;
 }
 

@@ -22,13 +22,11 @@ class NohBathe final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
-  void take_back() override { std::swap(now_, next_); }
-  const Forces& forces() const override { return now_; }
   double end_weight() const override;
-  ContactWithin contact_within() const override;
-  std::string solver_name() const override { return mass_solver_.name(); }
+  std::string solver_name(const State& /*state*/) const override { return mass_solver_.name(); }
 
  private:
+  double middle_weight() const;
   int first_part(const State& begin, const StepRequest& request);
   int second_part(const StepRequest& request, State& end);
   LedgerIncrement books(const State& begin, const StepRequest& request, const State& end);
@@ -37,7 +35,6 @@ class NohBathe final : public Scheme {
   double p_, q0_, q1_, q2_;
   MassSolver mass_solver_;
   StepStart start_;
-  Forces now_, middle_forces_, next_;
   State middle_;
   std::vector<double> rhs_, predicted_, A_, B_;
   std::vector<ImposedStep> imposed_;

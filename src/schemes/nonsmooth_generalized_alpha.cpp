@@ -44,12 +44,12 @@ NonsmoothGeneralizedAlpha::NonsmoothGeneralizedAlpha(const System& system, const
     v->resize(n);
 }
 
-/// jump_ from next_.contact
-bool NonsmoothGeneralizedAlpha::solve_jump() {
+/// jump_ from the contact forces.
+bool NonsmoothGeneralizedAlpha::solve_jump(const Forces& forces) {
   std::fill(jump_.begin(), jump_.end(), 0.0);
-  const std::vector<RowStatus>& status = next_.rows.status;
+  const std::vector<RowStatus>& status = forces.rows.status;
   if (std::all_of(status.begin(), status.end(), [](RowStatus s) { return s == RowStatus::open; })) return true;
-  return mass_solver_->solve(next_.contact, jump_) >= 0;
+  return mass_solver_->solve(forces.contact, jump_) >= 0;
 }
 
 /// Resultant of p / h and of what the supports answer to it.
@@ -58,20 +58,19 @@ Momentum NonsmoothGeneralizedAlpha::jump_resultant(const State& end) {
   const MomentArms arms(system_, end.q);
   const auto sums = parallel_sums<6>(jump_.size(), [&](std::size_t i, std::array<double, 6>& s) {
     const bool is_prescribed = system_.supports.is_prescribed(static_cast<Index>(i));
-    add_with_moment(arms.at(i / 3), i % 3, is_prescribed ? mean_inertia_[i] : next_.contact[i], s.data());
+    add_with_moment(arms.at(i / 3), i % 3, is_prescribed ? mean_inertia_[i] : end.forces.contact[i], s.data());
   });
   return momentum_from(sums.data());
 }
 
 void NonsmoothGeneralizedAlpha::start(State& state, double dt) {
-  start_in_equilibrium(system_, stage_, dt, state, next_);
-  if (!solve_jump()) throw std::runtime_error(MassSolver::failure);
+  start_in_equilibrium(system_, stage_, dt, state);
+  if (!solve_jump(state.forces)) throw std::runtime_error(MassSolver::failure);
   const std::size_t n = state.q.size();
   NonsmoothMemory::Acceleration smooth{std::vector<double>(n),
-                                       combine(1.0, resultant(system_, state.q, next_), -1.0, jump_resultant(state))};
+                                       combine(1.0, resultant(system_, state), -1.0, jump_resultant(state))};
   for (std::size_t i = 0; i < n; ++i) smooth.value[i] = state.a[i] - jump_[i];
   state.memory = NonsmoothMemory{smooth, smooth};
-  std::swap(now_, next_);
 }
 
 /// old_: the memory of the beginning with the accelerations of the supports that the step begins with.
@@ -90,10 +89,10 @@ StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
   const double h = request.dt, scale = 2.0 * beta * kappa_;
   const std::size_t n = begin.q.size();
-  end = begin;
+  go_on_from(begin, end);
   end.t = request.t_end;
-  next_.external.resize(n);
-  system_.solid.external_force(end.t, system_.mass, next_.external);
+  end.forces.external.resize(n);
+  system_.solid.external_force(end.t, system_.mass, end.forces.external);
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   if (!start_from_the_right(begin, h)) return {false, 0, 0, MassSolver::failure, {}};
   for (std::size_t i = 0; i < n; ++i) {
@@ -101,7 +100,7 @@ StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest
     u_hat_[i] = begin.q[i] + h * begin.v[i] + h * h * ((0.5 - beta) * old_.a.value[i] + beta * carried_[i]);
     v_hat_[i] = begin.v[i] + h * ((1.0 - gamma) * old_.a.value[i] + gamma * carried_[i]);
     u_predicted_[i] = begin.q[i] + 0.5 * h * begin.v[i];
-    known_[i] = scale * next_.external[i];
+    known_[i] = scale * end.forces.external[i];
   }
   for (const ImposedStep& s : imposed_) u_predicted_[s.dof] = 0.5 * (begin.q[s.dof] + s.u);
   // The equation times `scale`, so that its contact force is p / h.
@@ -115,18 +114,17 @@ StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest
                                .x_predicted = u_predicted_,
                                .imposed = imposed_};
   impose_on_stage(equation, end.a);
-  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
+  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
-  if (!solve_jump()) {
+  if (!solve_jump(end.forces)) {
     report.converged = false;
     report.failure = MassSolver::failure;
     return report;
   }
   split(h, end);
-  complete_forces(system_, end, next_);
+  complete_forces(system_, end);
   report.books = books(begin, h, end);
-  std::swap(now_, next_);
   return report;
 }
 
@@ -149,7 +147,7 @@ void NonsmoothGeneralizedAlpha::split(double h, State& end) {
 LedgerIncrement NonsmoothGeneralizedAlpha::books(const State& begin, double h, State& end) {
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
   const Momentum jump = jump_resultant(end);
-  const Momentum of_z = combine(1.0, resultant(system_, end.q, next_), -1.0, jump);
+  const Momentum of_z = combine(1.0, resultant(system_, end), -1.0, jump);
   const Momentum carried = combine(alpha_f / (1.0 - alpha_m), old_.z.force, -alpha_m / (1.0 - alpha_m), old_.a.force);
   auto& memory = std::get<NonsmoothMemory>(end.memory);
   memory.a.force = combine(kappa_, of_z, 1.0, carried);
@@ -157,15 +155,15 @@ LedgerIncrement NonsmoothGeneralizedAlpha::books(const State& begin, double h, S
   // The equation of the step is M (z_bar + W/h) + F_bar = f_bar + p/h + mean reactions: given as inertia and reactions
   // of the end, with the weight 1.
   system_.mass.apply(mean_, mean_inertia_);
-  next_.inertia.swap(mean_inertia_);
-  reaction_ = next_.reaction;
+  end.forces.inertia.swap(mean_inertia_);
+  reaction_ = end.forces.reaction;
   const StepWeights weights{.inertia = 1.0, .force = 0.5, .contact = 1.0, .support_work = 1.0};
-  set_mean_reactions(system_, now_, weights, next_);
-  LedgerIncrement out = step_books(system_, begin, now_, end, next_, weights,
-                                   stage_.port().work(begin, now_, end, next_, weights.support_work))
+  set_mean_reactions(system_, begin, weights, end);
+  LedgerIncrement out = step_books(system_, begin, Balance(begin.forces), end, weights,
+                                   stage_.port().work(begin, end, weights.support_work))
                             .increment;
-  next_.inertia.swap(mean_inertia_);
-  next_.reaction = reaction_;
+  end.forces.inertia.swap(mean_inertia_);
+  end.forces.reaction = reaction_;
   out.impulse = combine(1.0, combine(h * (1.0 - gamma), old_.a.force, h * gamma, memory.a.force), h, jump);
   return out;
 }

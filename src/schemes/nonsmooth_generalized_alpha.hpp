@@ -39,13 +39,11 @@ class NonsmoothGeneralizedAlpha final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
-  void take_back() override { std::swap(now_, next_); }
-  const Forces& forces() const override { return now_; }
   double end_weight() const override { return 1.0; }
-  std::string solver_name() const override { return stage_.solver_name(); }
+  std::string solver_name(const State& state) const override { return stage_.solver_name(state); }
 
  private:
-  bool solve_jump();
+  bool solve_jump(const Forces& forces);
   Momentum jump_resultant(const State& end);
   bool start_from_the_right(const State& begin, double h);
   void split(double h, State& end);
@@ -57,7 +55,6 @@ class NonsmoothGeneralizedAlpha final : public Scheme {
   std::shared_ptr<MassSolver> mass_solver_;
   ImplicitStage stage_;
   StepStart start_;
-  Forces now_, next_;
   std::vector<double> u_hat_, v_hat_, carried_, known_, u_predicted_;
   std::vector<double> jump_;  ///< W / h
   std::vector<double> mean_, mean_inertia_, reaction_;

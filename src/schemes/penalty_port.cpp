@@ -155,11 +155,10 @@ void PenaltyPort::add_stiffness_diagonal(std::span<double> d) const {
   add_closed_diagonal(*system_.contact.rows_at(zero, zero), d);
 }
 
-ContactWork PenaltyPort::work(const State& begin, const Forces& f0, const State& end, const Forces& f1,
-                              double /*end_weight*/) const {
-  ContactWork out{.total = trapezoidal_work(begin, f0.contact, end, f1.contact), .friction = f1.rows.slip_work};
-  out.damping = damping_work(begin, f0, end, f1);
-  return out;
+ContactWork PenaltyPort::work(const State& begin, const State& end, double /*end_weight*/) const {
+  return {.total = trapezoidal_work(begin, begin.forces.contact, end, end.forces.contact),
+          .friction = end.forces.rows.slip_work,
+          .damping = damping_work(begin, end)};
 }
 
 /// Multipliers have settled when their update changes no node's acceleration by more than this share of the largest:
@@ -321,13 +320,11 @@ void AugmentedLagrangianPort::take_forces(const ContactResponse& response) {
   for (std::size_t i = 0; i < multiplier_.size(); ++i) multiplier_[i] = response.history[i].multiplier;
 }
 
-ContactWork AugmentedLagrangianPort::work(const State& begin, const Forces& f0, const State& end, const Forces& f1,
-                                          double end_weight) const {
-  return multiplier_work(begin, f0, end, f1, end_weight);
+ContactWork AugmentedLagrangianPort::work(const State& begin, const State& end, double end_weight) const {
+  return multiplier_work(begin, end, end_weight);
 }
 
-ContactWork multiplier_work(const State& begin, const Forces& f0, const State& end, const Forces& f1,
-                            double end_weight) {
+ContactWork multiplier_work(const State& begin, const State& end, double end_weight) {
   ContactWork out;
   const auto add = [&](const ContactResponse& response, double weight) {
     const ConstraintRows& rows = *response.rows;
@@ -339,8 +336,8 @@ ContactWork multiplier_work(const State& begin, const Forces& f0, const State& e
       out.friction -= weight * (force[1] * dw[1] + force[2] * dw[2]);
     }
   };
-  if (end_weight < 1.0) add(f0.rows, 1.0 - end_weight);
-  add(f1.rows, end_weight);
+  if (end_weight < 1.0) add(begin.forces.rows, 1.0 - end_weight);
+  add(end.forces.rows, end_weight);
   out.total = -out.impact - out.friction;
   return out;
 }

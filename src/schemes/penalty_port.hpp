@@ -24,8 +24,7 @@ class PenaltyPort : public ContactPort {
   bool settle(std::span<const double> x, const ContactResponse& response) override;
   void add_stiffness_diagonal(std::span<double> d) const override;
   /// Friction on the slip, dampers by the trapezoidal rule, the total likewise.
-  ContactWork work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
-                   double end_weight) const override;
+  ContactWork work(const State& begin, const State& end, double end_weight) const override;
 
  protected:
   /// The spring of a row as if it were closed and sticking: its tangent, and the normal force that it would have at x.
@@ -80,8 +79,7 @@ class AugmentedLagrangianPort final : public PenaltyPort {
                      const ContactResponse& response) const override;
   bool settle(std::span<const double> x, const ContactResponse& response) override;
   bool renew(std::span<const double> x, const ContactResponse& response, double residual) override;
-  ContactWork work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
-                   double end_weight) const override;
+  ContactWork work(const State& begin, const State& end, double end_weight) const override;
 
  private:
   struct Update {
@@ -102,7 +100,6 @@ class AugmentedLagrangianPort final : public PenaltyPort {
 
 /// Work of multipliers over a step (ContactPort::work), those of each end on its rows: the normal part goes to
 /// `impact`, the tangential one to `friction`.
-ContactWork multiplier_work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
-                            double end_weight);
+ContactWork multiplier_work(const State& begin, const State& end, double end_weight);
 
 }  // namespace carom

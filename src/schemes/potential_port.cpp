@@ -110,15 +110,15 @@ PortSolve PotentialPort::solve(EffectiveSolver& solver, std::span<const double> 
   return {solver.solve(residual, response.rows, tangents_, absolute, dy), {}};
 }
 
-ContactWork PotentialPort::work(const State& begin, const Forces& /*f0*/, const State& end, const Forces& f1,
-                                double /*end_weight*/) const {
-  const ConstraintRows& rows = *f1.rows.rows;
-  ContactWork out{.total = 0.0, .friction = f1.rows.slip_work};
+ContactWork PotentialPort::work(const State& begin, const State& end, double /*end_weight*/) const {
+  const ContactResponse& response = end.forces.rows;
+  const ConstraintRows& rows = *response.rows;
+  ContactWork out{.total = 0.0, .friction = response.slip_work};
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (f1.rows.status[r] == RowStatus::open) continue;
+    if (response.status[r] == RowStatus::open) continue;
     const Vec3 dw = subtract(rows.relative(r, end.q), rows.relative(r, begin.q));
-    out.total += dot(f1.rows.force[r], dw);
-    out.damping -= f1.rows.damper[r] * dw[0];
+    out.total += dot(response.force[r], dw);
+    out.damping -= response.damper[r] * dw[0];
   }
   return out;
 }

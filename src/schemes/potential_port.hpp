@@ -20,8 +20,7 @@ class PotentialPort final : public PenaltyPort {
   PortSolve solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
                   const ContactResponse& response, std::span<const double> residual, double absolute,
                   std::span<double> dy) override;
-  ContactWork work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end,
-                   double end_weight) const override;
+  ContactWork work(const State& begin, const State& end, double end_weight) const override;
 
  private:
   double h_ = 0.0;

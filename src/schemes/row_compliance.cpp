@@ -10,6 +10,7 @@ namespace carom {
 void RowCompliance::use(const std::shared_ptr<const ConstraintRows>& rows) {
   if (rows == rows_) return;
   rows_ = rows;
+  growth_ = {};
   components_.clear();
   lower_.clear();
   columns_.clear();
@@ -17,9 +18,34 @@ void RowCompliance::use(const std::shared_ptr<const ConstraintRows>& rows) {
 }
 
 void RowCompliance::extend(std::span<const RowComponent> wanted, const InverseOperator& inverse) {
-  std::vector<RowComponent> missing;
-  std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(missing),
-               [&](const RowComponent& rc) { return !knows(rc); });
+  std::vector<Index> missing;
+  for (const RowComponent& rc : wanted)
+    if (!knows(rc)) missing.push_back(static_cast<Index>(3 * rc.row + rc.component));
+  add(missing, inverse);
+}
+
+bool RowCompliance::grow_as(const Growth& growth, const InverseOperator& inverse) {
+  const std::size_t calls = calls_in_common(growth_, growth);
+  if (calls == growth_.calls.size() && calls == growth.calls.size()) return false;
+  cut(calls);
+  for (std::size_t k = calls; k < growth.calls.size(); ++k) add(entries_of_call(growth, k), inverse);
+  return true;
+}
+
+/// Keeps the first calls.
+void RowCompliance::cut(std::size_t calls) {
+  cut_growth(growth_, calls);
+  const std::size_t count = growth_.entries.size();
+  for (std::size_t k = count; k < components_.size(); ++k)
+    known_[3 * components_[k].row + components_[k].component] = -1;
+  components_.resize(count);
+  lower_.resize(count);
+  if (columns_.size() > count * dof_count_) columns_.resize(count * dof_count_);
+}
+
+void RowCompliance::add(std::span<const Index> missing, const InverseOperator& inverse) {
+  if (missing.empty()) return;
+  add_call(growth_, missing);
   const ConstraintRows& rows = *rows_;
   const std::size_t n = dof_count_;
   constexpr std::size_t most = 32;  // columns per call: enough for the matrix-matrix kernels of the solver
@@ -27,17 +53,18 @@ void RowCompliance::extend(std::span<const RowComponent> wanted, const InverseOp
     const std::size_t count = std::min(most, missing.size() - first);
     std::vector<double> block(n * count, 0.0);
     for (std::size_t k = 0; k < count; ++k) {
+      const auto i = static_cast<std::size_t>(missing[first + k]);
       Vec3 unit{};
-      unit[missing[first + k].component] = 1.0;
-      rows.scatter(missing[first + k].row, unit, std::span(block).subspan(k * n, n));
+      unit[i % 3] = 1.0;
+      rows.scatter(i / 3, unit, std::span(block).subspan(k * n, n));
     }
     inverse(block, static_cast<int>(count));
     const bool keep = has_columns() && (components_.size() + count) * n <= column_entries_;
     for (std::size_t k = 0; k < count; ++k) {
-      const RowComponent& rc = missing[first + k];
+      const auto i = static_cast<std::size_t>(missing[first + k]);
       const std::span<const double> column = std::span(block).subspan(k * n, n);
-      known_[3 * rc.row + rc.component] = static_cast<int>(components_.size());
-      components_.push_back(rc);
+      known_[i] = static_cast<int>(components_.size());
+      components_.push_back({i / 3, i % 3});
       std::vector<double>& line = lower_.emplace_back();
       for (const RowComponent& other : components_) line.push_back(rows.relative(other.row, column)[other.component]);
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact/delassus.hpp"
+#include "schemes/growth.hpp"
 
 namespace carom {
 
@@ -28,6 +29,10 @@ class RowCompliance {
   void forget() { rows_.reset(); }
   /// Adds those components that are not there yet.
   void extend(std::span<const RowComponent> wanted, const InverseOperator& inverse);
+  /// How it has grown, as 3 row + component: made anew in the same way, it has the same bits.
+  const Growth& growth() const { return growth_; }
+  /// Becomes what this growth has made. True when it was something else.
+  bool grow_as(const Growth& growth, const InverseOperator& inverse);
   /// S of the listed rows, of which row i has counts[i] components, as a dense matrix of blocks by rows; what is not
   /// there yet is solved for.
   std::vector<FrameBlock> blocks(std::span<const std::size_t> rows, std::span<const std::size_t> counts,
@@ -43,8 +48,12 @@ class RowCompliance {
   void add_columns(std::span<const std::size_t> rows, std::span<const Vec3> force, std::span<double> x) const;
 
  private:
+  void add(std::span<const Index> missing, const InverseOperator& inverse);
+  void cut(std::size_t count);
+
   std::size_t dof_count_, column_entries_;
   std::shared_ptr<const ConstraintRows> rows_;
+  Growth growth_;
   std::vector<RowComponent> components_;
   std::vector<int> known_;                  ///< position of each row component, -1 when it is not there yet
   std::vector<std::vector<double>> lower_;  ///< lower triangle of S: line i has i + 1 entries

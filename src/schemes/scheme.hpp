@@ -1,7 +1,6 @@
 // The interface of a time scheme: one step, state in, state out.
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "schemes/system.hpp"
@@ -15,7 +14,7 @@ struct StepRequest {
   double work_tolerance = 0.0;  ///< energy that the residual may leave unbooked in this step
 };
 
-/// What became of a step. Not converging is a return value: the state and the scheme stay as they were.
+/// What became of a step. Not converging is a return value; the end of the step then means nothing.
 struct StepReport {
   bool converged = false;
   int iterations = 0;         ///< Newton iterations on the contact state (0 for explicit schemes)
@@ -24,33 +23,22 @@ struct StepReport {
   LedgerIncrement books;
 };
 
-/// Contact at an instant within a step, for schemes that solve for it there, and the weight of its forces in the
-/// impulse of the step (0: there is none).
-struct ContactWithin {
-  double weight = 0.0;
-  const ContactResponse* rows = nullptr;
-  std::span<const double> u{};
-};
-
 /// One step of a scheme. start() makes velocities and accelerations consistent with the supports and the forces at
-/// state.t; step() must be given the state that start() or the last converged step() has left.
+/// state.t, and fills what else the state holds for the scheme. step() is a function of the state at the beginning and
+/// the request: made again, whatever was made in between, or by another scheme of the same kind on the same system, it
+/// gives the same bits. What a scheme keeps for itself is work space, and results that would be the same made anew
+/// (docs/decisions/0008-state-is-the-only-memory.md).
 class Scheme {
  public:
   virtual ~Scheme() = default;
   virtual void start(State& state, double dt) = 0;
+  /// `end` is another object than `begin`.
   virtual StepReport step(const State& begin, const StepRequest& request, State& end) = 0;
-  /// Takes the last converged step back, so that another may be made from the state that it began with. Not twice in a
-  /// row.
-  virtual void take_back() = 0;
-  /// Forces of the last started or converged state.
-  virtual const Forces& forces() const = 0;
   /// Weight of the force at the end of a step in its impulse, 1 minus that of the force at its beginning: of what
-  /// contact_within() leaves.
+  /// State::within leaves.
   virtual double end_weight() const = 0;
-  /// Of the last converged step.
-  virtual ContactWithin contact_within() const { return {}; }
-  /// Name of the linear solver that serves the scheme, for the log.
-  virtual std::string solver_name() const = 0;
+  /// Name of the linear solver that serves the scheme from this state on, for the log.
+  virtual std::string solver_name(const State& state) const = 0;
 };
 
 }  // namespace carom

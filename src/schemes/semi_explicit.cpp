@@ -36,24 +36,49 @@ struct SemiExplicit::Boundary {
       of_dof[i] = static_cast<Index>(dofs.size());
       dofs.push_back(i);
     }
+    std::vector<bool> is_seen(given.solid.dof_count() / 3, false);
     for (std::size_t k = 0; k < system.solid.cell_count(); ++k) {
       const auto nodes = system.solid.nodes_of_cell(k);
       const bool touches = std::any_of(nodes.begin(), nodes.end(), [this](Index n) {
         const std::size_t i = 3 * static_cast<std::size_t>(n);
         return of_dof[i] >= 0 || of_dof[i + 1] >= 0 || of_dof[i + 2] >= 0;
       });
-      if (touches) cells.push_back(static_cast<Index>(k));
+      if (!touches) continue;
+      cells.push_back(static_cast<Index>(k));
+      for (const Index n : nodes) is_seen[static_cast<std::size_t>(n)] = true;
     }
+    for (std::size_t i = 0; i < of_dof.size(); ++i)
+      if (is_seen[i / 3]) seen.push_back(i);
     contact_operator.inverse = [this](std::span<double> b) { invert(b, 1); };
     contact_operator.delassus = [this](const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {
       return delassus(rows, chosen);
     };
   }
 
-  /// Factors K_bb(u). Throws std::runtime_error when it is not positive definite.
+  /// Brings what is kept to where the memory has it; rows: those of any displacement, where they are fixed. Throws as
+  /// factorise does.
+  void go_on(const ModifiedMassMemory& memory, const ConstraintRows* rows) {
+    if (memory.factored_at != factored_at) {
+      std::vector<double> u(of_dof.size(), 0.0);
+      for (std::size_t k = 0; k < seen.size(); ++k) u[seen[k]] = memory.factored_at[k];
+      factorise(u);
+    }
+    of_nodes.grow_as(memory.nodes, of_dof.size(), [this](std::span<double> b, int columns) { invert(b, columns); });
+    if (rows != nullptr && !std::ranges::equal(memory.rows, W.rows)) {
+      W = memory.rows.empty() ? Delassus{} : make(*rows, {memory.rows.begin(), memory.rows.end()});
+    }
+  }
+  ModifiedMassMemory memory() const { return {factored_at, {W.rows.begin(), W.rows.end()}, of_nodes.growth()}; }
+
+  /// Factors K_bb(u), which the cells that touch the dofs b decide. Throws std::runtime_error when it is not positive
+  /// definite.
   void factorise(std::span<const double> u) {
     W = {};
     of_nodes.forget();
+    if (!system.solid.is_linear()) {
+      factored_at.clear();
+      for (const std::size_t i : seen) factored_at.push_back(u[i]);
+    }
     if (dofs.empty()) return;
     const CsrMatrix K = system.solid.tangent(u);
     CsrMatrix K_bb;
@@ -104,10 +129,6 @@ struct SemiExplicit::Boundary {
   /// W on the chosen rows. Where rows are fixed it is kept, and grows by a quarter at least, with the rows next to
   /// closing, so that a contact that spreads does not make it anew at every step.
   Delassus delassus(const ConstraintRows& rows, std::vector<std::size_t> chosen) {
-    const auto make = [&](std::vector<std::size_t> set) {
-      return make_delassus(rows, std::move(set), of_dof.size(),
-                           [this](std::span<double> b, int columns) { invert(b, columns); });
-    };
     if (!system.contact.is_fixed()) return moving(rows, std::move(chosen));
     std::vector<std::size_t> set;
     std::set_union(chosen.begin(), chosen.end(), W.rows.begin(), W.rows.end(), std::back_inserter(set));
@@ -124,8 +145,12 @@ struct SemiExplicit::Boundary {
       set.insert(set.end(), others.begin(), last);
       std::sort(set.begin(), set.end());
     }
-    W = make(std::move(set));
+    W = make(rows, std::move(set));
     return W;
+  }
+  Delassus make(const ConstraintRows& rows, std::vector<std::size_t> set) const {
+    return make_delassus(rows, std::move(set), of_dof.size(),
+                         [this](std::span<double> b, int columns) { invert(b, columns); });
   }
 
   /// r = f - F(u) on the dofs b, zero elsewhere.
@@ -138,8 +163,10 @@ struct SemiExplicit::Boundary {
 
   const System& system;
   std::vector<std::size_t> dofs;
-  std::vector<Index> of_dof;  ///< position in `dofs`, -1 elsewhere
-  std::vector<Index> cells;   ///< that touch them
+  std::vector<Index> of_dof;        ///< position in `dofs`, -1 elsewhere
+  std::vector<Index> cells;         ///< that touch them
+  std::vector<std::size_t> seen;    ///< all dofs of these cells
+  std::vector<double> factored_at;  ///< their displacement where K_bb was factored, of nonlinear bodies
   std::vector<double> force;
   std::vector<ClosingRow> closing;  ///< every row, in order
   std::optional<Cholesky> factor;
@@ -174,7 +201,7 @@ SemiExplicit::SemiExplicit(const System& system, int max_iterations)
 }
 SemiExplicit::~SemiExplicit() = default;
 
-std::string SemiExplicit::solver_name() const {
+std::string SemiExplicit::solver_name(const State& /*state*/) const {
   return fmt::format("lumped mass, Cholesky factorisation of {} contact dofs", boundary_->dofs.size());
 }
 
@@ -266,7 +293,8 @@ std::string SemiExplicit::no_equilibrium(int iterations, const Correction& c) co
 }
 
 /// Accelerations of the dofs i; those of the imposed ones stand in `state`.
-void SemiExplicit::accelerate(State& state, const Forces& forces) const {
+void SemiExplicit::accelerate(State& state) const {
+  const Forces& forces = state.forces;
   const std::vector<double>& m = system_.mass.node_diagonal();
   parallel_each(state.a.size(), [&](std::size_t i) {
     if (system_.supports.is_prescribed(static_cast<Index>(i))) return;
@@ -278,31 +306,32 @@ void SemiExplicit::start(State& state, double dt) {
   const std::vector<double> velocities = state.v;
   start_with_supports(system_, state);
   for (const std::size_t i : boundary_->dofs) state.v[i] = velocities[i];
-  now_.external.resize(state.q.size());
-  now_.internal.resize(state.q.size());
-  system_.solid.external_force(state.t, system_.mass, now_.external);
+  Forces& forces = state.forces;
+  forces.external.resize(state.q.size());
+  forces.internal.resize(state.q.size());
+  system_.solid.external_force(state.t, system_.mass, forces.external);
   if (!system_.solid.is_linear()) boundary_->factorise(state.q);
   const std::vector<double> given = state.q;
   int iterations = 0;
-  const std::string failure = equilibrate({given, state.contact}, state.q, now_, iterations);
+  const std::string failure = equilibrate({given, state.contact}, state.q, forces, iterations);
   if (!failure.empty()) throw std::runtime_error("the contact nodes find no equilibrium at the start: " + failure);
-  take_history(now_.rows, state);
-  system_.solid.internal_force(state.q, now_.internal);
+  state.memory = boundary_->memory();
+  take_history(forces.rows, state.q, state.contact);
+  system_.solid.internal_force(state.q, forces.internal);
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = acceleration_to_middle(s, dt);
-  accelerate(state, now_);
-  complete_forces(system_, state, now_);
+  accelerate(state);
+  complete_forces(system_, state);
 }
 
 StepReport SemiExplicit::step(const State& begin, const StepRequest& request, State& end) {
   const double h = request.dt;
   const std::size_t n = begin.q.size();
-  end = begin;
+  go_on_from(begin, end);
   end.t = request.t_end;
   StepReport report;
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
-  if (!start_.set(
-          begin.a, h, imposed_, [h](const ImposedStep& s) { return acceleration_to_middle(s, h); }, now_)) {
+  if (!start_.set(begin, h, imposed_, [h](const ImposedStep& s) { return acceleration_to_middle(s, h); })) {
     report.failure = MassSolver::failure;
     return report;
   }
@@ -316,26 +345,29 @@ StepReport SemiExplicit::step(const State& begin, const StepRequest& request, St
     end.q[s.dof] = s.u;
     end.a[s.dof] = acceleration_from_middle(s, h);
   }
-  next_.external.resize(n);
-  next_.internal.resize(n);
-  system_.solid.external_force(request.t_end, system_.mass, next_.external);
+  Forces& forces = end.forces;
+  forces.external.resize(n);
+  forces.internal.resize(n);
+  system_.solid.external_force(request.t_end, system_.mass, forces.external);
   try {
-    report.failure = equilibrate({begin.q, begin.contact}, end.q, next_, report.iterations);
+    const auto fixed_rows = system_.contact.is_fixed() ? system_.contact.rows_at(begin.q, begin.q) : nullptr;
+    boundary_->go_on(std::get<ModifiedMassMemory>(begin.memory), fixed_rows.get());
+    report.failure = equilibrate({begin.q, begin.contact}, end.q, forces, report.iterations);
   } catch (const std::runtime_error& e) {
     report.failure = e.what();  // a stiffness that has become indefinite
   }
   if (!report.failure.empty()) return report;
-  system_.solid.internal_force(end.q, next_.internal);
-  accelerate(end, next_);
+  end.memory = boundary_->memory();
+  system_.solid.internal_force(end.q, forces.internal);
+  accelerate(end);
   parallel_each(n, [&](std::size_t i) { end.v[i] = v_half_[i] + 0.5 * h * end.a[i]; });
   for (const std::size_t i : boundary_->dofs) end.v[i] = (end.q[i] - begin.q[i]) / h;
-  take_history(next_.rows, end);
+  take_history(forces.rows, end.q, end.contact);
   for (const ImposedStep& s : imposed_) end.v[s.dof] = s.v;
-  complete_forces(system_, end, next_);
-  report.books = central_difference_books(system_, begin, now_, a_begin, end, next_, h);
-  book_multipliers(begin, now_, end, next_, report.books.energy);
+  complete_forces(system_, end);
+  report.books = central_difference_books(system_, begin, start_.balance(), a_begin, end, h);
+  book_multipliers(begin, end, report.books.energy);
   report.converged = true;
-  std::swap(now_, next_);
   return report;
 }
 

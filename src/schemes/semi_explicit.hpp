@@ -33,10 +33,8 @@ class SemiExplicit final : public Scheme {
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
-  void take_back() override { std::swap(now_, next_); }
-  const Forces& forces() const override { return now_; }
   double end_weight() const override { return 0.5; }
-  std::string solver_name() const override;
+  std::string solver_name(const State& state) const override;
 
  private:
   struct Boundary;
@@ -50,14 +48,13 @@ class SemiExplicit final : public Scheme {
   Correction correct(const Target& target, std::span<double> u);
   std::string no_equilibrium(int iterations, const Correction& c) const;
   std::string equilibrate(const Target& target, std::span<double> u, Forces& forces, int& iterations);
-  void accelerate(State& state, const Forces& forces) const;
+  void accelerate(State& state) const;
 
   const System& system_;
   int max_iterations_;
   double reach_;  ///< ContactGeometry::reach
   StepStart start_;
   std::unique_ptr<Boundary> boundary_;
-  Forces now_, next_;
   std::vector<double> v_half_, residual_, push_;
   std::vector<ImposedStep> imposed_;
 };

@@ -21,19 +21,20 @@ void Statics::start(State& state, double /*dt*/) {
   start_with_supports(system_, state);
   std::fill(state.v.begin(), state.v.end(), 0.0);
   const std::size_t n = state.q.size();
-  now_.internal.resize(n);
-  now_.external.resize(n);
-  system_.solid.internal_force(state.q, now_.internal);
-  system_.solid.external_force(state.t, system_.mass, now_.external);
-  stage_.start(state, now_);
-  complete_forces(system_, state, now_);
+  Forces& forces = state.forces;
+  forces.internal.resize(n);
+  forces.external.resize(n);
+  system_.solid.internal_force(state.q, forces.internal);
+  system_.solid.external_force(state.t, system_.mass, forces.external);
+  stage_.start(state, 0);
+  complete_forces(system_, state);
 }
 
 StepReport Statics::step(const State& begin, const StepRequest& request, State& end) {
-  end = begin;
+  go_on_from(begin, end);
   end.t = request.t_end;
-  next_.external.resize(begin.q.size());
-  system_.solid.external_force(end.t, system_.mass, next_.external);
+  end.forces.external.resize(begin.q.size());
+  system_.solid.external_force(end.t, system_.mass, end.forces.external);
   // The unknown is the displacement of the step; it stands in end.a while the stage is solved.
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   for (ImposedStep& s : imposed_) {
@@ -46,18 +47,17 @@ StepReport Statics::step(const State& begin, const StepRequest& request, State& 
                                .free = &free_,
                                .x_hat = begin.q,
                                .v_hat = zero_,
-                               .known = next_.external,
+                               .known = end.forces.external,
                                .imposed = imposed_};
-  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end, next_);
+  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
   std::fill(end.a.begin(), end.a.end(), 0.0);
-  complete_forces(system_, end, next_);
+  complete_forces(system_, end);
   const StepWeights weights{.inertia = 1.0, .force = 1.0, .contact = 1.0};
-  report.books = step_books(system_, begin, now_, end, next_, weights,
-                            stage_.port().work(begin, now_, end, next_, weights.support_work))
+  report.books = step_books(system_, begin, Balance(begin.forces), end, weights,
+                            stage_.port().work(begin, end, weights.support_work))
                      .increment;
-  std::swap(now_, next_);
   return report;
 }
 

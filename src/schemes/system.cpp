@@ -23,9 +23,25 @@ Momentum momentum_from(const double* sums) {
   return {{sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5]}};
 }
 
-double damping_work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end) {
+void carry_memory(const State& begin, State& end) {
+  end.memory = begin.memory;
+  end.stages = begin.stages;
+  end.within.weight = 0.0;
+  end.within.rows = {};
+  end.within.u.clear();
+}
+
+void go_on_from(const State& begin, State& end) {
+  carry_memory(begin, end);
+  end.q = begin.q;
+  end.v = begin.v;
+  end.a = begin.a;
+  end.contact = begin.contact;
+}
+
+double damping_work(const State& begin, const State& end) {
   double work = 0.0;
-  for (const Forces* forces : {&forces_begin, &forces_end}) {
+  for (const Forces* forces : {&begin.forces, &end.forces}) {
     const ConstraintRows& rows = *forces->rows.rows;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const double f = forces->rows.damper[r];
@@ -35,7 +51,8 @@ double damping_work(const State& begin, const Forces& forces_begin, const State&
   return work;
 }
 
-void complete_forces(const System& system, const State& state, Forces& forces) {
+void complete_forces(const System& system, State& state) {
+  Forces& forces = state.forces;
   const std::size_t n = system.solid.dof_count();
   forces.inertia.resize(n);
   forces.momentum.resize(n);

@@ -23,27 +23,28 @@ struct System {
   const Supports& supports;
 };
 
-/// All forces at one instant (dof vectors). Where a dof is free, inertia = external - internal + contact up to the
-/// residual of the solver; where it is prescribed, reaction closes the equation.
-struct Forces {
-  std::vector<double> internal, external, contact, reaction;
-  std::vector<double> inertia;   ///< M a
-  std::vector<double> momentum;  ///< M v
-  ContactResponse rows;
-  EnergyTerms stored;          ///< kinetic, strain, contact_stored of the state
-  Momentum total_momentum;     ///< of the state
-  double inertia_power = 0.0;  ///< a . M a
-};
-
 /// Fills internal, external and contact forces at time t, displacement u, velocity v; the contact history stands at
 /// u_begin.
 void evaluate_forces(const System& system, double t, std::span<const double> u_begin,
                      std::span<const RowHistory> history, std::span<const double> u, std::span<const double> v,
                      Forces& forces);
 
-/// Fills what the accelerations and velocities of the state add: inertia, momentum, reactions, stored energies and
-/// total momentum (moments by MomentArms). evaluate_forces has been called.
-void complete_forces(const System& system, const State& state, Forces& forces);
+/// Fills what the accelerations and velocities of the state add to its forces: inertia, momentum, reactions, stored
+/// energies and total momentum (moments by MomentArms). The other forces are there.
+void complete_forces(const System& system, State& state);
+
+/// Gives the end of a step what the scheme carries; nothing stands within the step.
+void carry_memory(const State& begin, State& end);
+/// The same, and displacement, velocity, acceleration and contact history to go on from.
+void go_on_from(const State& begin, State& end);
+
+/// What balances the forces at an instant: M a, the reactions of the supports, and a . M a.
+struct Balance {
+  explicit Balance(const Forces& forces)
+      : inertia(forces.inertia), reaction(forces.reaction), inertia_power(forces.inertia_power) {}
+  std::span<const double> inertia, reaction;
+  double inertia_power;
+};
 
 /// Adds component c of a nodal force or momentum p at x, and its moment about the origin, to six sums.
 inline void add_with_moment(const Vec3& x, std::size_t c, double p, double* sums) {
@@ -86,6 +87,6 @@ class MomentArms {
 };
 
 /// Trapezoidal work of the dampers: of the forces at each end of the step, on that end's rows.
-double damping_work(const State& begin, const Forces& forces_begin, const State& end, const Forces& forces_end);
+double damping_work(const State& begin, const State& end);
 
 }  // namespace carom

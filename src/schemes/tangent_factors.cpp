@@ -7,6 +7,13 @@
 
 namespace carom {
 
+void TangentFactors::go_on(Index negative) {
+  negative_ = negative;
+  const Method method = negative < 0 ? first_ : Method::ldlt;
+  if (method != method_) has_factors_ = false;
+  method_ = method;
+}
+
 std::string TangentFactors::factorize(const CsrMatrix& A) {
   has_factors_ = false;
   singular_row_ = -1;
@@ -20,7 +27,7 @@ std::string TangentFactors::factorize(const CsrMatrix& A) {
       }
     }
     if (method_ == Method::ldlt) ldlt_.factorize(A);
-    if (method_ != first_ && negative_ == 0) negative_ = ldlt_.negative_eigenvalues();
+    if (method_ != first_ && negative_ < 0) negative_ = ldlt_.negative_eigenvalues();
   } catch (const SingularMatrix& e) {
     singular_row_ = e.row;
     return e.what();
@@ -39,11 +46,11 @@ void TangentFactors::solve(std::span<double> b, int columns) const {
     ldlt_.solve(b, columns);
 }
 
-std::string TangentFactors::name() const {
-  if (method_ == Method::cholesky) return "Cholesky factorisation";
-  if (first_ == method_) return "LDL^T factorisation";
-  return fmt::format("LDL^T factorisation since a tangent had {} negative eigenvalue{}", negative_,
-                     negative_ == 1 ? "" : "s");
+std::string TangentFactors::name(Index negative) const {
+  if (first_ == Method::ldlt) return "LDL^T factorisation";
+  if (negative < 0) return "Cholesky factorisation";
+  return fmt::format("LDL^T factorisation since a tangent had {} negative eigenvalue{}", negative,
+                     negative == 1 ? "" : "s");
 }
 
 }  // namespace carom

@@ -12,13 +12,18 @@
 namespace carom {
 
 /// A tangent beyond a limit or bifurcation point is regular but indefinite. From the first such matrix on all are
-/// factored as L D L^T, which keeps the analysis of the pattern, so that a run changes its solver once at most.
+/// factored as L D L^T, which keeps the analysis of the pattern, so that a run changes its solver once at most. That it
+/// has is part of the state (StageMemory::negative_eigenvalues).
 class TangentFactors {
  public:
   enum class Method : std::uint8_t { cholesky, ldlt };
 
   explicit TangentFactors(Method first) : first_(first), method_(first) {}
 
+  /// Number of negative eigenvalues of the first matrix so far that was not positive definite; -1: all were.
+  Index negative_eigenvalues() const { return negative_; }
+  /// Goes on from there; factors made by the other method are forgotten.
+  void go_on(Index negative);
   /// Factors A. Returns why there are no factors, "" when there are.
   std::string factorize(const CsrMatrix& A);
   /// The row of A that the last call found to be without a pivot, and so in a motion without resistance; -1: none.
@@ -27,11 +32,11 @@ class TangentFactors {
   /// Overwrites b by A^-1 b, column by column.
   void solve(std::span<double> b, int columns) const;
   /// For the log; says how many directions of the first indefinite tangent were unstable.
-  std::string name() const;
+  std::string name(Index negative) const;
 
  private:
   Method first_, method_;
-  Index negative_ = 0;  ///< eigenvalues of the first matrix that was not positive definite
+  Index negative_ = -1;
   Index singular_row_ = -1;
   bool has_factors_ = false;
   std::optional<Cholesky> cholesky_;

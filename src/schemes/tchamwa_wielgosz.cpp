@@ -23,20 +23,20 @@ TchamwaWielgosz::TchamwaWielgosz(const System& system, double phi)
 
 void TchamwaWielgosz::start(State& state, double dt) {
   start_with_supports(system_, state);
-  evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, now_);
+  evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, state.forces);
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = mean_acceleration(s, dt);
-  start_accelerations(system_, mass_solver_, state, now_);
+  start_accelerations(system_, mass_solver_, state);
 }
 
 StepReport TchamwaWielgosz::step(const State& begin, const StepRequest& request, State& end) {
   const double h = request.dt;
-  end = begin;
+  go_on_from(begin, end);
   end.t = request.t_end;
   StepReport report;
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   const auto wanted = [h](const ImposedStep& s) { return mean_acceleration(s, h); };
-  if (!start_.set(begin.a, h, imposed_, wanted, now_)) {
+  if (!start_.set(begin, h, imposed_, wanted)) {
     report.failure = MassSolver::failure;
     return report;
   }
@@ -50,20 +50,19 @@ StepReport TchamwaWielgosz::step(const State& begin, const StepRequest& request,
     end.q[s.dof] = s.u;
     end.v[s.dof] = s.v;
   }
-  evaluate_forces(system_, request.t_end, begin.q, begin.contact, end.q, end.v, next_);
+  evaluate_forces(system_, request.t_end, begin.q, begin.contact, end.q, end.v, end.forces);
   for (const ImposedStep& s : imposed_) end.a[s.dof] = mean_acceleration(s, h);
-  force_sum(next_, rhs_);
+  force_sum(end.forces, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);
   if (report.linear_iterations < 0) {
     report.failure = MassSolver::failure;
     return report;
   }
-  take_history(next_.rows, end);
-  complete_forces(system_, end, next_);
-  report.books = explicit_books(system_, begin, now_, end, next_, a_begin, B_, h);
-  report.books.impulse = combine(h, resultant(system_, begin.q, now_), 0.0, {});
+  take_history(end.forces.rows, end.q, end.contact);
+  complete_forces(system_, end);
+  report.books = explicit_books(system_, begin, start_.balance(), end, a_begin, B_, h);
+  report.books.impulse = combine(h, resultant(system_, begin, start_.balance()), 0.0, {});
   report.converged = true;
-  std::swap(now_, next_);
   return report;
 }
 

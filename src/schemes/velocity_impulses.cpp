@@ -22,12 +22,15 @@ VelocityImpulses::VelocityImpulses(const System& system)
   };
 }
 
+void VelocityImpulses::invert(std::span<double> b, int columns) {
+  const std::size_t dofs = push_.size();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) operator_.inverse(b.subspan(k * dofs, dofs));
+}
+
 /// From the compliances of the nodes; no rows where there are too many nodes.
 Delassus VelocityImpulses::of_consistent_mass(const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {
   const std::size_t dofs = push_.size(), n = chosen.size();
-  const InverseOperator inverse = [&](std::span<double> b, int columns) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) operator_.inverse(b.subspan(k * dofs, dofs));
-  };
+  const InverseOperator inverse = [this](std::span<double> b, int columns) { invert(b, columns); };
   Delassus W;
   if (!nodes_.extend(rows, chosen, dofs, inverse)) return W;
   std::vector<std::size_t> components;
@@ -46,7 +49,7 @@ bool VelocityImpulses::accelerations(std::span<const double> contact, std::span<
   return mass_.solve(contact, a) >= 0;
 }
 
-std::string VelocityImpulses::respond(double k, const ContactResponse& closed, std::span<double> v) {
+std::string VelocityImpulses::respond(double k, const ContactResponse& closed, Growth& nodes, std::span<double> v) {
   const ConstraintRows& rows = *closed.rows;
   open_response(closed.rows, closed.history.size(), response_);
   closing_.clear();
@@ -54,7 +57,14 @@ std::string VelocityImpulses::respond(double k, const ContactResponse& closed, s
     if (closed.status[r] != RowStatus::open)
       closing_.push_back({r, scaled(rows.relative(r, v), 1.0 / k), rows.rounding(r, v) / k});
   }
+  if (closing_.empty()) {
+    std::fill(push_.begin(), push_.end(), 0.0);
+    return {};
+  }
+  mass_.factorise();
+  nodes_.grow_as(nodes, push_.size(), [this](std::span<double> b, int columns) { invert(b, columns); });
   std::string failure = close_rows(system_.contact, closing_, closed.history, operator_, response_, push_);
+  nodes = nodes_.growth();
   if (failure.empty()) parallel_each(v.size(), [&](std::size_t i) { v[i] += k * push_[i]; });
   return failure;
 }

@@ -29,9 +29,9 @@ class VelocityImpulses {
 
   /// a = M^-1 contact on the free dofs, 0 on the others. False when the mass matrix cannot be solved.
   bool accelerations(std::span<const double> contact, std::span<double> a);
-  /// v: v* on entry, v on return. `closed`: the multipliers at the same instant. Returns why there are no such forces,
-  /// "" when there are.
-  std::string respond(double k, const ContactResponse& closed, std::span<double> v);
+  /// v: v* on entry, v on return. `closed`: the multipliers at the same instant. `nodes`: StageMemory::mass_nodes,
+  /// which grows. Returns why there are no such forces, "" when there are.
+  std::string respond(double k, const ContactResponse& closed, Growth& nodes, std::span<double> v);
 
   /// Lambda on the rows of the last respond().
   const ContactResponse& response() const { return response_; }
@@ -39,6 +39,7 @@ class VelocityImpulses {
   std::span<const double> push() const { return push_; }
 
  private:
+  void invert(std::span<double> b, int columns);
   Delassus of_consistent_mass(const ConstraintRows& rows, const std::vector<std::size_t>& chosen);
 
   const System& system_;

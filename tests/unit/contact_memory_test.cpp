@@ -18,13 +18,12 @@ constexpr double round_off = 1e-13;  // positions below 10, some ten operations
 /// The history of a step that ended at u with the rows made there.
 std::vector<RowHistory> history_at(const ContactGeometry& contact, const std::vector<double>& u,
                                    const std::vector<RowHistory>& before) {
-  State state;
-  state.q = u;
   ContactResponse response;
   response.rows = contact.rows_at(u, u, before);
   response.history.resize(contact.slots());
-  take_history(response, state);
-  return state.contact;
+  std::vector<RowHistory> history;
+  take_history(response, u, history);
+  return history;
 }
 
 /// Gap of slot 0 of a node that goes by `way` in one step after the other, and the last normal.

@@ -113,9 +113,9 @@ struct BarMeasures {
   double impact = 0.0, algorithmic = 0.0, quadrature = 0.0;  ///< at the end, over the energy
 };
 
-inline double floor_force(const Scheme& scheme) {
+inline double floor_force(const State& state) {
   double sum = 0.0;
-  for (const Vec3& f : scheme.forces().rows.force) sum += f[0];
+  for (const Vec3& f : state.forces.rows.force) sum += f[0];
   return sum;
 }
 
@@ -130,8 +130,8 @@ inline BarMeasures measure(const BarScheme& s, const BarCase& bar, double h, int
   double squares = 0.0, exact_squares = 0.0, velocity_sum = 0.0;
   State before;
   std::vector<double> first;
-  const auto observe = [&](const State& state, const Scheme& scheme) {
-    const double force = floor_force(scheme), wanted = exact(state.t);
+  const auto observe = [&](const State& state) {
+    const double force = floor_force(state), wanted = exact(state.t);
     squares += (force - wanted) * (force - wanted);
     exact_squares += wanted * wanted;
     out.peak = std::max(out.peak, force);
@@ -156,7 +156,7 @@ inline BarMeasures measure(const BarScheme& s, const BarCase& bar, double h, int
   out.force_error = std::sqrt(squares / exact_squares);
   out.energy = (energy + run.ledger.growth()) / energy;
   out.kinetic = now.kinetic / energy;
-  out.centre_speed = s.scheme->forces().total_momentum.linear[2] / (bar.density * bar.length * bar.edge * bar.edge);
+  out.centre_speed = run.state.forces.total_momentum.linear[2] / (bar.density * bar.length * bar.edge * bar.edge);
   out.velocity_error = velocity_sum / (static_cast<double>(steps) * bar.cells * bar.speed);
   out.imbalance = run.imbalance / energy;
   out.impact = now.impact / energy;

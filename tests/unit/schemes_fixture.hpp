@@ -70,19 +70,19 @@ struct History {
   std::string failure{};  ///< of the step that did not converge
 };
 
-inline double shadow_energy(const Scheme& scheme, double h) {
-  return scheme.forces().stored.mechanical() - h * h / 8.0 * scheme.forces().inertia_power;
+inline double shadow_energy(const State& state, double h) {
+  return state.forces.stored.mechanical() - h * h / 8.0 * state.forces.inertia_power;
 }
 
-/// Steps `scheme` from `begin` (before start()) by n steps of h. observe(state, scheme) is called after the start and
+/// Steps `scheme` from `begin` (before start()) by n steps of h. observe(state) is called after the start and
 /// every step. The residual may leave 1e-12 of the energy unbooked over the run, as in a case.
 template <class Observe>
 History march(Scheme& scheme, const State& begin, double h, int n, const Observe& observe) {
   State state = begin, next;
   scheme.start(state, h);
-  History out{state, {scheme.forces().stored, scheme.forces().total_momentum, 1.0}};
-  double shadow = shadow_energy(scheme, h);
-  observe(state, scheme);
+  History out{state, {state.forces.stored, state.forces.total_momentum, 1.0}};
+  double shadow = shadow_energy(state, h);
+  observe(state);
   for (int i = 1; i <= n && out.converged; ++i) {
     const double tolerance = 1e-12 * out.ledger.scale() / n;
     const StepReport report = scheme.step(state, {i * h, h, tolerance}, next);
@@ -93,24 +93,24 @@ History march(Scheme& scheme, const State& begin, double h, int n, const Observe
     }
     std::swap(state, next);
     out.linear_iterations += report.linear_iterations;
-    out.ledger.add(report.books, scheme.forces().total_momentum);
+    out.ledger.add(report.books, state.forces.total_momentum);
     out.imbalance = std::max(out.imbalance, std::abs(out.ledger.imbalance()));
     const Momentum error = out.ledger.momentum_error();
     for (std::size_t c = 0; c < 3; ++c) {
       out.linear_momentum_error = std::max(out.linear_momentum_error, std::abs(error.linear[c]));
       out.angular_momentum_error = std::max(out.angular_momentum_error, std::abs(error.angular[c]));
     }
-    const double shadow_now = shadow_energy(scheme, h);
+    const double shadow_now = shadow_energy(state, h);
     out.shadow_change = std::max(out.shadow_change, std::abs(shadow_now - shadow));
     shadow = shadow_now;
-    observe(state, scheme);
+    observe(state);
   }
   out.state = state;
   return out;
 }
 
 inline History march(Scheme& scheme, const State& begin, double h, int n) {
-  return march(scheme, begin, h, n, [](const State&, const Scheme&) {});
+  return march(scheme, begin, h, n, [](const State& /*state*/) {});
 }
 
 struct NewmarkParameters {

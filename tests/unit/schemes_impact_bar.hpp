@@ -43,8 +43,8 @@ inline ImpactBarRun run_impact_bar(const Problem& p, Scheme& scheme, double h) {
   ImpactBarRun out;
   const double weight = p.mass.total() * ImpactBar::speed;
   double square = 0.0, exact_square = 0.0, initial = 0.0, energy = 0.0;
-  const auto observe = [&](const State& state, const Scheme& s) {
-    const Forces& forces = s.forces();
+  const auto observe = [&](const State& state) {
+    const Forces& forces = state.forces;
     double wall = 0.0;
     for (std::size_t i = 2; i < forces.contact.size(); i += 3) wall += forces.contact[i];
     const double exact = state.t > ImpactBar::touch && state.t < ImpactBar::release ? ImpactBar::force : 0.0;

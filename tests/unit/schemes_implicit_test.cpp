@@ -73,8 +73,8 @@ TEST(ImplicitSchemes, DampHighFrequenciesAsTheirSpectralRadiusSays) {
     const Problem p(guided_cell());
     const auto scheme = generalized_alpha(p, h, parameters);
     std::vector<double> u;
-    const History run = march(*scheme, released(p, 0.1), h, 40,
-                              [&](const State& state, const Scheme&) { u.push_back(std::abs(state.q[head(p)])); });
+    const History run =
+        march(*scheme, released(p, 0.1), h, 40, [&](const State& state) { u.push_back(std::abs(state.q[head(p)])); });
     ASSERT_TRUE(run.converged) << run.failure;
     // u_n ~ n^2 radius^n where three roots coincide: over these steps 4^(1/20) = 1.07 of the radius, and 2 % about it.
     EXPECT_NEAR(std::pow(u[40] / u[20], 1.0 / 20.0), radius, 0.09 * radius);
@@ -89,7 +89,7 @@ TEST(NonsmoothGeneralizedAlphaScheme, HasItsSpectralRadius) {
     const Problem p(guided_cell());
     std::vector<double> u;
     const History run = march(*nonsmooth_scheme("", radius).with(p, h), released(p, 0.1), h, 40,
-                              [&](const State& state, const Scheme&) { u.push_back(std::abs(state.q[head(p)])); });
+                              [&](const State& state) { u.push_back(std::abs(state.q[head(p)])); });
     ASSERT_TRUE(run.converged) << run.failure;
     EXPECT_NEAR(std::pow(u[40] / u[20], 1.0 / 20.0), radius, 0.09 * radius);  // as above
   }
@@ -104,11 +104,10 @@ TEST(NonsmoothGeneralizedAlphaScheme, KeepsTheEnergyOfALinearBodyForASpectralRad
   begin.v = random_vector(p.solid.dof_count(), 3);
   for (const double radius : {1.0, 0.8}) {
     double first = 0.0, last = 0.0;
-    const History run =
-        march(*nonsmooth_scheme("", radius).with(p, 0.3), begin, 0.3, 200, [&](const State&, const Scheme& scheme) {
-          last = scheme.forces().stored.mechanical();
-          if (first == 0.0) first = last;
-        });
+    const History run = march(*nonsmooth_scheme("", radius).with(p, 0.3), begin, 0.3, 200, [&](const State& state) {
+      last = state.forces.stored.mechanical();
+      if (first == 0.0) first = last;
+    });
     ASSERT_TRUE(run.converged) << run.failure;
     if (radius == 1.0)
       EXPECT_NEAR(last, first, 1e-10 * first);
@@ -127,8 +126,8 @@ TEST(ImplicitSchemes, StayBoundedAtLongSteps) {
     SCOPED_TRACE(one.name);
     const double h = 50.0;  // periods of the block are 1 to 20
     double largest_energy = 0.0, first = 0.0;
-    march(*one.with(p, h), begin, h, 200, [&](const State&, const Scheme& scheme) {
-      const double energy = scheme.forces().stored.mechanical();
+    march(*one.with(p, h), begin, h, 200, [&](const State& state) {
+      const double energy = state.forces.stored.mechanical();
       if (first == 0.0) first = energy;
       largest_energy = std::max(largest_energy, energy);
     });
@@ -153,19 +152,15 @@ TEST(ImplicitSchemes, LeaveTheStateWhereAStepFails) {
     State state = p.moving({0.1, 0.05, -0.2}), next;
     scheme->start(state, h);
     const State kept = state;
-    const std::vector<double> internal = scheme->forces().internal, contact = scheme->forces().contact;
     const StepReport failed = scheme->step(state, {h, h, 1e-12}, next);
     EXPECT_FALSE(failed.converged);
     EXPECT_FALSE(failed.failure.empty());
     EXPECT_EQ(state, kept);
-    EXPECT_EQ(scheme->forces().internal, internal);
-    EXPECT_EQ(scheme->forces().contact, contact);
   }
 }
 
-// Made again after a longer one that was taken back, steps come out the same, up to what the tolerance of equilibrium
-// leaves of different start values: 1e-12 of an energy of order 1 each, its root in displacements.
-TEST(ImplicitSchemes, TakeAStepBack) {
+// Made again after a longer one, steps come out the same to the bit.
+TEST(ImplicitSchemes, AreNotTouchedByAStepThatIsGivenUp) {
   for (const ImplicitScheme& one : implicit_schemes()) {
     SCOPED_TRACE(one.name);
     std::vector<State> ends;
@@ -179,20 +174,16 @@ TEST(ImplicitSchemes, TakeAStepBack) {
       for (int i = 1; i <= 4; ++i) {
         if (longer_first) {
           ASSERT_TRUE(scheme->step(state, {(i + 1) * h, 2.0 * h, 1e-14}, next).converged);
-          scheme->take_back();
         }
         const StepReport report = scheme->step(state, {i * h, h, 1e-14}, next);
         ASSERT_TRUE(report.converged) << report.failure;
         std::swap(state, next);
-        touched = touched || largest(scheme->forces().contact) > 0.0;
+        touched = touched || largest(state.forces.contact) > 0.0;
       }
       EXPECT_TRUE(touched);
       ends.push_back(state);
     }
-    for (std::size_t i = 0; i < ends[0].q.size(); ++i) {
-      EXPECT_NEAR(ends[0].q[i], ends[1].q[i], 1e-6);
-      EXPECT_NEAR(ends[0].v[i], ends[1].v[i], 1e-5);
-    }
+    EXPECT_TRUE(ends[0] == ends[1]);
   }
 }
 
@@ -354,7 +345,7 @@ Rebound rebound(const ImplicitScheme& one, double e) {
     std::swap(state, next);
     out.loss += report.books.energy.impact;
     // The rows are those of the four lower nodes.
-    if (scheme->forces().rows.force[0][0] > 0.0) out.speed = state.v[2];
+    if (state.forces.rows.force[0][0] > 0.0) out.speed = state.v[2];
   }
   return out;
 }
@@ -412,9 +403,9 @@ TEST(StaticsScheme, FindsTheForceOnAPushedColumn) {
     const Problem p(model);
     Statics scheme(p.system, {.enforcement = e, .penetration = 1e-9}, stable_step(p.system).omega_max_squared_free);
     double force = 0.0;
-    const History run = march(scheme, p.moving({}), 1.0, 2, [&](const State&, const Scheme& s) {
+    const History run = march(scheme, p.moving({}), 1.0, 2, [&](const State& state) {
       force = 0.0;
-      for (std::size_t i = 2; i < s.forces().contact.size(); i += 3) force += s.forces().contact[i];
+      for (std::size_t i = 2; i < state.forces.contact.size(); i += 3) force += state.forces.contact[i];
     });
     ASSERT_TRUE(run.converged) << run.failure;
     EXPECT_NEAR(force, 2.0 * 0.15 / 3.0, 1e-7);

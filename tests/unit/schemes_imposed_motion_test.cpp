@@ -74,13 +74,13 @@ void expect_exact_motion(const P& p, const SchemeSettings& settings, MotionKind 
   state.v = state.q;
   const std::size_t carrier = state.q.size() - 3;
   scheme->start(state, h);
-  EnergyLedger ledger(scheme->forces().stored, scheme->forces().total_momentum, 1.0);
+  EnergyLedger ledger(state.forces.stored, state.forces.total_momentum, 1.0);
   double momentum = 0.0;
   for (int i = 1; i <= 12; ++i) {
     const StepReport report = scheme->step(state, {i * h, h, 1e-14}, next);
     ASSERT_TRUE(report.converged) << report.failure;
     std::swap(state, next);
-    ledger.add(report.books, scheme->forces().total_momentum);
+    ledger.add(report.books, state.forces.total_momentum);
     // rounding of at most twelve sums of numbers below 1
     EXPECT_NEAR(state.q[foot], exact(kind, f, state.t), 1e-15) << state.t;
     EXPECT_NEAR(state.q[carrier], exact(kind, f, state.t), 1e-15) << state.t;
@@ -131,13 +131,14 @@ TEST(ImposedMotion, DoesNotRingAfterAKink) {
     SchemeSettings settings;  // Newmark 1/4, 1/2
     settings.enforcement = EnforcementKind::penalty;
     const auto scheme = make_scheme(p.system, settings, 0.1, 100.0);
-    march(*scheme, p.moving({}), 0.1, 20, [&](const State& state, const Scheme& s) {
+    march(*scheme, p.moving({}), 0.1, 20, [&](const State& state) {
       if (state.t < 0.95) return;
       EXPECT_NEAR(state.a[foot], 0.0, 1e-13);
       // Without inertia of its own the support gives what the cells pull: the reaction holds no more than M a of
       // its neighbours and the internal force.
       double inertia = 0.0;
-      for (std::size_t i = 2; i < state.a.size(); i += 3) inertia = std::max(inertia, std::abs(s.forces().inertia[i]));
+      for (std::size_t i = 2; i < state.a.size(); i += 3)
+        inertia = std::max(inertia, std::abs(state.forces.inertia[i]));
       EXPECT_LT(inertia, 2.0);
     });
   }

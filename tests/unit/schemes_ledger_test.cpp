@@ -198,9 +198,9 @@ TEST(Books, AgreeWithIndependentSums) {
   State before;
   std::vector<double> F_before, C_before, F(n), C(n), work(n);
   AsterTerms sums;
-  const auto observe = [&](const State& now, const Scheme& scheme) {
+  const auto observe = [&](const State& now) {
     p.solid.internal_force(now.q, F);
-    C = scheme.forces().contact;
+    C = now.forces.contact;
     if (!before.q.empty()) {
       for (std::size_t i = 0; i < n; ++i) work[i] = now.v[i] - before.v[i];
       std::vector<double> M_dv(n);
@@ -245,8 +245,8 @@ TEST(Books, AlgorithmicEnergyIsKrenksIdentity) {
   State before, begin = p.moving({});
   begin.v = random_vector(n, 3);
   double dissipated = 0.0, first = 0.0, last = 0.0;
-  const auto observe = [&](const State& now, const Scheme& scheme) {
-    const double correction = 0.5 * kappa * dot(now.a, scheme.forces().inertia);
+  const auto observe = [&](const State& now) {
+    const double correction = 0.5 * kappa * dot(now.a, now.forces.inertia);
     if (before.q.empty()) {
       first = correction;
     } else {

@@ -31,7 +31,7 @@ TEST(PrescribedMotion, IsMetByNewmark) {
   for (const MotionKind kind : {MotionKind::displacement, MotionKind::velocity, MotionKind::acceleration}) {
     const Problem p(driven(kind));
     const double h = 0.05;
-    march(*newmark(p, h), p.moving({}), h, 90, [&](const State& state, const Scheme&) {
+    march(*newmark(p, h), p.moving({}), h, 90, [&](const State& state) {
       const std::vector<double>& x = kind == MotionKind::displacement ? state.q
                                      : kind == MotionKind::velocity   ? state.v
                                                                       : state.a;
@@ -48,7 +48,7 @@ TEST(PrescribedMotion, IsMetByCentralDifferences) {
       const double h = 0.05;
       ASSERT_LT(h, stable_step(p.system).dt);
       double q_before = 0.0;
-      march(*central(p), p.moving({}), h, 90, [&](const State& state, const Scheme&) {
+      march(*central(p), p.moving({}), h, 90, [&](const State& state) {
         const double q = driven_value(p, state.q);
         if (kind == MotionKind::displacement) {
           EXPECT_NEAR(q, moving_function(state.t), round_off);

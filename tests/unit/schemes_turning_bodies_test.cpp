@@ -83,11 +83,11 @@ TEST(TurningBodies, SpinAboutTheMiddleAxisTurnsOver) {
     std::vector<double> flips;
     double before = start[1], energy_drift = 0.0;
     const auto scheme = implicit_steps ? energy_momentum(p, h) : central(p);
-    const History run = march(*scheme, spinning(p, {}, start), h, 30000, [&](const State& state, const Scheme& now) {
+    const History run = march(*scheme, spinning(p, {}, start), h, 30000, [&](const State& state) {
       const double w = body_angular_velocity(body, state)[1];
       if (w * before < 0.0) flips.push_back(state.t - h * w / (w - before));
       before = w;
-      energy_drift = std::max(energy_drift, std::abs(now.forces().stored.mechanical() / (0.5 * twice_energy) - 1.0));
+      energy_drift = std::max(energy_drift, std::abs(state.forces.stored.mechanical() / (0.5 * twice_energy) - 1.0));
     });
     ASSERT_TRUE(run.converged) << run.failure;
     ASSERT_GE(flips.size(), 4U);

@@ -1,0 +1,16 @@
+// What a contact slot remembers from step to step.
+#pragma once
+
+#include "base/types.hpp"
+
+namespace carom {
+
+/// History of one contact slot, as vectors of space, so that they outlive the row's frame.
+struct RowHistory {
+  Vec3 slip{};        ///< elastic tangential slip of regularised friction (length)
+  Vec3 multiplier{};  ///< force on the positive side (augmented Lagrangian; start value of exact enforcements)
+  Index facet = -1;   ///< what the row was behind (ConstraintRows::facet); -1: in front, or out of reach
+  friend bool operator==(const RowHistory&, const RowHistory&) = default;
+};
+
+}  // namespace carom
