@@ -23,6 +23,10 @@ SectionSchema<CasePart> part_section() {
       "What the cells are a section of: HEXA8 are solid; QUAD4 in a plane z = const are plane_strain, plane_stress or "
       "axisymmetric (about the y axis, x being the radius); LINE2 are bars.",
       {.choices = {"solid", "plane_strain", "plane_stress", "axisymmetric", "bar"}});
+  s.key("type", &CasePart::type,
+        "Which of the cells of the group are meant, where it has several types: one [[part]] for each of them.",
+        {.choices = {"HEXA8", "HEXA20", "HEXA27", "TETRA4", "TETRA10", "PENTA6", "PYRA5", "QUAD4", "QUAD8", "TRIA3",
+                     "TRIA6", "LINE2"}});
   s.key("thickness", &CasePart::thickness, "Thickness of plane cells.",
         {.unit = Dimension::length, .range = greater_than(0.0), .kinds = {"plane_strain", "plane_stress"}});
   s.key("area", &CasePart::area, "Area of the section of the bars.",

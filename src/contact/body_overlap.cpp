@@ -10,9 +10,8 @@
 #include "contact/facet_geometry.hpp"
 #include "contact/facet_projection.hpp"
 #include "contact/rigid_shapes.hpp"
-#include "element/cell_shapes.hpp"
-#include "element/hexa8.hpp"
 #include "math/vec3.hpp"
+#include "mesh/cell_size.hpp"
 #include "mesh/skin.hpp"
 #include "model/node_lengths.hpp"
 #include "parallel/threads.hpp"
@@ -21,8 +20,7 @@ namespace carom {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Faces by the parent coordinate k and the side: face 2 k at xi_k = -1, 2 k + 1 at xi_k = +1.
-constexpr std::size_t face_count = 6;
+constexpr std::size_t most_faces = 6;  ///< of a cell
 
 /// A signed distance from the surface that faces the node within `reach`, infinite where none does.
 double distance_behind(const Surface& surface, std::span<const Vec3> X, const Vec3& x, double reach) {
@@ -62,7 +60,7 @@ struct BodyOverlap::Impl {
   PlacedCells cells;                                   ///< where they were looked at last
   BoxTree tree;                                        ///< of their bounds
   std::vector<double> length;                          ///< by cell
-  std::vector<std::array<bool, face_count>> on_skin;   ///< by cell: which faces
+  std::vector<std::array<bool, most_faces>> on_skin;   ///< by cell: which of its faces
   std::vector<double> node_length;                     ///< by node: the least of its cells, infinite without
   std::vector<Index> skin_nodes;                       ///< increasing
   std::vector<bool> is_skin;                           ///< by node
@@ -83,9 +81,7 @@ struct BodyOverlap::Impl {
 
 BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
     : model(of), cells(of, of.mesh->coordinates), node_length(node_lengths(of)) {
-  for (std::size_t k = 0; k < cells.ref.size(); ++k) {
-    length.push_back(cell_length(std::span(cells.corners[k]).first(cells.nodes[k].size())));
-  }
+  for (std::size_t k = 0; k < cells.ref.size(); ++k) length.push_back(cell_length(cells.type[k], cells.own_corners(k)));
   tree.build(cells.bounds);
   find_skin();
   find_bodies();
@@ -116,16 +112,8 @@ void BodyOverlap::Impl::find_skin() {
     const auto at = std::lower_bound(numbers.begin(), numbers.end(), std::pair(outer.cell, std::size_t{0}));
     if (at == numbers.end() || at->first != outer.cell) continue;
     const std::size_t k = at->second;
-    const std::span<const Index> nodes = cells.nodes[k];
-    Vec3 sum{};  // of the parent coordinates of the facet's nodes: +-their number along the normal, zero across
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      if (std::find(outer.facet.begin(), outer.facet.end(), nodes[a]) == outer.facet.end()) continue;
-      is_skin[nodes[a]] = true;
-      sum = add(sum, hexa8::node_position[a]);
-    }
-    const std::size_t axes = nodes.size() == 4 ? 2 : 3;
-    for (std::size_t c = 0; c < axes; ++c)
-      if (std::abs(sum[c]) == static_cast<double>(outer.facet.size)) on_skin[k][2 * c + (sum[c] > 0.0 ? 1 : 0)] = true;
+    on_skin[k][static_cast<std::size_t>(outer.face)] = true;
+    for (const Index n : outer.facet) is_skin[n] = true;
   }
   std::vector<Index> position(is_skin.size(), -1);
   for (std::size_t n = 0; n < is_skin.size(); ++n) {
@@ -163,20 +151,18 @@ bool BodyOverlap::Impl::may_meet(std::size_t skin_node, Index cell) const {
 
 /// In cells; zero outside of the cell.
 double BodyOverlap::Impl::depth(std::size_t skin_node, Index cell, const Vec3& x) const {
-  const std::optional<Vec3> xi = parent_point(cells.corners[cell], x);
-  if (!xi || std::max({std::abs((*xi)[0]), std::abs((*xi)[1]), std::abs((*xi)[2])}) >= 1.0) return 0.0;
+  const auto k = static_cast<std::size_t>(cell);
+  const std::optional<CornerValues> N = cells.inside(k, x);
+  if (!N) return 0.0;
   double share = infinity;
-  for (std::size_t face = 0; face < face_count; ++face)
-    if (on_skin[cell][face])
-      share = std::min(share, 0.5 * (face % 2 == 1 ? 1.0 - (*xi)[face / 2] : 1.0 + (*xi)[face / 2]));
+  for (std::size_t face = 0; face < most_faces; ++face)
+    if (on_skin[k][face]) share = std::min(share, cells.depth_under(k, face, *N));
   if (share == infinity) {
     share = 0.0;
-    const std::array<double, 8> N = hexa8::shape(*xi);
-    const std::span<const Index> nodes = cells.nodes[cell];
-    for (std::size_t a = 0; a < 8; ++a)
-      if (!is_skin[nodes[a % nodes.size()]]) share += N[a];
+    for (std::size_t a = 0; a < cells.own_corners(k).size(); ++a)
+      if (!is_skin[cells.nodes[k][a]]) share += (*N)[a];
   }
-  const double now = share * cell_length(std::span(cells.corners[cell]).first(cells.nodes[cell].size()));
+  const double now = share * cell_length(cells.type[k], cells.own_corners(k));
   return now / std::min(length[cell], node_length[skin_nodes[skin_node]]);
 }
 

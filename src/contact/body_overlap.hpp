@@ -18,11 +18,10 @@ struct Overlap {
   Index contact = -1;    ///< the contact with the obstacle
 };
 
-/// Looks for nodes of the skins of HEXA8 and QUAD4 bodies
+/// Looks for nodes of the skins of solids and plane bodies
 /// - inside of cells that are neither their own nor neighbours of those: of other bodies, or of a fold of their own.
-/// The
-///   depth is that under the skin, (1 -+ xi_k) / 2 of the cell's length for the nearest of its skin faces; a cell
-///   without skin faces counts by the shape functions of its nodes that are not on the skin, at most its length;
+///   The depth is that under the nearest of the cell's skin faces (PlacedCells::depth_under) times the cell's length; a
+///   cell without skin faces counts by the shape functions of its corners that are not on the skin, at most its length;
 /// - inside of rigid obstacles or behind their planes and surfaces, for the nodes that a contact names.
 /// Depths are taken over the smaller of the reference lengths of the cells at the node and of the cell it is inside of.
 /// What overlaps at the start does so on purpose: growth counts. Bars have no inside.

@@ -10,13 +10,8 @@
 namespace carom {
 namespace {
 
-constexpr double inside = 1.0 - 1e-5;  // parent coordinates
-constexpr double under = 1e-3;         // of the facet's size
-
-bool contains(const Corners& corners, const Vec3& x) {
-  const std::optional<Vec3> xi = parent_point(corners, x);
-  return xi && std::max({std::abs((*xi)[0]), std::abs((*xi)[1]), std::abs((*xi)[2])}) < inside;
-}
+constexpr double within = 5e-6;  // of a cell's width
+constexpr double under = 1e-3;   // of the facet's size
 
 /// A point of the facet off its centre and its diagonals, a little under it.
 Vec3 point_under(const PlacedFacet& facet) {
@@ -48,7 +43,7 @@ std::vector<BuriedFacet> buried_facets(const Model& model, const PairContact& pa
       near.clear();
       tree.find(point, near);
       const auto inside_of = std::find_if(near.begin(), near.end(), [&](Index c) {
-        return !owns(cells.nodes[c], facet) && contains(cells.corners[c], at);
+        return !owns(cells.nodes[c], facet) && cells.inside(static_cast<std::size_t>(c), at, within).has_value();
       });
       if (inside_of != near.end()) found.push_back({facet, at, cells.ref[*inside_of]});
     }

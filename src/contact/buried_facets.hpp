@@ -15,11 +15,11 @@ struct BuriedFacet {
   CellRef cell;     ///< a solid or plane cell of one of the parts
 };
 
-/// Facets of the pair's slave and master of which a point lies inside of a HEXA8 or, in two dimensions, a QUAD4 of the
-/// model's parts at displacement u. One point of every facet is looked at, off its centre and a thousandth of its size
-/// under it, so that surfaces that touch do not count and nodes on the faces of cells do not matter; it is found in the
-/// cell by Newton's method. The rows of a pair look one facet deep; this finds what lies deeper, at any depth: what
-/// bodies look like that begin on the wrong side of each other. Bars have no inside.
+/// Facets of the pair's slave and master of which a point lies inside of a solid or, in two dimensions, a plane cell of
+/// the model's parts at displacement u. One point of every facet is looked at, off its centre and a thousandth of its
+/// size under it, so that surfaces that touch do not count and nodes on the faces of cells do not matter; it is found
+/// in the cell by Newton's method. The rows of a pair look one facet deep; this finds what lies deeper, at any depth:
+/// what bodies look like that begin on the wrong side of each other. Bars have no inside.
 std::vector<BuriedFacet> buried_facets(const Model& model, const PairContact& pair, std::span<const double> u);
 
 }  // namespace carom

@@ -7,38 +7,108 @@
 #include "math/vec3.hpp"
 
 namespace carom {
+namespace {
 
-std::optional<Vec3> parent_point(const Corners& corners, const Vec3& x) {
-  Vec3 xi{};
+/// Shape functions of a linear solid and their derivatives by the parent coordinates.
+struct LinearShape {
+  CornerValues N{};
+  std::array<Vec3, 8> dN{};
+};
+
+/// N = 1 - r - s - t, r, s, t.
+LinearShape tetrahedron(const Vec3& xi) {
+  return {{1.0 - xi[0] - xi[1] - xi[2], xi[0], xi[1], xi[2]}, {{{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+}
+
+/// Triangle (r, s) times line t in [-1, 1].
+LinearShape pentahedron(const Vec3& xi) {
+  const std::array<double, 3> L{1.0 - xi[0] - xi[1], xi[0], xi[1]};
+  constexpr std::array<std::array<double, 2>, 3> dL{{{-1, -1}, {1, 0}, {0, 1}}};
+  LinearShape shape;
+  for (std::size_t a = 0; a < 6; ++a) {
+    const std::size_t c = a % 3;
+    const double side = a < 3 ? -0.5 : 0.5, along = 0.5 + side * xi[2];
+    shape.N[a] = L[c] * along;
+    shape.dN[a] = {dL[c][0] * along, dL[c][1] * along, L[c] * side};
+  }
+  return shape;
+}
+
+LinearShape hexahedron(const Vec3& xi) {
+  return {hexa8::shape(xi), hexa8::shape_gradient(xi)};
+}
+
+/// The hexahedron with its upper four nodes in one.
+LinearShape pyramid(const Vec3& xi) {
+  LinearShape shape = hexahedron(xi);
+  for (std::size_t a = 5; a < 8; ++a) {
+    shape.N[4] += shape.N[a];
+    shape.dN[4] = add(shape.dN[4], shape.dN[a]);
+    shape.N[a] = 0.0;
+    shape.dN[a] = {};
+  }
+  return shape;
+}
+
+struct ParentCell {
+  LinearShape (*shape)(const Vec3&);
+  Vec3 centre;
+};
+
+ParentCell parent_cell(CellType linear) {
+  switch (linear) {
+    case CellType::tetra4:
+      return {tetrahedron, {0.25, 0.25, 0.25}};
+    case CellType::penta6:
+      return {pentahedron, {1.0 / 3.0, 1.0 / 3.0, 0.0}};
+    case CellType::pyra5:
+      return {pyramid, {0.0, 0.0, -0.5}};
+    default:
+      return {hexahedron, {}};
+  }
+}
+
+/// The linear solid of the corners, or the prism over a plane cell.
+CellType solid_of(CellType type) {
+  if (dimension(type) == 3) return linear_type(type);
+  return corner_count(type) == 3 ? CellType::penta6 : CellType::hexa8;
+}
+
+}  // namespace
+
+std::optional<CornerValues> shape_at(CellType linear, const Corners& corners, const Vec3& x) {
+  const ParentCell parent = parent_cell(linear);
+  const auto n = static_cast<std::size_t>(node_count(linear));
+  Vec3 xi = parent.centre;
   for (int i = 0; i < 20; ++i) {
-    const std::array<double, 8> N = hexa8::shape(xi);
-    const std::array<Vec3, 8> dN = hexa8::shape_gradient(xi);
+    const LinearShape shape = parent.shape(xi);
     Vec3 r = x;
     std::array<Vec3, 3> J{};  // dx / dxi_k
-    for (std::size_t a = 0; a < 8; ++a) {
-      r = subtract(r, scaled(corners[a], N[a]));
-      for (std::size_t k = 0; k < 3; ++k) J[k] = add(J[k], scaled(corners[a], dN[a][k]));
+    for (std::size_t a = 0; a < n; ++a) {
+      r = subtract(r, scaled(corners[a], shape.N[a]));
+      for (std::size_t k = 0; k < 3; ++k) J[k] = add(J[k], scaled(corners[a], shape.dN[a][k]));
     }
     const double det = dot(J[0], cross(J[1], J[2]));
     if (!(det > 0.0)) return std::nullopt;
     const Vec3 step{dot(r, cross(J[1], J[2])) / det, dot(r, cross(J[2], J[0])) / det, dot(r, cross(J[0], J[1])) / det};
     xi = add(xi, step);
     if (!(std::max({std::abs(xi[0]), std::abs(xi[1]), std::abs(xi[2])}) < 10.0)) return std::nullopt;
-    if (norm(step) < 1e-9) return xi;
+    if (norm(step) < 1e-9) return parent.shape(xi).N;
   }
   return std::nullopt;
 }
 
 PlacedCells::PlacedCells(const Model& model, std::span<const Vec3> x) {
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
-    const CellType type = model.parts[p].type;
-    if (type != CellType::hexa8 && type != CellType::quad4) continue;
-    const CellBlock& block = *model.mesh->block(type);
-    const auto n = static_cast<std::size_t>(node_count(type));
+    const CellType of_part = model.parts[p].type;
+    if (dimension(of_part) < 2) continue;
+    const CellBlock& block = *model.mesh->block(of_part);
+    const auto n = static_cast<std::size_t>(node_count(of_part));
     for (const Index c : model.parts[p].cells) {
       nodes.push_back(std::span(block.connectivity).subspan(n * static_cast<std::size_t>(c), n));
       ref.push_back({static_cast<Index>(&block - model.mesh->blocks.data()), c});
       part.push_back(static_cast<Index>(p));
+      type.push_back(of_part);
     }
   }
   corners.resize(nodes.size());
@@ -48,16 +118,40 @@ PlacedCells::PlacedCells(const Model& model, std::span<const Vec3> x) {
 
 void PlacedCells::place(std::span<const Vec3> x) {
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const std::size_t n = nodes[k].size();
+    const auto n = static_cast<std::size_t>(corner_count(type[k]));
+    const std::size_t all = dimension(type[k]) == 2 ? 2 * n : n;
     Corners& corner = corners[k];
-    for (std::size_t a = 0; a < 8; ++a) corner[a] = x[nodes[k][a % n]];
-    if (n == 4) {
+    for (std::size_t a = 0; a < all; ++a) corner[a] = x[nodes[k][a % n]];
+    if (all > n) {
       const double half = 0.5 * norm(subtract(corner[2], corner[0]));
-      for (std::size_t a = 0; a < 8; ++a) corner[a][2] += a < 4 ? -half : half;
+      for (std::size_t a = 0; a < all; ++a) corner[a][2] += a < n ? -half : half;
     }
     bounds[k] = Bounds{};
-    for (const Vec3& at : corner) bounds[k].include(at);
+    for (std::size_t a = 0; a < all; ++a) bounds[k].include(corner[a]);
   }
+}
+
+std::optional<CornerValues> PlacedCells::inside(std::size_t k, const Vec3& x, double margin) const {
+  std::optional<CornerValues> N = shape_at(solid_of(type[k]), corners[k], x);
+  if (!N) return std::nullopt;
+  if (dimension(type[k]) == 2) {
+    const auto n = static_cast<std::size_t>(corner_count(type[k]));
+    double lower = 0.0;
+    for (std::size_t a = 0; a < n; ++a) {
+      lower += (*N)[a];
+      (*N)[a] += (*N)[a + n];
+    }
+    if (lower <= margin || 1.0 - lower <= margin) return std::nullopt;
+  }
+  for (std::size_t face = 0; face < cell_faces(type[k]).size(); ++face)
+    if (!(depth_under(k, face, *N) > margin)) return std::nullopt;
+  return N;
+}
+
+double PlacedCells::depth_under(std::size_t k, std::size_t face, const CornerValues& N) const {
+  double on_face = 0.0;
+  for (const LocalNode a : cell_faces(type[k])[face].corners()) on_face += N[a];
+  return 1.0 - on_face;
 }
 
 std::vector<Vec3> current_positions(const Mesh& mesh, std::span<const double> u) {

@@ -7,28 +7,44 @@
 #include <vector>
 
 #include "contact/box_tree.hpp"
+#include "mesh/cell_topology.hpp"
 #include "model/model.hpp"
 
 namespace carom {
 
-/// A cell of eight nodes; a plane cell stands as a prism about its plane, as thick as it is wide.
+/// One value or position per corner of a linear solid.
 using Corners = std::array<Vec3, 8>;
+using CornerValues = std::array<double, 8>;
 
-/// Parent coordinates of x in the cell, by Newton's method for sum_a N_a(xi) x_a = x from the centre; nothing far
-/// outside and in cells that are turned inside out.
-std::optional<Vec3> parent_point(const Corners& corners, const Vec3& x);
+/// Values at x of the shape functions of a TETRA4, PYRA5, PENTA6 or HEXA8, by Newton's method for sum_a N_a(xi) x_a = x
+/// from the centre (one step for a tetrahedron); nothing far outside and in cells that are turned inside out. Those of
+/// the pyramid are those of the hexahedron whose upper face is its apex.
+std::optional<CornerValues> shape_at(CellType linear, const Corners& corners, const Vec3& x);
 
-/// The cells of the parts that have an inside (HEXA8 and QUAD4), part by part, at positions x of the nodes.
+/// The cells of the parts that have an inside (solids and plane cells), part by part, at positions x of the nodes.
+/// Quadratic ones are taken by their corners. A plane cell stands as a prism about its plane, as thick as it is wide.
 struct PlacedCells {
   std::vector<CellRef> ref;
-  std::vector<Index> part;                    ///< Model::parts
-  std::vector<std::span<const Index>> nodes;  ///< 8 or 4
-  std::vector<Corners> corners;
+  std::vector<Index> part;  ///< Model::parts
+  std::vector<CellType> type;
+  std::vector<std::span<const Index>> nodes;  ///< all of the cell, the corners first
+  std::vector<Corners> corners;               ///< of the solid or of the prism
   std::vector<Bounds> bounds;
 
   PlacedCells(const Model& model, std::span<const Vec3> x);
   /// The nodes have moved.
   void place(std::span<const Vec3> x);
+
+  std::span<const Vec3> own_corners(std::size_t k) const {
+    return std::span(corners[k]).first(static_cast<std::size_t>(corner_count(type[k])));
+  }
+
+  /// Values at x of the linear shape functions of the corners of cell k (of a plane cell: of both sides of the prism
+  /// together), if x is inside by more than `margin`: every face's depth is.
+  std::optional<CornerValues> inside(std::size_t k, const Vec3& x, double margin = 0.0) const;
+  /// How deep under a face of cell k (number in cell_faces), as a part of the way to its other corners: 1 less the sum
+  /// of the values of the face's corners. 0 on the face, 1 at the other corners; (1 -+ xi) / 2 of a HEXA8.
+  double depth_under(std::size_t k, std::size_t face, const CornerValues& N) const;
 };
 
 /// X + u of all nodes.

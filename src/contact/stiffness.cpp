@@ -93,20 +93,37 @@ class PartCells {
   }
 
   Backing backing_of(const Cell& cell, const Facet& facet) const {
-    Vec3 centroid{};
+    const Part& part = *cell.part;
     const std::span<const Index> nodes = nodes_of(cell);
-    for (const Index n : nodes)
-      centroid = add(centroid, scaled(mesh_.coordinates[static_cast<std::size_t>(n)], 1.0 / nodes.size()));
+    const std::span<const Index> corners = nodes.first(static_cast<std::size_t>(corner_count(part.type)));
+    Vec3 centroid{};
+    for (const Index n : corners)
+      centroid = add(centroid, scaled(mesh_.coordinates[static_cast<std::size_t>(n)], 1.0 / corners.size()));
     const PlacedFacet placed = place(facet, mesh_.coordinates);
     const ParentPoint centre = facet_centre(facet.size);
     const FacetFrame frame = facet_frame(placed, centre.xi, centre.eta);
     const Vec3 inward = subtract(centroid, frame.position);
-    const double half = facet.size == 1 ? norm(inward) : std::abs(dot(inward, frame.normal));
-    const Part& part = *cell.part;
+    const double mean = facet.size == 1 ? norm(inward) : std::abs(dot(inward, frame.normal));
     double size = measure(placed);
     if (part.section == Section::axisymmetric) size *= 2.0 * std::numbers::pi * frame.position[0];
     if (part.section != Section::axisymmetric && part.section != Section::solid) size *= part.thickness;
-    return {wave_modulus(part), 2.0 * half, size};
+    return {wave_modulus(part), share_of_height(part.type, nodes, facet) * mean, size};
+  }
+
+  /// How many times the mean distance of all corners from the facet that of the corners is which are not on it: 2 of a
+  /// hexahedron, 4 of a tetrahedron. Half of that in a quadratic cell, where there are nodes in the middle.
+  static double share_of_height(CellType type, std::span<const Index> nodes, const Facet& facet) {
+    const auto corners = static_cast<double>(corner_count(type));
+    for (const CellFace& face : cell_faces(type)) {
+      const std::span<const LocalNode> of_face = face.nodes();
+      const auto holds = [&](Index n) {
+        return std::any_of(of_face.begin(), of_face.end(), [&](LocalNode a) { return nodes[a] == n; });
+      };
+      if (!std::all_of(facet.begin(), facet.end(), holds)) continue;
+      const double others = corners - static_cast<double>(face.corners().size());
+      return static_cast<double>(nodes.size()) > corners ? 0.5 * corners / others : corners / others;
+    }
+    return 0.0;
   }
 
   const Mesh& mesh_;

@@ -12,9 +12,10 @@ namespace carom {
 /// sentence each. A facet of a contact surface has the stiffness of the cell behind it in compression,
 ///   eps = M / h   (stress per length),
 /// M the modulus of uniaxial strain (p-wave modulus; plane stress: E / (1 - nu^2); bars: E) of the cell's material, h
-/// the cell's extent normal to the facet: twice the distance of its centroid from the facet, which is volume / area for
-/// cells of constant section. A side of a contact has the mean of its facets, weighted by their measures; of a pair
-/// only facets count that look at the other side (FacingFacets):
+/// the cell's extent normal to the facet: the mean distance from it of the corners that are not on it, which is volume
+/// / area for cells of constant section, and the height of a tetrahedron (all its mass hangs on what is at that depth);
+/// half of it in a quadratic cell, whose layer of nodes is half as thick. A side of a contact has the mean of its
+/// facets, weighted by their measures; of a pair only facets count that look at the other side (FacingFacets):
 ///   - against an obstacle: eps_N = eps of the body, so that the penetration is the shortening of one cell under the
 ///     contact pressure p, p / M of its height. At M / h central differences keep 0.91 of their stable step in one
 ///     dimension, and peaks stay near the exact ones; 10 M / h has peaks many times too high;

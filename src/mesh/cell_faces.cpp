@@ -124,6 +124,13 @@ const Shape& shape(CellType type) {
 int corner_count(CellType type) {
   return shape(type).corners;
 }
+CellType linear_type(CellType type) {
+  CellType linear = type;
+  for (std::size_t t = kShapes.size(); t-- > 0;)
+    if (dimension(CellType(t)) == dimension(type) && corner_count(CellType(t)) == corner_count(type))
+      linear = CellType(t);  // declared before those of higher order
+  return linear;
+}
 std::span<const std::array<LocalNode, 2>> cell_edges(CellType type) {
   return shape(type).edges;
 }

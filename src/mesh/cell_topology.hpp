@@ -34,6 +34,8 @@ std::span<const std::span<const std::array<LocalNode, 2>>> opposite_faces(CellTy
 /// Number of corners: the nodes of the linear cell, which come first. Mid-side nodes follow in the order of cell_edges,
 /// then the centres of faces and of the cell.
 int corner_count(CellType type);
+/// The type of the cell of the corners alone, e.g. TETRA4 of TETRA10.
+CellType linear_type(CellType type);
 
 /// The edges as pairs of corners; one edge of a line, none of a point. Of a quadratic cell the middle of edge e is node
 /// corner_count + e.

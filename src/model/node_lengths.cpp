@@ -1,12 +1,11 @@
 #include "model/node_lengths.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <span>
+#include <vector>
 
-#include "element/cell_shapes.hpp"
-#include "mesh/cell_topology.hpp"
+#include "mesh/cell_size.hpp"
 
 namespace carom {
 
@@ -18,9 +17,9 @@ std::vector<double> node_lengths(const Model& model) {
     for (const Index cell : part.cells) {
       const std::span<const Index> nodes =
           std::span(mesh.block(part.type)->connectivity).subspan(size * static_cast<std::size_t>(cell), size);
-      std::array<Vec3, 8> x{};
-      for (std::size_t a = 0; a < size; ++a) x[a] = mesh.coordinates[static_cast<std::size_t>(nodes[a])];
-      const double of_cell = cell_length(std::span(x).first(size));
+      std::vector<Vec3> x;
+      for (const Index n : nodes) x.push_back(mesh.coordinates[static_cast<std::size_t>(n)]);
+      const double of_cell = cell_length(part.type, x);
       for (const Index n : nodes)
         length[static_cast<std::size_t>(n)] = std::min(length[static_cast<std::size_t>(n)], of_cell);
     }

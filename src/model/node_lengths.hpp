@@ -7,8 +7,8 @@
 
 namespace carom {
 
-/// Least length (cell_length: volume over the largest face, area over the longest edge, length of a bar) of the parts'
-/// cells at each node, in the reference position; infinity at nodes of none.
+/// Least length (cell_length of mesh/cell_size.hpp) of the parts' cells at each node, in the reference position;
+/// infinity at nodes of none.
 std::vector<double> node_lengths(const Model& model);
 
 }  // namespace carom

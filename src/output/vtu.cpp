@@ -8,6 +8,7 @@
 #include <iterator>
 #include <vector>
 
+#include "mesh/cell_topology.hpp"
 #include "output/file_writer.hpp"
 #include "output/xml.hpp"
 
@@ -58,10 +59,12 @@ class VtuHeader {
 
 }  // namespace
 
-void VtuCells::add(std::span<const Index> points, std::uint8_t type) {
-  connectivity.insert(connectivity.end(), points.begin(), points.end());
+void VtuCells::add(std::span<const Index> points, CellType type) {
+  assert(points.size() == static_cast<std::size_t>(node_count(type)));
+  const VtkCellType vtk = vtk_cell_type(type);
+  for (std::size_t a = 0; a < points.size(); ++a) connectivity.push_back(points[vtk.order.empty() ? a : vtk.order[a]]);
   ends.push_back(static_cast<std::int64_t>(connectivity.size()));
-  types.push_back(type);
+  types.push_back(vtk.number);
 }
 
 void write_vtu(const std::string& path, std::span<const Vec3> points, const VtuCells& cells,

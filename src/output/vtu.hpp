@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "mesh/mesh.hpp"
 
 namespace carom {
 
@@ -18,15 +19,15 @@ struct VtuField {
   std::span<const double> values;
 };
 
-/// Cells in any order: the points of each, one after the other, and per cell where they end and VTK's number of its
-/// type (VTK file formats, "Linear cells"). The node orders of VTK are ours.
+/// Cells in any order: the points of each in VTK's order (vtk_cell_type), one after the other, and per cell where they
+/// end and VTK's number of its type.
 struct VtuCells {
-  static constexpr std::uint8_t line = 3, triangle = 5, quad = 9, hexahedron = 12;
   std::vector<Index> connectivity;
   std::vector<std::int64_t> ends;
   std::vector<std::uint8_t> types;
 
-  void add(std::span<const Index> points, std::uint8_t type);
+  /// points: in our order.
+  void add(std::span<const Index> points, CellType type);
 };
 
 /// Writes points (n) and cells with their fields as raw appended little-endian data with UInt64 headers, uncompressed.

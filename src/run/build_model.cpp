@@ -221,7 +221,8 @@ class Builder {
   }
 
   std::vector<Index> interface_cells(const CaseContact& given) const {
-    std::vector<Index> cells = groups_.cells(given.group, "contact.group", CellType::hexa8, "HEXA8 cells");
+    const std::vector<Index> cells =
+        groups_.cells(given.group, "contact.group", std::array{CellType::hexa8}, "HEXA8 cells").cells;
     const auto block = static_cast<Index>(mesh_.block(CellType::hexa8) - mesh_.blocks.data());
     for (const Index cell : cells) {
       const Part* part = parts_.part_of({block, cell});

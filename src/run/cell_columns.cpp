@@ -39,14 +39,14 @@ CellColumns::CellColumns(const Mesh& mesh, const Solid& solid)
 }
 
 int CellColumns::dimension(std::size_t k) const {
-  const std::size_t nodes = solid_.nodes_of_cell(k).size();
-  return nodes == 8 ? 3 : (nodes == 4 ? 2 : 0);
+  const CellType type = mesh_.blocks[at(solid_.cells()[k].block)].type;
+  return type == CellType::hexa8 ? 3 : (type == CellType::quad4 ? 2 : 0);
 }
 
 Facet CellColumns::facet(Side side) const {
   const std::span<const Index> nodes = solid_.nodes_of_cell(side / 6);
   Facet facet;
-  for (const int local : (nodes.size() == 8 ? hexa8_sides : quad4_sides)[side % 6])
+  for (const int local : (dimension(side / 6) == 3 ? hexa8_sides : quad4_sides)[side % 6])
     if (local != none) facet.node[at(facet.size++)] = nodes[at(local)];
   return facet;
 }

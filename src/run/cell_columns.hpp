@@ -31,7 +31,7 @@ class CellColumns {
     const Index c = of_cell_[k][static_cast<std::size_t>(axis)];
     return c < 0 ? endless_ : columns_[static_cast<std::size_t>(c)];
   }
-  /// 3 for HEXA8, 2 for QUAD4, 0 for bars, which have no columns.
+  /// 3 for HEXA8, 2 for QUAD4, 0 for all others, which have no columns.
   int dimension(std::size_t k) const;
   /// Length of cell k along an axis: between the middles of its two faces there.
   double length(std::size_t k, int axis) const;

@@ -5,43 +5,57 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <span>
 #include <string_view>
 
 #include "mesh/cell_topology.hpp"
 #include "mesh/orientation.hpp"
+#include "run/offered_cells.hpp"
 
 namespace carom {
 
 namespace {
 
-/// Nodes of a facet in increasing order; the entries it does not need are -1.
-std::array<Index, 4> sorted(std::span<const Index> nodes) {
-  std::array<Index, 4> result{-1, -1, -1, -1};
-  std::copy(nodes.begin(), nodes.end(), result.begin());
-  std::sort(result.begin(), result.begin() + static_cast<std::ptrdiff_t>(nodes.size()));
+/// Corners of a face in increasing order; the entries it does not need are larger than any.
+std::array<Index, 4> sorted_corners(CellType face, std::span<const Index> nodes) {
+  std::array<Index, 4> result;
+  result.fill(std::numeric_limits<Index>::max());
+  std::copy_n(nodes.begin(), corner_count(face), result.begin());
+  std::sort(result.begin(), result.end());
   return result;
 }
 
-/// How to get a mesh without cells of this type, where carom has no such element.
-std::string other_mesh(CellType found) {
-  switch (found) {
-    case CellType::hexa8:
-    case CellType::quad4:
-    case CellType::line2:
-    case CellType::point1:
-      return {};
-    case CellType::line3:
-    case CellType::quad8:
-    case CellType::quad9:
-    case CellType::hexa20:
-    case CellType::hexa27:
-      return "Save the mesh with cells of first order (Gmsh: Mesh.ElementOrder = 1; Salome: convert to linear).";
-    default:
-      return "Mesh with hexahedra, in two dimensions with quadrilaterals (Gmsh: Transfinite and Recombine; Salome: "
-             "Hexahedron (i, j, k)), of first order.";
+std::span<const Index> nodes_of_cell(const Mesh& mesh, const CellRef& cell) {
+  const CellBlock& block = mesh.blocks[static_cast<std::size_t>(cell.block)];
+  const auto n = static_cast<std::size_t>(node_count(block.type));
+  return std::span(block.connectivity).subspan(n * static_cast<std::size_t>(cell.cell), n);
+}
+
+/// The face that a facet is, or is a piece of, with its nodes.
+struct WholeFace {
+  CellType type{};
+  std::vector<Index> nodes;
+
+  WholeFace(const Mesh& mesh, const OuterFacet& outer) {
+    const CellFace& face =
+        cell_faces(mesh.blocks[static_cast<std::size_t>(outer.cell.block)].type)[static_cast<std::size_t>(outer.face)];
+    const std::span<const Index> of_cell = nodes_of_cell(mesh, outer.cell);
+    type = face.type;
+    for (const LocalNode a : face.nodes()) nodes.push_back(of_cell[a]);
   }
+};
+
+/// How to get a mesh without cells of this type.
+std::string other_mesh(CellType found, std::span<const CellType> types) {
+  const auto is_taken = [&](CellType type) { return std::find(types.begin(), types.end(), type) != types.end(); };
+  if (is_taken(linear_type(found)))
+    return "Save the mesh with cells of first order (Gmsh: Mesh.ElementOrder = 1; Salome: convert to linear).";
+  for (int s = 0; s <= static_cast<int>(Section::bar); ++s)
+    if (is_offered(found, static_cast<Section>(s))) return {};
+  return "Mesh with hexahedra, in two dimensions with quadrilaterals (Gmsh: Transfinite and Recombine; Salome: "
+         "Hexahedron (i, j, k)), of first order.";
 }
 
 }  // namespace
@@ -80,52 +94,83 @@ std::vector<Index> Groups::nodes(const Located<std::string>& name, const std::st
   return all;
 }
 
-std::vector<Index> Groups::all_cells(const Located<std::string>& name, const std::string& key, CellType type,
-                                     const std::string& expected) const {
-  std::vector<Index> cells;
+Groups::CellsByType Groups::all_cells(int dimension) const {
+  CellsByType found;
   for (const CellBlock& block : mesh_.blocks) {
-    if (dimension(block.type) != dimension(type)) continue;
+    if (carom::dimension(block.type) != dimension) continue;
     const auto n = static_cast<std::size_t>(node_count(block.type));
     for (std::size_t cell = 0; cell < block.size(); ++cell) {
       const std::span<const Index> nodes(&block.connectivity[n * cell], n);
-      if (on_boundary(nodes, block.type, skin().node_dimensions)) continue;
-      if (block.type != type) {
-        throw CaseError(name.where, key,
-                        fmt::format("\"all\", where the mesh has {} cells such as {}", carom::name(block.type),
-                                    block.file_numbers[cell]),
-                        expected, "Mesh them anew, or name the group that is meant.");
-      }
-      if (!has_zero_thickness(mesh_, type, nodes)) cells.push_back(static_cast<Index>(cell));
+      if (on_boundary(nodes, block.type, skin().node_dimensions) || has_zero_thickness(mesh_, block.type, nodes))
+        continue;
+      found[block.type].push_back(static_cast<Index>(cell));
     }
   }
-  if (cells.empty()) throw CaseError(name.where, key, "\"all\" in a mesh without such cells", expected);
-  return cells;
+  return found;
 }
 
-std::vector<Index> Groups::cells(const Located<std::string>& name, const std::string& key, CellType type,
-                                 const std::string& expected) const {
-  if (means_all(*name)) return all_cells(name, key, type, expected);
+/// Of this dimension and higher ones; an error where there are only lower ones.
+Groups::CellsByType Groups::group_cells(const Located<std::string>& name, const std::string& key, int dimension,
+                                        const std::string& expected) const {
   require(name, key);
-  std::vector<Index> cells;
+  CellsByType found;
   std::set<std::string_view> others;
   if (const auto group = mesh_.cell_groups.find(*name); group != mesh_.cell_groups.end()) {
     for (const CellRef& ref : group->second) {
-      const CellType found = mesh_.blocks[static_cast<std::size_t>(ref.block)].type;
-      if (found == type) {
-        cells.push_back(ref.cell);
-      } else if (dimension(found) >= dimension(type)) {
-        refuse(name, key, fmt::format("{} cells in \"{}\"", carom::name(found), *name), expected, other_mesh(found));
-      } else {
-        others.insert(carom::name(found));
-      }
+      const CellType type = mesh_.blocks[static_cast<std::size_t>(ref.block)].type;
+      if (carom::dimension(type) >= dimension)
+        found[type].push_back(ref.cell);
+      else
+        others.insert(carom::name(type));
     }
   }
-  if (cells.empty()) {
+  if (found.empty()) {
     const std::string what = others.empty() ? "nodes" : fmt::format("{} cells", fmt::join(others, " and "));
     refuse(name, key, fmt::format("\"{}\", a group of {}", *name, what), expected);
   }
-  std::sort(cells.begin(), cells.end());
-  return cells;
+  return found;
+}
+
+/// "48 TETRA4 cells (2 and others), 1 PYRA5 cell (7)": with their numbers in the file.
+std::string Groups::counted(const CellsByType& cells) const {
+  std::string text;
+  for (const auto& [type, list] : cells)
+    text += fmt::format(
+        "{}{} {} cell{} ({}{})", text.empty() ? "" : ", ", list.size(), carom::name(type), list.size() == 1 ? "" : "s",
+        mesh_.block(type)->file_numbers[static_cast<std::size_t>(list.front())], list.size() == 1 ? "" : " and others");
+  return text;
+}
+
+Groups::TypedCells Groups::cells(const Located<std::string>& name, const std::string& key,
+                                 std::span<const CellType> types, const std::string& expected,
+                                 std::optional<CellType> only) const {
+  const bool is_all = means_all(*name);
+  const int dimension = carom::dimension(types.front());
+  CellsByType found = is_all ? all_cells(dimension) : group_cells(name, key, dimension, expected);
+  const auto where = [&](const CellsByType& some) {
+    return is_all ? "\"all\", where the mesh has " + counted(some) : fmt::format("{} in \"{}\"", counted(some), *name);
+  };
+  if (only) std::erase_if(found, [&](const auto& entry) { return entry.first != *only; });
+  CellsByType others = found;
+  std::erase_if(others,
+                [&](const auto& entry) { return std::find(types.begin(), types.end(), entry.first) != types.end(); });
+  if (!others.empty()) {
+    const std::string remedy = other_mesh(others.begin()->first, types);
+    refuse(name, key, where(others), expected,
+           remedy.empty() && is_all ? "Mesh them anew, or name the group that is meant." : remedy);
+  }
+  if (found.size() > 1)
+    refuse(name, key, where(found), "cells of one type in a part",
+           fmt::format("Give each type a [[part]] of its own with the same cells, here with type = \"{}\" and type = "
+                       "\"{}\"; nodes that they share hold them together.",
+                       carom::name(found.begin()->first), carom::name(found.rbegin()->first)));
+  if (found.empty() && only)
+    refuse(name, key, fmt::format("\"{}\" without {} cells", *name, carom::name(*only)), expected,
+           "Leave `type` out, or name a type that the group has (`carom mesh` lists them).");
+  if (found.empty()) throw CaseError(name.where, key, "\"all\" in a mesh without such cells", expected);
+  TypedCells result{found.begin()->first, std::move(found.begin()->second)};
+  std::sort(result.cells.begin(), result.cells.end());
+  return result;
 }
 
 const Groups::Skin& Groups::skin() const {
@@ -136,25 +181,28 @@ const Groups::Skin& Groups::skin() const {
 std::vector<OuterFacet> Groups::outer_facets(const Located<std::string>& name, const std::string& key) const {
   std::vector<char> is_member(mesh_.node_count(), 0);
   for (const Index n : nodes(name, key)) is_member[static_cast<std::size_t>(n)] = 1;
-  std::array<std::vector<std::array<Index, 4>>, 5> chosen;  // by number of nodes; nodes sorted, the rest -1
+  std::array<std::vector<std::array<Index, 4>>, 3> chosen;  // by dimension
   if (const auto group = mesh_.cell_groups.find(*name); group != mesh_.cell_groups.end()) {
     for (const CellRef& ref : group->second) {
-      const CellBlock& block = mesh_.blocks[static_cast<std::size_t>(ref.block)];
-      if (block.type != CellType::quad4 && block.type != CellType::line2) continue;
-      const auto n = static_cast<std::size_t>(node_count(block.type));
-      const std::span<const Index> nodes(&block.connectivity[n * static_cast<std::size_t>(ref.cell)], n);
-      if (on_boundary(nodes, block.type, skin().node_dimensions)) chosen[n].push_back(sorted(nodes));
+      const CellType type = mesh_.blocks[static_cast<std::size_t>(ref.block)].type;
+      if (dimension(type) != 1 && dimension(type) != 2) continue;
+      const std::span<const Index> nodes = nodes_of_cell(mesh_, ref);
+      if (on_boundary(nodes, type, skin().node_dimensions))
+        chosen[static_cast<std::size_t>(dimension(type))].push_back(sorted_corners(type, nodes));
     }
   }
-  for (auto& facets : chosen) std::sort(facets.begin(), facets.end());
+  for (auto& faces : chosen) std::sort(faces.begin(), faces.end());
   std::vector<OuterFacet> result;
   for (const OuterFacet& outer : skin().facets) {
-    const std::span<const Index> nodes(outer.facet.begin(), outer.facet.end());
-    const auto& of_its_kind = chosen[nodes.size()];
+    const WholeFace face(mesh_, outer);
+    const auto& of_its_kind = chosen[static_cast<std::size_t>(dimension(face.type))];
     const auto belongs = [&](Index n) { return is_member[static_cast<std::size_t>(n)] != 0; };
-    if (!std::all_of(nodes.begin(), nodes.end(), belongs)) continue;
-    if (of_its_kind.empty() || std::binary_search(of_its_kind.begin(), of_its_kind.end(), sorted(nodes)))
-      result.push_back(outer);
+    const bool are_corners_in = std::all_of(face.nodes.begin(), face.nodes.begin() + corner_count(face.type), belongs);
+    const bool is_in = of_its_kind.empty()
+                           ? std::all_of(face.nodes.begin(), face.nodes.end(), belongs)
+                           : are_corners_in && std::binary_search(of_its_kind.begin(), of_its_kind.end(),
+                                                                  sorted_corners(face.type, face.nodes));
+    if (is_in) result.push_back(outer);
   }
   if (result.empty()) {
     refuse(name, key, fmt::format("\"{}\", which holds no outer face of the solids", *name),
@@ -179,16 +227,18 @@ std::vector<Facet> Groups::rigid_faces(const Located<std::string>& name, const s
   const auto group = mesh_.cell_groups.find(*name);
   if (group != mesh_.cell_groups.end()) {
     for (const CellRef& ref : group->second) {
-      const CellBlock& block = mesh_.blocks[static_cast<std::size_t>(ref.block)];
-      if (block.type != CellType::quad4 && block.type != CellType::tria3 && block.type != CellType::line2) continue;
-      Facet& face = faces.emplace_back();
-      face.size = node_count(block.type);
-      std::copy_n(block.connectivity.begin() + static_cast<std::ptrdiff_t>(face.size) * ref.cell, face.size,
-                  face.node.begin());
+      const CellType type = mesh_.blocks[static_cast<std::size_t>(ref.block)].type;
+      if (dimension(type) != 1 && dimension(type) != 2) continue;
+      const std::span<const Index> nodes = nodes_of_cell(mesh_, ref);
+      for (const FacePiece& piece : face_pieces(type)) {
+        Facet& face = faces.emplace_back();
+        face.size = piece.size;
+        for (std::size_t a = 0; a < static_cast<std::size_t>(piece.size); ++a) face.node[a] = nodes[piece.node[a]];
+      }
     }
   }
   if (faces.empty()) {
-    refuse(name, key, fmt::format("\"{}\", a group without TRIA3, QUAD4 or LINE2 cells", *name),
+    refuse(name, key, fmt::format("\"{}\", a group without faces and lines", *name),
            "a group of faces (edges in two dimensions)");
   }
   return faces;

@@ -1,7 +1,9 @@
 // Groups of the mesh as the case names them.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,23 +23,32 @@ class Groups {
   /// Nodes of the group; "all", where no group has that name, means every node of cells and groups (and so none that
   /// obstacles or springs hang on).
   std::vector<Index> nodes(const Located<std::string>& name, const std::string& key) const;
-  /// Cells of this type in the group, in increasing order; cells of lower dimension beside them are left out, others
-  /// are an error. `expected` is what the message says. "all", where no group has that name, means every cell of the
-  /// type that is no boundary of other cells and not of zero thickness; other cells of its dimension are an error.
-  std::vector<Index> cells(const Located<std::string>& name, const std::string& key, CellType type,
-                           const std::string& expected) const;
-  /// The part of the skin (outer_facets of mesh/skin.hpp) that lies in the group: facets that are boundary cells of it
-  /// (QUAD4, LINE2), or whose nodes are all in it where it has no boundary cells of their kind.
+  /// The cells of one type in the group, in increasing order: the one of `types` that the group has, or `only`; cells
+  /// of lower dimension are left out. Others, several of `types`, and none are errors that count them; `expected` is
+  /// what the message says. "all", where no group has that name, means every cell of the dimension that is no boundary
+  /// of other cells and not of zero thickness.
+  struct TypedCells {
+    CellType type{};
+    std::vector<Index> cells;
+  };
+  TypedCells cells(const Located<std::string>& name, const std::string& key, std::span<const CellType> types,
+                   const std::string& expected, std::optional<CellType> only = {}) const;
+  /// The part of the skin (outer_facets of mesh/skin.hpp) that lies in the group: facets of faces
+  /// that are boundary cells of it (faces, lines), or whose nodes are all in it where it has no boundary cells of their
+  /// dimension.
   std::vector<OuterFacet> outer_facets(const Located<std::string>& name, const std::string& key) const;
   /// All of the skin but what lies in the excluded groups.
   std::vector<OuterFacet> exterior(const std::vector<Located<std::string>>& excluded, const std::string& key) const;
-  /// Face cells of the group (TRIA3, QUAD4; LINE2 in two dimensions) as they are numbered: the faces of a rigid
-  /// surface.
+  /// Faces of the group (lines in two dimensions) as they are numbered, quadratic ones in linear pieces: the faces of a
+  /// rigid surface.
   std::vector<Facet> rigid_faces(const Located<std::string>& name, const std::string& key) const;
 
  private:
-  std::vector<Index> all_cells(const Located<std::string>& name, const std::string& key, CellType type,
-                               const std::string& expected) const;
+  using CellsByType = std::map<CellType, std::vector<Index>>;
+  CellsByType all_cells(int dimension) const;
+  CellsByType group_cells(const Located<std::string>& name, const std::string& key, int dimension,
+                          const std::string& expected) const;
+  std::string counted(const CellsByType& cells) const;
   bool means_all(const std::string& name) const { return name == "all" && !mesh_.has_group(name); }
   void require(const Located<std::string>& name, const std::string& key) const;
   [[noreturn]] void refuse(const Located<std::string>& name, const std::string& key, const std::string& found,

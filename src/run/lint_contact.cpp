@@ -24,6 +24,7 @@ namespace {
 double area_of(const Mesh& mesh, const Facet& facet, const Part& part) {
   const auto x = [&](std::size_t a) { return mesh.coordinates[static_cast<std::size_t>(facet[a])]; };
   if (facet.size == 1) return part.thickness;
+  if (facet.size == 3) return 0.5 * norm(cross(subtract(x(1), x(0)), subtract(x(2), x(0))));
   if (facet.size == 4)
     return 0.5 * norm(cross(subtract(x(2), x(0)), subtract(x(3), x(1))));  // exact for plane quadrilaterals
   const double ring = std::numbers::pi * (x(0)[0] + x(1)[0]);

@@ -110,7 +110,7 @@ void ObstacleBodies::add_grid(std::size_t rows, std::size_t columns, const std::
   const auto at = [&](std::size_t r, std::size_t c) { return first + static_cast<Index>(r * columns + c); };
   for (std::size_t r = 0; r + 1 < rows; ++r)
     for (std::size_t c = 0; c + 1 < columns; ++c)
-      cells_.add(std::array{at(r, c), at(r, c + 1), at(r + 1, c + 1), at(r + 1, c)}, VtuCells::quad);
+      cells_.add(std::array{at(r, c), at(r, c + 1), at(r + 1, c + 1), at(r + 1, c)}, CellType::quad4);
 }
 
 void ObstacleBodies::add_surface(const Mesh& mesh, const Surface& surface) {
@@ -122,7 +122,7 @@ void ObstacleBodies::add_surface(const Mesh& mesh, const Surface& surface) {
       if (is_new) points_.push_back(mesh.coordinates[static_cast<std::size_t>(n)]);
       points.push_back(found->second);
     }
-    cells_.add(points, points.size() == 2 ? VtuCells::line : points.size() == 3 ? VtuCells::triangle : VtuCells::quad);
+    cells_.add(points, points.size() == 2 ? CellType::line2 : points.size() == 3 ? CellType::tria3 : CellType::quad4);
   }
 }
 
@@ -146,7 +146,7 @@ void ObstacleBodies::add_shape(const Simulation& simulation, const RigidShape& s
                                  {a[0], b[1], b[2]}});
   std::array<Index, 8> nodes{};
   for (std::size_t i = 0; i < 8; ++i) nodes[i] = first + static_cast<Index>(i);
-  cells_.add(nodes, VtuCells::hexahedron);
+  cells_.add(nodes, CellType::hexa8);
 }
 
 void ObstacleBodies::write(const std::string& path, const State& state) const {

@@ -1,12 +1,15 @@
 #include "run/parts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "math/vec3.hpp"
+#include "mesh/cell_topology.hpp"
 #include "mesh/orientation.hpp"
+#include "run/offered_cells.hpp"
 
 namespace carom {
 
@@ -16,15 +19,21 @@ std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
 
-CellType cell_type(Section section) {
-  switch (section) {
-    case Section::solid:
-      return CellType::hexa8;
-    case Section::bar:
-      return CellType::line2;
-    default:
-      return CellType::quad4;
-  }
+std::string names(std::span<const CellType> types) {
+  std::vector<std::string_view> list;
+  for (const CellType type : types) list.push_back(carom::name(type));
+  return fmt::format("{}", fmt::join(list, ", "));
+}
+
+/// The type that the case names, if it does.
+std::optional<CellType> wanted_type(const CasePart& wanted, Section section) {
+  if (!wanted.type) return std::nullopt;
+  const std::span<const CellType> types = offered_cells(section);
+  const auto found =
+      std::find_if(types.begin(), types.end(), [&](CellType type) { return carom::name(type) == **wanted.type; });
+  if (found != types.end()) return *found;
+  throw CaseError(wanted.type->where, "part.type",
+                  fmt::format("\"{}\" with section = \"{}\"", **wanted.type, name(section)), names(types));
 }
 
 std::string describe(const Part& part) {
@@ -55,12 +64,16 @@ void Parts::add(const Case& given, const CasePart& wanted, const Groups& groups)
   part.name = *wanted.name;
   part.material = material->made();
   part.section = static_cast<Section>(wanted.section);  // declared in the same order
-  part.type = cell_type(part.section);
   part.thickness = part.section == Section::bar ? wanted.area : wanted.thickness;
-  part.cells = groups.cells(wanted.cells, "part.cells", part.type,
-                            fmt::format("{} cells, since section = \"{}\" (QUAD4 take plane_strain, plane_stress or "
-                                        "axisymmetric, LINE2 take bar)",
-                                        carom::name(part.type), name(part.section)));
+  const std::span<const CellType> types = offered_cells(part.section);
+  Groups::TypedCells found =
+      groups.cells(wanted.cells, "part.cells", types,
+                   fmt::format("{} cells, since section = \"{}\" (plane cells take plane_strain, plane_stress or "
+                               "axisymmetric, lines take bar)",
+                               names(types), name(part.section)),
+                   wanted_type(wanted, part.section));
+  part.type = found.type;
+  part.cells = std::move(found.cells);
   const auto block = static_cast<std::size_t>(mesh_.block(part.type) - mesh_.blocks.data());
   for (const Index cell : part.cells) {
     Index& owner = part_of_cell_[block][at(cell)];
@@ -70,10 +83,10 @@ void Parts::add(const Case& given, const CasePart& wanted, const Groups& groups)
                                   mesh_.blocks[block].file_numbers[at(cell)], parts_[at(owner)].name, part.name),
                       "every cell in one part only");
     owner = static_cast<Index>(parts_.size());
-    const Hold hold = part.type == CellType::hexa8 ? Hold::solid : Hold::plane_or_bar;
+    const Hold hold = dimension(part.type) == 3 ? Hold::solid : Hold::plane_or_bar;
     for (const Index n : nodes_of_cell(part, cell)) holds_node_[at(n)] = std::max(holds_node_[at(n)], hold);
   }
-  if (part.type == CellType::quad4) check_plane(part, wanted.cells);
+  if (dimension(part.type) == 2) check_plane(part, wanted.cells);
   if (part.section == Section::axisymmetric) check_axis(part, wanted.cells);
   if (part.section == Section::bar) check_bars(part, wanted.cells);
   parts_.push_back(std::move(part));
@@ -89,15 +102,17 @@ void Parts::refuse_cell(const Part& part, Index cell, const Located<std::string>
 
 void Parts::check_plane(const Part& part, const Located<std::string>& group) const {
   constexpr double flatness = 1e-9;  // of the cell's diagonal: above the round-off of any writer
+  const auto corners = static_cast<std::size_t>(corner_count(part.type));
   for (const Index cell : part.cells) {
     const std::span<const Index> nodes = nodes_of_cell(part, cell);
     const auto x = [&](std::size_t a) { return mesh_.coordinates[at(nodes[a])]; };
-    const double size = std::max(norm(subtract(x(2), x(0))), norm(subtract(x(3), x(1))));
-    for (std::size_t a = 1; a < 4; ++a)
+    double size = 0.0;
+    for (std::size_t a = 0; a < corners; ++a) size = std::max(size, norm(subtract(x(a), x((a + 2) % corners))));
+    for (std::size_t a = 1; a < nodes.size(); ++a)
       if (std::abs(x(a)[2] - x(0)[2]) > flatness * size)
         refuse_cell(part, cell, group, "outside of the x-y plane",
                     fmt::format("cells in a plane z = const, since section = \"{}\"", name(part.section)));
-    if (plane_turn(mesh_, nodes) != 1)
+    if (plane_turn(mesh_, nodes.first(corners)) != 1)
       refuse_cell(part, cell, group, "numbered clockwise or folded",
                   "counter-clockwise cells (in a mesh without solids they are turned on reading)");
   }
@@ -152,7 +167,7 @@ std::vector<Index> Parts::nodes_of(const Part& part) const {
 std::vector<PrescribedMotion> Parts::held() const {
   std::vector<PrescribedMotion> motions;
   for (const Part& part : parts_) {
-    if (part.type != CellType::quad4) continue;
+    if (dimension(part.type) != 2) continue;
     const std::string label = fmt::format("part \"{}\", which is {}", part.name, name(part.section));
     std::vector<Index> nodes = nodes_of(part), on_axis;
     const double tolerance = axis_tolerance(part);
@@ -174,7 +189,7 @@ Surface Parts::surface(const std::vector<OuterFacet>& facets, const Location& wh
     const Part* part = part_of(outer.cell);
     if (part == nullptr) {
       const CellBlock& block = mesh_.blocks[at(outer.cell.block)];
-      if (block.type == CellType::hexa8) continue;
+      if (dimension(block.type) == 3) continue;
       throw CaseError(where, key,
                       fmt::format("the boundary of cell {} ({}), which belongs to no part",
                                   block.file_numbers[at(outer.cell.cell)], carom::name(block.type)),

@@ -36,11 +36,9 @@ std::optional<ExactCurves> make_exact(const Simulation& simulation, const ProbeC
 
 VtuCells vtu_cells(const Simulation& simulation) {
   VtuCells cells;
-  for (std::size_t k = 0; k < simulation.solid().cell_count(); ++k) {
-    const std::span<const Index> nodes = simulation.solid().nodes_of_cell(k);
-    const bool flat = nodes.size() == 4;
-    cells.add(nodes, nodes.size() == 8 ? VtuCells::hexahedron : (flat ? VtuCells::quad : VtuCells::line));
-  }
+  const Solid& solid = simulation.solid();
+  for (std::size_t k = 0; k < solid.cell_count(); ++k)
+    cells.add(solid.nodes_of_cell(k), simulation.mesh().blocks[static_cast<std::size_t>(solid.cells()[k].block)].type);
   return cells;
 }
 

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "cell_meshes.hpp"
+#include "mesh/structured_block.hpp"
 #include "output/pvd.hpp"
 #include "output/results_folder.hpp"
 #include "output/vtu.hpp"
@@ -38,12 +40,12 @@ struct Grid {
                {point(i, j, k), point(i + 1, j, k), point(i + 1, j + 1, k), point(i, j + 1, k), point(i, j, k + 1),
                 point(i + 1, j, k + 1), point(i + 1, j + 1, k + 1), point(i, j + 1, k + 1)})
             hexa8.push_back(n);
-    for (std::size_t c = 0; c < hexa8.size(); c += 8) cells.add({&hexa8[c], 8}, VtuCells::hexahedron);
+    for (std::size_t c = 0; c < hexa8.size(); c += 8) cells.add({&hexa8[c], 8}, CellType::hexa8);
   }
   /// Adds the face z = 0 of the first cube as a QUAD4, and its edge along x as a LINE2.
   void add_flat_cells() {
-    cells.add({hexa8.data(), 4}, VtuCells::quad);
-    cells.add({hexa8.data(), 2}, VtuCells::line);
+    cells.add({hexa8.data(), 4}, CellType::quad4);
+    cells.add({hexa8.data(), 2}, CellType::line2);
   }
   std::vector<Vec3> points;
   std::vector<Index> hexa8;
@@ -101,6 +103,30 @@ TEST_F(VtuTest, VtkReadsMoreThanOneBuffer) {
       fmt::format("/usr/bin/python3 \"{}/tests/unit/vtu_read.py\" \"{}\" 40 30 20 hexahedra 123456", CAROM_SOURCE_DIR,
                   folder_.string());
   EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+// Faces that look outward, middles on their edges, volumes that add up, as VTK sees them.
+TEST_F(VtuTest, VtkReadsEveryTypeOfCell) {
+  StructuredBlock box, strip;
+  box.size = strip.size = {2.0, 1.0, 3.0};
+  box.divisions = strip.divisions = {2, 1, 2};
+  strip.kind = StructuredBlock::Kind::quad;
+  const auto write = [&](const StructuredBlock& block, CellType type) {
+    const Mesh mesh = test::with_cells(make_structured_blocks({block}), type);
+    const CellBlock& of_type = *mesh.block(type);
+    const auto n = static_cast<std::size_t>(node_count(type));
+    VtuCells cells;
+    for (std::size_t k = 0; k < of_type.size(); ++k) cells.add(std::span(of_type.connectivity).subspan(n * k, n), type);
+    const std::string file = (folder_ / fmt::format("{}.vtu", name(type))).string();
+    write_vtu(file, mesh.coordinates, cells, {}, {});
+    return fmt::format(" \"{}\"", file);
+  };
+  std::string solids, planes;
+  for (const CellType type : test::solid_types) solids += write(box, type);
+  for (const CellType type : test::plane_types) planes += write(strip, type);
+  const std::string script = fmt::format("/usr/bin/python3 \"{}/tests/unit/vtu_cells.py\"", CAROM_SOURCE_DIR);
+  EXPECT_EQ(std::system((script + " 6" + solids).c_str()), 0);
+  EXPECT_EQ(std::system((script + " 2" + planes).c_str()), 0);
 }
 
 TEST_F(VtuTest, CollectionIsWholeAfterEveryFrame) {

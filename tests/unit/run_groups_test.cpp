@@ -3,8 +3,11 @@
 
 #include <algorithm>
 
+#include "cell_meshes.hpp"
+#include "mesh/structured_block.hpp"
 #include "run/build_mesh.hpp"
 #include "run/build_model.hpp"
+#include "run/groups.hpp"
 #include "run_fixture.hpp"
 
 namespace carom {
@@ -121,10 +124,43 @@ TEST(Groups, AllCellsLeaveInterfacesOut) {
   number(mesh);
   EXPECT_EQ(model_of(part(""), mesh).parts[0].cells, (std::vector<Index>{0, 2}));
   mesh.blocks.push_back(block_of(CellType::tetra4, {0, 1, 2, 12}));
-  EXPECT_NE(message_of(part(""), mesh).find("TETRA4 cells such as 1"), std::string::npos);
+  EXPECT_NE(message_of(part(""), mesh).find("1 TETRA4 cell (1)"), std::string::npos);
 }
 
 /// A moving obstacle hangs on a node of its own, which no force and no support of the case is meant for.
+// Hexahedra and pyramids in one group: each type is a part of its own, picked by its name.
+TEST(Groups, OfSeveralTypesAreCountedAndPicked) {
+  StructuredBlock block;
+  block.size = {1, 1, 1};
+  block.divisions = {3, 1, 1};
+  const Mesh mesh = with_mixed_cells(make_structured_blocks({block}));
+  const std::string both = message_of(part(""), mesh);
+  EXPECT_NE(both.find("found \"all\", where the mesh has 12 PYRA5 cells ("), std::string::npos) << both;
+  EXPECT_NE(both.find("Mesh with hexahedra"), std::string::npos) << both;
+  const Model one = model_of(part("type = \"HEXA8\""), mesh);
+  EXPECT_EQ(one.parts[0].cells.size(), 1U);
+  EXPECT_EQ(one.parts[0].type, CellType::hexa8);
+  const std::string none = message_of(part("type = \"LINE2\""), mesh);
+  EXPECT_NE(none.find("part.type: found \"LINE2\" with section = \"solid\"; expected HEXA8"), std::string::npos)
+      << none;
+}
+
+// A group of faces of a mesh of tetrahedra of second order: by its TRIA6 cells, or by all their nodes.
+TEST(Groups, OfQuadraticFacesAreTheirPieces) {
+  StructuredBlock block;
+  block.size = {1, 1, 1};
+  block.divisions = {2, 2, 2};
+  Mesh mesh = with_cells(make_structured_blocks({block}), CellType::tetra10);
+  mesh.node_groups["NODES"] = mesh.nodes_of("ZMAX");
+  const Groups groups(mesh);
+  const auto facets = [&](const char* group) {
+    return groups.outer_facets(Located<std::string>{group, {}}, "group").size();
+  };
+  EXPECT_EQ(facets("ZMAX"), 4U * 8U);  // four triangles of each of two faces of each of four squares
+  EXPECT_EQ(facets("NODES"), 4U * 8U);
+  EXPECT_EQ(groups.rigid_faces(Located<std::string>{"ZMAX", {}}, "group").size(), 4U * 8U);
+}
+
 TEST(Groups, AllNodesAreThoseOfTheMesh) {
   const Case given = parse_case(case_of_block(R"([[load]]
 group = "all"
