@@ -11,6 +11,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -24,6 +25,7 @@
 #include "linalg/process_environment.hpp"
 #include "mesh/mesh_summary.hpp"
 #include "mesh/read_mesh.hpp"
+#include "output/checkpoint_file.hpp"
 #include "parallel/threads.hpp"
 #include "run/check_summary.hpp"
 #include "run/cost_estimate.hpp"
@@ -47,6 +49,7 @@ struct Arguments {
   std::string case_file, mesh_file, folder;
   int threads = 0;
   bool quiet = false;
+  std::optional<double> end;
   carom::compare::Options choices;
   int jobs = 0;
 };
@@ -76,6 +79,15 @@ ExitCode run(const Arguments& arguments) {
   options.threads = arguments.threads;
   options.progress = arguments.quiet ? carom::ProgressMode::quiet : carom::ProgressMode::automatic;
   return carom::run_case(arguments.case_file, options, stop_requested);
+}
+
+ExitCode resume(const Arguments& arguments) {
+  stop_at_signals();
+  carom::RunOptions options;
+  options.folder = arguments.folder;
+  options.threads = arguments.threads;
+  options.progress = arguments.quiet ? carom::ProgressMode::quiet : carom::ProgressMode::automatic;
+  return carom::resume_case(options, arguments.end, stop_requested);
 }
 
 ExitCode check(const Arguments& arguments) {
@@ -109,6 +121,7 @@ ExitCode mesh(const Arguments& arguments) {
 
 ExitCode dispatch(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("run")) return run(arguments);
+  if (app.got_subcommand("resume")) return resume(arguments);
   if (app.got_subcommand("check")) return check(arguments);
   if (app.got_subcommand("compare")) return compare(arguments);
   if (app.got_subcommand("mesh")) return mesh(arguments);
@@ -149,6 +162,9 @@ ExitCode guarded(const CLI::App& app, const Arguments& arguments) {
   } catch (const carom::CaseError& e) {
     print_error(e.what());
     return ExitCode::case_wrong;
+  } catch (const carom::CheckpointError& e) {
+    print_error(e.what());
+    return ExitCode::case_wrong;
   } catch (const std::bad_alloc&) {
     print_error(fmt::format("memory ran out while the case was made ready; {} are there",
                             carom::about_bytes(carom::available_memory())));
@@ -179,14 +195,20 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", fmt::format("carom {} ({})", carom::version(), carom::compiler()));
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 good; 1 a check or the verdict failed, or `check` has warnings; 2 the case or its mesh is wrong;\n"
-      "3 the run failed (what was computed is kept).");
+      "Exit codes: 0 good; 1 a check or the verdict failed, or `check` has warnings; 2 the case, its mesh or its\n"
+      "checkpoints cannot be used; 3 the run failed (what was computed is kept).");
   Arguments arguments;
   CLI::App* run_command = app.add_subcommand("run", "Run a case and write its results folder and report");
   run_command->add_option("case", arguments.case_file, "Case file (TOML)")->required();
   run_command->add_option("--out", arguments.folder, "Results folder (default: out/<name of the case>)");
   run_command->add_option("--threads", arguments.threads, "Threads (default: all cores)")->check(CLI::Range(0, 1024));
   run_command->add_flag("--quiet", arguments.quiet, "Print errors, and why a run is not good");
+  CLI::App* resume_command = app.add_subcommand("resume", "Go on with a run from the last checkpoint of its folder");
+  resume_command->add_option("folder", arguments.folder, "Results folder")->required();
+  resume_command->add_option("--end", arguments.end, "Go on to this time (default: the end of the case)");
+  resume_command->add_option("--threads", arguments.threads, "Threads (default: all cores)")
+      ->check(CLI::Range(0, 1024));
+  resume_command->add_flag("--quiet", arguments.quiet, "Print errors, and why a run is not good");
   CLI::App* check_command = app.add_subcommand("check", "Read, resolve and examine a case without running it");
   check_command->add_option("case", arguments.case_file, "Case file (TOML)")->required();
   add_compare(app, arguments);

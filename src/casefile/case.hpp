@@ -226,8 +226,10 @@ struct CaseOutput {
                                            {"von_mises", {}},     {"strain", {}},           {"part", {}},
                                            {"contact_force", {}}, {"contact_pressure", {}}, {"contact_gap", {}},
                                            {"contact_status", {}}};
-  int fields_every = 0;  ///< steps; 0: about 50 times over the run
-  int curves_every = 1;  ///< steps between rows of the .csv files
+  int fields_every = 0;              ///< steps; 0: about 50 times over the run
+  int curves_every = 1;              ///< steps between rows of the .csv files
+  int checkpoint_every = 0;          ///< steps between checkpoints; 0: by time alone
+  double checkpoint_minutes = 10.0;  ///< between checkpoints; 0: by steps alone
 };
 
 /// [[probe]]: exactly one of node, point, group.

@@ -64,6 +64,13 @@ SectionSchema<CaseOutput> output_section() {
   s.key("fields_every", &CaseOutput::fields_every, "Steps between .vtu files; 0: about 50 files over the run.",
         {.range = at_least(0.0)});
   s.key("curves_every", &CaseOutput::curves_every, "Steps between rows of the .csv files.", {.range = at_least(1.0)});
+  s.key("checkpoint_every", &CaseOutput::checkpoint_every,
+        "Steps between checkpoints, from which `carom resume` goes on; 0: by time alone.", {.range = at_least(0.0)});
+  s.key("checkpoint_minutes", &CaseOutput::checkpoint_minutes,
+        "Minutes of the clock between checkpoints; 0: by steps alone. Runs that end, or are stopped by Ctrl-C or "
+        "SIGTERM, write "
+        "one in any case.",
+        {.range = at_least(0.0)});
   return s;
 }
 

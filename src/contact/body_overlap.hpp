@@ -18,6 +18,16 @@ struct Overlap {
   Index contact = -1;    ///< the contact with the obstacle
 };
 
+template <class A>
+void fields(A& archive, Overlap& x) {
+  archive("depth", x.depth);
+  archive("node", x.node);
+  archive("position", x.position);
+  archive("cell_block", x.cell.block);
+  archive("cell", x.cell.cell);
+  archive("contact", x.contact);
+}
+
 /// Looks for nodes of the skins of solids and plane bodies
 /// - inside of cells that are neither their own nor neighbours of those: of other bodies, or of a fold of their own.
 ///   The depth is that under the nearest of the cell's skin faces (PlacedCells::depth_under) times the cell's length; a

@@ -42,6 +42,17 @@ struct RowLaw {
   static double cubed(double x) { return x * x * x; }
 };
 
+template <class A>
+void fields(A& archive, RowLaw& x) {
+  archive("eps_N", x.eps_N);
+  archive("eps_T", x.eps_T);
+  archive("damping", x.damping);
+  archive("mu", x.mu);
+  archive("restitution", x.restitution);
+  archive("damper_acts", x.damper_acts);
+  archive("linear_depth", x.linear_depth);
+}
+
 /// Rows of unilateral constraints. Row r sees the displacements of its nodes, in its frame (normal, tangent_1,
 /// tangent_2), as
 ///   w = (G u)_r = sum over its nodes of block_a u_a,
@@ -95,5 +106,26 @@ struct ConstraintRows {
 
   friend bool operator==(const ConstraintRows&, const ConstraintRows&) = default;
 };
+
+template <class A>
+void fields(A& archive, ConstraintRows& x) {
+  archive("begin", x.begin);
+  archive("node", x.node);
+  archive("block", x.block);
+  archive("gap", x.gap);
+  archive("normal", x.normal);
+  archive("tangent_1", x.tangent_1);
+  archive("tangent_2", x.tangent_2);
+  archive("position", x.position);
+  archive("reach", x.reach);
+  archive("measure", x.measure);
+  archive("law", x.law);
+  archive("source", x.source);
+  archive("behind", x.behind);
+  archive("is_back", x.is_back);
+  archive("rounded", x.rounded);
+  archive("facet", x.facet);
+  archive("slot", x.slot);
+}
 
 }  // namespace carom

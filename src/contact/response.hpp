@@ -31,6 +31,17 @@ struct ContactResponse {
   friend bool operator==(const ContactResponse& a, const ContactResponse& b);
 };
 
+template <class A>
+void fields(A& archive, ContactResponse& x) {
+  archive("rows", x.rows);
+  archive("force", x.force);
+  archive("damper", x.damper);
+  archive("status", x.status);
+  archive("history", x.history);
+  archive("stored", x.stored);
+  archive("slip_work", x.slip_work);
+}
+
 /// history = that of the response, and what its rows are behind at displacement u: a row whose gap is negative is taken
 /// to be behind the same facet in the next step, however deep it goes, until it comes out in front.
 void take_history(const ContactResponse& response, std::span<const double> u, std::vector<RowHistory>& history);

@@ -13,4 +13,11 @@ struct RowHistory {
   friend bool operator==(const RowHistory&, const RowHistory&) = default;
 };
 
+template <class A>
+void fields(A& archive, RowHistory& x) {
+  archive("slip", x.slip);
+  archive("multiplier", x.multiplier);
+  archive("facet", x.facet);
+}
+
 }  // namespace carom

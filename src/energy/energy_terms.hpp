@@ -82,6 +82,11 @@ inline double EnergyTerms::sum(TermKind kind) const {
   return sum;
 }
 
+template <class A>
+void fields(A& archive, EnergyTerms& x) {
+  for (const EnergyTerm& term : energy_terms) archive(term.name, x.*term.value);
+}
+
 /// after - before of the stored energies; the other terms are zero.
 inline EnergyTerms change_of_stored(const EnergyTerms& before, const EnergyTerms& after) {
   EnergyTerms change;

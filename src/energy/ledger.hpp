@@ -29,6 +29,15 @@ struct AsterTerms {
   double DISS_SCH() const { return TRAV_EXT - ENER_CIN - ENER_TOT - TRAV_AMOR - TRAV_LIAI; }
 };
 
+template <class A>
+void fields(A& archive, AsterTerms& x) {
+  archive("ENER_CIN", x.ENER_CIN);
+  archive("ENER_TOT", x.ENER_TOT);
+  archive("TRAV_EXT", x.TRAV_EXT);
+  archive("TRAV_AMOR", x.TRAV_AMOR);
+  archive("TRAV_LIAI", x.TRAV_LIAI);
+}
+
 /// As columns and entries of the summary.
 inline constexpr std::array<std::string_view, 6> aster_names{"ENER_CIN",  "ENER_TOT",  "TRAV_EXT",
                                                              "TRAV_AMOR", "TRAV_LIAI", "DISS_SCH"};
@@ -43,6 +52,12 @@ struct Momentum {
   Vec3 angular{};
   friend bool operator==(const Momentum&, const Momentum&) = default;
 };
+
+template <class A>
+void fields(A& archive, Momentum& x) {
+  archive("linear", x.linear);
+  archive("angular", x.angular);
+}
 
 /// What one step adds to the books.
 struct LedgerIncrement {
@@ -110,6 +125,18 @@ class EnergyLedger {
   }
 
  private:
+  template <class A>
+  friend void fields(A& archive, EnergyLedger& x) {
+    archive("initial", x.initial_);
+    archive("total", x.total_);
+    archive("aster", x.aster_);
+    archive("initial_momentum", x.initial_momentum_);
+    archive("momentum", x.momentum_);
+    archive("impulse", x.impulse_);
+    archive("reach", x.reach_);
+    archive("supplied_peak", x.supplied_peak_);
+  }
+
   EnergyTerms initial_, total_;
   AsterTerms aster_;
   Momentum initial_momentum_, momentum_, impulse_;

@@ -34,6 +34,18 @@ CsvFile::CsvFile(std::string path, const std::vector<std::string>& columns, cons
   if (descriptor_ < 0) throw OutputError(path_, std::strerror(errno));
 }
 
+CsvFile::CsvFile(std::string path, std::size_t columns, std::size_t bytes)
+    : path_(std::move(path)), columns_(columns), written_(bytes), last_flush_(std::chrono::steady_clock::now()) {
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  const auto end = static_cast<off_t>(bytes);
+  const bool is_open =
+      descriptor_ >= 0 && ::ftruncate(descriptor_, end) == 0 && ::lseek(descriptor_, end, SEEK_SET) == end;
+  if (is_open) return;
+  const int reason = errno;
+  if (descriptor_ >= 0) ::close(descriptor_);
+  throw OutputError(path_, std::strerror(reason));
+}
+
 CsvFile::CsvFile(CsvFile&& other) noexcept
     : path_(std::move(other.path_)),
       columns_(other.columns_),
@@ -72,6 +84,12 @@ void CsvFile::flush() {
   [[maybe_unused]] const int truncated = ::ftruncate(descriptor_, static_cast<off_t>(written_ + kept));
   buffer_.clear();
   throw OutputError(path_, std::strerror(reason));
+}
+
+std::size_t CsvFile::sync() {
+  flush();
+  if (::fsync(descriptor_) != 0 && errno != EINVAL) throw OutputError(path_, std::strerror(errno));  // EINVAL: a pipe
+  return written_;
 }
 
 void CsvFile::close() {

@@ -16,6 +16,8 @@ namespace carom {
 class CsvFile {
  public:
   CsvFile(std::string path, const std::vector<std::string>& columns, const std::vector<std::string>& comments = {});
+  /// Goes on with a table of so many columns after its first `bytes`; what follows them is cut off.
+  CsvFile(std::string path, std::size_t columns, std::size_t bytes);
   ~CsvFile();
   CsvFile(CsvFile&& other) noexcept;
   CsvFile& operator=(CsvFile&&) = delete;
@@ -26,6 +28,8 @@ class CsvFile {
   void append(std::span<const double> row);
   /// Hands the buffered rows to the system.
   void flush();
+  /// Bytes of all rows so far, which are on the disk then.
+  std::size_t sync();
   /// Flushes and closes; call it at the end of the run, since the destructor cannot report an error.
   void close();
 

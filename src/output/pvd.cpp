@@ -32,7 +32,8 @@ std::string frame_file(int step) {
   return fmt::format("fields/step_{:06}.vtu", step);
 }
 
-PvdCollection::PvdCollection(std::string path) : path_(std::move(path)) {
+PvdCollection::PvdCollection(std::string path, std::vector<PvdFrame> frames)
+    : path_(std::move(path)), frames_(std::move(frames)) {
   write_file(path_, collection(frames_));
 }
 

@@ -1,9 +1,13 @@
 #include "output/results_folder.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "output/file_writer.hpp"
@@ -18,15 +22,24 @@ constexpr std::array<std::string_view, 10> kFiles{"probes_filtered.csv", "summar
                                                   "probes.csv",          "exact.csv",    "fields.pvd", "mesh.txt",
                                                   "case.resolved.toml",  "report.html"};
 
-/// step_<digits>.vtu or obstacles_<digits>.vtu, as the recorder names them, or what an interrupted write of one left.
+/// The digits of a name such as step_000010.vtu; "" where it has not this form.
+std::string_view digits_of(std::string_view name, std::string_view begin, std::string_view end) {
+  if (!name.starts_with(begin) || !name.ends_with(end) || name.size() <= begin.size() + end.size()) return {};
+  name = name.substr(begin.size(), name.size() - begin.size() - end.size());
+  return name.find_first_not_of("0123456789") == std::string_view::npos ? name : std::string_view{};
+}
+
+/// As the recorder names them, or what an interrupted write of one left.
 bool is_frame(std::string_view name) {
-  const std::string_view begin = name.starts_with("step_") ? "step_" : "obstacles_";
-  if (!name.starts_with(begin)) return false;
-  name.remove_prefix(begin.size());
-  const std::size_t digits = name.find_first_not_of("0123456789");
-  if (digits == 0 || digits == std::string_view::npos) return false;
-  const std::string_view end = name.substr(digits);
-  return end == ".vtu" || end == ".vtu.tmp";
+  if (name.ends_with(".tmp")) name.remove_suffix(4);
+  return !digits_of(name, "step_", ".vtu").empty() || !digits_of(name, "obstacles_", ".vtu").empty();
+}
+
+constexpr std::string_view kCheckpoints = "checkpoints", kCheckpointEnd = ".h5";
+
+bool is_checkpoint(std::string_view name) {
+  if (name.ends_with(".tmp")) name.remove_suffix(4);
+  return !digits_of(name, "step_", kCheckpointEnd).empty();
 }
 
 void remove_file(const fs::path& path) {
@@ -36,11 +49,14 @@ void remove_file(const fs::path& path) {
   if (error) throw OutputError(path.string(), error.message());
 }
 
-void remove_frames(const fs::path& folder) {
+/// Removes the files of a folder, if there is one, whose name says so.
+template <class Choose>
+void remove_files(const fs::path& folder, const Choose& is_to_go) {
   std::error_code error;
+  if (!fs::exists(folder, error)) return;
   for (auto entry = fs::directory_iterator(folder, error); !error && entry != fs::directory_iterator();
        entry.increment(error)) {
-    if (is_frame(entry->path().filename().string())) remove_file(entry->path());
+    if (is_to_go(entry->path().filename().string())) remove_file(entry->path());
   }
   if (error) throw OutputError(folder.string(), error.message());
 }
@@ -57,7 +73,41 @@ void prepare_results_folder(const std::string& path) {
     remove_file(folder / name);
     remove_file(folder / (std::string(name) + ".tmp"));
   }
-  remove_frames(folder / "fields");
+  remove_files(folder / "fields", is_frame);
+  remove_files(folder / kCheckpoints, is_checkpoint);
+}
+
+void continue_results_folder(const std::string& path, const std::vector<std::string>& frames) {
+  const fs::path folder(path);
+  for (const char* name : {"probes_filtered.csv", "summary.json", "report.html"}) {
+    remove_file(folder / name);
+    remove_file(folder / (std::string(name) + ".tmp"));
+  }
+  remove_files(folder / "fields", [&](const std::string& name) {
+    return is_frame(name) && std::find(frames.begin(), frames.end(), "fields/" + name) == frames.end();
+  });
+  remove_files(folder / kCheckpoints,
+               [](const std::string& name) { return is_checkpoint(name) && name.ends_with(".tmp"); });
+}
+
+std::string checkpoint_file(long long step) {
+  return fmt::format("{}/step_{:06}{}", kCheckpoints, step, kCheckpointEnd);
+}
+
+std::vector<std::string> checkpoint_files(const std::string& path) {
+  std::vector<std::pair<long long, std::string>> found;
+  std::error_code error;
+  for (auto entry = fs::directory_iterator(fs::path(path) / kCheckpoints, error);
+       !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (is_checkpoint(name) && name.ends_with(kCheckpointEnd))
+      found.emplace_back(std::stoll(std::string(digits_of(name, "step_", kCheckpointEnd))),
+                         fmt::format("{}/{}", kCheckpoints, name));
+  }
+  std::sort(found.rbegin(), found.rend());
+  std::vector<std::string> files;
+  for (auto& [step, file] : found) files.push_back(std::move(file));
+  return files;
 }
 
 }  // namespace carom

@@ -2,11 +2,21 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace carom {
 
 /// Creates `path` (and parents) and `path`/fields, and removes the files that an earlier run left there: only names
 /// that carom writes, nothing else is touched. Throws OutputError when the folder cannot be made or written to.
 void prepare_results_folder(const std::string& path);
+
+/// Makes the folder ready for a run that goes on: removes what is written at the end of a run, and the frames (paths
+/// relative to the folder) that are not among those to keep. Throws OutputError.
+void continue_results_folder(const std::string& path, const std::vector<std::string>& frames);
+
+/// Of a checkpoint within the folder.
+std::string checkpoint_file(long long step);
+/// The checkpoints of a folder, relative to it, the latest first.
+std::vector<std::string> checkpoint_files(const std::string& path);
 
 }  // namespace carom

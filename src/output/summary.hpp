@@ -57,6 +57,16 @@ struct StressSummary {
   std::int64_t instants = 0;  ///< how many were looked at; 0: nothing is known
 };
 
+template <class A>
+void fields(A& archive, StressSummary& x) {
+  archive("value", x.value);
+  archive("time", x.time);
+  archive("part", x.part);
+  archive("cell", x.cell);
+  archive("position", x.position);
+  archive("instants", x.instants);
+}
+
 /// Where a probe is: on a node, or over a group.
 struct ProbeSummary {
   std::string name;

@@ -32,7 +32,18 @@ class Checks {
     double reference = 0.0;
     double last_time = 0.0, last_value = 0.0;
     std::optional<double> value;
+    /// What a run changes of it.
+    template <class A>
+    friend void fields(A& archive, Watch& x) {
+      archive("last_time", x.last_time);
+      archive("last_value", x.last_value);
+      archive("value", x.value);
+    }
   };
+  template <class A>
+  friend void fields(A& archive, Checks& x) {
+    archive.each("watches", x.watches_);
+  }
   Watch watch(const CaseCheck& check, const std::vector<const CurveTable*>& tables, const ExactCurves* exact) const;
 
   const Case& case_;

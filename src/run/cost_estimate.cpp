@@ -104,8 +104,10 @@ CostEstimate estimate_cost(const Simulation& s) {
   cost.memory_bytes = 2.4e7 + 1e3 * cells + (has_matrix ? 14.0 * 72.0 * std::pow(nodes, 4.0 / 3.0) : 0.0);
   cost.frames = s.given().output.fields.empty() ? 0 : s.steps() / frame_interval(s) + 2;
   const long long rows = s.steps() / s.given().output.curves_every + 1;
-  constexpr double page = 2.5e5;  // of the report, with what draws its curves
-  cost.disk_bytes = page + static_cast<double>(cost.frames) * frame_bytes(s) + static_cast<double>(rows) * row_bytes(s);
+  constexpr double page = 2.5e5;                         // of the report, with what draws its curves
+  constexpr double checkpoints = 3.0 * 9.0 * 3.0 * 8.0;  // per node: two and one being written, of nine vectors of dofs
+  cost.disk_bytes = page + static_cast<double>(cost.frames) * frame_bytes(s) +
+                    static_cast<double>(rows) * row_bytes(s) + checkpoints * nodes;
   return cost;
 }
 

@@ -47,6 +47,15 @@ class ContactCurves {
   const CurveTable& table() const { return table_; }
 
  private:
+  template <class A>
+  friend void fields(A& archive, ContactCurves& x) {
+    archive("row", x.table_.row);
+    archive("force", x.force_);
+    archive("impulse", x.impulse_);
+    archive("closed", x.closed_);
+    archive("closings", x.closings_);
+  }
+
   void add_impulses(const StepView& view, const std::vector<ContactResultant>& now);
   void add_motion(std::size_t contact, const State& state);
 

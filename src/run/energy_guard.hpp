@@ -36,6 +36,15 @@ class EnergyGuard {
   double share() const { return share_; }
 
  private:
+  template <class A>
+  friend void fields(A& archive, EnergyGuard& x) {
+    archive("net", x.net_);
+    archive("allowed", x.allowed_);
+    archive("share", x.share_);
+    archive("cuts", x.cuts_);
+    archive("shortened", x.shortened_);
+  }
+
   void shorten();
 
   double net_ = 0.0;      ///< gains less losses

@@ -25,6 +25,14 @@ class KeyFigures {
   StressSummary stress() const { return stress_; }
 
  private:
+  template <class A>
+  friend void fields(A& archive, KeyFigures& x) {
+    archive("begin", x.begin_);
+    archive("end", x.end_);
+    archive("last_step", x.last_step_);
+    archive("stress", x.stress_);
+  }
+
   std::vector<Vec3> velocities(const std::vector<double>& v) const;
   void look_at_stress(const StepView& view);
   bool is_static(double t) const;

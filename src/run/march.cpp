@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -27,12 +28,52 @@ RunMonitor::StageKind kind_of(const Stage& stage) {
 
 }  // namespace
 
-March::March(const Simulation& simulation) : s_(simulation), state_(simulation.initial_state()) {
+March::March(const Simulation& simulation)
+    : s_(simulation), state_(simulation.initial_state()), end_(simulation.end()) {
   std::fill(state_.v.begin(), state_.v.end(), 0.0);  // they begin with their stage
 }
 
 bool March::at_end() const {
   return steps_->control().at_end() && stage_number_ + 1 == s_.stages().size();
+}
+
+/// What has been started goes out as it is; what has not is made ready for what comes in.
+void March::keep(Archive& archive) {
+  archive("stage", stage_number_);
+  if (stage_number_ >= s_.stages().size()) throw ArchiveError("it is of a stage that the case has not");
+  if (!is_started()) {
+    scheme_ = stage().make_scheme();
+    steps_.emplace(stage());
+    ledger_.emplace(EnergyTerms{}, Momentum{}, 0.0);
+    monitor_.emplace(*ledger_, RunMonitor::Bodies{}, kind_of(stage()));
+  }
+  archive("state", state_);
+  archive("steps", *steps_);
+  archive("ledger", *ledger_);
+  archive("monitor", *monitor_);
+  archive("end", end_);
+  archive("step", step_);
+  archive("dt", dt_);
+  archive("iterations", iterations_);
+  archive("solver", solver_);
+  archive("log", log_);
+  archive("dt_smallest", dt_smallest_);
+  archive("dt_largest", dt_largest_);
+  archive("body_strain", body_strain_);
+}
+
+void March::prolong(double end) {
+  if (!(end > state_.t)) {
+    throw std::invalid_argument(fmt::format("an end at {:.9g}, and the run has come to {:.9g} already", end, state_.t));
+  }
+  if (stage_number_ + 1 < s_.stages().size())
+    throw std::invalid_argument("the last stage has not begun, and its end alone can be moved");
+  if (!steps_->prolong(end)) {
+    throw std::invalid_argument(
+        fmt::format("the step is fixed at {:.9g}, and no whole number of them leads from {:.9g} to {:.9g}",
+                    stage().dt(), stage().begin(), end));
+  }
+  end_ = end;
 }
 
 void March::start() {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "run/observer.hpp"
 #include "run/simulation.hpp"
 #include "run/step_guard.hpp"
@@ -30,10 +31,15 @@ class March {
   /// Precondition: started, not failed, and not at the end. Throws RunError when the run cannot go on, or lets
   /// has_failed tell so.
   void step();
+  /// The march ends at this time, in steps as before. A fixed step has to lead there; others meet it to 2^-17 of the
+  /// usual step. Throws std::invalid_argument, which says why, where that cannot be. Precondition: started.
+  void prolong(double end);
   /// The run ends here, before its end: for the observers.
   void leave();
 
   bool at_end() const;
+  /// When.
+  double end() const { return end_; }
   /// No further step can be made; message() says why.
   bool has_failed() const { return !message_.empty(); }
   const std::string& message() const { return message_; }
@@ -56,6 +62,12 @@ class March {
   const std::vector<std::string>& log() const { return log_; }
 
  private:
+  template <class A>
+  friend void fields(A& archive, March& x) {
+    x.keep(archive);
+  }
+  void keep(Archive& archive);
+
   struct GivenMotion {
     double kinetic = 0.0;
     Momentum momentum{};
@@ -78,6 +90,7 @@ class March {
   State state_, next_;
   std::optional<EnergyLedger> ledger_;
   std::optional<RunMonitor> monitor_;
+  double end_;
   std::size_t stage_number_ = 0;
   long long step_ = 0;
   double dt_ = 0.0;     ///< of the last step

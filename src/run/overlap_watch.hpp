@@ -21,6 +21,13 @@ class OverlapWatch : public Observer {
   VerdictItem item() const;
 
  private:
+  template <class A>
+  friend void fields(A& archive, OverlapWatch& x) {
+    archive("next", x.next_);
+    archive("worst", x.worst_);
+    archive("time", x.time_);
+  }
+
   std::string names() const;
 
   const Simulation& simulation_;

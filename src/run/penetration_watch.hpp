@@ -30,9 +30,19 @@ class PenetrationWatch : public Observer {
   VerdictItem item() const;
 
  private:
+  template <class A>
+  friend void fields(A& archive, PenetrationWatch& x) {
+    archive("places", x.places_);
+  }
+
   struct Place {
     double depth = 0.0, shortening = 0.0;  ///< largest so far, over the smallest cell there
     double limit() const;
+    template <class A>
+    friend void fields(A& archive, Place& x) {
+      archive("depth", x.depth);
+      archive("shortening", x.shortening);
+    }
   };
   void find_cells();
   double smallest_cell(const ConstraintRows& rows, std::size_t r) const;

@@ -4,25 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
+#include "base/errors.hpp"
 #include "base/units.hpp"
 #include "output/cfc_filter.hpp"
 #include "output/file_writer.hpp"
 #include "output/results_folder.hpp"
 #include "output/units.hpp"
 #include "output/vtu.hpp"
+#include "report/csv_table.hpp"
 #include "run/cost_estimate.hpp"
 #include "solid/cell_strain.hpp"
 
 namespace carom {
 
 namespace {
-
-std::string prepared(const std::string& folder) {
-  prepare_results_folder(folder);
-  return folder;
-}
 
 std::vector<std::string> comments(const Simulation& simulation, const std::string& what) {
   return {fmt::format("{} - {}", simulation.given().title, what),
@@ -67,18 +66,50 @@ Recorder::Recorder(const Simulation& simulation, std::string folder)
       folder_(std::move(folder)),
       tables_(simulation),
       figures_(simulation),
-      lock_(folder_),
-      energy_file_(prepared(folder_) + "/energy.csv", tables_.energy.table().columns, comments(simulation, "energies")),
-      contact_file_(folder_ + "/contact.csv", tables_.contact.table().columns,
-                    comments(simulation, "contact forces on the body")),
-      probes_file_(folder_ + "/probes.csv", tables_.probes.table().columns, comments(simulation, "probes")),
-      frames_(folder_ + "/fields.pvd"),
       cells_(simulation.given().output.fields.empty() ? VtuCells{} : vtu_cells(simulation)),
       obstacles_(simulation),
-      frame_every_(frame_interval(simulation)) {
-  if (tables_.exact) {
-    exact_file_.emplace(folder_ + "/exact.csv", tables_.exact->table().columns, comments(simulation, "exact solution"));
+      frame_every_(frame_interval(simulation)) {}
+
+std::vector<Recorder::TableFile> Recorder::table_files() const {
+  std::vector<TableFile> list{{folder_ + "/energy.csv", "energies", tables_.energy.table()},
+                              {folder_ + "/contact.csv", "contact forces on the body", tables_.contact.table()},
+                              {folder_ + "/probes.csv", "probes", tables_.probes.table()}};
+  if (tables_.exact) list.push_back({folder_ + "/exact.csv", "exact solution", tables_.exact->table()});
+  return list;
+}
+
+void Recorder::begin() {
+  prepare_results_folder(folder_);
+  std::vector<OpenTable> tables;
+  for (const TableFile& file : table_files())
+    tables.push_back({CsvFile(file.path, file.table.columns, comments(simulation_, file.what)), file.table});
+  files_.emplace(Files{std::move(tables), PvdCollection(folder_ + "/fields.pvd")});
+}
+
+void Recorder::go_on() {
+  const std::vector<TableFile> list = table_files();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(list[i].path, error);
+    if (error) throw OutputError(list[i].path, error.message());
+    if (size < places_.at(i))
+      throw OutputError(list[i].path,
+                        fmt::format("{} bytes, and {} at the checkpoint: it has been cut", size, places_[i]));
   }
+  std::vector<std::string> frames;
+  for (const PvdFrame& frame : frames_) frames.insert(frames.end(), {frame.file, frame.obstacles});
+  continue_results_folder(folder_, frames);
+  std::vector<OpenTable> tables;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    tables.push_back({CsvFile(list[i].path, list[i].table.columns.size(), places_[i]), list[i].table});
+  files_.emplace(Files{std::move(tables), PvdCollection(folder_ + "/fields.pvd", frames_)});
+}
+
+/// Writes out what there is of the tables.
+void Recorder::keep_places() {
+  places_.clear();
+  for (OpenTable& open : files_->tables) places_.push_back(open.file.sync());
+  frames_ = files_->frames.frames();
 }
 
 void Recorder::record(const StepView& view, bool is_last) {
@@ -94,14 +125,8 @@ void Recorder::record(const StepView& view, bool is_last) {
   if (is_checked) tables_.checks.sample(view.state.t);
   if (due && view.step != last_row_) {
     last_row_ = view.step;
-    energy_file_.append(tables_.energy.table().row);
-    contact_file_.append(tables_.contact.table().row);
-    probes_file_.append(tables_.probes.table().row);
-    if (wants_filter(simulation_.given())) filtered_rows_.push_back(tables_.probes.table().row);
-    if (tables_.exact) {
-      tables_.exact->sample(view.state.t);
-      exact_file_->append(tables_.exact->table().row);
-    }
+    if (tables_.exact) tables_.exact->sample(view.state.t);
+    for (OpenTable& open : files_->tables) open.file.append(open.table.row);
   }
   if ((is_last || view.step % frame_every_ == 0) && view.step != last_frame_) record_frame(view);
 }
@@ -150,7 +175,7 @@ void Recorder::record_frame(const StepView& view) {
   }
   const std::string file = frame_file(static_cast<int>(view.step));
   write_vtu(folder_ + "/" + file, s.mesh().coordinates, cells_, point_fields, cell_fields);
-  frames_.add(view.state.t, file, record_obstacles(view));
+  files_->frames.add(view.state.t, file, record_obstacles(view));
 }
 
 /// The file of the obstacles of this frame: one for all of them while none moves.
@@ -180,11 +205,13 @@ std::string shortness(const CaseProbe& probe, double seconds) {
 /// Probes with a channel frequency class, filtered after the run on equal intervals of time: probes_filtered.csv, the
 /// classes in its header.
 void Recorder::write_filtered() const {
-  if (filtered_rows_.size() < 3) return;
   const Case& given = simulation_.given();
+  if (!wants_filter(given)) return;
+  const std::optional<CsvTable> raw = read_csv(folder_ + "/probes.csv");
+  if (!raw || raw->rows() < 3) return;
   const double second = si_factor(Dimension::time, given.units);
   std::vector<double> time;
-  for (const auto& row : filtered_rows_) time.push_back(row[0] * second);
+  for (const double t : raw->values[0]) time.push_back(t * second);
   double highest = 0.0, longest = 0.0;
   for (const CaseProbe& probe : given.probes) highest = std::max(highest, probe.cfc.value_or(0.0));
   for (std::size_t i = 1; i < time.size(); ++i) longest = std::max(longest, time[i] - time[i - 1]);
@@ -198,8 +225,6 @@ void Recorder::write_filtered() const {
     for (std::size_t c = 1; c < tables_.probes.table().columns.size(); ++c) {
       const std::string& column = tables_.probes.table().columns[c];
       if (column.substr(0, column.rfind('.')) != *probe.name) continue;
-      std::vector<double> raw;
-      for (const auto& row : filtered_rows_) raw.push_back(row[c]);
       if (longest * *probe.cfc > cfc_longest_sampling * (1.0 + 1e-9)) {
         header.push_back(fmt::format(
             "{}: not filtered: CFC {:g} needs a sample at least every {:.3g} s (10 times the class); some are {:.3g} s "
@@ -207,7 +232,7 @@ void Recorder::write_filtered() const {
             column, *probe.cfc, cfc_longest_sampling / *probe.cfc, longest));
         continue;
       }
-      values.push_back(cfc_filter(resampled(time, raw, at), dt, *probe.cfc));
+      values.push_back(cfc_filter(resampled(time, raw->values[c], at), dt, *probe.cfc));
       columns.push_back(column);
       header.push_back(fmt::format("{}: SAE J211 CFC {:g}", column, *probe.cfc));
     }
@@ -237,10 +262,7 @@ void Recorder::fill(Summary& summary) const {
 }
 
 void Recorder::close() {
-  energy_file_.close();
-  contact_file_.close();
-  probes_file_.close();
-  if (exact_file_) exact_file_->close();
+  for (OpenTable& open : files_->tables) open.file.close();
   write_filtered();
 }
 

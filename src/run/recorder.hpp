@@ -8,7 +8,6 @@
 
 #include "output/csv.hpp"
 #include "output/pvd.hpp"
-#include "output/results_lock.hpp"
 #include "output/vtu.hpp"
 #include "run/checks.hpp"
 #include "run/contact_fields.hpp"
@@ -36,8 +35,14 @@ struct RunTables {
 /// Samples the curves, the checks and the fields at the steps where they are due.
 class Recorder : public Observer {
  public:
-  /// Prepares the folder and opens its files. Throws OutputError, and CaseError as RunTables does.
+  /// Touches no file yet. Throws CaseError as RunTables does.
   Recorder(const Simulation& simulation, std::string folder);
+
+  /// Prepares the folder and opens its files. Throws OutputError.
+  void begin();
+  /// Opens the files of a folder where its memory, which has been read, has left them; what was written later is cut
+  /// off or removed. Throws OutputError, before anything is changed where files are missing or too short.
+  void go_on();
 
   /// The last step forces everything out.
   void see(const StepView& view) override { record(view, view.is_last()); }
@@ -52,6 +57,35 @@ class Recorder : public Observer {
   void fill(Summary& summary) const;
 
  private:
+  template <class A>
+  friend void fields(A& archive, Recorder& x) {
+    if (x.files_) x.keep_places();
+    archive("places", x.places_);
+    archive("frames", x.frames_);
+    archive("contact", x.tables_.contact);
+    archive("checks", x.tables_.checks);
+    archive("figures", x.figures_);
+    archive("obstacles_file", x.obstacles_file_);
+    archive("last_sample", x.last_sample_);
+    archive("last_frame", x.last_frame_);
+    archive("last_row", x.last_row_);
+  }
+
+  struct OpenTable {
+    CsvFile file;
+    const CurveTable& table;
+  };
+  /// While they are open; tables in the order of table_files().
+  struct Files {
+    std::vector<OpenTable> tables;
+    PvdCollection frames;
+  };
+  struct TableFile {
+    std::string path, what;
+    const CurveTable& table;
+  };
+  std::vector<TableFile> table_files() const;
+  void keep_places();
   void record(const StepView& view, bool is_last);
   void record_frame(const StepView& view);
   std::string record_obstacles(const StepView& view);
@@ -61,16 +95,14 @@ class Recorder : public Observer {
   std::string folder_;
   RunTables tables_;
   KeyFigures figures_;
-  ResultsLock lock_;
-  CsvFile energy_file_, contact_file_, probes_file_;
-  std::optional<CsvFile> exact_file_;
-  PvdCollection frames_;
+  std::optional<Files> files_;
+  std::vector<std::size_t> places_;  ///< how long the tables were at the last checkpoint
+  std::vector<PvdFrame> frames_;     ///< which there were then
   VtuCells cells_;
   ObstacleBodies obstacles_;
   std::string obstacles_file_;  ///< the last that was written
   long long frame_every_;
   long long last_sample_ = -1, last_frame_ = -1, last_row_ = -1;  ///< steps sampled or written last
-  std::vector<std::vector<double>> filtered_rows_;  ///< rows of probes.csv, kept when a probe asks for a filter
 };
 
 }  // namespace carom

@@ -22,6 +22,15 @@ class RotationWatch : public Observer {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
+  template <class A>
+  friend void fields(A& archive, RotationWatch& x) {
+    archive("angle", x.angle_);
+    archive("growth", x.growth_);
+    archive("looked", x.looked_);
+    archive("next", x.next_);
+    archive("warnings", x.warnings_);
+  }
+
   const Part& turned_part(const Rotation& rotation) const;
   std::string describe(const Rotation& rotation) const;
 

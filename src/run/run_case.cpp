@@ -5,19 +5,26 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <initializer_list>
 #include <new>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
+#include "base/checksum.hpp"
 #include "base/errors.hpp"
 #include "base/terminal_text.hpp"
+#include "base/version.hpp"
 #include "casefile/read_case.hpp"
 #include "casefile/resolved_case.hpp"
 #include "mesh/mesh_summary.hpp"
 #include "output/file_writer.hpp"
+#include "output/results_lock.hpp"
 #include "output/summary.hpp"
 #include "parallel/threads.hpp"
 #include "report/report.hpp"
+#include "run/checkpoints.hpp"
 #include "run/cost_estimate.hpp"
 #include "run/lint.hpp"
 #include "run/march.hpp"
@@ -56,7 +63,9 @@ std::size_t peak_memory() {
 /// The line of progress.
 class ShownProgress : public Observer {
  public:
-  ShownProgress(double t_end, ProgressMode mode) : progress_(stderr, t_end, mode) {}
+  ShownProgress(double t_end, ProgressMode mode) : progress_(stderr, t_end, mode), mode_(mode) {}
+  /// Another end.
+  void go_to(double t_end) { progress_ = Progress(stderr, t_end, mode_); }
   void see(const StepView& view) override {
     if (view.step > 0)
       progress_.update({view.state.t, view.step, view.dt, view.iterations, view.monitor.relative_imbalance()});
@@ -65,6 +74,7 @@ class ShownProgress : public Observer {
 
  private:
   Progress progress_;
+  ProgressMode mode_;
 };
 
 /// One run: a march and those that watch it.
@@ -79,6 +89,17 @@ struct Run {
     for (Observer* observer : std::initializer_list<Observer*>{&recorder, &penetration, &overlap, &progress, &rotation})
       march.add(*observer);
   }
+  template <class A>
+  friend void fields(A& archive, Run& x) {
+    archive("march", x.march);
+    archive("recorder", x.recorder);
+    archive("penetration", x.penetration);
+    archive("overlap", x.overlap);
+    archive("rotation", x.rotation);
+    archive("case_file", x.case_file);
+    archive("warnings", x.warnings);
+    archive("notes", x.notes);
+  }
 
   March march;
   Recorder recorder;
@@ -86,18 +107,27 @@ struct Run {
   OverlapWatch overlap;
   ShownProgress progress;
   RotationWatch rotation;
+  std::string case_file;                     ///< as the user named it
+  std::vector<std::string> warnings, notes;  ///< of the case, before the first step
 };
 
-/// Steps to the end, or as far as it goes.
-void go(March& march, const Simulation& s, const std::atomic<bool>& stop, Summary& summary) {
-  march.start();
-  while (!march.at_end() && !march.has_failed()) {
+/// Steps to the end, or as far as it goes. What stops it leaves a checkpoint of the run that knows of no stop.
+void go(Run& run, Checkpoints& checkpoints, const std::atomic<bool>& stop, Summary& summary) {
+  March& march = run.march;
+  const auto write_checkpoint = [&] {
+    checkpoints.write(march.steps(), march.state().t, [&](Archive& archive) { fields(archive, run); });
+  };
+  if (!march.is_started()) march.start();
+  while (!march.at_end()) {
     march.step();
-    if (!stop.load() || march.at_end() || march.has_failed()) continue;
+    if (march.has_failed()) break;
+    const bool is_stopped = stop.load() && !march.at_end();
+    if (is_stopped || march.at_end() || checkpoints.is_due(march.steps())) write_checkpoint();
+    if (!is_stopped) continue;
     march.leave();
     summary.outcome = Outcome::stopped;
     summary.message =
-        fmt::format("interrupted after step {}, t = {:.6g} of {:.6g}", march.steps(), march.state().t, s.end());
+        fmt::format("interrupted after step {}, t = {:.6g} of {:.6g}", march.steps(), march.state().t, march.end());
     return;
   }
   summary.outcome = march.has_failed() ? Outcome::error : Outcome::good;
@@ -149,6 +179,14 @@ Case beside(Case given, const std::string& folder) {
   return given;
 }
 
+constexpr const char* kResolvedCase = "case.resolved.toml";
+
+/// What the checkpoints of a run are of.
+CheckpointInfo origin_of(const Simulation& simulation, const std::string& resolved_case) {
+  return {version(), compiler(), std::string(name(simulation.solid().isa())), checksum(resolved_case),
+          mesh_digest(simulation.mesh())};
+}
+
 ExitCode exit_code(Outcome outcome) {
   switch (outcome) {
     case Outcome::good:
@@ -162,33 +200,20 @@ ExitCode exit_code(Outcome outcome) {
   return ExitCode::run_failed;
 }
 
-}  // namespace
-
-ExitCode run_case(const std::string& case_file, const RunOptions& options, const std::atomic<bool>& stop) {
-  const Clock::time_point begin = Clock::now();
-  set_threads(options.threads);
-  const Case given = read_case(case_file);
+/// From the first step, or the first after a checkpoint, to the verdict.
+ExitCode conduct(Run& run, const Simulation& simulation, const RunOptions& options, const CheckpointInfo& origin,
+                 Clock::time_point begin, const std::atomic<bool>& stop) {
   const bool quiet = options.progress == ProgressMode::quiet;
-  const Simulation simulation(given);
-  std::vector<std::string> warnings = lint_warnings(simulation);
-  for (std::string& warning : cost_warnings(simulation, options.folder)) warnings.push_back(std::move(warning));
-  Run run(simulation, options);
-  std::vector<std::string> notes = simulation.notes();
-  notes.insert(notes.end(), run.recorder.notes().begin(), run.recorder.notes().end());
-  if (!quiet) {
-    say_lines("warning", warnings);
-    say_lines("note", notes);
-  }
-  write_file(options.folder + "/case.resolved.toml", resolved_toml(beside(given, options.folder)));
-  write_file(options.folder + "/mesh.txt", mesh_summary(simulation.mesh()));
   Summary summary = summary_of(simulation);
-  summary.warnings = warnings;
-  summary.notes = std::move(notes);
+  summary.case_info.file = run.case_file;
+  summary.warnings = run.warnings;
+  summary.notes = run.notes;
   const double setup_seconds = seconds_since(begin);
   const Clock::time_point stepping = Clock::now();
   summary.outcome = Outcome::error;
   try {
-    go(run.march, simulation, stop, summary);
+    Checkpoints checkpoints(options.folder, simulation.given().output, origin);
+    go(run, checkpoints, stop, summary);
   } catch (const RunError& e) {
     summary.message = e.what();
   } catch (const OutputError&) {
@@ -216,7 +241,73 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   const bool is_good = summary.outcome == Outcome::good;
   if (quiet && !is_good) say_lines("warning", summary.warnings);
   if (!quiet || !is_good) print_verdict(summary, options.folder);
+  if (summary.outcome == Outcome::stopped) say("carom resume {} goes on from there\n", options.folder);
   return exit_code(summary.outcome);
+}
+
+std::string read_text(const std::string& path) {
+  const std::ifstream file(path, std::ios::binary);
+  if (!file) throw CheckpointError(path, "it is missing, and a run cannot go on without it");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+ExitCode run_case(const std::string& case_file, const RunOptions& options, const std::atomic<bool>& stop) {
+  const Clock::time_point begin = Clock::now();
+  set_threads(options.threads);
+  const Simulation simulation(read_case(case_file));
+  Run run(simulation, options);
+  run.case_file = simulation.given().file;
+  run.warnings = lint_warnings(simulation);
+  for (std::string& warning : cost_warnings(simulation, options.folder)) run.warnings.push_back(std::move(warning));
+  run.notes = simulation.notes();
+  run.notes.insert(run.notes.end(), run.recorder.notes().begin(), run.recorder.notes().end());
+  const ResultsLock lock(options.folder);
+  run.recorder.begin();
+  if (options.progress != ProgressMode::quiet) {
+    say_lines("warning", run.warnings);
+    say_lines("note", run.notes);
+  }
+  const std::string resolved = resolved_toml(beside(simulation.given(), options.folder));
+  write_file(options.folder + "/" + kResolvedCase, resolved);
+  write_file(options.folder + "/mesh.txt", mesh_summary(simulation.mesh()));
+  return conduct(run, simulation, options, origin_of(simulation, resolved), begin, stop);
+}
+
+ExitCode resume_case(const RunOptions& options, std::optional<double> end, const std::atomic<bool>& stop) {
+  const Clock::time_point begin = Clock::now();
+  set_threads(options.threads);
+  if (!std::filesystem::is_directory(options.folder)) throw CheckpointError(options.folder, "there is no such folder");
+  const ResultsLock lock(options.folder);
+  const FoundCheckpoint found = find_checkpoint(options.folder);
+  const std::string case_file = options.folder + "/" + kResolvedCase, resolved = read_text(case_file);
+  refuse_others(found, {version(), compiler(), found.info.isa, checksum(resolved), found.info.mesh_digest});
+  const Simulation simulation(read_case(case_file));
+  const CheckpointInfo origin = origin_of(simulation, resolved);
+  refuse_others(found, origin);
+  Run run(simulation, options);
+  read_checkpoint(found.path, [&](Archive& archive) { fields(archive, run); });
+  if (end) {
+    try {
+      run.march.prolong(*end);
+    } catch (const std::invalid_argument& e) {
+      throw CheckpointError(options.folder, fmt::format("--end asks for {}", e.what()));
+    }
+  } else if (run.march.at_end() && std::filesystem::exists(options.folder + "/summary.json")) {
+    throw CheckpointError(options.folder,
+                          fmt::format("the run has come to its end, t = {:.9g}; a later one can be given with --end",
+                                      run.march.state().t));
+  }
+  run.progress.go_to(run.march.end());
+  run.recorder.go_on();
+  remove_later(options.folder, found);
+  if (!found.passed_over.empty()) say("warning: {}\n", found.passed_over);
+  if (options.progress != ProgressMode::quiet)
+    say("from step {}, t = {:.6g}, on ({})\n", found.info.step, found.info.time, found.path);
+  return conduct(run, simulation, options, origin, begin, stop);
 }
 
 }  // namespace carom

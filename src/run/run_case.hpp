@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "output/progress.hpp"
@@ -22,5 +23,10 @@ enum class ExitCode : std::uint8_t { good = 0, verdict_failed = 1, case_wrong = 
 /// the run fails or `stop` becomes true (checked after every step). Throws CaseError before anything is run and
 /// OutputError when results cannot be written.
 ExitCode run_case(const std::string& case_file, const RunOptions& options, const std::atomic<bool>& stop);
+
+/// Goes on in a results folder from its last checkpoint to the end of the case, or to `end`: the files of the folder
+/// are then those of a run that has not been interrupted (docs/resume.md). Throws CheckpointError where it cannot,
+/// before anything has been changed.
+ExitCode resume_case(const RunOptions& options, std::optional<double> end, const std::atomic<bool>& stop);
 
 }  // namespace carom

@@ -19,6 +19,10 @@ long long StepControl::next() const {
   return (to_grid + tick()) / 2;
 }
 
+void StepControl::end_at(double end) {
+  end_ = std::llround((end - begin_) / dt_ * static_cast<double>(whole));
+}
+
 void StepControl::accept() {
   ticks_ += next();
   cut_ = 0;

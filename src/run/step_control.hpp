@@ -20,6 +20,8 @@ class StepControl {
   double dt() const { return dt_ * share(next()); }
   double t_end_of_step() const { return begin_ + share(ticks_ + next()) * dt_; }
 
+  /// Moves the end to this time, to the nearest part.
+  void end_at(double end);
   void accept();
   /// Halves the step; false when it may not be halved any more.
   bool halve();
@@ -32,6 +34,17 @@ class StepControl {
   bool limit(double longest);
 
  private:
+  template <class A>
+  friend void fields(A& archive, StepControl& x) {
+    archive("ticks", x.ticks_);
+    archive("end", x.end_);
+    archive("eighths", x.eighths_);
+    archive("longest", x.longest_);
+    archive("cut", x.cut_);
+    archive("level", x.level_);
+    archive("successes", x.successes_);
+  }
+
   static constexpr int levels = 16;
   static constexpr long long whole = 1LL << levels;
   static double share(long long ticks) { return static_cast<double>(ticks) / static_cast<double>(whole); }

@@ -42,6 +42,13 @@ StepGuard::StepGuard(const Stage& stage)
   if (stage.settings().enforcement == EnforcementKind::penalty && may_shorten(stage)) energy_.emplace();
 }
 
+bool StepGuard::prolong(double end) {
+  const double steps = (end - stage_.begin()) / stage_.dt();
+  if (stage_.time().fixed && std::abs(steps - std::round(steps)) > 1e-6) return false;
+  control_.end_at(end);
+  return true;
+}
+
 bool StepGuard::shorten(const State& now, long long step) {
   if (!is_explicit(stage_.settings().kind)) return control_.halve();
   constexpr int most_failures = 6;

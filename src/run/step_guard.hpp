@@ -26,6 +26,8 @@ class StepGuard {
   explicit StepGuard(const Stage& stage);
 
   const StepControl& control() const { return control_; }
+  /// Moves the end of the stage; false where the case fixes the step and none ends there.
+  bool prolong(double end);
   /// Shortens the step from `now`, number `step`, that has failed; false when it may not be shorter. Explicit steps are
   /// halved a few times, once the stable step has been looked at.
   bool shorten(const State& now, long long step);
@@ -43,6 +45,18 @@ class StepGuard {
   void follow_stable_step(const State& now, long long step);
 
  private:
+  template <class A>
+  friend void fields(A& archive, StepGuard& x) {
+    archive("control", x.control_);
+    if (x.watch_) archive("watch", *x.watch_);
+    archive("rows", x.rows_);
+    archive("is_restless", x.is_restless_);
+    if (x.energy_) archive("energy", *x.energy_);
+    archive("is_at_event", x.is_at_event_);
+    archive("cuts", x.cuts_);
+    archive("failures", x.failures_);
+  }
+
   bool cut_motion(const std::optional<MotionLimit::Overrun>& overrun, double t, long long step);
   bool ends_late(const State& begin, const State& end);
   bool fits(const State& end);

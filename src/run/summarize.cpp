@@ -66,7 +66,7 @@ VerdictItem body_strain_item(double strain) {
 void fill(Summary& summary, const Simulation& s, const March& march) {
   summary.scheme = {scheme_names(s),     march.is_started() ? march.scheme().solver_name(march.state()) : "",
                     march.dt_smallest(), march.dt_largest(),
-                    march.steps(),       s.end(),
+                    march.steps(),       march.end(),
                     march.state().t};
   for (const auto& stage : s.stages()) {
     const Stage::MassNotes& notes = stage->mass_notes();
@@ -81,6 +81,7 @@ void fill(Summary& summary, const Simulation& s, const March& march) {
     summary.scheme.stages.push_back({stage->name(), stage_begin, stage->end()});
     stage_begin = stage->end();
   }
+  summary.scheme.stages.back().end = march.end();
   if (!march.is_started()) return;
   const EnergyLedger& ledger = march.ledger();
   const RunMonitor& monitor = march.monitor();

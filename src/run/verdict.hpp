@@ -60,6 +60,39 @@ class RunMonitor {
   double scale() const;
 
  private:
+  template <class A>
+  friend void fields(A& archive, Bodies& x) {
+    archive("mass", x.mass);
+    archive("rest_energy", x.rest_energy);
+    archive("momenta", x.momenta);
+  }
+  template <class A>
+  friend void fields(A& archive, StageKind& x) {
+    archive("reversible", x.reversible);
+    archive("is_static", x.is_static);
+    archive("is_explicit", x.is_explicit);
+  }
+  template <class A>
+  friend void fields(A& archive, RunMonitor& x) {
+    archive("bodies", x.bodies_);
+    archive("stage", x.stage_);
+    archive("before", x.before_);
+    archive("static", x.static_);
+    archive("lent", x.lent_);
+    archive("lent_before", x.lent_before_);
+    archive("imbalance", x.imbalance_);
+    archive("quadrature", x.quadrature_);
+    archive("algorithmic", x.algorithmic_);
+    archive("gained", x.gained_);
+    archive("implicit_loss", x.implicit_loss_);
+    archive("explicit_loss", x.explicit_loss_);
+    archive("linear_error", x.linear_error_);
+    archive("angular_error", x.angular_error_);
+    archive("linear_scale", x.linear_scale_);
+    archive("angular_scale", x.angular_scale_);
+    archive("load_impulse", x.load_impulse_);
+  }
+
   double growth() const;
   EnergyTerms dynamic() const;
 

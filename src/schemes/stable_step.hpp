@@ -57,6 +57,12 @@ class StableStepWatch {
   StableStep with(const ConstraintRows& rows, std::span<const double> u) const;
 
  private:
+  template <class A>
+  friend void fields(A& archive, StableStepWatch& x) {
+    archive("omega_squared", x.omega_squared_);
+    archive("vector", x.vector_);
+  }
+
   const System& system_;
   double limit_;
   EnforcementKind enforcement_;

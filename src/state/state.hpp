@@ -22,6 +22,19 @@ struct Forces {
   double inertia_power = 0.0;  ///< a . M a
   friend bool operator==(const Forces&, const Forces&) = default;
 };
+template <class A>
+void fields(A& archive, Forces& x) {
+  archive("internal", x.internal);
+  archive("external", x.external);
+  archive("contact", x.contact);
+  archive("reaction", x.reaction);
+  archive("inertia", x.inertia);
+  archive("momentum", x.momentum);
+  archive("rows", x.rows);
+  archive("stored", x.stored);
+  archive("total_momentum", x.total_momentum);
+  archive("inertia_power", x.inertia_power);
+}
 
 /// Contact at an instant within the last step, for schemes that solve for it there, and the weight of its forces in the
 /// impulse of the step (0: there is none).
@@ -31,6 +44,12 @@ struct ContactWithin {
   std::vector<double> u;  ///< displacement at that instant
   friend bool operator==(const ContactWithin&, const ContactWithin&) = default;
 };
+template <class A>
+void fields(A& archive, ContactWithin& x) {
+  archive("weight", x.weight);
+  archive("rows", x.rows);
+  archive("u", x.u);
+}
 
 /// In which order something has grown that is kept from step to step because it is costly (compliances of rows and of
 /// nodes). Rounding depends on that order, and so do the next bits; what has grown can be made anew from it.
@@ -39,6 +58,11 @@ struct Growth {
   std::vector<Index> calls;    ///< number of entries after each call that brought some
   friend bool operator==(const Growth&, const Growth&) = default;
 };
+template <class A>
+void fields(A& archive, Growth& x) {
+  archive("entries", x.entries);
+  archive("calls", x.calls);
+}
 
 /// What an implicit stage carries from step to step.
 struct StageMemory {
@@ -54,12 +78,29 @@ struct StageMemory {
   std::vector<double> diagonal_at, diagonal;
   friend bool operator==(const StageMemory&, const StageMemory&) = default;
 };
+template <class A>
+void fields(A& archive, StageMemory& x) {
+  archive("m", x.m);
+  archive("c", x.c);
+  archive("solver_rows", x.solver_rows);
+  archive("port_rows", x.port_rows);
+  archive("chosen_rows", x.chosen_rows);
+  archive("port_nodes", x.port_nodes);
+  archive("mass_nodes", x.mass_nodes);
+  archive("negative_eigenvalues", x.negative_eigenvalues);
+  archive("diagonal_at", x.diagonal_at);
+  archive("diagonal", x.diagonal);
+}
 
 /// What the generalised-alpha family carries from step to step.
 struct GeneralizedAlphaMemory {
   Momentum force;  ///< resultant of the forces, filtered like the accelerations
   friend bool operator==(const GeneralizedAlphaMemory&, const GeneralizedAlphaMemory&) = default;
 };
+template <class A>
+void fields(A& archive, GeneralizedAlphaMemory& x) {
+  archive("force", x.force);
+}
 
 /// What Hulbert and Chung's scheme carries.
 struct HulbertChungMemory {
@@ -67,6 +108,11 @@ struct HulbertChungMemory {
   Momentum force;         ///< resultant of the forces, filtered like them
   friend bool operator==(const HulbertChungMemory&, const HulbertChungMemory&) = default;
 };
+template <class A>
+void fields(A& archive, HulbertChungMemory& x) {
+  archive("e", x.e);
+  archive("force", x.force);
+}
 
 /// What the nonsmooth generalised-alpha scheme carries.
 struct NonsmoothMemory {
@@ -79,6 +125,16 @@ struct NonsmoothMemory {
   Acceleration z;  ///< smooth
   friend bool operator==(const NonsmoothMemory&, const NonsmoothMemory&) = default;
 };
+template <class A>
+void fields(A& archive, NonsmoothMemory::Acceleration& x) {
+  archive("value", x.value);
+  archive("force", x.force);
+}
+template <class A>
+void fields(A& archive, NonsmoothMemory& x) {
+  archive("a", x.a);
+  archive("z", x.z);
+}
 
 /// What the semi-explicit modified mass carries.
 struct ModifiedMassMemory {
@@ -87,6 +143,12 @@ struct ModifiedMassMemory {
   Growth nodes;                     ///< contact nodes whose compliance is kept, where rows move
   friend bool operator==(const ModifiedMassMemory&, const ModifiedMassMemory&) = default;
 };
+template <class A>
+void fields(A& archive, ModifiedMassMemory& x) {
+  archive("factored_at", x.factored_at);
+  archive("rows", x.rows);
+  archive("nodes", x.nodes);
+}
 
 /// Made by Scheme::start.
 using SchemeMemory =
@@ -106,5 +168,17 @@ struct State {
 
   friend bool operator==(const State&, const State&) = default;
 };
+template <class A>
+void fields(A& archive, State& x) {
+  archive("t", x.t);
+  archive("q", x.q);
+  archive("v", x.v);
+  archive("a", x.a);
+  archive("contact", x.contact);
+  archive("forces", x.forces);
+  archive("within", x.within);
+  archive("memory", x.memory);
+  archive.each("stages", x.stages);
+}
 
 }  // namespace carom
