@@ -9,7 +9,8 @@ namespace carom {
 
 /// How a term enters the balance of powers:
 ///   d(stored) + dissipated + scheme = supplied.
-/// Stored energies are functions of the state, never accumulated work; all others are sums over the steps. Stored and
+/// Stored energies are functions of the state, never accumulated work, as is what the points of the bodies have
+/// dissipated (plastic); all others are sums over the steps. Stored and
 /// dissipated energies are positive when the bodies hold or lose them, supplied ones when they come in, those of the
 /// scheme when it takes them out.
 enum class TermKind : std::uint8_t { stored, dissipated, supplied, scheme };
@@ -19,7 +20,9 @@ enum class TermKind : std::uint8_t { stored, dissipated, supplied, scheme };
 #define CAROM_ENERGY_TERMS(TERM)                                                                                      \
   TERM(kinetic, stored, "1/2 v.M v")                                                                                  \
   TERM(strain, stored, "integral of the stored energy density, and what springs store")                               \
+  TERM(hourglass, stored, "what the stabilisation of cells with one point stores")                                    \
   TERM(contact_stored, stored, "sum over closed rows of 1/2 eps_N g^2 + 1/2 eps_T s_e^2")                             \
+  TERM(plastic, dissipated, "integral of the dissipated energy density, a function of the points' history")           \
   TERM(friction, dissipated, "sum over sliding rows of friction force times slip")                                    \
   TERM(damping, dissipated, "work of the dampers of discrete stops, pulling ones included")                           \
   TERM(impact, dissipated, "what contact enforced by multipliers or impulses takes out along the normals")            \

@@ -245,7 +245,7 @@ void ProbeCurves::sample(const StepView& view) {
       if (quantity == "velocity") append_mean(probe, view.state.v);
       if (quantity == "acceleration") append_mean(probe, view.state.a);
       if (quantity == "stress") {
-        if (stress.empty()) stress = simulation_.solid().cell_stress(view.state.q);
+        if (stress.empty()) stress = simulation_.solid().cell_stress(view.state.q, view.points());
         for (std::size_t c = 0; c < 6; ++c) {
           double sum = 0.0;
           for (const Index k : probe.cells) sum += stress[static_cast<std::size_t>(k)][c];
@@ -254,7 +254,7 @@ void ProbeCurves::sample(const StepView& view) {
       }
       if (quantity == "section_force") {
         section_work_.assign(view.state.q.size(), 0.0);
-        simulation_.solid().add_internal_force_of(probe.section_cells, view.state.q, section_work_);
+        simulation_.solid().add_internal_force_of(probe.section_cells, view.state.q, section_work_, view.points());
         for (std::size_t c = 0; c < 3; ++c) {
           double sum = 0.0;
           for (const Index n : probe.nodes) sum -= section_work_[3 * static_cast<std::size_t>(n) + c];

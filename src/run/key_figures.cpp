@@ -54,7 +54,7 @@ std::vector<Vec3> KeyFigures::velocities(const std::vector<double>& v) const {
 
 void KeyFigures::look_at_stress(const StepView& view) {
   const Solid& solid = simulation_.solid();
-  const std::vector<std::array<double, 6>> stress = solid.cell_stress(view.state.q);
+  const std::vector<std::array<double, 6>> stress = solid.cell_stress(view.state.q, view.points());
   std::size_t worst = 0, end_of_part = 0;
   double largest = -1.0;
   for (std::size_t k = 0; k < stress.size(); ++k) {

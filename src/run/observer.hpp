@@ -26,6 +26,8 @@ struct StepView {
   bool ends_run = false;
   std::string_view alarm{};  ///< why the run cannot go on after this step; "" where it can
 
+  /// What the points of the bodies remember.
+  PointStep points() const { return {dt, state.points}; }
   /// No step follows.
   bool is_last() const { return ends_run || !alarm.empty(); }
 };

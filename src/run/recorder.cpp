@@ -142,7 +142,7 @@ void Recorder::record_frame(const StepView& view) {
     return std::span<const double>(values.data()->data(), 6 * values.size());
   };
   const auto need_stress = [&] {
-    if (stress.empty()) stress = s.solid().cell_stress(view.state.q);
+    if (stress.empty()) stress = s.solid().cell_stress(view.state.q, view.points());
   };
   const NodalContact contact = nodal_contact(view.forces.rows, view.state.q);
   const bool has_contact = !s.given().contacts.empty();

@@ -33,6 +33,7 @@ bool Bathe::solve(ImplicitStage& stage, const SubStep& sub_step, const StepReque
                                .k = share,
                                .s = sub_step.s,
                                .r = sub_step.r,
+                               .dt = sub_step.dt,
                                .place = sub_step.place,
                                .x_hat = x_hat_,
                                .v_hat = v_hat_,
@@ -72,7 +73,7 @@ bool Bathe::to_middle(const State& begin, const StepRequest& request, StepReport
   }
   // With the unknown s + 2 M^-1 G^T lambda half of the equation of motion has the multipliers as they are.
   const double share = impulses_ ? 0.5 : 1.0;
-  if (!solve(first_, {0, share, 0.25 * k * k, 0.5 * k}, request, begin, middle_, report)) return false;
+  if (!solve(first_, {0, share, 0.25 * k * k, 0.5 * k, k}, request, begin, middle_, report)) return false;
   if (impulses_ && !stop_at_rows(k, report)) return false;
   complete_forces(system_, middle_);
   book(first_.port().work(begin, middle_, impulses_ ? 1.0 : 0.5), begin, start_.balance(), middle_, report);
@@ -102,7 +103,7 @@ bool Bathe::to_end(const State& begin, const StepRequest& request, State& end, S
     x_hat_[i] = (h * v_hat_[i] + 4.0 * middle_.q[i] - begin.q[i]) / 3.0;
   }
   imposed_steps(system_.supports, middle_.t, end.t, middle_.q, imposed_);
-  if (!solve(second_, {1, 1.0, h * h / 9.0, h / 3.0}, request, middle_, end, report)) return false;
+  if (!solve(second_, {1, 1.0, h * h / 9.0, h / 3.0, 0.5 * h}, request, middle_, end, report)) return false;
   complete_forces(system_, end);
   // lambda_half being the mean of the first sub-step, this is the mean of the second.
   book(second_.port().work(middle_, end, impulses_ ? 2.0 / 3.0 : 0.5), middle_, Balance(middle_.forces), end, report);

@@ -39,10 +39,11 @@ class Bathe final : public Scheme {
  private:
   bool to_middle(const State& begin, const StepRequest& request, StepReport& report);
   bool to_end(const State& begin, const StepRequest& request, State& end, StepReport& report);
-  /// Place of its stage, what its equation is multiplied by, and how displacement and velocity follow the unknown.
+  /// Place of its stage, what its equation is multiplied by, how displacement and velocity follow the unknown, and its
+  /// length.
   struct SubStep {
     std::size_t place;
-    double share, s, r;
+    double share, s, r, dt;
   };
   /// Solves one sub-step for its unknown.
   bool solve(ImplicitStage& stage, const SubStep& sub_step, const StepRequest& request, const State& begin, State& end,

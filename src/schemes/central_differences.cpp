@@ -10,17 +10,6 @@
 
 namespace carom {
 
-namespace {
-
-void evaluate_body_forces(const System& system, double t, std::span<const double> u, Forces& forces) {
-  forces.internal.resize(u.size());
-  forces.external.resize(u.size());
-  system.solid.internal_force(u, forces.internal);
-  system.solid.external_force(t, system.mass, forces.external);
-}
-
-}  // namespace
-
 CentralDifferences::CentralDifferences(const System& system) : CentralDifferences(system, penalty_contact(system)) {}
 
 CentralDifferences::CentralDifferences(const System& system, std::unique_ptr<ExplicitContact> contact)
@@ -31,7 +20,8 @@ CentralDifferences::CentralDifferences(const System& system, std::unique_ptr<Exp
 
 void CentralDifferences::start(State& state, double dt) {
   start_with_supports(system_, state);
-  evaluate_body_forces(system_, state.t, state.q, state.forces);
+  const std::vector<double> points = state.points;
+  evaluate_bodies(system_, {dt, points}, state);
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_next_);
   for (const ImposedStep& s : imposed_next_) state.a[s.dof] = acceleration_to_middle(s, dt);
   const std::string failure =
@@ -63,7 +53,7 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
     v_half_[s.dof] = s.mean_velocity;
     end.q[s.dof] = s.u;
   }
-  evaluate_body_forces(system_, request.t_end, end.q, end.forces);
+  evaluate_bodies(system_, {h, begin.points}, end);
   // Contact looks at the step that follows.
   imposed_steps(system_.supports, end.t, end.t + h, end.q, imposed_next_);
   for (const ImposedStep& s : imposed_next_) end.a[s.dof] = (s.mean_velocity - v_half_[s.dof]) / h;

@@ -13,7 +13,9 @@ namespace {
 
 /// No force inside: the projection knows the mass alone.
 StageForce no_force() {
-  return {[](std::span<const double> /*x*/, std::span<double> f) { std::fill(f.begin(), f.end(), 0.0); },
+  return {[](const PointStep& /*step*/, State& end) {
+            std::fill(end.forces.internal.begin(), end.forces.internal.end(), 0.0);
+          },
           [](std::span<const double> x) { return x; }, 0.0};
 }
 
@@ -68,6 +70,7 @@ StepReport ContactStabilizedNewmark::step(const State& begin, const StepRequest&
   const StageEquation equation{.k = gamma_,
                                .s = 0.5 * h * h,
                                .r = h,
+                               .dt = h,
                                .place = 1,
                                .x_hat = projected_.q,
                                .v_hat = begin.v,

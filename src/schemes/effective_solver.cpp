@@ -80,7 +80,7 @@ class CgSolver final : public EffectiveSolver {
     memory.diagonal = stiffness_diagonal_;
   }
 
-  std::string prepare(double m, double c, std::span<const double> u) override {
+  std::string prepare(double m, double c, std::span<const double> u, const PointStep& step) override {
     const bool is_linear = system_.solid.is_linear();
     if (is_linear && m == m_ && c == c_) return {};
     ++operators_made_;
@@ -88,8 +88,9 @@ class CgSolver final : public EffectiveSolver {
     c_ = c;
     if (is_linear) return {};
     u_.assign(u.begin(), u.end());
+    step_ = step;
     if (!has_moved()) return {};
-    stiffness_diagonal_ = system_.solid.tangent_diagonal(u_);
+    stiffness_diagonal_ = system_.solid.tangent_diagonal(u_, step_);
     diagonal_at_ = u_;
     return {};
   }
@@ -149,7 +150,7 @@ class CgSolver final : public EffectiveSolver {
 
   void apply(const std::vector<RowTangent>& D, std::span<const double> x, std::span<double> y) {
     const std::vector<bool>& fixed = system_.supports.fixed();
-    system_.solid.tangent_action(u_, x, y);
+    system_.solid.tangent_action(u_, x, y, step_);
     system_.mass.apply(x, work_);
     for (std::size_t i = 0; i < y.size(); ++i) y[i] = m_ * work_[i] + c_ * y[i];
     for (const DofSpring& spring : springs_) y[spring.dof] += spring.stiffness * x[spring.dof];
@@ -187,6 +188,7 @@ class CgSolver final : public EffectiveSolver {
 
   const System& system_;
   std::vector<double> u_, stiffness_diagonal_, diagonal_at_, inverse_diagonal_, work_;
+  PointStep step_;                        ///< that ends at u_
   double shortest_ = 0.0;                 ///< cell
   const ConstraintRows* rows_ = nullptr;  ///< of the solve under way
   std::vector<RowTangent> tangents_;
@@ -222,14 +224,14 @@ class DirectSolver final : public EffectiveSolver {
     if (is_compliance_ready_) memory.solver_rows = compliance_.growth();
   }
 
-  std::string prepare(double m, double c, std::span<const double> u) override {
+  std::string prepare(double m, double c, std::span<const double> u, const PointStep& step) override {
     const bool is_linear = system_.solid.is_linear();
     if (factors_.has_factors() && is_linear && m == m_ && c == c_) return {};
     ++operators_made_;
     m_ = m;
     c_ = c;
     compliance_.forget();
-    if (!is_linear) stiffness_ = system_.solid.tangent(u);
+    if (!is_linear) stiffness_ = system_.solid.tangent(u, step);
     const std::string failure = factors_.factorize(assemble());
     if (factors_.singular_row() < 0) return failure;
     return describe_free_motion(system_.mesh, free_[static_cast<std::size_t>(factors_.singular_row())]);

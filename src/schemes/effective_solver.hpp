@@ -40,9 +40,9 @@ class EffectiveSolver {
   virtual void begin(const StageMemory& memory) = 0;
   /// Writes what the next stage goes on from; before the first one, what that goes on from.
   virtual void leave(StageMemory& memory) const = 0;
-  /// Makes A ready at the displacement u; a linear body does nothing when m and c are the last ones. Returns what is
-  /// wrong with A, "" when nothing is.
-  virtual std::string prepare(double m, double c, std::span<const double> u) = 0;
+  /// Makes A ready at the displacement u, the end of `step` (whose history outlives the solves); a linear body does
+  /// nothing when m and c are the last ones. Returns what is wrong with A, "" when nothing is.
+  virtual std::string prepare(double m, double c, std::span<const double> u, const PointStep& step = {}) = 0;
   /// Solves (A + G^T D G) x = b for x (overwritten; zero on fixed dofs) to a residual of at most `absolute` in the
   /// 2-norm where the solver iterates. b is zero on fixed dofs; D may be empty.
   virtual LinearSolveReport solve(std::span<const double> b, const std::shared_ptr<const ConstraintRows>& rows,

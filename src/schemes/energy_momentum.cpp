@@ -20,8 +20,8 @@ EnergyMomentum::EnergyMomentum(const System& system, const ImplicitSettings& set
 }
 
 StageForce EnergyMomentum::discrete_gradient() {
-  return {[this](std::span<const double> x, std::span<double> f) {
-            system_.solid.discrete_gradient_force(begin_->q, x, f);
+  return {[this](const PointStep& /*step*/, State& end) {
+            system_.solid.discrete_gradient_force(begin_->q, end.q, end.forces.internal);
           },
           [this](std::span<const double> x) -> std::span<const double> {
             for (std::size_t i = 0; i < x.size(); ++i) middle_[i] = 0.5 * (begin_->q[i] + x[i]);
@@ -50,13 +50,13 @@ StepReport EnergyMomentum::step(const State& begin, const StepRequest& request, 
     known_[i] = 0.5 * (now.external[i] + next.external[i]);
   }
   const StageEquation equation{
-      .s = 0.5 * h * h, .r = h, .x_hat = x_hat_, .v_hat = begin.v, .known = known_, .imposed = imposed_};
+      .s = 0.5 * h * h, .r = h, .dt = h, .x_hat = x_hat_, .v_hat = begin.v, .known = known_, .imposed = imposed_};
   impose_on_stage(equation, end.a);
   StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
   mean_internal_ = next.internal;
-  system_.solid.internal_force(end.q, next.internal);
+  evaluate_solid(system_, {h, begin.points}, end);
   complete_forces(system_, end);
   const StepWeights weights{.inertia = 1.0, .force = 0.5, .contact = 1.0, .support_work = 1.0};
   set_mean_reactions(system_, begin, weights, end, mean_internal_);

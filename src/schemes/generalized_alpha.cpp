@@ -100,6 +100,7 @@ StepReport GeneralizedAlpha::step(const State& begin, const StepRequest& request
                                .k = share * (1.0 - alpha_f),
                                .s = beta * h * h,
                                .r = gamma * h,
+                               .dt = h,
                                .x_hat = u_predicted_,
                                .v_hat = v_predicted_,
                                .known = known_,

@@ -28,7 +28,7 @@ HulbertChung::HulbertChung(const System& system, double rho)
 
 void HulbertChung::start(State& state, double dt) {
   start_with_supports(system_, state);
-  evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, state.forces);
+  evaluate_start(system_, dt, state);
   // e0 = e1 = a0
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = mean_acceleration(s, dt);
@@ -65,7 +65,7 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
     end.q[s.dof] = s.u;
     end.v[s.dof] = s.v;
   }
-  evaluate_forces(system_, request.t_end, begin.q, begin.contact, end.q, end.v, end.forces);
+  evaluate_forces(system_, begin, h, end.v, end);
   for (const ImposedStep& s : imposed_) end.a[s.dof] = mean_acceleration(s, h);
   force_sum(end.forces, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);

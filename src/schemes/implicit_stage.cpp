@@ -49,7 +49,8 @@ void follow(const StageEquation& eq, State& end) {
 
 ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& settings, double ratio,
                              double omega_max_squared)
-    : ImplicitStage(system, settings, ratio, omega_max_squared, make_contact_port(system, settings), {}) {}
+    : ImplicitStage(system, settings, ratio, omega_max_squared, make_contact_port(system, settings),
+                    force_of_bodies(system)) {}
 
 ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& settings, double ratio,
                              double omega_max_squared, std::unique_ptr<ContactPort> port, StageForce force)
@@ -71,9 +72,11 @@ ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& setti
   std::vector<double> body_force(residual_.size(), 0.0);
   system.solid.add_body_force_scale(body_force);
   body_force_ = std::sqrt(std::inner_product(body_force.begin(), body_force.end(), body_force.begin(), 0.0));
-  if (force_.value) return;
-  force_.value = [&system](std::span<const double> x, std::span<double> f) { system.solid.internal_force(x, f); };
-  force_.tangent_at = [](std::span<const double> x) { return x; };
+}
+
+StageForce force_of_bodies(const System& system) {
+  return {[&system](const PointStep& step, State& end) { evaluate_solid(system, step, end); },
+          [](std::span<const double> x) { return x; }};
 }
 
 void ImplicitStage::hold(const std::vector<DofSpring>& springs) {
@@ -99,7 +102,7 @@ void ImplicitStage::start(State& state, std::size_t place) {
 ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const State& begin, State& end) {
   Forces& forces = end.forces;
   follow(eq, end);
-  force_.value(end.q, forces.internal);
+  force_.value({eq.dt, begin.points}, end);
   forces.contact.assign(end.q.size(), 0.0);
   port_->respond(end.q, end.v, forces.rows);
   forces.rows.add_force(forces.contact);
@@ -209,7 +212,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
     last = newton == 0 ? none : error;  // before the first solve, the work is of a displacement that is a guess
     // Below what rounding may leave, each solve is asked for a hundredth of what is left.
     const double left = error.work <= error.round_off ? std::max(0.3 * wanted, 0.01 * error.work) : 0.3 * tolerance;
-    report.failure = improve(eq, left / error.displacement, end, report);
+    report.failure = improve(eq, begin, left / error.displacement, end, report);
     if (!report.failure.empty()) return report;
   }
   take_history(forces.rows, end.q, end.contact);
@@ -258,9 +261,10 @@ ImplicitStage::Residual ImplicitStage::shorten(const StageEquation& eq, const St
 }
 
 /// One Newton step. Returns why there is none, "" when there is.
-std::string ImplicitStage::improve(const StageEquation& eq, double absolute, State& end, StageReport& report) {
+std::string ImplicitStage::improve(const StageEquation& eq, const State& begin, double absolute, State& end,
+                                   StageReport& report) {
   is_improved_ = true;
-  std::string failure = solver_->prepare(eq.m, stiffness_share(eq), force_.tangent_at(end.q));
+  std::string failure = solver_->prepare(eq.m, stiffness_share(eq), force_.tangent_at(end.q), {eq.dt, begin.points});
   if (!failure.empty()) return failure;
   const PortSolve solved = port_->solve(*solver_, end.q, end.v, end.forces.rows, residual_, absolute, correction_);
   report.linear_iterations += solved.linear.iterations;
@@ -307,12 +311,8 @@ void impose_on_stage(const StageEquation& eq, std::span<double> y) {
 
 void start_in_equilibrium(const System& system, ImplicitStage& stage, double dt, State& state, std::size_t place) {
   start_with_supports(system, state);
-  Forces& forces = state.forces;
-  const std::size_t n = state.q.size();
-  forces.internal.resize(n);
-  forces.external.resize(n);
-  system.solid.internal_force(state.q, forces.internal);
-  system.solid.external_force(state.t, system.mass, forces.external);
+  const std::vector<double> points = state.points;
+  evaluate_bodies(system, {dt, points}, state);
   stage.start(state, place);
   std::vector<ImposedStep> imposed;
   imposed_steps(system.supports, state.t, state.t + dt, state.q, imposed);

@@ -20,6 +20,7 @@ namespace carom {
 struct StageEquation {
   double m = 1.0, k = 1.0;
   double s = 0.0, r = 0.0;
+  double dt = 0.0;        ///< length of the stage
   std::size_t place = 0;  ///< of the stage in State::stages
   double share = 0.0;     ///< of the stage's own work that its residual may leave unbooked, whatever else is asked
   const FreeModes* free = nullptr;  ///< where m = 0 leaves motions that only contact holds
@@ -34,9 +35,10 @@ struct StageReport {
   std::string failure;
 };
 
-/// The internal force of a stage when it is not F(x): its value, and factor x K(tangent_at) for its tangent.
+/// The internal force of a stage when it is not F(x): value() fills the internal forces of `end` at end.q, and what
+/// else follows from the bodies there; factor x K(tangent_at) is its tangent.
 struct StageForce {
-  std::function<void(std::span<const double> x, std::span<double> f)> value;
+  std::function<void(const PointStep& step, State& end)> value;
   std::function<std::span<const double>(std::span<const double> x)> tangent_at;
   double factor = 1.0;
 };
@@ -75,7 +77,8 @@ class ImplicitStage {
   Residual shorten(const StageEquation& equation, const State& begin, Residual error, State& end);
   bool is_equilibrium(const StageEquation& equation, const Residual& error, double wanted, const Residual& before,
                       const Residual& earlier) const;
-  std::string improve(const StageEquation& equation, double absolute, State& end, StageReport& report);
+  std::string improve(const StageEquation& equation, const State& begin, double absolute, State& end,
+                      StageReport& report);
   void leave(const StageEquation& equation, StageMemory& memory) const;
   std::string cycling_rows(const std::vector<RowStatus>& before, const Forces& forces) const;
 
@@ -96,6 +99,9 @@ class ImplicitStage {
   double softest_ = std::numeric_limits<double>::infinity();  ///< smallest entry of K's diagonal above 0
   double body_force_ = 0.0;  ///< 2-norm of the forces by which rigid bodies that turn round (Solid)
 };
+
+/// F(x), with energies and history of the points.
+StageForce force_of_bodies(const System& system);
 
 /// Sets the imposed entries of y so that the scheme's own rule gives the velocity at the end, v = v_hat + r y: momentum
 /// is then exact.

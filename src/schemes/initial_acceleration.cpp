@@ -14,6 +14,7 @@ void start_with_supports(const System& system, State& state) {
   state.q.resize(n, 0.0);
   state.v.resize(n, 0.0);
   state.a.assign(n, 0.0);
+  if (state.points.size() != system.solid.history_size()) state.points = system.solid.initial_history();
   state.contact.resize(system.contact.slots());
   carry_memory({}, state);
   const std::vector<bool>& fixed = system.supports.fixed();

@@ -39,6 +39,7 @@ StepReport MoreauJean::step(const State& begin, const StepRequest& request, Stat
   const StageEquation equation{.k = theta_,
                                .s = theta_ * h * h,
                                .r = h,
+                               .dt = h,
                                .x_hat = x_hat_,
                                .v_hat = begin.v,
                                .known = known_,

@@ -36,7 +36,7 @@ double NohBathe::middle_weight() const {
 
 void NohBathe::start(State& state, double dt) {
   start_with_supports(system_, state);
-  evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, state.forces);
+  evaluate_start(system_, dt, state);
   const double k = p_ * dt;
   imposed_steps(system_.supports, state.t, state.t + k, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = acceleration_to_middle(s, k);
@@ -60,7 +60,7 @@ int NohBathe::first_part(const State& begin, const StepRequest& request) {
     predicted_[s.dof] = s.mean_velocity;
     middle_.q[s.dof] = s.u;
   }
-  evaluate_forces(system_, middle_.t, begin.q, begin.contact, middle_.q, predicted_, middle_.forces);
+  evaluate_forces(system_, begin, k, predicted_, middle_);
   for (const ImposedStep& s : imposed_) middle_.a[s.dof] = acceleration_from_middle(s, k);
   force_sum(middle_.forces, rhs_);
   const int iterations = mass_solver_.solve(rhs_, middle_.a);
@@ -88,7 +88,7 @@ int NohBathe::second_part(const StepRequest& request, State& end) {
     end.v[s.dof] = s.v;
     end.a[s.dof] = (s.v - predicted_[s.dof]) / (rest * q2_);
   }
-  evaluate_forces(system_, request.t_end, middle_.q, middle_.contact, end.q, end.v, end.forces);
+  evaluate_forces(system_, middle_, rest, end.v, end);
   force_sum(end.forces, rhs_);
   const int iterations = mass_solver_.solve(rhs_, end.a);
   parallel_each(end.q.size(), [&](std::size_t i) { end.v[i] = predicted_[i] + rest * q2_ * end.a[i]; });

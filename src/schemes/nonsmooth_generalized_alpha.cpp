@@ -19,11 +19,6 @@ double weight_of_new_force(const GeneralizedAlphaParameters& p) {
   return (1.0 - p.alpha_f) / (1.0 - p.alpha_m);
 }
 
-StageForce body_force(const System& system) {
-  return {[&system](std::span<const double> x, std::span<double> f) { system.solid.internal_force(x, f); },
-          [](std::span<const double> x) { return x; }, 1.0};
-}
-
 }  // namespace
 
 NonsmoothGeneralizedAlpha::NonsmoothGeneralizedAlpha(const System& system, const GeneralizedAlphaParameters& p,
@@ -36,7 +31,7 @@ NonsmoothGeneralizedAlpha::NonsmoothGeneralizedAlpha(const System& system, const
       stage_(system, settings, p.beta * kappa_ * dt * dt, omega_max_squared,
              std::make_unique<JumpPort>(system, (2.0 * p.beta - p.gamma) / (p.gamma * 2.0 * p.beta * kappa_),
                                         mass_solver_),
-             body_force(system)),
+             force_of_bodies(system)),
       start_(system) {
   assert(settings.enforcement == EnforcementKind::impulse && p.gamma > 0.0 && 2.0 * p.beta >= p.gamma);
   const std::size_t n = system.solid.dof_count();
@@ -108,6 +103,7 @@ StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest
                                .k = scale,
                                .s = beta * kappa_ * h * h,
                                .r = gamma * kappa_ * h,
+                               .dt = h,
                                .x_hat = u_hat_,
                                .v_hat = v_hat_,
                                .known = known_,

@@ -36,19 +36,14 @@ struct SemiExplicit::Boundary {
       of_dof[i] = static_cast<Index>(dofs.size());
       dofs.push_back(i);
     }
-    std::vector<bool> is_seen(given.solid.dof_count() / 3, false);
     for (std::size_t k = 0; k < system.solid.cell_count(); ++k) {
       const auto nodes = system.solid.nodes_of_cell(k);
       const bool touches = std::any_of(nodes.begin(), nodes.end(), [this](Index n) {
         const std::size_t i = 3 * static_cast<std::size_t>(n);
         return of_dof[i] >= 0 || of_dof[i + 1] >= 0 || of_dof[i + 2] >= 0;
       });
-      if (!touches) continue;
-      cells.push_back(static_cast<Index>(k));
-      for (const Index n : nodes) is_seen[static_cast<std::size_t>(n)] = true;
+      if (touches) cells.push_back(static_cast<Index>(k));
     }
-    for (std::size_t i = 0; i < of_dof.size(); ++i)
-      if (is_seen[i / 3]) seen.push_back(i);
     contact_operator.inverse = [this](std::span<double> b) { invert(b, 1); };
     contact_operator.delassus = [this](const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {
       return delassus(rows, chosen);
@@ -58,11 +53,9 @@ struct SemiExplicit::Boundary {
   /// Brings what is kept to where the memory has it; rows: those of any displacement, where they are fixed. Throws as
   /// factorise does.
   void go_on(const ModifiedMassMemory& memory, const ConstraintRows* rows) {
-    if (memory.factored_at != factored_at) {
-      std::vector<double> u(of_dof.size(), 0.0);
-      for (std::size_t k = 0; k < seen.size(); ++k) u[seen[k]] = memory.factored_at[k];
-      factorise(u);
-    }
+    const bool is_same =
+        memory.factored_at == factored_at || (memory.factored_at && factored_at && *memory.factored_at == *factored_at);
+    if (!is_same) factorise(memory.factored_at->u, {memory.factored_at->dt, memory.factored_at->points});
     of_nodes.grow_as(memory.nodes, of_dof.size(), [this](std::span<double> b, int columns) { invert(b, columns); });
     if (rows != nullptr && !std::ranges::equal(memory.rows, W.rows)) {
       W = memory.rows.empty() ? Delassus{} : make(*rows, {memory.rows.begin(), memory.rows.end()});
@@ -70,17 +63,16 @@ struct SemiExplicit::Boundary {
   }
   ModifiedMassMemory memory() const { return {factored_at, {W.rows.begin(), W.rows.end()}, of_nodes.growth()}; }
 
-  /// Factors K_bb(u), which the cells that touch the dofs b decide. Throws std::runtime_error when it is not positive
-  /// definite.
-  void factorise(std::span<const double> u) {
+  /// Factors K_bb at displacement u, the end of the step. Throws std::runtime_error when it is not positive definite.
+  void factorise(std::span<const double> u, const PointStep& step) {
     W = {};
     of_nodes.forget();
-    if (!system.solid.is_linear()) {
-      factored_at.clear();
-      for (const std::size_t i : seen) factored_at.push_back(u[i]);
-    }
+    factored_at = {};
+    if (!system.solid.is_linear())
+      factored_at = std::make_shared<const TangentPlace>(
+          TangentPlace{step.dt, {u.begin(), u.end()}, {step.history.begin(), step.history.end()}});
     if (dofs.empty()) return;
-    const CsrMatrix K = system.solid.tangent(u);
+    const CsrMatrix K = system.solid.tangent(u, step);
     CsrMatrix K_bb;
     K_bb.size = static_cast<Index>(dofs.size());
     K_bb.row_begin.push_back(0);
@@ -154,19 +146,18 @@ struct SemiExplicit::Boundary {
   }
 
   /// r = f - F(u) on the dofs b, zero elsewhere.
-  void residual(std::span<const double> f, std::span<const double> u, std::span<double> r) {
+  void residual(std::span<const double> f, std::span<const double> u, const PointStep& step, std::span<double> r) {
     std::fill(force.begin(), force.end(), 0.0);
-    system.solid.add_internal_force_of(cells, u, force);
+    system.solid.add_internal_force_of(cells, u, force, step);
     std::fill(r.begin(), r.end(), 0.0);
     for (const std::size_t i : dofs) r[i] = f[i] - force[i];
   }
 
   const System& system;
   std::vector<std::size_t> dofs;
-  std::vector<Index> of_dof;        ///< position in `dofs`, -1 elsewhere
-  std::vector<Index> cells;         ///< that touch them
-  std::vector<std::size_t> seen;    ///< all dofs of these cells
-  std::vector<double> factored_at;  ///< their displacement where K_bb was factored, of nonlinear bodies
+  std::vector<Index> of_dof;                        ///< position in `dofs`, -1 elsewhere
+  std::vector<Index> cells;                         ///< that touch them
+  std::shared_ptr<const TangentPlace> factored_at;  ///< K_bb of nonlinear bodies
   std::vector<double> force;
   std::vector<ClosingRow> closing;  ///< every row, in order
   std::optional<Cholesky> factor;
@@ -177,8 +168,9 @@ struct SemiExplicit::Boundary {
 
 /// What the dofs b are brought into equilibrium for.
 struct SemiExplicit::Target {
-  std::span<const double> u_begin;
-  std::span<const RowHistory> history;
+  const State& begin;
+  double dt;
+  PointStep step() const { return {dt, begin.points}; }
 };
 
 SemiExplicit::SemiExplicit(const System& system, int max_iterations)
@@ -193,7 +185,8 @@ SemiExplicit::SemiExplicit(const System& system, int max_iterations)
   residual_.resize(n);
   push_.resize(n);
   try {
-    boundary_->factorise(v_half_);
+    const std::vector<double> history = system.solid.initial_history();
+    boundary_->factorise(v_half_, {0.0, history});
   } catch (const std::runtime_error& e) {
     throw std::invalid_argument(fmt::format(
         "the contact nodes are not held by their cells, so that they cannot go without mass: {}", e.what()));
@@ -210,7 +203,7 @@ void SemiExplicit::see_rows(const Target& target, std::span<const double> u, con
   std::vector<ClosingRow>& closing = boundary_->closing;
   closing.resize(rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    const Vec3 w = rows.relative(r, u), w_begin = rows.relative(r, target.u_begin), dw = rows.relative(r, residual_);
+    const Vec3 w = rows.relative(r, u), w_begin = rows.relative(r, target.begin.q), dw = rows.relative(r, residual_);
     closing[r] = {
         r, {rows.gap[r] + w[0] + dw[0], w[1] - w_begin[1] + dw[1], w[2] - w_begin[2] + dw[2]}, rows.gap_rounding(r, u)};
   }
@@ -248,7 +241,7 @@ SemiExplicit::Correction SemiExplicit::correct(const Target& target, std::span<d
     const double x = std::abs(u[i]) + reach_;
     change += du * du;
     place += x * x;
-    motion += (u[i] - target.u_begin[i]) * (u[i] - target.u_begin[i]);
+    motion += (u[i] - target.begin.q[i]) * (u[i] - target.begin.q[i]);
   }
   constexpr double round_off = 64.0 * std::numeric_limits<double>::epsilon();
   return {std::sqrt(change), std::sqrt(motion), 1e-12 * std::sqrt(motion) + round_off * std::sqrt(place)};
@@ -257,14 +250,14 @@ SemiExplicit::Correction SemiExplicit::correct(const Target& target, std::span<d
 /// Finds u on the dofs b and the multipliers. Returns why it failed, empty when it did not.
 std::string SemiExplicit::equilibrate(const Target& target, std::span<double> u, Forces& forces, int& iterations) {
   Boundary& b = *boundary_;
-  std::vector<RowHistory> history(target.history.begin(), target.history.end());
+  std::vector<RowHistory> history(target.begin.contact.begin(), target.begin.contact.end());
   const bool is_linear = system_.solid.is_linear();
   std::shared_ptr<const ConstraintRows> rows;
   for (iterations = 1;; ++iterations) {
-    b.residual(forces.external, u, residual_);
+    b.residual(forces.external, u, target.step(), residual_);
     b.invert(residual_, 1);
     const bool follows = iterations <= most_row_updates && !system_.contact.is_fixed();
-    if (follows || !rows) rows = system_.contact.rows_at(target.u_begin, u, target.history);
+    if (follows || !rows) rows = system_.contact.rows_at(target.begin.q, u, target.begin.contact);
     open_response(rows, history.size(), forces.rows);
     see_rows(target, u, *rows);
     std::string failure = unanswered(*rows);
@@ -278,7 +271,7 @@ std::string SemiExplicit::equilibrate(const Target& target, std::span<double> u,
     if (iterations == max_iterations_) return no_equilibrium(iterations, c);
     history = forces.rows.history;
     constexpr int patience = 8;  // iterations with one factorisation
-    if (iterations % patience == 0 && !is_linear) b.factorise(u);
+    if (iterations % patience == 0 && !is_linear) b.factorise(u, target.step());
   }
   forces.contact.assign(u.size(), 0.0);
   forces.rows.add_force(forces.contact);
@@ -306,18 +299,16 @@ void SemiExplicit::start(State& state, double dt) {
   const std::vector<double> velocities = state.v;
   start_with_supports(system_, state);
   for (const std::size_t i : boundary_->dofs) state.v[i] = velocities[i];
-  Forces& forces = state.forces;
-  forces.external.resize(state.q.size());
-  forces.internal.resize(state.q.size());
-  system_.solid.external_force(state.t, system_.mass, forces.external);
-  if (!system_.solid.is_linear()) boundary_->factorise(state.q);
-  const std::vector<double> given = state.q;
+  state.forces.external.resize(state.q.size());
+  system_.solid.external_force(state.t, system_.mass, state.forces.external);
+  if (!system_.solid.is_linear()) boundary_->factorise(state.q, {dt, state.points});
+  const State given = state;
   int iterations = 0;
-  const std::string failure = equilibrate({given, state.contact}, state.q, forces, iterations);
+  const std::string failure = equilibrate({given, dt}, state.q, state.forces, iterations);
   if (!failure.empty()) throw std::runtime_error("the contact nodes find no equilibrium at the start: " + failure);
   state.memory = boundary_->memory();
-  take_history(forces.rows, state.q, state.contact);
-  system_.solid.internal_force(state.q, forces.internal);
+  take_history(state.forces.rows, state.q, state.contact);
+  evaluate_solid(system_, {dt, given.points}, state);
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = acceleration_to_middle(s, dt);
   accelerate(state);
@@ -347,18 +338,17 @@ StepReport SemiExplicit::step(const State& begin, const StepRequest& request, St
   }
   Forces& forces = end.forces;
   forces.external.resize(n);
-  forces.internal.resize(n);
   system_.solid.external_force(request.t_end, system_.mass, forces.external);
   try {
     const auto fixed_rows = system_.contact.is_fixed() ? system_.contact.rows_at(begin.q, begin.q) : nullptr;
     boundary_->go_on(std::get<ModifiedMassMemory>(begin.memory), fixed_rows.get());
-    report.failure = equilibrate({begin.q, begin.contact}, end.q, forces, report.iterations);
+    report.failure = equilibrate({begin, h}, end.q, forces, report.iterations);
   } catch (const std::runtime_error& e) {
     report.failure = e.what();  // a stiffness that has become indefinite
   }
   if (!report.failure.empty()) return report;
   end.memory = boundary_->memory();
-  system_.solid.internal_force(end.q, forces.internal);
+  evaluate_solid(system_, {h, begin.points}, end);
   accelerate(end);
   parallel_each(n, [&](std::size_t i) { end.v[i] = v_half_[i] + 0.5 * h * end.a[i]; });
   for (const std::size_t i : boundary_->dofs) end.v[i] = (end.q[i] - begin.q[i]) / h;

@@ -17,15 +17,11 @@ Statics::Statics(const System& system, const ImplicitSettings& settings, double 
   stage_.hold(free_.pins(settings.enforcement == EnforcementKind::lagrange ? 0.1 : 1.0));
 }
 
-void Statics::start(State& state, double /*dt*/) {
+void Statics::start(State& state, double dt) {
   start_with_supports(system_, state);
   std::fill(state.v.begin(), state.v.end(), 0.0);
-  const std::size_t n = state.q.size();
-  Forces& forces = state.forces;
-  forces.internal.resize(n);
-  forces.external.resize(n);
-  system_.solid.internal_force(state.q, forces.internal);
-  system_.solid.external_force(state.t, system_.mass, forces.external);
+  const std::vector<double> points = state.points;
+  evaluate_bodies(system_, {dt, points}, state);
   stage_.start(state, 0);
   complete_forces(system_, state);
 }
@@ -43,6 +39,7 @@ StepReport Statics::step(const State& begin, const StepRequest& request, State& 
   }
   const StageEquation equation{.m = 0.0,
                                .s = 1.0,
+                               .dt = request.dt,
                                .share = 1e-12,
                                .free = &free_,
                                .x_hat = begin.q,

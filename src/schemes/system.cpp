@@ -6,17 +6,38 @@
 
 namespace carom {
 
-void evaluate_forces(const System& system, double t, std::span<const double> u_begin,
-                     std::span<const RowHistory> history, std::span<const double> u, std::span<const double> v,
-                     Forces& forces) {
-  const std::size_t n = system.solid.dof_count();
-  forces.internal.resize(n);
-  forces.external.resize(n);
-  forces.contact.assign(n, 0.0);
-  system.solid.internal_force(u, forces.internal);
-  system.solid.external_force(t, system.mass, forces.external);
-  penalty_response(system.contact.rows_at(u_begin, u, history), u_begin, u, v, history, forces.rows);
+void evaluate_solid(const System& system, const PointStep& step, State& end) {
+  Forces& forces = end.forces;
+  forces.internal.resize(end.q.size());
+  end.points.resize(system.solid.history_size());
+  if (system.solid.is_linear()) {
+    system.solid.internal_force(end.q, forces.internal);
+    return;
+  }
+  const SolidEnergies energies = system.solid.evaluate(end.q, step, forces.internal, end.points);
+  forces.stored.strain = energies.strain;
+  forces.stored.plastic = energies.plastic;
+  forces.stored.hourglass = energies.hourglass;
+}
+
+void evaluate_bodies(const System& system, const PointStep& step, State& end) {
+  evaluate_solid(system, step, end);
+  end.forces.external.resize(end.q.size());
+  system.solid.external_force(end.t, system.mass, end.forces.external);
+}
+
+void evaluate_forces(const System& system, const State& begin, double dt, std::span<const double> v, State& end) {
+  evaluate_bodies(system, {dt, begin.points}, end);
+  Forces& forces = end.forces;
+  penalty_response(system.contact.rows_at(begin.q, end.q, begin.contact), begin.q, end.q, v, begin.contact,
+                   forces.rows);
+  forces.contact.assign(end.q.size(), 0.0);
   forces.rows.add_force(forces.contact);
+}
+
+void evaluate_start(const System& system, double dt, State& state) {
+  const State begin = state;
+  evaluate_forces(system, begin, dt, begin.v, state);
 }
 
 Momentum momentum_from(const double* sums) {
@@ -64,7 +85,7 @@ void complete_forces(const System& system, State& state) {
     forces.reaction[i] = forces.inertia[i] + forces.internal[i] - forces.external[i] - forces.contact[i];
   }
   const MomentArms arms(system, state.q);
-  // v.Mv, u.F, a.Ma, momentum and its moment
+  // v.Mv, u.F (the strain energy of linear bodies), a.Ma, momentum and its moment
   const auto sums = parallel_sums<9>(n / 3, [&](std::size_t node, std::array<double, 9>& s) {
     Vec3 p;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -77,7 +98,7 @@ void complete_forces(const System& system, State& state) {
     add_with_moment(arms.at(node), p, s.data() + 3);
   });
   forces.stored.kinetic = 0.5 * sums[0];
-  forces.stored.strain = system.solid.is_linear() ? 0.5 * sums[1] : system.solid.strain_energy(state.q);
+  if (system.solid.is_linear()) forces.stored.strain = 0.5 * sums[1];
   forces.stored.contact_stored = forces.rows.stored;
   forces.inertia_power = sums[2];
   forces.total_momentum = momentum_from(sums.data() + 3);

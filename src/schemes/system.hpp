@@ -23,14 +23,18 @@ struct System {
   const Supports& supports;
 };
 
-/// Fills internal, external and contact forces at time t, displacement u, velocity v; the contact history stands at
-/// u_begin.
-void evaluate_forces(const System& system, double t, std::span<const double> u_begin,
-                     std::span<const RowHistory> history, std::span<const double> u, std::span<const double> v,
-                     Forces& forces);
+/// The bodies at the end of a step of length dt from the points' history at its beginning, at displacement end.q: their
+/// internal forces, and, but for linear bodies, what they store and have dissipated, and the points' history.
+void evaluate_solid(const System& system, const PointStep& step, State& end);
+/// The same, and the external forces at end.t.
+void evaluate_bodies(const System& system, const PointStep& step, State& end);
+/// The same, and contact by springs (penalty) at velocity v.
+void evaluate_forces(const System& system, const State& begin, double dt, std::span<const double> v, State& end);
+/// The same at a state that a run begins with, whose velocity is its own.
+void evaluate_start(const System& system, double dt, State& state);
 
 /// Fills what the accelerations and velocities of the state add to its forces: inertia, momentum, reactions, stored
-/// energies and total momentum (moments by MomentArms). The other forces are there.
+/// energies and total momentum (moments by MomentArms). The other forces are there (evaluate_bodies).
 void complete_forces(const System& system, State& state);
 
 /// Gives the end of a step what the scheme carries; nothing stands within the step.

@@ -23,7 +23,7 @@ TchamwaWielgosz::TchamwaWielgosz(const System& system, double phi)
 
 void TchamwaWielgosz::start(State& state, double dt) {
   start_with_supports(system_, state);
-  evaluate_forces(system_, state.t, state.q, state.contact, state.q, state.v, state.forces);
+  evaluate_start(system_, dt, state);
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = mean_acceleration(s, dt);
   start_accelerations(system_, mass_solver_, state);
@@ -50,7 +50,7 @@ StepReport TchamwaWielgosz::step(const State& begin, const StepRequest& request,
     end.q[s.dof] = s.u;
     end.v[s.dof] = s.v;
   }
-  evaluate_forces(system_, request.t_end, begin.q, begin.contact, end.q, end.v, end.forces);
+  evaluate_forces(system_, begin, h, end.v, end);
   for (const ImposedStep& s : imposed_) end.a[s.dof] = mean_acceleration(s, h);
   force_sum(end.forces, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);

@@ -1,6 +1,7 @@
 // State: everything that evolves, as a value.
 #pragma once
 
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct Forces {
   std::vector<double> inertia;   ///< M a
   std::vector<double> momentum;  ///< M v
   ContactResponse rows;
-  EnergyTerms stored;          ///< stored energies of the state
+  EnergyTerms stored;          ///< energies of the state that are functions of it: stored ones, and plastic
   Momentum total_momentum;     ///< of the state
   double inertia_power = 0.0;  ///< a . M a
   friend bool operator==(const Forces&, const Forces&) = default;
@@ -136,12 +137,23 @@ void fields(A& archive, NonsmoothMemory& x) {
   archive("z", x.z);
 }
 
+/// Where a tangent was made.
+struct TangentPlace {
+  double dt = 0.0;                ///< length of the step
+  std::vector<double> u, points;  ///< displacement, and history of the points at the beginning of the step
+  friend bool operator==(const TangentPlace&, const TangentPlace&) = default;
+};
+
 /// What the semi-explicit modified mass carries.
 struct ModifiedMassMemory {
-  std::vector<double> factored_at;  ///< displacement of the cells at the contact nodes (nonlinear bodies only)
-  std::vector<Index> rows;          ///< fixed rows whose compliance is kept
-  Growth nodes;                     ///< contact nodes whose compliance is kept, where rows move
-  friend bool operator==(const ModifiedMassMemory&, const ModifiedMassMemory&) = default;
+  std::shared_ptr<const TangentPlace> factored_at;  ///< the stiffness of the contact nodes (nonlinear bodies only)
+  std::vector<Index> rows;                          ///< fixed rows whose compliance is kept
+  Growth nodes;                                     ///< contact nodes whose compliance is kept, where rows move
+  friend bool operator==(const ModifiedMassMemory& a, const ModifiedMassMemory& b) {
+    const bool both = a.factored_at && b.factored_at;
+    return (a.factored_at == b.factored_at || (both && *a.factored_at == *b.factored_at)) && a.rows == b.rows &&
+           a.nodes == b.nodes;
+  }
 };
 template <class A>
 void fields(A& archive, ModifiedMassMemory& x) {
@@ -160,6 +172,7 @@ struct State {
   std::vector<double> q;            ///< displacement
   std::vector<double> v;            ///< velocity
   std::vector<double> a;            ///< acceleration
+  std::vector<double> points;       ///< history of the quadrature points (Solid::initial_history)
   std::vector<RowHistory> contact;  ///< one entry per contact slot (ConstraintRows::slot)
   Forces forces;                    ///< at time t
   ContactWithin within;             ///< of the step that has led here
