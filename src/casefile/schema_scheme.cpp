@@ -169,10 +169,7 @@ constexpr double least_alpha_of_hht = -1.0 / 3.0;
 /// (schemes/touch_rebound.hpp): its parameters of least rebound, where the case gives none, and of WBZ, whose
 /// dissipation grows as the rebound falls, the least dissipative that are not warned of.
 void choose_parameters(CaseScheme& scheme, const Node& node) {
-  const EnforcementKind enforcement = **scheme.enforcement;
-  const bool has_multipliers =
-      enforcement == EnforcementKind::lagrange || enforcement == EnforcementKind::augmented_lagrangian;
-  if (!has_multipliers || **scheme.mass == CaseScheme::Mass::modified) return;
+  if (!traits(**scheme.enforcement).has_multipliers || **scheme.mass == CaseScheme::Mass::modified) return;
   if (*scheme.kind == SchemeKind::hht && find(node, "alpha") == nullptr) scheme.alpha = least_alpha_of_hht;
 }
 

@@ -150,8 +150,7 @@ void scale_steps(Draft& draft, double ratio) {
 
 /// Does the stiffness of contacts enter the computation?
 bool uses_stiffness(const Case& given) {
-  const EnforcementKind kind = **given.scheme.enforcement;
-  return !given.contacts.empty() && (kind == EnforcementKind::penalty || kind == EnforcementKind::augmented_lagrangian);
+  return !given.contacts.empty() && traits(**given.scheme.enforcement).takes_stiffness;
 }
 
 /// The case with the step that it has or that its scheme needs.

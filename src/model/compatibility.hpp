@@ -34,9 +34,27 @@ enum class EnforcementKind : std::uint8_t { penalty, augmented_lagrangian, lagra
 /// Whether a step solves a system of the whole body.
 enum class Stepping : std::uint8_t { implicit_steps, explicit_steps };
 
-inline constexpr std::size_t enforcement_count = 4;
-inline constexpr std::array<std::string_view, enforcement_count> enforcement_names{"penalty", "augmented_lagrangian",
-                                                                                   "lagrange", "impulse"};
+/// What the rest of the program has to know of an enforcement.
+struct EnforcementTraits {
+  EnforcementKind kind;
+  std::string_view name;  ///< in case files
+  bool takes_stiffness;   ///< contacts have springs, if only as a means
+  bool adds_stiffness;    ///< the springs are part of the bodies' vibrations: they limit explicit steps
+  bool has_multipliers;   ///< of constraints on displacements
+  bool is_exact;          ///< its conditions are met on the rows by their compliance, a column of the inverse each
+};
+
+inline constexpr std::array enforcement_table{
+    EnforcementTraits{EnforcementKind::penalty, "penalty", true, true, false, false},
+    EnforcementTraits{EnforcementKind::augmented_lagrangian, "augmented_lagrangian", true, false, true, false},
+    EnforcementTraits{EnforcementKind::lagrange, "lagrange", false, false, true, true},
+    EnforcementTraits{EnforcementKind::impulse, "impulse", false, false, false, true}};
+inline constexpr std::size_t enforcement_count = enforcement_table.size();
+inline constexpr std::array enforcement_names{enforcement_table[0].name, enforcement_table[1].name,
+                                              enforcement_table[2].name, enforcement_table[3].name};
+
+/// How a scheme keeps the angular momentum of bodies that turn far.
+enum class AngularMomentum : std::uint8_t { to_its_order, exactly };
 
 /// One line of the table. `why_not` says what stands against the enforcements that are not taken.
 struct SchemeTraits {
@@ -46,6 +64,8 @@ struct SchemeTraits {
   Stepping stepping;
   std::array<bool, enforcement_count> takes;  ///< in the order of EnforcementKind
   std::string_view why_not;
+  AngularMomentum angular_momentum = AngularMomentum::to_its_order;
+  double gains = 0.005;  ///< energy that it may make, over what there is, without a trend (docs/schemes.md)
 };
 
 namespace detail {
@@ -90,7 +110,8 @@ inline constexpr std::array<SchemeTraits, 17> scheme_table{{
      "energy-momentum",
      Stepping::implicit_steps,
      {true, false, false, false},
-     detail::potential},
+     detail::potential,
+     AngularMomentum::exactly},
     {SchemeKind::moreau_jean,
      "moreau_jean",
      "Moreau-Jean",
@@ -108,7 +129,8 @@ inline constexpr std::array<SchemeTraits, 17> scheme_table{{
      "central differences",
      Stepping::explicit_steps,
      {true, false, false, false},
-     detail::smooth_explicit},
+     detail::smooth_explicit,
+     AngularMomentum::exactly},
     {SchemeKind::hulbert_chung,
      "hulbert_chung",
      "Hulbert-Chung",
@@ -132,19 +154,23 @@ inline constexpr std::array<SchemeTraits, 17> scheme_table{{
      "CD-Lagrange",
      Stepping::explicit_steps,
      {false, false, false, true},
-     detail::velocity_level},
+     detail::velocity_level,
+     AngularMomentum::exactly},
     {SchemeKind::forward_increment,
      "forward_increment",
      "central differences, forward-increment multipliers",
      Stepping::explicit_steps,
      {false, false, true, false},
-     detail::displacement_level},
+     detail::displacement_level,
+     AngularMomentum::exactly},
     {SchemeKind::modified_mass,
      "modified_mass",
      "central differences, modified mass",
      Stepping::explicit_steps,
      {false, false, true, false},
-     detail::displacement_level},
+     detail::displacement_level,
+     AngularMomentum::exactly,
+     0.02},
     {SchemeKind::statics, "statics", "statics", Stepping::implicit_steps, {true, true, true, false}, detail::smooth},
 }};
 
@@ -154,8 +180,11 @@ constexpr const SchemeTraits& traits(SchemeKind kind) {
 constexpr bool takes(SchemeKind scheme, EnforcementKind enforcement) {
   return traits(scheme).takes[static_cast<std::size_t>(enforcement)];
 }
+constexpr const EnforcementTraits& traits(EnforcementKind kind) {
+  return enforcement_table[static_cast<std::size_t>(kind)];
+}
 constexpr std::string_view name(EnforcementKind kind) {
-  return enforcement_names[static_cast<std::size_t>(kind)];
+  return traits(kind).name;
 }
 constexpr bool is_explicit(SchemeKind kind) {
   return traits(kind).stepping == Stepping::explicit_steps;
@@ -172,6 +201,9 @@ namespace detail {
 constexpr bool table_is_in_order() {
   for (std::size_t i = 0; i < scheme_table.size(); ++i) {
     if (static_cast<std::size_t>(scheme_table[i].kind) != i) return false;
+  }
+  for (std::size_t i = 0; i < enforcement_table.size(); ++i) {
+    if (static_cast<std::size_t>(enforcement_table[i].kind) != i) return false;
   }
   return true;
 }

@@ -34,7 +34,7 @@ std::string worst_place(const Simulation& s, const State& state) {
 
 std::string energy_remedy(const Stage& stage) {
   const SchemeSettings& scheme = stage.settings();
-  const bool has_springs = scheme.enforcement == EnforcementKind::penalty && stage.system().contact.slots() > 0;
+  const bool has_springs = traits(scheme.enforcement).adds_stiffness && stage.system().contact.slots() > 0;
   std::string text = stage.time().step ? "Lower time.step" : "Lower time.safety";
   if (has_springs) text += " or contact.stiffness (contact.stiffness_factor)";
   if (!is_explicit(scheme.kind)) text += ", or choose a scheme that dissipates or conserves energy";

@@ -130,7 +130,7 @@ class ContactLint {
     const Approach& a = approaches_[c];
     const Stage& stage = s_.first();
     const bool has_springs =
-        *given(c).kind == CaseContact::Kind::stop || stage.settings().enforcement == EnforcementKind::penalty;
+        *given(c).kind == CaseContact::Kind::stop || traits(stage.settings().enforcement).adds_stiffness;
     if (!is_explicit(stage.settings().kind) || !has_springs) return;
     const double of_cells = cell_ / waves_.speed;
     const double of_spring = a.frequency_squared > 0.0 ? 2.0 / std::sqrt(a.frequency_squared) : of_cells;

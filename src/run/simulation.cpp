@@ -33,8 +33,7 @@ Location contacts_place(const Case& given) {
 }
 
 bool needs_stiffness(const CaseScheme& scheme) {
-  return **scheme.enforcement == EnforcementKind::penalty ||
-         **scheme.enforcement == EnforcementKind::augmented_lagrangian;
+  return traits(**scheme.enforcement).takes_stiffness;
 }
 
 /// The model of the case, with a stiffness for every contact whose case gives none and whose enforcement needs one.

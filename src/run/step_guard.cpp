@@ -39,7 +39,7 @@ StepGuard::StepGuard(const Stage& stage)
   if (stage.settings().kind != SchemeKind::statics && stage.system().contact.slots() > 0)
     motion_.emplace(stage.model());
   if (stage.stable_step_changes()) watch_.emplace(stage.watch_stable_step());
-  if (stage.settings().enforcement == EnforcementKind::penalty && may_shorten(stage)) energy_.emplace();
+  if (traits(stage.settings().enforcement).adds_stiffness && may_shorten(stage)) energy_.emplace();
 }
 
 bool StepGuard::prolong(double end) {

@@ -21,16 +21,7 @@ namespace {
 /// small strain stand beside others.
 double angular_limit(const Simulation& s) {
   const auto keeps_it = [](const auto& stage) {
-    switch (stage->settings().kind) {
-      case SchemeKind::central_differences:
-      case SchemeKind::cd_lagrange:
-      case SchemeKind::forward_increment:
-      case SchemeKind::modified_mass:
-      case SchemeKind::energy_momentum:
-        return true;
-      default:
-        return false;
-    }
+    return traits(stage->settings().kind).angular_momentum == AngularMomentum::exactly;
   };
   const auto is_small_strain = [](const Part& part) { return part.material.law->measure == Measure::small_strain; };
   const std::vector<Part>& parts = s.model().parts;
@@ -42,10 +33,11 @@ double angular_limit(const Simulation& s) {
   return exact ? 1e-9 : 1e-2;
 }
 
-/// The modified mass keeps its energy to 2 % without trend (docs/schemes.md), all others make none to speak of.
+/// That of the stage that may gain most.
 double gain_limit(const Simulation& s) {
-  const auto is_modified = [](const auto& stage) { return stage->settings().kind == SchemeKind::modified_mass; };
-  return std::any_of(s.stages().begin(), s.stages().end(), is_modified) ? 0.02 : 0.005;
+  double limit = 0.0;
+  for (const auto& stage : s.stages()) limit = std::max(limit, traits(stage->settings().kind).gains);
+  return limit;
 }
 
 /// All schemes of the run, in their order.

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
 namespace carom {
@@ -73,6 +74,31 @@ void set_mean_reactions(const System& system, const State& begin, const StepWeig
     f1.reaction[i] = mix(w.inertia, f0.inertia[i], f1.inertia[i]) + internal -
                      mix(w.force, f0.external[i], f1.external[i]) - mix(w.contact, f0.contact[i], f1.contact[i]);
   }
+}
+
+ContactWork multiplier_work(const State& begin, const State& end, double end_weight) {
+  ContactWork out;
+  const auto add = [&](const ContactResponse& response, double weight) {
+    const ConstraintRows& rows = *response.rows;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (response.status[r] == RowStatus::open) continue;
+      const Vec3 dw = subtract(rows.relative(r, end.q), rows.relative(r, begin.q));
+      const Vec3& force = response.force[r];
+      out.impact -= weight * force[0] * dw[0];
+      out.friction -= weight * (force[1] * dw[1] + force[2] * dw[2]);
+    }
+  };
+  if (end_weight < 1.0) add(begin.forces.rows, 1.0 - end_weight);
+  add(end.forces.rows, end_weight);
+  out.total = -out.impact - out.friction;
+  return out;
+}
+
+void book_multipliers(const State& begin, const State& end, EnergyTerms& energy) {
+  const ContactWork work = multiplier_work(begin, end, 0.5);
+  energy.impact += work.impact;
+  energy.friction += work.friction;
+  energy.quadrature -= work.impact + work.friction;
 }
 
 Momentum combine(double a, const Momentum& p, double b, const Momentum& q) {

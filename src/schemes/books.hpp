@@ -41,6 +41,12 @@ StepBooks step_books(const System& system, const State& begin, const Balance& ba
 void set_mean_reactions(const System& system, const State& begin, const StepWeights& weights, State& end,
                         std::span<const double> mean_internal = {});
 
+/// Work of multipliers over a step (ContactPort::work), those of each end on its rows: the normal part goes to
+/// `impact`, the tangential one to `friction`.
+ContactWork multiplier_work(const State& begin, const State& end, double end_weight);
+/// The same with the weights 1/2, for books that have it in `quadrature`.
+void book_multipliers(const State& begin, const State& end, EnergyTerms& energy);
+
 /// a p + b q
 Momentum combine(double a, const Momentum& p, double b, const Momentum& q);
 

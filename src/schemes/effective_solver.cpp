@@ -373,8 +373,8 @@ SolverKind chosen_solver(const System& system, SolverKind kind, EnforcementKind 
                          double omega_max_squared) {
   if (kind != SolverKind::automatic) return kind;
   const std::size_t dofs = system.solid.dof_count(), rows = system.contact.slots();
-  const bool is_exact = enforcement == EnforcementKind::lagrange || enforcement == EnforcementKind::impulse;
-  if (is_exact && rows > 0 && dofs <= (system.solid.is_linear() ? 500'000U : 50'000U)) return SolverKind::cholesky;
+  if (traits(enforcement).is_exact && rows > 0 && dofs <= (system.solid.is_linear() ? 500'000U : 50'000U))
+    return SolverKind::cholesky;
   const double iterations = 0.5 * std::sqrt(1.0 + ratio * omega_max_squared) * std::log(2.0 / 1e-12);
   const bool is_large = dofs > 2'000'000 || rows > 1000;
   return iterations <= 60.0 || is_large ? SolverKind::conjugate_gradients : SolverKind::cholesky;

@@ -45,8 +45,4 @@ std::unique_ptr<ExplicitContact> impulse_contact(const System& system);
 /// the rows being those at u. The gap is closed exactly (to first order where rows move).
 std::unique_ptr<ExplicitContact> forward_increment_contact(const System& system);
 
-/// Trapezoidal work of multipliers over a step, each force on its own end's rows: along the normals to `impact`, along
-/// the tangents to `friction`, both taken out of `quadrature`.
-void book_multipliers(const State& begin, const State& end, EnergyTerms& energy);
-
 }  // namespace carom

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "parallel/threads.hpp"
+#include "schemes/books.hpp"
 #include "schemes/closing_rows.hpp"
 #include "schemes/explicit_contact.hpp"
 #include "schemes/initial_acceleration.hpp"

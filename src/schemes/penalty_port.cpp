@@ -324,22 +324,4 @@ ContactWork AugmentedLagrangianPort::work(const State& begin, const State& end, 
   return multiplier_work(begin, end, end_weight);
 }
 
-ContactWork multiplier_work(const State& begin, const State& end, double end_weight) {
-  ContactWork out;
-  const auto add = [&](const ContactResponse& response, double weight) {
-    const ConstraintRows& rows = *response.rows;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      if (response.status[r] == RowStatus::open) continue;
-      const Vec3 dw = subtract(rows.relative(r, end.q), rows.relative(r, begin.q));
-      const Vec3& force = response.force[r];
-      out.impact -= weight * force[0] * dw[0];
-      out.friction -= weight * (force[1] * dw[1] + force[2] * dw[2]);
-    }
-  };
-  if (end_weight < 1.0) add(begin.forces.rows, 1.0 - end_weight);
-  add(end.forces.rows, end_weight);
-  out.total = -out.impact - out.friction;
-  return out;
-}
-
 }  // namespace carom

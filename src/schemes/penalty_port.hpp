@@ -98,8 +98,4 @@ class AugmentedLagrangianPort final : public PenaltyPort {
   std::vector<Vec3> multiplier_;  ///< per slot, a vector of space
 };
 
-/// Work of multipliers over a step (ContactPort::work), those of each end on its rows: the normal part goes to
-/// `impact`, the tangential one to `friction`.
-ContactWork multiplier_work(const State& begin, const State& end, double end_weight);
-
 }  // namespace carom

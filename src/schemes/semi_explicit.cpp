@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "parallel/threads.hpp"
+#include "schemes/books.hpp"
 #include "schemes/explicit_books.hpp"
 #include "schemes/explicit_contact.hpp"
 #include "schemes/imposed_motion.hpp"

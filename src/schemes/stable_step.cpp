@@ -55,10 +55,6 @@ class Vibration {
   std::vector<unsigned char> moves_;
 };
 
-bool adds_stiffness(EnforcementKind enforcement) {
-  return enforcement == EnforcementKind::penalty;
-}
-
 /// Largest sum of damping / mass over the nodes. For the consistent mass of parallelepipeds, M >= 1/8 of its diagonal
 /// (Wathen, IMA Journal of Numerical Analysis 7, 1987).
 double largest_damping_ratio(const System& system, const ConstraintRows& rows) {
@@ -100,7 +96,7 @@ StableStep stable_step(const System& system, double limit, EnforcementKind enfor
   out.omega_max_squared = out.omega_max_squared_free = frequency(nullptr);
   out.dt_closing = std::numeric_limits<double>::infinity();
   double damping_ratio = 0.0;
-  if (adds_stiffness(enforcement) && system.contact.slots() > 0) {
+  if (traits(enforcement).adds_stiffness && system.contact.slots() > 0) {
     const auto rows = system.contact.rows_at(zero, zero);
     out.omega_max_squared = frequency(std::make_shared<const ConstraintRows>(as_they_close(*rows, zero)));
     out.dt_closing = closing_step(limit, contact_frequency_bound(system, *rows, zero));
@@ -138,7 +134,7 @@ StableStep StableStepWatch::with(const ConstraintRows& rows, std::span<const dou
   StableStep out;
   out.omega_max_squared_free = omega_squared_;
   out.dt_free = limit_ / std::sqrt(omega_squared_);
-  const bool has_springs = adds_stiffness(enforcement_) && rows.size() > 0;
+  const bool has_springs = traits(enforcement_).adds_stiffness && rows.size() > 0;
   const double contact = has_springs ? contact_frequency_bound(system_, rows, u) : 0.0;
   out.omega_max_squared = omega_squared_ + contact;
   out.dt = step_of(limit_, out.omega_max_squared, has_springs ? largest_damping_ratio(system_, rows) : 0.0);

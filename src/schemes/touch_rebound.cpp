@@ -5,8 +5,7 @@
 namespace carom {
 
 std::optional<double> touch_rebound(const SchemeSettings& s) {
-  if (s.enforcement != EnforcementKind::lagrange && s.enforcement != EnforcementKind::augmented_lagrangian)
-    return std::nullopt;
+  if (!traits(s.enforcement).has_multipliers) return std::nullopt;
   const auto of = [](const GeneralizedAlphaParameters& p) { return (1.0 - p.alpha_m) / p.beta - 1.0; };
   switch (s.kind) {
     case SchemeKind::newmark:

@@ -70,7 +70,7 @@ std::string VelocityImpulses::respond(double k, const ContactResponse& closed, G
 }
 
 std::unique_ptr<VelocityImpulses> velocity_impulses(const System& system, EnforcementKind enforcement) {
-  if (enforcement != EnforcementKind::lagrange && enforcement != EnforcementKind::augmented_lagrangian) return nullptr;
+  if (!traits(enforcement).has_multipliers) return nullptr;
   const std::vector<double>& mass = system.mass.node_diagonal();
   const std::vector<bool>& fixed = system.supports.fixed();
   for (std::size_t i = 0; i < fixed.size(); ++i) {
