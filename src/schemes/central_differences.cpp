@@ -1,6 +1,5 @@
 #include "schemes/central_differences.hpp"
 
-#include <stdexcept>
 #include <utility>
 
 #include "parallel/threads.hpp"
@@ -20,13 +19,9 @@ CentralDifferences::CentralDifferences(const System& system, std::unique_ptr<Exp
 
 void CentralDifferences::start(State& state, double dt) {
   start_with_supports(system_, state);
-  const std::vector<double> points = state.points;
-  evaluate_bodies(system_, {dt, points}, state);
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_next_);
   for (const ImposedStep& s : imposed_next_) state.a[s.dof] = acceleration_to_middle(s, dt);
-  const std::string failure =
-      contact_->respond({dt, 0.5 * dt, state.q, state.q, state.v, state.a, state.contact}, state.forces);
-  if (!failure.empty()) throw std::runtime_error("at the start: " + failure);
+  contact_->start(system_, dt, 0.5 * dt, state);
   start_accelerations(system_, mass_solver_, state);
 }
 

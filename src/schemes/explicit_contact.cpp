@@ -1,5 +1,7 @@
 #include "schemes/explicit_contact.hpp"
 
+#include <stdexcept>
+
 namespace carom {
 
 namespace {
@@ -22,6 +24,19 @@ class PenaltyContact final : public ExplicitContact {
 };
 
 }  // namespace
+
+std::string ExplicitContact::evaluate(const System& system, const State& begin, double h, std::span<const double> v,
+                                      State& end) {
+  evaluate_bodies(system, {h, begin.points}, end);
+  return respond({h, h, begin.q, end.q, v, end.a, begin.contact}, end.forces);
+}
+
+void ExplicitContact::start(const System& system, double dt, double weight, State& state) {
+  const std::vector<double> points = state.points;
+  evaluate_bodies(system, {dt, points}, state);
+  const std::string failure = respond({dt, weight, state.q, state.q, state.v, state.a, state.contact}, state.forces);
+  if (!failure.empty()) throw std::runtime_error("at the start: " + failure);
+}
 
 std::unique_ptr<ExplicitContact> penalty_contact(const System& system) {
   return std::make_unique<PenaltyContact>(system);

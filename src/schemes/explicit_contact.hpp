@@ -1,4 +1,4 @@
-// How contact answers a step of central differences: by springs, by impulses, or by forward-increment multipliers.
+// How contact answers an explicit step: by springs, by impulses, or by forward-increment multipliers.
 #pragma once
 
 #include <memory>
@@ -25,6 +25,10 @@ class ExplicitContact {
   /// Fills forces.rows and forces.contact; internal and external forces are there. Returns why no force was found, ""
   /// when one was.
   virtual std::string respond(const ExplicitPoint& at, Forces& forces) = 0;
+  /// All forces of a step of length h whose end is at end.q and has the velocity v. Returns what respond() returns.
+  std::string evaluate(const System& system, const State& begin, double h, std::span<const double> v, State& end);
+  /// All forces of a state that a run begins with. Throws std::runtime_error when contact finds none.
+  void start(const System& system, double dt, double weight, State& state);
   /// Books what central_difference_books leaves in `quadrature` of the work of forces that are no function of the
   /// state.
   virtual void book(const State& begin, const State& end, EnergyTerms& energy) const = 0;

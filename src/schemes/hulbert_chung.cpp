@@ -18,6 +18,7 @@ HulbertChung::HulbertChung(const System& system, double rho)
       alpha_m_((2.0 * rho - 1.0) / (1.0 + rho)),
       beta_((5.0 - 3.0 * rho) / ((1.0 + rho) * (1.0 + rho) * (2.0 - rho))),
       gamma_(1.5 - alpha_m_),
+      contact_(penalty_contact(system)),
       mass_solver_(system),
       start_(system),
       rhs_(system.solid.dof_count()),
@@ -28,7 +29,7 @@ HulbertChung::HulbertChung(const System& system, double rho)
 
 void HulbertChung::start(State& state, double dt) {
   start_with_supports(system_, state);
-  evaluate_start(system_, dt, state);
+  contact_->start(system_, dt, dt, state);
   // e0 = e1 = a0
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = mean_acceleration(s, dt);
@@ -65,7 +66,8 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
     end.q[s.dof] = s.u;
     end.v[s.dof] = s.v;
   }
-  evaluate_forces(system_, begin, h, end.v, end);
+  report.failure = contact_->evaluate(system_, begin, h, end.v, end);
+  if (!report.failure.empty()) return report;
   for (const ImposedStep& s : imposed_) end.a[s.dof] = mean_acceleration(s, h);
   force_sum(end.forces, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "schemes/explicit_contact.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "schemes/mass_solver.hpp"
 #include "schemes/scheme.hpp"
@@ -31,6 +32,7 @@ class HulbertChung final : public Scheme {
  private:
   const System& system_;
   double alpha_m_, beta_, gamma_;
+  std::unique_ptr<ExplicitContact> contact_;
   MassSolver mass_solver_;
   StepStart start_;
   std::vector<double> rhs_, A_, B_;

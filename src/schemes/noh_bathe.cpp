@@ -15,6 +15,7 @@ NohBathe::NohBathe(const System& system, double p)
     : system_(system),
       p_(p),
       q1_((1.0 - 2.0 * p) / (2.0 * p * (1.0 - p))),
+      contact_(penalty_contact(system)),
       mass_solver_(system),
       start_(system),
       rhs_(system.solid.dof_count()),
@@ -36,21 +37,33 @@ double NohBathe::middle_weight() const {
 
 void NohBathe::start(State& state, double dt) {
   start_with_supports(system_, state);
-  evaluate_start(system_, dt, state);
+  contact_->start(system_, dt, dt, state);
   const double k = p_ * dt;
   imposed_steps(system_.supports, state.t, state.t + k, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = acceleration_to_middle(s, k);
   start_accelerations(system_, mass_solver_, state);
 }
 
-/// To t_p, a step of central differences. -1 when the mass matrix cannot be solved.
-int NohBathe::first_part(const State& begin, const StepRequest& request) {
+/// Accelerations from the forces; the prescribed ones are there.
+bool NohBathe::solve(State& state, StepReport& report) {
+  force_sum(state.forces, rhs_);
+  const int iterations = mass_solver_.solve(rhs_, state.a);
+  report.linear_iterations += iterations;
+  if (iterations < 0) report.failure = MassSolver::failure;
+  return iterations >= 0;
+}
+
+/// To t_p, a step of central differences.
+bool NohBathe::first_part(const State& begin, const StepRequest& request, StepReport& report) {
   const double k = p_ * request.dt, rest = request.dt - k;
   go_on_from(begin, middle_);
   middle_.t = request.t_end - rest;
   imposed_steps(system_.supports, begin.t, middle_.t, begin.q, imposed_);
   const auto wanted = [k](const ImposedStep& s) { return acceleration_to_middle(s, k); };
-  if (!start_.set(begin, k, imposed_, wanted)) return -1;
+  if (!start_.set(begin, k, imposed_, wanted)) {
+    report.failure = MassSolver::failure;
+    return false;
+  }
   const std::span<const double> a_begin = start_.a();
   parallel_each(begin.q.size(), [&](std::size_t i) {
     predicted_[i] = begin.v[i] + 0.5 * k * a_begin[i];
@@ -60,19 +73,19 @@ int NohBathe::first_part(const State& begin, const StepRequest& request) {
     predicted_[s.dof] = s.mean_velocity;
     middle_.q[s.dof] = s.u;
   }
-  evaluate_forces(system_, begin, k, predicted_, middle_);
+  report.failure = contact_->evaluate(system_, begin, k, predicted_, middle_);
+  if (!report.failure.empty()) return false;
   for (const ImposedStep& s : imposed_) middle_.a[s.dof] = acceleration_from_middle(s, k);
-  force_sum(middle_.forces, rhs_);
-  const int iterations = mass_solver_.solve(rhs_, middle_.a);
+  if (!solve(middle_, report)) return false;
   parallel_each(begin.q.size(), [&](std::size_t i) { middle_.v[i] = predicted_[i] + 0.5 * k * middle_.a[i]; });
   take_history(middle_.forces.rows, middle_.q, middle_.contact);
   for (const ImposedStep& s : imposed_) middle_.v[s.dof] = s.v;
   complete_forces(system_, middle_);
-  return iterations;
+  return true;
 }
 
 /// From t_p to t1. Imposed accelerations at t1 give v1 by the scheme's rule.
-int NohBathe::second_part(const StepRequest& request, State& end) {
+bool NohBathe::second_part(const StepRequest& request, State& end, StepReport& report) {
   const double rest = (1.0 - p_) * request.dt;
   const std::span<const double> a_begin = start_.a();
   go_on_from(middle_, end);
@@ -88,14 +101,13 @@ int NohBathe::second_part(const StepRequest& request, State& end) {
     end.v[s.dof] = s.v;
     end.a[s.dof] = (s.v - predicted_[s.dof]) / (rest * q2_);
   }
-  evaluate_forces(system_, middle_, rest, end.v, end);
-  force_sum(end.forces, rhs_);
-  const int iterations = mass_solver_.solve(rhs_, end.a);
+  report.failure = contact_->evaluate(system_, middle_, rest, end.v, end);
+  if (!report.failure.empty() || !solve(end, report)) return false;
   parallel_each(end.q.size(), [&](std::size_t i) { end.v[i] = predicted_[i] + rest * q2_ * end.a[i]; });
   take_history(end.forces.rows, end.q, end.contact);
   for (const ImposedStep& s : imposed_) end.v[s.dof] = s.v;
   complete_forces(system_, end);
-  return iterations;
+  return true;
 }
 
 LedgerIncrement NohBathe::books(const State& begin, const StepRequest& request, const State& end) {
@@ -119,13 +131,7 @@ LedgerIncrement NohBathe::books(const State& begin, const StepRequest& request, 
 
 StepReport NohBathe::step(const State& begin, const StepRequest& request, State& end) {
   StepReport report;
-  const int first = first_part(begin, request);
-  const int second = first < 0 ? -1 : second_part(request, end);
-  if (second < 0) {
-    report.failure = MassSolver::failure;
-    return report;
-  }
-  report.linear_iterations = first + second;
+  if (!first_part(begin, request, report) || !second_part(request, end, report)) return report;
   report.books = books(begin, request, end);
   end.within.weight = middle_weight();
   std::swap(end.within.rows, middle_.forces.rows);

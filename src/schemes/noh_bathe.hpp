@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "schemes/explicit_contact.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "schemes/mass_solver.hpp"
 #include "schemes/scheme.hpp"
@@ -27,12 +28,14 @@ class NohBathe final : public Scheme {
 
  private:
   double middle_weight() const;
-  int first_part(const State& begin, const StepRequest& request);
-  int second_part(const StepRequest& request, State& end);
+  bool first_part(const State& begin, const StepRequest& request, StepReport& report);
+  bool second_part(const StepRequest& request, State& end, StepReport& report);
+  bool solve(State& state, StepReport& report);
   LedgerIncrement books(const State& begin, const StepRequest& request, const State& end);
 
   const System& system_;
   double p_, q0_, q1_, q2_;
+  std::unique_ptr<ExplicitContact> contact_;
   MassSolver mass_solver_;
   StepStart start_;
   State middle_;

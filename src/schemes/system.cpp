@@ -26,20 +26,6 @@ void evaluate_bodies(const System& system, const PointStep& step, State& end) {
   system.solid.external_force(end.t, system.mass, end.forces.external);
 }
 
-void evaluate_forces(const System& system, const State& begin, double dt, std::span<const double> v, State& end) {
-  evaluate_bodies(system, {dt, begin.points}, end);
-  Forces& forces = end.forces;
-  penalty_response(system.contact.rows_at(begin.q, end.q, begin.contact), begin.q, end.q, v, begin.contact,
-                   forces.rows);
-  forces.contact.assign(end.q.size(), 0.0);
-  forces.rows.add_force(forces.contact);
-}
-
-void evaluate_start(const System& system, double dt, State& state) {
-  const State begin = state;
-  evaluate_forces(system, begin, dt, begin.v, state);
-}
-
 Momentum momentum_from(const double* sums) {
   return {{sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5]}};
 }

@@ -28,10 +28,6 @@ struct System {
 void evaluate_solid(const System& system, const PointStep& step, State& end);
 /// The same, and the external forces at end.t.
 void evaluate_bodies(const System& system, const PointStep& step, State& end);
-/// The same, and contact by springs (penalty) at velocity v.
-void evaluate_forces(const System& system, const State& begin, double dt, std::span<const double> v, State& end);
-/// The same at a state that a run begins with, whose velocity is its own.
-void evaluate_start(const System& system, double dt, State& state);
 
 /// Fills what the accelerations and velocities of the state add to its forces: inertia, momentum, reactions, stored
 /// energies and total momentum (moments by MomentArms). The other forces are there (evaluate_bodies).

@@ -14,6 +14,7 @@ namespace carom {
 TchamwaWielgosz::TchamwaWielgosz(const System& system, double phi)
     : system_(system),
       phi_(phi),
+      contact_(penalty_contact(system)),
       mass_solver_(system),
       start_(system),
       rhs_(system.solid.dof_count()),
@@ -23,7 +24,7 @@ TchamwaWielgosz::TchamwaWielgosz(const System& system, double phi)
 
 void TchamwaWielgosz::start(State& state, double dt) {
   start_with_supports(system_, state);
-  evaluate_start(system_, dt, state);
+  contact_->start(system_, dt, dt, state);
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = mean_acceleration(s, dt);
   start_accelerations(system_, mass_solver_, state);
@@ -50,7 +51,8 @@ StepReport TchamwaWielgosz::step(const State& begin, const StepRequest& request,
     end.q[s.dof] = s.u;
     end.v[s.dof] = s.v;
   }
-  evaluate_forces(system_, begin, h, end.v, end);
+  report.failure = contact_->evaluate(system_, begin, h, end.v, end);
+  if (!report.failure.empty()) return report;
   for (const ImposedStep& s : imposed_) end.a[s.dof] = mean_acceleration(s, h);
   force_sum(end.forces, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);

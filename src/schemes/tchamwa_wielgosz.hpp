@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "schemes/explicit_contact.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "schemes/mass_solver.hpp"
 #include "schemes/scheme.hpp"
@@ -27,6 +28,7 @@ class TchamwaWielgosz final : public Scheme {
  private:
   const System& system_;
   double phi_;
+  std::unique_ptr<ExplicitContact> contact_;
   MassSolver mass_solver_;
   StepStart start_;
   std::vector<double> rhs_, B_;
