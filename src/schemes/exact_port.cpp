@@ -11,7 +11,7 @@
 
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
-#include "schemes/penalty_port.hpp"
+#include "schemes/books.hpp"
 
 namespace carom {
 

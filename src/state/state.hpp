@@ -73,8 +73,8 @@ struct StageMemory {
   std::vector<Index> chosen_rows;  ///< those that have taken part, in their order
   Growth port_nodes;               ///< of multipliers on rows that move
   Growth mass_nodes;               ///< of impulses, by the mass
-  Index negative_eigenvalues =
-      -1;  ///< of the first tangent that was not positive definite, -1: none was. L D L^T since
+  /// Of the first tangent that was not positive definite, which are L D L^T since; -1: none was.
+  Index negative_eigenvalues = -1;
   /// Where the diagonal that preconditions the conjugate gradients was made (nonlinear bodies only), and the diagonal.
   std::vector<double> diagonal_at, diagonal;
   friend bool operator==(const StageMemory&, const StageMemory&) = default;
@@ -144,6 +144,13 @@ struct TangentPlace {
   friend bool operator==(const TangentPlace&, const TangentPlace&) = default;
 };
 
+template <class A>
+void fields(A& archive, TangentPlace& x) {
+  archive("dt", x.dt);
+  archive("u", x.u);
+  archive("points", x.points);
+}
+
 /// What the semi-explicit modified mass carries.
 struct ModifiedMassMemory {
   std::shared_ptr<const TangentPlace> factored_at;  ///< the stiffness of the contact nodes (nonlinear bodies only)
@@ -187,6 +194,7 @@ void fields(A& archive, State& x) {
   archive("q", x.q);
   archive("v", x.v);
   archive("a", x.a);
+  archive("points", x.points);
   archive("contact", x.contact);
   archive("forces", x.forces);
   archive("within", x.within);

@@ -144,6 +144,32 @@ TEST(EffectiveSolver, CholeskyGivesWayToLdltWhereTheOperatorIsIndefinite) {
   EXPECT_EQ(name_of(*solver), name);
 }
 
+// Whatever it has factored before, it solves by the factors that the memory of the stage asks for, to the bit.
+TEST(EffectiveSolver, GoesOnFromTheMemoryOfTheStage) {
+  const Problem p(many_rows());
+  const std::vector<double> b = free_random(p, 3);
+  const std::vector<RowTangent> D = random_tangents(p.contact.slots(), 100, Draw::general);
+  const auto solution = [&](EffectiveSolver& solver, const StageMemory& memory) {
+    std::vector<double> x(b.size(), 0.0);
+    solver.begin(memory);
+    EXPECT_EQ(solver.prepare(1.0, 0.1, x), "");
+    EXPECT_TRUE(solver.solve(b, p.rows(), D, 0.0, x).converged);
+    return x;
+  };
+  const auto solver = make_effective_solver(p.system, SolverKind::cholesky);
+  const StageMemory definite;
+  StageMemory indefinite;
+  solver->begin(definite);
+  EXPECT_EQ(solver->prepare(1.0, -3.0, b), "");
+  solver->leave(indefinite);
+  ASSERT_GT(indefinite.negative_eigenvalues, 0);
+  const std::vector<double> by_cholesky = solution(*solver, definite), by_ldlt = solution(*solver, indefinite);
+  EXPECT_NE(by_cholesky, by_ldlt);
+  EXPECT_EQ(by_cholesky, solution(*make_effective_solver(p.system, SolverKind::cholesky), definite));
+  EXPECT_EQ(by_ldlt, solution(*make_effective_solver(p.system, SolverKind::cholesky), indefinite));
+  EXPECT_EQ(by_cholesky, solution(*solver, definite));
+}
+
 TEST(EffectiveSolver, ConjugateGradientsSayThatTheOperatorIsIndefinite) {
   const Problem p(many_rows());
   const auto solver = make_effective_solver(p.system, SolverKind::conjugate_gradients);
