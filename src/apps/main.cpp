@@ -30,6 +30,7 @@
 #include "run/check_summary.hpp"
 #include "run/cost_estimate.hpp"
 #include "run/lint.hpp"
+#include "run/material_page.hpp"
 #include "run/recorder.hpp"
 #include "run/run_case.hpp"
 #include "run/simulation.hpp"
@@ -52,6 +53,8 @@ struct Arguments {
   std::optional<double> end;
   carom::compare::Options choices;
   int jobs = 0;
+  std::string part;
+  carom::PathRequest path;
 };
 
 void stop_at_signals() {
@@ -114,6 +117,12 @@ ExitCode compare(const Arguments& arguments) {
   return carom::compare::compare_cases(arguments.case_file, arguments.choices, settings, stop_requested);
 }
 
+ExitCode material(const Arguments& arguments) {
+  const carom::Case given = carom::read_case(arguments.case_file);
+  show("{}", carom::drive_material(given, arguments.part, arguments.path, results_folder(arguments, "_material")));
+  return ExitCode::good;
+}
+
 ExitCode mesh(const Arguments& arguments) {
   show("{}", carom::mesh_summary(carom::read_mesh(arguments.mesh_file)));
   return ExitCode::good;
@@ -124,6 +133,7 @@ ExitCode dispatch(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("resume")) return resume(arguments);
   if (app.got_subcommand("check")) return check(arguments);
   if (app.got_subcommand("compare")) return compare(arguments);
+  if (app.got_subcommand("material")) return material(arguments);
   if (app.got_subcommand("mesh")) return mesh(arguments);
   fmt::print("{}\n", carom::json_schema());
   return ExitCode::good;
@@ -148,6 +158,26 @@ void add_compare(CLI::App& app, Arguments& arguments) {
   command->add_option("--out", arguments.folder, "Results folder (default: out/<name of the case>_compare)");
   command->add_option("--jobs", arguments.jobs, "Runs at a time (default: all cores)")->check(CLI::Range(0, 1024));
   command->add_flag("--quiet", arguments.quiet, "Print errors only");
+}
+
+void add_material(CLI::App& app, Arguments& arguments) {
+  CLI::App* command =
+      app.add_subcommand("material", "Draw the stress of a part's law on a path of deformation, without a mesh");
+  command->add_option("case", arguments.case_file, "Case file (TOML)")->required();
+  command->add_option("--part", arguments.part, "Name of the [[part]] (default: the only one)");
+  command
+      ->add_option("--path", arguments.path.path,
+                   "uniaxial_stress, uniaxial_strain, simple_shear, or a .csv file of time and F_xx, F_xy, ... or "
+                   "strain_xx, ...")
+      ->required();
+  command
+      ->add_option("--to", arguments.path.to, "Engineering strains, or shears, at which the path turns (default: 0.1)")
+      ->delimiter(',');
+  command->add_option("--steps", arguments.path.steps, "Steps from one turning point to the next (default: 200)")
+      ->check(CLI::Range(1, 1'000'000));
+  command->add_option("--rate", arguments.path.rate, "Rate of that strain per unit of time (default: 1)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--out", arguments.folder, "Folder (default: out/<name of the case>_material)");
 }
 
 void print_error(const std::string& what) {
@@ -212,6 +242,7 @@ int main(int argc, char** argv) {
   CLI::App* check_command = app.add_subcommand("check", "Read, resolve and examine a case without running it");
   check_command->add_option("case", arguments.case_file, "Case file (TOML)")->required();
   add_compare(app, arguments);
+  add_material(app, arguments);
   CLI::App* mesh_command = app.add_subcommand("mesh", "Describe a mesh file");
   mesh_command->add_option("file", arguments.mesh_file, "Mesh file (Gmsh 2.2 or 4.1, MED)")->required();
   app.add_subcommand("schema", "Print the JSON Schema of the case format");

@@ -15,7 +15,7 @@ struct DimensionRow {
 };
 
 /// In the order of Dimension.
-constexpr std::array<DimensionRow, 16> dimension_rows{{
+constexpr std::array<DimensionRow, 19> dimension_rows{{
     {"", 0, 0, 0, {"", "", ""}},
     {"length", 1, 0, 0, {"m", "mm", "mm"}},
     {"area", 2, 0, 0, {"m2", "mm2", "mm2"}},
@@ -32,6 +32,9 @@ constexpr std::array<DimensionRow, 16> dimension_rows{{
     {"force per velocity", 0, 1, -1, {"N s/m", "N s/mm", "kN ms/mm"}},
     {"inertia", 2, 1, 0, {"kg m2", "t mm2", "kg mm2"}},
     {"angular velocity", 0, 0, -1, {"1/s", "1/s", "1/ms"}},
+    {"rate", 0, 0, -1, {"1/s", "1/s", "1/ms"}},
+    {"temperature", 0, 0, 0, {"K", "K", "K"}},
+    {"specific heat", 2, 0, -2, {"J/(kg K)", "mJ/(t K)", "J/(kg K)"}},
 }};
 
 struct SystemRow {

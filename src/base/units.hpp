@@ -28,7 +28,10 @@ enum class Dimension : std::uint8_t {
   force_per_length,   ///< penalty stiffness of a node or stop
   damping,            ///< force per velocity
   inertia,            ///< mass times area
-  angular_velocity
+  angular_velocity,
+  rate,  ///< of strain
+  temperature,
+  specific_heat  ///< energy per mass and temperature
 };
 
 /// All dimensions that have units.
@@ -46,7 +49,10 @@ inline constexpr std::array dimensions{Dimension::length,
                                        Dimension::force_per_length,
                                        Dimension::damping,
                                        Dimension::inertia,
-                                       Dimension::angular_velocity};
+                                       Dimension::angular_velocity,
+                                       Dimension::rate,
+                                       Dimension::temperature,
+                                       Dimension::specific_heat};
 
 /// "SI", "mm-t-s", "mm-kg-ms": the values of the key `units`.
 std::string_view name(UnitSystem system);

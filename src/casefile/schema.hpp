@@ -14,4 +14,7 @@ std::string case_documentation();
 /// Markdown page of the schemes and the enforcements they take (docs/compatibility.md).
 std::string compatibility_markdown();
 
+/// Markdown page of the constitutive laws (docs/material_laws.md).
+std::string laws_markdown();
+
 }  // namespace carom

@@ -10,7 +10,7 @@ namespace {
 using Need = KeyOptions::Need;
 
 std::string summaries() {
-  std::string text = "The constitutive law: ";
+  std::string text = "The constitutive law (docs/material_laws.md): ";
   for (const Law& law : laws()) text += (&law == &laws().front() ? "" : "; ") + law.summary;
   return text + ".";
 }
@@ -37,14 +37,18 @@ bool has(const Law& law, const LawParameter& parameter) {
 
 KeyDescription describe(const LawParameter& parameter) {
   KeyDescription key{parameter.key, Shape::number, parameter.meaning, {}, {}, {}};
-  const auto side = parameter.range.is_closed ? Bound::Side::closed : Bound::Side::open;
-  if (std::isfinite(parameter.range.low)) key.options.range.low = Bound{parameter.range.low, side};
-  if (std::isfinite(parameter.range.high)) key.options.range.high = Bound{parameter.range.high, Bound::Side::open};
+  const auto bound = [](double value, bool is_closed) {
+    return std::isfinite(value) ? std::optional(Bound{value, is_closed ? Bound::Side::closed : Bound::Side::open})
+                                : std::nullopt;
+  };
+  key.options.range = {bound(parameter.range.low, parameter.range.is_closed_low),
+                       bound(parameter.range.high, parameter.range.is_closed_high)};
   key.options.unit = parameter.unit;
   key.options.need = parameter.initial ? Need::optional : Need::required;
   key.options.aliases = parameter.aliases;
   key.options.kinds = kinds_of([&parameter](const Law& law) { return has(law, parameter); });
-  if (parameter.initial) key.default_value = Node{*parameter.initial, {}};
+  key.options.default_phrase = parameter.initial_phrase;
+  if (parameter.initial && parameter.initial_phrase.empty()) key.default_value = Node{*parameter.initial, {}};
   return key;
 }
 
@@ -59,8 +63,10 @@ void add_parameter(SectionSchema<CaseMaterial>& s, const LawParameter& parameter
   handlers.read = [key](CaseMaterial& material, const Node& node, const ReadContext& at) {
     decode(node, key, at, material.values[key.key]);
   };
-  handlers.write = [key](const CaseMaterial& material, const Node&) {
-    return encode(material.value(key.key), key.options);
+  handlers.write = [key, parameter](const CaseMaterial& material, const Node&) -> std::optional<Node> {
+    const double value = *material.value(key.key);
+    if (!parameter.initial_phrase.empty() && value == *parameter.initial) return std::nullopt;
+    return encode(value, key.options);
   };
   handlers.absent = [parameter](CaseMaterial& material, const ReadContext&, const Location& where) {
     material.values[parameter.key] = {parameter.initial.value_or(0.0), where};

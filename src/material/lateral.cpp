@@ -1,6 +1,7 @@
 #include "material/lateral.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "material/law_kernels.hpp"
 
@@ -31,11 +32,18 @@ double lateral_strain_neo_hookean(const void* parameters, const double strain[6]
 PreparedLaw prepare(const Material& material, int free_directions, const LawTable& table) {
   const Law& law = *material.law;
   const LawKernels& kernels = table.laws[index_of(law)];
-  PreparedLaw prepared{kernels, law.prepare(material), static_cast<int>(law.history.size())};
+  const int history = static_cast<int>(law.history.size());
+  PreparedLaw prepared{kernels, law.prepare(material), history};
   if (free_directions == 0) return prepared;
+  LateralLaw lateral{kernels, prepared.parameters.get(), prepared.parameters, law.lateral_strain, free_directions};
+  lateral.history = history;
+  lateral.total_history = history + (law.lateral_strain == nullptr ? 1 : 0);
+  lateral.least_strain = law.measure == Measure::small_strain ? -1e3 : -0.5;
+  const IsotropicElastic m = material.at_rest();
+  lateral.wave_ratio = (free_directions == 2 ? m.E : m.E / (1.0 - m.nu * m.nu)) / m.p_wave_modulus();
+  prepared.history = lateral.total_history;
   prepared.kernels = table.lateral;
-  prepared.parameters = std::make_shared<const LateralLaw>(
-      LateralLaw{kernels, prepared.parameters.get(), prepared.parameters, law.lateral_strain, free_directions});
+  prepared.parameters = std::make_shared<const LateralLaw>(std::move(lateral));
   return prepared;
 }
 

@@ -16,10 +16,10 @@
 
 namespace carom {
 
-/// low < value < high, or low <= value where closed.
+/// The numbers between two bounds, and those bounds that are closed.
 struct Interval {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
-  bool is_closed = false;  ///< at low
+  bool is_closed_low = false, is_closed_high = false;
 
   bool operator==(const Interval&) const = default;
 };
@@ -32,6 +32,7 @@ struct LawParameter {
   Interval range{};
   std::optional<double> initial{};     ///< its value where it is not given; empty: it must be
   std::vector<std::string> aliases{};  ///< other names that people try
+  std::string initial_phrase{};        ///< in place of a value that stands for none
 
   bool operator==(const LawParameter&) const = default;
 };
@@ -70,13 +71,13 @@ enum class Measure : std::uint8_t { small_strain, green_lagrange };
 
 /// One row of the table: all that is known of a law but for its kernels (material/law_table.hpp).
 struct Law {
-  std::string name;     ///< in case files
-  std::string summary;  ///< a phrase
-  std::string formula;  ///< formulas with their sources, for docs/material_laws.md
+  std::string name{};     ///< in case files
+  std::string summary{};  ///< a phrase
+  std::string formula{};  ///< formulas with their sources, for docs/material_laws.md
   Measure measure = Measure::small_strain;
   /// Of small strain: the laws to take where cells turn, for messages.
   std::string when_turning{};
-  std::vector<LawParameter> parameters;
+  std::vector<LawParameter> parameters{};
   std::string curve_key{}, curve_meaning{};  ///< a table of pairs (abscissa, stress); "": the law takes none
   /// Names of the variables that a point remembers. All are 0 at rest.
   std::vector<std::string> history{};

@@ -10,7 +10,10 @@
 #define CAROM_LAWS(X)    \
   X(linear_elastic)      \
   X(st_venant_kirchhoff) \
-  X(neo_hookean)
+  X(neo_hookean)         \
+  X(j2_small_strain)     \
+  X(j2)                  \
+  X(johnson_cook)
 
 namespace carom {
 

@@ -6,6 +6,7 @@
 #include "material/law_list.hpp"
 #include "material/linear_elastic_update.hpp"
 #include "material/neo_hookean_update.hpp"
+#include "material/plastic_finite_update.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {

@@ -1,44 +1,13 @@
 // Batch update and tangent of the compressible neo-Hookean law over a number type.
 #pragma once
 
-#include <cmath>
-
 #include "material/isotropic_elastic.hpp"
+#include "material/logarithm.hpp"
 #include "material/point_batch.hpp"
 #include "math/pack.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {
-
-/// log = ln(1 + q) and rest = q - log, both to round-off relative to themselves near q = 0. With s = q / (2 + q),
-/// ln(1 + q) = 2 artanh(s) = 2 s + 2 s^3 (1/3 + s^2/5 + ...); ten terms leave 1e-17 for s^2 <= 0.04 (1 + q between 2/3
-/// and 3/2), and lanes beyond that take the library's function.
-template <class Real>
-[[gnu::always_inline]] static inline void logarithm(const Real& q, Real& log, Real& rest) {
-  constexpr double largest_square = 0.04;
-  const Real s = q / (2.0 + q), t = s * s;
-  Real sum = Real{} + 1.0 / 21.0;
-  for (int k = 19; k >= 3; k -= 2) sum = sum * t + 1.0 / k;
-  const Real tail = 2.0 * s * t * sum;
-  log = 2.0 * s + tail;
-  rest = q * s - tail;
-  constexpr int n = lanes<Real>;
-  double square[n], change[n], log_lane[n], rest_lane[n];
-  store(square, t);
-  bool all_near = true;
-  for (int l = 0; l < n; ++l) all_near = all_near && square[l] <= largest_square;
-  if (all_near) return;
-  store(change, q);
-  store(log_lane, log);
-  store(rest_lane, rest);
-  for (int l = 0; l < n; ++l) {
-    if (square[l] <= largest_square) continue;
-    log_lane[l] = std::log1p(change[l]);
-    rest_lane[l] = change[l] - log_lane[l];
-  }
-  log = load<Real>(log_lane);
-  rest = load<Real>(rest_lane);
-}
 
 /// C^-1 = adjugate / (1 + q), det C = 1 + q, of C = 1 + 2 e with the invariants of e kept apart: nothing cancels at
 /// small strains. diagonal is that of (1 + q) 1 - adjugate, 1 + q times the diagonal of 1 - C^-1.

@@ -214,7 +214,7 @@ const std::vector<Malformed> malformed{
      "c.toml:2:9: units: found \"cgs\"; expected one of \"SI\", \"mm-t-s\", \"mm-kg-ms\""},
     {"law = \"linear_elastic\"",
      "law = \"linear_elastc\"",
-     "c.toml:6:7: materials.steel.law: found \"linear_elastc\"; expected one of \"linear_elastic\", \"st_venant_kirchhoff\", \"neo_hookean\". Did you mean \"linear_elastic\"?"},
+     "c.toml:6:7: materials.steel.law: found \"linear_elastc\"; expected one of \"linear_elastic\", \"st_venant_kirchhoff\", \"neo_hookean\", \"j2_small_strain\", \"j2\", \"johnson_cook\". Did you mean \"linear_elastic\"?"},
     {"kind = \"newmark\"",
      "kind = \"newmarck\"",
      "c.toml:33:8: scheme.kind: found \"newmarck\"; expected one of \"newmark\", \"hht\", \"wbz\", \"generalized_alpha\", \"bathe\", \"contact_stabilized_newmark\", \"energy_momentum\", \"moreau_jean\", \"nonsmooth_generalized_alpha\", \"central_differences\", \"hulbert_chung\", \"noh_bathe\", \"tchamwa_wielgosz\", \"cd_lagrange\", \"forward_increment\", \"modified_mass\", \"statics\". Did you mean \"newmark\"?"},
