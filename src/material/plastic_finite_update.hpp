@@ -2,6 +2,7 @@
 #pragma once
 
 #include "material/plastic_update.hpp"
+#include "material/symmetric.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {
@@ -11,7 +12,7 @@ namespace carom {
 template <class Real>
 struct CholeskyStretch {
   Real L[3][3], inverse[3][3];
-  Real excess[3][3];  ///< L^T L - 1, without cancellation at small strains
+  Real excess[6];  ///< L^T L - 1, without cancellation at small strains
 };
 
 template <class Real>
@@ -34,110 +35,71 @@ template <class Real>
   s.inverse[1][0] = -l21 * i11 * i22;
   s.inverse[2][1] = -l32 * i22 * i33;
   s.inverse[2][0] = (l21 * l32 - l31 * l22) * i11 * i22 * i33;
-  s.excess[0][0] = 2.0 * e[0] + l21 * l21 + l31 * l31;
-  s.excess[1][1] = q22 + l32 * l32;
-  s.excess[2][2] = q33;
-  s.excess[0][1] = l21 * l22 + l31 * l32;
-  s.excess[0][2] = l31 * l33;
-  s.excess[1][2] = l32 * l33;
-  s.excess[1][0] = s.excess[0][1];
-  s.excess[2][0] = s.excess[0][2];
-  s.excess[2][1] = s.excess[1][2];
+  s.excess[0] = 2.0 * e[0] + l21 * l21 + l31 * l31;
+  s.excess[1] = q22 + l32 * l32;
+  s.excess[2] = q33;
+  s.excess[3] = l21 * l22 + l31 * l32;
+  s.excess[4] = l32 * l33;
+  s.excess[5] = l31 * l33;
   return s;
 }
 
 /// A^T B A of a symmetric B and a lower triangular A.
 template <class Real>
-[[gnu::always_inline]] static inline void sandwich_lower(const Real A[3][3], const Real B[3][3], Real result[3][3]) {
+[[gnu::always_inline]] static inline void sandwich_lower(const Real A[3][3], const Real B[6], Real result[6]) {
   Real BA[3][3];
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
-      BA[i][j] = B[i][j] * A[j][j];
-      for (int k = j + 1; k < 3; ++k) BA[i][j] += B[i][k] * A[k][j];
+      BA[i][j] = B[voigt_place[i][j]] * A[j][j];
+      for (int k = j + 1; k < 3; ++k) BA[i][j] += B[voigt_place[i][k]] * A[k][j];
     }
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) {
-      Real sum = A[i][i] * BA[i][j];
-      for (int k = i + 1; k < 3; ++k) sum += A[k][i] * BA[k][j];
-      result[i][j] = sum;
-      result[j][i] = sum;
-    }
-}
-
-/// N diag(value) N^T and N B N^T.
-template <class Real>
-[[gnu::always_inline]] static inline void from_principal(const Real N[3][3], const Real B[3][3], Real result[3][3]) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) {
-      Real sum = Real{};
-      for (int k = 0; k < 3; ++k)
-        for (int m = 0; m < 3; ++m) sum += N[i][k] * B[k][m] * N[j][m];
-      result[i][j] = sum;
-      result[j][i] = sum;
-    }
-}
-
-inline constexpr int voigt_row[6] = {0, 1, 2, 0, 1, 2}, voigt_column[6] = {0, 1, 2, 1, 2, 0};
-
-template <class Real>
-[[gnu::always_inline]] static inline void load_symmetric(const double* voigt, double shear, Real A[3][3]) {
   for (int c = 0; c < 6; ++c) {
-    const Real value = (c < 3 ? 1.0 : shear) * load<Real>(voigt + c * lanes<Real>);
-    A[voigt_row[c]][voigt_column[c]] = value;
-    A[voigt_column[c]][voigt_row[c]] = value;
+    const int i = voigt_row[c], j = voigt_column[c];
+    result[c] = A[i][i] * BA[i][j];
+    for (int k = i + 1; k < 3; ++k) result[c] += A[k][i] * BA[k][j];
   }
 }
 
-/// The elastic trial state of one point: b = F Cp^-1 F^T with the plastic deformation of the beginning of the step.
+/// Of one point: F = L^T, and the excess over 1 of the elastic trial tensor b = F Cp^-1 F^T with the plastic
+/// deformation of the beginning of the step. history: Cp^-1 - 1 (6, the tensor's components), or null.
 template <class Real>
-struct FiniteTrial {
-  CholeskyStretch<Real> stretch;
-  Real excess[3], N[3][3];  ///< eigenvalues of b - 1, and eigenvectors
-  Real trace, deviator[3];  ///< of the logarithmic strain ln(b) / 2, principal
-  Real square, stress;      ///< |deviator|^2, equivalent trial stress
-};
-
-/// history: Cp^-1 - 1 (6, the tensor's components), or null.
-template <class Real>
-[[gnu::always_inline]] static inline FiniteTrial<Real> finite_trial(const PlasticLaw& law, const double* strain,
-                                                                    const double* history) {
-  FiniteTrial<Real> trial;
-  Real e[6], A[3][3];
-  for (int c = 0; c < 6; ++c) e[c] = load<Real>(strain + c * lanes<Real>);
-  trial.stretch = cholesky_stretch(e);
-  if (history == nullptr) {
-    for (int i = 0; i < 9; ++i) A[i / 3][i % 3] = trial.stretch.excess[i / 3][i % 3];
-  } else {
-    Real X[3][3];
-    load_symmetric(history, 1.0, X);
-    sandwich_lower(trial.stretch.L, X, A);
-    for (int i = 0; i < 9; ++i) A[i / 3][i % 3] += trial.stretch.excess[i / 3][i % 3];
-  }
-  principal(A, trial.excess, trial.N);
-  Real log[3], rest;
-  for (int i = 0; i < 3; ++i) logarithm(trial.excess[i], log[i], rest);
-  trial.trace = 0.5 * (log[0] + log[1] + log[2]);
-  for (int i = 0; i < 3; ++i)
-    trial.deviator[i] = ((log[i] - log[(i + 1) % 3]) + (log[i] - log[(i + 2) % 3])) * (1.0 / 6.0);
-  trial.square = trial.deviator[0] * trial.deviator[0] + trial.deviator[1] * trial.deviator[1] +
-                 trial.deviator[2] * trial.deviator[2];
-  trial.stress = law.lame.G * square_root(Real(6.0 * trial.square));
-  return trial;
-}
-
-/// Cp^-1 - 1 at the end: F^-1 b F^-T changes with b along the trial's directions, b_i = exp(2 eps_i).
-template <class Real>
-[[gnu::always_inline]] static inline void store_plastic_deformation(const FiniteTrial<Real>& trial, const Real& share,
-                                                                    const double* history, double* new_history) {
+[[gnu::always_inline]] static inline CholeskyStretch<Real> trial_stretch(const double* strain, const double* history,
+                                                                         Real excess[6]) {
   constexpr int n = lanes<Real>;
-  Real change[3][3]{}, spatial[3][3], reference[3][3];
-  for (int i = 0; i < 3; ++i)
-    change[i][i] = (1.0 + trial.excess[i]) * exponential_less_one(Real(-2.0 * (1.0 - share) * trial.deviator[i]));
-  from_principal(trial.N, change, spatial);
-  sandwich_lower(trial.stretch.inverse, spatial, reference);
+  Real e[6], X[6];
+  for (int c = 0; c < 6; ++c) e[c] = load<Real>(strain + c * n);
+  const CholeskyStretch<Real> stretch = cholesky_stretch(e);
+  for (int c = 0; c < 6; ++c) excess[c] = stretch.excess[c];
+  if (history == nullptr) return stretch;
+  for (int c = 0; c < 6; ++c) X[c] = load<Real>(history + c * n);
+  Real plastic[6];
+  sandwich_lower(stretch.L, X, plastic);
+  for (int c = 0; c < 6; ++c) excess[c] += plastic[c];
+  return stretch;
+}
+
+/// Cp^-1 - 1 at the end: F^-1 b F^-T changes with b, from the trial one to it times exp(-2 (1 - share) dev(eps)).
+template <class Real>
+[[gnu::always_inline]] static inline void store_plastic_deformation(const CholeskyStretch<Real>& stretch,
+                                                                    const Real excess[6], const Real deviator[6],
+                                                                    const Real& share, const double* history,
+                                                                    double* new_history) {
+  constexpr int n = lanes<Real>;
+  double yielding[n];
+  store(yielding, share);
+  bool any = false;
+  for (int l = 0; l < n; ++l) any = any || yielding[l] < 1.0;
+  Real exponent[6], factor[6], spatial[6], change[6]{};
+  if (any) {
+    for (int c = 0; c < 6; ++c) exponent[c] = -2.0 * (1.0 - share) * deviator[c];
+    matrix_exponential_less_one(exponent, factor);
+    commuting_product(excess, factor, spatial);
+    for (int c = 0; c < 6; ++c) spatial[c] += factor[c];
+    sandwich_lower(stretch.inverse, spatial, change);
+  }
   for (int c = 0; c < 6; ++c) {
     const Real before = history == nullptr ? Real{} : load<Real>(history + c * n);
-    const Real after = before + reference[voigt_row[c]][voigt_column[c]];
+    const Real after = before + change[c];
     store(new_history + c * n, share < 1.0 ? after : before);
   }
 }
@@ -145,8 +107,9 @@ template <class Real>
 /// tau = K tr(eps) 1 + 2 G dev(eps) of the elastic logarithmic strain eps = ln(b) / 2, b = F Cp^-1 F^T, returned
 /// radially to the yield surface; S = F^-1 tau F^-T; stored energy K/2 tr^2 + G |dev|^2. The flow rule is integrated by
 /// the exponential map, so that plastic deformation keeps the volume (Simo, Comput. Methods Appl. Mech. Eng. 99, 1992;
-/// de Souza Neto, Peric and Owen, Computational Methods for Plasticity, box 14.3). History: Cp^-1 - 1 (6, the tensor's
-/// components), then the law's variables. parameters: const PlasticLaw*.
+/// de Souza Neto, Peric and Owen, Computational Methods for Plasticity, box 14.3). rho c^2 along a principal direction
+/// of elastic steps is lambda + 2 G - tau_i. History: Cp^-1 - 1 (6, the tensor's components), then the law's variables.
+/// parameters: const PlasticLaw*.
 template <class Real>
 static void finite_plastic_update(const void* parameters, const PointBatch& batch) {
   const auto& law = *static_cast<const PlasticLaw*>(parameters);
@@ -156,26 +119,28 @@ static void finite_plastic_update(const void* parameters, const PointBatch& batc
   for (int p = 0; p < batch.points; ++p) {
     const double* history = batch.history == nullptr ? nullptr : batch.history + H * p;
     double* new_history = batch.new_history == nullptr ? nullptr : batch.new_history + H * p;
-    const FiniteTrial<Real> trial = finite_trial<Real>(law, batch.strain + 6 * p * n, history);
+    Real excess[6], eps[6], tau[6], S[6];
+    const CholeskyStretch<Real> stretch = trial_stretch(batch.strain + 6 * p * n, history, excess);
+    matrix_logarithm(excess, eps);
+    for (int c = 0; c < 6; ++c) eps[c] *= 0.5;
+    const Real trace = eps[0] + eps[1] + eps[2];
+    make_deviator(eps);
+    const Real square = norm_square(eps), trial = G * square_root(Real(6.0 * square));
     const RadialReturn<Real> at_end =
-        radial_return(law, trial.stress, history == nullptr ? nullptr : history + 6 * n, batch.dt);
-    const Real pressure_part = K * trial.trace, modulus = 2.0 * G * at_end.share;
-    Real tau[3][3]{}, spatial[3][3], S[3][3];
-    for (int i = 0; i < 3; ++i) tau[i][i] = pressure_part + modulus * trial.deviator[i];
-    from_principal(trial.N, tau, spatial);
-    sandwich_lower(trial.stretch.inverse, spatial, S);
-    for (int c = 0; c < 6; ++c) store(batch.stress + (6 * p + c) * n, S[voigt_row[c]][voigt_column[c]]);
+        radial_return(law, trial, history == nullptr ? nullptr : history + 6 * n, batch.dt);
+    const Real pressure_part = K * trace, modulus = 2.0 * G * at_end.share;
+    for (int c = 0; c < 6; ++c) tau[c] = c < 3 ? pressure_part + modulus * eps[c] : modulus * eps[c];
+    sandwich_lower(stretch.inverse, tau, S);
+    for (int c = 0; c < 6; ++c) store(batch.stress + (6 * p + c) * n, S[c]);
     if (batch.energy != nullptr)
-      store(batch.energy + p * n,
-            Real(0.5 * pressure_part * trial.trace + G * at_end.share * at_end.share * trial.square));
-    if (new_history != nullptr) store_plastic_deformation(trial, at_end.share, history, new_history);
+      store(batch.energy + p * n, Real(0.5 * pressure_part * trace + G * at_end.share * at_end.share * square));
+    if (new_history != nullptr) store_plastic_deformation(stretch, excess, eps, at_end.share, history, new_history);
     store_variables(law, at_end, new_history == nullptr ? nullptr : new_history + 6 * n,
                     batch.dissipation == nullptr ? nullptr : batch.dissipation + p * n);
     if (batch.wave_modulus != nullptr) {
-      const Real zero = Real{};
-      Real largest = zero;  // of -tau: rho c^2 = lambda + 2 G - tau_i along the principal direction i
-      for (int i = 0; i < 3; ++i) largest = -tau[i][i] > largest ? Real(-tau[i][i]) : largest;
-      store(batch.wave_modulus + p * n, Real(largest + (law.lame.lambda + 2.0 * G)));
+      // -tau_i is at most -K tr + 2/3 of the equivalent stress
+      const Real compression = 2.0 / 3.0 * at_end.share * trial - pressure_part, zero = Real{};
+      store(batch.wave_modulus + p * n, Real((compression > 0.0 ? compression : zero) + (law.lame.lambda + 2.0 * G)));
     }
   }
 }
@@ -191,6 +156,18 @@ template <class Real>
   return t > near_square ? difference / (t > near_square ? r : one) : sum;
 }
 
+/// N^T A N
+template <class Real>
+[[gnu::always_inline]] static inline void turned(const Real N[3][3], const Real A[6], Real result[6]) {
+  for (int c = 0; c < 6; ++c) {
+    const int i = voigt_row[c], j = voigt_column[c];
+    Real sum = Real{};
+    for (int k = 0; k < 3; ++k)
+      for (int m = 0; m < 3; ++m) sum += N[k][i] * A[voigt_place[k][m]] * N[m][j];
+    result[c] = sum;
+  }
+}
+
 /// dS = F^-1 (d tau - d tau - tau d) F^-T, d = F^-T dE F^-1, in the principal directions of b: d eps_ii = d_ii, and
 /// across, d tau_ij = (tau_i - tau_j) / (b_i - b_j) (b_i + b_j) d_ij, where tau_i - tau_j = 2 G share (eps_i - eps_j).
 /// Exact for the update above, and symmetric. parameters: const PlasticLaw*.
@@ -202,42 +179,43 @@ static void finite_plastic_tangent(const void* parameters, const TangentBatch& b
   const int H = (6 + law.variables) * n;
   for (int p = 0; p < batch.points; ++p) {
     const double* history = batch.history == nullptr ? nullptr : batch.history + H * p;
-    const FiniteTrial<Real> trial = finite_trial<Real>(law, batch.strain + 6 * p * n, history);
-    const RadialReturn<Real> at_end =
-        radial_return(law, trial.stress, history == nullptr ? nullptr : history + 6 * n, batch.dt);
-    Real dE[3][3], spatial[3][3], d[3][3], tau[3];
-    load_symmetric(batch.strain_change + 6 * p * n, 0.5, dE);
-    for (int i = 0; i < 3; ++i)  // L^-1 dE L^-T
-      for (int j = 0; j < 3; ++j) {
-        Real sum = Real{};
-        for (int k = 0; k <= i; ++k)
-          for (int m = 0; m <= j; ++m) sum += trial.stretch.inverse[i][k] * dE[k][m] * trial.stretch.inverse[j][m];
-        spatial[i][j] = sum;
-      }
-    Real N_transposed[3][3];
-    for (int i = 0; i < 9; ++i) N_transposed[i / 3][i % 3] = trial.N[i % 3][i / 3];
-    from_principal(N_transposed, spatial, d);
-    const Real trace = d[0][0] + d[1][1] + d[2][2], modulus = 2.0 * G * at_end.share;
-    Real product = Real{}, change[3][3];
+    Real excess[6], value[3], N[3][3], eps[3], rest, dE[6], spatial[6], d[6], change[6], S[6];
+    const CholeskyStretch<Real> stretch = trial_stretch(batch.strain + 6 * p * n, history, excess);
+    principal(excess, value, N);
     for (int i = 0; i < 3; ++i) {
-      tau[i] = K * trial.trace + modulus * trial.deviator[i];
-      product += trial.deviator[i] * d[i][i];
+      logarithm(value[i], eps[i], rest);
+      eps[i] *= 0.5;
     }
-    const Real along = along_trial(at_end, product, trial.square);
-    for (int i = 0; i < 3; ++i) {
-      change[i][i] = K * trace + modulus * (d[i][i] - trace * (1.0 / 3.0)) + 2.0 * G * along * trial.deviator[i] -
-                     2.0 * tau[i] * d[i][i];
-      for (int j = 0; j < i; ++j) {
-        const Real r = (trial.excess[i] - trial.excess[j]) / (2.0 + trial.excess[i] + trial.excess[j]);
-        const Real ratio = logarithmic_ratio(r, Real(trial.deviator[i] - trial.deviator[j]));
-        change[i][j] = (modulus * ratio - tau[i] - tau[j]) * d[i][j];
-        change[j][i] = change[i][j];
-      }
+    const Real eps_trace = eps[0] + eps[1] + eps[2];
+    make_deviator(eps);
+    const Real square = eps[0] * eps[0] + eps[1] * eps[1] + eps[2] * eps[2];
+    const RadialReturn<Real> at_end = radial_return(law, Real(G * square_root(Real(6.0 * square))),
+                                                    history == nullptr ? nullptr : history + 6 * n, batch.dt);
+    for (int c = 0; c < 6; ++c) dE[c] = (c < 3 ? 1.0 : 0.5) * load<Real>(batch.strain_change + (6 * p + c) * n);
+    for (int c = 0; c < 6; ++c) {  // L^-1 dE L^-T
+      const int i = voigt_row[c], j = voigt_column[c];
+      spatial[c] = Real{};
+      for (int k = 0; k <= i; ++k)
+        for (int m = 0; m <= j; ++m)
+          spatial[c] += stretch.inverse[i][k] * dE[voigt_place[k][m]] * stretch.inverse[j][m];
     }
-    Real S[3][3];
-    from_principal(trial.N, change, spatial);
-    sandwich_lower(trial.stretch.inverse, spatial, S);
-    for (int c = 0; c < 6; ++c) store(batch.stress_change + (6 * p + c) * n, S[voigt_row[c]][voigt_column[c]]);
+    turned(N, spatial, d);
+    const Real trace = d[0] + d[1] + d[2], modulus = 2.0 * G * at_end.share;
+    const Real along = along_trial(at_end, Real(eps[0] * d[0] + eps[1] * d[1] + eps[2] * d[2]), square);
+    Real tau[3];
+    for (int i = 0; i < 3; ++i) tau[i] = K * eps_trace + modulus * eps[i];
+    for (int i = 0; i < 3; ++i)
+      change[i] = K * trace + modulus * (d[i] - trace * (1.0 / 3.0)) + 2.0 * G * along * eps[i] - 2.0 * tau[i] * d[i];
+    for (int c = 3; c < 6; ++c) {
+      const int i = voigt_row[c], j = voigt_column[c];
+      const Real r = (value[i] - value[j]) / (2.0 + value[i] + value[j]);
+      change[c] = (modulus * logarithmic_ratio(r, Real(eps[i] - eps[j])) - tau[i] - tau[j]) * d[c];
+    }
+    Real back[3][3];
+    for (int i = 0; i < 9; ++i) back[i / 3][i % 3] = N[i % 3][i / 3];
+    turned(back, change, spatial);
+    sandwich_lower(stretch.inverse, spatial, S);
+    for (int c = 0; c < 6; ++c) store(batch.stress_change + (6 * p + c) * n, S[c]);
   }
 }
 

@@ -65,6 +65,16 @@ template <class Real>
   }
 }
 
+/// Takes a third of the trace from the first three components, by their differences: no pressure is left in them,
+/// however large it is.
+template <class Real>
+[[gnu::always_inline]] static inline void make_deviator(Real* e) {
+  const Real xy = e[0] - e[1], yz = e[1] - e[2], zx = e[2] - e[0];
+  e[0] = (xy - zx) * (1.0 / 3.0);
+  e[1] = (yz - xy) * (1.0 / 3.0);
+  e[2] = (zx - yz) * (1.0 / 3.0);
+}
+
 /// History of small strain: plastic strain (6, shears twice the tensor's), then the law's variables.
 template <class Real>
 struct SmallTrial {
@@ -83,10 +93,8 @@ template <class Real>
     if (history != nullptr) e[c] -= load<Real>(history + c * n);
   }
   trial.trace = e[0] + e[1] + e[2];
-  // differences of strains: no pressure is left in them, however large it is
-  trial.deviator[0] = ((e[0] - e[1]) + (e[0] - e[2])) * (1.0 / 3.0);
-  trial.deviator[1] = ((e[1] - e[2]) + (e[1] - e[0])) * (1.0 / 3.0);
-  trial.deviator[2] = ((e[2] - e[0]) + (e[2] - e[1])) * (1.0 / 3.0);
+  for (int c = 0; c < 3; ++c) trial.deviator[c] = e[c];
+  make_deviator(trial.deviator);
   Real square = Real{};
   for (int c = 3; c < 6; ++c) trial.deviator[c] = 0.5 * e[c];
   for (int c = 0; c < 6; ++c) square += (c < 3 ? 1.0 : 2.0) * trial.deviator[c] * trial.deviator[c];
