@@ -81,6 +81,7 @@ struct Law {
   std::string curve_key{}, curve_meaning{};  ///< a table of pairs (abscissa, stress); "": the law takes none
   /// Names of the variables that a point remembers. All are 0 at rest.
   std::vector<std::string> history{};
+  bool is_linear = false;  ///< the stress is a fixed linear function of the strain
   bool has_symmetric_tangent = true;
   IsotropicElastic (*at_rest)(const Material&) = nullptr;
   /// What the kernels take as their parameters.

@@ -11,6 +11,7 @@ Law linear_elastic_row() {
           .measure = Measure::small_strain,
           .when_turning = "\"st_venant_kirchhoff\" (moderate strain) or \"neo_hookean\" (large strain)",
           .parameters = isotropic_parameters(),
+          .is_linear = true,
           .at_rest = isotropic_at_rest,
           .prepare = prepare_lame,
           .lateral_strain = lateral_strain_linear};
@@ -25,6 +26,7 @@ Law st_venant_kirchhoff_row() {
               "5.4.51).",
           .measure = Measure::green_lagrange,
           .parameters = isotropic_parameters(),
+          .is_linear = true,
           .at_rest = isotropic_at_rest,
           .prepare = prepare_lame,
           .lateral_strain = lateral_strain_linear};

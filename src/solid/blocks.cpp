@@ -133,6 +133,7 @@ Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>&
   block.thickness = part.thickness;
   block.rho = part.material.rho;
   block.small_strain = part.material.law->measure == Measure::small_strain;
+  block.is_linear = block.small_strain && part.material.law->is_linear;
   block.operations = &cell_operations(part.section);
   choose_kernels(part, table, block);
   block.history_variables = block.batch_law.history;

@@ -22,6 +22,7 @@ struct Block {
   Section section = Section::solid;
   double thickness = 1.0, rho = 0.0;
   bool small_strain = true;  ///< the measure of its law; the others are total Lagrangian
+  bool is_linear = true;     ///< the forces are linear in the displacements
   const CellOperations* operations = nullptr;
   CellKernels kernels;
   PreparedLaw batch_law;  ///< for the kernels

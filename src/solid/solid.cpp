@@ -120,7 +120,7 @@ Isa Solid::isa() const {
 bool Solid::is_linear() const {
   const auto& blocks = impl_->solid.blocks;
   return impl_->turning_bodies.empty() &&
-         std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.small_strain; });
+         std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.is_linear; });
 }
 const std::vector<Spring>& Solid::springs() const {
   return impl_->springs.all();

@@ -85,7 +85,7 @@ TEST(CasefileMaterials, BadValuesAreRefusedWithTheirReason) {
        "c.toml:11:21: materials.m.saturation_stress: found a stress without saturation_rate; expected both, for Voce's "
        "hardening"},
       {j2 + "yield_stress = 4e8\nhardening_table = [[0.0, 4e8]]\n",
-       "c.toml:10:16: materials.m.yield_stress: found 400000000.0 beside hardening_table; expected one of the two. The "
+       "c.toml:10:16: materials.m.yield_stress: found yield_stress beside hardening_table; expected one of the two. The "
        "table says it all."},
       {j2 + "hardening_table = [[0.0, 4e8, 1.0]]\n",
        "c.toml:10:20: materials.m.hardening_table[0]: found a list of 3 values; expected two numbers [x, y] >= 0"},
