@@ -12,9 +12,9 @@ namespace {
 
 std::string range_text(const Interval& range) {
   std::string text;
-  if (std::isfinite(range.low)) text = fmt::format("> {}{:g}", range.is_closed_low ? "= " : "", range.low);
+  if (std::isfinite(range.low)) text = fmt::format(">{} {:g}", range.is_closed_low ? "=" : "", range.low);
   if (std::isfinite(range.high))
-    text += fmt::format("{}< {}{:g}", text.empty() ? "" : " and ", range.is_closed_high ? "= " : "", range.high);
+    text += fmt::format("{}<{} {:g}", text.empty() ? "" : " and ", range.is_closed_high ? "=" : "", range.high);
   return text;
 }
 
@@ -25,8 +25,8 @@ std::string default_text(const LawParameter& parameter) {
 
 void write_law(const Law& law, std::string& text) {
   const bool is_small = law.measure == Measure::small_strain;
-  fmt::format_to(std::back_inserter(text), "\n## {}\n\n{}{}. Of the {} strain.\n\n{}\n", law.name,
-                 static_cast<char>(std::toupper(law.summary.front())), law.summary.substr(1),
+  fmt::format_to(std::back_inserter(text), "\n## {}\n\n{}{}. Its measure of deformation is the {} strain.\n\n{}\n",
+                 law.name, static_cast<char>(std::toupper(law.summary.front())), law.summary.substr(1),
                  is_small ? "small" : "Green-Lagrange", law.formula);
   text += "\n| key | meaning | unit | range | default |\n|---|---|---|---|---|\n";
   for (const LawParameter& p : law.parameters)

@@ -23,7 +23,7 @@ struct JohnsonCook {
 
   double strain_factor(double alpha) const { return A + B * std::pow(alpha, n); }
 
-  /// 1 - T*^m
+  /// 1 - theta^m
   double softening(double plastic_work) const {
     const double range = melting_temperature - reference_temperature;
     const double T = (initial_temperature + heating * plastic_work - reference_temperature) / range;
@@ -148,7 +148,7 @@ Law johnson_cook_row() {
           .summary = "Johnson and Cook's plasticity with rate and adiabatic heating, for finite strains",
           .formula =
               "The kinematics and the flow of `j2` with sigma_y = (A + B alpha^n)(1 + C ln(max(rate / reference_rate, "
-              "1)))(1 - T*^m), rate = d alpha / dt, T* = (T - reference_temperature) / (melting_temperature - "
+              "1)))(1 - theta^m), rate = d alpha / dt, theta = (T - reference_temperature) / (melting_temperature - "
               "reference_temperature) between 0 and 1 (G. R. Johnson and W. H. Cook, Proc. 7th Int. Symp. Ballistics, "
               "1983). T rises by taylor_quinney / (rho specific_heat) times the plastic work, without conduction; a "
               "step takes the temperature of its beginning, and strain and rate of its end. All plastic work counts as "

@@ -75,7 +75,7 @@ template <class Real>
   e[2] = (zx - yz) * (1.0 / 3.0);
 }
 
-/// History of small strain: plastic strain (6, shears twice the tensor's), then the law's variables.
+/// History of small strain: plastic strain (6, the tensor's components), then the law's variables.
 template <class Real>
 struct SmallTrial {
   Real deviator[6];  ///< of the elastic trial strain, as the tensor's components
@@ -90,7 +90,7 @@ template <class Real>
   Real e[6];
   for (int c = 0; c < 6; ++c) {
     e[c] = load<Real>(strain + c * n);
-    if (history != nullptr) e[c] -= load<Real>(history + c * n);
+    if (history != nullptr) e[c] -= (c < 3 ? 1.0 : 2.0) * load<Real>(history + c * n);
   }
   trial.trace = e[0] + e[1] + e[2];
   for (int c = 0; c < 3; ++c) trial.deviator[c] = e[c];
@@ -128,7 +128,7 @@ static void small_plastic_update(const void* parameters, const PointBatch& batch
       double* changed = batch.new_history + H * p;
       for (int c = 0; c < 6; ++c) {
         const Real before = history == nullptr ? Real{} : load<Real>(history + c * n);
-        store(changed + c * n, Real(before + (c < 3 ? 1.0 : 2.0) * (1.0 - at_end.share) * trial.deviator[c]));
+        store(changed + c * n, Real(before + (1.0 - at_end.share) * trial.deviator[c]));
       }
     }
     store_variables(law, at_end, batch.new_history == nullptr ? nullptr : batch.new_history + H * p + 6 * n,
