@@ -177,6 +177,8 @@ void add_material(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1, 1'000'000));
   command->add_option("--rate", arguments.path.rate, "Rate of that strain per unit of time (default: 1)")
       ->check(CLI::PositiveNumber);
+  command->add_option("--measured", arguments.path.measured,
+                      "File of rows strain,stress (engineering strain, Cauchy stress) to lay over the curve");
   command->add_option("--out", arguments.folder, "Folder (default: out/<name of the case>_material)");
 }
 

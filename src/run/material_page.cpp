@@ -15,6 +15,7 @@
 #include "report/html.hpp"
 #include "report/readable_unit.hpp"
 #include "report/xy_plot.hpp"
+#include "run/measured_curve.hpp"
 
 namespace carom {
 
@@ -31,6 +32,7 @@ struct Drive {
   Material material;
   MaterialPath path;
   MaterialCurve curve;
+  std::optional<MeasuredCurve> measured;
   std::string description;
 
   std::vector<double> column(const std::string& name) const { return curve.column(name); }
@@ -66,6 +68,20 @@ std::optional<std::size_t> first_yield(const Drive& drive) {
   return static_cast<std::size_t>(it - work.begin());
 }
 
+/// The stress that a test of this kind measures.
+const char* measured_stress(PathKind kind) {
+  return kind == PathKind::simple_shear ? "stress_xy" : "stress_xx";
+}
+
+Figure off_measured(const Drive& drive) {
+  const std::vector<double>& stress = drive.measured->stress;
+  const double rms = rms_difference(*drive.measured, drive.path.strain, drive.column(measured_stress(drive.path.kind)));
+  double largest = 0.0;
+  for (const double value : stress) largest = std::max(largest, std::abs(value));
+  return {"Off the measured curve", with_readable_unit(rms, drive.units().stress, 3),
+          fmt::format("root mean square, {:.2g} % of the largest measured stress", 100.0 * rms / largest)};
+}
+
 std::vector<Figure> figures_of(const Drive& drive) {
   const std::string stress = drive.units().stress, density = stress;  // energy per volume
   const std::vector<double> mises = drive.column("von_mises");
@@ -84,6 +100,7 @@ std::vector<Figure> figures_of(const Drive& drive) {
     figures.push_back(
         {"Plastic strain", fmt::format("{:.4g}", last("equivalent_plastic_strain")), "equivalent, at the end"});
   }
+  if (drive.measured) figures.push_back(off_measured(drive));
   if (!drive.column("temperature_rise").empty())
     figures.push_back({"Temperature", fmt::format("+{:.4g} K", last("temperature_rise")), "at the end"});
   return figures;
@@ -115,9 +132,9 @@ std::string stress_over_strain(const Drive& drive) {
               "",
               drive.units().stress,
               {}};
-  plot.curves.push_back(
-      {is_shear ? "xy" : "xx", drive.path.strain, drive.column(is_shear ? "stress_xy" : "stress_xx")});
+  plot.curves.push_back({is_shear ? "xy" : "xx", drive.path.strain, drive.column(measured_stress(drive.path.kind))});
   plot.curves.push_back({"von Mises", drive.path.strain, drive.column("von_mises")});
+  if (drive.measured) plot.curves.push_back({"measured", drive.measured->strain, drive.measured->stress, true});
   return "<section>\n<h2>Stress and strain</h2>\n<div class=\"charts\">\n" + xy_plot(plot) + "</div>\n</section>\n";
 }
 
@@ -220,7 +237,12 @@ std::string drive_material(const Case& given, const std::string& part_name, cons
   const Material made = material->made();
   MaterialCurve curve = follow(made, free_directions(part.section), path);
   const std::string description = describe(request, path.kind);
-  const Drive drive{given, part, made, std::move(path), std::move(curve), description};
+  std::optional<MeasuredCurve> measured;
+  if (!request.measured.empty()) measured = read_measured(request.measured);
+  if (measured && path.strain.empty())
+    throw CaseError({}, "--measured", "a measured curve beside a table of deformations",
+                    "one of the paths uniaxial_stress, uniaxial_strain, simple_shear");
+  const Drive drive{given, part, made, std::move(path), std::move(curve), std::move(measured), description};
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw OutputError(folder, error.message());

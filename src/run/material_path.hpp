@@ -19,6 +19,7 @@ struct PathRequest {
   std::string path;             ///< the name of a kind, or a .csv file of F or strain
   std::vector<double> to{0.1};  ///< turning points of the engineering strain, or of gamma
   int steps = 200;              ///< from one turning point to the next
+  std::string measured{};       ///< file of a measured curve of stress over strain; "": none
   double rate = 1.0;            ///< of that strain, per unit of time
 };
 

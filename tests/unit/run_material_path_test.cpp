@@ -11,6 +11,7 @@
 #include "report/xy_plot.hpp"
 #include "run/material_page.hpp"
 #include "run/material_path.hpp"
+#include "run/measured_curve.hpp"
 
 namespace carom {
 namespace {
@@ -165,6 +166,22 @@ TEST(MaterialDriver, RefusesWhatDoesNotGoTogether) {
   EXPECT_THROW(drive_material(given, "tube", {.path = "uniaxial_stress"}, folder), CaseError);
   EXPECT_THROW(drive_material(given, "wire", {.path = "simple_shear"}, folder), CaseError);
   EXPECT_NO_THROW(drive_material(given, "wire", {.path = "uniaxial_stress"}, folder));
+}
+
+// Of the straight line 2 x through three points: 0.1 off at one of two points within, those beyond do not count.
+TEST(MeasuredCurve, IsReadAndCompared) {
+  const std::string file = testing::TempDir() + "measured.csv";
+  std::ofstream(file) << "# a test\nstrain, stress\n0.25,0.5\n 0.75 , 1.6\r\n\n2.0,9.0\n";
+  const MeasuredCurve measured = read_measured(file);
+  EXPECT_EQ(measured.strain, (std::vector<double>{0.25, 0.75, 2.0}));
+  const std::vector<double> strain{0.0, 0.5, 1.0, 0.5}, stress{0.0, 1.0, 2.0, 7.0};
+  EXPECT_NEAR(rms_difference(measured, strain, stress), std::sqrt(0.01 / 2), 1e-15);
+  EXPECT_TRUE(std::isnan(rms_difference({{3.0}, {1.0}}, strain, stress)));
+  std::ofstream(file) << "0.25,0.5\nend\n";
+  EXPECT_THROW(read_measured(file), CaseError);
+  std::ofstream(file) << "strain,stress\n";
+  EXPECT_THROW(read_measured(file), CaseError);
+  EXPECT_THROW(read_measured(file + ".none"), CaseError);
 }
 
 // Multiples of 1, 2 or 5 times a power of ten, within the axis.
