@@ -33,8 +33,7 @@ void write_law(const Law& law, std::string& text) {
     fmt::format_to(std::back_inserter(text), "| `{}` | {} | {} | {} | {} |\n", p.key, p.meaning, name(p.unit),
                    range_text(p.range), default_text(p));
   if (!law.curve_key.empty())
-    fmt::format_to(std::back_inserter(text), "| `{}` | {} | none, stress | | none |\n", law.curve_key,
-                   law.curve_meaning);
+    fmt::format_to(std::back_inserter(text), "| `{}` | {} |  |  | none |\n", law.curve_key, law.curve_meaning);
   if (law.history.empty()) return;
   text += "\nWhat a point remembers:";
   for (const std::string& variable : law.history)

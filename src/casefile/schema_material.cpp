@@ -78,7 +78,6 @@ void add_curve(SectionSchema<CaseMaterial>& s, const Law& law) {
   const auto is_it = [&law](const KeyDescription& other) { return other.key == law.curve_key; };
   if (law.curve_key.empty() || std::any_of(s.description.keys.begin(), s.description.keys.end(), is_it)) return;
   KeyDescription key{law.curve_key, Shape::pairs, law.curve_meaning, {}, {}, {}};
-  key.options.unit = Dimension::stress;
   key.options.range = at_least(0.0);
   key.options.kinds = kinds_of([&law](const Law& other) { return other.curve_key == law.curve_key; });
   SectionSchema<CaseMaterial>::Handlers handlers;

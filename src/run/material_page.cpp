@@ -133,7 +133,6 @@ std::string stress_over_strain(const Drive& drive) {
               drive.units().stress,
               {}};
   plot.curves.push_back({is_shear ? "xy" : "xx", drive.path.strain, drive.column(measured_stress(drive.path.kind))});
-  plot.curves.push_back({"von Mises", drive.path.strain, drive.column("von_mises")});
   if (drive.measured) plot.curves.push_back({"measured", drive.measured->strain, drive.measured->stress, true});
   return "<section>\n<h2>Stress and strain</h2>\n<div class=\"charts\">\n" + xy_plot(plot) + "</div>\n</section>\n";
 }

@@ -42,7 +42,7 @@ MaterialPath programme(PathKind kind, const PathRequest& request) {
     const double duration = std::abs(to - from) / request.rate;
     for (int i = 1; i <= request.steps; ++i) {
       const double share = static_cast<double>(i) / request.steps;
-      path.strain.push_back(from + share * (to - from));
+      path.strain.push_back(std::lerp(from, to, share));
       path.time.push_back(time + share * duration);
       path.F.push_back(at_strain(kind, path.strain.back()));
     }

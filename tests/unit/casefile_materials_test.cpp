@@ -77,7 +77,7 @@ TEST(CasefileMaterials, BadValuesAreRefusedWithTheirReason) {
        "c.toml:10:16: materials.m.yield_stress: found 0.0; expected a number > 0 in Pa"},
       {j2, "c.toml:5:1: materials.m.yield_stress: found nothing; expected a yield stress > 0, or a hardening_table"},
       {j2 + "yield_stress = 4e8\nhardening_modulus = -1e8\n",
-       "c.toml:11:21: materials.m.hardening_modulus: found -100000000.0; expected a number >= 0 in Pa"},
+       "c.toml:11:21: materials.m.hardening_modulus: found -1e+08; expected a number >= 0 in Pa"},
       {j2 + "yield_stress = 4e8\nsaturation_stress = 3e8\nsaturation_rate = 10.0\n",
        "c.toml:11:21: materials.m.saturation_stress: found 3e+08, below the yield stress of 4e+08; expected at least "
        "the yield stress. Softening bodies localise in single cells."},
@@ -92,7 +92,7 @@ TEST(CasefileMaterials, BadValuesAreRefusedWithTheirReason) {
       {j2 + "hardening_table = [0.0, 4e8]\n",
        "c.toml:10:20: materials.m.hardening_table[0]: found 0.0; expected two numbers [x, y] >= 0"},
       {j2 + "hardening_table = []\n",
-       "c.toml:10:19: materials.m.hardening_table: found an empty list; expected a list of rows [x, y], each of two "
+       "c.toml:10:19: materials.m.hardening_table: found a list of 0 values; expected a list of rows [x, y], each of two "
        "numbers >= 0"},
       {j2 + "hardening_table = [[0.1, 4e8]]\n",
        "c.toml:10:19: materials.m.hardening_table: found a first plastic strain of 0.1; expected 0"},
