@@ -85,14 +85,16 @@ TEST(CasefileMaterials, BadValuesAreRefusedWithTheirReason) {
        "c.toml:11:21: materials.m.saturation_stress: found a stress without saturation_rate; expected both, for Voce's "
        "hardening"},
       {j2 + "yield_stress = 4e8\nhardening_table = [[0.0, 4e8]]\n",
-       "c.toml:10:16: materials.m.yield_stress: found yield_stress beside hardening_table; expected one of the two. The "
+       "c.toml:10:16: materials.m.yield_stress: found yield_stress beside hardening_table; expected one of the two. "
+       "The "
        "table says it all."},
       {j2 + "hardening_table = [[0.0, 4e8, 1.0]]\n",
        "c.toml:10:20: materials.m.hardening_table[0]: found a list of 3 values; expected two numbers [x, y] >= 0"},
       {j2 + "hardening_table = [0.0, 4e8]\n",
        "c.toml:10:20: materials.m.hardening_table[0]: found 0.0; expected two numbers [x, y] >= 0"},
       {j2 + "hardening_table = []\n",
-       "c.toml:10:19: materials.m.hardening_table: found a list of 0 values; expected a list of rows [x, y], each of two "
+       "c.toml:10:19: materials.m.hardening_table: found a list of 0 values; expected a list of rows [x, y], each of "
+       "two "
        "numbers >= 0"},
       {j2 + "hardening_table = [[0.1, 4e8]]\n",
        "c.toml:10:19: materials.m.hardening_table: found a first plastic strain of 0.1; expected 0"},
