@@ -34,7 +34,9 @@ struct CaseMesh {
   Location where;
   Located<std::string> file;  ///< "" when blocks are given; relative to the case file's folder
   std::vector<StructuredBlock> blocks;
-  int refine = 0;  ///< how often every cell is cut in halves
+  enum class Order : std::uint8_t { as_written, linear };
+  Order order = Order::as_written;  ///< linear: cells of second order are taken by their corners
+  int refine = 0;                   ///< how often every cell is cut in halves
   enum class Unused : std::uint8_t { refuse, ignore };
   Unused unused = Unused::refuse;  ///< cells that no part, interface or rigid surface takes
 };

@@ -145,10 +145,14 @@ SectionSchema<CaseMesh> mesh_section() {
   SectionSchema<CaseMesh> s("Where the mesh comes from: a file, or structured blocks.");
   s.key("file", &CaseMesh::file, "Gmsh (.msh) or MED (.med) file, relative to the folder of the case file.");
   s.tables("block", &CaseMesh::blocks, block_section());
+  s.key("order", &CaseMesh::order,
+        "linear: cells of second order are taken by their corners (HEXA20 as HEXA8, TETRA10 as TETRA4, ...), and nodes "
+        "in the middle of cells are dropped.",
+        {.choices = {"as_written", "linear"}});
   s.key("refine", &CaseMesh::refine,
-        "How often every cell is cut in halves along each direction (HEXA8 into 8, QUAD4 and TRIA3 into 4, LINE2 into "
-        "2); "
-        "groups are inherited; new nodes lie on the old faces, so that curved surfaces stay faceted.",
+        "How often every cell is cut in halves along each direction (HEXA8, PENTA6 and TETRA4 into 8, QUAD4 and TRIA3 "
+        "into "
+        "4, LINE2 into 2); groups are inherited; new nodes lie on the old faces, so that curved surfaces stay faceted.",
         {.range = {Bound{0.0, Bound::Side::closed}, Bound{6.0, Bound::Side::closed}}});
   s.key("unused", &CaseMesh::unused,
         "What is done about cells that belong to no part, no interface, no rigid surface, and are no piece of the "

@@ -21,6 +21,16 @@ std::vector<std::string> split_at_plus(const std::string& names) {
   return parts;
 }
 
+/// " (TETRA20)": types of Gmsh that are not read, by the name of their shape and their number of nodes.
+std::string name_of_other(std::int64_t number) {
+  static const std::map<std::int64_t, const char*> names{
+      {13, "PENTA18"}, {14, "PYRA14"},  {20, "TRIA9"},  {21, "TRIA10"}, {22, "TRIA12"}, {23, "TRIA15"},
+      {24, "TRIA15"},  {25, "TRIA21"},  {26, "LINE4"},  {27, "LINE5"},  {28, "LINE6"},  {29, "TETRA20"},
+      {30, "TETRA35"}, {31, "TETRA56"}, {36, "QUAD16"}, {92, "HEXA64"}, {93, "HEXA125"}};
+  const auto found = names.find(number);
+  return found == names.end() ? "" : fmt::format(" ({})", found->second);
+}
+
 /// order[i]: the first cell over the same nodes in the same order as cell i (i itself when there is none before).
 std::vector<Index> first_alike(const CellBlock& block) {
   const auto n = static_cast<std::ptrdiff_t>(node_count(block.type));
@@ -91,13 +101,16 @@ void GmshMesh::add_node(const GmshCursor& at, std::int64_t number, const Vec3& x
   mesh_.node_numbers.push_back(number);
 }
 
-const GmshCellType& GmshMesh::cell_type(const GmshCursor& at, std::int64_t type_number) {
+const GmshCellType& GmshMesh::cell_type(const GmshCursor& at, std::int64_t type_number, std::int64_t cells) {
   const GmshCellType* type = gmsh_cell_type(type_number);
   if (type == nullptr)
-    at.fail(fmt::format("cell type {}", type_number),
-            "1 to 12 or 15 to 19 (points; lines, triangles, quadrangles, tetrahedra, pyramids, pentahedra and "
-            "hexahedra of order 1 and 2)",
-            "Mesh with order 1 (Mesh.ElementOrder = 1).");
+    at.fail(
+        fmt::format("{} cell{} of type {}{}", cells, cells == 1 ? "" : "s", type_number, name_of_other(type_number)),
+        "types 1 to 12 or 15 to 19 (points; lines, triangles, quadrangles, tetrahedra, pyramids, pentahedra and "
+        "hexahedra of order 1 and 2)",
+        type_number == 13 || type_number == 14
+            ? "Mesh without nodes at the centres of faces (Mesh.SecondOrderIncomplete = 1), or with order 1."
+            : "Mesh with order 1 or 2 (Mesh.ElementOrder).");
   return *type;
 }
 

@@ -25,8 +25,8 @@ class GmshMesh {
   /// $Nodes begins: count as declared (already compared with the size of the file).
   void begin_nodes(const GmshCursor& at, std::int64_t count);
   void add_node(const GmshCursor& at, std::int64_t number, const Vec3& x);
-  /// The type with this number, or CaseError.
-  static const GmshCellType& cell_type(const GmshCursor& at, std::int64_t type_number);
+  /// The type with this number, or CaseError, which says how many cells have it.
+  static const GmshCellType& cell_type(const GmshCursor& at, std::int64_t type_number, std::int64_t cells);
   /// nodes: file numbers in the file's order. physical: tags of the type's dimension; a sign is orientation only.
   void add_cell(const GmshCursor& at, const GmshCellType& type, std::int64_t number,
                 std::span<const std::int64_t> nodes, std::span<const std::int64_t> physical);

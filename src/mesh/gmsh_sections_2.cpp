@@ -38,6 +38,18 @@ void read_cell(Stream& in, GmshMesh& mesh, const GmshCellType& type, std::int64_
   mesh.add_cell(in.cursor(), type, number, used, std::span(&physical, 1));
 }
 
+/// How many of the `left` cells on the lines from here on have this type.
+std::int64_t count_type(GmshCursor at, std::int64_t type, std::int64_t left) {
+  std::int64_t count = 1;
+  while (--left > 0) {
+    at.next_line();
+    at.next_record();
+    at.integer("a cell number");
+    if (at.integer("a cell type") == type) ++count;
+  }
+  return count;
+}
+
 void check_cell_count(const GmshCursor& at, std::int64_t count, std::size_t bytes_each) {
   check_declared(at, count, bytes_each, "cells");
 }
@@ -68,7 +80,10 @@ void read_elements_2(GmshText& in, GmshMesh& mesh) {
   for (std::int64_t i = 0; i < count; ++i) {
     in.next_record();
     const std::int64_t number = in.integer("a cell number");
-    const GmshCellType& type = GmshMesh::cell_type(in.cursor(), in.integer("a cell type"));
+    const std::int64_t type_number = in.integer("a cell type");
+    const bool is_known = gmsh_cell_type(type_number) != nullptr;
+    const GmshCellType& type =
+        GmshMesh::cell_type(in.cursor(), type_number, is_known ? 1 : count_type(in.cursor(), type_number, count - i));
     read_cell(in, mesh, type, number, in.integer("the number of tags"));
     in.end_record();
   }
@@ -79,8 +94,10 @@ void read_elements_2(GmshBinary& in, GmshMesh& mesh) {
   check_cell_count(in.cursor(), count, 8);  // number and a node of 4 bytes
   in.begin_data();
   for (std::int64_t done = 0; done < count;) {
-    const GmshCellType& type = GmshMesh::cell_type(in.cursor(), in.integer("a cell type"));
+    const std::int64_t type_number = in.integer("a cell type");
+    const GmshCursor at_type = in.cursor();
     const std::int64_t here = in.integer("the number of cells that follow");
+    const GmshCellType& type = GmshMesh::cell_type(at_type, type_number, here);
     const std::int64_t tags = in.integer("the number of tags");
     if (here < 1 || here > count - done)
       in.cursor().fail(fmt::format("{} cells in a block with {} cells left", here, count - done),

@@ -134,11 +134,13 @@ void read_elements_4(Stream& in, const GmshEntities& entities, GmshMesh& mesh) {
     const std::int64_t dimension = in.integer("the dimension of an entity");
     check_dimension(in.cursor(), dimension);
     const auto entity = entities.find({dimension, in.integer("an entity tag")});
-    const GmshCellType& type = GmshMesh::cell_type(in.cursor(), in.integer("a cell type"));
+    const std::int64_t type_number = in.integer("a cell type");
+    const GmshCursor at_type = in.cursor();
+    const std::int64_t count = in.size("the number of cells of the entity");
+    const GmshCellType& type = GmshMesh::cell_type(at_type, type_number, count);
     if (carom::dimension(type.type) != dimension)
       in.cursor().fail(fmt::format("{} on an entity of dimension {}", name(type.type), dimension),
                        "cells of the dimension of their entity", "The file is damaged; write it again.");
-    const std::int64_t count = in.size("the number of cells of the entity");
     in.end_record();
     check_block(in.cursor(), count, left, "cells");
     left -= count;

@@ -60,13 +60,55 @@ Split lattice_split(std::size_t corners) {
   return split;
 }
 
+Corners corner(int c) {
+  return {c, -1, -1, -1, -1, -1, -1, -1};
+}
+Corners middle(int a, int b) {
+  return {a, b, -1, -1, -1, -1, -1, -1};
+}
+
 Split triangle_split() {
-  const auto corner = [](int c) { return Corners{c, -1, -1, -1, -1, -1, -1, -1}; };
-  const auto middle = [](int a, int b) { return Corners{a, b, -1, -1, -1, -1, -1, -1}; };
   return {{{corner(0), middle(0, 1), middle(2, 0)},
            {middle(0, 1), corner(1), middle(1, 2)},
            {middle(2, 0), middle(1, 2), corner(2)},
            {middle(0, 1), middle(1, 2), middle(2, 0)}}};
+}
+
+/// Four tetrahedra at the corners, and four about one diagonal of the octahedron between them, always the same one, so
+/// that there are three shapes at most however often this is done (Bey, Computing 55, 1995).
+Split tetrahedron_split() {
+  const Corners a = middle(0, 1), b = middle(1, 2), c = middle(0, 2), d = middle(0, 3), e = middle(1, 3),
+                f = middle(2, 3);
+  return {{{corner(0), a, c, d},
+           {a, corner(1), b, e},
+           {c, b, corner(2), f},
+           {d, e, f, corner(3)},
+           {a, c, d, e},
+           {a, b, c, e},
+           {c, d, e, f},
+           {c, e, b, f}}};
+}
+
+/// The triangles in two layers.
+Split pentahedron_split() {
+  const auto raised = [](const Corners& of, int height) {  // 0: below, 1: between, 2: above
+    Corners out;
+    out.fill(-1);
+    std::size_t n = 0;
+    for (const int side : {0, 3})
+      for (std::size_t i = 0; of[i] >= 0; ++i)
+        if (height == 1 || (height == 2) == (side == 3)) out[n++] = of[i] + side;
+    return out;
+  };
+  Split split;
+  for (const std::vector<Corners>& triangle : triangle_split().children)
+    for (const int layer : {0, 1}) {
+      std::vector<Corners> nodes;
+      for (const int height : {layer, layer + 1})
+        for (const Corners& of : triangle) nodes.push_back(raised(of, height));
+      split.children.push_back(std::move(nodes));
+    }
+  return split;
 }
 
 Split split_of(CellType type, const Mesh& mesh) {
@@ -81,9 +123,14 @@ Split split_of(CellType type, const Mesh& mesh) {
       return lattice_split(4);
     case CellType::hexa8:
       return lattice_split(8);
+    case CellType::tetra4:
+      return tetrahedron_split();
+    case CellType::penta6:
+      return pentahedron_split();
     default:
       throw CaseError({mesh.report.source}, "mesh.refine", fmt::format("cells of type {}", name(type)),
-                      "POINT1, LINE2, TRIA3, QUAD4 and HEXA8, which can be split");
+                      "POINT1, LINE2, TRIA3, QUAD4, TETRA4, PENTA6 and HEXA8, which can be split",
+                      "Make the finer mesh where this one was made.");
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/document.hpp"
+#include "mesh/linear_cells.hpp"
 #include "mesh/read_mesh.hpp"
 #include "mesh/split_cells.hpp"
 #include "mesh/structured_block.hpp"
@@ -39,6 +40,7 @@ Mesh bodies(const Case& given) {
 
 Mesh build_mesh(const Case& given) {
   Mesh mesh = bodies(given);
+  if (given.mesh.order == CaseMesh::Order::linear) mesh = linear_cells(std::move(mesh));
   for (int i = 0; i < given.mesh.refine; ++i) mesh = split_cells(std::move(mesh));
   std::int64_t last = 0;
   for (const std::int64_t number : mesh.node_numbers) last = std::max(last, number);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cell_meshes.hpp"
+#include "mesh/linear_cells.hpp"
 #include "mesh/orientation.hpp"
 #include "mesh/structured_block.hpp"
 
@@ -215,6 +216,24 @@ TEST(Skin, GroupsOfSidesKeepTheirArea) {
       const double expected = name[0] == 'X' ? 6.0 : (name[0] == 'Y' ? 3.0 : 2.0);
       EXPECT_NEAR(area, expected, expected * round_off) << carom::name(type) << ' ' << name;
     }
+  }
+}
+
+// A grid of second order taken by its corners is the grid of first order, with its groups.
+TEST(LinearCells, OfQuadraticCellsAreThoseOfFirstOrder) {
+  for (const CellType type : {CellType::tetra10, CellType::hexa20, CellType::hexa27, CellType::penta15}) {
+    Mesh quadratic = with_cells(make_structured_blocks({box()}), type);
+    quadratic.node_groups["TOP"] = quadratic.nodes_of("ZMAX");
+    const Mesh linear = linear_cells(quadratic),
+               direct = with_cells(make_structured_blocks({box()}), linear_type(type));
+    EXPECT_EQ(linear.node_count(), direct.node_count()) << name(type);
+    EXPECT_EQ(linear.block(type), nullptr);
+    ASSERT_NE(linear.block(linear_type(type)), nullptr) << name(type);
+    EXPECT_EQ(linear.block(linear_type(type))->size(), direct.block(linear_type(type))->size()) << name(type);
+    EXPECT_EQ(linear.nodes_of("TOP").size(), direct.nodes_of("ZMAX").size()) << name(type);
+    EXPECT_EQ(linear.nodes_of("XMIN").size(), direct.nodes_of("XMIN").size()) << name(type);
+    EXPECT_NEAR(enclosed(linear, skin(linear)), 6.0, 22.0 * round_off) << name(type);
+    EXPECT_EQ(linear.report.turned, 0U);
   }
 }
 

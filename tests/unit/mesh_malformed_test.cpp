@@ -135,8 +135,9 @@ const std::vector<Spoiled> spoiled_texts{
      ":21: $Elements: found node 9 in cell 1; expected the number of a node in $Nodes. Save the mesh again with all "
      "its nodes, or correct the cell."},
     {"cell type of order 3", replaced(kGood, "1 5 2 1 1", "1 92 2 1 1"),
-     ":21: $Elements: found cell type 92; expected 1 to 12 or 15 to 19 (points; lines, triangles, quadrangles, "
-     "tetrahedra, pyramids, pentahedra and hexahedra of order 1 and 2). Mesh with order 1 (Mesh.ElementOrder = 1)."},
+     ":21: $Elements: found 1 cell of type 92 (HEXA64); expected types 1 to 12 or 15 to 19 (points; lines, triangles, "
+     "quadrangles, tetrahedra, pyramids, pentahedra and hexahedra of order 1 and 2). Mesh with order 1 or 2 "
+     "(Mesh.ElementOrder)."},
     {"too few nodes in a cell", replaced(kGood, "5 6 7 8\n", "5 6 7\n"),
      ":21: $Elements: found the end of the line; expected a node number. A value is missing on this line."},
     {"tags without end", replaced(kGood, "1 5 2 1", "1 5 2000000000 1"),
@@ -184,6 +185,20 @@ TEST(MeshMalformed, TheFilesAreGoodBeforeTheyAreSpoiled) {
 TEST(MeshMalformed, TextFilesNameTheLine) {
   for (const Spoiled& spoiled : spoiled_texts)
     EXPECT_EQ(message_of_bytes(spoiled.bytes), std::string("bad.msh") + spoiled.message) << spoiled.what;
+}
+
+// Cells that are not read are counted, so that the user sees whether they are the mesh or a few left over.
+TEST(MeshMalformed, CellsOfUnknownTypeAreCounted) {
+  const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n";
+  const std::string two = message_of_bytes(
+      head + "$Elements\n4\n1 2 2 0 1 1 2 3\n2 13 2 0 1 1 2 3\n3 2 2 0 1 1 2 3\n4 13 2 0 1 1 2 3\n$EndElements\n");
+  EXPECT_NE(two.find(":13: $Elements: found 2 cells of type 13 (PENTA18); expected types 1 to 12"), std::string::npos)
+      << two;
+  EXPECT_NE(two.find("Mesh.SecondOrderIncomplete = 1"), std::string::npos) << two;
+  const std::string block = message_of_bytes(
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n"
+      "$Elements\n1 5 1 5\n3 1 29 5\n$EndElements\n");
+  EXPECT_NE(block.find("found 5 cells of type 29 (TETRA20)"), std::string::npos) << block;
 }
 
 TEST(MeshMalformed, BytesThatAreNoMesh) {
@@ -253,7 +268,7 @@ TEST(MeshMalformed, BinaryFilesNameTheByte) {
   const std::size_t data = old.find('\n', cells + 10) + 1;
   std::string type = old;
   type[data + 3] = 99;
-  EXPECT_NE(message_of_bytes(type).find(fmt::format("$Elements, byte {}: found cell type 99", data)),
+  EXPECT_NE(message_of_bytes(type).find(fmt::format("$Elements, byte {}: found 1 cell of type 99", data)),
             std::string::npos);
   std::string block = old;
   block[data + 7] = 0;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/errors.hpp"
+#include "cell_meshes.hpp"
 #include "math/vec3.hpp"
 #include "mesh/read_mesh.hpp"
 #include "mesh/split_cells.hpp"
@@ -82,6 +83,30 @@ $Elements
 7 5 2 1 1 1 2 3 4 5 6 7 8
 $EndElements
 )";
+
+// Eight children of one size, right side out; the skin stays where it was.
+TEST(SplitCells, OfTetrahedraAndPentahedraFillThem) {
+  const auto volume = [](const Mesh& mesh, const CellBlock& cells, std::size_t k) {
+    const auto n = static_cast<std::size_t>(node_count(cells.type));
+    double sum = 0.0;
+    const auto x = [&](LocalNode a) {
+      return mesh.coordinates[static_cast<std::size_t>(cells.connectivity[n * k + a])];
+    };
+    for (const CellFace& face : cell_faces(cells.type))
+      for (std::size_t i = 2; i < face.corners().size(); ++i)
+        sum += dot(x(face.node[0]), cross(x(face.node[i - 1]), x(face.node[i]))) / 6.0;
+    return sum;
+  };
+  for (const CellType type : {CellType::tetra4, CellType::penta6}) {
+    const Mesh whole = test::with_cells(make_structured_blocks({block(2)}), type), halves = split_cells(whole);
+    const CellBlock &coarse = *whole.block(type), &fine = *halves.block(type);
+    ASSERT_EQ(fine.size(), 8 * coarse.size()) << name(type);
+    EXPECT_EQ(halves.report.turned, 0U) << name(type);
+    const double of_parent = volume(whole, coarse, 0);
+    for (std::size_t k = 0; k < fine.size(); ++k) EXPECT_NEAR(volume(halves, fine, k), of_parent / 8.0, 1e-14);
+    EXPECT_EQ(skin(halves).size(), 4 * skin(whole).size()) << name(type);
+  }
+}
 
 TEST(SplitCells, RefuseCellsWithoutThickness) {
   try {

@@ -123,8 +123,8 @@ TEST(Groups, AllCellsLeaveInterfacesOut) {
   mesh.cell_groups = {{"GLUE", {{0, 1}}}};
   number(mesh);
   EXPECT_EQ(model_of(part(""), mesh).parts[0].cells, (std::vector<Index>{0, 2}));
-  mesh.blocks.push_back(block_of(CellType::tetra4, {0, 1, 2, 12}));
-  EXPECT_NE(message_of(part(""), mesh).find("1 TETRA4 cell (1)"), std::string::npos);
+  mesh.blocks.push_back(block_of(CellType::pyra5, {0, 1, 2, 3, 12}));
+  EXPECT_NE(message_of(part(""), mesh).find("1 PYRA5 cell (1)"), std::string::npos);
 }
 
 /// A moving obstacle hangs on a node of its own, which no force and no support of the case is meant for.

@@ -138,9 +138,9 @@ TEST(CellTypes, WithoutAnElementAreRefusedWithARemedy) {
                       newmark)
         .what();
   };
-  const std::string tetra = message(4, "4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n", "1 2 3 4");
-  EXPECT_NE(tetra.find("1 TETRA4 cell (1) in \"BODY\""), std::string::npos) << tetra;
-  EXPECT_NE(tetra.find("Mesh with hexahedra"), std::string::npos) << tetra;
+  const std::string pyramid = message(7, "5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n", "1 2 3 4 5");
+  EXPECT_NE(pyramid.find("1 PYRA5 cell (1) in \"BODY\""), std::string::npos) << pyramid;
+  EXPECT_NE(pyramid.find("Mesh with hexahedra"), std::string::npos) << pyramid;
   const std::string wedge = message(6, "6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 0 1\n6 0 1 1\n", "1 2 3 4 5 6");
   EXPECT_NE(wedge.find("Mesh with hexahedra"), std::string::npos) << wedge;
   std::string nodes = "20\n";
