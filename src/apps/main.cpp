@@ -1,5 +1,6 @@
 // The program `carom`: command line and exit codes, nothing else.
 #include <fmt/format.h>
+#include <pthread.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "base/errors.hpp"
@@ -41,6 +43,28 @@ using carom::ExitCode;
 
 std::atomic<bool> stop_requested{false};
 
+sigset_t only_sigterm() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGTERM);
+  return set;
+}
+
+/// METIS puts a handler of its own on SIGTERM while it orders a matrix, which gives the ordering up and swallows the
+/// signal. So SIGTERM is blocked in every thread, those that libraries start when they are loaded included, and waited
+/// for.
+void block_sigterm() {
+  const sigset_t set = only_sigterm();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+}
+/// Run before the libraries are made ready (System V ABI, "Initialization and Termination Functions").
+[[gnu::section(".preinit_array"), gnu::used]] void (*const block_at_load)() = block_sigterm;
+
+void unblock_sigterm() {
+  const sigset_t set = only_sigterm();
+  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+}
+
 extern "C" void request_stop(int /*signal*/) {
   stop_requested.store(true);
   std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends the process at once
@@ -59,7 +83,10 @@ struct Arguments {
 
 void stop_at_signals() {
   std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+  std::thread([] {
+    const sigset_t set = only_sigterm();
+    for (int signal = 0; sigwait(&set, &signal) == 0;) stop_requested.store(true);
+  }).detach();
   std::signal(SIGHUP, request_stop);
   std::signal(SIGPIPE, SIG_IGN);  // a run outlives the pipe that its progress is written to
 }
@@ -131,8 +158,9 @@ ExitCode mesh(const Arguments& arguments) {
 ExitCode dispatch(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("run")) return run(arguments);
   if (app.got_subcommand("resume")) return resume(arguments);
-  if (app.got_subcommand("check")) return check(arguments);
   if (app.got_subcommand("compare")) return compare(arguments);
+  unblock_sigterm();  // nothing to be kept
+  if (app.got_subcommand("check")) return check(arguments);
   if (app.got_subcommand("material")) return material(arguments);
   if (app.got_subcommand("mesh")) return mesh(arguments);
   fmt::print("{}\n", carom::json_schema());
