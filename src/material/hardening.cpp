@@ -28,14 +28,15 @@ std::size_t Hardening::segment(double alpha) const {
 }
 
 double Hardening::slope(double alpha) const {
-  if (curve_.empty()) return modulus_ + saturation_ * rate_ * std::exp(-rate_ * alpha);
+  if (curve_.empty()) return saturation_ > 0.0 ? modulus_ + saturation_ * rate_ * std::exp(-rate_ * alpha) : modulus_;
   const std::size_t i = segment(alpha);
   if (i + 1 == curve_.size()) return 0.0;
   return (curve_[i + 1][1] - curve_[i][1]) / (curve_[i + 1][0] - curve_[i][0]);
 }
 
 double Hardening::stress(double alpha) const {
-  if (curve_.empty()) return yield_ + modulus_ * alpha - saturation_ * std::expm1(-rate_ * alpha);
+  const double linear = yield_ + modulus_ * alpha;
+  if (curve_.empty()) return saturation_ > 0.0 ? linear - saturation_ * std::expm1(-rate_ * alpha) : linear;
   const std::size_t i = segment(alpha);
   return curve_[i][1] + slope(alpha) * (alpha - curve_[i][0]);
 }

@@ -149,11 +149,11 @@ static void finite_plastic_update(const void* parameters, const PointBatch& batc
 /// b into those of eps; 1 where they coincide.
 template <class Real>
 [[gnu::always_inline]] static inline Real logarithmic_ratio(const Real& r, const Real& difference) {
-  constexpr double near_square = 0.04;  // ten terms leave 1e-17
+  constexpr double largest_square = 0.04;  // ten terms leave 1e-17
   const Real t = r * r, one = Real{} + 1.0;
   Real sum = Real{} + 1.0 / 21.0;
   for (int k = 19; k >= 1; k -= 2) sum = sum * t + 1.0 / k;
-  return t > near_square ? difference / (t > near_square ? r : one) : sum;
+  return t > largest_square ? difference / (t > largest_square ? r : one) : sum;
 }
 
 /// N^T A N

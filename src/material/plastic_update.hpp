@@ -27,9 +27,14 @@ template <class Real>
                                                                       const double* variables, double dt) {
   constexpr int n = lanes<Real>;
   const int count = law.variables;
+  RadialReturn<Real> result{Real{} + 1.0, Real{} + 1.0, {}};
+  for (int v = 0; v < count; ++v) result.variables[v] = variables == nullptr ? Real{} : load<Real>(variables + v * n);
   double stress[n], share[n], slope[n], values[most_plastic_variables * n] = {};
   store(stress, trial);
-  for (int i = 0; i < count * n; ++i) values[i] = variables == nullptr ? 0.0 : variables[i];
+  bool may_yield = false;
+  for (int l = 0; l < n; ++l) may_yield = may_yield || stress[l] > law.elastic_limit;
+  if (!may_yield) return result;
+  for (int v = 0; v < count; ++v) store(values + v * n, result.variables[v]);
   const double three_G = 3.0 * law.lame.G;
   for (int l = 0; l < n; ++l) {
     share[l] = 1.0;
@@ -43,7 +48,8 @@ template <class Real>
     share[l] = flow.stress / stress[l];
     slope[l] = flow.slope / (three_G + flow.slope);
   }
-  RadialReturn<Real> result{load<Real>(share), load<Real>(slope), {}};
+  result.share = load<Real>(share);
+  result.slope = load<Real>(slope);
   for (int v = 0; v < count; ++v) result.variables[v] = load<Real>(values + v * n);
   return result;
 }
