@@ -2,6 +2,7 @@
 #pragma once
 
 #include "material/isotropic_elastic.hpp"
+#include "material/linear_elastic_update.hpp"
 #include "material/logarithm.hpp"
 #include "material/point_batch.hpp"
 #include "math/pack.hpp"
@@ -38,12 +39,14 @@ template <class Real>
 }
 
 /// S = G (1 - C^-1) + lambda ln J C^-1 and W = G/2 (tr C - 3) - G ln J + lambda/2 (ln J)^2 (NeoHookean), of the
-/// Green-Lagrange strain; not a number where det C is not positive. parameters: const LameParameters*.
+/// Green-Lagrange strain; not a number where det C is not positive. rho c^2 over current lengths is lambda + 2 G -
+/// lambda ln J + G (b_i - 1) along a principal direction. parameters: const LameParameters*.
 template <class Real>
 static void neo_hookean_update(const void* parameters, const PointBatch& batch) {
   const double lambda = static_cast<const LameParameters*>(parameters)->lambda;
   const double G = static_cast<const LameParameters*>(parameters)->G;
   constexpr int n = lanes<Real>;
+  dissipate_nothing<Real>(batch);
   for (int p = 0; p < batch.points; ++p) {
     double* stress = batch.stress + 6 * p * n;
     Real e[6], log, rest;
@@ -53,8 +56,10 @@ static void neo_hookean_update(const void* parameters, const PointBatch& batch) 
     const Real ln_J = 0.5 * log, inverse = 1.0 / (1.0 + C.q), volumetric = lambda * ln_J;
     for (int c = 0; c < 3; ++c) store(stress + c * n, Real((G * C.diagonal[c] + volumetric * C.adjugate[c]) * inverse));
     for (int c = 3; c < 6; ++c) store(stress + c * n, Real((volumetric - G) * C.adjugate[c] * inverse));
-    if (batch.energy == nullptr) continue;
-    store(batch.energy + p * n, Real(0.5 * G * (rest - C.second_and_third) + 0.5 * volumetric * ln_J));
+    if (batch.energy != nullptr)
+      store(batch.energy + p * n, Real(0.5 * G * (rest - C.second_and_third) + 0.5 * volumetric * ln_J));
+    if (batch.wave_modulus != nullptr)
+      store(batch.wave_modulus + p * n, Real(lambda + 2.0 * G - volumetric + 2.0 * G * largest_principal_bound(e)));
   }
 }
 

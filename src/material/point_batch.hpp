@@ -19,7 +19,8 @@ struct PointBatch {
   const double* history = nullptr;
   double* new_history = nullptr;
   double* dissipation = nullptr;   ///< dissipated energy density since the start, a function of the history at the end
-  double* wave_modulus = nullptr;  ///< largest rho c^2 of the point
+  double* wave_modulus = nullptr;  ///< at least the largest rho c^2 of elastic waves, c in current lengths per time and
+                                   ///< rho per reference volume
 };
 
 /// Changes of stress with changes of strain at given strains and history at the beginning of the step; layout as in

@@ -1,0 +1,100 @@
+// What every row of the table of laws must be, so that a new line in it is tested as it comes.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+
+#include "material_points.hpp"
+
+namespace carom::test {
+namespace {
+
+/// The law with moduli near 1 and whatever else it needs: 1, or the middle of a bounded range.
+Material sample(const Law& law) {
+  std::vector<std::pair<std::string_view, double>> values;
+  for (const LawParameter& p : law.parameters)
+    if (!p.initial) values.emplace_back(p.key, std::isfinite(p.range.high) ? 0.5 * (p.range.low + p.range.high) : 1.0);
+  Material material(law.name, 2.0, values);
+  for (std::size_t p = 0; p < material.values.size(); ++p) {
+    const std::string& key = law.parameters[p].key;
+    if (key == "E") material.values[p] = 200.0;
+    if (key == "nu") material.values[p] = 0.3;
+    if (key == "yield_stress") material.values[p] = 1.0;
+    if (key == "melting_temperature") material.values[p] = 1000.0;
+  }
+  return material;
+}
+
+TEST(Laws, RowsAreWholeAndTheirNamesTheirOwn) {
+  std::set<std::string> names;
+  for (const Law& law : laws()) {
+    EXPECT_TRUE(names.insert(law.name).second) << law.name;
+    EXPECT_EQ(find_law(law.name), &law);
+    EXPECT_EQ(&laws()[index_of(law)], &law);
+    EXPECT_FALSE(law.summary.empty()) << law.name;
+    EXPECT_NE(law.formula.find('='), std::string::npos) << law.name;
+    EXPECT_EQ(law.measure == Measure::small_strain, !law.when_turning.empty()) << law.name;
+    std::set<std::string> keys;
+    for (const LawParameter& p : law.parameters) {
+      EXPECT_TRUE(keys.insert(p.key).second) << law.name << p.key;
+      EXPECT_EQ(p.meaning.back(), '.') << law.name << p.key;
+      if (!p.initial || !p.initial_phrase.empty()) continue;
+      EXPECT_TRUE(*p.initial > p.range.low || (p.range.is_closed_low && *p.initial == p.range.low)) << p.key;
+      EXPECT_LE(*p.initial, p.range.high) << p.key;
+    }
+    const Material material = sample(law);
+    EXPECT_TRUE(law.check == nullptr || !law.check(material)) << law.name;
+    EXPECT_EQ(material.at_rest().E, 200.0);
+    EXPECT_EQ(std::set<std::string>(law.history.begin(), law.history.end()).size(), law.history.size());
+  }
+  EXPECT_EQ(find_law("glass"), nullptr);
+  EXPECT_THROW(Material("glass", 1.0, {}), std::invalid_argument);
+  EXPECT_THROW(Material("j2", 1.0, {{"B", 1.0}}), std::invalid_argument);
+}
+
+// At rest nothing is there, and small changes meet the moduli at rest: Hooke's, of the section's directions.
+TEST(Laws, BeginAtRestWithTheirModuli) {
+  const double E = 200.0, nu = 0.3, wave = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+  for (const Law& law : laws())
+    for (const auto& [free_directions, modulus] : {std::pair{0, wave}, {1, E / (1 - nu * nu)}, {2, E}}) {
+      const PointLaw point(sample(law), free_directions);
+      const Answer rest = point.update({}, point.rest());
+      EXPECT_EQ(rest.stress, Voigt{}) << law.name;
+      EXPECT_EQ(rest.energy, 0.0);
+      EXPECT_EQ(rest.dissipation, 0.0);
+      EXPECT_EQ(rest.history, point.rest()) << law.name;
+      EXPECT_NEAR(rest.wave_modulus, modulus, 1e-13 * E) << law.name;
+      EXPECT_NEAR(point.tangent({}, {1, 0, 0, 0, 0, 0}, point.rest())[0], modulus, 1e-13 * E) << law.name;
+      const Answer answer = point.update({1e-9, 0, 0, 0, 0, 0}, point.rest());
+      EXPECT_NEAR(answer.stress[0], modulus * 1e-9, 1e-7 * 1e-9 * E) << law.name;
+    }
+}
+
+// rho c^2 along a principal direction of an elastic state, over current lengths: the tangent carried forward and the
+// stress, D_iiii l_i^4 + S_i l_i^2 (Bonet and Wood, section 6.3). It must not be above what the law says.
+TEST(Laws, NoElasticWaveIsFasterThanTheyClaim) {
+  for (const Law& law : laws()) {
+    Material material = sample(law);
+    for (std::size_t p = 0; p < material.values.size(); ++p)  // nothing yields
+      if (law.parameters[p].key == "yield_stress" || law.parameters[p].key == "A") material.values[p] = 1e4;
+    const PointLaw point(material);
+    for (const Voigt& strain : {Voigt{0.2, 0, 0, 0, 0, 0},
+                                {-0.1, 0, 0, 0, 0, 0},
+                                {0.1, 0.1, -0.05, 0, 0, 0},
+                                {-0.1, -0.15, -0.05, 0, 0, 0},
+                                {0.2, -0.2, 0.1, 0, 0, 0}}) {
+      const Answer answer = point.update(strain, point.rest());
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double b = law.measure == Measure::small_strain ? 1.0 : 1 + 2 * strain[i];
+        const double S = law.measure == Measure::small_strain ? 0.0 : answer.stress[i];
+        Voigt unit{};
+        unit[i] = 1.0;
+        const double modulus = point.tangent(strain, unit, point.rest())[i] * b * b + S * b;
+        EXPECT_GE(answer.wave_modulus, modulus * (1 - 1e-12)) << law.name << i;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom::test
