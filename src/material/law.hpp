@@ -53,9 +53,9 @@ struct Material {
 
   /// Hooke's law without stiffness.
   Material() : Material(LinearElastic{}) {}
-  Material(const LinearElastic& given);
-  Material(const StVenantKirchhoff& given);
-  Material(const NeoHookean& given);
+  Material(const LinearElastic& given);      // NOLINT(google-explicit-constructor): the same in another form
+  Material(const StVenantKirchhoff& given);  // NOLINT(google-explicit-constructor)
+  Material(const NeoHookean& given);         // NOLINT(google-explicit-constructor)
   /// Values by their keys; those that are not named have their initial values. Throws std::invalid_argument for names
   /// that are not in the table.
   Material(std::string_view law, double rho, const std::vector<std::pair<std::string_view, double>>& values);

@@ -21,8 +21,9 @@ namespace carom {
 CAROM_LAWS(CAROM_DECLARE_LAW)
 #undef CAROM_DECLARE_LAW
 
-#define CAROM_COUNT_LAW(law) +1
-inline constexpr std::size_t law_count = 0 CAROM_LAWS(CAROM_COUNT_LAW);
-#undef CAROM_COUNT_LAW
+#define CAROM_LAW_PLACE(law) law,
+enum class LawPlace : std::size_t { CAROM_LAWS(CAROM_LAW_PLACE) count };
+#undef CAROM_LAW_PLACE
+inline constexpr auto law_count = static_cast<std::size_t>(LawPlace::count);
 
 }  // namespace carom

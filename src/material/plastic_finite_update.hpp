@@ -122,7 +122,7 @@ static void finite_plastic_update(const void* parameters, const PointBatch& batc
     Real excess[6], eps[6], tau[6], S[6];
     const CholeskyStretch<Real> stretch = trial_stretch(batch.strain + 6 * p * n, history, excess);
     matrix_logarithm(excess, eps);
-    for (int c = 0; c < 6; ++c) eps[c] *= 0.5;
+    for (Real& component : eps) component *= 0.5;
     const Real trace = eps[0] + eps[1] + eps[2];
     make_deviator(eps);
     const Real square = norm_square(eps), trial = G * square_root(Real(6.0 * square));

@@ -59,7 +59,7 @@ template <class Real>
 [[gnu::noinline]] static void logarithm_by_values(const Real B[6], Real log[6]) {
   Real value[3], N[3][3], rest;
   principal(B, value, N);
-  for (int i = 0; i < 3; ++i) logarithm(Real(value[i]), value[i], rest);
+  for (Real& v : value) logarithm(Real(v), v, rest);
   from_principal(N, value, log);
 }
 
@@ -67,7 +67,7 @@ template <class Real>
 [[gnu::noinline]] static void exponential_by_values(const Real A[6], Real result[6]) {
   Real value[3], N[3][3];
   principal(A, value, N);
-  for (int i = 0; i < 3; ++i) value[i] = exponential_less_one(value[i]);
+  for (Real& v : value) v = exponential_less_one(v);
   from_principal(N, value, result);
 }
 
@@ -107,7 +107,7 @@ template <class Real>
   inverse[4] = M[5] * M[3] - M[4] * M[0];
   inverse[5] = M[3] * M[4] - M[5] * M[1];
   const Real scale = 1.0 / (M[0] * inverse[0] + M[3] * inverse[3] + M[5] * inverse[5]);
-  for (int c = 0; c < 6; ++c) inverse[c] *= scale;
+  for (Real& component : inverse) component *= scale;
   commuting_product(B, inverse, Z);
   commuting_product(Z, Z, T);
   const Real square = norm_square(Z);

@@ -83,7 +83,7 @@ Figure off_measured(const Drive& drive) {
 }
 
 std::vector<Figure> figures_of(const Drive& drive) {
-  const std::string stress = drive.units().stress, density = stress;  // energy per volume
+  const std::string stress = drive.units().stress;  // also that of energy per volume
   const std::vector<double> mises = drive.column("von_mises");
   std::vector<Figure> figures;
   if (const auto yield = first_yield(drive)) {
@@ -96,7 +96,7 @@ std::vector<Figure> figures_of(const Drive& drive) {
   figures.push_back({"Largest von Mises stress", with_readable_unit(*largest, stress, 4), "of the Cauchy stress"});
   const auto last = [&drive](const char* name) { return drive.column(name).back(); };
   if (!drive.material.law->history.empty()) {
-    figures.push_back({"Dissipated", with_readable_unit(last("dissipation"), density, 4), "per reference volume"});
+    figures.push_back({"Dissipated", with_readable_unit(last("dissipation"), stress, 4), "per reference volume"});
     figures.push_back(
         {"Plastic strain", fmt::format("{:.4g}", last("equivalent_plastic_strain")), "equivalent, at the end"});
   }

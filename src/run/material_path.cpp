@@ -162,7 +162,7 @@ double von_mises(const Voigt& s) {
 
 std::vector<std::string> columns_of(const Law& law, const MaterialPath& path) {
   std::vector<std::string> columns{"time"};
-  if (!path.strain.empty()) columns.push_back("strain");
+  if (!path.strain.empty()) columns.emplace_back("strain");
   for (const char* row : axes)
     for (const char* column : axes) columns.push_back(fmt::format("F_{}{}", row, column));
   for (const char* component : components) columns.push_back(fmt::format("stress_{}", component));
