@@ -11,6 +11,7 @@
 #include "contact/body_overlap.hpp"
 #include "contact/buried_facets.hpp"
 #include "contact/cell_location.hpp"
+#include "contact/facing_facets.hpp"
 #include "contact/stiffness.hpp"
 #include "contact_rows_fixture.hpp"
 #include "mesh/cell_size.hpp"
@@ -266,6 +267,20 @@ TEST(BuriedFacets, OfAnyCellsAreThoseInside) {
     const std::size_t found = buried_facets(bodies.model, pair, bodies.lowered(0.5)).size();
     EXPECT_GT(found, all / 2) << name(above) << " on " << name(below);
     EXPECT_TRUE(buried_facets(bodies.model, pair, bodies.lowered(-0.5)).empty());
+  }
+}
+
+// Of whole skins, the facets that look at each other are those of the two faces between the bodies.
+TEST(FacingFacets, OfAnyCellsAreTheFacesBetweenTheBodies) {
+  for (const auto& [above, below] : kPairs) {
+    const TwoBodies bodies(above, below, 2, 3, 0.3);
+    PairContact pair = bodies.pair(PairMethod::node_to_surface);
+    for (Surface* side : {&pair.slave, &pair.master}) side->facets.clear();
+    for (const Facet& facet : skin(*bodies.model.mesh))
+      (bodies.is_upper[static_cast<std::size_t>(facet[0])] ? pair.slave : pair.master).facets.push_back(facet);
+    const FacingFacets facing = facing_facets(bodies.model, pair);
+    EXPECT_EQ(facing.slave, bodies.upper.facets) << name(above) << " on " << name(below);
+    EXPECT_EQ(facing.master, bodies.lower.facets) << name(above) << " on " << name(below);
   }
 }
 

@@ -6,6 +6,9 @@
 #include <string>
 
 #include "base/errors.hpp"
+#include "cell_meshes.hpp"
+#include "mesh/structured_block.hpp"
+#include "solid/loads.hpp"
 #include "solid_fixture.hpp"
 
 namespace carom::test {
@@ -101,6 +104,49 @@ TEST(SolidLoads, PressureHasItsResultantAndMoment) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(moment[i], expected_moment[i], round_off);
   solid.external_force(0.0, solid.mass(MassKind::lumped), f);
   EXPECT_EQ(largest(f), 0.0);
+}
+
+// The same on triangles of a body of pentahedra with flat and of tetrahedra with flat and warped faces: nodal forces
+// are a third of each triangle's, and closed skins have no resultant and no moment.
+TEST(SolidLoads, PressureOnTrianglesAndOnClosedSkinsOfAnyCells) {
+  const double p = 2.5;
+  for (const CellType type : {CellType::tetra4, CellType::penta6, CellType::pyra5, CellType::tetra10}) {
+    StructuredBlock block;
+    block.size = {2, 3, 3};
+    block.divisions = {2, 3, 3};
+    Mesh mesh = with_cells(make_structured_blocks({block}), type);
+    for (Vec3& x : mesh.coordinates) x[0] += 0.05 * std::sin(2.0 * x[1] + x[2]);
+    Model model;
+    model.mesh = std::make_shared<const Mesh>(mesh);
+    Pressure top, all;
+    top.pressure = all.pressure = p;
+    for (const Facet& facet : skin(mesh)) {
+      all.surface.facets.push_back(facet);
+      if (std::all_of(facet.begin(), facet.end(),
+                      [&](Index n) { return mesh.coordinates[static_cast<std::size_t>(n)][2] > 3.0 - 1e-9; }))
+        top.surface.facets.push_back(facet);
+    }
+    model.loads = {top, all};
+    const std::vector<LoadVector> loads = make_loads(model);
+    const auto resultant = [&](const LoadVector& load) {
+      std::array<Vec3, 2> sum{};  // force and moment
+      for (std::size_t i = 0; i < load.nodes.size(); ++i) {
+        sum[0] = add(sum[0], load.force[i]);
+        sum[1] = add(sum[1], cross(mesh.coordinates[static_cast<std::size_t>(load.nodes[i])], load.force[i]));
+      }
+      return sum;
+    };
+    EXPECT_LT(norm(resultant(loads[1])[0]), 100.0 * round_off) << name(type);
+    EXPECT_LT(norm(resultant(loads[1])[1]), 100.0 * round_off) << name(type);
+    double area = 0.0;
+    for (const Facet& facet : top.surface.facets) {
+      const auto x = [&](std::size_t a) { return mesh.coordinates[static_cast<std::size_t>(facet[a])]; };
+      area += facet.size == 3 ? 0.5 * norm(cross(subtract(x(1), x(0)), subtract(x(2), x(0))))
+                              : 0.5 * norm(cross(subtract(x(2), x(0)), subtract(x(3), x(1))));
+    }
+    EXPECT_NEAR(resultant(loads[0])[0][2], -p * area, 100.0 * round_off) << name(type);
+    for (const Vec3& force : loads[0].force) EXPECT_LT(force[2], 0.0) << name(type);
+  }
 }
 
 // Gauss' theorem: a uniform pressure on a closed skin has no resultant and no moment, warped faces included.
