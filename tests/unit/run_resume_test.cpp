@@ -107,7 +107,7 @@ void expect_equal_folders(const fs::path& a, const fs::path& b) {
 }
 
 /// A block is pressed down and dragged aside, on another one or on a plane, with friction.
-std::string pressed(const std::string& law, bool on_plane, const std::string& rest) {
+std::string pressed(const std::string& law, bool on_plane, const std::string& rest, const std::string& yielding = "") {
   const std::string lower = R"([[mesh.block]]
 origin = [-0.5, -0.5, -1.0]
 size = [3.0, 3.0, 1.0]
@@ -133,6 +133,7 @@ law = "{}"
 E = 2.0
 nu = 0.3
 rho = 1.5
+{}
 [[part]]
 name = "body"
 cells = "BODY"
@@ -157,7 +158,7 @@ energy_growth = 10.0
 fields_every = 3
 curves_every = 2
 )",
-                     law,
+                     law, yielding,
                      on_plane ? "kind = \"plane\"\npoint = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]"
                               : "kind = \"pair\"\nmaster = \"TOP\"") +
          rest;
@@ -213,6 +214,23 @@ INSTANTIATE_TEST_SUITE_P(Resume, EveryPair, testing::ValuesIn(allowed_pairs()), 
 });
 
 const std::string penalty_steps = stepping(SchemeKind::newmark, EnforcementKind::penalty);
+
+TEST(Resume, KeepsWhatPlasticBodiesRemember) {
+  const std::vector<Pair> pairs{
+      {SchemeKind::newmark, EnforcementKind::penalty},     {SchemeKind::generalized_alpha, EnforcementKind::lagrange},
+      {SchemeKind::moreau_jean, EnforcementKind::impulse}, {SchemeKind::central_differences, EnforcementKind::penalty},
+      {SchemeKind::cd_lagrange, EnforcementKind::impulse}, {SchemeKind::modified_mass, EnforcementKind::lagrange}};
+  for (const Pair& pair : pairs) {
+    SCOPED_TRACE(testing::PrintToString(pair));
+    const Runs runs(
+        pressed("j2", false, stepping(pair.scheme, pair.enforcement), "yield_stress = 0.02\nhardening_modulus = 0.1"));
+    const ExitCode code = runs.run("whole");
+    ASSERT_NE(code, ExitCode::run_failed) << read_text(runs.results("whole") / "summary.json");
+    EXPECT_EQ(runs.run_in_pieces("pieces"), code);
+    EXPECT_GT(last_row(read_text(runs.results("pieces") / "energy.csv")).at("plastic"), 0.0);
+    expect_equal_folders(runs.results("whole"), runs.results("pieces"));
+  }
+}
 
 TEST(Resume, GoesOnThroughStages) {
   const Runs runs(pressed("neo_hookean", false, stepping(SchemeKind::statics, EnforcementKind::penalty) + R"([[stage]]
