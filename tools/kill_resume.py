@@ -4,7 +4,7 @@ of its folder must then be those of the run that nobody disturbed, byte for byte
 
     tools/kill_resume.py [PROGRAM] [--kills 50] [--seed 1] [--case FILE] [--signal TERM]
 
-The run of its own: a block that falls, turning, on another one, with friction; explicit steps,
+The run of its own: a block that falls, turning, on another one, with friction, and both yield; explicit steps,
 a checkpoint every 25 steps, one thread and two by turns. Moments are drawn evenly over the time that the run takes, set-up
 and the writing of checkpoints included. --signal TERM asks the run to stop instead (as Ctrl-C does), which leaves a checkpoint where
 a case asks for none. Exit code 1 with what differs.
@@ -31,19 +31,21 @@ origin = [0.015, 0.02, 0.0402]
 size = [0.04, 0.04, 0.04]
 divisions = [4, 4, 4]
 groups = { cells = "UPPER", zmin = "FACE" }
-[materials.rubber]
-law = "neo_hookean"
+[materials.soft]
+law = "j2"
 E = 2e7
 nu = 0.3
 rho = 1200.0
+yield_stress = 2e5
+hardening_modulus = 2e6
 [[part]]
 name = "lower"
 cells = "LOWER"
-material = "rubber"
+material = "soft"
 [[part]]
 name = "upper"
 cells = "UPPER"
-material = "rubber"
+material = "soft"
 [[support]]
 nodes = "GROUND"
 blocked = ["x", "y", "z"]
@@ -63,7 +65,7 @@ quantities = ["displacement", "velocity", "acceleration", "stress"]
 [scheme]
 kind = "central_differences"
 [time]
-end = 5e-3
+end = 1.2e-3
 [output]
 fields_every = 40
 checkpoint_every = 25
@@ -112,7 +114,8 @@ class Runs:
             message = process.stderr.read()
         if process.returncode == -self.kill or "goes on from there" in message:
             return True
-        if process.returncode in (0, 1):  # the end, whatever the verdict
+        is_over = resume and "the run has come to its end" in message  # killed when all was done
+        if process.returncode in (0, 1) or is_over:  # the end, whatever the verdict
             return False
         if resume and "there is no checkpoint in it" in message:
             return self.killed_after(folder, False, seconds)

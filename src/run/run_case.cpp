@@ -296,7 +296,7 @@ ExitCode resume_case(const RunOptions& options, std::optional<double> end, const
     } catch (const std::invalid_argument& e) {
       throw CheckpointError(options.folder, fmt::format("--end asks for {}", e.what()));
     }
-  } else if (run.march.at_end() && std::filesystem::exists(options.folder + "/summary.json")) {
+  } else if (run.march.at_end() && std::filesystem::exists(options.folder + "/report.html")) {
     throw CheckpointError(options.folder,
                           fmt::format("the run has come to its end, t = {:.9g}; a later one can be given with --end",
                                       run.march.state().t));

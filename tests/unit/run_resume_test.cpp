@@ -216,10 +216,8 @@ INSTANTIATE_TEST_SUITE_P(Resume, EveryPair, testing::ValuesIn(allowed_pairs()), 
 const std::string penalty_steps = stepping(SchemeKind::newmark, EnforcementKind::penalty);
 
 TEST(Resume, KeepsWhatPlasticBodiesRemember) {
-  const std::vector<Pair> pairs{
-      {SchemeKind::newmark, EnforcementKind::penalty},     {SchemeKind::generalized_alpha, EnforcementKind::lagrange},
-      {SchemeKind::moreau_jean, EnforcementKind::impulse}, {SchemeKind::central_differences, EnforcementKind::penalty},
-      {SchemeKind::cd_lagrange, EnforcementKind::impulse}, {SchemeKind::modified_mass, EnforcementKind::lagrange}};
+  const std::vector<Pair> pairs{{SchemeKind::newmark, EnforcementKind::penalty},
+                                {SchemeKind::cd_lagrange, EnforcementKind::impulse}};
   for (const Pair& pair : pairs) {
     SCOPED_TRACE(testing::PrintToString(pair));
     const Runs runs(
@@ -227,7 +225,9 @@ TEST(Resume, KeepsWhatPlasticBodiesRemember) {
     const ExitCode code = runs.run("whole");
     ASSERT_NE(code, ExitCode::run_failed) << read_text(runs.results("whole") / "summary.json");
     EXPECT_EQ(runs.run_in_pieces("pieces"), code);
-    EXPECT_GT(last_row(read_text(runs.results("pieces") / "energy.csv")).at("plastic"), 0.0);
+    // They yield: most of the work that is done on them is neither stored nor motion.
+    const std::map<std::string, double> energy = last_row(read_text(runs.results("pieces") / "energy.csv"));
+    EXPECT_GT(energy.at("plastic") + energy.at("quadrature"), energy.at("strain"));
     expect_equal_folders(runs.results("whole"), runs.results("pieces"));
   }
 }
@@ -253,7 +253,7 @@ void forget_the_end(const fs::path& folder) {
   const std::vector<std::string> files = checkpoint_files(folder.string());
   ASSERT_EQ(files.size(), 2U);
   fs::remove(folder / files[0]);
-  fs::remove(folder / "summary.json");
+  fs::remove(folder / "report.html");
   std::ofstream(folder / "energy.csv", std::ios::app) << "1.0,2";  // half a row
   std::ofstream(folder / "fields" / "step_999999.vtu.tmp") << "half";
   std::ofstream(folder / "fields" / "step_999998.vtu") << "of a step that is made again";
@@ -280,6 +280,15 @@ TEST(Resume, TakesTheOneBeforeWhereTheLastIsDamaged) {
   fs::resize_file(last, fs::file_size(last) - 1);
   EXPECT_NE(runs.resume("damaged"), ExitCode::run_failed);
   expect_equal_folders(runs.results("whole"), runs.results("damaged"));
+}
+
+TEST(Resume, FinishesWhatWasKilledBeforeItsReport) {
+  const Runs runs(pressed("linear_elastic", true, penalty_steps));
+  const ExitCode code = runs.run("whole");
+  fs::copy(runs.results("whole"), runs.results("killed"), fs::copy_options::recursive);
+  fs::remove(runs.results("killed") / "report.html");
+  EXPECT_EQ(runs.resume("killed"), code);
+  expect_equal_folders(runs.results("whole"), runs.results("killed"));
 }
 
 TEST(Resume, ProlongsARunThatHasEnded) {
