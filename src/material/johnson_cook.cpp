@@ -147,7 +147,7 @@ Law johnson_cook_row() {
   return {.name = "johnson_cook",
           .summary = "Johnson and Cook's plasticity with rate and adiabatic heating, for finite strains",
           .formula =
-              "The kinematics and the flow of `j2` with sigma_y = (A + B alpha^n)(1 + C ln(max(rate / reference_rate, "
+              "The kinematics and the flow of j2 with sigma_y = (A + B alpha^n)(1 + C ln(max(rate / reference_rate, "
               "1)))(1 - theta^m), rate = d alpha / dt, theta = (T - reference_temperature) / (melting_temperature - "
               "reference_temperature) between 0 and 1 (G. R. Johnson and W. H. Cook, Proc. 7th Int. Symp. Ballistics, "
               "1983). T rises by taylor_quinney / (rho specific_heat) times the plastic work, without conduction; a "
