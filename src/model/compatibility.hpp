@@ -65,7 +65,8 @@ struct SchemeTraits {
   std::array<bool, enforcement_count> takes;  ///< in the order of EnforcementKind
   std::string_view why_not;
   AngularMomentum angular_momentum = AngularMomentum::to_its_order;
-  double gains = 0.005;  ///< energy that it may make, over what there is, without a trend (docs/schemes.md)
+  double gains = 0.005;       ///< energy that it may make, over what there is, without a trend (docs/schemes.md)
+  bool takes_history = true;  ///< bodies whose points remember, and so dissipate
 };
 
 namespace detail {
@@ -111,7 +112,9 @@ inline constexpr std::array<SchemeTraits, 17> scheme_table{{
      Stepping::implicit_steps,
      {true, false, false, false},
      detail::potential,
-     AngularMomentum::exactly},
+     AngularMomentum::exactly,
+     0.005,
+     false},
     {SchemeKind::moreau_jean,
      "moreau_jean",
      "Moreau-Jean",

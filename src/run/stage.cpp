@@ -143,6 +143,7 @@ Stage::Stage(const StageContext& context, const CaseScheme& scheme, const CaseTi
       system_{context.mesh, context.solid, mass_, context.contact, supports_} {
   if (settings_.kind == SchemeKind::statics) hold_bodies_in_flight(later_velocity);
   refuse_massless_contact();
+  refuse_history();
   choose_step();
 }
 
@@ -189,6 +190,20 @@ void Stage::refuse_massless_contact() const {
                       "nodes with mass, or supports on all three components",
                       "Put the cells in a [[part]], or block the node by a [[support]].");
     }
+  }
+}
+
+/// A scheme that steps between stored energies has no force for what is not stored.
+void Stage::refuse_history() const {
+  const SchemeTraits& scheme = traits(settings_.kind);
+  if (scheme.takes_history) return;
+  for (const Part& part : context_.model.parts) {
+    if (part.material.law->history.empty()) continue;
+    throw CaseError(
+        scheme_.kind.where, "scheme.kind",
+        fmt::format("\"{}\" with the law \"{}\" of the part \"{}\"", scheme.name, part.material.law->name, part.name),
+        "elastic laws with this scheme, whose forces are those of a stored energy",
+        "Take a scheme of another kind, as \"generalized_alpha\" or \"bathe\", or an elastic law.");
   }
 }
 

@@ -42,6 +42,21 @@ std::vector<std::string> probe_notes(const std::string& rest) {
   return RunTables(simulation).probes.notes();
 }
 
+/// The same case with bodies that yield.
+std::string yielding(std::string text) {
+  const std::string law = "law = \"linear_elastic\"\n";
+  return text.replace(text.find(law), law.size(), "law = \"j2\"\nyield_stress = 0.1\n");
+}
+
+TEST(EnergyMomentum, TakesNoBodiesThatYield) {
+  const std::string text = case_of_block("[scheme]\nkind = \"energy_momentum\"\n[time]\nend = 1.0\nstep = 0.1\n");
+  EXPECT_NO_THROW(Simulation(parse_case(text, "case.toml")));
+  const CaseError error = case_error(yielding(text));
+  EXPECT_EQ(error.key(), "scheme.kind");
+  EXPECT_EQ(error.found(), "\"energy_momentum\" with the law \"j2\" of the part \"body\"");
+  EXPECT_NO_THROW(Simulation(parse_case(yielding(case_of_block(newmark)), "case.toml")));
+}
+
 TEST(UnusedCells, AreNamedWithTheirCount) {
   const CaseError error = case_error(case_of_block(forgotten + newmark));
   EXPECT_EQ(error.key(), "mesh");
