@@ -252,7 +252,7 @@ bool Stage::stable_step_changes() const {
 }
 
 StableStepWatch Stage::watch_stable_step() const {
-  return {system_, stability_limit(settings_), settings_.enforcement};
+  return {system_, stability_limit(settings_), settings_.enforcement, context_.model.parts};
 }
 
 std::unique_ptr<Scheme> Stage::make_scheme() const {

@@ -46,12 +46,18 @@ StableStep stable_step(const System& system, double limit = 2.0,
 /// is not followed but bounded, by the sum of the squares of the bodies' and the contact's own (Weyl).
 class StableStepWatch {
  public:
-  StableStepWatch(const System& system, double limit, EnforcementKind enforcement);
+  /// parts: those of the model.
+  StableStepWatch(const System& system, double limit, EnforcementKind enforcement, std::span<const Part> parts);
 
   /// Re-estimates the frequency of the bodies at displacement u, where they are nonlinear, by ten Lanczos iterations
   /// from the last vector (the first call by more). It is taken at the upper end of its error bound, which the
   /// iterations leave: a step on the safe side, as long as the bodies change little between two calls. Returns by how
   /// much of itself the frequency has changed.
+  ///
+  /// Points that remember may unload, so that their tangent says too little: there the frequency is that of the bodies
+  /// at rest, elastic, times the largest growth of c / l over the cells, c a cell's wave speed and l its length where
+  /// its nodes stand (Courant, Friedrichs and Lewy, Mathematische Annalen 100, 1928; cell_frequency_bounds are c^2 /
+  /// l^2 at rest).
   double follow_bodies(std::span<const double> u);
   /// The steps with these rows, those of displacement u, every one of them closed. Cheap: two passes over the rows.
   StableStep with(const ConstraintRows& rows, std::span<const double> u) const;
@@ -63,11 +69,17 @@ class StableStepWatch {
     archive("vector", x.vector_);
   }
 
+  double follow_tangent(std::span<const double> u);
+  double largest_bound(std::span<const double> u) const;
+
   const System& system_;
   double limit_;
   EnforcementKind enforcement_;
   double omega_squared_;  ///< of the bodies
   std::vector<double> vector_;
+  bool has_elastic_ = true;               ///< bodies of finite strain whose tangent says all
+  std::vector<double> cells_;             ///< squares of the cells' wave speeds where points remember; else empty
+  double at_rest_ = 0.0, largest_ = 1.0;  ///< omega_squared_ and largest_bound there
 };
 
 }  // namespace carom
