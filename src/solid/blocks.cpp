@@ -111,24 +111,29 @@ int free_directions(Section section) {
   return section == Section::plane_stress ? 1 : 0;
 }
 
+/// The batch kernels of HEXA8 know no history: bodies that remember take the kernels of any shape.
+bool is_batched(const Part& part) {
+  return part.section == Section::solid && part.material.law->history.empty();
+}
+
 /// Kernels and laws of a part: its section chooses the element and what stresses are eliminated, its material the
 /// kinematics and the law.
 void choose_kernels(const Part& part, const KernelTable& table, Block& block) {
-  const bool solid = part.section == Section::solid;
+  const bool batched = is_batched(part);
   const CellOperations& operations = *block.operations;
-  if (solid)
+  if (batched)
     block.kernels = block.small_strain ? table.small_strain : table.finite_strain;
   else
     block.kernels = block.small_strain ? operations.small_strain : operations.finite_strain;
   const int free = free_directions(part.section);
   block.cell_law = prepare(part.material, free, kernels_reference().laws);
-  block.batch_law = solid ? prepare(part.material, free, table.laws) : block.cell_law;
+  block.batch_law = batched ? prepare(part.material, free, table.laws) : block.cell_law;
 }
 
 Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>& cells, const KernelTable& table) {
   Block block;
   block.cells = static_cast<Index>(cells.size());
-  block.lanes = part.section == Section::solid ? table.lanes : 1;
+  block.lanes = is_batched(part) ? table.lanes : 1;
   block.section = part.section;
   block.thickness = part.thickness;
   block.rho = part.material.rho;
