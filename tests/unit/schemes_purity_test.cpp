@@ -23,7 +23,10 @@ struct Body {
   Material material;
 };
 const std::vector<Body>& bodies() {
-  static const std::vector<Body> all{{"linear", unit_material}, {"neo-Hookean", NeoHookean{unit_material}}};
+  static const std::vector<Body> all{
+      {"linear", unit_material},
+      {"neo-Hookean", NeoHookean{unit_material}},
+      {"J2", Material("j2", 1.5, {{"E", 2.0}, {"nu", 0.3}, {"yield_stress", 0.05}, {"hardening_modulus", 1.0}})}};
   return all;
 }
 
@@ -101,12 +104,16 @@ State falling_obliquely(const System& system, SchemeKind kind, double above) {
   return state;
 }
 
+bool acts(const ContactResponse& response) {
+  return std::any_of(response.status.begin(), response.status.end(), [](RowStatus s) { return s != RowStatus::open; });
+}
+
 struct Way {
   std::vector<State> states;
   std::vector<StepReport> reports;
 };
 
-constexpr int steps = 5;
+constexpr int steps = 4;
 
 /// Purity of one combination.
 class Purity {
@@ -160,13 +167,14 @@ class Purity {
       ASSERT_TRUE(report.converged) << report.failure;
       ledger.add(report.books, end.forces.total_momentum);
       EXPECT_LT(std::abs(ledger.imbalance()), 1e-10 * ledger.scale());
-      touches = touches || largest(end.forces.contact) > 0.0;
+      touches = touches || acts(end.forces.rows) || acts(end.within.rows);
       way_.states.push_back(end);
       way_.reports.push_back(report);
       state = std::move(end);
     }
     EXPECT_TRUE(touches);
-    EXPECT_EQ(ledger.now().plastic > 0.0, !state.points.empty());
+    if (settings_.kind != SchemeKind::statics)  // which yields under its weight alone
+      EXPECT_EQ(ledger.now().plastic > 0.0, !state.points.empty());
   }
 
   /// One scheme for all; before every step one of another length, and one from the state before.
@@ -180,10 +188,8 @@ class Purity {
         const State& before = way_.states[static_cast<std::size_t>(i - 2)];
         scheme->step(before, {before.t + h_, h_, 1e-14}, end);
       }
-      for (int again = 0; again < 2; ++again) {
-        const StepReport report = scheme->step(begin, request(begin, i), end);
-        expect_same(i, end, report);
-      }
+      const StepReport report = scheme->step(begin, request(begin, i), end);
+      expect_same(i, end, report);
     }
   }
 
@@ -210,10 +216,11 @@ class Purity {
 };
 
 /// Conjugate gradients on one body in each scene; they need not find the equilibrium of what friction alone holds.
-bool is_tried(SchemeKind scheme, const Scene& scene, const Body& body, SolverKind solver) {
+bool is_tried(SchemeKind scheme, EnforcementKind enforcement, const Scene& scene, const Body& body, SolverKind solver) {
   if (!body.material.law->history.empty() && !traits(scheme).takes_history) return false;
   if (solver == SolverKind::cholesky) return true;
   if (is_explicit(scheme) || scheme == SchemeKind::statics) return false;
+  if (enforcement == EnforcementKind::augmented_lagrangian) return false;  // nothing that the penalty has not
   return &body == &bodies()[&scene == &scenes[0] ? 1 : 0];
 }
 
@@ -226,7 +233,7 @@ TEST_P(PurityOf, Holds) {
     for (const Scene& scene : scenes) {
       for (const Body& body : bodies()) {
         for (const SolverKind solver : {SolverKind::cholesky, SolverKind::conjugate_gradients}) {
-          if (!is_tried(scheme.kind, scene, body, solver)) continue;
+          if (!is_tried(scheme.kind, enforcement.kind, scene, body, solver)) continue;
           SCOPED_TRACE(std::string(enforcement.name) + ", " + scene.name + ", " + body.name + ", solver " +
                        std::to_string(static_cast<int>(solver)));
           SchemeSettings settings;
