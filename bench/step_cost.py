@@ -123,9 +123,9 @@ MODELS = {
     "explicit neo-Hookean": (bar(16, 320), "neo_hookean", EXPLICIT, 0.5, (20, 120), 81920),
     "explicit sliding pair": (SLIDE, "linear_elastic", EXPLICIT, 0.3, (20, 120), 66000),
     "CD-Lagrange": (bar(16, 320, mu=0.2), "linear_elastic", CD_LAGRANGE, 0.5, (20, 220), 81920),
-    "HHT Cholesky": (bar(8, 160), "linear_elastic", HHT + SOLVER.format("cholmod"), 2.0, (10, 60), 10240),
-    "HHT iterative": (bar(8, 160), "linear_elastic", HHT + SOLVER.format("cg"), 2.0, (10, 40), 10240),
-    "HHT multipliers": (bar(8, 160, mu=0.2), "linear_elastic", HHT + '\nenforcement = "lagrange"', 2.0, (10, 40), 10240),
+    "HHT Cholesky": (bar(8, 160), "linear_elastic", HHT + SOLVER.format("cholmod"), 2.0, (10, 160), 10240),
+    "HHT iterative": (bar(8, 160), "linear_elastic", HHT + SOLVER.format("cg"), 2.0, (10, 80), 10240),
+    "HHT multipliers": (bar(8, 160, mu=0.2), "linear_elastic", HHT + '\nenforcement = "lagrange"', 2.0, (10, 160), 10240),
     "HHT neo-Hookean": (bar(6, 60), "neo_hookean", HHT, 2.0, (5, 15), 2160),
 }
 WAVE_SPEED = 5800.0  # of dilatation in the steel above
