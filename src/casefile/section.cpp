@@ -62,8 +62,27 @@ std::vector<std::string> sections_with(const std::string& name, const SectionDes
   return sections;
 }
 
-[[noreturn]] void unknown_key(const Member& member, const SectionDescription& section, const ReadContext& at) {
-  const std::vector<std::string> names = all_names(section);
+/// The kind as far as it is written and right; "" otherwise.
+std::string written_kind(const Node& node, const SectionDescription& section, const ReadContext& at) {
+  if (section.selector.empty()) return "";
+  const bool elsewhere = section.selector.find('.') != std::string::npos;
+  const Node* value = find(elsewhere ? at.root : node, section.selector);
+  const auto* text = value != nullptr ? std::get_if<std::string>(&value->value) : nullptr;
+  if (text == nullptr) return value == nullptr ? section.default_kind : "";
+  const auto has = [text](const std::vector<std::string>& words) {
+    return std::find(words.begin(), words.end(), *text) != words.end();
+  };
+  const auto knows = [&](const KeyDescription& key) {
+    return key.key == section.selector ? has(key.options.choices) : has(key.options.kinds);
+  };
+  return std::any_of(section.keys.begin(), section.keys.end(), knows) ? *text : "";
+}
+
+/// What may stand there: the keys of the section's kind, where that is known.
+[[noreturn]] void unknown_key(const Member& member, const Node& node, const SectionDescription& section,
+                              const ReadContext& at) {
+  const std::string kind = written_kind(node, section, at);
+  const std::vector<std::string> names = kind.empty() ? all_names(section) : names_for(section, kind);
   const std::string near = suggested_key(member.key, section);
   const std::vector<std::string> elsewhere = sections_with(member.key, at.format);
   throw CaseError(member.where, join(at.path, member.key), "an unknown key", "one of " + plain_list(names),
@@ -125,7 +144,7 @@ std::string check_section(const Node& node, const SectionDescription& section, c
   const auto* table = std::get_if<Table>(&node.value);
   if (table == nullptr) throw CaseError(node.where, at.path, describe(node), "a table of keys");
   for (const Member& member : table->members) {
-    if (declared_key(section, member.key, "") == nullptr) unknown_key(member, section, at);
+    if (declared_key(section, member.key, "") == nullptr) unknown_key(member, node, section, at);
   }
   const std::string kind = find_kind(node, section, at);
   for (const Member& member : table->members) {
