@@ -1,5 +1,5 @@
 // Internal force of HEXA8 with gather and scatter, small and finite strain, in cells per second, for each instruction
-// set; and the tangent action of finite strain.
+// set and formulation; and the tangent action.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "mesh/renumber.hpp"
 #include "mesh/structured_block.hpp"
 #include "parallel/threads.hpp"
+#include "solid/element_table.hpp"
 #include "solid/solid.hpp"
 
 namespace carom {
@@ -54,9 +55,9 @@ Mesh shuffled(Mesh mesh) {
   return result;
 }
 
-Model one_part(Mesh mesh, const Material& material) {
+Model one_part(Mesh mesh, const Material& material, Formulation formulation = Formulation::full) {
   Model model;
-  Part part{.name = "cube", .cells = {}, .material = material};
+  Part part{.name = "cube", .cells = {}, .material = material, .formulation = formulation};
   part.cells.resize(mesh.blocks[0].size());
   std::iota(part.cells.begin(), part.cells.end(), Index{0});
   model.mesh = std::make_shared<const Mesh>(std::move(mesh));
@@ -102,8 +103,8 @@ void add_all_benchmarks() {
     static const Dofs rest(u.size(), 0.0);
     solid.discrete_gradient_force(rest, u, f);
   };
-  const auto model = [](Mesh mesh, const Material& material) {
-    return std::make_shared<const Model>(one_part(std::move(mesh), material));
+  const auto model = [](Mesh mesh, const Material& material, Formulation formulation = Formulation::full) {
+    return std::make_shared<const Model>(one_part(std::move(mesh), material, formulation));
   };
   add_benchmarks("internal_force/12^3 in cache", model(natural_cube(12), steel), force);
   add_benchmarks("internal_force/64^3 natural", model(natural_cube(64), steel), force);
@@ -116,6 +117,15 @@ void add_all_benchmarks() {
     add_benchmarks("internal_force/12^3 in cache/" + law_names[k], cube, force);
     add_benchmarks("tangent_action/12^3 in cache/" + law_names[k], cube, tangent);
     add_benchmarks("discrete_gradient_force/12^3 in cache/" + law_names[k], cube, discrete);
+  }
+  for (const Formulation formulation : {Formulation::mean_dilatation, Formulation::one_point}) {
+    const std::string name_of_formulation(name(formulation));
+    for (const Material& law : {Material(steel), Material(NeoHookean{steel})}) {
+      const auto cube = model(natural_cube(12), law, formulation);
+      const std::string of = "/12^3 in cache/" + name_of_formulation + "/" + law.law->name;
+      add_benchmarks("internal_force" + of, cube, force);
+      add_benchmarks("tangent_action" + of, cube, tangent);
+    }
   }
 }
 

@@ -28,11 +28,6 @@ template <class T>
 inline constexpr bool is_of_doubles = std::is_same_v<T, double>;
 template <class T, std::size_t n>
 inline constexpr bool is_of_doubles<std::array<T, n>> = is_of_doubles<T>;
-/// How many numbers.
-template <class T>
-inline constexpr std::size_t doubles_in = 1;
-template <class T, std::size_t n>
-inline constexpr std::size_t doubles_in<std::array<T, n>> = n* doubles_in<T>;
 
 /// True for what goes as a whole number: integers, flags and enumerators.
 template <class T>
@@ -89,8 +84,8 @@ class Archive {
  private:
   template <class T>
   static std::span<double> doubles_of(T* first, std::size_t count) {
-    static_assert(sizeof(T) == doubles_in<T> * sizeof(double));
-    return {reinterpret_cast<double*>(first), count * doubles_in<T>};
+    static_assert(sizeof(T) % sizeof(double) == 0);
+    return {reinterpret_cast<double*>(first), count * (sizeof(T) / sizeof(double))};
   }
 
   /// A struct: its members stand under its name.
@@ -138,7 +133,7 @@ class Archive {
   template <class T>
   void compound(const std::string& key, std::vector<T>& x) {
     if constexpr (is_of_doubles<T>) {
-      constexpr std::size_t width = doubles_in<T>;
+      constexpr std::size_t width = sizeof(T) / sizeof(double);
       const std::size_t count = extent(key, width * x.size());
       if (count % width != 0) throw ArchiveError("\"" + key + "\" has the wrong size");
       x.resize(count / width);

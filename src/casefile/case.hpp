@@ -60,9 +60,11 @@ struct CasePart {
   Located<std::string> material;  ///< key of [materials]
   enum class Section : std::uint8_t { solid, plane_strain, plane_stress, axisymmetric, bar };
   Section section = Section::solid;
-  std::optional<Located<std::string>> type;  ///< of the cells, "TETRA4"; absent: what the group has
-  double thickness = 1.0;                    ///< plane_strain, plane_stress
-  double area = 0.0;                         ///< bar
+  std::optional<Located<std::string>> type;         ///< of the cells, "TETRA4"; absent: what the group has
+  double thickness = 1.0;                           ///< plane_strain, plane_stress
+  double area = 0.0;                                ///< bar
+  std::optional<Located<std::string>> formulation;  ///< absent: the element's first
+  std::optional<Located<double>> hourglass;         ///< one_point
 };
 
 /// [[support]]: what is imposed on a group of nodes.

@@ -18,11 +18,11 @@ SectionSchema<CasePart> part_section() {
   s.key("material", &CasePart::material, "NAME of a [materials.NAME].", {.need = Need::required});
   s.description.selector = "section";
   s.description.default_kind = "solid";
-  s.key(
-      "section", &CasePart::section,
-      "What the cells are a section of: HEXA8 are solid; QUAD4 in a plane z = const are plane_strain, plane_stress or "
-      "axisymmetric (about the y axis, x being the radius); LINE2 are bars.",
-      {.choices = {"solid", "plane_strain", "plane_stress", "axisymmetric", "bar"}});
+  s.key("section", &CasePart::section,
+        "What the cells are a section of: hexahedra, tetrahedra, wedges and pyramids are solid; QUAD4, QUAD8, TRIA3 "
+        "and TRIA6 in a plane z = const are plane_strain, plane_stress or axisymmetric (about the y axis, x being the "
+        "radius); LINE2 are bars.",
+        {.choices = {"solid", "plane_strain", "plane_stress", "axisymmetric", "bar"}});
   s.key("type", &CasePart::type,
         "Which of the cells of the group are meant, where it has several types: one [[part]] for each of them.",
         {.choices = {"HEXA8", "HEXA20", "HEXA27", "TETRA4", "TETRA10", "PENTA6", "PYRA5", "QUAD4", "QUAD8", "TRIA3",
@@ -31,6 +31,17 @@ SectionSchema<CasePart> part_section() {
         {.unit = Dimension::length, .range = greater_than(0.0), .kinds = {"plane_strain", "plane_stress"}});
   s.key("area", &CasePart::area, "Area of the section of the bars.",
         {.unit = Dimension::area, .range = greater_than(0.0), .kinds = {"bar"}, .need = Need::required});
+  s.key(
+      "formulation", &CasePart::formulation,
+      "How the cells take the deformation: \"full\": at all their points; \"mean_dilatation\": with the volume change "
+      "of the cell's mean (B-bar, F-bar), for nearly incompressible and yielding bodies; \"one_point\": at one point, "
+      "with a stiffness against hourglass modes. Which cells have which: docs/cells.md. Absent: mean_dilatation of "
+      "TETRA10, full of the others.",
+      {.choices = {"full", "mean_dilatation", "one_point"}});
+  s.key("hourglass", &CasePart::hourglass,
+        "Coefficient of the stiffness against hourglass modes of one_point cells: 1 is about the elastic stiffness of "
+        "full integration. Absent: 0.05.",
+        {.range = greater_than(0.0)});
   s.finish = [](CasePart& part, const Node&, const ReadContext& at) { check_name(part.name, at.at("name").path); };
   return s;
 }

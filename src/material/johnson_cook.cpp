@@ -11,10 +11,9 @@ namespace carom {
 
 namespace {
 
-/// The yield stress at the end of a step, its slope over the change of alpha, and its integral over that change at the
-/// rate of the step.
+/// The yield stress at the end of a step, and its slope over the change of alpha.
 struct YieldPoint {
-  double stress = 0.0, slope = 0.0, work = 0.0;
+  double stress = 0.0, slope = 0.0;
 };
 
 struct JohnsonCook {
@@ -33,11 +32,10 @@ struct JohnsonCook {
 
   /// After a change x > 0 of alpha in the time dt (0: at rest), without what softens.
   YieldPoint at(double alpha, double x, double dt) const {
-    const double end = alpha + x, strain = strain_factor(end), strain_slope = B * n * std::pow(end, n - 1.0);
-    const double work = A * x + B / (n + 1.0) * (std::pow(end, n + 1.0) - std::pow(alpha, n + 1.0));
-    if (!(dt > 0.0) || x <= reference_rate * dt) return {strain, strain_slope, work};
+    const double strain = strain_factor(alpha + x), strain_slope = B * n * std::pow(alpha + x, n - 1.0);
+    if (!(dt > 0.0) || x <= reference_rate * dt) return {strain, strain_slope};
     const double rate = 1.0 + C * std::log(x / (reference_rate * dt));
-    return {strain * rate, strain_slope * rate + strain * C / x, work * rate};
+    return {strain * rate, strain_slope * rate + strain * C / x};
   }
 };
 
@@ -59,10 +57,9 @@ bool flow_johnson_cook(const PlasticLaw& law, double trial, double dt, double* v
     if (is_found) break;
   }
   flow.stress = trial - three_G * x;
-  const YieldPoint end = jc.at(alpha, x, dt);
-  flow.slope = softening * end.slope;
+  flow.slope = softening * jc.at(alpha, x, dt).slope;
   variables[0] = alpha + x;
-  variables[1] += softening * end.work;
+  variables[1] += flow.stress * x;
   variables[2] = jc.heating * variables[1];
   return true;
 }
@@ -155,7 +152,7 @@ Law johnson_cook_row() {
               "reference_temperature) between 0 and 1 (G. R. Johnson and W. H. Cook, Proc. 7th Int. Symp. Ballistics, "
               "1983). T rises by taylor_quinney / (rho specific_heat) times the plastic work, without conduction; a "
               "step takes the temperature of its beginning, and strain and rate of its end. All plastic work counts as "
-              "dissipated: the integral of sigma_y over alpha. No damage.",
+              "dissipated. No damage.",
           .measure = Measure::green_lagrange,
           .parameters = johnson_cook_parameters(),
           .history = {"plastic_c_inverse_xx", "plastic_c_inverse_yy", "plastic_c_inverse_zz", "plastic_c_inverse_xy",

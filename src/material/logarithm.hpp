@@ -55,14 +55,4 @@ template <class Real>
   return load<Real>(value);
 }
 
-/// The square roots of the lanes.
-template <class Real>
-[[gnu::always_inline]] static inline Real square_root(const Real& x) {
-  constexpr int n = lanes<Real>;
-  double value[n];
-  store(value, x);
-  for (int l = 0; l < n; ++l) value[l] = std::sqrt(value[l]);
-  return load<Real>(value);
-}
-
 }  // namespace carom

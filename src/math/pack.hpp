@@ -31,4 +31,13 @@ template <class Real>
   *reinterpret_cast<typename InArray<Real>::Type*>(p) = r;
 }
 
+/// The square root of each lane.
+template <class Real>
+[[gnu::always_inline]] static inline Real square_root(const Real& r) {
+  double lane[lanes<Real>];
+  store(lane, r);
+  for (int l = 0; l < lanes<Real>; ++l) lane[l] = __builtin_sqrt(lane[l]);
+  return load<Real>(lane);
+}
+
 }  // namespace carom

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "element/formulation.hpp"
 #include "material/law.hpp"
 #include "math/time_function.hpp"
 #include "mesh/facet.hpp"
@@ -31,9 +32,11 @@ struct Part {
   std::string name;
   std::vector<Index> cells;  ///< indices into Mesh::block(type)
   Material material;
-  CellType type = CellType::hexa8;  ///< hexa8 for solid, quad4 for plane and axisymmetric, line2 for bar
+  CellType type = CellType::hexa8;  ///< which types a section takes says solid/element_table.hpp
   Section section = Section::solid;
   double thickness = 1.0;  ///< plane cells: their thickness; bars: the area of the section; else unused
+  std::optional<Formulation> formulation{};  ///< empty: the first that the element table has
+  double hourglass = 0.05;                   ///< coefficient of the hourglass stiffness of one-point cells
 };
 
 /// Boundary facets of parts, their normals (mesh/facet.hpp) pointing out of the body. The measure of a facet is its

@@ -7,8 +7,8 @@
 
 namespace carom {
 
-/// The types that the section takes, the usual one first. The only place that says so: readers, skins, contact and
-/// output know all types.
+/// The types that the section takes, the usual one first: those of the element table (solid/element_table.hpp).
+/// Readers, skins, contact and output know all types.
 std::span<const CellType> offered_cells(Section section);
 
 bool is_offered(CellType type, Section section);

@@ -10,6 +10,7 @@
 #include "mesh/cell_topology.hpp"
 #include "mesh/orientation.hpp"
 #include "run/offered_cells.hpp"
+#include "solid/element_table.hpp"
 
 namespace carom {
 
@@ -34,6 +35,27 @@ std::optional<CellType> wanted_type(const CasePart& wanted, Section section) {
   if (found != types.end()) return *found;
   throw CaseError(wanted.type->where, "part.type",
                   fmt::format("\"{}\" with section = \"{}\"", **wanted.type, name(section)), names(types));
+}
+
+/// Takes the formulation that the case names, if the element table has it for the cells of the part.
+void choose_formulation(const CasePart& wanted, Part& part) {
+  if (wanted.formulation) {
+    const Element* element = nullptr;
+    for (const Element& row : elements())
+      if (row.type == part.type && row.section == part.section && carom::name(row.formulation) == **wanted.formulation)
+        element = &row;
+    if (element == nullptr)
+      throw CaseError(wanted.formulation->where, "part.formulation",
+                      fmt::format("\"{}\" of {} cells with section = \"{}\"", **wanted.formulation,
+                                  carom::name(part.type), name(part.section)),
+                      formulations_of(part.type, part.section));
+    part.formulation = element->formulation;
+  }
+  if (!wanted.hourglass) return;
+  if (part.formulation != Formulation::one_point)
+    throw CaseError(wanted.hourglass->where, "part.hourglass", "cells without hourglass modes",
+                    "formulation = \"one_point\"", "leave it out");
+  part.hourglass = **wanted.hourglass;
 }
 
 std::string describe(const Part& part) {
@@ -74,6 +96,7 @@ void Parts::add(const Case& given, const CasePart& wanted, const Groups& groups)
                    wanted_type(wanted, part.section));
   part.type = found.type;
   part.cells = std::move(found.cells);
+  choose_formulation(wanted, part);
   const auto block = static_cast<std::size_t>(mesh_.block(part.type) - mesh_.blocks.data());
   for (const Index cell : part.cells) {
     Index& owner = part_of_cell_[block][at(cell)];

@@ -84,7 +84,7 @@ void complete_forces(const System& system, State& state) {
     add_with_moment(arms.at(node), p, s.data() + 3);
   });
   forces.stored.kinetic = 0.5 * sums[0];
-  if (system.solid.is_linear()) forces.stored.strain = 0.5 * sums[1];
+  if (system.solid.is_linear()) forces.stored.strain = 0.5 * sums[1] - forces.stored.hourglass;
   forces.stored.contact_stored = forces.rows.stored;
   forces.inertia_power = sums[2];
   forces.total_momentum = momentum_from(sums.data() + 3);

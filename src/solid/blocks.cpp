@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "solid/colouring.hpp"
+#include "solid/element_table.hpp"
 
 namespace carom {
 namespace {
@@ -18,11 +19,6 @@ std::size_t at(Index i) {
 
 CaseError part_error(const Mesh& mesh, const Part& part, std::string found, std::string expected, std::string mend) {
   return {Location{mesh.report.source}, "parts." + part.name, std::move(found), std::move(expected), std::move(mend)};
-}
-
-CellType type_of(Section section) {
-  if (section == Section::solid) return CellType::hexa8;
-  return section == Section::bar ? CellType::line2 : CellType::quad4;
 }
 
 std::span<const Index> connectivity_of(const Mesh& mesh, const CellRef& ref) {
@@ -37,13 +33,17 @@ CellNodes positions(const Mesh& mesh, std::span<const Index> nodes) {
   return x;
 }
 
+const Element* element_of(const Part& part) {
+  return find_element(part.type, part.section, part.formulation);
+}
+
 void check_shape(const Mesh& mesh, const Part& part, const CellNodes& x, std::size_t nodes, std::int64_t number) {
-  const double det_J = cell_operations(part.section).measure(x, part.thickness).smallest_det_J;
+  const double det_J = cell_operations(element_of(part)->kind).smallest_jacobian(x);
   if (!(det_J > 0.0))
     throw part_error(mesh, part, fmt::format("Jacobian determinant {:.3g} in cell {}", det_J, number),
                      "a positive Jacobian determinant at every Gauss point",
                      "mend the cell in the mesh: it is flat, folded or too distorted");
-  if (part.type != CellType::quad4) return;
+  if (dimension(part.type) != 2) return;
   constexpr double flat = 1e-9;  // coordinates from a text file have more digits than that
   for (std::size_t a = 1; a < nodes; ++a)
     if (std::abs(x[a][2] - x[0][2]) > flat * std::sqrt(det_J))
@@ -59,10 +59,15 @@ void check_shape(const Mesh& mesh, const Part& part, const CellNodes& x, std::si
 using Owners = std::vector<std::vector<Index>>;
 
 void check_section(const Mesh& mesh, const Part& part) {
-  if (part.type != type_of(part.section))
+  if (find_element(part.type, part.section, {}) == nullptr)
     throw part_error(mesh, part, fmt::format("{} cells", name(part.type)),
-                     fmt::format("{} cells for this section", name(type_of(part.section))),
-                     "solid parts are made of HEXA8, plane and axisymmetric ones of QUAD4, bars of LINE2");
+                     fmt::format("{} cells for this section", types_of(part.section)),
+                     "mesh the part with cells of one of these types, or give it another section");
+  if (element_of(part) == nullptr)
+    throw part_error(mesh, part,
+                     fmt::format("formulation \"{}\" of {} cells", name(part.formulation.value()), name(part.type)),
+                     formulations_of(part.type, part.section) + " for these cells under this section",
+                     "leave the formulation out to get the first of these");
   if (!(part.thickness > 0.0))
     throw part_error(mesh, part, fmt::format("thickness or area {:.6g}", part.thickness), "a positive number", "");
 }
@@ -111,38 +116,40 @@ int free_directions(Section section) {
   return section == Section::plane_stress ? 1 : 0;
 }
 
-/// The batch kernels of HEXA8 know no history: bodies that remember take the kernels of any shape.
-bool is_batched(const Part& part) {
-  return part.section == Section::solid && part.material.law->history.empty();
+/// The stages of a part: its element chooses the cell and whether dilatation is averaged, its law the kinematics.
+BatchStages stages_of(const Part& part, const Element& element, bool small_strain, const KernelTable& table) {
+  BatchStages stages{table.lanes, &table.cells[static_cast<std::size_t>(element.kind)],
+                     small_strain ? &table.small : &table.finite};
+  if (element.has_mean_dilatation)
+    stages.dilatation = small_strain ? &table.small_dilatation : &table.finite_dilatation;
+  const IsotropicElastic at_rest = part.material.at_rest();
+  stages.hourglass = part.hourglass * at_rest.E / (2.0 * (1.0 + at_rest.nu));
+  return stages;
 }
 
-/// Kernels and laws of a part: its section chooses the element and what stresses are eliminated, its material the
-/// kinematics and the law.
-void choose_kernels(const Part& part, const KernelTable& table, Block& block) {
-  const bool batched = is_batched(part);
-  const CellOperations& operations = *block.operations;
-  if (batched)
-    block.kernels = block.small_strain ? table.small_strain : table.finite_strain;
-  else
-    block.kernels = block.small_strain ? operations.small_strain : operations.finite_strain;
-  const int free = free_directions(part.section);
-  block.cell_law = prepare(part.material, free, kernels_reference().laws);
-  block.batch_law = batched ? prepare(part.material, free, table.laws) : block.cell_law;
+/// Elastic HEXA8 integrated fully have kernels of their own.
+CellKernels kernels_of(const Element& element, const Block& block, const KernelTable& table) {
+  const bool is_fused = element.kind == CellKind::Hexa8 && !element.has_mean_dilatation &&
+                        block.prepared_law.history == 0 && block.is_linear == block.small_strain;
+  if (!is_fused) return staged_kernels;
+  return block.small_strain ? table.hexa8_small : table.hexa8_finite;
 }
 
 Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>& cells, const KernelTable& table) {
+  const Element& element = *element_of(part);
   Block block;
   block.cells = static_cast<Index>(cells.size());
-  block.lanes = is_batched(part) ? table.lanes : 1;
-  block.section = part.section;
+  block.type = part.type;
   block.thickness = part.thickness;
   block.rho = part.material.rho;
   block.small_strain = part.material.law->measure == Measure::small_strain;
   block.is_linear = block.small_strain && part.material.law->is_linear;
-  block.operations = &cell_operations(part.section);
-  choose_kernels(part, table, block);
-  block.history_variables = block.batch_law.history;
-  block.offset = batch_offsets(mesh, cells, block.nodes(), block.lanes);
+  block.is_symmetric = part.material.law->has_symmetric_tangent;
+  block.operations = &cell_operations(element.kind);
+  block.stages = stages_of(part, element, block.small_strain, table);
+  block.prepared_law = prepare(part.material, free_directions(part.section), table.laws);
+  block.kernels = kernels_of(element, block, table);
+  block.offset = batch_offsets(mesh, cells, block.nodes(), table.lanes);
   return block;
 }
 
@@ -197,31 +204,24 @@ CellNodes SolidCells::values_of(std::size_t position, std::span<const double> u)
 
 CellBatches SolidCells::batches(const Block& block, Index first, Index count, const PointStep& step,
                                 std::span<double> end) const {
-  CellBatches view{mesh->coordinates.front().data(),
-                   block.offset.data() + block.nodes() * at(first),
-                   count,
-                   block.thickness,
-                   step.dt,
-                   block.history_variables};
+  CellBatches view;
+  view.stages = &block.stages;
+  view.x = mesh->coordinates.front().data();
+  view.offset = block.offset.data() + block.nodes() * at(first);
+  view.cells = count;
+  view.thickness = block.thickness;
+  view.dt = step.dt;
+  view.history_variables = block.prepared_law.history;
   const std::size_t begin = block.history_first + block.history_per_cell() * at(first);
-  if (block.history_variables == 0) return view;
+  if (view.history_variables == 0) return view;
   if (!step.history.empty()) view.history = step.history.data() + begin;
   if (!end.empty()) view.new_history = end.data() + begin;
   return view;
 }
 
-CellMatrix SolidCells::stiffness(std::size_t position, const Block& block, std::span<const double> u,
-                                 const PointStep& step) const {
-  const CellNodes x = coordinates_of(position), values = u.empty() ? CellNodes{} : values_of(position, u);
-  const auto cell = static_cast<Index>(position) - block.first;
-  const BatchLaw law = block.cell_law.batch();
-  const CellOperations& of = *block.operations;
-  return (block.small_strain ? of.small_stiffness : of.finite_stiffness)(x, values, batches(block, cell, 1, step), law);
-}
-
 std::vector<double> SolidCells::repeated_history(const Block& block, Index cell, const PointStep& step) const {
   if (step.history.empty()) return {};
-  const std::size_t lanes = at(block.lanes), size = block.history_per_cell();
+  const std::size_t lanes = block.lanes(), size = block.history_per_cell();
   const double* batch = step.history.data() + block.history_first + size * (at(cell) / lanes * lanes);
   std::vector<double> history;
   for (std::size_t k = 0; k < size; ++k) history.insert(history.end(), lanes, batch[k * lanes + at(cell) % lanes]);

@@ -1,6 +1,7 @@
 // The solid cells in batches: blocks of one part, cut into coloured chunks.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -18,23 +19,23 @@ namespace carom {
 struct Block {
   Index first = 0;  ///< position of its first cell in SolidCells::cells
   Index cells = 0;
-  int lanes = 1;
-  Section section = Section::solid;
+  CellType type{};
   double thickness = 1.0, rho = 0.0;
   bool small_strain = true;  ///< the measure of its law; the others are total Lagrangian
   bool is_linear = true;     ///< the forces are linear in the displacements
+  bool is_symmetric = true;  ///< the tangent of its law
   const CellOperations* operations = nullptr;
+  BatchStages stages;
   CellKernels kernels;
-  PreparedLaw batch_law;  ///< for the kernels
-  PreparedLaw cell_law;   ///< for the operations, one lane
+  PreparedLaw prepared_law;
   std::vector<Index> offset;
-  int history_variables = 0;      ///< of the law, at each point
   std::size_t history_first = 0;  ///< where the block's history begins among the points of all blocks
 
-  std::size_t nodes() const { return operations->nodes; }
-  BatchLaw law() const { return batch_law.batch(); }
+  std::size_t nodes() const { return static_cast<std::size_t>(stages.cell->nodes); }
+  std::size_t lanes() const { return static_cast<std::size_t>(stages.lanes); }
+  BatchLaw law() const { return prepared_law.batch(); }
   /// Numbers of history of one lane: batches, filled up, follow each other as PointBatch::history.
-  std::size_t history_per_cell() const { return operations->points * static_cast<std::size_t>(history_variables); }
+  std::size_t history_per_cell() const { return static_cast<std::size_t>(stages.cell->points * prepared_law.history); }
   /// Numbers of history of the block.
   std::size_t history_size() const { return history_per_cell() * offset.size() / nodes(); }
 };
@@ -64,9 +65,17 @@ struct SolidCells {
   /// The history at the end of the step goes to `end` unless it is empty.
   CellBatches batches(const Block& block, Index first, Index count, const PointStep& step = {},
                       std::span<double> end = {}) const;
-  /// Stiffness matrix of the cell at a position in `cells`, at u.
-  CellMatrix stiffness(std::size_t position, const Block& block, std::span<const double> u,
-                       const PointStep& step = {}) const;
+  /// Calls body(cell position, block, its stiffness matrix at u) for all cells, in the order of for_each_chunk.
+  template <class Body>
+  void for_each_stiffness(std::span<const double> u, const PointStep& step, const Body& body) const {
+    for_each_batch(step, [&](std::size_t first, const Block& block, const CellBatches& batch) {
+      std::vector<double> K;
+      batch_stiffness(batch, block.kernels, block.law(), block.is_symmetric, u.empty() ? nullptr : u.data(), K);
+      const std::size_t size = 9 * block.nodes() * block.nodes();
+      for (std::size_t l = 0; l < static_cast<std::size_t>(batch.cells); ++l)
+        body(first + l, block, std::span<const double>(K).subspan(size * l, size));
+    });
+  }
   /// The history of one cell of a block, a position in it, in every lane of a batch. Empty where there is none.
   std::vector<double> repeated_history(const Block& block, Index cell, const PointStep& step) const;
   /// Numbers of history of all points.
@@ -80,6 +89,18 @@ struct SolidCells {
                    [&](std::size_t begin, std::size_t) { body(chunks[colour_begin[k] + begin]); });
   }
 
+  /// Calls body(position of its first cell, block, its cells) for all batches, in the order of for_each_chunk.
+  template <class Body>
+  void for_each_batch(const PointStep& step, const Body& body) const {
+    for_each_chunk([&](const Chunk& chunk) {
+      const Block& block = blocks[static_cast<std::size_t>(chunk.block)];
+      for (Index first = chunk.first; first < chunk.first + chunk.cells; first += block.stages.lanes) {
+        const Index count = std::min<Index>(block.stages.lanes, chunk.first + chunk.cells - first);
+        body(static_cast<std::size_t>(block.first + first), block, batches(block, first, count, step));
+      }
+    });
+  }
+
   /// Calls body(cell position, block) for all cells, in the order of for_each_chunk.
   template <class Body>
   void for_each_cell(const Body& body) const {
@@ -91,10 +112,10 @@ struct SolidCells {
   }
 };
 
-/// Lays the parts out in batches: HEXA8 by the lanes of `table`, the other cells one by one. Throws CaseError when a
-/// part names a cell that its block does not have, when a cell is in two parts, when its section does not fit its cell
-/// type, or when a cell is degenerate: a Jacobian determinant at a Gauss point that is not positive, plane cells of
-/// changing z, axisymmetric ones with a node at negative x.
+/// Lays the parts out in batches by the lanes of `table`. Throws CaseError when a part names a cell that its block does
+/// not have, when a cell is in two parts, when there is no element of its cell type, section and formulation, or when a
+/// cell is degenerate: a Jacobian determinant at a Gauss point that is not positive, plane cells of changing z,
+/// axisymmetric ones with a node at negative x.
 SolidCells make_solid_cells(const Model& model, const KernelTable& table);
 
 }  // namespace carom

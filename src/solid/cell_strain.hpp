@@ -15,7 +15,7 @@ namespace carom {
 /// computed and zero, and bars give the tensor of their axial strain alone.
 std::vector<std::array<double, 6>> cell_strain(const Model& model, std::span<const double> u);
 
-/// By what length a cell of the part is shorter at u than in the reference position, at its centre, between planes
+/// By what length a cell of the part is shorter at u than in the reference position, of its mean F, between planes
 /// whose normal at u is n: (1 - |F^T n|) times its reference length (cell_length). Negative where it is longer.
 double cell_shortening(const Mesh& mesh, const Part& part, Index cell, const Vec3& n, std::span<const double> u);
 

@@ -1,19 +1,34 @@
-// The batch kernels of the solid: those of HEXA8 compiled once per instruction set, those of plane cells and bars once.
+// The batch kernels of the solid, compiled once per instruction set.
 #pragma once
 
 #include <cstddef>
 
 #include "base/types.hpp"
+#include "element/cell_list.hpp"
 #include "material/law_kernels.hpp"
 #include "material/point_batch.hpp"
 #include "solid/evaluation.hpp"
+#include "solid/stages.hpp"
 
 namespace carom {
+
+/// Cells of a batch at most.
+inline constexpr int most_lanes = 8;
+
+/// What a batch goes through, of one number type: the cell, the kinematics, and mean dilatation unless null.
+struct BatchStages {
+  int lanes = 1;
+  const CellStages* cell = nullptr;
+  const PointStages* points = nullptr;
+  const DilatationStages* dilatation = nullptr;
+  double hourglass = 0.0;  ///< coefficient x modulus of the hourglass stiffness
+};
 
 /// Cells of one type, section and material, `lanes` of them per batch. offset[(n b + a) lanes + l] is 3 x the node
 /// number of local node a (of n) of cell b lanes + l. The last batch is filled up by repeating its last cell; such
 /// lanes are never written back, but in their history, which is that of the repeated cell.
 struct CellBatches {
+  const BatchStages* stages = nullptr;
   const double* x = nullptr;  ///< coordinates, 3 per node
   const Index* offset = nullptr;
   Index cells = 0;
@@ -25,19 +40,8 @@ struct CellBatches {
   double* new_history = nullptr;  ///< at its end; null: not wanted
 };
 
-/// The buffer of a batch that begins with cell `first`, of `points` points a cell.
-[[gnu::always_inline]] static inline PointBatch point_batch(const CellBatches& cells, Index first, int points,
-                                                            double* strain, double* stress) {
-  const auto skip = static_cast<std::ptrdiff_t>(first) * points * cells.history_variables;
-  PointBatch batch{points, strain, stress};
-  batch.dt = cells.dt;
-  if (cells.history != nullptr) batch.history = cells.history + skip;
-  if (cells.new_history != nullptr) batch.new_history = cells.new_history + skip;
-  return batch;
-}
-
-/// The kernels of one cell type under one kinematics, small strain or total Lagrangian. Dof vectors have 3 entries per
-/// node. None of them allocates. An inverted cell under finite strain gives forces and energies that are not numbers.
+/// The kernels of one kind of cell under one formulation. Dof vectors have 3 entries per node. None of them allocates.
+/// An inverted cell under finite strain gives forces and energies that are not numbers.
 struct CellKernels {
   /// f += F(u) of the cells; fills the new history, and adds to the energies unless they are null.
   void (*add_internal_force)(const CellBatches&, const BatchLaw&, const double* u, double* f,
@@ -52,10 +56,16 @@ struct CellKernels {
   void (*mean_stress)(const CellBatches&, const BatchLaw&, const double* u, double* stress) = nullptr;
 };
 
-/// The kernels of HEXA8 of one instruction set.
+/// The kernels of any cell, formulation and law, made of the stages.
+extern const CellKernels staged_kernels;
+
+/// What is compiled for one instruction set.
 struct KernelTable {
   int lanes = 1;
-  CellKernels small_strain, finite_strain;
+  CellKernels hexa8_small, hexa8_finite;  ///< of HEXA8 with full integration and elastic laws, fused
+  CellStages cells[cell_kinds];           ///< in the order of CellKind
+  PointStages small, finite;
+  DilatationStages small_dilatation, finite_dilatation;
   LawTable laws;
 };
 

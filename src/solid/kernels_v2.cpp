@@ -1,4 +1,4 @@
-#include "solid/hexa8_table.hpp"
+#include "solid/kernel_table.hpp"
 
 namespace carom {
 

@@ -6,11 +6,14 @@
 #include <numeric>
 #include <utility>
 
+#include "mesh/cell_size.hpp"
 #include "parallel/threads.hpp"
 #include "solid/assembly.hpp"
+#include "solid/batch_gradients.hpp"
 #include "solid/blocks.hpp"
 #include "solid/kernels.hpp"
 #include "solid/loads.hpp"
+#include "solid/rotation.hpp"
 #include "solid/springs.hpp"
 #include "solid/turning_bodies.hpp"
 
@@ -35,6 +38,16 @@ const KernelTable& kernels(Isa isa) {
   return kernels_reference();
 }
 
+/// Angle of R in the mean F = R U of a cell, of bars that by which the axis turns.
+double rotation_of_cell(const BatchGradients& gradients, int lane, CellType type) {
+  double A[3][3], F[3][3];
+  gradients.frame(lane, A);
+  gradients.mean(lane, F);
+  for (int c = 0; c < 9; ++c) F[c / 3][c % 3] += A[c / 3][c % 3];
+  if (dimension(type) > 1) return rotation_angle(F);
+  return angle_between({A[0][0], A[1][0], A[2][0]}, {F[0][0], F[1][0], F[2][0]});
+}
+
 }  // namespace
 
 struct Solid::Impl {
@@ -49,10 +62,13 @@ struct Solid::Impl {
         volumes(solid.cells.size()),
         lengths(solid.cells.size()),
         turning_bodies(model.turning_bodies, model.turning_bodies.empty() ? 0.0 : largest_frequency()) {
-    solid.for_each_cell([&](std::size_t c, const Block& block) {
-      const CellMeasure measure = block.operations->measure(solid.coordinates_of(c), block.thickness);
-      volumes[c] = measure.volume;
-      lengths[c] = measure.length;
+    solid.for_each_batch({}, [&](std::size_t first, const Block& block, const CellBatches& batch) {
+      const BatchGradients at_rest(batch);
+      for (Index l = 0; l < batch.cells; ++l) {
+        const std::size_t c = first + at(l);
+        volumes[c] = at_rest.volume(static_cast<int>(l));
+        lengths[c] = cell_length(block.type, solid.coordinates_of(c));
+      }
     });
   }
 
@@ -73,8 +89,8 @@ struct Solid::Impl {
 
   std::vector<double> frequency_bounds() const {
     std::vector<double> bounds(solid.cells.size());
-    solid.for_each_cell([&](std::size_t c, const Block& b) {
-      bounds[c] = frequency_bound(solid.stiffness(c, b, {}), lumped(mass(c, b), b.nodes()), b.nodes());
+    solid.for_each_stiffness({}, {}, [&](std::size_t c, const Block& b, std::span<const double> K) {
+      bounds[c] = frequency_bound(K, lumped(mass(c, b), b.nodes()), b.nodes());
     });
     return bounds;
   }
@@ -170,14 +186,13 @@ void Solid::internal_force(std::span<const double> u, std::span<double> f, const
 
 void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const double> u, std::span<double> f,
                                   const PointStep& step) const {
-  std::array<Index, 64> offset{};  // one batch of at most 8 lanes, filled up with one cell
+  std::array<Index, most_nodes * most_lanes> offset{};  // one batch, filled up with one cell
   for (const Index cell : cells) {
     const Block& block = *std::find_if(impl_->solid.blocks.begin(), impl_->solid.blocks.end(),
                                        [&](const Block& b) { return cell < b.first + b.cells; });
     const auto nodes = impl_->solid.nodes_of(at(cell));
-    const auto n = at(block.lanes);
     for (std::size_t a = 0; a < nodes.size(); ++a)
-      std::fill_n(offset.begin() + static_cast<std::ptrdiff_t>(a * n), n, 3 * nodes[a]);
+      std::fill_n(offset.begin() + static_cast<std::ptrdiff_t>(a * block.lanes()), block.lanes(), 3 * nodes[a]);
     CellBatches batch = impl_->solid.batches(block, 0, 1, step);
     batch.offset = offset.data();
     const std::vector<double> history = impl_->solid.repeated_history(block, cell - block.first, step);
@@ -209,8 +224,7 @@ CsrMatrix Solid::tangent(std::span<const double> u, const PointStep& step) const
   CsrMatrix graph = node_graph(impl_->solid, impl_->springs.all());
   impl_->turning_bodies.add_rows(graph);
   CsrMatrix K = dof_graph(graph);
-  impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
-    const CellMatrix cell = impl_->solid.stiffness(c, block, u, step);
+  impl_->solid.for_each_stiffness(u, step, [&](std::size_t c, const Block&, std::span<const double> cell) {
     const auto nodes = impl_->solid.nodes_of(c);
     const std::size_t dofs = 3 * nodes.size();
     for (std::size_t a = 0; a < nodes.size(); ++a)
@@ -227,8 +241,7 @@ CsrMatrix Solid::tangent(std::span<const double> u, const PointStep& step) const
 
 std::vector<double> Solid::tangent_diagonal(std::span<const double> u, const PointStep& step) const {
   std::vector<double> diagonal(dof_count(), 0.0);
-  impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
-    const CellMatrix cell = impl_->solid.stiffness(c, block, u, step);
+  impl_->solid.for_each_stiffness(u, step, [&](std::size_t c, const Block&, std::span<const double> cell) {
     const auto nodes = impl_->solid.nodes_of(c);
     const std::size_t dofs = 3 * nodes.size();
     for (std::size_t r = 0; r < dofs; ++r) diagonal[3 * at(nodes[r / 3]) + r % 3] += cell[r * (dofs + 1)];
@@ -252,16 +265,17 @@ void Solid::add_body_force_scale(std::span<double> f) const {
 }
 
 Rotation Solid::largest_rotation(std::span<const double> u) const {
-  const std::vector<Chunk>& chunks = impl_->solid.chunks;
-  std::vector<Rotation> partial(chunks.size());
-  parallel_for(chunks.size(), 1, [&](std::size_t c, std::size_t) {
-    const Block& block = impl_->block(chunks[c]);
+  std::vector<Rotation> partial(impl_->solid.chunks.size());
+  parallel_for(partial.size(), 1, [&](std::size_t c, std::size_t) {
+    const Chunk& chunk = impl_->solid.chunks[c];
+    const Block& block = impl_->block(chunk);
     if (!block.small_strain) return;
-    const auto first = at(block.first + chunks[c].first);
-    for (std::size_t k = first; k < first + at(chunks[c].cells); ++k) {
-      const double angle =
-          block.operations->rotation(impl_->solid.coordinates_of(k), impl_->solid.values_of(k, u), block.thickness);
-      if (angle > partial[c].angle) partial[c] = {angle, static_cast<Index>(k)};
+    for (Index first = 0; first < chunk.cells; first += block.stages.lanes) {
+      const BatchGradients gradients(impl_->solid.batches(block, chunk.first + first, 1), u.data());
+      for (Index l = 0; l < std::min<Index>(block.stages.lanes, chunk.cells - first); ++l) {
+        const double angle = rotation_of_cell(gradients, static_cast<int>(l), block.type);
+        if (angle > partial[c].angle) partial[c] = {angle, block.first + chunk.first + first + l};
+      }
     }
   });
   Rotation largest;

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <string>
 
+#include "cell_meshes.hpp"
+#include "solid/element_table.hpp"
 #include "solid_fixture.hpp"
 
 namespace carom::test {
@@ -52,15 +54,16 @@ inline CellType cells_of(Section section) {
   return section == Section::solid ? CellType::hexa8 : section == Section::bar ? CellType::line2 : CellType::quad4;
 }
 
-/// One part of all cells of the mesh's block of the section's type.
-inline Model body(Mesh mesh, Section section, const Material& material, double thickness = 0.7) {
+/// One part of all cells of the element's type.
+inline Model body(Mesh mesh, const Element& element, const Material& material, double thickness = 0.7) {
   Model model;
   Part part{.name = "body",
             .cells = {},
             .material = material,
-            .type = cells_of(section),
-            .section = section,
-            .thickness = thickness};
+            .type = element.type,
+            .section = element.section,
+            .thickness = thickness,
+            .formulation = element.formulation};
   part.cells.resize(mesh.block(part.type)->size());
   std::iota(part.cells.begin(), part.cells.end(), Index{0});
   model.mesh = std::make_shared<const Mesh>(std::move(mesh));
@@ -68,21 +71,64 @@ inline Model body(Mesh mesh, Section section, const Material& material, double t
   return model;
 }
 
+/// One part of all cells of the mesh's block of the section's type, integrated fully.
+inline Model body(Mesh mesh, Section section, const Material& material, double thickness = 0.7) {
+  return body(std::move(mesh), *find_element(cells_of(section), section, Formulation::full), material, thickness);
+}
+
 inline Mesh distorted_mesh(Section section) {
   if (section == Section::solid) return block_mesh({2, 2, 2}, 0.2);
   return section == Section::bar ? truss_mesh() : quad_mesh(3, 3, 0.2);
 }
 
-/// One section with one law, as a test parameter.
+/// Distorted cells of a type; those with nodes between their corners are curved as well.
+inline Mesh distorted_mesh(CellType type, int divisions = 0) {
+  if (dimension(type) == 1) return truss_mesh();
+  const int m = divisions > 0 ? divisions : dimension(type) == 3 ? 2 : 3;
+  Mesh mesh = with_cells(dimension(type) == 3 ? block_mesh({m, m, m}, 0.15) : quad_mesh(m, m, 0.15), type);
+  const CellBlock& block = *mesh.block(type);
+  const auto size = static_cast<std::size_t>(node_count(type)), corners = static_cast<std::size_t>(corner_count(type));
+  const auto move = random_vector(3 * mesh.node_count(), 12);
+  for (std::size_t k = 0; k < block.connectivity.size(); ++k) {
+    const auto n = static_cast<std::size_t>(block.connectivity[k]);
+    for (std::size_t i = 0; k % size >= corners && i < static_cast<std::size_t>(dimension(type)); ++i)
+      mesh.coordinates[n][i] += 0.01 * move[3 * n + i];
+  }
+  return mesh;
+}
+
+/// One distorted cell.
+inline Mesh one_cell(CellType type) {
+  if (dimension(type) == 1) return mesh_of(type, {{0, 0, 0}, {0.6, 0.5, 0.7}}, {0, 1});
+  const Mesh all = distorted_mesh(type);
+  const CellBlock& block = *all.block(type);
+  std::vector<Vec3> x;
+  std::vector<Index> nodes;
+  for (Index a = 0; a < node_count(type); ++a) {
+    nodes.push_back(a);
+    x.push_back(all.coordinates[static_cast<std::size_t>(block.connectivity[static_cast<std::size_t>(a)])]);
+  }
+  return mesh_of(type, std::move(x), std::move(nodes));
+}
+
+/// Two hexahedra, or four quadrilaterals, in cells of a type.
+inline Mesh few_cells(CellType type) {
+  return with_cells(dimension(type) == 3 ? block_mesh({2, 1, 1}, 0.0) : quad_mesh(2, 2, 0.15), type);
+}
+
+/// One element with one law, as a test parameter.
 struct Body {
-  Section section;
+  Element element;
   Material material;
+  Section section = element.section;
 };
 
 inline std::string name_of(const Body& body) {
   static const char* const sections[] = {"Solid", "PlaneStrain", "PlaneStress", "Axisymmetric", "Bar"};
+  static const char* const formulations[] = {"", "MeanDilatation", "OnePoint"};
   static const char* const laws[] = {"LinearElastic", "StVenantKirchhoff", "NeoHookean"};
-  return std::string(sections[static_cast<std::size_t>(body.section)]) + laws[index_of(*body.material.law)];
+  return sections[static_cast<std::size_t>(body.section)] + std::string(name(body.element.type)) +
+         formulations[static_cast<std::size_t>(body.element.formulation)] + laws[index_of(*body.material.law)];
 }
 
 inline std::vector<Material> all_materials() {
@@ -91,10 +137,14 @@ inline std::vector<Material> all_materials() {
 
 inline std::vector<Body> all_bodies() {
   std::vector<Body> bodies;
-  for (const Section section :
-       {Section::solid, Section::plane_strain, Section::plane_stress, Section::axisymmetric, Section::bar})
-    for (const Material& material : all_materials()) bodies.push_back({section, material});
+  for (const Element& element : elements())
+    for (const Material& material : all_materials()) bodies.push_back({element, material});
   return bodies;
+}
+
+/// A body of distorted cells of the element.
+inline Model body(const Body& of) {
+  return body(distorted_mesh(of.element.type), of.element, of.material);
 }
 
 inline bool is_finite_strain(const Body& body) {

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <set>
 
+#include "solid/batch_gradients.hpp"
 #include "solid/blocks.hpp"
 #include "solid/colouring.hpp"
-#include "solid/hexa8_table.hpp"
+#include "solid/kernel_table.hpp"
 #include "solid_bodies.hpp"
 #include "solid_fixture.hpp"
 
@@ -73,8 +74,9 @@ TEST(SolidKernels, HistoryGoesFromTheBeginningOfTheStepToItsEnd) {
   const Model model = body(distorted_mesh(Section::plane_strain), Section::plane_strain, unit_material);
   SolidCells solid = make_solid_cells(model, kernels_reference());
   Block& block = solid.blocks[0];
-  block.history_variables = 2;
-  block.batch_law.update = remember;
+  block.prepared_law.history = 2;
+  block.prepared_law.kernels.update = remember;
+  block.kernels = staged_kernels;
   ASSERT_EQ(solid.history_size(), 8 * static_cast<std::size_t>(block.cells));
   const std::vector<double> u = affine(*model.mesh, {{{0.5, 0.0, 0.0}}});
   std::vector<double> begin(solid.history_size()), end(begin.size()), f(u.size());
@@ -84,7 +86,7 @@ TEST(SolidKernels, HistoryGoesFromTheBeginningOfTheStepToItsEnd) {
                                      f.data(), &energies);
     double volume = 0.0;
     for (std::size_t c = 0; c < solid.cells.size(); ++c)
-      volume += block.operations->measure(solid.coordinates_of(c), block.thickness).volume;
+      volume += BatchGradients(solid.batches(block, static_cast<Index>(c), 1)).volume(0);
     EXPECT_NEAR(energies.plastic, 0.5 * (step + 1) * volume, 1e-13 * volume) << "round-off of some hundred operations";
     std::swap(begin, end);
   }

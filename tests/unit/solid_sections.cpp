@@ -29,8 +29,8 @@ std::array<Vec3, 3> patch_gradient(Section section) {
 TEST_P(EveryBody, PatchTest) {
   const Section section = GetParam().section;
   if (section == Section::bar) return;  // the bars of a truss have each their own stress
-  const Mesh mesh = section == Section::solid ? block_mesh({4, 4, 4}, 0.2) : quad_mesh(4, 4, 0.2);
-  const Model model = body(mesh, section, GetParam().material);
+  const Model model = body(distorted_mesh(GetParam().element.type, 4), GetParam().element, GetParam().material);
+  const Mesh& mesh = *model.mesh;
   const Solid solid(model);
   const auto u = affine(mesh, patch_gradient(section));
   const auto f = internal_force(solid, u);
@@ -44,34 +44,32 @@ TEST_P(EveryBody, PatchTest) {
   for (std::size_t n = 0; n < mesh.node_count(); ++n) {
     const Vec3& x = mesh.coordinates[n];
     const double left = section == Section::solid ? 0.0 : 1.0;
-    bool inside = x[0] > left + 0.5 && x[0] < left + 3.5 && x[1] > 0.5 && x[1] < 3.5;
-    if (section == Section::solid) inside = inside && x[2] > 0.5 && x[2] < 3.5;
+    bool inside = x[0] > left + 0.1 && x[0] < left + 3.9 && x[1] > 0.1 && x[1] < 3.9;
+    if (section == Section::solid) inside = inside && x[2] > 0.1 && x[2] < 3.9;
     for (std::size_t i = 0; inside && i < 3; ++i) EXPECT_NEAR(f[3 * n + i], 0.0, 10 * round_off) << n;
   }
 }
 
 // Rigid motions of one cell: six in space, three in the plane, one along the axis of revolution; z of plane cells is
-// free at every node; a bar keeps its length alone.
+// free at every node; a bar keeps its length alone. Single cells of some formulations have more, which no neighbours
+// share: turning of rings about their one point, and of second order the displacements without change of shape whose
+// change of volume has no mean.
 TEST_P(EveryBody, OneCellHasItsRigidModesAndNoMore) {
   const Section section = GetParam().section;
-  Mesh mesh = section == Section::solid ? block_mesh({1, 1, 1}, 0.0)
-              : section == Section::bar ? mesh_of(CellType::line2, {{0, 0, 0}, {0.6, 0.5, 0.7}}, {0, 1})
-                                        : quad_mesh(1, 1, 0.0);
-  const auto move = random_vector(3 * mesh.node_count(), 21);
-  for (std::size_t d = 0; d < move.size() && section != Section::bar; ++d)
-    if (d % 3 < components(section)) mesh.coordinates[d / 3][d % 3] += 0.15 * move[d];
-  const Solid solid(body(mesh, section, GetParam().material));
+  const Element& element = GetParam().element;
+  const bool alone = element.formulation == Formulation::full && section != Section::axisymmetric;
+  const Solid solid(body(alone ? one_cell(element.type) : few_cells(element.type), element, GetParam().material));
   const auto values = eigenvalues(dense(solid.tangent(std::vector<double>(solid.dof_count(), 0.0))));
-  const std::size_t expected[] = {6, 3 + 4, 3 + 4, 1 + 4, 5};
-  const std::size_t zeros = expected[static_cast<std::size_t>(section)];
+  const std::size_t expected[] = {6, 3, 3, 1, 5};
+  const std::size_t zeros =
+      expected[static_cast<std::size_t>(section)] + (components(section) == 2 ? solid.node_count() : 0);
   for (std::size_t i = 0; i < zeros; ++i) EXPECT_NEAR(values[i], 0.0, 10 * round_off);
-  EXPECT_GT(values[zeros], 1e-2);
+  EXPECT_GT(values[zeros], 1e-3) << "no hourglass mode is without stiffness";
 }
 
 // Irons: the largest frequency is below that of the worst cell, at rest.
 TEST_P(EveryBody, CellBoundsAreAboveTheLargestFrequency) {
-  const Model model = body(distorted_mesh(GetParam().section), GetParam().section, GetParam().material);
-  const Solid solid(model);
+  const Solid solid(body(GetParam()));
   auto K = dense(solid.tangent(std::vector<double>(solid.dof_count(), 0.0)));
   const Mass lumped = solid.mass(MassKind::lumped);
   const auto& m = lumped.node_diagonal();
@@ -197,13 +195,13 @@ Tension tension(const Material& material) {
 }
 
 TEST_P(EveryBody, UniaxialTension) {
-  const auto& [section, material] = GetParam();
+  const auto& [element, material, section] = GetParam();
   if (section == Section::plane_strain || section == Section::axisymmetric) return;  // no uniaxial stress there
   const Tension t = tension(material);
-  const Mesh mesh = section == Section::solid ? block_mesh({2, 2, 2}, 0.2, 0.5)
+  const Mesh mesh = section == Section::solid ? with_cells(block_mesh({2, 2, 2}, 0.15, 0.5), element.type)
                     : section == Section::bar ? mesh_of(CellType::line2, {{0, 0, 0}, {1, 0, 0}}, {0, 1})
-                                              : quad_mesh(1, 1, 0.0, 0.0);
-  const Solid solid(body(mesh, section, material, 0.7));
+                                              : with_cells(quad_mesh(1, 1, 0.0, 0.0), element.type);
+  const Solid solid(body(mesh, element, material, 0.7));
   const double area = section == Section::solid ? 1.0 : 0.7;
   const auto u = affine(mesh, {{{t.axial - 1, 0, 0}, {0, t.lateral - 1, 0}, {0, 0, t.lateral - 1}}});
   const auto f = internal_force(solid, u);

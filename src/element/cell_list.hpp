@@ -1,0 +1,36 @@
+// The kinds of cells that the solids are made of: one line each.
+#pragma once
+
+/// X(cell), one line each: CellKind::<cell> and the class <cell>Cell (element/cells.hpp).
+#define CAROM_CELLS(X)  \
+  X(Hexa8)              \
+  X(Hexa8OnePoint)      \
+  X(Hexa20)             \
+  X(Hexa27)             \
+  X(Penta6)             \
+  X(Pyra5)              \
+  X(Tetra4)             \
+  X(CompositeTetra)     \
+  X(Quad4Plane)         \
+  X(Quad4PlaneOnePoint) \
+  X(Quad4Ring)          \
+  X(Quad4RingOnePoint)  \
+  X(Quad8Plane)         \
+  X(Quad8Ring)          \
+  X(Tria3Plane)         \
+  X(Tria3Ring)          \
+  X(Tria6Plane)         \
+  X(Tria6Ring)          \
+  X(Bar)
+
+namespace carom {
+
+#define CAROM_NAME_CELL(cell) cell,
+enum class CellKind : unsigned char { CAROM_CELLS(CAROM_NAME_CELL) };
+#undef CAROM_NAME_CELL
+
+#define CAROM_COUNT_CELL(cell) +1
+inline constexpr int cell_kinds = 0 CAROM_CELLS(CAROM_COUNT_CELL);
+#undef CAROM_COUNT_CELL
+
+}  // namespace carom

@@ -1,0 +1,11 @@
+// How cells take the deformation of their points.
+#pragma once
+
+namespace carom {
+
+/// full: the points of the shape as they are. mean_dilatation: with the volume change of the cell's mean (B-bar,
+/// F-bar), against locking of nearly incompressible materials. one_point: one point of mean gradients and a stiffness
+/// of the hourglass modes.
+enum class Formulation : unsigned char { full, mean_dilatation, one_point };
+
+}  // namespace carom

@@ -1,0 +1,40 @@
+#include "solid/batch_gradients.hpp"
+
+namespace carom {
+
+BatchGradients::BatchGradients(const CellBatches& cells)
+    : points_(cells.stages->cell->points),
+      lanes_(cells.stages->lanes),
+      frame_offset_(cells.stages->cell->frame_offset) {
+  cells.stages->cell->prepare(cells.x, cells.offset, cells.thickness, geometry_);
+}
+
+BatchGradients::BatchGradients(const CellBatches& cells, const double* u) : BatchGradients(cells) {
+  cells.stages->cell->gradients(geometry_, u, cells.offset, gradient_);
+}
+
+double BatchGradients::volume(int l) const {
+  double sum = 0.0;
+  for (int p = 0; p < points_; ++p) sum += weight(p, l);
+  return sum;
+}
+
+void BatchGradients::gradient(int p, int l, double H[3][3]) const {
+  for (int c = 0; c < 9; ++c) H[c / 3][c % 3] = gradient_[(9 * p + c) * lanes_ + l];
+}
+
+void BatchGradients::mean(int l, double H[3][3]) const {
+  const double total = volume(l);
+  for (int c = 0; c < 9; ++c) {
+    double sum = 0.0;
+    for (int p = 0; p < points_; ++p) sum += weight(p, l) * gradient_[(9 * p + c) * lanes_ + l];
+    H[c / 3][c % 3] = sum / total;
+  }
+}
+
+void BatchGradients::frame(int l, double A[3][3]) const {
+  for (int c = 0; c < 9; ++c)
+    A[c / 3][c % 3] = frame_offset_ == 0 ? (c % 4 == 0 ? 1.0 : 0.0) : geometry_[frame_offset_ + c * lanes_ + l];
+}
+
+}  // namespace carom

@@ -1,0 +1,33 @@
+// Weights and displacement gradients at the points of a batch of cells, lane by lane.
+#pragma once
+
+#include "solid/kernels.hpp"
+
+namespace carom {
+
+/// Of the first batch of some cells.
+class BatchGradients {
+ public:
+  /// Weights, and F at rest.
+  explicit BatchGradients(const CellBatches& cells);
+  /// And the gradients of u.
+  BatchGradients(const CellBatches& cells, const double* u);
+
+  int points() const { return points_; }
+  /// Reference volume that point p of the cell in lane l stands for.
+  double weight(int p, int l) const { return geometry_[p * lanes_ + l]; }
+  double volume(int l) const;
+  /// H_ij = du_i/dX_j in the cell's directions; the deformation gradient is frame + H.
+  void gradient(int p, int l, double H[3][3]) const;
+  /// Its mean over the reference volume.
+  void mean(int l, double H[3][3]) const;
+  /// F at rest: 1, or (axis, 0, 0) of bars.
+  void frame(int l, double A[3][3]) const;
+
+ private:
+  int points_, lanes_, frame_offset_;
+  alignas(64) double geometry_[most_geometry * most_lanes];
+  alignas(64) double gradient_[9 * most_points * most_lanes];
+};
+
+}  // namespace carom

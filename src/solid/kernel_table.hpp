@@ -1,0 +1,31 @@
+// All kernels over one number type.
+#pragma once
+
+#include "element/cells.hpp"
+#include "material/law_table.hpp"
+#include "solid/cell_stages.hpp"
+#include "solid/hexa8_finite.hpp"
+#include "solid/hexa8_small.hpp"
+#include "solid/kernels.hpp"
+#include "solid/mean_dilatation.hpp"
+#include "solid/point_stages.hpp"
+
+// Internal linkage throughout: see math/pack.hpp.
+namespace carom {
+
+template <class Real>
+static constexpr KernelTable make_kernels() {
+#define CAROM_CELL_STAGES(cell) cell_stages<Real, cell##Cell>(),
+  return {lanes<Real>,
+          hexa8_small::kernels<Real>(),
+          hexa8_finite::kernels<Real>(),
+          {CAROM_CELLS(CAROM_CELL_STAGES)},
+          small_stages::stages<Real>(),
+          finite_stages::stages<Real>(),
+          small_dilatation::stages<Real>(),
+          finite_dilatation::stages<Real>(),
+          make_law_table<Real>()};
+#undef CAROM_CELL_STAGES
+}
+
+}  // namespace carom

@@ -1,0 +1,259 @@
+// The kernels of any cell out of its stages, batch after batch; plain code over buffers whose lanes it only adds up.
+#include <algorithm>
+#include <utility>
+
+#include "material/discrete_gradient.hpp"
+#include "solid/kernels.hpp"
+
+namespace carom {
+namespace {
+
+/// Buffers of the points of one batch.
+struct Buffers {
+  alignas(64) double geometry[most_geometry * most_lanes];
+  alignas(64) double gradient[9 * most_points * most_lanes];  ///< H, then F
+  alignas(64) double strain[6 * most_points * most_lanes];    ///< what the law sees
+  alignas(64) double stress[6 * most_points * most_lanes];
+  alignas(64) double memory[dilatation_memory * most_points * most_lanes];
+  alignas(64) double energy[most_points * most_lanes];
+  alignas(64) double dissipation[most_points * most_lanes];
+  alignas(64) double P[9 * most_points * most_lanes];
+};
+
+/// One batch on its way through the stages.
+class Batch {
+ public:
+  Batch(const CellBatches& cells, const BatchLaw& law, Buffers& buffers)
+      : cells_(cells), stages_(*cells.stages), law_(law), b_(buffers) {}
+
+  /// Goes to the batch that begins with a cell.
+  void place(Index first) {
+    first_ = first;
+    offset_ = cells_.offset + static_cast<std::ptrdiff_t>(first) * stages_.cell->nodes;
+    count_ = static_cast<int>(std::min<Index>(stages_.lanes, cells_.cells - first));
+    stages_.cell->prepare(cells_.x, offset_, cells_.thickness, b_.geometry);
+  }
+  int points() const { return stages_.cell->points; }
+  int lanes() const { return stages_.lanes; }
+  int count() const { return count_; }
+  const double* frame() const {
+    return stages_.cell->frame_offset == 0 ? nullptr : b_.geometry + stages_.cell->frame_offset;
+  }
+  double weight(int p, int l) const { return b_.geometry[p * lanes() + l]; }
+
+  /// F and the strain E of u.
+  void kinematics(const double* u, double* gradient, double* strain) const {
+    stages_.cell->gradients(b_.geometry, u, offset_, gradient);
+    stages_.points->strain(points(), frame(), gradient, strain);
+  }
+  void to_law(double* strain) const {
+    if (stages_.dilatation != nullptr) stages_.dilatation->strain(points(), b_.geometry, strain, b_.memory);
+  }
+  void from_law(const double* strain, double* stress) const {
+    if (stages_.dilatation != nullptr) stages_.dilatation->stress(points(), b_.geometry, b_.memory, strain, stress);
+  }
+  /// The law's answer to a strain; energies and the new history where they are wanted.
+  void constitutive(double* strain, double* stress, double* energy, double* dissipation, bool keep_history) const {
+    const auto skip = static_cast<std::ptrdiff_t>(first_) * points() * cells_.history_variables;
+    PointBatch batch{points(), strain, stress, energy};
+    batch.dt = cells_.dt;
+    if (cells_.history != nullptr) batch.history = cells_.history + skip;
+    if (keep_history && cells_.new_history != nullptr) batch.new_history = cells_.new_history + skip;
+    batch.dissipation = dissipation;
+    law_.update(law_.parameters, batch);
+  }
+  /// All up to the stress that works with the strain E.
+  void evaluate(const double* u, bool with_energies) const {
+    kinematics(u, b_.gradient, b_.strain);
+    to_law(b_.strain);
+    const bool dissipates = with_energies && cells_.history_variables > 0;
+    constitutive(b_.strain, b_.stress, with_energies ? b_.energy : nullptr, dissipates ? b_.dissipation : nullptr,
+                 true);
+  }
+  void scatter(double* f) const { stages_.cell->add_forces(b_.geometry, b_.P, offset_, count_, f); }
+  /// The sum over the cells of the batch of the integral of a density.
+  double integral(const double* density) const {
+    double sum = 0.0;
+    for (int l = 0; l < count_; ++l) {
+      double of_cell = 0.0;
+      for (int p = 0; p < points(); ++p) of_cell += weight(p, l) * density[p * lanes() + l];
+      sum += of_cell;
+    }
+    return sum;
+  }
+  /// Adds the forces of the hourglass modes of u; returns their energy.
+  double add_hourglass(const double* u, double* f) const {
+    if (stages_.cell->add_hourglass == nullptr) return 0.0;
+    double energy[most_lanes], sum = 0.0;
+    stages_.cell->add_hourglass(b_.geometry, stages_.hourglass, u, offset_, count_, f, energy);
+    for (int l = 0; l < count_; ++l) sum += energy[l];
+    return sum;
+  }
+
+  void add_internal_force(const double* u, double* f, SolidEnergies* energies) const {
+    evaluate(u, energies != nullptr);
+    from_law(b_.strain, b_.stress);
+    stages_.points->stress(points(), frame(), b_.gradient, b_.stress, b_.P);
+    scatter(f);
+    const double hourglass = add_hourglass(u, f);
+    if (energies == nullptr) return;
+    energies->strain += integral(b_.energy);
+    if (cells_.history_variables > 0) energies->plastic += integral(b_.dissipation);
+    energies->hourglass += hourglass;
+  }
+
+  /// P = dH S + F dS, dS by the law's tangent of dE.
+  void add_tangent_action(const double* u, const double* x, double* y) const {
+    evaluate(u, false);
+    from_law(b_.strain, b_.stress);
+    alignas(64) double dE[6 * most_points * most_lanes], dS[6 * most_points * most_lanes];
+    stages_.cell->gradients(b_.geometry, x, offset_, b_.P);
+    stages_.points->strain_change(points(), frame(), b_.gradient, b_.P, dE);
+    const DilatationStages* dilatation = stages_.dilatation;
+    if (dilatation != nullptr) dilatation->strain_change(points(), b_.geometry, b_.memory, b_.strain, dE);
+    const auto skip = static_cast<std::ptrdiff_t>(first_) * points() * cells_.history_variables;
+    const double* history = cells_.history == nullptr ? nullptr : cells_.history + skip;
+    law_.tangent(law_.parameters, {points(), b_.strain, dE, dS, cells_.dt, history});
+    if (dilatation != nullptr) dilatation->stress_change(points(), b_.geometry, b_.memory, b_.strain, dE, dS);
+    stages_.points->stress_change(points(), frame(), b_.gradient, b_.P, b_.stress, dS, b_.P);
+    scatter(y);
+    add_hourglass(x, y);
+  }
+
+  void add_discrete_gradient_force(const double* u_0, const double* u_1, double* f) const;
+
+  /// mean[6 l + c] of the cells of the batch.
+  void mean_stress(const double* u, double* mean) const {
+    evaluate(u, false);
+    double* sigma = b_.P;
+    stages_.points->cauchy(points(), frame(), b_.gradient, b_.strain, b_.stress, sigma);
+    if (stages_.dilatation != nullptr) stages_.dilatation->cauchy(points(), b_.memory, sigma);
+    for (int l = 0; l < count_; ++l) {
+      double volume = 0.0, sum[6] = {};
+      for (int p = 0; p < points(); ++p) {
+        volume += weight(p, l);
+        for (int c = 0; c < 6; ++c) sum[c] += weight(p, l) * sigma[(6 * p + c) * lanes() + l];
+      }
+      for (int c = 0; c < 6; ++c) mean[6 * l + c] = sum[c] / volume;
+    }
+  }
+
+ private:
+  std::ptrdiff_t at(int p, int c, int l) const { return static_cast<std::ptrdiff_t>(6 * p + c) * lanes() + l; }
+  void correct_points(const double* E_0, const double* E_1, const double* W_0, const double* W_1) const;
+  void correct_cells(const double* E_0, const double* E_1, const double* W_0, const double* W_1) const;
+
+  const CellBatches& cells_;
+  const BatchStages& stages_;
+  const BatchLaw& law_;
+  Buffers& b_;
+  const Index* offset_ = nullptr;
+  Index first_ = 0;
+  int count_ = 0;
+};
+
+/// P = F_mid S with F_mid the mean of both F and S the discrete gradient of the energy by E between E_0 and E_1
+/// (material/discrete_gradient.hpp). Under mean dilatation the energy is a function of the strains of all points of the
+/// cell, and so is its discrete gradient: S_p += [W_1 - W_0 - sum_q w_q S_q : dE_q] / (sum_q w_q |dE_q|^2) dE_p.
+void Batch::add_discrete_gradient_force(const double* u_0, const double* u_1, double* f) const {
+  constexpr int size = most_points * most_lanes;
+  alignas(64) double E_0[6 * size], E_1[6 * size], F_1[9 * size], seen[6 * size], W_0[size], W_1[size];
+  const int values = points() * lanes();
+  kinematics(u_0, b_.gradient, E_0);
+  kinematics(u_1, F_1, E_1);
+  for (const auto& [E, W] : {std::pair{E_0, W_0}, std::pair{E_1, W_1}}) {
+    std::copy_n(E, 6 * values, seen);
+    to_law(seen);
+    constitutive(seen, b_.stress, W, nullptr, false);
+  }
+  for (int c = 0; c < 6 * values; ++c) b_.strain[c] = 0.5 * (E_0[c] + E_1[c]);
+  for (int c = 0; c < 9 * values; ++c) b_.gradient[c] = 0.5 * (b_.gradient[c] + F_1[c]);
+  to_law(b_.strain);
+  constitutive(b_.strain, b_.stress, nullptr, nullptr, false);
+  from_law(b_.strain, b_.stress);
+  if (stages_.points->is_finite) {
+    if (stages_.dilatation == nullptr)
+      correct_points(E_0, E_1, W_0, W_1);
+    else
+      correct_cells(E_0, E_1, W_0, W_1);
+  }
+  stages_.points->stress(points(), frame(), b_.gradient, b_.stress, b_.P);
+  scatter(f);
+  if (stages_.cell->add_hourglass == nullptr) return;
+  double energy[most_lanes];
+  for (const double* u : {u_0, u_1})
+    stages_.cell->add_hourglass(b_.geometry, 0.5 * stages_.hourglass, u, offset_, count_, f, energy);
+}
+
+void Batch::correct_points(const double* E_0, const double* E_1, const double* W_0, const double* W_1) const {
+  for (int p = 0; p < points(); ++p)
+    for (int l = 0; l < lanes(); ++l) {
+      double e_0[6], e_1[6], S[6];
+      for (int c = 0; c < 6; ++c) {
+        e_0[c] = E_0[at(p, c, l)];
+        e_1[c] = E_1[at(p, c, l)];
+        S[c] = b_.stress[at(p, c, l)];
+      }
+      discrete_gradient_stress(e_0, e_1, S, W_0[p * lanes() + l], W_1[p * lanes() + l], S);
+      for (int c = 0; c < 6; ++c) b_.stress[at(p, c, l)] = S[c];
+    }
+}
+
+void Batch::correct_cells(const double* E_0, const double* E_1, const double* W_0, const double* W_1) const {
+  constexpr double nearest_square = 1e-10;  // as discrete_gradient_stress
+  for (int l = 0; l < lanes(); ++l) {
+    double bracket = 0.0, square = 0.0, mean_square = 0.0;
+    for (int p = 0; p < points(); ++p) {
+      double missing = W_1[p * lanes() + l] - W_0[p * lanes() + l];
+      for (int c = 0; c < 6; ++c) {
+        const double e_0 = E_0[at(p, c, l)], e_1 = E_1[at(p, c, l)], tensor = c < 3 ? 1.0 : 0.5;
+        missing -= b_.stress[at(p, c, l)] * (e_1 - e_0);
+        square += weight(p, l) * tensor * (e_1 - e_0) * (e_1 - e_0);
+        mean_square += weight(p, l) * tensor * 0.25 * (e_0 + e_1) * (e_0 + e_1);
+      }
+      bracket += weight(p, l) * missing;
+    }
+    const double factor = square > nearest_square * mean_square ? bracket / square : 0.0;
+    for (int p = 0; p < points(); ++p)
+      for (int c = 0; c < 6; ++c)
+        b_.stress[at(p, c, l)] += (c < 3 ? 1.0 : 0.5) * factor * (E_1[at(p, c, l)] - E_0[at(p, c, l)]);
+  }
+}
+
+/// Calls body(batch) for each batch of the cells.
+template <class Body>
+void for_each_batch(const CellBatches& cells, const BatchLaw& law, const Body& body) {
+  Buffers buffers;
+  Batch batch(cells, law, buffers);
+  for (Index first = 0; first < cells.cells; first += batch.lanes()) {
+    batch.place(first);
+    body(batch);
+  }
+}
+
+void add_internal_force(const CellBatches& cells, const BatchLaw& law, const double* u, double* f,
+                        SolidEnergies* energies) {
+  for_each_batch(cells, law, [&](const Batch& batch) { batch.add_internal_force(u, f, energies); });
+}
+
+void add_tangent_action(const CellBatches& cells, const BatchLaw& law, const double* u, const double* x, double* y) {
+  for_each_batch(cells, law, [&](const Batch& batch) { batch.add_tangent_action(u, x, y); });
+}
+
+void add_discrete_gradient_force(const CellBatches& cells, const BatchLaw& law, const double* u_0, const double* u_1,
+                                 double* f) {
+  for_each_batch(cells, law, [&](const Batch& batch) { batch.add_discrete_gradient_force(u_0, u_1, f); });
+}
+
+void mean_stress(const CellBatches& cells, const BatchLaw& law, const double* u, double* stress) {
+  for_each_batch(cells, law, [&](const Batch& batch) {
+    batch.mean_stress(u, stress);
+    stress += 6 * batch.count();
+  });
+}
+
+}  // namespace
+
+const CellKernels staged_kernels{add_internal_force, add_tangent_action, add_discrete_gradient_force, mean_stress};
+
+}  // namespace carom

@@ -1,0 +1,65 @@
+// What a batch of cells goes through: gather and geometry, gradients, strains, the law (material/point_batch.hpp),
+// stresses, integration and scatter.
+#pragma once
+
+#include "base/types.hpp"
+
+namespace carom {
+
+/// Points of a cell, and numbers of its geometry per lane, at most.
+inline constexpr int most_points = 27, most_geometry = most_points * 11 + 1;
+
+/// The stages of one kind of cell over one number type. They work on buffers in structure of arrays: `geometry`, whose
+/// first numbers are the weights [p lanes], and gradients and stresses [(9 p + 3 i + j) lanes].
+struct CellStages {
+  int nodes = 0, points = 0;
+  int frame_offset = 0;  ///< of bars: where F at rest stands in the geometry; 0: it is 1
+  void (*prepare)(const double* x, const Index* offset, double thickness, double* geometry) = nullptr;
+  void (*gradients)(const double* geometry, const double* u, const Index* offset, double* gradient) = nullptr;
+  /// Adds to the nodes of the first `count` cells.
+  void (*add_forces)(const double* geometry, const double* stress, const Index* offset, int count, double* f) = nullptr;
+  /// Adds the forces of u's hourglass modes and writes their energy per cell [lane]. Null: the cell has none.
+  void (*add_hourglass)(const double* geometry, double modulus, const double* u, const Index* offset, int count,
+                        double* f, double* energy) = nullptr;
+};
+
+/// Kinematics over one number type. The frame is F at rest, one matrix; null: 1. A gradient buffer holds H on the way
+/// in and, of finite strain, F on the way out.
+struct PointStages {
+  bool is_finite = false;
+  /// H to F, and the strain: sym(frame^T H), or E = (F^T F - frame^T frame) / 2, not a number where det F <= 0.
+  void (*strain)(int points, const double* frame, double* gradient, double* strain) = nullptr;
+  /// P = frame S, or F S.
+  void (*stress)(int points, const double* frame, const double* F, const double* S, double* P) = nullptr;
+  /// dE = sym(frame^T dH), or sym(F^T dH).
+  void (*strain_change)(int points, const double* frame, const double* F, const double* dH, double* dE) = nullptr;
+  /// P = frame dS, or dH S + F dS. P may stand where dH does.
+  void (*stress_change)(int points, const double* frame, const double* F, const double* dH, const double* S,
+                        const double* dS, double* P) = nullptr;
+  /// The Cauchy stress of the law's stress S at its strain E: S itself (bars: in space), or
+  /// F S F^T / sqrt(det(1 + 2 E)); E has the lateral strains that the law has found.
+  void (*cauchy)(int points, const double* frame, const double* F, const double* E, const double* S,
+                 double* sigma) = nullptr;
+};
+
+/// Numbers of a point that mean dilatation remembers within a sweep.
+inline constexpr int dilatation_memory = 22;
+
+/// What stands between the kinematics and the law: strains on their way to the law, stresses on their way back. The
+/// energy of a cell is the integral of W(E_bar), and what comes back is its derivative by E. `memory` has
+/// dilatation_memory numbers per point and lane, filled by `strain` and read by the others.
+struct DilatationStages {
+  /// E to E_bar
+  void (*strain)(int points, const double* weight, double* E, double* memory) = nullptr;
+  /// S_bar to S
+  void (*stress)(int points, const double* weight, double* memory, const double* E_bar, double* S) = nullptr;
+  /// dE to dE_bar
+  void (*strain_change)(int points, const double* weight, double* memory, const double* E_bar, double* dE) = nullptr;
+  /// dS_bar to dS; after `stress` and `strain_change`
+  void (*stress_change)(int points, const double* weight, const double* memory, const double* E_bar,
+                        const double* dE_bar, double* dS) = nullptr;
+  /// From the Cauchy stress of F S_bar F^T to that of F_bar S_bar F_bar^T.
+  void (*cauchy)(int points, const double* memory, double* sigma) = nullptr;
+};
+
+}  // namespace carom
