@@ -137,6 +137,32 @@ step = 1.0
   EXPECT_TRUE(locks(block(0.4999, 8)));  // 1 + 1250 / 64
 }
 
+// One strain per cell: said where the law yields or is nearly incompressible, and else not.
+TEST(Locking, IsSaidOfTetrahedraThatCannotKeepTheirVolume) {
+  const auto bar = [](const std::string& material) {
+    return fmt::format(R"(units = "SI"
+[mesh]
+file = "{}/cases/tetrahedra/bar.msh"
+[materials.m]
+{}
+E = 1000.0
+rho = 1000.0
+[[part]]
+name = "bar"
+cells = "BAR"
+material = "m"
+[scheme]
+kind = "central_differences"
+[time]
+end = 1.0
+)",
+                       CAROM_SOURCE_DIR, material);
+  };
+  EXPECT_FALSE(locks(bar("law = \"neo_hookean\"\nnu = 0.3")));
+  EXPECT_TRUE(locks(bar("law = \"neo_hookean\"\nnu = 0.45")));
+  EXPECT_TRUE(locks(bar("law = \"j2\"\nnu = 0.3\nyield_stress = 1.0")));
+}
+
 TEST(CellColumns, CountCellsFromSkinToSkin) {
   const Case given = parse_case(case_of_block("[scheme]\nkind = \"newmark\"\n[time]\nend = 1.0\nstep = 1.0\n"), "c");
   const Simulation s(given);
