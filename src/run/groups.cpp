@@ -12,7 +12,6 @@
 
 #include "mesh/cell_topology.hpp"
 #include "mesh/orientation.hpp"
-#include "run/offered_cells.hpp"
 
 namespace carom {
 
@@ -47,20 +46,11 @@ struct WholeFace {
   }
 };
 
-/// How to get a mesh without cells of this type.
+/// How to get a mesh without cells of this type, where their corners would do.
 std::string other_mesh(CellType found, std::span<const CellType> types) {
-  const auto is_taken = [&](CellType type) { return std::find(types.begin(), types.end(), type) != types.end(); };
-  if (is_taken(linear_type(found)))
-    return "Say mesh.order = \"linear\" to take them by their corners, or save the mesh with cells of first order "
-           "(Gmsh: "
-           "Mesh.ElementOrder = 1; Salome: convert to linear).";
-  for (int s = 0; s <= static_cast<int>(Section::bar); ++s)
-    if (is_offered(found, static_cast<Section>(s))) return {};
-  return is_taken(CellType::tetra4)
-             ? "Mesh with hexahedra (Gmsh: Transfinite and Recombine; Salome: Hexahedron (i, j, "
-               "k)) or with tetrahedra, as Gmsh and Salome do by themselves."
-             : "Mesh with hexahedra, in two dimensions with quadrilaterals (Gmsh: Transfinite and "
-               "Recombine; Salome: Hexahedron (i, j, k)), of first order.";
+  if (std::find(types.begin(), types.end(), linear_type(found)) == types.end()) return {};
+  return "Say mesh.order = \"linear\" to take them by their corners, or save the mesh with cells of first order (Gmsh: "
+         "Mesh.ElementOrder = 1; Salome: convert to linear).";
 }
 
 }  // namespace

@@ -136,7 +136,8 @@ TEST(Groups, OfSeveralTypesAreCountedAndPicked) {
   const Mesh mesh = with_mixed_cells(make_structured_blocks({block}));
   const std::string both = message_of(part(""), mesh);
   EXPECT_NE(both.find("found \"all\", where the mesh has 12 PYRA5 cells ("), std::string::npos) << both;
-  EXPECT_NE(both.find("Mesh with hexahedra"), std::string::npos) << both;
+  EXPECT_NE(both.find(", 1 HEXA8 cell ("), std::string::npos) << both;
+  EXPECT_NE(both.find("Give each type a [[part]]"), std::string::npos) << both;
   const Model one = model_of(part("type = \"HEXA8\""), mesh);
   EXPECT_EQ(one.parts[0].cells.size(), 1U);
   EXPECT_EQ(one.parts[0].type, CellType::hexa8);
