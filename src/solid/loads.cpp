@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "element/quad4.hpp"
 #include "math/vec3.hpp"
+#include "solid/quadratic_faces.hpp"
 
 namespace carom {
 namespace {
@@ -97,7 +98,13 @@ Vec3 end_normal(const Model& model, Index node) {
 LoadVector make_load(const Pressure& load, const Model& model) {
   const Mesh& mesh = *model.mesh;
   NodeSum sum(mesh.node_count());
-  for (const Facet& facet : load.surface.facets) {
+  std::vector<Facet> facets = load.surface.facets;
+  for (const QuadraticFace& face : take_quadratic_faces(mesh, facets)) {
+    const auto shares = nodal_area_vectors(face, mesh, load.surface.section, load.surface.thickness);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(node_count(face.type)); ++a)
+      sum.add(face.node[a], -load.pressure, shares[a]);
+  }
+  for (const Facet& facet : facets) {
     if (facet.size == 1)
       sum.add(facet[0], -load.pressure * load.surface.thickness, end_normal(model, facet[0]));
     else if (facet.size == 2)

@@ -1,7 +1,10 @@
 // Masses, volumes and external forces of the HEXA8 solid.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <map>
+#include <numbers>
 #include <numeric>
 #include <string>
 
@@ -147,6 +150,76 @@ TEST(SolidLoads, PressureOnTrianglesAndOnClosedSkinsOfAnyCells) {
     EXPECT_NEAR(resultant(loads[0])[0][2], -p * area, 100.0 * round_off) << name(type);
     for (const Vec3& force : loads[0].force) EXPECT_LT(force[2], 0.0) << name(type);
   }
+}
+
+/// Forces of a pressure of -1 on the facets, by node.
+std::vector<Vec3> forces_of_suction(const Mesh& mesh, const std::vector<Facet>& facets, Section section) {
+  Model model;
+  model.mesh = std::make_shared<const Mesh>(mesh);
+  model.loads.emplace_back(Pressure{{facets, section, 1.0}, -1.0, {}});
+  std::vector<Vec3> force(mesh.node_count());
+  const LoadVector load = make_loads(model).front();
+  for (std::size_t i = 0; i < load.nodes.size(); ++i) force[static_cast<std::size_t>(load.nodes[i])] = load.force[i];
+  return force;
+}
+
+// Consistent with quadratic shape functions: of the area of a QUAD8 -1/12 at corners and 1/3 at middles, of a QUAD9
+// 1/36, 1/9 and 4/9 (Simpson), of a LINE3 1/6 and 2/3 (Zienkiewicz, Taylor, Zhu, The Finite Element Method).
+TEST(SolidLoads, PressureOnQuadraticFacesIsConsistent) {
+  StructuredBlock cube, square;
+  square.kind = StructuredBlock::Kind::quad;
+  cube.size = square.size = {1, 1, 1};
+  const std::map<CellType, std::array<double, 3>> share{{CellType::hexa20, {-1.0 / 12.0, 1.0 / 3.0, 0.0}},
+                                                        {CellType::hexa27, {1.0 / 36.0, 1.0 / 9.0, 4.0 / 9.0}},
+                                                        {CellType::quad8, {1.0 / 6.0, 2.0 / 3.0, 0.0}}};
+  for (const auto& [type, expected] : share) {
+    const bool is_plane = dimension(type) == 2;
+    const Mesh mesh = with_cells(make_structured_blocks({is_plane ? square : cube}), type);
+    const std::size_t up = is_plane ? 1 : 2;
+    std::vector<Facet> top;
+    for (const Facet& facet : skin(mesh))
+      if (std::all_of(facet.begin(), facet.end(),
+                      [&](Index n) { return mesh.coordinates[static_cast<std::size_t>(n)][up] > 1.0 - 1e-9; }))
+        top.push_back(facet);
+    const std::vector<Vec3> force = forces_of_suction(mesh, top, is_plane ? Section::plane_strain : Section::solid);
+    for (std::size_t n = 0; n < force.size(); ++n) {
+      const Vec3& x = mesh.coordinates[n];
+      if (x[up] < 1.0 - 1e-9) continue;
+      std::size_t middles = 0;
+      for (std::size_t c = 0; c < up; ++c) middles += std::abs(x[c] - 0.5) < 1e-9 ? 1 : 0;
+      EXPECT_NEAR(force[n][up], expected[middles], round_off) << name(type);
+    }
+  }
+}
+
+// Curved faces too: a pressure on a closed skin has no resultant and no moment, and 2 pi x about an axis is exact.
+TEST(SolidLoads, PressureOnCurvedSkinsVanishes) {
+  for (const CellType type : {CellType::hexa20, CellType::hexa27, CellType::penta15}) {
+    Mesh mesh = with_cells(block_mesh({2, 2, 2}, 0.0), type);
+    const auto moves = random_vector(3 * mesh.node_count(), 9);
+    for (std::size_t d = 0; d < moves.size(); ++d) mesh.coordinates[d / 3][d % 3] += 0.1 * moves[d];
+    const std::vector<Vec3> force = forces_of_suction(mesh, skin(mesh), Section::solid);
+    Vec3 sum{}, moment{};
+    for (std::size_t n = 0; n < force.size(); ++n) {
+      sum = add(sum, force[n]);
+      moment = add(moment, cross(mesh.coordinates[n], force[n]));
+    }
+    EXPECT_LT(norm(sum), round_off) << name(type);
+    EXPECT_LT(norm(moment), round_off) << name(type);
+  }
+  StructuredBlock ring;
+  ring.kind = StructuredBlock::Kind::quad;
+  ring.origin = {1, 0, 0};
+  ring.size = {2, 3, 0};
+  const Mesh mesh = with_cells(make_structured_blocks({ring}), CellType::quad8);
+  std::vector<Facet> top;
+  for (const Facet& facet : skin(mesh))
+    if (mesh.coordinates[static_cast<std::size_t>(facet[0])][1] > 2.9 &&
+        mesh.coordinates[static_cast<std::size_t>(facet[1])][1] > 2.9)
+      top.push_back(facet);
+  double total = 0.0;
+  for (const Vec3& force : forces_of_suction(mesh, top, Section::axisymmetric)) total += force[1];
+  EXPECT_NEAR(total, std::numbers::pi * 8.0, 10.0 * round_off);  // the ring from radius 1 to 3
 }
 
 // Gauss' theorem: a uniform pressure on a closed skin has no resultant and no moment, warped faces included.
