@@ -175,12 +175,12 @@ std::vector<double> interpolated(std::span<const double> from, std::span<const d
 }
 
 double energy_kept(const CsvTable& energy) {
-  if (energy.rows() == 0) return kNone;
+  if (energy.rows() == 0 || energy.column("kinetic") == nullptr) return kNone;
   const auto terms_at = [&](std::size_t row) {
     EnergyTerms terms;
     for (const EnergyTerm& term : energy_terms) {
       const std::vector<double>* values = energy.column(std::string(term.name));
-      terms.*term.value = values == nullptr ? kNone : (*values)[row];
+      terms.*term.value = values == nullptr ? 0.0 : (*values)[row];
     }
     return terms;
   };
@@ -189,7 +189,7 @@ double energy_kept(const CsvTable& energy) {
   double scale = begin;
   for (std::size_t row = 0; row <= last; ++row) scale = std::max(scale, std::abs(terms_at(row).supplied()));
   const EnergyTerms end = terms_at(last);
-  const double lost = begin + end.supplied() - end.friction - end.damping - end.mechanical();
+  const double lost = begin + end.supplied() - end.friction - end.damping - end.plastic - end.mechanical();
   return scale > 0.0 ? 1.0 - lost / scale : kNone;
 }
 

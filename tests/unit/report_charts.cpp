@@ -131,12 +131,15 @@ TEST(Charts, AConstantStepIsSaidInALine) {
 }
 
 TEST(Charts, TheMechanicalEnergyIsDrawnWithItsTerms) {
-  const CsvTable energy =
-      table_of({{"time", {0, 1}}, {"kinetic", {8, 4}}, {"strain", {0, 3}}, {"contact_stored", {0, 0.5}}});
+  const CsvTable energy = table_of({{"time", {0, 1}},
+                                    {"kinetic", {8, 4}},
+                                    {"strain", {0, 3}},
+                                    {"hourglass", {0, 0.25}},
+                                    {"contact_stored", {0, 0.5}}});
   const auto charts = make_charts({.energy = energy}, kUnits);
-  ASSERT_EQ(charts.at(0).curves.size(), 4U);
-  EXPECT_EQ(charts[0].curves[3].name, "total: kinetic + strain + contact stored");
-  EXPECT_EQ(charts[0].curves[3].values, (std::vector{8.0, 7.5}));
+  ASSERT_EQ(charts.at(0).curves.size(), 5U);
+  EXPECT_EQ(charts[0].curves[4].name, "total: kinetic + strain + hourglass + contact stored");
+  EXPECT_EQ(charts[0].curves[4].values, (std::vector{8.0, 7.75}));
 }
 
 TEST(Charts, CountsHaveWholeTicks) {

@@ -125,10 +125,11 @@ TEST(Parts, SurfacesHaveTheSectionOfTheirPart) {
 TEST(Parts, EveryMessage) {
   EXPECT_NE(
       message_of(text_of(strip + part("p", "STRIP", "")))
-          .find("part.cells: found \"STRIP\", a group of QUAD4 cells; expected HEXA8 cells, since section = \"solid\""),
+          .find("part.cells: found \"STRIP\", a group of QUAD4 cells; expected HEXA8, TETRA4, TETRA10, PENTA6, PYRA5, "
+                "HEXA20, HEXA27 cells, since section = \"solid\""),
       std::string::npos);
   EXPECT_NE(message_of(text_of(box + part("p", "BOX", "section = \"plane_strain\"")))
-                .find(" in \"BOX\"; expected QUAD4 cells, since section = \"plane_strain\""),
+                .find(" in \"BOX\"; expected QUAD4, TRIA3, QUAD8, TRIA6 cells, since section = \"plane_strain\""),
             std::string::npos);
   EXPECT_NE(message_of(text_of(bar + part("p", "TIP", "section = \"bar\"\narea = 1.0")))
                 .find("found \"TIP\", a group of nodes; expected LINE2 cells, since section = \"bar\""),
