@@ -24,6 +24,7 @@ CHAOTIC = {
     "central differences, penalty E/h": ("penalty", 0),
     "CD-Lagrange": ("cd_lagrange", 0),
 }
+SENSITIVE = "contact-stabilised Newmark, lumped"
 SEMI_EXPLICIT = "modified mass, semi-explicit, 4 layers"
 HALF_UNIT = {"L2": 5.0e-4, "peak": 5.0e-3, "E1": 5.0e-4, "E20": 5.0e-4}  # of the last digit printed there
 
@@ -66,7 +67,7 @@ class Table(InTemporaryFolder):
             self.assertLessEqual(m["L2"], l2 + HALF_UNIT["L2"], msg=name)
             self.assertLessEqual(m["peak"], peak + HALF_UNIT["peak"], msg=name)
             self.assertLessEqual(abs(m["E1"] - 1.0), abs(one - 1.0) + HALF_UNIT["E1"], msg=name)
-            if name not in CHAOTIC:
+            if name not in CHAOTIC and name != SENSITIVE:
                 # The zero of the energy is the bar on the wall undeformed; at rest there, sagging, it has -0.037.
                 self.assertLessEqual(abs(max(m["E20"], 0.0) - 1.0), abs(twenty - 1.0) + HALF_UNIT["E20"], msg=name)
 
@@ -80,6 +81,15 @@ class Table(InTemporaryFolder):
         """The earlier computation has 0.691; a step larger by 0.1 % gives more than that, the same step less."""
         self.assertGreater(reference.energy_after_twenty_impacts("cd_lagrange", 0, 0.901), 0.691)
         self.assertLess(self.found["CD-Lagrange"]["E20"], 0.691)
+
+    def test_earlier_value_of_a_sensitive_row_lies_in_its_scatter(self):
+        """Steps longer or shorter by a millionth change the energy after twenty impacts by a fifth: round-off decides
+        about its third digit."""
+        settings, courant, extra, earlier = bars.VARIANTS[SENSITIVE]
+        values = [self.found[SENSITIVE]["E20"]]
+        for i, factor in enumerate((1.0 - 1.0e-6, 1.0 + 1.0e-6)):
+            values.append(bars.measures(self.carom, self.out / f"step{i}", settings, courant * factor, extra)["E20"])
+        self.assertLessEqual(abs(values[0] - float(earlier[3])), max(values) - min(values))
 
     def test_modified_mass_keeps_the_energy_without_penetration(self):
         m = self.found[SEMI_EXPLICIT]
