@@ -82,10 +82,12 @@ class Archive {
   virtual void texts(const std::string& key, std::span<std::string> values) = 0;
 
  private:
+  static constexpr std::size_t double_size = sizeof(double);
+
   template <class T>
   static std::span<double> doubles_of(T* first, std::size_t count) {
-    static_assert(sizeof(T) % sizeof(double) == 0);
-    return {reinterpret_cast<double*>(first), count * (sizeof(T) / sizeof(double))};
+    static_assert(sizeof(T) % double_size == 0);
+    return {reinterpret_cast<double*>(first), count * (sizeof(T) / double_size)};
   }
 
   /// A struct: its members stand under its name.
@@ -133,7 +135,7 @@ class Archive {
   template <class T>
   void compound(const std::string& key, std::vector<T>& x) {
     if constexpr (is_of_doubles<T>) {
-      constexpr std::size_t width = sizeof(T) / sizeof(double);
+      constexpr std::size_t width = sizeof(T) / double_size;
       const std::size_t count = extent(key, width * x.size());
       if (count % width != 0) throw ArchiveError("\"" + key + "\" has the wrong size");
       x.resize(count / width);

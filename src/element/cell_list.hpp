@@ -1,6 +1,8 @@
 // The kinds of cells that the solids are made of: one line each.
 #pragma once
 
+#include <iterator>
+
 /// X(cell), one line each: CellKind::<cell> and the class <cell>Cell (element/cells.hpp).
 #define CAROM_CELLS(X)  \
   X(Hexa8)              \
@@ -29,8 +31,9 @@ namespace carom {
 enum class CellKind : unsigned char { CAROM_CELLS(CAROM_NAME_CELL) };
 #undef CAROM_NAME_CELL
 
-#define CAROM_COUNT_CELL(cell) +1
-inline constexpr int cell_kinds = 0 CAROM_CELLS(CAROM_COUNT_CELL);
-#undef CAROM_COUNT_CELL
+#define CAROM_LIST_CELL(cell) CellKind::cell,
+inline constexpr CellKind all_cell_kinds[] = {CAROM_CELLS(CAROM_LIST_CELL)};
+#undef CAROM_LIST_CELL
+inline constexpr auto cell_kinds = static_cast<int>(std::size(all_cell_kinds));
 
 }  // namespace carom
