@@ -45,9 +45,9 @@ template <class Real>
 
 /// Cells whose fields and geometry share the shape functions, at the points of the shape's stiffness rule. `thickness`
 /// is that of plane cells.
-template <class Shape_, Frame frame_>
+template <class ShapeType, Frame frame_>
 struct Isoparametric {
-  using Shape = Shape_;
+  using Shape = ShapeType;
   static constexpr Frame frame = frame_;
   static constexpr int nodes = Shape::nodes, dimension = Shape::dimension;
   static constexpr int points = decltype(Shape::stiffness_rule())::points;
@@ -244,8 +244,8 @@ struct DenseGradients {
     for (int p = 0; p < points; ++p) {
       Real P[3][3];
       load_point(stress, p, P);
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) P[i][j] *= geometry.weight[p];
+      for (Real(&row)[3] : P)
+        for (Real& entry : row) entry *= geometry.weight[p];
       for (int a = 0; a < nodes; ++a) {
         for (int i = 0; i < dimension; ++i)
           for (int j = 0; j < dimension; ++j) f[i][a] += P[i][j] * geometry.dN[p][a][j];

@@ -10,7 +10,7 @@ struct Dual {
   double d[n] = {};
 
   constexpr Dual() = default;
-  constexpr Dual(double constant) : value(constant) {}
+  constexpr Dual(double constant) : value(constant) {}  // NOLINT(google-explicit-constructor): a constant is one
 
   friend constexpr Dual operator+(const Dual& a, const Dual& b) {
     Dual r(a.value + b.value);

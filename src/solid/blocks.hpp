@@ -35,7 +35,9 @@ struct Block {
   std::size_t lanes() const { return static_cast<std::size_t>(stages.lanes); }
   BatchLaw law() const { return prepared_law.batch(); }
   /// Numbers of history of one lane: batches, filled up, follow each other as PointBatch::history.
-  std::size_t history_per_cell() const { return static_cast<std::size_t>(stages.cell->points * prepared_law.history); }
+  std::size_t history_per_cell() const {
+    return static_cast<std::size_t>(stages.cell->points) * static_cast<std::size_t>(prepared_law.history);
+  }
   /// Numbers of history of the block.
   std::size_t history_size() const { return history_per_cell() * offset.size() / nodes(); }
 };
@@ -96,7 +98,8 @@ struct SolidCells {
       const Block& block = blocks[static_cast<std::size_t>(chunk.block)];
       for (Index first = chunk.first; first < chunk.first + chunk.cells; first += block.stages.lanes) {
         const Index count = std::min<Index>(block.stages.lanes, chunk.first + chunk.cells - first);
-        body(static_cast<std::size_t>(block.first + first), block, batches(block, first, count, step));
+        body(static_cast<std::size_t>(block.first) + static_cast<std::size_t>(first), block,
+             batches(block, first, count, step));
       }
     });
   }

@@ -63,7 +63,7 @@ static constexpr DilatationStages stages() {
 namespace finite_dilatation {
 
 /// Numbers of a point.
-enum : int { inverse_C = 0, square_ratio = 6, volume_ratio = 7, pressure = 8, law_stress = 9, change = 15, theta = 21 };
+enum : int { inverse_c = 0, square_ratio = 6, volume_ratio = 7, pressure = 8, law_stress = 9, change = 15, theta = 21 };
 inline constexpr int memory_size = dilatation_memory;
 
 template <class Real>
@@ -110,7 +110,7 @@ static void strain(int points, const double* weight, double* E, double* memory) 
     load_voigt(E, p, e);
     const auto C = right_cauchy_green(e);
     const Real inverse = 1.0 / (1.0 + C.q);
-    for (int c = 0; c < 6; ++c) put(memory, p, inverse_C + c, Real(C.adjugate[c] * inverse));
+    for (int c = 0; c < 6; ++c) put(memory, p, inverse_c + c, Real(C.adjugate[c] * inverse));
     const Real change_of_volume = C.q / (1.0 + square_root(Real(1.0 + C.q)));  // J - 1
     put(memory, p, volume_ratio, change_of_volume);
     const Real w = scalar<Real>(weight, p);
@@ -157,7 +157,7 @@ static void stress(int points, const double* weight, double* memory, const doubl
     load_voigt(S, p, s);
     const Real along = p_hat * get<Real>(memory, p, volume_ratio) - get<Real>(memory, p, pressure);
     const Real square = get<Real>(memory, p, square_ratio);
-    for (int c = 0; c < 6; ++c) s[c] = square * s[c] + along * get<Real>(memory, p, inverse_C + c);
+    for (int c = 0; c < 6; ++c) s[c] = square * s[c] + along * get<Real>(memory, p, inverse_c + c);
     store_voigt(S, p, s);
   }
 }
@@ -171,7 +171,7 @@ static void strain_change(int points, const double* weight, double* memory, cons
     load_voigt(dE, p, de);
     for (int c = 0; c < 6; ++c) {
       put(memory, p, change + c, de[c]);
-      log_J += get<Real>(memory, p, inverse_C + c) * de[c];
+      log_J += get<Real>(memory, p, inverse_c + c) * de[c];
     }
     put(memory, p, theta, log_J);
     const Real w = scalar<Real>(weight, p);
@@ -221,7 +221,7 @@ static void stress_change(int points, const double* weight, const double* memory
     Real ds[6], C[6], de[6], sandwich[6];
     load_voigt(dS, p, ds);
     for (int c = 0; c < 6; ++c) {
-      C[c] = get<Real>(memory, p, inverse_C + c);
+      C[c] = get<Real>(memory, p, inverse_c + c);
       de[c] = get<Real>(memory, p, change + c);
     }
     double_product(C, de, sandwich);
@@ -240,7 +240,7 @@ static void cauchy(int points, const double* memory, double* sigma) {
   for (int p = 0; p < points; ++p) {
     Real s[6];
     load_voigt(sigma, p, s);
-    for (int c = 0; c < 6; ++c) s[c] *= get<Real>(memory, p, square_ratio);
+    for (Real& component : s) component *= get<Real>(memory, p, square_ratio);
     store_voigt(sigma, p, s);
   }
 }

@@ -173,8 +173,9 @@ class Purity {
       state = std::move(end);
     }
     EXPECT_TRUE(touches);
-    if (settings_.kind != SchemeKind::statics)  // which yields under its weight alone
+    if (settings_.kind != SchemeKind::statics) {  // which yields under its weight alone
       EXPECT_EQ(ledger.now().plastic > 0.0, !state.points.empty());
+    }
   }
 
   /// One scheme for all; before every step one of another length, and one from the state before.
