@@ -1,5 +1,6 @@
 // The point driver: paths, closed forms, tables, files and what is refused.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -67,6 +68,11 @@ TEST(MaterialPath, ElasticPathsHaveTheirModuli) {
               1e-12);
 }
 
+/// A place of this process alone: tests run side by side.
+std::string temporary(const std::string& name) {
+  return testing::TempDir() + "carom_" + std::to_string(getpid()) + "_" + name;
+}
+
 class MaterialTable : public testing::Test {
  protected:
   MaterialCurve curve_of(const std::string& text) {
@@ -81,7 +87,7 @@ class MaterialTable : public testing::Test {
     }
     return "no error";
   }
-  const std::string file = testing::TempDir() + "material_table.csv";
+  const std::string file = temporary("material_table.csv");
 };
 
 TEST_F(MaterialTable, OfDeformationOrStrainIsFollowed) {
@@ -141,7 +147,7 @@ end = 1e-3
 )";
 
 TEST(MaterialDriver, LeavesATableAndAPage) {
-  const std::string folder = testing::TempDir() + "material_driver";
+  const std::string folder = temporary("material_driver");
   std::filesystem::remove_all(folder);
   const Case given = parse_case(text, "c.toml");
   const std::string printed = drive_material(given, "rod", {.path = "uniaxial_stress", .to = {0.02, -0.02}}, folder);
@@ -162,7 +168,7 @@ TEST(MaterialDriver, LeavesATableAndAPage) {
 
 TEST(MaterialDriver, RefusesWhatDoesNotGoTogether) {
   const Case given = parse_case(text, "c.toml");
-  const std::string folder = testing::TempDir() + "material_refused";
+  const std::string folder = temporary("material_refused");
   EXPECT_THROW(drive_material(given, "", {.path = "uniaxial_stress"}, folder), CaseError);
   EXPECT_THROW(drive_material(given, "tube", {.path = "uniaxial_stress"}, folder), CaseError);
   EXPECT_THROW(drive_material(given, "wire", {.path = "simple_shear"}, folder), CaseError);
@@ -171,7 +177,7 @@ TEST(MaterialDriver, RefusesWhatDoesNotGoTogether) {
 
 // Of the straight line 2 x through three points: 0.1 off at one of two points within, those beyond do not count.
 TEST(MeasuredCurve, IsReadAndCompared) {
-  const std::string file = testing::TempDir() + "measured.csv";
+  const std::string file = temporary("measured.csv");
   std::ofstream(file) << "# a test\nstrain, stress\n0.25,0.5\n 0.75 , 1.6\r\n\n2.0,9.0\n";
   const MeasuredCurve measured = read_measured(file);
   EXPECT_EQ(measured.strain, (std::vector<double>{0.25, 0.75, 2.0}));
