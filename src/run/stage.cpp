@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "contact/facing_facets.hpp"
-#include "schemes/free_modes.hpp"
 #include "schemes/stability_limit.hpp"
 #include "solid/mass_scaling.hpp"
 #include "solid/modified_mass.hpp"
+#include "system/free_modes.hpp"
 
 namespace carom {
 

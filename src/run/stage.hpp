@@ -8,8 +8,8 @@
 #include "casefile/case.hpp"
 #include "schemes/make_scheme.hpp"
 #include "schemes/stable_step.hpp"
-#include "schemes/supports.hpp"
-#include "schemes/system.hpp"
+#include "system/supports.hpp"
+#include "system/system.hpp"
 
 namespace carom {
 

@@ -76,31 +76,6 @@ void set_mean_reactions(const System& system, const State& begin, const StepWeig
   }
 }
 
-ContactWork multiplier_work(const State& begin, const State& end, double end_weight) {
-  ContactWork out;
-  const auto add = [&](const ContactResponse& response, double weight) {
-    const ConstraintRows& rows = *response.rows;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      if (response.status[r] == RowStatus::open) continue;
-      const Vec3 dw = subtract(rows.relative(r, end.q), rows.relative(r, begin.q));
-      const Vec3& force = response.force[r];
-      out.impact -= weight * force[0] * dw[0];
-      out.friction -= weight * (force[1] * dw[1] + force[2] * dw[2]);
-    }
-  };
-  if (end_weight < 1.0) add(begin.forces.rows, 1.0 - end_weight);
-  add(end.forces.rows, end_weight);
-  out.total = -out.impact - out.friction;
-  return out;
-}
-
-void book_multipliers(const State& begin, const State& end, EnergyTerms& energy) {
-  const ContactWork work = multiplier_work(begin, end, 0.5);
-  energy.impact += work.impact;
-  energy.friction += work.friction;
-  energy.quadrature -= work.impact + work.friction;
-}
-
 Momentum combine(double a, const Momentum& p, double b, const Momentum& q) {
   Momentum out;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -129,10 +104,6 @@ Momentum resultant(const System& system, std::span<const double> u, std::span<co
     add_with_moment(arms.at(i / 3), i % 3, force[i], s.data());
   });
   return momentum_from(sums.data());
-}
-
-double trapezoidal_work(const State& begin, std::span<const double> f0, const State& end, std::span<const double> f1) {
-  return parallel_sum(f0.size(), [&](std::size_t i) { return 0.5 * (f0[i] + f1[i]) * (end.q[i] - begin.q[i]); });
 }
 
 }  // namespace carom

@@ -1,8 +1,8 @@
 // The books of a step of any scheme, from the forces at both ends and the weights that the scheme gives them.
 #pragma once
 
-#include "schemes/contact_port.hpp"
-#include "schemes/system.hpp"
+#include "enforcement/contact_work.hpp"
+#include "system/system.hpp"
 
 namespace carom {
 
@@ -41,12 +41,6 @@ StepBooks step_books(const System& system, const State& begin, const Balance& ba
 void set_mean_reactions(const System& system, const State& begin, const StepWeights& weights, State& end,
                         std::span<const double> mean_internal = {});
 
-/// Work of multipliers over a step (ContactPort::work), those of each end on its rows: the normal part goes to
-/// `impact`, the tangential one to `friction`.
-ContactWork multiplier_work(const State& begin, const State& end, double end_weight);
-/// The same with the weights 1/2, for books that have it in `quadrature`.
-void book_multipliers(const State& begin, const State& end, EnergyTerms& energy);
-
 /// a p + b q
 Momentum combine(double a, const Momentum& p, double b, const Momentum& q);
 
@@ -56,9 +50,5 @@ Momentum resultant(const System& system, const State& state);
 
 /// Of one force.
 Momentum resultant(const System& system, std::span<const double> u, std::span<const double> force);
-
-/// Work of a force over the step by the trapezoidal rule.
-double trapezoidal_work(const State& begin, std::span<const double> force_begin, const State& end,
-                        std::span<const double> force_end);
 
 }  // namespace carom

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "schemes/explicit_contact.hpp"
+#include "enforcement/explicit_contact.hpp"
 #include "schemes/imposed_motion.hpp"
-#include "schemes/mass_solver.hpp"
 #include "schemes/scheme.hpp"
+#include "system/mass_solver.hpp"
 
 namespace carom {
 

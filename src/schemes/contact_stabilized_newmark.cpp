@@ -4,8 +4,8 @@
 #include <cassert>
 #include <utility>
 
+#include "enforcement/exact_port.hpp"
 #include "schemes/books.hpp"
-#include "schemes/exact_port.hpp"
 
 namespace carom {
 

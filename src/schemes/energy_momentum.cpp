@@ -3,8 +3,8 @@
 #include <cassert>
 #include <utility>
 
+#include "enforcement/potential_port.hpp"
 #include "schemes/books.hpp"
-#include "schemes/potential_port.hpp"
 
 namespace carom {
 

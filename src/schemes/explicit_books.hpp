@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "schemes/system.hpp"
+#include "system/system.hpp"
 
 namespace carom {
 

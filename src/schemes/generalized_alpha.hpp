@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "enforcement/velocity_impulses.hpp"
 #include "schemes/implicit_stage.hpp"
 #include "schemes/scheme.hpp"
-#include "schemes/velocity_impulses.hpp"
 
 namespace carom {
 

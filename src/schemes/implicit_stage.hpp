@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "enforcement/contact_port.hpp"
+#include "enforcement/implicit_settings.hpp"
 #include "schemes/anderson_mixing.hpp"
-#include "schemes/contact_port.hpp"
-#include "schemes/implicit_settings.hpp"
 #include "schemes/imposed_motion.hpp"
 
 namespace carom {

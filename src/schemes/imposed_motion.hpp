@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "schemes/mass_solver.hpp"
-#include "schemes/system.hpp"
+#include "system/mass_solver.hpp"
+#include "system/system.hpp"
 
 namespace carom {
 

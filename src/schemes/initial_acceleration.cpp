@@ -29,11 +29,6 @@ void start_with_supports(const System& system, State& state) {
   }
 }
 
-void force_sum(const Forces& forces, std::span<double> rhs) {
-  parallel_each(rhs.size(),
-                [&](std::size_t i) { rhs[i] = forces.external[i] - forces.internal[i] + forces.contact[i]; });
-}
-
 void start_multipliers(const System& system, MassSolver& solver, double dt, State& state) {
   Forces& forces = state.forces;
   const std::shared_ptr<const ConstraintRows> shared = forces.rows.rows;

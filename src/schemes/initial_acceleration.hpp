@@ -1,8 +1,8 @@
 // What every scheme does before its first step.
 #pragma once
 
-#include "schemes/mass_solver.hpp"
-#include "schemes/system.hpp"
+#include "system/mass_solver.hpp"
+#include "system/system.hpp"
 
 namespace carom {
 
@@ -21,8 +21,5 @@ void start_multipliers(const System& system, MassSolver& solver, double dt, Stat
 /// Solves M a = f - F(u) + contact for the free accelerations, the prescribed ones standing in state.a, and completes
 /// the forces. Throws std::runtime_error when the mass matrix cannot be solved.
 void start_accelerations(const System& system, MassSolver& solver, State& state);
-
-/// rhs = f - F(u) + contact.
-void force_sum(const Forces& forces, std::span<double> rhs);
 
 }  // namespace carom

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "enforcement/jump_port.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/books.hpp"
-#include "schemes/jump_port.hpp"
 
 namespace carom {
 

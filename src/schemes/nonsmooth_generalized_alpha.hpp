@@ -7,8 +7,8 @@
 
 #include "schemes/generalized_alpha.hpp"
 #include "schemes/implicit_stage.hpp"
-#include "schemes/mass_solver.hpp"
 #include "schemes/scheme.hpp"
+#include "system/mass_solver.hpp"
 
 namespace carom {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "schemes/system.hpp"
+#include "system/system.hpp"
 
 namespace carom {
 

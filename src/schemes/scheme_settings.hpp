@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/compatibility.hpp"
-#include "schemes/effective_solver.hpp"
+#include "system/effective_solver.hpp"
 
 namespace carom {
 

@@ -8,13 +8,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "enforcement/explicit_contact.hpp"
+#include "enforcement/node_compliance.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/books.hpp"
 #include "schemes/explicit_books.hpp"
-#include "schemes/explicit_contact.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "schemes/initial_acceleration.hpp"
-#include "schemes/node_compliance.hpp"
 
 namespace carom {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "contact/closing_rows.hpp"
 #include "contact/delassus.hpp"
 #include "linalg/cholesky.hpp"
-#include "schemes/closing_rows.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "schemes/scheme.hpp"
 

@@ -6,11 +6,11 @@
 #include <limits>
 #include <utility>
 
+#include "enforcement/contact_frequency.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_size.hpp"
 #include "parallel/threads.hpp"
-#include "schemes/contact_frequency.hpp"
-#include "schemes/mass_solver.hpp"
+#include "system/mass_solver.hpp"
 
 namespace carom {
 

@@ -7,7 +7,7 @@
 
 #include "linalg/largest_eigenvalue.hpp"
 #include "model/compatibility.hpp"
-#include "schemes/system.hpp"
+#include "system/system.hpp"
 
 namespace carom {
 

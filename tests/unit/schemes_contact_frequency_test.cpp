@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "enforcement/contact_frequency.hpp"
 #include "linalg/largest_eigenvalue.hpp"
-#include "schemes/contact_frequency.hpp"
 #include "schemes_fixture.hpp"
 
 namespace carom {

@@ -1,9 +1,9 @@
 // Bodies that only contact can hold: their free motions, and how statics goes about them.
 #include <gtest/gtest.h>
 
-#include "schemes/free_modes.hpp"
 #include "schemes/statics.hpp"
 #include "schemes_fixture.hpp"
+#include "system/free_modes.hpp"
 
 namespace carom {
 namespace {

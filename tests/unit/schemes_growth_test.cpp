@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
+#include "enforcement/node_compliance.hpp"
 #include "math/vec3.hpp"
-#include "schemes/node_compliance.hpp"
-#include "schemes/row_compliance.hpp"
+#include "system/row_compliance.hpp"
 
 namespace carom {
 namespace {

@@ -4,9 +4,9 @@
 #include <random>
 #include <vector>
 
+#include "enforcement/node_compliance.hpp"
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
-#include "schemes/node_compliance.hpp"
 
 namespace carom {
 namespace {

@@ -1,7 +1,7 @@
 // The same bits from any number of threads, for every instruction set of this processor.
 #include <gtest/gtest.h>
 
-#include "schemes/explicit_contact.hpp"
+#include "enforcement/explicit_contact.hpp"
 #include "schemes/moreau_jean.hpp"
 #include "schemes_fixture.hpp"
 

@@ -1,0 +1,101 @@
+#include "enforcement/contact_frequency.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "math/vec3.hpp"
+
+namespace carom {
+
+namespace {
+
+RowBlock without_turn(const ConstraintRows& rows, std::size_t r, const RowBlock& b) {
+  const Vec3 &t_1 = rows.tangent_1[r], &t_2 = rows.tangent_2[r];
+  return {b[0], scaled(t_1, dot(t_1, b[1])), scaled(t_2, dot(t_2, b[2]))};
+}
+
+/// |A| of a row at a node: see the header. D: slopes of the row's springs
+double size_of(const RowBlock& b, const Vec3& D, const Vec3& inverse_mass) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      double product = 0.0;
+      for (std::size_t c = 0; c < 3; ++c) product += b[i][c] * b[j][c] * inverse_mass[c];
+      sum += std::sqrt(D[i] * D[j]) * std::abs(product);
+    }
+    largest = std::max(largest, sum);
+  }
+  return std::sqrt(largest);
+}
+
+Vec3 inverse_mass_of(const System& system, Index node) {
+  const double share = system.mass.kind() == MassKind::lumped ? 1.0 : 1.0 / 8.0;
+  const auto n = static_cast<std::size_t>(node);
+  const double m = share * system.mass.node_diagonal()[n];
+  Vec3 inverse{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (m > 0.0 && !system.supports.fixed()[3 * n + c]) inverse[c] = 1.0 / m;
+  }
+  return inverse;
+}
+
+/// |A| of every row at each of its nodes.
+std::vector<double> sizes(const System& system, const ConstraintRows& rows, std::span<const double> u) {
+  std::vector<double> size(rows.node.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const double gap = rows.gap_at(r, u);
+    const bool is_open = gap > 0.0;
+    const RowLaw& law = rows.law[r];
+    const Vec3 slopes{law.spring_slope(std::max(0.0, -gap)), law.eps_T, law.eps_T};
+    for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
+      const RowBlock block = is_open ? without_turn(rows, r, rows.block[k]) : rows.block[k];
+      size[k] = size_of(block, slopes, inverse_mass_of(system, rows.node[k]));
+    }
+  }
+  return size;
+}
+
+}  // namespace
+
+ConstraintRows as_they_close(const ConstraintRows& rows, std::span<const double> u) {
+  ConstraintRows out = rows;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (rows.gap_at(r, u) <= 0.0) continue;
+    for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
+      out.block[k] = without_turn(rows, r, rows.block[k]);
+  }
+  return out;
+}
+
+double contact_frequency_bound(const System& system, const ConstraintRows& rows, std::span<const double> u) {
+  constexpr int iterations = 8;
+  const std::vector<double> size = sizes(system, rows, u);
+  std::vector<double> x(rows.size(), 1.0), at_node(system.mass.node_diagonal().size());
+  if (rows.size() == 0) return 0.0;
+  double bound = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < iterations; ++i) {
+    std::fill(at_node.begin(), at_node.end(), 0.0);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
+        at_node[static_cast<std::size_t>(rows.node[k])] += size[k] * x[r];
+    }
+    double quotient = 0.0;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      double sum = 0.0;
+      for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
+        sum += size[k] * at_node[static_cast<std::size_t>(rows.node[k])];
+      if (x[r] > 0.0) quotient = std::max(quotient, sum / x[r]);
+      x[r] = sum;
+    }
+    bound = std::min(bound, quotient);
+    if (!(bound > 0.0)) break;
+    for (double& value : x) value /= quotient;
+  }
+  return bound;
+}
+
+}  // namespace carom

@@ -1,0 +1,37 @@
+#include "enforcement/contact_work.hpp"
+
+#include "math/vec3.hpp"
+#include "parallel/threads.hpp"
+
+namespace carom {
+
+ContactWork multiplier_work(const State& begin, const State& end, double end_weight) {
+  ContactWork out;
+  const auto add = [&](const ContactResponse& response, double weight) {
+    const ConstraintRows& rows = *response.rows;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (response.status[r] == RowStatus::open) continue;
+      const Vec3 dw = subtract(rows.relative(r, end.q), rows.relative(r, begin.q));
+      const Vec3& force = response.force[r];
+      out.impact -= weight * force[0] * dw[0];
+      out.friction -= weight * (force[1] * dw[1] + force[2] * dw[2]);
+    }
+  };
+  if (end_weight < 1.0) add(begin.forces.rows, 1.0 - end_weight);
+  add(end.forces.rows, end_weight);
+  out.total = -out.impact - out.friction;
+  return out;
+}
+
+void book_multipliers(const State& begin, const State& end, EnergyTerms& energy) {
+  const ContactWork work = multiplier_work(begin, end, 0.5);
+  energy.impact += work.impact;
+  energy.friction += work.friction;
+  energy.quadrature -= work.impact + work.friction;
+}
+
+double trapezoidal_work(const State& begin, std::span<const double> f0, const State& end, std::span<const double> f1) {
+  return parallel_sum(f0.size(), [&](std::size_t i) { return 0.5 * (f0[i] + f1[i]) * (end.q[i] - begin.q[i]); });
+}
+
+}  // namespace carom

@@ -1,0 +1,27 @@
+// Work of contact over a step, for the books.
+#pragma once
+
+#include <span>
+
+#include "energy/ledger.hpp"
+#include "state/state.hpp"
+
+namespace carom {
+
+/// Work of the contact forces over a step, and where it went.
+struct ContactWork {
+  double total = 0.0;
+  double friction = 0.0, damping = 0.0, impact = 0.0;
+};
+
+/// Work of multipliers over a step (ContactPort::work), those of each end on its rows: the normal part goes to
+/// `impact`, the tangential one to `friction`.
+ContactWork multiplier_work(const State& begin, const State& end, double end_weight);
+/// The same with the weights 1/2, for books that have it in `quadrature`.
+void book_multipliers(const State& begin, const State& end, EnergyTerms& energy);
+
+/// Work of a force over the step by the trapezoidal rule.
+double trapezoidal_work(const State& begin, std::span<const double> force_begin, const State& end,
+                        std::span<const double> force_end);
+
+}  // namespace carom

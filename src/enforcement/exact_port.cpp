@@ -1,0 +1,373 @@
+#include "enforcement/exact_port.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "enforcement/contact_work.hpp"
+#include "math/vec3.hpp"
+#include "parallel/threads.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
+
+double largest(std::span<const double> x) {
+  double m = 0.0;
+  for (const double entry : x) m = std::max(m, std::abs(entry));
+  return m;
+}
+
+RowStatus status_of(const Vec3& force, double mu) {
+  if (force[0] <= 0.0) return RowStatus::open;
+  return mu > 0.0 && std::hypot(force[1], force[2]) >= mu * force[0] * (1.0 - 1e-9) ? RowStatus::slip
+                                                                                    : RowStatus::stick;
+}
+
+std::size_t components(double mu) {
+  return mu > 0.0 ? 3 : 1;
+}
+
+}  // namespace
+
+// 64 Mi numbers of columns, and 3,800 nodes: 512 MiB each, of which one at most is in use.
+ExactPort::ExactPort(const System& system)
+    : system_(system),
+      extent_(system.contact.reach()),
+      compliance_(system.solid.dof_count(), std::size_t{1} << 26),
+      nodes_(3800) {}
+
+void ExactPort::begin(const StageStart& start) {
+  start_ = start;
+  is_solved_ = false;
+  const std::vector<RowHistory>& history = start.begin->contact;
+  multiplier_.resize(history.size());
+  compliance_of_.assign(history.size(), 0.0);
+  for (std::size_t i = 0; i < history.size(); ++i) multiplier_[i] = history[i].multiplier;
+}
+
+void ExactPort::respond(std::span<const double> x, std::span<const double> /*v*/, ContactResponse& response) {
+  response.rows = rows_at(x);
+  const ConstraintRows& rows = *response.rows;
+  response.force.resize(rows.size());
+  response.status.resize(rows.size());
+  response.damper.assign(rows.size(), 0.0);
+  response.history.assign(multiplier_.size(), {});
+  response.stored = response.slip_work = 0.0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto slot = static_cast<std::size_t>(rows.slot[r]);
+    Vec3 force = rows.to_frame(r, multiplier_[slot]);
+    if (friction(rows.law[r]) == 0.0) force[1] = force[2] = 0.0;
+    response.status[r] = status_of(force, friction(rows.law[r]));
+    if (response.status[r] == RowStatus::open) force = {};
+    response.force[r] = force;
+    response.history[slot].multiplier = rows.to_space(r, force);
+  }
+}
+
+bool ExactPort::settle(std::span<const double> /*x*/, const ContactResponse& /*response*/) {
+  return true;
+}
+
+void ExactPort::add_stiffness_diagonal(std::span<double> /*d*/) const {}
+
+ContactWork ExactPort::work(const State& begin, const State& end, double end_weight) const {
+  return multiplier_work(begin, end, end_weight);
+}
+
+void ExactPort::leave(StageMemory& memory) const {
+  if (!is_solved_ || !system_.solid.is_linear()) return;
+  if (system_.contact.is_fixed()) {
+    memory.port_rows = compliance_.growth();
+    memory.chosen_rows.assign(chosen_.begin(), chosen_.end());
+  } else {
+    memory.port_nodes = nodes_.growth();
+  }
+}
+
+/// moved_ = z + slope dy; adds to chosen_ the rows that this violates. Returns true when there are such rows.
+bool ExactPort::choose(const ConstraintRows& rows, std::span<const double> z, std::span<const double> dy) {
+  moved_.resize(z.size());
+  parallel_each(z.size(), [&](std::size_t i) { moved_[i] = z[i] + slope() * dy[i]; });
+  const double round_off = precision * (extent_ + largest(moved_));
+  bool is_violated = false;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (!may_act(r) || value(rows, r, moved_)[0] >= -round_off - precision * std::abs(rows.gap[r])) continue;
+    is_violated = true;
+    add(r);
+  }
+  return is_violated;
+}
+
+void ExactPort::add(std::size_t r) {
+  if (is_chosen_[r]) return;
+  is_chosen_[r] = true;
+  chosen_.push_back(r);
+}
+
+/// Makes W for the chosen rows. Returns false when the operator cannot be inverted.
+bool ExactPort::assemble(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& shared,
+                         LinearSolveReport& linear) {
+  const ConstraintRows& rows = *shared;
+  std::vector<std::size_t> acting, counts;
+  std::copy_if(chosen_.begin(), chosen_.end(), std::back_inserter(acting), [&](std::size_t r) { return may_act(r); });
+  if (W_.rows == acting) return true;
+  for (const std::size_t r : acting) counts.push_back(components(friction(rows.law[r])));
+  LinearSolveReport columns{true};
+  const InverseOperator inverse = this->inverse(solver, columns);
+  const bool moves = system_.solid.is_linear() && !system_.contact.is_fixed();
+  by_nodes_ = moves && nodes_.extend(rows, acting, system_.solid.dof_count(), inverse);
+  W_.block = by_nodes_ ? nodes_.compliance(rows, acting, counts) : compliance_.blocks(acting, counts, inverse);
+  linear.iterations += columns.iterations;
+  add_direct_compliance(shared, acting, counts, W_.block);
+  const std::size_t n = acting.size();
+  W_.begin.assign(1, 0);
+  W_.column.clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) W_.column.push_back(j);
+    W_.begin.push_back(W_.column.size());
+  }
+  W_.rows = std::move(acting);
+  if (columns.converged) return true;
+  W_ = {};
+  compliance_.forget();
+  nodes_.forget();
+  return false;
+}
+
+/// For the error of the forces: what each row answers to its own.
+void ExactPort::note_compliances(const ConstraintRows& rows) {
+  for (std::size_t i = 0; i < W_.size(); ++i) {
+    const auto of_row = W_.column.begin() + static_cast<std::ptrdiff_t>(W_.begin[i]);
+    const FrameBlock& d = W_.block[static_cast<std::size_t>(std::find(of_row, W_.column.end(), i) - W_.column.begin())];
+    compliance_of_[static_cast<std::size_t>(rows.slot[W_.rows[i]])] = slope() * std::max({d[0], d[4], d[8]});
+  }
+}
+
+/// Forces of the rows of W, moved_ being z with those of the response. Returns why there are none, "" when there are.
+std::string ExactPort::solve_rows(const ContactResponse& response) {
+  const ConstraintRows& rows = *response.rows;
+  const std::size_t n = W_.size();
+  std::vector<Vec3> b(n), present(n);
+  std::vector<double> mu(n);
+  for (std::size_t i = 0; i < n; ++i) present[i] = response.force[W_.rows[i]];
+  W_.apply(present, b);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t r = W_.rows[i];
+    mu[i] = friction(rows.law[r]);
+    b[i] = subtract(scaled(value(rows, r, moved_), 1.0 / slope()), b[i]);
+    if (mu[i] == 0.0) b[i][1] = b[i][2] = 0.0;
+  }
+  force_.insert(force_.end(), present.begin() + static_cast<std::ptrdiff_t>(force_.size()), present.end());
+  // Forces that miss their cone by 1e-10 are in equilibrium all the same. Where rows move, error() measures by how much
+  // they miss, against 1e-12 of the energy shared out over the run: there they are wanted to round-off. And where
+  // contact alone holds a body, b is that of the body on its springs, far more than the motion that is looked for.
+  constexpr double accepted = 1e-10;
+  const bool is_held = start_.free == nullptr || start_.free->empty();
+  const bool has_friction = std::any_of(mu.begin(), mu.end(), [](double m) { return m > 0.0; });
+  const double wanted = !is_held ? (has_friction ? 1e-14 : 1e-16) : system_.contact.is_fixed() ? accepted : 1e-15;
+  const ConeResult result = solve_cone(W_, b, mu, force_, wanted, accepted);
+  if (result.converged) return {};
+  if (std::isinf(result.error))
+    return "a body gives way against its contact forces (its tangent is indefinite on the rows in contact, or its "
+           "forces "
+           "are not finite); take smaller steps, or penalty";
+  return fmt::format("the forces of {} rows in contact are not found in {} iterations: error {:.3g}", n,
+                     result.iterations, result.error);
+}
+
+/// What W was made for last is forgotten where the operator or the rows may have changed. False when the operator
+/// cannot be inverted.
+bool ExactPort::forget_stale(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& rows) {
+  const bool is_linear = system_.solid.is_linear(), is_fixed = system_.contact.is_fixed();
+  const bool is_other = operator_ != solver.operators_made();
+  operator_ = solver.operators_made();
+  if (is_other) nodes_.forget();
+  if (is_other || !is_linear || !is_fixed) {
+    compliance_.forget();
+    chosen_.clear();
+    W_ = {};
+  }
+  compliance_.use(rows);
+  is_chosen_.resize(rows->size());
+  std::fill(is_chosen_.begin(), is_chosen_.end(), false);
+  if (!is_solved_ && go_on_directly()) W_ = {};
+  const bool is_good = is_solved_ || !is_linear || go_on(solver);
+  for (const std::size_t r : chosen_) is_chosen_[r] = true;
+  return is_good;
+}
+
+/// Brings what is kept to where the state at the beginning of the stage has it.
+bool ExactPort::go_on(EffectiveSolver& solver) {
+  static const StageMemory none;
+  const bool is_same = start_.memory->m == start_.m && start_.memory->c == start_.c;
+  const StageMemory& memory = is_same ? *start_.memory : none;
+  LinearSolveReport anew{true};  // what is made anew has been counted before
+  const InverseOperator inverse = this->inverse(solver, anew);
+  if (!system_.contact.is_fixed()) {
+    nodes_.grow_as(memory.port_nodes, system_.solid.dof_count(), inverse);
+    return anew.converged;
+  }
+  const std::vector<std::size_t> chosen(memory.chosen_rows.begin(), memory.chosen_rows.end());
+  if (compliance_.grow_as(memory.port_rows, inverse) || chosen != chosen_) W_ = {};
+  chosen_ = chosen;
+  return anew.converged;
+}
+
+/// A^-1 on the free dofs.
+InverseOperator ExactPort::inverse(EffectiveSolver& solver, LinearSolveReport& linear) const {
+  return [this, &solver, &linear](std::span<double> b, int columns) {
+    const std::vector<bool>& fixed = system_.supports.fixed();
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (fixed[i % fixed.size()]) b[i] = 0.0;
+    }
+    const LinearSolveReport report = solver.invert(b, columns);
+    linear.converged = linear.converged && report.converged;
+    linear.iterations += report.iterations;
+  };
+}
+
+PortSolve ExactPort::solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
+                           const ContactResponse& response, std::span<const double> residual, double absolute,
+                           std::span<double> dy) {
+  const ConstraintRows& rows = *response.rows;
+  const std::span<const double> z = seen(x, v);
+  constexpr const char* no_compliance = "the linear solver does not find the compliance of the rows in contact";
+  if (!forget_stale(solver, response.rows)) return {{}, no_compliance};
+  is_solved_ = true;
+  free_.resize(dy.size());
+  PortSolve out{solver.solve(residual, response.rows, {}, absolute, free_), {}};
+  std::copy(free_.begin(), free_.end(), dy.begin());
+  force_.clear();
+  see_all(response);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (response.status[r] != RowStatus::open) add(r);
+  }
+  const bool acts = choose(rows, z, free_) || std::any_of(response.status.begin(), response.status.end(),
+                                                          [](RowStatus s) { return s != RowStatus::open; });
+  if (!out.linear.converged || !acts) return out;
+  for (std::size_t before = 0; before != chosen_.size();) {
+    before = chosen_.size();
+    if (!assemble(solver, response.rows, out.linear)) {
+      out.failure = no_compliance;
+      return out;
+    }
+    note_compliances(rows);
+    choose(rows, z, free_);
+    out.failure = solve_rows(response);
+    if (!out.failure.empty()) return out;
+    add_forces(solver, response, residual, absolute, out.linear, dy);
+    see_forces(rows, W_.rows, force_);
+    choose(rows, z, dy);  // what the forces push other rows into
+    see_all(response);
+  }
+  for (std::size_t i = 0; i < force_.size(); ++i) {
+    multiplier_[static_cast<std::size_t>(rows.slot[W_.rows[i]])] = rows.to_space(W_.rows[i], force_[i]);
+  }
+  return out;
+}
+
+void ExactPort::see_all(const ContactResponse& response) {
+  std::vector<std::size_t> all(response.rows->size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  see_forces(*response.rows, all, response.force);
+}
+
+/// dy = free_ + A^-1 G^T (force - force of the response).
+void ExactPort::add_forces(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> residual,
+                           double absolute, LinearSolveReport& linear, std::span<double> dy) {
+  std::vector<Vec3> change(force_.size());
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] = subtract(force_[i], response.force[W_.rows[i]]);
+  if (!by_nodes_ && compliance_.has_columns()) {
+    std::copy(free_.begin(), free_.end(), dy.begin());
+    compliance_.add_columns(W_.rows, change, dy);
+    return;
+  }
+  load_.assign(residual.begin(), residual.end());
+  for (std::size_t i = 0; i < change.size(); ++i) response.rows->scatter(W_.rows[i], change[i], load_);
+  const std::vector<bool>& fixed = system_.supports.fixed();
+  for (std::size_t i = 0; i < load_.size(); ++i) {
+    if (fixed[i]) load_[i] = 0.0;
+  }
+  const LinearSolveReport report = solver.solve(load_, response.rows, {}, absolute, dy);
+  linear.converged = linear.converged && report.converged;
+  linear.iterations += report.iterations;
+}
+
+ContactError MultiplierPort::error(std::span<const double> x, std::span<const double> /*v*/,
+                                   const ContactResponse& response) const {
+  const ConstraintRows& rows = *response.rows;
+  ContactError out;
+  if (rows.size() == 0) return out;
+  if (!is_solved_) return {std::numeric_limits<double>::infinity(), 0.0};
+  const bool is_held = start_.free == nullptr || start_.free->empty();
+  if (system_.contact.is_fixed() && is_held) return out;
+  const double reach = precision * (extent_ + largest(x) + largest(start_.begin->q));
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Vec3 w = value(rows, r, x), force = response.force[r];
+    const double length = precision * std::abs(rows.gap[r]) + reach;
+    const double compliance = compliance_of_[static_cast<std::size_t>(rows.slot[r])];
+    if (compliance == 0.0) {
+      if (w[0] < -length || force[0] > 0.0) return {std::numeric_limits<double>::infinity(), 0.0};
+      continue;
+    }
+    // The forces that projection on the cone makes of these: lambda itself where the conditions hold.
+    Vec3 projected{std::max(0.0, force[0] - w[0] / compliance), 0.0, 0.0};
+    const double mu = friction(rows.law[r]), limit = mu * projected[0];
+    if (mu > 0.0) {
+      const double t1 = force[1] - w[1] / compliance, t2 = force[2] - w[2] / compliance, t = std::hypot(t1, t2);
+      const double keep = t > limit ? limit / t : 1.0;
+      projected[1] = keep * t1;
+      projected[2] = keep * t2;
+    }
+    const double miss = norm(subtract(force, projected)), scale = norm(force) + norm(projected);
+    out.work += scale * miss * compliance;
+    out.round_off += scale * length;
+  }
+  return out;
+}
+
+std::shared_ptr<const ConstraintRows> MultiplierPort::rows_at(std::span<const double> x) const {
+  return system_.contact.rows_at(start_.begin->q, x, start_.begin->contact);
+}
+
+Vec3 MultiplierPort::value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const {
+  const Vec3 w = rows.relative(r, z);
+  if (friction(rows.law[r]) == 0.0) return {rows.gap[r] + w[0], 0.0, 0.0};
+  const Vec3 w_begin = rows.relative(r, start_.begin->q);
+  return {rows.gap[r] + w[0], w[1] - w_begin[1], w[2] - w_begin[2]};
+}
+
+void ImpulsePort::begin(const StageStart& start) {
+  ExactPort::begin(start);
+  rows_ = system_.contact.rows_at(start.begin->q, start.x_predicted, start.begin->contact);
+  is_closed_.resize(rows_->size());
+  for (std::size_t r = 0; r < rows_->size(); ++r) {
+    is_closed_[r] = rows_->is_closed(r, start.x_predicted);
+    if (!is_closed_[r]) multiplier_[static_cast<std::size_t>(rows_->slot[r])] = {};
+  }
+}
+
+ContactError ImpulsePort::error(std::span<const double> /*x*/, std::span<const double> /*v*/,
+                                const ContactResponse& /*response*/) const {
+  return {is_solved_ || rows_->size() == 0 ? 0.0 : std::numeric_limits<double>::infinity(), 0.0};
+}
+
+std::shared_ptr<const ConstraintRows> ImpulsePort::rows_at(std::span<const double> /*x*/) const {
+  return rows_;
+}
+
+Vec3 ImpulsePort::value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const {
+  Vec3 w = rows.relative(r, z);
+  w[0] += rows.law[r].restitution * std::min(0.0, rows.relative(r, start_.begin->v)[0]);
+  return w;
+}
+
+}  // namespace carom

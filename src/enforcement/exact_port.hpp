@@ -1,0 +1,138 @@
+// Exact contact within implicit stages: multipliers on displacements, impulses on velocities.
+#pragma once
+
+#include <vector>
+
+#include "contact/cone_solver.hpp"
+#include "enforcement/contact_port.hpp"
+#include "enforcement/node_compliance.hpp"
+#include "system/row_compliance.hpp"
+
+namespace carom {
+
+/// The forces lambda on the rows that satisfy Signorini's and Coulomb's conditions exactly:
+///   w = w_free + slope G A^-1 G^T lambda,  (lambda, w) in the cones of solve_cone,
+/// where w_free is what the rows would see without lambda. Rows enter when they would be violated. For linear bodies
+/// what has been solved for is kept for the run: with fixed rows the columns A^-1 G^T, so that an iteration with
+/// contact costs one back-substitution and products with the columns; with moving rows the compliance of their nodes,
+/// so that it costs two. With nonlinear bodies columns are made anew for the rows in question at every iterate.
+/// Multipliers go on from step to step as start values, in State::contact; in which order the compliances have grown
+/// stands in StageMemory.
+class ExactPort : public ContactPort {
+ public:
+  explicit ExactPort(const System& system);
+
+  void begin(const StageStart& start) override;
+  bool is_law() const override { return false; }
+  void respond(std::span<const double> x, std::span<const double> v, ContactResponse& response) override;
+  PortSolve solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
+                  const ContactResponse& response, std::span<const double> residual, double absolute,
+                  std::span<double> dy) override;
+  bool settle(std::span<const double> x, const ContactResponse& response) override;
+  void add_stiffness_diagonal(std::span<double> d) const override;
+  ContactWork work(const State& begin, const State& end, double end_weight) const override;
+  void leave(StageMemory& memory) const override;
+
+ protected:
+  virtual std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> x) const = 0;
+  /// Slope in y of what the rows see, and which of x and v they see.
+  virtual double slope() const = 0;
+  virtual std::span<const double> seen(std::span<const double> x, std::span<const double> v) const = 0;
+  /// w of row r when they see z.
+  virtual Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const = 0;
+  virtual bool may_act(std::size_t /*r*/) const { return true; }
+  virtual double friction(const RowLaw& law) const { return law.mu; }
+  /// Adds to W what the acting rows (counts[i] components of row i) answer to their forces beside slope x G A^-1 G^T,
+  /// over the slope; nothing here, see JumpPort.
+  virtual void add_direct_compliance(const std::shared_ptr<const ConstraintRows>& /*rows*/,
+                                     std::span<const std::size_t> /*acting*/, std::span<const std::size_t> /*counts*/,
+                                     std::vector<FrameBlock>& /*W*/) {}
+  /// Brings what add_direct_compliance keeps to where the state at the beginning of the stage has it. True when that is
+  /// something else.
+  virtual bool go_on_directly() { return false; }
+  /// value() is to include from now on what these forces (in the frames of the listed rows) do directly.
+  virtual void see_forces(const ConstraintRows& /*rows*/, std::span<const std::size_t> /*which*/,
+                          std::span<const Vec3> /*force*/) {}
+
+  const System& system_;
+  double extent_;  ///< ContactGeometry::reach: gaps are known to its rounding
+  StageStart start_;
+  std::vector<Vec3> multiplier_;  ///< per slot, a vector of space
+  std::vector<double>
+      compliance_of_;  ///< per slot, of the last solve: slope x largest diagonal entry of W, 0: not in it
+  bool is_solved_ = false;
+
+ private:
+  bool forget_stale(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& rows);
+  bool go_on(EffectiveSolver& solver);
+  InverseOperator inverse(EffectiveSolver& solver, LinearSolveReport& linear) const;
+  bool choose(const ConstraintRows& rows, std::span<const double> z, std::span<const double> dy);
+  void add(std::size_t r);
+  bool assemble(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& shared,
+                LinearSolveReport& linear);
+  void see_all(const ContactResponse& response);
+  void note_compliances(const ConstraintRows& rows);
+  std::string solve_rows(const ContactResponse& response);
+  void add_forces(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> residual,
+                  double absolute, LinearSolveReport& linear, std::span<double> dy);
+
+  RowCompliance compliance_;
+  NodeCompliance nodes_;             ///< of linear bodies, where rows move
+  bool by_nodes_ = false;            ///< W_ has been made by nodes_
+  std::size_t operator_ = 0;         ///< EffectiveSolver::operators_made of compliance_
+  std::vector<std::size_t> chosen_;  ///< rows that compliance_ knows
+  std::vector<bool> is_chosen_;
+  Delassus W_;               ///< of those that may act
+  std::vector<Vec3> force_;  ///< of the rows of W_, in their frames
+  std::vector<double> free_, moved_, load_;
+};
+
+/// 0 <= g(x) perpendicular to lambda_n >= 0 at the end of the stage, slip over the step in Coulomb's cone.
+class MultiplierPort : public ExactPort {
+ public:
+  using ExactPort::ExactPort;
+  /// How far the multipliers are from their conditions on the rows made at x, where rows move or the operator has
+  /// springs of its own: elsewhere the solve has met them.
+  ContactError error(std::span<const double> x, std::span<const double> v,
+                     const ContactResponse& response) const override;
+
+ protected:
+  std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> x) const override;
+  double slope() const override { return start_.s; }
+  std::span<const double> seen(std::span<const double> x, std::span<const double> /*v*/) const override { return x; }
+  Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const override;
+};
+
+/// The same without friction: with m M y = contact(x) it finds the admissible x that is nearest to x_hat in the norm of
+/// M.
+class ProjectionPort final : public MultiplierPort {
+ public:
+  using MultiplierPort::MultiplierPort;
+
+ protected:
+  double friction(const RowLaw& /*law*/) const override { return 0.0; }
+};
+
+/// On rows with g(x_predicted) <= 0, with U = G v: 0 <= U_n + e min(0, U_n at the beginning) perpendicular to
+/// lambda_n >= 0 (Newton's restitution), U_t in Coulomb's cone (Jean, Comput. Methods Appl. Mech. Eng. 177, 1999). The
+/// rows are those made at x_predicted.
+class ImpulsePort : public ExactPort {
+ public:
+  using ExactPort::ExactPort;
+  void begin(const StageStart& start) override;
+  ContactError error(std::span<const double> x, std::span<const double> v,
+                     const ContactResponse& response) const override;
+
+ protected:
+  std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> x) const override;
+  double slope() const override { return start_.r; }
+  std::span<const double> seen(std::span<const double> /*x*/, std::span<const double> v) const override { return v; }
+  Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const override;
+  bool may_act(std::size_t r) const override { return is_closed_[r]; }
+
+ private:
+  std::shared_ptr<const ConstraintRows> rows_;
+  std::vector<bool> is_closed_;
+};
+
+}  // namespace carom

@@ -1,0 +1,45 @@
+#include "enforcement/explicit_contact.hpp"
+
+#include <stdexcept>
+
+namespace carom {
+
+namespace {
+
+class PenaltyContact final : public ExplicitContact {
+ public:
+  explicit PenaltyContact(const System& system) : system_(system) {}
+
+  std::string respond(const ExplicitPoint& at, Forces& forces) override {
+    penalty_response(system_.contact.rows_at(at.u_begin, at.u, at.history), at.u_begin, at.u, at.v, at.history,
+                     forces.rows);
+    forces.contact.assign(at.u.size(), 0.0);
+    forces.rows.add_force(forces.contact);
+    return {};
+  }
+  void book(const State&, const State&, EnergyTerms&) const override {}
+
+ private:
+  const System& system_;
+};
+
+}  // namespace
+
+std::string ExplicitContact::evaluate(const System& system, const State& begin, double h, std::span<const double> v,
+                                      State& end) {
+  evaluate_bodies(system, {h, begin.points}, end);
+  return respond({h, h, begin.q, end.q, v, end.a, begin.contact}, end.forces);
+}
+
+void ExplicitContact::start(const System& system, double dt, double weight, State& state) {
+  const std::vector<double> points = state.points;
+  evaluate_bodies(system, {dt, points}, state);
+  const std::string failure = respond({dt, weight, state.q, state.q, state.v, state.a, state.contact}, state.forces);
+  if (!failure.empty()) throw std::runtime_error("at the start: " + failure);
+}
+
+std::unique_ptr<ExplicitContact> penalty_contact(const System& system) {
+  return std::make_unique<PenaltyContact>(system);
+}
+
+}  // namespace carom

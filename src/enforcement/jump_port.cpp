@@ -1,0 +1,81 @@
+#include "enforcement/jump_port.hpp"
+
+#include <cassert>
+#include <utility>
+
+namespace carom {
+
+// 3,800 nodes: 512 MiB.
+JumpPort::JumpPort(const System& system, double ratio, std::shared_ptr<MassSolver> mass)
+    : ImpulsePort(system),
+      ratio_(ratio),
+      mass_(std::move(mass)),
+      operator_(mass_operator(system, *mass_)),
+      nodes_(3800) {
+  assert(ratio >= 0.0);
+  load_.resize(system.solid.dof_count());
+  jump_.resize(load_.size());
+}
+
+void JumpPort::leave(StageMemory& memory) const {
+  ImpulsePort::leave(memory);
+  if (is_solved_) memory.mass_nodes = nodes_.growth();
+}
+
+void JumpPort::invert(std::span<double> b, int columns) {
+  const std::size_t dofs = load_.size();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) operator_.inverse(b.subspan(k * dofs, dofs));
+}
+
+bool JumpPort::go_on_directly() {
+  const Growth& grown = start_.memory->mass_nodes;
+  if (!grown.entries.empty()) mass_->factorise();
+  return nodes_.grow_as(grown, load_.size(), [this](std::span<double> b, int columns) { invert(b, columns); });
+}
+
+Vec3 JumpPort::value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const {
+  Vec3 w = ImpulsePort::value(rows, r, z);
+  if (ratio_ == 0.0) return w;
+  const Vec3 jump = rows.relative(r, jump_);
+  for (std::size_t c = 0; c < 3; ++c) w[c] += jump[c];
+  return w;
+}
+
+void JumpPort::add_direct_compliance(const std::shared_ptr<const ConstraintRows>& rows,
+                                     std::span<const std::size_t> acting, std::span<const std::size_t> counts,
+                                     std::vector<FrameBlock>& W) {
+  if (ratio_ == 0.0) return;
+  mass_->factorise();
+  const std::size_t n = acting.size(), dofs = load_.size();
+  const InverseOperator inverse = [this](std::span<double> b, int columns) { invert(b, columns); };
+  const auto add = [&](std::size_t i, std::size_t j, const FrameBlock& direct) {
+    for (std::size_t k = 0; k < direct.size(); ++k) W[i * n + j][k] += ratio_ * direct[k];
+  };
+  if (system_.mass.kind() != MassKind::lumped && nodes_.extend(*rows, acting, dofs, inverse)) {
+    const std::vector<FrameBlock> direct = nodes_.compliance(*rows, acting, counts);
+    for (std::size_t i = 0; i < n * n; ++i) add(i / n, i % n, direct[i]);
+    return;
+  }
+  const Delassus direct = operator_.delassus(*rows, {acting.begin(), acting.end()});
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = direct.begin[i]; k < direct.begin[i + 1]; ++k) add(i, direct.column[k], direct.block[k]);
+  }
+}
+
+void JumpPort::see_forces(const ConstraintRows& rows, std::span<const std::size_t> which, std::span<const Vec3> force) {
+  if (ratio_ == 0.0) return;
+  load_.assign(load_.size(), 0.0);
+  jump_.assign(jump_.size(), 0.0);
+  bool acts = false;
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    if (force[i] == Vec3{}) continue;
+    acts = true;
+    rows.scatter(which[i], force[i], load_);
+  }
+  if (!acts) return;
+  mass_->factorise();
+  mass_->solve(load_, jump_);
+  for (double& jump : jump_) jump *= ratio_ * slope();
+}
+
+}  // namespace carom

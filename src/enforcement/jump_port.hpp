@@ -1,0 +1,38 @@
+// Impulses that change the velocity at once, beside what they do through the equation of the step.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "enforcement/exact_port.hpp"
+#include "system/mass_solver.hpp"
+
+namespace carom {
+
+/// ImpulsePort for stages whose velocity is v = v_hat + r (y + ratio M^-1 G^T lambda): what the rows see is the
+/// velocity with its jump, W is G (A^-1 + ratio M^-1) G^T. The caller adds the jump to the velocity of the stage.
+class JumpPort final : public ImpulsePort {
+ public:
+  /// ratio: 0 or greater. The solver is shared with the scheme, and factors once rows act.
+  JumpPort(const System& system, double ratio, std::shared_ptr<MassSolver> mass);
+
+  void leave(StageMemory& memory) const override;
+
+ protected:
+  Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const override;
+  bool go_on_directly() override;
+  void add_direct_compliance(const std::shared_ptr<const ConstraintRows>& rows, std::span<const std::size_t> acting,
+                             std::span<const std::size_t> counts, std::vector<FrameBlock>& W) override;
+  void see_forces(const ConstraintRows& rows, std::span<const std::size_t> which, std::span<const Vec3> force) override;
+
+ private:
+  void invert(std::span<double> b, int columns);
+
+  double ratio_;
+  std::shared_ptr<MassSolver> mass_;
+  ContactOperator operator_;
+  NodeCompliance nodes_;  ///< of M where it is consistent, which is the same for the whole run
+  std::vector<double> load_, jump_;
+};
+
+}  // namespace carom

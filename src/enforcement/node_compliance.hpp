@@ -1,0 +1,45 @@
+// What forces on the contact nodes do to the contact nodes, for rows that move over bodies whose operator stays.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "contact/delassus.hpp"
+#include "state/growth.hpp"
+
+namespace carom {
+
+/// C = E^T A^-1 E, E the unit vectors of the dofs of some nodes. Rows that slide are other combinations of the same
+/// nodes at every iterate, so that W = G A^-1 G^T = G_E C G_E^T costs no solve; three are made, once, for a node that
+/// first takes part. What has been solved for is kept until forget().
+class NodeCompliance {
+ public:
+  /// most_nodes: how many nodes are taken in; n nodes take 36 n^2 bytes.
+  explicit NodeCompliance(std::size_t most_nodes) : most_nodes_(most_nodes) {}
+
+  /// For another operator A.
+  void forget();
+  /// Takes in the nodes of the chosen rows. Returns false, and does nothing, when there would be too many.
+  bool extend(const ConstraintRows& rows, std::span<const std::size_t> chosen, std::size_t dof_count,
+              const InverseOperator& inverse);
+  /// How it has grown, as nodes: made anew in the same way, it has the same bits.
+  const Growth& growth() const { return growth_; }
+  /// Becomes what this growth has made. True when it was something else.
+  bool grow_as(const Growth& growth, std::size_t dof_count, const InverseOperator& inverse);
+  /// Blocks W_ij of the chosen rows, whose nodes have been taken in, row by row (chosen.size()^2 of them). Row
+  /// chosen[i] has components[i] components (1: the normal; 3); the entries of others are zero.
+  std::vector<FrameBlock> compliance(const ConstraintRows& rows, std::span<const std::size_t> chosen,
+                                     std::span<const std::size_t> components) const;
+
+ private:
+  FrameBlock block(std::size_t a, std::size_t b) const;
+  void add(std::span<const Index> missing, std::size_t dof_count, const InverseOperator& inverse);
+
+  std::size_t most_nodes_;
+  Growth growth_;                           ///< the nodes, in the order in which they came
+  std::vector<Index> place_;                ///< of each node of the mesh in nodes_, -1: not there
+  std::vector<std::vector<double>> lower_;  ///< line 3 a + i: C(a i, b j) for all b <= a and all j
+};
+
+}  // namespace carom

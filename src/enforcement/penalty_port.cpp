@@ -1,0 +1,327 @@
+#include "enforcement/penalty_port.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "enforcement/contact_work.hpp"
+#include "linalg/dense.hpp"
+#include "math/vec3.hpp"
+#include "parallel/threads.hpp"
+
+namespace carom {
+
+PenaltyPort::PenaltyPort(const System& system) : system_(system) {
+  const std::vector<double>& lengths = system.solid.cell_lengths();
+  reach_ = lengths.empty() ? 0.0 : 0.01 * *std::min_element(lengths.begin(), lengths.end());
+}
+
+void PenaltyPort::begin(const StageStart& start) {
+  begin_ = start.begin;
+  free_ = start.free;
+  force_parts_ = start.force_parts;
+  s_ = start.s;
+  dv_dx_ = start.r / start.s;
+  slip_ = start.m == 0.0 ? CountedSlip::whole_step : CountedSlip::after_touch;
+}
+
+void PenaltyPort::respond(std::span<const double> x, std::span<const double> v, ContactResponse& response) {
+  penalty_response(system_.contact.rows_at(begin_->q, x, begin_->contact), begin_->q, x, v, begin_->contact, response,
+                   slip_);
+}
+
+ContactError PenaltyPort::error(std::span<const double> /*x*/, std::span<const double> /*v*/,
+                                const ContactResponse& /*response*/) const {
+  return {};  // the forces are a function of the state
+}
+
+PortSolve PenaltyPort::solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
+                             const ContactResponse& response, std::span<const double> residual, double absolute,
+                             std::span<double> dy) {
+  const ConstraintRows& rows = *response.rows;
+  tangents_.resize(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    tangents_[r] = penalty_tangent(rows, r, begin_->q, x, v, begin_->contact, dv_dx_, slip_);
+    for (double& d : tangents_[r]) d *= s_;
+  }
+  return solve_with_tangents(solver, x, response, residual, absolute, dy);
+}
+
+bool PenaltyPort::settle(std::span<const double> /*x*/, const ContactResponse& /*response*/) {
+  return true;
+}
+
+PenaltyPort::ClosedSpring PenaltyPort::closed_spring(const ConstraintRows& rows, std::size_t r,
+                                                     std::span<const double> x) const {
+  const RowLaw& law = rows.law[r];
+  const double slope = law.spring_slope(std::max(0.0, -rows.gap_at(r, x)));
+  return {{s_ * slope, 0.0, 0.0, 0.0, s_ * law.eps_T, 0.0, 0.0, 0.0, s_ * law.eps_T}, -law.eps_N * rows.gap_at(r, x)};
+}
+
+/// Closes the open rows that the motion reaches first. False when it reaches none.
+bool PenaltyPort::close_reached(const ConstraintRows& rows, std::span<const double> x, std::span<const double> motion) {
+  std::vector<std::pair<std::size_t, double>> reached;  // rows, and how far the motion closes them
+  double first = std::numeric_limits<double>::infinity();
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (tangents_[r][0] != 0.0) continue;
+    const double closing = -free_->relative(rows, r, motion, x)[0];
+    if (!(closing > 1e-9 * norm(free_->relative(rows, r, motion, x)))) continue;
+    reached.emplace_back(r, closing);
+    first = std::min(first, std::max(0.0, rows.gap_at(r, x)) / closing);
+  }
+  for (const auto& [r, closing] : reached) {
+    if (rows.gap_at(r, x) - first * closing > reach_) continue;
+    const ClosedSpring spring = closed_spring(rows, r, x);
+    tangents_[r] = spring.tangent;
+    rows.scatter(r, {spring.force, 0.0, 0.0}, load_);
+  }
+  return !reached.empty();
+}
+
+/// Gives sliding rows the tangent of sticking ones. False when there are none.
+bool PenaltyPort::stick_sliding(const ContactResponse& response, std::span<const double> x) {
+  const ConstraintRows& rows = *response.rows;
+  bool is_any = false;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (response.status[r] != RowStatus::slip) continue;
+    const RowTangent stick = closed_spring(rows, r, x).tangent;
+    is_any = is_any || tangents_[r] != stick;
+    tangents_[r] = stick;
+  }
+  return is_any;
+}
+
+/// Why nothing can hold a body, "" where all are held.
+std::string PenaltyPort::hold_bodies(const ContactResponse& response, std::span<const double> x,
+                                     std::span<const double> residual) {
+  for (;;) {
+    const std::vector<double> motion = free_->unheld(*response.rows, tangents_, x, residual, force_parts_);
+    if (std::all_of(motion.begin(), motion.end(), [](double m) { return m == 0.0; })) return {};
+    if (close_reached(*response.rows, x, motion) || stick_sliding(response, x)) continue;
+    return "no support and no contact holds " + free_->describe(motion) + ", where the loads push it";
+  }
+}
+
+PortSolve PenaltyPort::solve_with_tangents(EffectiveSolver& solver, std::span<const double> x,
+                                           const ContactResponse& response, std::span<const double> residual,
+                                           double absolute, std::span<double> dy) {
+  if (free_ == nullptr || free_->empty()) {
+    return {solver.solve(residual, response.rows, tangents_, absolute, dy), {}};
+  }
+  load_.assign(residual.begin(), residual.end());
+  std::string failure = hold_bodies(response, x, residual);
+  if (!failure.empty()) return {{}, std::move(failure)};
+  const std::vector<bool>& fixed = system_.supports.fixed();
+  for (std::size_t i = 0; i < load_.size(); ++i) {
+    if (fixed[i]) load_[i] = 0.0;
+  }
+  PortSolve out{solver.solve(load_, response.rows, tangents_, absolute, dy), {}};
+  release_held(solver, response, x, out.linear, dy);
+  return out;
+}
+
+/// dy becomes (A - P N P^T)^-1 of the load, N = FreeModes::needless and P the pins, from A^-1 of it (Woodbury):
+///   dy + Z (1 - N P^T Z)^-1 N P^T dy,  Z = A^-1 P.
+void PenaltyPort::release_held(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> x,
+                               LinearSolveReport& linear, std::span<double> dy) {
+  const std::vector<double> N = free_->needless(*response.rows, tangents_, x);
+  if (N.empty()) return;
+  const std::vector<DofSpring> pins = free_->pins();
+  const std::size_t d = pins.size(), n = dy.size();
+  std::vector<double> Z(d * n), unit(n, 0.0), matrix(d * d, 0.0), c(d, 0.0);
+  for (std::size_t k = 0; k < d; ++k) {
+    unit[pins[k].dof] = 1.0;
+    const LinearSolveReport one = solver.solve(unit, response.rows, tangents_, 0.0, std::span(Z).subspan(k * n, n));
+    unit[pins[k].dof] = 0.0;
+    linear.converged = linear.converged && one.converged;
+    linear.iterations += one.iterations;
+  }
+  for (std::size_t i = 0; i < d; ++i) {
+    matrix[i * d + i] = 1.0;
+    for (std::size_t j = 0; j < d; ++j) {
+      c[i] += N[i * d + j] * dy[pins[j].dof];
+      for (std::size_t k = 0; k < d; ++k) matrix[i * d + k] -= N[i * d + j] * Z[k * n + pins[j].dof];
+    }
+  }
+  DenseLu(std::move(matrix), static_cast<int>(d)).solve(c);
+  for (std::size_t k = 0; k < d; ++k)
+    for (std::size_t i = 0; i < n; ++i) dy[i] += c[k] * Z[k * n + i];
+}
+
+void PenaltyPort::add_stiffness_diagonal(std::span<double> d) const {
+  const std::vector<double> zero(d.size(), 0.0);
+  add_closed_diagonal(*system_.contact.rows_at(zero, zero), d);
+}
+
+ContactWork PenaltyPort::work(const State& begin, const State& end, double /*end_weight*/) const {
+  return {.total = trapezoidal_work(begin, begin.forces.contact, end, end.forces.contact),
+          .friction = end.forces.rows.slip_work,
+          .damping = damping_work(begin, end)};
+}
+
+/// Multipliers have settled when their update changes no node's acceleration by more than this share of the largest:
+/// forces that are carried on from step to step are then right to 1 % (a bar on a wall against exact multipliers: 1.5 %
+/// at 0.01).
+static constexpr double settled = 0.003;
+
+/// Share of an update of the multipliers at which a residual is small enough for the update to be made.
+static constexpr double near_equilibrium = 0.1;
+
+AugmentedLagrangianPort::AugmentedLagrangianPort(const System& system, double penetration)
+    : PenaltyPort(system), penetration_(penetration) {
+  diagonal_ = system.solid.tangent_diagonal(std::vector<double>(system.solid.dof_count(), 0.0));
+}
+
+void AugmentedLagrangianPort::begin(const StageStart& start) {
+  PenaltyPort::begin(start);
+  m_ = start.m;
+  c_ = start.c;
+  multiplier_.resize(begin_->contact.size());
+  for (std::size_t i = 0; i < multiplier_.size(); ++i) multiplier_[i] = begin_->contact[i].multiplier;
+}
+
+/// Factor on the springs of row r: eps_N W is about 10 at least, with W = s G diag(m M + c K)^-1 G^T.
+double AugmentedLagrangianPort::stiffening(const ConstraintRows& rows, std::size_t r) const {
+  double compliance = 0.0;
+  for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
+    const auto n = static_cast<std::size_t>(rows.node[k]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t i = 3 * n + c;
+      if (system_.supports.fixed()[i]) continue;
+      const double b = rows.block[k][0][c];
+      compliance += s_ * b * b / (m_ * system_.mass.node_diagonal()[n] + c_ * diagonal_[i]);
+    }
+  }
+  return compliance > 0.0 ? std::max(1.0, 10.0 / (compliance * rows.law[r].eps_N)) : 1.0;
+}
+
+void AugmentedLagrangianPort::respond(std::span<const double> x, std::span<const double> /*v*/,
+                                      ContactResponse& response) {
+  response.rows = system_.contact.rows_at(begin_->q, x, begin_->contact);
+  const ConstraintRows& rows = *response.rows;
+  response.force.assign(rows.size(), {});
+  response.damper.assign(rows.size(), 0.0);
+  response.status.assign(rows.size(), RowStatus::open);
+  response.history.assign(multiplier_.size(), {});
+  response.stored = response.slip_work = 0.0;
+  tangents_.assign(rows.size(), {});
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto slot = static_cast<std::size_t>(rows.slot[r]);
+    const Vec3 lambda = rows.to_frame(r, multiplier_[slot]), w = rows.relative(r, x);
+    const double factor = stiffening(rows, r), eps_N = factor * rows.law[r].eps_N;
+    const double eps_T = factor * rows.law[r].eps_T;
+    Vec3& force = response.force[r];
+    RowTangent& D = tangents_[r];
+    force[0] = std::max(0.0, lambda[0] - eps_N * (rows.gap[r] + w[0]));
+    // Friction keeps its limit until the multipliers change, on rows that open as well: its force must not jump.
+    const double limit = rows.law[r].mu * std::max(0.0, lambda[0]);
+    if (force[0] == 0.0 && limit == 0.0) continue;
+    if (force[0] > 0.0) D[0] = s_ * eps_N;
+    response.status[r] = RowStatus::stick;
+    if (rows.law[r].mu > 0.0) {
+      const Vec3 w_begin = rows.relative(r, begin_->q);
+      const std::array<double, 2> trial{lambda[1] - eps_T * (w[1] - w_begin[1]),
+                                        lambda[2] - eps_T * (w[2] - w_begin[2])};
+      const double size = std::hypot(trial[0], trial[1]), keep = size > limit ? limit / size : 1.0;
+      if (keep < 1.0) response.status[r] = RowStatus::slip;
+      for (std::size_t i = 0; i < 2; ++i) {
+        force[i + 1] = keep * trial[i];
+        for (std::size_t j = 0; j < 2; ++j) {
+          const double along = keep < 1.0 ? trial[i] * trial[j] / (size * size) : 0.0;
+          D[3 * (i + 1) + j + 1] = s_ * keep * eps_T * ((i == j ? 1.0 : 0.0) - along);
+        }
+      }
+    }
+    response.history[slot].multiplier = rows.to_space(r, force);
+  }
+}
+
+PortSolve AugmentedLagrangianPort::solve(EffectiveSolver& solver, std::span<const double> x,
+                                         std::span<const double> /*v*/, const ContactResponse& response,
+                                         std::span<const double> residual, double absolute, std::span<double> dy) {
+  return solve_with_tangents(solver, x, response, residual, absolute, dy);
+}
+
+PenaltyPort::ClosedSpring AugmentedLagrangianPort::closed_spring(const ConstraintRows& rows, std::size_t r,
+                                                                 std::span<const double> x) const {
+  const double factor = stiffening(rows, r), eps_N = factor * rows.law[r].eps_N;
+  const double eps_T = rows.law[r].mu > 0.0 ? factor * rows.law[r].eps_T : 0.0;
+  const Vec3 lambda = rows.to_frame(r, multiplier_[static_cast<std::size_t>(rows.slot[r])]);
+  return {{s_ * eps_N, 0.0, 0.0, 0.0, s_ * eps_T, 0.0, 0.0, 0.0, s_ * eps_T}, lambda[0] - eps_N * rows.gap_at(r, x)};
+}
+
+/// Rounding of gaps, which the stiffened springs turn into forces.
+ContactError AugmentedLagrangianPort::error(std::span<const double> x, std::span<const double> /*v*/,
+                                            const ContactResponse& response) const {
+  const ConstraintRows& rows = *response.rows;
+  std::vector<double> rounding(x.size(), 0.0);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (response.force[r][0] == 0.0) continue;
+    const double force = stiffening(rows, r) * rows.law[r].eps_N * rows.gap_rounding(r, x);
+    for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        rounding[3 * static_cast<std::size_t>(rows.node[k]) + c] += force * std::abs(rows.block[k][0][c]);
+  }
+  double moved = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) moved += (x[i] - begin_->q[i]) * (x[i] - begin_->q[i]);
+  return {0.0, std::sqrt(moved * dot(rounding, rounding))};
+}
+
+/// What an update of the multipliers would change.
+AugmentedLagrangianPort::Update AugmentedLagrangianPort::update(std::span<const double> x,
+                                                                const ContactResponse& response) const {
+  const ConstraintRows& rows = *response.rows;
+  Update out;
+  std::vector<double> force(x.size(), 0.0), change(x.size(), 0.0);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Vec3 w = rows.relative(r, x), &now = response.force[r];
+    const double gap = rows.gap[r] + w[0];
+    rows.scatter(r, now, force);
+    if (std::abs(gap) > rows.gap_rounding(r, x))
+      rows.scatter(r, subtract(now, rows.to_frame(r, multiplier_[static_cast<std::size_t>(rows.slot[r])])), change);
+    if (now[0] == 0.0 && response.status[r] != RowStatus::open) out.violation = std::numeric_limits<double>::infinity();
+    out.violation = std::max(out.violation, now[0] > 0.0 ? std::abs(gap) : -gap);
+    if (response.status[r] != RowStatus::stick || rows.law[r].mu == 0.0) continue;
+    const Vec3 w_begin = rows.relative(r, begin_->q);
+    out.violation = std::max(out.violation, std::hypot(w[1] - w_begin[1], w[2] - w_begin[2]));
+  }
+  double largest = 0.0, most = 0.0;
+  for (std::size_t n = 0; 3 * n < x.size(); ++n) {
+    const double stiffness = diagonal_[3 * n] + diagonal_[3 * n + 1] + diagonal_[3 * n + 2];
+    const double resistance = m_ * system_.mass.node_diagonal()[n] + c_ * stiffness / 3.0;
+    if (!(resistance > 0.0)) continue;
+    const auto size = [&](const std::vector<double>& f) {
+      return norm(Vec3{f[3 * n], f[3 * n + 1], f[3 * n + 2]}) / resistance;
+    };
+    largest = std::max(largest, size(force));
+    most = std::max(most, size(change));
+  }
+  out.is_settled = out.violation <= penetration_ && most <= settled * largest;
+  out.force = std::sqrt(dot(change, change));
+  return out;
+}
+
+bool AugmentedLagrangianPort::settle(std::span<const double> x, const ContactResponse& response) {
+  if (update(x, response).is_settled) return true;
+  take_forces(response);
+  return false;
+}
+
+bool AugmentedLagrangianPort::renew(std::span<const double> x, const ContactResponse& response, double residual) {
+  const Update made = update(x, response);
+  if (made.is_settled || residual > near_equilibrium * made.force) return false;
+  take_forces(response);
+  return true;
+}
+
+void AugmentedLagrangianPort::take_forces(const ContactResponse& response) {
+  for (std::size_t i = 0; i < multiplier_.size(); ++i) multiplier_[i] = response.history[i].multiplier;
+}
+
+ContactWork AugmentedLagrangianPort::work(const State& begin, const State& end, double end_weight) const {
+  return multiplier_work(begin, end, end_weight);
+}
+
+}  // namespace carom

@@ -1,0 +1,82 @@
+#include "enforcement/velocity_impulses.hpp"
+
+#include <algorithm>
+
+#include "math/vec3.hpp"
+#include "parallel/threads.hpp"
+
+namespace carom {
+
+// 3,800 nodes: 512 MiB.
+VelocityImpulses::VelocityImpulses(const System& system)
+    : system_(system),
+      mass_(system),
+      operator_(mass_operator(system, mass_)),
+      nodes_(3800),
+      push_(system.solid.dof_count()) {
+  if (system.mass.kind() == MassKind::lumped) return;
+  operator_.delassus = [this, otherwise = operator_.delassus](const ConstraintRows& rows,
+                                                              const std::vector<std::size_t>& chosen) {
+    Delassus W = of_consistent_mass(rows, chosen);
+    return W.rows.empty() ? otherwise(rows, chosen) : W;
+  };
+}
+
+void VelocityImpulses::invert(std::span<double> b, int columns) {
+  const std::size_t dofs = push_.size();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) operator_.inverse(b.subspan(k * dofs, dofs));
+}
+
+/// From the compliances of the nodes; no rows where there are too many nodes.
+Delassus VelocityImpulses::of_consistent_mass(const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {
+  const std::size_t dofs = push_.size(), n = chosen.size();
+  const InverseOperator inverse = [this](std::span<double> b, int columns) { invert(b, columns); };
+  Delassus W;
+  if (!nodes_.extend(rows, chosen, dofs, inverse)) return W;
+  std::vector<std::size_t> components;
+  for (const std::size_t r : chosen) components.push_back(rows.law[r].mu > 0.0 ? 3 : 1);
+  W.block = nodes_.compliance(rows, chosen, components);
+  W.rows = chosen;
+  for (std::size_t i = 0; i <= n; ++i) W.begin.push_back(i * n);
+  for (std::size_t i = 0; i < n * n; ++i) W.column.push_back(i % n);
+  return W;
+}
+
+bool VelocityImpulses::accelerations(std::span<const double> contact, std::span<double> a) {
+  std::fill(a.begin(), a.end(), 0.0);
+  if (std::all_of(contact.begin(), contact.end(), [](double f) { return f == 0.0; })) return true;
+  mass_.factorise();
+  return mass_.solve(contact, a) >= 0;
+}
+
+std::string VelocityImpulses::respond(double k, const ContactResponse& closed, Growth& nodes, std::span<double> v) {
+  const ConstraintRows& rows = *closed.rows;
+  open_response(closed.rows, closed.history.size(), response_);
+  closing_.clear();
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (closed.status[r] != RowStatus::open)
+      closing_.push_back({r, scaled(rows.relative(r, v), 1.0 / k), rows.rounding(r, v) / k});
+  }
+  if (closing_.empty()) {
+    std::fill(push_.begin(), push_.end(), 0.0);
+    return {};
+  }
+  mass_.factorise();
+  nodes_.grow_as(nodes, push_.size(), [this](std::span<double> b, int columns) { invert(b, columns); });
+  std::string failure = close_rows(system_.contact, closing_, closed.history, operator_, response_, push_);
+  nodes = nodes_.growth();
+  if (failure.empty()) parallel_each(v.size(), [&](std::size_t i) { v[i] += k * push_[i]; });
+  return failure;
+}
+
+std::unique_ptr<VelocityImpulses> velocity_impulses(const System& system, EnforcementKind enforcement) {
+  if (!traits(enforcement).has_multipliers) return nullptr;
+  const std::vector<double>& mass = system.mass.node_diagonal();
+  const std::vector<bool>& fixed = system.supports.fixed();
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    if (mass[i / 3] == 0.0 && !fixed[i]) return nullptr;
+  }
+  return std::make_unique<VelocityImpulses>(system);
+}
+
+}  // namespace carom

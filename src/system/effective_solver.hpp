@@ -1,0 +1,80 @@
+// The linear systems of implicit steps: (m M + c K + G^T D G) x = b on the free dofs.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/compatibility.hpp"
+#include "system/system.hpp"
+
+namespace carom {
+
+enum class SolverKind : std::uint8_t { automatic, conjugate_gradients, cholesky, ldlt };
+
+struct LinearSolveReport {
+  bool converged = false;
+  int iterations = 0;
+  double residual = 0.0;       ///< 2-norm; 0 for a direct solve
+  bool is_indefinite = false;  ///< it broke down, since the operator is not positive definite
+  std::size_t worst = 0;       ///< dof that moves most in what A does not resist, where it has not converged
+};
+
+/// A spring between a dof and the ground.
+struct DofSpring {
+  std::size_t dof = 0;
+  double stiffness = 0.0;
+};
+
+/// A = m M + c K(u) of the system, and the springs of hold(); D holds the contact tangents, row by row in the row's
+/// frame, times the slope of x in the unknown. Contact never causes a new factorisation.
+class EffectiveSolver {
+ public:
+  virtual ~EffectiveSolver() = default;
+  /// Springs that are part of A from the next prepare() on, none of them on a fixed dof.
+  void hold(std::vector<DofSpring> springs) { springs_ = std::move(springs); }
+  /// A stage begins: what follows goes on from what its memory holds. The memory outlives the stage.
+  virtual void begin(const StageMemory& memory) = 0;
+  /// Writes what the next stage goes on from; before the first one, what that goes on from.
+  virtual void leave(StageMemory& memory) const = 0;
+  /// Makes A ready at the displacement u, the end of `step` (whose history outlives the solves); a linear body does
+  /// nothing when m and c are the last ones. Returns what is wrong with A, "" when nothing is.
+  virtual std::string prepare(double m, double c, std::span<const double> u, const PointStep& step = {}) = 0;
+  /// Solves (A + G^T D G) x = b for x (overwritten; zero on fixed dofs) to a residual of at most `absolute` in the
+  /// 2-norm where the solver iterates. b is zero on fixed dofs; D may be empty.
+  virtual LinearSolveReport solve(std::span<const double> b, const std::shared_ptr<const ConstraintRows>& rows,
+                                  const std::vector<RowTangent>& D, double absolute, std::span<double> x) = 0;
+  /// Overwrites the dof vectors b (one after the other, zero on fixed dofs) by A^-1 b, close to round-off.
+  virtual LinearSolveReport invert(std::span<double> b, int columns) = 0;
+  /// Of the solver that goes on from this memory, for the log.
+  virtual std::string name(const StageMemory& memory) const = 0;
+  /// Grows whenever A becomes another operator.
+  std::size_t operators_made() const { return operators_made_; }
+
+ protected:
+  std::size_t operators_made_ = 0;
+  std::vector<DofSpring> springs_;
+};
+
+/// "node 17 at (0, 1, 2) moves along z", for messages.
+std::string describe_motion(const Mesh& mesh, std::size_t dof);
+
+/// What `automatic` stands for; any other kind as it is. ratio: c / m of the usual step (infinite for statics).
+/// Conjugate gradients where the Jacobi-preconditioned operator is well conditioned,
+///   kappa about 1 + (c / m) omega_max^2, so that sqrt(kappa)/2 ln(2/1e-12) iterations stay below 60,
+/// or the mesh has more than two million dofs or contact more than a thousand rows (one back-substitution and a line of
+/// a dense matrix each); the factorisation elsewhere. Exact contact asks for a column of the inverse per row, or three
+/// per contact node where rows of linear bodies move: a factorisation gives them cheaply, conjugate gradients do not.
+/// Linear bodies factor once, and half a million dofs take some gigabytes; the others factor in every iteration, which
+/// pays while that is a matter of seconds.
+SolverKind chosen_solver(const System& system, SolverKind kind, EnforcementKind enforcement, double ratio,
+                         double omega_max_squared);
+
+/// kind: not automatic. Cholesky factors give way to L D L^T where the operator is not positive definite
+/// (TangentFactors).
+std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind);
+
+}  // namespace carom

@@ -1,0 +1,322 @@
+#include "system/free_modes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "linalg/dense.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+
+namespace {
+
+/// Representative of the set that i belongs to (union-find with halved paths).
+std::size_t root(std::vector<std::size_t>& parent, std::size_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+}  // namespace
+
+FreeModes::FreeModes(const System& system) : system_(system) {
+  find_bodies();
+  find_modes();
+  for (Body& body : bodies_) {
+    body.first = size_;
+    size_ += body.modes.size();
+    body_of_mode_.insert(body_of_mode_.end(), body.modes.size(), static_cast<std::size_t>(&body - bodies_.data()));
+    choose_pins(body);
+  }
+}
+
+void FreeModes::find_bodies() {
+  const Solid& solid = system_.solid;
+  const std::vector<double>& mass = system_.mass.node_diagonal();
+  const std::vector<Vec3>& X = system_.mesh.coordinates;
+  std::vector<std::size_t> parent(solid.node_count());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  std::vector<bool> is_used(parent.size());
+  for (std::size_t n = 0; n < parent.size(); ++n) is_used[n] = mass[n] > 0.0;
+  for (std::size_t k = 0; k < solid.cell_count(); ++k) {
+    const std::span<const Index> nodes = solid.nodes_of_cell(k);
+    for (const Index n : nodes) {
+      parent[root(parent, static_cast<std::size_t>(n))] = root(parent, static_cast<std::size_t>(nodes[0]));
+      is_used[static_cast<std::size_t>(n)] = true;  // also where a modified mass leaves none
+    }
+  }
+  for (const Spring& spring : solid.springs()) {
+    const auto a = static_cast<std::size_t>(spring.nodes[0]), b = static_cast<std::size_t>(spring.nodes[1]);
+    if (is_used[a] && is_used[b]) parent[root(parent, a)] = root(parent, b);  // else it is the ground
+  }
+  body_of_.assign(parent.size(), -1);
+  for (std::size_t n = 0; n < parent.size(); ++n) {
+    if (!is_used[n]) continue;
+    int& body = body_of_[root(parent, n)];
+    if (body < 0) {
+      body = static_cast<int>(bodies_.size());
+      bodies_.emplace_back();
+    }
+    body_of_[n] = body;
+    bodies_[static_cast<std::size_t>(body)].nodes.push_back(static_cast<Index>(n));
+  }
+  for (Body& body : bodies_) {
+    for (const Index n : body.nodes) body.centre = add(body.centre, scaled(X[n], 1.0 / body.nodes.size()));
+    double radius = 0.0;
+    for (const Index n : body.nodes) radius = std::max(radius, norm(subtract(X[n], body.centre)));
+    if (radius > 0.0) body.radius = radius;
+  }
+}
+
+Vec3 FreeModes::candidate(const Body& body, std::size_t j, const Vec3& x) const {
+  Vec3 axis{};
+  axis[j % 3] = 1.0;
+  return j < 3 ? axis : scaled(cross(axis, subtract(x, body.centre)), 1.0 / body.radius);
+}
+
+void FreeModes::find_modes() {
+  const std::size_t dofs = system_.solid.dof_count();
+  const std::vector<Vec3>& X = system_.mesh.coordinates;
+  const std::vector<double> zero(dofs, 0.0), diagonal = system_.solid.tangent_diagonal(zero);
+  std::array<std::vector<double>, 6> c, Kc;
+  for (std::size_t j = 0; j < 6; ++j) {
+    c[j].assign(dofs, 0.0);
+    Kc[j].resize(dofs);
+    for (const Body& body : bodies_) {
+      for (const Index n : body.nodes) {
+        const Vec3 v = candidate(body, j, X[n]);
+        std::copy(v.begin(), v.end(), c[j].begin() + 3 * static_cast<std::ptrdiff_t>(n));
+      }
+    }
+    system_.solid.tangent_action(zero, c[j], Kc[j]);
+  }
+  double softest = std::numeric_limits<double>::infinity();
+  const auto dofs_of = [](const Body& body, auto&& visit) {
+    for (const Index n : body.nodes)
+      for (std::size_t i = 3 * static_cast<std::size_t>(n); i < 3 * static_cast<std::size_t>(n) + 3; ++i) visit(i);
+  };
+  for (Body& body : bodies_) {
+    double least = std::numeric_limits<double>::infinity(), most = 0.0;
+    dofs_of(body, [&](std::size_t i) {
+      if (diagonal[i] > 0.0) least = std::min(least, diagonal[i]);
+      most = std::max(most, diagonal[i]);
+    });
+    body.stiffness = least;
+    softest = std::min(softest, least);
+    const double of_support = most > 0.0 ? most : 1.0;
+    std::vector<double> T(36, 0.0);
+    dofs_of(body, [&](std::size_t i) {
+      const double support = system_.supports.fixed()[i] ? of_support : 0.0;
+      for (std::size_t j = 0; j < 6; ++j)
+        for (std::size_t k = 0; k < 6; ++k) T[6 * j + k] += c[j][i] * (Kc[k][i] + support * c[k][i]);
+    });
+    // A single node does not turn: its turns are zero vectors, which resist nothing and are no modes.
+    if (body.nodes.size() == 1)
+      for (std::size_t j = 3; j < 6; ++j) T[7 * j] = of_support;
+    const SymmetricEigen eigen = symmetric_eigen(T, 6);
+    const double largest = std::max(of_support, eigen.values.back());
+    for (std::size_t j = 0; j < 6; ++j) {
+      if (eigen.values[j] > 1e-9 * largest) continue;
+      Candidate mode;
+      for (std::size_t k = 0; k < 6; ++k) mode[k] = eigen.vectors[6 * j + k];
+      body.modes.push_back(mode);
+    }
+  }
+  for (Body& body : bodies_) {
+    if (!std::isfinite(body.stiffness)) body.stiffness = std::isfinite(softest) ? softest : 1.0;
+  }
+}
+
+/// Gram-Schmidt with the largest remaining dof first.
+void FreeModes::choose_pins(Body& body) const {
+  const std::size_t d = body.modes.size();
+  std::vector<std::size_t> dof;
+  std::vector<std::array<double, 6>> row;  // displacement of the dof in each mode
+  for (const Index n : body.nodes) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t at = 3 * static_cast<std::size_t>(n) + i;
+      if (d == 0 || system_.supports.fixed()[at]) continue;
+      dof.push_back(at);
+      row.emplace_back();
+      for (std::size_t k = 0; k < d; ++k) row.back()[k] = combine(body, body.modes[k], n, {})[i];
+    }
+  }
+  const auto product = [d](const std::array<double, 6>& a, const std::array<double, 6>& b) {
+    return std::inner_product(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(d), b.begin(), 0.0);
+  };
+  for (std::size_t k = 0; k < d; ++k) {
+    const auto largest = static_cast<std::size_t>(
+        std::max_element(row.begin(), row.end(),
+                         [&](const auto& a, const auto& b) { return product(a, a) < product(b, b) * (1.0 - 1e-9); }) -
+        row.begin());
+    const std::array<double, 6> chosen = row[largest];
+    const double square = product(chosen, chosen);
+    body.pins.push_back(dof[largest]);
+    for (auto& r : row) {
+      const double part = product(r, chosen) / square;
+      for (std::size_t j = 0; j < d; ++j) r[j] -= part * chosen[j];
+    }
+  }
+}
+
+Vec3 FreeModes::combine(const Body& body, const Candidate& c, Index node, std::span<const double> u) const {
+  const auto n = static_cast<std::size_t>(node);
+  Vec3 x = system_.mesh.coordinates[n], out{};
+  if (!u.empty() && !system_.solid.is_linear()) x = add(x, {u[3 * n], u[3 * n + 1], u[3 * n + 2]});
+  for (std::size_t j = 0; j < 6; ++j) out = add(out, scaled(candidate(body, j, x), c[j]));
+  return out;
+}
+
+std::vector<std::vector<Index>> FreeModes::free_bodies() const {
+  std::vector<std::vector<Index>> out;
+  for (const Body& body : bodies_)
+    if (!body.modes.empty()) out.push_back(body.nodes);
+  return out;
+}
+
+Vec3 FreeModes::displacement(std::size_t k, Index node, std::span<const double> u) const {
+  const std::size_t b = body_of_mode_[k];
+  if (body_of_[static_cast<std::size_t>(node)] != static_cast<int>(b)) return {};
+  const Body& body = bodies_[b];
+  return combine(body, body.modes[k - body.first], node, u);
+}
+
+std::vector<DofSpring> FreeModes::pins(double share) const {
+  std::vector<DofSpring> out;
+  for (const Body& body : bodies_) {
+    for (const std::size_t dof : body.pins) out.push_back({dof, share * body.stiffness});
+  }
+  return out;
+}
+
+Vec3 FreeModes::relative(const ConstraintRows& rows, std::size_t r, std::span<const double> coefficient,
+                         std::span<const double> u) const {
+  Vec3 w{};
+  for (auto e = static_cast<std::size_t>(rows.begin[r]); e < static_cast<std::size_t>(rows.begin[r + 1]); ++e) {
+    const int b = body_of_[static_cast<std::size_t>(rows.node[e])];
+    if (b < 0) continue;
+    const Body& body = bodies_[static_cast<std::size_t>(b)];
+    Candidate sum{};
+    for (std::size_t k = 0; k < body.modes.size(); ++k)
+      for (std::size_t j = 0; j < 6; ++j) sum[j] += coefficient[body.first + k] * body.modes[k][j];
+    const Vec3 v = combine(body, sum, rows.node[e], u);
+    for (std::size_t i = 0; i < 3; ++i) w[i] += dot(rows.block[e][i], v);
+  }
+  return w;
+}
+
+/// T = R^T G^T D G R, row-major.
+std::vector<double> FreeModes::stiffness_of_rows(const ConstraintRows& rows, const std::vector<RowTangent>& D,
+                                                 std::span<const double> u) const {
+  std::vector<double> T(size_ * size_, 0.0), unit(size_, 0.0);
+  std::vector<Vec3> w(size_);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const RowTangent& t = D[r];
+    if (std::all_of(t.begin(), t.end(), [](double d) { return d == 0.0; })) continue;
+    for (std::size_t k = 0; k < size_; ++k) {
+      unit[k] = 1.0;
+      w[k] = relative(rows, r, unit, u);
+      unit[k] = 0.0;
+    }
+    for (std::size_t k = 0; k < size_; ++k) {
+      for (std::size_t l = 0; l < size_; ++l)
+        for (std::size_t i = 0; i < 3; ++i)
+          T[k * size_ + l] += w[k][i] * (t[3 * i] * w[l][0] + t[3 * i + 1] * w[l][1] + t[3 * i + 2] * w[l][2]);
+    }
+  }
+  return T;
+}
+
+std::vector<double> FreeModes::unheld(const ConstraintRows& rows, const std::vector<RowTangent>& D,
+                                      std::span<const double> u, std::span<const double> force,
+                                      std::span<const double> magnitude) const {
+  std::vector<double> load(size_, 0.0), parts(size_, 0.0), e(size_);
+  for (const Body& body : bodies_) {
+    for (std::size_t k = 0; k < body.modes.size(); ++k) {
+      e[body.first + k] = 1e-12 * body.stiffness;
+      for (const Index n : body.nodes) {
+        const Vec3 v = combine(body, body.modes[k], n, u);
+        const std::size_t dof = 3 * static_cast<std::size_t>(n);
+        load[body.first + k] += dot(v, {force[dof], force[dof + 1], force[dof + 2]});
+        parts[body.first + k] += norm(v) * norm({magnitude[dof], magnitude[dof + 1], magnitude[dof + 2]});
+      }
+    }
+  }
+  std::vector<double> T = stiffness_of_rows(rows, D, u);
+  for (std::size_t k = 0; k < size_; ++k) T[k * size_ + k] += e[k];
+  std::vector<double> rho = load;
+  DenseLu(std::move(T), static_cast<int>(size_)).solve(rho);
+  // Bodies pass their loads on: what rounding leaves on one may come from the load of another.
+  const double largest = parts.empty() ? 0.0 : *std::max_element(parts.begin(), parts.end());
+  for (std::size_t k = 0; k < size_; ++k) {
+    rho[k] *= e[k];
+    if (std::abs(rho[k]) <= 1e-8 * largest) rho[k] = 0.0;
+  }
+  return rho;
+}
+
+std::vector<double> FreeModes::needless(const ConstraintRows& rows, const std::vector<RowTangent>& D,
+                                        std::span<const double> u) const {
+  const std::size_t d = size_;
+  std::vector<double> T = stiffness_of_rows(rows, D, u), stiffness(d);
+  for (std::size_t k = 0; k < d; ++k) stiffness[k] = bodies_[body_of_mode_[k]].stiffness;
+  for (std::size_t k = 0; k < d; ++k) {
+    for (std::size_t l = 0; l <= k; ++l) {
+      const double mean = 0.5 * (T[k * d + l] + T[l * d + k]) / std::sqrt(stiffness[k] * stiffness[l]);
+      T[k * d + l] = T[l * d + k] = mean;
+    }
+  }
+  const SymmetricEigen eigen = symmetric_eigen(std::move(T), static_cast<int>(d));
+  // An orthonormal basis of the pins' displacements, scaled by the roots of their stiffnesses.
+  std::vector<std::vector<double>> basis;
+  for (std::size_t m = 0; m < d; ++m) {
+    if (!(eigen.values[m] > 1e-4)) continue;
+    std::vector<double> p(d, 0.0);
+    for (const Body& body : bodies_) {
+      for (std::size_t i = 0; i < body.pins.size(); ++i) {
+        const auto node = static_cast<Index>(body.pins[i] / 3);
+        for (std::size_t k = 0; k < body.modes.size(); ++k)
+          p[body.first + i] +=
+              combine(body, body.modes[k], node, u)[body.pins[i] % 3] * eigen.vectors[m * d + body.first + k];
+      }
+    }
+    for (int again = 0; again < 2; ++again) {
+      for (const std::vector<double>& q : basis) {
+        const double part = std::inner_product(p.begin(), p.end(), q.begin(), 0.0);
+        for (std::size_t i = 0; i < d; ++i) p[i] -= part * q[i];
+      }
+    }
+    const double length = std::sqrt(std::inner_product(p.begin(), p.end(), p.begin(), 0.0));
+    for (double& v : p) v /= length;
+    basis.push_back(std::move(p));
+  }
+  if (basis.empty()) return {};
+  std::vector<double> N(d * d, 0.0);
+  for (const std::vector<double>& q : basis)
+    for (std::size_t i = 0; i < d; ++i)
+      for (std::size_t j = 0; j < d; ++j) N[i * d + j] += std::sqrt(stiffness[i] * stiffness[j]) * q[i] * q[j];
+  return N;
+}
+
+std::string FreeModes::describe(std::span<const double> load) const {
+  const auto largest = static_cast<std::size_t>(
+      std::max_element(load.begin(), load.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+      load.begin());
+  const Body& body = bodies_[body_of_mode_[largest]];
+  Candidate sum{};
+  for (std::size_t k = 0; k < body.modes.size(); ++k)
+    for (std::size_t j = 0; j < 6; ++j) sum[j] += load[body.first + k] * body.modes[k][j];
+  const bool is_turn = std::hypot(sum[3], sum[4], sum[5]) > std::hypot(sum[0], sum[1], sum[2]);
+  const std::size_t at = is_turn ? 3 : 0;
+  const Vec3 direction = normalized({sum[at], sum[at + 1], sum[at + 2]});
+  const Vec3& c = body.centre;
+  return fmt::format("the body about ({:.4g}, {:.4g}, {:.4g}), with node {}, {} ({:.3g}, {:.3g}, {:.3g})", c[0], c[1],
+                     c[2], system_.mesh.node_numbers[static_cast<std::size_t>(body.nodes[0])],
+                     is_turn ? "about the axis" : "along", direction[0], direction[1], direction[2]);
+}
+
+}  // namespace carom

@@ -1,0 +1,63 @@
+// What forces on the rows do through the inverse of an operator: A^-1 G^T and G A^-1 G^T, grown as rows are needed.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contact/delassus.hpp"
+#include "state/growth.hpp"
+
+namespace carom {
+
+/// One component of one row: a column of G^T.
+struct RowComponent {
+  std::size_t row;
+  std::size_t component;
+};
+
+/// S = G A^-1 G^T for some components of the rows of one ConstraintRows; a component is solved for once.
+class RowCompliance {
+ public:
+  /// column_entries: how many numbers of A^-1 G^T may be kept (0: none).
+  RowCompliance(std::size_t dof_count, std::size_t column_entries)
+      : dof_count_(dof_count), column_entries_(column_entries) {}
+
+  /// Forgets everything, unless it was made for these rows already.
+  void use(const std::shared_ptr<const ConstraintRows>& rows);
+  void forget() { rows_.reset(); }
+  /// Adds those components that are not there yet.
+  void extend(std::span<const RowComponent> wanted, const InverseOperator& inverse);
+  /// How it has grown, as 3 row + component: made anew in the same way, it has the same bits.
+  const Growth& growth() const { return growth_; }
+  /// Becomes what this growth has made. True when it was something else.
+  bool grow_as(const Growth& growth, const InverseOperator& inverse);
+  /// S of the listed rows, of which row i has counts[i] components, as a dense matrix of blocks by rows; what is not
+  /// there yet is solved for.
+  std::vector<FrameBlock> blocks(std::span<const std::size_t> rows, std::span<const std::size_t> counts,
+                                 const InverseOperator& inverse);
+  bool knows(const RowComponent& rc) const { return known_[3 * rc.row + rc.component] >= 0; }
+  /// Number of components.
+  std::size_t size() const { return components_.size(); }
+  /// Entry of S; both components are known.
+  double operator()(const RowComponent& a, const RowComponent& b) const;
+  /// True when all columns of A^-1 G^T are kept.
+  bool has_columns() const { return columns_.size() == components_.size() * dof_count_; }
+  /// x += A^-1 G^T force, force in the frames of the listed rows; only known components count.
+  void add_columns(std::span<const std::size_t> rows, std::span<const Vec3> force, std::span<double> x) const;
+
+ private:
+  void add(std::span<const Index> missing, const InverseOperator& inverse);
+  void cut(std::size_t count);
+
+  std::size_t dof_count_, column_entries_;
+  std::shared_ptr<const ConstraintRows> rows_;
+  Growth growth_;
+  std::vector<RowComponent> components_;
+  std::vector<int> known_;                  ///< position of each row component, -1 when it is not there yet
+  std::vector<std::vector<double>> lower_;  ///< lower triangle of S: line i has i + 1 entries
+  std::vector<double> columns_;
+};
+
+}  // namespace carom

@@ -1,0 +1,58 @@
+#include "system/supports.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <stdexcept>
+
+namespace carom {
+
+namespace {
+
+bool same_motion(const PrescribedMotion& a, const PrescribedMotion& b) {
+  const auto is_blocked = [](const PrescribedMotion& m) {
+    for (const double value : m.function.value) {
+      if (value != 0.0) return false;
+    }
+    return true;
+  };
+  if (is_blocked(a) && is_blocked(b)) return true;
+  return a.kind == b.kind && a.function.time == b.function.time && a.function.value == b.function.value;
+}
+
+}  // namespace
+
+Supports::Supports(const Model& model, const std::vector<bool>& has_mass) {
+  std::map<Index, const PrescribedMotion*> owner;
+  for (const PrescribedMotion& motion : model.motions) {
+    for (const Index n : motion.nodes) {
+      const auto [entry, is_new] = owner.emplace(3 * n + motion.component, &motion);
+      if (is_new || same_motion(*entry->second, motion)) continue;
+      throw std::invalid_argument(fmt::format("node {} has two different motions along {}: from \"{}\" and from \"{}\"",
+                                              model.mesh->node_numbers[static_cast<std::size_t>(n)],
+                                              "xyz"[motion.component], entry -> second -> name, motion.name));
+    }
+  }
+  fixed_.assign(3 * has_mass.size(), false);
+  prescribed_flag_ = fixed_;
+  for (std::size_t n = 0; n < has_mass.size(); ++n) {
+    for (std::size_t c = 0; c < 3; ++c) fixed_[3 * n + c] = !has_mass[n];
+  }
+  for (const PrescribedMotion& motion : model.motions) motions_.push_back({motion.kind, motion.function});
+  for (const auto& [dof, motion] : owner) {
+    prescribed_.push_back({dof, static_cast<std::size_t>(motion - model.motions.data())});
+    fixed_[static_cast<std::size_t>(dof)] = prescribed_flag_[static_cast<std::size_t>(dof)] = true;
+  }
+  for (const InitialState& initial : model.initial) {
+    if (initial.velocity.empty()) continue;
+    std::map<Index, Vec3> velocity;
+    for (std::size_t k = 0; k < initial.nodes.size(); ++k) velocity[initial.nodes[k]] = initial.velocity[k];
+    for (PrescribedDof& p : prescribed_) {
+      if (motions_[p.motion].kind != MotionKind::acceleration) continue;
+      const auto given = velocity.find(p.dof / 3);
+      if (given != velocity.end()) p.start_velocity = given->second[static_cast<std::size_t>(p.dof % 3)];
+    }
+  }
+}
+
+}  // namespace carom

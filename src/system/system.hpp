@@ -1,0 +1,95 @@
+// The semi-discrete system M a = f - F(u) + contact + reactions, its forces at one instant, and the books of one step.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contact/contact_geometry.hpp"
+#include "contact/penalty.hpp"
+#include "energy/ledger.hpp"
+#include "math/vec3.hpp"
+#include "solid/solid.hpp"
+#include "state/state.hpp"
+#include "system/supports.hpp"
+
+namespace carom {
+
+/// What every scheme steps. References only: the owner outlives the scheme.
+struct System {
+  const Mesh& mesh;
+  const Solid& solid;
+  const Mass& mass;
+  const ContactGeometry& contact;
+  const Supports& supports;
+};
+
+/// The bodies at the end of a step of length dt from the points' history at its beginning, at displacement end.q: their
+/// internal forces, and, but for linear bodies, what they store and have dissipated, and the points' history.
+void evaluate_solid(const System& system, const PointStep& step, State& end);
+/// The same, and the external forces at end.t.
+void evaluate_bodies(const System& system, const PointStep& step, State& end);
+
+/// Fills what the accelerations and velocities of the state add to its forces: inertia, momentum, reactions, stored
+/// energies and total momentum (moments by MomentArms). The other forces are there (evaluate_bodies).
+void complete_forces(const System& system, State& state);
+
+/// rhs = f - F(u) + contact.
+void force_sum(const Forces& forces, std::span<double> rhs);
+
+/// Gives the end of a step what the scheme carries; nothing stands within the step.
+void carry_memory(const State& begin, State& end);
+/// The same, and displacement, velocity, acceleration and contact history to go on from.
+void go_on_from(const State& begin, State& end);
+
+/// What balances the forces at an instant: M a, the reactions of the supports, and a . M a.
+struct Balance {
+  explicit Balance(const Forces& forces)
+      : inertia(forces.inertia), reaction(forces.reaction), inertia_power(forces.inertia_power) {}
+  std::span<const double> inertia, reaction;
+  double inertia_power;
+};
+
+/// Adds component c of a nodal force or momentum p at x, and its moment about the origin, to six sums.
+inline void add_with_moment(const Vec3& x, std::size_t c, double p, double* sums) {
+  const std::size_t d = (c + 1) % 3, e = (c + 2) % 3;
+  sums[c] += p;
+  sums[3 + d] += x[e] * p;  // (x cross p)_d = x_e p_c - x_c p_e
+  sums[3 + e] -= x[d] * p;
+}
+/// The same of all three components of a node.
+inline void add_with_moment(const Vec3& x, const Vec3& p, double* sums) {
+  const Vec3 moment = cross(x, p);
+  for (std::size_t c = 0; c < 3; ++c) {
+    sums[c] += p[c];
+    sums[3 + c] += moment[c];
+  }
+}
+/// The six sums.
+Momentum momentum_from(const double* sums);
+
+/// Where nodes stand for moments: at X where all bodies are linear (small displacements; their internal forces balance
+/// there), at X + (1 - w) u_0 + w u_1 where they are not.
+class MomentArms {
+ public:
+  MomentArms(const System& system, std::span<const double> u) : MomentArms(system, u, u, 1.0) {}
+  MomentArms(const System& system, std::span<const double> u_0, std::span<const double> u_1, double w)
+      : X_(system.mesh.coordinates), u_0_(u_0.data()), u_1_(u_1.data()), w_(w), is_linear_(system.solid.is_linear()) {}
+
+  Vec3 at(std::size_t node) const {
+    Vec3 x = X_[node];
+    if (is_linear_) return x;
+    for (std::size_t c = 0; c < 3; ++c) x[c] += (1.0 - w_) * u_0_[3 * node + c] + w_ * u_1_[3 * node + c];
+    return x;
+  }
+
+ private:
+  const std::vector<Vec3>& X_;
+  const double *u_0_, *u_1_;
+  double w_;
+  bool is_linear_;
+};
+
+/// Trapezoidal work of the dampers: of the forces at each end of the step, on that end's rows.
+double damping_work(const State& begin, const State& end);
+
+}  // namespace carom
