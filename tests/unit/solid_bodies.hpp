@@ -1,11 +1,14 @@
 // Small bodies of every section for the tests of the solid.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <numeric>
 #include <string>
 
 #include "cell_meshes.hpp"
+#include "linalg/conjugate_gradients.hpp"
 #include "solid/element_table.hpp"
 #include "solid_fixture.hpp"
 
@@ -126,13 +129,25 @@ struct Body {
 inline std::string name_of(const Body& body) {
   static const char* const sections[] = {"Solid", "PlaneStrain", "PlaneStress", "Axisymmetric", "Bar"};
   static const char* const formulations[] = {"", "MeanDilatation", "OnePoint"};
-  static const char* const laws[] = {"LinearElastic", "StVenantKirchhoff", "NeoHookean"};
+  static const char* const laws[] = {"LinearElastic", "StVenantKirchhoff", "NeoHookean", "J2SmallStrain", "J2"};
   return sections[static_cast<std::size_t>(body.section)] + std::string(name(body.element.type)) +
          formulations[static_cast<std::size_t>(body.element.formulation)] + laws[index_of(*body.material.law)];
 }
 
+/// The elasticity of unit_material that yields at a strain of 2 % and hardens; law: "j2" or "j2_small_strain".
+inline Material yielding(std::string_view law) {
+  return Material(
+      law, unit_material.rho,
+      {{"E", unit_material.E}, {"nu", unit_material.nu}, {"yield_stress", 0.04}, {"hardening_modulus", 1.0}});
+}
+
 inline std::vector<Material> all_materials() {
-  return {unit_material, StVenantKirchhoff{unit_material}, NeoHookean{unit_material}};
+  return {unit_material, StVenantKirchhoff{unit_material}, NeoHookean{unit_material}, yielding("j2_small_strain"),
+          yielding("j2")};
+}
+
+inline bool remembers(const Body& body) {
+  return !body.material.law->history.empty();
 }
 
 inline std::vector<Body> all_bodies() {
@@ -165,6 +180,31 @@ inline std::vector<double> sum(double scale, const std::vector<double>& x, const
   std::vector<double> result(y);
   for (std::size_t i = 0; i < x.size(); ++i) result[i] += scale * x[i];
   return result;
+}
+
+/// Solves K u = f at rest with some dofs held at zero.
+inline std::vector<double> solve(const Solid& solid, const std::vector<double>& f, const std::vector<bool>& held,
+                                 double tolerance = 1e-13) {
+  const std::vector<double> rest(f.size(), 0.0);
+  auto inverse = solid.tangent_diagonal(rest);
+  std::vector<double> u(f.size(), 0.0), b(f);
+  for (std::size_t d = 0; d < f.size(); ++d) {
+    inverse[d] = held[d] ? 0.0 : 1.0 / inverse[d];
+    if (held[d]) b[d] = 0.0;
+  }
+  const LinearOperator K = [&](std::span<const double> x, std::span<double> y) {
+    solid.tangent_action(rest, x, y);
+    for (std::size_t d = 0; d < y.size(); ++d)
+      if (held[d]) y[d] = x[d];
+  };
+  EXPECT_TRUE(ConjugateGradients().solve(K, inverse, b, u, tolerance, 0.0, 20000).converged);
+  return u;
+}
+
+/// Displacements u_0 on the dofs that are held, and where a linear solid is in equilibrium with them on the others.
+inline std::vector<double> relaxed(const Solid& solid, const std::vector<double>& u_0, const std::vector<bool>& held,
+                                   double tolerance = 1e-9) {
+  return sum(-1.0, solve(solid, internal_force(solid, u_0), held, tolerance), u_0);
 }
 
 }  // namespace carom::test

@@ -67,9 +67,10 @@ inline double largest_difference(const std::vector<double>& x, const std::vector
   return m;
 }
 
-inline std::vector<double> internal_force(const Solid& solid, const std::vector<double>& u) {
+inline std::vector<double> internal_force(const Solid& solid, const std::vector<double>& u,
+                                          const PointStep& step = {}) {
   std::vector<double> f(u.size());
-  solid.internal_force(u, f);
+  solid.internal_force(u, f, step);
   return f;
 }
 
@@ -91,12 +92,15 @@ inline std::vector<Isa> available_isas() {
 }
 
 /// Eigenvalues of a small symmetric matrix by Jacobi rotations (Golub and Van Loan, 4th ed., section 8.5), ascending.
+/// Entries below round-off of the largest are left alone.
 inline std::vector<double> eigenvalues(std::vector<std::vector<double>> A) {
   const std::size_t n = A.size();
+  double small = 0.0;
+  for (const auto& row : A) small = std::max(small, 1e-17 * largest(row));
   for (int sweep = 0; sweep < 30; ++sweep)
     for (std::size_t p = 0; p < n; ++p)
       for (std::size_t q = p + 1; q < n; ++q) {
-        if (A[p][q] == 0.0) continue;
+        if (std::abs(A[p][q]) <= small) continue;
         const double theta = (A[q][q] - A[p][p]) / (2 * A[p][q]);
         const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1));
         const double c = 1 / std::sqrt(t * t + 1), s = t * c;
