@@ -6,7 +6,7 @@
 
 #include "run/build_mesh.hpp"
 #include "run/build_model.hpp"
-#include "solid/solid.hpp"
+#include "solid/smallest_cell.hpp"
 
 namespace carom::compare {
 
@@ -16,7 +16,7 @@ double element_step(const Case& given) {
   for (const Part& part : model.parts)
     fastest = std::max(fastest, std::sqrt(part.material.at_rest().p_wave_modulus() / part.material.rho));
   const Solid solid(model);
-  return *std::min_element(solid.cell_lengths().begin(), solid.cell_lengths().end()) / fastest;
+  return smallest_cell(solid) / fastest;
 }
 
 }  // namespace carom::compare

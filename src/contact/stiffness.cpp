@@ -242,10 +242,7 @@ class LinearDepth {
   static constexpr double infinity = std::numeric_limits<double>::infinity(), share = 0.02;
 
   double shortest(std::span<const Index> nodes) const {
-    double least = infinity;
-    if (!length_.empty())
-      for (const Index n : nodes) least = std::min(least, length_[static_cast<std::size_t>(n)]);
-    return least;
+    return length_.empty() ? infinity : least_length(length_, nodes);
   }
   double shortest(const Surface& surface) const {
     double least = infinity;

@@ -4,16 +4,14 @@
 
 #include "enforcement/exact_port.hpp"
 #include "enforcement/penalty_port.hpp"
+#include "solid/smallest_cell.hpp"
 
 namespace carom {
 
 std::unique_ptr<ContactPort> make_contact_port(const System& system, const ImplicitSettings& settings) {
   switch (settings.enforcement) {
-    case EnforcementKind::augmented_lagrangian: {
-      const std::vector<double>& lengths = system.solid.cell_lengths();
-      return std::make_unique<AugmentedLagrangianPort>(
-          system, settings.penetration * *std::min_element(lengths.begin(), lengths.end()));
-    }
+    case EnforcementKind::augmented_lagrangian:
+      return std::make_unique<AugmentedLagrangianPort>(system, settings.penetration * smallest_cell(system.solid));
     case EnforcementKind::lagrange:
       return std::make_unique<MultiplierPort>(system);
     case EnforcementKind::impulse:

@@ -10,12 +10,12 @@
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
+#include "solid/smallest_cell.hpp"
 
 namespace carom {
 
 PenaltyPort::PenaltyPort(const System& system) : system_(system) {
-  const std::vector<double>& lengths = system.solid.cell_lengths();
-  reach_ = lengths.empty() ? 0.0 : 0.01 * *std::min_element(lengths.begin(), lengths.end());
+  reach_ = 0.01 * smallest_cell(system.solid);
 }
 
 void PenaltyPort::begin(const StageStart& start) {

@@ -27,4 +27,10 @@ std::vector<double> node_lengths(const Model& model) {
   return length;
 }
 
+double least_length(std::span<const double> node_lengths, std::span<const Index> nodes) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Index n : nodes) least = std::min(least, node_lengths[static_cast<std::size_t>(n)]);
+  return least;
+}
+
 }  // namespace carom

@@ -13,6 +13,7 @@
 #include "run/build_mesh.hpp"
 #include "run/cost_estimate.hpp"
 #include "run/waves.hpp"
+#include "solid/smallest_cell.hpp"
 
 namespace carom {
 
@@ -72,7 +73,7 @@ std::string describe(const Stage& stage, const Simulation& s) {
                      stage.begin(), stage.end(),
                      is_static ? ""
                                : fmt::format("; Courant number {:.3g} (fastest wave {:.5g})",
-                                             wave.speed * stage.dt() / smallest_cell(s), wave.speed));
+                                             wave.speed * stage.dt() / smallest_cell(s.solid()), wave.speed));
 }
 
 }  // namespace
@@ -84,7 +85,7 @@ std::string check_summary(const Simulation& s) {
   std::string text =
       fmt::format("{}\n  units     {}\n  mesh      {}, {}, smallest cell {:.4g} {}\n", s.given().title, name(units),
                   count_of(static_cast<long long>(given_nodes(s.given(), s.mesh())), "node"),
-                  count_of(static_cast<long long>(s.solid().cell_count()), "solid cell"), smallest_cell(s),
+                  count_of(static_cast<long long>(s.solid().cell_count()), "solid cell"), smallest_cell(s.solid()),
                   unit(Dimension::length));
   for (const Part& part : s.model().parts) {
     const PartSummary p = summarise(s, part, state);

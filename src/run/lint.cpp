@@ -14,6 +14,7 @@
 #include "run/locking.hpp"
 #include "run/waves.hpp"
 #include "schemes/touch_rebound.hpp"
+#include "solid/smallest_cell.hpp"
 
 namespace carom {
 
@@ -32,7 +33,7 @@ void lint_touches(const Simulation& s, std::vector<std::string>& out) {
 void lint_duration(const Simulation& s, std::vector<std::string>& out) {
   const bool is_static = std::all_of(s.stages().begin(), s.stages().end(),
                                      [](const auto& stage) { return stage->settings().kind == SchemeKind::statics; });
-  const double travel = waves(s).speed * s.end(), h = smallest_cell(s);
+  const double travel = waves(s).speed * s.end(), h = smallest_cell(s.solid());
   if (is_static || travel >= h) return;
   const std::string_view length = unit_name(Dimension::length, s.given().units);
   out.push_back(
@@ -43,7 +44,7 @@ void lint_duration(const Simulation& s, std::vector<std::string>& out) {
 
 void lint_scheme(const Simulation& s, std::vector<std::string>& out) {
   if (is_explicit(s.first().settings().kind) || s.first().settings().kind == SchemeKind::statics) return;
-  const double courant = waves(s).speed * s.dt() / smallest_cell(s);
+  const double courant = waves(s).speed * s.dt() / smallest_cell(s.solid());
   if (courant > 20.0 && !s.given().contacts.empty()) {
     out.push_back(
         fmt::format("{}: Courant number {:.3g}: waves cross {:.3g} cells in a step; contact forces and wave fronts "

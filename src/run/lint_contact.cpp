@@ -15,6 +15,7 @@
 #include "run/groups.hpp"
 #include "run/parts.hpp"
 #include "run/waves.hpp"
+#include "solid/smallest_cell.hpp"
 
 namespace carom {
 
@@ -62,7 +63,7 @@ class ContactLint {
         approaches_(approaches(s, state_)),
         impedances_(node_impedances(s)),
         waves_(waves(s)),
-        cell_(smallest_cell(s)) {}
+        cell_(smallest_cell(s.solid())) {}
 
   std::vector<std::string> run() {
     for (std::size_t c = 0; c < approaches_.size(); ++c) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "math/vec3.hpp"
 #include "model/node_lengths.hpp"
@@ -40,9 +41,9 @@ MotionLimit::MotionLimit(const Model& model) : length_(node_lengths(model)) {
 
 /// Negative where the row is not limited.
 double MotionLimit::allowed(const ConstraintRows& rows, std::size_t r) const {
-  double most = most_[static_cast<std::size_t>(rows.source[r])];
-  for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
-    most = std::min(most, share * length_[static_cast<std::size_t>(rows.node[k])]);
+  const auto first = static_cast<std::size_t>(rows.begin[r]), last = static_cast<std::size_t>(rows.begin[r + 1]);
+  const double length = least_length(length_, std::span(rows.node).subspan(first, last - first));
+  const double most = std::min(most_[static_cast<std::size_t>(rows.source[r])], share * length);
   return most < infinity ? most : -1.0;
 }
 

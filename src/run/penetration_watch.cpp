@@ -48,11 +48,9 @@ void PenetrationWatch::find_cells() {
   each([&](std::size_t n, const Part& part, Index cell) { cells_[next[n]++] = {&part, cell}; });
 }
 
-double PenetrationWatch::smallest_cell(const ConstraintRows& rows, std::size_t r) const {
-  double length = std::numeric_limits<double>::infinity();
-  for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
-    length = std::min(length, node_length_[static_cast<std::size_t>(rows.node[k])]);
-  return length;
+double PenetrationWatch::cell_at(const ConstraintRows& rows, std::size_t r) const {
+  const auto first = static_cast<std::size_t>(rows.begin[r]), last = static_cast<std::size_t>(rows.begin[r + 1]);
+  return least_length(node_length_, std::span(rows.node).subspan(first, last - first));
 }
 
 /// Of the cell that gives way by the greatest length.
@@ -77,7 +75,7 @@ void PenetrationWatch::look(const ContactResponse& response, std::span<const dou
     const auto slot = static_cast<std::size_t>(rows.slot[r]);
     if (slot >= places_.size()) places_.resize(slot + 1);
     Place& place = places_[slot];
-    const double length = smallest_cell(rows, r);
+    const double length = cell_at(rows, r);
     place.depth = std::max(place.depth, -rows.gap_at(r, u) / length);
     if (place.depth > least) place.shortening = std::max(place.shortening, shortening(rows, r, u) / length);
   }

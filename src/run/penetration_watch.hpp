@@ -45,7 +45,7 @@ class PenetrationWatch : public Observer {
     }
   };
   void find_cells();
-  double smallest_cell(const ConstraintRows& rows, std::size_t r) const;
+  double cell_at(const ConstraintRows& rows, std::size_t r) const;
   double shortening(const ConstraintRows& rows, std::size_t r, std::span<const double> u);
 
   const Model& model_;

@@ -13,6 +13,7 @@
 #include "math/vec3.hpp"
 #include "run/build_mesh.hpp"
 #include "run/build_model.hpp"
+#include "solid/smallest_cell.hpp"
 
 namespace carom {
 
@@ -99,8 +100,7 @@ long long Simulation::steps() const {
 /// user's choice, contact by contact.
 void Simulation::settle_initial_penetrations() {
   const State state = initial_state();
-  const std::vector<double>& lengths = solid_.cell_lengths();
-  const double cell = *std::min_element(lengths.begin(), lengths.end());
+  const double cell = smallest_cell(solid_);
   const double round_off = 1e-6 * cell;  // coordinates of meshes often come in single precision
   for (std::size_t c = 0; c < case_.contacts.size(); ++c) {
     std::size_t count = 0;

@@ -39,9 +39,4 @@ double mean_impedance(std::span<const Facet> facets, std::span<const double> nod
   return count > 0.0 ? sum / count : 0.0;
 }
 
-double smallest_cell(const Simulation& s) {
-  const std::vector<double>& lengths = s.solid().cell_lengths();
-  return *std::min_element(lengths.begin(), lengths.end());
-}
-
 }  // namespace carom

@@ -20,6 +20,4 @@ std::vector<double> node_impedances(const Simulation& simulation);
 /// Mean over the nodes of facets.
 double mean_impedance(std::span<const Facet> facets, std::span<const double> node_impedances);
 
-double smallest_cell(const Simulation& simulation);
-
 }  // namespace carom

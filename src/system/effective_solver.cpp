@@ -10,6 +10,7 @@
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
+#include "solid/smallest_cell.hpp"
 #include "system/row_compliance.hpp"
 #include "system/tangent_factors.hpp"
 
@@ -64,10 +65,8 @@ class CgSolver final : public EffectiveSolver {
         stiffness_diagonal_(system.solid.tangent_diagonal(u_)),
         diagonal_at_(u_),
         inverse_diagonal_(u_.size()),
-        work_(u_.size()) {
-    const std::vector<double>& lengths = system.solid.cell_lengths();
-    if (!lengths.empty()) shortest_ = *std::min_element(lengths.begin(), lengths.end());
-  }
+        work_(u_.size()),
+        smallest_cell_(smallest_cell(system.solid)) {}
 
   void begin(const StageMemory& memory) override {
     if (system_.solid.is_linear()) return;
@@ -134,7 +133,7 @@ class CgSolver final : public EffectiveSolver {
     for (std::size_t i = 0; i < u_.size(); i += 3)
       most = std::max(
           most, std::hypot(u_[i] - diagonal_at_[i], u_[i + 1] - diagonal_at_[i + 1], u_[i + 2] - diagonal_at_[i + 2]));
-    return !(most < 0.01 * shortest_);
+    return !(most < 0.01 * smallest_cell_);
   }
 
   LinearSolveReport iterate(std::span<const double> b, double relative, double absolute, std::span<double> x) {
@@ -188,8 +187,8 @@ class CgSolver final : public EffectiveSolver {
 
   const System& system_;
   std::vector<double> u_, stiffness_diagonal_, diagonal_at_, inverse_diagonal_, work_;
-  PointStep step_;                        ///< that ends at u_
-  double shortest_ = 0.0;                 ///< cell
+  PointStep step_;  ///< that ends at u_
+  double smallest_cell_;
   const ConstraintRows* rows_ = nullptr;  ///< of the solve under way
   std::vector<RowTangent> tangents_;
   double m_ = 1.0, c_ = 0.0;
