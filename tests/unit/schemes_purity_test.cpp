@@ -43,7 +43,7 @@ Model on_plane(const Material& material) {
 Model sliding_pair(const Material& material) {
   StructuredBlock lower, upper;
   lower.size = {3.0, 3.0, 2.0};
-  lower.divisions = {3, 3, 2};
+  lower.divisions = {2, 2, 1};
   lower.face_groups = {"", "", "", "", "BASE", "MASTER"};
   upper.size = {1.5, 1.5, 2.0};
   upper.divisions = {2, 2, 2};
