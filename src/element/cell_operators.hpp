@@ -328,6 +328,31 @@ struct MeanGradientCell : DenseGradients<Full::nodes, 1, Full::dimension, Full::
     return energy;
   }
 
+  /// q[(dimension m + i) lanes] = gamma_ma u_ia, and k for coefficient x modulus = 1.
+  template <class Real>
+  [[gnu::always_inline]] static inline void hourglass(const Geometry<Real>& geometry, const Real u[3][nodes], double* q,
+                                                      double* stiffness) {
+    for (int m = 0; m < Shape::modes; ++m)
+      for (int i = 0; i < dimension; ++i) {
+        Real sum{};
+        for (int a = 0; a < nodes; ++a) sum += geometry.gamma[m][a] * u[i][a];
+        store(q + (dimension * m + i) * lanes<Real>, sum);
+      }
+    store(stiffness, geometry.stiffness);
+  }
+  /// f_ia = Q_mi gamma_ma, Q laid out as q.
+  template <class Real>
+  [[gnu::always_inline]] static inline void hourglass_forces(const Geometry<Real>& geometry, const double* Q,
+                                                             Real f[3][nodes]) {
+    for (int i = 0; i < 3; ++i)
+      for (int a = 0; a < nodes; ++a) f[i][a] = Real{};
+    for (int m = 0; m < Shape::modes; ++m)
+      for (int i = 0; i < dimension; ++i) {
+        const Real force = load<Real>(Q + (dimension * m + i) * lanes<Real>);
+        for (int a = 0; a < nodes; ++a) f[i][a] += force * geometry.gamma[m][a];
+      }
+  }
+
  private:
   /// Stresses whose diagonal is 1 from `first` to before `last`.
   template <class Real>

@@ -23,6 +23,7 @@ enum class TermKind : std::uint8_t { stored, dissipated, supplied, scheme };
   TERM(hourglass, stored, "what the stabilisation of cells with one point stores")                                    \
   TERM(contact_stored, stored, "sum over closed rows of 1/2 eps_N g^2 + 1/2 eps_T s_e^2")                             \
   TERM(plastic, dissipated, "integral of the dissipated energy density, a function of the points' history")           \
+  TERM(hourglass_loss, dissipated, "what the stabilisation of yielding cells with one point has dissipated")          \
   TERM(friction, dissipated, "sum over sliding rows of friction force times slip")                                    \
   TERM(damping, dissipated, "work of the dampers of discrete stops, pulling ones included")                           \
   TERM(impact, dissipated, "what contact enforced by multipliers or impulses takes out along the normals")            \

@@ -22,6 +22,10 @@ bool flow_j2(const PlasticLaw& law, double trial, double, double* variables, Pla
   return true;
 }
 
+double yield_stress_j2(const PlasticLaw& law, const double* variables) {
+  return hardening_of(law).stress(variables[0]);
+}
+
 double work_j2(const PlasticLaw& law, const double* variables) {
   return hardening_of(law).work(variables[0]);
 }
@@ -31,6 +35,7 @@ std::shared_ptr<const void> prepare_j2(const Material& material) {
   Hardening hardening(material);
   law.elastic_limit = hardening.stress(0.0);
   law.flow = flow_j2;
+  law.yield_stress = yield_stress_j2;
   law.plastic_work = work_j2;
   return prepare_plastic(material, law, std::move(hardening));
 }

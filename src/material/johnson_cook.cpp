@@ -64,6 +64,11 @@ bool flow_johnson_cook(const PlasticLaw& law, double trial, double dt, double* v
   return true;
 }
 
+double yield_stress_johnson_cook(const PlasticLaw& law, const double* variables) {
+  const auto& jc = *static_cast<const JohnsonCook*>(law.parameters);
+  return jc.softening(variables[1]) * jc.strain_factor(variables[0]);
+}
+
 double work_johnson_cook(const PlasticLaw&, const double* variables) {
   return variables[1];
 }
@@ -78,6 +83,7 @@ std::shared_ptr<const void> prepare_johnson_cook(const Material& material) {
   PlasticLaw law;
   law.variables = 3;
   law.flow = flow_johnson_cook;
+  law.yield_stress = yield_stress_johnson_cook;
   law.plastic_work = work_johnson_cook;
   return prepare_plastic(material, law, jc);
 }

@@ -102,7 +102,7 @@ static void lateral_update(const void* parameters, const PointBatch& batch) {
     double* stress = batch.stress + 6 * p * n;
     double* wave_modulus = at(batch.wave_modulus, p * n);
     law.kernels.update(law.parameters, {1, strain, stress, at(batch.energy, p * n), batch.dt, history, new_history,
-                                        at(batch.dissipation, p * n), wave_modulus});
+                                        at(batch.dissipation, p * n), wave_modulus, at(batch.yield_stress, p * n)});
     fill_lateral<n>(law, 0.0, stress);
     for (int l = 0; l < n; ++l) {
       if (wave_modulus != nullptr) wave_modulus[l] *= law.wave_ratio;

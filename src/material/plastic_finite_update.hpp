@@ -137,6 +137,8 @@ static void finite_plastic_update(const void* parameters, const PointBatch& batc
     if (new_history != nullptr) store_plastic_deformation(stretch, excess, eps, at_end.share, history, new_history);
     store_variables(law, at_end, new_history == nullptr ? nullptr : new_history + 6 * n,
                     batch.dissipation == nullptr ? nullptr : batch.dissipation + p * n);
+    if (batch.yield_stress != nullptr)
+      store_yield_stress<n>(law, history == nullptr ? nullptr : history + 6 * n, batch.yield_stress + p * n);
     if (batch.wave_modulus != nullptr) {
       // -tau_i is at most -K tr + 2/3 of the equivalent stress
       const Real compression = 2.0 / 3.0 * at_end.share * trial - pressure_part, zero = Real{};

@@ -22,6 +22,8 @@ struct PlasticLaw {
   /// yield stress at the end of the step of length dt. Changes the variables; false, and nothing changed, when nothing
   /// yields.
   bool (*flow)(const PlasticLaw&, double trial, double dt, double* variables, PlasticFlow& flow) = nullptr;
+  /// The yield stress of slow flow, of the variables.
+  double (*yield_stress)(const PlasticLaw&, const double* variables) = nullptr;
   /// All plastic work per volume since the start, of the variables.
   double (*plastic_work)(const PlasticLaw&, const double* variables) = nullptr;
 };

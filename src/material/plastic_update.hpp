@@ -71,6 +71,16 @@ template <class Real>
   }
 }
 
+/// Writes the yield stress of the beginning of the step.
+template <int n>
+static void store_yield_stress(const PlasticLaw& law, const double* variables, double* yield_stress) {
+  for (int l = 0; l < n; ++l) {
+    double own[most_plastic_variables] = {};
+    for (int v = 0; v < law.variables && variables != nullptr; ++v) own[v] = variables[v * n + l];
+    yield_stress[l] = law.yield_stress(law, own);
+  }
+}
+
 /// Takes a third of the trace from the first three components, by their differences: no pressure is left in them,
 /// however large it is.
 template <class Real>
@@ -139,6 +149,8 @@ static void small_plastic_update(const void* parameters, const PointBatch& batch
     }
     store_variables(law, at_end, batch.new_history == nullptr ? nullptr : batch.new_history + H * p + 6 * n,
                     batch.dissipation == nullptr ? nullptr : batch.dissipation + p * n);
+    if (batch.yield_stress != nullptr)
+      store_yield_stress<n>(law, history == nullptr ? nullptr : history + 6 * n, batch.yield_stress + p * n);
     if (batch.wave_modulus != nullptr) store(batch.wave_modulus + p * n, Real(Real{} + (law.lame.lambda + 2.0 * G)));
   }
 }

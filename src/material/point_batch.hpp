@@ -21,6 +21,8 @@ struct PointBatch {
   double* dissipation = nullptr;   ///< dissipated energy density since the start, a function of the history at the end
   double* wave_modulus = nullptr;  ///< at least the largest rho c^2 of elastic waves, c in current lengths per time and
                                    ///< rho per reference volume
+  double* yield_stress = nullptr;  ///< equivalent stress of slow flow at the beginning of the step; only laws that
+                                   ///< yield fill it
 };
 
 /// Changes of stress with changes of strain at given strains and history at the beginning of the step; layout as in

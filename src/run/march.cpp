@@ -159,7 +159,8 @@ void March::book_switch(const GivenMotion& given) {
   LedgerIncrement jump;
   jump.energy = change_of_stored(before, after);
   jump.energy.plastic = after.plastic - before.plastic;
-  jump.energy.algorithmic = -jump.energy.mechanical() - jump.energy.plastic;
+  jump.energy.hourglass_loss = after.hourglass_loss - before.hourglass_loss;
+  jump.energy.algorithmic = -jump.energy.mechanical() - jump.energy.plastic - jump.energy.hourglass_loss;
   const Momentum now = state_.forces.total_momentum;
   for (std::size_t c = 0; c < 3; ++c) {
     jump.impulse.linear[c] = now.linear[c] - ledger_->momentum().linear[c] - given.momentum.linear[c];

@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "solid/colouring.hpp"
 #include "solid/element_table.hpp"
+#include "solid/hourglass_flow.hpp"
 
 namespace carom {
 namespace {
@@ -124,6 +125,8 @@ BatchStages stages_of(const Part& part, const Element& element, bool small_strai
     stages.dilatation = small_strain ? &table.small_dilatation : &table.finite_dilatation;
   const IsotropicElastic at_rest = part.material.at_rest();
   stages.hourglass = part.hourglass * at_rest.E / (2.0 * (1.0 + at_rest.nu));
+  stages.hourglass_coefficient = part.hourglass;
+  if (!part.material.law->history.empty()) stages.hourglass_history = hourglass_history(*stages.cell);
   return stages;
 }
 

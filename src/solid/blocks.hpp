@@ -34,9 +34,11 @@ struct Block {
   std::size_t nodes() const { return static_cast<std::size_t>(stages.cell->nodes); }
   std::size_t lanes() const { return static_cast<std::size_t>(stages.lanes); }
   BatchLaw law() const { return prepared_law.batch(); }
-  /// Numbers of history of one lane: batches, filled up, follow each other as PointBatch::history.
+  /// Numbers of history of one lane, those of its hourglass modes included: batches, filled up, follow each other as
+  /// PointBatch::history.
   std::size_t history_per_cell() const {
-    return static_cast<std::size_t>(stages.cell->points) * static_cast<std::size_t>(prepared_law.history);
+    return static_cast<std::size_t>(stages.cell->points) * static_cast<std::size_t>(prepared_law.history) +
+           static_cast<std::size_t>(stages.hourglass_history);
   }
   /// Numbers of history of the block.
   std::size_t history_size() const { return history_per_cell() * offset.size() / nodes(); }

@@ -41,6 +41,21 @@ static void add_cell_hourglass(const double* geometry, double modulus, const dou
 }
 
 template <class Real, class Cell>
+static void cell_hourglass(const double* geometry, const double* u, const Index* offset, double* q, double* stiffness) {
+  Real u_cell[3][Cell::nodes];
+  gather(u, offset, u_cell);
+  Cell::hourglass(*reinterpret_cast<const typename Cell::template Geometry<Real>*>(geometry), u_cell, q, stiffness);
+}
+
+template <class Real, class Cell>
+static void add_cell_hourglass_forces(const double* geometry, const double* Q, const Index* offset, int count,
+                                      double* f) {
+  Real f_cell[3][Cell::nodes];
+  Cell::hourglass_forces(*reinterpret_cast<const typename Cell::template Geometry<Real>*>(geometry), Q, f_cell);
+  scatter_batch(f_cell, offset, count, f);
+}
+
+template <class Real, class Cell>
 static constexpr CellStages cell_stages() {
   using Geometry = typename Cell::template Geometry<Real>;
   static_assert(sizeof(Geometry) <= most_geometry * sizeof(Real) && Cell::points <= most_points);
@@ -50,7 +65,13 @@ static constexpr CellStages cell_stages() {
                     prepare_cells<Real, Cell>,
                     cell_gradients<Real, Cell>,
                     add_cell_forces<Real, Cell>};
-  if constexpr (requires { Geometry::gamma; }) stages.add_hourglass = add_cell_hourglass<Real, Cell>;
+  if constexpr (requires { Geometry::gamma; }) {
+    stages.modes = Cell::Shape::modes;
+    stages.directions = Cell::dimension;
+    stages.add_hourglass = add_cell_hourglass<Real, Cell>;
+    stages.hourglass = cell_hourglass<Real, Cell>;
+    stages.add_hourglass_forces = add_cell_hourglass_forces<Real, Cell>;
+  }
   return stages;
 }
 

@@ -12,15 +12,17 @@ struct PointStep {
   std::span<const double> history;
 };
 
-/// Integrals over the bodies of what is stored (strain, hourglass) and what their points have dissipated since the
-/// start (plastic). Functions of displacement and history: the ledger's terms of these names, or their increments.
+/// Integrals over the bodies of what is stored (strain, hourglass) and what their points and
+/// hourglass modes have dissipated since the start (plastic, hourglass_loss). Functions of displacement and history:
+/// the ledger's terms of these names, or their increments.
 struct SolidEnergies {
-  double strain = 0.0, plastic = 0.0, hourglass = 0.0;
+  double strain = 0.0, plastic = 0.0, hourglass = 0.0, hourglass_loss = 0.0;
 
   void add(const SolidEnergies& other) {
     strain += other.strain;
     plastic += other.plastic;
     hourglass += other.hourglass;
+    hourglass_loss += other.hourglass_loss;
   }
 };
 

@@ -22,6 +22,10 @@ struct BatchStages {
   const PointStages* points = nullptr;
   const DilatationStages* dilatation = nullptr;
   double hourglass = 0.0;  ///< coefficient x modulus of the hourglass stiffness
+  /// Of hourglass modes that yield (solid/hourglass_flow.hpp): the coefficient, and the numbers that a cell remembers
+  /// of them, behind the history of its point. 0: they are elastic.
+  double hourglass_coefficient = 0.0;
+  int hourglass_history = 0;
 };
 
 /// Cells of one type, section and material, `lanes` of them per batch. offset[(n b + a) lanes + l] is 3 x the node
@@ -35,7 +39,8 @@ struct CellBatches {
   double thickness = 1.0;  ///< of plane cells; area of the section of bars
   double dt = 0.0;         ///< length of the step, for laws with rates
   int history_variables = 0;
-  /// At the beginning of the step: one PointBatch::history after the other. Null: at rest.
+  /// At the beginning of the step: one PointBatch::history after the other, each with the hourglass history behind it.
+  /// Null: at rest.
   const double* history = nullptr;
   double* new_history = nullptr;  ///< at its end; null: not wanted
 };

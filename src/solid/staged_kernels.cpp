@@ -1,8 +1,10 @@
 // The kernels of any cell out of its stages, batch after batch; plain code over buffers whose lanes it only adds up.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "material/discrete_gradient.hpp"
+#include "solid/hourglass_flow.hpp"
 #include "solid/kernels.hpp"
 
 namespace carom {
@@ -18,6 +20,17 @@ struct Buffers {
   alignas(64) double energy[most_points * most_lanes];
   alignas(64) double dissipation[most_points * most_lanes];
   alignas(64) double P[9 * most_points * most_lanes];
+  alignas(64) double yield_stress[most_points * most_lanes];
+};
+
+/// The hourglass modes of one batch, or their changes, [c lanes + l] of most_hourglass or 9 numbers c.
+struct Modes {
+  alignas(64) double q[most_hourglass * most_lanes];       ///< gamma_a u_a
+  alignas(64) double pulled[most_hourglass * most_lanes];  ///< F^T q of finite strain, else q
+  alignas(64) double force[most_hourglass * most_lanes];   ///< that works with q
+  alignas(64) double P[9 * most_lanes];                    ///< what they add to the stress of the point
+  double stiffness[most_lanes], stored[most_lanes], lost[most_lanes];
+  HourglassReturn of_lane[most_lanes];
 };
 
 /// One batch on its way through the stages.
@@ -39,6 +52,13 @@ class Batch {
   const double* frame() const {
     return stages_.cell->frame_offset == 0 ? nullptr : b_.geometry + stages_.cell->frame_offset;
   }
+  /// Where the batch stands in a history.
+  template <class Number>
+  Number* of_batch(Number* history) const {
+    const int numbers = points() * cells_.history_variables + stages_.hourglass_history;
+    return history == nullptr ? nullptr : history + static_cast<std::ptrdiff_t>(first_) * numbers;
+  }
+  bool modes_yield() const { return stages_.hourglass_history > 0; }
   double weight(int p, int l) const { return b_.geometry[p * lanes() + l]; }
 
   /// F and the strain E of u.
@@ -54,12 +74,12 @@ class Batch {
   }
   /// The law's answer to a strain; energies and the new history where they are wanted.
   void constitutive(double* strain, double* stress, double* energy, double* dissipation, bool keep_history) const {
-    const auto skip = static_cast<std::ptrdiff_t>(first_) * points() * cells_.history_variables;
     PointBatch batch{points(), strain, stress, energy};
     batch.dt = cells_.dt;
-    if (cells_.history != nullptr) batch.history = cells_.history + skip;
-    if (keep_history && cells_.new_history != nullptr) batch.new_history = cells_.new_history + skip;
+    batch.history = of_batch(cells_.history);
+    if (keep_history) batch.new_history = of_batch(cells_.new_history);
     batch.dissipation = dissipation;
+    if (modes_yield()) batch.yield_stress = b_.yield_stress;
     law_.update(law_.parameters, batch);
   }
   /// All up to the stress that works with the strain E.
@@ -81,7 +101,7 @@ class Batch {
     }
     return sum;
   }
-  /// Adds the forces of the hourglass modes of u; returns their energy.
+  /// Adds the forces of elastic hourglass modes of u; returns their energy.
   double add_hourglass(const double* u, double* f) const {
     if (stages_.cell->add_hourglass == nullptr) return 0.0;
     double energy[most_lanes], sum = 0.0;
@@ -89,14 +109,34 @@ class Batch {
     for (int l = 0; l < count_; ++l) sum += energy[l];
     return sum;
   }
+  void return_modes(const double* u, Modes& modes) const;
+  void change_modes(const double* x, const double* dH, const Modes& modes, Modes& change) const;
+  /// Adds the forces of hourglass modes that yield to the stress of the point and to f.
+  void scatter_with(const Modes& modes, double* f) const {
+    for (int c = 0; c < 9 * lanes(); ++c) b_.P[c] += modes.P[c];
+    scatter(f);
+    stages_.cell->add_hourglass_forces(b_.geometry, modes.force, offset_, count_, f);
+  }
 
   void add_internal_force(const double* u, double* f, SolidEnergies* energies) const {
     evaluate(u, energies != nullptr);
     from_law(b_.strain, b_.stress);
     stages_.points->stress(points(), frame(), b_.gradient, b_.stress, b_.P);
-    scatter(f);
-    const double hourglass = add_hourglass(u, f);
+    double hourglass = 0.0, loss = 0.0;
+    if (modes_yield()) {
+      Modes modes;
+      return_modes(u, modes);
+      scatter_with(modes, f);
+      for (int l = 0; l < count_; ++l) {
+        hourglass += modes.stored[l];
+        loss += modes.lost[l];
+      }
+    } else {
+      scatter(f);
+      hourglass = add_hourglass(u, f);
+    }
     if (energies == nullptr) return;
+    energies->hourglass_loss += loss;
     energies->strain += integral(b_.energy);
     if (cells_.history_variables > 0) energies->plastic += integral(b_.dissipation);
     energies->hourglass += hourglass;
@@ -111,11 +151,18 @@ class Batch {
     stages_.points->strain_change(points(), frame(), b_.gradient, b_.P, dE);
     const DilatationStages* dilatation = stages_.dilatation;
     if (dilatation != nullptr) dilatation->strain_change(points(), b_.geometry, b_.memory, b_.strain, dE);
-    const auto skip = static_cast<std::ptrdiff_t>(first_) * points() * cells_.history_variables;
-    const double* history = cells_.history == nullptr ? nullptr : cells_.history + skip;
-    law_.tangent(law_.parameters, {points(), b_.strain, dE, dS, cells_.dt, history});
+    law_.tangent(law_.parameters, {points(), b_.strain, dE, dS, cells_.dt, of_batch(cells_.history)});
     if (dilatation != nullptr) dilatation->stress_change(points(), b_.geometry, b_.memory, b_.strain, dE, dS);
+    Modes modes, change;
+    if (modes_yield()) {
+      return_modes(u, modes);
+      change_modes(x, b_.P, modes, change);
+    }
     stages_.points->stress_change(points(), frame(), b_.gradient, b_.P, b_.stress, dS, b_.P);
+    if (modes_yield()) {
+      scatter_with(change, y);
+      return;
+    }
     scatter(y);
     add_hourglass(x, y);
   }
@@ -151,6 +198,79 @@ class Batch {
   Index first_ = 0;
   int count_ = 0;
 };
+
+/// After `evaluate`: the modes of u at the end of the step, and what is remembered of them. Their forces are F T on the
+/// nodes' modes, and q T^T / V on F.
+void Batch::return_modes(const double* u, Modes& modes) const {
+  const int n = lanes(), d = stages_.cell->directions, size = stages_.hourglass_history - 1;
+  stages_.cell->hourglass(b_.geometry, u, offset_, modes.q, modes.stiffness);
+  const bool is_finite = stages_.points->is_finite;
+  const auto F = [&](int i, int j, int l) { return b_.gradient[(3 * i + j) * n + l]; };
+  std::fill_n(modes.P, 9 * n, 0.0);
+  const std::ptrdiff_t behind = static_cast<std::ptrdiff_t>(cells_.history_variables) * n;
+  const double* history = of_batch(cells_.history);
+  double* new_history = of_batch(cells_.new_history);
+  for (int l = 0; l < n; ++l) {
+    const auto at_mode = [&](int m, int i) { return (d * m + i) * n + l; };
+    for (int c = 0; c < size; ++c) modes.pulled[c * n + l] = is_finite ? 0.0 : modes.q[c * n + l];
+    for (int m = 0; is_finite && m < stages_.cell->modes; ++m)
+      for (int i = 0; i < d; ++i)
+        for (int j = 0; j < d; ++j) modes.pulled[at_mode(m, j)] += F(i, j, l) * modes.q[at_mode(m, i)];
+    const double* before = history == nullptr ? nullptr : history + behind + l;
+    const double volume = weight(0, l), c = stages_.hourglass_coefficient;
+    const double limit = c * std::sqrt(modes.stiffness[l] * volume / 3.0) * b_.yield_stress[l];
+    modes.stiffness[l] *= stages_.hourglass;
+    HourglassReturn& of_lane = modes.of_lane[l];
+    of_lane.go(size, n, modes.pulled + l, before, modes.stiffness[l], limit);
+    modes.stored[l] = of_lane.stored;
+    modes.lost[l] = of_lane.lost + (before == nullptr ? 0.0 : before[size * n]);
+    if (new_history != nullptr) {
+      double* after = new_history + behind + l;
+      for (int k = 0; k < size; ++k) after[k * n] = of_lane.plastic[k];
+      after[size * n] = modes.lost[l];
+    }
+    for (int m = 0; m < stages_.cell->modes; ++m)
+      for (int i = 0; i < d; ++i) {
+        double& force = modes.force[at_mode(m, i)];
+        force = is_finite ? 0.0 : of_lane.force[d * m + i];
+        for (int j = 0; is_finite && j < d; ++j) {
+          const double T = of_lane.force[d * m + j];
+          force += F(i, j, l) * T;
+          modes.P[(3 * i + j) * n + l] += modes.q[at_mode(m, i)] * T / volume;
+        }
+      }
+  }
+}
+
+/// The changes of forces and stress with x, whose gradient is dH: d(F^T q) = dH^T q + F^T dq, d(F T) = dH T + F dT and
+/// d(q T^T) = dq T^T + q dT^T.
+void Batch::change_modes(const double* x, const double* dH, const Modes& modes, Modes& change) const {
+  const int n = lanes(), d = stages_.cell->directions, size = stages_.hourglass_history - 1;
+  stages_.cell->hourglass(b_.geometry, x, offset_, change.q, change.stiffness);
+  const bool is_finite = stages_.points->is_finite;
+  std::fill_n(change.P, 9 * n, 0.0);
+  for (int l = 0; l < n; ++l) {
+    const auto at_mode = [&](int m, int i) { return (d * m + i) * n + l; };
+    const auto at_point = [&](int i, int j) { return (3 * i + j) * n + l; };
+    for (int c = 0; c < size; ++c) change.pulled[c * n + l] = is_finite ? 0.0 : change.q[c * n + l];
+    for (int m = 0; is_finite && m < stages_.cell->modes; ++m)
+      for (int i = 0; i < d; ++i)
+        for (int j = 0; j < d; ++j)
+          change.pulled[at_mode(m, j)] +=
+              dH[at_point(i, j)] * modes.q[at_mode(m, i)] + b_.gradient[at_point(i, j)] * change.q[at_mode(m, i)];
+    modes.of_lane[l].change(size, n, modes.stiffness[l], change.pulled + l, change.pulled + l);
+    for (int m = 0; m < stages_.cell->modes; ++m)
+      for (int i = 0; i < d; ++i) {
+        double& force = change.force[at_mode(m, i)];
+        force = is_finite ? 0.0 : change.pulled[at_mode(m, i)];
+        for (int j = 0; is_finite && j < d; ++j) {
+          const double T = modes.of_lane[l].force[d * m + j], dT = change.pulled[at_mode(m, j)];
+          force += dH[at_point(i, j)] * T + b_.gradient[at_point(i, j)] * dT;
+          change.P[at_point(i, j)] += (change.q[at_mode(m, i)] * T + modes.q[at_mode(m, i)] * dT) / weight(0, l);
+        }
+      }
+  }
+}
 
 /// P = F_mid S with F_mid the mean of both F and S the discrete gradient of the energy by E between E_0 and E_1
 /// (material/discrete_gradient.hpp). Under mean dilatation the energy is a function of the strains of all points of the

@@ -21,6 +21,13 @@ struct CellStages {
   /// Adds the forces of u's hourglass modes and writes their energy per cell [lane]. Null: the cell has none.
   void (*add_hourglass)(const double* geometry, double modulus, const double* u, const Index* offset, int count,
                         double* f, double* energy) = nullptr;
+  /// The parts of it, for modes that yield (solid/hourglass_flow.hpp): how far they are deformed,
+  /// q[(directions m + i) lanes], with the stiffness of coefficient x modulus = 1 [lane]; and adding their forces.
+  int modes = 0, directions = 0;
+  void (*hourglass)(const double* geometry, const double* u, const Index* offset, double* q,
+                    double* stiffness) = nullptr;
+  void (*add_hourglass_forces)(const double* geometry, const double* Q, const Index* offset, int count,
+                               double* f) = nullptr;
 };
 
 /// Kinematics over one number type. The frame is F at rest, one matrix; null: 1. A gradient buffer holds H on the way

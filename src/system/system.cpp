@@ -18,6 +18,7 @@ void evaluate_solid(const System& system, const PointStep& step, State& end) {
   forces.stored.strain = energies.strain;
   forces.stored.plastic = energies.plastic;
   forces.stored.hourglass = energies.hourglass;
+  forces.stored.hourglass_loss = energies.hourglass_loss;
 }
 
 void evaluate_bodies(const System& system, const PointStep& step, State& end) {
