@@ -225,10 +225,18 @@ struct CaseGuards {
 
 struct CaseOutput {
   Location where;
-  /// Of displacement, velocity, acceleration, stress, von_mises, strain, part, and those of contact.
-  std::vector<Located<std::string>> fields{{"displacement", {}},  {"velocity", {}},         {"stress", {}},
-                                           {"von_mises", {}},     {"strain", {}},           {"part", {}},
-                                           {"contact_force", {}}, {"contact_pressure", {}}, {"contact_gap", {}},
+  /// Of displacement, velocity, acceleration, stress, von_mises, strain, part, history variables of laws
+  /// (history_fields), and those of contact.
+  std::vector<Located<std::string>> fields{{"displacement", {}},
+                                           {"velocity", {}},
+                                           {"stress", {}},
+                                           {"von_mises", {}},
+                                           {"strain", {}},
+                                           {"part", {}},
+                                           {"equivalent_plastic_strain", {}},
+                                           {"contact_force", {}},
+                                           {"contact_pressure", {}},
+                                           {"contact_gap", {}},
                                            {"contact_status", {}}};
   int fields_every = 0;              ///< steps; 0: about 50 times over the run
   int curves_every = 1;              ///< steps between rows of the .csv files

@@ -45,7 +45,8 @@ double frame_bytes(const Simulation& s) {
     connectivity += 8.0 * static_cast<double>(s.solid().nodes_of_cell(k).size()) + 9.0;
   double bytes = 24.0 * nodes + connectivity;
   for (const auto& field : s.given().output.fields) {
-    const bool is_scalar_of_cells = *field == "von_mises" || *field == "part";
+    const bool is_scalar_of_cells = *field == "von_mises" || *field == "part" ||
+                                    !s.solid().cell_history(*field, s.solid().initial_history()).empty();
     const bool is_cellwise = is_scalar_of_cells || *field == "stress" || *field == "strain";
     const bool is_scalar = *field == "contact_pressure" || *field == "contact_gap" || *field == "contact_status";
     bytes += is_cellwise ? (is_scalar_of_cells ? 8.0 : 48.0) * cells : (is_scalar ? 8.0 : 24.0) * nodes;

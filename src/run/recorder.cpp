@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <list>
 #include <system_error>
 #include <utility>
 
@@ -138,6 +139,7 @@ void Recorder::record_frame(const StepView& view) {
   last_frame_ = view.step;
   std::vector<std::array<double, 6>> stress, strain;
   std::vector<double> equivalent, part;
+  std::list<std::vector<double>> remembered;
   const auto tensors = [](const std::vector<std::array<double, 6>>& values) {
     return std::span<const double>(values.data()->data(), 6 * values.size());
   };
@@ -168,6 +170,8 @@ void Recorder::record_frame(const StepView& view) {
       for (const auto& of_cell : stress) equivalent.push_back(von_mises(of_cell));
       cell_fields.push_back({*field, 1, equivalent});
     }
+    std::vector<double> variable = s.solid().cell_history(*field, view.points().history);
+    if (!variable.empty()) cell_fields.push_back({*field, 1, remembered.emplace_back(std::move(variable))});
     if (*field == "part") {
       part = part_numbers(s.model());
       cell_fields.push_back({*field, 1, part});

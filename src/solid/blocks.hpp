@@ -24,6 +24,7 @@ struct Block {
   bool small_strain = true;  ///< the measure of its law; the others are total Lagrangian
   bool is_linear = true;     ///< the forces are linear in the displacements
   bool is_symmetric = true;  ///< the tangent of its law
+  const Law* law_row = nullptr;
   const CellOperations* operations = nullptr;
   BatchStages stages;
   CellKernels kernels;

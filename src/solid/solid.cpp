@@ -367,4 +367,27 @@ std::vector<std::array<double, 6>> Solid::cell_stress(std::span<const double> u,
   return stress;
 }
 
+std::vector<double> Solid::cell_history(std::string_view variable, std::span<const double> history) const {
+  const auto position = [&](const Block& block) {
+    const std::vector<std::string>& names = block.law_row->history;
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), variable) - names.begin());
+  };
+  const auto has_it = [&](const Block& block) { return position(block) < block.law_row->history.size(); };
+  const std::vector<Block>& blocks = impl_->solid.blocks;
+  if (std::none_of(blocks.begin(), blocks.end(), has_it)) return {};
+  std::vector<double> means(cell_count());
+  impl_->solid.for_each_batch({0.0, history}, [&](std::size_t first, const Block& block, const CellBatches& batch) {
+    if (!has_it(block)) return;
+    const BatchGradients gradients(batch);
+    const std::size_t lanes = block.lanes(), variables = at(batch.history_variables);
+    for (int l = 0; l < batch.cells; ++l) {
+      double& mean = means[first + at(l)];
+      for (int p = 0; p < gradients.points(); ++p)
+        mean += gradients.weight(p, l) * batch.history[(variables * at(p) + position(block)) * lanes + at(l)];
+      mean /= gradients.volume(l);
+    }
+  });
+  return means;
+}
+
 }  // namespace carom

@@ -129,6 +129,9 @@ class Solid {
   /// Mean over the reference volume of the Cauchy stress of each solid cell: xx, yy, zz, xy, yz, zx. zz is the hoop
   /// stress of axisymmetric cells; bars give the tensor of their axial stress.
   std::vector<std::array<double, 6>> cell_stress(std::span<const double> u, const PointStep& step = {}) const;
+  /// Mean over the reference volume of a history variable of each solid cell (Law::history), from the history of all
+  /// points; 0 in cells of laws without it. Empty when no law of the bodies has it.
+  std::vector<double> cell_history(std::string_view variable, std::span<const double> history) const;
   /// Reference volume of each solid cell (axisymmetric: of the ring) and a length: volume over the largest face area of
   /// HEXA8, area over the longest edge of QUAD4, the length of a bar.
   const std::vector<double>& cell_volumes() const;

@@ -60,7 +60,7 @@ TEST(Casefile, DefaultsOfAMinimalCase) {
   EXPECT_FALSE(c.time.fixed);
   EXPECT_EQ(c.solver.kind, CaseSolver::Kind::automatic);
   EXPECT_EQ(c.solver.max_contact_iterations, 50);
-  ASSERT_EQ(c.output.fields.size(), 10U);
+  ASSERT_EQ(c.output.fields.size(), 11U);
   EXPECT_EQ(*c.output.fields[2], "stress");
   EXPECT_EQ(c.output.curves_every, 1);
   EXPECT_FALSE(c.exact.has_value());
@@ -211,7 +211,7 @@ TEST(Casefile, ResolvedCaseKeepsEveryValueAndShowsDefaults) {
   for (const char* line :
        {"units = \"SI\"", "beta = 0.25", "mass = \"consistent\"", "kind = \"auto\"", "max_contact_iterations = 50",
         "fields = [\"displacement\", \"velocity\", \"stress\", \"von_mises\", \"strain\", \"part\", "
-        "\"contact_force\""}) {
+        "\"equivalent_plastic_strain\", \"contact_force\""}) {
     EXPECT_NE(text.find(line), std::string::npos) << line;
   }
   EXPECT_EQ(text.find("safety"), std::string::npos);  // not a key of newmark

@@ -106,5 +106,34 @@ TEST(Fields, ObstaclesAtRestAreWrittenOnce) {
   EXPECT_FALSE(std::filesystem::exists(in.results() / "fields/obstacles_000001.vtu"));
 }
 
+// Uniaxial strain e: the trial stress 2 G e exceeds sigma_y by 3 G alpha (radial return without hardening), E = 2 and
+// nu = 0.3; to round-off. Laws that do not yield remember nothing.
+TEST(Fields, PlasticStrainOfAUniaxialStrain) {
+  constexpr double G = 2.0 / 2.6, e = 0.01, yield_stress = 4e-3,
+                   H[3][3] = {{e, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  const std::string law = "j2_small_strain\"\nyield_stress = 4e-3 # \"";
+  const Simulation simulation(parse_case(resting(law), "case.toml"));
+  const Solid& solid = simulation.solid();
+  const std::vector<double> u = linear_motion(simulation.mesh(), H), begin = solid.initial_history();
+  std::vector<double> f(u.size()), end(begin.size());
+  solid.evaluate(u, {0.0, begin}, f, end);
+  const std::vector<double> alpha = solid.cell_history("equivalent_plastic_strain", end);
+  ASSERT_EQ(alpha.size(), solid.cell_count());
+  for (const double of_cell : alpha) EXPECT_NEAR(of_cell, (2.0 * G * e - yield_stress) / (3.0 * G), 1e-15);
+  EXPECT_TRUE(solid.cell_history("temperature_rise", end).empty());
+}
+
+// Only bodies that yield have a plastic strain to show.
+TEST(Fields, PlasticStrainOfBodiesThatYield) {
+  std::string text = test::case_of_block(thrown_at_a_plane);
+  const TemporaryCase elastic(text);
+  elastic.run();
+  EXPECT_EQ(elastic.result("fields/step_000002.vtu").find("equivalent_plastic_strain"), std::string::npos);
+  text.replace(text.find("\"linear_elastic\""), 16, "\"j2_small_strain\"\nyield_stress = 1.0e3");
+  const TemporaryCase yielding(text);
+  yielding.run();
+  EXPECT_NE(yielding.result("fields/step_000002.vtu").find("equivalent_plastic_strain"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace carom
