@@ -67,6 +67,22 @@ void lint_moved_mass(const Simulation& s, std::vector<std::string>& out) {
   }
 }
 
+/// Nodes without inertia on a body that flows: nothing bounds their speed (docs/taylor_bar.md).
+void lint_massless_flow(const Simulation& s, std::vector<std::string>& out) {
+  const auto& parts = s.model().parts;
+  const auto flows =
+      std::find_if(parts.begin(), parts.end(), [](const Part& p) { return !p.material.law->history.empty(); });
+  if (flows == parts.end()) return;
+  for (const auto& stage : s.stages()) {
+    if (stage->mass_notes().moved_share <= 0.0) continue;
+    out.push_back(fmt::format(
+        "{}: the modified mass takes the inertia of contact nodes, and where part \"{}\" yields ({}) nothing "
+        "else resists them: cells at the edge of a contact turn inside out where the flow is strong; "
+        "mass = \"lumped\" with another scheme does not",
+        to_string(stage->scheme().where), flows->name, flows->material.law->name));
+  }
+}
+
 /// A filter that would not be applied, since the rows of probes.csv are too far apart.
 void lint_filters(const Simulation& s, std::vector<std::string>& out) {
   double dt = 0.0;
@@ -102,6 +118,7 @@ std::vector<std::string> lint_warnings(const Simulation& s) {
   lint_duration(s, out);
   lint_touches(s, out);
   lint_moved_mass(s, out);
+  lint_massless_flow(s, out);
   lint_filters(s, out);
   for (std::string& warning : locking_warnings(s)) out.push_back(std::move(warning));
   return out;

@@ -176,6 +176,20 @@ TEST(Lint, SaysWhenTheModifiedMassTakesMostOfABody) {
                                             "-1.0]\npoint = [0.0, 0.0, 4.0]\ngroup = \"HEAD\"\n"));
 }
 
+TEST(Lint, SaysThatMasslessNodesOfABodyThatYieldsRunAway) {
+  const auto is_told = [](const std::string& kind, const std::string& law) {
+    std::string text = case_of_block(sheet(-0.1, "FOOT") + "[scheme]\nkind = \"" + kind + "\"\n[time]\nend = 1.0\n");
+    text.replace(text.find("linear_elastic\""), 15, law);
+    const std::vector<std::string> warnings = lint_warnings(Simulation(parse_case(text, "case.toml")));
+    return std::ranges::any_of(warnings,
+                               [](const std::string& w) { return w.find("turn inside out") != std::string::npos; });
+  };
+  const std::string yielding = "j2_small_strain\"\nyield_stress = 0.01";
+  EXPECT_FALSE(is_told("modified_mass", "linear_elastic\""));
+  EXPECT_FALSE(is_told("central_differences", yielding));
+  EXPECT_TRUE(is_told("modified_mass", yielding));
+}
+
 TEST(Lint, SaysWhatIsHardToBelieve) {
   const std::string floor =
       "[[contact]]\nname = \"floor\"\nkind = \"plane\"\npoint = [0.0, 0.0, -0.1]\n"
