@@ -36,7 +36,7 @@ SectionSchema<CasePart> part_section() {
       "How the cells take the deformation: \"full\": at all their points; \"mean_dilatation\": with the volume change "
       "of the cell's mean (B-bar, F-bar), for nearly incompressible and yielding bodies; \"one_point\": at one point, "
       "with a stiffness against hourglass modes. Which cells have which: docs/cells.md. Absent: mean_dilatation of "
-      "TETRA10, full of the others.",
+      "TETRA10, and of HEXA8 and QUAD4 whose law yields; full of the others.",
       {.choices = {"full", "mean_dilatation", "one_point"}});
   s.key("hourglass", &CasePart::hourglass,
         "Coefficient of the stiffness against hourglass modes of one_point cells: 1 is about the elastic stiffness of "

@@ -52,11 +52,11 @@ bool flow_johnson_cook(const PlasticLaw& law, double trial, double dt, double* v
     const double excess = trial - three_G * x - softening * y.stress;
     (excess > 0.0 ? low : high) = x;
     const double change = excess / (three_G + softening * y.slope), newton = x + change;
-    const bool is_found = std::abs(change) <= 1e-15 * x;
+    const bool is_found = std::abs(change) <= 1e-15 * x || std::abs(excess) <= 4e-16 * trial;  // the excess' round-off
     x = is_found || (newton > low && newton < high) ? newton : 0.5 * (low + high);
     if (is_found) break;
   }
-  flow.stress = trial - three_G * x;
+  flow.stress = std::max(trial - three_G * x, 0.0);  // of molten metal not a round-off below
   flow.slope = softening * jc.at(alpha, x, dt).slope;
   variables[0] = alpha + x;
   variables[1] += flow.stress * x;

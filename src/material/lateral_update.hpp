@@ -1,6 +1,8 @@
 // Laws under zero lateral stress over a number type: plane stress and bars, from the laws in three dimensions.
 #pragma once
 
+#include <limits>
+
 #include "material/lateral.hpp"
 #include "math/pack.hpp"
 
@@ -83,6 +85,8 @@ static void complete_strain(const LateralLaw& law, double* strain, const double*
       all_found = all_found && search[l].is_found;
     }
   }
+  for (int l = 0; l < n; ++l)
+    if (!search[l].is_found) x[l] = std::numeric_limits<double>::quiet_NaN();  // the step is refused
   fill_lateral<n>(law, x, strain);
 }
 

@@ -30,13 +30,13 @@ double longest_edge(CellType type, std::span<const Vec3> x) {
   return longest;
 }
 
-/// Volume (the third of the sum of the faces' distances from the origin times their areas) over the largest face.
+/// Volume (the third of the sum of the faces' distances from a node times their areas) over the largest face.
 double height(CellType type, std::span<const Vec3> x) {
   double volume = 0.0, largest = 0.0;
   for (const CellFace& face : cell_faces(type)) {
     const Vec3 area = area_vector(face, x);
     Vec3 centre{};
-    for (const LocalNode a : face.corners()) centre = add(centre, x[a]);
+    for (const LocalNode a : face.corners()) centre = add(centre, subtract(x[a], x[0]));
     volume += dot(centre, area) / (3.0 * static_cast<double>(face.corners().size()));
     largest = std::max(largest, norm(area));
   }

@@ -74,8 +74,9 @@ Split triangle_split() {
            {middle(0, 1), middle(1, 2), middle(2, 0)}}};
 }
 
-/// Four tetrahedra at the corners, and four about one diagonal of the octahedron between them, always the same one, so
-/// that there are three shapes at most however often this is done (Bey, Computing 55, 1995).
+/// Four tetrahedra at the corners, and four about one diagonal of the octahedron between them, always the same one,
+/// and with the children's nodes in such an order, that there are three shapes at most however often this is done (Bey,
+/// Computing 55, 1995).
 Split tetrahedron_split() {
   const Corners a = middle(0, 1), b = middle(1, 2), c = middle(0, 2), d = middle(0, 3), e = middle(1, 3),
                 f = middle(2, 3);
@@ -84,9 +85,9 @@ Split tetrahedron_split() {
            {c, b, corner(2), f},
            {d, e, f, corner(3)},
            {a, c, d, e},
-           {a, b, c, e},
+           {b, c, a, e},
            {c, d, e, f},
-           {c, e, b, f}}};
+           {e, b, c, f}}};
 }
 
 /// The triangles in two layers.

@@ -9,7 +9,9 @@
 
 #include "contact/facet_geometry.hpp"
 #include "math/vec3.hpp"
+#include "mesh/cell_topology.hpp"
 #include "run/cell_columns.hpp"
+#include "solid/element_table.hpp"
 
 namespace carom {
 
@@ -216,22 +218,27 @@ std::string volume_warning(const Part& part, int cells, double ratio) {
       part.name, nu, cells, cells == 1 ? "" : "s", ratio);
 }
 
-/// One strain per cell: what yields, or is nearly incompressible, has no freedom left to move at constant volume.
-bool is_stiff_simplex(const Part& part) {
+/// Too few freedoms a cell to move at constant volume: one strain per cell, where the body yields or is nearly
+/// incompressible; full integration of the other linear cells, where it yields.
+bool locks_at_constant_volume(const Part& part) {
   constexpr double incompressible = 0.4;
-  const bool is_simplex = part.type == CellType::tetra4 || part.type == CellType::tria3;
-  return is_simplex && part.section != Section::plane_stress &&
-         (part.material.at_rest().nu > incompressible || !part.material.law->history.empty());
+  if (part.section == Section::plane_stress || part.section == Section::bar) return false;
+  const bool yields = !part.material.law->history.empty();
+  if (part.type == CellType::tetra4 || part.type == CellType::tria3)
+    return yields || part.material.at_rest().nu > incompressible;
+  return yields && node_count(part.type) == corner_count(part.type) &&
+         find_element(part.type, part.section, part.formulation)->formulation == Formulation::full;
 }
 
-std::string simplex_warning(const Part& part) {
-  const bool is_solid = part.type == CellType::tetra4;
+std::string constant_volume_warning(const Part& part) {
+  const bool is_simplex = part.type == CellType::tetra4 || part.type == CellType::tria3;
   return fmt::format(
-      "part \"{}\": {} cells have one strain each and lock where shape changes at constant volume, as it does {}: take "
-      "{}, or results will be too stiff",
-      part.name, name(part.type), part.material.law->history.empty() ? "near nu = 0.5" : "in plastic flow",
-      is_solid ? "TETRA10 (Gmsh: Mesh.ElementOrder = 2) or HEXA8 with formulation = \"mean_dilatation\""
-               : "QUAD4 with formulation = \"mean_dilatation\"");
+      "part \"{}\": {} cells {} lock where shape changes at constant volume, as it does {}: take {}, or results will be "
+      "too stiff",
+      part.name, name(part.type), is_simplex ? "have one strain each and" : "in full integration",
+      part.material.law->history.empty() ? "near nu = 0.5" : "in plastic flow",
+      dimension(part.type) == 3 ? "TETRA10 (Gmsh: Mesh.ElementOrder = 2) or HEXA8 with formulation = \"mean_dilatation\""
+                                : "QUAD4 with formulation = \"mean_dilatation\"");
 }
 
 }  // namespace
@@ -276,7 +283,7 @@ std::vector<std::string> locking_warnings(const Simulation& s) {
   for (std::size_t p = 0; p < all.size(); ++p) {
     constexpr double bent_too_stiff = 1.1, bulged_too_stiff = 1.5;
     const Part& part = s.model().parts[p];
-    if (is_stiff_simplex(part)) out.push_back(simplex_warning(part));
+    if (locks_at_constant_volume(part)) out.push_back(constant_volume_warning(part));
     const Findings& found = all[p];
     const double ratio = found.thin_volume > 0.0 ? found.ratio_sum / found.thin_volume : 1.0;
     const bool is_bent = found.thin_volume > 0.5 * found.volume && Actions(s, found.thinness).any();

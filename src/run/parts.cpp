@@ -37,7 +37,8 @@ std::optional<CellType> wanted_type(const CasePart& wanted, Section section) {
                   fmt::format("\"{}\" with section = \"{}\"", **wanted.type, name(section)), names(types));
 }
 
-/// Takes the formulation that the case names, if the element table has it for the cells of the part.
+/// Takes the formulation that the case names, if the element table has it for the cells of the part; without one linear
+/// cells that yield take the mean dilatation.
 void choose_formulation(const CasePart& wanted, Part& part) {
   if (wanted.formulation) {
     const Element* element = nullptr;
@@ -50,6 +51,9 @@ void choose_formulation(const CasePart& wanted, Part& part) {
                                   carom::name(part.type), name(part.section)),
                       formulations_of(part.type, part.section));
     part.formulation = element->formulation;
+  } else if (!part.material.law->history.empty() && node_count(part.type) == corner_count(part.type) &&
+             find_element(part.type, part.section, Formulation::mean_dilatation) != nullptr) {
+    part.formulation = Formulation::mean_dilatation;  // full integration locks in plastic flow
   }
   if (!wanted.hourglass) return;
   if (part.formulation != Formulation::one_point)

@@ -108,6 +108,38 @@ TEST(SplitCells, OfTetrahedraAndPentahedraFillThem) {
   }
 }
 
+// However often: three shapes at most (Bey, Computing 55, 1995, theorem 3.6), known by their edges, longest to shortest,
+// over the longest; to round-off.
+TEST(SplitCells, OfATetrahedronHaveThreeShapes) {
+  Mesh mesh;
+  mesh.coordinates = {{0.0, 0.0, 0.0}, {1.0, 0.1, 0.05}, {0.2, 0.9, -0.1}, {0.3, 0.25, 0.8}};
+  mesh.blocks.push_back({.type = CellType::tetra4, .connectivity = {0, 1, 2, 3}, .file_numbers = {1}});
+  for (int times = 1; times <= 4; ++times) {
+    mesh = split_cells(mesh);
+    const CellBlock& cells = *mesh.block(CellType::tetra4);
+    std::vector<std::array<double, 6>> shapes;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      std::array<double, 6> edges{};
+      std::size_t e = 0;
+      for (std::size_t a = 0; a < 4; ++a)
+        for (std::size_t b = a + 1; b < 4; ++b)
+          edges[e++] = norm(subtract(mesh.coordinates[static_cast<std::size_t>(cells.connectivity[4 * k + a])],
+                                     mesh.coordinates[static_cast<std::size_t>(cells.connectivity[4 * k + b])]));
+      std::sort(edges.rbegin(), edges.rend());
+      const auto is_same = [&](const std::array<double, 6>& shape) {
+        for (std::size_t i = 0; i < 6; ++i)
+          if (std::abs(shape[i] - edges[i] / edges[0]) > 1e-12) return false;
+        return true;
+      };
+      if (std::none_of(shapes.begin(), shapes.end(), is_same)) {
+        for (std::size_t i = 6; i-- > 0;) edges[i] /= edges[0];
+        shapes.push_back(edges);
+      }
+    }
+    EXPECT_LE(shapes.size(), 3U) << times;
+  }
+}
+
 TEST(SplitCells, RefuseCellsWithoutThickness) {
   try {
     split_cells(read_mesh(std::string_view(flat), "flat.msh"));
