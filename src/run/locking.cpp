@@ -233,12 +233,14 @@ bool locks_at_constant_volume(const Part& part) {
 std::string constant_volume_warning(const Part& part) {
   const bool is_simplex = part.type == CellType::tetra4 || part.type == CellType::tria3;
   return fmt::format(
-      "part \"{}\": {} cells {} lock where shape changes at constant volume, as it does {}: take {}, or results will be "
+      "part \"{}\": {} cells {} lock where shape changes at constant volume, as it does {}: take {}, or results will "
+      "be "
       "too stiff",
       part.name, name(part.type), is_simplex ? "have one strain each and" : "in full integration",
       part.material.law->history.empty() ? "near nu = 0.5" : "in plastic flow",
-      dimension(part.type) == 3 ? "TETRA10 (Gmsh: Mesh.ElementOrder = 2) or HEXA8 with formulation = \"mean_dilatation\""
-                                : "QUAD4 with formulation = \"mean_dilatation\"");
+      dimension(part.type) == 3
+          ? "TETRA10 (Gmsh: Mesh.ElementOrder = 2) or HEXA8 with formulation = \"mean_dilatation\""
+          : "QUAD4 with formulation = \"mean_dilatation\"");
 }
 
 }  // namespace

@@ -138,6 +138,11 @@ bool Solid::is_linear() const {
   return impl_->turning_bodies.empty() &&
          std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.is_linear; });
 }
+bool Solid::has_hourglass() const {
+  const auto& blocks = impl_->solid.blocks;
+  return std::any_of(blocks.begin(), blocks.end(),
+                     [](const Block& block) { return block.stages.cell->add_hourglass != nullptr; });
+}
 const std::vector<Spring>& Solid::springs() const {
   return impl_->springs.all();
 }

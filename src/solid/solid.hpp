@@ -57,6 +57,8 @@ class Solid {
 
   /// True when internal_force is linear in u: then K is constant and may be prepared once per run.
   bool is_linear() const;
+  /// True when cells have hourglass modes, whose energy u.F / 2 alone does not tell from that of strain.
+  bool has_hourglass() const;
 
   /// Numbers that the quadrature points remember, their history variables: the order is that of the kernels and
   /// depends on the instruction set. None for elastic bodies.

@@ -10,7 +10,7 @@ void evaluate_solid(const System& system, const PointStep& step, State& end) {
   Forces& forces = end.forces;
   forces.internal.resize(end.q.size());
   end.points.resize(system.solid.history_size());
-  if (system.solid.is_linear()) {
+  if (system.solid.is_linear() && !system.solid.has_hourglass()) {
     system.solid.internal_force(end.q, forces.internal);
     return;
   }
@@ -77,7 +77,7 @@ void complete_forces(const System& system, State& state) {
     forces.reaction[i] = forces.inertia[i] + forces.internal[i] - forces.external[i] - forces.contact[i];
   }
   const MomentArms arms(system, state.q);
-  // v.Mv, u.F (the strain energy of linear bodies), a.Ma, momentum and its moment
+  // v.Mv, u.F (twice the energy of linear bodies), a.Ma, momentum and its moment
   const auto sums = parallel_sums<9>(n / 3, [&](std::size_t node, std::array<double, 9>& s) {
     Vec3 p;
     for (std::size_t c = 0; c < 3; ++c) {

@@ -108,8 +108,8 @@ TEST(SplitCells, OfTetrahedraAndPentahedraFillThem) {
   }
 }
 
-// However often: three shapes at most (Bey, Computing 55, 1995, theorem 3.6), known by their edges, longest to shortest,
-// over the longest; to round-off.
+// However often: three shapes at most (Bey, Computing 55, 1995, theorem 3.6), known by their edges, longest to
+// shortest, over the longest; to round-off.
 TEST(SplitCells, OfATetrahedronHaveThreeShapes) {
   Mesh mesh;
   mesh.coordinates = {{0.0, 0.0, 0.0}, {1.0, 0.1, 0.05}, {0.2, 0.9, -0.1}, {0.3, 0.25, 0.8}};
