@@ -5,8 +5,8 @@
 
 #include "material/law.hpp"
 
-/// For X(law): law_row() gives its row, defined in a source file of its own; law_kernels<Real>() its kernels, defined in a
-/// header that material/law_table.hpp includes.
+/// For X(law): law_row() gives its row, defined in a source file of its own; law_kernels<Real>() its kernels, defined
+/// in a header that material/law_table.hpp includes.
 #define CAROM_LAWS(X)    \
   X(linear_elastic)      \
   X(st_venant_kirchhoff) \
