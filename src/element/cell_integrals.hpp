@@ -29,7 +29,8 @@ double jacobian_determinant(const double (&dN)[nodes][dim], const Vec3* x) {
   return invert(g, cofactor);
 }
 
-/// density x integral of N_a N_b over the reference volume, by rules that are exact on distorted cells too.
+/// density x integral of N_a N_b over the reference volume, by rules that are exact on distorted cells of first
+/// order too; of second order a distorted cell's mass is exact, its products are not.
 /// `thickness` is that of plane cells and the area of the section of bars.
 template <class Cell>
 NodeProducts<Cell> node_products(const NodePositions<Cell>& x, double thickness, double density) {

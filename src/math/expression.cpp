@@ -20,10 +20,21 @@ std::string description(const mu::ParserError& e) {
   return e.GetMsg() + at;
 }
 
+/// The parser takes a single = as the assignment of a variable.
+void refuse_assignment(const std::string& text) {
+  for (std::size_t k = text.find('='); k != std::string::npos; k = text.find('=', k + 1)) {
+    const bool is_second = k > 0 && std::string_view("=<>!").find(text[k - 1]) != std::string_view::npos;
+    if (!is_second && text.compare(k, 2, "==") != 0)
+      throw ExpressionError("= compares nothing (character " + std::to_string(k + 1) +
+                            "): comparisons are ==, !=, <, <=, >, >=");
+  }
+}
+
 }  // namespace
 
 Expression::Expression(const std::string& text) : parser_(std::make_unique<Parser>()) {
   mu::Parser& mu = parser_->mu;
+  refuse_assignment(text);
   try {
     mu.ClearConst();
     mu.DefineConst("pi", std::numbers::pi);

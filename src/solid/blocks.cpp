@@ -84,7 +84,7 @@ std::vector<CellRef> cells_of(const Mesh& mesh, const std::vector<Part>& parts, 
     if (cell < 0 || at(cell) >= available)
       throw part_error(mesh, part, fmt::format("cell index {}", cell),
                        fmt::format("one of the {} {} cells of the mesh", available, name(part.type)),
-                       fmt::format("the part is made of {0} cells: mesh it with linear {0} cells", name(part.type)));
+                       fmt::format("the part is made of {0} cells: mesh it with {0} cells", name(part.type)));
     const std::int64_t number = block->file_numbers[at(cell)];
     const CellRef ref{static_cast<Index>(block - mesh.blocks.data()), cell};
     Index& owner = owners[at(ref.block)][at(cell)];
@@ -196,14 +196,6 @@ std::span<const Index> SolidCells::nodes_of(std::size_t position) const {
 
 CellNodes SolidCells::coordinates_of(std::size_t position) const {
   return positions(*mesh, nodes_of(position));
-}
-
-CellNodes SolidCells::values_of(std::size_t position, std::span<const double> u) const {
-  CellNodes values{};
-  const auto nodes = nodes_of(position);
-  for (std::size_t a = 0; a < nodes.size(); ++a)
-    for (std::size_t i = 0; i < 3; ++i) values[a][i] = u[3 * at(nodes[a]) + i];
-  return values;
 }
 
 CellBatches SolidCells::batches(const Block& block, Index first, Index count, const PointStep& step,

@@ -65,7 +65,6 @@ struct SolidCells {
   /// Reference coordinates of its nodes.
   CellNodes coordinates_of(std::size_t position) const;
   /// Entries of a dof vector at its nodes.
-  CellNodes values_of(std::size_t position, std::span<const double> u) const;
   /// The kernels' view of `count` cells of a block from its cell `first` on, which must be a multiple of the lanes.
   /// The history at the end of the step goes to `end` unless it is empty.
   CellBatches batches(const Block& block, Index first, Index count, const PointStep& step = {},

@@ -21,7 +21,8 @@ struct Element {
   bool has_mean_dilatation = false;
 };
 
-/// All rows. The first of a type and section is the one that parts without a formulation get.
+/// All rows. The first of a type and section is the one that parts without a formulation get (linear cells of laws that
+/// yield: that with mean dilatation, run/parts.cpp).
 std::span<const Element> elements();
 
 /// The row; nullptr where there is none.

@@ -38,7 +38,7 @@ struct HourglassReturn {
       square += force[c] * force[c];
     }
     if (square > limit * limit) share = limit / std::sqrt(square);
-    const double compliance = 1.0 / stiffness;
+    const double compliance = stiffness > 0.0 ? 1.0 / stiffness : 0.0;
     for (int c = 0; c < size; ++c) {
       plastic[c] += (1.0 - share) * force[c] * compliance;
       force[c] *= share;
@@ -54,7 +54,7 @@ struct HourglassReturn {
       square += force[c] * force[c];
       product += force[c] * dq[c * stride];
     }
-    const double along = share < 1.0 ? product / square : 0.0;
+    const double along = share < 1.0 && square > 0.0 ? product / square : 0.0;  // molten metal has no force
     for (int c = 0; c < size; ++c) dT[c * stride] = stiffness * share * (dq[c * stride] - along * force[c]);
   }
 };

@@ -384,11 +384,11 @@ std::vector<double> Solid::cell_history(std::string_view variable, std::span<con
   impl_->solid.for_each_batch({0.0, history}, [&](std::size_t first, const Block& block, const CellBatches& batch) {
     if (!has_it(block)) return;
     const BatchGradients gradients(batch);
-    const std::size_t lanes = block.lanes(), variables = at(batch.history_variables);
+    const std::size_t lanes = block.lanes(), variables = at(batch.history_variables), variable_of_law = position(block);
     for (int l = 0; l < batch.cells; ++l) {
       double& mean = means[first + at(l)];
       for (int p = 0; p < gradients.points(); ++p)
-        mean += gradients.weight(p, l) * batch.history[(variables * at(p) + position(block)) * lanes + at(l)];
+        mean += gradients.weight(p, l) * batch.history[(variables * at(p) + variable_of_law) * lanes + at(l)];
       mean /= gradients.volume(l);
     }
   });

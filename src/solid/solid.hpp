@@ -30,13 +30,13 @@ struct Rotation {
   Index cell = -1;
 };
 
-/// Solids of HEXA8 (2 x 2 x 2 Gauss points), plane and axisymmetric QUAD4 (2 x 2) and bars of LINE2 (1). Dof 3 n + c is
-/// component c of node n whatever the cells; dof vectors have 3 x node_count entries. Plane cells have no forces and no
-/// stiffness in z, bars none across their axis but for the initial-stress term of finite strain. LinearElastic parts
-/// are of small strain, the others total Lagrangian. All cells of all parts take part; interface cells of contact do
-/// not. Springs and point masses are part of all sums. Rigid bodies that turn stand among the nodes: their directors'
-/// forces, stiffness, energy and mass are part of all sums here, and make the system nonlinear; the frequency of their
-/// directors is TurningBody::rigidity times the largest bound of the cells'.
+/// Bodies of the elements of solid/element_table.hpp. Dof 3 n + c is component c of node n whatever the cells; dof
+/// vectors have 3 x node_count entries. Plane cells have no forces and no stiffness in z, bars none across their axis
+/// but for the initial-stress term of finite strain. Parts whose law measures small strain are so, the others total
+/// Lagrangian. All cells of all parts take part; interface cells of contact do not. Springs and point masses are part
+/// of all sums. Rigid bodies that turn stand among the nodes: their directors' forces, stiffness, energy and mass are
+/// part of all sums here, and make the system nonlinear; the frequency of their directors is TurningBody::rigidity
+/// times the largest bound of the cells'.
 class Solid {
  public:
   explicit Solid(const Model& model, Isa isa = chosen_isa());
@@ -96,7 +96,7 @@ class Solid {
   /// The strain energy of `evaluate` for points at rest before; allocates.
   double strain_energy(std::span<const double> u) const;
 
-  /// Largest rotation of a small-strain cell: the angle of R in F = R U at its centre, bars: the angle by which the
+  /// Largest rotation of a small-strain cell: the angle of R in its mean F = R U, bars: the angle by which the
   /// axis turns; pi for a cell turned inside out. Small strain makes an error of order angle^2. Threaded, cheap enough
   /// to be called every few steps.
   Rotation largest_rotation(std::span<const double> u) const;

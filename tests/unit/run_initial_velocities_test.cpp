@@ -38,8 +38,10 @@ TEST(Expression, ComputesAtAPlace) {
 }
 
 TEST(Expression, RefusesWhatIsNoFormula) {
-  for (const char* text : {"", "2 * t", "x +", "x, y", "system(1)", "x; y", "__import__", "\"a\"", "3 x"})
+  for (const char* text :
+       {"", "2 * t", "x +", "x, y", "system(1)", "x; y", "__import__", "\"a\"", "3 x", "x = 1", "x = 0 ? 1 : 2"})
     EXPECT_THROW(Expression{text}, ExpressionError) << text;
+  EXPECT_EQ(Expression("x <= 1 && y >= 0 && z != 2 && x == 0 ? 3 : 4").at({0.0, 1.0, 1.0}), 3.0);
 }
 
 TEST(InitialVelocities, OfARotationAboutAnAxisAddToAUniformOne) {
