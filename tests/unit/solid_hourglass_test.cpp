@@ -1,6 +1,7 @@
 // Hourglass modes of one-point cells that yield: closed form, tangent, objectivity, energies.
 #include <gtest/gtest.h>
 
+#include "solid/hourglass_flow.hpp"
 #include "solid_bodies.hpp"
 
 namespace carom::test {
@@ -114,6 +115,23 @@ TEST_P(YieldingHourglass, StepTurnedAboutZHasTheTurnedForcesAndTheSameEnergies) 
     EXPECT_NEAR(walk.f[3 * n + 1], f[3 * n], 1e-11 * largest(f));
   }
   EXPECT_LT(largest_difference(walk.end, end), 1e-11) << "what is remembered does not turn";
+}
+
+// Molten metal, and modes without stiffness: no force, no energy, and no 0 / 0.
+TEST(HourglassReturn, OfNoStrengthIsNothing) {
+  const double q[3] = {0.1, -0.2, 0.3};
+  for (const double stiffness : {0.0, 5.0}) {
+    HourglassReturn modes;
+    modes.go(3, 1, q, nullptr, stiffness, 0.0);
+    double dT[3];
+    modes.change(3, 1, stiffness, q, dT);
+    EXPECT_EQ(modes.stored, 0.0);
+    EXPECT_EQ(modes.lost, 0.0);
+    for (const std::size_t c : {0U, 1U, 2U}) {
+      EXPECT_EQ(modes.force[c], 0.0);
+      EXPECT_EQ(dT[c], 0.0);
+    }
+  }
 }
 
 }  // namespace
