@@ -39,7 +39,9 @@ constexpr std::string_view kCheckpoints = "checkpoints", kCheckpointEnd = ".h5";
 
 bool is_checkpoint(std::string_view name) {
   if (name.ends_with(".tmp")) name.remove_suffix(4);
-  return !digits_of(name, "step_", kCheckpointEnd).empty();
+  const std::string_view step = digits_of(name, "step_", kCheckpointEnd);
+  constexpr std::size_t most_digits = 18;  // of a long long
+  return !step.empty() && step.size() <= most_digits;
 }
 
 void remove_file(const fs::path& path) {

@@ -34,8 +34,10 @@ Axis axis_of(const XyPlot& plot, std::vector<double> XyCurve::*values, const std
       low = std::min(low, value);
       high = std::max(high, value);
     }
-  const double room = high > low ? 0.04 * (high - low) : 1.0;
+  constexpr double round_off = 1e-9;  // a range as small as that shows nothing but noise
   const double largest = std::max(std::abs(low), std::abs(high));
+  const double flat = largest > 0.0 ? 0.1 * largest : 1.0;
+  const double room = high - low > round_off * largest ? 0.04 * (high - low) : flat;
   return {low - room, high + room, begin, end, unit.empty() ? ReadableUnit{} : readable_unit(largest, unit)};
 }
 

@@ -97,18 +97,21 @@ CostEstimate estimate_cost(const Simulation& s) {
   for (const auto& stage : s.stages())
     cost.seconds +=
         cells * static_cast<double>(stage->steps()) * (is_implicit(*stage) ? implicit_work : explicit_work) / 2e6;
-  // 1 kB per cell for the mesh, the kernels' tables and the states. A factor of nested dissection has about 8 n^(4/3)
-  // blocks of 3 x 3 over n nodes of a cube (A. George, SIAM J. Numer. Anal. 10, 1973), less where a body is slender;
-  // with the matrix and the space of its factorisation 14 (measured: 0.90 GB for 28^3 cells, 0.28 GB for 8 x 8 x 160).
+  // 1 kB per cell for the mesh, the kernels' tables and the states, and twice what points remember. A factor of nested
+  // dissection has about 8 n^(4/3) blocks of 3 x 3 over n nodes of a cube (A. George, SIAM J. Numer. Anal. 10, 1973),
+  // less where a body is slender; with the matrix and the space of its factorisation 14 (measured: 0.90 GB for 28^3
+  // cells, 0.28 GB for 8 x 8 x 160).
   const bool has_matrix =
       std::any_of(s.stages().begin(), s.stages().end(), [](const auto& stage) { return has_factor(*stage); });
-  cost.memory_bytes = 2.4e7 + 1e3 * cells + (has_matrix ? 14.0 * 72.0 * std::pow(nodes, 4.0 / 3.0) : 0.0);
+  const double history = 8.0 * static_cast<double>(s.solid().history_size());
+  cost.memory_bytes =
+      2.4e7 + 1e3 * cells + 2.0 * history + (has_matrix ? 14.0 * 72.0 * std::pow(nodes, 4.0 / 3.0) : 0.0);
   cost.frames = s.given().output.fields.empty() ? 0 : s.steps() / frame_interval(s) + 2;
   const long long rows = s.steps() / s.given().output.curves_every + 1;
   constexpr double page = 2.5e5;                         // of the report, with what draws its curves
   constexpr double checkpoints = 3.0 * 9.0 * 3.0 * 8.0;  // per node: two and one being written, of nine vectors of dofs
   cost.disk_bytes = page + static_cast<double>(cost.frames) * frame_bytes(s) +
-                    static_cast<double>(rows) * row_bytes(s) + checkpoints * nodes;
+                    static_cast<double>(rows) * row_bytes(s) + checkpoints * nodes + 3.0 * history;
   return cost;
 }
 

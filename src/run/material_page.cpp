@@ -76,10 +76,14 @@ const char* measured_stress(PathKind kind) {
 Figure off_measured(const Drive& drive) {
   const std::vector<double>& stress = drive.measured->stress;
   const double rms = rms_difference(*drive.measured, drive.path.strain, drive.column(measured_stress(drive.path.kind)));
+  if (!std::isfinite(rms))
+    return {"Off the measured curve", "not comparable", "no measured point lies on the first branch of the path"};
   double largest = 0.0;
   for (const double value : stress) largest = std::max(largest, std::abs(value));
   return {"Off the measured curve", with_readable_unit(rms, drive.units().stress, 3),
-          fmt::format("root mean square, {:.2g} % of the largest measured stress", 100.0 * rms / largest)};
+          largest > 0.0
+              ? fmt::format("root mean square, {:.2g} % of the largest measured stress", 100.0 * rms / largest)
+              : "root mean square"};
 }
 
 std::vector<Figure> figures_of(const Drive& drive) {
@@ -95,11 +99,11 @@ std::vector<Figure> figures_of(const Drive& drive) {
   const auto largest = std::max_element(mises.begin(), mises.end());
   figures.push_back({"Largest von Mises stress", with_readable_unit(*largest, stress, 4), "of the Cauchy stress"});
   const auto last = [&drive](const char* name) { return drive.column(name).back(); };
-  if (!drive.material.law->history.empty()) {
+  if (!drive.material.law->history.empty())
     figures.push_back({"Dissipated", with_readable_unit(last("dissipation"), stress, 4), "per reference volume"});
+  if (!drive.column("equivalent_plastic_strain").empty())
     figures.push_back(
         {"Plastic strain", fmt::format("{:.4g}", last("equivalent_plastic_strain")), "equivalent, at the end"});
-  }
   if (drive.measured) figures.push_back(off_measured(drive));
   if (!drive.column("temperature_rise").empty())
     figures.push_back({"Temperature", fmt::format("+{:.4g} K", last("temperature_rise")), "at the end"});

@@ -59,14 +59,17 @@ MeasuredCurve read_measured(const std::string& path) {
 }
 
 double rms_difference(const MeasuredCurve& measured, std::span<const double> strain, std::span<const double> stress) {
+  const double sense = strain.size() > 1 && strain[1] < strain[0] ? -1.0 : 1.0;  // compression
   std::size_t rising = 1;
-  while (rising < strain.size() && strain[rising] > strain[rising - 1]) ++rising;
+  while (rising < strain.size() && sense * strain[rising] > sense * strain[rising - 1]) ++rising;
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i < measured.strain.size(); ++i) {
     const double x = measured.strain[i];
-    if (x < strain[0] || x > strain[rising - 1] || rising < 2) continue;
+    if (rising < 2 || sense * x < sense * strain[0] || sense * x > sense * strain[rising - 1]) continue;
+    const auto nearer = [&](double a, double b) { return sense * a < sense * b; };
     const auto first = strain.begin() + 1, last = strain.begin() + static_cast<std::ptrdiff_t>(rising);
-    const auto k = static_cast<std::size_t>(std::min(std::lower_bound(first, last, x), last - 1) - strain.begin());
+    const auto k =
+        static_cast<std::size_t>(std::min(std::lower_bound(first, last, x, nearer), last - 1) - strain.begin());
     const double share = (x - strain[k - 1]) / (strain[k] - strain[k - 1]);
     const double difference = stress[k - 1] + share * (stress[k] - stress[k - 1]) - measured.stress[i];
     sum += difference * difference;

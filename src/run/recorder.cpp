@@ -99,6 +99,9 @@ void Recorder::go_on() {
   }
   std::vector<std::string> frames;
   for (const PvdFrame& frame : frames_) frames.insert(frames.end(), {frame.file, frame.obstacles});
+  for (const std::string& frame : frames)
+    if (!frame.empty() && !std::filesystem::exists(folder_ + "/" + frame))
+      throw OutputError(folder_ + "/" + frame, "it is missing, and the checkpoint names it");
   continue_results_folder(folder_, frames);
   std::vector<OpenTable> tables;
   for (std::size_t i = 0; i < list.size(); ++i)

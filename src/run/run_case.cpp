@@ -117,7 +117,10 @@ void go(Run& run, Checkpoints& checkpoints, const std::atomic<bool>& stop, Summa
   const auto write_checkpoint = [&] {
     checkpoints.write(march.steps(), march.state().t, [&](Archive& archive) { fields(archive, run); });
   };
-  if (!march.is_started()) march.start();
+  if (!march.is_started())
+    march.start();
+  else
+    write_checkpoint();  // a later end holds from now on
   while (!march.at_end()) {
     march.step();
     if (march.has_failed()) break;
@@ -216,6 +219,7 @@ ExitCode conduct(Run& run, const Simulation& simulation, const RunOptions& optio
     go(run, checkpoints, stop, summary);
   } catch (const RunError& e) {
     summary.message = e.what();
+    if (run.march.is_started()) run.march.leave();  // what there is to look at where it went wrong
   } catch (const OutputError&) {
     throw;
   } catch (const std::bad_alloc&) {

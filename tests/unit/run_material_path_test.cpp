@@ -183,6 +183,9 @@ TEST(MeasuredCurve, IsReadAndCompared) {
   EXPECT_EQ(measured.strain, (std::vector<double>{0.25, 0.75, 2.0}));
   const std::vector<double> strain{0.0, 0.5, 1.0, 0.5}, stress{0.0, 1.0, 2.0, 7.0};
   EXPECT_NEAR(rms_difference(measured, strain, stress), std::sqrt(0.01 / 2), 1e-15);
+  const std::vector<double> shortening{0.0, -0.5, -1.0, -0.5}, compression{0.0, -1.0, -2.0, -7.0};
+  EXPECT_NEAR(rms_difference({{-0.25, -0.75, -2.0}, {-0.6, -1.5, 0.0}}, shortening, compression), std::sqrt(0.01 / 2),
+              1e-15);
   EXPECT_TRUE(std::isnan(rms_difference({{3.0}, {1.0}}, strain, stress)));
   std::ofstream(file) << "0.25,0.5\nend\n";
   EXPECT_THROW(read_measured(file), CaseError);
