@@ -198,13 +198,23 @@ void add_material(CLI::App& app, Arguments& arguments) {
                    "uniaxial_stress, uniaxial_strain, simple_shear, or a .csv file of time and F_xx, F_xy, ... or "
                    "strain_xx, ...")
       ->required();
+  const CLI::App* const path = command;
+  const CLI::Validator not_of_tables(
+      [path](std::string&) {
+        const bool is_table = path->get_option("--path")->as<std::string>().ends_with(".csv");
+        return std::string(is_table ? "a table of deformations says itself where and how fast it goes" : "");
+      },
+      "", "not of tables");
   command
       ->add_option("--to", arguments.path.to, "Engineering strains, or shears, at which the path turns (default: 0.1)")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->check(not_of_tables);
   command->add_option("--steps", arguments.path.steps, "Steps from one turning point to the next (default: 200)")
-      ->check(CLI::Range(1, 1'000'000));
+      ->check(CLI::Range(1, 1'000'000))
+      ->check(not_of_tables);
   command->add_option("--rate", arguments.path.rate, "Rate of that strain per unit of time (default: 1)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->check(not_of_tables);
   command->add_option("--measured", arguments.path.measured,
                       "File of rows strain,stress (engineering strain, Cauchy stress) to lay over the curve");
   command->add_option("--out", arguments.folder, "Folder (default: out/<name of the case>_material)");

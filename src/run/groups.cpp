@@ -154,11 +154,14 @@ Groups::TypedCells Groups::cells(const Located<std::string>& name, const std::st
     refuse(name, key, where(others), expected,
            remedy.empty() && is_all ? "Mesh them anew, or name the group that is meant." : remedy);
   }
-  if (found.size() > 1)
+  if (found.size() > 1) {
+    std::vector<std::string> each;
+    for (const auto& entry : found) each.push_back(fmt::format("type = \"{}\"", carom::name(entry.first)));
     refuse(name, key, where(found), "cells of one type in a part",
-           fmt::format("Give each type a [[part]] of its own with the same cells, here with type = \"{}\" and type = "
-                       "\"{}\"; nodes that they share hold them together.",
-                       carom::name(found.begin()->first), carom::name(found.rbegin()->first)));
+           fmt::format("Give each type a [[part]] of its own with the same cells, here with {}; nodes that they share "
+                       "hold them together.",
+                       fmt::join(each, " and ")));
+  }
   if (found.empty() && only)
     refuse(name, key, fmt::format("\"{}\" without {} cells", *name, carom::name(*only)), expected,
            "Leave `type` out, or name a type that the group has (`carom mesh` lists them).");

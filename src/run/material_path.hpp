@@ -44,7 +44,7 @@ struct MaterialCurve {
 
 /// free_directions: those of the part's section (material/law_kernels.hpp); uniaxial stress has two of its own.
 /// Columns: time, strain (where the path has one), F_xx ... , Cauchy stress_xx ..., von_mises, energy and dissipation
-/// per reference volume, and the law's history variables by their names. Throws CaseError when the law gives no number,
+/// per reference volume, and the law's history variables by their names. Throws RunError when the law gives no number,
 /// with the step.
 MaterialCurve follow(const Material& material, int free_directions, const MaterialPath& path);
 

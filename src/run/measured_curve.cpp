@@ -26,6 +26,15 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
+/// Names of columns, or a row of numbers that went wrong?
+bool has_number(std::string_view line) {
+  for (std::size_t k = 0; k != std::string_view::npos; k = line.find_first_of(",;\t", k + 1)) {
+    const std::size_t first = line.find_first_not_of(" \t,;+-.", k);
+    if (first != std::string_view::npos && line[first] >= '0' && line[first] <= '9') return true;
+  }
+  return false;
+}
+
 std::optional<std::array<double, 2>> pair(std::string_view line) {
   const std::size_t comma = line.find(',');
   if (comma == std::string_view::npos) return std::nullopt;
@@ -48,7 +57,7 @@ MeasuredCurve read_measured(const std::string& path) {
     if (point) {
       curve.strain.push_back((*point)[0]);
       curve.stress.push_back((*point)[1]);
-    } else if (!may_be_names) {
+    } else if (!may_be_names || has_number(line)) {
       throw CaseError({path, row, 0}, "", fmt::format("\"{}\"", line), "two numbers: strain,stress");
     }
     may_be_names = false;

@@ -189,9 +189,20 @@ TEST(MeasuredCurve, IsReadAndCompared) {
   EXPECT_TRUE(std::isnan(rms_difference({{3.0}, {1.0}}, strain, stress)));
   std::ofstream(file) << "0.25,0.5\nend\n";
   EXPECT_THROW(read_measured(file), CaseError);
+  std::ofstream(file) << "0.0;1e8\n0.1,2e8\n";  // a first row that went wrong is not one of names
+  EXPECT_THROW(read_measured(file), CaseError);
   std::ofstream(file) << "strain,stress\n";
   EXPECT_THROW(read_measured(file), CaseError);
   EXPECT_THROW(read_measured(file + ".none"), CaseError);
+}
+
+// A curve that is flat but for its round-off is drawn, at any size.
+TEST(XyPlot, OfFlatCurvesEnds) {
+  for (const double value : {0.0, 1e-300, 1.0, 1e17}) {
+    XyPlot plot;
+    plot.curves.push_back({"flat", {0.0, 1.0}, {value, std::nextafter(value, 1e300)}, false});
+    EXPECT_EQ(xy_plot(plot).find("nan"), std::string::npos) << value;
+  }
 }
 
 // Multiples of 1, 2 or 5 times a power of ten, within the axis.

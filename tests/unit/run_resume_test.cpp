@@ -16,6 +16,7 @@
 #include "output/results_lock.hpp"
 #include "output/summary.hpp"
 #include "report/report.hpp"
+#include "run/checkpoints.hpp"
 #include "run_fixture.hpp"
 
 namespace carom {
@@ -308,6 +309,18 @@ TEST(Resume, ProlongsARunThatHasEnded) {
   for (int i = 0; i < 10 && again.is_stopped("pieces"); ++i) again.resume("pieces", true);
   const auto energy = [](const Runs& r, const char* folder) { return read_text(r.results(folder) / "energy.csv"); };
   EXPECT_EQ(energy(again, "pieces"), energy(runs, "ended"));
+}
+
+// Killed before its first checkpoint of its own, a prolonged run still knows of its later end.
+TEST(Resume, KnowsOfALaterEndAtOnce) {
+  const Runs runs(pressed("neo_hookean", false, penalty_steps));
+  runs.run("killed");
+  const fs::path last = find_checkpoint(runs.results("killed").string()).path;
+  runs.resume("killed", true, 1, 2.4);
+  for (const auto& file : fs::directory_iterator(last.parent_path()))
+    if (file.path() != last) fs::remove(file);
+  runs.resume("killed", false);
+  EXPECT_EQ(read_summary((runs.results("killed") / "summary.json").string()).scheme.time_end, 2.4);
 }
 
 TEST(Resume, SaysWhyItCannot) {
