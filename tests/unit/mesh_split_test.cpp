@@ -113,6 +113,7 @@ TEST(SplitCells, OfTetrahedraAndPentahedraFillThem) {
 TEST(SplitCells, OfATetrahedronHaveThreeShapes) {
   Mesh mesh;
   mesh.coordinates = {{0.0, 0.0, 0.0}, {1.0, 0.1, 0.05}, {0.2, 0.9, -0.1}, {0.3, 0.25, 0.8}};
+  mesh.node_numbers = {1, 2, 3, 4};
   mesh.blocks.push_back({.type = CellType::tetra4, .connectivity = {0, 1, 2, 3}, .file_numbers = {1}});
   for (int times = 1; times <= 4; ++times) {
     mesh = split_cells(mesh);
