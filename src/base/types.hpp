@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace carom {
 
@@ -11,5 +13,12 @@ using Index = std::int32_t;
 
 /// A vector of space, components x, y, z.
 using Vec3 = std::array<double, 3>;
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// An index as the position in a container that it is.
+constexpr std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
 
 }  // namespace carom

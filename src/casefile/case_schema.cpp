@@ -8,8 +8,6 @@ namespace {
 
 using Need = KeyOptions::Need;
 
-const std::vector<std::string> axes{"x", "y", "z"};
-
 SectionSchema<CasePart> part_section() {
   SectionSchema<CasePart> s("A deformable body: a group of cells made of one material.");
   s.key("name", &CasePart::name, "Name in results and messages.", {.need = Need::required});

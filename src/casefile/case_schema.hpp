@@ -1,6 +1,9 @@
 // The case format, declared once: parsing, checks, defaults, documentation and JSON Schema all come from it.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "casefile/case.hpp"
 #include "casefile/section.hpp"
 
@@ -8,6 +11,9 @@ namespace carom {
 
 /// Every section and key of a case file.
 const SectionSchema<Case>& case_schema();
+
+/// The names of components.
+inline const std::vector<std::string> kAxes{"x", "y", "z"};
 
 // The sections that are declared in files of their own.
 SectionSchema<CaseMesh> mesh_section();

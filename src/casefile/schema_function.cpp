@@ -7,7 +7,7 @@ namespace {
 
 using Need = KeyOptions::Need;
 
-const std::vector<std::string> table{"table"};
+const std::vector<std::string> table_key{"table"};
 const std::vector<std::string> step{"step"};
 
 /// The kind decides how the function is written; what is kept is the table it makes.
@@ -49,9 +49,9 @@ SectionSchema<CaseFunction> function_section() {
   s.key_by(
       "time", [](auto& f) -> auto& { return f.function.time; },
       "Times in increasing order; the same time twice makes a jump. The first and last values hold before and after.",
-      {.unit = Dimension::time, .kinds = table, .need = Need::required});
+      {.unit = Dimension::time, .kinds = table_key, .need = Need::required});
   s.key_by("value", [](auto& f) -> auto& { return f.function.value; }, "One value for each time.",
-           {.kinds = table, .need = Need::required});
+           {.kinds = table_key, .need = Need::required});
   add_step_number(s, {"time", Shape::number, "Time of the jump.", time, {}, {}}, [](TimeFunction& f, double t) {
     f = {{t, t}, {0.0, 0.0}};
   });

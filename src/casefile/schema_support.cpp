@@ -6,8 +6,6 @@ namespace {
 
 using Need = KeyOptions::Need;
 
-const std::vector<std::string> axes{"x", "y", "z"};
-
 /// displacement = { x = ..., y = ..., z = ..., function = "..." }
 struct MotionTable {
   Location where;
@@ -18,11 +16,11 @@ struct MotionTable {
 SectionSchema<MotionTable> motion_section(const std::string& what, Dimension unit) {
   SectionSchema<MotionTable> s("Prescribed " + what + " of single components: amplitude times function.");
   for (std::size_t c = 0; c < 3; ++c) {
-    s.key_by(axes[c], [c](auto& motion) -> auto& { return motion.amplitude[c]; }, "Amplitude along " + axes[c] + ".",
+    s.key_by(kAxes[c], [c](auto& motion) -> auto& { return motion.amplitude[c]; }, "Amplitude along " + kAxes[c] + ".",
              {.unit = unit});
   }
   s.key("function", &MotionTable::function, "NAME of a [functions.NAME].", {.default_phrase = "constant 1"});
-  s.description.alternatives = {{Alternatives::Count::at_least_one, axes}};
+  s.description.alternatives = {{Alternatives::Count::at_least_one, kAxes}};
   return s;
 }
 
@@ -71,7 +69,7 @@ void check_components(CaseSupport& support, const Node& node, const ReadContext&
   std::array<std::string, 3> imposed;
   const auto impose = [&](std::size_t c, const std::string& by, const Location& where) {
     if (!imposed[c].empty()) {
-      throw CaseError(where, at.at(by).path, "component " + axes[c] + " a second time (also in " + imposed[c] + ")",
+      throw CaseError(where, at.at(by).path, "component " + kAxes[c] + " a second time (also in " + imposed[c] + ")",
                       "each component once in a support");
     }
     imposed[c] = by;
@@ -94,8 +92,8 @@ SectionSchema<CaseSupport> support_section() {
   SectionSchema<CaseSupport> s("What is imposed on a group of nodes.");
   s.key("nodes", &CaseSupport::nodes, "Group of nodes or cells, or \"all\".", {.need = Need::required});
   s.key("symmetry", &CaseSupport::symmetry, "Symmetry plane with this normal: blocks that component.",
-        {.choices = axes});
-  s.key("blocked", &CaseSupport::blocked, "Components that stay where they are.", {.choices = axes});
+        {.choices = kAxes});
+  s.key("blocked", &CaseSupport::blocked, "Components that stay where they are.", {.choices = kAxes});
   add_motion(s, "displacement", CaseSupport::Kind::displacement, Dimension::length);
   add_motion(s, "velocity", CaseSupport::Kind::velocity, Dimension::velocity);
   add_motion(s, "acceleration", CaseSupport::Kind::acceleration, Dimension::acceleration);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 
+#include "base/types.hpp"
 #include "contact/cell_location.hpp"
 #include "contact/facet_geometry.hpp"
 #include "contact/facet_projection.hpp"
@@ -19,7 +19,6 @@
 namespace carom {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_faces = 6;  ///< of a cell
 
 /// A signed distance from the surface that faces the node within `reach`, infinite where none does.

@@ -14,7 +14,7 @@
 namespace carom {
 namespace {
 
-constexpr std::size_t grain = 256;  // queries or boxes per task: some ten microseconds of work
+constexpr std::size_t query_grain = 256;  // queries or boxes per task: some ten microseconds of work
 
 Bounds way_of(Index node, std::span<const Vec3> x, std::span<const Vec3> displacement) {
   Bounds box;
@@ -76,14 +76,14 @@ void BroadPhase::build(std::span<const Vec3> x, std::span<const Vec3> displaceme
     node_boxes_[i] = way_of(node, x, displacement);
   }
   target_boxes_.resize(targets_.size());
-  parallel_for(targets_.size(), grain, [&](std::size_t first, std::size_t last) {
+  parallel_for(targets_.size(), query_grain, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) target_boxes_[t] = box_of(targets_[t], x, displacement);
   });
   tree_.build(target_boxes_);
 
-  chunks_.resize((queries_.size() + grain - 1) / grain);
-  parallel_for(queries_.size(), grain, [&](std::size_t first, std::size_t last) {
-    std::vector<Index>& found = chunks_[first / grain];
+  chunks_.resize((queries_.size() + query_grain - 1) / query_grain);
+  parallel_for(queries_.size(), query_grain, [&](std::size_t first, std::size_t last) {
+    std::vector<Index>& found = chunks_[first / query_grain];
     found.clear();
     for (std::size_t q = first; q < last; ++q) {
       const auto before = static_cast<std::ptrdiff_t>(found.size());

@@ -60,10 +60,10 @@ Polygon clip(Polygon polygon, const Polygon& window) {
 }
 
 /// The plane of the slave: axes at its centre, z along its normal there.
-struct Plane {
+struct SlavePlane {
   Vec3 origin, normal, e_1, e_2;
 
-  explicit Plane(const PlacedFacet& slave) {
+  explicit SlavePlane(const PlacedFacet& slave) {
     const ParentPoint centre = facet_centre(slave.size);
     const FacetFrame frame = facet_frame(slave, centre.xi, centre.eta);
     origin = frame.position;
@@ -125,7 +125,7 @@ void Shadow::add_part(std::array<std::size_t, 4> corners, std::size_t size) {
 }
 
 /// A facet in the plane's axes.
-struct Seen {
+struct SeenFacet {
   BilinearPatch patch;
   int size;
 
@@ -133,7 +133,7 @@ struct Seen {
   std::optional<ParentPoint> over(const Point& p) const;
 };
 
-std::optional<ParentPoint> Seen::over(const Point& p) const {
+std::optional<ParentPoint> SeenFacet::over(const Point& p) const {
   constexpr double slack = 1e-6;  // p lies in the shadow: only the round-off of slender shadows is to be allowed
   const double low = size == 4 ? -1.0 : 0.0;
   std::array<ParentPoint, 2> points;
@@ -169,8 +169,8 @@ std::array<TrianglePoint, 7> radon_rule() {
 }
 
 /// One overlap in the making.
-struct Overlap {
-  Seen slave, master;
+struct Clipping {
+  SeenFacet slave, master;
   std::vector<OverlapPoint>& points;
 
   void add_point(const Point& p, double area) const;
@@ -178,7 +178,7 @@ struct Overlap {
   void add_polygon(const Polygon& polygon) const;
 };
 
-void Overlap::add_point(const Point& p, double area) const {
+void Clipping::add_point(const Point& p, double area) const {
   const std::optional<ParentPoint> on_slave = slave.over(p), on_master = master.over(p);
   if (!on_slave || !on_master) return;
   const Vec3 n = cross(slave.patch.tangent_1(on_slave->eta), slave.patch.tangent_2(on_slave->xi));
@@ -186,7 +186,7 @@ void Overlap::add_point(const Point& p, double area) const {
   if (n[2] > 0.0) points.push_back({*on_slave, *on_master, area * std::sqrt(dot(n, n)) / n[2], gap});
 }
 
-void Overlap::add_triangle(const Point& a, const Point& b, const Point& c) const {
+void Clipping::add_triangle(const Point& a, const Point& b, const Point& c) const {
   static const std::array<TrianglePoint, 7> rule = radon_rule();
   const double area = area_of(a, b, c);
   if (!(area > 0.0)) return;
@@ -194,14 +194,14 @@ void Overlap::add_triangle(const Point& a, const Point& b, const Point& c) const
     add_point({l[0] * a[0] + l[1] * b[0] + l[2] * c[0], l[0] * a[1] + l[1] * b[1] + l[2] * c[1]}, weight * area);
 }
 
-void Overlap::add_polygon(const Polygon& polygon) const {
+void Clipping::add_polygon(const Polygon& polygon) const {
   for (std::size_t i = 2; i < polygon.size; ++i)
     add_triangle(polygon.corner[0], polygon.corner[i - 1], polygon.corner[i]);
 }
 
 void add_segment_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector<OverlapPoint>& points) {
   static const std::vector<QuadraturePoint> rule = gauss_legendre(3);
-  const PlacedFacet seen = Plane(slave).seen(master);
+  const PlacedFacet seen = SlavePlane(slave).seen(master);
   const double half = 0.5 * measure(slave), start = seen.x[0][0], end = seen.x[1][0];
   const double low = std::max(-half, std::min(start, end)), high = std::min(half, std::max(start, end));
   if (!(high - low > negligible * std::min(2.0 * half, measure(master)))) return;
@@ -224,10 +224,10 @@ int add_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector
     add_segment_overlap(slave, master, points);
     return static_cast<int>(points.size() - before);
   }
-  const Plane plane(slave);
+  const SlavePlane plane(slave);
   const PlacedFacet seen_slave = plane.seen(slave), seen_master = plane.seen(master);
   const Shadow of_slave(seen_slave), of_master(seen_master);
-  const Overlap overlap{{BilinearPatch(seen_slave), slave.size}, {BilinearPatch(seen_master), master.size}, points};
+  const Clipping overlap{{BilinearPatch(seen_slave), slave.size}, {BilinearPatch(seen_master), master.size}, points};
   const double least = negligible * std::min(measure(slave), measure(master));
   for (std::size_t i = 0; i < of_slave.count; ++i) {
     for (std::size_t j = 0; j < of_master.count; ++j) {

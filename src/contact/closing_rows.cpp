@@ -43,7 +43,7 @@ bool mark_closing(const std::vector<ClosingRow>& candidates, const ConstraintRow
 }
 
 /// Relative errors of the motions; see close_rows.
-constexpr double wanted = 1e-12, accepted = 1e-5;
+constexpr double kWantedError = 1e-12, kAcceptedError = 1e-5;
 
 std::string failure(const ContactGeometry& contact, const ConstraintRows& rows, const Delassus& W,
                     const ConeResult& result) {
@@ -83,7 +83,7 @@ std::string close_rows(const ContactGeometry& contact, const std::vector<Closing
       mu.push_back(rows.law[row].mu);
       r.push_back(rows.to_frame(row, history[static_cast<std::size_t>(rows.slot[row])].multiplier));
     }
-    const ConeResult result = solve_cone(W, b, mu, r, wanted, accepted, round_off);
+    const ConeResult result = solve_cone(W, b, mu, r, kWantedError, kAcceptedError, round_off);
     if (!result.converged) return failure(contact, rows, W, result);
     for (std::size_t k = 0; k < chosen.size(); ++k) set_multiplier(chosen[k], r[k], response);
     std::fill(x.begin(), x.end(), 0.0);

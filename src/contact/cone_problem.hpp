@@ -2,15 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "base/types.hpp"
 #include "contact/delassus.hpp"
 
 namespace carom::cone {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Rows that act on each other, in ascending order.
 using RowList = std::vector<std::size_t>;

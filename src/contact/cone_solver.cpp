@@ -24,7 +24,7 @@ constexpr double least_proximal = 1e-13;
 /// The best forces of the rows so far, and how far from a solution they are.
 struct Best {
   std::vector<Vec3> force;
-  double error = cone::infinity;
+  double error = infinity;
 
   /// Takes the present forces when they are better.
   void offer(const Problem& p, const RowList& rows) {
@@ -164,7 +164,7 @@ int solve_with_friction(Problem& p, const RowList& rows, double tolerance, doubl
 /// Sweeps until solved, or accepted and no longer getting much better, or `most` are done. Returns their number.
 int sweeps(Problem& p, const RowList& rows, double tolerance, double accepted, int most) {
   constexpr int batch = 64;
-  double last = cone::infinity;
+  double last = infinity;
   for (int n = 0; n < most; ++n) {
     if (n < first_sweeps || n % 8 == 0) {
       const double error = p.error(rows);
@@ -199,11 +199,11 @@ ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<cons
   r.resize(W.size());
   const auto finite = [](const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); };
   for (std::size_t i = 0; i < b.size(); ++i) {
-    if (!finite(b[i])) return {false, 0, cone::infinity, i};
+    if (!finite(b[i])) return {false, 0, infinity, i};
   }
   Problem p(W, b, mu, r);
   for (std::size_t i = 0; i < W.size(); ++i) {
-    if (p.normal_compliance(i) < 0.0) return {false, 0, cone::infinity, i};
+    if (p.normal_compliance(i) < 0.0) return {false, 0, infinity, i};
     if (!finite(r[i])) r[i] = {};
     r[i][0] = std::max(0.0, r[i][0]);
     if (p.normal_compliance(i) == 0.0) r[i] = {};

@@ -77,9 +77,9 @@ std::array<FacePoint, 4> face_points(const Mesh& mesh, const std::array<Index, 4
 }
 
 /// Centroid of a solid cell of a part that holds all four nodes, if there is one.
-class PartCells {
+class HexaCentroids {
  public:
-  explicit PartCells(const Model& model) : mesh_(*model.mesh) {
+  explicit HexaCentroids(const Model& model) : mesh_(*model.mesh) {
     const CellBlock* hexas = mesh_.block(CellType::hexa8);
     if (hexas == nullptr) return;
     connectivity_ = hexas->connectivity.data();
@@ -114,12 +114,12 @@ class PartCells {
 };
 
 /// Makes the face that a part holds the upper one, so that the forces of the rows are those on the body.
-void put_part_above(const PartCells& parts, InterfaceFaces& faces) {
+void put_part_above(const HexaCentroids& parts, InterfaceFaces& faces) {
   if (!parts.centroid_at(faces.upper) && parts.centroid_at(faces.lower)) std::swap(faces.lower, faces.upper);
 }
 
 /// True when the part above says that the normal must be turned.
-bool normal_is_inverted(const PartCells& parts, const InterfaceFaces& faces, const FacePoint& point) {
+bool normal_is_inverted(const HexaCentroids& parts, const InterfaceFaces& faces, const FacePoint& point) {
   const auto above = parts.centroid_at(faces.upper);
   return above && dot(subtract(*above, point.position), point.normal) < 0;
 }
@@ -155,7 +155,7 @@ std::unique_ptr<RowMaker> interface_rows(const Model& model, const InterfaceCont
                                          std::vector<std::string>& notes) {
   const Mesh& mesh = *model.mesh;
   const CellBlock& hexas = *mesh.block(CellType::hexa8);
-  const PartCells parts(model);
+  const HexaCentroids parts(model);
   ConstraintRows rows;
   std::size_t turned = 0;
   for (const Index cell : contact.cells) {

@@ -21,7 +21,7 @@ namespace {
 constexpr double least_coverage = 1e-6;  // of a node's measure
 constexpr double look = 1.5;             // of the facet size: overlaps within count
 
-constexpr double facing = -0.5;  // n_s . n_m below: at most 60 degrees from facing each other
+constexpr double least_facing = -0.5;  // n_s . n_m below: at most 60 degrees from facing each other
 
 using NodePairs = std::array<std::array<double, 4>, 4>;
 using NodePairVectors = std::array<std::array<Vec3, 4>, 4>;
@@ -109,7 +109,7 @@ void FacetSums::add_point(double w, double point_gap, const Vec3& m_point, const
 }
 
 /// Points of the overlap with one master.
-struct Overlap {
+struct MasterOverlap {
   Index master;
   PlacedFacet placed;
   std::size_t begin, end;
@@ -201,7 +201,7 @@ bool MortarRows::add_points(std::size_t f, Index g, const Slave& slave, const Co
   const PlacedFacet master = place(broad_phase_.targets()[g], motion.x);
   if (!slave.may_overlap(master, look * size_)) return false;
   const ParentPoint centre = facet_centre(master.size);
-  if (dot(facet_frame(master, centre.xi, centre.eta).normal, slave.normal) >= facing) return false;
+  if (dot(facet_frame(master, centre.xi, centre.eta).normal, slave.normal) >= least_facing) return false;
   const std::size_t before = points.size();
   if (add_overlap(slave.placed, master, points) == 0) return false;
   const auto nearest = std::min_element(points.begin() + static_cast<std::ptrdiff_t>(before), points.end(),
@@ -213,11 +213,11 @@ bool MortarRows::add_points(std::size_t f, Index g, const Slave& slave, const Co
 }
 
 /// Sets the weight of every point to zero that has another master nearer along the normal.
-void hide_layers(const Slave& slave, const std::vector<Overlap>& overlaps, std::vector<OverlapPoint>& points) {
-  for (const Overlap& own : overlaps) {
+void hide_layers(const Slave& slave, const std::vector<MasterOverlap>& overlaps, std::vector<OverlapPoint>& points) {
+  for (const MasterOverlap& own : overlaps) {
     for (std::size_t q = own.begin; q < own.end; ++q) {
       const Vec3 x = facet_position(slave.placed, points[q].slave.xi, points[q].slave.eta);
-      for (const Overlap& other : overlaps) {
+      for (const MasterOverlap& other : overlaps) {
         if (other.master == own.master) continue;
         const std::optional<RayHit> hit = intersect(other.placed, x, slave.normal);
         if (hit && std::abs(hit->distance) < std::abs(points[q].gap)) points[q].weight = 0.0;
@@ -232,7 +232,7 @@ void MortarRows::integrate(std::size_t f, const ContactMotion& motion, FacetSums
   if (candidates.empty()) return;
   const Slave slave(place(slave_.facets[f], motion.x));
   std::vector<OverlapPoint> points;
-  std::vector<Overlap> overlaps;
+  std::vector<MasterOverlap> overlaps;
   for (const Index g : candidates) {
     const std::size_t begin = points.size();
     if (add_points(f, g, slave, motion, points))
@@ -248,13 +248,13 @@ void MortarRows::integrate(std::size_t f, const ContactMotion& motion, FacetSums
   const bool is_ring = slave_.section == Section::axisymmetric;
   sums.normal = slave.normal;
   sums.turn = slave.turn;
-  for (const Overlap& overlap : overlaps) {
+  for (const MasterOverlap& overlap : overlaps) {
     sums.masters.push_back({overlap.master});
     for (std::size_t q = overlap.begin; q < overlap.end; ++q) {
       const auto& [at, on_master, weight, gap] = points[q];
       const Vec3 n = facet_frame(overlap.placed, on_master.xi, on_master.eta).normal;
       const double facing_cosine = dot(n, slave.normal);
-      if (weight == 0.0 || facing_cosine >= facing) continue;
+      if (weight == 0.0 || facing_cosine >= least_facing) continue;
       const double around = is_ring ? 2.0 * std::numbers::pi * facet_position(reference, at.xi, at.eta)[0] : width;
       sums.add_point(weight * stretch * around, gap, scaled(n, 1.0 / facing_cosine),
                      facet_shape(reference.size, at.xi, at.eta).N,

@@ -233,7 +233,7 @@ class StopRows : public RowMaker {
 };
 
 /// The maker for each shape.
-struct MakeRows {
+struct ShapeRowMaker {
   const ObstacleContact& contact;
   Touching touching;
 
@@ -254,7 +254,7 @@ struct MakeRows {
 }  // namespace
 
 std::unique_ptr<RowMaker> obstacle_rows(const Model& model, const ObstacleContact& contact, Index source) {
-  return std::visit(MakeRows{contact, Touching(model, contact, source)}, contact.shape);
+  return std::visit(ShapeRowMaker{contact, Touching(model, contact, source)}, contact.shape);
 }
 
 std::unique_ptr<RowMaker> stop_rows(const Model& model, const StopContact& contact, Index source) {

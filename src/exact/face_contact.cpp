@@ -5,11 +5,12 @@
 #include <limits>
 #include <utility>
 
+#include "base/types.hpp"
+
 namespace carom {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-12;
 
 /// value + slope s, s >= 0 the time since now

@@ -11,8 +11,6 @@ namespace carom {
 
 namespace {
 
-constexpr std::size_t vector_grain = 4096;
-
 /// r . D^-1 r
 double preconditioned_square(std::span<const double> r, std::span<const double> inverse_diagonal) {
   return parallel_sum(r.size(), [&](std::size_t i) { return r[i] * inverse_diagonal[i] * r[i]; });

@@ -13,8 +13,6 @@ namespace carom {
 
 namespace {
 
-constexpr std::size_t vector_grain = 4096;
-
 struct RitzPair {
   double value = 0.0;
   std::vector<double> vector;  ///< unit eigenvector of the tridiagonal matrix

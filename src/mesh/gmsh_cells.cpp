@@ -20,29 +20,30 @@ struct Entry {
   GmshCellType cell;
 };
 
-const std::array<Entry, 17> kTypes{{{1, {CellType::line2, kAsWritten}},
-                                    {2, {CellType::tria3, kAsWritten}},
-                                    {3, {CellType::quad4, kAsWritten}},
-                                    {4, {CellType::tetra4, kAsWritten}},
-                                    {5, {CellType::hexa8, kAsWritten}},
-                                    {6, {CellType::penta6, kAsWritten}},
-                                    {7, {CellType::pyra5, kAsWritten}},
-                                    {8, {CellType::line3, kAsWritten}},
-                                    {9, {CellType::tria6, kAsWritten}},
-                                    {10, {CellType::quad9, kAsWritten}},
-                                    {11, {CellType::tetra10, kTetra10}},
-                                    {12, {CellType::hexa27, kHexa27}},
-                                    {15, {CellType::point1, kAsWritten}},
-                                    {16, {CellType::quad8, kAsWritten}},
-                                    {17, {CellType::hexa20, kHexa20}},
-                                    {18, {CellType::penta15, kPenta15}},
-                                    {19, {CellType::pyra13, kPyra13}}}};
+const std::array<Entry, 17> kGmshTypes{{{1, {CellType::line2, kAsWritten}},
+                                        {2, {CellType::tria3, kAsWritten}},
+                                        {3, {CellType::quad4, kAsWritten}},
+                                        {4, {CellType::tetra4, kAsWritten}},
+                                        {5, {CellType::hexa8, kAsWritten}},
+                                        {6, {CellType::penta6, kAsWritten}},
+                                        {7, {CellType::pyra5, kAsWritten}},
+                                        {8, {CellType::line3, kAsWritten}},
+                                        {9, {CellType::tria6, kAsWritten}},
+                                        {10, {CellType::quad9, kAsWritten}},
+                                        {11, {CellType::tetra10, kTetra10}},
+                                        {12, {CellType::hexa27, kHexa27}},
+                                        {15, {CellType::point1, kAsWritten}},
+                                        {16, {CellType::quad8, kAsWritten}},
+                                        {17, {CellType::hexa20, kHexa20}},
+                                        {18, {CellType::penta15, kPenta15}},
+                                        {19, {CellType::pyra13, kPyra13}}}};
 
 }  // namespace
 
 const GmshCellType* gmsh_cell_type(std::int64_t number) {
-  const auto found = std::find_if(kTypes.begin(), kTypes.end(), [&](const Entry& e) { return e.number == number; });
-  return found == kTypes.end() ? nullptr : &found->cell;
+  const auto found =
+      std::find_if(kGmshTypes.begin(), kGmshTypes.end(), [&](const Entry& e) { return e.number == number; });
+  return found == kGmshTypes.end() ? nullptr : &found->cell;
 }
 
 }  // namespace carom

@@ -7,16 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/types.hpp"
 #include "mesh/cell_topology.hpp"
 #include "mesh/finish_mesh.hpp"
 
 namespace carom {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Per node its new index; -1 for those that are no corner but in the middle of some cell.
 std::vector<Index> kept_nodes(const Mesh& mesh) {

@@ -22,22 +22,22 @@ struct MedType {
   CellType type;
 };
 
-constexpr std::array<MedType, 16> kTypes{{{"PO1", CellType::point1},
-                                          {"SE2", CellType::line2},
-                                          {"SE3", CellType::line3},
-                                          {"TR3", CellType::tria3},
-                                          {"TR6", CellType::tria6},
-                                          {"QU4", CellType::quad4},
-                                          {"QU8", CellType::quad8},
-                                          {"QU9", CellType::quad9},
-                                          {"TE4", CellType::tetra4},
-                                          {"T10", CellType::tetra10},
-                                          {"PY5", CellType::pyra5},
-                                          {"P13", CellType::pyra13},
-                                          {"PE6", CellType::penta6},
-                                          {"P15", CellType::penta15},
-                                          {"HE8", CellType::hexa8},
-                                          {"H20", CellType::hexa20}}};
+constexpr std::array<MedType, 16> kMedTypes{{{"PO1", CellType::point1},
+                                             {"SE2", CellType::line2},
+                                             {"SE3", CellType::line3},
+                                             {"TR3", CellType::tria3},
+                                             {"TR6", CellType::tria6},
+                                             {"QU4", CellType::quad4},
+                                             {"QU8", CellType::quad8},
+                                             {"QU9", CellType::quad9},
+                                             {"TE4", CellType::tetra4},
+                                             {"T10", CellType::tetra10},
+                                             {"PY5", CellType::pyra5},
+                                             {"P13", CellType::pyra13},
+                                             {"PE6", CellType::penta6},
+                                             {"P15", CellType::penta15},
+                                             {"HE8", CellType::hexa8},
+                                             {"H20", CellType::hexa20}}};
 
 using Families = std::map<std::int64_t, std::vector<std::string>>;
 
@@ -213,8 +213,9 @@ class MedReader {
   void read_cells(const std::string& path) {
     std::int64_t next_number = 1;
     for (const std::string& code : children(tree_, path)) {
-      const auto type = std::find_if(kTypes.begin(), kTypes.end(), [&](const MedType& t) { return t.code == code; });
-      if (type == kTypes.end())
+      const auto type =
+          std::find_if(kMedTypes.begin(), kMedTypes.end(), [&](const MedType& t) { return t.code == code; });
+      if (type == kMedTypes.end())
         fail(path + "/" + code, "cell type " + code,
              "PO1, SE2, SE3, TR3, TR6, QU4, QU8, QU9, TE4, T10, PY5, P13, PE6, P15, HE8 or H20",
              "Mesh with cells of these types.");

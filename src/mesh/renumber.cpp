@@ -3,23 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "base/types.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
 
 namespace carom {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The nearest multiple of `step` to a length, as a count; 0 where extents overflow, so that it can always be sorted
 /// by.

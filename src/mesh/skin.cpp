@@ -6,16 +6,13 @@
 #include <numeric>
 #include <span>
 
+#include "base/types.hpp"
 #include "mesh/cell_topology.hpp"
 #include "mesh/orientation.hpp"
 
 namespace carom {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 constexpr Index none = std::numeric_limits<Index>::max();
 

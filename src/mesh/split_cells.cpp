@@ -8,6 +8,7 @@
 #include <span>
 
 #include "base/errors.hpp"
+#include "base/types.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
 #include "mesh/finish_mesh.hpp"
@@ -15,10 +16,6 @@
 namespace carom {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Corners of the parent cell whose mean a node of a child is; the rest -1. A corner stands for itself.
 using Corners = std::array<int, 8>;

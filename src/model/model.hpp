@@ -210,6 +210,9 @@ struct Model {
   std::vector<Spring> springs;
   std::vector<RigidBody> rigid_bodies;
   std::vector<TurningBody> turning_bodies;
+
+  /// The part that a cell belongs to; null: none.
+  const Part* part_of(const CellRef& cell) const;
 };
 
 }  // namespace carom

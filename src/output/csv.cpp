@@ -19,7 +19,7 @@ namespace carom {
 
 namespace {
 constexpr std::chrono::milliseconds kFlushInterval{500};
-constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
+constexpr std::size_t kRowBufferBytes = std::size_t{1} << 20;
 }  // namespace
 
 CsvFile::CsvFile(std::string path, const std::vector<std::string>& columns, const std::vector<std::string>& comments)
@@ -66,7 +66,7 @@ CsvFile::~CsvFile() {
 void CsvFile::append(std::span<const double> row) {
   assert(row.size() == columns_);
   fmt::format_to(std::back_inserter(buffer_), "{}\n", fmt::join(row, ","));
-  if (buffer_.size() > kBufferBytes || std::chrono::steady_clock::now() - last_flush_ > kFlushInterval) flush();
+  if (buffer_.size() > kRowBufferBytes || std::chrono::steady_clock::now() - last_flush_ > kFlushInterval) flush();
 }
 
 void CsvFile::flush() {

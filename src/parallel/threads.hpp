@@ -23,10 +23,13 @@ void parallel_for(std::size_t n, std::size_t grain, const Body& body) {
   }
 }
 
+/// A grain for loops over vectors: some microseconds a range.
+inline constexpr std::size_t vector_grain = 4096;
+
 /// Calls body(i) for every i in [0, n), in any order and at the same time.
 template <class Body>
 void parallel_each(std::size_t n, const Body& body) {
-  parallel_for(n, 4096, [&body](std::size_t begin, std::size_t end) {
+  parallel_for(n, vector_grain, [&body](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) body(i);
   });
 }

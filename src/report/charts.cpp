@@ -20,7 +20,6 @@ namespace carom {
 namespace {
 
 constexpr std::size_t kIntervals = 1000;
-constexpr double kNegligible = 1e-9;
 constexpr std::array<std::string_view, 4> kKinds{"\"computed\"", "\"raw\"", "\"filtered\"", "\"exact\""};
 
 /// A chart before its curves are cut down: columns of one table that belong together.

@@ -12,6 +12,9 @@
 
 namespace carom {
 
+/// What is below this share of the largest is left out of pictures and figures.
+inline constexpr double kNegligible = 1e-9;
+
 /// How a curve is drawn: a filtered one over the raw one of its colour, which is then pale; the exact solution dashed
 /// over both.
 enum class CurveKind : std::uint8_t { computed, raw, filtered, exact };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "report/charts.hpp"
 #include "report/html.hpp"
 #include "report/readable_unit.hpp"
 
@@ -14,7 +15,6 @@ namespace carom {
 namespace {
 
 constexpr std::size_t kMost = 4;
-constexpr double kNegligible = 1e-9;
 
 /// A figure on its way to the list, which keeps those of largest weight.
 struct Weighed {

@@ -18,9 +18,9 @@ namespace carom {
 
 namespace {
 
-class Builder {
+class ModelBuilder {
  public:
-  Builder(const Case& given, const Mesh& mesh, Model& model)
+  ModelBuilder(const Case& given, const Mesh& mesh, Model& model)
       : case_(given), mesh_(mesh), groups_(mesh), parts_(given, mesh, groups_), model_(model) {}
 
   void build() {
@@ -249,7 +249,7 @@ class Builder {
 Model build_model(const Case& given, std::shared_ptr<const Mesh> mesh) {
   Model model;
   model.mesh = std::move(mesh);
-  Builder(given, *model.mesh, model).build();
+  ModelBuilder(given, *model.mesh, model).build();
   return model;
 }
 

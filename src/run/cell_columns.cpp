@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include "base/types.hpp"
 #include "mesh/cell_topology.hpp"
 
 namespace carom {
@@ -20,10 +21,6 @@ constexpr std::array<std::array<int, 4>, 6> quad4_sides{{{0, 3, none, none},
                                                          {3, 2, none, none},
                                                          {none, none, none, none},
                                                          {none, none, none, none}}};
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 

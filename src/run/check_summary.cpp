@@ -20,13 +20,13 @@ namespace carom {
 namespace {
 
 /// Mass, kinetic energy and momentum of one part, by the lumped shares of its cells (exact for a common velocity).
-struct PartSummary {
+struct PartLine {
   double mass = 0.0, kinetic = 0.0;
   Vec3 momentum{};
 };
 
-PartSummary summarise(const Simulation& s, const Part& part, const State& state) {
-  PartSummary sum;
+PartLine summarise(const Simulation& s, const Part& part, const State& state) {
+  PartLine sum;
   const double rho = part.material.rho;
   const Solid& solid = s.solid();
   std::vector<char> is_member(s.mesh().block(part.type)->size(), 0);
@@ -88,7 +88,7 @@ std::string check_summary(const Simulation& s) {
                   count_of(static_cast<long long>(s.solid().cell_count()), "solid cell"), smallest_cell(s.solid()),
                   unit(Dimension::length));
   for (const Part& part : s.model().parts) {
-    const PartSummary p = summarise(s, part, state);
+    const PartLine p = summarise(s, part, state);
     text += fmt::format("  part      \"{}\": {}, mass {:.6g} {}, kinetic energy {:.6g} {}, momentum {}\n", part.name,
                         count_of(static_cast<long long>(part.cells.size()), "cell"), p.mass, unit(Dimension::mass),
                         p.kinetic, unit(Dimension::energy), format_vector(p.momentum));

@@ -18,13 +18,13 @@ namespace carom {
 namespace {
 
 template <class T>
-void add(std::uint64_t& sum, const std::vector<T>& values) {
+void add_to(std::uint64_t& sum, const std::vector<T>& values) {
   const std::size_t count = values.size();
   sum = checksum_of_bytes(&count, sizeof count, sum);
   sum = checksum_of_bytes(values.data(), count * sizeof(T), sum);
 }
 
-void add(std::uint64_t& sum, const std::string& text) {
+void add_to(std::uint64_t& sum, const std::string& text) {
   sum = checksum_of_bytes(text.c_str(), text.size() + 1, sum);
 }
 
@@ -32,20 +32,20 @@ void add(std::uint64_t& sum, const std::string& text) {
 
 std::uint64_t mesh_digest(const Mesh& mesh) {
   std::uint64_t sum = 0;
-  add(sum, mesh.coordinates);
-  add(sum, mesh.node_numbers);
+  add_to(sum, mesh.coordinates);
+  add_to(sum, mesh.node_numbers);
   for (const CellBlock& block : mesh.blocks) {
-    add(sum, std::string(name(block.type)));
-    add(sum, block.connectivity);
-    add(sum, block.file_numbers);
+    add_to(sum, std::string(name(block.type)));
+    add_to(sum, block.connectivity);
+    add_to(sum, block.file_numbers);
   }
   for (const std::string& group : mesh.group_names()) {
-    add(sum, group);
-    add(sum, mesh.nodes_of(group));
+    add_to(sum, group);
+    add_to(sum, mesh.nodes_of(group));
   }
   for (const auto& [group, cells] : mesh.cell_groups) {
-    add(sum, group);
-    for (const CellRef& cell : cells) add(sum, std::vector<Index>{cell.block, cell.cell});
+    add_to(sum, group);
+    for (const CellRef& cell : cells) add_to(sum, std::vector<Index>{cell.block, cell.cell});
   }
   return sum;
 }

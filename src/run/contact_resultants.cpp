@@ -6,15 +6,12 @@
 #include <map>
 #include <set>
 
+#include "base/types.hpp"
 #include "math/vec3.hpp"
 
 namespace carom {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 const PairContact* self_contact(const Model& model, std::size_t contact) {
   const auto* pair = std::get_if<PairContact>(&model.contacts[contact]);

@@ -8,15 +8,14 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 
+#include "base/types.hpp"
 #include "run/recorder.hpp"
 
 namespace carom {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double gigabyte = 1e9;
 
 bool is_implicit(const Stage& stage) {

@@ -26,9 +26,9 @@ struct PointValues {
 };
 
 /// Makes the columns of one case; the solutions live as long as the functions that hold them.
-class Builder {
+class CurveBuilder {
  public:
-  Builder(const Simulation& simulation, const ProbeCurves& probes)
+  CurveBuilder(const Simulation& simulation, const ProbeCurves& probes)
       : simulation_(simulation),
         given_(simulation.given()),
         exact_(*given_.exact),
@@ -221,7 +221,7 @@ class Builder {
 }  // namespace
 
 ExactCurves::ExactCurves(const Simulation& simulation, const ProbeCurves& probes)
-    : columns_(Builder(simulation, probes).build()) {
+    : columns_(CurveBuilder(simulation, probes).build()) {
   table_.columns = {"time"};
   for (const Column& c : columns_) table_.columns.push_back(c.name);
 }

@@ -8,16 +8,13 @@
 #include <span>
 #include <vector>
 
+#include "base/types.hpp"
 #include "contact/facet_geometry.hpp"
 #include "math/vec3.hpp"
 
 namespace carom {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Mean position and velocity of the nodes of facets.
 struct Motion {

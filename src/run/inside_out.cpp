@@ -5,23 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/types.hpp"
 #include "math/vec3.hpp"
 
 namespace carom {
-
-namespace {
-
-std::string part_of(const Model& model, const CellRef& cell) {
-  const CellBlock& block = model.mesh->blocks[static_cast<std::size_t>(cell.block)];
-  for (const Part& part : model.parts) {
-    const bool has_it =
-        part.type == block.type && std::find(part.cells.begin(), part.cells.end(), cell.cell) != part.cells.end();
-    if (has_it) return part.name;
-  }
-  return {};
-}
-
-}  // namespace
 
 std::string inside_out(const Simulation& simulation, std::span<const double> u) {
   const Solid& solid = simulation.solid();
@@ -38,13 +25,13 @@ std::string inside_out(const Simulation& simulation, std::span<const double> u) 
     centre = add(centre, scaled(x, 1.0 / static_cast<double>(nodes.size())));
   }
   const CellRef cell = solid.cells()[static_cast<std::size_t>(k)];
-  const CellBlock& block = simulation.mesh().blocks[static_cast<std::size_t>(cell.block)];
+  const Part* part = simulation.model().part_of(cell);
+  const CellBlock& block = simulation.mesh().blocks[at(cell.block)];
   return fmt::format(
       "cell {} of part \"{}\" at ({:.4g}, {:.4g}, {:.4g}) turns inside out: it is crushed or sheared beyond what its "
       "shape can follow. Finer cells there, a law that stiffens enough, a lower speed or load, or a stiffer contact "
       "that spreads the load help; smaller steps (time.safety, time.step) where it happens at once",
-      block.file_numbers[static_cast<std::size_t>(cell.cell)], part_of(simulation.model(), cell), centre[0], centre[1],
-      centre[2]);
+      block.file_numbers[at(cell.cell)], part == nullptr ? "" : part->name, centre[0], centre[1], centre[2]);
 }
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "math/vec3.hpp"
+#include "math/voigt.hpp"
 
 namespace carom {
 
@@ -20,11 +21,6 @@ long long stress_interval(const Simulation& simulation) {
 }
 
 }  // namespace
-
-double von_mises(const std::array<double, 6>& s) {
-  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
-}
 
 KeyFigures::KeyFigures(const Simulation& simulation)
     : simulation_(simulation),

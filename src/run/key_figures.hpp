@@ -9,7 +9,6 @@
 namespace carom {
 
 /// von Mises' equivalent stress of xx, yy, zz, xy, yz, zx.
-double von_mises(const std::array<double, 6>& stress);
 
 /// Watches the steps of a run.
 class KeyFigures {

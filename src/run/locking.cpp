@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/types.hpp"
 #include "contact/facet_geometry.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
@@ -16,10 +17,6 @@
 namespace carom {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Along which directions a part is thin: the mean of t t^T over its thin cells, t along their thickness.
 class Thinness {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "math/voigt.hpp"
 #include "report/csv_table.hpp"
 #include "solid/kernels.hpp"
 
@@ -13,9 +14,7 @@ namespace carom {
 
 namespace {
 
-using Voigt = std::array<double, 6>;
-
-constexpr std::array<const char*, 3> kinds{"uniaxial_stress", "uniaxial_strain", "simple_shear"};
+constexpr std::array<const char*, 3> path_kinds{"uniaxial_stress", "uniaxial_strain", "simple_shear"};
 constexpr std::array<const char*, 3> axes{"x", "y", "z"};
 constexpr std::array<std::size_t, 6> voigt_row{0, 1, 2, 0, 1, 2}, voigt_column{0, 1, 2, 1, 2, 0};
 constexpr std::array<const char*, 6> components{"xx", "yy", "zz", "xy", "yz", "zx"};
@@ -96,7 +95,7 @@ MaterialPath tabulated(const std::string& file) {
   const std::optional<CsvTable> table = read_csv(file);
   if (!table)
     throw CaseError({}, "--path", fmt::format("\"{}\"", file),
-                    fmt::format("one of {}, or a .csv file that is there", fmt::join(kinds, ", ")));
+                    fmt::format("one of {}, or a .csv file that is there", fmt::join(path_kinds, ", ")));
   if (!table->damage.empty() || table->rows() == 0 || table->columns.front() != "time")
     throw CaseError({file, 0, 0}, "", table->damage.empty() ? "no row, or no column of time" : table->damage,
                     "a first line `time,F_xx,...` or `time,strain_xx,...` and a row for each point");
@@ -155,11 +154,6 @@ Voigt cauchy(Measure measure, const Gradient& F, const Voigt& S) {
   return sigma;
 }
 
-double von_mises(const Voigt& s) {
-  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
-}
-
 std::vector<std::string> columns_of(const Law& law, const MaterialPath& path) {
   std::vector<std::string> columns{"time"};
   if (!path.strain.empty()) columns.emplace_back("strain");
@@ -174,9 +168,9 @@ std::vector<std::string> columns_of(const Law& law, const MaterialPath& path) {
 }  // namespace
 
 MaterialPath make_path(const PathRequest& request) {
-  const auto kind = std::find(kinds.begin(), kinds.end(), request.path);
-  if (kind == kinds.end()) return tabulated(request.path);
-  return programme(static_cast<PathKind>(kind - kinds.begin()), request);
+  const auto kind = std::find(path_kinds.begin(), path_kinds.end(), request.path);
+  if (kind == path_kinds.end()) return tabulated(request.path);
+  return programme(static_cast<PathKind>(kind - path_kinds.begin()), request);
 }
 
 std::vector<double> MaterialCurve::column(const std::string& name) const {

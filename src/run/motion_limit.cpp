@@ -1,9 +1,9 @@
 #include "run/motion_limit.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <span>
 
+#include "base/types.hpp"
 #include "math/vec3.hpp"
 #include "model/node_lengths.hpp"
 
@@ -11,17 +11,18 @@ namespace carom {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double share = 0.5;  // of a cell
+constexpr double share_of_cell = 0.5;
 
 /// What may close within a step on account of the shape: half of half of its thickness.
 struct MostOfShape {
   double operator()(const Plane& /*plane*/) const { return infinity; }
-  double operator()(const Sphere& sphere) const { return sphere.inside ? infinity : share * sphere.radius; }
-  double operator()(const Cylinder& cylinder) const { return cylinder.inside ? infinity : share * cylinder.radius; }
+  double operator()(const Sphere& sphere) const { return sphere.inside ? infinity : share_of_cell * sphere.radius; }
+  double operator()(const Cylinder& cylinder) const {
+    return cylinder.inside ? infinity : share_of_cell * cylinder.radius;
+  }
   double operator()(const Box& box) const {
     const Vec3 size = subtract(box.upper, box.lower);
-    return share * 0.5 * std::min({size[0], size[1], size[2]});
+    return share_of_cell * 0.5 * std::min({size[0], size[1], size[2]});
   }
   double operator()(const RigidSurface& /*rigid*/) const { return infinity; }
 };
@@ -43,7 +44,7 @@ MotionLimit::MotionLimit(const Model& model) : length_(node_lengths(model)) {
 double MotionLimit::allowed(const ConstraintRows& rows, std::size_t r) const {
   const auto first = static_cast<std::size_t>(rows.begin[r]), last = static_cast<std::size_t>(rows.begin[r + 1]);
   const double length = least_length(length_, std::span(rows.node).subspan(first, last - first));
-  const double most = std::min(most_[static_cast<std::size_t>(rows.source[r])], share * length);
+  const double most = std::min(most_[static_cast<std::size_t>(rows.source[r])], share_of_cell * length);
   return most < infinity ? most : -1.0;
 }
 
@@ -55,7 +56,7 @@ void MotionLimit::judge(const ConstraintRows& rows, std::size_t r, double before
   const double most = allowed(rows, r);
   if (most < 0.0 || depth <= most) return;
   const double fraction = (std::max(0.0, before) + 0.5 * most) / (before - after);
-  if (!worst || fraction < worst->fraction) worst = {fraction, share * depth / most, rows.source[r]};
+  if (!worst || fraction < worst->fraction) worst = {fraction, share_of_cell * depth / most, rows.source[r]};
 }
 
 std::optional<MotionLimit::Overrun> MotionLimit::foreseen(const State& begin, const ConstraintRows& rows,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/types.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
 #include "mesh/orientation.hpp"
@@ -15,10 +16,6 @@
 namespace carom {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::string names(std::span<const CellType> types) {
   std::vector<std::string_view> list;

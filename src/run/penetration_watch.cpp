@@ -13,7 +13,7 @@ namespace carom {
 
 namespace {
 
-constexpr double least = 0.05, most = 0.25, share = 0.5;
+constexpr double least_depth = 0.05, most_depth = 0.25, share_of_shortening = 0.5;
 
 std::span<const Index> nodes_of(const Mesh& mesh, const Part& part, Index cell) {
   const auto size = static_cast<std::size_t>(node_count(part.type));
@@ -23,7 +23,7 @@ std::span<const Index> nodes_of(const Mesh& mesh, const Part& part, Index cell) 
 }  // namespace
 
 double PenetrationWatch::Place::limit() const {
-  return std::clamp(share * shortening, least, most);
+  return std::clamp(share_of_shortening * shortening, least_depth, most_depth);
 }
 
 PenetrationWatch::PenetrationWatch(const Model& model) : model_(model), node_length_(node_lengths(model)) {
@@ -77,7 +77,7 @@ void PenetrationWatch::look(const ContactResponse& response, std::span<const dou
     Place& place = places_[slot];
     const double length = cell_at(rows, r);
     place.depth = std::max(place.depth, -rows.gap_at(r, u) / length);
-    if (place.depth > least) place.shortening = std::max(place.shortening, shortening(rows, r, u) / length);
+    if (place.depth > least_depth) place.shortening = std::max(place.shortening, shortening(rows, r, u) / length);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/types.hpp"
 #include "math/principal_axes.hpp"
 #include "math/vec3.hpp"
 #include "run/groups.hpp"
@@ -14,10 +15,6 @@
 namespace carom {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 Index numbered_node(const Located<std::int64_t>& number, const Simulation& simulation) {
   const std::vector<std::int64_t>& numbers = simulation.mesh().node_numbers;

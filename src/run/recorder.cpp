@@ -11,6 +11,7 @@
 
 #include "base/errors.hpp"
 #include "base/units.hpp"
+#include "math/voigt.hpp"
 #include "output/cfc_filter.hpp"
 #include "output/file_writer.hpp"
 #include "output/results_folder.hpp"

@@ -72,7 +72,7 @@ bool same_shape(const RigidShape& a, const RigidShape& b) {
 }
 
 /// How many facets, nodes or cells two contacts treat in the same way.
-struct Overlap {
+struct SharedNodes {
   std::size_t operator()(const PairContact& a, const PairContact& b) const {
     const FacetSet a_slave = keys(a.slave), a_master = keys(a.master), b_slave = keys(b.slave),
                    b_master = keys(b.master);
@@ -124,7 +124,7 @@ std::vector<char> moving_nodes(const Model& model) {
 void refuse_redundant_contacts(const Case& given, const Model& model) {
   for (std::size_t j = 1; j < model.contacts.size(); ++j) {
     for (std::size_t i = 0; i < j; ++i) {
-      const std::size_t overlap = std::visit(Overlap{}, model.contacts[i], model.contacts[j]);
+      const std::size_t overlap = std::visit(SharedNodes{}, model.contacts[i], model.contacts[j]);
       if (overlap == 0) continue;
       const CaseContact &first = given.contacts[i], &second = given.contacts[j];
       throw CaseError(second.where, "contact",

@@ -7,19 +7,13 @@
 #include <numbers>
 
 #include "base/errors.hpp"
+#include "base/types.hpp"
 
 namespace carom {
 
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-
-const Part& part_of(const Model& model, const CellRef& cell) {
-  const CellType type = model.mesh->blocks[static_cast<std::size_t>(cell.block)].type;
-  return *std::find_if(model.parts.begin(), model.parts.end(), [&](const Part& part) {
-    return part.type == type && std::find(part.cells.begin(), part.cells.end(), cell.cell) != part.cells.end();
-  });
-}
 
 }  // namespace
 
@@ -33,7 +27,7 @@ double stress_of_rotation(const IsotropicElastic& material, Section section, dou
 RotationWatch::RotationWatch(const Simulation& simulation) : simulation_(simulation) {}
 
 const Part& RotationWatch::turned_part(const Rotation& rotation) const {
-  return part_of(simulation_.model(), simulation_.solid().cells()[static_cast<std::size_t>(rotation.cell)]);
+  return *simulation_.model().part_of(simulation_.solid().cells()[at(rotation.cell)]);
 }
 
 std::string RotationWatch::describe(const Rotation& rotation) const {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/types.hpp"
 #include "mesh/cell_topology.hpp"
 
 namespace carom {
@@ -15,10 +16,6 @@ namespace carom {
 namespace {
 
 using Marks = std::vector<std::vector<char>>;  ///< per block and cell
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 Marks used_cells(const Case& given, const Mesh& mesh, const Parts& parts) {
   Marks used;

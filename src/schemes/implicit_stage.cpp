@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/types.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/initial_acceleration.hpp"
 
@@ -27,7 +28,6 @@ struct ImplicitStage::Residual {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* with_inertia = ". Lower time.step, or choose another enforcement or method of contact";
 constexpr const char* without_inertia =
     ". There may be none near, as where a body snaps through or a node slips over a sharp edge: follow the motion by a "

@@ -4,12 +4,10 @@
 #include <cassert>
 #include <map>
 
+#include "base/types.hpp"
+
 namespace carom {
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Cells of each node: begin offsets and cell positions.
 struct NodeCells {

@@ -7,16 +7,13 @@
 #include <string>
 
 #include "base/errors.hpp"
+#include "base/types.hpp"
 #include "solid/colouring.hpp"
 #include "solid/element_table.hpp"
 #include "solid/hourglass_flow.hpp"
 
 namespace carom {
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 CaseError part_error(const Mesh& mesh, const Part& part, std::string found, std::string expected, std::string mend) {
   return {Location{mesh.report.source}, "parts." + part.name, std::move(found), std::move(expected), std::move(mend)};

@@ -16,11 +16,11 @@ using Moments = std::array<double, conditions>;
 using MomentMatrix = std::array<Moments, conditions>;
 
 /// Centre and size of the points, so that moments are of order 1.
-struct Frame {
+struct KeptFrame {
   Vec3 centre{};
   double size = 0.0;
 
-  Frame(std::span<const MassPoint> kept, std::span<const MassPoint> removed) {
+  KeptFrame(std::span<const MassPoint> kept, std::span<const MassPoint> removed) {
     double total = 0.0;
     for (const auto& points : {kept, removed}) {
       for (const MassPoint& p : points) {
@@ -86,7 +86,7 @@ Moments solve_semi_definite(MomentMatrix H, const Moments& b) {
 }  // namespace
 
 std::vector<double> redistribute(std::span<const MassPoint> kept, std::span<const MassPoint> removed, double floor) {
-  const Frame frame(kept, removed);
+  const KeptFrame frame(kept, removed);
   Moments target{}, y{};
   double moved = 0.0;
   for (const MassPoint& point : removed) {

@@ -5,16 +5,13 @@
 #include <numbers>
 
 #include "base/errors.hpp"
+#include "base/types.hpp"
 #include "element/quad4.hpp"
 #include "math/vec3.hpp"
 #include "solid/quadratic_faces.hpp"
 
 namespace carom {
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Forces summed per node; only nodes that were touched are kept.
 class NodeSum {

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/types.hpp"
 #include "math/vec3.hpp"
 #include "solid/least_squares_mass.hpp"
 
@@ -47,10 +48,6 @@ struct NodeCollector {
     nodes.insert(nodes.end(), contact.nodes.begin(), contact.nodes.end());
   }
 };
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Neighbours through cells, as the pattern of the consistent mass has them.
 std::span<const Index> neighbours(const CsrMatrix& graph, Index n) {

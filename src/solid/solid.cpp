@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/types.hpp"
 #include "mesh/cell_size.hpp"
 #include "parallel/threads.hpp"
 #include "solid/assembly.hpp"
@@ -19,10 +20,6 @@
 
 namespace carom {
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 const KernelTable& kernels(Isa isa) {
   switch (isa) {

@@ -1,15 +1,12 @@
 #include "solid/springs.hpp"
 
+#include "base/types.hpp"
 #include "math/vec3.hpp"
 #include "solid/assembly.hpp"
 
 namespace carom {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 Vec3 node_value(std::span<const double> u, Index node) {
   return {u[3 * at(node)], u[3 * at(node) + 1], u[3 * at(node) + 2]};
