@@ -12,6 +12,16 @@ if(CAROM_ASSERTIONS)
   target_compile_definitions(carom_options INTERFACE _GLIBCXX_ASSERTIONS)
 endif()
 
+# Text in, text out, and tests: half the time to compile for code where speed does not show.
+function(carom_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# Headers cost several times what the code behind them costs: files of a target are compiled a few at a time.
+function(carom_unity target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${CAROM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
 # carom_library(folder DEPENDS folder...  LIBRARIES target...): every .cpp of the folder becomes carom_<folder>.
 function(carom_library folder)
   cmake_parse_arguments(ARG "" "" "DEPENDS;LIBRARIES" ${ARGN})
@@ -20,20 +30,26 @@ function(carom_library folder)
   if(sources)
     add_library(carom_${folder} STATIC ${sources})
     target_link_libraries(carom_${folder} PUBLIC carom_options fmt::fmt ${ARG_DEPENDS} PRIVATE ${ARG_LIBRARIES})
+    carom_unity(carom_${folder})
   else()
     add_library(carom_${folder} INTERFACE)
     target_link_libraries(carom_${folder} INTERFACE carom_options fmt::fmt ${ARG_DEPENDS})
   endif()
 endfunction()
 
-# carom_test(name folder... ): tests/<kind>/<name>.cpp becomes a ctest entry per gtest case, labelled <kind>.
-function(carom_test name)
-  add_executable(${name} ${CMAKE_CURRENT_SOURCE_DIR}/${name}.cpp)
+# carom_tests(group folder...): the files <group>_*.cpp of this folder become the program <group>_tests, each of its gtest
+# cases a ctest entry labelled with the name of this folder. A file's tests stand in a namespace of its own.
+function(carom_tests group)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${group}_*.cpp)
+  add_executable(${group}_tests ${sources})
   list(TRANSFORM ARGN PREPEND carom_ OUTPUT_VARIABLE folders)
-  target_link_libraries(${name} PRIVATE ${folders} GTest::gtest_main)
-  target_compile_definitions(${name} PRIVATE CAROM_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  target_link_libraries(${group}_tests PRIVATE ${folders} GTest::gtest_main)
+  target_compile_definitions(${group}_tests PRIVATE CAROM_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  set_target_properties(${group}_tests PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  carom_unity(${group}_tests)
+  carom_compile_quickly(${group}_tests)
   get_filename_component(kind ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   # Threads that wait by spinning starve each other where other work shares the cores.
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300 LABELS ${kind} ENVIRONMENT OMP_WAIT_POLICY=passive)
+  gtest_discover_tests(${group}_tests DISCOVERY_MODE PRE_TEST
+                       PROPERTIES TIMEOUT 300 LABELS ${kind} ENVIRONMENT OMP_WAIT_POLICY=passive)
 endfunction()

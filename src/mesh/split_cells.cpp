@@ -162,7 +162,7 @@ class NewNodes {
     std::size_t n = 0;
     for (; n < 8 && corners[n] >= 0; ++n) key[n] = nodes[static_cast<std::size_t>(corners[n])];
     if (n == 1) return key[0];
-    std::sort(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(n));
+    std::ranges::sort(std::span(key).first(n));
     const auto [found, is_new] = known_.try_emplace(key, static_cast<Index>(mesh_.coordinates.size()));
     if (!is_new) return found->second;
     Vec3 mean{};

@@ -11,7 +11,7 @@
 #include "casefile/schema.hpp"
 #include "model/compatibility.hpp"
 
-namespace carom {
+namespace carom::casefile_compatibility_test {
 namespace {
 
 std::string case_with(const SchemeTraits& scheme, const std::string& enforcement) {
@@ -84,4 +84,4 @@ TEST(Compatibility, ThePageInTheRepositoryIsCurrent) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::casefile_compatibility_test

@@ -8,7 +8,7 @@
 
 #include "casefile/read_case.hpp"
 
-namespace carom {
+namespace carom::casefile_malformed_test {
 namespace {
 
 const std::string base = R"(title = "base"
@@ -535,4 +535,4 @@ TEST(Encoding, OtherThanUtf8IsNamed) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::casefile_malformed_test

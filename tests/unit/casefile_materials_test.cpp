@@ -9,7 +9,7 @@
 #include "casefile/resolved_case.hpp"
 #include "casefile/schema.hpp"
 
-namespace carom {
+namespace carom::casefile_materials_test {
 namespace {
 
 std::string case_with(const std::string& material) {
@@ -133,4 +133,4 @@ TEST(CasefileMaterials, ThePageInTheRepositoryIsCurrent) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::casefile_materials_test

@@ -4,7 +4,7 @@
 #include "casefile/read_case.hpp"
 #include "casefile/resolved_case.hpp"
 
-namespace carom {
+namespace carom::casefile_plane_test {
 namespace {
 
 const std::string base = R"(
@@ -158,4 +158,4 @@ TEST(CasefilePlane, EveryMessage) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::casefile_plane_test

@@ -14,7 +14,7 @@
 #include "casefile/resolved_case.hpp"
 #include "casefile/schema.hpp"
 
-namespace carom {
+namespace carom::casefile_test {
 namespace {
 
 const std::string complete_path = std::string(CAROM_SOURCE_DIR) + "/tests/data/case_complete.toml";
@@ -356,4 +356,4 @@ TEST(Plausibility, ConditionallyStableNewmark) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::casefile_test

@@ -17,7 +17,7 @@
 #include "compare/recommend.hpp"
 #include "compare/tables.hpp"
 
-namespace carom::compare {
+namespace carom::compare::compare_measure_test {
 namespace {
 
 TEST(CompareMeasure, IntegratesByTheTrapezoidalRule) {
@@ -308,4 +308,4 @@ TEST(ComparePage, HidesTheWorstOfMany) {
 }
 
 }  // namespace
-}  // namespace carom::compare
+}  // namespace carom::compare::compare_measure_test

@@ -21,7 +21,7 @@
 #include "compare/compare_cases.hpp"
 #include "compare/jobs.hpp"
 
-namespace carom::compare {
+namespace carom::compare::compare_run_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -143,4 +143,4 @@ TEST_F(CompareRun, OfForbiddenCombinationsOnlyIsAnErrorOfTheCase) {
 }
 
 }  // namespace
-}  // namespace carom::compare
+}  // namespace carom::compare::compare_run_test

@@ -16,7 +16,7 @@
 #include "compare/matrix.hpp"
 #include "compare/variant.hpp"
 
-namespace carom::compare {
+namespace carom::compare::compare_variants_test {
 namespace {
 
 Options options_of(std::vector<std::string> schemes, std::vector<int> cells, std::vector<double> courants) {
@@ -262,4 +262,4 @@ step = 0.1
 }
 
 }  // namespace
-}  // namespace carom::compare
+}  // namespace carom::compare::compare_variants_test

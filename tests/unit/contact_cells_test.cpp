@@ -17,7 +17,7 @@
 #include "mesh/cell_size.hpp"
 #include "mesh/structured_block.hpp"
 
-namespace carom {
+namespace carom::contact_cells_test {
 namespace {
 
 using namespace test;
@@ -302,4 +302,4 @@ TEST(Stiffness, OfAnyCellsIsTheModulusOverTheirHeight) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_cells_test

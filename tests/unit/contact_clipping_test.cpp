@@ -10,7 +10,7 @@
 #include "math/gauss_legendre.hpp"
 #include "math/vec3.hpp"
 
-namespace carom {
+namespace carom::contact_clipping_test {
 namespace {
 
 constexpr double round_off =
@@ -318,4 +318,4 @@ TEST(Overlap, OfSegments) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_clipping_test

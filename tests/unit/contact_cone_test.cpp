@@ -12,7 +12,7 @@
 #include "contact/cone_solver.hpp"
 #include "linalg/dense.hpp"
 
-namespace carom {
+namespace carom::contact_cone_test {
 namespace {
 
 /// A problem with its W also as a dense matrix of 3 n x 3 n numbers.
@@ -405,4 +405,4 @@ TEST(Cone, RefusesARowThatGivesWayAgainstItsForce) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_cone_test

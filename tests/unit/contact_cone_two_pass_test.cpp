@@ -10,7 +10,7 @@
 
 #include "contact/cone_solver.hpp"
 
-namespace carom {
+namespace carom::contact_cone_two_pass_test {
 namespace {
 
 /// Rows of two square faces of n x n nodes each, every node of one against the facets of the other: W = G M^-1 G^T.
@@ -142,4 +142,4 @@ TEST(TwoPassConeRounding, ViolationsWithinTheRoundingOfTheMotionAreAccepted) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_cone_two_pass_test

@@ -9,7 +9,7 @@
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
 
-namespace carom {
+namespace carom::contact_delassus_test {
 namespace {
 
 constexpr std::size_t node_count = 12, dof_count = 3 * node_count;
@@ -179,4 +179,4 @@ TEST(Delassus, OfNoRowsIsEmpty) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_delassus_test

@@ -9,7 +9,7 @@
 #include "contact/facet_projection.hpp"
 #include "math/vec3.hpp"
 
-namespace carom {
+namespace carom::contact_facet_test {
 namespace {
 
 constexpr double round_off = 1e-13;  // some hundred operations on numbers of order 1, 2^-53 each
@@ -397,4 +397,4 @@ TEST(Intersect, LinesThroughACommonEdgeDoNotSlipThrough) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_facet_test

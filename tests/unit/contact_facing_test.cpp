@@ -10,7 +10,7 @@
 #include "mesh/skin.hpp"
 #include "mesh/structured_block.hpp"
 
-namespace carom {
+namespace carom::contact_facing_test {
 namespace {
 
 /// A box of 2 x 3 x 4 cells of 1 above one of 3 x 3 x 2 cells, apart by `gap`; the pair has the whole skins.
@@ -126,4 +126,4 @@ TEST(FacingFacets, AreThoseOfBruteForce) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_facing_test

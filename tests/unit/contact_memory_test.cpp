@@ -8,7 +8,7 @@
 #include "contact_rows_fixture.hpp"
 #include "mesh/structured_block.hpp"
 
-namespace carom {
+namespace carom::contact_memory_test {
 namespace {
 
 using namespace test;
@@ -155,4 +155,4 @@ TEST(BodyOverlap, CountsObstacles) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_memory_test

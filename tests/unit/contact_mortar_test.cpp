@@ -11,7 +11,7 @@
 #include "element/quad4.hpp"
 #include "math/gauss_legendre.hpp"
 
-namespace carom {
+namespace carom::contact_mortar_test {
 namespace {
 
 using namespace test;
@@ -273,4 +273,4 @@ TEST(MortarRows, CatchASlaveThatCrossesAPlateInOneStep) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_mortar_test

@@ -8,7 +8,7 @@
 
 #include "contact_rows_fixture.hpp"
 
-namespace carom {
+namespace carom::contact_obstacles_test {
 namespace {
 
 using namespace test;
@@ -235,4 +235,4 @@ TEST(InitialPenetrations, AreListedWorstFirstAndTakenOff) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_obstacles_test

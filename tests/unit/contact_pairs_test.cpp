@@ -9,7 +9,7 @@
 #include "contact_rows_fixture.hpp"
 #include "parallel/threads.hpp"
 
-namespace carom {
+namespace carom::contact_pairs_test {
 namespace {
 
 using namespace test;
@@ -459,4 +459,4 @@ TEST(NodeRows, HaveTheSameBitsForEveryNumberOfThreadsAndEverySearchList) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_pairs_test

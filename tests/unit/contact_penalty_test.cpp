@@ -7,7 +7,7 @@
 #include "math/vec3.hpp"
 #include "solid_fixture.hpp"
 
-namespace carom {
+namespace carom::contact_penalty_test {
 namespace {
 
 using namespace test;
@@ -287,4 +287,4 @@ TEST(PenaltyClosedStiffness, IsTheTangentOfClosedSticking) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_penalty_test

@@ -14,7 +14,7 @@
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
-namespace carom {
+namespace carom::contact_search_test {
 namespace {
 
 using Pairs = std::set<std::pair<Index, Index>>;
@@ -280,4 +280,4 @@ TEST(BroadPhase, EmptySidesHaveNoPairs) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_search_test

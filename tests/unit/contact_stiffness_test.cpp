@@ -13,7 +13,7 @@
 #include "mesh/skin.hpp"
 #include "mesh/structured_block.hpp"
 
-namespace carom {
+namespace carom::contact_stiffness_test {
 namespace {
 
 constexpr double round_off = 1e-14;  // relative: a few products and sums of equal numbers
@@ -309,4 +309,4 @@ TEST(Stiffness, IsRefusedWhereNoPartIsBehindTheContact) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_stiffness_test

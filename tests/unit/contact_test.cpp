@@ -10,7 +10,7 @@
 #include "math/vec3.hpp"
 #include "solid_fixture.hpp"
 
-namespace carom {
+namespace carom::contact_test {
 namespace {
 
 using namespace test;
@@ -176,4 +176,4 @@ TEST(PenaltyParametersOf, FrictionWithoutACoefficientHasNoStiffness) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_test

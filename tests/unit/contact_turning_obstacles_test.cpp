@@ -7,7 +7,7 @@
 #include "contact_rows_fixture.hpp"
 #include "turning_body_fixture.hpp"
 
-namespace carom {
+namespace carom::contact_turning_obstacles_test {
 namespace {
 
 using namespace test;
@@ -137,4 +137,4 @@ TEST(TurningObstacles, RigidSurfacesTurnLikeTheirShape) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::contact_turning_obstacles_test

@@ -7,7 +7,7 @@
 #include "element/hexa8.hpp"
 #include "element/quad4.hpp"
 
-namespace carom {
+namespace carom::element_hexa8_test {
 namespace {
 
 constexpr double round_off = 1e-14;  // a few operations on numbers near 1
@@ -110,4 +110,4 @@ TEST(Hexa8, ATurnedCellHasANegativeDeterminant) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::element_hexa8_test

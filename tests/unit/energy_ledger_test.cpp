@@ -7,7 +7,7 @@
 
 #include "energy/ledger.hpp"
 
-namespace carom {
+namespace carom::energy_ledger_test {
 namespace {
 
 EnergyTerms initial_energy() {
@@ -109,4 +109,4 @@ TEST(EnergyTerms, AreTheManuals) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::energy_ledger_test

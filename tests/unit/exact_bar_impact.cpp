@@ -7,7 +7,7 @@
 
 #include "exact/bar_impact.hpp"
 
-namespace carom {
+namespace carom::exact_bar_impact_test {
 namespace {
 
 /// Impact bar of Doyen, Ern and Piperno, SIAM J. Sci. Comput. 33(1), 2011: c = 30, touch at 0.5, force 300 until
@@ -276,4 +276,4 @@ TEST(BarImpact, FreeMassTakesOverExponentially) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::exact_bar_impact_test

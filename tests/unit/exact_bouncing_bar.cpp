@@ -6,7 +6,7 @@
 #include "exact/bar_impact.hpp"
 #include "exact/bouncing_bar.hpp"
 
-namespace carom {
+namespace carom::exact_bouncing_bar_test {
 namespace {
 
 /// Doyen, Ern and Piperno, SIAM J. Sci. Comput. 33(1), 2011, section 3: c = 30, T = 2/3, fall of 1, period 16/3.
@@ -144,4 +144,4 @@ TEST(BouncingBar, WrongDataAreRefused) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::exact_bouncing_bar_test

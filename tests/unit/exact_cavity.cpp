@@ -5,7 +5,7 @@
 
 #include "exact/cavity.hpp"
 
-namespace carom {
+namespace carom::exact_cavity_test {
 namespace {
 
 /// G = lambda = 1, c = sqrt(3)
@@ -73,4 +73,4 @@ TEST(SphericalCavity, WrongDataAreRefused) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::exact_cavity_test

@@ -8,7 +8,7 @@
 
 #include "exact/friction.hpp"
 
-namespace carom {
+namespace carom::exact_friction_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -134,4 +134,4 @@ TEST(Friction, WrongDataAreRefused) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::exact_friction_test

@@ -8,7 +8,7 @@
 
 #include "exact/hertz.hpp"
 
-namespace carom {
+namespace carom::exact_hertz_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -122,4 +122,4 @@ TEST(Hertz, WrongDataAreRefused) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::exact_hertz_test

@@ -6,7 +6,7 @@
 
 #include "exact/spinning_bar.hpp"
 
-namespace carom {
+namespace carom::exact_spinning_bar_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -67,4 +67,4 @@ TEST(SpinningBar, WrongDataAreRefused) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::exact_spinning_bar_test

@@ -11,7 +11,7 @@
 #include "exact/bar_impact.hpp"
 #include "exact/two_bars.hpp"
 
-namespace carom {
+namespace carom::exact_two_bars_test {
 namespace {
 
 /// A bar of unit section by its impedance, round trip and length: c = 2 L / T, rho = Z / c, E = Z c.
@@ -278,4 +278,4 @@ TEST(TwoBars, WrongDataAreNamed) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::exact_two_bars_test

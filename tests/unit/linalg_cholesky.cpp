@@ -9,7 +9,7 @@
 #include "linalg_problems.hpp"
 #include "parallel/threads.hpp"
 
-namespace carom {
+namespace carom::linalg_cholesky_test {
 namespace {
 
 std::string message_of(const CsrMatrix& A) {
@@ -117,4 +117,4 @@ TEST(Cholesky, SameBitsForAnyThreadCount) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::linalg_cholesky_test

@@ -7,7 +7,7 @@
 #include "linalg_problems.hpp"
 #include "parallel/threads.hpp"
 
-namespace carom {
+namespace carom::linalg_conjugate_gradients_test {
 namespace {
 
 LinearOperator action(const CsrMatrix& A) {
@@ -108,4 +108,4 @@ TEST(ConjugateGradients, SameBitsForAnyThreadCount) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::linalg_conjugate_gradients_test

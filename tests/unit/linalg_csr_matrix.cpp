@@ -4,7 +4,7 @@
 #include "linalg_problems.hpp"
 #include "parallel/threads.hpp"
 
-namespace carom {
+namespace carom::linalg_csr_matrix_test {
 namespace {
 
 TEST(CsrMatrix, ProductEqualsDenseProduct) {
@@ -46,4 +46,4 @@ TEST(CsrMatrix, SameBitsForAnyThreadCount) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::linalg_csr_matrix_test

@@ -7,7 +7,7 @@
 #include "linalg/dense.hpp"
 #include "linalg_problems.hpp"
 
-namespace carom {
+namespace carom::linalg_dense_test {
 namespace {
 
 TEST(DenseLu, SolvesRandomUnsymmetricSystems) {
@@ -71,4 +71,4 @@ TEST(SymmetricEigen, RefusesWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::linalg_dense_test

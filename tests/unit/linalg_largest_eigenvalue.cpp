@@ -4,7 +4,7 @@
 #include "linalg_problems.hpp"
 #include "parallel/threads.hpp"
 
-namespace carom {
+namespace carom::linalg_largest_eigenvalue_test {
 namespace {
 
 LinearOperator action(const CsrMatrix& A) {
@@ -76,4 +76,4 @@ TEST(LargestEigenvalue, SameBitsForAnyThreadCount) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::linalg_largest_eigenvalue_test

@@ -12,7 +12,7 @@
 #include "linalg_problems.hpp"
 #include "parallel/threads.hpp"
 
-namespace carom {
+namespace carom::linalg_ldlt_test {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -262,4 +262,4 @@ TEST(NestedDissection, IsAPermutationThatKeepsTheFactorSmall) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::linalg_ldlt_test

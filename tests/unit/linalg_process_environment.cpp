@@ -13,7 +13,7 @@ extern "C" char* openblas_get_corename() {
   return old_processor;
 }
 
-namespace carom {
+namespace carom::linalg_process_environment_test {
 namespace {
 
 constexpr int executed_again = 42;
@@ -69,4 +69,4 @@ TEST_F(ProcessEnvironmentDeathTest, LeavesVariablesThatAreSetAlone) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::linalg_process_environment_test

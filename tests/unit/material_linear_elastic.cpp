@@ -5,7 +5,7 @@
 
 #include "material/linear_elastic_update.hpp"
 
-namespace carom {
+namespace carom::material_linear_elastic_test {
 namespace {
 
 constexpr LinearElastic material{{.E = 210.0, .nu = 0.3, .rho = 7.8}};
@@ -75,4 +75,4 @@ TEST(LinearElasticUpdate, LanesAndPointsStayApart) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::material_linear_elastic_test

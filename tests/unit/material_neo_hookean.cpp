@@ -7,7 +7,7 @@
 #include "material/discrete_gradient.hpp"
 #include "material/law_table.hpp"
 
-namespace carom {
+namespace carom::material_neo_hookean_test {
 namespace {
 
 constexpr NeoHookean material{{.E = 2.0, .nu = 0.3, .rho = 1.0}};
@@ -161,4 +161,4 @@ TEST(DiscreteGradient, HasTheWorkOfTheStep) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::material_neo_hookean_test

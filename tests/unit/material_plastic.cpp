@@ -7,7 +7,7 @@
 #include "material/hardening.hpp"
 #include "material_points.hpp"
 
-namespace carom::test {
+namespace carom::test::material_plastic_test {
 namespace {
 
 constexpr double E = 200.0, nu = 0.3, G = E / (2 * (1 + nu)), K = E / (3 * (1 - 2 * nu)), yield = 1.0, H = 10.0;
@@ -540,4 +540,4 @@ TEST(Lateral, NoNumbersStayNoNumbers) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::test::material_plastic_test

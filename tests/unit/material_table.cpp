@@ -6,7 +6,7 @@
 
 #include "material_points.hpp"
 
-namespace carom::test {
+namespace carom::test::material_table_test {
 namespace {
 
 /// The law with moduli near 1 and whatever else it needs: 1, or the middle of a bounded range.
@@ -97,4 +97,4 @@ TEST(Laws, NoElasticWaveIsFasterThanTheyClaim) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::test::material_table_test

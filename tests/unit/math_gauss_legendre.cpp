@@ -4,7 +4,7 @@
 
 #include "math/gauss_legendre.hpp"
 
-namespace carom {
+namespace carom::math_gauss_legendre_test {
 namespace {
 
 TEST(GaussLegendre, IntegratesMonomialsUpToItsDegree) {
@@ -30,4 +30,4 @@ TEST(GaussLegendre, TwoPointRule) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::math_gauss_legendre_test

@@ -4,7 +4,7 @@
 
 #include "math/vec3.hpp"
 
-namespace carom {
+namespace carom::math_vec3_test {
 namespace {
 
 TEST(Vec3, AlgebraOnKnownVectors) {
@@ -21,4 +21,4 @@ TEST(Vec3, AlgebraOnKnownVectors) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::math_vec3_test

@@ -14,7 +14,7 @@
 #include "mesh/structured_block.hpp"
 #include "mesh_fixture.hpp"
 
-namespace carom {
+namespace carom::mesh_block_test {
 namespace {
 
 const Vec3& node(const Mesh& mesh, Index i) {
@@ -300,4 +300,4 @@ TEST(MeshSummary, NamesWhatTheMeshHolds) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::mesh_block_test

@@ -11,7 +11,7 @@
 #include "mesh/orientation.hpp"
 #include "mesh/structured_block.hpp"
 
-namespace carom {
+namespace carom::mesh_cells_test {
 namespace {
 
 using namespace test;
@@ -238,4 +238,4 @@ TEST(LinearCells, OfQuadraticCellsAreThoseOfFirstOrder) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::mesh_cells_test

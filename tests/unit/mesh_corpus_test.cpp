@@ -17,7 +17,7 @@
 #include "mesh/read_med.hpp"
 #include "mesh_fixture.hpp"
 
-namespace carom {
+namespace carom::mesh_corpus_test {
 namespace {
 
 const std::filesystem::path kCorpus = CAROM_SOURCE_DIR "/tests/fuzz/corpus";
@@ -129,4 +129,4 @@ TEST(MeshCorpus, Med) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::mesh_corpus_test

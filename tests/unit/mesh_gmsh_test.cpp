@@ -6,7 +6,7 @@
 #include "mesh/read_mesh.hpp"
 #include "mesh_fixture.hpp"
 
-namespace carom {
+namespace carom::mesh_gmsh_test {
 namespace {
 
 using test::GmshEncoding;
@@ -149,4 +149,4 @@ TEST(MeshGmsh, ReadsTheMeshOfSdnv100) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::mesh_gmsh_test

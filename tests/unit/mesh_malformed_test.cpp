@@ -11,7 +11,7 @@
 #include "mesh/read_mesh.hpp"
 #include "mesh_fixture.hpp"
 
-namespace carom {
+namespace carom::mesh_malformed_test {
 namespace {
 
 using test::GmshEncoding;
@@ -347,4 +347,4 @@ TEST(MeshMalformed, HdfFilesThatAreDamaged) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::mesh_malformed_test

@@ -13,7 +13,7 @@
 #include "mesh/read_mesh.hpp"
 #include "mesh_fixture.hpp"
 
-namespace carom {
+namespace carom::mesh_med_test {
 namespace {
 
 const std::string kMeshes = CAROM_SOURCE_DIR "/cases/sdnv100/meshes/";
@@ -173,4 +173,4 @@ TEST(IsolatedProcess, SurvivesCrashesExceptionsEndlessLoopsAndFloods) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::mesh_med_test

@@ -10,7 +10,7 @@
 #include "mesh/skin.hpp"
 #include "mesh_fixture.hpp"
 
-namespace carom {
+namespace carom::mesh_orientation_test {
 namespace {
 
 /// Reference cells: corners of the unit shapes in our node order.
@@ -207,4 +207,4 @@ TEST(MeshOrientation, NamesAllCellsThatCannotBeUsed) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::mesh_orientation_test

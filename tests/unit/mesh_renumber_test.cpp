@@ -11,7 +11,7 @@
 #include "mesh/structured_block.hpp"
 #include "mesh_fixture.hpp"
 
-namespace carom {
+namespace carom::mesh_renumber_test {
 namespace {
 
 /// The same mesh with node and cell indices permuted at random.
@@ -175,4 +175,4 @@ TEST(MeshRenumber, PlaneStripsAndBarsBesideSolidsComeOutInTheirOwnOrder) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::mesh_renumber_test

@@ -12,7 +12,7 @@
 #include "mesh/split_cells.hpp"
 #include "mesh/structured_block.hpp"
 
-namespace carom {
+namespace carom::mesh_split_test {
 namespace {
 
 StructuredBlock block(int divisions) {
@@ -151,4 +151,4 @@ TEST(SplitCells, RefuseCellsWithoutThickness) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::mesh_split_test

@@ -9,7 +9,7 @@
 
 #include "output/cfc_filter.hpp"
 
-namespace carom {
+namespace carom::output_cfc_filter_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -145,4 +145,4 @@ TEST(CfcFilter, IntervalsAreNoFinerThanTheClassNeeds) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::output_cfc_filter_test

@@ -17,7 +17,7 @@
 #include "base/errors.hpp"
 #include "output/checkpoint_file.hpp"
 
-namespace carom {
+namespace carom::output_checkpoint_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -289,4 +289,4 @@ TEST_F(CheckpointFile, EveryDamageIsSeenAndNamed) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::output_checkpoint_test

@@ -20,7 +20,7 @@
 #include "output/csv.hpp"
 #include "output/file_writer.hpp"
 
-namespace carom {
+namespace carom::output_csv_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -161,4 +161,4 @@ TEST(FileWriter, FullDiskKeepsTheOldFile) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::output_csv_test

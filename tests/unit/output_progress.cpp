@@ -8,7 +8,7 @@
 
 #include "output/progress.hpp"
 
-namespace carom {
+namespace carom::output_progress_test {
 namespace {
 
 /// Columns of UTF-8 text: bytes that do not continue a character.
@@ -120,4 +120,4 @@ TEST(Progress, OddTimesDoNoHarm) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::output_progress_test

@@ -12,7 +12,7 @@
 #include "output/results_folder.hpp"
 #include "output/results_lock.hpp"
 
-namespace carom {
+namespace carom::output_results_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -81,4 +81,4 @@ TEST(TerminalText, HasNoControlCharacters) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::output_results_folder_test

@@ -13,7 +13,7 @@
 #include "output/summary.hpp"
 #include "output/units.hpp"
 
-namespace carom {
+namespace carom::output_summary_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -228,4 +228,4 @@ TEST(Units, OfColumns) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::output_summary_test

@@ -16,7 +16,7 @@
 #include "output/results_folder.hpp"
 #include "output/vtu.hpp"
 
-namespace carom {
+namespace carom::output_vtu_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -151,4 +151,4 @@ TEST_F(VtuTest, MissingFolderIsAnErrorThatNamesThePath) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::output_vtu_test

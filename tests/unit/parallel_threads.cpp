@@ -7,7 +7,7 @@
 
 #include "parallel/threads.hpp"
 
-namespace carom {
+namespace carom::parallel_threads_test {
 namespace {
 
 std::vector<double> random_vector(std::size_t n, unsigned seed) {
@@ -65,4 +65,4 @@ TEST(Threads, DotHasTheSameBitsForAnyThreadCount) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::parallel_threads_test

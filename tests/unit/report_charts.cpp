@@ -9,7 +9,7 @@
 #include "report/charts.hpp"
 #include "report/readable_unit.hpp"
 
-namespace carom {
+namespace carom::report_charts_test {
 namespace {
 
 using Columns = std::vector<std::pair<std::string, std::vector<double>>>;
@@ -218,4 +218,4 @@ TEST(ReadableUnit, TakesPrefixesWhereThereAreSome) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::report_charts_test

@@ -16,7 +16,7 @@
 #include "report/report.hpp"
 #include "report_sample.hpp"
 
-namespace carom {
+namespace carom::report_page_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ TEST_F(ReportPage, MissingFolderIsAnErrorThatNamesThePage) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::report_page_test

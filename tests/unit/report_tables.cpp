@@ -14,7 +14,7 @@
 #include "report/csv_table.hpp"
 #include "report/decimate.hpp"
 
-namespace carom {
+namespace carom::report_tables_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,4 +110,4 @@ TEST(Decimate, TimeThatStandsStillEnds) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::report_tables_test

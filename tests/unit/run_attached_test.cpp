@@ -5,7 +5,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_attached_test {
 namespace {
 
 using namespace test;
@@ -198,4 +198,4 @@ TEST(Attached, RefusesWhatHasNoMeaning) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_attached_test

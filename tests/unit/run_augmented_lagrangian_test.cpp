@@ -8,7 +8,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_augmented_lagrangian_test {
 namespace {
 
 using namespace test;
@@ -93,4 +93,4 @@ TEST(AugmentedLagrangian, KnowsTheRoundingOfStiffenedSprings) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_augmented_lagrangian_test

@@ -10,7 +10,7 @@
 #include "run/contact_fields.hpp"
 #include "run/contact_resultants.hpp"
 
-namespace carom {
+namespace carom::run_contact_fields_test {
 namespace {
 
 using namespace test;
@@ -116,4 +116,4 @@ TEST(NodalContact, IsUniformWhateverTheSharesOfTwoPasses) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_contact_fields_test

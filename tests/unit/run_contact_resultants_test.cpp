@@ -4,7 +4,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_contact_resultants_test {
 namespace {
 
 using test::TemporaryCase;
@@ -250,4 +250,4 @@ fields = []
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_contact_resultants_test

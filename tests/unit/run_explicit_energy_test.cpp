@@ -10,7 +10,7 @@
 #include "run/energy_guard.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_explicit_energy_test {
 namespace {
 
 using namespace test;
@@ -233,4 +233,4 @@ velocity_field = ["0.01 * y * z", "0", "0"]
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_explicit_energy_test

@@ -2,12 +2,12 @@
 #include <array>
 #include <cmath>
 
-#include "run/key_figures.hpp"
+#include "math/voigt.hpp"
 #include "run/obstacle_bodies.hpp"
 #include "run_fixture.hpp"
 #include "solid/cell_strain.hpp"
 
-namespace carom {
+namespace carom::run_fields_test {
 namespace {
 
 using test::TemporaryCase;
@@ -136,4 +136,4 @@ TEST(Fields, PlasticStrainOfBodiesThatYield) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_fields_test

@@ -13,7 +13,7 @@
 #include "schemes/generalized_alpha.hpp"
 #include "schemes/touch_rebound.hpp"
 
-namespace carom {
+namespace carom::run_free_mass_test {
 namespace {
 
 using namespace test;
@@ -182,4 +182,4 @@ TEST(FreeMass, SchemesThatThrowBackAreNamed) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_free_mass_test

@@ -10,7 +10,7 @@
 #include "run/groups.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_groups_test {
 namespace {
 
 using namespace test;
@@ -231,4 +231,4 @@ master = "LOW_TOP"
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_groups_test

@@ -6,7 +6,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_impact_bar_test {
 namespace {
 
 using namespace test;
@@ -56,4 +56,4 @@ TEST(ImpactBar, IsTheSameAsColumnAsStripAndAsBars) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_impact_bar_test

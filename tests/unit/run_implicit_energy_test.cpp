@@ -8,7 +8,7 @@
 #include "run/energy_guard.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_implicit_energy_test {
 namespace {
 
 using namespace test;
@@ -108,4 +108,4 @@ TEST(EnergyGuard, HalvesImplicitStepsThatGainMoreThanWasLost) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_implicit_energy_test

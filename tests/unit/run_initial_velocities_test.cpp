@@ -7,7 +7,7 @@
 #include "math/expression.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_initial_velocities_test {
 namespace {
 
 using namespace test;
@@ -95,4 +95,4 @@ TEST(InitialVelocities, AreRefusedWhereTheyAreNone) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_initial_velocities_test

@@ -5,7 +5,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_iterative_solver_test {
 namespace {
 
 using namespace test;
@@ -78,4 +78,4 @@ TEST(ConjugateGradients, CloseTheLedgerOnStiffSprings) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_iterative_solver_test

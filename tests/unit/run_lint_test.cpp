@@ -8,7 +8,7 @@
 #include "run/recorder.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_lint_test {
 namespace {
 
 using namespace test;
@@ -203,4 +203,4 @@ TEST(Lint, SaysWhatIsHardToBelieve) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_lint_test

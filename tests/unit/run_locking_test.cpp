@@ -9,7 +9,7 @@
 #include "run/locking.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_locking_test {
 namespace {
 
 using namespace test;
@@ -182,4 +182,4 @@ TEST(CellColumns, CountCellsFromSkinToSkin) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_locking_test

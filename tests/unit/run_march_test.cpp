@@ -8,7 +8,7 @@
 #include "run/march.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_march_test {
 namespace {
 
 std::string dropped(const std::string& scheme) {
@@ -121,4 +121,4 @@ TEST(March, ObserversSeeEveryStepOnce) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_march_test

@@ -6,7 +6,7 @@
 #include "casefile/document.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_mass_scaling_test {
 namespace {
 
 using namespace test;
@@ -118,4 +118,4 @@ stiffness = 2.0
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_mass_scaling_test

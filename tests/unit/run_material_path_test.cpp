@@ -14,7 +14,7 @@
 #include "run/material_path.hpp"
 #include "run/measured_curve.hpp"
 
-namespace carom {
+namespace carom::run_material_path_test {
 namespace {
 
 constexpr double E = 200.0, nu = 0.3, yield = 1.0, H = 10.0;
@@ -214,4 +214,4 @@ TEST(XyPlot, TicksAreRound) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_material_path_test

@@ -3,7 +3,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_model_test {
 namespace {
 
 using namespace test;
@@ -168,4 +168,4 @@ TEST(Checks, OfUnknownQuantitiesHaveANearSpelling) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_model_test

@@ -8,7 +8,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_pair_schemes_test {
 namespace {
 
 using namespace test;
@@ -218,4 +218,4 @@ TEST(AugmentedLagrangian, PressesAsMultipliersDoAtItsDefaultTolerance) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_pair_schemes_test

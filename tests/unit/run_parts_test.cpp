@@ -7,7 +7,7 @@
 #include "run/build_model.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_parts_test {
 namespace {
 
 using namespace test;
@@ -159,4 +159,4 @@ TEST(Parts, EveryMessage) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_parts_test

@@ -5,7 +5,7 @@
 #include "run/recorder.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_refusals_test {
 namespace {
 
 using namespace test;
@@ -169,4 +169,4 @@ TEST(CellTypes, WithoutAnElementAreRefusedWithARemedy) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_refusals_test

@@ -5,7 +5,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_regressions_test {
 namespace {
 
 using namespace test;
@@ -418,4 +418,4 @@ enforcement = ")" + std::string(enforcement) +
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_regressions_test

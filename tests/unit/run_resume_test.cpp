@@ -19,7 +19,7 @@
 #include "run/checkpoints.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_resume_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -385,4 +385,4 @@ TEST(Resume, KeepsTheLastTwoCheckpoints) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_resume_test

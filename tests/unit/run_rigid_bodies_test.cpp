@@ -3,7 +3,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_rigid_bodies_test {
 namespace {
 
 using namespace test;
@@ -71,4 +71,4 @@ TEST(RigidBodies, WithAnInertiaThatNoBodyHasAreRefused) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_rigid_bodies_test

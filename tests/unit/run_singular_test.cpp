@@ -3,7 +3,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_singular_test {
 namespace {
 
 using namespace test;
@@ -70,4 +70,4 @@ TEST(Singular, ASpringMendsIt) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_singular_test

@@ -3,7 +3,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_stage_velocities_test {
 namespace {
 
 using namespace test;
@@ -142,4 +142,4 @@ velocity = [0.0, 0.0, 2.0]
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_stage_velocities_test

@@ -3,7 +3,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_statics_test {
 namespace {
 
 using namespace test;
@@ -102,4 +102,4 @@ TEST(Statics, SaysWhatHelpsWhereItFindsNoEquilibrium) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_statics_test

@@ -9,7 +9,7 @@
 #include "run/step_control.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_step_guard_test {
 namespace {
 
 using namespace test;
@@ -244,4 +244,4 @@ TEST(FastProjectile, IsNotLostBehindAThinPlate) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_step_guard_test

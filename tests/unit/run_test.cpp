@@ -7,7 +7,7 @@
 #include "run/step_control.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_test {
 namespace {
 
 using namespace test;
@@ -172,4 +172,4 @@ source = "free fall under 0.5 t / 2: v = 0.5 t^2 / 4 at t = 2; the trapezoidal r
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_test

@@ -8,7 +8,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_tunnelling_test {
 namespace {
 
 using namespace test;
@@ -147,4 +147,4 @@ TEST(Tunnelling, OfAThinBoxIsPrevented) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_tunnelling_test

@@ -6,7 +6,7 @@
 
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_two_spheres_test {
 namespace {
 
 using namespace test;
@@ -53,4 +53,4 @@ TEST(TwoSpheres, HaveSpringsInSeries) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_two_spheres_test

@@ -12,7 +12,7 @@
 #include "run/verdict.hpp"
 #include "run_fixture.hpp"
 
-namespace carom {
+namespace carom::run_verdict_test {
 namespace {
 
 using namespace test;
@@ -270,4 +270,4 @@ TEST(Guards, OfEnergyHaveAKey) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::run_verdict_test

@@ -6,7 +6,7 @@
 
 #include "schemes/anderson_mixing.hpp"
 
-namespace carom {
+namespace carom::schemes_anderson_mixing_test {
 namespace {
 
 // y <- y + (1 - factor) (1 - y), mode by mode: the error of each mode is multiplied by its factor, two of them above 1.
@@ -36,4 +36,4 @@ TEST(AndersonMixing, LeavesQuickIterationsAlone) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_anderson_mixing_test

@@ -9,7 +9,7 @@
 #include "linalg/largest_eigenvalue.hpp"
 #include "schemes_fixture.hpp"
 
-namespace carom {
+namespace carom::schemes_contact_frequency_test {
 namespace {
 
 using namespace test;
@@ -138,4 +138,4 @@ TEST(StableStepWatch, TakesBodiesThatYieldAsElasticInTheirNewShape) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_contact_frequency_test

@@ -5,7 +5,7 @@
 #include "exact/bouncing_bar.hpp"
 #include "schemes_explicit_fixture.hpp"
 
-namespace carom {
+namespace carom::schemes_explicit_bar_test {
 namespace {
 
 using namespace test;
@@ -128,4 +128,4 @@ TEST(ModifiedMass, GivesTheSameMotionForAnySection) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_explicit_bar_test

@@ -10,7 +10,7 @@
 #include "schemes/tchamwa_wielgosz.hpp"
 #include "schemes_explicit_fixture.hpp"
 
-namespace carom {
+namespace carom::schemes_explicit_order_test {
 namespace {
 
 using namespace test;
@@ -198,4 +198,4 @@ TEST(TchamwaWielgosz, DissipatesWithPhiAboveOne) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_explicit_order_test

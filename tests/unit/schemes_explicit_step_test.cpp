@@ -1,4 +1,4 @@
-// Books, friction, restitution, failures and thread bits of the explicit schemes; the modified mass itself.
+// ExplicitBooks, friction, restitution, failures and thread bits of the explicit schemes; the modified mass itself.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -16,7 +16,7 @@
 #include "schemes/tchamwa_wielgosz.hpp"
 #include "schemes_explicit_fixture.hpp"
 
-namespace carom {
+namespace carom::schemes_explicit_step_test {
 namespace {
 
 using namespace test;
@@ -168,9 +168,9 @@ double outside_cone(const State& state) {
   return worst;
 }
 
-struct Books : testing::TestWithParam<std::tuple<Kind, Scenario>> {};
+struct ExplicitBooks : testing::TestWithParam<std::tuple<Kind, Scenario>> {};
 
-TEST_P(Books, Close) {
+TEST_P(ExplicitBooks, Close) {
   const auto& [kind, scenario] = GetParam();
   const Bench bench = kind.make(scenario.model(), chosen_isa());
   const double h = 0.8 * bench.stable();
@@ -193,7 +193,7 @@ TEST_P(Books, Close) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, Books, testing::Combine(testing::ValuesIn(kinds()), testing::ValuesIn(scenarios())),
+INSTANTIATE_TEST_SUITE_P(, ExplicitBooks, testing::Combine(testing::ValuesIn(kinds()), testing::ValuesIn(scenarios())),
                          [](const auto& one) {
                            return std::get<0>(one.param).name + "_" + std::get<1>(one.param).name;
                          });
@@ -590,4 +590,4 @@ TEST(StableStepWatch, SeesTheBodyChange) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_explicit_step_test

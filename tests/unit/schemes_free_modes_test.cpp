@@ -5,7 +5,7 @@
 #include "schemes_fixture.hpp"
 #include "system/free_modes.hpp"
 
-namespace carom {
+namespace carom::schemes_free_modes_test {
 namespace {
 
 using namespace test;
@@ -140,4 +140,4 @@ TEST(StaticsScheme, SaysWhatNothingHolds) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_free_modes_test

@@ -9,7 +9,7 @@
 #include "math/vec3.hpp"
 #include "system/row_compliance.hpp"
 
-namespace carom {
+namespace carom::schemes_growth_test {
 namespace {
 
 constexpr std::size_t node_count = 40, dof_count = 3 * node_count;
@@ -103,4 +103,4 @@ TEST(Growth, OfRowsGivesTheSameBits) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_growth_test

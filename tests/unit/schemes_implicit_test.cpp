@@ -8,7 +8,7 @@
 #include "schemes/statics.hpp"
 #include "schemes_impact_bar.hpp"
 
-namespace carom {
+namespace carom::schemes_implicit_test {
 namespace {
 
 using namespace test;
@@ -424,4 +424,4 @@ TEST(StaticsScheme, FailsWhereNothingHoldsTheBody) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_implicit_test

@@ -7,7 +7,7 @@
 #include "schemes/make_scheme.hpp"
 #include "schemes_explicit_fixture.hpp"
 
-namespace carom {
+namespace carom::schemes_imposed_motion_test {
 namespace {
 
 using namespace test;
@@ -163,4 +163,4 @@ TEST(ImposedMotion, WorkOfAJumpIsTheKineticEnergy) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_imposed_motion_test

@@ -9,7 +9,7 @@
 #include "math/vec3.hpp"
 #include "schemes_implicit.hpp"
 
-namespace carom {
+namespace carom::schemes_ledger_test {
 namespace {
 
 using namespace test;
@@ -268,4 +268,4 @@ TEST(Books, AlgorithmicEnergyIsKrenksIdentity) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_ledger_test

@@ -3,7 +3,7 @@
 
 #include "schemes_fixture.hpp"
 
-namespace carom {
+namespace carom::schemes_motion_test {
 namespace {
 
 using namespace test;
@@ -85,4 +85,4 @@ TEST(PrescribedMotion, BlockedTwiceIsBlocked) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_motion_test

@@ -8,7 +8,7 @@
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
 
-namespace carom {
+namespace carom::schemes_node_compliance_test {
 namespace {
 
 constexpr std::size_t node_count = 24, dof_count = 3 * node_count;
@@ -107,4 +107,4 @@ TEST(NodeCompliance, RefusesMoreNodesThanItMayTake) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_node_compliance_test

@@ -5,7 +5,7 @@
 
 #include "schemes_fixture.hpp"
 
-namespace carom {
+namespace carom::schemes_order_test {
 namespace {
 
 using namespace test;
@@ -92,4 +92,4 @@ TEST(Order, ForcedMotionOfTheHeadIsTwo) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_order_test

@@ -13,7 +13,7 @@
 #include "schemes_explicit_fixture.hpp"
 #include "schemes_fixture.hpp"
 
-namespace carom {
+namespace carom::schemes_purity_test {
 namespace {
 
 using namespace test;
@@ -252,4 +252,4 @@ INSTANTIATE_TEST_SUITE_P(AllSchemes, PurityOf, testing::ValuesIn(scheme_table),
                          [](const auto& of) { return std::string(of.param.name); });
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_purity_test

@@ -6,7 +6,7 @@
 #include "schemes/make_scheme.hpp"
 #include "schemes_fixture.hpp"
 
-namespace carom {
+namespace carom::schemes_solver_test {
 namespace {
 
 using namespace test;
@@ -289,4 +289,4 @@ TEST(Solvers, EveryImplicitSchemeTakesLdlt) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_solver_test

@@ -5,7 +5,7 @@
 
 #include "schemes_fixture.hpp"
 
-namespace carom {
+namespace carom::schemes_step_test {
 namespace {
 
 using namespace test;
@@ -160,4 +160,4 @@ TEST(StableStep, FallsWithStiffContactAndDamping) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_step_test

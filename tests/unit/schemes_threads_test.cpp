@@ -5,7 +5,7 @@
 #include "schemes/moreau_jean.hpp"
 #include "schemes_fixture.hpp"
 
-namespace carom {
+namespace carom::schemes_threads_test {
 namespace {
 
 using namespace test;
@@ -78,4 +78,4 @@ TEST(Threads, CentralDifferencesWithImpulses) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_threads_test

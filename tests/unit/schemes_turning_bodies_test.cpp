@@ -6,7 +6,7 @@
 #include "schemes_implicit.hpp"
 #include "turning_body_fixture.hpp"
 
-namespace carom {
+namespace carom::schemes_turning_bodies_test {
 namespace {
 
 using namespace test;
@@ -225,4 +225,4 @@ TEST(TurningBodies, HitByABlockKeepTheMomentaOfTheWhole) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::schemes_turning_bodies_test

@@ -5,7 +5,7 @@
 
 #include "solid_bodies.hpp"
 
-namespace carom::test {
+namespace carom::test::solid_elements_test {
 namespace {
 
 constexpr double round_off = 1e-12;  // some hundred operations on numbers below 10, 2^-53 each
@@ -235,4 +235,4 @@ TEST(Bar, HangsExactlyAtItsNodes) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::test::solid_elements_test

@@ -8,13 +8,13 @@
 #include "parallel/threads.hpp"
 #include "solid_bodies.hpp"
 
-namespace carom::test {
+namespace carom::test::solid_finite_test {
 namespace {
 
 // Some hundred operations on numbers below 10 stand behind one entry, 300 x 10 x 2^-53 = 4e-13.
 constexpr double round_off = 1e-12;
 
-class EveryBody : public testing::TestWithParam<Body> {
+class EveryFiniteBody : public testing::TestWithParam<Body> {
  protected:
   Model model_ = body(GetParam());
   Solid solid_{model_};
@@ -47,10 +47,10 @@ class EveryBody : public testing::TestWithParam<Body> {
     return f;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Solid, EveryBody, testing::ValuesIn(all_bodies()),
+INSTANTIATE_TEST_SUITE_P(Solid, EveryFiniteBody, testing::ValuesIn(all_bodies()),
                          [](const auto& instance) { return name_of(instance.param); });
 
-TEST_P(EveryBody, TangentActionIsTheDerivativeOfTheForce) {
+TEST_P(EveryFiniteBody, TangentActionIsTheDerivativeOfTheForce) {
   const auto u = displacement(1), x = random_vector(u.size(), 2);
   const double h = 3e-6;  // truncation h^2 F'''/6, F''' up to some 10^4 at these strains, and round-off 1e-14 / h
   const auto plus = internal_force(solid_, sum(h, x, u), step()), minus = internal_force(solid_, sum(-h, x, u), step());
@@ -61,7 +61,7 @@ TEST_P(EveryBody, TangentActionIsTheDerivativeOfTheForce) {
   for (std::size_t d = 0; d < u.size(); ++d) EXPECT_NEAR((plus[d] - minus[d]) / (2 * h), Kx[d], tolerance) << d;
 }
 
-TEST_P(EveryBody, AssembledTangentItsDiagonalAndItsActionAgree) {
+TEST_P(EveryFiniteBody, AssembledTangentItsDiagonalAndItsActionAgree) {
   const auto u = displacement(3), x = random_vector(u.size(), 4);
   const CsrMatrix K = solid_.tangent(u, step());
   std::vector<double> assembled(x.size()), action(x.size()), Ky(x.size());
@@ -75,7 +75,7 @@ TEST_P(EveryBody, AssembledTangentItsDiagonalAndItsActionAgree) {
 }
 
 // Work along the straight path from rest, by 20 Gauss points: the integrand is a polynomial of degree 3 or analytic.
-TEST_P(EveryBody, EnergyIsTheWorkOfTheForce) {
+TEST_P(EveryFiniteBody, EnergyIsTheWorkOfTheForce) {
   if (remembers(GetParam())) return;  // the next test
   const auto u = displacement(6);
   double work = 0.0;
@@ -105,7 +105,7 @@ double missing_work(const Solid& solid, const std::vector<double>& u, int n) {
 }
 
 // The yield stress at the end of a step (backward Euler) is of first order in the step, the trapezoidal rule of second.
-TEST_P(EveryBody, WorkOfYieldingBodiesIsStoredOrDissipated) {
+TEST_P(EveryFiniteBody, WorkOfYieldingBodiesIsStoredOrDissipated) {
   if (!remembers(GetParam())) return;
   const auto u = displacement(6);
   const double coarse = std::max(std::abs(missing_work(solid_, u, 20)), std::abs(missing_work(solid_, u, 40)));
@@ -114,7 +114,7 @@ TEST_P(EveryBody, WorkOfYieldingBodiesIsStoredOrDissipated) {
   EXPECT_LT(std::abs(fine), 0.35 * coarse) << "order 1: 0.25";
 }
 
-TEST_P(EveryBody, OnlyHookesLawIsLinear) {
+TEST_P(EveryFiniteBody, OnlyHookesLawIsLinear) {
   EXPECT_EQ(solid_.is_linear(), index_of(*GetParam().material.law) == 0);
 }
 
@@ -146,7 +146,7 @@ std::vector<double> turned(const Mesh& mesh, const std::array<Vec3, 3>& R, const
 }
 
 // Objectivity: F(R (X + u) - X) = R F(u) and the same energy; with u = 0 a rotation makes no force at all.
-TEST_P(EveryBody, FiniteStrainIsObjective) {
+TEST_P(EveryFiniteBody, FiniteStrainIsObjective) {
   const Section section = GetParam().section;
   if (!is_finite_strain(GetParam()) || section == Section::axisymmetric)
     return;  // no rotation maps these to themselves
@@ -167,7 +167,7 @@ TEST_P(EveryBody, FiniteStrainIsObjective) {
 }
 
 // The discrete gradient: energies to round-off of the energy after any step, however large.
-TEST_P(EveryBody, DiscreteGradientForceHasTheWorkOfTheStep) {
+TEST_P(EveryFiniteBody, DiscreteGradientForceHasTheWorkOfTheStep) {
   if (remembers(GetParam())) return;  // no potential
   for (const unsigned seed : {8U, 9U, 10U}) {
     auto u_0 = displacement(seed), u_1 = displacement(seed + 100);
@@ -177,7 +177,7 @@ TEST_P(EveryBody, DiscreteGradientForceHasTheWorkOfTheStep) {
   }
 }
 
-TEST_P(EveryBody, DiscreteGradientForceOfNoStepIsTheForce) {
+TEST_P(EveryFiniteBody, DiscreteGradientForceOfNoStepIsTheForce) {
   if (remembers(GetParam())) return;  // no potential
   const auto u = displacement(11);
   EXPECT_LT(largest_difference(discrete_force(u, u), internal_force(solid_, u)), round_off);
@@ -185,7 +185,7 @@ TEST_P(EveryBody, DiscreteGradientForceOfNoStepIsTheForce) {
 
 // No resultant and no moment about the middle configuration (reference configuration under small strain); axisymmetric
 // cells hold their hoop forces themselves and have a resultant in x.
-TEST_P(EveryBody, DiscreteGradientForceConservesMomentum) {
+TEST_P(EveryFiniteBody, DiscreteGradientForceConservesMomentum) {
   if (remembers(GetParam())) return;  // no potential
   const Section section = GetParam().section;
   const auto u_0 = displacement(12), u_1 = displacement(13);
@@ -208,7 +208,7 @@ TEST_P(EveryBody, DiscreteGradientForceConservesMomentum) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(moment[i], 0.0, 10 * round_off);
 }
 
-TEST_P(EveryBody, PlaneCellsKnowNothingOfZ) {
+TEST_P(EveryFiniteBody, PlaneCellsKnowNothingOfZ) {
   if (components(GetParam().section) == 3) return;
   const auto u = displacement(14);
   auto lifted = u;
@@ -218,7 +218,7 @@ TEST_P(EveryBody, PlaneCellsKnowNothingOfZ) {
   for (std::size_t d = 2; d < u.size(); d += 3) EXPECT_EQ(f[d], 0.0);
 }
 
-TEST_P(EveryBody, AnInvertedCellGivesNoNumber) {
+TEST_P(EveryFiniteBody, AnInvertedCellGivesNoNumber) {
   if (!is_finite_strain(GetParam()) || GetParam().section == Section::bar) return;  // a bar turns, it has no inside
   std::vector<double> u(solid_.dof_count());
   const bool plane = components(GetParam().section) == 2;
@@ -228,7 +228,7 @@ TEST_P(EveryBody, AnInvertedCellGivesNoNumber) {
   EXPECT_TRUE(std::isnan(solid_.strain_energy(u)));
 }
 
-TEST_P(EveryBody, SameBitsForAnyNumberOfThreads) {
+TEST_P(EveryFiniteBody, SameBitsForAnyNumberOfThreads) {
   const Section section = GetParam().section;
   const CellType type = GetParam().element.type;
   Mesh mesh = section == Section::solid ? block_mesh({8, 8, 24}, 0.1) : quad_mesh(40, 40, 0.1);
@@ -268,7 +268,7 @@ TEST_P(EveryBody, SameBitsForAnyNumberOfThreads) {
   set_threads(0);
 }
 
-TEST_P(EveryBody, ForceOfSomeCellsIsTheirShare) {
+TEST_P(EveryFiniteBody, ForceOfSomeCellsIsTheirShare) {
   const auto u = displacement(17);
   std::vector<double> f(u.size(), 0.0);
   std::vector<Index> others;
@@ -356,4 +356,4 @@ TEST(SolidRotation, NamesTheCellAndLooksAtSmallStrainAlone) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::test::solid_finite_test

@@ -4,7 +4,7 @@
 #include "solid/hourglass_flow.hpp"
 #include "solid_bodies.hpp"
 
-namespace carom::test {
+namespace carom::test::solid_hourglass_test {
 namespace {
 
 constexpr double E = 200.0, nu = 0.25, G = 80.0, sigma_y = 1.0, coefficient = 0.05;
@@ -135,4 +135,4 @@ TEST(HourglassReturn, OfNoStrengthIsNothing) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::test::solid_hourglass_test

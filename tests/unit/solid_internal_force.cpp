@@ -5,7 +5,7 @@
 #include "parallel/threads.hpp"
 #include "solid_fixture.hpp"
 
-namespace carom::test {
+namespace carom::test::solid_internal_force_test {
 namespace {
 
 // About 300 additions and products of numbers below 10 stand behind one nodal force: 300 x 10 x 2^-53 = 4e-13, and the
@@ -148,4 +148,4 @@ TEST_P(EveryIsa, ForceOfSomeCellsIsTheirShare) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::test::solid_internal_force_test

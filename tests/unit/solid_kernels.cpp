@@ -12,7 +12,7 @@
 #include "solid_bodies.hpp"
 #include "solid_fixture.hpp"
 
-namespace carom::test {
+namespace carom::test::solid_kernels_test {
 namespace {
 
 struct Answer {
@@ -139,4 +139,4 @@ TEST(SolidChunks, MoreNeighboursThanSharedColoursRunAlone) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::test::solid_kernels_test

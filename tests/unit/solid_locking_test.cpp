@@ -5,7 +5,7 @@
 
 #include "solid_bodies.hpp"
 
-namespace carom::test {
+namespace carom::test::solid_locking_test {
 namespace {
 
 constexpr double inner = 1.0, outer = 2.0, depth = 0.2, imposed = 0.01;
@@ -45,15 +45,15 @@ double tube_energy(const Element& element, int n) {
   return (stored.strain + stored.hourglass) / exact;
 }
 
-class EveryElement : public testing::TestWithParam<Element> {};
-INSTANTIATE_TEST_SUITE_P(Solid, EveryElement, testing::ValuesIn(elements().begin(), elements().end()),
+class EveryLockingElement : public testing::TestWithParam<Element> {};
+INSTANTIATE_TEST_SUITE_P(Solid, EveryLockingElement, testing::ValuesIn(elements().begin(), elements().end()),
                          [](const auto& instance) {
                            return name_of({instance.param, unit_material});
                          });
 
 // Full integration asks for constant volume at every point, which linear shapes cannot give: the energy is a multiple
 // of the exact one. One condition per cell they can meet: what is left is the error of the shape, of second order.
-TEST_P(EveryElement, LocksOnlyWhereTheVolumeIsKeptAtEveryPoint) {
+TEST_P(EveryLockingElement, LocksOnlyWhereTheVolumeIsKeptAtEveryPoint) {
   const Element& element = GetParam();
   if (element.section != Section::solid && element.section != Section::plane_strain) return;
   if (element.formulation == Formulation::full) {
@@ -132,4 +132,4 @@ TEST(CooksMembrane, NearlyIncompressibleOnesLockOrComeTogether) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::test::solid_locking_test

@@ -14,7 +14,7 @@
 #include "solid/loads.hpp"
 #include "solid_fixture.hpp"
 
-namespace carom::test {
+namespace carom::test::solid_mass_and_loads_test {
 namespace {
 
 constexpr double round_off = 1e-12;  // sums of some hundred terms below 10, 2^-53 each, with a margin of 10
@@ -335,4 +335,4 @@ TEST_F(IsaVariable, ForcesAnInstructionSetOrSaysWhyNot) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::test::solid_mass_and_loads_test

@@ -6,7 +6,7 @@
 #include "base/errors.hpp"
 #include "solid_bodies.hpp"
 
-namespace carom::test {
+namespace carom::test::solid_sections_test {
 namespace {
 
 constexpr double round_off = 1e-12;  // some hundred operations on numbers below 10, 2^-53 each
@@ -263,4 +263,4 @@ TEST(SectionErrors, SayWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::test::solid_sections_test

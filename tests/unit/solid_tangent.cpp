@@ -7,7 +7,7 @@
 #include "linalg/largest_eigenvalue.hpp"
 #include "solid_fixture.hpp"
 
-namespace carom::test {
+namespace carom::test::solid_tangent_test {
 namespace {
 
 // Entries of K are below 10 and rows have at most 81 of them: 81 x 10 x 2^-53 = 1e-13, with a margin of 10.
@@ -129,4 +129,4 @@ TEST(SolidTangent, CellBoundsAreAboveTheLargestFrequency) {
 }
 
 }  // namespace
-}  // namespace carom::test
+}  // namespace carom::test::solid_tangent_test

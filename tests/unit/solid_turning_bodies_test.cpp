@@ -7,7 +7,7 @@
 #include "solid_fixture.hpp"
 #include "turning_body_fixture.hpp"
 
-namespace carom {
+namespace carom::solid_turning_bodies_test {
 namespace {
 
 using namespace test;
@@ -183,4 +183,4 @@ TEST(TurningBody, KeepsItsMassWhereCellsAreScaled) {
 }
 
 }  // namespace
-}  // namespace carom
+}  // namespace carom::solid_turning_bodies_test
