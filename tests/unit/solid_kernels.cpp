@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "material/linear_elastic_update.hpp"
 #include "solid/batch_gradients.hpp"
 #include "solid/blocks.hpp"
 #include "solid/colouring.hpp"
@@ -34,12 +35,13 @@ Answer run(const KernelTable& kernel, const Model& model, const std::vector<doub
   return answer;
 }
 
-/// The fused kernels of HEXA8 over packs; the laws are not asked.
+/// The fused kernels of HEXA8 over packs, for the linear elastic law.
 template <class Real>
 KernelTable fused_kernels() {
   KernelTable kernels = kernels_reference();
   kernels.lanes = lanes<Real>;
   kernels.hexa8_small = hexa8_small::kernels<Real>();
+  kernels.laws.laws[static_cast<std::size_t>(LawPlace::linear_elastic)] = linear_elastic_kernels<Real>();
   return kernels;
 }
 
