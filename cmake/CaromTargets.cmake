@@ -38,7 +38,7 @@ function(carom_library folder)
 endfunction()
 
 # carom_tests(group folder...): the files <group>_*.cpp of this folder become the program <group>_tests, each of its gtest
-# cases a ctest entry labelled with the name of this folder. A file's tests stand in a namespace of its own.
+# cases a ctest entry labelled with the name of this folder, the parameterised ones a single entry. A file's tests stand in a namespace of its own.
 function(carom_tests group)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${group}_*.cpp)
   add_executable(${group}_tests ${sources})
@@ -49,7 +49,10 @@ function(carom_tests group)
   carom_unity(${group}_tests)
   target_compile_options(${group}_tests PRIVATE ${CAROM_TEST_OPTIMISATION})
   get_filename_component(kind ${CMAKE_CURRENT_SOURCE_DIR} NAME)
-  # Threads that wait by spinning starve each other where other work shares the cores.
-  gtest_discover_tests(${group}_tests DISCOVERY_MODE PRE_TEST
-                       PROPERTIES TIMEOUT 300 LABELS ${kind} ENVIRONMENT OMP_WAIT_POLICY=passive)
+  # Threads that wait by spinning starve each other where other work shares the cores. A program that registers thousands
+  # of cases takes longer to start than most of them: the parameterised ones share a process.
+  set(properties LABELS ${kind} ENVIRONMENT OMP_WAIT_POLICY=passive)
+  gtest_discover_tests(${group}_tests DISCOVERY_MODE PRE_TEST TEST_FILTER "-*/*" PROPERTIES TIMEOUT 300 ${properties})
+  add_test(NAME ${group}.parameterised COMMAND ${group}_tests --gtest_brief=1 "--gtest_filter=*/*")
+  set_tests_properties(${group}.parameterised PROPERTIES TIMEOUT 900 COST 100 ${properties})
 endfunction()
