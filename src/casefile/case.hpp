@@ -16,7 +16,7 @@
 #include "math/time_function.hpp"
 #include "mesh/structured_block.hpp"
 #include "model/compatibility.hpp"
-#include "model/contact_options.hpp"
+#include "model/options.hpp"
 
 namespace carom {
 
@@ -58,7 +58,6 @@ struct CasePart {
   Located<std::string> name;
   Located<std::string> cells;     ///< cell group
   Located<std::string> material;  ///< key of [materials]
-  enum class Section : std::uint8_t { solid, plane_strain, plane_stress, axisymmetric, bar };
   Section section = Section::solid;
   std::optional<Located<std::string>> type;         ///< of the cells, "TETRA4"; absent: what the group has
   double thickness = 1.0;                           ///< plane_strain, plane_stress
@@ -74,9 +73,8 @@ struct CaseSupport {
   std::optional<Located<std::string>>
       symmetry;                   ///< "x", "y" or "z": normal of the symmetry plane; blocks that component
   std::array<bool, 3> blocked{};  ///< blocked = ["x", "y"]
-  enum class Kind : std::uint8_t { displacement, velocity, acceleration };
   struct Motion {
-    Kind kind{};
+    MotionKind kind{};
     int component = 0;
     Located<double> amplitude;
     std::optional<Located<std::string>> function;  ///< key of [functions]; constant 1 when absent
@@ -211,8 +209,7 @@ struct CaseStage {
 };
 
 struct CaseSolver {
-  enum class Kind : std::uint8_t { automatic, cg, cholmod, mumps };
-  Kind kind = Kind::automatic;
+  SolverKind kind = SolverKind::automatic;
   int max_contact_iterations = 50;
 };
 

@@ -74,12 +74,10 @@ Names names_of(const Sections& sections) {
 void check_functions(const Case& given) {
   const Names functions = names_of(given.functions);
   const std::string what = "the name of a [functions.NAME]";
-  constexpr std::array kinds{"displacement", "velocity", "acceleration"};
   for (std::size_t i = 0; i < given.supports.size(); ++i) {
     for (const CaseSupport::Motion& motion : given.supports[i].motions) {
       if (!motion.function) continue;
-      const char* kind = kinds.at(static_cast<std::size_t>(motion.kind));
-      check_known(*motion.function, functions, entry_path("support", i, kind) + ".function", what);
+      check_known(*motion.function, functions, entry_path("support", i, name(motion.kind)) + ".function", what);
     }
   }
   for (std::size_t i = 0; i < given.loads.size(); ++i) {

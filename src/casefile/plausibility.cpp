@@ -136,7 +136,7 @@ class Lint {
     for (const CaseStage& stage : case_.stages) check_initial(stage.initial, "stage.initial.velocity");
     for (const CaseSupport& support : case_.supports) {
       for (const CaseSupport::Motion& motion : support.motions) {
-        if (motion.kind != CaseSupport::Kind::velocity) continue;
+        if (motion.kind != MotionKind::velocity) continue;
         check_speed(motion.amplitude.where, "support.velocity", std::abs(*motion.amplitude));
       }
     }

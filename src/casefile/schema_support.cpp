@@ -24,14 +24,14 @@ SectionSchema<MotionTable> motion_section(const std::string& what, Dimension uni
   return s;
 }
 
-void append_motions(const MotionTable& table, CaseSupport::Kind kind, CaseSupport& support) {
+void append_motions(const MotionTable& table, MotionKind kind, CaseSupport& support) {
   for (std::size_t c = 0; c < 3; ++c) {
     if (!table.amplitude[c]) continue;
     support.motions.push_back({kind, static_cast<int>(c), *table.amplitude[c], table.function});
   }
 }
 
-std::optional<MotionTable> motions_of(const CaseSupport& support, CaseSupport::Kind kind) {
+std::optional<MotionTable> motions_of(const CaseSupport& support, MotionKind kind) {
   std::optional<MotionTable> table;
   for (const CaseSupport::Motion& motion : support.motions) {
     if (motion.kind != kind) continue;
@@ -42,7 +42,7 @@ std::optional<MotionTable> motions_of(const CaseSupport& support, CaseSupport::K
   return table;
 }
 
-void add_motion(SectionSchema<CaseSupport>& s, const std::string& key, CaseSupport::Kind kind, Dimension unit) {
+void add_motion(SectionSchema<CaseSupport>& s, const std::string& key, MotionKind kind, Dimension unit) {
   const SectionSchema<MotionTable> motion = motion_section(key, unit);
   SectionSchema<CaseSupport>::Handlers handlers;
   handlers.read = [motion, kind](CaseSupport& support, const Node& node, const ReadContext& at) {
@@ -79,10 +79,8 @@ void check_components(CaseSupport& support, const Node& node, const ReadContext&
   for (std::size_t c = 0; c < 3; ++c) {
     if (support.blocked[c]) impose(c, "blocked", find(node, "blocked")->where);
   }
-  constexpr std::array kinds{"displacement", "velocity", "acceleration"};
   for (const CaseSupport::Motion& motion : support.motions) {
-    impose(static_cast<std::size_t>(motion.component), kinds.at(static_cast<std::size_t>(motion.kind)),
-           motion.amplitude.where);
+    impose(static_cast<std::size_t>(motion.component), name(motion.kind), motion.amplitude.where);
   }
 }
 
@@ -94,9 +92,9 @@ SectionSchema<CaseSupport> support_section() {
   s.key("symmetry", &CaseSupport::symmetry, "Symmetry plane with this normal: blocks that component.",
         {.choices = kAxes});
   s.key("blocked", &CaseSupport::blocked, "Components that stay where they are.", {.choices = kAxes});
-  add_motion(s, "displacement", CaseSupport::Kind::displacement, Dimension::length);
-  add_motion(s, "velocity", CaseSupport::Kind::velocity, Dimension::velocity);
-  add_motion(s, "acceleration", CaseSupport::Kind::acceleration, Dimension::acceleration);
+  add_motion(s, "displacement", MotionKind::displacement, Dimension::length);
+  add_motion(s, "velocity", MotionKind::velocity, Dimension::velocity);
+  add_motion(s, "acceleration", MotionKind::acceleration, Dimension::acceleration);
   s.description.alternatives = {
       {Alternatives::Count::at_least_one, {"symmetry", "blocked", "displacement", "velocity", "acceleration"}}};
   s.finish = check_components;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "model/contact_options.hpp"
+#include "model/options.hpp"
 
 namespace carom {
 

@@ -17,15 +17,10 @@
 #include "math/time_function.hpp"
 #include "mesh/facet.hpp"
 #include "mesh/mesh.hpp"
-#include "model/contact_options.hpp"
+#include "model/options.hpp"
 #include "model/turning_body.hpp"
 
 namespace carom {
-
-/// What the cells of a part are a section of. Plane cells (QUAD4) lie in the x-y plane, numbered counter-clockwise;
-/// axisymmetric ones turn about the y axis, with x >= 0 the radius, and stand for the whole circumference (2 pi x);
-/// bars are LINE2 in space.
-enum class Section : std::uint8_t { solid, plane_strain, plane_stress, axisymmetric, bar };
 
 /// Cells of one type and one material.
 struct Part {
@@ -46,9 +41,6 @@ struct Surface {
   Section section = Section::solid;
   double thickness = 1.0;
 };
-
-/// What is imposed on one component of a group of nodes.
-enum class MotionKind : std::uint8_t { displacement, velocity, acceleration };
 
 /// The component (0, 1, 2) of the nodes follows function(t). Blocked components are velocity 0.
 struct PrescribedMotion {

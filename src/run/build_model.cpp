@@ -60,9 +60,8 @@ class ModelBuilder {
       }
     }
     for (const CaseSupport::Motion& motion : given.motions) {
-      static constexpr MotionKind kinds[] = {MotionKind::displacement, MotionKind::velocity, MotionKind::acceleration};
-      model_.motions.push_back({label, nodes, motion.component, kinds[static_cast<int>(motion.kind)],
-                                function(motion.function, *motion.amplitude)});
+      model_.motions.push_back(
+          {label, nodes, motion.component, motion.kind, function(motion.function, *motion.amplitude)});
     }
   }
 

@@ -39,11 +39,6 @@ struct Drive {
   Units units() const { return units_of(name(given.units)); }
 };
 
-int free_directions(CasePart::Section section) {
-  if (section == CasePart::Section::bar) return 2;
-  return section == CasePart::Section::plane_stress ? 1 : 0;
-}
-
 std::string describe(const PathRequest& request, PathKind kind) {
   if (kind == PathKind::table) return "the deformations of " + request.path;
   std::string text = kind == PathKind::uniaxial_stress ? "uniaxial stress" : "uniaxial strain";
@@ -53,7 +48,7 @@ std::string describe(const PathRequest& request, PathKind kind) {
 }
 
 void check_section(const CasePart& part, PathKind kind) {
-  const bool is_bar = part.section == CasePart::Section::bar;
+  const bool is_bar = part.section == Section::bar;
   if (!is_bar || kind == PathKind::uniaxial_stress) return;
   throw CaseError(part.where, "--path", "a path with lateral strain, of a bar",
                   "uniaxial_stress for parts that are bars",

@@ -86,7 +86,7 @@ void Parts::add(const Case& given, const CasePart& wanted, const Groups& groups)
   Part part;
   part.name = *wanted.name;
   part.material = material->made();
-  part.section = static_cast<Section>(wanted.section);  // declared in the same order
+  part.section = wanted.section;
   part.thickness = part.section == Section::bar ? wanted.area : wanted.thickness;
   const std::span<const CellType> types = offered_cells(part.section);
   Groups::TypedCells found =

@@ -20,8 +20,6 @@ namespace carom {
 namespace {
 
 SchemeSettings settings_of(const CaseScheme& given, const CaseSolver& solver) {
-  static constexpr SolverKind kinds[] = {SolverKind::automatic, SolverKind::conjugate_gradients, SolverKind::cholesky,
-                                         SolverKind::ldlt};
   SchemeSettings s;
   s.kind = *given.kind;
   s.enforcement = **given.enforcement;
@@ -34,7 +32,7 @@ SchemeSettings settings_of(const CaseScheme& given, const CaseSolver& solver) {
   s.p = given.p;
   s.penetration = given.penetration.value_or(s.penetration);
   s.max_iterations = solver.max_contact_iterations;
-  s.solver = kinds[static_cast<int>(solver.kind)];
+  s.solver = solver.kind;
   return s;
 }
 

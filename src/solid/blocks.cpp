@@ -108,12 +108,6 @@ std::vector<Index> batch_offsets(const Mesh& mesh, const std::vector<CellRef>& c
   return offset;
 }
 
-/// How many of the last of x, y, z are without stress.
-int free_directions(Section section) {
-  if (section == Section::bar) return 2;
-  return section == Section::plane_stress ? 1 : 0;
-}
-
 /// The stages of a part: its element chooses the cell and whether dilatation is averaged, its law the kinematics.
 BatchStages stages_of(const Part& part, const Element& element, bool small_strain, const KernelTable& table) {
   BatchStages stages{table.lanes, &table.cells[static_cast<std::size_t>(element.kind)],

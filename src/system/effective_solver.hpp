@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "model/compatibility.hpp"
+#include "model/options.hpp"
 #include "system/system.hpp"
 
 namespace carom {
-
-enum class SolverKind : std::uint8_t { automatic, conjugate_gradients, cholesky, ldlt };
 
 struct LinearSolveReport {
   bool converged = false;

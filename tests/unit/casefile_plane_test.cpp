@@ -64,9 +64,9 @@ TEST(CasefilePlane, BlocksAndPartsAreRead) {
   EXPECT_EQ(bar.end_groups, (std::array<std::string, 2>{"START", "TOP"}));
   EXPECT_EQ(*c.materials[0].law, "neo_hookean");
   ASSERT_EQ(c.parts.size(), 2U);
-  EXPECT_EQ(c.parts[0].section, CasePart::Section::plane_stress);
+  EXPECT_EQ(c.parts[0].section, Section::plane_stress);
   EXPECT_EQ(c.parts[0].thickness, 0.01);
-  EXPECT_EQ(c.parts[1].section, CasePart::Section::bar);
+  EXPECT_EQ(c.parts[1].section, Section::bar);
   EXPECT_EQ(c.parts[1].area, 1e-4);
 }
 

@@ -58,7 +58,7 @@ TEST(Casefile, DefaultsOfAMinimalCase) {
   EXPECT_EQ(c.scheme.gamma, 0.5);
   EXPECT_EQ(**c.scheme.mass, CaseScheme::Mass::consistent);
   EXPECT_FALSE(c.time.fixed);
-  EXPECT_EQ(c.solver.kind, CaseSolver::Kind::automatic);
+  EXPECT_EQ(c.solver.kind, SolverKind::automatic);
   EXPECT_EQ(c.solver.max_contact_iterations, 50);
   ASSERT_EQ(c.output.fields.size(), 11U);
   EXPECT_EQ(*c.output.fields[2], "stress");
@@ -133,13 +133,13 @@ TEST(Casefile, SupportsLoadsAndInitialState) {
   EXPECT_EQ(**c.supports[0].symmetry, "x");
   EXPECT_EQ(c.supports[1].blocked, (std::array{true, true, false}));
   ASSERT_EQ(c.supports[1].motions.size(), 1U);
-  EXPECT_EQ(c.supports[1].motions[0].kind, CaseSupport::Kind::velocity);
+  EXPECT_EQ(c.supports[1].motions[0].kind, MotionKind::velocity);
   EXPECT_EQ(c.supports[1].motions[0].component, 2);
   EXPECT_EQ(*c.supports[1].motions[0].amplitude, -2.0);
   EXPECT_EQ(**c.supports[1].motions[0].function, "ramp");
   ASSERT_EQ(c.supports[2].motions.size(), 3U);
   EXPECT_FALSE(c.supports[2].motions[1].function.has_value());
-  EXPECT_EQ(c.supports[2].motions[2].kind, CaseSupport::Kind::acceleration);
+  EXPECT_EQ(c.supports[2].motions[2].kind, MotionKind::acceleration);
   ASSERT_EQ(c.loads.size(), 3U);
   EXPECT_EQ(c.loads[0].kind, CaseLoad::Kind::force);
   EXPECT_EQ(c.loads[0].vector, (Vec3{0.0, 1.0, 0.0}));

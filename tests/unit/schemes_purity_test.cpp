@@ -21,26 +21,33 @@ using namespace test;
 struct Body {
   const char* name;
   Material material;
+  Formulation formulation = Formulation::full;
 };
 const std::vector<Body>& bodies() {
-  static const std::vector<Body> all{
-      {"linear", unit_material},
-      {"neo-Hookean", NeoHookean{unit_material}},
-      {"J2", Material("j2", 1.5, {{"E", 2.0}, {"nu", 0.3}, {"yield_stress", 0.05}, {"hardening_modulus", 1.0}})}};
+  static const Material j2("j2", 1.5, {{"E", 2.0}, {"nu", 0.3}, {"yield_stress", 0.05}, {"hardening_modulus", 1.0}});
+  static const std::vector<Body> all{{"linear", unit_material},
+                                     {"neo-Hookean", NeoHookean{unit_material}},
+                                     {"J2", j2},
+                                     {"J2, one point", j2, Formulation::one_point}};
   return all;
 }
 
+void make_of(Part& part, const Body& body) {
+  part.material = body.material;
+  part.formulation = body.formulation;
+}
+
 /// A block that falls obliquely onto a plane and turns, so that its nodes touch one after the other.
-Model on_plane(const Material& material) {
+Model on_plane(const Body& body) {
   Model model = one_part(block_mesh({2, 2, 2}, 0.1));
-  model.parts[0].material = material;
+  make_of(model.parts[0], body);
   model.contacts.emplace_back(plane_below(model, 0.004, 20.0, {10.0, 0.3}));
   model.loads.emplace_back(Gravity{{0.004, 0.0, -0.04}, {}});
   return model;
 }
 
 /// A block on a wider one that is held; its head is driven down and to the side, by motions with kinks.
-Model sliding_pair(const Material& material) {
+Model sliding_pair(const Body& body) {
   StructuredBlock lower, upper;
   lower.size = {3.0, 3.0, 2.0};
   lower.divisions = {2, 2, 1};
@@ -50,7 +57,7 @@ Model sliding_pair(const Material& material) {
   upper.origin = {0.4, 0.3, 2.001};
   upper.face_groups = {"", "", "", "", "SLAVE", "HEAD"};
   Model model = one_part(make_structured_blocks({lower, upper}));
-  model.parts[0].material = material;
+  make_of(model.parts[0], body);
   PairContact pair;
   pair.name = "pair";
   pair.slave.facets = faces_of(*model.mesh, "SLAVE");
@@ -66,7 +73,7 @@ Model sliding_pair(const Material& material) {
 
 struct Scene {
   const char* name;
-  Model (*model)(const Material&);
+  Model (*model)(const Body&);
   double above;  ///< height from which on nodes move at first
 };
 constexpr std::array scenes{Scene{"plane", on_plane, 0.0}, Scene{"sliding pair", sliding_pair, 2.0005}};
@@ -119,7 +126,7 @@ constexpr int steps = 4;
 class Purity {
  public:
   Purity(const Scene& scene, const Body& body, const SchemeSettings& settings)
-      : model_(scene.model(body.material)), settings_(settings) {
+      : model_(scene.model(body)), settings_(settings) {
     const Bench bench = make_bench(model_, settings.kind);
     const StableStep stable = stable_step(bench.system());
     omega_max_squared_ = stable.omega_max_squared_free;
@@ -216,9 +223,11 @@ class Purity {
   Way way_;
 };
 
-/// Conjugate gradients on one body in each scene; they need not find the equilibrium of what friction alone holds.
+/// One-point cells where contact is simplest, since it knows nothing of them. Conjugate gradients on one body in each
+/// scene; they need not find the equilibrium of what friction alone holds.
 bool is_tried(SchemeKind scheme, EnforcementKind enforcement, const Scene& scene, const Body& body, SolverKind solver) {
   if (!body.material.law->history.empty() && !traits(scheme).takes_history) return false;
+  if (body.formulation != Formulation::full && enforcement != EnforcementKind::penalty) return false;
   if (solver == SolverKind::cholesky) return true;
   if (is_explicit(scheme) || scheme == SchemeKind::statics) return false;
   if (enforcement == EnforcementKind::augmented_lagrangian) return false;  // nothing that the penalty has not

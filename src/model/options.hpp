@@ -1,0 +1,42 @@
+// Choices that the case format shares with the model and the solvers.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace carom {
+
+/// What the cells of a part are a section of. Plane cells (QUAD4) lie in the x-y plane, numbered counter-clockwise;
+/// axisymmetric ones turn about the y axis, with x >= 0 the radius, and stand for the whole circumference (2 pi x);
+/// bars are LINE2 in space.
+enum class Section : std::uint8_t { solid, plane_strain, plane_stress, axisymmetric, bar };
+
+/// How many of the last of x, y, z are without stress.
+constexpr int free_directions(Section section) {
+  if (section == Section::bar) return 2;
+  return section == Section::plane_stress ? 1 : 0;
+}
+
+/// What is imposed on one component of a group of nodes.
+enum class MotionKind : std::uint8_t { displacement, velocity, acceleration };
+
+constexpr const char* name(MotionKind kind) {
+  return std::array{"displacement", "velocity", "acceleration"}[static_cast<std::size_t>(kind)];
+}
+
+/// Who solves the linear systems of implicit steps.
+enum class SolverKind : std::uint8_t { automatic, conjugate_gradients, cholesky, ldlt };
+
+/// What is done about rows that penetrate in the initial state.
+enum class InitialPenetration : std::uint8_t { refuse, strain_free_offset, prestress };
+
+/// How the rows of a pair of deformable surfaces are made: one row per slave node at its closest point on the master
+/// surface; the same with the roles exchanged as well; or one row per slave node, averaged over its facets' overlaps
+/// with the master surface (mortar).
+enum class PairMethod : std::uint8_t { node_to_surface, two_pass, surface_to_surface };
+
+/// How the damper of a stop acts while it touches: never so that its sum with the spring pulls, or in both directions.
+enum class DamperActs : std::uint8_t { compression, two_sided };
+
+}  // namespace carom
