@@ -114,13 +114,13 @@ class HexaCentroids {
 };
 
 /// Makes the face that a part holds the upper one, so that the forces of the rows are those on the body.
-void put_part_above(const HexaCentroids& parts, InterfaceFaces& faces) {
-  if (!parts.centroid_at(faces.upper) && parts.centroid_at(faces.lower)) std::swap(faces.lower, faces.upper);
+void put_part_above(const HexaCentroids& centroids, InterfaceFaces& faces) {
+  if (!centroids.centroid_at(faces.upper) && centroids.centroid_at(faces.lower)) std::swap(faces.lower, faces.upper);
 }
 
 /// True when the part above says that the normal must be turned.
-bool normal_is_inverted(const HexaCentroids& parts, const InterfaceFaces& faces, const FacePoint& point) {
-  const auto above = parts.centroid_at(faces.upper);
+bool normal_is_inverted(const HexaCentroids& centroids, const InterfaceFaces& faces, const FacePoint& point) {
+  const auto above = centroids.centroid_at(faces.upper);
   return above && dot(subtract(*above, point.position), point.normal) < 0;
 }
 
@@ -155,7 +155,7 @@ std::unique_ptr<RowMaker> interface_rows(const Model& model, const InterfaceCont
                                          std::vector<std::string>& notes) {
   const Mesh& mesh = *model.mesh;
   const CellBlock& hexas = *mesh.block(CellType::hexa8);
-  const HexaCentroids parts(model);
+  const HexaCentroids centroids(model);
   ConstraintRows rows;
   std::size_t turned = 0;
   for (const Index cell : contact.cells) {
@@ -165,8 +165,8 @@ std::unique_ptr<RowMaker> interface_rows(const Model& model, const InterfaceCont
           "contact \"{}\": cell {} is not of zero thickness; the two opposite faces of an interface cell coincide",
           contact.name, hexas.file_numbers[static_cast<std::size_t>(cell)]));
     }
-    put_part_above(parts, *faces);
-    const bool turn = normal_is_inverted(parts, *faces, face_points(mesh, faces->lower)[0]);
+    put_part_above(centroids, *faces);
+    const bool turn = normal_is_inverted(centroids, *faces, face_points(mesh, faces->lower)[0]);
     if (turn) ++turned;
     add_interface_cell(rows, mesh, *faces, turn, contact.law, source);
   }

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/types.hpp"
 #include "contact/facet_geometry.hpp"
 #include "contact/facing_facets.hpp"
 #include "math/vec3.hpp"
@@ -239,7 +239,7 @@ class LinearDepth {
   }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity(), share = 0.02;
+  static constexpr double share = 0.02;
 
   double shortest(std::span<const Index> nodes) const {
     return length_.empty() ? infinity : least_length(length_, nodes);

@@ -1,7 +1,6 @@
 #include "exact/bouncing_bar.hpp"
 
-#include <limits>
-
+#include "base/types.hpp"
 #include "exact/arguments.hpp"
 
 namespace carom {
@@ -12,7 +11,6 @@ FaceContact solve(const BouncingBarData& data, double until) {
   data.bar.check("bouncing bar");
   require_not_negative("bouncing bar", {{"gravity", data.gravity}, {"gap", data.gap}});
   require_positive("bouncing bar", {{"until", until}});
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const BarFace floor{.impedance = infinity, .round_trip = infinity};
   const BarFace face{.impedance = data.bar.impedance(),
                      .round_trip = data.bar.round_trip(),
