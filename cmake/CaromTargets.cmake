@@ -38,8 +38,8 @@ function(carom_library folder)
 endfunction()
 
 # carom_tests(group folder...): the files <group>_*.cpp of this folder become the program <group>_tests, each of its gtest
-# cases a ctest entry labelled with the name of this folder, the parameterised ones a single entry. A file's tests stand in
-# a namespace of its own.
+# cases a ctest entry labelled with the name of this folder, the parameterised ones, where there are any, a single entry. A
+# file's tests stand in a namespace of its own.
 function(carom_tests group)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${group}_*.cpp)
   add_executable(${group}_tests ${sources})
@@ -54,6 +54,14 @@ function(carom_tests group)
   # of cases takes longer to start than most of them: the parameterised ones share a process.
   set(properties LABELS ${kind} ENVIRONMENT OMP_WAIT_POLICY=passive)
   gtest_discover_tests(${group}_tests DISCOVERY_MODE PRE_TEST TEST_FILTER "-*/*" PROPERTIES TIMEOUT 300 ${properties})
-  add_test(NAME ${group}.parameterised COMMAND ${group}_tests --gtest_brief=1 "--gtest_filter=*/*")
-  set_tests_properties(${group}.parameterised PROPERTIES TIMEOUT 1800 COST 100 ${properties})
+  set(parameterised)
+  foreach(source IN LISTS sources)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
+    file(STRINGS ${source} found REGEX "INSTANTIATE_TEST_SUITE_P")
+    list(APPEND parameterised ${found})
+  endforeach()
+  if(parameterised)
+    add_test(NAME ${group}.parameterised COMMAND ${group}_tests --gtest_brief=1 "--gtest_filter=*/*")
+    set_tests_properties(${group}.parameterised PROPERTIES TIMEOUT 1800 COST 100 ${properties})
+  endif()
 endfunction()

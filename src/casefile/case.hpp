@@ -59,11 +59,13 @@ struct CasePart {
   Located<std::string> cells;     ///< cell group
   Located<std::string> material;  ///< key of [materials]
   Section section = Section::solid;
-  std::optional<Located<std::string>> type;         ///< of the cells, "TETRA4"; absent: what the group has
-  double thickness = 1.0;                           ///< plane_strain, plane_stress
-  double area = 0.0;                                ///< bar
-  std::optional<Located<std::string>> formulation;  ///< absent: the element's first
-  std::optional<Located<double>> hourglass;         ///< one_point
+  std::optional<Located<std::string>> type;            ///< of the cells, "TETRA4"; absent: what the group has
+  double thickness = 1.0;                              ///< plane_strain, plane_stress
+  double area = 0.0;                                   ///< bar
+  std::optional<Located<std::string>> formulation;     ///< absent: the element's first
+  std::optional<Located<double>> hourglass;            ///< one_point
+  std::optional<Located<double>> hourglass_viscosity;  ///< one_point
+  double linear_bulk_viscosity = 0.0, quadratic_bulk_viscosity = 0.0;
 };
 
 /// [[support]]: what is imposed on a group of nodes.

@@ -40,6 +40,20 @@ SectionSchema<CasePart> part_section() {
         "Coefficient of the stiffness against hourglass modes of one_point cells: 1 is about the elastic stiffness of "
         "full integration. Absent: 0.05.",
         {.range = greater_than(0.0)});
+  s.key(
+      "hourglass_viscosity", &CasePart::hourglass_viscosity,
+      "Coefficient of a viscous resistance to the rates of hourglass modes of one_point cells, beside the stiffness: 1 "
+      "is about the damping of full integration with the whole elastic stiffness times the time of a wave through the "
+      "cell. Absent: 0.",
+      {.range = at_least(0.0)});
+  s.key("linear_bulk_viscosity", &CasePart::linear_bulk_viscosity,
+        "Coefficient of a viscous pressure against all changes of volume, the share of critical damping of the fastest "
+        "wave of a cell: it quietens what rings from cell to cell (customary: 0.06).",
+        {.range = at_least(0.0)});
+  s.key("quadratic_bulk_viscosity", &CasePart::quadratic_bulk_viscosity,
+        "Coefficient of a viscous pressure that grows with the square of the rate of compression: it spreads strong "
+        "shocks over a few cells (customary: 1.2).",
+        {.range = at_least(0.0)});
   s.finish = [](CasePart& part, const Node&, const ReadContext& at) { check_name(part.name, at.at("name").path); };
   return s;
 }

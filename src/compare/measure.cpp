@@ -189,8 +189,7 @@ double energy_kept(const CsvTable& energy) {
   double scale = begin;
   for (std::size_t row = 0; row <= last; ++row) scale = std::max(scale, std::abs(terms_at(row).supplied()));
   const EnergyTerms end = terms_at(last);
-  const double lost =
-      begin + end.supplied() - end.friction - end.damping - end.plastic - end.hourglass_loss - end.mechanical();
+  const double lost = begin + end.supplied() - (end.lost() - end.impact - end.viscous) - end.mechanical();
   return scale > 0.0 ? 1.0 - lost / scale : kNone;
 }
 

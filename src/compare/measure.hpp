@@ -33,8 +33,8 @@ std::vector<double> interpolated(std::span<const double> from, std::span<const d
                                  std::span<const double> to);
 
 /// 1 minus the energy that the computation has lost (negative: made), over the larger of the initial and the largest
-/// supplied energy: (mechanical(0) + supplied - friction - damping - plastic - mechanical(end)) of energy.csv, where a
-/// column that is not there is zero. NaN without energy.
+/// supplied energy: (mechanical(0) + supplied - friction - damping - plastic - hourglass_loss - mechanical(end)) of
+/// energy.csv, where a column that is not there is zero. NaN without energy.
 double energy_kept(const CsvTable& energy);
 
 /// Errors of one column, or of all columns of one quantity together.

@@ -8,12 +8,11 @@
 namespace carom {
 
 /// How a term enters the balance of powers:
-///   d(stored) + dissipated + scheme = supplied.
-/// Stored energies are functions of the state, never accumulated work, as is what the points of the bodies have
-/// dissipated (plastic); all others are sums over the steps. Stored and
-/// dissipated energies are positive when the bodies hold or lose them, supplied ones when they come in, those of the
-/// scheme when it takes them out.
-enum class TermKind : std::uint8_t { stored, dissipated, supplied, scheme };
+///   d(stored + spent) + dissipated + scheme = supplied.
+/// Stored energies are functions of the state, never accumulated work, and so is what the bodies have spent, which
+/// their points remember; all others are sums over the steps. Stored, spent and dissipated energies are positive when
+/// the bodies hold or lose them, supplied ones when they come in, those of the scheme when it takes them out.
+enum class TermKind : std::uint8_t { stored, spent, dissipated, supplied, scheme };
 
 /// name, kind, definition. Members of EnergyTerms, columns of energy.csv, entries of the summary, curves of the report,
 /// units of columns and the manual's table (docs/architecture.md) follow, in this order.
@@ -22,8 +21,9 @@ enum class TermKind : std::uint8_t { stored, dissipated, supplied, scheme };
   TERM(strain, stored, "integral of the stored energy density, and what springs store")                               \
   TERM(hourglass, stored, "what the stabilisation of cells with one point stores")                                    \
   TERM(contact_stored, stored, "sum over closed rows of 1/2 eps_N g^2 + 1/2 eps_T s_e^2")                             \
-  TERM(plastic, dissipated, "integral of the dissipated energy density, a function of the points' history")           \
-  TERM(hourglass_loss, dissipated, "what the stabilisation of yielding cells with one point has dissipated")          \
+  TERM(plastic, spent, "integral of the dissipated energy density, a function of the points' history")                \
+  TERM(hourglass_loss, spent, "what the stabilisation of yielding cells with one point has dissipated")               \
+  TERM(viscous, spent, "what bulk viscosity and the viscosity of hourglass modes have dissipated")                    \
   TERM(friction, dissipated, "sum over sliding rows of friction force times slip")                                    \
   TERM(damping, dissipated, "work of the dampers of discrete stops, pulling ones included")                           \
   TERM(impact, dissipated, "what contact enforced by multipliers or impulses takes out along the normals")            \
@@ -55,9 +55,12 @@ struct EnergyTerms {
   double supplied() const {
     return sum(TermKind::supplied);
   }
+  double lost() const {
+    return sum(TermKind::spent) + sum(TermKind::dissipated);
+  }
   /// Residual of the balance of powers; zero when forces, solves and formulas agree.
   double imbalance() const {
-    return mechanical() + sum(TermKind::dissipated) + sum(TermKind::scheme) - supplied();
+    return mechanical() + lost() + sum(TermKind::scheme) - supplied();
   }
 };
 
@@ -91,11 +94,12 @@ void fields(A& archive, EnergyTerms& x) {
   for (const EnergyTerm& term : energy_terms) archive(term.name, x.*term.value);
 }
 
-/// after - before of the stored energies; the other terms are zero.
-inline EnergyTerms change_of_stored(const EnergyTerms& before, const EnergyTerms& after) {
+/// after - before of what is a function of the state, stored and spent; the other terms are zero.
+inline EnergyTerms change_of_state(const EnergyTerms& before, const EnergyTerms& after) {
   EnergyTerms change;
   for (const EnergyTerm& term : energy_terms)
-    if (term.kind == TermKind::stored) change.*term.value = after.*term.value - before.*term.value;
+    if (term.kind == TermKind::stored || term.kind == TermKind::spent)
+      change.*term.value = after.*term.value - before.*term.value;
   return change;
 }
 

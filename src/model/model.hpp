@@ -22,6 +22,15 @@
 
 namespace carom {
 
+/// Coefficients of artificial viscosity: of the bulk, linear and quadratic (solid/bulk_viscosity.hpp), and of the
+/// hourglass modes of one-point cells (solid/hourglass_flow.hpp).
+struct Viscosity {
+  double linear = 0.0, quadratic = 0.0, hourglass = 0.0;
+
+  bool has_bulk() const { return linear > 0.0 || quadratic > 0.0; }
+  bool is_any() const { return has_bulk() || hourglass > 0.0; }
+};
+
 /// Cells of one type and one material.
 struct Part {
   std::string name;
@@ -32,6 +41,10 @@ struct Part {
   double thickness = 1.0;  ///< plane cells: their thickness; bars: the area of the section; else unused
   std::optional<Formulation> formulation{};  ///< empty: the first that the element table has
   double hourglass = 0.05;                   ///< coefficient of the hourglass stiffness of one-point cells
+  Viscosity viscosity{};
+
+  /// True when the forces depend on more than the displacement.
+  bool remembers() const { return !material.law->history.empty() || viscosity.is_any(); }
 };
 
 /// Boundary facets of parts, their normals (mesh/facet.hpp) pointing out of the body. The measure of a facet is its

@@ -157,10 +157,8 @@ void March::book_switch(const GivenMotion& given) {
   ledger_->give(given.kinetic, given.momentum);
   const EnergyTerms before = ledger_->now(), &after = state_.forces.stored;
   LedgerIncrement jump;
-  jump.energy = change_of_stored(before, after);
-  jump.energy.plastic = after.plastic - before.plastic;
-  jump.energy.hourglass_loss = after.hourglass_loss - before.hourglass_loss;
-  jump.energy.algorithmic = -jump.energy.mechanical() - jump.energy.plastic - jump.energy.hourglass_loss;
+  jump.energy = change_of_state(before, after);
+  jump.energy.algorithmic = -jump.energy.mechanical() - jump.energy.lost();
   const Momentum now = state_.forces.total_momentum;
   for (std::size_t c = 0; c < 3; ++c) {
     jump.impulse.linear[c] = now.linear[c] - ledger_->momentum().linear[c] - given.momentum.linear[c];

@@ -52,11 +52,21 @@ void choose_formulation(const CasePart& wanted, Part& part) {
              find_element(part.type, part.section, Formulation::mean_dilatation) != nullptr) {
     part.formulation = Formulation::mean_dilatation;  // full integration locks in plastic flow
   }
-  if (!wanted.hourglass) return;
-  if (part.formulation != Formulation::one_point)
-    throw CaseError(wanted.hourglass->where, "part.hourglass", "cells without hourglass modes",
-                    "formulation = \"one_point\"", "leave it out");
-  part.hourglass = **wanted.hourglass;
+}
+
+/// Takes the coefficients of stabilisation and viscosity.
+void choose_coefficients(const CasePart& wanted, Part& part) {
+  const auto of_modes = [&](const std::optional<Located<double>>& given, const char* key, double& value) {
+    if (!given) return;
+    if (part.formulation != Formulation::one_point)
+      throw CaseError(given->where, key, "cells without hourglass modes", "formulation = \"one_point\"",
+                      "leave it out");
+    value = **given;
+  };
+  of_modes(wanted.hourglass, "part.hourglass", part.hourglass);
+  of_modes(wanted.hourglass_viscosity, "part.hourglass_viscosity", part.viscosity.hourglass);
+  part.viscosity.linear = wanted.linear_bulk_viscosity;
+  part.viscosity.quadratic = wanted.quadratic_bulk_viscosity;
 }
 
 std::string describe(const Part& part) {
@@ -98,6 +108,7 @@ void Parts::add(const Case& given, const CasePart& wanted, const Groups& groups)
   part.type = found.type;
   part.cells = std::move(found.cells);
   choose_formulation(wanted, part);
+  choose_coefficients(wanted, part);
   const auto block = static_cast<std::size_t>(mesh_.block(part.type) - mesh_.blocks.data());
   for (const Index cell : part.cells) {
     Index& owner = part_of_cell_[block][at(cell)];

@@ -196,12 +196,12 @@ void Stage::refuse_history() const {
   const SchemeTraits& scheme = traits(settings_.kind);
   if (scheme.takes_history) return;
   for (const Part& part : context_.model.parts) {
-    if (part.material.law->history.empty()) continue;
-    throw CaseError(
-        scheme_.kind.where, "scheme.kind",
-        fmt::format("\"{}\" with the law \"{}\" of the part \"{}\"", scheme.name, part.material.law->name, part.name),
-        "elastic laws with this scheme, whose forces are those of a stored energy",
-        "Take a scheme of another kind, as \"generalized_alpha\" or \"bathe\", or an elastic law.");
+    if (!part.remembers()) continue;
+    const std::string what = part.viscosity.is_any() ? "the viscosity" : "the law \"" + part.material.law->name + '"';
+    throw CaseError(scheme_.kind.where, "scheme.kind",
+                    fmt::format("\"{}\" with {} of the part \"{}\"", scheme.name, what, part.name),
+                    "elastic laws without viscosity with this scheme, whose forces are those of a stored energy",
+                    "Take a scheme of another kind, as \"generalized_alpha\" or \"bathe\", or an elastic law.");
   }
 }
 

@@ -47,17 +47,15 @@ StepBooks step_books(const System& system, const State& begin, const Balance& b0
   out.force = momentum_from(sums.data() + 6);
   LedgerIncrement& step = out.increment;
   EnergyTerms& energy = step.energy;
-  energy = change_of_stored(f0.stored, f1.stored);
-  energy.plastic = f1.stored.plastic - f0.stored.plastic;
-  energy.hourglass_loss = f1.stored.hourglass_loss - f0.stored.hourglass_loss;
+  energy = change_of_state(f0.stored, f1.stored);
   energy.friction = contact.friction;
   energy.damping = contact.damping;
   energy.impact = contact.impact;
   energy.external_work = sums[1];
   energy.support_work = sums[2];
   energy.algorithmic = sums[3] - energy.kinetic + (sums[1] + sums[2] - sums[0]) - sums[4] + (contact.total - sums[5]);
-  energy.quadrature = sums[0] - energy.strain - energy.hourglass - energy.plastic - energy.hourglass_loss -
-                      contact.total - energy.contact_stored - contact.friction - contact.damping - contact.impact;
+  energy.quadrature = sums[0] - energy.strain - energy.hourglass - energy.sum(TermKind::spent) - contact.total -
+                      energy.contact_stored - contact.friction - contact.damping - contact.impact;
   step.aster.ENER_CIN = energy.kinetic;
   step.aster.ENER_TOT = sums[0];
   step.aster.TRAV_EXT = energy.external_work + energy.support_work;

@@ -38,16 +38,14 @@ LedgerIncrement central_difference_books(const System& system, const State& begi
   }
   LedgerIncrement step;
   EnergyTerms& energy = step.energy;
-  energy = change_of_stored(f0.stored, f1.stored);
-  energy.plastic = f1.stored.plastic - f0.stored.plastic;
-  energy.hourglass_loss = f1.stored.hourglass_loss - f0.stored.hourglass_loss;
+  energy = change_of_state(f0.stored, f1.stored);
   energy.friction = f1.rows.slip_work;
   energy.damping = damping_work(begin, end);
   energy.external_work = sums[2];
   energy.support_work = support;
   energy.algorithmic = -0.125 * h * h * inertia_power;
-  energy.quadrature = internal_work - energy.strain - energy.hourglass - energy.plastic - energy.hourglass_loss -
-                      contact_work - energy.contact_stored - energy.friction - energy.damping;
+  energy.quadrature = internal_work - energy.strain - energy.hourglass - energy.sum(TermKind::spent) - contact_work -
+                      energy.contact_stored - energy.friction - energy.damping;
   step.aster.ENER_CIN = energy.kinetic;
   step.aster.ENER_TOT = internal_work;
   step.aster.TRAV_EXT = energy.external_work + energy.support_work;

@@ -110,21 +110,22 @@ StableStep stable_step(const System& system, double limit, EnforcementKind enfor
   StableStep out;
   out.omega_max_squared = out.omega_max_squared_free = frequency(nullptr);
   out.dt_closing = std::numeric_limits<double>::infinity();
-  double damping_ratio = 0.0;
+  const double viscous = system.solid.largest_damping({});
+  double damping_ratio = viscous;
   if (traits(enforcement).adds_stiffness && system.contact.slots() > 0) {
     const auto rows = system.contact.rows_at(zero, zero);
     out.omega_max_squared = frequency(std::make_shared<const ConstraintRows>(as_they_close(*rows, zero)));
     out.dt_closing = closing_step(limit, contact_frequency_bound(system, *rows, zero));
-    damping_ratio = largest_damping_ratio(system, *rows);
+    damping_ratio += largest_damping_ratio(system, *rows);
   }
-  out.dt_free = limit / std::sqrt(out.omega_max_squared_free);
+  out.dt_free = step_of(limit, out.omega_max_squared_free, viscous);
   out.dt = step_of(limit, out.omega_max_squared, damping_ratio);
   return out;
 }
 
 StableStepWatch::StableStepWatch(const System& system, double limit, EnforcementKind enforcement,
                                  std::span<const Part> parts)
-    : system_(system), limit_(limit), enforcement_(enforcement) {
+    : system_(system), limit_(limit), enforcement_(enforcement), damping_(system.solid.largest_damping({})) {
   const std::vector<double> zero(system.solid.dof_count(), 0.0);
   Vibration vibration(system, zero, nullptr);
   omega_squared_ = at_rest_ = largest_eigenvalue(vibration.pencil(), zero.size()).upper;
@@ -140,11 +141,12 @@ StableStepWatch::StableStepWatch(const System& system, double limit, Enforcement
   largest_ = largest_bound(zero);
 }
 
-double StableStepWatch::follow_bodies(std::span<const double> u) {
+double StableStepWatch::follow_bodies(std::span<const double> u, std::span<const double> points) {
   if (system_.solid.is_linear()) return 0.0;
   const double before = omega_squared_;
   const double of_tangent = has_elastic_ ? follow_tangent(u) : 0.0;
   omega_squared_ = cells_.empty() ? of_tangent : std::max(of_tangent, at_rest_ * largest_bound(u) / largest_);
+  damping_ = system_.solid.largest_damping(points) * std::max(1.0, omega_squared_ / at_rest_);
   return 0.5 * std::abs(omega_squared_ / before - 1.0);
 }
 
@@ -174,11 +176,12 @@ double StableStepWatch::follow_tangent(std::span<const double> u) {
 StableStep StableStepWatch::with(const ConstraintRows& rows, std::span<const double> u) const {
   StableStep out;
   out.omega_max_squared_free = omega_squared_;
-  out.dt_free = limit_ / std::sqrt(omega_squared_);
+  out.dt_free = step_of(limit_, omega_squared_, damping_);
   const bool has_springs = traits(enforcement_).adds_stiffness && rows.size() > 0;
   const double contact = has_springs ? contact_frequency_bound(system_, rows, u) : 0.0;
   out.omega_max_squared = omega_squared_ + contact;
-  out.dt = step_of(limit_, out.omega_max_squared, has_springs ? largest_damping_ratio(system_, rows) : 0.0);
+  out.dt =
+      step_of(limit_, out.omega_max_squared, damping_ + (has_springs ? largest_damping_ratio(system_, rows) : 0.0));
   out.dt_closing = closing_step(limit_, contact);
   return out;
 }

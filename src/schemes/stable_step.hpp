@@ -16,7 +16,8 @@ namespace carom {
 /// dt: the stable step of the linear system, L / omega_max of M^-1 (K + contact stiffness with every row closed), with
 /// the lagged dampers of stops those of central differences scaled by L / 2:
 ///   h = L/2 (sqrt(d^2 + 4 omega^2) - d) / omega^2,  d = max damping / mass
-/// (the roots of z^2 - (2 - omega^2 h^2 - d h) z + 1 - d h stay in the unit circle). Only the penalty adds stiffness:
+/// (the roots of z^2 - (2 - omega^2 h^2 - d h) z + 1 - d h stay in the unit circle); artificial viscosity, whose rates
+/// are those of the middle of the step, adds to d. Only the penalty adds stiffness:
 /// exact enforcements fix what they hold, which lowers no frequency bound. Nodes without mass are held: with the
 /// modified mass they follow statically, which is softer, so that the step is one for the condensed system as well.
 ///
@@ -58,7 +59,9 @@ class StableStepWatch {
   /// at rest, elastic, times the largest growth of c / l over the cells, c a cell's wave speed and l its length where
   /// its nodes stand (Courant, Friedrichs and Lewy, Mathematische Annalen 100, 1928; cell_frequency_bounds are c^2 /
   /// l^2 at rest).
-  double follow_bodies(std::span<const double> u);
+  ///
+  /// The damping of artificial viscosity is that of the rates that the points remember, times the same growth.
+  double follow_bodies(std::span<const double> u, std::span<const double> points);
   /// The steps with these rows, those of displacement u, every one of them closed. Cheap: two passes over the rows.
   StableStep with(const ConstraintRows& rows, std::span<const double> u) const;
 
@@ -66,6 +69,7 @@ class StableStepWatch {
   template <class A>
   friend void fields(A& archive, StableStepWatch& x) {
     archive("omega_squared", x.omega_squared_);
+    archive("damping", x.damping_);
     archive("vector", x.vector_);
   }
 
@@ -76,6 +80,7 @@ class StableStepWatch {
   double limit_;
   EnforcementKind enforcement_;
   double omega_squared_;  ///< of the bodies
+  double damping_;        ///< of their viscosity, over mass
   std::vector<double> vector_;
   bool has_elastic_ = true;               ///< bodies of finite strain whose tangent says all
   std::vector<double> cells_;             ///< squares of the cells' wave speeds where points remember; else empty

@@ -8,6 +8,8 @@
 
 #include "base/errors.hpp"
 #include "base/types.hpp"
+#include "mesh/cell_size.hpp"
+#include "model/wave_modulus.hpp"
 #include "solid/colouring.hpp"
 #include "solid/element_table.hpp"
 #include "solid/hourglass_flow.hpp"
@@ -108,6 +110,15 @@ std::vector<Index> batch_offsets(const Mesh& mesh, const std::vector<CellRef>& c
   return offset;
 }
 
+/// Lengths of the cells, the last batch filled up with its last one.
+std::vector<double> batch_lengths(const Mesh& mesh, const std::vector<CellRef>& cells, CellType type,
+                                  std::size_t lanes) {
+  std::vector<double> lengths((cells.size() + lanes - 1) / lanes * lanes);
+  for (std::size_t c = 0; c < lengths.size(); ++c)
+    lengths[c] = cell_length(type, positions(mesh, connectivity_of(mesh, cells[std::min(c, cells.size() - 1)])));
+  return lengths;
+}
+
 /// The stages of a part: its element chooses the cell and whether dilatation is averaged, its law the kinematics.
 BatchStages stages_of(const Part& part, const Element& element, bool small_strain, const KernelTable& table) {
   BatchStages stages{table.lanes, &table.cells[static_cast<std::size_t>(element.kind)],
@@ -117,14 +128,20 @@ BatchStages stages_of(const Part& part, const Element& element, bool small_strai
   const IsotropicElastic at_rest = part.material.at_rest();
   stages.hourglass = part.hourglass * at_rest.E / (2.0 * (1.0 + at_rest.nu));
   stages.hourglass_coefficient = part.hourglass;
-  if (!part.material.law->history.empty()) stages.hourglass_history = hourglass_history(*stages.cell);
+  stages.viscosity = part.viscosity;
+  stages.modulus = at_rest.E / (2.0 * (1.0 + at_rest.nu));
+  stages.rho = part.material.rho;
+  stages.wave_speed = std::sqrt(wave_modulus(part) / part.material.rho);
+  if (part.viscosity.has_bulk()) stages.bulk = small_strain ? &table.small_bulk : &table.finite_bulk;
+  if (!part.material.law->history.empty() || part.viscosity.hourglass > 0.0)
+    stages.hourglass_history = hourglass_history(*stages.cell, part.viscosity.hourglass > 0.0);
   return stages;
 }
 
 /// Elastic HEXA8 integrated fully have kernels of their own.
 CellKernels kernels_of(const Element& element, const Block& block, const KernelTable& table) {
   const bool is_fused = element.kind == CellKind::Hexa8 && !element.has_mean_dilatation &&
-                        block.prepared_law.history == 0 && block.is_linear == block.small_strain;
+                        block.history_per_cell() == 0 && block.is_linear == block.small_strain;
   if (!is_fused) return staged_kernels;
   return block.small_strain ? table.hexa8_small : table.hexa8_finite;
 }
@@ -138,13 +155,14 @@ Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>&
   block.rho = part.material.rho;
   block.law_row = part.material.law;
   block.small_strain = part.material.law->measure == Measure::small_strain;
-  block.is_linear = block.small_strain && part.material.law->is_linear;
+  block.is_linear = block.small_strain && part.material.law->is_linear && !part.viscosity.is_any();
   block.is_symmetric = part.material.law->has_symmetric_tangent;
   block.operations = &cell_operations(element.kind);
   block.stages = stages_of(part, element, block.small_strain, table);
   block.prepared_law = prepare(part.material, free_directions(part.section), table.laws);
   block.kernels = kernels_of(element, block, table);
   block.offset = batch_offsets(mesh, cells, block.nodes(), table.lanes);
+  if (part.viscosity.is_any()) block.length = batch_lengths(mesh, cells, part.type, block.lanes());
   return block;
 }
 
@@ -200,7 +218,8 @@ CellBatches SolidCells::batches(const Block& block, Index first, Index count, co
   view.dt = step.dt;
   view.history_variables = block.prepared_law.history;
   const std::size_t begin = block.history_first + block.history_per_cell() * at(first);
-  if (view.history_variables == 0) return view;
+  if (!block.length.empty()) view.length = block.length.data() + at(first);
+  if (block.history_per_cell() == 0) return view;
   if (!step.history.empty()) view.history = step.history.data() + begin;
   if (!end.empty()) view.new_history = end.data() + begin;
   return view;

@@ -30,16 +30,22 @@ struct Block {
   CellKernels kernels;
   PreparedLaw prepared_law;
   std::vector<Index> offset;
+  std::vector<double> length;     ///< of its cells, filled up as the batches; only with viscosity
   std::size_t history_first = 0;  ///< where the block's history begins among the points of all blocks
 
   std::size_t nodes() const { return static_cast<std::size_t>(stages.cell->nodes); }
   std::size_t lanes() const { return static_cast<std::size_t>(stages.lanes); }
   BatchLaw law() const { return prepared_law.batch(); }
-  /// Numbers of history of one lane, those of its hourglass modes included: batches, filled up, follow each other as
+  /// Numbers of history of one lane, those of the cell included: batches, filled up, follow each other as
   /// PointBatch::history.
   std::size_t history_per_cell() const {
     return static_cast<std::size_t>(stages.cell->points) * static_cast<std::size_t>(prepared_law.history) +
-           static_cast<std::size_t>(stages.hourglass_history);
+           static_cast<std::size_t>(stages.cell_history());
+  }
+  /// The rate of bulk viscosity that a cell of the block remembers, a position in it.
+  double bulk_rate(std::size_t cell, std::span<const double> history) const {
+    const std::size_t n = lanes(), batch = history_first + history_per_cell() * (cell / n * n);
+    return history[batch + (history_per_cell() - bulk_history + 1) * n + cell % n];
   }
   /// Numbers of history of the block.
   std::size_t history_size() const { return history_per_cell() * offset.size() / nodes(); }

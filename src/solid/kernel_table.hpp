@@ -3,6 +3,7 @@
 
 #include "element/cells.hpp"
 #include "material/law_table.hpp"
+#include "solid/bulk_stages.hpp"
 #include "solid/cell_stages.hpp"
 #include "solid/hexa8_finite.hpp"
 #include "solid/hexa8_small.hpp"
@@ -24,6 +25,8 @@ static constexpr KernelTable make_kernels() {
           finite_stages::stages<Real>(),
           small_dilatation::stages<Real>(),
           finite_dilatation::stages<Real>(),
+          small_bulk_stages<Real>(),
+          finite_bulk_stages<Real>(),
           make_law_table<Real>()};
 #undef CAROM_CELL_STAGES
 }

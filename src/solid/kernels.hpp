@@ -7,6 +7,8 @@
 #include "element/cell_list.hpp"
 #include "material/law_kernels.hpp"
 #include "material/point_batch.hpp"
+#include "model/model.hpp"
+#include "solid/bulk_viscosity.hpp"
 #include "solid/evaluation.hpp"
 #include "solid/stages.hpp"
 
@@ -15,17 +17,24 @@ namespace carom {
 /// Cells of a batch at most.
 inline constexpr int most_lanes = 8;
 
-/// What a batch goes through, of one number type: the cell, the kinematics, and mean dilatation unless null.
+/// What a batch goes through, of one number type: the cell, the kinematics, and mean dilatation and bulk viscosity
+/// unless null.
 struct BatchStages {
   int lanes = 1;
   const CellStages* cell = nullptr;
   const PointStages* points = nullptr;
   const DilatationStages* dilatation = nullptr;
+  const BulkStages* bulk = nullptr;
   double hourglass = 0.0;  ///< coefficient x modulus of the hourglass stiffness
-  /// Of hourglass modes that yield (solid/hourglass_flow.hpp): the coefficient, and the numbers that a cell remembers
-  /// of them, behind the history of its point. 0: they are elastic.
+  /// Of hourglass modes that yield or are viscous (solid/hourglass_flow.hpp): the coefficient, and the numbers that a
+  /// cell remembers of them, behind the history of its points. 0: they are elastic.
   double hourglass_coefficient = 0.0;
   int hourglass_history = 0;
+  Viscosity viscosity{};
+  double modulus = 0.0, rho = 0.0, wave_speed = 0.0;  ///< for viscosity: shear modulus, density, c, all at rest
+
+  /// Numbers that a cell remembers behind the history of its points.
+  int cell_history() const { return hourglass_history + (bulk == nullptr ? 0 : bulk_history); }
 };
 
 /// Cells of one type, section and material, `lanes` of them per batch. offset[(n b + a) lanes + l] is 3 x the node
@@ -36,11 +45,12 @@ struct CellBatches {
   const double* x = nullptr;  ///< coordinates, 3 per node
   const Index* offset = nullptr;
   Index cells = 0;
-  double thickness = 1.0;  ///< of plane cells; area of the section of bars
-  double dt = 0.0;         ///< length of the step, for laws with rates
+  double thickness = 1.0;          ///< of plane cells; area of the section of bars
+  double dt = 0.0;                 ///< length of the step, for laws with rates
+  const double* length = nullptr;  ///< of each cell, where there is viscosity, whole batches
   int history_variables = 0;
-  /// At the beginning of the step: one PointBatch::history after the other, each with the hourglass history behind it.
-  /// Null: at rest.
+  /// At the beginning of the step: one PointBatch::history after the other, each with what its cells remember of
+  /// hourglass modes and of bulk viscosity behind it. Null: at rest.
   const double* history = nullptr;
   double* new_history = nullptr;  ///< at its end; null: not wanted
 };
@@ -71,6 +81,7 @@ struct KernelTable {
   CellStages cells[cell_kinds];           ///< in the order of CellKind
   PointStages small, finite;
   DilatationStages small_dilatation, finite_dilatation;
+  BulkStages small_bulk, finite_bulk;
   LawTable laws;
 };
 

@@ -67,6 +67,7 @@ struct Solid::Impl {
         lengths[c] = cell_length(block.type, solid.coordinates_of(c));
       }
     });
+    bound_damping();
   }
 
   /// Adds the masses of points and rigid bodies to the diagonal of M.
@@ -91,6 +92,35 @@ struct Solid::Impl {
     });
     return bounds;
   }
+  /// Bounds of the eigenvalues of M^-1 C per cell: of a linear bulk viscosity of coefficient 1, and of the viscosity of
+  /// hourglass modes. C is what the tangent of a step has more than that without one, times its length.
+  void bound_damping() {
+    const auto is_viscous = [](const Block& block) { return !block.length.empty(); };
+    if (std::none_of(solid.blocks.begin(), solid.blocks.end(), is_viscous)) return;
+    bulk_damping.assign(solid.cells.size(), 0.0);
+    hourglass_damping = bulk_damping;
+    solid.for_each_batch({}, [&](std::size_t first, const Block& block, const CellBatches& batch) {
+      if (!is_viscous(block)) return;
+      const auto bound = [&](const Viscosity& viscosity, std::vector<double>& bounds) {
+        BatchStages stages = block.stages;
+        stages.viscosity = viscosity;
+        CellBatches viscous = batch;
+        viscous.stages = &stages;
+        std::vector<double> C, K;
+        batch_stiffness(viscous, block.kernels, block.law(), block.is_symmetric, nullptr, K);
+        viscous.dt = batch.length[0] / stages.wave_speed;
+        batch_stiffness(viscous, block.kernels, block.law(), block.is_symmetric, nullptr, C);
+        for (std::size_t k = 0; k < C.size(); ++k) C[k] = (C[k] - K[k]) * viscous.dt;
+        const std::size_t size = 9 * block.nodes() * block.nodes();
+        for (std::size_t l = 0; l < at(batch.cells); ++l)
+          bounds[first + l] = frequency_bound(std::span<const double>(C).subspan(size * l, size),
+                                              lumped(mass(first + l, block), block.nodes()), block.nodes());
+      };
+      if (block.stages.bulk != nullptr) bound({.linear = 1.0}, bulk_damping);
+      if (block.stages.viscosity.hourglass > 0.0)
+        bound({.hourglass = block.stages.viscosity.hourglass}, hourglass_damping);
+    });
+  }
   double largest_frequency() const {
     double largest = 0.0;
     for (const double bound : frequency_bounds()) largest = std::max(largest, bound);
@@ -114,6 +144,7 @@ struct Solid::Impl {
   std::vector<PointMass> point_masses;
   Springs springs;
   std::vector<double> volumes, lengths;
+  std::vector<double> bulk_damping, hourglass_damping;  ///< empty without viscosity
   TurningBodies turning_bodies;
 };
 
@@ -199,6 +230,8 @@ void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const 
     batch.offset = offset.data();
     const std::vector<double> history = impl_->solid.repeated_history(block, cell - block.first, step);
     if (!history.empty()) batch.history = history.data();
+    const std::vector<double> length(block.length.empty() ? 0 : block.lanes(), impl_->lengths[at(cell)]);
+    if (!length.empty()) batch.length = length.data();
     block.kernels.add_internal_force(batch, block.law(), u.data(), f.data(), nullptr);
   }
 }
@@ -338,6 +371,24 @@ std::vector<double> Solid::cell_masses() const {
 
 std::vector<double> Solid::cell_frequency_bounds() const {
   return impl_->frequency_bounds();
+}
+
+double Solid::largest_damping(std::span<const double> history) const {
+  double largest = 0.0;
+  for (const Block& block : impl_->solid.blocks) {
+    if (block.length.empty()) continue;
+    const Viscosity& viscosity = block.stages.viscosity;
+    const double quadratic = 2.0 * viscosity.quadratic * viscosity.quadratic / block.stages.wave_speed;
+    const auto of_cell = [&](std::size_t c) {
+      double closing = 0.0;
+      if (block.stages.bulk != nullptr && !history.empty()) closing = std::max(0.0, -block.bulk_rate(c, history));
+      const std::size_t position = at(block.first) + c;
+      return impl_->bulk_damping[position] * (viscosity.linear + quadratic * block.length[c] * closing) +
+             impl_->hourglass_damping[position];
+    };
+    largest = std::max(largest, parallel_max(at(block.cells), 0.0, of_cell));
+  }
+  return largest;
 }
 
 void Solid::external_force(double t, const Mass& mass, std::span<double> f) const {

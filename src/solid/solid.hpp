@@ -117,6 +117,11 @@ class Solid {
   /// order of cells().
   std::vector<double> cell_frequency_bounds() const;
 
+  /// Upper bound of the eigenvalues of M^-1 C, C the damping of artificial viscosity at the rates of the last step that
+  /// the history remembers (empty: at rest), by the lumped masses of the cells in the reference configuration; 1 /
+  /// time. Of the quadratic term twice the secant, its slope.
+  double largest_damping(std::span<const double> history) const;
+
   /// f = external force at time t (nodal forces, pressures, gravity); overwrites f. Gravity acts on the mass that the
   /// scheme uses.
   void external_force(double t, const Mass& mass, std::span<double> f) const;

@@ -3,12 +3,22 @@
 #include <cmath>
 #include <utility>
 
+#include "base/types.hpp"
 #include "material/discrete_gradient.hpp"
+#include "solid/bulk_viscosity.hpp"
 #include "solid/hourglass_flow.hpp"
 #include "solid/kernels.hpp"
 
 namespace carom {
 namespace {
+
+/// The bulk viscosity of one batch.
+struct Bulk {
+  alignas(64) double change[most_lanes];                   ///< V - V_0, then dV
+  alignas(64) double g[6 * most_points * most_lanes];      ///< dJ/dE
+  alignas(64) double pressure[most_lanes];                 ///< q
+  alignas(64) double slope[most_lanes], lost[most_lanes];  ///< dq/dV, and dissipated since the start
+};
 
 /// Buffers of the points of one batch.
 struct Buffers {
@@ -21,6 +31,7 @@ struct Buffers {
   alignas(64) double dissipation[most_points * most_lanes];
   alignas(64) double P[9 * most_points * most_lanes];
   alignas(64) double yield_stress[most_points * most_lanes];
+  Bulk bulk;
 };
 
 /// The hourglass modes of one batch, or their changes, [c lanes + l] of most_hourglass or 9 numbers c.
@@ -29,7 +40,7 @@ struct Modes {
   alignas(64) double pulled[most_hourglass * most_lanes];  ///< F^T q of finite strain, else q
   alignas(64) double force[most_hourglass * most_lanes];   ///< that works with q
   alignas(64) double P[9 * most_lanes];                    ///< what they add to the stress of the point
-  double stiffness[most_lanes], stored[most_lanes], lost[most_lanes];
+  double stiffness[most_lanes], stored[most_lanes], lost[most_lanes], viscous[most_lanes];
   HourglassReturn of_lane[most_lanes];
 };
 
@@ -55,10 +66,11 @@ class Batch {
   /// Where the batch stands in a history.
   template <class Number>
   Number* of_batch(Number* history) const {
-    const int numbers = points() * cells_.history_variables + stages_.hourglass_history;
+    const int numbers = points() * cells_.history_variables + stages_.cell_history();
     return history == nullptr ? nullptr : history + static_cast<std::ptrdiff_t>(first_) * numbers;
   }
-  bool modes_yield() const { return stages_.hourglass_history > 0; }
+  bool modes_remember() const { return stages_.hourglass_history > 0; }
+  bool modes_yield() const { return modes_remember() && cells_.history_variables > 0; }
   double weight(int p, int l) const { return b_.geometry[p * lanes() + l]; }
 
   /// F and the strain E of u.
@@ -85,6 +97,7 @@ class Batch {
   /// All up to the stress that works with the strain E.
   void evaluate(const double* u, bool with_energies) const {
     kinematics(u, b_.gradient, b_.strain);
+    if (stages_.bulk != nullptr) return_bulk();
     to_law(b_.strain);
     const bool dissipates = with_energies && cells_.history_variables > 0;
     constitutive(b_.strain, b_.stress, with_energies ? b_.energy : nullptr, dissipates ? b_.dissipation : nullptr,
@@ -109,6 +122,7 @@ class Batch {
     for (int l = 0; l < count_; ++l) sum += energy[l];
     return sum;
   }
+  void return_bulk() const;
   void return_modes(const double* u, Modes& modes) const;
   void change_modes(const double* x, const double* dH, const Modes& modes, Modes& change) const;
   /// Adds the forces of hourglass modes that yield to the stress of the point and to f.
@@ -118,25 +132,35 @@ class Batch {
     stages_.cell->add_hourglass_forces(b_.geometry, modes.force, offset_, count_, f);
   }
 
+  /// The stress that works with E, from what the law has answered.
+  void complete_stress() const {
+    from_law(b_.strain, b_.stress);
+    if (stages_.bulk != nullptr) stages_.bulk->add_scaled(points(), b_.bulk.pressure, b_.bulk.g, b_.stress);
+  }
+
   void add_internal_force(const double* u, double* f, SolidEnergies* energies) const {
     evaluate(u, energies != nullptr);
-    from_law(b_.strain, b_.stress);
+    complete_stress();
     stages_.points->stress(points(), frame(), b_.gradient, b_.stress, b_.P);
-    double hourglass = 0.0, loss = 0.0;
-    if (modes_yield()) {
+    double hourglass = 0.0, loss = 0.0, viscous = 0.0;
+    if (modes_remember()) {
       Modes modes;
       return_modes(u, modes);
       scatter_with(modes, f);
       for (int l = 0; l < count_; ++l) {
         hourglass += modes.stored[l];
         loss += modes.lost[l];
+        viscous += modes.viscous[l];
       }
     } else {
       scatter(f);
       hourglass = add_hourglass(u, f);
     }
     if (energies == nullptr) return;
+    if (stages_.bulk != nullptr)
+      for (int l = 0; l < count_; ++l) viscous += b_.bulk.lost[l];
     energies->hourglass_loss += loss;
+    energies->viscous += viscous;
     energies->strain += integral(b_.energy);
     if (cells_.history_variables > 0) energies->plastic += integral(b_.dissipation);
     energies->hourglass += hourglass;
@@ -145,21 +169,25 @@ class Batch {
   /// P = dH S + F dS, dS by the law's tangent of dE.
   void add_tangent_action(const double* u, const double* x, double* y) const {
     evaluate(u, false);
-    from_law(b_.strain, b_.stress);
+    complete_stress();
     alignas(64) double dE[6 * most_points * most_lanes], dS[6 * most_points * most_lanes];
+    alignas(64) double viscous[6 * most_points * most_lanes];
     stages_.cell->gradients(b_.geometry, x, offset_, b_.P);
     stages_.points->strain_change(points(), frame(), b_.gradient, b_.P, dE);
+    if (stages_.bulk != nullptr) change_bulk(dE, viscous);
     const DilatationStages* dilatation = stages_.dilatation;
     if (dilatation != nullptr) dilatation->strain_change(points(), b_.geometry, b_.memory, b_.strain, dE);
     law_.tangent(law_.parameters, {points(), b_.strain, dE, dS, cells_.dt, of_batch(cells_.history)});
     if (dilatation != nullptr) dilatation->stress_change(points(), b_.geometry, b_.memory, b_.strain, dE, dS);
+    if (stages_.bulk != nullptr)
+      for (int c = 0; c < 6 * points() * lanes(); ++c) dS[c] += viscous[c];
     Modes modes, change;
-    if (modes_yield()) {
+    if (modes_remember()) {
       return_modes(u, modes);
       change_modes(x, b_.P, modes, change);
     }
     stages_.points->stress_change(points(), frame(), b_.gradient, b_.P, b_.stress, dS, b_.P);
-    if (modes_yield()) {
+    if (modes_remember()) {
       scatter_with(change, y);
       return;
     }
@@ -187,6 +215,7 @@ class Batch {
 
  private:
   std::ptrdiff_t at(int p, int c, int l) const { return static_cast<std::ptrdiff_t>(6 * p + c) * lanes() + l; }
+  void change_bulk(const double* dE, double* dS) const;
   void correct_points(const double* E_0, const double* E_1, const double* W_0, const double* W_1) const;
   void correct_cells(const double* E_0, const double* E_1, const double* W_0, const double* W_1) const;
 
@@ -199,10 +228,55 @@ class Batch {
   int count_ = 0;
 };
 
+/// Of the strain E of the kinematics: the viscous pressure and what is remembered of it.
+void Batch::return_bulk() const {
+  Bulk& bulk = b_.bulk;
+  stages_.bulk->volume(points(), b_.geometry, b_.strain, bulk.change, bulk.g);
+  const int n = lanes();
+  const std::ptrdiff_t behind =
+      static_cast<std::ptrdiff_t>(points() * cells_.history_variables + stages_.hourglass_history) * n;
+  const double* history = of_batch(cells_.history);
+  double* new_history = of_batch(cells_.new_history);
+  for (int l = 0; l < n; ++l) {
+    double volume = 0.0;
+    for (int p = 0; p < points(); ++p) volume += weight(p, l);
+    const double* before = history == nullptr ? nullptr : history + behind + l;
+    const double mass = stages_.rho * cells_.length[first_ + l], b_2 = stages_.viscosity.quadratic;
+    const double after = bulk.change[l] / volume;
+    BulkReturn of_lane{.linear = mass * stages_.viscosity.linear * stages_.wave_speed,
+                       .quadratic = mass * cells_.length[first_ + l] * b_2 * b_2};
+    if (before == nullptr)
+      of_lane.go(0.0, 0.0, after, cells_.dt);
+    else
+      of_lane.go(before[0], before[n], after, cells_.dt);
+    bulk.pressure[l] = of_lane.pressure;
+    bulk.slope[l] = of_lane.slope / volume;
+    bulk.lost[l] = of_lane.lost * volume + (before == nullptr ? 0.0 : before[2 * n]);
+    if (new_history == nullptr) continue;
+    double* end = new_history + behind + l;
+    end[0] = after;
+    end[n] = of_lane.rate;
+    end[2 * n] = bulk.lost[l];
+  }
+}
+
+/// dS = dq g + q dg of dE.
+void Batch::change_bulk(const double* dE, double* dS) const {
+  alignas(64) double dg[6 * most_points * most_lanes];
+  const Bulk& bulk = b_.bulk;
+  alignas(64) double dq[most_lanes];
+  stages_.bulk->volume_change(points(), b_.geometry, bulk.g, dE, dq);
+  for (int l = 0; l < lanes(); ++l) dq[l] *= bulk.slope[l];
+  stages_.bulk->gradient_change(points(), bulk.g, dE, dg);
+  std::fill_n(dS, 6 * points() * lanes(), 0.0);
+  stages_.bulk->add_scaled(points(), dq, bulk.g, dS);
+  stages_.bulk->add_scaled(points(), bulk.pressure, dg, dS);
+}
+
 /// After `evaluate`: the modes of u at the end of the step, and what is remembered of them. Their forces are F T on the
 /// nodes' modes, and q T^T / V on F.
 void Batch::return_modes(const double* u, Modes& modes) const {
-  const int n = lanes(), d = stages_.cell->directions, size = stages_.hourglass_history - 1;
+  const int n = lanes(), d = stages_.cell->directions, size = stages_.cell->modes * d;
   stages_.cell->hourglass(b_.geometry, u, offset_, modes.q, modes.stiffness);
   const bool is_finite = stages_.points->is_finite;
   const auto F = [&](int i, int j, int l) { return b_.gradient[(3 * i + j) * n + l]; };
@@ -218,16 +292,33 @@ void Batch::return_modes(const double* u, Modes& modes) const {
         for (int j = 0; j < d; ++j) modes.pulled[at_mode(m, j)] += F(i, j, l) * modes.q[at_mode(m, i)];
     const double* before = history == nullptr ? nullptr : history + behind + l;
     const double volume = weight(0, l), c = stages_.hourglass_coefficient;
-    const double limit = c * std::sqrt(modes.stiffness[l] * volume / 3.0) * b_.yield_stress[l];
+    const double limit =
+        modes_yield() ? c * std::sqrt(modes.stiffness[l] * volume / 3.0) * b_.yield_stress[l] : infinity;
+    double damper = 0.0;  // of the step: viscosity over its length
+    if (stages_.viscosity.hourglass > 0.0 && cells_.dt > 0.0)
+      damper = stages_.viscosity.hourglass * stages_.modulus * modes.stiffness[l] * cells_.length[first_ + l] /
+               (stages_.wave_speed * cells_.dt);
     modes.stiffness[l] *= stages_.hourglass;
     HourglassReturn& of_lane = modes.of_lane[l];
     of_lane.go(size, n, modes.pulled + l, before, modes.stiffness[l], limit);
     modes.stored[l] = of_lane.stored;
     modes.lost[l] = of_lane.lost + (before == nullptr ? 0.0 : before[size * n]);
+    modes.viscous[l] = 0.0;
+    if (stages_.viscosity.hourglass > 0.0) {
+      const double* rest = before == nullptr ? nullptr : before + (size + 1) * n;
+      modes.viscous[l] = of_lane.damp(size, n, modes.pulled + l, rest, damper);
+    }
     if (new_history != nullptr) {
       double* after = new_history + behind + l;
       for (int k = 0; k < size; ++k) after[k * n] = of_lane.plastic[k];
       after[size * n] = modes.lost[l];
+      if (stages_.viscosity.hourglass > 0.0) {
+        for (int k = 0; k < size; ++k) {
+          after[(size + 1 + k) * n] = modes.pulled[k * n + l];
+          after[(2 * size + 1 + k) * n] = of_lane.viscous_force(k);
+        }
+        after[(3 * size + 1) * n] = modes.viscous[l];
+      }
     }
     for (int m = 0; m < stages_.cell->modes; ++m)
       for (int i = 0; i < d; ++i) {
@@ -245,7 +336,7 @@ void Batch::return_modes(const double* u, Modes& modes) const {
 /// The changes of forces and stress with x, whose gradient is dH: d(F^T q) = dH^T q + F^T dq, d(F T) = dH T + F dT and
 /// d(q T^T) = dq T^T + q dT^T.
 void Batch::change_modes(const double* x, const double* dH, const Modes& modes, Modes& change) const {
-  const int n = lanes(), d = stages_.cell->directions, size = stages_.hourglass_history - 1;
+  const int n = lanes(), d = stages_.cell->directions, size = stages_.cell->modes * d;
   stages_.cell->hourglass(b_.geometry, x, offset_, change.q, change.stiffness);
   const bool is_finite = stages_.points->is_finite;
   std::fill_n(change.P, 9 * n, 0.0);

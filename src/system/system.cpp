@@ -19,6 +19,7 @@ void evaluate_solid(const System& system, const PointStep& step, State& end) {
   forces.stored.plastic = energies.plastic;
   forces.stored.hourglass = energies.hourglass;
   forces.stored.hourglass_loss = energies.hourglass_loss;
+  forces.stored.viscous = energies.viscous;
 }
 
 void evaluate_bodies(const System& system, const PointStep& step, State& end) {

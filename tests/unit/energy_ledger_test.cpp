@@ -91,7 +91,7 @@ TEST(EnergyTerms, EnterTheBalanceByTheirKind) {
     terms.*term.value = 1.0;
     EXPECT_EQ(terms.imbalance(), term.kind == TermKind::supplied ? -1.0 : 1.0) << term.name;
     EXPECT_EQ(terms.mechanical(), term.kind == TermKind::stored ? 1.0 : 0.0) << term.name;
-    EXPECT_EQ(change_of_stored({}, terms).mechanical(), terms.mechanical()) << term.name;
+    EXPECT_EQ(change_of_state({}, terms).mechanical(), terms.mechanical()) << term.name;
     terms += terms;
     EXPECT_EQ(terms.*term.value, 2.0) << term.name;
   }
@@ -100,7 +100,7 @@ TEST(EnergyTerms, EnterTheBalanceByTheirKind) {
 TEST(EnergyTerms, AreTheManuals) {
   std::ostringstream manual;
   manual << std::ifstream(CAROM_SOURCE_DIR "/docs/architecture.md").rdbuf();
-  const char* kinds[] = {"stored", "dissipated", "supplied", "scheme"};
+  const char* kinds[] = {"stored", "spent", "dissipated", "supplied", "scheme"};
   for (const EnergyTerm& term : energy_terms) {
     const std::string row = "| `" + std::string(term.name) + "` | " + kinds[static_cast<int>(term.kind)] + " | " +
                             std::string(term.definition) + " |\n";

@@ -22,19 +22,25 @@ struct Body {
   const char* name;
   Material material;
   Formulation formulation = Formulation::full;
+  Viscosity viscosity{};
 };
 const std::vector<Body>& bodies() {
   static const Material j2("j2", 1.5, {{"E", 2.0}, {"nu", 0.3}, {"yield_stress", 0.05}, {"hardening_modulus", 1.0}});
   static const std::vector<Body> all{{"linear", unit_material},
                                      {"neo-Hookean", NeoHookean{unit_material}},
                                      {"J2", j2},
-                                     {"J2, one point", j2, Formulation::one_point}};
+                                     {"J2, one point", j2, Formulation::one_point},
+                                     {"viscous, one point",
+                                      NeoHookean{unit_material},
+                                      Formulation::one_point,
+                                      {.linear = 0.1, .quadratic = 1.2, .hourglass = 0.1}}};
   return all;
 }
 
 void make_of(Part& part, const Body& body) {
   part.material = body.material;
   part.formulation = body.formulation;
+  part.viscosity = body.viscosity;
 }
 
 /// A block that falls obliquely onto a plane and turns, so that its nodes touch one after the other.
@@ -181,7 +187,7 @@ class Purity {
     }
     EXPECT_TRUE(touches);
     if (settings_.kind != SchemeKind::statics) {  // which yields under its weight alone
-      EXPECT_EQ(ledger.now().plastic > 0.0, !state.points.empty());
+      EXPECT_EQ(ledger.now().sum(TermKind::spent) > 0.0, !state.points.empty());
     }
   }
 
@@ -226,7 +232,8 @@ class Purity {
 /// One-point cells where contact is simplest, since it knows nothing of them. Conjugate gradients on one body in each
 /// scene; they need not find the equilibrium of what friction alone holds.
 bool is_tried(SchemeKind scheme, EnforcementKind enforcement, const Scene& scene, const Body& body, SolverKind solver) {
-  if (!body.material.law->history.empty() && !traits(scheme).takes_history) return false;
+  const bool remembers = !body.material.law->history.empty() || body.viscosity.is_any();
+  if (remembers && !traits(scheme).takes_history) return false;
   if (body.formulation != Formulation::full && enforcement != EnforcementKind::penalty) return false;
   if (solver == SolverKind::cholesky) return true;
   if (is_explicit(scheme) || scheme == SchemeKind::statics) return false;
