@@ -122,16 +122,17 @@ double StepGuard::longest(std::span<const double> u) const {
   return share * std::min(1.0, 1.02 * stage_.time().safety) * steps.advised();
 }
 
-/// False when springs act at the end that need a step at least 2^(1/8) shorter than the one that met them, which is the
-/// length of the next ones then.
+/// False when springs or viscosity act at the end that need a step at least 2^(1/8) shorter than the one that met them,
+/// which is the length of the next ones then.
 bool StepGuard::fits(const State& end) {
   const Forces& forces = end.forces;
   rows_ = forces.rows.rows;
+  const bool is_damped = watch_->follow_damping(end.points);
   const double longest = this->longest(end.q);
   const bool springs_act = std::any_of(forces.rows.status.begin(), forces.rows.status.end(),
                                        [](RowStatus status) { return status != RowStatus::open; });
   const double dt = control_.dt();
-  if (!springs_act || longest >= dt * std::exp2(-1.0 / 8.0) || !control_.limit(longest)) return true;
+  if ((!springs_act && !is_damped) || longest >= dt * std::exp2(-1.0 / 8.0) || !control_.limit(longest)) return true;
   return control_.dt() >= dt;
 }
 
@@ -140,7 +141,7 @@ void StepGuard::follow_stable_step(const State& now, long long step) {
   constexpr long long every = 10;
   constexpr double restless = 0.05;  // change of the bodies' frequency after which they are looked at again at once
   const bool is_due = step % every == 0 || is_restless_;
-  if (is_due) is_restless_ = watch_->follow_bodies(now.q, now.points) > restless;
+  if (is_due) is_restless_ = watch_->follow_bodies(now.q) > restless;
   const double longest = this->longest(now.q);
   if (!is_due && longest >= control_.dt()) return;
   if (control_.limit(longest)) return;

@@ -17,7 +17,8 @@ namespace carom {
 /// Implicit stages with time.event_tolerance: a step in which rows close earlier before its end than the tolerance, as
 /// a fraction of the usual step, is made again so that it ends at the touch (contact_event); the steps after it are no
 /// longer than the tolerance either, and grow again. Both at most eight times in a step. Explicit stages whose stable
-/// step changes follow it (StableStepWatch), and a step that meets springs for which it was too long is made again.
+/// step changes follow it (StableStepWatch), and a step that meets springs or rates of viscosity for which it was too
+/// long is made again.
 /// Where contact is springs and the case leaves the explicit step to the program, steps that make energy are made again
 /// (EnergyGuard), and what it makes shorter for good stays so for the rest of the stage; so are implicit ones that
 /// gain, unless the step is fixed.

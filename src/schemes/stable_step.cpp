@@ -141,12 +141,16 @@ StableStepWatch::StableStepWatch(const System& system, double limit, Enforcement
   largest_ = largest_bound(zero);
 }
 
-double StableStepWatch::follow_bodies(std::span<const double> u, std::span<const double> points) {
+bool StableStepWatch::follow_damping(std::span<const double> points) {
+  damping_ = system_.solid.largest_damping(points) * std::max(1.0, omega_squared_ / at_rest_);
+  return damping_ > 0.0;
+}
+
+double StableStepWatch::follow_bodies(std::span<const double> u) {
   if (system_.solid.is_linear()) return 0.0;
   const double before = omega_squared_;
   const double of_tangent = has_elastic_ ? follow_tangent(u) : 0.0;
   omega_squared_ = cells_.empty() ? of_tangent : std::max(of_tangent, at_rest_ * largest_bound(u) / largest_);
-  damping_ = system_.solid.largest_damping(points) * std::max(1.0, omega_squared_ / at_rest_);
   return 0.5 * std::abs(omega_squared_ / before - 1.0);
 }
 

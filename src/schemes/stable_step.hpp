@@ -59,9 +59,10 @@ class StableStepWatch {
   /// at rest, elastic, times the largest growth of c / l over the cells, c a cell's wave speed and l its length where
   /// its nodes stand (Courant, Friedrichs and Lewy, Mathematische Annalen 100, 1928; cell_frequency_bounds are c^2 /
   /// l^2 at rest).
-  ///
-  /// The damping of artificial viscosity is that of the rates that the points remember, times the same growth.
-  double follow_bodies(std::span<const double> u, std::span<const double> points);
+  double follow_bodies(std::span<const double> u);
+  /// Takes the damping of artificial viscosity from the rates that the points remember of a step, times the growth of
+  /// the bodies' omega^2, as it goes with 1 / l^2. One pass over cells with viscosity; false where there are none.
+  bool follow_damping(std::span<const double> points);
   /// The steps with these rows, those of displacement u, every one of them closed. Cheap: two passes over the rows.
   StableStep with(const ConstraintRows& rows, std::span<const double> u) const;
 
