@@ -45,9 +45,11 @@ static inline double next_lateral(LateralSearch& search, double x, double stress
 }
 
 /// Solves for the lateral strain of one point, lane by lane, and puts it into `strain`. It begins with that of the
-/// beginning of the step, the last history variable. A lane that is no number stays so.
+/// beginning of the step, the last history variable, and ends there when the step is over. A lane that is no number
+/// stays so.
 template <class Real>
-static void complete_strain(const LateralLaw& law, double* strain, const double* history, double dt) {
+static void complete_strain(const LateralLaw& law, double* strain, const double* history, double dt,
+                            bool is_over = false) {
   constexpr int n = lanes<Real>;
   double x[n];
   if (law.lateral_strain != nullptr) {
@@ -65,6 +67,10 @@ static void complete_strain(const LateralLaw& law, double* strain, const double*
   for (int l = 0; l < n; ++l) {
     search[l] = {law.least_strain, 1e3, 1e3};
     x[l] = history == nullptr ? 0.0 : history[law.history * n + l];
+  }
+  if (is_over && history != nullptr) {
+    fill_lateral<n>(law, x, strain);
+    return;
   }
   fill_lateral<n>(law, 1.0, unit);
   constexpr int most = 100;
@@ -102,11 +108,12 @@ static void lateral_update(const void* parameters, const PointBatch& batch) {
     double* strain = batch.strain + 6 * p * n;
     const double* history = at(batch.history, H * p);
     double* new_history = at(batch.new_history, H * p);
-    complete_strain<Real>(law, strain, history, batch.dt);
+    complete_strain<Real>(law, strain, history, batch.dt, batch.is_over);
     double* stress = batch.stress + 6 * p * n;
     double* wave_modulus = at(batch.wave_modulus, p * n);
-    law.kernels.update(law.parameters, {1, strain, stress, at(batch.energy, p * n), batch.dt, history, new_history,
-                                        at(batch.dissipation, p * n), wave_modulus, at(batch.yield_stress, p * n)});
+    law.kernels.update(law.parameters,
+                       {1, strain, stress, at(batch.energy, p * n), batch.dt, history, new_history,
+                        at(batch.dissipation, p * n), wave_modulus, at(batch.yield_stress, p * n), batch.is_over});
     fill_lateral<n>(law, 0.0, stress);
     for (int l = 0; l < n; ++l) {
       if (wave_modulus != nullptr) wave_modulus[l] *= law.wave_ratio;

@@ -127,7 +127,7 @@ static void finite_plastic_update(const void* parameters, const PointBatch& batc
     make_deviator(eps);
     const Real square = norm_square(eps), trial = G * square_root(Real(6.0 * square));
     const RadialReturn<Real> at_end =
-        radial_return(law, trial, history == nullptr ? nullptr : history + 6 * n, batch.dt);
+        radial_return(law, trial, history == nullptr ? nullptr : history + 6 * n, batch.dt, batch.is_over);
     const Real pressure_part = K * trace, modulus = 2.0 * G * at_end.share;
     for (int c = 0; c < 6; ++c) tau[c] = c < 3 ? pressure_part + modulus * eps[c] : modulus * eps[c];
     sandwich_lower(stretch.inverse, tau, S);

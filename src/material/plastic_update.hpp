@@ -21,16 +21,18 @@ struct RadialReturn {
   Real variables[most_plastic_variables];
 };
 
-/// trial: equivalent trial stress.
+/// trial: equivalent trial stress, which is that of the end once the step is over (PointBatch::is_over).
 template <class Real>
 [[gnu::always_inline]] static inline RadialReturn<Real> radial_return(const PlasticLaw& law, const Real& trial,
-                                                                      const double* variables, double dt) {
+                                                                      const double* variables, double dt,
+                                                                      bool is_over = false) {
   constexpr int n = lanes<Real>;
   const int count = law.variables;
   RadialReturn<Real> result{Real{} + 1.0, Real{} + 1.0, {}};
   for (int v = 0; v < count; ++v) result.variables[v] = variables == nullptr ? Real{} : load<Real>(variables + v * n);
   double stress[n], share[n], slope[n], values[most_plastic_variables * n] = {};
   store(stress, trial);
+  if (is_over) return result;
   bool may_yield = false;
   for (int l = 0; l < n; ++l) may_yield = may_yield || stress[l] > law.elastic_limit;
   if (!may_yield) return result;
@@ -130,7 +132,7 @@ static void small_plastic_update(const void* parameters, const PointBatch& batch
     const double* history = batch.history == nullptr ? nullptr : batch.history + H * p;
     const SmallTrial<Real> trial = small_trial<Real>(law, batch.strain + 6 * p * n, history);
     const RadialReturn<Real> at_end =
-        radial_return(law, trial.stress, history == nullptr ? nullptr : history + 6 * n, batch.dt);
+        radial_return(law, trial.stress, history == nullptr ? nullptr : history + 6 * n, batch.dt, batch.is_over);
     const Real pressure_part = K * trial.trace, modulus = 2.0 * G * at_end.share;
     double* stress = batch.stress + 6 * p * n;
     for (int c = 0; c < 3; ++c) store(stress + c * n, Real(pressure_part + modulus * trial.deviator[c]));

@@ -23,6 +23,8 @@ struct PointBatch {
                                    ///< rho per reference volume
   double* yield_stress = nullptr;  ///< equivalent stress of slow flow at the beginning of the step; only laws that
                                    ///< yield fill it
+  /// The history is that at the end of the step already: nothing flows any more, and the stress is the step's.
+  bool is_over = false;
 };
 
 /// Changes of stress with changes of strain at given strains and history at the beginning of the step; layout as in

@@ -27,7 +27,7 @@ struct StepView {
   std::string_view alarm{};  ///< why the run cannot go on after this step; "" where it can
 
   /// What the points of the bodies remember.
-  PointStep points() const { return {dt, state.points}; }
+  PointStep points() const { return {dt, state.points, true}; }
   /// No step follows.
   bool is_last() const { return ends_run || !alarm.empty(); }
 };

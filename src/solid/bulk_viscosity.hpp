@@ -21,6 +21,11 @@ struct BulkReturn {
   double slope = 0.0;                    ///< dq/dj_1
   double lost = 0.0;                     ///< in the step, over V_0
 
+  /// The step is over: q of the rate that it had.
+  void stay(double rate_of_step, double after) {
+    rate = rate_of_step;
+    pressure = pressure_of(rate, after);
+  }
   /// before, after: j - 1; rate_before: of the step before. Without a step nothing flows.
   void go(double before, double rate_before, double after, double dt) {
     if (!(dt > 0.0)) return;

@@ -6,10 +6,12 @@
 namespace carom {
 
 /// The step that ends at the displacement: its length, for laws with rates, and the history of the quadrature points at
-/// its beginning (Solid::initial_history). Empty: the points at rest.
+/// its beginning (Solid::initial_history). Empty: the points at rest. is_over: the history is that at its end, and the
+/// forces and stresses are those that the step has ended with.
 struct PointStep {
   double dt = 0.0;
   std::span<const double> history;
+  bool is_over = false;
 };
 
 /// Integrals over the bodies of what is stored (strain, hourglass) and what their points and

@@ -69,6 +69,10 @@ struct HourglassReturn {
     }
     return work + (before == nullptr ? 0.0 : before[2 * size * stride]);
   }
+  /// The step is over: adds the viscous force that it ended with.
+  void hold(int size, int stride, const double* before) {
+    for (int c = 0; c < size; ++c) force[c] += before[(size + c) * stride];
+  }
   double viscous_force(int c) const { return force[c] - returned[c]; }
 
   /// dT of dq: k share (dq - n (n . dq)) where the modes yield, n the direction of what is returned, and damper dq. dT

@@ -53,6 +53,7 @@ struct CellBatches {
   /// hourglass modes and of bulk viscosity behind it. Null: at rest.
   const double* history = nullptr;
   double* new_history = nullptr;  ///< at its end; null: not wanted
+  bool is_over = false;           ///< the history is that at its end (PointStep)
 };
 
 /// The kernels of one kind of cell under one formulation. Dof vectors have 3 entries per node. None of them allocates.

@@ -91,6 +91,7 @@ class Batch {
     batch.history = of_batch(cells_.history);
     if (keep_history) batch.new_history = of_batch(cells_.new_history);
     batch.dissipation = dissipation;
+    batch.is_over = cells_.is_over;
     if (modes_yield()) batch.yield_stress = b_.yield_stress;
     law_.update(law_.parameters, batch);
   }
@@ -247,6 +248,8 @@ void Batch::return_bulk() const {
                        .quadratic = mass * cells_.length[first_ + l] * b_2 * b_2};
     if (before == nullptr)
       of_lane.go(0.0, 0.0, after, cells_.dt);
+    else if (cells_.is_over)
+      of_lane.stay(before[n], after);
     else
       of_lane.go(before[0], before[n], after, cells_.dt);
     bulk.pressure[l] = of_lane.pressure;
@@ -292,8 +295,9 @@ void Batch::return_modes(const double* u, Modes& modes) const {
         for (int j = 0; j < d; ++j) modes.pulled[at_mode(m, j)] += F(i, j, l) * modes.q[at_mode(m, i)];
     const double* before = history == nullptr ? nullptr : history + behind + l;
     const double volume = weight(0, l), c = stages_.hourglass_coefficient;
-    const double limit =
-        modes_yield() ? c * std::sqrt(modes.stiffness[l] * volume / 3.0) * b_.yield_stress[l] : infinity;
+    const double limit = modes_yield() && !cells_.is_over
+                             ? c * std::sqrt(modes.stiffness[l] * volume / 3.0) * b_.yield_stress[l]
+                             : infinity;
     double damper = 0.0;  // of the step: viscosity over its length
     if (stages_.viscosity.hourglass > 0.0 && cells_.dt > 0.0)
       damper = stages_.viscosity.hourglass * stages_.modulus * modes.stiffness[l] * cells_.length[first_ + l] /
@@ -306,7 +310,10 @@ void Batch::return_modes(const double* u, Modes& modes) const {
     modes.viscous[l] = 0.0;
     if (stages_.viscosity.hourglass > 0.0) {
       const double* rest = before == nullptr ? nullptr : before + (size + 1) * n;
-      modes.viscous[l] = of_lane.damp(size, n, modes.pulled + l, rest, damper);
+      if (cells_.is_over && rest != nullptr)
+        of_lane.hold(size, n, rest);
+      else
+        modes.viscous[l] = of_lane.damp(size, n, modes.pulled + l, rest, damper);
     }
     if (new_history != nullptr) {
       double* after = new_history + behind + l;

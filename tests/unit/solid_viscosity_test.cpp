@@ -158,6 +158,39 @@ TEST_P(ViscousBody, TangentIsTheDerivativeOfTheForce) {
     EXPECT_NEAR((plus[d] - minus[d]) / (2 * h), Kx[d], 1e-6 * largest(Kx)) << d;
 }
 
+// What is recorded of a step is asked for when it is over: the forces are those that it ended with.
+void expect_forces_of_the_end(const Model& model) {
+  Walk walk(model);
+  for (const unsigned seed : {4U, 5U}) {
+    auto u = random_vector(3 * model.mesh->node_count(), seed);
+    for (double& entry : u) entry *= 0.03;
+    walk.go(u);
+    std::vector<double> again(u.size());
+    walk.solid.internal_force(u, again, {dt, walk.history, true});
+    EXPECT_LT(largest_difference(again, walk.f), 1e-12 * largest(walk.f));
+  }
+}
+TEST_P(ViscousBody, HasTheForcesOfTheEndWhenTheStepIsOver) {
+  expect_forces_of_the_end(model_);
+}
+TEST(JohnsonCook, HasTheForcesOfTheEndWhenTheStepIsOver) {
+  const Material material("johnson_cook", 1.5,
+                          {{"E", 2.0},
+                           {"nu", 0.3},
+                           {"A", 0.02},
+                           {"B", 0.05},
+                           {"n", 0.4},
+                           {"C", 0.3},
+                           {"m", 1.0},
+                           {"reference_rate", 1e-3},
+                           {"melting_temperature", 1300.0},
+                           {"specific_heat", 1e-4}});
+  for (const Element& element : elements()) {
+    SCOPED_TRACE(std::string(name(element.type)) + " " + std::string(name(element.formulation)));
+    expect_forces_of_the_end(body(distorted_mesh(element.type), element, material));
+  }
+}
+
 // Steps by which a body moves and turns alone: no volume changes, no mode works. Small strain takes translations only.
 TEST_P(ViscousBody, RigidMotionsAreNotResisted) {
   const bool is_finite = is_finite_strain(GetParam()) && GetParam().element.section != Section::axisymmetric;
