@@ -66,7 +66,6 @@ class Lanczos {
     beta_ = normalise(v_);
   }
 
-  const std::vector<double>& vector() const { return v_; }
   bool is_finished() const { return beta_ == 0.0; }
 
   /// One more iteration; the estimate so far.
@@ -86,11 +85,9 @@ class Lanczos {
       beta_ = 0.0;
       return {alpha, alpha, k};
     }
-    ritz_ = largest_ritz_pair(diagonal_, off_diagonal_);
-    return {ritz_.value, ritz_.value + beta_ * std::abs(ritz_.vector.back()), k};
+    const RitzPair ritz = largest_ritz_pair(diagonal_, off_diagonal_);
+    return {ritz.value, ritz.value + beta_ * std::abs(ritz.vector.back()), k};
   }
-  /// Components of the Ritz vector in the vectors so far.
-  const std::vector<double>& ritz() const { return ritz_.vector; }
 
  private:
   /// v /= |v|_M; returns |v|_M.
@@ -104,7 +101,6 @@ class Lanczos {
   const Pencil& pencil_;
   std::vector<double> v_, p_, v_old_, w_, Kv_, diagonal_, off_diagonal_;
   double beta_ = 0.0;
-  RitzPair ritz_;
 };
 
 /// A vector without components on what M_inverse leaves out.
@@ -132,28 +128,6 @@ EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, std::size_t n, do
     std::copy(x.begin(), x.end(), y.begin());
   };
   return largest_eigenvalue({A, identity, identity}, n, tolerance, max_iterations);
-}
-
-EigenvalueEstimate follow_largest_eigenvalue(const Pencil& pencil, std::size_t n, std::vector<double>& x,
-                                             int iterations) {
-  EigenvalueEstimate estimate;
-  if (n == 0) return estimate;
-  std::vector<double> start = start_vector(pencil, n);
-  if (!x.empty()) {
-    const double share = 0.1 * std::sqrt(dot(x, x) / dot(start, start));
-    parallel_each(n, [&](std::size_t i) { start[i] = x[i] + share * start[i]; });
-  }
-  Lanczos lanczos(pencil, std::move(start));
-  std::vector<std::vector<double>> basis;
-  while (!lanczos.is_finished() && estimate.iterations < iterations) {
-    basis.push_back(lanczos.vector());
-    estimate = lanczos.iterate();
-  }
-  x.assign(n, 0.0);
-  for (std::size_t k = 0; k < basis.size() && k < lanczos.ritz().size(); ++k) {
-    parallel_each(n, [&](std::size_t i) { x[i] += lanczos.ritz()[k] * basis[k][i]; });
-  }
-  return estimate;
 }
 
 }  // namespace carom

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "linalg/conjugate_gradients.hpp"
 
@@ -29,11 +28,5 @@ EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, std::size_t n, do
 /// The same for K x = lambda M x, in the inner product of M (Parlett, The Symmetric Eigenvalue Problem, section 15.11).
 EigenvalueEstimate largest_eigenvalue(const Pencil& pencil, std::size_t n, double tolerance = 1e-3,
                                       int max_iterations = 300);
-
-/// A few such iterations from the vector x, which receives the Ritz vector: repeated calls follow the largest
-/// eigenvalue of operators that change slowly. An empty x starts from the pseudo-random vector; one that is not empty
-/// gets a tenth of it added, so that an eigenvalue that has grown elsewhere is found. Keeps `iterations` vectors.
-EigenvalueEstimate follow_largest_eigenvalue(const Pencil& pencil, std::size_t n, std::vector<double>& x,
-                                             int iterations);
 
 }  // namespace carom

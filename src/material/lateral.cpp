@@ -39,8 +39,6 @@ PreparedLaw prepare(const Material& material, int free_directions, const LawTabl
   lateral.history = history;
   lateral.total_history = history + (law.lateral_strain == nullptr ? 1 : 0);
   lateral.least_strain = law.measure == Measure::small_strain ? -1e3 : -0.5;
-  const IsotropicElastic m = material.at_rest();
-  lateral.wave_ratio = (free_directions == 2 ? m.E : m.E / (1.0 - m.nu * m.nu)) / m.p_wave_modulus();
   prepared.history = lateral.total_history;
   prepared.kernels = table.lateral;
   prepared.parameters = std::make_shared<const LateralLaw>(std::move(lateral));

@@ -19,7 +19,6 @@ struct LateralLaw {
   int history = 0;            ///< variables of the law in three dimensions
   int total_history = 0;      ///< with the lateral strain, where it is iterated for
   double least_strain = 0.0;  ///< lateral strains are above it
-  double wave_ratio = 1.0;    ///< of rho c^2 at rest to that in three dimensions
 };
 
 /// The same isotropic strain in the last `count` directions that makes the stress there vanish, the other strains

@@ -110,13 +110,11 @@ static void lateral_update(const void* parameters, const PointBatch& batch) {
     double* new_history = at(batch.new_history, H * p);
     complete_strain<Real>(law, strain, history, batch.dt, batch.is_over);
     double* stress = batch.stress + 6 * p * n;
-    double* wave_modulus = at(batch.wave_modulus, p * n);
-    law.kernels.update(law.parameters,
-                       {1, strain, stress, at(batch.energy, p * n), batch.dt, history, new_history,
-                        at(batch.dissipation, p * n), wave_modulus, at(batch.yield_stress, p * n), batch.is_over});
+    law.kernels.update(law.parameters, {1, strain, stress, at(batch.energy, p * n), batch.dt, history, new_history,
+                                        at(batch.dissipation, p * n), at(batch.wave_modulus, p * n),
+                                        at(batch.yield_stress, p * n), batch.is_over});
     fill_lateral<n>(law, 0.0, stress);
     for (int l = 0; l < n; ++l) {
-      if (wave_modulus != nullptr) wave_modulus[l] *= law.wave_ratio;
       if (new_history != nullptr && law.total_history > law.history)
         new_history[law.history * n + l] = strain[2 * n + l];
     }

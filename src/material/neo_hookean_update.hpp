@@ -39,8 +39,8 @@ template <class Real>
 }
 
 /// S = G (1 - C^-1) + lambda ln J C^-1 and W = G/2 (tr C - 3) - G ln J + lambda/2 (ln J)^2 (NeoHookean), of the
-/// Green-Lagrange strain; not a number where det C is not positive. rho c^2 over current lengths is lambda + 2 G -
-/// lambda ln J + G (b_i - 1) along a principal direction. parameters: const LameParameters*.
+/// Green-Lagrange strain; not a number where det C is not positive. rho c^2 over current lengths along n is G n.bn, and
+/// lambda + G - lambda ln J more of pressure waves. parameters: const LameParameters*.
 template <class Real>
 static void neo_hookean_update(const void* parameters, const PointBatch& batch) {
   const double lambda = static_cast<const LameParameters*>(parameters)->lambda;
@@ -58,8 +58,11 @@ static void neo_hookean_update(const void* parameters, const PointBatch& batch) 
     for (int c = 3; c < 6; ++c) store(stress + c * n, Real((volumetric - G) * C.adjugate[c] * inverse));
     if (batch.energy != nullptr)
       store(batch.energy + p * n, Real(0.5 * G * (rest - C.second_and_third) + 0.5 * volumetric * ln_J));
-    if (batch.wave_modulus != nullptr)
-      store(batch.wave_modulus + p * n, Real(lambda + 2.0 * G - volumetric + 2.0 * G * largest_principal_bound(e)));
+    if (batch.wave_modulus != nullptr) {
+      const Real pressure = (lambda + G) - volumetric, zero = Real{};
+      store(batch.wave_modulus + p * n,
+            Real(G + 2.0 * G * largest_principal_bound(e) + (pressure > 0.0 ? pressure : zero)));
+    }
   }
 }
 

@@ -20,7 +20,7 @@ struct PointBatch {
   double* new_history = nullptr;
   double* dissipation = nullptr;   ///< dissipated energy density since the start, a function of the history at the end
   double* wave_modulus = nullptr;  ///< at least the largest rho c^2 of elastic waves, c in current lengths per time and
-                                   ///< rho per reference volume
+                                   ///< rho per reference volume; zero lateral stress makes them slower still
   double* yield_stress = nullptr;  ///< equivalent stress of slow flow at the beginning of the step; only laws that
                                    ///< yield fill it
   /// The history is that at the end of the step already: nothing flows any more, and the stress is the step's.

@@ -30,7 +30,8 @@ double longest_edge(CellType type, std::span<const Vec3> x) {
   return longest;
 }
 
-/// Volume (the third of the sum of the faces' distances from a node times their areas) over the largest face.
+/// Volume (the third of the sum of the faces' distances from a node times their areas) over the largest face; those of
+/// pentahedra that are not triangles count half, since the height of a prism above them is that of its triangle.
 double height(CellType type, std::span<const Vec3> x) {
   double volume = 0.0, largest = 0.0;
   for (const CellFace& face : cell_faces(type)) {
@@ -38,7 +39,8 @@ double height(CellType type, std::span<const Vec3> x) {
     Vec3 centre{};
     for (const LocalNode a : face.corners()) centre = add(centre, subtract(x[a], x[0]));
     volume += dot(centre, area) / (3.0 * static_cast<double>(face.corners().size()));
-    largest = std::max(largest, norm(area));
+    const bool has_edge_opposite = corner_count(type) == 6 && face.corners().size() == 4;
+    largest = std::max(largest, (has_edge_opposite ? 0.5 : 1.0) * norm(area));
   }
   return volume / largest;
 }

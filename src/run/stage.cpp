@@ -250,7 +250,7 @@ bool Stage::stable_step_changes() const {
 }
 
 StableStepWatch Stage::watch_stable_step() const {
-  return {system_, stability_limit(settings_), settings_.enforcement, context_.model.parts};
+  return {system_, stability_limit(settings_), settings_.enforcement};
 }
 
 std::unique_ptr<Scheme> Stage::make_scheme() const {

@@ -141,7 +141,7 @@ void StepGuard::follow_stable_step(const State& now, long long step) {
   constexpr long long every = 10;
   constexpr double restless = 0.05;  // change of the bodies' frequency after which they are looked at again at once
   const bool is_due = step % every == 0 || is_restless_;
-  if (is_due) is_restless_ = watch_->follow_bodies(now.q) > restless;
+  if (is_due) is_restless_ = watch_->follow_bodies(now.q, now.points) > restless;
   const double longest = this->longest(now.q);
   if (!is_due && longest >= control_.dt()) return;
   if (control_.limit(longest)) return;

@@ -1,14 +1,12 @@
 #include "schemes/stable_step.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "enforcement/contact_frequency.hpp"
 #include "math/vec3.hpp"
-#include "mesh/cell_size.hpp"
 #include "parallel/threads.hpp"
 #include "system/mass_solver.hpp"
 
@@ -81,17 +79,23 @@ double step_of(double limit, double omega_squared, double damping_ratio) {
   return 0.5 * limit * (std::sqrt(d * d + 4.0 * omega_squared) - d) / omega_squared;
 }
 
-/// Where its nodes stand.
-double length_of_cell(const System& system, std::size_t k, std::span<const double> u) {
-  constexpr std::size_t most_nodes = 27;
-  std::array<Vec3, most_nodes> x;
-  const std::span<const Index> nodes = system.solid.nodes_of_cell(k);
-  for (std::size_t a = 0; a < nodes.size(); ++a) {
-    const auto n = static_cast<std::size_t>(nodes[a]);
-    x[a] = add(system.mesh.coordinates[n], {u[3 * n], u[3 * n + 1], u[3 * n + 2]});
+/// Bounds of the cells' omega^2 at rest over the largest of them, with the scheme's mass: that of a node over the
+/// lumped one is the same in all cells there (mass scaling). Nodes without mass follow the others.
+std::vector<double> relative_bounds(const System& system) {
+  std::vector<double> bounds = system.solid.cell_frequency_bounds();
+  const std::vector<double> lumped = system.solid.mass(MassKind::lumped).node_diagonal();
+  const std::vector<double>& own = system.mass.node_diagonal();
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    double lightest = 0.0;
+    for (const Index node : system.solid.nodes_of_cell(k)) {
+      const auto n = static_cast<std::size_t>(node);
+      if (own[n] > 0.0) lightest = std::max(lightest, lumped[n] / own[n]);
+    }
+    bounds[k] *= lightest;
   }
-  const CellRef& cell = system.solid.cells()[k];
-  return cell_length(system.mesh.blocks[static_cast<std::size_t>(cell.block)].type, std::span(x).first(nodes.size()));
+  const double largest = *std::max_element(bounds.begin(), bounds.end());
+  for (double& bound : bounds) bound = largest > 0.0 ? bound / largest : 0.0;
+  return bounds;
 }
 
 double closing_step(double limit, double contact_omega_squared) {
@@ -123,22 +127,13 @@ StableStep stable_step(const System& system, double limit, EnforcementKind enfor
   return out;
 }
 
-StableStepWatch::StableStepWatch(const System& system, double limit, EnforcementKind enforcement,
-                                 std::span<const Part> parts)
+StableStepWatch::StableStepWatch(const System& system, double limit, EnforcementKind enforcement)
     : system_(system), limit_(limit), enforcement_(enforcement), damping_(system.solid.largest_damping({})) {
   const std::vector<double> zero(system.solid.dof_count(), 0.0);
   Vibration vibration(system, zero, nullptr);
   omega_squared_ = at_rest_ = largest_eigenvalue(vibration.pencil(), zero.size()).upper;
-  if (system.solid.history_size() == 0) return;
-  has_elastic_ = std::any_of(parts.begin(), parts.end(), [](const Part& part) {
-    return part.material.law->history.empty() && part.material.law->measure != Measure::small_strain;
-  });
-  cells_ = system.solid.cell_frequency_bounds();
-  for (std::size_t k = 0; k < cells_.size(); ++k) {
-    const double length = length_of_cell(system, k, zero);
-    cells_[k] *= length * length;
-  }
-  largest_ = largest_bound(zero);
+  if (system.solid.is_linear()) return;
+  if (system.solid.cell_count() > 0) cells_ = relative_bounds(system);
 }
 
 bool StableStepWatch::follow_damping(std::span<const double> points) {
@@ -146,35 +141,13 @@ bool StableStepWatch::follow_damping(std::span<const double> points) {
   return damping_ > 0.0;
 }
 
-double StableStepWatch::follow_bodies(std::span<const double> u) {
-  if (system_.solid.is_linear()) return 0.0;
+double StableStepWatch::follow_bodies(std::span<const double> u, std::span<const double> points) {
+  if (cells_.empty()) return 0.0;
+  std::vector<double> growth(cells_.size());
+  system_.solid.frequency_growth(u, {0.0, points, true}, growth);
   const double before = omega_squared_;
-  const double of_tangent = has_elastic_ ? follow_tangent(u) : 0.0;
-  omega_squared_ = cells_.empty() ? of_tangent : std::max(of_tangent, at_rest_ * largest_bound(u) / largest_);
+  omega_squared_ = at_rest_ * parallel_max(cells_.size(), 0.0, [&](std::size_t k) { return cells_[k] * growth[k]; });
   return 0.5 * std::abs(omega_squared_ / before - 1.0);
-}
-
-/// Largest (c / l)^2 of a cell.
-double StableStepWatch::largest_bound(std::span<const double> u) const {
-  return parallel_max(cells_.size(), 0.0, [&](std::size_t k) {
-    const double length = length_of_cell(system_, k, u);
-    return cells_[k] / (length * length);
-  });
-}
-
-double StableStepWatch::follow_tangent(std::span<const double> u) {
-  constexpr int iterations = 10, most_rounds = 20;
-  constexpr double settled = 0.02;  // of the bound above the Ritz value: 1 % of the step
-  Vibration vibration(system_, {u.begin(), u.end()}, nullptr);
-  const Pencil pencil = vibration.pencil();
-  const bool first = vector_.empty();
-  double omega_squared = 0.0;
-  for (int round = 0; round < (first ? most_rounds : 1); ++round) {
-    const EigenvalueEstimate estimate = follow_largest_eigenvalue(pencil, u.size(), vector_, iterations);
-    omega_squared = estimate.upper;
-    if (estimate.upper - estimate.value <= settled * estimate.value) break;
-  }
-  return omega_squared;
 }
 
 StableStep StableStepWatch::with(const ConstraintRows& rows, std::span<const double> u) const {

@@ -47,19 +47,13 @@ StableStep stable_step(const System& system, double limit = 2.0,
 /// is not followed but bounded, by the sum of the squares of the bodies' and the contact's own (Weyl).
 class StableStepWatch {
  public:
-  /// parts: those of the model.
-  StableStepWatch(const System& system, double limit, EnforcementKind enforcement, std::span<const Part> parts);
+  StableStepWatch(const System& system, double limit, EnforcementKind enforcement);
 
-  /// Re-estimates the frequency of the bodies at displacement u, where they are nonlinear, by ten Lanczos iterations
-  /// from the last vector (the first call by more). It is taken at the upper end of its error bound, which the
-  /// iterations leave: a step on the safe side, as long as the bodies change little between two calls. Returns by how
-  /// much of itself the frequency has changed.
-  ///
-  /// Points that remember may unload, so that their tangent says too little: there the frequency is that of the bodies
-  /// at rest, elastic, times the largest growth of c / l over the cells, c a cell's wave speed and l its length where
-  /// its nodes stand (Courant, Friedrichs and Lewy, Mathematische Annalen 100, 1928; cell_frequency_bounds are c^2 /
-  /// l^2 at rest).
-  double follow_bodies(std::span<const double> u);
+  /// Re-estimates the frequency of the bodies at displacement u, where they are nonlinear: that at rest times the
+  /// largest growth over the cells of (c / l)^2 (Solid::frequency_growth), each cell weighed by its bound at rest. It
+  /// is that of elastic changes, since points that yield may unload at any moment. `points`: what they remember at the
+  /// end of the step. One sweep over the laws; returns by how much of itself the frequency has changed.
+  double follow_bodies(std::span<const double> u, std::span<const double> points);
   /// Takes the damping of artificial viscosity from the rates that the points remember of a step, times the growth of
   /// the bodies' omega^2, as it goes with 1 / l^2. One pass over cells with viscosity; false where there are none.
   bool follow_damping(std::span<const double> points);
@@ -71,21 +65,15 @@ class StableStepWatch {
   friend void fields(A& archive, StableStepWatch& x) {
     archive("omega_squared", x.omega_squared_);
     archive("damping", x.damping_);
-    archive("vector", x.vector_);
   }
-
-  double follow_tangent(std::span<const double> u);
-  double largest_bound(std::span<const double> u) const;
 
   const System& system_;
   double limit_;
   EnforcementKind enforcement_;
-  double omega_squared_;  ///< of the bodies
-  double damping_;        ///< of their viscosity, over mass
-  std::vector<double> vector_;
-  bool has_elastic_ = true;               ///< bodies of finite strain whose tangent says all
-  std::vector<double> cells_;             ///< squares of the cells' wave speeds where points remember; else empty
-  double at_rest_ = 0.0, largest_ = 1.0;  ///< omega_squared_ and largest_bound there
+  double omega_squared_;       ///< of the bodies
+  double damping_;             ///< of their viscosity, over mass
+  double at_rest_ = 0.0;       ///< omega_squared_ at rest
+  std::vector<double> cells_;  ///< where it changes: bounds of the cells' over the largest, at rest
 };
 
 }  // namespace carom

@@ -153,6 +153,7 @@ Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>&
   block.type = part.type;
   block.thickness = part.thickness;
   block.rho = part.material.rho;
+  block.wave_modulus = part.material.at_rest().p_wave_modulus();
   block.law_row = part.material.law;
   block.small_strain = part.material.law->measure == Measure::small_strain;
   block.is_linear = block.small_strain && part.material.law->is_linear && !part.viscosity.is_any();

@@ -75,6 +75,9 @@ struct CellKernels {
 /// The kernels of any cell, formulation and law, made of the stages.
 extern const CellKernels staged_kernels;
 
+/// modulus[cell] = largest PointBatch::wave_modulus of its points.
+void wave_modulus(const CellBatches& cells, const BatchLaw& law, const double* u, double* modulus);
+
 /// What is compiled for one instruction set.
 struct KernelTable {
   int lanes = 1;

@@ -373,6 +373,29 @@ std::vector<double> Solid::cell_frequency_bounds() const {
   return impl_->frequency_bounds();
 }
 
+void Solid::frequency_growth(std::span<const double> u, const PointStep& step, std::span<double> growth) const {
+  parallel_for(impl_->solid.chunks.size(), 1, [&](std::size_t c, std::size_t) {
+    const Chunk& chunk = impl_->solid.chunks[c];
+    const Block& block = impl_->block(chunk);
+    const std::span<double> own = growth.subspan(at(block.first + chunk.first), at(chunk.cells));
+    if (block.small_strain) {
+      std::fill(own.begin(), own.end(), 1.0);
+      return;
+    }
+    wave_modulus(impl_->batches(chunk, step), block.law(), u.data(), own.data());
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      const std::size_t cell = at(block.first + chunk.first) + k;
+      CellNodes x = impl_->solid.coordinates_of(cell);
+      const auto nodes = impl_->solid.nodes_of(cell);
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        for (std::size_t i = 0; i < 3; ++i) x[a][i] += u[3 * at(nodes[a]) + i];
+      const double shortening =
+          impl_->lengths[cell] / cell_length(block.type, std::span<const Vec3>(x).first(nodes.size()));
+      own[k] *= shortening * shortening / block.wave_modulus;
+    }
+  });
+}
+
 double Solid::largest_damping(std::span<const double> history) const {
   double largest = 0.0;
   for (const Block& block : impl_->solid.blocks) {

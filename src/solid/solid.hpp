@@ -117,6 +117,12 @@ class Solid {
   /// order of cells().
   std::vector<double> cell_frequency_bounds() const;
 
+  /// How many times the omega^2 of each solid cell is at u what it is at rest, for elastic changes: (c / l)^2 over that
+  /// at rest, c the fastest elastic wave of its points (PointBatch::wave_modulus) and l its length (cell_lengths) where
+  /// its nodes stand (Courant, Friedrichs and Lewy, Mathematische Annalen 100, 1928); 1 of cells of small strain. Not a
+  /// number where a cell is inverted.
+  void frequency_growth(std::span<const double> u, const PointStep& step, std::span<double> growth) const;
+
   /// Upper bound of the eigenvalues of M^-1 C, C the damping of artificial viscosity at the rates of the last step that
   /// the history remembers (empty: at rest), by the lumped masses of the cells in the reference configuration; 1 /
   /// time. Of the quadratic term twice the secant, its slope.

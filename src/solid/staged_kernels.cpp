@@ -198,6 +198,22 @@ class Batch {
 
   void add_discrete_gradient_force(const double* u_0, const double* u_1, double* f) const;
 
+  /// The largest of the points of each cell of the batch.
+  void wave_modulus(const double* u, double* largest) const {
+    kinematics(u, b_.gradient, b_.strain);
+    to_law(b_.strain);
+    PointBatch batch{points(), b_.strain, b_.stress};
+    batch.dt = cells_.dt;
+    batch.history = of_batch(cells_.history);
+    batch.is_over = cells_.is_over;
+    batch.wave_modulus = b_.energy;
+    law_.update(law_.parameters, batch);
+    for (int l = 0; l < count_; ++l) {
+      largest[l] = b_.energy[l];
+      for (int p = 1; p < points(); ++p) largest[l] = std::max(largest[l], b_.energy[p * lanes() + l]);
+    }
+  }
+
   /// mean[6 l + c] of the cells of the batch.
   void mean_stress(const double* u, double* mean) const {
     evaluate(u, false);
@@ -471,6 +487,13 @@ void mean_stress(const CellBatches& cells, const BatchLaw& law, const double* u,
 }
 
 }  // namespace
+
+void wave_modulus(const CellBatches& cells, const BatchLaw& law, const double* u, double* modulus) {
+  for_each_batch(cells, law, [&](const Batch& batch) {
+    batch.wave_modulus(u, modulus);
+    modulus += batch.count();
+  });
+}
 
 const CellKernels staged_kernels{add_internal_force, add_tangent_action, add_discrete_gradient_force, mean_stress};
 

@@ -122,12 +122,12 @@ TEST(PlacedCells, OfPlaneTypesPartitionTheStrip) {
   }
 }
 
-// Cells of a cube of edge h: tetrahedra have altitudes h and h / sqrt(2), the pentahedron is half of the cube and has a
-// face of h by sqrt(2) h, the pyramid has its apex at the centre; by hand.
+// Cells of a cube of edge h: tetrahedra have altitudes h and h / sqrt(2), the pentahedron is half of the cube, its
+// triangles have altitudes h / sqrt(2), the pyramid has its apex at the centre; by hand.
 TEST(CellLength, OfPiecesOfACube) {
   const double h = 0.5;
   const std::map<CellType, double> expected{{CellType::tetra4, h / std::sqrt(2.0)},
-                                            {CellType::penta6, h / std::sqrt(8.0)},
+                                            {CellType::penta6, h / std::sqrt(2.0)},
                                             {CellType::pyra5, h / 2.0},
                                             {CellType::hexa8, h},
                                             {CellType::hexa20, h / 2.0},
