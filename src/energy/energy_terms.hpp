@@ -11,8 +11,9 @@ namespace carom {
 ///   d(stored + spent) + dissipated + scheme = supplied.
 /// Stored energies are functions of the state, never accumulated work, and so is what the bodies have spent, which
 /// their points remember; all others are sums over the steps. Stored, spent and dissipated energies are positive when
-/// the bodies hold or lose them, supplied ones when they come in, those of the scheme when it takes them out.
-enum class TermKind : std::uint8_t { stored, spent, dissipated, supplied, scheme };
+/// the bodies hold or lose them, supplied ones when they come in, those of the scheme when it takes them out. A memo
+/// says what has become of other terms and is no part of the balance.
+enum class TermKind : std::uint8_t { stored, spent, dissipated, supplied, scheme, memo };
 
 /// name, kind, definition. Members of EnergyTerms, columns of energy.csv, entries of the summary, curves of the report,
 /// units of columns and the manual's table (docs/architecture.md) follow, in this order.
@@ -36,7 +37,8 @@ enum class TermKind : std::uint8_t { stored, spent, dissipated, supplied, scheme
        "Mechanics and Engineering 195, 2006); never by subtraction")                                                  \
   TERM(quadrature, scheme,                                                                                            \
        "trapezoidal work of internal and contact forces minus the change of what they store and dissipate: zero for " \
-       "linear bodies while contact does not change, O(dt^2) otherwise")
+       "linear bodies while contact does not change, O(dt^2) otherwise")                                              \
+  TERM(heat, memo, "the part of plastic that has heated the bodies where it was spent, a function of the state")
 
 /// Energies, or their increments over a step, in the unit of energy.
 struct EnergyTerms {
@@ -94,11 +96,11 @@ void fields(A& archive, EnergyTerms& x) {
   for (const EnergyTerm& term : energy_terms) archive(term.name, x.*term.value);
 }
 
-/// after - before of what is a function of the state, stored and spent; the other terms are zero.
+/// after - before of what is a function of the state, all that is stored, spent or a memo; the other terms are zero.
 inline EnergyTerms change_of_state(const EnergyTerms& before, const EnergyTerms& after) {
   EnergyTerms change;
   for (const EnergyTerm& term : energy_terms)
-    if (term.kind == TermKind::stored || term.kind == TermKind::spent)
+    if (term.kind == TermKind::stored || term.kind == TermKind::spent || term.kind == TermKind::memo)
       change.*term.value = after.*term.value - before.*term.value;
   return change;
 }

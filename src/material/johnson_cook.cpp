@@ -166,7 +166,8 @@ Law johnson_cook_row() {
                       "temperature_rise"},
           .at_rest = isotropic_at_rest,
           .prepare = prepare_johnson_cook,
-          .check = check_johnson_cook};
+          .check = check_johnson_cook,
+          .heating_share = [](const Material& material) { return material.value("taylor_quinney"); }};
 }
 
 }  // namespace carom

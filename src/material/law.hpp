@@ -88,6 +88,8 @@ struct Law {
   std::shared_ptr<const void> (*prepare)(const Material&) = nullptr;
   /// Rules between the values; nothing when all is well.
   std::optional<LawProblem> (*check)(const Material&) = nullptr;
+  /// The share of the plastic work that heats the point where it is done. Null: 0.
+  double (*heating_share)(const Material&) = nullptr;
   /// The strain in the last `count` directions under which the stress there vanishes, where it has a closed form: of
   /// what prepare() made, and the other strains. Null: it is found by iteration.
   double (*lateral_strain)(const void* parameters, const double strain[6], int count) = nullptr;

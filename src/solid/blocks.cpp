@@ -128,6 +128,8 @@ BatchStages stages_of(const Part& part, const Element& element, bool small_strai
   const IsotropicElastic at_rest = part.material.at_rest();
   stages.hourglass = part.hourglass * at_rest.E / (2.0 * (1.0 + at_rest.nu));
   stages.hourglass_coefficient = part.hourglass;
+  if (part.material.law->heating_share != nullptr)
+    stages.heating_share = part.material.law->heating_share(part.material);
   stages.viscosity = part.viscosity;
   stages.modulus = at_rest.E / (2.0 * (1.0 + at_rest.nu));
   stages.rho = part.material.rho;

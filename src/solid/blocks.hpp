@@ -22,9 +22,9 @@ struct Block {
   CellType type{};
   double thickness = 1.0, rho = 0.0;
   double wave_modulus = 0.0;  ///< lambda + 2 G at rest
-  bool small_strain = true;  ///< the measure of its law; the others are total Lagrangian
-  bool is_linear = true;     ///< the forces are linear in the displacements
-  bool is_symmetric = true;  ///< the tangent of its law
+  bool small_strain = true;   ///< the measure of its law; the others are total Lagrangian
+  bool is_linear = true;      ///< the forces are linear in the displacements
+  bool is_symmetric = true;   ///< the tangent of its law
   const Law* law_row = nullptr;
   const CellOperations* operations = nullptr;
   BatchStages stages;

@@ -30,6 +30,7 @@ struct BatchStages {
   /// cell remembers of them, behind the history of its points. 0: they are elastic.
   double hourglass_coefficient = 0.0;
   int hourglass_history = 0;
+  double heating_share = 0.0;  ///< of the plastic work (Law)
   Viscosity viscosity{};
   double modulus = 0.0, rho = 0.0, wave_speed = 0.0;  ///< for viscosity: shear modulus, density, c, all at rest
 

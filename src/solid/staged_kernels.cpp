@@ -163,7 +163,11 @@ class Batch {
     energies->hourglass_loss += loss;
     energies->viscous += viscous;
     energies->strain += integral(b_.energy);
-    if (cells_.history_variables > 0) energies->plastic += integral(b_.dissipation);
+    if (cells_.history_variables > 0) {
+      const double plastic = integral(b_.dissipation);
+      energies->plastic += plastic;
+      energies->heat += stages_.heating_share * plastic;
+    }
     energies->hourglass += hourglass;
   }
 

@@ -20,6 +20,7 @@ void evaluate_solid(const System& system, const PointStep& step, State& end) {
   forces.stored.hourglass = energies.hourglass;
   forces.stored.hourglass_loss = energies.hourglass_loss;
   forces.stored.viscous = energies.viscous;
+  forces.stored.heat = energies.heat;
 }
 
 void evaluate_bodies(const System& system, const PointStep& step, State& end) {

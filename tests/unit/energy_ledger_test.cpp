@@ -84,12 +84,14 @@ TEST(AsterTerms, SchemeDissipationIsWhatRemains) {
   EXPECT_EQ(terms.DISS_SCH(), 24.5);
 }
 
-// Each term is given 1 in turn: stored, dissipated and scheme's terms leave a balance of 1, supplied ones of -1.
+// Each term is given 1 in turn: stored, dissipated and scheme's terms leave a balance of 1, supplied ones of -1, memos
+// none.
 TEST(EnergyTerms, EnterTheBalanceByTheirKind) {
   for (const EnergyTerm& term : energy_terms) {
     EnergyTerms terms;
     terms.*term.value = 1.0;
-    EXPECT_EQ(terms.imbalance(), term.kind == TermKind::supplied ? -1.0 : 1.0) << term.name;
+    const bool is_memo = term.kind == TermKind::memo;
+    EXPECT_EQ(terms.imbalance(), is_memo ? 0.0 : term.kind == TermKind::supplied ? -1.0 : 1.0) << term.name;
     EXPECT_EQ(terms.mechanical(), term.kind == TermKind::stored ? 1.0 : 0.0) << term.name;
     EXPECT_EQ(change_of_state({}, terms).mechanical(), terms.mechanical()) << term.name;
     terms += terms;
@@ -100,7 +102,7 @@ TEST(EnergyTerms, EnterTheBalanceByTheirKind) {
 TEST(EnergyTerms, AreTheManuals) {
   std::ostringstream manual;
   manual << std::ifstream(CAROM_SOURCE_DIR "/docs/architecture.md").rdbuf();
-  const char* kinds[] = {"stored", "spent", "dissipated", "supplied", "scheme"};
+  const char* kinds[] = {"stored", "spent", "dissipated", "supplied", "scheme", "memo"};
   for (const EnergyTerm& term : energy_terms) {
     const std::string row = "| `" + std::string(term.name) + "` | " + kinds[static_cast<int>(term.kind)] + " | " +
                             std::string(term.definition) + " |\n";
