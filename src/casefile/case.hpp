@@ -175,13 +175,8 @@ struct CaseFunction {
 struct CaseScheme {
   Location where;
   Located<SchemeKind> kind;
+  SchemeParameters parameters;                          ///< those of the kind, filled on reading
   std::optional<Located<EnforcementKind>> enforcement;  ///< filled on reading: the scheme's default
-  double beta = 0.25, gamma = 0.5;                      ///< newmark; gamma also contact_stabilized_newmark
-  double alpha = -0.05;                                 ///< hht, wbz
-  double rho_inf = 0.8;                                 ///< generalized_alpha, its nonsmooth kin, hulbert_chung
-  double theta = 0.5;                                   ///< moreau_jean
-  double phi = 1.033;                                   ///< tchamwa_wielgosz
-  double p = 0.54;                                      ///< noh_bathe
   std::optional<double> penetration;  ///< augmented_lagrangian: largest penetration, relative to the smallest cell
   enum class Mass : std::uint8_t { consistent, lumped, modified };
   std::optional<Located<Mass>> mass;  ///< filled on reading: the scheme's default

@@ -13,6 +13,14 @@ bool Range::contains(double number) const {
   return !(high && (number > high->value || (number == high->value && high->side == Bound::Side::open)));
 }
 
+Range range_of(const Interval& interval) {
+  const auto bound = [](double value, bool is_closed) {
+    return std::isfinite(value) ? std::optional(Bound{value, is_closed ? Bound::Side::closed : Bound::Side::open})
+                                : std::nullopt;
+  };
+  return {bound(interval.low, interval.is_closed_low), bound(interval.high, interval.is_closed_high)};
+}
+
 Range greater_than(double low) {
   return {Bound{low, Bound::Side::open}, {}};
 }

@@ -9,6 +9,7 @@
 
 #include "base/units.hpp"
 #include "casefile/document.hpp"
+#include "math/interval.hpp"
 
 namespace carom {
 
@@ -44,6 +45,7 @@ struct Range {
   bool contains(double number) const;
 };
 
+Range range_of(const Interval& interval);
 Range greater_than(double low);
 Range at_least(double low);
 Range between_open(double low, double high);

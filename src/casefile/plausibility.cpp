@@ -202,11 +202,11 @@ class Lint {
 
   void check_scheme() {
     const CaseScheme& scheme = case_.scheme;
-    constexpr double round_off = 1e-12;
-    if (*scheme.kind != SchemeKind::newmark || 2.0 * scheme.beta >= scheme.gamma - round_off) return;
+    const auto* newmark = std::get_if<NewmarkParameters>(&scheme.parameters);
+    if (newmark == nullptr || newmark->is_stable_for_any_step()) return;
     say(scheme.where, fmt::format("scheme: Newmark with beta = {} and gamma = {} is stable for small steps only; with "
                                   "2 beta >= gamma it is stable for any step",
-                                  scheme.beta, scheme.gamma));
+                                  newmark->beta, newmark->gamma));
   }
 
   /// What is declared and not used is a name forgotten elsewhere, more often than not.

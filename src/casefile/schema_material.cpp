@@ -37,12 +37,7 @@ bool has(const Law& law, const LawParameter& parameter) {
 
 KeyDescription describe(const LawParameter& parameter) {
   KeyDescription key{parameter.key, Shape::number, parameter.meaning, {}, {}, {}};
-  const auto bound = [](double value, bool is_closed) {
-    return std::isfinite(value) ? std::optional(Bound{value, is_closed ? Bound::Side::closed : Bound::Side::open})
-                                : std::nullopt;
-  };
-  key.options.range = {bound(parameter.range.low, parameter.range.is_closed_low),
-                       bound(parameter.range.high, parameter.range.is_closed_high)};
+  key.options.range = range_of(parameter.range);
   key.options.unit = parameter.unit;
   key.options.need = parameter.initial ? Need::optional : Need::required;
   key.options.aliases = parameter.aliases;

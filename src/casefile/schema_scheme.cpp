@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "casefile/case_schema.hpp"
 #include "casefile/section_rules.hpp"
 
@@ -36,38 +38,54 @@ Names schemes_of_lumped_mass() {
   return schemes_with([](const SchemeTraits& s) { return is_explicit(s.kind) && s.kind != SchemeKind::modified_mass; });
 }
 
-Range closed(double low, double high) {
-  return {Bound{low, Bound::Side::closed}, Bound{high, Bound::Side::closed}};
+/// `kind`, which brings the parameters of the scheme with it.
+template <class S, class Access>
+void add_kind(SectionSchema<S>& s, Access scheme_of) {
+  const KeyDescription key{"kind", Shape::text, "Time scheme.", {.choices = all_schemes(), .need = Need::required},
+                           {},     {}};
+  typename SectionSchema<S>::Handlers handlers;
+  handlers.read = [key, scheme_of](S& section, const Node& node, const ReadContext& at) {
+    CaseScheme& scheme = scheme_of(section);
+    decode(node, key, at, scheme.kind);
+    scheme.parameters = traits(*scheme.kind).parameters;
+  };
+  handlers.write = [key, scheme_of](const S& section, const Node&) {
+    return encode(scheme_of(section).kind, key.options);
+  };
+  s.add(key, handlers);
+}
+
+template <class S, class Access>
+void add_number(SectionSchema<S>& s, Access scheme_of, const SchemeNumber& number) {
+  KeyDescription key{std::string(number.key), Shape::number, std::string(number.meaning), {}, {}, {}};
+  key.options.range = range_of(number.range);
+  key.options.default_phrase = number.initial_phrase;
+  for (const SchemeTraits& scheme : scheme_table) {
+    const std::optional<double> initial = number.value(scheme.parameters);
+    if (!initial) continue;
+    key.options.kinds.emplace_back(scheme.name);
+    if (number.initial_phrase.empty()) key.default_value = Node{*initial, {}};
+  }
+  typename SectionSchema<S>::Handlers handlers;
+  handlers.read = [key, number, scheme_of](S& section, const Node& node, const ReadContext& at) {
+    decode(node, key, at, *number.in(scheme_of(section).parameters));
+  };
+  handlers.write = [number, scheme_of](const S& section, const Node&) -> std::optional<Node> {
+    return Node{*number.value(scheme_of(section).parameters), {}};
+  };
+  s.add(key, handlers);
 }
 
 /// The keys of a scheme, in [scheme] and in [[stage]]; scheme_of(section) is the CaseScheme.
 template <class S, class Access>
 void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
-  const auto number = [&](const std::string& key, double CaseScheme::*member, const std::string& doc, Range range,
-                          const Names& kinds, const std::string& default_phrase = "") {
-    s.key_by(key, [ scheme_of, member ](auto& section) -> auto& { return scheme_of(section).*member; }, doc,
-             {.range = range, .kinds = kinds, .default_phrase = default_phrase});
-  };
   s.description.selector = "kind";
-  s.key_by("kind", [scheme_of](auto& section) -> auto& { return scheme_of(section).kind; }, "Time scheme.",
-           {.choices = all_schemes(), .need = Need::required});
+  add_kind(s, scheme_of);
   s.key_by("enforcement", [scheme_of](auto& section) -> auto& { return scheme_of(section).enforcement; },
            "How contact is enforced; the table of the manual says which scheme takes which.",
            {.choices = Names(enforcement_names.begin(), enforcement_names.end()),
             .default_phrase = "the first that the scheme takes"});
-  number("beta", &CaseScheme::beta, "Newmark's beta.", {Bound{0.0, Bound::Side::open}, Bound{0.5, Bound::Side::closed}},
-         {"newmark"}, "0.25");
-  number("gamma", &CaseScheme::gamma, "Newmark's gamma; above 0.5 the scheme dissipates.", closed(0.5, 1.0),
-         {"newmark", "contact_stabilized_newmark"});
-  number("alpha", &CaseScheme::alpha, "Dissipation of HHT (from -1/3 on) and WBZ; 0 is Newmark's trapezoidal rule.",
-         closed(-1.0, 0.0), {"hht", "wbz"}, "-0.05; hht with multipliers, which throw nodes back: -1/3");
-  number("rho_inf", &CaseScheme::rho_inf, "Spectral radius at high frequency (Hulbert-Chung: at bifurcation).",
-         closed(0.0, 1.0), {"generalized_alpha", "nonsmooth_generalized_alpha", "hulbert_chung"});
-  number("theta", &CaseScheme::theta, "Weight of the end of the step; above 0.5 the scheme dissipates.",
-         closed(0.5, 1.0), {"moreau_jean"});
-  number("phi", &CaseScheme::phi, "Above 1 the scheme dissipates.", closed(1.0, 2.0), {"tchamwa_wielgosz"});
-  number("p", &CaseScheme::p, "First sub-step over the step.",
-         {Bound{0.0, Bound::Side::open}, Bound{1.0, Bound::Side::open}}, {"noh_bathe"});
+  for (const SchemeNumber& number : scheme_numbers) add_number(s, scheme_of, number);
   const auto augmented = [](const SchemeTraits& t) { return takes(t.kind, EnforcementKind::augmented_lagrangian); };
   s.key_by("penetration", [scheme_of](auto& section) -> auto& { return scheme_of(section).penetration; },
            "With enforcement = \"augmented_lagrangian\": largest penetration, relative to the smallest cell.",
@@ -163,20 +181,20 @@ void check_mass_scaling(CaseScheme& scheme, const Node& node, const ReadContext&
   if (!scheme.mass_scaling_limit) scheme.mass_scaling_limit = 0.05;
 }
 
-constexpr double least_alpha_of_hht = -1.0 / 3.0;
-
-/// Multipliers on contact nodes with inertia make the alpha family throw back what touches
-/// (schemes/touch_rebound.hpp): its parameters of least rebound, where the case gives none, and of WBZ, whose
-/// dissipation grows as the rebound falls, the least dissipative that are not warned of.
+/// Multipliers on contact nodes with inertia make the alpha family throw back what touches (touch_rebound): its
+/// parameters of least rebound, where the case gives none.
 void choose_parameters(CaseScheme& scheme, const Node& node) {
   if (!traits(**scheme.enforcement).has_multipliers || **scheme.mass == CaseScheme::Mass::modified) return;
-  if (*scheme.kind == SchemeKind::hht && find(node, "alpha") == nullptr) scheme.alpha = least_alpha_of_hht;
+  const auto is_given = [&node](const SchemeNumber& number) { return find(node, std::string(number.key)) != nullptr; };
+  if (std::any_of(scheme_numbers.begin(), scheme_numbers.end(), is_given)) return;
+  scheme.parameters = traits(*scheme.kind).parameters_on_multipliers.value_or(scheme.parameters);
 }
 
 void check_alpha(const CaseScheme& scheme, const Node& node, const ReadContext& at) {
-  const Node* alpha = find(node, "alpha");
-  if (alpha == nullptr || *scheme.kind != SchemeKind::hht || scheme.alpha >= least_alpha_of_hht) return;
-  throw CaseError(alpha->where, at.at("alpha").path, fmt::format("{:g} with scheme hht", scheme.alpha),
+  if (*scheme.kind != SchemeKind::hht) return;
+  const double alpha = std::get<AlphaParameters>(scheme.parameters).alpha;
+  if (alpha >= least_alpha_of_hht) return;
+  throw CaseError(find(node, "alpha")->where, at.at("alpha").path, fmt::format("{:g} with scheme hht", alpha),
                   "a number >= -1/3 and <= 0", "Below, HHT dissipates less again: choose -1/3, or scheme wbz.");
 }
 

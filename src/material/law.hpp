@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,16 +12,9 @@
 
 #include "base/units.hpp"
 #include "material/isotropic_elastic.hpp"
+#include "math/interval.hpp"
 
 namespace carom {
-
-/// The numbers between two bounds, and those bounds that are closed.
-struct Interval {
-  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
-  bool is_closed_low = false, is_closed_high = false;
-
-  bool operator==(const Interval&) const = default;
-};
 
 /// A number that the user of a law gives.
 struct LawParameter {

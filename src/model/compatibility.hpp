@@ -5,29 +5,41 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
+
+#include "model/scheme_parameters.hpp"
 
 namespace carom {
 
-enum class SchemeKind : std::uint8_t {
-  newmark,
-  hht,
-  wbz,
-  generalized_alpha,
-  bathe,
-  contact_stabilized_newmark,
-  energy_momentum,
-  moreau_jean,
-  nonsmooth_generalized_alpha,
-  central_differences,
-  hulbert_chung,
-  noh_bathe,
-  tchamwa_wielgosz,
-  cd_lagrange,
-  forward_increment,
-  modified_mass,
-  statics
-};
+/// The schemes there are: one line each. For X(scheme): SchemeKind::scheme; its line of scheme_table, below; its row
+/// scheme_row(), defined beside its class (schemes/scheme_table.hpp).
+#define CAROM_SCHEMES(X)         \
+  X(newmark)                     \
+  X(hht)                         \
+  X(wbz)                         \
+  X(generalized_alpha)           \
+  X(bathe)                       \
+  X(contact_stabilized_newmark)  \
+  X(energy_momentum)             \
+  X(moreau_jean)                 \
+  X(nonsmooth_generalized_alpha) \
+  X(central_differences)         \
+  X(hulbert_chung)               \
+  X(noh_bathe)                   \
+  X(tchamwa_wielgosz)            \
+  X(cd_lagrange)                 \
+  X(forward_increment)           \
+  X(modified_mass)               \
+  X(statics)
+
+#define CAROM_SCHEME_KIND(scheme) scheme,
+enum class SchemeKind : std::uint8_t { CAROM_SCHEMES(CAROM_SCHEME_KIND) };
+#undef CAROM_SCHEME_KIND
+
+#define CAROM_ONE_MORE(scheme) +1
+inline constexpr std::size_t scheme_count = CAROM_SCHEMES(CAROM_ONE_MORE);
+#undef CAROM_ONE_MORE
 
 enum class EnforcementKind : std::uint8_t { penalty, augmented_lagrangian, lagrange, impulse };
 
@@ -62,11 +74,15 @@ struct SchemeTraits {
   std::string_view name;   ///< in case files
   std::string_view title;  ///< in reports and messages
   Stepping stepping;
+  SchemeParameters parameters;                ///< with their initial values
   std::array<bool, enforcement_count> takes;  ///< in the order of EnforcementKind
   std::string_view why_not;
   AngularMomentum angular_momentum = AngularMomentum::to_its_order;
   double gains = 0.005;       ///< energy that it may make, over what there is, without a trend (docs/schemes.md)
   bool takes_history = true;  ///< bodies whose points remember, and so dissipate
+  /// Initial values that throw back least, where multipliers on nodes with inertia throw back what touches; absent:
+  /// the same.
+  std::optional<SchemeParameters> parameters_on_multipliers{};
 };
 
 namespace detail {
@@ -84,32 +100,58 @@ inline constexpr std::string_view potential =
 }  // namespace detail
 
 /// Doyen, Ern and Piperno, SIAM J. Sci. Comput. 33(1), 2011, sort contact discretisations into the same four groups.
-inline constexpr std::array<SchemeTraits, 17> scheme_table{{
-    {SchemeKind::newmark, "newmark", "Newmark", Stepping::implicit_steps, {true, true, true, false}, detail::smooth},
-    {SchemeKind::hht, "hht", "HHT", Stepping::implicit_steps, {true, true, true, false}, detail::smooth},
-    {SchemeKind::wbz, "wbz", "WBZ", Stepping::implicit_steps, {true, true, true, false}, detail::smooth},
+inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
+    {SchemeKind::newmark,
+     "newmark",
+     "Newmark",
+     Stepping::implicit_steps,
+     NewmarkParameters{},
+     {true, true, true, false},
+     detail::smooth},
+    {SchemeKind::hht,
+     "hht",
+     "HHT",
+     Stepping::implicit_steps,
+     AlphaParameters{},
+     {true, true, true, false},
+     detail::smooth,
+     AngularMomentum::to_its_order,
+     0.005,
+     true,
+     AlphaParameters{least_alpha_of_hht}},
+    {SchemeKind::wbz,
+     "wbz",
+     "WBZ",
+     Stepping::implicit_steps,
+     AlphaParameters{},
+     {true, true, true, false},
+     detail::smooth},
     {SchemeKind::generalized_alpha,
      "generalized_alpha",
      "generalised-alpha",
      Stepping::implicit_steps,
+     SpectralRadius{},
      {true, true, true, false},
      detail::smooth},
     {SchemeKind::bathe,
      "bathe",
      "Bathe composite",
      Stepping::implicit_steps,
+     NoParameters{},
      {true, true, true, false},
      detail::smooth},
     {SchemeKind::contact_stabilized_newmark,
      "contact_stabilized_newmark",
      "contact-stabilised Newmark",
      Stepping::implicit_steps,
+     ContactStabilizedParameters{},
      {false, false, true, false},
      detail::displacement_level},
     {SchemeKind::energy_momentum,
      "energy_momentum",
      "energy-momentum",
      Stepping::implicit_steps,
+     NoParameters{},
      {true, false, false, false},
      detail::potential,
      AngularMomentum::exactly,
@@ -119,18 +161,21 @@ inline constexpr std::array<SchemeTraits, 17> scheme_table{{
      "moreau_jean",
      "Moreau-Jean",
      Stepping::implicit_steps,
+     MoreauJeanParameters{},
      {false, false, false, true},
      detail::velocity_level},
     {SchemeKind::nonsmooth_generalized_alpha,
      "nonsmooth_generalized_alpha",
      "nonsmooth generalised-alpha",
      Stepping::implicit_steps,
+     SpectralRadius{},
      {false, false, false, true},
      detail::velocity_level},
     {SchemeKind::central_differences,
      "central_differences",
      "central differences",
      Stepping::explicit_steps,
+     NoParameters{},
      {true, false, false, false},
      detail::smooth_explicit,
      AngularMomentum::exactly},
@@ -138,24 +183,28 @@ inline constexpr std::array<SchemeTraits, 17> scheme_table{{
      "hulbert_chung",
      "Hulbert-Chung",
      Stepping::explicit_steps,
+     SpectralRadius{},
      {true, false, false, false},
      detail::smooth_explicit},
     {SchemeKind::noh_bathe,
      "noh_bathe",
      "Noh-Bathe",
      Stepping::explicit_steps,
+     NohBatheParameters{},
      {true, false, false, false},
      detail::smooth_explicit},
     {SchemeKind::tchamwa_wielgosz,
      "tchamwa_wielgosz",
      "Tchamwa-Wielgosz",
      Stepping::explicit_steps,
+     TchamwaWielgoszParameters{},
      {true, false, false, false},
      detail::smooth_explicit},
     {SchemeKind::cd_lagrange,
      "cd_lagrange",
      "CD-Lagrange",
      Stepping::explicit_steps,
+     NoParameters{},
      {false, false, false, true},
      detail::velocity_level,
      AngularMomentum::exactly},
@@ -163,6 +212,7 @@ inline constexpr std::array<SchemeTraits, 17> scheme_table{{
      "forward_increment",
      "central differences, forward-increment multipliers",
      Stepping::explicit_steps,
+     NoParameters{},
      {false, false, true, false},
      detail::displacement_level,
      AngularMomentum::exactly},
@@ -170,11 +220,18 @@ inline constexpr std::array<SchemeTraits, 17> scheme_table{{
      "modified_mass",
      "central differences, modified mass",
      Stepping::explicit_steps,
+     NoParameters{},
      {false, false, true, false},
      detail::displacement_level,
      AngularMomentum::exactly,
      0.02},
-    {SchemeKind::statics, "statics", "statics", Stepping::implicit_steps, {true, true, true, false}, detail::smooth},
+    {SchemeKind::statics,
+     "statics",
+     "statics",
+     Stepping::implicit_steps,
+     NoParameters{},
+     {true, true, true, false},
+     detail::smooth},
 }};
 
 constexpr const SchemeTraits& traits(SchemeKind kind) {

@@ -13,7 +13,7 @@
 #include "run/lint_contact.hpp"
 #include "run/locking.hpp"
 #include "run/waves.hpp"
-#include "schemes/touch_rebound.hpp"
+#include "schemes/scheme_table.hpp"
 #include "solid/smallest_cell.hpp"
 
 namespace carom {

@@ -13,8 +13,8 @@ namespace carom {
 /// plausibility of units.
 std::vector<std::string> lint_warnings(const Simulation& simulation);
 
-/// Why the scheme of a stage makes energy on multipliers (schemes/touch_rebound.hpp), and what to choose instead; ""
-/// where it does not.
+/// Why the scheme of a stage makes energy on multipliers (touch_rebound), and what to choose instead; "" where
+/// it does not.
 std::string touch_remedy(const Stage& stage);
 
 }  // namespace carom

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "contact/facing_facets.hpp"
-#include "schemes/stability_limit.hpp"
 #include "solid/mass_scaling.hpp"
 #include "solid/modified_mass.hpp"
 #include "system/free_modes.hpp"
@@ -20,20 +19,12 @@ namespace carom {
 namespace {
 
 SchemeSettings settings_of(const CaseScheme& given, const CaseSolver& solver) {
-  SchemeSettings s;
-  s.kind = *given.kind;
-  s.enforcement = **given.enforcement;
-  s.beta = given.beta;
-  s.gamma = given.gamma;
-  s.alpha = given.alpha;
-  s.rho_inf = given.rho_inf;
-  s.theta = given.theta;
-  s.phi = given.phi;
-  s.p = given.p;
-  s.penetration = given.penetration.value_or(s.penetration);
-  s.max_iterations = solver.max_contact_iterations;
-  s.solver = solver.kind;
-  return s;
+  return {.kind = *given.kind,
+          .parameters = given.parameters,
+          .enforcement = **given.enforcement,
+          .max_iterations = solver.max_contact_iterations,
+          .penetration = given.penetration.value_or(SchemeSettings{}.penetration),
+          .solver = solver.kind};
 }
 
 Mass make_scaled_mass(const StageContext& context, const CaseScheme& scheme, const SchemeSettings& settings,
@@ -235,8 +226,7 @@ void Stage::choose_step() {
   if (explicit_steps) {
     reversible_energy_ = 1.0 / std::max(1e-3, 1.0 - std::pow(dt_ / stable_dt, 2));  // finite also at the limit
   } else {
-    const bool may_grow =
-        settings_.kind == SchemeKind::newmark && 2.0 * settings_.beta < settings_.gamma * (1.0 - 1e-12);
+    const bool may_grow = std::isfinite(stability_limit(settings_));
     reversible_energy_ = may_grow ? 0.0 : 1.0;
   }
 }
@@ -255,7 +245,7 @@ StableStepWatch Stage::watch_stable_step() const {
 
 std::unique_ptr<Scheme> Stage::make_scheme() const {
   const std::vector<double> bounds = context_.solid.cell_frequency_bounds();
-  return carom::make_scheme(system_, settings_, dt_, *std::max_element(bounds.begin(), bounds.end()));
+  return carom::make_scheme({system_, settings_, dt_, *std::max_element(bounds.begin(), bounds.end())});
 }
 
 std::string Stage::name() const {

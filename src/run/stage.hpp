@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "casefile/case.hpp"
-#include "schemes/make_scheme.hpp"
+#include "schemes/scheme_table.hpp"
 #include "schemes/stable_step.hpp"
 #include "system/supports.hpp"
 #include "system/system.hpp"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "schemes/books.hpp"
+#include "schemes/scheme_table.hpp"
 
 namespace carom {
 
@@ -133,6 +134,14 @@ StepReport Bathe::step(const State& begin, const StepRequest& request, State& en
   report.converged = true;
   end.within = {impulses_ ? 2.0 / 3.0 : 1.0 / 3.0, impulses_ ? impulses_->response() : middle_.forces.rows, middle_.q};
   return report;
+}
+
+SchemeRow bathe_row() {
+  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
+            return std::make_unique<Bathe>(r.system, r.settings.implicit(), r.dt, r.omega_max_squared);
+          },
+          // The backward formula still leaves a mass that reaches the row right after the middle with half its speed.
+          .touch_rebound = [](const SchemeParameters& /*parameters*/) { return 0.5; }};
 }
 
 }  // namespace carom

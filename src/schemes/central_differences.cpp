@@ -6,6 +6,7 @@
 #include "schemes/explicit_books.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "schemes/initial_acceleration.hpp"
+#include "schemes/scheme_table.hpp"
 
 namespace carom {
 
@@ -69,6 +70,35 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
   contact_->book(begin, end, report.books.energy);
   report.converged = true;
   return report;
+}
+
+namespace {
+
+double central_difference_limit(const SchemeParameters& /*parameters*/) {
+  return 2.0;
+}
+
+}  // namespace
+
+SchemeRow central_differences_row() {
+  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
+            return std::make_unique<CentralDifferences>(r.system, penalty_contact(r.system));
+          },
+          .stability_limit = central_difference_limit};
+}
+
+SchemeRow cd_lagrange_row() {
+  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
+            return std::make_unique<CentralDifferences>(r.system, impulse_contact(r.system));
+          },
+          .stability_limit = central_difference_limit};
+}
+
+SchemeRow forward_increment_row() {
+  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
+            return std::make_unique<CentralDifferences>(r.system, forward_increment_contact(r.system));
+          },
+          .stability_limit = central_difference_limit};
 }
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 
 #include "enforcement/exact_port.hpp"
 #include "schemes/books.hpp"
+#include "schemes/scheme_table.hpp"
 
 namespace carom {
 
@@ -21,13 +22,14 @@ StageForce no_force() {
 
 }  // namespace
 
-ContactStabilizedNewmark::ContactStabilizedNewmark(const System& system, double gamma, const ImplicitSettings& settings,
-                                                   double dt, double omega_max_squared)
+ContactStabilizedNewmark::ContactStabilizedNewmark(const System& system, const ContactStabilizedParameters& parameters,
+                                                   const ImplicitSettings& settings, double dt,
+                                                   double omega_max_squared)
     : system_(system),
-      gamma_(gamma),
+      gamma_(parameters.gamma),
       projection_(system, settings, 0.0, omega_max_squared, std::make_unique<ProjectionPort>(system), no_force()),
-      stage_(system, settings, 0.5 * gamma * dt * dt, omega_max_squared) {
-  assert(gamma >= 0.5 && gamma <= 1.0 && settings.enforcement == EnforcementKind::lagrange);
+      stage_(system, settings, 0.5 * gamma_ * dt * dt, omega_max_squared) {
+  assert(gamma_ >= 0.5 && gamma_ <= 1.0 && settings.enforcement == EnforcementKind::lagrange);
   x_predicted_.resize(system.solid.dof_count());
   zero_.resize(system.solid.dof_count());
   known_.resize(system.solid.dof_count());
@@ -91,6 +93,13 @@ StepReport ContactStabilizedNewmark::step(const State& begin, const StepRequest&
   report.books = books.increment;
   report.books.impulse = combine(h, books.force, 0.0, {});
   return report;
+}
+
+SchemeRow contact_stabilized_newmark_row() {
+  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
+    return std::make_unique<ContactStabilizedNewmark>(r.system, r.parameters<ContactStabilizedParameters>(),
+                                                      r.settings.implicit(), r.dt, r.omega_max_squared);
+  }};
 }
 
 }  // namespace carom

@@ -20,9 +20,9 @@ namespace carom {
 ///   algorithmic = delta . M a~ - (gamma - 1/2) d(f - F) . du.
 class ContactStabilizedNewmark final : public Scheme {
  public:
-  /// gamma: 1/2 ... 1. settings.enforcement is lagrange.
-  ContactStabilizedNewmark(const System& system, double gamma, const ImplicitSettings& settings, double dt,
-                           double omega_max_squared);
+  /// parameters: gamma 1/2 ... 1. settings.enforcement is lagrange.
+  ContactStabilizedNewmark(const System& system, const ContactStabilizedParameters& parameters,
+                           const ImplicitSettings& settings, double dt, double omega_max_squared);
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;

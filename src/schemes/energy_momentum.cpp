@@ -5,6 +5,7 @@
 
 #include "enforcement/potential_port.hpp"
 #include "schemes/books.hpp"
+#include "schemes/scheme_table.hpp"
 
 namespace carom {
 
@@ -65,6 +66,12 @@ StepReport EnergyMomentum::step(const State& begin, const StepRequest& request, 
   report.books = books.increment;
   report.books.impulse = combine(h, books.force, 0.0, {});
   return report;
+}
+
+SchemeRow energy_momentum_row() {
+  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
+    return std::make_unique<EnergyMomentum>(r.system, r.settings.implicit(), r.dt, r.omega_max_squared);
+  }};
 }
 
 }  // namespace carom

@@ -1,11 +1,79 @@
 #include "schemes/generalized_alpha.hpp"
 
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "schemes/books.hpp"
+#include "schemes/scheme_table.hpp"
 
 namespace carom {
+
+namespace {
+
+GeneralizedAlphaParameters newmark_of(const SchemeParameters& parameters) {
+  const auto& [beta, gamma] = std::get<NewmarkParameters>(parameters);
+  return newmark_parameters(beta, gamma);
+}
+GeneralizedAlphaParameters hht_of(const SchemeParameters& parameters) {
+  return hht_parameters(std::get<AlphaParameters>(parameters).alpha);
+}
+GeneralizedAlphaParameters wbz_of(const SchemeParameters& parameters) {
+  return wbz_parameters(std::get<AlphaParameters>(parameters).alpha);
+}
+GeneralizedAlphaParameters chung_hulbert_of(const SchemeParameters& parameters) {
+  return chung_hulbert_parameters(std::get<SpectralRadius>(parameters).rho_inf);
+}
+
+/// Of one of the functions above. Where contact is by multipliers: without or with VelocityImpulses.
+template <auto parameters_of>
+std::unique_ptr<Scheme> make_plain(const SchemeRequest& r) {
+  return std::make_unique<GeneralizedAlpha>(r.system, parameters_of(r.settings.parameters), r.settings.implicit(), r.dt,
+                                            r.omega_max_squared);
+}
+template <auto parameters_of>
+std::unique_ptr<Scheme> make_stopping(const SchemeRequest& r) {
+  return std::make_unique<GeneralizedAlpha>(r.system, parameters_of(r.settings.parameters), r.settings.implicit(), r.dt,
+                                            r.omega_max_squared, velocity_impulses(r.system, r.settings.enforcement));
+}
+
+/// The multiplier has to take back the step's displacement h v = beta h^2 a1, and lets go in the next step, where the
+/// equation of motion (1 - alpha_m) a2 + alpha_m a1 = 0 still remembers a1; the sum of what the velocity gains is
+///   h (a1 + a2 + ...) = (1 - alpha_m) h a1 = (1 - alpha_m) v / beta,
+/// so that the mass leaves with (1 - alpha_m) / beta - 1 times its speed: 1 for Chung and Hulbert with rho_inf = 1, 3
+/// for Newmark's parameters with beta = 1/4.
+template <auto parameters_of>
+double rebound(const SchemeParameters& parameters) {
+  const GeneralizedAlphaParameters p = parameters_of(parameters);
+  return (1.0 - p.alpha_m) / p.beta - 1.0;
+}
+/// With VelocityImpulses a touch stops.
+double no_rebound(const SchemeParameters& /*parameters*/) {
+  return 0.0;
+}
+
+/// Hughes, The Finite Element Method, section 9.1.
+double newmark_limit(const SchemeParameters& parameters) {
+  const auto& p = std::get<NewmarkParameters>(parameters);
+  if (p.is_stable_for_any_step()) return std::numeric_limits<double>::infinity();
+  return 1.0 / std::sqrt(0.5 * p.gamma - p.beta);
+}
+
+}  // namespace
+
+SchemeRow newmark_row() {
+  return {.make = make_stopping<newmark_of>, .stability_limit = newmark_limit, .touch_rebound = no_rebound};
+}
+SchemeRow hht_row() {
+  return {.make = make_plain<hht_of>, .touch_rebound = rebound<hht_of>};
+}
+SchemeRow wbz_row() {
+  return {.make = make_stopping<wbz_of>, .touch_rebound = no_rebound};
+}
+SchemeRow generalized_alpha_row() {
+  return {.make = make_plain<chung_hulbert_of>, .touch_rebound = rebound<chung_hulbert_of>};
+}
 
 GeneralizedAlpha::GeneralizedAlpha(const System& system, const GeneralizedAlphaParameters& p,
                                    const ImplicitSettings& settings, double dt, double omega_max_squared,

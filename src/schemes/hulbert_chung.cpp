@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "parallel/threads.hpp"
@@ -10,13 +11,14 @@
 #include "schemes/explicit_books.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "schemes/initial_acceleration.hpp"
+#include "schemes/scheme_table.hpp"
 
 namespace carom {
 
-HulbertChung::HulbertChung(const System& system, double rho)
+HulbertChung::HulbertChung(const System& system, const SpectralRadius& p)
     : system_(system),
-      alpha_m_((2.0 * rho - 1.0) / (1.0 + rho)),
-      beta_((5.0 - 3.0 * rho) / ((1.0 + rho) * (1.0 + rho) * (2.0 - rho))),
+      alpha_m_((2.0 * p.rho_inf - 1.0) / (1.0 + p.rho_inf)),
+      beta_((5.0 - 3.0 * p.rho_inf) / ((1.0 + p.rho_inf) * (1.0 + p.rho_inf) * (2.0 - p.rho_inf))),
       gamma_(1.5 - alpha_m_),
       contact_(penalty_contact(system)),
       mass_solver_(system),
@@ -24,7 +26,7 @@ HulbertChung::HulbertChung(const System& system, double rho)
       rhs_(system.solid.dof_count()),
       A_(system.solid.dof_count()),
       B_(system.solid.dof_count()) {
-  assert(rho >= 0.0 && rho <= 1.0);
+  assert(p.rho_inf >= 0.0 && p.rho_inf <= 1.0);
 }
 
 void HulbertChung::start(State& state, double dt) {
@@ -82,6 +84,25 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
   report.books.impulse = combine(h * (1.0 - gamma_), memory.force, h * gamma_, memory_end.force);
   report.converged = true;
   return report;
+}
+
+namespace {
+
+/// Where a root of the amplification reaches -1:
+///   omega^2 h^2 = (1 - 2 alpha_m) / (beta - gamma/2) = 12 (1 + r) (2 - r) / (10 - 5 r + r^2)
+/// (the fit of the 1996 paper, their eq. 38, is the same at r = 0 and 1 and up to 0.4 % larger between).
+double hulbert_chung_limit(const SchemeParameters& parameters) {
+  const double r = std::get<SpectralRadius>(parameters).rho_inf;
+  return std::sqrt(12.0 * (1.0 + r) * (2.0 - r) / (10.0 + r * (r - 5.0)));
+}
+
+}  // namespace
+
+SchemeRow hulbert_chung_row() {
+  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
+            return std::make_unique<HulbertChung>(r.system, r.parameters<SpectralRadius>());
+          },
+          .stability_limit = hulbert_chung_limit};
 }
 
 }  // namespace carom

@@ -21,8 +21,8 @@ namespace carom {
 /// integrals of their functions; their a give their velocities by the scheme's rule.
 class HulbertChung final : public Scheme {
  public:
-  /// rho: spectral radius, 0 ... 1
-  HulbertChung(const System& system, double rho);
+  /// parameters: spectral radius 0 ... 1
+  HulbertChung(const System& system, const SpectralRadius& parameters);
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;

@@ -4,13 +4,16 @@
 #include <utility>
 
 #include "schemes/books.hpp"
+#include "schemes/scheme_table.hpp"
 
 namespace carom {
 
-MoreauJean::MoreauJean(const System& system, double theta, const ImplicitSettings& settings, double dt,
-                       double omega_max_squared)
-    : system_(system), theta_(theta), stage_(system, settings, theta * theta * dt * dt, omega_max_squared) {
-  assert(theta >= 0.5 && theta <= 1.0 && settings.enforcement == EnforcementKind::impulse);
+MoreauJean::MoreauJean(const System& system, const MoreauJeanParameters& parameters, const ImplicitSettings& settings,
+                       double dt, double omega_max_squared)
+    : system_(system),
+      theta_(parameters.theta),
+      stage_(system, settings, theta_ * theta_ * dt * dt, omega_max_squared) {
+  assert(theta_ >= 0.5 && theta_ <= 1.0 && settings.enforcement == EnforcementKind::impulse);
   x_hat_.resize(system.solid.dof_count());
   x_predicted_.resize(system.solid.dof_count());
   known_.resize(system.solid.dof_count());
@@ -57,6 +60,13 @@ StepReport MoreauJean::step(const State& begin, const StepRequest& request, Stat
   report.books = books.increment;
   report.books.impulse = combine(h, books.force, 0.0, {});
   return report;
+}
+
+SchemeRow moreau_jean_row() {
+  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
+    return std::make_unique<MoreauJean>(r.system, r.parameters<MoreauJeanParameters>(), r.settings.implicit(), r.dt,
+                                        r.omega_max_squared);
+  }};
 }
 
 }  // namespace carom

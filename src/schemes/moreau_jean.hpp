@@ -20,8 +20,9 @@ namespace carom {
 ///   algorithmic = (theta - 1/2) [dv . M dv - d(f - F) . du].
 class MoreauJean final : public Scheme {
  public:
-  /// theta: 1/2 ... 1. settings.enforcement is impulse.
-  MoreauJean(const System& system, double theta, const ImplicitSettings& settings, double dt, double omega_max_squared);
+  /// parameters: theta 1/2 ... 1. settings.enforcement is impulse.
+  MoreauJean(const System& system, const MoreauJeanParameters& parameters, const ImplicitSettings& settings, double dt,
+             double omega_max_squared);
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;

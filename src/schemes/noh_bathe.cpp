@@ -1,6 +1,7 @@
 #include "schemes/noh_bathe.hpp"
 
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "parallel/threads.hpp"
@@ -8,13 +9,14 @@
 #include "schemes/explicit_books.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "schemes/initial_acceleration.hpp"
+#include "schemes/scheme_table.hpp"
 
 namespace carom {
 
-NohBathe::NohBathe(const System& system, double p)
+NohBathe::NohBathe(const System& system, const NohBatheParameters& parameters)
     : system_(system),
-      p_(p),
-      q1_((1.0 - 2.0 * p) / (2.0 * p * (1.0 - p))),
+      p_(parameters.p),
+      q1_((1.0 - 2.0 * p_) / (2.0 * p_ * (1.0 - p_))),
       contact_(penalty_contact(system)),
       mass_solver_(system),
       start_(system),
@@ -22,8 +24,8 @@ NohBathe::NohBathe(const System& system, double p)
       predicted_(system.solid.dof_count()),
       A_(system.solid.dof_count()),
       B_(system.solid.dof_count()) {
-  assert(p > 0.0 && p < 1.0);
-  q2_ = 0.5 - p * q1_;
+  assert(p_ > 0.0 && p_ < 1.0);
+  q2_ = 0.5 - p_ * q1_;
   q0_ = 0.5 - q1_ - q2_;
 }
 
@@ -138,6 +140,48 @@ StepReport NohBathe::step(const State& begin, const StepRequest& request, State&
   end.within.u = middle_.q;
   report.converged = true;
   return report;
+}
+
+namespace {
+
+/// Displacement and h times velocity after a step of Noh and Bathe's scheme with h = 1 and a = -w^2 u.
+struct Oscillator {
+  double u, v;
+};
+Oscillator noh_bathe_step(double p, double w, const Oscillator& start) {
+  const double q1 = (1.0 - 2.0 * p) / (2.0 * p * (1.0 - p)), q2 = 0.5 - p * q1, q0 = 0.5 - q1 - q2, k = 1.0 - p;
+  const double a0 = -w * w * start.u, up = start.u + p * start.v + 0.5 * p * p * a0;
+  const double ap = -w * w * up, vp = start.v + 0.5 * p * (a0 + ap);
+  const double u1 = up + k * vp + 0.5 * k * k * ap, a1 = -w * w * u1;
+  return {u1, vp + k * (q0 * a0 + (0.5 + q1) * ap + q2 * a1)};
+}
+
+/// Both eigenvalues of a real 2 x 2 matrix lie in the unit circle when |det| <= 1 and |trace| <= 1 + det.
+bool noh_bathe_is_stable(double p, double w) {
+  const Oscillator first = noh_bathe_step(p, w, {1.0, 0.0}), second = noh_bathe_step(p, w, {0.0, 1.0});
+  const double trace = first.u + second.v, det = first.u * second.v - first.v * second.u;
+  constexpr double round_off = 1e-12;
+  return std::abs(det) <= 1.0 + round_off && std::abs(trace) <= 1.0 + det + round_off;
+}
+
+/// By bisection (3.745 for p = 0.54).
+double noh_bathe_limit(const SchemeParameters& parameters) {
+  const double p = std::get<NohBatheParameters>(parameters).p;
+  double stable = 0.0, step = 1e-2;
+  while (noh_bathe_is_stable(p, stable + step)) stable += step;
+  for (; step > 1e-10; step *= 0.5) {
+    if (noh_bathe_is_stable(p, stable + step)) stable += step;
+  }
+  return stable;
+}
+
+}  // namespace
+
+SchemeRow noh_bathe_row() {
+  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
+            return std::make_unique<NohBathe>(r.system, r.parameters<NohBatheParameters>());
+          },
+          .stability_limit = noh_bathe_limit};
 }
 
 }  // namespace carom

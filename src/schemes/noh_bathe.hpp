@@ -19,7 +19,7 @@ namespace carom {
 /// evaluated at both sub-steps. Imposed dofs move by the exact integrals of their functions.
 class NohBathe final : public Scheme {
  public:
-  NohBathe(const System& system, double p);
+  NohBathe(const System& system, const NohBatheParameters& parameters);
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;

@@ -10,6 +10,7 @@
 #include "enforcement/jump_port.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/books.hpp"
+#include "schemes/scheme_table.hpp"
 
 namespace carom {
 
@@ -162,6 +163,14 @@ LedgerIncrement NonsmoothGeneralizedAlpha::books(const State& begin, double h, S
   end.forces.reaction = reaction_;
   out.impulse = combine(1.0, combine(h * (1.0 - gamma), old_.a.force, h * gamma, memory.a.force), h, jump);
   return out;
+}
+
+SchemeRow nonsmooth_generalized_alpha_row() {
+  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
+    return std::make_unique<NonsmoothGeneralizedAlpha>(r.system,
+                                                       chung_hulbert_parameters(r.parameters<SpectralRadius>().rho_inf),
+                                                       r.settings.implicit(), r.dt, r.omega_max_squared);
+  }};
 }
 
 }  // namespace carom

@@ -15,6 +15,7 @@
 #include "schemes/explicit_books.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "schemes/initial_acceleration.hpp"
+#include "schemes/scheme_table.hpp"
 
 namespace carom {
 
@@ -360,6 +361,13 @@ StepReport SemiExplicit::step(const State& begin, const StepRequest& request, St
   book_multipliers(begin, end, report.books.energy);
   report.converged = true;
   return report;
+}
+
+SchemeRow modified_mass_row() {
+  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
+            return std::make_unique<SemiExplicit>(r.system, r.settings.max_iterations);
+          },
+          .stability_limit = [](const SchemeParameters& /*parameters*/) { return 2.0; }};
 }
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 
 #include "schemes/books.hpp"
 #include "schemes/initial_acceleration.hpp"
+#include "schemes/scheme_table.hpp"
 
 namespace carom {
 
@@ -56,6 +57,12 @@ StepReport Statics::step(const State& begin, const StepRequest& request, State& 
                             stage_.port().work(begin, end, weights.support_work))
                      .increment;
   return report;
+}
+
+SchemeRow statics_row() {
+  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
+    return std::make_unique<Statics>(r.system, r.settings.implicit(), r.omega_max_squared);
+  }};
 }
 
 }  // namespace carom

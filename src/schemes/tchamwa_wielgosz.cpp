@@ -1,6 +1,7 @@
 #include "schemes/tchamwa_wielgosz.hpp"
 
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "parallel/threads.hpp"
@@ -8,18 +9,19 @@
 #include "schemes/explicit_books.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "schemes/initial_acceleration.hpp"
+#include "schemes/scheme_table.hpp"
 
 namespace carom {
 
-TchamwaWielgosz::TchamwaWielgosz(const System& system, double phi)
+TchamwaWielgosz::TchamwaWielgosz(const System& system, const TchamwaWielgoszParameters& parameters)
     : system_(system),
-      phi_(phi),
+      phi_(parameters.phi),
       contact_(penalty_contact(system)),
       mass_solver_(system),
       start_(system),
       rhs_(system.solid.dof_count()),
       B_(system.solid.dof_count()) {
-  assert(phi >= 1.0);
+  assert(phi_ >= 1.0);
 }
 
 void TchamwaWielgosz::start(State& state, double dt) {
@@ -66,6 +68,16 @@ StepReport TchamwaWielgosz::step(const State& begin, const StepRequest& request,
   report.books.impulse = combine(h, resultant(system_, begin, start_.balance()), 0.0, {});
   report.converged = true;
   return report;
+}
+
+SchemeRow tchamwa_wielgosz_row() {
+  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
+            return std::make_unique<TchamwaWielgosz>(r.system, r.parameters<TchamwaWielgoszParameters>());
+          },
+          .stability_limit =
+              [](const SchemeParameters& parameters) {
+                return 2.0 / std::sqrt(2.0 * std::get<TchamwaWielgoszParameters>(parameters).phi - 1.0);
+              }};
 }
 
 }  // namespace carom

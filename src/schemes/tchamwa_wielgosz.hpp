@@ -18,7 +18,7 @@ namespace carom {
 /// their mean acceleration.
 class TchamwaWielgosz final : public Scheme {
  public:
-  TchamwaWielgosz(const System& system, double phi);
+  TchamwaWielgosz(const System& system, const TchamwaWielgoszParameters& parameters);
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;

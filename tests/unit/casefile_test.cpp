@@ -17,6 +17,14 @@
 namespace carom::casefile_test {
 namespace {
 
+double beta_of(const Case& c) {
+  return std::get<NewmarkParameters>(c.scheme.parameters).beta;
+}
+
+double alpha_of(const Case& c) {
+  return std::get<AlphaParameters>(c.scheme.parameters).alpha;
+}
+
 const std::string complete_path = std::string(CAROM_SOURCE_DIR) + "/tests/data/case_complete.toml";
 
 /// The least that a case needs.
@@ -54,8 +62,8 @@ TEST(Casefile, DefaultsOfAMinimalCase) {
   EXPECT_EQ(c.file, "minimal.toml");
   EXPECT_EQ(c.units, UnitSystem::si);
   EXPECT_EQ(*c.mesh.file, "bar.msh");
-  EXPECT_EQ(c.scheme.beta, 0.25);
-  EXPECT_EQ(c.scheme.gamma, 0.5);
+  EXPECT_EQ(beta_of(c), 0.25);
+  EXPECT_EQ(std::get<NewmarkParameters>(c.scheme.parameters).gamma, 0.5);
   EXPECT_EQ(**c.scheme.mass, CaseScheme::Mass::consistent);
   EXPECT_FALSE(c.time.fixed);
   EXPECT_EQ(c.solver.kind, SolverKind::automatic);
@@ -85,20 +93,20 @@ TEST(Casefile, MassDefaultsToLumpedForCentralDifferences) {
 }
 
 /// For HHT with alpha = -1/3 4 / (1 - alpha)^2 - 1 = 1.25; Newmark and WBZ stop what touches
-/// (schemes/touch_rebound.hpp).
+/// (schemes/scheme_table.hpp).
 TEST(Casefile, ParametersOfTheAlphaFamilyOnMultipliersThrowNoNodeBack) {
   for (const char* enforcement : {"lagrange", "augmented_lagrangian"}) {
     const std::string text =
         with(minimal, "\"newmark\"", fmt::format("\"newmark\"\nenforcement = \"{}\"", enforcement));
-    EXPECT_EQ(parse_case(text, "c").scheme.beta, 0.25);
-    EXPECT_EQ(parse_case(with(text, "newmark", "hht"), "c").scheme.alpha, -1.0 / 3.0);
-    EXPECT_EQ(parse_case(with(text, "newmark", "wbz"), "c").scheme.alpha, -0.05);
+    EXPECT_EQ(beta_of(parse_case(text, "c")), 0.25);
+    EXPECT_EQ(alpha_of(parse_case(with(text, "newmark", "hht"), "c")), -1.0 / 3.0);
+    EXPECT_EQ(alpha_of(parse_case(with(text, "newmark", "wbz"), "c")), -0.05);
     const std::string given = with(text, "\"newmark\"", "\"newmark\"\nbeta = 0.3");
-    EXPECT_EQ(parse_case(given, "c").scheme.beta, 0.3);
+    EXPECT_EQ(beta_of(parse_case(given, "c")), 0.3);
   }
-  EXPECT_EQ(parse_case(with(minimal, "newmark", "hht"), "c").scheme.alpha, -0.05);  // penalty
+  EXPECT_EQ(alpha_of(parse_case(with(minimal, "newmark", "hht"), "c")), -0.05);  // penalty
   const std::string massless = with(minimal, "\"newmark\"", "\"hht\"\nenforcement = \"lagrange\"\nmass = \"modified\"");
-  EXPECT_EQ(parse_case(massless, "c").scheme.alpha, -0.05);  // no mass that could be thrown back
+  EXPECT_EQ(alpha_of(parse_case(massless, "c")), -0.05);  // no mass that could be thrown back
 }
 
 TEST(Casefile, CentralDifferencesNeedNoStep) {
@@ -226,7 +234,7 @@ TEST(Casefile, AnEmptyListOfFieldsStaysEmpty) {
 TEST(Casefile, CasesOfTheRepositoryAreRead) {
   const Case c = read_case(std::string(CAROM_SOURCE_DIR) + "/cases/sdnv100/as_published.toml");
   EXPECT_EQ(resolved_toml(parse_case(resolved_toml(c), "resolved")), resolved_toml(c));
-  EXPECT_EQ(c.scheme.gamma, 0.55);  // SDNV100: DELTA = 0.55
+  EXPECT_EQ(std::get<NewmarkParameters>(c.scheme.parameters).gamma, 0.55);  // SDNV100: DELTA = 0.55
   EXPECT_TRUE(plausibility_warnings(c).empty());
 }
 

@@ -11,7 +11,7 @@
 #include "run/lint.hpp"
 #include "run_fixture.hpp"
 #include "schemes/generalized_alpha.hpp"
-#include "schemes/touch_rebound.hpp"
+#include "schemes/scheme_table.hpp"
 
 namespace carom::run_free_mass_test {
 namespace {
@@ -127,32 +127,24 @@ double speed_after_touch_by_bathe(double overshoot) {
 }
 
 TEST(FreeMass, ReboundOfATouchIsThatOfTheRecurrence) {
-  SchemeSettings s;
-  s.enforcement = EnforcementKind::lagrange;
-  const auto expect = [&](SchemeKind kind, const GeneralizedAlphaParameters& p) {
-    s.kind = kind;
-    ASSERT_TRUE(touch_rebound(s).has_value());
-    EXPECT_NEAR(speed_after_touch(p, 1.0 - 1e-9), *touch_rebound(s), 1e-7);
+  const auto rebound_of = [](SchemeKind kind, const SchemeParameters& parameters) {
+    return touch_rebound({.kind = kind, .parameters = parameters, .enforcement = EnforcementKind::lagrange}).value();
   };
-  for (const SchemeKind kind : {SchemeKind::newmark, SchemeKind::wbz}) {
-    s.kind = kind;
-    EXPECT_EQ(*touch_rebound(s), 0.0);
-  }
+  EXPECT_EQ(rebound_of(SchemeKind::newmark, NewmarkParameters{}), 0.0);
+  EXPECT_EQ(rebound_of(SchemeKind::wbz, AlphaParameters{}), 0.0);
   for (const double alpha : {-0.05, -0.2, -1.0 / 3.0}) {
-    s.alpha = alpha;
-    expect(SchemeKind::hht, hht_parameters(alpha));
+    const double rebound = rebound_of(SchemeKind::hht, AlphaParameters{alpha});
+    EXPECT_NEAR(speed_after_touch(hht_parameters(alpha), 1.0 - 1e-9), rebound, 1e-7);
   }
   for (const double rho : {0.0, 0.5, 0.8, 1.0}) {
-    s.rho_inf = rho;
-    expect(SchemeKind::generalized_alpha, chung_hulbert_parameters(rho));
-    EXPECT_NEAR(*touch_rebound(s), 1.0 + rho * (1.0 - rho), 1e-12);
+    const double rebound = rebound_of(SchemeKind::generalized_alpha, SpectralRadius{rho});
+    EXPECT_NEAR(speed_after_touch(chung_hulbert_parameters(rho), 1.0 - 1e-9), rebound, 1e-7);
+    EXPECT_NEAR(rebound, 1.0 + rho * (1.0 - rho), 1e-12);
   }
-  s.kind = SchemeKind::bathe;
   double most = 0.0;
   for (int i = 0; i <= 1000; ++i) most = std::max(most, speed_after_touch_by_bathe(0.001 * i));
-  EXPECT_NEAR(most, *touch_rebound(s), 1e-12);
-  s.enforcement = EnforcementKind::penalty;
-  EXPECT_FALSE(touch_rebound(s).has_value());
+  EXPECT_NEAR(most, rebound_of(SchemeKind::bathe, NoParameters{}), 1e-12);
+  EXPECT_FALSE(touch_rebound({.kind = SchemeKind::bathe, .enforcement = EnforcementKind::penalty}).has_value());
 }
 
 /// What a run of the case says when it ends, and the case's warnings.

@@ -6,7 +6,7 @@
 
 #include "schemes/hulbert_chung.hpp"
 #include "schemes/noh_bathe.hpp"
-#include "schemes/stability_limit.hpp"
+#include "schemes/scheme_table.hpp"
 #include "schemes/tchamwa_wielgosz.hpp"
 #include "schemes_explicit_fixture.hpp"
 
@@ -104,19 +104,21 @@ std::vector<Explicit> schemes() {
                   hanging_bars});
   for (const double rho : {1.0, 0.8, 0.5, 0.3, 0.0}) {
     list.push_back({"hulbert_chung_" + std::to_string(static_cast<int>(10 * rho)),
-                    {.kind = SchemeKind::hulbert_chung, .rho_inf = rho},
+                    {.kind = SchemeKind::hulbert_chung, .parameters = SpectralRadius{rho}},
                     2,
-                    [rho](const System& s) { return std::make_unique<HulbertChung>(s, rho); }});
+                    [rho](const System& s) { return std::make_unique<HulbertChung>(s, SpectralRadius{rho}); }});
   }
   for (const double p : {0.5, 0.54, 0.6}) {
     list.push_back({"noh_bathe_" + std::to_string(static_cast<int>(100 * p)),
-                    {.kind = SchemeKind::noh_bathe, .p = p},
+                    {.kind = SchemeKind::noh_bathe, .parameters = NohBatheParameters{p}},
                     2,
-                    [p](const System& s) { return std::make_unique<NohBathe>(s, p); }});
+                    [p](const System& s) { return std::make_unique<NohBathe>(s, NohBatheParameters{p}); }});
   }
-  list.push_back({"tchamwa_wielgosz", {.kind = SchemeKind::tchamwa_wielgosz, .phi = 1.033}, 1, [](const System& s) {
-                    return std::make_unique<TchamwaWielgosz>(s, 1.033);
-                  }});
+  list.push_back(
+      {"tchamwa_wielgosz",
+       {.kind = SchemeKind::tchamwa_wielgosz, .parameters = TchamwaWielgoszParameters{1.033}},
+       1,
+       [](const System& s) { return std::make_unique<TchamwaWielgosz>(s, TchamwaWielgoszParameters{1.033}); }});
   return list;
 }
 
@@ -174,11 +176,23 @@ INSTANTIATE_TEST_SUITE_P(, ExplicitScheme, testing::ValuesIn(schemes()),
 TEST(StabilityLimit, IsAsPublished) {
   const double rho[] = {1.0, 0.8, 0.5, 0.3, 0.0}, limit[] = {2.0, 1.978, 1.873, 1.762, 1.549};
   for (int i = 0; i < 5; ++i) {
-    EXPECT_NEAR(stability_limit({.kind = SchemeKind::hulbert_chung, .rho_inf = rho[i]}), limit[i], 4e-3 * limit[i]);
+    EXPECT_NEAR(stability_limit({.kind = SchemeKind::hulbert_chung, .parameters = SpectralRadius{rho[i]}}), limit[i],
+                4e-3 * limit[i]);
   }
-  EXPECT_NEAR(stability_limit({.kind = SchemeKind::noh_bathe, .p = 0.54}), 3.746, 2e-3);
-  EXPECT_DOUBLE_EQ(stability_limit({.kind = SchemeKind::tchamwa_wielgosz, .phi = 1.0}), 2.0);
-  EXPECT_EQ(stability_limit({.kind = SchemeKind::newmark}), std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(stability_limit({.kind = SchemeKind::noh_bathe, .parameters = NohBatheParameters{0.54}}), 3.746, 2e-3);
+  EXPECT_DOUBLE_EQ(
+      stability_limit({.kind = SchemeKind::tchamwa_wielgosz, .parameters = TchamwaWielgoszParameters{1.0}}), 2.0);
+}
+
+// The difference equation of Newmark on u'' = -w^2 u has a root at -1 at w^2 h^2 = 1 / (gamma/2 - beta).
+TEST(StabilityLimit, OnlyExplicitSchemesHaveOneAndANewmarkOfSmallBeta) {
+  for (const SchemeTraits& scheme : scheme_table)
+    EXPECT_EQ(std::isfinite(stability_limit({.kind = scheme.kind})), is_explicit(scheme.kind)) << scheme.name;
+  const auto newmark = [](double beta, double gamma) {
+    return stability_limit({.kind = SchemeKind::newmark, .parameters = NewmarkParameters{beta, gamma}});
+  };
+  EXPECT_DOUBLE_EQ(newmark(1.0 / 6.0, 0.5), std::sqrt(12.0));  // linear acceleration
+  EXPECT_FALSE(std::isfinite(newmark(0.275, 0.55)));
 }
 
 // T + U - h^2/8 a.Ma of central differences; phi = 1 dissipates nothing in the mean: T + U stays within the bounds of a
@@ -188,7 +202,7 @@ TEST(TchamwaWielgosz, DissipatesWithPhiAboveOne) {
   const double h = 0.5 / oscillator.frequency();
   double kept[2];
   for (const int k : {0, 1}) {
-    TchamwaWielgosz scheme(oscillator.system(), k == 0 ? 1.0 : 1.05);
+    TchamwaWielgosz scheme(oscillator.system(), {.phi = k == 0 ? 1.0 : 1.05});
     const History run = march(scheme, oscillator.displaced(0.1), h, 2000);
     kept[k] = run.ledger.now().mechanical() / run.ledger.initial().mechanical();
     EXPECT_LT(run.imbalance, 1e-12 * run.ledger.scale());

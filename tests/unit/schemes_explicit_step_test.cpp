@@ -12,7 +12,7 @@
 #include "mesh/structured_block.hpp"
 #include "schemes/hulbert_chung.hpp"
 #include "schemes/noh_bathe.hpp"
-#include "schemes/stability_limit.hpp"
+#include "schemes/scheme_table.hpp"
 #include "schemes/tchamwa_wielgosz.hpp"
 #include "schemes_explicit_fixture.hpp"
 
@@ -123,12 +123,13 @@ std::vector<Kind> kinds() {
   const SchemeSettings cd_lagrange{.kind = SchemeKind::cd_lagrange, .enforcement = EnforcementKind::impulse};
   const SchemeSettings forward{.kind = SchemeKind::forward_increment, .enforcement = EnforcementKind::lagrange};
   return {
-      plain("hulbert_chung", {.kind = SchemeKind::hulbert_chung, .rho_inf = 0.6}, MassKind::lumped,
-            [](const System& s) { return std::make_unique<HulbertChung>(s, 0.6); }),
-      plain("noh_bathe", {.kind = SchemeKind::noh_bathe, .p = 0.54}, MassKind::lumped,
-            [](const System& s) { return std::make_unique<NohBathe>(s, 0.54); }),
-      plain("tchamwa_wielgosz", {.kind = SchemeKind::tchamwa_wielgosz, .phi = 1.1}, MassKind::consistent,
-            [](const System& s) { return std::make_unique<TchamwaWielgosz>(s, 1.1); }),
+      plain("hulbert_chung", {.kind = SchemeKind::hulbert_chung, .parameters = SpectralRadius{0.6}}, MassKind::lumped,
+            [](const System& s) { return std::make_unique<HulbertChung>(s, SpectralRadius{0.6}); }),
+      plain("noh_bathe", {.kind = SchemeKind::noh_bathe, .parameters = NohBatheParameters{0.54}}, MassKind::lumped,
+            [](const System& s) { return std::make_unique<NohBathe>(s, NohBatheParameters{0.54}); }),
+      plain("tchamwa_wielgosz", {.kind = SchemeKind::tchamwa_wielgosz, .parameters = TchamwaWielgoszParameters{1.1}},
+            MassKind::consistent,
+            [](const System& s) { return std::make_unique<TchamwaWielgosz>(s, TchamwaWielgoszParameters{1.1}); }),
       plain("cd_lagrange", cd_lagrange, MassKind::lumped, impulse),
       plain("cd_lagrange_consistent", cd_lagrange, MassKind::consistent, impulse),
       plain("forward_increment", forward, MassKind::lumped, increments),

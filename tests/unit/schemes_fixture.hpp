@@ -113,12 +113,6 @@ inline History march(Scheme& scheme, const State& begin, double h, int n) {
   return march(scheme, begin, h, n, [](const State& /*state*/) {});
 }
 
-struct NewmarkParameters {
-  double beta = 0.25, gamma = 0.5;
-  int max_iterations = 50;
-  SolverKind solver = SolverKind::automatic;
-};
-
 inline std::unique_ptr<Scheme> generalized_alpha(const Problem& p, double h,
                                                  const GeneralizedAlphaParameters& parameters,
                                                  const ImplicitSettings& settings = {}) {
@@ -126,9 +120,9 @@ inline std::unique_ptr<Scheme> generalized_alpha(const Problem& p, double h,
                                             stable_step(p.system).omega_max_squared_free);
 }
 
-inline std::unique_ptr<Scheme> newmark(const Problem& p, double h, const NewmarkParameters& parameters = {}) {
-  return generalized_alpha(p, h, newmark_parameters(parameters.beta, parameters.gamma),
-                           {.max_iterations = parameters.max_iterations, .solver = parameters.solver});
+inline std::unique_ptr<Scheme> newmark(const Problem& p, double h, const NewmarkParameters& parameters = {},
+                                       const ImplicitSettings& settings = {}) {
+  return generalized_alpha(p, h, newmark_parameters(parameters.beta, parameters.gamma), settings);
 }
 
 inline std::unique_ptr<Scheme> central(const Problem& p) {

@@ -38,7 +38,7 @@ inline ImplicitScheme moreau_jean_scheme(const std::string& title, double theta)
   return {title,
           {.enforcement = EnforcementKind::impulse},
           [theta](const Problem& p, const ImplicitSettings& settings, double h, double omega_squared) {
-            return std::make_unique<MoreauJean>(p.system, theta, settings, h, omega_squared);
+            return std::make_unique<MoreauJean>(p.system, MoreauJeanParameters{theta}, settings, h, omega_squared);
           }};
 }
 
@@ -79,7 +79,8 @@ inline std::vector<ImplicitScheme> implicit_schemes() {
   all.push_back({"contact_stabilized",
                  {.enforcement = EnforcementKind::lagrange},
                  [](const Problem& p, const ImplicitSettings& settings, double h, double omega_squared) {
-                   return std::make_unique<ContactStabilizedNewmark>(p.system, 0.5, settings, h, omega_squared);
+                   return std::make_unique<ContactStabilizedNewmark>(p.system, ContactStabilizedParameters{0.5},
+                                                                     settings, h, omega_squared);
                  }});
   all.push_back({"energy_momentum",
                  {.enforcement = EnforcementKind::penalty},

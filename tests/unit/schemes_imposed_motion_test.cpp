@@ -4,7 +4,7 @@
 #include <array>
 #include <numbers>
 
-#include "schemes/make_scheme.hpp"
+#include "schemes/scheme_table.hpp"
 #include "schemes_explicit_fixture.hpp"
 
 namespace carom::schemes_imposed_motion_test {
@@ -67,7 +67,7 @@ double exact(MotionKind kind, const TimeFunction& f, double t) {
 template <class P>
 void expect_exact_motion(const P& p, const SchemeSettings& settings, MotionKind kind, const TimeFunction& f) {
   const double h = 0.1;
-  const auto scheme = make_scheme(p.system, settings, h, 100.0);
+  const auto scheme = make_scheme({p.system, settings, h, 100.0});
   const auto foot = 3 * static_cast<std::size_t>(p.model.mesh->nodes_of("ZMIN")[0]) + 2;
   State state, next;
   state.q.assign(p.solid.dof_count(), 0.0);
@@ -100,8 +100,7 @@ void expect_exact_motion(const P& p, const SchemeSettings& settings, MotionKind 
 class ImposedMotionOf : public testing::TestWithParam<SchemeTraits> {};
 
 TEST_P(ImposedMotionOf, IsTheExactIntegral) {
-  SchemeSettings settings;
-  settings.kind = GetParam().kind;
+  SchemeSettings settings{.kind = GetParam().kind};
   for (std::size_t e = 0; e < enforcement_count; ++e) {
     if (GetParam().takes.at(e)) settings.enforcement = static_cast<EnforcementKind>(e);
   }
@@ -128,9 +127,8 @@ TEST(ImposedMotion, DoesNotRingAfterAKink) {
   for (const MotionKind kind : {MotionKind::displacement, MotionKind::velocity}) {
     const Problem p(driven(kind, f));
     const auto foot = 3 * static_cast<std::size_t>(p.model.mesh->nodes_of("ZMIN")[0]) + 2;
-    SchemeSettings settings;  // Newmark 1/4, 1/2
-    settings.enforcement = EnforcementKind::penalty;
-    const auto scheme = make_scheme(p.system, settings, 0.1, 100.0);
+    const SchemeSettings settings{};  // Newmark 1/4, 1/2
+    const auto scheme = make_scheme({p.system, settings, 0.1, 100.0});
     march(*scheme, p.moving({}), 0.1, 20, [&](const State& state) {
       if (state.t < 0.95) return;
       EXPECT_NEAR(state.a[foot], 0.0, 1e-13);
@@ -151,9 +149,8 @@ TEST(ImposedMotion, WorkOfAJumpIsTheKineticEnergy) {
     Model model = one_part(block_mesh({1, 1, 1}, 0.0));
     model.motions.push_back({"all", model.mesh->nodes_of("BLOCK"), 2, MotionKind::velocity, f});
     const Problem p(model);
-    SchemeSettings settings;
-    settings.enforcement = EnforcementKind::penalty;
-    const auto scheme = make_scheme(p.system, settings, h, 100.0);
+    const SchemeSettings settings{};
+    const auto scheme = make_scheme({p.system, settings, h, 100.0});
     const History run = march(*scheme, p.moving({}), h, static_cast<int>(1.0 / h + 0.5));
     const EnergyTerms now = run.ledger.now();
     EXPECT_NEAR(now.kinetic, 3.0, 1e-12);  // 1/2 m v^2 with m = 1.5

@@ -137,12 +137,12 @@ struct Ledger : testing::TestWithParam<Scenario> {
 
 TEST_P(Ledger, ClosesWithNewmarkAndCholesky) {
   const Problem p(GetParam().model());
-  expect_closed(p, *newmark(p, 0.1, {.solver = SolverKind::cholesky}), 0.1);
+  expect_closed(p, *newmark(p, 0.1, {}, {.solver = SolverKind::cholesky}), 0.1);
 }
 
 TEST_P(Ledger, ClosesWithNewmarkAndConjugateGradientsAndLumpedMass) {
   const Problem p(GetParam().model(), MassKind::lumped);
-  expect_closed(p, *newmark(p, 0.1, {.solver = SolverKind::conjugate_gradients}), 0.1);
+  expect_closed(p, *newmark(p, 0.1, {}, {.solver = SolverKind::conjugate_gradients}), 0.1);
 }
 
 TEST_P(Ledger, ClosesWithDissipativeNewmark) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "model/compatibility.hpp"
-#include "schemes/make_scheme.hpp"
+#include "schemes/scheme_table.hpp"
 #include "schemes_explicit_fixture.hpp"
 #include "schemes_fixture.hpp"
 
@@ -150,7 +150,7 @@ class Purity {
 
  private:
   std::unique_ptr<Scheme> scheme_on(const Bench& bench) const {
-    return make_scheme(bench.system(), settings_, h_, omega_max_squared_);
+    return make_scheme({bench.system(), settings_, h_, omega_max_squared_});
   }
   /// Number 3 is shorter, so that operators change on the way.
   StepRequest request(const State& begin, int number) const {
@@ -253,10 +253,7 @@ TEST_P(PurityOf, Holds) {
           if (!is_tried(scheme.kind, enforcement.kind, scene, body, solver)) continue;
           SCOPED_TRACE(std::string(enforcement.name) + ", " + scene.name + ", " + body.name + ", solver " +
                        std::to_string(static_cast<int>(solver)));
-          SchemeSettings settings;
-          settings.kind = scheme.kind;
-          settings.enforcement = enforcement.kind;
-          settings.solver = solver;
+          const SchemeSettings settings{.kind = scheme.kind, .enforcement = enforcement.kind, .solver = solver};
           Purity(scene, body, settings).check();
         }
       }

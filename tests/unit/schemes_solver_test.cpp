@@ -3,7 +3,7 @@
 
 #include "contact_fixture.hpp"
 #include "linalg/dense.hpp"
-#include "schemes/make_scheme.hpp"
+#include "schemes/scheme_table.hpp"
 #include "schemes_fixture.hpp"
 
 namespace carom::schemes_solver_test {
@@ -223,7 +223,7 @@ TEST(Solvers, AgreeOnAnImpact) {
       std::vector<State> states;
       for (const SolverKind solver : {SolverKind::cholesky, SolverKind::conjugate_gradients, SolverKind::ldlt}) {
         const Problem p(impact(friction), kind);
-        const History run = march(*newmark(p, 0.1, {.solver = solver}), p.moving({0.1, 0.05, -0.2}), 0.1, 100);
+        const History run = march(*newmark(p, 0.1, {}, {.solver = solver}), p.moving({0.1, 0.05, -0.2}), 0.1, 100);
         ASSERT_TRUE(run.converged);
         states.push_back(run.state);
       }
@@ -267,11 +267,9 @@ TEST(Solvers, EveryImplicitSchemeTakesLdlt) {
       const Problem p(impact({}));
       std::vector<State> states;
       for (const SolverKind solver : {SolverKind::cholesky, SolverKind::ldlt}) {
-        SchemeSettings settings;
-        settings.kind = scheme.kind;
-        settings.enforcement = static_cast<EnforcementKind>(e);
-        settings.solver = solver;
-        const auto made = make_scheme(p.system, settings, 0.1, stable_step(p.system).omega_max_squared_free);
+        const SchemeSettings settings{
+            .kind = scheme.kind, .enforcement = static_cast<EnforcementKind>(e), .solver = solver};
+        const auto made = make_scheme({p.system, settings, 0.1, stable_step(p.system).omega_max_squared_free});
         // Statics knows no velocities: there nothing moves.
         const History run = march(*made, p.moving({0.1, 0.05, -0.2}), 0.1, 20);
         EXPECT_EQ(made->solver_name(run.state),

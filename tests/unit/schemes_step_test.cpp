@@ -34,9 +34,9 @@ State oblique(const Problem& p) {
 TEST(FailedStep, LeavesStateAndSchemeAsTheyWere) {
   for (const SolverKind solver : {SolverKind::cholesky, SolverKind::conjugate_gradients}) {
     const Problem p(flying({10.0, 0.3}));
-    const NewmarkParameters parameters{.max_iterations = 2, .solver = solver};
+    const ImplicitSettings settings{.max_iterations = 2, .solver = solver};
     const double h = 0.4, half = 0.1;
-    const auto scheme = newmark(p, h, parameters), fresh = newmark(p, half, parameters);
+    const auto scheme = newmark(p, h, {}, settings), fresh = newmark(p, half, {}, settings);
     State state = oblique(p), same = state, next, expected;
     scheme->start(state, h);
     fresh->start(same, half);
@@ -56,7 +56,7 @@ TEST(FailedStep, LeavesStateAndSchemeAsTheyWere) {
 
 TEST(FailedStep, NamesTheRowsThatHaveNotSettled) {
   const Problem p(flying({10.0, 0.3}));
-  const auto scheme = newmark(p, 0.4, {.max_iterations = 1});
+  const auto scheme = newmark(p, 0.4, {}, {.max_iterations = 1});
   State state = oblique(p), next;
   scheme->start(state, 0.4);
   const std::string failure = scheme->step(state, {0.4, 0.4, 1e-12}, next).failure;

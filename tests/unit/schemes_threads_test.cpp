@@ -50,12 +50,12 @@ TEST(Threads, CentralDifferencesWithConsistentMass) {
 
 TEST(Threads, NewmarkWithConjugateGradients) {
   expect_same_bits(chosen_isa(), MassKind::consistent, 1,
-                   [](const Problem& p) { return newmark(p, h, {.solver = SolverKind::conjugate_gradients}); });
+                   [](const Problem& p) { return newmark(p, h, {}, {.solver = SolverKind::conjugate_gradients}); });
 }
 
 TEST(Threads, NewmarkWithCholesky) {
   expect_same_bits(chosen_isa(), MassKind::consistent, 1,
-                   [](const Problem& p) { return newmark(p, h, {.solver = SolverKind::cholesky}); });
+                   [](const Problem& p) { return newmark(p, h, {}, {.solver = SolverKind::cholesky}); });
 }
 
 TEST(Threads, NewmarkWithMultipliers) {
@@ -66,7 +66,8 @@ TEST(Threads, NewmarkWithMultipliers) {
 
 TEST(Threads, MoreauJeanWithImpulses) {
   expect_same_bits(chosen_isa(), MassKind::lumped, 2, [](const Problem& p) -> std::unique_ptr<Scheme> {
-    return std::make_unique<MoreauJean>(p.system, 0.5, ImplicitSettings{.enforcement = EnforcementKind::impulse}, h,
+    return std::make_unique<MoreauJean>(p.system, MoreauJeanParameters{0.5},
+                                        ImplicitSettings{.enforcement = EnforcementKind::impulse}, h,
                                         stable_step(p.system).omega_max_squared_free);
   });
 }

@@ -211,9 +211,9 @@ TEST(TurningBodies, HitByABlockKeepTheMomentaOfTheWhole) {
   const double h = 0.5 * stable_step(lumped.system).dt;
   const AfterHit explicit_hit = hit(lumped, *central(lumped), h, 1e-12, 1e-12);
   const AfterHit mean_hit = hit(lumped, *energy_momentum(lumped, h), h, 1e-9, 1e-9);
-  const auto moreau_jean =
-      std::make_unique<MoreauJean>(lumped.system, 0.5, ImplicitSettings{.enforcement = EnforcementKind::impulse}, h,
-                                   stable_step(lumped.system).omega_max_squared_free);
+  const auto moreau_jean = std::make_unique<MoreauJean>(lumped.system, MoreauJeanParameters{0.5},
+                                                        ImplicitSettings{.enforcement = EnforcementKind::impulse}, h,
+                                                        stable_step(lumped.system).omega_max_squared_free);
   const AfterHit impulsive = hit(lumped, *moreau_jean, h, 1e-9, 1e-2);
   EXPECT_LT(explicit_hit.velocity[2], -0.3);  // the box has been hit and turns
   EXPECT_GT(norm(subtract(explicit_hit.omega, {0.0, 0.2, 0.1})), 0.1);

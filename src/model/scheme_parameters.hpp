@@ -1,0 +1,112 @@
+// The numbers that users of time schemes give: one struct per family of schemes, and their keys in case files.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "math/interval.hpp"
+
+namespace carom {
+
+struct NoParameters {};
+
+struct NewmarkParameters {
+  double beta = 0.25, gamma = 0.5;
+
+  /// For linear bodies, whatever the step (Hughes, The Finite Element Method, section 9.1).
+  constexpr bool is_stable_for_any_step() const {
+    constexpr double round_off = 1e-12;
+    return 2.0 * beta >= gamma * (1.0 - round_off);
+  }
+};
+
+struct ContactStabilizedParameters {
+  double gamma = 0.5;
+};
+
+/// HHT, WBZ.
+struct AlphaParameters {
+  double alpha = -0.05;
+};
+/// Below, HHT dissipates less again.
+inline constexpr double least_alpha_of_hht = -1.0 / 3.0;
+
+/// Generalised-alpha, its nonsmooth kin, Hulbert-Chung.
+struct SpectralRadius {
+  double rho_inf = 0.8;
+};
+
+struct MoreauJeanParameters {
+  double theta = 0.5;
+};
+
+struct TchamwaWielgoszParameters {
+  double phi = 1.033;
+};
+
+struct NohBatheParameters {
+  double p = 0.54;
+};
+
+using SchemeParameters =
+    std::variant<NoParameters, NewmarkParameters, ContactStabilizedParameters, AlphaParameters, SpectralRadius,
+                 MoreauJeanParameters, TchamwaWielgoszParameters, NohBatheParameters>;
+
+/// A key of case files, with the members it stands for.
+struct SchemeNumber {
+  std::string_view key;
+  std::string_view meaning;
+  Interval range;
+  double* (*in)(SchemeParameters& parameters);  ///< its value; nullptr in parameters that do not have it
+  std::string_view initial_phrase = "";         ///< where its initial value is not the same in all cases
+
+  constexpr std::optional<double> value(SchemeParameters parameters) const {
+    const double* found = in(parameters);
+    return found != nullptr ? std::optional(*found) : std::nullopt;
+  }
+};
+
+namespace detail {
+template <class Parameters>
+constexpr double* member_in(SchemeParameters& parameters, double Parameters::*member) {
+  auto* held = std::get_if<Parameters>(&parameters);
+  return held != nullptr ? &(held->*member) : nullptr;
+}
+template <auto... members>
+constexpr double* any_in(SchemeParameters& parameters) {
+  double* found = nullptr;
+  ((found = found != nullptr ? found : member_in(parameters, members)), ...);
+  return found;
+}
+}  // namespace detail
+
+/// In the order of the manual.
+inline constexpr std::array scheme_numbers{
+    SchemeNumber{"beta", "Newmark's beta.", {0.0, 0.5, false, true}, detail::any_in<&NewmarkParameters::beta>, "0.25"},
+    SchemeNumber{"gamma",
+                 "Newmark's gamma; above 0.5 the scheme dissipates.",
+                 {0.5, 1.0, true, true},
+                 detail::any_in<&NewmarkParameters::gamma, &ContactStabilizedParameters::gamma>},
+    SchemeNumber{"alpha",
+                 "Dissipation of HHT (from -1/3 on) and WBZ; 0 is Newmark's trapezoidal rule.",
+                 {-1.0, 0.0, true, true},
+                 detail::any_in<&AlphaParameters::alpha>,
+                 "-0.05; hht with multipliers, which throw nodes back: -1/3"},
+    SchemeNumber{"rho_inf",
+                 "Spectral radius at high frequency (Hulbert-Chung: at bifurcation).",
+                 {0.0, 1.0, true, true},
+                 detail::any_in<&SpectralRadius::rho_inf>},
+    SchemeNumber{"theta",
+                 "Weight of the end of the step; above 0.5 the scheme dissipates.",
+                 {0.5, 1.0, true, true},
+                 detail::any_in<&MoreauJeanParameters::theta>},
+    SchemeNumber{"phi",
+                 "Above 1 the scheme dissipates.",
+                 {1.0, 2.0, true, true},
+                 detail::any_in<&TchamwaWielgoszParameters::phi>},
+    SchemeNumber{
+        "p", "First sub-step over the step.", {0.0, 1.0, false, false}, detail::any_in<&NohBatheParameters::p>}};
+
+}  // namespace carom

@@ -1,0 +1,56 @@
+// The time schemes as a table: one row each, defined beside its class.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "schemes/scheme.hpp"
+#include "schemes/scheme_settings.hpp"
+
+namespace carom {
+
+/// What a scheme is made from.
+struct SchemeRequest {
+  const System& system;
+  const SchemeSettings& settings;
+  double dt;                 ///< the usual step
+  double omega_max_squared;  ///< a bound of the spectrum of M^-1 K, for the choice of the linear solver
+
+  template <class Parameters>
+  const Parameters& parameters() const {
+    return std::get<Parameters>(settings.parameters);
+  }
+};
+
+/// What is known of a scheme but for its line of scheme_table (model/compatibility.hpp), which says what parameters it
+/// has.
+struct SchemeRow {
+  std::unique_ptr<Scheme> (*make)(const SchemeRequest& request) = nullptr;
+  double (*stability_limit)(const SchemeParameters& parameters) = nullptr;  ///< null: any step is stable
+  double (*touch_rebound)(const SchemeParameters& parameters) = nullptr;    ///< on multipliers; null: does not apply
+};
+
+#define CAROM_DECLARE_SCHEME(scheme) SchemeRow scheme##_row();
+CAROM_SCHEMES(CAROM_DECLARE_SCHEME)
+#undef CAROM_DECLARE_SCHEME
+
+std::unique_ptr<Scheme> make_scheme(const SchemeRequest& request);
+
+/// "Newmark beta 0.28 gamma 0.55": the scheme with its own parameters.
+std::string describe(const SchemeSettings& settings);
+
+/// Largest omega h at which the scheme is stable on an undamped oscillator; infinity where there is none.
+double stability_limit(const SchemeSettings& settings);
+
+/// Above this a run on multipliers may make more energy than it may keep (measured on cases/impact_bar/bars.toml at
+/// Courant numbers 0.15 to 3: growth below 1 % up to 1.4, above 5 % from 2.1 on).
+inline constexpr double largest_touch_rebound = 1.5;
+
+/// Separating over approaching speed of a free mass that meets a rigid row just before the end of a step; empty for
+/// schemes without such a row, and other enforcements than multipliers. Above 1 touches make energy, whatever the step,
+/// fixed wall or free.
+std::optional<double> touch_rebound(const SchemeSettings& settings);
+
+}  // namespace carom
