@@ -37,9 +37,9 @@ namespace carom {
 enum class SchemeKind : std::uint8_t { CAROM_SCHEMES(CAROM_SCHEME_KIND) };
 #undef CAROM_SCHEME_KIND
 
-#define CAROM_ONE_MORE(scheme) +1
-inline constexpr std::size_t scheme_count = CAROM_SCHEMES(CAROM_ONE_MORE);
-#undef CAROM_ONE_MORE
+#define CAROM_SCHEME_VALUE(scheme) SchemeKind::scheme,
+inline constexpr std::size_t scheme_count = std::array{CAROM_SCHEMES(CAROM_SCHEME_VALUE)}.size();
+#undef CAROM_SCHEME_VALUE
 
 enum class EnforcementKind : std::uint8_t { penalty, augmented_lagrangian, lagrange, impulse };
 
