@@ -226,6 +226,7 @@ ExitCode conduct(Run& run, const Simulation& simulation, const RunOptions& optio
     summary.message = "the run could not go on: memory ran out; " + memory_statement(simulation);
   } catch (const std::exception& e) {  // a factorisation that fails
     summary.message = fmt::format("the run could not go on: {}", e.what());
+    if (run.march.is_started()) run.march.leave();
   }
   const double step_seconds = seconds_since(stepping);
   run.progress.finish();

@@ -137,7 +137,7 @@ StableStepWatch::StableStepWatch(const System& system, double limit, Enforcement
 }
 
 bool StableStepWatch::follow_damping(std::span<const double> points) {
-  damping_ = system_.solid.largest_damping(points) * std::max(1.0, omega_squared_ / at_rest_);
+  damping_ = system_.solid.largest_damping(points) * std::sqrt(std::max(1.0, omega_squared_ / at_rest_));
   return damping_ > 0.0;
 }
 

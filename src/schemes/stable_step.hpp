@@ -55,7 +55,7 @@ class StableStepWatch {
   /// end of the step. One sweep over the laws; returns by how much of itself the frequency has changed.
   double follow_bodies(std::span<const double> u, std::span<const double> points);
   /// Takes the damping of artificial viscosity from the rates that the points remember of a step, times the growth of
-  /// the bodies' omega^2, as it goes with 1 / l^2. One pass over cells with viscosity; false where there are none.
+  /// the bodies' omega: both go with 1 / l. One pass over cells with viscosity; false where there are none.
   bool follow_damping(std::span<const double> points);
   /// The steps with these rows, those of displacement u, every one of them closed. Cheap: two passes over the rows.
   StableStep with(const ConstraintRows& rows, std::span<const double> u) const;

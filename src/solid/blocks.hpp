@@ -43,10 +43,10 @@ struct Block {
     return static_cast<std::size_t>(stages.cell->points) * static_cast<std::size_t>(prepared_law.history) +
            static_cast<std::size_t>(stages.cell_history());
   }
-  /// The rate of bulk viscosity that a cell of the block remembers, a position in it.
-  double bulk_rate(std::size_t cell, std::span<const double> history) const {
+  /// The speed at which a cell of the block opens (BulkHistory), a position in it.
+  double bulk_speed(std::size_t cell, std::span<const double> history) const {
     const std::size_t n = lanes(), batch = history_first + history_per_cell() * (cell / n * n);
-    return history[batch + (history_per_cell() - bulk_history + 1) * n + cell % n];
+    return history[batch + (history_per_cell() - 1) * n + cell % n];
   }
   /// Numbers of history of the block.
   std::size_t history_size() const { return history_per_cell() * offset.size() / nodes(); }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "material/linear_elastic_update.hpp"
 #include "solid/point_stages.hpp"
 #include "solid/stages.hpp"
 
@@ -13,8 +14,9 @@ namespace small_bulk {
 
 /// J = 1 + tr e: g = dJ/de = 1.
 template <class Real>
-static void volume(int points, const double* weight, const double* E, double* change, double* g) {
+static void volume(int points, const double* weight, const double* E, double* change, double* stretch, double* g) {
   Real sum{};
+  store(stretch, sum);
   const Real unit[6] = {Real{} + 1.0, Real{} + 1.0, Real{} + 1.0};
   for (int p = 0; p < points; ++p) {
     Real e[6];
@@ -34,10 +36,11 @@ static void gradient_change(int points, const double*, const double*, double* dg
 
 namespace finite_bulk {
 
-/// J = det(1 + 2 E)^(1/2): g = dJ/dE = J C^-1, the cofactors of C over J.
+/// J = det(1 + 2 E)^(1/2): g = dJ/dE = J C^-1, the cofactors of C over J. The least stretch is that of the largest
+/// principal value of C^-1, or a little below.
 template <class Real>
-static void volume(int points, const double* weight, const double* E, double* change, double* g) {
-  Real sum{};
+static void volume(int points, const double* weight, const double* E, double* change, double* stretch, double* g) {
+  Real sum{}, largest{};
   for (int p = 0; p < points; ++p) {
     Real e[6];
     load_voigt(E, p, e);
@@ -48,8 +51,13 @@ static void volume(int points, const double* weight, const double* E, double* ch
                               (e[5] * e[3] - e[4] * xx) * by_J, (e[3] * e[4] - e[5] * yy) * by_J};
     sum += scalar<Real>(weight, p) * (J - 1.0);
     store_voigt(g, p, cofactor);
+    Real inverse[6];
+    for (int c = 0; c < 6; ++c) inverse[c] = (c < 3 ? 1.0 : 2.0) * cofactor[c] * by_J;
+    const Real of_point = largest_principal_bound(inverse);
+    largest = of_point > largest ? of_point : largest;
   }
   store(change, sum);
+  store(stretch, Real(1.0 / square_root(largest) - 1.0));
 }
 
 /// dg = (g (g : dE) - 2 g dE g) / J, J^2 = det C and so J = det g.

@@ -404,9 +404,9 @@ double Solid::largest_damping(std::span<const double> history) const {
     const double quadratic = 2.0 * viscosity.quadratic * viscosity.quadratic / block.stages.wave_speed;
     const auto of_cell = [&](std::size_t c) {
       double closing = 0.0;
-      if (block.stages.bulk != nullptr && !history.empty()) closing = std::max(0.0, -block.bulk_rate(c, history));
+      if (block.stages.bulk != nullptr && !history.empty()) closing = std::max(0.0, -block.bulk_speed(c, history));
       const std::size_t position = at(block.first) + c;
-      return impl_->bulk_damping[position] * (viscosity.linear + quadratic * block.length[c] * closing) +
+      return impl_->bulk_damping[position] * (viscosity.linear + quadratic * closing) +
              impl_->hourglass_damping[position];
     };
     largest = std::max(largest, parallel_max(at(block.cells), 0.0, of_cell));

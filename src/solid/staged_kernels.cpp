@@ -14,10 +14,10 @@ namespace {
 
 /// The bulk viscosity of one batch.
 struct Bulk {
-  alignas(64) double change[most_lanes];                   ///< V - V_0, then dV
-  alignas(64) double g[6 * most_points * most_lanes];      ///< dJ/dE
-  alignas(64) double pressure[most_lanes];                 ///< q
-  alignas(64) double slope[most_lanes], lost[most_lanes];  ///< dq/dV, and dissipated since the start
+  alignas(64) double change[most_lanes], stretch[most_lanes];  ///< V - V_0; the least, less 1
+  alignas(64) double g[6 * most_points * most_lanes];          ///< dJ/dE
+  alignas(64) double pressure[most_lanes];                     ///< q
+  alignas(64) double slope[most_lanes], lost[most_lanes];      ///< dq/dV, and dissipated since the start
 };
 
 /// Buffers of the points of one batch.
@@ -252,7 +252,7 @@ class Batch {
 /// Of the strain E of the kinematics: the viscous pressure and what is remembered of it.
 void Batch::return_bulk() const {
   Bulk& bulk = b_.bulk;
-  stages_.bulk->volume(points(), b_.geometry, b_.strain, bulk.change, bulk.g);
+  stages_.bulk->volume(points(), b_.geometry, b_.strain, bulk.change, bulk.stretch, bulk.g);
   const int n = lanes();
   const std::ptrdiff_t behind =
       static_cast<std::ptrdiff_t>(points() * cells_.history_variables + stages_.hourglass_history) * n;
@@ -261,25 +261,23 @@ void Batch::return_bulk() const {
   for (int l = 0; l < n; ++l) {
     double volume = 0.0;
     for (int p = 0; p < points(); ++p) volume += weight(p, l);
-    const double* before = history == nullptr ? nullptr : history + behind + l;
-    const double mass = stages_.rho * cells_.length[first_ + l], b_2 = stages_.viscosity.quadratic;
-    const double after = bulk.change[l] / volume;
-    BulkReturn of_lane{.linear = mass * stages_.viscosity.linear * stages_.wave_speed,
-                       .quadratic = mass * cells_.length[first_ + l] * b_2 * b_2};
-    if (before == nullptr)
-      of_lane.go(0.0, 0.0, after, cells_.dt);
-    else if (cells_.is_over)
-      of_lane.stay(before[n], after);
+    double begin[bulk_history] = {};
+    for (int k = 0; history != nullptr && k < bulk_history; ++k) begin[k] = history[behind + k * n + l];
+    const BulkHistory before{begin[0], begin[1], begin[2], begin[3], begin[4]};
+    BulkHistory after{.change = bulk.change[l] / volume, .stretch = bulk.stretch[l]};
+    BulkReturn of_lane;
+    if (cells_.is_over)
+      after.pressure = before.pressure;
     else
-      of_lane.go(before[0], before[n], after, cells_.dt);
-    bulk.pressure[l] = of_lane.pressure;
+      of_lane.go(before, cells_.dt, stages_.rho, cells_.length[first_ + l],
+                 stages_.viscosity.linear * stages_.wave_speed,
+                 stages_.viscosity.quadratic * stages_.viscosity.quadratic, after);
+    bulk.pressure[l] = after.pressure;
     bulk.slope[l] = of_lane.slope / volume;
-    bulk.lost[l] = of_lane.lost * volume + (before == nullptr ? 0.0 : before[2 * n]);
+    bulk.lost[l] = after.lost * volume;
     if (new_history == nullptr) continue;
-    double* end = new_history + behind + l;
-    end[0] = after;
-    end[n] = of_lane.rate;
-    end[2 * n] = bulk.lost[l];
+    const double end[bulk_history] = {after.change, after.pressure, after.lost, after.stretch, after.speed};
+    for (int k = 0; k < bulk_history; ++k) new_history[behind + k * n + l] = end[k];
   }
 }
 

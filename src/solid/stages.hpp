@@ -69,10 +69,12 @@ struct DilatationStages {
   void (*cauchy)(int points, const double* memory, double* sigma) = nullptr;
 };
 
-/// The volume of a cell, for bulk viscosity (solid/bulk_viscosity.hpp): V - V_0 and its change per lane, and the
-/// derivative g = dJ/dE of the volume ratio J of a point by the strain that the kinematics give, [(6 p + c) lanes].
+/// The volume of a cell, for bulk viscosity (solid/bulk_viscosity.hpp): V - V_0 and its change per lane, the least
+/// stretch of the points less 1, and the derivative g = dJ/dE of the volume ratio J of a point by the strain that the
+/// kinematics give, [(6 p + c) lanes].
 struct BulkStages {
-  void (*volume)(int points, const double* weight, const double* E, double* change, double* g) = nullptr;
+  void (*volume)(int points, const double* weight, const double* E, double* change, double* stretch,
+                 double* g) = nullptr;
   void (*volume_change)(int points, const double* weight, const double* g, const double* dE, double* change) = nullptr;
   /// dg of dE
   void (*gradient_change)(int points, const double* g, const double* dE, double* dg) = nullptr;
