@@ -126,6 +126,12 @@ struct CaseInitial {
   bool has_velocity() const { return velocity || angular_velocity || velocity_field; }
 };
 
+/// [initial_state]
+struct CaseInitialState {
+  Location where;
+  Located<std::string> from;  ///< results folder of another run; relative to the case file's folder
+};
+
 /// [[contact]]
 struct CaseContact {
   Location where;
@@ -141,11 +147,11 @@ struct CaseContact {
   double stiffness_factor = 1.0;              ///< on the stiffness that is chosen where none is given
   bool per_node = false;                      ///< obstacles: measure = "node" instead of "area"
   std::optional<double> tangential_stiffness;
-  double friction = 0.0;        ///< Coulomb mu
-  Located<double> restitution;  ///< Newton's coefficient, for impulses
-  Vec3 moment_point{};          ///< about which contact.csv gives the moment
-  InitialPenetration initial_penetration = InitialPenetration::refuse;
-  Vec3 point{};                  ///< plane, cylinder
+  double friction = 0.0;                                  ///< Coulomb mu
+  Located<double> restitution;                            ///< Newton's coefficient, for impulses
+  Vec3 moment_point{};                                    ///< about which contact.csv gives the moment
+  std::optional<InitialPenetration> initial_penetration;  ///< filled on reading: what the start of the case asks for
+  Vec3 point{};                                           ///< plane, cylinder
   Located<Vec3> normal;          ///< plane: towards the body; stop: from the stop to the node. Normalised on reading
   Vec3 centre{};                 ///< sphere
   Located<Vec3> axis;            ///< cylinder. Normalised on reading
@@ -298,6 +304,7 @@ struct Case {
   std::vector<CasePointMass> point_masses;
   std::vector<CaseSpring> springs;
   std::vector<CaseLoad> loads;
+  std::optional<CaseInitialState> initial_state;
   std::vector<CaseInitial> initial;
   std::vector<CaseContact> contacts;
   std::vector<CaseFunction> functions;

@@ -164,6 +164,7 @@ SectionSchema<Case> root_section() {
   s.tables("spring", &Case::springs, spring_section());
   s.tables("support", &Case::supports, support_section());
   s.tables("load", &Case::loads, load_section());
+  s.table("initial_state", &Case::initial_state, initial_state_section());
   s.tables("initial", &Case::initial, initial_section());
   s.tables("contact", &Case::contacts, contact_section());
   s.named_tables("functions", &Case::functions, function_section());

@@ -20,6 +20,7 @@ SectionSchema<CaseMesh> mesh_section();
 SectionSchema<CaseMaterial> material_section();
 SectionSchema<CaseSupport> support_section();
 SectionSchema<CaseLoad> load_section();
+SectionSchema<CaseInitialState> initial_state_section();
 SectionSchema<CaseInitial> initial_section();
 SectionSchema<CaseInitial> stage_initial_section();
 SectionSchema<CasePointMass> point_mass_section();

@@ -165,6 +165,16 @@ void check_checks(const Case& given) {
   }
 }
 
+/// The displacements are those of the state.
+void check_initial_state(const Case& given) {
+  for (std::size_t i = 0; given.initial_state && i < given.initial.size(); ++i) {
+    if (!given.initial[i].displacement) continue;
+    throw CaseError(given.initial[i].where, entry_path("initial", i, "displacement"),
+                    "a displacement beside [initial_state]", "velocities alone, which replace those of the state",
+                    "Leave it out, or begin without [initial_state].");
+  }
+}
+
 }  // namespace
 
 void check_references(const Case& given) {
@@ -183,6 +193,7 @@ void check_references(const Case& given) {
   check_initial(given.initial, "initial");
   for (std::size_t i = 0; i < given.stages.size(); ++i)
     check_initial(given.stages[i].initial, entry_path("stage", i, "initial"));
+  check_initial_state(given);
   check_functions(given);
   check_stages(given);
   check_enforcement(given, given.scheme);

@@ -6,7 +6,11 @@
 namespace carom {
 
 std::string resolved_toml(const Case& given) {
-  return write_toml(case_schema().write(given, nullptr));
+  return write_toml(resolved_tree(given));
+}
+
+Node resolved_tree(const Case& given) {
+  return case_schema().write(given, nullptr);
 }
 
 }  // namespace carom

@@ -72,7 +72,9 @@ void add_law(SectionSchema<CaseContact>& s) {
   s.key("initial_penetration", &CaseContact::initial_penetration,
         "What to do where bodies overlap at the start: refuse the case, take the overlap as the zero of the gap (no "
         "strain), or keep it as prestress.",
-        {.choices = {"refuse", "offset", "prestress"}, .kinds = chosen});
+        {.choices = {"refuse", "offset", "prestress"},
+         .kinds = chosen,
+         .default_phrase = "\"refuse\"; with [initial_state] \"prestress\""});
 }
 
 void add_shapes(SectionSchema<CaseContact>& s) {

@@ -40,6 +40,18 @@ void check_velocity(CaseInitial& initial, const Node&, const ReadContext& at) {
 
 }  // namespace
 
+SectionSchema<CaseInitialState> initial_state_section() {
+  SectionSchema<CaseInitialState> s(
+      "The run begins, at t = 0, in the state in which another run has ended: displacements, velocities, and what the "
+      "points of the bodies remember (docs/resume.md). Mesh, parts and their materials are those of that run; all else "
+      "may differ. Sections [[initial]] then replace velocities, and give no displacements.");
+  s.key("from", &CaseInitialState::from,
+        "The results folder of that run, relative to the folder of the case file. The state is that of its last "
+        "checkpoint.",
+        {.need = KeyOptions::Need::required});
+  return s;
+}
+
 SectionSchema<CaseInitial> initial_section() {
   SectionSchema<CaseInitial> s(
       "Initial displacement and velocity; later sections overwrite earlier ones. Velocities are those at the beginning "

@@ -171,6 +171,10 @@ void build(Variant& v, const Base& base, ElementSteps& steps) {
     throw CaseError({base.file}, "stage", "a case of several stages", "[scheme] and [time] alone",
                     "Of a case with stages, stiffness and cells can be varied.");
   }
+  if ((v.choice.cells || v.choice.refine) && find(base.root, "initial_state") != nullptr) {
+    throw CaseError({base.file}, "initial_state", "the state of one mesh, beside other cells", "the cells of that mesh",
+                    "Of a case with an initial state, schemes, stiffness and steps can be varied.");
+  }
   if (v.choice.scheme) draft.set_scheme("kind", *v.choice.scheme);
   if (v.choice.enforcement) draft.set_scheme("enforcement", *v.choice.enforcement);
   set_mesh(draft.root(), v.choice);
@@ -194,7 +198,7 @@ void build(Variant& v, const Base& base, ElementSteps& steps) {
   v.case_text = draft.text();
 }
 
-/// Names the variant in its report, and its mesh file from its folder.
+/// Names the variant in its report, and the files that it needs from its folder.
 std::string finished(const Variant& v, const Base& base, const std::string& folder) {
   namespace fs = std::filesystem;
   Node root = read_toml(v.case_text, "case.toml");
@@ -206,10 +210,11 @@ std::string finished(const Variant& v, const Base& base, const std::string& fold
   } else {
     std::get<Table>(root.value).members.insert(std::get<Table>(root.value).members.begin(), {"title", {}, {full, {}}});
   }
-  const fs::path mesh = text_at(root, "mesh.file");
-  if (!mesh.empty() && mesh.is_relative()) {
-    const fs::path from_here = fs::path(base.file).parent_path() / mesh;
-    find_at(root, "mesh.file")->value = fs::proximate(from_here, fs::path(folder) / v.name).generic_string();
+  for (const char* key : {"mesh.file", "initial_state.from"}) {
+    const fs::path named = text_at(root, key);
+    if (named.empty() || named.is_absolute()) continue;
+    const fs::path from_here = fs::path(base.file).parent_path() / named;
+    find_at(root, key)->value = fs::proximate(from_here, fs::path(folder) / v.name).generic_string();
   }
   return write_toml(root);
 }

@@ -102,10 +102,10 @@ std::vector<Facet> seen(std::span<const Facet> facets, const Looks& own, const L
 std::vector<Vec3> initial_positions(const Model& model) {
   std::vector<Vec3> x = model.mesh->coordinates;
   for (const InitialState& initial : model.initial) {
-    if (!initial.displacement || initial.stage > 0) continue;
-    for (const Index n : initial.nodes) {
-      const auto i = static_cast<std::size_t>(n);
-      x[i] = add(model.mesh->coordinates[i], *initial.displacement);
+    if (initial.displacement.empty() || initial.stage > 0) continue;
+    for (std::size_t k = 0; k < initial.nodes.size(); ++k) {
+      const auto i = static_cast<std::size_t>(initial.nodes[k]);
+      x[i] = add(model.mesh->coordinates[i], initial.displacement[k]);
     }
   }
   return x;

@@ -86,12 +86,12 @@ struct Gravity {
 
 using Load = std::variant<NodalForce, Pressure, Gravity>;
 
-/// Initial displacement and velocities of nodes; later entries overwrite earlier ones. The velocities are those at the
+/// Initial displacements and velocities of nodes; later entries overwrite earlier ones. The velocities are those at the
 /// beginning of a stage, counted from 1 as the first after [scheme]; 0: the first stage with inertia.
 struct InitialState {
   std::vector<Index> nodes;
-  std::optional<Vec3> displacement;
-  std::vector<Vec3> velocity;  ///< one for each of the nodes, or empty
+  std::vector<Vec3> displacement;  ///< one for each of the nodes, or empty
+  std::vector<Vec3> velocity;      ///< likewise
   std::size_t stage = 0;
 };
 

@@ -20,7 +20,7 @@ namespace carom {
 
 namespace {
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr std::size_t kHeaderBytes = 1024;  // HDF5's user block, in front of what HDF5 writes: a power of 2 from 512 on
 constexpr std::string_view kTitle = "carom checkpoint, format ", kHeaderSum = "header ";
 
@@ -185,9 +185,10 @@ Sum sum_of_rest(int descriptor, const std::string& path) {
 
 std::string header_of(const CheckpointInfo& info, const Sum& sum) {
   std::string text = fmt::format(
-      "{}{}\nversion {}\ncompiler {}\nisa {}\ncase {:016x}\nmesh {:016x}\nstep {}\ntime {}\nbytes {}\ndata {:016x}\n",
-      kTitle, kFormat, info.version, info.compiler, info.isa, info.case_digest, info.mesh_digest, info.step, info.time,
-      sum.bytes, sum.value);
+      "{}{}\nversion {}\ncompiler {}\nisa {}\ncase {:016x}\nmesh {:016x}\nbodies {:016x}\nnodes {}\nstep {}\ntime {}\n"
+      "bytes {}\ndata {:016x}\n",
+      kTitle, kFormat, info.version, info.compiler, info.isa, info.case_digest, info.mesh_digest, info.bodies_digest,
+      info.nodes, info.step, info.time, sum.bytes, sum.value);
   text += fmt::format("{}{:016x}\n", kHeaderSum, checksum(text));
   text.resize(kHeaderBytes, '\n');
   return text;
@@ -274,6 +275,8 @@ CheckpointInfo verify_checkpoint(const std::string& path) {
           entry(header, "isa"),
           std::stoull(entry(header, "case"), nullptr, 16),
           std::stoull(entry(header, "mesh"), nullptr, 16),
+          std::stoull(entry(header, "bodies"), nullptr, 16),
+          std::stoll(entry(header, "nodes")),
           std::stoll(entry(header, "step")),
           std::stod(entry(header, "time"))};
 }

@@ -22,6 +22,8 @@ struct CheckpointInfo {
   std::string version, compiler;  ///< of the program
   std::string isa;                ///< instruction set of the kernels
   std::uint64_t case_digest = 0, mesh_digest = 0;
+  std::uint64_t bodies_digest = 0;  ///< of the nodes of the mesh as it is given and of the cells of the parts
+  long long nodes = 0;              ///< number of the former
   long long step = 0;
   double time = 0.0;
 };

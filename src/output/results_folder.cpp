@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 10> kFiles{"probes_filtered.csv", "summary.json", "energy.csv", "contact.csv",
                                                   "probes.csv",          "exact.csv",    "fields.pvd", "mesh.txt",
-                                                  "case.resolved.toml",  "report.html"};
+                                                  resolved_case_file,    "report.html"};
 
 /// The digits of a name such as step_000010.vtu; "" where it has not this form.
 std::string_view digits_of(std::string_view name, std::string_view begin, std::string_view end) {
@@ -77,6 +77,11 @@ void prepare_results_folder(const std::string& path) {
   }
   remove_files(folder / "fields", is_frame);
   remove_files(folder / kCheckpoints, is_checkpoint);
+  const fs::path state = folder / kept_state_folder;
+  remove_file(state / resolved_case_file);
+  remove_files(state / kCheckpoints, is_checkpoint);
+  fs::remove(state / kCheckpoints, error);  // where nothing else is in it
+  fs::remove(state, error);
 }
 
 void continue_results_folder(const std::string& path, const std::vector<std::string>& frames) {

@@ -6,6 +6,11 @@
 
 namespace carom {
 
+/// Files and folders of it that others name: the case as it is run, and what is kept of the run that its initial state
+/// is from (that run's resolved case and checkpoint, in places of the same names).
+inline constexpr const char* resolved_case_file = "case.resolved.toml";
+inline constexpr const char* kept_state_folder = "initial_state";
+
 /// Creates `path` (and parents) and `path`/fields, and removes the files that an earlier run left there: only names
 /// that carom writes, nothing else is touched. Throws OutputError when the folder cannot be made or written to.
 void prepare_results_folder(const std::string& path);

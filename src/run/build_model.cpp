@@ -109,7 +109,7 @@ class ModelBuilder {
           std::find_if(model_.parts.begin(), model_.parts.end(), [&](const Part& p) { return p.name == **given.part; });
       initial.nodes = parts_.nodes_of(*part);
     }
-    initial.displacement = given.displacement;
+    if (given.displacement) initial.displacement.assign(initial.nodes.size(), *given.displacement);
     initial.velocity = initial_velocities(given, mesh_, initial.nodes);
     model_.initial.push_back(std::move(initial));
   }
@@ -119,7 +119,7 @@ class ModelBuilder {
     switch (*given.kind) {
       case Kind::interface:
         model_.contacts.emplace_back(
-            InterfaceContact{*given.name, interface_cells(given), law(given), given.initial_penetration});
+            InterfaceContact{*given.name, interface_cells(given), law(given), *given.initial_penetration});
         break;
       case Kind::pair:
       case Kind::self:
@@ -155,7 +155,7 @@ class ModelBuilder {
     pair.name = *given.name;
     pair.method = given.method;
     pair.law = law(given);
-    pair.initial = given.initial_penetration;
+    pair.initial = *given.initial_penetration;
     pair.self = *given.kind != CaseContact::Kind::pair;
     if (*given.kind == CaseContact::Kind::all) {
       std::vector<OuterFacet> facets = groups_.exterior(given.exclude, "contact.exclude");
@@ -188,7 +188,7 @@ class ModelBuilder {
     obstacle.name = *given.name;
     obstacle.shape = shape(given);
     obstacle.law = law(given);
-    obstacle.initial = given.initial_penetration;
+    obstacle.initial = *given.initial_penetration;
     if (given.per_node) {
       obstacle.measure = RowMeasure::per_node;
       obstacle.nodes = groups_.nodes(given.group, "contact.group");
@@ -212,7 +212,7 @@ class ModelBuilder {
     obstacle.carrier = first;
     const std::vector<Index> node{first};
     const Vec3 velocity = *given.velocity;
-    model_.initial.push_back({node, std::nullopt, {velocity}});
+    model_.initial.push_back({node, {}, {velocity}});
     const std::string label = fmt::format("velocity of contact \"{}\" (line {})", *given.name, given.where.line);
     for (std::size_t c = 0; c < 3; ++c)
       model_.motions.push_back(

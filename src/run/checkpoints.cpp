@@ -50,6 +50,22 @@ std::uint64_t mesh_digest(const Mesh& mesh) {
   return sum;
 }
 
+std::uint64_t bodies_digest(const Model& model, std::size_t nodes) {
+  const std::vector<Vec3>& x = model.mesh->coordinates;
+  std::uint64_t sum = 0;
+  add_to(sum, std::vector<Vec3>(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(nodes)));
+  for (const Part& part : model.parts) {
+    add_to(sum, std::string(name(part.type)));
+    const auto size = static_cast<std::ptrdiff_t>(node_count(part.type));
+    const std::vector<Index>& all = model.mesh->block(part.type)->connectivity;
+    for (const Index cell : part.cells) {
+      const auto first = all.begin() + size * cell;
+      add_to(sum, std::vector<Index>(first, first + size));
+    }
+  }
+  return sum;
+}
+
 Checkpoints::Checkpoints(std::string folder, const CaseOutput& when, CheckpointInfo origin)
     : folder_(std::move(folder)),
       every_steps_(when.checkpoint_every),

@@ -7,12 +7,17 @@
 
 #include "casefile/case.hpp"
 #include "mesh/mesh.hpp"
+#include "model/model.hpp"
 #include "output/checkpoint_file.hpp"
 
 namespace carom {
 
 /// Coordinates, cells, groups and numbers of a mesh.
 std::uint64_t mesh_digest(const Mesh& mesh);
+
+/// Where the first nodes are, and which of them the cells of the parts have: what a state hangs on. The nodes of a mesh
+/// as it is given come before those that hang on springs and obstacles.
+std::uint64_t bodies_digest(const Model& model, std::size_t nodes);
 
 /// Writes checkpoints into a results folder, at the steps and after the minutes that [output] asks for, and keeps the
 /// last two. `origin` says what they are of; its step and time are filled in.

@@ -133,6 +133,7 @@ void March::begin_stage() {
   } catch (const std::runtime_error& e) {
     throw RunError(static_cast<int>(step_), state_.t, e.what());
   }
+  steps_->begin_at(state_, step_);
   solver_ = scheme_->solver_name(state_);
   if (ledger_) {
     book_switch(was_static || gives_velocities ? given_motion(v_before) : GivenMotion{});

@@ -53,7 +53,7 @@ void add_free_body(const CaseContact& contact, Index first, ObstacleContact& obs
   const Vec3 velocity = contact.velocity.value_or(Vec3{});
   if (!contact.inertia) {
     obstacle.carrier = first;
-    model.initial.push_back({{first}, std::nullopt, {velocity}});
+    model.initial.push_back({{first}, {}, {velocity}});
     model.rigid_bodies.push_back({*contact.name, first, *contact.mass});
     return;
   }
@@ -62,7 +62,7 @@ void add_free_body(const CaseContact& contact, Index first, ObstacleContact& obs
   for (std::size_t a = 0; a < 4; ++a) {
     body.nodes[a] = first + static_cast<Index>(a);
     const Vec3 v = add(velocity, cross(spin, subtract(corner(body, a), body.centre)));
-    model.initial.push_back({{body.nodes[a]}, std::nullopt, {v}});
+    model.initial.push_back({{body.nodes[a]}, {}, {v}});
   }
   obstacle.body = static_cast<Index>(model.turning_bodies.size());
   model.turning_bodies.push_back(std::move(body));

@@ -20,12 +20,15 @@
 #include "casefile/resolved_case.hpp"
 #include "mesh/mesh_summary.hpp"
 #include "output/file_writer.hpp"
+#include "output/results_folder.hpp"
 #include "output/results_lock.hpp"
 #include "output/summary.hpp"
 #include "parallel/threads.hpp"
 #include "report/report.hpp"
+#include "run/build_mesh.hpp"
 #include "run/checkpoints.hpp"
 #include "run/cost_estimate.hpp"
+#include "run/initial_state.hpp"
 #include "run/lint.hpp"
 #include "run/march.hpp"
 #include "run/overlap_watch.hpp"
@@ -173,21 +176,27 @@ void print_verdict(const Summary& summary, const std::string& folder) {
       summary.scheme.steps == 1 ? "" : "s", summary.cost.wall_seconds, folder, folder);
 }
 
-/// The case with its mesh file as seen from the results folder, so that the resolved case can be run there.
+/// The case with its files as seen from the results folder, so that the resolved case can be run there: the mesh stays
+/// where it is, an initial state has been copied (keep_state).
 Case beside(Case given, const std::string& folder) {
   namespace fs = std::filesystem;
   std::string& file = given.mesh.file.value;
   if (!file.empty() && !fs::path(file).is_absolute())
     file = fs::proximate(fs::path(given.file).parent_path() / file, folder).generic_string();
+  if (given.initial_state) given.initial_state->from.value = kept_state_folder;
   return given;
 }
 
-constexpr const char* kResolvedCase = "case.resolved.toml";
-
 /// What the checkpoints of a run are of.
 CheckpointInfo origin_of(const Simulation& simulation, const std::string& resolved_case) {
-  return {version(), compiler(), std::string(name(simulation.solid().isa())), checksum(resolved_case),
-          mesh_digest(simulation.mesh())};
+  const std::size_t nodes = given_nodes(simulation.given(), simulation.mesh());
+  return {version(),
+          compiler(),
+          std::string(name(simulation.solid().isa())),
+          checksum(resolved_case),
+          mesh_digest(simulation.mesh()),
+          bodies_digest(simulation.model(), nodes),
+          static_cast<long long>(nodes)};
 }
 
 ExitCode exit_code(Outcome outcome) {
@@ -263,7 +272,9 @@ std::string read_text(const std::string& path) {
 ExitCode run_case(const std::string& case_file, const RunOptions& options, const std::atomic<bool>& stop) {
   const Clock::time_point begin = Clock::now();
   set_threads(options.threads);
-  const Simulation simulation(read_case(case_file));
+  const Case given = read_case(case_file);
+  refuse_own_folder(given, options.folder);
+  const Simulation simulation(given);
   Run run(simulation, options);
   run.case_file = simulation.given().file;
   run.warnings = lint_warnings(simulation);
@@ -276,8 +287,9 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
     say_lines("warning", run.warnings);
     say_lines("note", run.notes);
   }
+  if (simulation.taken()) keep_state(*simulation.taken(), options.folder);
   const std::string resolved = resolved_toml(beside(simulation.given(), options.folder));
-  write_file(options.folder + "/" + kResolvedCase, resolved);
+  write_file(options.folder + "/" + resolved_case_file, resolved);
   write_file(options.folder + "/mesh.txt", mesh_summary(simulation.mesh()));
   return conduct(run, simulation, options, origin_of(simulation, resolved), begin, stop);
 }
@@ -288,7 +300,7 @@ ExitCode resume_case(const RunOptions& options, std::optional<double> end, const
   if (!std::filesystem::is_directory(options.folder)) throw CheckpointError(options.folder, "there is no such folder");
   const ResultsLock lock(options.folder);
   const FoundCheckpoint found = find_checkpoint(options.folder);
-  const std::string case_file = options.folder + "/" + kResolvedCase, resolved = read_text(case_file);
+  const std::string case_file = options.folder + "/" + resolved_case_file, resolved = read_text(case_file);
   refuse_others(found, {version(), compiler(), found.info.isa, checksum(resolved), found.info.mesh_digest});
   const Simulation simulation(read_case(case_file));
   const CheckpointInfo origin = origin_of(simulation, resolved);

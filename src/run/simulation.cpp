@@ -37,9 +37,12 @@ bool needs_stiffness(const CaseScheme& scheme) {
   return traits(**scheme.enforcement).takes_stiffness;
 }
 
-/// The model of the case, with a stiffness for every contact whose case gives none and whose enforcement needs one.
-Model make_model(const Case& given, std::shared_ptr<const Mesh> mesh, std::vector<std::string>& notes) {
+/// The model of the case, with the state that it takes over, and with a stiffness for every contact whose case gives
+/// none and whose enforcement needs one.
+Model make_model(const Case& given, std::shared_ptr<const Mesh> mesh, std::optional<TakenState>& taken,
+                 std::vector<std::string>& notes) {
   Model model = build_model(given, std::move(mesh));
+  taken = take_over(given, model);
   const bool needed = needs_stiffness(given.scheme) ||
                       std::any_of(given.stages.begin(), given.stages.end(),
                                   [](const CaseStage& stage) { return needs_stiffness(stage.scheme); });
@@ -56,10 +59,14 @@ ContactGeometry make_contact(const Case& given, const Model& model) {
 Simulation::Simulation(Case given)
     : case_(std::move(given)),
       mesh_(std::make_shared<const Mesh>(build_mesh(case_))),
-      model_(make_model(case_, mesh_, notes_)),
+      model_(make_model(case_, mesh_, taken_, notes_)),
       solid_(model_),
       contact_(make_contact(case_, model_)) {
   notes_.insert(notes_.end(), contact_.notes().begin(), contact_.notes().end());
+  if (taken_) {
+    refuse_other_points(case_, *taken_, solid_);
+    notes_.insert(notes_.begin(), taken_->note);
+  }
   settle_initial_penetrations();
   const StageContext context{case_, *mesh_, model_, solid_, contact_};
   stages_.push_back(std::make_unique<Stage>(context, case_.scheme, case_.time, 0.0, later_velocities(0)));
@@ -83,9 +90,10 @@ std::vector<bool> Simulation::later_velocities(std::size_t stage) const {
   for (std::size_t i = 0; i <= stage; ++i)
     if (!is_static(i)) return later;
   for (const InitialState& initial : model_.initial) {
-    const std::vector<Vec3>& v = initial.velocity;
-    if (std::all_of(v.begin(), v.end(), [](const Vec3& velocity) { return norm(velocity) == 0.0; })) continue;
-    for (const Index n : initial.nodes) later[static_cast<std::size_t>(n)] = true;
+    for (std::size_t k = 0; k < initial.velocity.size(); ++k) {
+      const bool is_given = norm(initial.velocity[k]) > 0.0;
+      if (is_given || initial.stage == 0) later[static_cast<std::size_t>(initial.nodes[k])] = is_given;
+    }
   }
   return later;
 }
@@ -121,14 +129,14 @@ void Simulation::settle_initial_penetrations() {
     const std::string what =
         fmt::format("{} rows of \"{}\" that penetrate at the start, the worst by {:.4g} ({:.3g} of a cell): {}{}",
                     count, *contact.name, worst, worst / cell, list, count > 3 ? ", ..." : "");
-    if (contact.initial_penetration == InitialPenetration::refuse) {
+    if (*contact.initial_penetration == InitialPenetration::refuse) {
       throw CaseError(
           contact.where, "contact", what, "a gap that is open or just closed",
           "Is the normal turned the wrong way, or the gap of the wrong sign? If the overlap is meant, choose "
           "initial_penetration = \"offset\" or \"prestress\".");
     }
     notes_.push_back(fmt::format("{}; {}", what,
-                                 contact.initial_penetration == InitialPenetration::prestress
+                                 *contact.initial_penetration == InitialPenetration::prestress
                                      ? "kept as prestress"
                                      : "taken as free of strain"));
   }
@@ -172,12 +180,13 @@ State Simulation::initial_state() const {
   state.q.assign(solid_.dof_count(), 0.0);
   state.v = state.a = state.q;
   state.contact.resize(contact_.slots());
+  if (taken_) state.points = taken_->points;
   for (const InitialState& initial : model_.initial) {
     if (initial.stage > 0) continue;
     for (std::size_t k = 0; k < initial.nodes.size(); ++k) {
       for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t i = 3 * static_cast<std::size_t>(initial.nodes[k]) + c;
-        if (initial.displacement) state.q[i] = (*initial.displacement)[c];
+        if (!initial.displacement.empty()) state.q[i] = initial.displacement[k][c];
         if (!initial.velocity.empty()) state.v[i] = initial.velocity[k][c];
       }
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "contact/contact_geometry.hpp"
 #include "energy/ledger.hpp"
 #include "model/model.hpp"
+#include "run/initial_state.hpp"
 #include "run/stage.hpp"
 #include "solid/solid.hpp"
 
@@ -43,10 +45,13 @@ class Simulation {
   /// What was mended or noticed while building.
   const std::vector<std::string>& notes() const { return notes_; }
 
+  /// What the case takes over of another run.
+  const std::optional<TakenState>& taken() const { return taken_; }
+
   /// Contact rows at the start.
   std::shared_ptr<const ConstraintRows> initial_rows() const;
-  /// The state of the case's [[initial]] sections, before Scheme::start; with the velocities that begin later, if the
-  /// first stages are statics.
+  /// The state of the case's [initial_state] and [[initial]] sections, before Scheme::start; with the velocities that
+  /// begin later, if the first stages are statics.
   State initial_state() const;
   /// Gives the nodes the velocities that begin with a stage (0: that of [scheme]); false when there are none.
   bool begin_velocities(std::size_t stage, State& state) const;
@@ -59,6 +64,7 @@ class Simulation {
   const Case case_;
   std::shared_ptr<const Mesh> mesh_;
   std::vector<std::string> notes_;
+  std::optional<TakenState> taken_;
   Model model_;
   Solid solid_;
   ContactGeometry contact_;

@@ -136,6 +136,12 @@ bool StepGuard::fits(const State& end) {
   return control_.dt() >= dt;
 }
 
+void StepGuard::begin_at(const State& now, long long step) {
+  if (!watch_ || std::all_of(now.q.begin(), now.q.end(), [](double u) { return u == 0.0; })) return;
+  is_restless_ = true;
+  follow_stable_step(now, step);
+}
+
 void StepGuard::follow_stable_step(const State& now, long long step) {
   if (!watch_) return;
   constexpr long long every = 10;

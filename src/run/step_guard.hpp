@@ -40,6 +40,9 @@ class StepGuard {
   bool is_to_be_repeated(const State& begin, const State& end, const EnergyGuard::Books& books, long long step);
   /// The step counts.
   void accept(const EnergyGuard::Books& books);
+  /// Looks at the stable step of bodies that are deformed where the stage begins: its usual step is that of the mesh.
+  /// Throws as follow_stable_step.
+  void begin_at(const State& now, long long step);
   /// Looks at the stable step, where it changes, after step number `step`: at that of the contact after every step, at
   /// that of the bodies after every tenth, or after the next where they have changed; steps grow only then. Throws
   /// RunError when it has become too short.

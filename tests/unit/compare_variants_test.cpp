@@ -190,6 +190,19 @@ TEST_F(CompareVariants, NameTheMeshFileAsSeenFromTheirFolder) {
   EXPECT_NE(refused.refusal.find("a case whose mesh comes from a file"), std::string::npos) << refused.refusal;
 }
 
+TEST_F(CompareVariants, NameTheInitialStateAsSeenFromTheirFolder) {
+  const std::string folder = testing::TempDir() + "compare_state";
+  Base begun = base_;
+  set_key(begun.root, "initial_state", "from", {std::string("../press/out"), {}});
+  begun.file = folder + "/cases/impact.toml";
+  const Variant v = make_variants(begun, {}, folder)[0];
+  ASSERT_EQ(v.refusal, "");
+  ASSERT_TRUE(read(v).initial_state);
+  EXPECT_EQ(*read(v).initial_state->from, "../press/out");  // from folder/01_...: that of folder/cases/impact.toml
+  const Variant refused = make_variants(begun, options_of({}, {10}, {}), folder)[0];
+  EXPECT_NE(refused.refusal.find("the state of one mesh, beside other cells"), std::string::npos) << refused.refusal;
+}
+
 constexpr const char* two_cells = R"($MeshFormat
 2.2 0 8
 $EndMeshFormat

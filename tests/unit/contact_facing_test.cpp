@@ -69,8 +69,9 @@ TEST(FacingFacets, StayWhereBodiesOverlapALittle) {
 
 TEST(FacingFacets, AreLookedForAtTheInitialDisplacement) {
   TwoBoxes boxes;  // the upper box begins under the lower one
-  InitialState below{{}, Vec3{0.0, 0.0, -8.0}, {}, 0};
+  InitialState below;
   for (Index n = 4 * 4 * 3; n < static_cast<Index>(boxes.model.mesh->node_count()); ++n) below.nodes.push_back(n);
+  below.displacement.assign(below.nodes.size(), {0.0, 0.0, -8.0});
   boxes.model.initial.push_back(below);
   const FacingFacets facing = facing_facets(boxes.model, boxes.pair);
   ASSERT_EQ(facing.slave.size(), 6U);
