@@ -150,7 +150,8 @@ struct CaseContact {
   double friction = 0.0;                                  ///< Coulomb mu
   Located<double> restitution;                            ///< Newton's coefficient, for impulses
   Vec3 moment_point{};                                    ///< about which contact.csv gives the moment
-  std::optional<InitialPenetration> initial_penetration;  ///< filled on reading: what the start of the case asks for
+  /// Empty: with [initial_state], where overlaps such as penalties leave are kept, and others refused.
+  std::optional<InitialPenetration> initial_penetration;
   Vec3 point{};                                           ///< plane, cylinder
   Located<Vec3> normal;          ///< plane: towards the body; stop: from the stop to the node. Normalised on reading
   Vec3 centre{};                 ///< sphere

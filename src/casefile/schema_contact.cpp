@@ -74,7 +74,7 @@ void add_law(SectionSchema<CaseContact>& s) {
         "strain), or keep it as prestress.",
         {.choices = {"refuse", "offset", "prestress"},
          .kinds = chosen,
-         .default_phrase = "\"refuse\"; with [initial_state] \"prestress\""});
+         .default_phrase = "\"refuse\"; with [initial_state] \"prestress\" to a quarter of a cell"});
 }
 
 void add_shapes(SectionSchema<CaseContact>& s) {

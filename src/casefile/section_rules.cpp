@@ -70,10 +70,8 @@ static void check_body(const CaseContact& contact, const Node& node, const ReadC
 
 void check_contact(CaseContact& contact, const Node& node, const ReadContext& at) {
   using Kind = CaseContact::Kind;
-  // Bodies that press on each other in another run's state do so by overlaps, where contact is by penalties.
-  if (!contact.initial_penetration)
-    contact.initial_penetration =
-        find(at.root, "initial_state") == nullptr ? InitialPenetration::refuse : InitialPenetration::prestress;
+  if (!contact.initial_penetration && find(at.root, "initial_state") == nullptr)
+    contact.initial_penetration = InitialPenetration::refuse;
   check_body(contact, node, at);
   check_name(contact.name, at.at("name").path);
   if (contact.tangential_stiffness && contact.friction == 0.0) {

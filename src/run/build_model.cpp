@@ -118,8 +118,7 @@ class ModelBuilder {
     using Kind = CaseContact::Kind;
     switch (*given.kind) {
       case Kind::interface:
-        model_.contacts.emplace_back(
-            InterfaceContact{*given.name, interface_cells(given), law(given), *given.initial_penetration});
+        model_.contacts.emplace_back(InterfaceContact{*given.name, interface_cells(given), law(given), initial(given)});
         break;
       case Kind::pair:
       case Kind::self:
@@ -146,6 +145,10 @@ class ModelBuilder {
     return law;
   }
 
+  static InitialPenetration initial(const CaseContact& given) {
+    return given.initial_penetration.value_or(InitialPenetration::prestress);
+  }
+
   void add_pair(const CaseContact& given) {
     if (*given.kind == CaseContact::Kind::pair && *given.group == *given.master)
       throw CaseError(given.master.where, "contact.master",
@@ -155,7 +158,7 @@ class ModelBuilder {
     pair.name = *given.name;
     pair.method = given.method;
     pair.law = law(given);
-    pair.initial = *given.initial_penetration;
+    pair.initial = initial(given);
     pair.self = *given.kind != CaseContact::Kind::pair;
     if (*given.kind == CaseContact::Kind::all) {
       std::vector<OuterFacet> facets = groups_.exterior(given.exclude, "contact.exclude");
@@ -188,7 +191,7 @@ class ModelBuilder {
     obstacle.name = *given.name;
     obstacle.shape = shape(given);
     obstacle.law = law(given);
-    obstacle.initial = *given.initial_penetration;
+    obstacle.initial = initial(given);
     if (given.per_node) {
       obstacle.measure = RowMeasure::per_node;
       obstacle.nodes = groups_.nodes(given.group, "contact.group");

@@ -50,6 +50,13 @@ Model make_model(const Case& given, std::shared_ptr<const Mesh> mesh, std::optio
   return model;
 }
 
+/// Is an overlap, in cells, such as contact has that presses by penalties? No verdict passes deeper ones
+/// (PenetrationWatch); stops are springs of any depth.
+bool is_of_penalties(const CaseContact& contact, double depth) {
+  constexpr double most = 0.25;
+  return depth <= most || *contact.kind == CaseContact::Kind::stop;
+}
+
 ContactGeometry make_contact(const Case& given, const Model& model) {
   return at_section(contacts_place(given), "contact", [&] { return ContactGeometry(model); });
 }
@@ -129,16 +136,19 @@ void Simulation::settle_initial_penetrations() {
     const std::string what =
         fmt::format("{} rows of \"{}\" that penetrate at the start, the worst by {:.4g} ({:.3g} of a cell): {}{}",
                     count, *contact.name, worst, worst / cell, list, count > 3 ? ", ..." : "");
-    if (*contact.initial_penetration == InitialPenetration::refuse) {
+    const InitialPenetration wanted = contact.initial_penetration.value_or(
+        is_of_penalties(contact, worst / cell) ? InitialPenetration::prestress : InitialPenetration::refuse);
+    if (wanted == InitialPenetration::refuse) {
       throw CaseError(
-          contact.where, "contact", what, "a gap that is open or just closed",
+          contact.where, "contact", what,
+          contact.initial_penetration ? "a gap that is open or just closed"
+                                      : "a gap that is open, or an overlap as the contact of the initial state leaves "
+                                        "it: of at most a quarter of a cell",
           "Is the normal turned the wrong way, or the gap of the wrong sign? If the overlap is meant, choose "
           "initial_penetration = \"offset\" or \"prestress\".");
     }
-    notes_.push_back(fmt::format("{}; {}", what,
-                                 *contact.initial_penetration == InitialPenetration::prestress
-                                     ? "kept as prestress"
-                                     : "taken as free of strain"));
+    notes_.push_back(fmt::format(
+        "{}; {}", what, wanted == InitialPenetration::prestress ? "kept as prestress" : "taken as free of strain"));
   }
   contact_.set_initial(state.q);
 }

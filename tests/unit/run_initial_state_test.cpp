@@ -250,13 +250,20 @@ TEST(InitialState, WhatRestsOnContactStaysThere) {
   EXPECT_TRUE(has("kept as prestress"));
 }
 
-TEST(InitialState, OverlapsAreRefusedWhereTheCaseSaysSo) {
+TEST(InitialState, OverlapsAreRefusedWhereTheCaseSaysSoAndWhereTheyAreDeep) {
   const Cases cases;
   cases.run("pressed", block(elastic, pressed + stepping("statics", 1.0, 0.5)));
   const std::string message = cases.refusal(
       block(elastic, from("pressed") + pressed + "initial_penetration = \"refuse\"\n" + stepping("newmark", 1.0)));
   EXPECT_NE(message.find("rows of \"floor\" that penetrate at the start, the worst by 0.005"), std::string::npos)
       << message;
+  // Penalties leave no overlap of half a cell; somebody has put the plane into the body.
+  std::string deep = pressed;
+  deep.replace(deep.find("point = [0.0, 0.0, 0.0]"), 23, "point = [0.0, 0.0, 0.2]");
+  const std::string refused = cases.refusal(block(elastic, from("pressed") + deep + stepping("newmark", 1.0)));
+  EXPECT_NE(refused.find("(0.41 of a cell)"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("of at most a quarter of a cell. Is the normal turned the wrong way"), std::string::npos)
+      << refused;
 }
 
 // A compressed explicit body steps by the cells that it has, not by those of the mesh.
