@@ -147,12 +147,12 @@ struct CaseContact {
   double stiffness_factor = 1.0;              ///< on the stiffness that is chosen where none is given
   bool per_node = false;                      ///< obstacles: measure = "node" instead of "area"
   std::optional<double> tangential_stiffness;
-  double friction = 0.0;                                  ///< Coulomb mu
-  Located<double> restitution;                            ///< Newton's coefficient, for impulses
-  Vec3 moment_point{};                                    ///< about which contact.csv gives the moment
+  double friction = 0.0;        ///< Coulomb mu
+  Located<double> restitution;  ///< Newton's coefficient, for impulses
+  Vec3 moment_point{};          ///< about which contact.csv gives the moment
   /// Empty: with [initial_state], where overlaps such as penalties leave are kept, and others refused.
   std::optional<InitialPenetration> initial_penetration;
-  Vec3 point{};                                           ///< plane, cylinder
+  Vec3 point{};                  ///< plane, cylinder
   Located<Vec3> normal;          ///< plane: towards the body; stop: from the stop to the node. Normalised on reading
   Vec3 centre{};                 ///< sphere
   Located<Vec3> axis;            ///< cylinder. Normalised on reading

@@ -226,11 +226,10 @@ std::string describe(const Case& given, const Case& before, const CheckpointInfo
   const auto unit = [&](Dimension d) { return unit_name(d, given.units); };
   std::string text = fmt::format(
       "initial state: that of {} at t = {:.6g}, step {}; displacements up to {:.4g} {}, strain energy {:.4g} {}, "
-      "plastic "
-      "{:.4g} {}",
+      "dissipated {:.4g} {}",
       toml_string(*given.initial_state->from), info.time, info.step, largest(state.displacement),
       unit(Dimension::length), energies.strain + energies.hourglass, unit(Dimension::energy),
-      energies.plastic + energies.hourglass_loss, unit(Dimension::energy));
+      energies.sum(TermKind::spent), unit(Dimension::energy));
   const double speed = largest(state.velocity);
   if (speed > 0.0) text += fmt::format(", velocities up to {:.4g} {}", speed, unit(Dimension::velocity));
   if (!has_inertia(given)) text += "; its velocities are left, since no stage has inertia";
