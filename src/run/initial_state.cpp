@@ -13,6 +13,7 @@
 
 #include "base/checksum.hpp"
 #include "base/units.hpp"
+#include "base/version.hpp"
 #include "casefile/document.hpp"
 #include "casefile/read_case.hpp"
 #include "casefile/resolved_case.hpp"
@@ -279,11 +280,12 @@ void refuse_other_points(const Case& given, const TakenState& taken, const Solid
                     "with the other.",
                     taken.info.isa));
   }
-  if (taken.points.size() != size)
+  if (taken.points.size() != size || (size > 0 && taken.info.version != version()))
     throw from_error(
         given,
-        fmt::format("a state whose points remember {} numbers (carom {})", taken.points.size(), taken.info.version),
-        fmt::format("{} numbers", size), "Run the first case again with this program.");
+        fmt::format("a state of carom {}, whose points remember {} numbers", taken.info.version, taken.points.size()),
+        fmt::format("one of carom {}, and {} numbers, where bodies yield", version(), size),
+        "Run the first case again with this program.");
 }
 
 void refuse_own_folder(const Case& given, const std::string& results) {

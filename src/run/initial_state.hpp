@@ -26,7 +26,8 @@ struct TakenState {
 /// where mesh, parts, materials or units are others, and where an imposed displacement begins elsewhere.
 std::optional<TakenState> take_over(const Case& given, Model& model);
 
-/// Throws CaseError where the history of the points is laid out for another instruction set than that of the solid.
+/// Throws CaseError where the history of the points is laid out for another instruction set than that of the solid, or
+/// by another version of the program.
 void refuse_other_points(const Case& given, const TakenState& taken, const Solid& solid);
 
 /// Throws CaseError where [initial_state] names the folder of the results, which a run clears, or one within it.

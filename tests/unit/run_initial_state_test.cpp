@@ -492,6 +492,31 @@ TEST(InitialState, IsRefusedWhereASupportBeginsElsewhere) {
   EXPECT_NE(message.find("at 0.1; expected a displacement that begins where the state is"), std::string::npos);
 }
 
+// What points remember is laid out by the program.
+TEST(InitialState, OfYieldingBodiesIsOfOneVersion) {
+  const Cases cases;
+  for (const std::string* law : {&elastic, &yielding}) {
+    cases.run("run", block(*law, torn + stepping("central_differences", 1.0)));
+    const std::string file = find_checkpoint(cases.results("run").string()).path;
+    Kinematics state;
+    std::vector<double> points;
+    EnergyTerms energies;
+    const auto contents = [&](Archive& archive) {
+      archive("march.state.q", state.q);
+      archive("march.state.v", state.v);
+      archive("march.state.points", points);
+      archive("march.state.forces.stored", energies);
+    };
+    CheckpointInfo info = verify_checkpoint(file);
+    read_checkpoint(file, contents);
+    info.version = "0.0.0";
+    write_checkpoint(file, info, contents);
+    const std::string message = cases.refusal(block(*law, from("run") + stepping("central_differences", 1.0)));
+    const bool is_named = message.find("a state of carom 0.0.0, whose points remember") != std::string::npos;
+    EXPECT_EQ(is_named, law == &yielding) << message;
+  }
+}
+
 /// An instruction set for the kernels, until it goes.
 class WithIsa {
  public:
