@@ -189,10 +189,11 @@ void Stage::refuse_history() const {
   for (const Part& part : context_.model.parts) {
     if (!part.remembers()) continue;
     const std::string what = part.viscosity.is_any() ? "the viscosity" : "the law \"" + part.material.law->name + '"';
-    throw CaseError(scheme_.kind.where, "scheme.kind",
-                    fmt::format("\"{}\" with {} of the part \"{}\"", scheme.name, what, part.name),
-                    "elastic laws without viscosity with this scheme, whose forces are those of a stored energy",
-                    "Take a scheme of another kind, as \"generalized_alpha\" or \"bathe\", or an elastic law.");
+    throw CaseError(
+        scheme_.kind.where, "scheme.kind",
+        fmt::format("\"{}\" with {} of the part \"{}\"", scheme.name, what, part.name),
+        "elastic laws without viscosity with this scheme, whose forces are those of a stored energy",
+        "Take a scheme of another kind, as \"generalized_alpha\" or \"bathe\", or elastic laws without viscosity.");
   }
 }
 

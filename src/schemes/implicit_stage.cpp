@@ -28,6 +28,10 @@ struct ImplicitStage::Residual {
 
 namespace {
 
+PointStep point_step(const StageEquation& eq, const State& begin) {
+  return {.dt = eq.dt, .history = begin.points, .is_static = eq.m == 0.0};
+}
+
 constexpr const char* with_inertia = ". Lower time.step, or choose another enforcement or method of contact";
 constexpr const char* without_inertia =
     ". There may be none near, as where a body snaps through or a node slips over a sharp edge: follow the motion by a "
@@ -102,7 +106,7 @@ void ImplicitStage::start(State& state, std::size_t place) {
 ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const State& begin, State& end) {
   Forces& forces = end.forces;
   follow(eq, end);
-  force_.value({eq.dt, begin.points}, end);
+  force_.value(point_step(eq, begin), end);
   forces.contact.assign(end.q.size(), 0.0);
   port_->respond(end.q, end.v, forces.rows);
   forces.rows.add_force(forces.contact);
@@ -264,7 +268,7 @@ ImplicitStage::Residual ImplicitStage::shorten(const StageEquation& eq, const St
 std::string ImplicitStage::improve(const StageEquation& eq, const State& begin, double absolute, State& end,
                                    StageReport& report) {
   is_improved_ = true;
-  std::string failure = solver_->prepare(eq.m, stiffness_share(eq), force_.tangent_at(end.q), {eq.dt, begin.points});
+  std::string failure = solver_->prepare(eq.m, stiffness_share(eq), force_.tangent_at(end.q), point_step(eq, begin));
   if (!failure.empty()) return failure;
   const PortSolve solved = port_->solve(*solver_, end.q, end.v, end.forces.rows, residual_, absolute, correction_);
   report.linear_iterations += solved.linear.iterations;

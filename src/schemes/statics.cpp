@@ -22,7 +22,7 @@ void Statics::start(State& state, double dt) {
   start_with_supports(system_, state);
   std::fill(state.v.begin(), state.v.end(), 0.0);
   const std::vector<double> points = state.points;
-  evaluate_bodies(system_, {dt, points}, state);
+  evaluate_bodies(system_, {.dt = dt, .history = points, .is_static = true}, state);
   stage_.start(state, 0);
   complete_forces(system_, state);
 }

@@ -219,6 +219,7 @@ CellBatches SolidCells::batches(const Block& block, Index first, Index count, co
   view.cells = count;
   view.thickness = block.thickness;
   view.dt = step.dt;
+  view.viscous_dt = step.is_static ? 0.0 : step.dt;
   view.is_over = step.is_over;
   view.history_variables = block.prepared_law.history;
   const std::size_t begin = block.history_first + block.history_per_cell() * at(first);

@@ -7,11 +7,13 @@ namespace carom {
 
 /// The step that ends at the displacement: its length, for laws with rates, and the history of the quadrature points at
 /// its beginning (Solid::initial_history). Empty: the points at rest. is_over: the history is that at its end, and the
-/// forces and stresses are those that the step has ended with.
+/// forces and stresses are those that the step has ended with. is_static: a step of statics, in which artificial
+/// viscosity rests.
 struct PointStep {
   double dt = 0.0;
   std::span<const double> history;
   bool is_over = false;
+  bool is_static = false;
 };
 
 /// Integrals over the bodies of what is stored (strain, hourglass), of what their points and hourglass modes have

@@ -48,6 +48,7 @@ struct CellBatches {
   Index cells = 0;
   double thickness = 1.0;          ///< of plane cells; area of the section of bars
   double dt = 0.0;                 ///< length of the step, for laws with rates
+  double viscous_dt = 0.0;         ///< the same for artificial viscosity; 0: it rests
   const double* length = nullptr;  ///< of each cell, where there is viscosity, whole batches
   int history_variables = 0;
   /// At the beginning of the step: one PointBatch::history after the other, each with what its cells remember of

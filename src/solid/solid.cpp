@@ -108,9 +108,9 @@ struct Solid::Impl {
         viscous.stages = &stages;
         std::vector<double> C, K;
         batch_stiffness(viscous, block.kernels, block.law(), block.is_symmetric, nullptr, K);
-        viscous.dt = batch.length[0] / stages.wave_speed;
+        viscous.viscous_dt = batch.length[0] / stages.wave_speed;
         batch_stiffness(viscous, block.kernels, block.law(), block.is_symmetric, nullptr, C);
-        for (std::size_t k = 0; k < C.size(); ++k) C[k] = (C[k] - K[k]) * viscous.dt;
+        for (std::size_t k = 0; k < C.size(); ++k) C[k] = (C[k] - K[k]) * viscous.viscous_dt;
         const std::size_t size = 9 * block.nodes() * block.nodes();
         for (std::size_t l = 0; l < at(batch.cells); ++l)
           bounds[first + l] = frequency_bound(std::span<const double>(C).subspan(size * l, size),

@@ -269,7 +269,7 @@ void Batch::return_bulk() const {
     if (cells_.is_over)
       after.pressure = before.pressure;
     else
-      of_lane.go(before, cells_.dt, stages_.rho, cells_.length[first_ + l],
+      of_lane.go(before, cells_.viscous_dt, stages_.rho, cells_.length[first_ + l],
                  stages_.viscosity.linear * stages_.wave_speed,
                  stages_.viscosity.quadratic * stages_.viscosity.quadratic, after);
     bulk.pressure[l] = after.pressure;
@@ -317,9 +317,9 @@ void Batch::return_modes(const double* u, Modes& modes) const {
                              ? c * std::sqrt(modes.stiffness[l] * volume / 3.0) * b_.yield_stress[l]
                              : infinity;
     double damper = 0.0;  // of the step: viscosity over its length
-    if (stages_.viscosity.hourglass > 0.0 && cells_.dt > 0.0)
+    if (stages_.viscosity.hourglass > 0.0 && cells_.viscous_dt > 0.0)
       damper = stages_.viscosity.hourglass * stages_.modulus * modes.stiffness[l] * cells_.length[first_ + l] /
-               (stages_.wave_speed * cells_.dt);
+               (stages_.wave_speed * cells_.viscous_dt);
     modes.stiffness[l] *= stages_.hourglass;
     HourglassReturn& of_lane = modes.of_lane[l];
     of_lane.go(size, n, modes.pulled + l, before, modes.stiffness[l], limit);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "schemes/scheme_table.hpp"
 #include "schemes_explicit_fixture.hpp"
 
 namespace carom::schemes_viscosity_test {
@@ -82,6 +83,27 @@ TEST(StableStep, CountsBulkViscosity) {
   const double dt = stable_step(p.system, 2.0, EnforcementKind::lagrange).dt;
   EXPECT_LE(dt, limit);
   EXPECT_GE(dt, 0.5 * limit);
+}
+
+// Statics knows no rates of its own: a bar that is pulled ends where it does without viscosity, and loses nothing.
+TEST(BulkViscosity, RestsInStatics) {
+  const BarCase of{.length = 10.0, .edge = 2.0, .cells = 8};
+  State ends[2];
+  for (const bool is_viscous : {false, true}) {
+    Model model = bar(of);
+    if (!is_viscous) model.parts[0].viscosity = {};
+    model.motions.push_back(
+        {"pull", model.mesh->nodes_of("ZMAX"), 2, MotionKind::displacement, {{0.0, 1.0}, {0.0, 1e-3}}});
+    const Problem p(std::move(model));
+    const SchemeSettings settings{.kind = SchemeKind::statics};
+    const auto scheme = make_scheme({p.system, settings, 0.1, stable_step(p.system).omega_max_squared});
+    const History end = march(*scheme, p.moving({0, 0, 0}), 0.1, 3);
+    ASSERT_TRUE(end.converged) << end.failure;
+    EXPECT_EQ(end.ledger.now().viscous, 0.0);
+    ends[is_viscous ? 1 : 0] = end.state;
+  }
+  ASSERT_GT(ends[0].forces.stored.strain, 0.0);
+  EXPECT_NEAR(ends[1].forces.stored.strain, ends[0].forces.stored.strain, 1e-12 * ends[0].forces.stored.strain);
 }
 
 }  // namespace
