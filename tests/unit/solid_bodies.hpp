@@ -207,4 +207,16 @@ inline std::vector<double> relaxed(const Solid& solid, const std::vector<double>
   return sum(-1.0, solve(solid, internal_force(solid, u_0), held, tolerance), u_0);
 }
 
+/// K(u) x is the central difference of F along x.
+inline void expect_tangent_is_derivative(const Solid& solid, const std::vector<double>& u, const std::vector<double>& x,
+                                         const PointStep& step) {
+  const double h = 1e-6;  // truncation h^2 F''' / 6 of strains of some 10 %, round-off 1e-14 / h
+  std::vector<double> plus(u.size()), minus(u.size()), Kx(u.size());
+  solid.internal_force(sum(h, x, u), plus, step);
+  solid.internal_force(sum(-h, x, u), minus, step);
+  solid.tangent_action(u, x, Kx, step);
+  for (std::size_t d = 0; d < u.size(); ++d)
+    EXPECT_NEAR((plus[d] - minus[d]) / (2 * h), Kx[d], 1e-6 * largest(Kx)) << d;
+}
+
 }  // namespace carom::test

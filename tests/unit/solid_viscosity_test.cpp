@@ -150,15 +150,7 @@ INSTANTIATE_TEST_SUITE_P(Solid, ViscousBody, testing::ValuesIn(viscous_bodies())
 TEST_P(ViscousBody, TangentIsTheDerivativeOfTheForce) {
   Walk walk(model_);
   ASSERT_NE(walk.go(displacement(1, 0.02)).viscous, 0.0);
-  const auto u = displacement(7, 0.03), x = displacement(3, 1.0);
-  const double h = 1e-6;  // truncation h^2 F''' / 6, round-off 1e-14 / h
-  const PointStep step{dt, walk.history};
-  std::vector<double> plus(u.size()), minus(u.size()), Kx(u.size());
-  walk.solid.internal_force(sum(h, x, u), plus, step);
-  walk.solid.internal_force(sum(-h, x, u), minus, step);
-  walk.solid.tangent_action(u, x, Kx, step);
-  for (std::size_t d = 0; d < u.size(); ++d)
-    EXPECT_NEAR((plus[d] - minus[d]) / (2 * h), Kx[d], 1e-6 * largest(Kx)) << d;
+  expect_tangent_is_derivative(walk.solid, displacement(7, 0.03), displacement(3, 1.0), {dt, walk.history});
 }
 
 // What is recorded of a step is asked for when it is over: the forces are those that it ended with.
