@@ -11,9 +11,9 @@ class PenaltyContact final : public ExplicitContact {
   explicit PenaltyContact(const System& system) : system_(system) {}
 
   std::string respond(const ExplicitPoint& at, Forces& forces) override {
+    clear_contact(at.u.size(), forces);
     penalty_response(system_.contact.rows_at(at.u_begin, at.u, at.history), at.u_begin, at.u, at.v, at.history,
                      forces.rows);
-    forces.contact.assign(at.u.size(), 0.0);
     forces.rows.add_force(forces.contact);
     return {};
   }

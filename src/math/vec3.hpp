@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 #include "base/types.hpp"
 
@@ -15,6 +17,11 @@ constexpr double dot(const Vec3& a, const Vec3& b) {
 /// a x b
 constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The vector at a node, of a dof vector.
+inline Vec3 vector_at(std::span<const double> x, std::size_t node) {
+  return {x[3 * node], x[3 * node + 1], x[3 * node + 2]};
 }
 
 /// a + b

@@ -15,18 +15,36 @@ double mix(double w, double x0, double x1) {
 
 }  // namespace
 
-double support_work(std::size_t i, const State& begin, const Balance& b0, const State& end, double w) {
-  const Forces& f1 = end.forces;
-  const double rest = mix(w, b0.reaction[i] - b0.inertia[i], f1.reaction[i] - f1.inertia[i]);
-  return 0.5 * (begin.v[i] + end.v[i]) * (f1.momentum[i] - begin.forces.momentum[i]) + rest * (end.q[i] - begin.q[i]);
+double support_work(const System& system, std::size_t k, const State& begin, const Balance& b0, const State& end,
+                    double w) {
+  const auto i = static_cast<std::size_t>(system.supports.prescribed()[k].dof);
+  const SupportForce &before = b0.supports[k], &after = end.forces.supports[k];
+  const double rest = mix(w, before.reaction - before.inertia, after.reaction - after.inertia);
+  return 0.5 * (begin.v[i] + end.v[i]) * (after.momentum - begin.forces.supports[k].momentum) +
+         rest * (end.q[i] - begin.q[i]);
 }
+
+namespace {
+
+/// The sums, and the reactions of the supports.
+Momentum with_reactions(const System& system, std::span<const double> u, const Balance& balance, double* sums) {
+  const MomentArms arms(system, u);
+  const std::vector<PrescribedDof>& prescribed = system.supports.prescribed();
+  for (std::size_t k = 0; k < prescribed.size(); ++k) {
+    const auto i = static_cast<std::size_t>(prescribed[k].dof);
+    add_with_moment(arms.at(i / 3), i % 3, balance.supports[k].reaction, sums);
+  }
+  return momentum_from(sums);
+}
+
+}  // namespace
 
 StepBooks step_books(const System& system, const State& begin, const Balance& b0, const State& end,
                      const StepWeights& w, const ContactWork& contact, std::span<const double> mean_internal) {
   const Forces &f0 = begin.forces, &f1 = end.forces;
   const MomentArms arms(system, begin.q, end.q, 0.5);
-  // Works of internal, external and support forces; du . M a~, du . (f~ + R~ - F~), du . C~; the resultant.
-  const auto sums = parallel_sums<12>(end.q.size(), [&](std::size_t i, std::array<double, 12>& s) {
+  // Works of internal and external forces; du . M a~, du . (f~ + R~ - F~), du . C~; the resultant.
+  const auto sums = parallel_sums<11>(end.q.size(), [&](std::size_t i, std::array<double, 11>& s) {
     const double du = end.q[i] - begin.q[i];
     const double inertia = mix(w.inertia, b0.inertia[i], f1.inertia[i]);
     const bool is_given = !mean_internal.empty();
@@ -37,14 +55,16 @@ StepBooks step_books(const System& system, const State& begin, const Balance& b0
     const double support = system.supports.is_prescribed(dof) ? inertia + internal - external - in_contact : 0.0;
     s[0] += (is_given ? internal : 0.5 * (f0.internal[i] + f1.internal[i])) * du;
     s[1] += 0.5 * (f0.external[i] + f1.external[i]) * du;
-    if (system.supports.is_prescribed(dof)) s[2] += support_work(i, begin, b0, end, w.support_work);
-    s[3] += inertia * du;
-    s[4] += (external + support - internal) * du;
-    s[5] += in_contact * du;
-    add_with_moment(arms.at(i / 3), i % 3, external + support + in_contact, s.data() + 6);
+    s[2] += inertia * du;
+    s[3] += (external + support - internal) * du;
+    s[4] += in_contact * du;
+    add_with_moment(arms.at(i / 3), i % 3, external + support + in_contact, s.data() + 5);
   });
+  double support = 0.0;
+  for (std::size_t k = 0; k < b0.supports.size(); ++k)
+    support += support_work(system, k, begin, b0, end, w.support_work);
   StepBooks out;
-  out.force = momentum_from(sums.data() + 6);
+  out.force = momentum_from(sums.data() + 5);
   LedgerIncrement& step = out.increment;
   EnergyTerms& energy = step.energy;
   energy = change_of_state(f0.stored, f1.stored);
@@ -52,8 +72,8 @@ StepBooks step_books(const System& system, const State& begin, const Balance& b0
   energy.damping = contact.damping;
   energy.impact = contact.impact;
   energy.external_work = sums[1];
-  energy.support_work = sums[2];
-  energy.algorithmic = sums[3] - energy.kinetic + (sums[1] + sums[2] - sums[0]) - sums[4] + (contact.total - sums[5]);
+  energy.support_work = support;
+  energy.algorithmic = sums[2] - energy.kinetic + (sums[1] + support - sums[0]) - sums[3] + (contact.total - sums[4]);
   energy.quadrature = sums[0] - energy.strain - energy.hourglass - energy.sum(TermKind::spent) - contact.total -
                       energy.contact_stored - contact.friction - contact.damping - contact.impact;
   step.aster.ENER_CIN = energy.kinetic;
@@ -67,11 +87,14 @@ void set_mean_reactions(const System& system, const State& begin, const StepWeig
                         std::span<const double> mean_internal) {
   const Forces& f0 = begin.forces;
   Forces& f1 = end.forces;
-  for (const PrescribedDof& p : system.supports.prescribed()) {
-    const auto i = static_cast<std::size_t>(p.dof);
+  const std::vector<PrescribedDof>& prescribed = system.supports.prescribed();
+  for (std::size_t k = 0; k < prescribed.size(); ++k) {
+    const auto i = static_cast<std::size_t>(prescribed[k].dof);
     const double internal = mean_internal.empty() ? mix(w.force, f0.internal[i], f1.internal[i]) : mean_internal[i];
-    f1.reaction[i] = mix(w.inertia, f0.inertia[i], f1.inertia[i]) + internal -
-                     mix(w.force, f0.external[i], f1.external[i]) - mix(w.contact, f0.contact[i], f1.contact[i]);
+    f1.supports[k].inertia = f1.inertia[i];
+    f1.supports[k].reaction = mix(w.inertia, f0.inertia[i], f1.inertia[i]) + internal -
+                              mix(w.force, f0.external[i], f1.external[i]) -
+                              mix(w.contact, f0.contact[i], f1.contact[i]);
   }
 }
 
@@ -87,10 +110,10 @@ Momentum combine(double a, const Momentum& p, double b, const Momentum& q) {
 Momentum resultant(const System& system, const State& state, const Balance& balance) {
   const MomentArms arms(system, state.q);
   const Forces& forces = state.forces;
-  const auto sums = parallel_sums<6>(forces.contact.size(), [&](std::size_t i, std::array<double, 6>& s) {
-    add_with_moment(arms.at(i / 3), i % 3, forces.external[i] + forces.contact[i] + balance.reaction[i], s.data());
+  auto sums = parallel_sums<6>(forces.contact.size(), [&](std::size_t i, std::array<double, 6>& s) {
+    add_with_moment(arms.at(i / 3), i % 3, forces.external[i] + forces.contact[i], s.data());
   });
-  return momentum_from(sums.data());
+  return with_reactions(system, state.q, balance, sums.data());
 }
 
 Momentum resultant(const System& system, const State& state) {

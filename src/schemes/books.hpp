@@ -16,10 +16,12 @@ struct StepWeights {
   double support_work = 0.5;
 };
 
-/// Work of a support on dof i: what its inertia takes, v_bar (M dv) with v_bar the mean of both ends, and what balances
-/// the forces, ((1 - w) (R0 - M a0) + w (R1 - M a1)) du. The first is the change of kinetic energy, whatever the
-/// velocity does within the step. balance: M a0 and R0, here and below (StepStart::balance).
-double support_work(std::size_t i, const State& begin, const Balance& balance, const State& end, double w);
+/// Work of the support of entry k of Supports::prescribed: what its inertia takes, v_bar (M dv) with v_bar the mean of
+/// both ends, and what balances the forces, ((1 - w) (R0 - M a0) + w (R1 - M a1)) du. The first is the change of
+/// kinetic energy, whatever the velocity does within the step. balance: M a0 and R0, here and below
+/// (StepStart::balance).
+double support_work(const System& system, std::size_t k, const State& begin, const Balance& balance, const State& end,
+                    double w);
 
 /// The energies of a step, and the resultant of external, contact and support forces in the scheme's equation.
 struct StepBooks {
@@ -37,7 +39,8 @@ StepBooks step_books(const System& system, const State& begin, const Balance& ba
                      const StepWeights& weights, const ContactWork& contact,
                      std::span<const double> mean_internal = {});
 
-/// Replaces the reactions at the end, for schemes whose acceleration is the mean of the step, by R~.
+/// Replaces the reactions, and the inertia of the supports, at the end, for schemes whose acceleration is the mean of
+/// the step, by R~.
 void set_mean_reactions(const System& system, const State& begin, const StepWeights& weights, State& end,
                         std::span<const double> mean_internal = {});
 

@@ -13,10 +13,7 @@ namespace carom {
 CentralDifferences::CentralDifferences(const System& system) : CentralDifferences(system, penalty_contact(system)) {}
 
 CentralDifferences::CentralDifferences(const System& system, std::unique_ptr<ExplicitContact> contact)
-    : system_(system), contact_(std::move(contact)), mass_solver_(system), start_(system) {
-  v_half_.resize(system.solid.dof_count());
-  rhs_.resize(system.solid.dof_count());
-}
+    : system_(system), contact_(std::move(contact)), mass_solver_(system), start_(system), pushed_(system) {}
 
 void CentralDifferences::start(State& state, double dt) {
   start_with_supports(system_, state);
@@ -24,6 +21,7 @@ void CentralDifferences::start(State& state, double dt) {
   for (const ImposedStep& s : imposed_next_) state.a[s.dof] = acceleration_to_middle(s, dt);
   contact_->start(system_, dt, 0.5 * dt, state);
   start_accelerations(system_, mass_solver_, state);
+  if (is_lumped()) state.forces.inertia = {};
 }
 
 StepReport CentralDifferences::step(const State& begin, const StepRequest& request, State& end) {
@@ -32,7 +30,10 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
   end.t = request.t_end;
   end.q.resize(n);
   end.v.resize(n);
-  end.a = begin.a;
+  if (is_lumped())
+    end.a.resize(n);
+  else
+    end.a = begin.a;  // the first guess of the solve
   carry_memory(begin, end);
   StepReport report;
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
@@ -41,35 +42,52 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
     return report;
   }
   const std::span<const double> a_begin = start_.a();
+  std::vector<double>& v_half = end.v;
   parallel_each(n, [&](std::size_t i) {
-    v_half_[i] = begin.v[i] + 0.5 * h * a_begin[i];
-    end.q[i] = begin.q[i] + h * v_half_[i];
+    v_half[i] = begin.v[i] + 0.5 * h * a_begin[i];
+    end.q[i] = begin.q[i] + h * v_half[i];
   });
   for (const ImposedStep& s : imposed_) {
-    v_half_[s.dof] = s.mean_velocity;
+    v_half[s.dof] = s.mean_velocity;
     end.q[s.dof] = s.u;
   }
   evaluate_bodies(system_, {h, begin.points}, end);
   // Contact looks at the step that follows.
   imposed_steps(system_.supports, end.t, end.t + h, end.q, imposed_next_);
-  for (const ImposedStep& s : imposed_next_) end.a[s.dof] = (s.mean_velocity - v_half_[s.dof]) / h;
-  report.failure = contact_->respond({h, h, begin.q, end.q, v_half_, end.a, begin.contact}, end.forces);
+  for (const ImposedStep& s : imposed_next_) end.a[s.dof] = (s.mean_velocity - v_half[s.dof]) / h;
+  report.failure = contact_->respond({h, h, begin.q, end.q, v_half, end.a, begin.contact}, end.forces);
   if (!report.failure.empty()) return report;
-  for (const ImposedStep& s : imposed_) end.a[s.dof] = acceleration_from_middle(s, h);
+  for (const ImposedStep& s : imposed_) {
+    end.a[s.dof] = acceleration_from_middle(s, h);
+    end.v[s.dof] = s.v;
+  }
+  take_history(end.forces.rows, end.q, end.contact);
+  if (is_lumped()) {
+    pushed_.look(*begin.forces.rows.rows, *end.forces.rows.rows);
+    report.books = end_lumped_step(system_, begin, start_.balance(), a_begin, pushed_, end, h);
+  } else if (!end_consistent_step(begin, a_begin, h, end, report)) {
+    return report;
+  }
+  contact_->book(begin, end, report.books.energy);
+  report.converged = true;
+  return report;
+}
+
+/// What end_lumped_step does, for a mass that has to be solved for.
+bool CentralDifferences::end_consistent_step(const State& begin, std::span<const double> a_begin, double h, State& end,
+                                             StepReport& report) {
+  rhs_.resize(end.a.size());
   force_sum(end.forces, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);
   if (report.linear_iterations < 0) {
     report.failure = MassSolver::failure;
-    return report;
+    return false;
   }
-  parallel_each(n, [&](std::size_t i) { end.v[i] = v_half_[i] + 0.5 * h * end.a[i]; });
-  take_history(end.forces.rows, end.q, end.contact);
+  parallel_each(end.v.size(), [&](std::size_t i) { end.v[i] += 0.5 * h * end.a[i]; });
   for (const ImposedStep& s : imposed_) end.v[s.dof] = s.v;
   complete_forces(system_, end);
   report.books = central_difference_books(system_, begin, start_.balance(), a_begin, end, h);
-  contact_->book(begin, end, report.books.energy);
-  report.converged = true;
-  return report;
+  return true;
 }
 
 namespace {

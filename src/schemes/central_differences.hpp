@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "enforcement/explicit_contact.hpp"
+#include "schemes/explicit_books.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "schemes/scheme.hpp"
 #include "system/mass_solver.hpp"
@@ -31,11 +32,16 @@ class CentralDifferences final : public Scheme {
   std::string solver_name(const State& /*state*/) const override { return mass_solver_.name(); }
 
  private:
+  bool is_lumped() const { return system_.mass.kind() == MassKind::lumped; }
+  bool end_consistent_step(const State& begin, std::span<const double> a_begin, double h, State& end,
+                           StepReport& report);
+
   const System& system_;
   std::unique_ptr<ExplicitContact> contact_;
   MassSolver mass_solver_;
   StepStart start_;
-  std::vector<double> v_half_, rhs_;
+  PushedNodes pushed_;
+  std::vector<double> rhs_;  ///< of a consistent mass
   std::vector<ImposedStep> imposed_, imposed_next_;
 };
 

@@ -1,6 +1,8 @@
 #include "schemes/explicit_books.hpp"
 
 #include <array>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "parallel/threads.hpp"
@@ -8,40 +10,77 @@
 
 namespace carom {
 
-LedgerIncrement central_difference_books(const System& system, const State& begin, const Balance& b0,
-                                         std::span<const double> a_begin, const State& end, double h) {
-  const Forces &f0 = begin.forces, &f1 = end.forces;
-  // The forces of each end act where the nodes stand then: with a lumped mass that is the exact change of momentum.
-  const MomentArms arms_0(system, begin.q), arms_1(system, end.q);
-  // Works of internal, contact and external forces, impulses and their moments.
-  const double half = 0.5 * h;
-  const auto sums = parallel_sums<9>(end.q.size() / 3, [&](std::size_t node, std::array<double, 9>& s) {
+namespace {
+
+/// What a node adds to the books of a step of central differences: the work of internal forces; works of contact and
+/// external forces, impulses of both and their moments. The forces of each end act where the nodes stand then: with a
+/// lumped mass that is the exact change of momentum.
+class StepSums {
+ public:
+  static constexpr std::size_t count = 8;
+
+  StepSums(const System& system, const State& begin, const State& end, double h)
+      : f0_(begin.forces),
+        f1_(end.forces),
+        q0_(begin.q.data()),
+        q1_(end.q.data()),
+        half_(0.5 * h),
+        arms_0_(system, begin.q),
+        arms_1_(system, end.q) {}
+
+  double internal_work(std::size_t node) const {
+    double work = 0.0;
+    for (std::size_t i = 3 * node; i < 3 * node + 3; ++i)
+      work += 0.5 * (f0_.internal[i] + f1_.internal[i]) * (q1_[i] - q0_[i]);
+    return work;
+  }
+  /// What pushes the body.
+  void add_pushes(std::size_t node, double* sums) const {
     Vec3 impulse_0, impulse_1;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t i = 3 * node + c;
-      const double du = end.q[i] - begin.q[i];
-      s[0] += 0.5 * (f0.internal[i] + f1.internal[i]) * du;
-      s[1] += 0.5 * (f0.contact[i] + f1.contact[i]) * du;
-      s[2] += 0.5 * (f0.external[i] + f1.external[i]) * du;
-      impulse_0[c] = half * (f0.external[i] + f0.contact[i] + b0.reaction[i]);
-      impulse_1[c] = half * (f1.external[i] + f1.contact[i] + f1.reaction[i]);
+      const double half_way = 0.5 * (q1_[i] - q0_[i]);
+      sums[0] += (f0_.contact[i] + f1_.contact[i]) * half_way;
+      sums[1] += (f0_.external[i] + f1_.external[i]) * half_way;
+      impulse_0[c] = half_ * (f0_.external[i] + f0_.contact[i]);
+      impulse_1[c] = half_ * (f1_.external[i] + f1_.contact[i]);
     }
-    add_with_moment(arms_0.at(node), impulse_0, s.data() + 3);
-    add_with_moment(arms_1.at(node), impulse_1, s.data() + 3);
-  });
-  const double internal_work = sums[0], contact_work = sums[1];
-  double support = 0.0, inertia_power = f1.inertia_power - b0.inertia_power;  // da . (M a0 + M a1), as M is symmetric
-  for (const PrescribedDof& p : system.supports.prescribed()) {
-    const auto i = static_cast<std::size_t>(p.dof);
-    support += support_work(i, begin, b0, end, 0.5);
-    inertia_power -= (end.a[i] - a_begin[i]) * (b0.inertia[i] + f1.inertia[i]);
+    add_with_moment(arms_0_.at(node), impulse_0, sums + 2);
+    add_with_moment(arms_1_.at(node), impulse_1, sums + 2);
   }
+  /// The half impulses of a support.
+  void add_support(std::size_t dof, double reaction_0, double reaction_1, double* sums) const {
+    add_with_moment(arms_0_.at(dof / 3), dof % 3, half_ * reaction_0, sums + 2);
+    add_with_moment(arms_1_.at(dof / 3), dof % 3, half_ * reaction_1, sums + 2);
+  }
+
+ private:
+  const Forces &f0_, &f1_;
+  const double *q0_, *q1_;
+  double half_;
+  MomentArms arms_0_, arms_1_;
+};
+
+/// From the sums over the nodes; takes those of the supports in.
+LedgerIncrement books_of_sums(const System& system, const State& begin, const Balance& b0,
+                              std::span<const double> a_begin, const State& end, double h, const StepSums& terms,
+                              double internal_work, std::array<double, StepSums::count> sums) {
+  const Forces &f0 = begin.forces, &f1 = end.forces;
+  double support = 0.0, inertia_power = f1.inertia_power - b0.inertia_power;  // da . (M a0 + M a1), as M is symmetric
+  const std::vector<PrescribedDof>& prescribed = system.supports.prescribed();
+  for (std::size_t k = 0; k < prescribed.size(); ++k) {
+    const auto i = static_cast<std::size_t>(prescribed[k].dof);
+    support += support_work(system, k, begin, b0, end, 0.5);
+    inertia_power -= (end.a[i] - a_begin[i]) * (b0.supports[k].inertia + f1.supports[k].inertia);
+    terms.add_support(i, b0.supports[k].reaction, f1.supports[k].reaction, sums.data());
+  }
+  const double contact_work = sums[0];
   LedgerIncrement step;
   EnergyTerms& energy = step.energy;
   energy = change_of_state(f0.stored, f1.stored);
   energy.friction = f1.rows.slip_work;
   energy.damping = damping_work(begin, end);
-  energy.external_work = sums[2];
+  energy.external_work = sums[1];
   energy.support_work = support;
   energy.algorithmic = -0.125 * h * h * inertia_power;
   energy.quadrature = internal_work - energy.strain - energy.hourglass - energy.sum(TermKind::spent) - contact_work -
@@ -50,8 +89,73 @@ LedgerIncrement central_difference_books(const System& system, const State& begi
   step.aster.ENER_TOT = internal_work;
   step.aster.TRAV_EXT = energy.external_work + energy.support_work;
   step.aster.TRAV_LIAI = -contact_work;
-  step.impulse = momentum_from(sums.data() + 3);
+  step.impulse = momentum_from(sums.data() + 2);
   return step;
+}
+
+}  // namespace
+
+LedgerIncrement central_difference_books(const System& system, const State& begin, const Balance& b0,
+                                         std::span<const double> a_begin, const State& end, double h) {
+  const StepSums terms(system, begin, end, h);
+  const std::size_t nodes = end.q.size() / 3;
+  const double internal_work = parallel_sum(nodes, [&](std::size_t node) { return terms.internal_work(node); });
+  const auto sums = parallel_sums<StepSums::count>(
+      nodes, [&](std::size_t node, std::array<double, StepSums::count>& s) { terms.add_pushes(node, s.data()); });
+  return books_of_sums(system, begin, b0, a_begin, end, h, terms, internal_work, sums);
+}
+
+PushedNodes::PushedNodes(const System& system)
+    : are_all_(system.solid.has_loads()), is_pushed_(system.solid.node_count(), are_all_ ? 1 : 0) {
+  if (!are_all_) return;
+  nodes_.resize(is_pushed_.size());
+  std::iota(nodes_.begin(), nodes_.end(), Index{0});
+}
+
+void PushedNodes::look(const ConstraintRows& before, const ConstraintRows& after) {
+  if (are_all_) return;
+  for (const Index n : nodes_) is_pushed_[static_cast<std::size_t>(n)] = 0;
+  nodes_.clear();
+  for (const ConstraintRows* rows : {&before, &after})
+    for (const Index n : rows->node)
+      if (std::exchange(is_pushed_[static_cast<std::size_t>(n)], std::uint8_t{1}) == 0) nodes_.push_back(n);
+}
+
+LedgerIncrement end_lumped_step(const System& system, const State& begin, const Balance& b0,
+                                std::span<const double> a_begin, const PushedNodes& pushed, State& end, double h) {
+  const double half = 0.5 * h;
+  const std::vector<double>& mass = system.mass.node_diagonal();
+  Forces& f1 = end.forces;
+  const StateSums of_state(system, end);
+  const StepSums of_step(system, begin, end, h);
+  constexpr std::size_t count = StateSums::count + 1;
+  const auto sums = parallel_sums<count>(mass.size(), [&](std::size_t node, std::array<double, count>& s) {
+    const double m = mass[node], inverse = 1.0 / m;
+    const bool is_pushed = pushed[node];
+    const unsigned fixed = system.supports.fixed_components(node);
+    Vec3 a, v, Ma, Mv;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t i = 3 * node + c;
+      if ((fixed >> c & 1U) == 0) {
+        const double push = is_pushed ? f1.external[i] + f1.contact[i] : 0.0;
+        end.a[i] = inverse * (push - f1.internal[i]);
+        end.v[i] += half * end.a[i];
+      }
+      a[c] = end.a[i];
+      v[c] = end.v[i];
+      Ma[c] = m * a[c];
+      Mv[c] = m * v[c];
+    }
+    of_state.add(node, v, Mv, a, Ma, s.data());
+    s[count - 1] += of_step.internal_work(node);
+  });
+  StateSums::give(system, sums.data(), f1);
+  complete_supports(system, end);
+  const auto pushes =
+      parallel_sums<StepSums::count>(pushed.nodes().size(), [&](std::size_t k, std::array<double, StepSums::count>& s) {
+        of_step.add_pushes(static_cast<std::size_t>(pushed.nodes()[k]), s.data());
+      });
+  return books_of_sums(system, begin, b0, a_begin, end, h, of_step, sums.back(), pushes);
 }
 
 LedgerIncrement explicit_books(const System& system, const State& begin, const Balance& b0, const State& end,

@@ -1,7 +1,9 @@
 // The books of explicit steps.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "system/system.hpp"
 
@@ -14,6 +16,28 @@ namespace carom {
 /// instead of K u; it holds with whatever forces contact adds). Friction and damping are those of the penalty.
 LedgerIncrement central_difference_books(const System& system, const State& begin, const Balance& balance,
                                          std::span<const double> a_begin, const State& end, double h);
+
+/// The nodes that loads or contact may push: all of them where there are loads.
+class PushedNodes {
+ public:
+  explicit PushedNodes(const System& system);
+  /// The rows at both ends of a step.
+  void look(const ConstraintRows& before, const ConstraintRows& after);
+  bool operator[](std::size_t node) const { return is_pushed_[node] != 0; }
+  const std::vector<Index>& nodes() const { return nodes_; }
+
+ private:
+  bool are_all_;
+  std::vector<Index> nodes_;
+  std::vector<std::uint8_t> is_pushed_;
+};
+
+/// Ends a step of central differences with a lumped mass, whose forces at its end are there, in one pass over the
+/// nodes: a1 = (f - F + contact) / m and v1 = v_{1/2} + h/2 a1 on the free dofs, end.v holding v_{1/2} there and end.a
+/// and end.v being complete on the others; what complete_forces gives but for the inertia; and the books, which are
+/// returned.
+LedgerIncrement end_lumped_step(const System& system, const State& begin, const Balance& balance,
+                                std::span<const double> a_begin, const PushedNodes& pushed, State& end, double h);
 
 /// Books of a step with u1 = u0 + h v0 + h^2 B,  v1 = v0 + h A. With x_bar the mean of both ends and R = M a the
 /// inertia that balances the forces at each end,

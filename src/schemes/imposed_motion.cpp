@@ -102,14 +102,15 @@ bool StepStart::set(const State& begin, double h, std::span<const ImposedStep> s
   product_.resize(a_.size());
   system_.mass.apply(a_, product_);
   inertia_ = forces.inertia;
-  reaction_ = forces.reaction;
-  for (const ImposedStep& s : steps) {
-    const std::size_t i = s.dof;
-    inertia_[i] = product_[i];
-    reaction_[i] = inertia_[i] + forces.internal[i] - forces.external[i] - forces.contact[i];
+  supports_ = forces.supports;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const std::size_t i = steps[k].dof;
+    if (!inertia_.empty()) inertia_[i] = product_[i];
+    supports_[k].inertia = product_[i];
+    supports_[k].reaction = product_[i] + forces.internal[i] - forces.external[i] - forces.contact[i];
   }
   balance_->inertia = inertia_;
-  balance_->reaction = reaction_;
+  balance_->supports = supports_;
   balance_->inertia_power = dot(a_, product_);
   return true;
 }

@@ -69,7 +69,8 @@ class StepStart {
   const System& system_;
   MassSolver mass_solver_;
   std::vector<double> own_, change_, product_;
-  std::vector<double> inertia_, reaction_;  ///< of a changed beginning
+  std::vector<double> inertia_;  ///< of a changed beginning
+  std::vector<SupportForce> supports_;
   std::span<const double> a_;
   std::optional<Balance> balance_;
   bool is_changed_ = false;

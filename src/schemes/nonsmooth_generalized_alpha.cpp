@@ -153,14 +153,14 @@ LedgerIncrement NonsmoothGeneralizedAlpha::books(const State& begin, double h, S
   // of the end, with the weight 1.
   system_.mass.apply(mean_, mean_inertia_);
   end.forces.inertia.swap(mean_inertia_);
-  reaction_ = end.forces.reaction;
+  const std::vector<SupportForce> supports = end.forces.supports;
   const StepWeights weights{.inertia = 1.0, .force = 0.5, .contact = 1.0, .support_work = 1.0};
   set_mean_reactions(system_, begin, weights, end);
   LedgerIncrement out = step_books(system_, begin, Balance(begin.forces), end, weights,
                                    stage_.port().work(begin, end, weights.support_work))
                             .increment;
   end.forces.inertia.swap(mean_inertia_);
-  end.forces.reaction = reaction_;
+  end.forces.supports = supports;
   out.impulse = combine(1.0, combine(h * (1.0 - gamma), old_.a.force, h * gamma, memory.a.force), h, jump);
   return out;
 }

@@ -57,7 +57,7 @@ class NonsmoothGeneralizedAlpha final : public Scheme {
   StepStart start_;
   std::vector<double> u_hat_, v_hat_, carried_, known_, u_predicted_;
   std::vector<double> jump_;  ///< W / h
-  std::vector<double> mean_, mean_inertia_, reaction_;
+  std::vector<double> mean_, mean_inertia_;
   NonsmoothMemory old_;
   std::vector<ImposedStep> imposed_;
 };

@@ -44,12 +44,7 @@ void Mass::apply(std::span<const double> x, std::span<double> y) const {
   constexpr std::size_t rows_per_task = 1024;
   parallel_for(diagonal_.size(), rows_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
-      double sum[3] = {0.0, 0.0, 0.0};
-      for (std::int64_t k = matrix_.row_begin[n]; k < matrix_.row_begin[n + 1]; ++k) {
-        const double m = matrix_.value[static_cast<std::size_t>(k)];
-        const double* node = x.data() + 3 * static_cast<std::size_t>(matrix_.column[static_cast<std::size_t>(k)]);
-        for (int i = 0; i < 3; ++i) sum[i] += m * node[i];
-      }
+      const Vec3 sum = at_node(n, x);
       for (std::size_t i = 0; i < 3; ++i) y[3 * n + i] = sum[i];
     }
   });

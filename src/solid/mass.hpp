@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/types.hpp"
 #include "linalg/csr_matrix.hpp"
 
 namespace carom {
@@ -22,6 +23,18 @@ class Mass {
   MassKind kind() const { return kind_; }
   /// y = M x, dof vectors of 3 x nodes entries, x y z of a node together. Threaded, same bits for any thread count.
   void apply(std::span<const double> x, std::span<double> y) const;
+  /// (M x) at a node.
+  Vec3 at_node(std::size_t n, std::span<const double> x) const {
+    if (kind_ == MassKind::lumped)
+      return {diagonal_[n] * x[3 * n], diagonal_[n] * x[3 * n + 1], diagonal_[n] * x[3 * n + 2]};
+    Vec3 sum{};
+    for (auto k = static_cast<std::size_t>(matrix_.row_begin[n]);
+         k < static_cast<std::size_t>(matrix_.row_begin[n + 1]); ++k) {
+      const std::size_t column = 3 * static_cast<std::size_t>(matrix_.column[k]);
+      for (std::size_t i = 0; i < 3; ++i) sum[i] += matrix_.value[k] * x[column + i];
+    }
+    return sum;
+  }
   /// Diagonal of M, one entry per node.
   const std::vector<double>& node_diagonal() const { return diagonal_; }
   /// f += M 1 times a uniform acceleration: the force of gravity, under which every free body falls with a = g.

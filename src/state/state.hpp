@@ -11,12 +11,28 @@
 
 namespace carom {
 
-/// All forces at one instant (dof vectors). Where a dof is free, inertia = external - internal + contact up to the
-/// residual of the solver; where it is prescribed, reaction closes the equation.
+/// What a support does at one instant, on its dof: reaction = inertia + internal - external - contact.
+struct SupportForce {
+  double reaction = 0.0;
+  double inertia = 0.0;   ///< M a
+  double momentum = 0.0;  ///< M v
+  friend bool operator==(const SupportForce&, const SupportForce&) = default;
+};
+template <class A>
+void fields(A& archive, SupportForce& x) {
+  archive("reaction", x.reaction);
+  archive("inertia", x.inertia);
+  archive("momentum", x.momentum);
+}
+
+/// All forces at one instant. Where a dof is free, inertia = external - internal + contact up to the residual of the
+/// solver; where it is prescribed, the support's reaction closes the equation.
 struct Forces {
-  std::vector<double> internal, external, contact, reaction;
-  std::vector<double> inertia;   ///< M a
-  std::vector<double> momentum;  ///< M v
+  std::vector<double> internal, external, contact;  ///< dof vectors
+  /// M a, a dof vector; none where a scheme makes nothing of it but what follows from the accelerations (central
+  /// differences with a lumped mass).
+  std::vector<double> inertia;
+  std::vector<SupportForce> supports;  ///< one per entry of Supports::prescribed
   ContactResponse rows;
   EnergyTerms stored;          ///< energies of the state that are functions of it: stored ones, and plastic
   Momentum total_momentum;     ///< of the state
@@ -28,9 +44,8 @@ void fields(A& archive, Forces& x) {
   archive("internal", x.internal);
   archive("external", x.external);
   archive("contact", x.contact);
-  archive("reaction", x.reaction);
   archive("inertia", x.inertia);
-  archive("momentum", x.momentum);
+  archive("supports", x.supports);
   archive("rows", x.rows);
   archive("stored", x.stored);
   archive("total_momentum", x.total_momentum);

@@ -9,6 +9,7 @@
 namespace carom {
 
 MassSolver::MassSolver(const System& system) : system_(system) {
+  if (system.mass.kind() == MassKind::lumped) return;
   const std::vector<double>& m = system.mass.node_diagonal();
   const std::vector<bool>& fixed = system.supports.fixed();
   inverse_diagonal_.resize(fixed.size());
@@ -36,8 +37,9 @@ int MassSolver::solve(std::span<const double> f, std::span<double> a) {
   const std::vector<bool>& fixed = system_.supports.fixed();
   const std::size_t n = fixed.size();
   if (system_.mass.kind() == MassKind::lumped) {
+    const std::vector<double>& m = system_.mass.node_diagonal();
     parallel_each(n, [&](std::size_t i) {
-      if (!fixed[i]) a[i] = f[i] * inverse_diagonal_[i];
+      if (!fixed[i]) a[i] = f[i] / m[i / 3];
     });
     return 0;
   }

@@ -34,7 +34,7 @@ class MassSolver {
 
  private:
   const System& system_;
-  std::vector<double> inverse_diagonal_, rhs_, free_;
+  std::vector<double> inverse_diagonal_, rhs_, free_;  ///< of a consistent mass
   ConjugateGradients cg_;
   std::unique_ptr<EffectiveSolver> factors_;
 };

@@ -43,6 +43,9 @@ Supports::Supports(const Model& model, const std::vector<bool>& has_mass) {
     prescribed_.push_back({dof, static_cast<std::size_t>(motion - model.motions.data())});
     fixed_[static_cast<std::size_t>(dof)] = prescribed_flag_[static_cast<std::size_t>(dof)] = true;
   }
+  fixed_components_.assign(has_mass.size(), 0);
+  for (std::size_t i = 0; i < fixed_.size(); ++i)
+    if (fixed_[i]) fixed_components_[i / 3] |= static_cast<std::uint8_t>(1U << (i % 3));
   for (const InitialState& initial : model.initial) {
     if (initial.velocity.empty()) continue;
     std::map<Index, Vec3> velocity;

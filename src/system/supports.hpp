@@ -1,6 +1,7 @@
 // Prescribed motions as degrees of freedom.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "model/model.hpp"
@@ -31,12 +32,15 @@ class Supports {
   const std::vector<Motion>& motions() const { return motions_; }
   /// One flag per dof: prescribed or without mass.
   const std::vector<bool>& fixed() const { return fixed_; }
+  /// The same of a node, bit c for component c.
+  unsigned fixed_components(std::size_t node) const { return fixed_components_[node]; }
   bool is_prescribed(Index dof) const { return prescribed_flag_[static_cast<std::size_t>(dof)]; }
 
  private:
   std::vector<PrescribedDof> prescribed_;
   std::vector<Motion> motions_;
   std::vector<bool> fixed_, prescribed_flag_;
+  std::vector<std::uint8_t> fixed_components_;
 };
 
 }  // namespace carom

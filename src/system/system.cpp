@@ -1,5 +1,6 @@
 #include "system/system.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "parallel/threads.hpp"
@@ -25,12 +26,20 @@ void evaluate_solid(const System& system, const PointStep& step, State& end) {
 
 void evaluate_bodies(const System& system, const PointStep& step, State& end) {
   evaluate_solid(system, step, end);
-  end.forces.external.resize(end.q.size());
-  system.solid.external_force(end.t, system.mass, end.forces.external);
+  std::vector<double>& external = end.forces.external;
+  const bool is_ready = external.size() == end.q.size() && !system.solid.has_loads();  // it is zero throughout
+  external.resize(end.q.size());
+  if (!is_ready) system.solid.external_force(end.t, system.mass, external);
 }
 
 Momentum momentum_from(const double* sums) {
   return {{sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5]}};
+}
+
+void clear_contact(std::size_t dof_count, Forces& forces) {
+  if (forces.contact.size() != dof_count || !forces.rows.rows) return forces.contact.assign(dof_count, 0.0);
+  for (const Index n : forces.rows.rows->node)
+    for (std::size_t c = 0; c < 3; ++c) forces.contact[3 * static_cast<std::size_t>(n) + c] = 0.0;
 }
 
 void force_sum(const Forces& forces, std::span<double> rhs) {
@@ -66,36 +75,40 @@ double damping_work(const State& begin, const State& end) {
   return work;
 }
 
-void complete_forces(const System& system, State& state) {
+void complete_supports(const System& system, State& state) {
   Forces& forces = state.forces;
-  const std::size_t n = system.solid.dof_count();
-  forces.inertia.resize(n);
-  forces.momentum.resize(n);
-  forces.reaction.assign(n, 0.0);
-  system.mass.apply(state.a, forces.inertia);
-  system.mass.apply(state.v, forces.momentum);
-  for (const PrescribedDof& p : system.supports.prescribed()) {
-    const auto i = static_cast<std::size_t>(p.dof);
-    forces.reaction[i] = forces.inertia[i] + forces.internal[i] - forces.external[i] - forces.contact[i];
+  const std::vector<PrescribedDof>& prescribed = system.supports.prescribed();
+  forces.supports.resize(prescribed.size());
+  for (std::size_t k = 0; k < prescribed.size(); ++k) {
+    const auto i = static_cast<std::size_t>(prescribed[k].dof);
+    SupportForce& support = forces.supports[k];
+    support.inertia = system.mass.at_node(i / 3, state.a)[i % 3];
+    support.momentum = system.mass.at_node(i / 3, state.v)[i % 3];
+    support.reaction = support.inertia + forces.internal[i] - forces.external[i] - forces.contact[i];
   }
-  const MomentArms arms(system, state.q);
-  // v.Mv, u.F (twice the energy of linear bodies), a.Ma, momentum and its moment
-  const auto sums = parallel_sums<9>(n / 3, [&](std::size_t node, std::array<double, 9>& s) {
-    Vec3 p;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t i = 3 * node + c;
-      p[c] = forces.momentum[i];
-      s[0] += state.v[i] * p[c];
-      s[1] += state.q[i] * forces.internal[i];
-      s[2] += state.a[i] * forces.inertia[i];
-    }
-    add_with_moment(arms.at(node), p, s.data() + 3);
-  });
+}
+
+void StateSums::give(const System& system, const double* sums, Forces& forces) {
   forces.stored.kinetic = 0.5 * sums[0];
   if (system.solid.is_linear()) forces.stored.strain = 0.5 * sums[1] - forces.stored.hourglass;
   forces.stored.contact_stored = forces.rows.stored;
   forces.inertia_power = sums[2];
-  forces.total_momentum = momentum_from(sums.data() + 3);
+  forces.total_momentum = momentum_from(sums + 3);
+}
+
+void complete_forces(const System& system, State& state) {
+  Forces& forces = state.forces;
+  forces.inertia.resize(state.a.size());
+  const StateSums terms(system, state);
+  const auto sums = parallel_sums<StateSums::count>(
+      state.a.size() / 3, [&](std::size_t node, std::array<double, StateSums::count>& s) {
+        const Vec3 Ma = system.mass.at_node(node, state.a);
+        std::copy(Ma.begin(), Ma.end(), forces.inertia.begin() + static_cast<std::ptrdiff_t>(3 * node));
+        terms.add(node, vector_at(state.v, node), system.mass.at_node(node, state.v), vector_at(state.a, node), Ma,
+                  s.data());
+      });
+  StateSums::give(system, sums.data(), forces);
+  complete_supports(system, state);
 }
 
 }  // namespace carom

@@ -29,9 +29,14 @@ void evaluate_solid(const System& system, const PointStep& step, State& end);
 /// The same, and the external forces at end.t.
 void evaluate_bodies(const System& system, const PointStep& step, State& end);
 
-/// Fills what the accelerations and velocities of the state add to its forces: inertia, momentum, reactions, stored
+/// Fills what the accelerations and velocities of the state add to its forces: inertia, those of the supports, stored
 /// energies and total momentum (moments by MomentArms). The other forces are there (evaluate_bodies).
 void complete_forces(const System& system, State& state);
+/// The forces of the supports alone.
+void complete_supports(const System& system, State& state);
+
+/// Overwrites the contact forces by zero, having those of its rows to take away.
+void clear_contact(std::size_t dof_count, Forces& forces);
 
 /// rhs = f - F(u) + contact.
 void force_sum(const Forces& forces, std::span<double> rhs);
@@ -41,11 +46,12 @@ void carry_memory(const State& begin, State& end);
 /// The same, and displacement, velocity, acceleration and contact history to go on from.
 void go_on_from(const State& begin, State& end);
 
-/// What balances the forces at an instant: M a, the reactions of the supports, and a . M a.
+/// What balances the forces at an instant: M a, the forces of the supports, and a . M a.
 struct Balance {
   explicit Balance(const Forces& forces)
-      : inertia(forces.inertia), reaction(forces.reaction), inertia_power(forces.inertia_power) {}
-  std::span<const double> inertia, reaction;
+      : inertia(forces.inertia), supports(forces.supports), inertia_power(forces.inertia_power) {}
+  std::span<const double> inertia;
+  std::span<const SupportForce> supports;
   double inertia_power;
 };
 
@@ -87,6 +93,31 @@ class MomentArms {
   const double *u_0_, *u_1_;
   double w_;
   bool is_linear_;
+};
+
+/// What a node adds to the energies and momenta of a state: v.Mv, u.F (twice the energy of linear bodies), a.Ma,
+/// momentum and its moment, summed over the nodes in the order of parallel_sums.
+class StateSums {
+ public:
+  static constexpr std::size_t count = 9;
+
+  StateSums(const System& system, const State& state)
+      : arms_(system, state.q), q_(state.q.data()), internal_(state.forces.internal.data()) {}
+
+  void add(std::size_t node, const Vec3& v, const Vec3& Mv, const Vec3& a, const Vec3& Ma, double* sums) const {
+    for (std::size_t c = 0; c < 3; ++c) {
+      sums[0] += v[c] * Mv[c];
+      sums[1] += q_[3 * node + c] * internal_[3 * node + c];
+      sums[2] += a[c] * Ma[c];
+    }
+    add_with_moment(arms_.at(node), Mv, sums + 3);
+  }
+  /// Gives the sums to the forces of the state.
+  static void give(const System& system, const double* sums, Forces& forces);
+
+ private:
+  MomentArms arms_;
+  const double *q_, *internal_;
 };
 
 /// Trapezoidal work of the dampers: of the forces at each end of the step, on that end's rows.
