@@ -1,5 +1,7 @@
 #include "solid/batch_gradients.hpp"
 
+#include <algorithm>
+
 namespace carom {
 
 BatchGradients::BatchGradients(const CellBatches& cells)
@@ -23,13 +25,17 @@ void BatchGradients::gradient(int p, int l, double H[3][3]) const {
   for (int c = 0; c < 9; ++c) H[c / 3][c % 3] = gradient_[(9 * p + c) * lanes_ + l];
 }
 
-void BatchGradients::mean(int l, double H[3][3]) const {
-  const double total = volume(l);
-  for (int c = 0; c < 9; ++c) {
-    double sum = 0.0;
-    for (int p = 0; p < points_; ++p) sum += weight(p, l) * gradient_[(9 * p + c) * lanes_ + l];
-    H[c / 3][c % 3] = sum / total;
+void BatchGradients::means(double* H) const {
+  double total[most_lanes] = {};
+  std::fill_n(H, 9 * lanes_, 0.0);
+  for (int p = 0; p < points_; ++p) {
+    const double* w = geometry_ + p * lanes_;
+    for (int l = 0; l < lanes_; ++l) total[l] += w[l];
+    for (int c = 0; c < 9; ++c)
+      for (int l = 0; l < lanes_; ++l) H[c * lanes_ + l] += w[l] * gradient_[(9 * p + c) * lanes_ + l];
   }
+  for (int c = 0; c < 9; ++c)
+    for (int l = 0; l < lanes_; ++l) H[c * lanes_ + l] /= total[l];
 }
 
 void BatchGradients::frame(int l, double A[3][3]) const {

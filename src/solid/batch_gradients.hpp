@@ -14,13 +14,14 @@ class BatchGradients {
   BatchGradients(const CellBatches& cells, const double* u);
 
   int points() const { return points_; }
+  int lanes() const { return lanes_; }
   /// Reference volume that point p of the cell in lane l stands for.
   double weight(int p, int l) const { return geometry_[p * lanes_ + l]; }
   double volume(int l) const;
   /// H_ij = du_i/dX_j in the cell's directions; the deformation gradient is frame + H.
   void gradient(int p, int l, double H[3][3]) const;
-  /// Its mean over the reference volume.
-  void mean(int l, double H[3][3]) const;
+  /// Its means over the reference volume, H[(3 i + j) lanes + l].
+  void means(double* H) const;
   /// F at rest: 1, or (axis, 0, 0) of bars.
   void frame(int l, double A[3][3]) const;
 

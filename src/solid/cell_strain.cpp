@@ -72,12 +72,13 @@ Strain mean_strain(const Mesh& mesh, const Part& part, Index cell, std::span<con
 
 /// Distance at u of two material planes with the normal n at u, over their reference distance: |F^T n| of the mean F.
 double stretch_between(const BatchGradients& gradients, const Vec3& n) {
-  double A[3][3], H[3][3];
+  double A[3][3], H[9 * most_lanes];
   gradients.frame(0, A);
-  gradients.mean(0, H);
+  gradients.means(H);
   Vec3 back = n;  // F^T n = n + A H^T n, A the directions of H's columns
   for (std::size_t j = 0; j < 3; ++j) {
-    const double along = H[0][j] * n[0] + H[1][j] * n[1] + H[2][j] * n[2];
+    const auto column = [&](std::size_t i) { return H[(3 * i + j) * static_cast<std::size_t>(gradients.lanes())]; };
+    const double along = column(0) * n[0] + column(1) * n[1] + column(2) * n[2];
     for (std::size_t i = 0; i < 3; ++i) back[i] += A[i][j] * along;
   }
   return norm(back);

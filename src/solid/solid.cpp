@@ -35,14 +35,26 @@ const KernelTable& kernels(Isa isa) {
   return kernels_reference();
 }
 
-/// Angle of R in the mean F = R U of a cell, of bars that by which the axis turns.
-double rotation_of_cell(const BatchGradients& gradients, int lane, CellType type) {
-  double A[3][3], F[3][3];
-  gradients.frame(lane, A);
-  gradients.mean(lane, F);
-  for (int c = 0; c < 9; ++c) F[c / 3][c % 3] += A[c / 3][c % 3];
-  if (dimension(type) > 1) return rotation_angle(F);
-  return angle_between({A[0][0], A[1][0], A[2][0]}, {F[0][0], F[1][0], F[2][0]});
+/// Takes note of the cell of a batch whose R in the mean F = R U has the largest angle, of bars that by which the axis
+/// turns, where it is larger than `largest`. first: position of the batch's first cell. R is the rotation nearest to F,
+/// so that |R - 1| <= |R - F| + |F - 1| <= 2 |H|, and |R - 1| = 2 sqrt(2) sin(angle / 2) (Frobenius' norm): most cells
+/// need no decomposition.
+void follow_rotation(const BatchGradients& gradients, CellType type, int lanes, int count, Index first,
+                     Rotation& largest) {
+  double H[9 * most_lanes], square[most_lanes] = {};
+  gradients.means(H);
+  for (int c = 0; c < 9; ++c)
+    for (int l = 0; l < lanes; ++l) square[l] += H[c * lanes + l] * H[c * lanes + l];
+  for (int l = 0; l < count; ++l) {
+    const double half_sine = std::sin(0.5 * largest.angle);
+    if (dimension(type) > 1 && 0.5 * square[l] <= half_sine * half_sine) continue;
+    double A[3][3], F[3][3];
+    gradients.frame(l, A);
+    for (int c = 0; c < 9; ++c) F[c / 3][c % 3] = A[c / 3][c % 3] + H[c * lanes + l];
+    const double angle = dimension(type) > 1 ? rotation_angle(F)
+                                             : angle_between({A[0][0], A[1][0], A[2][0]}, {F[0][0], F[1][0], F[2][0]});
+    if (angle > largest.angle) largest = {angle, first + l};
+  }
 }
 
 }  // namespace
@@ -307,10 +319,9 @@ Rotation Solid::largest_rotation(std::span<const double> u) const {
     if (!block.small_strain) return;
     for (Index first = 0; first < chunk.cells; first += block.stages.lanes) {
       const BatchGradients gradients(impl_->solid.batches(block, chunk.first + first, 1), u.data());
-      for (Index l = 0; l < std::min<Index>(block.stages.lanes, chunk.cells - first); ++l) {
-        const double angle = rotation_of_cell(gradients, static_cast<int>(l), block.type);
-        if (angle > partial[c].angle) partial[c] = {angle, block.first + chunk.first + first + l};
-      }
+      const Index count = std::min<Index>(block.stages.lanes, chunk.cells - first);
+      follow_rotation(gradients, block.type, block.stages.lanes, static_cast<int>(count),
+                      block.first + chunk.first + first, partial[c]);
     }
   });
   Rotation largest;

@@ -39,7 +39,7 @@ int MassSolver::solve(std::span<const double> f, std::span<double> a) {
   if (system_.mass.kind() == MassKind::lumped) {
     const std::vector<double>& m = system_.mass.node_diagonal();
     parallel_each(n, [&](std::size_t i) {
-      if (!fixed[i]) a[i] = f[i] / m[i / 3];
+      if (!fixed[i]) a[i] = m[i / 3] > 0.0 ? f[i] / m[i / 3] : 0.0;
     });
     return 0;
   }
