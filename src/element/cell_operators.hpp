@@ -311,41 +311,23 @@ struct MeanGradientCell : DenseGradients<Full::nodes, 1, Full::dimension, Full::
     }
   }
 
-  /// Adds the forces of the hourglass stiffness to f; returns the energy.
+  /// And q[(dimension m + i) lanes] = gamma_ma u_ia.
   template <class Real>
-  [[gnu::always_inline]] static inline Real add_hourglass(const Geometry<Real>& geometry, double modulus,
-                                                          const Real u[3][nodes], Real f[3][nodes]) {
-    Real energy{};
-    const Real k = modulus * geometry.stiffness;
-    for (int m = 0; m < Shape::modes; ++m)
-      for (int i = 0; i < dimension; ++i) {
-        Real q{};
-        for (int a = 0; a < nodes; ++a) q += geometry.gamma[m][a] * u[i][a];
-        const Real force = k * q;
-        energy += 0.5 * force * q;
-        for (int a = 0; a < nodes; ++a) f[i][a] += force * geometry.gamma[m][a];
-      }
-    return energy;
-  }
-
-  /// q[(dimension m + i) lanes] = gamma_ma u_ia, and k for coefficient x modulus = 1.
-  template <class Real>
-  [[gnu::always_inline]] static inline void hourglass(const Geometry<Real>& geometry, const Real u[3][nodes], double* q,
-                                                      double* stiffness) {
+  [[gnu::always_inline]] static inline void gradients(const Geometry<Real>& geometry, const Real u[3][nodes],
+                                                      double* gradient, double* q) {
+    Base::gradients(geometry, u, gradient);
     for (int m = 0; m < Shape::modes; ++m)
       for (int i = 0; i < dimension; ++i) {
         Real sum{};
         for (int a = 0; a < nodes; ++a) sum += geometry.gamma[m][a] * u[i][a];
         store(q + (dimension * m + i) * lanes<Real>, sum);
       }
-    store(stiffness, geometry.stiffness);
   }
-  /// f_ia = Q_mi gamma_ma, Q laid out as q.
+  /// And f_ia += Q_mi gamma_ma, Q laid out as q.
   template <class Real>
-  [[gnu::always_inline]] static inline void hourglass_forces(const Geometry<Real>& geometry, const double* Q,
-                                                             Real f[3][nodes]) {
-    for (int i = 0; i < 3; ++i)
-      for (int a = 0; a < nodes; ++a) f[i][a] = Real{};
+  [[gnu::always_inline]] static inline void integrate(const Geometry<Real>& geometry, const double* stress,
+                                                      const double* Q, Real f[3][nodes]) {
+    Base::integrate(geometry, stress, f);
     for (int m = 0; m < Shape::modes; ++m)
       for (int i = 0; i < dimension; ++i) {
         const Real force = load<Real>(Q + (dimension * m + i) * lanes<Real>);

@@ -4,6 +4,7 @@
 #include "element/cell_list.hpp"
 #include "element/cell_operators.hpp"
 #include "element/composite_tetra.hpp"
+#include "element/hexa8_one_point.hpp"
 #include "element/shapes/hexa20.hpp"
 #include "element/shapes/hexa27.hpp"
 #include "element/shapes/hexa8.hpp"
@@ -17,7 +18,6 @@
 
 namespace carom {
 
-using Hexa8OnePointCell = MeanGradientCell<Hexa8Cell>;
 using Tetra4Cell = Isoparametric<Tetra4, Frame::solid>;
 using Quad4PlaneCell = Isoparametric<Quad4, Frame::plane>;
 using Quad4PlaneOnePointCell = MeanGradientCell<Quad4PlaneCell>;

@@ -12,7 +12,8 @@ BatchGradients::BatchGradients(const CellBatches& cells)
 }
 
 BatchGradients::BatchGradients(const CellBatches& cells, const double* u) : BatchGradients(cells) {
-  cells.stages->cell->gradients(geometry_, u, cells.offset, gradient_);
+  double q[most_hourglass * most_lanes];
+  cells.stages->cell->gradients(geometry_, u, cells.offset, gradient_, q);
 }
 
 double BatchGradients::volume(int l) const {

@@ -16,43 +16,43 @@ static void prepare_cells(const double* x, const Index* offset, double thickness
   Cell::prepare(x_cell, thickness, *reinterpret_cast<typename Cell::template Geometry<Real>*>(geometry));
 }
 
+/// Cells that have hourglass modes.
+template <class Cell>
+concept HasModes = requires {
+  Cell::Shape::modes;
+}
+&&requires(typename Cell::template Geometry<double> g) {
+  g.stiffness;
+};
+
 template <class Real, class Cell>
-static void cell_gradients(const double* geometry, const double* u, const Index* offset, double* gradient) {
+static void cell_gradients(const double* geometry, const double* u, const Index* offset, double* gradient,
+                           [[maybe_unused]] double* q) {
+  const auto& of_cell = *reinterpret_cast<const typename Cell::template Geometry<Real>*>(geometry);
   Real u_cell[3][Cell::nodes];
   gather(u, offset, u_cell);
-  Cell::gradients(*reinterpret_cast<const typename Cell::template Geometry<Real>*>(geometry), u_cell, gradient);
+  if constexpr (HasModes<Cell>)
+    Cell::gradients(of_cell, u_cell, gradient, q);
+  else
+    Cell::gradients(of_cell, u_cell, gradient);
 }
 
 template <class Real, class Cell>
-static void add_cell_forces(const double* geometry, const double* stress, const Index* offset, int count, double* f) {
+static void add_cell_forces(const double* geometry, const double* stress, [[maybe_unused]] const double* Q,
+                            const Index* offset, int count, double* f) {
+  const auto& of_cell = *reinterpret_cast<const typename Cell::template Geometry<Real>*>(geometry);
   Real f_cell[3][Cell::nodes];
-  Cell::integrate(*reinterpret_cast<const typename Cell::template Geometry<Real>*>(geometry), stress, f_cell);
+  if constexpr (HasModes<Cell>)
+    Cell::integrate(of_cell, stress, Q, f_cell);
+  else
+    Cell::integrate(of_cell, stress, f_cell);
   scatter_batch(f_cell, offset, count, f);
 }
 
 template <class Real, class Cell>
-static void add_cell_hourglass(const double* geometry, double modulus, const double* u, const Index* offset, int count,
-                               double* f, double* energy) {
-  Real u_cell[3][Cell::nodes], f_cell[3][Cell::nodes] = {};
-  gather(u, offset, u_cell);
-  store(energy, Cell::add_hourglass(*reinterpret_cast<const typename Cell::template Geometry<Real>*>(geometry), modulus,
-                                    u_cell, f_cell));
-  scatter_batch(f_cell, offset, count, f);
-}
-
-template <class Real, class Cell>
-static void cell_hourglass(const double* geometry, const double* u, const Index* offset, double* q, double* stiffness) {
-  Real u_cell[3][Cell::nodes];
-  gather(u, offset, u_cell);
-  Cell::hourglass(*reinterpret_cast<const typename Cell::template Geometry<Real>*>(geometry), u_cell, q, stiffness);
-}
-
-template <class Real, class Cell>
-static void add_cell_hourglass_forces(const double* geometry, const double* Q, const Index* offset, int count,
-                                      double* f) {
-  Real f_cell[3][Cell::nodes];
-  Cell::hourglass_forces(*reinterpret_cast<const typename Cell::template Geometry<Real>*>(geometry), Q, f_cell);
-  scatter_batch(f_cell, offset, count, f);
+static const double* hourglass_stiffness(const double* geometry) {
+  const auto& of_cell = *reinterpret_cast<const typename Cell::template Geometry<Real>*>(geometry);
+  return reinterpret_cast<const double*>(&of_cell.stiffness);
 }
 
 template <class Real, class Cell>
@@ -65,12 +65,10 @@ static constexpr CellStages cell_stages() {
                     prepare_cells<Real, Cell>,
                     cell_gradients<Real, Cell>,
                     add_cell_forces<Real, Cell>};
-  if constexpr (requires { Geometry::gamma; }) {
+  if constexpr (HasModes<Cell>) {
     stages.modes = Cell::Shape::modes;
     stages.directions = Cell::dimension;
-    stages.add_hourglass = add_cell_hourglass<Real, Cell>;
-    stages.hourglass = cell_hourglass<Real, Cell>;
-    stages.add_hourglass_forces = add_cell_hourglass_forces<Real, Cell>;
+    stages.stiffness = hourglass_stiffness<Real, Cell>;
   }
   return stages;
 }

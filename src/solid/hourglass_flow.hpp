@@ -7,9 +7,6 @@
 
 namespace carom {
 
-/// Numbers of all modes of a cell at most: 4 modes, 3 directions.
-inline constexpr int most_hourglass = 12;
-
 /// What a cell remembers of its modes: their plastic parts and the energy that these have dissipated; of viscous modes
 /// how far they are deformed, their viscous forces, and what viscosity has dissipated.
 inline int hourglass_history(const CellStages& cell, bool is_viscous) {

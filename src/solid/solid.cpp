@@ -186,8 +186,7 @@ bool Solid::is_linear() const {
 }
 bool Solid::has_hourglass() const {
   const auto& blocks = impl_->solid.blocks;
-  return std::any_of(blocks.begin(), blocks.end(),
-                     [](const Block& block) { return block.stages.cell->add_hourglass != nullptr; });
+  return std::any_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.stages.cell->modes > 0; });
 }
 const std::vector<Spring>& Solid::springs() const {
   return impl_->springs.all();

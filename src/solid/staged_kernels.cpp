@@ -31,6 +31,7 @@ struct Buffers {
   alignas(64) double dissipation[most_points * most_lanes];
   alignas(64) double P[9 * most_points * most_lanes];
   alignas(64) double yield_stress[most_points * most_lanes];
+  alignas(64) double q[most_hourglass * most_lanes], Q[most_hourglass * most_lanes];  ///< elastic modes and forces
   Bulk bulk;
 };
 
@@ -73,9 +74,9 @@ class Batch {
   bool modes_yield() const { return modes_remember() && cells_.history_variables > 0; }
   double weight(int p, int l) const { return b_.geometry[p * lanes() + l]; }
 
-  /// F and the strain E of u.
+  /// F, the strain E and the hourglass modes of u.
   void kinematics(const double* u, double* gradient, double* strain) const {
-    stages_.cell->gradients(b_.geometry, u, offset_, gradient);
+    stages_.cell->gradients(b_.geometry, u, offset_, gradient, b_.q);
     stages_.points->strain(points(), frame(), gradient, strain);
   }
   void to_law(double* strain) const {
@@ -104,7 +105,8 @@ class Batch {
     constitutive(b_.strain, b_.stress, with_energies ? b_.energy : nullptr, dissipates ? b_.dissipation : nullptr,
                  true);
   }
-  void scatter(double* f) const { stages_.cell->add_forces(b_.geometry, b_.P, offset_, count_, f); }
+  /// Adds the forces of the stress P and of the hourglass modes.
+  void scatter(const double* Q, double* f) const { stages_.cell->add_forces(b_.geometry, b_.P, Q, offset_, count_, f); }
   /// The sum over the cells of the batch of the integral of a density.
   double integral(const double* density) const {
     double sum = 0.0;
@@ -115,22 +117,29 @@ class Batch {
     }
     return sum;
   }
-  /// Adds the forces of elastic hourglass modes of u; returns their energy.
-  double add_hourglass(const double* u, double* f) const {
-    if (stages_.cell->add_hourglass == nullptr) return 0.0;
-    double energy[most_lanes], sum = 0.0;
-    stages_.cell->add_hourglass(b_.geometry, stages_.hourglass, u, offset_, count_, f, energy);
+  int hourglass_numbers() const { return stages_.cell->modes * stages_.cell->directions; }
+  /// The forces Q = k q of elastic hourglass modes; returns their energy q.Q / 2.
+  double elastic_modes() const {
+    if (stages_.cell->modes == 0) return 0.0;
+    const double* stiffness = stages_.cell->stiffness(b_.geometry);
+    const int n = lanes();
+    double k[most_lanes], energy[most_lanes] = {}, sum = 0.0;
+    for (int l = 0; l < n; ++l) k[l] = stages_.hourglass * stiffness[l];
+    for (int c = 0; c < hourglass_numbers() * n; c += n)
+      for (int l = 0; l < n; ++l) {
+        b_.Q[c + l] = k[l] * b_.q[c + l];
+        energy[l] += 0.5 * b_.Q[c + l] * b_.q[c + l];
+      }
     for (int l = 0; l < count_; ++l) sum += energy[l];
     return sum;
   }
   void return_bulk() const;
-  void return_modes(const double* u, Modes& modes) const;
-  void change_modes(const double* x, const double* dH, const Modes& modes, Modes& change) const;
+  void return_modes(Modes& modes) const;
+  void change_modes(const double* dH, const Modes& modes, Modes& change) const;
   /// Adds the forces of hourglass modes that yield to the stress of the point and to f.
   void scatter_with(const Modes& modes, double* f) const {
     for (int c = 0; c < 9 * lanes(); ++c) b_.P[c] += modes.P[c];
-    scatter(f);
-    stages_.cell->add_hourglass_forces(b_.geometry, modes.force, offset_, count_, f);
+    scatter(modes.force, f);
   }
 
   /// The stress that works with E, from what the law has answered.
@@ -146,7 +155,7 @@ class Batch {
     double hourglass = 0.0, loss = 0.0, viscous = 0.0;
     if (modes_remember()) {
       Modes modes;
-      return_modes(u, modes);
+      return_modes(modes);
       scatter_with(modes, f);
       for (int l = 0; l < count_; ++l) {
         hourglass += modes.stored[l];
@@ -154,8 +163,8 @@ class Batch {
         viscous += modes.viscous[l];
       }
     } else {
-      scatter(f);
-      hourglass = add_hourglass(u, f);
+      hourglass = elastic_modes();
+      scatter(b_.Q, f);
     }
     if (energies == nullptr) return;
     if (stages_.bulk != nullptr)
@@ -177,7 +186,9 @@ class Batch {
     complete_stress();
     alignas(64) double dE[6 * most_points * most_lanes], dS[6 * most_points * most_lanes];
     alignas(64) double viscous[6 * most_points * most_lanes];
-    stages_.cell->gradients(b_.geometry, x, offset_, b_.P);
+    Modes modes, change;
+    if (modes_remember()) return_modes(modes);
+    stages_.cell->gradients(b_.geometry, x, offset_, b_.P, modes_remember() ? change.q : b_.q);
     stages_.points->strain_change(points(), frame(), b_.gradient, b_.P, dE);
     if (stages_.bulk != nullptr) change_bulk(dE, viscous);
     const DilatationStages* dilatation = stages_.dilatation;
@@ -186,18 +197,14 @@ class Batch {
     if (dilatation != nullptr) dilatation->stress_change(points(), b_.geometry, b_.memory, b_.strain, dE, dS);
     if (stages_.bulk != nullptr)
       for (int c = 0; c < 6 * points() * lanes(); ++c) dS[c] += viscous[c];
-    Modes modes, change;
-    if (modes_remember()) {
-      return_modes(u, modes);
-      change_modes(x, b_.P, modes, change);
-    }
+    if (modes_remember()) change_modes(b_.P, modes, change);
     stages_.points->stress_change(points(), frame(), b_.gradient, b_.P, b_.stress, dS, b_.P);
     if (modes_remember()) {
       scatter_with(change, y);
       return;
     }
-    scatter(y);
-    add_hourglass(x, y);
+    elastic_modes();
+    scatter(b_.Q, y);
   }
 
   void add_discrete_gradient_force(const double* u_0, const double* u_1, double* f) const;
@@ -294,11 +301,12 @@ void Batch::change_bulk(const double* dE, double* dS) const {
   stages_.bulk->add_scaled(points(), bulk.pressure, dg, dS);
 }
 
-/// After `evaluate`: the modes of u at the end of the step, and what is remembered of them. Their forces are F T on the
+/// After `evaluate`: the modes at the end of the step, and what is remembered of them. Their forces are F T on the
 /// nodes' modes, and q T^T / V on F.
-void Batch::return_modes(const double* u, Modes& modes) const {
+void Batch::return_modes(Modes& modes) const {
   const int n = lanes(), d = stages_.cell->directions, size = stages_.cell->modes * d;
-  stages_.cell->hourglass(b_.geometry, u, offset_, modes.q, modes.stiffness);
+  std::copy_n(b_.q, size * n, modes.q);
+  std::copy_n(stages_.cell->stiffness(b_.geometry), n, modes.stiffness);
   const bool is_finite = stages_.points->is_finite;
   const auto F = [&](int i, int j, int l) { return b_.gradient[(3 * i + j) * n + l]; };
   std::fill_n(modes.P, 9 * n, 0.0);
@@ -358,11 +366,10 @@ void Batch::return_modes(const double* u, Modes& modes) const {
   }
 }
 
-/// The changes of forces and stress with x, whose gradient is dH: d(F^T q) = dH^T q + F^T dq, d(F T) = dH T + F dT and
-/// d(q T^T) = dq T^T + q dT^T.
-void Batch::change_modes(const double* x, const double* dH, const Modes& modes, Modes& change) const {
+/// The changes of forces and stress with x, whose gradient is dH and whose modes are change.q: d(F^T q) = dH^T q + F^T
+/// dq, d(F T) = dH T + F dT and d(q T^T) = dq T^T + q dT^T.
+void Batch::change_modes(const double* dH, const Modes& modes, Modes& change) const {
   const int n = lanes(), d = stages_.cell->directions, size = stages_.cell->modes * d;
-  stages_.cell->hourglass(b_.geometry, x, offset_, change.q, change.stiffness);
   const bool is_finite = stages_.points->is_finite;
   std::fill_n(change.P, 9 * n, 0.0);
   for (int l = 0; l < n; ++l) {
@@ -396,6 +403,8 @@ void Batch::add_discrete_gradient_force(const double* u_0, const double* u_1, do
   alignas(64) double E_0[6 * size], E_1[6 * size], F_1[9 * size], seen[6 * size], W_0[size], W_1[size];
   const int values = points() * lanes();
   kinematics(u_0, b_.gradient, E_0);
+  alignas(64) double q_0[most_hourglass * most_lanes];
+  std::copy_n(b_.q, hourglass_numbers() * lanes(), q_0);
   kinematics(u_1, F_1, E_1);
   for (const auto& [E, W] : {std::pair{E_0, W_0}, std::pair{E_1, W_1}}) {
     std::copy_n(E, 6 * values, seen);
@@ -414,11 +423,9 @@ void Batch::add_discrete_gradient_force(const double* u_0, const double* u_1, do
       correct_cells(E_0, E_1, W_0, W_1);
   }
   stages_.points->stress(points(), frame(), b_.gradient, b_.stress, b_.P);
-  scatter(f);
-  if (stages_.cell->add_hourglass == nullptr) return;
-  double energy[most_lanes];
-  for (const double* u : {u_0, u_1})
-    stages_.cell->add_hourglass(b_.geometry, 0.5 * stages_.hourglass, u, offset_, count_, f, energy);
+  for (int c = 0; c < hourglass_numbers() * lanes(); ++c) b_.q[c] = 0.5 * (b_.q[c] + q_0[c]);
+  elastic_modes();
+  scatter(b_.Q, f);
 }
 
 void Batch::correct_points(const double* E_0, const double* E_1, const double* W_0, const double* W_1) const {

@@ -9,25 +9,23 @@ namespace carom {
 /// Points of a cell, and numbers of its geometry per lane, at most.
 inline constexpr int most_points = 27, most_geometry = most_points * 11 + 1;
 
+/// Numbers of all hourglass modes of a cell at most: 4 modes, 3 directions.
+inline constexpr int most_hourglass = 12;
+
 /// The stages of one kind of cell over one number type. They work on buffers in structure of arrays: `geometry`, whose
 /// first numbers are the weights [p lanes], and gradients and stresses [(9 p + 3 i + j) lanes].
 struct CellStages {
   int nodes = 0, points = 0;
   int frame_offset = 0;  ///< of bars: where F at rest stands in the geometry; 0: it is 1
   void (*prepare)(const double* x, const Index* offset, double thickness, double* geometry) = nullptr;
-  void (*gradients)(const double* geometry, const double* u, const Index* offset, double* gradient) = nullptr;
-  /// Adds to the nodes of the first `count` cells.
-  void (*add_forces)(const double* geometry, const double* stress, const Index* offset, int count, double* f) = nullptr;
-  /// Adds the forces of u's hourglass modes and writes their energy per cell [lane]. Null: the cell has none.
-  void (*add_hourglass)(const double* geometry, double modulus, const double* u, const Index* offset, int count,
-                        double* f, double* energy) = nullptr;
-  /// The parts of it, for modes that yield (solid/hourglass_flow.hpp): how far they are deformed,
-  /// q[(directions m + i) lanes], with the stiffness of coefficient x modulus = 1 [lane]; and adding their forces.
-  int modes = 0, directions = 0;
-  void (*hourglass)(const double* geometry, const double* u, const Index* offset, double* q,
-                    double* stiffness) = nullptr;
-  void (*add_hourglass_forces)(const double* geometry, const double* Q, const Index* offset, int count,
-                               double* f) = nullptr;
+  /// And of cells with hourglass modes how far these are deformed, q[(directions m + i) lanes] = gamma_ma u_ia.
+  void (*gradients)(const double* geometry, const double* u, const Index* offset, double* gradient,
+                    double* q) = nullptr;
+  /// Adds to the nodes of the first `count` cells; of hourglass modes the forces Q, laid out as q.
+  void (*add_forces)(const double* geometry, const double* stress, const double* Q, const Index* offset, int count,
+                     double* f) = nullptr;
+  int modes = 0, directions = 0;                                 ///< hourglass modes; 0: the cell has none
+  const double* (*stiffness)(const double* geometry) = nullptr;  ///< theirs, of coefficient x modulus = 1 [lane]
 };
 
 /// Kinematics over one number type. The frame is F at rest, one matrix; null: 1. A gradient buffer holds H on the way
