@@ -35,18 +35,18 @@ struct Hexa8OnePointCell {
     add_crosses(ca, a, third, b, bc, third, out.gradient[3]);
     add_crosses(ab, b, third, c, ca, third, out.gradient[4]);
     add_crosses(a, ab, third, bc, c, third, out.gradient[5]);
-    Real volume{};  // of degree 3: X_kj dV/dX_kj / 3
-    for (int k = 0; k < 6; ++k)
-      for (int j = 0; j < 3; ++j) volume += X[k][j] * out.gradient[k][j];
-    out.weight[0] = (1.0 / 192.0) * volume;
-    const Real scale = 1.0 / (64.0 * out.weight[0]);
-    Real square{};
+    Real volume[6], square[6];  // of degree 3: X_kj dV/dX_kj / 3
+    for (int k = 0; k < 6; ++k) {
+      const Real* D = out.gradient[k];
+      volume[k] = X[k][0] * D[0] + X[k][1] * D[1] + X[k][2] * D[2];
+      square[k] = D[0] * D[0] + D[1] * D[1] + D[2] * D[2];
+    }
+    const Real threefold = sum_of_six(volume), inverse = 1.0 / threefold;  // 192 V
+    const Real scale = 3.0 * inverse;
     for (Real(&row)[3] : out.gradient)
-      for (Real& entry : row) {
-        entry *= scale;
-        square += entry * entry;
-      }
-    out.stiffness = (8.0 * 16.0 / 9.0) * out.weight[0] * square;  // the signs of all nodes have the square 8
+      for (Real& entry : row) entry *= scale;
+    out.weight[0] = (1.0 / 192.0) * threefold;
+    out.stiffness = (2.0 / 3.0) * inverse * sum_of_six(square);  // 16/9 V x 8 |G|^2: the signs of all nodes square to 8
     for (int m = 0; m < 4; ++m)
       for (int j = 0; j < 3; ++j) out.mode[m][j] = 0.125 * X[3 + m][j];
   }
@@ -93,6 +93,11 @@ struct Hexa8OnePointCell {
   }
 
  private:
+  /// In pairs, which do not wait for each other.
+  template <class Real>
+  [[gnu::always_inline]] static inline Real sum_of_six(const Real x[6]) {
+    return ((x[0] + x[1]) + (x[2] + x[3])) + (x[4] + x[5]);
+  }
   /// S_k of one component, but for that of the monomial 1.
   template <class Real>
   [[gnu::always_inline]] static inline void sums(const Real n[8], Real S[7]) {

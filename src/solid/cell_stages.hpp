@@ -56,6 +56,18 @@ static const double* hourglass_stiffness(const double* geometry) {
 }
 
 template <class Real, class Cell>
+static void elastic_modes(const double* geometry, double modulus, const double* q, double* Q, double* energy) {
+  const Real k = modulus * load<Real>(hourglass_stiffness<Real, Cell>(geometry));
+  Real twice{};
+  for (int c = 0; c < Cell::Shape::modes * Cell::dimension; ++c) {
+    const Real of_mode = load<Real>(q + c * lanes<Real>), force = k * of_mode;
+    twice += force * of_mode;
+    store(Q + c * lanes<Real>, force);
+  }
+  store<Real>(energy, 0.5 * twice);
+}
+
+template <class Real, class Cell>
 static constexpr CellStages cell_stages() {
   using Geometry = typename Cell::template Geometry<Real>;
   static_assert(sizeof(Geometry) <= most_geometry * sizeof(Real) && Cell::points <= most_points);
@@ -69,6 +81,7 @@ static constexpr CellStages cell_stages() {
     stages.modes = Cell::Shape::modes;
     stages.directions = Cell::dimension;
     stages.stiffness = hourglass_stiffness<Real, Cell>;
+    stages.elastic_modes = elastic_modes<Real, Cell>;
   }
   return stages;
 }

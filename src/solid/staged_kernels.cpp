@@ -121,15 +121,8 @@ class Batch {
   /// The forces Q = k q of elastic hourglass modes; returns their energy q.Q / 2.
   double elastic_modes() const {
     if (stages_.cell->modes == 0) return 0.0;
-    const double* stiffness = stages_.cell->stiffness(b_.geometry);
-    const int n = lanes();
-    double k[most_lanes], energy[most_lanes] = {}, sum = 0.0;
-    for (int l = 0; l < n; ++l) k[l] = stages_.hourglass * stiffness[l];
-    for (int c = 0; c < hourglass_numbers() * n; c += n)
-      for (int l = 0; l < n; ++l) {
-        b_.Q[c + l] = k[l] * b_.q[c + l];
-        energy[l] += 0.5 * b_.Q[c + l] * b_.q[c + l];
-      }
+    double energy[most_lanes], sum = 0.0;
+    stages_.cell->elastic_modes(b_.geometry, stages_.hourglass, b_.q, b_.Q, energy);
     for (int l = 0; l < count_; ++l) sum += energy[l];
     return sum;
   }

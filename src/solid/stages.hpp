@@ -26,6 +26,8 @@ struct CellStages {
                      double* f) = nullptr;
   int modes = 0, directions = 0;                                 ///< hourglass modes; 0: the cell has none
   const double* (*stiffness)(const double* geometry) = nullptr;  ///< theirs, of coefficient x modulus = 1 [lane]
+  /// Q = k q and the energy q.Q / 2 [lane] of elastic modes, k = modulus x stiffness.
+  void (*elastic_modes)(const double* geometry, double modulus, const double* q, double* Q, double* energy) = nullptr;
 };
 
 /// Kinematics over one number type. The frame is F at rest, one matrix; null: 1. A gradient buffer holds H on the way
