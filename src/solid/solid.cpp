@@ -50,16 +50,18 @@ void follow_rotation(const BatchGradients& gradients, CellType type, int lanes, 
       const double twice = H[c * lanes + l] - H[d * lanes + l];
       skew[l] += 0.5 * twice * twice;
     }
+  double sine = std::sin(0.5 * largest.angle);
   for (int l = 0; l < count; ++l) {
-    const double room = 1.0 - std::sqrt(square[l]);
-    const double least = std::sqrt(8.0) * room * std::sin(0.5 * largest.angle);
+    const double room = 1.0 - std::sqrt(square[l]), least = std::sqrt(8.0) * room * sine;
     if (dimension(type) > 1 && room > 0.0 && skew[l] <= least * least) continue;
     double A[3][3], F[3][3];
     gradients.frame(l, A);
     for (int c = 0; c < 9; ++c) F[c / 3][c % 3] = A[c / 3][c % 3] + H[c * lanes + l];
     const double angle = dimension(type) > 1 ? rotation_angle(F)
                                              : angle_between({A[0][0], A[1][0], A[2][0]}, {F[0][0], F[1][0], F[2][0]});
-    if (angle > largest.angle) largest = {angle, first + l};
+    if (angle <= largest.angle) continue;
+    largest = {angle, first + l};
+    sine = std::sin(0.5 * angle);
   }
 }
 
