@@ -57,13 +57,11 @@ struct GapOfShape {
 struct BodyOverlap::Impl {
   const Model& model;
   PlacedCells cells;                                   ///< where they were looked at last
-  BoxTree tree;                                        ///< of their bounds
-  std::vector<double> length;                          ///< by cell
   std::vector<std::array<bool, most_faces>> on_skin;   ///< by cell: which of its faces
   std::vector<double> node_length;                     ///< by node: the least of its cells, infinite without
   std::vector<Index> skin_nodes;                       ///< increasing
   std::vector<bool> is_skin;                           ///< by node
-  std::vector<std::vector<Index>> cells_at;            ///< by skin node (position in skin_nodes)
+  std::vector<Index> first_cell, cells_at;             ///< by skin node (position in skin_nodes): rows of its cells
   std::vector<Index> body;                             ///< by node: the same for nodes of one connected body
   std::vector<double> at_start;                        ///< by skin node: depth in cells
   std::vector<std::vector<double>> obstacle_at_start;  ///< by contact and node of it
@@ -71,7 +69,9 @@ struct BodyOverlap::Impl {
 
   Impl(const Model& of, std::span<const double> u);
   void find_skin();
+  void find_cells_at_skin();
   void find_bodies();
+  double reference_length(std::size_t cell) const;
   bool may_meet(std::size_t skin_node, Index cell) const;
   double depth(std::size_t skin_node, Index cell, const Vec3& x) const;
   std::vector<Overlap> depths(std::span<const Vec3> x);
@@ -80,9 +80,8 @@ struct BodyOverlap::Impl {
 
 BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
     : model(of), cells(of, of.mesh->coordinates), node_length(node_lengths(of)) {
-  for (std::size_t k = 0; k < cells.ref.size(); ++k) length.push_back(cell_length(cells.type[k], cells.own_corners(k)));
-  tree.build(cells.bounds);
   find_skin();
+  find_cells_at_skin();
   find_bodies();
   const std::vector<Vec3> x = current_positions(*model.mesh, u);
   for (const Overlap& overlap : depths(x)) at_start.push_back(overlap.depth);
@@ -103,27 +102,36 @@ BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
 /// The faces of cells that the skin of the mesh consists of.
 void BodyOverlap::Impl::find_skin() {
   is_skin.assign(model.mesh->node_count(), false);
-  on_skin.assign(cells.ref.size(), {});
-  std::vector<std::pair<CellRef, std::size_t>> numbers;
-  for (std::size_t k = 0; k < cells.ref.size(); ++k) numbers.emplace_back(cells.ref[k], k);
-  std::sort(numbers.begin(), numbers.end());
+  on_skin.assign(cells.size(), {});
+  std::vector<std::vector<Index>> number;  // by block and cell
+  for (const CellBlock& block : model.mesh->blocks) number.emplace_back(block.size(), -1);
+  for (std::size_t k = 0; k < cells.size(); ++k) number[cells.ref(k).block][cells.ref(k).cell] = static_cast<Index>(k);
   for (const OuterFacet& outer : outer_facets(*model.mesh)) {
-    const auto at = std::lower_bound(numbers.begin(), numbers.end(), std::pair(outer.cell, std::size_t{0}));
-    if (at == numbers.end() || at->first != outer.cell) continue;
-    const std::size_t k = at->second;
+    const Index k = number[outer.cell.block][outer.cell.cell];
+    if (k < 0) continue;
     on_skin[k][static_cast<std::size_t>(outer.face)] = true;
     for (const Index n : outer.facet) is_skin[n] = true;
   }
+}
+
+void BodyOverlap::Impl::find_cells_at_skin() {
   std::vector<Index> position(is_skin.size(), -1);
   for (std::size_t n = 0; n < is_skin.size(); ++n) {
     if (!is_skin[n]) continue;
     position[n] = static_cast<Index>(skin_nodes.size());
     skin_nodes.push_back(static_cast<Index>(n));
   }
-  cells_at.resize(skin_nodes.size());
-  for (std::size_t k = 0; k < cells.ref.size(); ++k)
-    for (const Index n : cells.nodes[k])
-      if (position[n] >= 0) cells_at[position[n]].push_back(static_cast<Index>(k));
+  first_cell.assign(skin_nodes.size() + 1, 0);
+  const auto for_each = [&](const auto& visit) {
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      for (const Index n : cells.nodes(k))
+        if (position[n] >= 0) visit(position[n], static_cast<Index>(k));
+  };
+  for_each([&](Index skin_node, Index /*cell*/) { ++first_cell[skin_node + 1]; });
+  std::partial_sum(first_cell.begin(), first_cell.end(), first_cell.begin());
+  cells_at.resize(first_cell.back());
+  std::vector<Index> next = first_cell;
+  for_each([&](Index skin_node, Index k) { cells_at[next[skin_node]++] = k; });
 }
 
 void BodyOverlap::Impl::find_bodies() {
@@ -133,17 +141,20 @@ void BodyOverlap::Impl::find_bodies() {
     while (body[n] != n) n = body[n] = body[body[n]];
     return n;
   };
-  for (const std::span<const Index> nodes : cells.nodes)
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const std::span<const Index> nodes = cells.nodes(k);
     for (const Index n : nodes) body[root(n)] = root(nodes[0]);
+  }
   for (std::size_t n = 0; n < body.size(); ++n) body[n] = root(static_cast<Index>(n));
 }
 
 /// False for cells of the node and their neighbours.
 bool BodyOverlap::Impl::may_meet(std::size_t skin_node, Index cell) const {
-  const std::span<const Index> nodes = cells.nodes[cell];
+  const std::span<const Index> nodes = cells.nodes(static_cast<std::size_t>(cell));
   if (body[nodes[0]] != body[skin_nodes[skin_node]]) return true;
-  return std::none_of(cells_at[skin_node].begin(), cells_at[skin_node].end(), [&](Index own) {
-    const std::span<const Index> others = cells.nodes[own];
+  const auto first = cells_at.begin() + first_cell[skin_node], last = cells_at.begin() + first_cell[skin_node + 1];
+  return std::none_of(first, last, [&](Index own) {
+    const std::span<const Index> others = cells.nodes(static_cast<std::size_t>(own));
     return std::find_first_of(nodes.begin(), nodes.end(), others.begin(), others.end()) != nodes.end();
   });
 }
@@ -158,31 +169,34 @@ double BodyOverlap::Impl::depth(std::size_t skin_node, Index cell, const Vec3& x
     if (on_skin[k][face]) share = std::min(share, cells.depth_under(k, face, *N));
   if (share == infinity) {
     share = 0.0;
-    for (std::size_t a = 0; a < cells.own_corners(k).size(); ++a)
-      if (!is_skin[cells.nodes[k][a]]) share += (*N)[a];
+    const std::span<const Index> nodes = cells.nodes(k);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(corner_count(cells.type(k))); ++a)
+      if (!is_skin[nodes[a]]) share += (*N)[a];
   }
-  const double now = share * cell_length(cells.type[k], cells.own_corners(k));
-  return now / std::min(length[cell], node_length[skin_nodes[skin_node]]);
+  return share * cells.length(k) / std::min(reference_length(k), node_length[skin_nodes[skin_node]]);
+}
+
+double BodyOverlap::Impl::reference_length(std::size_t cell) const {
+  Corners corner{};
+  const auto n = static_cast<std::size_t>(corner_count(cells.type(cell)));
+  for (std::size_t a = 0; a < n; ++a) corner[a] = model.mesh->coordinates[cells.nodes(cell)[a]];
+  return cell_length(cells.type(cell), std::span(corner).first(n));
 }
 
 /// One entry per skin node: its deepest cell.
 std::vector<Overlap> BodyOverlap::Impl::depths(std::span<const Vec3> x) {
   cells.place(x);
-  tree.refit(cells.bounds);
   std::vector<Overlap> found(skin_nodes.size());
   constexpr std::size_t grain = 64;
   parallel_for(skin_nodes.size(), grain, [&](std::size_t begin, std::size_t end) {
     std::vector<Index> near;
     for (std::size_t i = begin; i < end; ++i) {
-      Bounds point;
-      point.include(x[skin_nodes[i]]);
-      near.clear();
-      tree.find(point, near);
-      std::sort(near.begin(), near.end());
+      cells.find(x[skin_nodes[i]], near);
       for (const Index cell : near) {
         if (!may_meet(i, cell)) continue;
         const double d = depth(i, cell, x[skin_nodes[i]]);
-        if (d > found[i].depth) found[i] = {d, skin_nodes[i], x[skin_nodes[i]], cells.ref[cell]};
+        if (d > found[i].depth)
+          found[i] = {d, skin_nodes[i], x[skin_nodes[i]], cells.ref(static_cast<std::size_t>(cell))};
       }
     }
   });
@@ -237,16 +251,19 @@ Overlap BodyOverlap::deepest(std::span<const double> u) {
 }
 
 Index BodyOverlap::part_of(Index node) const {
-  const auto& nodes = impl_->cells.nodes;
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (std::find(nodes[k].begin(), nodes[k].end(), node) != nodes[k].end()) return impl_->cells.part[k];
+  const PlacedCells& cells = impl_->cells;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const std::span<const Index> nodes = cells.nodes(k);
+    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) return cells.part(k);
+  }
   return -1;
 }
 
 Index BodyOverlap::part_of(const CellRef& cell) const {
-  const auto& ref = impl_->cells.ref;
-  const auto at = std::find(ref.begin(), ref.end(), cell);
-  return at == ref.end() ? -1 : impl_->cells.part[static_cast<std::size_t>(at - ref.begin())];
+  const PlacedCells& cells = impl_->cells;
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    if (cells.ref(k) == cell) return cells.part(k);
+  return -1;
 }
 
 }  // namespace carom

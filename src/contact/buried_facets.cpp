@@ -31,21 +31,17 @@ bool owns(std::span<const Index> cell, const Facet& facet) {
 std::vector<BuriedFacet> buried_facets(const Model& model, const PairContact& pair, std::span<const double> u) {
   const std::vector<Vec3> x = current_positions(*model.mesh, u);
   const PlacedCells cells(model, x);
-  BoxTree tree;
-  tree.build(cells.bounds);
   std::vector<BuriedFacet> found;
   std::vector<Index> near;
   for (const Surface* surface : {&pair.slave, &pair.master}) {
     for (const Facet& facet : surface->facets) {
       const Vec3 at = point_under(place(facet, x));
-      Bounds point;
-      point.include(at);
-      near.clear();
-      tree.find(point, near);
+      cells.find(at, near);
       const auto inside_of = std::find_if(near.begin(), near.end(), [&](Index c) {
-        return !owns(cells.nodes[c], facet) && cells.inside(static_cast<std::size_t>(c), at, within).has_value();
+        return !owns(cells.nodes(static_cast<std::size_t>(c)), facet) &&
+               cells.inside(static_cast<std::size_t>(c), at, within).has_value();
       });
-      if (inside_of != near.end()) found.push_back({facet, at, cells.ref[*inside_of]});
+      if (inside_of != near.end()) found.push_back({facet, at, cells.ref(static_cast<std::size_t>(*inside_of))});
     }
     if (pair.self) break;
   }

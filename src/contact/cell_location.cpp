@@ -5,6 +5,8 @@
 
 #include "element/hexa8.hpp"
 #include "math/vec3.hpp"
+#include "mesh/cell_size.hpp"
+#include "parallel/threads.hpp"
 
 namespace carom {
 namespace {
@@ -74,6 +76,13 @@ CellType solid_of(CellType type) {
   return corner_count(type) == 3 ? CellType::penta6 : CellType::hexa8;
 }
 
+std::size_t solid_corners(CellType type) {
+  return static_cast<std::size_t>((dimension(type) == 2 ? 2 : 1) * corner_count(type));
+}
+
+/// Cells in a leaf of the tree.
+constexpr std::size_t cluster = 8;
+
 }  // namespace
 
 std::optional<CornerValues> shape_at(CellType linear, const Corners& corners, const Vec3& x) {
@@ -98,44 +107,84 @@ std::optional<CornerValues> shape_at(CellType linear, const Corners& corners, co
   return std::nullopt;
 }
 
-PlacedCells::PlacedCells(const Model& model, std::span<const Vec3> x) {
+PlacedCells::PlacedCells(const Model& model, std::span<const Vec3> x) : mesh_(model.mesh.get()), x_(x) {
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const CellType of_part = model.parts[p].type;
     if (dimension(of_part) < 2) continue;
-    const CellBlock& block = *model.mesh->block(of_part);
-    const auto n = static_cast<std::size_t>(node_count(of_part));
-    for (const Index c : model.parts[p].cells) {
-      nodes.push_back(std::span(block.connectivity).subspan(n * static_cast<std::size_t>(c), n));
-      ref.push_back({static_cast<Index>(&block - model.mesh->blocks.data()), c});
-      part.push_back(static_cast<Index>(p));
-      type.push_back(of_part);
-    }
+    const auto own = static_cast<Index>(mesh_->block(of_part) - mesh_->blocks.data());
+    for (const Index c : model.parts[p].cells) ref_.push_back({own, c});
+    part_.resize(ref_.size(), static_cast<Index>(p));
   }
-  corners.resize(nodes.size());
-  bounds.resize(nodes.size());
-  place(x);
+  box_.resize(size());
+  tree_.build(bound());
 }
 
 void PlacedCells::place(std::span<const Vec3> x) {
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const auto n = static_cast<std::size_t>(corner_count(type[k]));
-    const std::size_t all = dimension(type[k]) == 2 ? 2 * n : n;
-    Corners& corner = corners[k];
-    for (std::size_t a = 0; a < all; ++a) corner[a] = x[nodes[k][a % n]];
-    if (all > n) {
-      const double half = 0.5 * norm(subtract(corner[2], corner[0]));
-      for (std::size_t a = 0; a < all; ++a) corner[a][2] += a < n ? -half : half;
+  x_ = x;
+  tree_.refit(bound());
+}
+
+/// Fills the boxes of the cells; returns those of the clusters.
+std::vector<Bounds> PlacedCells::bound() {
+  constexpr double up = 0x1p-23;  // what rounding to float may take
+  std::vector<Bounds> clusters((size() + cluster - 1) / cluster);
+  parallel_for(clusters.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = cluster * begin; k < std::min(size(), cluster * end); ++k) {
+      const Corners corner = corners(k);
+      Bounds own;
+      for (std::size_t a = 0; a < solid_corners(type(k)); ++a) own.include(corner[a]);
+      clusters[k / cluster].include(own);
+      for (std::size_t i = 0; i < 3; ++i) {
+        box_[k].low[i] = static_cast<float>(own.low[i] - up * std::abs(own.low[i]));
+        box_[k].high[i] = static_cast<float>(own.high[i] + up * std::abs(own.high[i]));
+      }
     }
-    bounds[k] = Bounds{};
-    for (std::size_t a = 0; a < all; ++a) bounds[k].include(corner[a]);
+  });
+  return clusters;
+}
+
+void PlacedCells::find(const Vec3& x, std::vector<Index>& found) const {
+  Bounds point;
+  point.include(x);
+  found.clear();
+  tree_.find(point, found);
+  const std::vector<Index> clusters = found;
+  found.clear();
+  for (const Index c : clusters) {
+    const std::size_t first = cluster * static_cast<std::size_t>(c);
+    for (std::size_t k = first; k < std::min(size(), first + cluster); ++k) {
+      const Box& box = box_[k];
+      bool is_in = true;
+      for (std::size_t i = 0; i < 3; ++i) is_in = is_in && box.low[i] <= x[i] && x[i] <= box.high[i];
+      if (is_in) found.push_back(static_cast<Index>(k));
+    }
   }
+  std::sort(found.begin(), found.end());
+}
+
+Corners PlacedCells::corners(std::size_t k) const {
+  const std::span<const Index> own = nodes(k);
+  const auto n = static_cast<std::size_t>(corner_count(type(k)));
+  const std::size_t all = solid_corners(type(k));
+  Corners corner{};
+  for (std::size_t a = 0; a < all; ++a) corner[a] = x_[own[a % n]];
+  if (all > n) {
+    const double half = 0.5 * norm(subtract(corner[2], corner[0]));
+    for (std::size_t a = 0; a < all; ++a) corner[a][2] += a < n ? -half : half;
+  }
+  return corner;
+}
+
+double PlacedCells::length(std::size_t k) const {
+  const Corners corner = corners(k);
+  return cell_length(type(k), std::span(corner).first(static_cast<std::size_t>(corner_count(type(k)))));
 }
 
 std::optional<CornerValues> PlacedCells::inside(std::size_t k, const Vec3& x, double margin) const {
-  std::optional<CornerValues> N = shape_at(solid_of(type[k]), corners[k], x);
+  std::optional<CornerValues> N = shape_at(solid_of(type(k)), corners(k), x);
   if (!N) return std::nullopt;
-  if (dimension(type[k]) == 2) {
-    const auto n = static_cast<std::size_t>(corner_count(type[k]));
+  if (dimension(type(k)) == 2) {
+    const auto n = static_cast<std::size_t>(corner_count(type(k)));
     double lower = 0.0;
     for (std::size_t a = 0; a < n; ++a) {
       lower += (*N)[a];
@@ -143,14 +192,14 @@ std::optional<CornerValues> PlacedCells::inside(std::size_t k, const Vec3& x, do
     }
     if (lower <= margin || 1.0 - lower <= margin) return std::nullopt;
   }
-  for (std::size_t face = 0; face < cell_faces(type[k]).size(); ++face)
+  for (std::size_t face = 0; face < cell_faces(type(k)).size(); ++face)
     if (!(depth_under(k, face, *N) > margin)) return std::nullopt;
   return N;
 }
 
 double PlacedCells::depth_under(std::size_t k, std::size_t face, const CornerValues& N) const {
   double on_face = 0.0;
-  for (const LocalNode a : cell_faces(type[k])[face].corners()) on_face += N[a];
+  for (const LocalNode a : cell_faces(type(k))[face].corners()) on_face += N[a];
   return 1.0 - on_face;
 }
 

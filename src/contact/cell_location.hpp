@@ -23,28 +23,46 @@ std::optional<CornerValues> shape_at(CellType linear, const Corners& corners, co
 
 /// The cells of the parts that have an inside (solids and plane cells), part by part, at positions x of the nodes.
 /// Quadratic ones are taken by their corners. A plane cell stands as a prism about its plane, as thick as it is wide.
-struct PlacedCells {
-  std::vector<CellRef> ref;
-  std::vector<Index> part;  ///< Model::parts
-  std::vector<CellType> type;
-  std::vector<std::span<const Index>> nodes;  ///< all of the cell, the corners first
-  std::vector<Corners> corners;               ///< of the solid or of the prism
-  std::vector<Bounds> bounds;
-
+class PlacedCells {
+ public:
+  /// Of the model's mesh, which must outlive them as x must.
   PlacedCells(const Model& model, std::span<const Vec3> x);
-  /// The nodes have moved.
+  /// The nodes have moved. In parallel; x must outlive what is asked next.
   void place(std::span<const Vec3> x);
 
-  std::span<const Vec3> own_corners(std::size_t k) const {
-    return std::span(corners[k]).first(static_cast<std::size_t>(corner_count(type[k])));
-  }
+  std::size_t size() const { return ref_.size(); }
+  CellRef ref(std::size_t k) const { return ref_[k]; }
+  Index part(std::size_t k) const { return part_[k]; }  ///< Model::parts
+  CellType type(std::size_t k) const { return block(k).type; }
+  std::span<const Index> nodes(std::size_t k) const { return block(k).nodes(ref_[k].cell); }  ///< the corners first
 
+  /// The corners of the solid or of the prism.
+  Corners corners(std::size_t k) const;
+  /// cell_length at these positions.
+  double length(std::size_t k) const;
+
+  /// The cells, increasing, in whose bounds (rounded outward) x is.
+  void find(const Vec3& x, std::vector<Index>& found) const;
   /// Values at x of the linear shape functions of the corners of cell k (of a plane cell: of both sides of the prism
   /// together), if x is inside by more than `margin`: every face's depth is.
   std::optional<CornerValues> inside(std::size_t k, const Vec3& x, double margin = 0.0) const;
   /// How deep under a face of cell k (number in cell_faces), as a part of the way to its other corners: 1 less the sum
   /// of the values of the face's corners. 0 on the face, 1 at the other corners; (1 -+ xi) / 2 of a HEXA8.
   double depth_under(std::size_t k, std::size_t face, const CornerValues& N) const;
+
+ private:
+  struct Box {
+    std::array<float, 3> low, high;
+  };
+  const CellBlock& block(std::size_t k) const { return mesh_->blocks[static_cast<std::size_t>(ref_[k].block)]; }
+  std::vector<Bounds> bound();
+
+  const Mesh* mesh_;
+  std::span<const Vec3> x_;
+  std::vector<CellRef> ref_;
+  std::vector<Index> part_;
+  std::vector<Box> box_;
+  BoxTree tree_;  ///< of clusters of cells that follow each other
 };
 
 /// X + u of all nodes.

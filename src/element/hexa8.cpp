@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "element/quad4.hpp"
+#include "math/vec3.hpp"
 
 namespace carom::hexa8 {
 namespace {
@@ -17,14 +18,6 @@ std::array<QuadraturePoint, n * n * n> product_rule(const std::array<double, n>&
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t i = 0; i < n; ++i) rule[i + n * (j + n * k)] = {{xi[i], xi[j], xi[k]}, w[i] * w[j] * w[k]};
   return rule;
-}
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 }  // namespace
@@ -86,6 +79,14 @@ Volume volume(const std::array<Vec3, 8>& x) {
   return result;
 }
 
+double exact_volume(const std::array<Vec3, 8>& x) {
+  const auto d = [&x](std::size_t a, std::size_t b) { return subtract(x[a], x[b]); };
+  const auto triple = [](const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); };
+  return (triple(add(d(3, 1), d(7, 2)), d(6, 3), d(2, 0)) + triple(add(d(4, 3), d(5, 7)), d(6, 4), d(7, 0)) +
+          triple(add(d(1, 4), d(2, 5)), d(6, 1), d(5, 0))) /
+         12.0;
+}
+
 double length(const std::array<Vec3, 8>& x) {
   double largest = 0.0;
   for (const auto& face : faces) {
@@ -93,7 +94,7 @@ double length(const std::array<Vec3, 8>& x) {
     for (std::size_t a = 0; a < 4; ++a) corner[a] = x[static_cast<std::size_t>(face[a])];
     largest = std::max(largest, quad4::area(corner));
   }
-  return volume(x).volume / largest;
+  return exact_volume(x) / largest;
 }
 
 }  // namespace carom::hexa8

@@ -48,6 +48,10 @@ struct Volume {
 };
 Volume volume(const std::array<Vec3, 8>& x);
 
+/// The volume alone, in closed form (Grandy, Efficient computation of volume of hexahedral cells, UCRL-ID-128886,
+/// 1997).
+double exact_volume(const std::array<Vec3, 8>& x);
+
 /// Volume over the largest face area (2 x 2 Gauss): the edge of a cube, the thickness of a plate.
 double length(const std::array<Vec3, 8>& x);
 

@@ -36,6 +36,14 @@ const CellTraits& traits(CellType type) {
   return kTraits.at(static_cast<std::size_t>(type));
 }
 
+/// The nodes whose flag is set.
+std::vector<Index> marked(const std::vector<char>& flags) {
+  std::vector<Index> nodes;
+  for (std::size_t n = 0; n < flags.size(); ++n)
+    if (flags[n] != 0) nodes.push_back(static_cast<Index>(n));
+  return nodes;
+}
+
 }  // namespace
 
 int node_count(CellType type) {
@@ -48,25 +56,27 @@ std::string_view name(CellType type) {
   return traits(type).name;
 }
 
+std::span<const Index> CellBlock::nodes(Index cell) const {
+  const auto n = static_cast<std::size_t>(carom::node_count(type));
+  return {connectivity.data() + n * static_cast<std::size_t>(cell), n};
+}
+
 const CellBlock* Mesh::block(CellType type) const {
   const auto found = std::find_if(blocks.begin(), blocks.end(), [&](const CellBlock& b) { return b.type == type; });
   return found == blocks.end() ? nullptr : &*found;
 }
 
 std::vector<Index> Mesh::nodes_of(const std::string& group) const {
-  std::vector<Index> nodes;
-  if (const auto found = node_groups.find(group); found != node_groups.end()) nodes = found->second;
-  if (const auto found = cell_groups.find(group); found != cell_groups.end()) {
-    for (const CellRef& ref : found->second) {
-      const CellBlock& cells = blocks[static_cast<std::size_t>(ref.block)];
-      const auto n = carom::node_count(cells.type);
-      const auto first = cells.connectivity.begin() + static_cast<std::ptrdiff_t>(ref.cell) * n;
-      nodes.insert(nodes.end(), first, first + n);
-    }
-  }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
+  const auto cells = cell_groups.find(group);
+  const auto named = node_groups.find(group);
+  if (cells == cell_groups.end()) return named == node_groups.end() ? std::vector<Index>{} : named->second;
+  std::vector<char> is_member(node_count(), 0);
+  if (named != node_groups.end())
+    for (const Index n : named->second) is_member[static_cast<std::size_t>(n)] = 1;
+  for (const CellRef& ref : cells->second)
+    for (const Index n : blocks[static_cast<std::size_t>(ref.block)].nodes(ref.cell))
+      is_member[static_cast<std::size_t>(n)] = 1;
+  return marked(is_member);
 }
 
 bool Mesh::has_group(const std::string& group) const {

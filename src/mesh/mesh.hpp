@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +49,8 @@ struct CellBlock {
   std::vector<std::int64_t> file_numbers;  ///< the number of each cell in the file the user wrote
 
   std::size_t size() const { return file_numbers.size(); }
+  /// The nodes of one cell.
+  std::span<const Index> nodes(Index cell) const;
 };
 
 /// One cell: block (index into Mesh::blocks) and position in that block.

@@ -13,12 +13,13 @@ std::vector<double> node_lengths(const Model& model) {
   const Mesh& mesh = *model.mesh;
   std::vector<double> length(mesh.node_count(), std::numeric_limits<double>::infinity());
   for (const Part& part : model.parts) {
+    if (part.cells.empty()) continue;
     const auto size = static_cast<std::size_t>(node_count(part.type));
+    const std::span<const Index> connectivity = mesh.block(part.type)->connectivity;
+    std::vector<Vec3> x(size);
     for (const Index cell : part.cells) {
-      const std::span<const Index> nodes =
-          std::span(mesh.block(part.type)->connectivity).subspan(size * static_cast<std::size_t>(cell), size);
-      std::vector<Vec3> x;
-      for (const Index n : nodes) x.push_back(mesh.coordinates[static_cast<std::size_t>(n)]);
+      const std::span<const Index> nodes = connectivity.subspan(size * static_cast<std::size_t>(cell), size);
+      for (std::size_t a = 0; a < size; ++a) x[a] = mesh.coordinates[static_cast<std::size_t>(nodes[a])];
       const double of_cell = cell_length(part.type, x);
       for (const Index n : nodes)
         length[static_cast<std::size_t>(n)] = std::min(length[static_cast<std::size_t>(n)], of_cell);

@@ -104,10 +104,9 @@ std::string check_summary(const Simulation& s) {
     text += fmt::format("  contact   \"{}\": {}\n", *s.given().contacts[i].name, describe(contacts[i], units));
   for (const auto& stage : s.stages()) text += describe(*stage, s);
   const StableStep stable = s.stable();
-  const std::vector<double> bounds = s.solid().cell_frequency_bounds();
   text += fmt::format(
       "  stable    explicit step {:.4g} with contact, {:.4g} without; element estimate (lumped mass) {:.4g}\n",
-      stable.dt, stable.dt_free, 2.0 / std::sqrt(*std::max_element(bounds.begin(), bounds.end())));
+      stable.dt, stable.dt_free, 2.0 / std::sqrt(s.solid().largest_frequency_bound()));
   if (std::isfinite(stable.dt_closing))
     text += fmt::format("  closing   contact springs that open and close need {:.4g}\n", stable.dt_closing);
   const CostEstimate cost = estimate_cost(s);

@@ -27,9 +27,8 @@ bool is_implicit(const Stage& stage) {
 bool has_factor(const Stage& stage) {
   if (!is_implicit(stage)) return false;
   const SchemeSettings& settings = stage.settings();
-  const std::vector<double> bounds = stage.system().solid.cell_frequency_bounds();
   const double ratio = settings.kind == SchemeKind::statics ? infinity : 0.25 * stage.dt() * stage.dt();
-  const double omega_squared = bounds.empty() ? 0.0 : *std::max_element(bounds.begin(), bounds.end());
+  const double omega_squared = stage.system().solid.largest_frequency_bound();
   return chosen_solver(stage.system(), settings.solver, settings.enforcement, ratio, omega_squared) !=
          SolverKind::conjugate_gradients;
 }

@@ -245,8 +245,8 @@ StableStepWatch Stage::watch_stable_step() const {
 }
 
 std::unique_ptr<Scheme> Stage::make_scheme() const {
-  const std::vector<double> bounds = context_.solid.cell_frequency_bounds();
-  return carom::make_scheme({system_, settings_, dt_, *std::max_element(bounds.begin(), bounds.end())});
+  const double bound = is_explicit(settings_.kind) ? infinity : context_.solid.largest_frequency_bound();
+  return carom::make_scheme({system_, settings_, dt_, bound});
 }
 
 std::string Stage::name() const {

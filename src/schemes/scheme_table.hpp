@@ -16,7 +16,7 @@ struct SchemeRequest {
   const System& system;
   const SchemeSettings& settings;
   double dt;                 ///< the usual step
-  double omega_max_squared;  ///< a bound of the spectrum of M^-1 K, for the choice of the linear solver
+  double omega_max_squared;  ///< a bound of the spectrum of M^-1 K, for the linear solver of implicit schemes
 
   template <class Parameters>
   const Parameters& parameters() const {

@@ -37,8 +37,8 @@ const Element* element_of(const Part& part) {
   return find_element(part.type, part.section, part.formulation);
 }
 
-void check_shape(const Mesh& mesh, const Part& part, const CellNodes& x, std::size_t nodes, std::int64_t number) {
-  const double det_J = cell_operations(element_of(part)->kind).smallest_jacobian(x);
+void check_shape(const Mesh& mesh, const Part& part, const CellNodes& x, std::size_t nodes, std::int64_t number,
+                 double det_J) {
   if (!(det_J > 0.0))
     throw part_error(mesh, part, fmt::format("Jacobian determinant {:.3g} in cell {}", det_J, number),
                      "a positive Jacobian determinant at every Gauss point",
@@ -72,13 +72,14 @@ void check_section(const Mesh& mesh, const Part& part) {
     throw part_error(mesh, part, fmt::format("thickness or area {:.6g}", part.thickness), "a positive number", "");
 }
 
-/// The cells of the part as references, checked.
+/// The cells of the part as references.
 std::vector<CellRef> cells_of(const Mesh& mesh, const std::vector<Part>& parts, std::size_t p, Owners& owners) {
   const Part& part = parts[p];
   check_section(mesh, part);
   const CellBlock* block = mesh.block(part.type);
   const std::size_t available = block == nullptr ? 0 : block->size();
   std::vector<CellRef> cells;
+  cells.reserve(part.cells.size());
   for (const Index cell : part.cells) {
     if (cell < 0 || at(cell) >= available)
       throw part_error(mesh, part, fmt::format("cell index {}", cell),
@@ -91,8 +92,6 @@ std::vector<CellRef> cells_of(const Mesh& mesh, const std::vector<Part>& parts, 
       throw part_error(mesh, part, fmt::format("cell {}, which is in parts.{} already", number, parts[at(owner)].name),
                        "each cell in one part", "take the cell out of one of the two groups");
     owner = static_cast<Index>(p);
-    const auto nodes = connectivity_of(mesh, ref);
-    check_shape(mesh, part, positions(mesh, nodes), nodes.size(), number);
     cells.push_back(ref);
   }
   return cells;
@@ -148,6 +147,23 @@ CellKernels kernels_of(const Element& element, const Block& block, const KernelT
   return block.small_strain ? table.hexa8_small : table.hexa8_finite;
 }
 
+/// The first cell whose shape is not that of a cell that can be computed with.
+void check_shapes(const Mesh& mesh, const Part& part, const std::vector<CellRef>& cells, const Block& block) {
+  const std::size_t lanes = block.lanes();
+  std::vector<double> det_J(block.offset.size() / block.nodes());
+  parallel_for(det_J.size(), 64 * lanes, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; c += lanes)
+      block.stages.cell->smallest_jacobian(mesh.coordinates.front().data(), block.offset.data() + block.nodes() * c,
+                                           &det_J[c]);
+  });
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (det_J[c] > 0.0 && dimension(part.type) != 2) continue;
+    const auto nodes = connectivity_of(mesh, cells[c]);
+    check_shape(mesh, part, positions(mesh, nodes), nodes.size(),
+                mesh.blocks[at(cells[c].block)].file_numbers[at(cells[c].cell)], det_J[c]);
+  }
+}
+
 Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>& cells, const KernelTable& table) {
   const Element& element = *element_of(part);
   Block block;
@@ -160,11 +176,12 @@ Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>&
   block.small_strain = part.material.law->measure == Measure::small_strain;
   block.is_linear = block.small_strain && part.material.law->is_linear && !part.viscosity.is_any();
   block.is_symmetric = part.material.law->has_symmetric_tangent;
-  block.operations = &cell_operations(element.kind);
+  block.mass = cell_mass(element.kind);
   block.stages = stages_of(part, element, block.small_strain, table);
   block.prepared_law = prepare(part.material, free_directions(part.section), table.laws);
   block.kernels = kernels_of(element, block, table);
   block.offset = batch_offsets(mesh, cells, block.nodes(), table.lanes);
+  check_shapes(mesh, part, cells, block);
   if (part.viscosity.is_any()) block.length = batch_lengths(mesh, cells, part.type, block.lanes());
   return block;
 }

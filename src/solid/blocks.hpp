@@ -26,7 +26,7 @@ struct Block {
   bool is_linear = true;      ///< the forces are linear in the displacements
   bool is_symmetric = true;   ///< the tangent of its law
   const Law* law_row = nullptr;
-  const CellOperations* operations = nullptr;
+  CellMass mass = nullptr;
   BatchStages stages;
   CellKernels kernels;
   PreparedLaw prepared_law;
@@ -47,6 +47,17 @@ struct Block {
   double bulk_speed(std::size_t cell, std::span<const double> history) const {
     const std::size_t n = lanes(), batch = history_first + history_per_cell() * (cell / n * n);
     return history[batch + (history_per_cell() - 1) * n + cell % n];
+  }
+  /// Calls body(lane, the lumped masses of its nodes) for the cells of one batch.
+  template <class Body>
+  void for_each_lumped_mass(const CellBatches& batch, const Body& body) const {
+    std::array<double, most_nodes * most_lanes> m;
+    std::array<double, most_nodes> of_cell;
+    stages.cell->lumped_mass(batch.x, batch.offset, thickness, rho, m.data());
+    for (std::size_t l = 0; l < static_cast<std::size_t>(batch.cells); ++l) {
+      for (std::size_t a = 0; a < nodes(); ++a) of_cell[a] = m[a * lanes() + l];
+      body(l, std::span<const double>(of_cell).first(nodes()));
+    }
   }
   /// Numbers of history of the block.
   std::size_t history_size() const { return history_per_cell() * offset.size() / nodes(); }
@@ -110,6 +121,15 @@ struct SolidCells {
         body(static_cast<std::size_t>(block.first) + static_cast<std::size_t>(first), block,
              batches(block, first, count, step));
       }
+    });
+  }
+
+  /// Calls body(cell position, block, the lumped masses of its nodes) for all cells, in the order of for_each_chunk.
+  template <class Body>
+  void for_each_lumped_mass(const Body& body) const {
+    for_each_batch({}, [&](std::size_t first, const Block& block, const CellBatches& batch) {
+      block.for_each_lumped_mass(batch,
+                                 [&](std::size_t lane, std::span<const double> m) { body(first + lane, block, m); });
     });
   }
 

@@ -9,23 +9,15 @@ namespace carom {
 namespace {
 
 template <class Cell>
-NodePositions<Cell> nodes_of(const CellNodes& all) {
-  NodePositions<Cell> nodes;
-  std::copy_n(all.begin(), nodes.size(), nodes.begin());
-  return nodes;
-}
-
-template <class Cell>
-NodeMatrix mass(const CellNodes& x, double thickness, double rho) {
-  const auto products = node_products<Cell>(nodes_of<Cell>(x), thickness, rho);
+NodeMatrix mass(const CellNodes& nodes, double thickness, double rho) {
+  constexpr std::size_t n = Cell::nodes;
+  double x[3][n], products[n][n];
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t i = 0; i < 3; ++i) x[i][a] = nodes[a][i];
+  node_products<Cell>(x, thickness, rho, products);
   NodeMatrix M{};
-  std::copy(products.begin(), products.end(), M.begin());
+  for (std::size_t a = 0; a < n; ++a) std::copy_n(products[a], n, M.begin() + static_cast<std::ptrdiff_t>(n * a));
   return M;
-}
-
-template <class Cell>
-double jacobian(const CellNodes& x) {
-  return smallest_jacobian<Cell>(nodes_of<Cell>(x));
 }
 
 using Matrix = std::vector<double>;
@@ -50,22 +42,11 @@ Matrix square(const Matrix& A, std::size_t dofs) {
 
 }  // namespace
 
-const CellOperations& cell_operations(CellKind kind) {
-#define CAROM_CELL_OPERATIONS(cell) {jacobian<cell##Cell>, mass<cell##Cell>},
-  static constexpr CellOperations table[] = {CAROM_CELLS(CAROM_CELL_OPERATIONS)};
-#undef CAROM_CELL_OPERATIONS
+CellMass cell_mass(CellKind kind) {
+#define CAROM_CELL_MASS(cell) mass<cell##Cell>,
+  static constexpr CellMass table[] = {CAROM_CELLS(CAROM_CELL_MASS)};
+#undef CAROM_CELL_MASS
   return table[static_cast<std::size_t>(kind)];
-}
-
-std::array<double, most_nodes> lumped(const NodeMatrix& mass, std::size_t n) {
-  double total = 0.0, trace = 0.0;
-  for (std::size_t a = 0; a < n; ++a) {
-    trace += mass[a * n + a];
-    for (std::size_t b = 0; b < n; ++b) total += mass[a * n + b];
-  }
-  std::array<double, most_nodes> m{};
-  for (std::size_t a = 0; a < n; ++a) m[a] = mass[a * n + a] * total / trace;
-  return m;
 }
 
 void batch_stiffness(const CellBatches& batch, const CellKernels& kernels, const BatchLaw& law, bool is_symmetric,
@@ -107,8 +88,8 @@ void batch_stiffness(const CellBatches& batch, const CellKernels& kernels, const
       for (std::size_t s = 0; s < r; ++s) K[(dofs * l + r) * dofs + s] = K[(dofs * l + s) * dofs + r];
 }
 
-double frequency_bound(std::span<const double> K, const std::array<double, most_nodes>& m, std::size_t n) {
-  const std::size_t dofs = 3 * n;
+double frequency_bound(std::span<const double> K, std::span<const double> m) {
+  const std::size_t dofs = 3 * m.size();
   Matrix A(dofs * dofs);
   for (std::size_t r = 0; r < dofs; ++r)
     for (std::size_t s = 0; s < dofs; ++s) A[r * dofs + s] = K[r * dofs + s] / std::sqrt(m[r / 3] * m[s / 3]);

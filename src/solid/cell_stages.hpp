@@ -2,12 +2,27 @@
 #pragma once
 
 #include "base/types.hpp"
-#include "element/cell_operators.hpp"
+#include "element/cell_integrals.hpp"
 #include "solid/batch_values.hpp"
 #include "solid/stages.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {
+
+template <class Real, class Cell>
+static void cell_jacobians(const double* x, const Index* offset, double* smallest) {
+  Real x_cell[3][Cell::nodes];
+  gather(x, offset, x_cell);
+  store(smallest, smallest_jacobian<Cell>(x_cell));
+}
+
+template <class Real, class Cell>
+static void cell_masses(const double* x, const Index* offset, double thickness, double density, double* m) {
+  Real x_cell[3][Cell::nodes], m_cell[Cell::nodes];
+  gather(x, offset, x_cell);
+  lumped_mass<Cell>(x_cell, thickness, density, m_cell);
+  for (int a = 0; a < Cell::nodes; ++a) store(m + a * lanes<Real>, m_cell[a]);
+}
 
 template <class Real, class Cell>
 static void prepare_cells(const double* x, const Index* offset, double thickness, double* geometry) {
@@ -74,6 +89,8 @@ static constexpr CellStages cell_stages() {
   CellStages stages{Cell::nodes,
                     Cell::points,
                     Cell::frame == Frame::bar ? Cell::points * lanes<Real> : 0,
+                    cell_jacobians<Real, Cell>,
+                    cell_masses<Real, Cell>,
                     prepare_cells<Real, Cell>,
                     cell_gradients<Real, Cell>,
                     add_cell_forces<Real, Cell>};

@@ -34,6 +34,8 @@ Mass::Mass(MassKind kind, CsrMatrix node_matrix) : kind_(kind), matrix_(std::mov
       row_sums_[n] += matrix_.value[static_cast<std::size_t>(k)];
 }
 
+Mass::Mass(const std::vector<double>& node_masses) : Mass(MassKind::lumped, diagonal_matrix(node_masses)) {}
+
 void Mass::add_gravity(const Vec3& acceleration, std::span<double> f) const {
   parallel_each(row_sums_.size(), [&](std::size_t n) {
     for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += row_sums_[n] * acceleration[i];

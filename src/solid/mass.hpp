@@ -19,6 +19,8 @@ class Mass {
  public:
   /// node_matrix: nodes x nodes, entries are masses. For `lumped` only its diagonal is kept.
   Mass(MassKind kind, CsrMatrix node_matrix);
+  /// Lumped: the masses of the nodes.
+  explicit Mass(const std::vector<double>& node_masses);
 
   MassKind kind() const { return kind_; }
   /// y = M x, dof vectors of 3 x nodes entries, x y z of a node together. Threaded, same bits for any thread count.

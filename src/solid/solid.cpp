@@ -90,25 +90,44 @@ struct Solid::Impl {
     bound_damping();
   }
 
-  /// Adds the masses of points and rigid bodies to the diagonal of M.
-  void add_body_masses(CsrMatrix& M) const {
+  /// Calls add(node, mass) for the masses of points and rigid bodies.
+  template <class Add>
+  void for_each_body_mass(const Add& add) const {
     for (const PointMass& point : point_masses)
-      for (const Index node : point.nodes) add_diagonal(M, node, point.mass);
-    for (const RigidBody& body : rigid_bodies) append_diagonal(M, body.node, body.mass);
-    turning_bodies.add_mass(M);
+      for (const Index node : point.nodes) add(node, point.mass);
+    for (const RigidBody& body : rigid_bodies) add(body.node, body.mass);
+    for (const auto& [node, mass] : turning_bodies.masses()) add(node, mass);
+  }
+  /// Lumped mass, that of cell c times factor(c).
+  template <class Factor>
+  Mass lumped_mass(const Factor& factor) const {
+    std::vector<double> m(solid.mesh->node_count(), 0.0);
+    solid.for_each_lumped_mass([&](std::size_t c, const Block&, std::span<const double> of_cell) {
+      const auto nodes = solid.nodes_of(c);
+      for (std::size_t a = 0; a < nodes.size(); ++a) m[at(nodes[a])] += factor(c) * of_cell[a];
+    });
+    for_each_body_mass([&](Index node, double mass) { m[at(node)] += mass; });
+    return Mass(m);
   }
   const Block& block(const Chunk& chunk) const { return solid.blocks[at(chunk.block)]; }
   CellBatches batches(const Chunk& chunk, const PointStep& step = {}, std::span<double> end = {}) const {
     return solid.batches(block(chunk), chunk.first, chunk.cells, step, end);
   }
-  NodeMatrix mass(std::size_t c, const Block& b) const {
-    return b.operations->mass(solid.coordinates_of(c), b.thickness, b.rho);
-  }
 
+  /// Bounds of the eigenvalues of the cells' matrices K with their lumped masses.
+  static void batch_bounds(const CellBatches& batch, const Block& block, std::span<const double> K,
+                           std::span<double> bounds) {
+    const std::size_t size = 9 * block.nodes() * block.nodes();
+    block.for_each_lumped_mass(batch, [&](std::size_t l, std::span<const double> m) {
+      bounds[l] = frequency_bound(K.subspan(size * l, size), m);
+    });
+  }
   std::vector<double> frequency_bounds() const {
     std::vector<double> bounds(solid.cells.size());
-    solid.for_each_stiffness({}, {}, [&](std::size_t c, const Block& b, std::span<const double> K) {
-      bounds[c] = frequency_bound(K, lumped(mass(c, b), b.nodes()), b.nodes());
+    solid.for_each_batch({}, [&](std::size_t first, const Block& block, const CellBatches& batch) {
+      std::vector<double> K;
+      batch_stiffness(batch, block.kernels, block.law(), block.is_symmetric, nullptr, K);
+      batch_bounds(batch, block, K, std::span<double>(bounds).subspan(first));
     });
     return bounds;
   }
@@ -131,10 +150,7 @@ struct Solid::Impl {
         viscous.viscous_dt = batch.length[0] / stages.wave_speed;
         batch_stiffness(viscous, block.kernels, block.law(), block.is_symmetric, nullptr, C);
         for (std::size_t k = 0; k < C.size(); ++k) C[k] = (C[k] - K[k]) * viscous.viscous_dt;
-        const std::size_t size = 9 * block.nodes() * block.nodes();
-        for (std::size_t l = 0; l < at(batch.cells); ++l)
-          bounds[first + l] = frequency_bound(std::span<const double>(C).subspan(size * l, size),
-                                              lumped(mass(first + l, block), block.nodes()), block.nodes());
+        batch_bounds(batch, block, C, std::span<double>(bounds).subspan(first));
       };
       if (block.stages.bulk != nullptr) bound({.linear = 1.0}, bulk_damping);
       if (block.stages.viscosity.hourglass > 0.0)
@@ -142,9 +158,8 @@ struct Solid::Impl {
     });
   }
   double largest_frequency() const {
-    double largest = 0.0;
-    for (const double bound : frequency_bounds()) largest = std::max(largest, bound);
-    return std::sqrt(largest);
+    const std::vector<double> bounds = frequency_bounds();
+    return std::sqrt(parallel_max(bounds.size(), 0.0, [&](std::size_t k) { return bounds[k]; }));
   }
 
   /// Overwrites f with the sum over the chunks of add(chunk, block, f), colour by colour.
@@ -351,44 +366,38 @@ Index Solid::first_inverted_cell(std::span<const double> u) const {
 }
 
 Mass Solid::mass(MassKind kind) const {
+  if (kind == MassKind::lumped) return impl_->lumped_mass([](std::size_t) { return 1.0; });
   CsrMatrix M = node_graph(impl_->solid);
   impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
-    const NodeMatrix cell = impl_->mass(c, block);
+    const NodeMatrix cell = block.mass(impl_->solid.coordinates_of(c), block.thickness, block.rho);
     const auto nodes = impl_->solid.nodes_of(c);
-    const auto diagonal = lumped(cell, nodes.size());
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      if (kind == MassKind::lumped) M.value[entry(M, nodes[a], nodes[a])] += diagonal[a];
-      for (std::size_t b = 0; b < nodes.size() && kind == MassKind::consistent; ++b)
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t b = 0; b < nodes.size(); ++b)
         M.value[entry(M, nodes[a], nodes[b])] += cell[a * nodes.size() + b];
-    }
   });
-  impl_->add_body_masses(M);
+  impl_->for_each_body_mass([&](Index node, double mass) { add_diagonal(M, node, mass); });
   return Mass(kind, std::move(M));
 }
 
 Mass Solid::lumped_mass(std::span<const double> cell_factors) const {
-  CsrMatrix M = node_graph(impl_->solid);
-  impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
-    const auto nodes = impl_->solid.nodes_of(c);
-    const auto diagonal = lumped(impl_->mass(c, block), nodes.size());
-    for (std::size_t a = 0; a < nodes.size(); ++a)
-      M.value[entry(M, nodes[a], nodes[a])] += cell_factors[c] * diagonal[a];
-  });
-  impl_->add_body_masses(M);
-  return Mass(MassKind::lumped, std::move(M));
+  return impl_->lumped_mass([&](std::size_t c) { return cell_factors[c]; });
 }
 
 std::vector<double> Solid::cell_masses() const {
   std::vector<double> masses(cell_count());
-  impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
-    const auto diagonal = lumped(impl_->mass(c, block), block.nodes());
-    masses[c] = std::accumulate(diagonal.begin(), diagonal.begin() + static_cast<std::ptrdiff_t>(block.nodes()), 0.0);
+  impl_->solid.for_each_lumped_mass([&](std::size_t c, const Block&, std::span<const double> m) {
+    masses[c] = std::accumulate(m.begin(), m.end(), 0.0);
   });
   return masses;
 }
 
 std::vector<double> Solid::cell_frequency_bounds() const {
   return impl_->frequency_bounds();
+}
+
+double Solid::largest_frequency_bound() const {
+  const std::vector<double> bounds = impl_->frequency_bounds();
+  return parallel_max(bounds.size(), 0.0, [&](std::size_t k) { return bounds[k]; });
 }
 
 void Solid::frequency_growth(std::span<const double> u, const PointStep& step, std::span<double> growth) const {

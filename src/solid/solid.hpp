@@ -116,6 +116,8 @@ class Solid {
   /// whole body with lumped mass (Irons). K_e is that of the reference configuration. One entry per solid cell, in the
   /// order of cells().
   std::vector<double> cell_frequency_bounds() const;
+  /// The largest of them; 0 without cells.
+  double largest_frequency_bound() const;
 
   /// How many times the omega^2 of each solid cell is at u what it is at rest, for elastic changes: (c / l)^2 over that
   /// at rest, c the fastest elastic wave of its points (PointBatch::wave_modulus) and l its length (cell_lengths) where

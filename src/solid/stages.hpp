@@ -17,6 +17,10 @@ inline constexpr int most_hourglass = 12;
 struct CellStages {
   int nodes = 0, points = 0;
   int frame_offset = 0;  ///< of bars: where F at rest stands in the geometry; 0: it is 1
+  /// The smallest Jacobian determinant at the points of the stiffness [lane].
+  void (*smallest_jacobian)(const double* x, const Index* offset, double* smallest) = nullptr;
+  /// Lumped masses of the nodes [a lanes] (element/cell_integrals.hpp).
+  void (*lumped_mass)(const double* x, const Index* offset, double thickness, double density, double* m) = nullptr;
   void (*prepare)(const double* x, const Index* offset, double thickness, double* geometry) = nullptr;
   /// And of cells with hourglass modes how far these are deformed, q[(directions m + i) lanes] = gamma_ma u_ia.
   void (*gradients)(const double* geometry, const double* u, const Index* offset, double* gradient,

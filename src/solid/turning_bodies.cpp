@@ -168,9 +168,11 @@ void TurningBodies::add_rows(CsrMatrix& graph) const {
   }
 }
 
-void TurningBodies::add_mass(CsrMatrix& M) const {
+std::vector<std::pair<Index, double>> TurningBodies::masses() const {
+  std::vector<std::pair<Index, double>> masses;
   for (const Body& body : bodies_)
-    for (const Index n : body.data.nodes) append_diagonal(M, n, 0.25 * body.data.mass);
+    for (const Index n : body.data.nodes) masses.emplace_back(n, 0.25 * body.data.mass);
+  return masses;
 }
 
 double TurningBodies::largest_strain(std::span<const double> u) const {

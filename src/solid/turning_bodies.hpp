@@ -33,8 +33,8 @@ class TurningBodies {
   double energy(std::span<const double> u) const;
   /// Entries for the pairs of the bodies' nodes, whose rows are empty.
   void add_rows(CsrMatrix& node_graph) const;
-  /// m / 4 on every node, whose rows are empty.
-  void add_mass(CsrMatrix& M) const;
+  /// m / 4 on every node.
+  std::vector<std::pair<Index, double>> masses() const;
   /// Largest strain over the bodies; 0 without.
   double largest_strain(std::span<const double> u) const;
 

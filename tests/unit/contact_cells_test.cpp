@@ -81,6 +81,19 @@ TEST(ShapeAt, FindsTheValuesOfRandomPointsOfDistortedCells) {
 }
 
 // Every point of a body is in one of its cells and in no other, and no point beside it is in any.
+/// Cells whose bounds, a little enlarged, have x.
+std::size_t is_bounded_by(const PlacedCells& cells, const Vec3& x) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    Bounds bounds;
+    const Corners corners = cells.corners(k);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(corner_count(cells.type(k))); ++a) bounds.include(corners[a]);
+    bounds.grow(1e-6);
+    count += bounds.contains(x) ? 1 : 0;
+  }
+  return count;
+}
+
 TEST(PlacedCells, PartitionTheBody) {
   Random random(6);
   std::vector<Mesh> meshes;
@@ -93,9 +106,16 @@ TEST(PlacedCells, PartitionTheBody) {
     for (int trial = 0; trial < 100; ++trial) {
       const Vec3 x{random(-0.5, 1.5), random(-0.1, 1.1), random(-0.1, 1.1)};
       int count = 0;
-      for (std::size_t k = 0; k < cells.ref.size(); ++k) count += cells.inside(k, x) ? 1 : 0;
+      std::vector<Index> near;
+      cells.find(x, near);
+      for (std::size_t k = 0; k < cells.size(); ++k) {
+        if (!cells.inside(k, x)) continue;
+        ++count;
+        EXPECT_TRUE(std::binary_search(near.begin(), near.end(), static_cast<Index>(k)));
+      }
+      EXPECT_LE(near.size(), is_bounded_by(cells, x)) << "no more than whose bounds have it";
       const bool is_in = std::all_of(x.begin(), x.end(), [](double c) { return c > 0.0 && c < 1.0; });
-      EXPECT_EQ(count, is_in ? 1 : 0) << name(cells.type[0]) << " (" << x[0] << ", " << x[1] << ", " << x[2] << ")";
+      EXPECT_EQ(count, is_in ? 1 : 0) << name(cells.type(0)) << " (" << x[0] << ", " << x[1] << ", " << x[2] << ")";
     }
   }
 }
@@ -116,7 +136,7 @@ TEST(PlacedCells, OfPlaneTypesPartitionTheStrip) {
     for (int trial = 0; trial < 100; ++trial) {
       const Vec3 x{random(-0.5, 1.5), random(-0.1, 1.1), 0.0};
       int count = 0;
-      for (std::size_t k = 0; k < cells.ref.size(); ++k) count += cells.inside(k, x) ? 1 : 0;
+      for (std::size_t k = 0; k < cells.size(); ++k) count += cells.inside(k, x) ? 1 : 0;
       EXPECT_EQ(count, x[0] > 0.0 && x[0] < 1.0 && x[1] > 0.0 && x[1] < 1.0 ? 1 : 0) << name(type);
     }
   }

@@ -91,7 +91,20 @@ TEST(Hexa8, FacesEncloseTheVolume) {
           for (std::size_t i = 0; i < 3; ++i) flux += point.N[a] * corner[a][i] * point.normal_dA[i] / 3.0;
     }
     EXPECT_NEAR(hexa8::volume(x).volume, flux, 100 * round_off);
+    EXPECT_NEAR(hexa8::exact_volume(x), flux, 100 * round_off);
     EXPECT_GT(hexa8::volume(x).smallest_det_J, 0.0);
+  }
+}
+
+TEST(Hexa8, AreaOfAWarpedFaceIsThatOfItsGaussPoints) {
+  const auto x = distorted_cell(4U);
+  for (const auto& face : hexa8::faces) {
+    std::array<Vec3, 4> corner{};
+    for (std::size_t a = 0; a < 4; ++a) corner[a] = x[static_cast<std::size_t>(face[a])];
+    double area = 0.0;
+    for (const auto& point : quad4::face_points(corner))
+      area += std::hypot(point.normal_dA[0], point.normal_dA[1], point.normal_dA[2]);
+    EXPECT_NEAR(quad4::area(corner), area, 10 * round_off);
   }
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <numeric>
 
 #include "solid_bodies.hpp"
 
@@ -84,6 +85,21 @@ TEST_P(EveryElement, LumpedMassOfOneCellHasItsClosedForm) {
     if (element.type == CellType::hexa27) share = std::pow(4.0, a < 8 ? 0 : a < 20 ? 1 : a < 26 ? 2 : 3) / 216.0;
     EXPECT_NEAR(m[static_cast<std::size_t>(block.connectivity[a])], share * total, round_off) << a;
   }
+}
+
+// On a distorted cell: the diagonal of the consistent mass, scaled to its sum.
+TEST_P(EveryElement, LumpedMassOfADistortedCellIsTheScaledDiagonal) {
+  const Element& element = GetParam();
+  Mesh mesh = distorted_mesh(element.type);
+  CellBlock& block = mesh.blocks[0];
+  block.connectivity.resize(static_cast<std::size_t>(node_count(element.type)));
+  block.file_numbers.resize(1);
+  const Solid solid(body(mesh, element, unit_material, thickness));
+  const Mass consistent = solid.mass(MassKind::consistent), lumped = solid.mass(MassKind::lumped);
+  const std::vector<double>& diagonal = consistent.node_diagonal();
+  const double scale = consistent.total() / std::accumulate(diagonal.begin(), diagonal.end(), 0.0);
+  for (std::size_t n = 0; n < diagonal.size(); ++n)
+    EXPECT_NEAR(lumped.node_diagonal()[n], scale * diagonal[n], round_off) << n;
 }
 
 // Under gravity every node falls by g t^2 / 2, without stress, which central differences give without error:

@@ -7,6 +7,7 @@
 #include "material/linear_elastic_update.hpp"
 #include "solid/batch_gradients.hpp"
 #include "solid/blocks.hpp"
+#include "solid/cell_stages.hpp"
 #include "solid/colouring.hpp"
 #include "solid/hexa8_small.hpp"
 #include "solid/kernels.hpp"
@@ -41,6 +42,7 @@ KernelTable fused_kernels() {
   KernelTable kernels = kernels_reference();
   kernels.lanes = lanes<Real>;
   kernels.hexa8_small = hexa8_small::kernels<Real>();
+  kernels.cells[static_cast<std::size_t>(CellKind::Hexa8)] = cell_stages<Real, Hexa8Cell>();
   kernels.laws.laws[static_cast<std::size_t>(LawPlace::linear_elastic)] = linear_elastic_kernels<Real>();
   return kernels;
 }
