@@ -21,10 +21,18 @@ template <class Real, int dim, int nodes>
   return invert(g, cofactor);
 }
 
+/// Without overflow or underflow of the squares.
 template <class Real>
 [[gnu::always_inline]] static inline Real bar_length(const Real (&x)[3][2]) {
-  const Real d[3] = {x[0][1] - x[0][0], x[1][1] - x[1][0], x[2][1] - x[2][0]};
-  return square_root(Real(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]));
+  Real d[3], largest{};
+  for (int i = 0; i < 3; ++i) {
+    d[i] = x[i][1] - x[i][0];
+    d[i] = d[i] < 0.0 ? -d[i] : d[i];
+    largest = d[i] > largest ? d[i] : largest;
+  }
+  const Real scale = largest > 0.0 ? largest : Real{} + 1.0;
+  for (Real& component : d) component /= scale;
+  return largest * square_root(Real(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]));
 }
 
 /// density times the part of the reference volume that belongs to point p of the mass rule, which is exact on distorted
@@ -130,7 +138,7 @@ static void lumped_mass(const Real (&x)[3][Cell::nodes], double thickness, doubl
     }
   }
   for (const Real& entry : m) trace += entry;
-  for (Real& entry : m) entry *= total / trace;
+  for (Real& entry : m) entry = entry * total / trace;
 }
 
 /// Smallest Jacobian determinant at the points of the shape's stiffness rule; of composites over the parts, of bars

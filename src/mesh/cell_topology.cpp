@@ -115,17 +115,20 @@ std::span<const std::span<const std::array<LocalNode, 2>>> opposite_faces(CellTy
 
 std::vector<std::uint8_t> node_dimensions(const Mesh& mesh) {
   std::vector<std::uint8_t> highest(mesh.node_count(), 0);
-  for (const CellBlock& block : mesh.blocks)
+  for (const CellBlock& block : mesh.blocks) {
+    const auto own = static_cast<std::uint8_t>(dimension(block.type));
     for (const Index n : block.connectivity) {
       std::uint8_t& seen = highest[static_cast<std::size_t>(n)];
-      seen = std::max(seen, static_cast<std::uint8_t>(dimension(block.type)));
+      seen = std::max(seen, own);
     }
+  }
   return highest;
 }
 
 bool on_boundary(std::span<const Index> nodes, CellType type, std::span<const std::uint8_t> node_dimensions) {
+  const int own = dimension(type);
   return std::all_of(nodes.begin(), nodes.end(),
-                     [&](Index n) { return node_dimensions[static_cast<std::size_t>(n)] > dimension(type); });
+                     [&](Index n) { return node_dimensions[static_cast<std::size_t>(n)] > own; });
 }
 
 }  // namespace carom

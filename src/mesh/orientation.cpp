@@ -126,6 +126,8 @@ struct Faults {
 }  // namespace
 
 bool has_zero_thickness(const Mesh& mesh, CellType type, std::span<const Index> nodes) {
+  const auto pairings = opposite_faces(type);
+  if (pairings.empty()) return false;
   constexpr double kCoincident = 1e-6;
   Vec3 low = position(mesh, nodes, 0), high = low;
   for (const Index n : nodes)
@@ -133,14 +135,15 @@ bool has_zero_thickness(const Mesh& mesh, CellType type, std::span<const Index> 
       low[c] = std::min(low[c], mesh.coordinates[static_cast<std::size_t>(n)][c]);
       high[c] = std::max(high[c], mesh.coordinates[static_cast<std::size_t>(n)][c]);
     }
-  const double size = norm(subtract(high, low));
+  const Vec3 size = subtract(high, low);
+  const double near = kCoincident * kCoincident * dot(size, size);
   const auto coincide = [&](const std::array<LocalNode, 2>& pair) {
-    return norm(subtract(position(mesh, nodes, pair[0]), position(mesh, nodes, pair[1]))) <= kCoincident * size;
+    const Vec3 d = subtract(position(mesh, nodes, pair[0]), position(mesh, nodes, pair[1]));
+    return dot(d, d) <= near;
   };
   const auto faces_coincide = [&](std::span<const std::array<LocalNode, 2>> pairs) {
     return std::all_of(pairs.begin(), pairs.end(), coincide);
   };
-  const auto pairings = opposite_faces(type);
   const auto collapsed = std::count_if(pairings.begin(), pairings.end(), faces_coincide);
   return collapsed == 1 && !has_repeated_nodes(nodes);
 }

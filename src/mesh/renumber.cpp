@@ -189,33 +189,51 @@ std::vector<Index> inverse(const std::vector<Index>& order) {
   return result;
 }
 
+std::vector<Index> first_entries(std::size_t count) {
+  std::vector<Index> entries(count);
+  std::iota(entries.begin(), entries.end(), Index{0});
+  return entries;
+}
+
+/// The entries in increasing order of a key below `most`, equal ones in the order that they have.
+template <class Key>
+std::vector<Index> sorted_by(const std::vector<Index>& entries, std::size_t most, const Key& key) {
+  std::vector<std::size_t> begin(most + 1, 0);
+  for (const Index i : entries) ++begin[key(i) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Index> order(entries.size());
+  for (const Index i : entries) order[begin[key(i)]++] = i;
+  return order;
+}
+
 /// Sorts the cells of a block by smallest node, then by the sum of nodes; returns order[new] = old.
-std::vector<Index> sort_cells(CellBlock& block) {
-  const auto n = static_cast<std::size_t>(node_count(block.type));
+std::vector<Index> sort_cells(CellBlock& block, std::size_t node_count) {
   struct Key {
     Index smallest;
-    Index cell;
     std::int64_t sum;
   };
   std::vector<Key> keys(block.size());
   for (std::size_t cell = 0; cell < block.size(); ++cell) {
-    const std::span<const Index> nodes(&block.connectivity[cell * n], n);
-    keys[cell] = {*std::min_element(nodes.begin(), nodes.end()), static_cast<Index>(cell),
+    const std::span<const Index> nodes = block.nodes(static_cast<Index>(cell));
+    keys[cell] = {*std::min_element(nodes.begin(), nodes.end()),
                   std::accumulate(nodes.begin(), nodes.end(), std::int64_t{0})};
   }
-  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-    return std::tie(a.smallest, a.sum, a.cell) < std::tie(b.smallest, b.sum, b.cell);
-  });
+  std::vector<Index> order =
+      sorted_by(first_entries(keys.size()), node_count, [&](Index i) { return at(keys[at(i)].smallest); });
+  for (auto first = order.begin(); first != order.end();) {
+    const auto last =
+        std::find_if(first, order.end(), [&](Index c) { return keys[at(c)].smallest != keys[at(*first)].smallest; });
+    std::sort(first, last,
+              [&](Index a, Index b) { return std::pair(keys[at(a)].sum, a) < std::pair(keys[at(b)].sum, b); });
+    first = last;
+  }
   CellBlock sorted{block.type, {}, {}};
   sorted.connectivity.reserve(block.connectivity.size());
   sorted.file_numbers.reserve(block.size());
-  std::vector<Index> order;
-  order.reserve(block.size());
-  for (const Key& key : keys) {
-    const auto first = block.connectivity.begin() + static_cast<std::ptrdiff_t>(at(key.cell) * n);
-    sorted.connectivity.insert(sorted.connectivity.end(), first, first + static_cast<std::ptrdiff_t>(n));
-    sorted.file_numbers.push_back(block.file_numbers[at(key.cell)]);
-    order.push_back(key.cell);
+  for (const Index cell : order) {
+    const std::span<const Index> nodes = block.nodes(cell);
+    sorted.connectivity.insert(sorted.connectivity.end(), nodes.begin(), nodes.end());
+    sorted.file_numbers.push_back(block.file_numbers[at(cell)]);
   }
   block = std::move(sorted);
   return order;
@@ -241,7 +259,7 @@ void renumber_nodes(Mesh& mesh, const std::vector<Index>& order) {
 
 /// Nodes along the bins of a coarse grid: near enough to the final order that finding it does not wait for memory.
 std::vector<Index> grid_order(const Mesh& mesh) {
-  constexpr double kBins = 100;
+  constexpr std::size_t kBins = 100;
   Vec3 low{}, high{};
   if (mesh.node_count() > 0) low = high = mesh.coordinates[0];
   for (const Vec3& x : mesh.coordinates)
@@ -250,17 +268,13 @@ std::vector<Index> grid_order(const Mesh& mesh) {
       high[c] = std::max(high[c], x[c]);
     }
   const double size = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-  const double bin_size = size > 0 ? size / kBins : 1.0;
-  std::vector<std::pair<std::int64_t, Index>> keys(mesh.node_count());
-  for (std::size_t n = 0; n < keys.size(); ++n) {
-    std::int64_t key = 0;
-    for (const std::size_t c : {2, 1, 0})
-      key = 1000 * key + static_cast<std::int64_t>(bin(mesh.coordinates[n][c] - low[c], bin_size));
-    keys[n] = {key, static_cast<Index>(n)};
-  }
-  std::sort(keys.begin(), keys.end());
-  std::vector<Index> order(keys.size());
-  std::transform(keys.begin(), keys.end(), order.begin(), [](const auto& key) { return key.second; });
+  const double bin_size = size > 0 ? size / static_cast<double>(kBins) : 1.0;
+  std::vector<Index> order = first_entries(mesh.node_count());
+  for (const std::size_t c : {0, 1, 2})
+    order = sorted_by(order, kBins + 2, [&](Index n) {
+      return static_cast<std::size_t>(
+          std::fmin(bin(mesh.coordinates[at(n)][c] - low[c], bin_size), static_cast<double>(kBins + 1)));
+    });
   return order;
 }
 
@@ -268,7 +282,7 @@ std::vector<Index> grid_order(const Mesh& mesh) {
 void reorder(const std::vector<Index>& order, Mesh& mesh) {
   renumber_nodes(mesh, order);
   std::vector<std::vector<Index>> new_cell;
-  for (CellBlock& block : mesh.blocks) new_cell.push_back(inverse(sort_cells(block)));
+  for (CellBlock& block : mesh.blocks) new_cell.push_back(inverse(sort_cells(block, mesh.node_count())));
   for (auto& [name, cells] : mesh.cell_groups) {
     for (CellRef& ref : cells) ref.cell = new_cell[at(ref.block)][at(ref.cell)];
     std::sort(cells.begin(), cells.end());

@@ -6,6 +6,7 @@
 
 #include "base/types.hpp"
 #include "mesh/cell_topology.hpp"
+#include "mesh/face_twins.hpp"
 
 namespace carom {
 
@@ -61,25 +62,19 @@ double CellColumns::length(std::size_t k, int axis) const {
 }
 
 void CellColumns::find_neighbours() {
-  struct Face {
-    std::array<Index, 4> key;
-    Side side;
-  };
-  std::vector<Face> faces;
-  faces.reserve(6 * solid_.cell_count());
+  std::vector<FaceKey> faces;
+  std::vector<Side> sides;
   for (std::size_t k = 0; k < solid_.cell_count(); ++k) {
     for (Side side = 6 * k; side < 6 * k + 2 * at(dimension(k)); ++side) {
-      faces.push_back({facet(side).node, side});
-      std::sort(faces.back().key.begin(), faces.back().key.end());
+      const Facet f = facet(side);
+      faces.push_back(face_key({f.begin(), f.end()}));
+      sides.push_back(side);
     }
   }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
+  const std::vector<std::uint32_t> twin = face_twins(faces, mesh_.node_count());
   neighbour_.assign(6 * solid_.cell_count(), -1);
-  for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
-    if (faces[i].key != faces[i + 1].key) continue;
-    neighbour_[faces[i].side] = static_cast<std::ptrdiff_t>(faces[i + 1].side);
-    neighbour_[faces[i + 1].side] = static_cast<std::ptrdiff_t>(faces[i].side);
-  }
+  for (std::size_t i = 0; i < twin.size(); ++i)
+    if (twin[i] != no_twin) neighbour_[sides[i]] = static_cast<std::ptrdiff_t>(sides[twin[i]]);
 }
 
 void CellColumns::walk(Side start) {

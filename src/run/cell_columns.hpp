@@ -22,7 +22,6 @@ struct CellColumn {
 /// The columns of the solid's HEXA8 (three through each cell) and QUAD4 (two). Parts that share nodes are one body.
 class CellColumns {
  public:
-  /// Time is that of a sort of all faces.
   CellColumns(const Mesh& mesh, const Solid& solid);
 
   /// The column of cell k (of Solid::cells()) along its axis 0, 1 or 2; endless (infinite length) where it closes in

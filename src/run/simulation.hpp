@@ -41,7 +41,7 @@ class Simulation {
   /// End of the last stage.
   double end() const { return stages_.back()->end(); }
   /// The stable step of central differences on the first stage's system; costs some hundred actions of the stiffness.
-  StableStep stable() const { return stable_step(system(), 2.0, EnforcementKind::penalty); }
+  StableStep stable() const { return first().stable(2.0, EnforcementKind::penalty); }
   /// What was mended or noticed while building.
   const std::vector<std::string>& notes() const { return notes_; }
 

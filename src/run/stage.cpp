@@ -128,8 +128,10 @@ Stage::Stage(const StageContext& context, const CaseScheme& scheme, const CaseTi
       begin_(begin),
       settings_(settings_of(scheme, context.given.solver)),
       mass_(make_mass(context, scheme, settings_, notes_)),
-      supports_(make_supports(context, context.model, body_nodes(context))),
-      system_{context.mesh, context.solid, mass_, context.contact, supports_} {
+      has_mass_(body_nodes(context)),
+      supports_(make_supports(context, context.model, has_mass_)),
+      system_{context.mesh, context.solid, mass_, context.contact, supports_},
+      rest_(system_) {
   if (settings_.kind == SchemeKind::statics) hold_bodies_in_flight(later_velocity);
   refuse_massless_contact();
   refuse_history();
@@ -157,7 +159,7 @@ void Stage::hold_bodies_in_flight(const std::vector<bool>& later_velocity) {
       model.motions.push_back(std::move(held));
     }
   }
-  supports_ = make_supports(context_, model, body_nodes(context_));
+  supports_ = make_supports(context_, model, has_mass_);
 }
 
 /// A contact node that belongs to no part and is held by no support has no equation.
@@ -165,11 +167,10 @@ void Stage::refuse_massless_contact() const {
   const std::vector<double> zero(context_.solid.dof_count(), 0.0);
   const std::shared_ptr<const ConstraintRows> shared = context_.contact.rows_at(zero, zero);
   const ConstraintRows& rows = *shared;
-  const std::vector<bool> has_mass = body_nodes(context_);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
       const Index n = rows.node[k];
-      if (has_mass[static_cast<std::size_t>(n)]) continue;
+      if (has_mass_[static_cast<std::size_t>(n)]) continue;
       if (supports_.is_prescribed(3 * n) && supports_.is_prescribed(3 * n + 1) && supports_.is_prescribed(3 * n + 2))
         continue;
       const CaseContact& contact = context_.given.contacts[static_cast<std::size_t>(rows.source[r])];
@@ -202,14 +203,14 @@ void Stage::choose_step() {
   const bool explicit_steps = is_explicit(settings_.kind);
   double wanted = explicit_steps ? 0.0 : **time_.step, stable_dt = std::numeric_limits<double>::infinity();
   if (explicit_steps) {
-    const StableStep stable = this->stable();
+    const StableStep stable = contact_step(rest_, stability_limit(settings_), settings_.enforcement);
     stable_dt = stable.dt;
     wanted = time_.step ? **time_.step : time_.safety * stable.advised();
     if (wanted > stable.dt) {
-      throw CaseError(
-          time_.step->where, "time.step", fmt::format("{:.6g}", wanted),
-          fmt::format("at most the stable step {:.6g} (contact included; {:.6g} without)", stable.dt, stable.dt_free),
-          "Lower the step, or leave it out to have it chosen.");
+      throw CaseError(time_.step->where, "time.step", fmt::format("{:.6g}", wanted),
+                      fmt::format("at most the stable step {:.6g} (contact included; {:.6g} without)", stable.dt,
+                                  this->stable().dt_free),
+                      "Lower the step, or leave it out to have it chosen.");
     }
   }
   const double count = length / wanted;
@@ -233,7 +234,11 @@ void Stage::choose_step() {
 }
 
 StableStep Stage::stable() const {
-  return stable_step(system_, stability_limit(settings_), settings_.enforcement);
+  return stable_step(rest_, stability_limit(settings_), settings_.enforcement);
+}
+
+StableStep Stage::stable(double limit, EnforcementKind enforcement) const {
+  return stable_step(rest_, limit, enforcement);
 }
 
 bool Stage::stable_step_changes() const {
@@ -241,7 +246,7 @@ bool Stage::stable_step_changes() const {
 }
 
 StableStepWatch Stage::watch_stable_step() const {
-  return {system_, stability_limit(settings_), settings_.enforcement};
+  return {rest_, stability_limit(settings_), settings_.enforcement};
 }
 
 std::unique_ptr<Scheme> Stage::make_scheme() const {

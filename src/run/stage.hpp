@@ -55,6 +55,8 @@ class Stage {
   std::unique_ptr<Scheme> make_scheme() const;
   /// The stable step of the stage's scheme on its system at the start.
   StableStep stable() const;
+  /// That of another scheme and enforcement on the same system.
+  StableStep stable(double limit, EnforcementKind enforcement) const;
   /// True when the stable step of an explicit stage changes during the run.
   bool stable_step_changes() const;
   /// Re-estimates it.
@@ -82,8 +84,10 @@ class Stage {
   SchemeSettings settings_;
   MassNotes notes_;
   Mass mass_;
+  std::vector<bool> has_mass_;  ///< by node: before contact nodes give theirs away
   Supports supports_;
   System system_;
+  RestFrequencies rest_;
   double dt_ = 0.0;
   long long steps_ = 0;
   double reversible_energy_ = 0.0;

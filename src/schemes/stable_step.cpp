@@ -19,10 +19,11 @@ class Vibration {
  public:
   /// rows: nullptr without contact
   Vibration(const System& system, std::vector<double> u, std::shared_ptr<const ConstraintRows> rows)
-      : system_(system), u_(std::move(u)), rows_(std::move(rows)), mass_solver_(system), moves_(u_.size()) {
+      : system_(system), u_(std::move(u)), rows_(std::move(rows)), inverse_(u_.size()) {
     const std::vector<bool>& fixed = system.supports.fixed();
-    for (std::size_t i = 0; i < moves_.size(); ++i)
-      moves_[i] = !fixed[i] && system.mass.node_diagonal()[i / 3] > 0.0 ? 1 : 0;
+    const std::vector<double>& m = system.mass.node_diagonal();
+    for (std::size_t i = 0; i < inverse_.size(); ++i) inverse_[i] = !fixed[i] && m[i / 3] > 0.0 ? 1.0 / m[i / 3] : 0.0;
+    if (system.mass.kind() != MassKind::lumped) consistent_.emplace(system);
   }
 
   Pencil pencil() {
@@ -35,24 +36,28 @@ class Vibration {
   void stiffness(std::span<const double> x, std::span<double> y) const {
     system_.solid.tangent_action(u_, x, y);
     if (rows_) add_closed_stiffness(*rows_, x, y);
-    keep_moving(y);
+    if (consistent_) keep_moving(y);  // the inverse of a lumped mass leaves the others out
   }
   void inverse_mass(std::span<const double> x, std::span<double> y) {
+    if (!consistent_) {
+      parallel_each(y.size(), [&](std::size_t i) { y[i] = x[i] * inverse_[i]; });
+      return;
+    }
     std::fill(y.begin(), y.end(), 0.0);
-    mass_solver_.solve(x, y);
+    consistent_->solve(x, y);
     keep_moving(y);
   }
   void keep_moving(std::span<double> y) const {
     parallel_each(y.size(), [&](std::size_t i) {
-      if (moves_[i] == 0) y[i] = 0.0;
+      if (inverse_[i] == 0.0) y[i] = 0.0;
     });
   }
 
   const System& system_;
   std::vector<double> u_;
   std::shared_ptr<const ConstraintRows> rows_;
-  MassSolver mass_solver_;
-  std::vector<unsigned char> moves_;
+  std::vector<double> inverse_;  ///< of the lumped mass, or of the diagonal; 0 where nothing moves
+  std::optional<MassSolver> consistent_;
 };
 
 /// Largest sum of damping / mass over the nodes. For the consistent mass of parallelepipeds, M >= 1/8 of its diagonal
@@ -105,35 +110,62 @@ double closing_step(double limit, double contact_omega_squared) {
 
 }  // namespace
 
-StableStep stable_step(const System& system, double limit, EnforcementKind enforcement) {
-  const std::vector<double> zero(system.solid.dof_count(), 0.0);
-  const auto frequency = [&](std::shared_ptr<const ConstraintRows> rows) {
-    Vibration vibration(system, zero, std::move(rows));
-    return largest_eigenvalue(vibration.pencil(), zero.size()).upper;
-  };
+double RestFrequencies::largest(std::shared_ptr<const ConstraintRows> rows) const {
+  Vibration vibration(system_, std::vector<double>(system_.solid.dof_count(), 0.0), std::move(rows));
+  return largest_eigenvalue(vibration.pencil(), system_.solid.dof_count()).upper;
+}
+
+double RestFrequencies::free() const {
+  if (!free_) free_ = largest(nullptr);
+  return *free_;
+}
+
+double RestFrequencies::closed() const {
+  if (closed_) return *closed_;
+  const std::vector<double> zero(system_.solid.dof_count(), 0.0);
+  const auto rows = system_.contact.rows_at(zero, zero);
+  closed_ = largest(std::make_shared<const ConstraintRows>(as_they_close(*rows, zero)));
+  return *closed_;
+}
+
+StableStep contact_step(const RestFrequencies& rest, double limit, EnforcementKind enforcement) {
+  const System& system = rest.system();
   StableStep out;
-  out.omega_max_squared = out.omega_max_squared_free = frequency(nullptr);
   out.dt_closing = std::numeric_limits<double>::infinity();
-  const double viscous = system.solid.largest_damping({});
-  double damping_ratio = viscous;
+  double damping_ratio = system.solid.largest_damping({});
   if (traits(enforcement).adds_stiffness && system.contact.slots() > 0) {
+    const std::vector<double> zero(system.solid.dof_count(), 0.0);
     const auto rows = system.contact.rows_at(zero, zero);
-    out.omega_max_squared = frequency(std::make_shared<const ConstraintRows>(as_they_close(*rows, zero)));
+    out.omega_max_squared = rest.closed();
     out.dt_closing = closing_step(limit, contact_frequency_bound(system, *rows, zero));
     damping_ratio += largest_damping_ratio(system, *rows);
+  } else {
+    out.omega_max_squared = rest.free();
   }
-  out.dt_free = step_of(limit, out.omega_max_squared_free, viscous);
   out.dt = step_of(limit, out.omega_max_squared, damping_ratio);
   return out;
 }
 
-StableStepWatch::StableStepWatch(const System& system, double limit, EnforcementKind enforcement)
-    : system_(system), limit_(limit), enforcement_(enforcement), damping_(system.solid.largest_damping({})) {
-  const std::vector<double> zero(system.solid.dof_count(), 0.0);
-  Vibration vibration(system, zero, nullptr);
-  omega_squared_ = at_rest_ = largest_eigenvalue(vibration.pencil(), zero.size()).upper;
-  if (system.solid.is_linear()) return;
-  if (system.solid.cell_count() > 0) cells_ = relative_bounds(system);
+StableStep stable_step(const RestFrequencies& rest, double limit, EnforcementKind enforcement) {
+  StableStep out = contact_step(rest, limit, enforcement);
+  out.omega_max_squared_free = rest.free();
+  out.dt_free = step_of(limit, out.omega_max_squared_free, rest.system().solid.largest_damping({}));
+  return out;
+}
+
+StableStep stable_step(const System& system, double limit, EnforcementKind enforcement) {
+  return stable_step(RestFrequencies(system), limit, enforcement);
+}
+
+StableStepWatch::StableStepWatch(const RestFrequencies& rest, double limit, EnforcementKind enforcement)
+    : system_(rest.system()),
+      limit_(limit),
+      enforcement_(enforcement),
+      omega_squared_(rest.free()),
+      damping_(system_.solid.largest_damping({})),
+      at_rest_(omega_squared_) {
+  if (system_.solid.is_linear()) return;
+  if (system_.solid.cell_count() > 0) cells_ = relative_bounds(system_);
 }
 
 bool StableStepWatch::follow_damping(std::span<const double> points) {

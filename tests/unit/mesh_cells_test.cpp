@@ -1,12 +1,15 @@
 // Faces, edges and pieces of every type of cell, and skins of grids meshed with them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 #include <set>
 #include <string>
 
 #include "cell_meshes.hpp"
+#include "mesh/face_twins.hpp"
 #include "mesh/linear_cells.hpp"
 #include "mesh/orientation.hpp"
 #include "mesh/structured_block.hpp"
@@ -56,6 +59,32 @@ double enclosed(const Mesh& mesh, const std::vector<Facet>& facets) {
   double sum = 0.0;
   for (const Facet& f : facets) sum += dot(position(mesh, f[0]), area_of(mesh, f)) / (f.size == 2 ? 2.0 : 3.0);
   return sum;
+}
+
+// Random faces over few nodes, so that many occur once, twice and more often.
+TEST(FaceTwins, AreTheFacesThatOccurAgain) {
+  std::minstd_rand random(5);
+  std::vector<FaceKey> faces;
+  for (int i = 0; i < 300; ++i) {
+    std::set<Index> corners;
+    const std::size_t size = 3 + random() % 2;
+    while (corners.size() < size) corners.insert(static_cast<Index>(random() % 8));
+    std::vector<Index> shuffled(corners.begin(), corners.end());
+    std::shuffle(shuffled.begin(), shuffled.end(), random);
+    faces.push_back(face_key(shuffled));
+    EXPECT_TRUE(std::is_sorted(faces.back().begin(), faces.back().end()));
+  }
+  const std::vector<std::uint32_t> twin = face_twins(faces, 8);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const auto count = std::count(faces.begin(), faces.end(), faces[i]);
+    ASSERT_EQ(twin[i] == no_twin, count == 1);
+    if (count == 1) continue;
+    EXPECT_NE(twin[i], i);
+    EXPECT_EQ(faces[twin[i]], faces[i]);
+    if (count == 2) {
+      EXPECT_EQ(twin[twin[i]], i);
+    }
+  }
 }
 
 TEST(CellFaces, EncloseTheVolumeOfTheCell) {

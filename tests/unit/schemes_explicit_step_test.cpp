@@ -556,14 +556,14 @@ TEST(StableStepWatch, StaysOnTheSafeSideOfTheLinearLimit) {
     const Problem p(on_plane(), kind);
     const std::vector<double> zero(p.solid.dof_count(), 0.0);
     const StableStep start = stable_step(p.system);
-    const StableStepWatch watch(p.system, 2.0, EnforcementKind::penalty);
+    const StableStepWatch watch(RestFrequencies(p.system), 2.0, EnforcementKind::penalty);
     const StableStep now = watch.with(*p.rows(), zero);
     EXPECT_LE(now.dt, 1.001 * start.dt);  // 1e-3: the tolerance of stable_step itself
     const double least =
         kind == MassKind::lumped ? 0.7 : 0.2;  // of a consistent mass the bound takes 1/8 of the diagonal
     EXPECT_GE(now.dt, least * start.dt);
     EXPECT_EQ(now.dt_closing, start.dt_closing);
-    const StableStepWatch exact(p.system, 2.0, EnforcementKind::lagrange);
+    const StableStepWatch exact(RestFrequencies(p.system), 2.0, EnforcementKind::lagrange);
     EXPECT_NEAR(exact.with(*p.rows(), zero).advised(), start.dt_free, 1e-3 * start.dt_free);
   }
 }
@@ -573,7 +573,8 @@ TEST(StableStepWatch, SeesTheBodyChange) {
   Model model = finite_strain();
   const Problem p(std::move(model), MassKind::lumped);
   const std::vector<double> zero(p.solid.dof_count(), 0.0);
-  StableStepWatch watch(p.system, 2.0, EnforcementKind::lagrange), fresh(p.system, 2.0, EnforcementKind::lagrange);
+  StableStepWatch watch(RestFrequencies(p.system), 2.0, EnforcementKind::lagrange),
+      fresh(RestFrequencies(p.system), 2.0, EnforcementKind::lagrange);
   const auto step_at = [&](StableStepWatch& of, const std::vector<double>& u) {
     of.follow_bodies(u, {});
     return of.with({}, u).dt;
