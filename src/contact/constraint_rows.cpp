@@ -54,15 +54,6 @@ void ConstraintRows::add_block(Index n, const RowBlock& b) {
   ++begin.back();
 }
 
-Vec3 ConstraintRows::relative(std::size_t r, std::span<const double> x) const {
-  Vec3 w{};
-  for (auto k = static_cast<std::size_t>(begin[r]); k < static_cast<std::size_t>(begin[r + 1]); ++k) {
-    const double* u = x.data() + 3 * static_cast<std::size_t>(node[k]);
-    for (std::size_t i = 0; i < 3; ++i) w[i] += block[k][i][0] * u[0] + block[k][i][1] * u[1] + block[k][i][2] * u[2];
-  }
-  return w;
-}
-
 void ConstraintRows::scatter(std::size_t r, const Vec3& s, std::span<double> f) const {
   for (auto k = static_cast<std::size_t>(begin[r]); k < static_cast<std::size_t>(begin[r + 1]); ++k) {
     const RowBlock& b = block[k];

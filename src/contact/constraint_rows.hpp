@@ -88,7 +88,15 @@ struct ConstraintRows {
   void add_block(Index n, const RowBlock& b);
 
   /// w = (G x)_r in the row's frame; x is a dof vector.
-  Vec3 relative(std::size_t r, std::span<const double> x) const;
+  Vec3 relative(std::size_t r, std::span<const double> x) const {
+    Vec3 w{};
+    for (auto k = static_cast<std::size_t>(begin[r]); k < static_cast<std::size_t>(begin[r + 1]); ++k) {
+      const double* u = x.data() + 3 * static_cast<std::size_t>(node[k]);
+      const RowBlock& b = block[k];
+      for (std::size_t i = 0; i < 3; ++i) w[i] += b[i][0] * u[0] + b[i][1] * u[1] + b[i][2] * u[2];
+    }
+    return w;
+  }
   /// g_r(x)
   double gap_at(std::size_t r, std::span<const double> x) const { return gap[r] + relative(r, x)[0]; }
   /// How much of (G x)_r rounding may have made: 16 units of round-off of its terms.

@@ -71,14 +71,15 @@ ConstraintRows as_they_close(const ConstraintRows& rows, std::span<const double>
   return out;
 }
 
-double contact_frequency_bound(const System& system, const ConstraintRows& rows, std::span<const double> u) {
+double contact_frequency_bound(const System& system, const ConstraintRows& rows, std::span<const double> u,
+                               double enough) {
   constexpr int iterations = 8;
+  if (rows.size() == 0) return 0.0;
   const std::vector<double> size = sizes(system, rows, u);
   std::vector<double> x(rows.size(), 1.0), at_node(system.mass.node_diagonal().size());
-  if (rows.size() == 0) return 0.0;
   double bound = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < iterations; ++i) {
-    std::fill(at_node.begin(), at_node.end(), 0.0);
+  for (int i = 0; i < iterations && bound > enough; ++i) {
+    for (const Index n : rows.node) at_node[static_cast<std::size_t>(n)] = 0.0;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
         at_node[static_cast<std::size_t>(rows.node[k])] += size[k] * x[r];

@@ -113,13 +113,20 @@ void StepGuard::accept(const EnergyGuard::Books& books) {
   cuts_ = failures_ = 0;
 }
 
-/// The longest step from displacement u, where rows_ stand. The estimate may be a percent or two below that of the
-/// start, for which no step has to change.
-double StepGuard::longest(std::span<const double> u) const {
-  const StableStep steps = watch_->with(rows_ ? *rows_ : ConstraintRows{}, u);
-  if (stage_.time().step) return steps.dt;
-  const double share = energy_ ? energy_->share() : 1.0;
-  return share * std::min(1.0, 1.02 * stage_.time().safety) * steps.advised();
+/// What a run takes of the steps that are advised. The estimate may be a percent or two below that of the start, for
+/// which no step has to change.
+double StepGuard::share() const {
+  if (stage_.time().step) return 1.0;
+  return (energy_ ? energy_->share() : 1.0) * std::min(1.0, 1.02 * stage_.time().safety);
+}
+
+/// The longest step from displacement u, where rows_ stand; where it is longer than `wanted`, no more than that may be
+/// known of it.
+double StepGuard::longest(std::span<const double> u, double wanted) {
+  static const ConstraintRows none;
+  const StableStep steps = watch_->with(rows_ ? *rows_ : none, u, wanted / share());
+  advised_ = stage_.time().step ? steps.dt : steps.advised();
+  return share() * advised_;
 }
 
 /// False when springs or viscosity act at the end that need a step at least 2^(1/8) shorter than the one that met them,
@@ -128,11 +135,11 @@ bool StepGuard::fits(const State& end) {
   const Forces& forces = end.forces;
   rows_ = forces.rows.rows;
   const bool is_damped = watch_->follow_damping(end.points);
-  const double longest = this->longest(end.q);
+  const double dt = control_.dt(), least = dt * std::exp2(-1.0 / 8.0);
+  const double longest = this->longest(end.q, dt);
   const bool springs_act = std::any_of(forces.rows.status.begin(), forces.rows.status.end(),
                                        [](RowStatus status) { return status != RowStatus::open; });
-  const double dt = control_.dt();
-  if ((!springs_act && !is_damped) || longest >= dt * std::exp2(-1.0 / 8.0) || !control_.limit(longest)) return true;
+  if ((!springs_act && !is_damped) || longest >= least || !control_.limit(longest)) return true;
   return control_.dt() >= dt;
 }
 
@@ -148,6 +155,7 @@ void StepGuard::follow_stable_step(const State& now, long long step) {
   constexpr double restless = 0.05;  // change of the bodies' frequency after which they are looked at again at once
   const bool is_due = step % every == 0 || is_restless_;
   if (is_due) is_restless_ = watch_->follow_bodies(now.q, now.points) > restless;
+  if (!is_due && share() * advised_ >= control_.dt()) return;
   const double longest = this->longest(now.q);
   if (!is_due && longest >= control_.dt()) return;
   if (control_.limit(longest)) return;

@@ -1,6 +1,7 @@
 // What decides the length of the steps of a stage: failures, contact that closes, the stable step.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -64,12 +65,14 @@ class StepGuard {
   bool cut_motion(const std::optional<MotionLimit::Overrun>& overrun, double t, long long step);
   bool ends_late(const State& begin, const State& end);
   bool fits(const State& end);
-  double longest(std::span<const double> u) const;
+  double share() const;
+  double longest(std::span<const double> u, double wanted = std::numeric_limits<double>::infinity());
 
   const Stage& stage_;
   StepControl control_;
   std::optional<StableStepWatch> watch_;        ///< where the stable step changes
   std::shared_ptr<const ConstraintRows> rows_;  ///< of the last step, where it is watched
+  double advised_ = 0.0;                        ///< a step that they allow, before it is multiplied by share()
   bool is_restless_ = false;                    ///< the bodies stiffen quickly
   std::optional<EnergyGuard> energy_;           ///< where springs act and steps may be shortened
   std::optional<MotionLimit> motion_;           ///< where there is contact and inertia

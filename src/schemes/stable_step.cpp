@@ -63,6 +63,7 @@ class Vibration {
 /// Largest sum of damping / mass over the nodes. For the consistent mass of parallelepipeds, M >= 1/8 of its diagonal
 /// (Wathen, IMA Journal of Numerical Analysis 7, 1987).
 double largest_damping_ratio(const System& system, const ConstraintRows& rows) {
+  if (std::none_of(rows.law.begin(), rows.law.end(), [](const RowLaw& law) { return law.damping > 0.0; })) return 0.0;
   const double smallest_share = system.mass.kind() == MassKind::lumped ? 1.0 : 1.0 / 8.0;
   std::vector<double> damping(system.mass.node_diagonal().size(), 0.0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -101,6 +102,12 @@ std::vector<double> relative_bounds(const System& system) {
   const double largest = *std::max_element(bounds.begin(), bounds.end());
   for (double& bound : bounds) bound = largest > 0.0 ? bound / largest : 0.0;
   return bounds;
+}
+
+/// The largest omega^2 of a step, the inverse of step_of.
+double omega_squared_of(double limit, double step, double damping_ratio) {
+  const double h = 2.0 * step / limit;
+  return (4.0 - 2.0 * h * damping_ratio) / (h * h);
 }
 
 double closing_step(double limit, double contact_omega_squared) {
@@ -182,15 +189,19 @@ double StableStepWatch::follow_bodies(std::span<const double> u, std::span<const
   return 0.5 * std::abs(omega_squared_ / before - 1.0);
 }
 
-StableStep StableStepWatch::with(const ConstraintRows& rows, std::span<const double> u) const {
+StableStep StableStepWatch::with(const ConstraintRows& rows, std::span<const double> u, double wanted) const {
   StableStep out;
   out.omega_max_squared_free = omega_squared_;
   out.dt_free = step_of(limit_, omega_squared_, damping_);
   const bool has_springs = traits(enforcement_).adds_stiffness && rows.size() > 0;
-  const double contact = has_springs ? contact_frequency_bound(system_, rows, u) : 0.0;
+  const double damping = damping_ + (has_springs ? largest_damping_ratio(system_, rows) : 0.0);
+  const double closing = closing_limit * 0.5 * limit_ / wanted;
+  const double enough = std::isfinite(wanted)
+                            ? std::min(omega_squared_of(limit_, wanted, damping) - omega_squared_, closing * closing)
+                            : 0.0;
+  const double contact = has_springs ? contact_frequency_bound(system_, rows, u, enough) : 0.0;
   out.omega_max_squared = omega_squared_ + contact;
-  out.dt =
-      step_of(limit_, out.omega_max_squared, damping_ + (has_springs ? largest_damping_ratio(system_, rows) : 0.0));
+  out.dt = step_of(limit_, out.omega_max_squared, damping);
   out.dt_closing = closing_step(limit_, contact);
   return out;
 }

@@ -1,6 +1,7 @@
 // The stable step of explicit schemes, contact included.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -77,8 +78,10 @@ class StableStepWatch {
   /// Takes the damping of artificial viscosity from the rates that the points remember of a step, times the growth of
   /// the bodies' omega: both go with 1 / l. One pass over cells with viscosity; false where there are none.
   bool follow_damping(std::span<const double> points);
-  /// The steps with these rows, those of displacement u, every one of them closed. Cheap: two passes over the rows.
-  StableStep with(const ConstraintRows& rows, std::span<const double> u) const;
+  /// The steps with these rows, those of displacement u, every one of them closed: a few passes over the rows, only as
+  /// many as show that `wanted` may be advised where that is so.
+  StableStep with(const ConstraintRows& rows, std::span<const double> u,
+                  double wanted = std::numeric_limits<double>::infinity()) const;
 
  private:
   template <class A>
