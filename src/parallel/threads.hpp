@@ -11,16 +11,25 @@ namespace carom {
 int set_threads(int count);
 int thread_count();
 
+/// Part k of a loop, with what it works on.
+using LoopPart = void (*)(const void* body, std::size_t k);
+/// Calls part(body, k) for every k in [0, count), each thread a contiguous share of them; does not allocate. By OpenMP
+/// (loops_openmp.cpp), or by the threads of the standard library (loops_std.cpp, CAROM_STD_THREADS), whose
+/// synchronisation the thread sanitizer understands.
+void run_parts(std::size_t count, LoopPart part, const void* body);
+
 /// Calls body(begin, end) on contiguous ranges that cover [0, n), in any order and at the same time. The ranges have
 /// `grain` entries (the last may be shorter) whatever the number of threads.
 template <class Body>
 void parallel_for(std::size_t n, std::size_t grain, const Body& body) {
-  const auto chunks = static_cast<std::ptrdiff_t>((n + grain - 1) / grain);
-#pragma omp parallel for schedule(static) if (chunks > 1)
-  for (std::ptrdiff_t c = 0; c < chunks; ++c) {
-    const std::size_t begin = static_cast<std::size_t>(c) * grain;
+  const auto range = [n, grain, &body](std::size_t k) {
+    const std::size_t begin = k * grain;
     body(begin, begin + grain < n ? begin + grain : n);
-  }
+  };
+  const std::size_t count = (n + grain - 1) / grain;
+  if (count == 1) return range(0);
+  run_parts(
+      count, [](const void* context, std::size_t k) { (*static_cast<decltype(&range)>(context))(k); }, &range);
 }
 
 /// A grain for loops over vectors: some microseconds a range.

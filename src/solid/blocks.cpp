@@ -186,10 +186,10 @@ Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>&
   return block;
 }
 
-/// At most about 256 chunks: few colours, each of chunks enough for 64 threads, and what a chunk works on stays in the
+/// At most about 512 chunks: few colours, each of chunks enough for 64 threads, and what a chunk works on stays in the
 /// cache of a core; but none so small that starting threads would cost more than it saves.
 Index chunk_size(std::size_t cells) {
-  constexpr Index smallest = 512, chunks = 256, multiple = 8;
+  constexpr Index smallest = 512, chunks = 512, multiple = 8;
   const auto size = static_cast<Index>((cells + chunks - 1) / chunks);
   return std::max(smallest, (size + multiple - 1) / multiple * multiple);
 }

@@ -135,6 +135,19 @@ TEST(SolidChunks, OfOneColourShareNoNodeAndCoverAllCells) {
   EXPECT_EQ(solid.colour_begin.size(), 3U) << "two colours suffice for a bar cut across";
 }
 
+// Chunks of one colour run at the same time: with 64 threads a colour of c chunks takes ceil(c / 64) rounds, and all of
+// them hardly more than the chunks would take without colours.
+TEST(SolidChunks, KeepSixtyFourThreadsBusy) {
+  for (const std::array<Index, 3>& divisions : {std::array<Index, 3>{64, 64, 64}, {16, 16, 1600}, {4, 200, 300}}) {
+    const SolidCells solid = make_solid_cells(one_part(block_mesh(divisions, 0.0)), fused_kernels<Pack4>());
+    std::size_t rounds = 0;
+    for (std::size_t k = 0; k + 1 < solid.colour_begin.size(); ++k)
+      rounds += (solid.colour_begin[k + 1] - solid.colour_begin[k] + 63) / 64;
+    const double of_all = static_cast<double>(solid.chunks.size()) / 64.0;
+    EXPECT_LT(static_cast<double>(rounds), of_all / 0.7) << solid.chunks.size() << " chunks";
+  }
+}
+
 TEST(SolidChunks, MoreNeighboursThanSharedColoursRunAlone) {
   const std::vector<std::vector<Index>> all_touch_node_0(70, std::vector<Index>{0});
   std::vector<int> colour = colour_chunks(1, all_touch_node_0);

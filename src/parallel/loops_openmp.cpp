@@ -1,0 +1,23 @@
+#include <omp.h>
+
+#include "parallel/threads.hpp"
+
+namespace carom {
+
+int set_threads(int count) {
+  omp_set_dynamic(0);
+  omp_set_num_threads(count > 0 ? count : omp_get_num_procs());
+  return thread_count();
+}
+
+int thread_count() {
+  return omp_get_max_threads();
+}
+
+void run_parts(std::size_t count, LoopPart part, const void* body) {
+  const auto parts = static_cast<std::ptrdiff_t>(count);
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t k = 0; k < parts; ++k) part(body, static_cast<std::size_t>(k));
+}
+
+}  // namespace carom
