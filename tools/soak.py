@@ -43,7 +43,7 @@ cells = "UPPER"
 material = "steel"
 
 [materials.steel]
-law = "{law}"
+law = "neo_hookean"
 E = 2.0e11
 nu = 0.3
 rho = 8000.0
@@ -101,12 +101,12 @@ def resident(pid):
     return 0
 
 
-def soak(carom, law, steps):
+def soak(carom, steps):
     """Returns what is wrong, "" when nothing is."""
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "out"
         case = pathlib.Path(folder) / "case.toml"
-        case.write_text(CASE.format(law=law, end=steps * STEP, step=STEP))
+        case.write_text(CASE.format(end=steps * STEP, step=STEP))
         start = time.time()
         with subprocess.Popen([carom, "run", case, "--out", out, "--quiet", "--threads", "1"],
                               stderr=subprocess.DEVNULL) as run:
@@ -121,7 +121,7 @@ def soak(carom, law, steps):
         summary = json.loads((out / "summary.json").read_text())
     items = {item["name"]: item["value"] for item in summary["verdict"]}
     taken = summary["scheme"]["steps"]
-    print(f"{law}: {taken} steps in {time.time() - start:.0f} s, {summary['outcome']}; memory {early} kB after a tenth of "
+    print(f"{taken} steps in {time.time() - start:.0f} s, {summary['outcome']}; memory {early} kB after a tenth of "
           f"them, {last} kB at the end; {items}", flush=True)
     if taken != steps:
         return summary["message"]
@@ -136,9 +136,9 @@ def main():
     options.add_argument("--steps", type=int, default=1_000_000)
     options.add_argument("carom")
     given = options.parse_args()
-    wrong = [message for law in ("linear_elastic", "neo_hookean") if (message := soak(given.carom, law, given.steps))]
-    for message in wrong:
-        print("FAILED:", message)
+    wrong = soak(given.carom, given.steps)
+    if wrong:
+        print("FAILED:", wrong)
     return 1 if wrong else 0
 
 
