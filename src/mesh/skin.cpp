@@ -18,6 +18,14 @@ struct Candidates {
   std::vector<FaceKey> key;
   std::vector<CellRef> cell;
   std::vector<std::uint8_t> face;
+
+  void reserve(const Mesh& mesh) {
+    std::size_t most = 0;
+    for (const CellBlock& block : mesh.blocks) most += block.size() * cell_faces(block.type).size();
+    key.reserve(most);
+    cell.reserve(most);
+    face.reserve(most);
+  }
 };
 
 /// Appends the faces of the cells of a block.
@@ -62,6 +70,7 @@ void append_facets(const Mesh& mesh, const CellRef& cell, int number, std::vecto
 std::vector<OuterFacet> outer_facets(const Mesh& mesh) {
   const std::vector<std::uint8_t> dimensions = node_dimensions(mesh);
   Candidates candidates;
+  candidates.reserve(mesh);
   for (std::size_t block = 0; block < mesh.blocks.size(); ++block)
     append_candidates(mesh, block, dimensions, candidates);
   const std::vector<std::uint32_t> twin = face_twins(candidates.key, mesh.node_count());

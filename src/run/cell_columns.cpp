@@ -64,6 +64,10 @@ double CellColumns::length(std::size_t k, int axis) const {
 void CellColumns::find_neighbours() {
   std::vector<FaceKey> faces;
   std::vector<Side> sides;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < solid_.cell_count(); ++k) count += 2 * at(dimension(k));
+  faces.reserve(count);
+  sides.reserve(count);
   for (std::size_t k = 0; k < solid_.cell_count(); ++k) {
     for (Side side = 6 * k; side < 6 * k + 2 * at(dimension(k)); ++side) {
       const Facet f = facet(side);

@@ -45,7 +45,7 @@ std::uint64_t mesh_digest(const Mesh& mesh) {
   }
   for (const auto& [group, cells] : mesh.cell_groups) {
     add_to(sum, group);
-    for (const CellRef& cell : cells) add_to(sum, std::vector<Index>{cell.block, cell.cell});
+    add_to(sum, cells);
   }
   return sum;
 }
@@ -56,12 +56,9 @@ std::uint64_t bodies_digest(const Model& model, std::size_t nodes) {
   add_to(sum, std::vector<Vec3>(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(nodes)));
   for (const Part& part : model.parts) {
     add_to(sum, std::string(name(part.type)));
-    const auto size = static_cast<std::ptrdiff_t>(node_count(part.type));
-    const std::vector<Index>& all = model.mesh->block(part.type)->connectivity;
-    for (const Index cell : part.cells) {
-      const auto first = all.begin() + size * cell;
-      add_to(sum, std::vector<Index>(first, first + size));
-    }
+    const CellBlock& block = *model.mesh->block(part.type);
+    for (const Index cell : part.cells)
+      sum = checksum_of_bytes(block.nodes(cell).data(), block.nodes(cell).size_bytes(), sum);
   }
   return sum;
 }

@@ -170,6 +170,7 @@ Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>&
   block.cells = static_cast<Index>(cells.size());
   block.type = part.type;
   block.thickness = part.thickness;
+  block.is_ring = part.section == Section::axisymmetric;
   block.rho = part.material.rho;
   block.wave_modulus = part.material.at_rest().p_wave_modulus();
   block.law_row = part.material.law;

@@ -22,6 +22,7 @@ struct Block {
   CellType type{};
   double thickness = 1.0, rho = 0.0;
   double wave_modulus = 0.0;  ///< lambda + 2 G at rest
+  bool is_ring = false;       ///< axisymmetric
   bool small_strain = true;   ///< the measure of its law; the others are total Lagrangian
   bool is_linear = true;      ///< the forces are linear in the displacements
   bool is_symmetric = true;   ///< the tangent of its law

@@ -12,6 +12,7 @@
 #include "solid/assembly.hpp"
 #include "solid/batch_gradients.hpp"
 #include "solid/blocks.hpp"
+#include "solid/congruent_cells.hpp"
 #include "solid/kernels.hpp"
 #include "solid/loads.hpp"
 #include "solid/rotation.hpp"
@@ -122,12 +123,35 @@ struct Solid::Impl {
       bounds[l] = frequency_bound(K.subspan(size * l, size), m);
     });
   }
+  /// Of some cells of a block, positions in it.
+  std::vector<double> frequency_bounds_of(const Block& block, std::span<const std::size_t> cells) const {
+    const std::size_t lanes = block.lanes(), nodes = block.nodes();
+    std::vector<double> bounds(cells.size()), K;
+    std::array<Index, most_nodes * most_lanes> offset{};
+    for (std::size_t begin = 0; begin < cells.size(); begin += lanes) {
+      const std::size_t count = std::min(lanes, cells.size() - begin);
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const std::size_t c = cells[begin + std::min(l, count - 1)];
+        for (std::size_t a = 0; a < nodes; ++a)
+          offset[a * lanes + l] = block.offset[(c / lanes * nodes + a) * lanes + c % lanes];
+      }
+      CellBatches batch = solid.batches(block, 0, static_cast<Index>(count));
+      batch.offset = offset.data();
+      batch_stiffness(batch, block.kernels, block.law(), block.is_symmetric, nullptr, K);
+      batch_bounds(batch, block, K, std::span<double>(bounds).subspan(begin));
+    }
+    return bounds;
+  }
+  /// One for all cells of a chunk that have the same shape.
   std::vector<double> frequency_bounds() const {
     std::vector<double> bounds(solid.cells.size());
-    solid.for_each_batch({}, [&](std::size_t first, const Block& block, const CellBatches& batch) {
-      std::vector<double> K;
-      batch_stiffness(batch, block.kernels, block.law(), block.is_symmetric, nullptr, K);
-      batch_bounds(batch, block, K, std::span<double>(bounds).subspan(first));
+    solid.for_each_chunk([&](const Chunk& chunk) {
+      const Block& own = block(chunk);
+      CongruentCells shapes = congruent_cells(solid, own, chunk.first, chunk.cells);
+      for (std::size_t& c : shapes.first) c += at(chunk.first);
+      const std::vector<double> of_shape = frequency_bounds_of(own, shapes.first);
+      for (std::size_t k = 0; k < shapes.of.size(); ++k)
+        bounds[at(own.first + chunk.first) + k] = of_shape[shapes.of[k]];
     });
     return bounds;
   }

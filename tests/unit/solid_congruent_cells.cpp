@@ -1,0 +1,63 @@
+// Cells of the same shape, and bounds that they share.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "solid/congruent_cells.hpp"
+#include "solid_bodies.hpp"
+#include "solid_fixture.hpp"
+
+namespace carom::test::solid_congruent_cells_test {
+namespace {
+
+CongruentCells shapes_of(const Model& model) {
+  const SolidCells solid = make_solid_cells(model, kernels_reference());
+  return congruent_cells(solid, solid.blocks[0], 0, solid.blocks[0].cells);
+}
+
+Model moved(Mesh mesh, double distance) {
+  for (Vec3& x : mesh.coordinates)
+    for (double& component : x) component = component / 3.0 + distance;
+  return one_part(std::move(mesh));
+}
+
+// Coordinates that are no binary fractions, far from the origin: the places of the nodes agree to rounding only.
+TEST(CongruentCells, OfARegularGridAreFew) {
+  const CongruentCells shapes = shapes_of(moved(block_mesh({6, 5, 4}, 0.0), 1000.0));
+  EXPECT_EQ(shapes.of.size(), 120U);
+  EXPECT_LE(shapes.first.size(), 8U);
+  for (std::size_t s = 0; s < shapes.first.size(); ++s) EXPECT_EQ(shapes.of[shapes.first[s]], s);
+}
+
+TEST(CongruentCells, OfADistortedGridAreAllDifferent) {
+  const CongruentCells shapes = shapes_of(one_part(block_mesh({6, 5, 4}, 0.2)));
+  EXPECT_EQ(shapes.first.size(), 120U);
+}
+
+TEST(CongruentCells, OneLongerCellIsNotOfTheShapeOfTheOthers) {
+  Mesh mesh = block_mesh({3, 1, 1}, 0.0);
+  for (Vec3& x : mesh.coordinates)
+    if (x[0] > 2.5) x[0] += 1e-6;
+  EXPECT_EQ(shapes_of(one_part(std::move(mesh))).first.size(), 2U);
+}
+
+// The radius of a ring counts, so that none is like another.
+TEST(CongruentCells, RingsAreNotShared) {
+  const Model model = body(quad_mesh(4, 4, 0.0), Section::axisymmetric, unit_material);
+  EXPECT_EQ(shapes_of(model).first.size(), 16U);
+}
+
+TEST(CongruentCells, ShareTheBoundThatEachWouldHaveAlone) {
+  Mesh mesh = block_mesh({4, 3, 3}, 0.0);
+  for (Vec3& x : mesh.coordinates) x[0] += 0.1 * x[0] * x[0];  // four sizes of cells
+  const Model model = one_part(mesh);
+  const std::vector<double> bounds = Solid(model).cell_frequency_bounds();
+  for (std::size_t c = 0; c < bounds.size(); c += 5) {
+    Model alone = model;
+    alone.parts[0].cells = {model.parts[0].cells[c]};
+    EXPECT_NEAR(bounds[c], Solid(alone).cell_frequency_bounds()[0], 1e-9 * bounds[c]) << c;
+  }
+}
+
+}  // namespace
+}  // namespace carom::test::solid_congruent_cells_test
