@@ -1,7 +1,6 @@
 #include "solid/cell_matrices.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "element/cell_integrals.hpp"
 
@@ -18,26 +17,6 @@ NodeMatrix mass(const CellNodes& nodes, double thickness, double rho) {
   NodeMatrix M{};
   for (std::size_t a = 0; a < n; ++a) std::copy_n(products[a], n, M.begin() + static_cast<std::ptrdiff_t>(n * a));
   return M;
-}
-
-using Matrix = std::vector<double>;
-
-double largest_row_sum(const Matrix& A, std::size_t dofs) {
-  double largest = 0.0;
-  for (std::size_t r = 0; r < dofs; ++r) {
-    double sum = 0.0;
-    for (std::size_t s = 0; s < dofs; ++s) sum += std::abs(A[r * dofs + s]);
-    largest = std::max(largest, sum);
-  }
-  return largest;
-}
-
-Matrix square(const Matrix& A, std::size_t dofs) {
-  Matrix result(A.size(), 0.0);
-  for (std::size_t r = 0; r < dofs; ++r)
-    for (std::size_t k = 0; k < dofs; ++k)
-      for (std::size_t s = 0; s < dofs; ++s) result[r * dofs + s] += A[r * dofs + k] * A[k * dofs + s];
-  return result;
 }
 
 }  // namespace
@@ -86,18 +65,6 @@ void batch_stiffness(const CellBatches& batch, const CellKernels& kernels, const
   for (std::size_t l = 0; l < lanes && is_symmetric; ++l)
     for (std::size_t r = 0; r < dofs; ++r)
       for (std::size_t s = 0; s < r; ++s) K[(dofs * l + r) * dofs + s] = K[(dofs * l + s) * dofs + r];
-}
-
-double frequency_bound(std::span<const double> K, std::span<const double> m) {
-  const std::size_t dofs = 3 * m.size();
-  Matrix A(dofs * dofs);
-  for (std::size_t r = 0; r < dofs; ++r)
-    for (std::size_t s = 0; s < dofs; ++s) A[r * dofs + s] = K[r * dofs + s] / std::sqrt(m[r / 3] * m[s / 3]);
-  const double gershgorin = largest_row_sum(A, dofs);
-  if (!(gershgorin > 0.0)) return gershgorin;
-  for (double& entry : A) entry /= gershgorin;  // no power of it overflows
-  for (int i = 0; i < 3; ++i) A = square(A, dofs);
-  return gershgorin * std::pow(largest_row_sum(A, dofs), 1.0 / 8.0);
 }
 
 }  // namespace carom

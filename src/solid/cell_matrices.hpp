@@ -28,9 +28,4 @@ CellMass cell_mass(CellKind kind);
 void batch_stiffness(const CellBatches& batch, const CellKernels& kernels, const BatchLaw& law, bool is_symmetric,
                      const double* u, std::vector<double>& K);
 
-/// Upper bound of the largest eigenvalue omega^2 of K_e (3 n x 3 n) with the lumped node masses m: |A^8|^(1/8) with the
-/// largest absolute row sum as norm and A = M^-1/2 K_e M^-1/2. Any power bounds the spectral radius (Gelfand; the first
-/// is Gershgorin's bound); the eighth is at most (3 n)^(1/16) times too large, 1.22 for HEXA8.
-double frequency_bound(std::span<const double> K, std::span<const double> m);
-
 }  // namespace carom

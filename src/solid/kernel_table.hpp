@@ -10,6 +10,7 @@
 #include "solid/kernels.hpp"
 #include "solid/mean_dilatation.hpp"
 #include "solid/point_stages.hpp"
+#include "solid/power_bound.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {
@@ -27,7 +28,8 @@ static constexpr KernelTable make_kernels() {
           finite_dilatation::stages<Real>(),
           small_bulk_stages<Real>(),
           finite_bulk_stages<Real>(),
-          make_law_table<Real>()};
+          make_law_table<Real>(),
+          power_bound<Real>};
 #undef CAROM_CELL_STAGES
 }
 

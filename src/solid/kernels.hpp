@@ -89,6 +89,7 @@ struct KernelTable {
   DilatationStages small_dilatation, finite_dilatation;
   BulkStages small_bulk, finite_bulk;
   LawTable laws;
+  void (*power_bound)(int n, double* A, double* work, double* bound) = nullptr;  ///< solid/power_bound.hpp
 };
 
 const KernelTable& kernels_reference();

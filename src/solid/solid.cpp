@@ -115,13 +115,21 @@ struct Solid::Impl {
     return solid.batches(block(chunk), chunk.first, chunk.cells, step, end);
   }
 
-  /// Bounds of the eigenvalues of the cells' matrices K with their lumped masses.
-  static void batch_bounds(const CellBatches& batch, const Block& block, std::span<const double> K,
-                           std::span<double> bounds) {
-    const std::size_t size = 9 * block.nodes() * block.nodes();
-    block.for_each_lumped_mass(batch, [&](std::size_t l, std::span<const double> m) {
-      bounds[l] = frequency_bound(K.subspan(size * l, size), m);
-    });
+  /// Upper bounds of the eigenvalues of M_e^-1 K_e (power_bound), K as batch_stiffness gives it.
+  void batch_bounds(const CellBatches& batch, const Block& block, std::span<const double> K,
+                    std::span<double> bounds) const {
+    const std::size_t n = 3 * block.nodes(), lanes = block.lanes();
+    std::array<double, most_nodes * most_lanes> root;
+    block.stages.cell->lumped_mass(batch.x, batch.offset, block.thickness, block.rho, root.data());
+    for (std::size_t k = 0; k < block.nodes() * lanes; ++k) root[k] = 1.0 / std::sqrt(root[k]);
+    std::vector<double> A(K.size()), work(K.size());
+    for (std::size_t l = 0; l < lanes; ++l)
+      for (std::size_t r = 0; r < n; ++r)
+        for (std::size_t s = 0; s < n; ++s)
+          A[(n * r + s) * lanes + l] = root[r / 3 * lanes + l] * K[(n * l + r) * n + s] * root[s / 3 * lanes + l];
+    std::array<double, most_lanes> bound{};
+    kernels(isa).power_bound(static_cast<int>(n), A.data(), work.data(), bound.data());
+    std::copy_n(bound.begin(), at(batch.cells), bounds.begin());
   }
   /// Of some cells of a block, positions in it.
   std::vector<double> frequency_bounds_of(const Block& block, std::span<const std::size_t> cells) const {

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "solid/congruent_cells.hpp"
 #include "solid_bodies.hpp"
@@ -57,6 +59,30 @@ TEST(CongruentCells, ShareTheBoundThatEachWouldHaveAlone) {
     alone.parts[0].cells = {model.parts[0].cells[c]};
     EXPECT_NEAR(bounds[c], Solid(alone).cell_frequency_bounds()[0], 1e-9 * bounds[c]) << c;
   }
+}
+
+// The powers of the matrices are taken in every instruction set; of distorted cells, seven of which fill no batch.
+TEST(FrequencyBounds, OfEveryInstructionSetAreThoseOfTheReference) {
+  const Model model = one_part(block_mesh({7, 1, 1}, 0.2));
+  const std::vector<double> expected = Solid(model, Isa::reference).cell_frequency_bounds();
+  for (const Isa isa : {Isa::x86_64_v2, Isa::x86_64_v3, Isa::x86_64_v4}) {
+    if (!supported(isa)) continue;
+    const std::vector<double> bounds = Solid(model, isa).cell_frequency_bounds();
+    for (std::size_t c = 0; c < bounds.size(); ++c)
+      EXPECT_NEAR(bounds[c], expected[c], 1e-12 * expected[c]) << name(isa) << ' ' << c;
+  }
+}
+
+// A matrix of known powers: 2 on the diagonal and -1 beside it has the eigenvalues 2 - 2 cos(k pi / 7) below 3.802.
+TEST(FrequencyBounds, AreLittleAboveTheLargestEigenvalue) {
+  constexpr int n = 6;
+  double A[n * n] = {}, work[n * n], bound = 0.0;
+  for (int r = 0; r < n; ++r)
+    for (int s = 0; s < n; ++s) A[n * r + s] = r == s ? 2.0 : std::abs(r - s) == 1 ? -1.0 : 0.0;
+  kernels_reference().power_bound(n, A, work, &bound);
+  const double exact = 2.0 - 2.0 * std::cos(6.0 * std::numbers::pi / 7.0);
+  EXPECT_GE(bound, exact);
+  EXPECT_LE(bound, std::pow(n, 1.0 / 16.0) * exact);
 }
 
 }  // namespace
