@@ -77,7 +77,8 @@ CellType solid_of(CellType type) {
 }
 
 std::size_t solid_corners(CellType type) {
-  return static_cast<std::size_t>((dimension(type) == 2 ? 2 : 1) * corner_count(type));
+  const auto corners = static_cast<std::size_t>(corner_count(type));
+  return dimension(type) == 2 ? 2 * corners : corners;
 }
 
 /// Cells in a leaf of the tree.

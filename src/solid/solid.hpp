@@ -113,8 +113,8 @@ class Solid {
 
   /// Upper bound of omega^2 per cell: |A^8|^(1/8) of A = M_e^-1/2 K_e M_e^-1/2 with the lumped mass of the cell, in the
   /// largest-row-sum norm (a power sharpens Gershgorin's bound). The largest over the cells bounds the omega^2 of the
-  /// whole body with lumped mass (Irons). K_e is that of the reference configuration. Cells of the same shape (congruent_cells)
-  /// share theirs. One entry per solid cell, in the order of cells().
+  /// whole body with lumped mass (Irons). K_e is that of the reference configuration. Cells of the same shape
+  /// (congruent_cells) share theirs. One entry per solid cell, in the order of cells().
   std::vector<double> cell_frequency_bounds() const;
   /// The largest of them; 0 without cells.
   double largest_frequency_bound() const;
