@@ -42,12 +42,12 @@ void Mass::add_gravity(const Vec3& acceleration, std::span<double> f) const {
   });
 }
 
-void Mass::apply(std::span<const double> x, std::span<double> y) const {
+void Mass::combine(double m, std::span<const double> x, double c, std::span<double> y) const {
   constexpr std::size_t rows_per_task = 1024;
   parallel_for(diagonal_.size(), rows_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       const Vec3 sum = at_node(n, x);
-      for (std::size_t i = 0; i < 3; ++i) y[3 * n + i] = sum[i];
+      for (std::size_t i = 0; i < 3; ++i) y[3 * n + i] = m * sum[i] + (c == 0.0 ? 0.0 : c * y[3 * n + i]);
     }
   });
 }

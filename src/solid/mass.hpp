@@ -24,7 +24,9 @@ class Mass {
 
   MassKind kind() const { return kind_; }
   /// y = M x, dof vectors of 3 x nodes entries, x y z of a node together. Threaded, same bits for any thread count.
-  void apply(std::span<const double> x, std::span<double> y) const;
+  void apply(std::span<const double> x, std::span<double> y) const { combine(1.0, x, 0.0, y); }
+  /// y = m M x + c y, the same way; y is not read where c = 0.
+  void combine(double m, std::span<const double> x, double c, std::span<double> y) const;
   /// (M x) at a node.
   Vec3 at_node(std::size_t n, std::span<const double> x) const {
     if (kind_ == MassKind::lumped)

@@ -15,6 +15,7 @@
 #include "solid/congruent_cells.hpp"
 #include "solid/kernels.hpp"
 #include "solid/loads.hpp"
+#include "solid/projected_stiffness.hpp"
 #include "solid/rotation.hpp"
 #include "solid/springs.hpp"
 #include "solid/turning_bodies.hpp"
@@ -338,6 +339,25 @@ CsrMatrix Solid::tangent(std::span<const double> u, const PointStep& step) const
   impl_->springs.add_tangent(K);
   impl_->turning_bodies.add_tangent(u, K);
   return K;
+}
+
+BlockMatrix Solid::projected_tangent(std::span<const double> u, const PointStep& step, const Interpolation& P,
+                                     std::span<const std::uint8_t> fixed) const {
+  BlockMatrix K = projected_stiffness(impl_->solid, u, step, P, fixed);
+  if (impl_->springs.empty() && impl_->turning_bodies.empty()) return K;
+  SolidCells no_cells;
+  no_cells.mesh = impl_->solid.mesh;
+  CsrMatrix graph = node_graph(no_cells, impl_->springs.all());
+  impl_->turning_bodies.add_rows(graph);
+  CsrMatrix ties = dof_graph(graph);
+  impl_->springs.add_tangent(ties);
+  impl_->turning_bodies.add_tangent(u, ties);
+  const auto is_fixed = [&](Index dof) { return (fixed[at(dof / 3)] >> (dof % 3) & 1U) != 0; };
+  for (Index i = 0; i < ties.size; ++i)
+    for (auto k = static_cast<std::size_t>(ties.row_begin[at(i)]);
+         k < static_cast<std::size_t>(ties.row_begin[at(i) + 1]); ++k)
+      if (is_fixed(i) || is_fixed(ties.column[k])) ties.value[k] = 0.0;
+  return sum(K, galerkin(by_points(ties), P));
 }
 
 std::vector<double> Solid::tangent_diagonal(std::span<const double> u, const PointStep& step) const {

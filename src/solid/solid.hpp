@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "linalg/block_matrix.hpp"
 #include "linalg/csr_matrix.hpp"
 #include "model/model.hpp"
 #include "solid/evaluation.hpp"
@@ -91,6 +92,9 @@ class Solid {
   void discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1, std::span<double> f) const;
   /// Assembled K(u), 3 nodes x 3 nodes.
   CsrMatrix tangent(std::span<const double> u, const PointStep& step = {}) const;
+  /// P^T K(u) P without the fixed components of nodes (solid/projected_stiffness.hpp).
+  BlockMatrix projected_tangent(std::span<const double> u, const PointStep& step, const Interpolation& P,
+                                std::span<const std::uint8_t> fixed) const;
   /// Diagonal of K(u).
   std::vector<double> tangent_diagonal(std::span<const double> u, const PointStep& step = {}) const;
   /// The strain energy of `evaluate` for points at rest before; allocates.

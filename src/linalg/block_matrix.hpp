@@ -1,0 +1,84 @@
+// Sparse matrices of 3 x 3 blocks, and interpolation between the points that their rows stand for.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+#include "linalg/csr_matrix.hpp"
+
+namespace carom {
+
+/// Square, both triangles stored, columns sorted in each row; vectors have x y z of a point together.
+struct BlockMatrix {
+  std::vector<std::int64_t> row_begin{0};  ///< points + 1 entries
+  std::vector<Index> column;
+  std::vector<double> value;  ///< entry (i, j) of block k at [9 k + 3 i + j]
+
+  /// Of this graph, all zero; neighbours: those of each point, sorted.
+  static BlockMatrix with_graph(const std::vector<std::vector<Index>>& neighbours);
+
+  std::size_t points() const { return row_begin.size() - 1; }
+  /// The block of a pair of neighbours.
+  double* block(Index row, Index col);
+  /// y = A x; threaded, same bits for any thread count.
+  void apply(std::span<const double> x, std::span<double> y) const;
+  /// One entry per unknown.
+  std::vector<double> diagonal() const;
+};
+
+/// The pairs of points that a sparse matrix couples.
+class PointGraph {
+ public:
+  explicit PointGraph(std::size_t points) : neighbours_(points) {}
+  /// All pairs of these points.
+  void couple(std::span<const Index> points);
+  /// All pairs of one of each.
+  void couple(std::span<const Index> rows, std::span<const Index> columns);
+  /// The matrix with these entries, all zero.
+  BlockMatrix matrix() const { return BlockMatrix::with_graph(neighbours_); }
+
+ private:
+  std::vector<std::vector<Index>> neighbours_;
+};
+
+/// A + B, of the same size.
+BlockMatrix sum(const BlockMatrix& A, const BlockMatrix& B);
+/// The same matrix by rows of unknowns.
+CsrMatrix by_unknowns(const BlockMatrix& A);
+/// The same matrix by points; A has whole blocks.
+BlockMatrix by_points(const CsrMatrix& A);
+
+/// u_n = sum over the coarse points I of a fine point n of w_nI U_I, the same for all three components.
+class Interpolation {
+ public:
+  /// Appends a fine point.
+  void add_point(std::span<const Index> coarse, std::span<const double> weights);
+  /// The last point has been added; coarse points number 0 to coarse_points - 1.
+  void finish(std::size_t coarse_points);
+
+  std::size_t fine_points() const { return begin_.size() - 1; }
+  std::size_t coarse_points() const { return to_begin_.size() - 1; }
+  std::span<const Index> coarse_of(std::size_t n) const {
+    return {coarse_.data() + begin_[n], coarse_.data() + begin_[n + 1]};
+  }
+  std::span<const double> weights_of(std::size_t n) const {
+    return {weight_.data() + begin_[n], weight_.data() + begin_[n + 1]};
+  }
+
+  /// x = P X. Threaded, same bits for any thread count, as are the others.
+  void apply(std::span<const double> X, std::span<double> x) const;
+  /// R = P^T r
+  void restrict_to(std::span<const double> r, std::span<double> R) const;
+
+ private:
+  std::vector<std::int64_t> begin_{0}, to_begin_{0};
+  std::vector<Index> coarse_, fine_;
+  std::vector<double> weight_, to_weight_;
+};
+
+/// P^T A P (Galerkin).
+BlockMatrix galerkin(const BlockMatrix& A, const Interpolation& P);
+
+}  // namespace carom
