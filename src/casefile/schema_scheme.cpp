@@ -319,10 +319,10 @@ SectionSchema<CaseSolver> solver_section() {
   SectionSchema<CaseSolver> s("Solvers of implicit steps.");
   s.description.selector = "scheme.kind";
   s.key("kind", &CaseSolver::kind,
-        "Linear solver: conjugate gradients; CHOLMOD for positive definite operators, MUMPS from the first on that is "
-        "not; "
-        "MUMPS from the start; or chosen from the estimated conditioning.",
-        {.choices = {"auto", "cg", "cholmod", "mumps"}, .kinds = implicit_schemes()});
+        "Linear solver: conjugate gradients, preconditioned by the diagonal or by a multigrid cycle; CHOLMOD for "
+        "positive definite operators, MUMPS from the first on that is not; MUMPS from the start; or chosen from the "
+        "estimated conditioning and the size.",
+        {.choices = {"auto", "cg", "multigrid", "cholmod", "mumps"}, .kinds = implicit_schemes()});
   s.key("max_contact_iterations", &CaseSolver::max_contact_iterations,
         "A step whose contact state needs more iterations has failed.",
         {.range = at_least(1.0), .kinds = implicit_schemes()});

@@ -1,6 +1,7 @@
 // What contact answers at one configuration, whichever enforcement made it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -48,5 +49,15 @@ void take_history(const ContactResponse& response, std::span<const double> u, st
 
 /// 3 x 3 tangent of one row in its frame, row-major: -d(force)/d(w).
 using RowTangent = std::array<double, 9>;
+
+/// False when it is zero.
+inline bool acts(const RowTangent& D) {
+  return std::any_of(D.begin(), D.end(), [](double d) { return d != 0.0; });
+}
+/// D w
+inline Vec3 product(const RowTangent& D, const Vec3& w) {
+  return {D[0] * w[0] + D[1] * w[1] + D[2] * w[2], D[3] * w[0] + D[4] * w[1] + D[5] * w[2],
+          D[6] * w[0] + D[7] * w[1] + D[8] * w[2]};
+}
 
 }  // namespace carom

@@ -11,22 +11,9 @@ namespace carom {
 
 namespace {
 
-/// r . D^-1 r
-double preconditioned_square(std::span<const double> r, std::span<const double> inverse_diagonal) {
-  return parallel_sum(r.size(), [&](std::size_t i) { return r[i] * inverse_diagonal[i] * r[i]; });
-}
-
 std::size_t largest(std::span<const double> v) {
   const auto is_less = [](double a, double b) { return !(std::abs(b) <= std::abs(a)); };
   return static_cast<std::size_t>(std::max_element(v.begin(), v.end(), is_less) - v.begin());
-}
-
-/// p = D^-1 r + beta p
-void update_direction(std::span<const double> r, std::span<const double> inverse_diagonal, double beta,
-                      std::span<double> p) {
-  parallel_for(r.size(), vector_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) p[i] = inverse_diagonal[i] * r[i] + beta * p[i];
-  });
 }
 
 }  // namespace
@@ -34,8 +21,18 @@ void update_direction(std::span<const double> r, std::span<const double> inverse
 CgResult ConjugateGradients::solve(const LinearOperator& A, std::span<const double> inverse_diagonal,
                                    std::span<const double> b, std::span<double> x, double relative, double absolute,
                                    int max_iterations) {
+  assert(inverse_diagonal.size() == b.size());
+  const LinearOperator jacobi = [&](std::span<const double> r, std::span<double> z) {
+    parallel_each(r.size(), [&](std::size_t i) { z[i] = inverse_diagonal[i] * r[i]; });
+  };
+  return solve(A, jacobi, b, x, relative, absolute, max_iterations);
+}
+
+CgResult ConjugateGradients::solve(const LinearOperator& A, const LinearOperator& B, std::span<const double> b,
+                                   std::span<double> x, double relative, double absolute, int max_iterations) {
   const std::size_t n = b.size();
-  assert(x.size() == n && inverse_diagonal.size() == n);
+  assert(x.size() == n);
+  z_.resize(n);
   r_.resize(n);
   p_.assign(n, 0.0);
   Ap_.resize(n);
@@ -49,12 +46,14 @@ CgResult ConjugateGradients::solve(const LinearOperator& A, std::span<const doub
   CgResult result{0, std::sqrt(residual_squared), false};
   double rz_old = 0.0;
   while (!(result.residual <= tolerance)) {
-    const double rz = preconditioned_square(r_, inverse_diagonal);
+    B(r_, z_);
+    const double rz = dot(r_, z_);
     if (result.iterations == max_iterations || !(rz > 0.0) || !std::isfinite(rz)) {
       result.worst = largest(x);
       return result;
     }
-    update_direction(r_, inverse_diagonal, result.iterations == 0 ? 0.0 : rz / rz_old, p_);
+    const double beta = result.iterations == 0 ? 0.0 : rz / rz_old;
+    parallel_each(n, [&](std::size_t i) { p_[i] = z_[i] + beta * p_[i]; });
     rz_old = rz;
     A(p_, Ap_);
     const double pAp = dot(p_, Ap_);

@@ -19,8 +19,8 @@ struct CgResult {
   std::size_t worst = 0;
 };
 
-/// Conjugate gradients with a diagonal (Jacobi) preconditioner (Saad, Iterative Methods for Sparse Linear Systems,
-/// 2nd ed., algorithm 9.1). The work vectors are kept between calls: no vector is allocated after the first.
+/// Preconditioned conjugate gradients (Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., algorithm 9.1). The
+/// work vectors are kept between calls: no vector is allocated after the first.
 class ConjugateGradients {
  public:
   /// Solves A x = b from the start value in x until |b - A x|_2 <= max(absolute, relative |b|_2).
@@ -28,9 +28,12 @@ class ConjugateGradients {
   /// Same bits for any thread count.
   CgResult solve(const LinearOperator& A, std::span<const double> inverse_diagonal, std::span<const double> b,
                  std::span<double> x, double relative, double absolute, int max_iterations);
+  /// The same with z = B r for a symmetric positive definite B near to A^-1.
+  CgResult solve(const LinearOperator& A, const LinearOperator& B, std::span<const double> b, std::span<double> x,
+                 double relative, double absolute, int max_iterations);
 
  private:
-  std::vector<double> r_, p_, Ap_;
+  std::vector<double> r_, p_, Ap_, z_;
 };
 
 }  // namespace carom

@@ -26,7 +26,7 @@ constexpr const char* name(MotionKind kind) {
 }
 
 /// Who solves the linear systems of implicit steps.
-enum class SolverKind : std::uint8_t { automatic, conjugate_gradients, cholesky, ldlt };
+enum class SolverKind : std::uint8_t { automatic, conjugate_gradients, multigrid, cholesky, ldlt };
 
 /// What is done about rows that penetrate in the initial state.
 enum class InitialPenetration : std::uint8_t { refuse, strain_free_offset, prestress };

@@ -29,8 +29,8 @@ bool has_factor(const Stage& stage) {
   const SchemeSettings& settings = stage.settings();
   const double ratio = settings.kind == SchemeKind::statics ? infinity : 0.25 * stage.dt() * stage.dt();
   const double omega_squared = stage.system().solid.largest_frequency_bound();
-  return chosen_solver(stage.system(), settings.solver, settings.enforcement, ratio, omega_squared) !=
-         SolverKind::conjugate_gradients;
+  const SolverKind kind = chosen_solver(stage.system(), settings.solver, settings.enforcement, ratio, omega_squared);
+  return kind == SolverKind::cholesky || kind == SolverKind::ldlt;
 }
 
 /// Of one .vtu file: coordinates, cells, and 24 bytes for a vector and 8 for a scalar on a node, 48 for a tensor and 8

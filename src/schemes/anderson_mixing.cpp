@@ -68,15 +68,14 @@ std::vector<double> AndersonMixing::combination(std::span<const double> f) const
   return c;
 }
 
-void AndersonMixing::advance(std::span<double> y, std::span<const double> f) {
+void AndersonMixing::advance(std::span<double> y, std::span<double> f) {
   if (!dy_.empty() || is_slow(f)) push(y, f);
   const std::vector<double> c = combination(f);
   y_.assign(y.begin(), y.end());
   f_.assign(f.begin(), f.end());
   parallel_each(y.size(), [&](std::size_t i) {
-    double step = f[i];
-    for (std::size_t k = 0; k < c.size(); ++k) step -= c[k] * (dy_[k][i] + df_[k][i]);
-    y[i] += step;
+    for (std::size_t k = 0; k < c.size(); ++k) f[i] -= c[k] * (dy_[k][i] + df_[k][i]);
+    y[i] += f[i];
   });
 }
 

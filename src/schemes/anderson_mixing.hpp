@@ -20,8 +20,8 @@ class AndersonMixing {
     df_.clear();
     f_.clear();
   }
-  /// y becomes the next iterate; f is its correction.
-  void advance(std::span<double> y, std::span<const double> f);
+  /// y becomes the next iterate; f is its correction, and becomes the step that y takes.
+  void advance(std::span<double> y, std::span<double> f);
 
  private:
   bool is_slow(std::span<const double> f) const;

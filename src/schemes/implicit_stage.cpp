@@ -185,6 +185,9 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
   std::vector<RowStatus> before;
   const Residual none{.work = infinity, .unbooked = infinity};
   Residual last = none, earlier = none;
+  const bool is_exact =
+      (system_.solid.is_linear() && system_.contact.slots() == 0) || !solver_->iterates() || !port_->is_function();
+  forcing_ = ForcingTerm(is_exact);
   for (int newton = 0, outer = 0;; ++newton, ++report.iterations) {
     before.swap(forces.rows.status);
     Residual error = residual(eq, begin, end);
@@ -211,12 +214,12 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
       return report;
     }
     // Rows that move leave their motion out of the tangent; a new set of acting rows is another equation.
-    if (newton == 0 || system_.contact.is_fixed() || before != forces.rows.status) mixing_.forget();
+    if (newton == 0 || before != forces.rows.status) mixing_.forget();
     earlier = last;
     last = newton == 0 ? none : error;  // before the first solve, the work is of a displacement that is a guess
-    // Below what rounding may leave, each solve is asked for a hundredth of what is left.
-    const double left = error.work <= error.round_off ? std::max(0.3 * wanted, 0.01 * error.work) : 0.3 * tolerance;
-    report.failure = improve(eq, begin, left / error.displacement, end, report);
+    // Each solve is asked for a hundredth of what is left: less would feed its own error to the mixing.
+    const double left = std::max(0.3 * wanted, std::min(0.3 * tolerance, 0.01 * error.work)) / error.displacement;
+    report.failure = improve(eq, begin, forcing_.next(error.norm, left), end, report);
     if (!report.failure.empty()) return report;
   }
   take_history(forces.rows, end.q, end.contact);
@@ -244,13 +247,13 @@ ImplicitStage::Residual ImplicitStage::shorten(const StageEquation& eq, const St
                                                State& end) {
   constexpr double share = 0.5;
   constexpr int most = 20;
-  double slope = dot(residual_, step_), at = 1.0;
+  double slope = dot(residual_, correction_), at = 1.0;
   double low = 0.0, slope_low = slope_, high = 1.0, slope_high = slope;
   for (int i = 0; i < most && slope_ > 0.0 && std::abs(slope) > share * slope_ && slope_high < 0.0; ++i) {
     const double next = low + (high - low) * slope_low / (slope_low - slope_high);
-    parallel_each(end.a.size(), [&](std::size_t k) { end.a[k] += (next - at) * step_[k]; });
+    parallel_each(end.a.size(), [&](std::size_t k) { end.a[k] += (next - at) * correction_[k]; });
     error = residual(eq, begin, end);
-    slope = dot(residual_, step_);
+    slope = dot(residual_, correction_);
     const bool was_low = at == low;
     at = next;
     if (slope > 0.0) {
@@ -272,6 +275,7 @@ std::string ImplicitStage::improve(const StageEquation& eq, const State& begin, 
   if (!failure.empty()) return failure;
   const PortSolve solved = port_->solve(*solver_, end.q, end.v, end.forces.rows, residual_, absolute, correction_);
   report.linear_iterations += solved.linear.iterations;
+  forcing_.solved(solved.linear.residual);
   if (!solved.failure.empty()) return solved.failure;
   if (!solved.linear.converged) {
     return fmt::format(
@@ -283,10 +287,11 @@ std::string ImplicitStage::improve(const StageEquation& eq, const State& begin, 
                                     : "",
         describe_motion(system_.mesh, solved.linear.worst));
   }
-  step_ = end.a;
-  mixing_.advance(end.a, correction_);
-  parallel_each(step_.size(), [&](std::size_t i) { step_[i] = end.a[i] - step_[i]; });
-  slope_ = dot(residual_, step_);
+  if (system_.contact.is_fixed())
+    parallel_each(correction_.size(), [&](std::size_t i) { end.a[i] += correction_[i]; });
+  else
+    mixing_.advance(end.a, correction_);
+  slope_ = dot(residual_, correction_);
   return {};
 }
 

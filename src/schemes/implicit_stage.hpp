@@ -11,6 +11,7 @@
 #include "enforcement/contact_port.hpp"
 #include "enforcement/implicit_settings.hpp"
 #include "schemes/anderson_mixing.hpp"
+#include "schemes/forcing_term.hpp"
 #include "schemes/imposed_motion.hpp"
 
 namespace carom {
@@ -92,7 +93,9 @@ class ImplicitStage {
   std::unique_ptr<ContactPort> port_;
   StageForce force_;
   AndersonMixing mixing_;
-  std::vector<double> residual_, correction_, step_, force_parts_;
+  ForcingTerm forcing_{true};
+  std::vector<double> residual_, force_parts_;
+  std::vector<double> correction_;                            ///< the last step of Newton's method
   std::vector<double> stiffness_diagonal_, closed_diagonal_;  ///< of K and the springs; of all contact rows, closed
   bool is_improved_ = false;                                  ///< the stage under way has made a Newton step
   double slope_ = 0.0;                                        ///< of the residual along the last step, before it

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -80,6 +81,20 @@ void fields(A& archive, Growth& x) {
   archive("calls", x.calls);
 }
 
+/// Where a tangent was made.
+struct TangentPlace {
+  double dt = 0.0;                ///< length of the step
+  std::vector<double> u, points;  ///< displacement, and history of the points at the beginning of the step
+  friend bool operator==(const TangentPlace&, const TangentPlace&) = default;
+};
+
+template <class A>
+void fields(A& archive, TangentPlace& x) {
+  archive("dt", x.dt);
+  archive("u", x.u);
+  archive("points", x.points);
+}
+
 /// What an implicit stage carries from step to step.
 struct StageMemory {
   double m = 0.0, c = 0.0;         ///< of the operator m M + c K that the compliances belong to
@@ -92,7 +107,15 @@ struct StageMemory {
   Index negative_eigenvalues = -1;
   /// Where the diagonal that preconditions the conjugate gradients was made (nonlinear bodies only), and the diagonal.
   std::vector<double> diagonal_at, diagonal;
-  friend bool operator==(const StageMemory&, const StageMemory&) = default;
+  std::shared_ptr<const TangentPlace> grids_at;  ///< the tangent of the multigrid; none: that at rest
+  friend bool operator==(const StageMemory& a, const StageMemory& b) {
+    const auto values = [](const StageMemory& x) {
+      return std::tie(x.m, x.c, x.solver_rows, x.port_rows, x.chosen_rows, x.port_nodes, x.mass_nodes,
+                      x.negative_eigenvalues, x.diagonal_at, x.diagonal);
+    };
+    const bool both = a.grids_at && b.grids_at;
+    return values(a) == values(b) && (a.grids_at == b.grids_at || (both && *a.grids_at == *b.grids_at));
+  }
 };
 template <class A>
 void fields(A& archive, StageMemory& x) {
@@ -106,6 +129,7 @@ void fields(A& archive, StageMemory& x) {
   archive("negative_eigenvalues", x.negative_eigenvalues);
   archive("diagonal_at", x.diagonal_at);
   archive("diagonal", x.diagonal);
+  archive("grids_at", x.grids_at);
 }
 
 /// What the generalised-alpha family carries from step to step.
@@ -150,20 +174,6 @@ template <class A>
 void fields(A& archive, NonsmoothMemory& x) {
   archive("a", x.a);
   archive("z", x.z);
-}
-
-/// Where a tangent was made.
-struct TangentPlace {
-  double dt = 0.0;                ///< length of the step
-  std::vector<double> u, points;  ///< displacement, and history of the points at the beginning of the step
-  friend bool operator==(const TangentPlace&, const TangentPlace&) = default;
-};
-
-template <class A>
-void fields(A& archive, TangentPlace& x) {
-  archive("dt", x.dt);
-  archive("u", x.u);
-  archive("points", x.points);
 }
 
 /// What the semi-explicit modified mass carries.

@@ -1,16 +1,20 @@
 #include "system/effective_solver.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <memory>
+#include <optional>
 
 #include "linalg/conjugate_gradients.hpp"
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 #include "solid/smallest_cell.hpp"
+#include "system/multigrid.hpp"
 #include "system/row_compliance.hpp"
 #include "system/tangent_factors.hpp"
 
@@ -29,15 +33,6 @@ std::string describe_free_motion(const Mesh& mesh, std::size_t dof) {
       describe_motion(mesh, dof));
 }
 
-bool acts(const RowTangent& D) {
-  return std::any_of(D.begin(), D.end(), [](double d) { return d != 0.0; });
-}
-
-Vec3 multiply(const RowTangent& D, const Vec3& w) {
-  return {D[0] * w[0] + D[1] * w[1] + D[2] * w[2], D[3] * w[0] + D[4] * w[1] + D[5] * w[2],
-          D[6] * w[0] + D[7] * w[1] + D[8] * w[2]};
-}
-
 /// The tangent as conjugate gradients can take it: where sliding couples the tangential force to the normal
 /// displacement and nothing back, the coupling is left out. The iteration on the contact state then converges linearly.
 RowTangent without_one_way_coupling(RowTangent D) {
@@ -52,51 +47,66 @@ void subtract_contact(const ConstraintRows& rows, const std::vector<RowTangent>&
     const std::size_t r = active[k].row;
     Vec3 displacement{};
     for (; k < active.size() && active[k].row == r; ++k) displacement[active[k].component] = w[k];
-    rows.scatter(r, scaled(multiply(D[r], displacement), -1.0), rhs);
+    rows.scatter(r, scaled(product(D[r], displacement), -1.0), rhs);
   }
 }
 
-/// Jacobi-preconditioned conjugate gradients on the whole operator, contact rows included.
+/// Conjugate gradients on the whole operator, contact rows included; preconditioned by its diagonal, or by a V-cycle.
 class CgSolver final : public EffectiveSolver {
  public:
-  explicit CgSolver(const System& system)
+  CgSolver(const System& system, bool is_multilevel)
       : system_(system),
         u_(system.solid.dof_count(), 0.0),
         stiffness_diagonal_(system.solid.tangent_diagonal(u_)),
-        diagonal_at_(u_),
-        inverse_diagonal_(u_.size()),
-        work_(u_.size()),
-        smallest_cell_(smallest_cell(system.solid)) {}
+        smallest_cell_(smallest_cell(system.solid)) {
+    if (!system.solid.is_linear()) diagonal_at_ = u_;
+    if (is_multilevel)
+      grids_.emplace(system);
+    else
+      inverse_diagonal_.resize(u_.size());
+  }
 
+  bool iterates() const override { return true; }
   void begin(const StageMemory& memory) override {
     if (system_.solid.is_linear()) return;
     diagonal_at_ = memory.diagonal_at;
     stiffness_diagonal_ = memory.diagonal;
+    are_grids_made_ = are_grids_made_ && memory.grids_at == grids_at_;
+    grids_at_ = memory.grids_at;
   }
   void leave(StageMemory& memory) const override {
     if (system_.solid.is_linear()) return;
     memory.diagonal_at = diagonal_at_;
     memory.diagonal = stiffness_diagonal_;
+    memory.grids_at = grids_at_;
   }
 
   std::string prepare(double m, double c, std::span<const double> u, const PointStep& step) override {
-    const bool is_linear = system_.solid.is_linear();
-    if (is_linear && m == m_ && c == c_) return {};
+    const bool is_linear = system_.solid.is_linear(), is_same = m == m_ && c == c_;
+    if (is_linear && is_same && (!grids_ || are_grids_made_)) return {};
     ++operators_made_;
     m_ = m;
     c_ = c;
-    if (is_linear) return {};
-    u_.assign(u.begin(), u.end());
-    step_ = step;
-    if (!has_moved()) return {};
-    stiffness_diagonal_ = system_.solid.tangent_diagonal(u_, step_);
-    diagonal_at_ = u_;
+    are_grids_made_ = are_grids_made_ && is_same;
+    if (!is_linear) {
+      u_.assign(u.begin(), u.end());
+      step_ = step;
+      if (has_moved()) {
+        stiffness_diagonal_ = system_.solid.tangent_diagonal(u_, step_);
+        diagonal_at_ = u_;
+        are_grids_made_ = false;
+        if (grids_)
+          grids_at_ = std::make_shared<const TangentPlace>(
+              TangentPlace{step.dt, u_, {step.history.begin(), step.history.end()}});
+      }
+    }
+    if (grids_ && !are_grids_made_) make_grids();
     return {};
   }
 
   LinearSolveReport solve(std::span<const double> b, const std::shared_ptr<const ConstraintRows>& rows,
                           const std::vector<RowTangent>& D, double absolute, std::span<double> x) override {
-    rows_ = rows.get();
+    rows_ = rows;
     tangents_.resize(D.size());
     std::transform(D.begin(), D.end(), tangents_.begin(), without_one_way_coupling);
     return iterate(b, 1e-14, absolute, x);
@@ -122,7 +132,10 @@ class CgSolver final : public EffectiveSolver {
     return all;
   }
 
-  std::string name(const StageMemory& /*memory*/) const override { return "conjugate gradients"; }
+  std::string name(const StageMemory& /*memory*/) const override {
+    if (!grids_) return "conjugate gradients";
+    return fmt::format("conjugate gradients with multigrid, {} corners", fmt::join(grids_->sizes(), ", "));
+  }
 
  private:
   /// True when a node has moved by a hundredth of the smallest cell since the diagonal was made, which costs as much as
@@ -137,11 +150,18 @@ class CgSolver final : public EffectiveSolver {
   }
 
   LinearSolveReport iterate(std::span<const double> b, double relative, double absolute, std::span<double> x) {
-    set_diagonal(tangents_);
     std::fill(x.begin(), x.end(), 0.0);
     const LinearOperator A = [&](std::span<const double> in, std::span<double> out) { apply(tangents_, in, out); };
     const int most = 1000 + static_cast<int>(10.0 * std::sqrt(static_cast<double>(x.size())));
-    const CgResult result = cg_.solve(A, inverse_diagonal_, b, x, relative, absolute, most);
+    CgResult result;
+    if (grids_) {
+      grids_->use(rows_, tangents_);
+      const LinearOperator B = [&](std::span<const double> r, std::span<double> z) { grids_->apply(r, z); };
+      result = cg_.solve(A, B, b, x, relative, absolute, most);
+    } else {
+      set_diagonal(tangents_);
+      result = cg_.solve(A, inverse_diagonal_, b, x, relative, absolute, most);
+    }
     if (result.converged) return {true, result.iterations, result.residual, false};
     const bool broke_down = result.iterations < most;
     return {false, result.iterations, result.residual, broke_down, result.worst};
@@ -150,15 +170,14 @@ class CgSolver final : public EffectiveSolver {
   void apply(const std::vector<RowTangent>& D, std::span<const double> x, std::span<double> y) {
     const std::vector<bool>& fixed = system_.supports.fixed();
     system_.solid.tangent_action(u_, x, y, step_);
-    system_.mass.apply(x, work_);
-    for (std::size_t i = 0; i < y.size(); ++i) y[i] = m_ * work_[i] + c_ * y[i];
+    system_.mass.combine(m_, x, c_, y);
     for (const DofSpring& spring : springs_) y[spring.dof] += spring.stiffness * x[spring.dof];
     for (std::size_t r = 0; r < D.size(); ++r) {
-      if (acts(D[r])) rows_->scatter(r, multiply(D[r], rows_->relative(r, x)), y);
+      if (acts(D[r])) rows_->scatter(r, product(D[r], rows_->relative(r, x)), y);
     }
-    for (std::size_t i = 0; i < y.size(); ++i) {
+    parallel_each(y.size(), [&](std::size_t i) {
       if (fixed[i]) y[i] = x[i];
-    }
+    });
   }
 
   void set_diagonal(const std::vector<RowTangent>& D) {
@@ -173,26 +192,39 @@ class CgSolver final : public EffectiveSolver {
       for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
         for (std::size_t c = 0; c < 3; ++c) {
           const Vec3 column{rows.block[k][0][c], rows.block[k][1][c], rows.block[k][2][c]};
-          inverse_diagonal_[3 * static_cast<std::size_t>(rows.node[k]) + c] += dot(column, multiply(D[r], column));
+          inverse_diagonal_[3 * static_cast<std::size_t>(rows.node[k]) + c] += dot(column, product(D[r], column));
         }
       }
     }
     // Nothing resists a dof without a diagonal entry: any finite number serves it.
     const double most = *std::max_element(inverse_diagonal_.begin(), inverse_diagonal_.end());
     for (std::size_t i = 0; i < inverse_diagonal_.size(); ++i) {
-      const double d = inverse_diagonal_[i];
-      inverse_diagonal_[i] = fixed[i] ? 1.0 : 1.0 / (d == 0.0 ? most : d);
+      const double d = inverse_diagonal_[i] == 0.0 ? most : inverse_diagonal_[i];
+      inverse_diagonal_[i] = fixed[i] ? 1.0 : 1.0 / d;
     }
   }
 
+  /// At grids_at_; none: at rest.
+  void make_grids() {
+    are_grids_made_ = true;
+    const auto place =
+        grids_at_ ? grids_at_
+                  : std::make_shared<const TangentPlace>(TangentPlace{0.0, std::vector<double>(u_.size(), 0.0), {}});
+    grids_->make(m_, c_, place, stiffness_diagonal_, springs_);
+  }
+
   const System& system_;
-  std::vector<double> u_, stiffness_diagonal_, diagonal_at_, inverse_diagonal_, work_;
-  PointStep step_;  ///< that ends at u_
+  std::vector<double> u_, stiffness_diagonal_, inverse_diagonal_;
+  std::vector<double> diagonal_at_;  ///< of bodies that are not linear
+  PointStep step_;                   ///< that ends at u_
   double smallest_cell_;
-  const ConstraintRows* rows_ = nullptr;  ///< of the solve under way
+  std::shared_ptr<const ConstraintRows> rows_;  ///< of the solve under way
   std::vector<RowTangent> tangents_;
   double m_ = 1.0, c_ = 0.0;
   ConjugateGradients cg_;
+  std::optional<Multigrid> grids_;
+  std::shared_ptr<const TangentPlace> grids_at_;  ///< where the tangent of the grids was made; none: at rest
+  bool are_grids_made_ = false;                   ///< for m_ and c_, at grids_at_
 };
 
 /// A = m M + c K factored (once for a linear body); contact by the Schur complement on its active rows (Woodbury):
@@ -213,6 +245,7 @@ class DirectSolver final : public EffectiveSolver {
     stiffness_ = system.solid.tangent(zero);
   }
 
+  bool iterates() const override { return false; }
   void begin(const StageMemory& memory) override {
     memory_ = &memory;
     is_compliance_ready_ = false;
@@ -375,14 +408,15 @@ SolverKind chosen_solver(const System& system, SolverKind kind, EnforcementKind 
   if (traits(enforcement).is_exact && rows > 0 && dofs <= (system.solid.is_linear() ? 500'000U : 50'000U))
     return SolverKind::cholesky;
   const double iterations = 0.5 * std::sqrt(1.0 + ratio * omega_max_squared) * std::log(2.0 / 1e-12);
-  const bool is_large = dofs > 2'000'000 || rows > 1000;
-  return iterations <= 60.0 || is_large ? SolverKind::conjugate_gradients : SolverKind::cholesky;
+  if (iterations <= 60.0) return SolverKind::conjugate_gradients;
+  const bool is_large = dofs > (system.solid.is_linear() ? 50'000U : 200'000U) || rows > 1000;
+  return is_large ? SolverKind::multigrid : SolverKind::cholesky;
 }
 
 std::unique_ptr<EffectiveSolver> make_effective_solver(const System& system, SolverKind kind) {
   if (kind == SolverKind::cholesky) return std::make_unique<DirectSolver>(system, TangentFactors::Method::cholesky);
   if (kind == SolverKind::ldlt) return std::make_unique<DirectSolver>(system, TangentFactors::Method::ldlt);
-  return std::make_unique<CgSolver>(system);
+  return std::make_unique<CgSolver>(system, kind == SolverKind::multigrid);
 }
 
 }  // namespace carom

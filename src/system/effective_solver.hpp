@@ -33,6 +33,8 @@ struct DofSpring {
 class EffectiveSolver {
  public:
   virtual ~EffectiveSolver() = default;
+  /// Fewer digits cost less.
+  virtual bool iterates() const = 0;
   /// Springs that are part of A from the next prepare() on, none of them on a fixed dof.
   void hold(std::vector<DofSpring> springs) { springs_ = std::move(springs); }
   /// A stage begins: what follows goes on from what its memory holds. The memory outlives the stage.
@@ -63,12 +65,13 @@ std::string describe_motion(const Mesh& mesh, std::size_t dof);
 
 /// What `automatic` stands for; any other kind as it is. ratio: c / m of the usual step (infinite for statics).
 /// Conjugate gradients where the Jacobi-preconditioned operator is well conditioned,
-///   kappa about 1 + (c / m) omega_max^2, so that sqrt(kappa)/2 ln(2/1e-12) iterations stay below 60,
-/// or the mesh has more than two million dofs or contact more than a thousand rows (one back-substitution and a line of
-/// a dense matrix each); the factorisation elsewhere. Exact contact asks for a column of the inverse per row, or three
-/// per contact node where rows of linear bodies move: a factorisation gives them cheaply, conjugate gradients do not.
-/// Linear bodies factor once, and half a million dofs take some gigabytes; the others factor in every iteration, which
-/// pays while that is a matter of seconds.
+///   kappa about 1 + (c / m) omega_max^2, so that sqrt(kappa)/2 ln(2/1e-12) iterations stay below 60:
+/// from there on a factorisation is cheaper up to about 50,000 dofs (a linear body factors once), multigrid beyond it
+/// (bars of 8 x 8 x 160 and 16 x 16 x 320 cells); contact of more than a thousand rows, a back-substitution and a line
+/// of a dense matrix each, is left to multigrid too. Bodies that are not linear factor in every iteration, but their
+/// tangents may turn indefinite, which ends iterations: they are given up for multigrid only where a factorisation
+/// takes gigabytes. Exact contact asks for a column of the inverse per row, or three per contact node where rows of
+/// linear bodies move: a factorisation gives them cheaply, iterations do not.
 SolverKind chosen_solver(const System& system, SolverKind kind, EnforcementKind enforcement, double ratio,
                          double omega_max_squared);
 

@@ -34,6 +34,7 @@ class Supports {
   const std::vector<bool>& fixed() const { return fixed_; }
   /// The same of a node, bit c for component c.
   unsigned fixed_components(std::size_t node) const { return fixed_components_[node]; }
+  const std::vector<std::uint8_t>& fixed_components() const { return fixed_components_; }
   bool is_prescribed(Index dof) const { return prescribed_flag_[static_cast<std::size_t>(dof)]; }
 
  private:

@@ -120,7 +120,7 @@ kind = ")" + solver + "\"\n");
 }
 
 TEST(Attached, SpringsCarryABodyInStatics) {
-  for (const char* solver : {"cholmod", "mumps", "cg"}) {
+  for (const char* solver : {"cholmod", "mumps", "cg", "multigrid"}) {
     const TemporaryCase run(standing(solver));
     EXPECT_EQ(run.run(), ExitCode::good) << solver << "\n" << run.result("summary.json");
   }

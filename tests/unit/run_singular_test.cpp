@@ -54,7 +54,7 @@ kind = ")" +
 }
 
 TEST(Singular, MechanismsAreNamedByNodeAndDirection) {
-  for (const char* solver : {"auto", "cholmod", "mumps", "cg"}) {
+  for (const char* solver : {"auto", "cholmod", "mumps", "cg", "multigrid"}) {
     const TemporaryCase run(mechanism(solver, ""));
     EXPECT_EQ(run.run(), ExitCode::run_failed) << solver;
     const std::string summary = run.result("summary.json");
@@ -63,7 +63,7 @@ TEST(Singular, MechanismsAreNamedByNodeAndDirection) {
 }
 
 TEST(Singular, ASpringMendsIt) {
-  for (const char* solver : {"auto", "cholmod", "mumps", "cg"}) {
+  for (const char* solver : {"auto", "cholmod", "mumps", "cg", "multigrid"}) {
     const TemporaryCase run(mechanism(solver, "[[spring]]\nnodes = \"MIDDLE\"\nstiffness = [0, 0, 4]\n"));
     EXPECT_EQ(run.run(), ExitCode::good) << solver << "\n" << run.result("summary.json");
   }

@@ -249,7 +249,7 @@ TEST_P(PurityOf, Holds) {
     if (!takes(scheme.kind, enforcement.kind)) continue;
     for (const Scene& scene : scenes) {
       for (const Body& body : bodies()) {
-        for (const SolverKind solver : {SolverKind::cholesky, SolverKind::conjugate_gradients}) {
+        for (const SolverKind solver : {SolverKind::cholesky, SolverKind::conjugate_gradients, SolverKind::multigrid}) {
           if (!is_tried(scheme.kind, enforcement.kind, scene, body, solver)) continue;
           SCOPED_TRACE(std::string(enforcement.name) + ", " + scene.name + ", " + body.name + ", solver " +
                        std::to_string(static_cast<int>(solver)));

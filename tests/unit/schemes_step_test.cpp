@@ -32,7 +32,7 @@ State oblique(const Problem& p) {
 
 // Two iterations are enough where nothing slides.
 TEST(FailedStep, LeavesStateAndSchemeAsTheyWere) {
-  for (const SolverKind solver : {SolverKind::cholesky, SolverKind::conjugate_gradients}) {
+  for (const SolverKind solver : {SolverKind::cholesky, SolverKind::conjugate_gradients, SolverKind::multigrid}) {
     const Problem p(flying({10.0, 0.3}));
     const ImplicitSettings settings{.max_iterations = 2, .solver = solver};
     const double h = 0.4, half = 0.1;

@@ -53,6 +53,11 @@ TEST(Threads, NewmarkWithConjugateGradients) {
                    [](const Problem& p) { return newmark(p, h, {}, {.solver = SolverKind::conjugate_gradients}); });
 }
 
+TEST(Threads, NewmarkWithMultigrid) {
+  expect_same_bits(chosen_isa(), MassKind::consistent, 1,
+                   [](const Problem& p) { return newmark(p, h, {}, {.solver = SolverKind::multigrid}); });
+}
+
 TEST(Threads, NewmarkWithCholesky) {
   expect_same_bits(chosen_isa(), MassKind::consistent, 1,
                    [](const Problem& p) { return newmark(p, h, {}, {.solver = SolverKind::cholesky}); });

@@ -1,0 +1,304 @@
+#include "system/multigrid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "linalg/largest_eigenvalue.hpp"
+#include "math/vec3.hpp"
+#include "parallel/threads.hpp"
+#include "system/background_grids.hpp"
+
+namespace carom {
+namespace {
+
+constexpr std::size_t enough_corners = 150;  // of the last grid, whose matrix is factored
+constexpr int degree = 2;                    // of the polynomials
+constexpr double damped = 8.0;               // they smooth eigenvalues from the largest down to this part of it
+
+/// G without the fixed components of nodes, whose bits are set.
+ConstraintRows without(const ConstraintRows& rows, std::span<const std::uint8_t> fixed) {
+  ConstraintRows out;
+  out.begin = rows.begin;
+  out.node = rows.node;
+  out.block = rows.block;
+  out.gap = rows.gap;
+  for (std::size_t k = 0; k < out.node.size(); ++k)
+    for (std::size_t c = 0; c < 3; ++c)
+      if ((fixed[at(out.node[k])] >> c & 1U) != 0)
+        for (Vec3& line : out.block[k]) line[c] = 0.0;
+  return out;
+}
+
+/// G P: the rows as the points of a coarser level see them.
+ConstraintRows project(const ConstraintRows& rows, const Interpolation& P) {
+  ConstraintRows out;
+  std::vector<Index> points;
+  std::vector<RowBlock> blocks;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    points.clear();
+    blocks.clear();
+    for (std::size_t k = at(rows.begin[r]); k < at(rows.begin[r + 1]); ++k) {
+      const auto coarse = P.coarse_of(at(rows.node[k]));
+      const auto weights = P.weights_of(at(rows.node[k]));
+      for (std::size_t p = 0; p < coarse.size(); ++p) {
+        const std::size_t place = at(std::find(points.begin(), points.end(), coarse[p]) - points.begin());
+        if (place == points.size()) {
+          points.push_back(coarse[p]);
+          blocks.emplace_back();
+        }
+        for (std::size_t i = 0; i < 3; ++i)
+          for (std::size_t c = 0; c < 3; ++c) blocks[place][i][c] += weights[p] * rows.block[k][i][c];
+      }
+    }
+    out.node.insert(out.node.end(), points.begin(), points.end());
+    out.block.insert(out.block.end(), blocks.begin(), blocks.end());
+    out.begin.push_back(static_cast<Index>(out.node.size()));
+    out.gap.push_back(0.0);
+  }
+  return out;
+}
+
+/// G^T D G on the points of a level.
+BlockMatrix matrix_of(const ConstraintRows& rows, const std::vector<RowTangent>& D, std::size_t points) {
+  const auto nodes_of = [&](std::size_t r) {
+    std::vector<Index> nodes(rows.node.begin() + rows.begin[r], rows.node.begin() + rows.begin[r + 1]);
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+  };
+  PointGraph graph(points);
+  for (std::size_t r = 0; r < D.size(); ++r)
+    if (acts(D[r])) graph.couple(nodes_of(r));
+  BlockMatrix out = graph.matrix();
+  for (std::size_t r = 0; r < D.size(); ++r) {
+    if (!acts(D[r])) continue;
+    for (auto p = at(rows.begin[r]); p < at(rows.begin[r + 1]); ++p)
+      for (auto q = at(rows.begin[r]); q < at(rows.begin[r + 1]); ++q) {
+        double* sum = out.block(rows.node[p], rows.node[q]);
+        for (std::size_t j = 0; j < 3; ++j) {
+          const RowBlock& b = rows.block[q];
+          const Vec3 force = product(D[r], {b[0][j], b[1][j], b[2][j]});
+          for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t k = 0; k < 3; ++k) sum[3 * i + j] += rows.block[p][k][i] * force[k];
+        }
+      }
+  }
+  return out;
+}
+
+/// The step that ends at the place.
+PointStep step_to(const TangentPlace& place) {
+  return {.dt = place.dt, .history = place.points};
+}
+
+}  // namespace
+
+Multigrid::Multigrid(const System& system)
+    : system_(system),
+      masses_(system.solid.mass(MassKind::lumped).node_diagonal()),
+      P_(background_grids(system.mesh, system.solid, system.supports.fixed_components(), enough_corners)),
+      levels_(P_.size() + 1) {
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    const std::size_t n = l == 0 ? system.solid.dof_count() : 3 * P_[l - 1].coarse_points();
+    for (std::vector<double>* v : {&levels_[l].b, &levels_[l].x, &levels_[l].d, &levels_[l].Ad}) v->assign(n, 0.0);
+  }
+}
+
+std::vector<std::size_t> Multigrid::sizes() const {
+  std::vector<std::size_t> out;
+  for (const Interpolation& P : P_) out.push_back(P.coarse_points());
+  return out;
+}
+
+void Multigrid::make(double m, double c, std::shared_ptr<const TangentPlace> place, std::span<const double> diagonal,
+                     const std::vector<DofSpring>& springs) {
+  m_ = m;
+  c_ = c;
+  springs_ = springs;
+  place_ = std::move(place);
+  std::vector<double>& fine = levels_[0].diagonal;
+  fine.resize(diagonal.size());
+  for (std::size_t i = 0; i < fine.size(); ++i) fine[i] = m * masses_[i / 3] + c * diagonal[i];
+  for (const DofSpring& spring : springs_) fine[spring.dof] += spring.stiffness;
+  // Nothing resists a dof without a diagonal entry: any finite number serves it.
+  const double most = *std::max_element(fine.begin(), fine.end());
+  const std::vector<bool>& fixed = system_.supports.fixed();
+  for (std::size_t i = 0; i < fine.size(); ++i) fine[i] = fixed[i] ? 0.0 : (fine[i] > 0.0 ? fine[i] : most);
+  make_first_grid();
+  for (std::size_t l = 2; l < levels_.size(); ++l) levels_[l].A = galerkin(levels_[l - 1].A, P_[l - 1]);
+  D_.clear();
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    levels_[l].rows = nullptr;
+    if (l > 0) levels_[l].diagonal = levels_[l].A.diagonal();
+    make_diagonal(levels_[l]);
+    make_top(l);
+  }
+  factor_last();
+}
+
+/// P^T A P from the finite elements.
+void Multigrid::make_first_grid() {
+  const std::vector<std::uint8_t>& fixed = system_.supports.fixed_components();
+  BlockMatrix& A = levels_[1].A;
+  A = {};
+  A = system_.solid.projected_tangent(place_->u, step_to(*place_), P_[0], fixed);
+  for (double& value : A.value) value *= c_;
+  const auto add = [&](std::size_t n, std::size_t i, double value) {
+    const auto coarse = P_[0].coarse_of(n);
+    const auto weights = P_[0].weights_of(n);
+    for (std::size_t p = 0; p < coarse.size(); ++p)
+      for (std::size_t q = 0; q < coarse.size(); ++q)
+        A.block(coarse[p], coarse[q])[4 * i] += value * weights[p] * weights[q];
+  };
+  for (std::size_t n = 0; n < masses_.size(); ++n)
+    for (std::size_t i = 0; i < 3; ++i)
+      if ((fixed[n] >> i & 1U) == 0) add(n, i, m_ * masses_[n]);
+  for (const DofSpring& spring : springs_) add(spring.dof / 3, spring.dof % 3, spring.stiffness);
+}
+
+/// By Lanczos iterations, with what these may lack.
+void Multigrid::make_top(std::size_t l) {
+  Level& level = levels_[l];
+  const std::vector<double>&D = level.diagonal, &inverse = level.inverse_diagonal;
+  const Pencil pencil{[&](std::span<const double> x, std::span<double> y) { apply_level(l, x, y); },
+                      [&](std::span<const double> x, std::span<double> y) {
+                        parallel_each(x.size(), [&](std::size_t i) { y[i] = D[i] * x[i]; });
+                      },
+                      [&](std::span<const double> x, std::span<double> y) {
+                        parallel_each(x.size(), [&](std::size_t i) { y[i] = inverse[i] * x[i]; });
+                      }};
+  constexpr double rough = 0.02, margin = 1.02;
+  constexpr int most = 25;
+  level.top = margin * largest_eigenvalue(pencil, D.size(), rough, most).upper;
+}
+
+void Multigrid::make_diagonal(Level& level) const {
+  std::vector<double> diagonal = level.diagonal;
+  for (std::size_t r = 0; level.rows && r < D_.size(); ++r) {
+    if (!acts(D_[r])) continue;
+    const ConstraintRows& rows = *level.rows;
+    const double entries = 3.0 * static_cast<double>(rows.begin[r + 1] - rows.begin[r]);
+    const double times = std::max(1.0, entries / level.top);
+    for (std::size_t k = at(rows.begin[r]); k < at(rows.begin[r + 1]); ++k)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Vec3 column{rows.block[k][0][c], rows.block[k][1][c], rows.block[k][2][c]};
+        diagonal[3 * at(rows.node[k]) + c] += times * dot(column, product(D_[r], column));
+      }
+  }
+  level.inverse_diagonal.resize(diagonal.size());
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+    level.inverse_diagonal[i] = diagonal[i] > 0.0 ? 1.0 / diagonal[i] : 0.0;
+}
+
+void Multigrid::use(const std::shared_ptr<const ConstraintRows>& rows, const std::vector<RowTangent>& D) {
+  if (D == D_ && (D.empty() || rows == rows_)) return;
+  D_ = D;
+  const bool has_rows = std::any_of(D.begin(), D.end(), acts);
+  const bool are_known = rows == rows_ && levels_[0].rows;
+  rows_ = rows;
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    Level& level = levels_[l];
+    if (!has_rows)
+      level.rows = nullptr;
+    else if (!are_known)
+      level.rows = std::make_shared<const ConstraintRows>(l == 0 ? without(*rows, system_.supports.fixed_components())
+                                                                 : project(*levels_[l - 1].rows, P_[l - 1]));
+    make_diagonal(level);
+  }
+  factor_last();
+}
+
+void Multigrid::factor_last() {
+  const Level& level = levels_.back();
+  last_.reset();
+  BlockMatrix A = level.rows ? sum(level.A, matrix_of(*level.rows, D_, level.A.points())) : level.A;
+  for (std::size_t p = 0; p < A.points(); ++p)
+    for (std::size_t i = 0; i < 3; ++i) {
+      double& entry = A.block(static_cast<Index>(p), static_cast<Index>(p))[4 * i];
+      if (entry == 0.0) entry = 1.0;  // fixed, as all nodes around it
+    }
+  try {
+    last_.emplace(by_unknowns(A));
+  } catch (const NotPositiveDefinite&) {
+    // Then smoothing has to do, and the conjugate gradients say what is wrong.
+  }
+}
+
+/// (m M + c K) x on the finite elements, without fixed dofs.
+void Multigrid::apply_fine(std::span<const double> x, std::span<double> y) const {
+  system_.solid.tangent_action(place_->u, x, y, step_to(*place_));
+  const std::vector<std::uint8_t>& all_fixed = system_.supports.fixed_components();
+  constexpr std::size_t nodes_per_task = 512;
+  parallel_for(masses_.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      const double mass = m_ * masses_[n];
+      const unsigned fixed = all_fixed[n];
+      for (std::size_t i = 3 * n; i < 3 * n + 3; ++i)
+        y[i] = (fixed >> (i - 3 * n) & 1U) != 0 ? 0.0 : mass * x[i] + c_ * y[i];
+    }
+  });
+  for (const DofSpring& spring : springs_) y[spring.dof] += spring.stiffness * x[spring.dof];
+}
+
+void Multigrid::apply_level(std::size_t l, std::span<const double> x, std::span<double> y) const {
+  const Level& level = levels_[l];
+  if (l == 0)
+    apply_fine(x, y);
+  else
+    level.A.apply(x, y);
+  if (!level.rows) return;
+  for (std::size_t r = 0; r < D_.size(); ++r)
+    if (acts(D_[r])) level.rows->scatter(r, product(D_[r], level.rows->relative(r, x)), y);
+}
+
+/// Chebyshev's iteration on A x = b from the x there is; b is the residual before `A_times_d` is taken off, and lacks
+/// that of the last change afterwards (Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., algorithm 12.1).
+void Multigrid::smooth(std::size_t l, bool is_start) {
+  Level& level = levels_[l];
+  const double theta = 0.5 * level.top * (1.0 + 1.0 / damped), delta = 0.5 * level.top * (1.0 - 1.0 / damped);
+  const double sigma = theta / delta;
+  double rho = 1.0 / sigma, keep = 0.0, add = 1.0 / theta;
+  for (int k = 1; k <= degree; ++k) {
+    const bool is_first = is_start && k == 1;
+    if (!is_first) apply_level(l, level.d, level.Ad);
+    parallel_each(level.x.size(), [&](std::size_t i) {
+      if (!is_first) level.b[i] -= level.Ad[i];
+      level.d[i] = (k == 1 ? 0.0 : keep * level.d[i]) + add * level.inverse_diagonal[i] * level.b[i];
+      level.x[i] = (is_first ? 0.0 : level.x[i]) + level.d[i];
+    });
+    const double next = 1.0 / (2.0 * sigma - rho);
+    keep = rho * next;
+    add = 2.0 * next / delta;
+    rho = next;
+  }
+}
+
+/// levels_[l].x = B b, which changes b.
+void Multigrid::cycle(std::size_t l) {
+  Level& level = levels_[l];
+  if (l + 1 == levels_.size() && last_) {
+    level.x = level.b;
+    last_->solve(level.x);
+    return;
+  }
+  smooth(l, true);
+  if (l + 1 == levels_.size()) return;
+  apply_level(l, level.d, level.Ad);
+  parallel_each(level.b.size(), [&](std::size_t i) { level.b[i] -= level.Ad[i]; });
+  P_[l].restrict_to(level.b, levels_[l + 1].b);
+  cycle(l + 1);
+  P_[l].apply(levels_[l + 1].x, level.d);
+  parallel_each(level.x.size(), [&](std::size_t i) {
+    if (level.inverse_diagonal[i] == 0.0) level.d[i] = 0.0;  // fixed
+    level.x[i] += level.d[i];
+  });
+  smooth(l, false);
+}
+
+void Multigrid::apply(std::span<const double> r, std::span<double> z) {
+  std::copy(r.begin(), r.end(), levels_[0].b.begin());
+  cycle(0);
+  std::copy(levels_[0].x.begin(), levels_[0].x.end(), z.begin());
+}
+
+}  // namespace carom

@@ -1,0 +1,175 @@
+// The multilevel preconditioner: what it must be for conjugate gradients, and how many iterations it leaves them.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cell_meshes.hpp"
+#include "schemes_fixture.hpp"
+#include "solid_bodies.hpp"
+#include "system/multigrid.hpp"
+
+namespace carom::schemes_multigrid_test {
+namespace {
+
+using namespace test;
+
+/// A solve to a relative residual, and what it took.
+struct Solved {
+  std::vector<double> x;
+  int iterations = 0;
+};
+
+std::vector<double> free_load(const Problem& p, unsigned seed) {
+  std::vector<double> b = random_vector(p.solid.dof_count(), seed);
+  for (std::size_t i = 0; i < b.size(); ++i)
+    if (p.supports.fixed()[i]) b[i] = 0.0;
+  return b;
+}
+
+constexpr double eight_digits = 1e-8;
+
+Solved solve(const Problem& p, SolverKind kind, double m, double c, const std::vector<RowTangent>& D = {}) {
+  const std::vector<double> b = free_load(p, 1), rest(b.size(), 0.0);
+  const auto solver = make_effective_solver(p.system, kind);
+  Solved out{std::vector<double>(b.size()), 0};
+  EXPECT_EQ(solver->prepare(m, c, rest), "");
+  const LinearSolveReport report = solver->solve(b, p.rows(), D, eight_digits * std::sqrt(dot(b, b)), out.x);
+  EXPECT_TRUE(report.converged);
+  out.iterations = report.iterations;
+  return out;
+}
+
+/// h^2 / 4 of Newmark's average acceleration at a Courant number, for cells of edge 1.
+double ratio_at(double courant) {
+  return 0.25 * courant * courant * unit_material.rho / unit_material.p_wave_modulus();
+}
+
+Model bar(int n, double distortion = 0.0) {
+  return one_part(block_mesh({n, n, 5 * n}, distortion));
+}
+
+Model clamped(Model model) {
+  block(model, "ZMIN", {0, 1, 2});
+  return model;
+}
+
+/// A block twice as wide above another, every face of the one pressed on the other by springs.
+Model stacked(int n) {
+  StructuredBlock lower, upper;
+  lower.size = {2, 2, 1};
+  upper.size = {1, 1, 2};
+  upper.origin = {0.5, 0.5, 1.0};
+  lower.divisions = {2 * n, 2 * n, n};
+  upper.divisions = {n + 1, n + 1, 2 * n};
+  lower.face_groups = {"", "", "", "", "FLOOR", "MASTER"};
+  upper.face_groups = {"", "", "", "", "SLAVE", ""};
+  Model model = one_part(make_structured_blocks({lower, upper}));
+  PairContact pair;
+  pair.name = "pair";
+  pair.slave.facets = faces_of(*model.mesh, "SLAVE");
+  pair.master.facets = faces_of(*model.mesh, "MASTER");
+  pair.law.eps_N = 2.0 * n;  // of the order of a cell's own stiffness, E over its height
+  model.contacts.emplace_back(pair);
+  block(model, "FLOOR", {0, 1, 2});
+  return model;
+}
+
+/// Springs of rows that act, along their normals and across.
+std::vector<RowTangent> springs(const Problem& p, double normal, double across) {
+  return std::vector<RowTangent>(p.rows()->size(), {normal, 0, 0, 0, across, 0, 0, 0, across});
+}
+
+// Five actions of the fine operator an iteration: one of the conjugate gradients, one and two of smoothing, one for the
+// residual in between. Eight iterations for eight digits are forty actions, sixteen eighty; nodes moved by up to a
+// fifth of an edge, so that the grids miss them, cost two more.
+TEST(Multigrid, IterationsDoNotGrowWithTheMesh) {
+  for (const double distortion : {0.0, 0.2})
+    for (const int n : {4, 8, 14}) {
+      const Problem free(bar(n, distortion)), held(clamped(bar(n, distortion)));
+      EXPECT_LE(solve(free, SolverKind::multigrid, 1.0, ratio_at(18.0)).iterations, distortion > 0.0 ? 10 : 8)
+          << n << ", " << distortion;
+      EXPECT_LE(solve(free, SolverKind::multigrid, 1.0, ratio_at(1000.0)).iterations, 16) << n << ", " << distortion;
+      EXPECT_LE(solve(held, SolverKind::multigrid, 0.0, 1.0).iterations, 16) << n << ", " << distortion;
+    }
+}
+
+// Contact stands on every level: up to ten times the stiffness of the cells costs no iterations, and at any it is the
+// same number on every mesh, far from that of the diagonal.
+TEST(Multigrid, ContactStandsOnEveryLevel) {
+  for (const int n : {3, 6}) {
+    const Problem p(stacked(n));
+    const double cell = 2.0 / n;  // its stiffness
+    for (const double times : {1.0, 10.0, 100.0, 1e3})
+      for (const double across : {0.0, 0.3 * times}) {
+        const std::vector<RowTangent> D = springs(p, times * cell, across * cell);
+        const int iterations = solve(p, SolverKind::multigrid, 1.0, ratio_at(18.0), D).iterations;
+        const int plain = solve(p, SolverKind::conjugate_gradients, 1.0, ratio_at(18.0), D).iterations;
+        EXPECT_LE(iterations, times > 10.0 ? plain / 2 : 16) << n << ", " << times;
+      }
+  }
+}
+
+/// Models that the background grids know least of: cells of other shapes, a soft half, a thin plate, nodes on edges.
+std::vector<std::pair<std::string, Model>> awkward_models() {
+  std::vector<std::pair<std::string, Model>> out;
+  const auto add = [&](const std::string& label, Model model) { out.emplace_back(label, clamped(std::move(model))); };
+  for (const CellType type : {CellType::tetra4, CellType::tetra10, CellType::penta6, CellType::hexa20})
+    add(std::string(name(type)), body(with_cells(block_mesh({4, 4, 8}, 0.1), type),
+                                      *find_element(type, Section::solid, {}), Material(unit_material)));
+  Model halves = one_part(block_mesh({6, 6, 12}, 0.1));
+  Part soft = halves.parts[0];
+  for (Part* part : {&halves.parts[0], &soft}) part->cells.clear();
+  for (Index k = 0; k < 6 * 6 * 12; ++k) (k < 6 * 6 * 6 ? halves.parts[0] : soft).cells.push_back(k);
+  soft.name = "soft";
+  soft.material = LinearElastic{{.E = 1e-3 * unit_material.E, .nu = 0.45, .rho = 0.1}};
+  halves.parts.push_back(soft);
+  add("a thousandth", halves);
+  Mesh plate = block_mesh({12, 2, 12}, 0.0);
+  for (Vec3& x : plate.coordinates) x[1] *= 0.1;
+  add("plate", one_part(plate));
+  return out;
+}
+
+// 1e-6 of the largest displacement: eight digits of the residual, and two for the condition number of what is slender.
+TEST(Multigrid, SolvesWhatAFactorisationSolves) {
+  for (const auto& [label, model] : awkward_models()) {
+    const Problem p(model);
+    for (const bool is_static : {false, true}) {
+      const double m = is_static ? 0.0 : 1.0, c = is_static ? 1.0 : ratio_at(18.0);
+      const Solved iterated = solve(p, SolverKind::multigrid, m, c), factored = solve(p, SolverKind::cholesky, m, c);
+      EXPECT_LT(largest_difference(iterated.x, factored.x), 1e-6 * largest(factored.x)) << label << is_static;
+      EXPECT_LE(iterated.iterations, 24) << label << is_static;
+    }
+  }
+}
+
+// What conjugate gradients ask of a preconditioner: x . B y = y . B x to round-off, x . B x > 0; and the same bits
+// again, whatever has been solved in between.
+TEST(Multigrid, IsSymmetricAndPositiveDefinite) {
+  const Problem p(stacked(3));
+  const std::size_t n = p.solid.dof_count();
+  Multigrid grids(p.system);
+  const std::vector<double> rest(n, 0.0);
+  grids.make(1.0, ratio_at(18.0), std::make_shared<TangentPlace>(TangentPlace{0.0, rest, {}}),
+             p.solid.tangent_diagonal(rest), {});
+  std::vector<double> first;
+  for (const double stiffness : {0.0, 1.0, 1e3, 0.0}) {
+    grids.use(p.rows(), springs(p, stiffness, 0.0));
+    const std::vector<double> x = free_load(p, 1), y = free_load(p, 2);
+    std::vector<double> Bx(n), By(n);
+    grids.apply(x, Bx);
+    grids.apply(y, By);
+    const double scale = std::sqrt(dot(x, Bx) * dot(y, By));
+    EXPECT_GT(dot(x, Bx), 0.0);
+    EXPECT_NEAR(dot(x, By), dot(y, Bx), 1e-12 * scale) << stiffness;
+    if (first.empty()) first = Bx;
+    if (stiffness == 0.0) {
+      EXPECT_EQ(Bx, first);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom::schemes_multigrid_test
