@@ -24,7 +24,7 @@ verify: build ## long verification cases, resumable, writes docs/verification.md
 	@tools/setup test
 	@tools/thread_check
 
-bench:   ## kernel benchmarks (elements per second) with STREAM triad beside them
+bench:   ## measures kernels, steps, growth, implicit runs, peers: writes docs/performance.md (half an hour)
 	@tools/setup build bench
 	@tools/bench
 

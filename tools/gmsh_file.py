@@ -1,10 +1,17 @@
 """Meshes for cases in Gmsh's formats 2.2 and 4.1, as text: nodes, cells by corners, named groups."""
 
-POINT, LINE2, TRIA3, QUAD4, TETRA4, HEXA8, PENTA6 = 15, 1, 2, 3, 4, 5, 6
-TRIA6, TETRA10 = 9, 11
-DIMENSION = {POINT: 0, LINE2: 1, TRIA3: 2, QUAD4: 2, TRIA6: 2, TETRA4: 3, HEXA8: 3, PENTA6: 3, TETRA10: 3}
+POINT, LINE2, TRIA3, QUAD4, TETRA4, HEXA8, PENTA6, PYRA5 = 15, 1, 2, 3, 4, 5, 6, 7
+LINE3, TRIA6, QUAD8, QUAD9, TETRA10, HEXA20, HEXA27 = 8, 9, 16, 10, 11, 17, 12
+DIMENSION = {POINT: 0, LINE2: 1, LINE3: 1, TRIA3: 2, QUAD4: 2, TRIA6: 2, QUAD8: 2, QUAD9: 2,
+             TETRA4: 3, HEXA8: 3, PENTA6: 3, PYRA5: 3, TETRA10: 3, HEXA20: 3, HEXA27: 3}
 CORNERS = {TRIA6: 3, TETRA10: 4}
-EDGES = {TRIA6: [(0, 1), (1, 2), (2, 0)], TETRA10: [(0, 1), (1, 2), (2, 0), (0, 3), (2, 3), (1, 3)]}  # Gmsh's order
+QUAD_EDGES = [(0, 1), (1, 2), (2, 3), (3, 0)]
+HEXA_EDGES = [(0, 1), (0, 3), (0, 4), (1, 2), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 7), (5, 6), (6, 7)]
+HEXA_FACES = [(0, 3, 2, 1), (0, 1, 5, 4), (0, 4, 7, 3), (1, 2, 6, 5), (2, 3, 7, 6), (4, 5, 6, 7)]
+# The corners between which the other nodes lie, in Gmsh's order
+MIDDLES = {LINE3: [(0, 1)], TRIA6: [(0, 1), (1, 2), (2, 0)], QUAD8: QUAD_EDGES, QUAD9: [*QUAD_EDGES, (0, 1, 2, 3)],
+           TETRA10: [(0, 1), (1, 2), (2, 0), (0, 3), (2, 3), (1, 3)], HEXA20: HEXA_EDGES,
+           HEXA27: [*HEXA_EDGES, *HEXA_FACES, (0, 1, 2, 3, 4, 5, 6, 7)]}
 
 
 def tetrahedra(hexa):
@@ -25,11 +32,11 @@ def triangles(quad):
 
 
 class GmshFile:
-    """Cells are (type, group, node numbers); `middle` may move the middle of two nodes, given their positions."""
+    """Cells are (type, group, node numbers); `middle` may move what lies between nodes, given their positions."""
 
     def __init__(self, digits=1e-9, middle=None):
         self.digits = digits
-        self.middle = middle or (lambda x, y: [(p + q) / 2.0 for p, q in zip(x, y)])
+        self.middle = middle or (lambda *nodes: [sum(x) / len(x) for x in zip(*nodes)])
         self.numbers = {}
         self.nodes = []
         self.cells = []
@@ -43,16 +50,18 @@ class GmshFile:
             self.numbers[key] = len(self.nodes)
         return self.numbers[key]
 
-    def between(self, a, b):
-        key = (min(a, b), max(a, b))
+    def between(self, *corners):
+        """Number of the node between others, given by theirs."""
+        key = tuple(sorted(corners))
         if key not in self.middles:
-            self.nodes.append(self.middle(self.nodes[a - 1], self.nodes[b - 1]))
+            self.nodes.append(self.middle(*(self.nodes[a - 1] for a in corners)))
             self.middles[key] = len(self.nodes)
         return self.middles[key]
 
     def add(self, kind, group, corners):
         corners = list(corners)
-        self.cells.append((kind, group, corners + [self.between(corners[a], corners[b]) for a, b in EDGES.get(kind, [])]))
+        middles = [self.between(*(corners[a] for a in of)) for of in MIDDLES.get(kind, [])]
+        self.cells.append((kind, group, corners + middles))
 
     def tags(self):
         tags = {}

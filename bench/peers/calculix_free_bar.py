@@ -6,7 +6,8 @@
 
 The wall is one clamped C3D8 whose upper face is the master surface, met by surface-to-surface penalty contact of
 1e14 Pa/m. Integration is *DYNAMIC, DIRECT with steps of 2e-6 s (CalculiX's own alpha method, ALPHA = -0.05): with
-ALPHA = 0 its contact iterations do not end when the gap closes on an increment. Standard library only.
+ALPHA = 0 its contact iterations do not end when the gap closes on an increment. With --explicit CalculiX chooses the
+step itself (with DIRECT its first one does not end), without regard to the contact's stiffness. Standard library only.
 """
 
 import argparse
@@ -81,13 +82,14 @@ def model_lines(mesh):
     yield f"*INITIAL CONDITIONS, TYPE=VELOCITY\nBAR, 3, {-SPEED:g}"
 
 
-def step_lines():
-    yield "*STEP, INC=100000"
-    yield f"*DYNAMIC, DIRECT\n{STEP:g}, {END:g}"
+def step_lines(step, end, explicit):
+    every = "FREQUENCY=100000, " if explicit else ""
+    yield "*STEP, INC=100000" + (", NLGEOM" if explicit else "")
+    yield f"*DYNAMIC, {'EXPLICIT' if explicit else 'DIRECT'}\n{step:g}, {end:g}"
     for place in "AB":
-        yield f"*NODE PRINT, NSET={place}\nU, V"
-    yield "*NODE PRINT, NSET=WALL, TOTALS=ONLY\nRF"
-    yield "*EL PRINT, ELSET=BAR, TOTALS=ONLY\nELSE, ELKE"
+        yield f"*NODE PRINT, {every}NSET={place}\nU, V"
+    yield f"*NODE PRINT, {every}NSET=WALL, TOTALS=ONLY\nRF"
+    yield f"*EL PRINT, {every}ELSET=BAR, TOTALS=ONLY\nELSE, ELKE"
     yield "*END STEP"
 
 
@@ -95,6 +97,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--across", type=int, default=8, help="cells across the section (even)")
     parser.add_argument("--along", type=int, default=160, help="cells along the bar")
+    parser.add_argument("--step", type=float, default=STEP, help="time step, s")
+    parser.add_argument("--end", type=float, default=END, help="s")
+    parser.add_argument("--explicit", action="store_true", help="explicit steps")
     parser.add_argument("deck", help="file to write, .inp")
     options = parser.parse_args()
     if options.across < 2 or options.across % 2 or options.along < 1:
@@ -102,7 +107,7 @@ def main():
     mesh = BarMesh(options.across, options.along)
     with open(options.deck, "w", encoding="ascii") as deck:
         deck.write("*HEADING\nFree bar against a rigid wall\n")
-        for lines in (mesh_lines(mesh), model_lines(mesh), step_lines()):
+        for lines in (mesh_lines(mesh), model_lines(mesh), step_lines(options.step, options.end, options.explicit)):
             for line in lines:
                 deck.write(line + "\n")
 
