@@ -35,18 +35,53 @@ template <class Real>
   out[3] = a_plus + gauss_abscissa * c_plus;
 }
 
-/// From the 8 nodal values n (in node order) to the parent derivatives, through the coefficients of the monomials.
+/// A trilinear field without its mean: 8 x its coefficients of the monomials xi, eta, ..., or weights on these.
 template <class Real>
-[[gnu::always_inline]] static inline void differentiate(const Real n[8], ParentDerivatives<Real>& result) {
+struct Monomials {
+  Real linear[3];    ///< xi, eta, zeta
+  Real bilinear[3];  ///< eta zeta, zeta xi, xi eta
+  Real trilinear;    ///< xi eta zeta
+};
+
+/// Of the 8 nodal values n (in node order).
+template <class Real>
+[[gnu::always_inline]] static inline Monomials<Real> monomials(const Real n[8]) {
   const Real s00 = n[0] + n[1], s10 = n[3] + n[2], s01 = n[4] + n[5], s11 = n[7] + n[6];  // sums along xi
   const Real d00 = n[1] - n[0], d10 = n[2] - n[3], d01 = n[5] - n[4], d11 = n[6] - n[7];  // differences along xi
   const Real ss0 = s00 + s10, ss1 = s01 + s11, sd0 = s10 - s00, sd1 = s11 - s01;          // ... then along eta
   const Real ds0 = d00 + d10, ds1 = d01 + d11, dd0 = d10 - d00, dd1 = d11 - d01;
-  const Real xi = ds0 + ds1, eta = sd0 + sd1, zeta = ss1 - ss0;  // ... then along zeta
-  const Real xi_eta = dd0 + dd1, xi_zeta = ds1 - ds0, eta_zeta = sd1 - sd0, xi_eta_zeta = dd1 - dd0;
-  gauss_butterfly(xi, xi_eta, xi_zeta, xi_eta_zeta, result.d[0]);
-  gauss_butterfly(eta, xi_eta, eta_zeta, xi_eta_zeta, result.d[1]);
-  gauss_butterfly(zeta, xi_zeta, eta_zeta, xi_eta_zeta, result.d[2]);
+  return {{ds0 + ds1, sd0 + sd1, ss1 - ss0}, {sd1 - sd0, ds1 - ds0, dd0 + dd1}, dd1 - dd0};  // ... then along zeta
+}
+
+/// Transpose of `monomials`: nodal values from weights.
+template <class Real>
+[[gnu::always_inline]] static inline void nodal_values(const Monomials<Real>& m, Real n[8]) {
+  const auto& [xi, eta, zeta] = m.linear;
+  const auto& [eta_zeta, zeta_xi, xi_eta] = m.bilinear;
+  const Real ds0 = xi - zeta_xi, ds1 = xi + zeta_xi, dd0 = xi_eta - m.trilinear, dd1 = xi_eta + m.trilinear;
+  const Real sd0 = eta - eta_zeta, sd1 = eta + eta_zeta;
+  const Real s00 = -zeta - sd0, s10 = sd0 - zeta, s01 = zeta - sd1, s11 = zeta + sd1;
+  const Real d00 = ds0 - dd0, d10 = ds0 + dd0, d01 = ds1 - dd1, d11 = ds1 + dd1;
+  n[0] = s00 - d00, n[1] = s00 + d00;
+  n[3] = s10 - d10, n[2] = s10 + d10;
+  n[4] = s01 - d01, n[5] = s01 + d01;
+  n[7] = s11 - d11, n[6] = s11 + d11;
+}
+
+/// To the parent derivatives.
+template <class Real>
+[[gnu::always_inline]] static inline void differentiate(const Monomials<Real>& m, ParentDerivatives<Real>& result) {
+  const auto& [xi, eta, zeta] = m.linear;
+  const auto& [eta_zeta, zeta_xi, xi_eta] = m.bilinear;
+  gauss_butterfly(xi, xi_eta, zeta_xi, m.trilinear, result.d[0]);
+  gauss_butterfly(eta, xi_eta, eta_zeta, m.trilinear, result.d[1]);
+  gauss_butterfly(zeta, zeta_xi, eta_zeta, m.trilinear, result.d[2]);
+}
+
+/// From the 8 nodal values.
+template <class Real>
+[[gnu::always_inline]] static inline void differentiate(const Real n[8], ParentDerivatives<Real>& result) {
+  differentiate(monomials(n), result);
 }
 
 /// Position in ParentDerivatives::d[k] of Gauss point p = i + 2 j + 4 k.
@@ -109,9 +144,9 @@ template <class Real>
 }
 
 /// Strains at the 8 Gauss points (xi fastest): xx, yy, zz, 2 xy, 2 yz, 2 zx, written to strain[(6 p + c) lanes].
-/// x, u: nodal values [component][node]. All determinants must be positive.
+/// x, u: monomials of each component. All determinants must be positive.
 template <class Real>
-[[gnu::always_inline]] static inline void interpolate(const Real x[3][8], const Real u[3][8],
+[[gnu::always_inline]] static inline void interpolate(const Monomials<Real> x[3], const Monomials<Real> u[3],
                                                       PointGeometry<Real>& geometry, double* strain) {
   ParentDerivatives<Real> dx[3], du[3];
   for (int i = 0; i < 3; ++i) {
@@ -140,17 +175,10 @@ template <class Real>
     d[k] = d1 - d0;
   }
   constexpr double scale = 1.0 / 512.0, scale_1 = scale * gauss_abscissa, scale_2 = scale / 3.0;
-  const Real xi = scale * a[0], eta = scale * a[1], zeta = scale * a[2];
-  const Real xi_eta = scale_1 * (b[0] + b[1]), xi_zeta = scale_1 * (c[0] + b[2]);
-  const Real eta_zeta = scale_1 * (c[1] + c[2]), xi_eta_zeta = scale_2 * (d[0] + d[1] + d[2]);
-  const Real ds0 = xi - xi_zeta, ds1 = xi + xi_zeta, dd0 = xi_eta - xi_eta_zeta, dd1 = xi_eta + xi_eta_zeta;
-  const Real sd0 = eta - eta_zeta, sd1 = eta + eta_zeta;
-  const Real s00 = -zeta - sd0, s10 = sd0 - zeta, s01 = zeta - sd1, s11 = zeta + sd1;
-  const Real d00 = ds0 - dd0, d10 = ds0 + dd0, d01 = ds1 - dd1, d11 = ds1 + dd1;
-  n[0] = s00 - d00, n[1] = s00 + d00;
-  n[3] = s10 - d10, n[2] = s10 + d10;
-  n[4] = s01 - d01, n[5] = s01 + d01;
-  n[7] = s11 - d11, n[6] = s11 + d11;
+  nodal_values<Real>({{scale * a[0], scale * a[1], scale * a[2]},
+                      {scale_1 * (c[1] + c[2]), scale_1 * (c[0] + b[2]), scale_1 * (b[0] + b[1])},
+                      scale_2 * (d[0] + d[1] + d[2])},
+                     n);
 }
 
 /// f[component i][node a] = sum over Gauss points of P_ij dN_a/dX_j det(J); stress_at(p, P) gives the stress of point

@@ -1,7 +1,7 @@
 // What the kernels over batches of HEXA8 cells share: sums over batches and points.
 #pragma once
 
-#include "element/hexa8_kernel.hpp"
+#include "element/hexa8_affine.hpp"
 #include "solid/batch_values.hpp"
 #include "solid/kernels.hpp"
 
@@ -29,6 +29,19 @@ template <class Real>
   for (int p = 1; p < 8; ++p) cell += load<Real>(density + p * n) * geometry.det[p];
   double per_cell[n];
   store(per_cell, cell);
+  for (int l = 0; l < count; ++l) sum += per_cell[l];
+}
+
+/// The same of the energy densities of the terms of parallelepipeds.
+template <class Real>
+[[gnu::always_inline]] static inline void add_integral_of_terms(const double* density,
+                                                                const hexa8::AffineGeometry<Real>& geometry, int count,
+                                                                double& sum) {
+  constexpr int n = lanes<Real>;
+  Real cell = load<Real>(density);
+  for (int term = 1; term < hexa8::terms; ++term) cell += hexa8::mean_square[term] * load<Real>(density + term * n);
+  double per_cell[n];
+  store(per_cell, Real(8.0 * cell * geometry.det));
   for (int l = 0; l < count; ++l) sum += per_cell[l];
 }
 
