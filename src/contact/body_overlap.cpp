@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <numeric>
 #include <optional>
 
@@ -57,8 +59,8 @@ struct GapOfShape {
 struct BodyOverlap::Impl {
   const Model& model;
   PlacedCells cells;                                   ///< where they were looked at last
-  std::vector<std::array<bool, most_faces>> on_skin;   ///< by cell: which of its faces
-  std::vector<double> node_length;                     ///< by node: the least of its cells, infinite without
+  std::vector<std::uint8_t> on_skin;                   ///< by cell: which of its faces, a bit each
+  std::shared_ptr<const std::vector<double>> lengths;  ///< node_lengths
   std::vector<Index> skin_nodes;                       ///< increasing
   std::vector<bool> is_skin;                           ///< by node
   std::vector<Index> first_cell, cells_at;             ///< by skin node (position in skin_nodes): rows of its cells
@@ -71,20 +73,20 @@ struct BodyOverlap::Impl {
   void find_skin();
   void find_cells_at_skin();
   void find_bodies();
+  double node_length(Index n) const { return (*lengths)[static_cast<std::size_t>(n)]; }
   double reference_length(std::size_t cell) const;
   bool may_meet(std::size_t skin_node, Index cell) const;
   double depth(std::size_t skin_node, Index cell, const Vec3& x) const;
-  std::vector<Overlap> depths(std::span<const Vec3> x);
-  std::vector<double> obstacle_depths(std::size_t c, std::span<const Vec3> x) const;
+  std::vector<Overlap> depths(std::span<const double> u);
+  std::vector<double> obstacle_depths(std::size_t c, std::span<const double> u) const;  ///< after depths
 };
 
 BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
-    : model(of), cells(of, of.mesh->coordinates), node_length(node_lengths(of)) {
+    : model(of), cells(of, {}), lengths(node_lengths(of)) {
   find_skin();
   find_cells_at_skin();
   find_bodies();
-  const std::vector<Vec3> x = current_positions(*model.mesh, u);
-  for (const Overlap& overlap : depths(x)) at_start.push_back(overlap.depth);
+  for (const Overlap& overlap : depths(u)) at_start.push_back(overlap.depth);
   for (const ContactDefinition& definition : model.contacts) {
     obstacle_nodes.emplace_back();
     if (const auto* obstacle = std::get_if<ObstacleContact>(&definition)) {
@@ -93,23 +95,23 @@ BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
       for (const Facet& facet : obstacle->surface.facets) nodes.insert(nodes.end(), facet.begin(), facet.end());
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-      std::erase_if(nodes, [&](Index n) { return node_length[n] == infinity; });
+      std::erase_if(nodes, [&](Index n) { return node_length(n) == infinity; });
     }
-    obstacle_at_start.push_back(obstacle_depths(obstacle_nodes.size() - 1, x));
+    obstacle_at_start.push_back(obstacle_depths(obstacle_nodes.size() - 1, u));
   }
 }
 
 /// The faces of cells that the skin of the mesh consists of.
 void BodyOverlap::Impl::find_skin() {
   is_skin.assign(model.mesh->node_count(), false);
-  on_skin.assign(cells.size(), {});
+  on_skin.assign(cells.size(), 0);
   std::vector<std::vector<Index>> number;  // by block and cell
   for (const CellBlock& block : model.mesh->blocks) number.emplace_back(block.size(), -1);
   for (std::size_t k = 0; k < cells.size(); ++k) number[cells.ref(k).block][cells.ref(k).cell] = static_cast<Index>(k);
   for (const OuterFacet& outer : outer_facets(*model.mesh)) {
     const Index k = number[outer.cell.block][outer.cell.cell];
     if (k < 0) continue;
-    on_skin[k][static_cast<std::size_t>(outer.face)] = true;
+    on_skin[k] = static_cast<std::uint8_t>(on_skin[k] | 1U << static_cast<unsigned>(outer.face));
     for (const Index n : outer.facet) is_skin[n] = true;
   }
 }
@@ -166,14 +168,14 @@ double BodyOverlap::Impl::depth(std::size_t skin_node, Index cell, const Vec3& x
   if (!N) return 0.0;
   double share = infinity;
   for (std::size_t face = 0; face < most_faces; ++face)
-    if (on_skin[k][face]) share = std::min(share, cells.depth_under(k, face, *N));
+    if ((on_skin[k] >> face & 1U) != 0) share = std::min(share, cells.depth_under(k, face, *N));
   if (share == infinity) {
     share = 0.0;
     const std::span<const Index> nodes = cells.nodes(k);
     for (std::size_t a = 0; a < static_cast<std::size_t>(corner_count(cells.type(k))); ++a)
       if (!is_skin[nodes[a]]) share += (*N)[a];
   }
-  return share * cells.length(k) / std::min(reference_length(k), node_length[skin_nodes[skin_node]]);
+  return share * cells.length(k) / std::min(reference_length(k), node_length(skin_nodes[skin_node]));
 }
 
 double BodyOverlap::Impl::reference_length(std::size_t cell) const {
@@ -184,19 +186,19 @@ double BodyOverlap::Impl::reference_length(std::size_t cell) const {
 }
 
 /// One entry per skin node: its deepest cell.
-std::vector<Overlap> BodyOverlap::Impl::depths(std::span<const Vec3> x) {
-  cells.place(x);
+std::vector<Overlap> BodyOverlap::Impl::depths(std::span<const double> u) {
+  cells.place(u);
   std::vector<Overlap> found(skin_nodes.size());
   constexpr std::size_t grain = 64;
   parallel_for(skin_nodes.size(), grain, [&](std::size_t begin, std::size_t end) {
     std::vector<Index> near;
     for (std::size_t i = begin; i < end; ++i) {
-      cells.find(x[skin_nodes[i]], near);
+      const Vec3 x = cells.position(skin_nodes[i]);
+      cells.find(x, near);
       for (const Index cell : near) {
         if (!may_meet(i, cell)) continue;
-        const double d = depth(i, cell, x[skin_nodes[i]]);
-        if (d > found[i].depth)
-          found[i] = {d, skin_nodes[i], x[skin_nodes[i]], cells.ref(static_cast<std::size_t>(cell))};
+        const double d = depth(i, cell, x);
+        if (d > found[i].depth) found[i] = {d, skin_nodes[i], x, cells.ref(static_cast<std::size_t>(cell))};
       }
     }
   });
@@ -204,20 +206,21 @@ std::vector<Overlap> BodyOverlap::Impl::depths(std::span<const Vec3> x) {
 }
 
 /// By node of the contact, in cells; not positive outside.
-std::vector<double> BodyOverlap::Impl::obstacle_depths(std::size_t c, std::span<const Vec3> x) const {
+std::vector<double> BodyOverlap::Impl::obstacle_depths(std::size_t c, std::span<const double> u) const {
   std::vector<double> depths;
   const auto* obstacle = std::get_if<ObstacleContact>(&model.contacts[c]);
   if (obstacle == nullptr) return depths;
   std::optional<BodyPlacement> placement;
   if (obstacle->body >= 0) {
     const TurningBody& turning = model.turning_bodies[static_cast<std::size_t>(obstacle->body)];
-    placement.emplace(turning, body_frame(turning, nodal_values(turning, x)));
+    placement.emplace(turning, body_frame(turning, nodal_values(turning, current_positions(*model.mesh, u))));
   }
   const std::vector<Vec3>& X = model.mesh->coordinates;
-  const Vec3 shift = obstacle->carrier < 0 ? Vec3{} : subtract(x[obstacle->carrier], X[obstacle->carrier]);
+  const Index carrier = obstacle->carrier;
+  const Vec3 shift = carrier < 0 ? Vec3{} : subtract(cells.position(carrier), X[carrier]);
   for (const Index n : obstacle_nodes[c]) {
-    const Vec3 seen = placement ? placement->reference(x[n]) : subtract(x[n], shift);
-    depths.push_back(-std::visit(GapOfShape{X, seen, 2.0 * node_length[n]}, obstacle->shape) / node_length[n]);
+    const Vec3 x = cells.position(n), seen = placement ? placement->reference(x) : subtract(x, shift);
+    depths.push_back(-std::visit(GapOfShape{X, seen, 2.0 * node_length(n)}, obstacle->shape) / node_length(n));
   }
   return depths;
 }
@@ -231,8 +234,7 @@ Overlap BodyOverlap::deepest(std::span<const double> u) {
   Overlap worst;
   const bool is_finite = std::all_of(u.begin(), u.end(), [](double value) { return std::isfinite(value); });
   if (!is_finite) return worst;
-  const std::vector<Vec3> x = current_positions(*impl.model.mesh, u);
-  const std::vector<Overlap> now = impl.depths(x);
+  const std::vector<Overlap> now = impl.depths(u);
   for (std::size_t i = 0; i < now.size(); ++i) {
     const double growth = now[i].depth - impl.at_start[i];
     if (growth <= worst.depth) continue;
@@ -240,11 +242,11 @@ Overlap BodyOverlap::deepest(std::span<const double> u) {
     worst.depth = growth;
   }
   for (std::size_t c = 0; c < impl.model.contacts.size(); ++c) {
-    const std::vector<double> depths = impl.obstacle_depths(c, x);
+    const std::vector<double> depths = impl.obstacle_depths(c, u);
     for (std::size_t i = 0; i < depths.size(); ++i) {
       const double growth = depths[i] - std::max(0.0, impl.obstacle_at_start[c][i]);
       const Index n = impl.obstacle_nodes[c][i];
-      if (growth > worst.depth) worst = {growth, n, x[n], {-1, -1}, static_cast<Index>(c)};
+      if (growth > worst.depth) worst = {growth, n, impl.cells.position(n), {-1, -1}, static_cast<Index>(c)};
     }
   }
   return worst;

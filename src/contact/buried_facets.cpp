@@ -30,7 +30,7 @@ bool owns(std::span<const Index> cell, const Facet& facet) {
 
 std::vector<BuriedFacet> buried_facets(const Model& model, const PairContact& pair, std::span<const double> u) {
   const std::vector<Vec3> x = current_positions(*model.mesh, u);
-  const PlacedCells cells(model, x);
+  const PlacedCells cells(model, u);
   std::vector<BuriedFacet> found;
   std::vector<Index> near;
   for (const Surface* surface : {&pair.slave, &pair.master}) {

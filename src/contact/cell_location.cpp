@@ -82,7 +82,18 @@ std::size_t solid_corners(CellType type) {
 }
 
 /// Cells in a leaf of the tree.
-constexpr std::size_t cluster = 8;
+constexpr std::size_t cluster = 16;
+
+/// x from 0 to 255 across a box that it is in; increasing, also as it is rounded.
+Vec3 in_parts(const Bounds& box, const Vec3& x) {
+  constexpr double parts = 255.0;
+  Vec3 out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double side = box.high[i] - box.low[i];
+    if (side > 0.0) out[i] = std::min(parts, parts * ((x[i] - box.low[i]) / side));
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -108,40 +119,60 @@ std::optional<CornerValues> shape_at(CellType linear, const Corners& corners, co
   return std::nullopt;
 }
 
-PlacedCells::PlacedCells(const Model& model, std::span<const Vec3> x) : mesh_(model.mesh.get()), x_(x) {
+PlacedCells::PlacedCells(const Model& model, std::span<const double> u) : model_(&model), u_(u) {
+  const Mesh& mesh = *model.mesh;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
-    const CellType of_part = model.parts[p].type;
-    if (dimension(of_part) < 2) continue;
-    const auto own = static_cast<Index>(mesh_->block(of_part) - mesh_->blocks.data());
-    for (const Index c : model.parts[p].cells) ref_.push_back({own, c});
-    part_.resize(ref_.size(), static_cast<Index>(p));
+    const Part& part = model.parts[p];
+    if (dimension(part.type) < 2 || part.cells.empty()) continue;
+    runs_.push_back({size_, static_cast<Index>(p), static_cast<Index>(mesh.block(part.type) - mesh.blocks.data())});
+    size_ += part.cells.size();
   }
   box_.resize(size());
-  tree_.build(bound());
+  bound();
+  tree_.build(clusters_);
 }
 
-void PlacedCells::place(std::span<const Vec3> x) {
-  x_ = x;
-  tree_.refit(bound());
+void PlacedCells::place(std::span<const double> u) {
+  u_ = u;
+  bound();
+  tree_.refit(clusters_);
 }
 
-/// Fills the boxes of the cells; returns those of the clusters.
-std::vector<Bounds> PlacedCells::bound() {
-  constexpr double up = 0x1p-23;  // what rounding to float may take
-  std::vector<Bounds> clusters((size() + cluster - 1) / cluster);
-  parallel_for(clusters.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = cluster * begin; k < std::min(size(), cluster * end); ++k) {
-      const Corners corner = corners(k);
-      Bounds own;
-      for (std::size_t a = 0; a < solid_corners(type(k)); ++a) own.include(corner[a]);
-      clusters[k / cluster].include(own);
-      for (std::size_t i = 0; i < 3; ++i) {
-        box_[k].low[i] = static_cast<float>(own.low[i] - up * std::abs(own.low[i]));
-        box_[k].high[i] = static_cast<float>(own.high[i] + up * std::abs(own.high[i]));
+const PlacedCells::Run& PlacedCells::run_of(std::size_t k) const {
+  return *(std::upper_bound(runs_.begin(), runs_.end(), k,
+                            [](std::size_t cell, const Run& run) { return cell < run.first; }) -
+           1);
+}
+
+Vec3 PlacedCells::position(Index node) const {
+  const auto n = static_cast<std::size_t>(node);
+  const Vec3& X = model_->mesh->coordinates[n];
+  return u_.empty() ? X : add(X, vector_at(u_, n));
+}
+
+/// Fills the boxes of the cells and of the clusters.
+void PlacedCells::bound() {
+  clusters_.resize((size() + cluster - 1) / cluster);
+  parallel_for(clusters_.size(), 64, [&](std::size_t begin, std::size_t end) {
+    std::array<Bounds, cluster> own;
+    for (std::size_t c = begin; c < end; ++c) {
+      const std::size_t first = cluster * c, last = std::min(size(), first + cluster);
+      own.fill({});
+      clusters_[c] = {};
+      for (std::size_t k = first; k < last; ++k) {
+        const Corners corner = corners(k);
+        for (std::size_t a = 0; a < solid_corners(type(k)); ++a) own[k - first].include(corner[a]);
+        clusters_[c].include(own[k - first]);
+      }
+      for (std::size_t k = first; k < last; ++k) {
+        const Vec3 low = in_parts(clusters_[c], own[k - first].low), high = in_parts(clusters_[c], own[k - first].high);
+        for (std::size_t i = 0; i < 3; ++i) {
+          box_[k].low[i] = static_cast<std::uint8_t>(std::floor(low[i]));
+          box_[k].high[i] = static_cast<std::uint8_t>(std::ceil(high[i]));
+        }
       }
     }
   });
-  return clusters;
 }
 
 void PlacedCells::find(const Vec3& x, std::vector<Index>& found) const {
@@ -153,10 +184,11 @@ void PlacedCells::find(const Vec3& x, std::vector<Index>& found) const {
   found.clear();
   for (const Index c : clusters) {
     const std::size_t first = cluster * static_cast<std::size_t>(c);
+    const Vec3 in_cluster = in_parts(clusters_[static_cast<std::size_t>(c)], x);
     for (std::size_t k = first; k < std::min(size(), first + cluster); ++k) {
       const Box& box = box_[k];
       bool is_in = true;
-      for (std::size_t i = 0; i < 3; ++i) is_in = is_in && box.low[i] <= x[i] && x[i] <= box.high[i];
+      for (std::size_t i = 0; i < 3; ++i) is_in = is_in && box.low[i] <= in_cluster[i] && in_cluster[i] <= box.high[i];
       if (is_in) found.push_back(static_cast<Index>(k));
     }
   }
@@ -168,7 +200,7 @@ Corners PlacedCells::corners(std::size_t k) const {
   const auto n = static_cast<std::size_t>(corner_count(type(k)));
   const std::size_t all = solid_corners(type(k));
   Corners corner{};
-  for (std::size_t a = 0; a < all; ++a) corner[a] = x_[own[a % n]];
+  for (std::size_t a = 0; a < all; ++a) corner[a] = position(own[a % n]);
   if (all > n) {
     const double half = 0.5 * norm(subtract(corner[2], corner[0]));
     for (std::size_t a = 0; a < all; ++a) corner[a][2] += a < n ? -half : half;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,20 +22,25 @@ using CornerValues = std::array<double, 8>;
 /// the pyramid are those of the hexahedron whose upper face is its apex.
 std::optional<CornerValues> shape_at(CellType linear, const Corners& corners, const Vec3& x);
 
-/// The cells of the parts that have an inside (solids and plane cells), part by part, at positions x of the nodes.
-/// Quadratic ones are taken by their corners. A plane cell stands as a prism about its plane, as thick as it is wide.
+/// The cells of the parts that have an inside (solids and plane cells), part by part, where the nodes are displaced by
+/// u. Quadratic ones are taken by their corners. A plane cell stands as a prism about its plane, as thick as it is
+/// wide.
 class PlacedCells {
  public:
-  /// Of the model's mesh, which must outlive them as x must.
-  PlacedCells(const Model& model, std::span<const Vec3> x);
-  /// The nodes have moved. In parallel; x must outlive what is asked next.
-  void place(std::span<const Vec3> x);
+  /// Of a model that must outlive them, as u must. u: by dof, or empty: nowhere displaced.
+  PlacedCells(const Model& model, std::span<const double> u);
+  /// The nodes have moved. In parallel; u must outlive what is asked next.
+  void place(std::span<const double> u);
 
-  std::size_t size() const { return ref_.size(); }
-  CellRef ref(std::size_t k) const { return ref_[k]; }
-  Index part(std::size_t k) const { return part_[k]; }  ///< Model::parts
+  std::size_t size() const { return size_; }
+  CellRef ref(std::size_t k) const {
+    const Run& run = run_of(k);
+    return {run.block, model_->parts[static_cast<std::size_t>(run.part)].cells[k - run.first]};
+  }
+  Index part(std::size_t k) const { return run_of(k).part; }  ///< Model::parts
   CellType type(std::size_t k) const { return block(k).type; }
-  std::span<const Index> nodes(std::size_t k) const { return block(k).nodes(ref_[k].cell); }  ///< the corners first
+  std::span<const Index> nodes(std::size_t k) const { return block(k).nodes(ref(k).cell); }  ///< the corners first
+  Vec3 position(Index node) const;
 
   /// The corners of the solid or of the prism.
   Corners corners(std::size_t k) const;
@@ -51,18 +57,28 @@ class PlacedCells {
   double depth_under(std::size_t k, std::size_t face, const CornerValues& N) const;
 
  private:
+  /// In 255ths of the sides of its cluster's box, rounded outward.
   struct Box {
-    std::array<float, 3> low, high;
+    std::array<std::uint8_t, 3> low, high;
   };
-  const CellBlock& block(std::size_t k) const { return mesh_->blocks[static_cast<std::size_t>(ref_[k].block)]; }
-  std::vector<Bounds> bound();
+  /// The cells of a part.
+  struct Run {
+    std::size_t first;
+    Index part, block;
+  };
+  const Run& run_of(std::size_t k) const;
+  const CellBlock& block(std::size_t k) const {
+    return model_->mesh->blocks[static_cast<std::size_t>(run_of(k).block)];
+  }
+  void bound();
 
-  const Mesh* mesh_;
-  std::span<const Vec3> x_;
-  std::vector<CellRef> ref_;
-  std::vector<Index> part_;
+  const Model* model_;
+  std::span<const double> u_;
+  std::vector<Run> runs_;
+  std::size_t size_ = 0;
   std::vector<Box> box_;
-  BoxTree tree_;  ///< of clusters of cells that follow each other
+  std::vector<Bounds> clusters_;  ///< of cells that follow each other
+  BoxTree tree_;                  ///< of the clusters
 };
 
 /// X + u of all nodes.

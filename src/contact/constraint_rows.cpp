@@ -55,11 +55,9 @@ void ConstraintRows::add_block(Index n, const RowBlock& b) {
 }
 
 void ConstraintRows::scatter(std::size_t r, const Vec3& s, std::span<double> f) const {
-  for (auto k = static_cast<std::size_t>(begin[r]); k < static_cast<std::size_t>(begin[r + 1]); ++k) {
-    const RowBlock& b = block[k];
-    double* node_force = f.data() + 3 * static_cast<std::size_t>(node[k]);
-    for (std::size_t c = 0; c < 3; ++c) node_force[c] += s[0] * b[0][c] + s[1] * b[1][c] + s[2] * b[2][c];
-  }
+  for_each_share(r, s, [&](Index n, const Vec3& share) {
+    for (std::size_t c = 0; c < 3; ++c) f[3 * static_cast<std::size_t>(n) + c] += share[c];
+  });
 }
 
 double ConstraintRows::rounding(std::size_t r, std::span<const double> x) const {

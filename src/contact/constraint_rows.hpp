@@ -106,7 +106,17 @@ struct ConstraintRows {
   /// True when the gap is not above its own rounding: 16 units of round-off of reach, gap and displacement. A body
   /// that rests or slides would else lift off for a step at every gap of 1e-17.
   bool is_closed(std::size_t r, std::span<const double> x) const;
-  /// f += G_r^T s for the row's force s in its frame.
+  /// Calls add(node, force on it) for G_r^T s, s being the row's force in its frame.
+  template <class Add>
+  void for_each_share(std::size_t r, const Vec3& s, const Add& add) const {
+    for (auto k = static_cast<std::size_t>(begin[r]); k < static_cast<std::size_t>(begin[r + 1]); ++k) {
+      const RowBlock& b = block[k];
+      Vec3 share;
+      for (std::size_t c = 0; c < 3; ++c) share[c] = s[0] * b[0][c] + s[1] * b[1][c] + s[2] * b[2][c];
+      add(node[k], share);
+    }
+  }
+  /// f += G_r^T s
   void scatter(std::size_t r, const Vec3& s, std::span<double> f) const;
   /// The vector of space with components s in the row's frame, and back.
   Vec3 to_space(std::size_t r, const Vec3& s) const;

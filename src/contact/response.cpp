@@ -4,10 +4,15 @@
 
 namespace carom {
 
+void ContactResponse::add_force(NodeForces& f) const {
+  for (std::size_t r = 0; r < force.size(); ++r)
+    if (status[r] != RowStatus::open)
+      rows->for_each_share(r, force[r], [&f](Index node, const Vec3& share) { f.add(node, share); });
+}
+
 void ContactResponse::add_force(std::span<double> f) const {
-  for (std::size_t r = 0; r < force.size(); ++r) {
+  for (std::size_t r = 0; r < force.size(); ++r)
     if (status[r] != RowStatus::open) rows->scatter(r, force[r], f);
-  }
 }
 
 bool operator==(const ContactResponse& a, const ContactResponse& b) {

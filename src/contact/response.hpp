@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contact/constraint_rows.hpp"
+#include "contact/node_forces.hpp"
 #include "contact/row_history.hpp"
 
 namespace carom {
@@ -27,6 +28,7 @@ struct ContactResponse {
   double slip_work = 0.0;  ///< work of the friction forces on the slip of the step (ledger: friction)
 
   /// f += G^T force.
+  void add_force(NodeForces& f) const;
   void add_force(std::span<double> f) const;
   /// By value, the rows too.
   friend bool operator==(const ContactResponse& a, const ContactResponse& b);

@@ -241,9 +241,7 @@ class LinearDepth {
  private:
   static constexpr double share = 0.02;
 
-  double shortest(std::span<const Index> nodes) const {
-    return length_.empty() ? infinity : least_length(length_, nodes);
-  }
+  double shortest(std::span<const Index> nodes) const { return length_ ? least_length(*length_, nodes) : infinity; }
   double shortest(const Surface& surface) const {
     double least = infinity;
     for (const Facet& facet : surface.facets) least = std::min(least, shortest({facet.begin(), facet.end()}));
@@ -251,7 +249,7 @@ class LinearDepth {
   }
 
   const Mesh& mesh_;
-  std::vector<double> length_;  ///< by node
+  std::shared_ptr<const std::vector<double>> length_;  ///< by node; null: not asked for
 };
 
 std::string sentence(const std::string& contact, double stiffness, const Choice& choice, double factor) {

@@ -30,7 +30,8 @@ void book_multipliers(const State& begin, const State& end, EnergyTerms& energy)
   energy.quadrature -= work.impact + work.friction;
 }
 
-double trapezoidal_work(const State& begin, std::span<const double> f0, const State& end, std::span<const double> f1) {
+double trapezoidal_work(const State& begin, const State& end) {
+  const NodeForces &f0 = begin.forces.contact, &f1 = end.forces.contact;
   return parallel_sum(f0.size(), [&](std::size_t i) { return 0.5 * (f0[i] + f1[i]) * (end.q[i] - begin.q[i]); });
 }
 

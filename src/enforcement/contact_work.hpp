@@ -20,8 +20,7 @@ ContactWork multiplier_work(const State& begin, const State& end, double end_wei
 /// The same with the weights 1/2, for books that have it in `quadrature`.
 void book_multipliers(const State& begin, const State& end, EnergyTerms& energy);
 
-/// Work of a force over the step by the trapezoidal rule.
-double trapezoidal_work(const State& begin, std::span<const double> force_begin, const State& end,
-                        std::span<const double> force_end);
+/// Work of the contact forces over the step by the trapezoidal rule.
+double trapezoidal_work(const State& begin, const State& end);
 
 }  // namespace carom

@@ -11,7 +11,7 @@ class PenaltyContact final : public ExplicitContact {
   explicit PenaltyContact(const System& system) : system_(system) {}
 
   std::string respond(const ExplicitPoint& at, Forces& forces) override {
-    clear_contact(at.u.size(), forces);
+    forces.contact.clear(at.u.size());
     penalty_response(system_.contact.rows_at(at.u_begin, at.u, at.history), at.u_begin, at.u, at.v, at.history,
                      forces.rows);
     forces.rows.add_force(forces.contact);

@@ -37,7 +37,7 @@ class MultiplierContact final : public ExplicitContact {
   MultiplierContact(const MultiplierContact&) = delete;
 
   std::string respond(const ExplicitPoint& at, Forces& forces) override {
-    clear_contact(at.u.size(), forces);
+    forces.contact.clear(at.u.size());
     open_response(system_.contact.rows_at(at.u_begin, at.u, at.history), at.history.size(), forces.rows);
     const ConstraintRows& rows = *forces.rows.rows;
     closing_.clear();

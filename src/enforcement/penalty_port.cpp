@@ -156,7 +156,7 @@ void PenaltyPort::add_stiffness_diagonal(std::span<double> d) const {
 }
 
 ContactWork PenaltyPort::work(const State& begin, const State& end, double /*end_weight*/) const {
-  return {.total = trapezoidal_work(begin, begin.forces.contact, end, end.forces.contact),
+  return {.total = trapezoidal_work(begin, end),
           .friction = end.forces.rows.slip_work,
           .damping = damping_work(begin, end)};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <numeric>
 
 #include "parallel/threads.hpp"
 
@@ -36,6 +37,17 @@ std::vector<double> CsrMatrix::diagonal() const {
     if (found != last && *found == i) d[row] = value[static_cast<std::size_t>(found - column.begin())];
   }
   return d;
+}
+
+CsrMatrix diagonal_matrix(std::span<const double> diagonal) {
+  CsrMatrix matrix;
+  matrix.size = static_cast<Index>(diagonal.size());
+  matrix.row_begin.resize(diagonal.size() + 1);
+  std::iota(matrix.row_begin.begin(), matrix.row_begin.end(), std::int64_t{0});
+  matrix.column.resize(diagonal.size());
+  std::iota(matrix.column.begin(), matrix.column.end(), Index{0});
+  matrix.value.assign(diagonal.begin(), diagonal.end());
+  return matrix;
 }
 
 }  // namespace carom

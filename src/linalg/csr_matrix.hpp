@@ -22,4 +22,7 @@ struct CsrMatrix {
   std::vector<double> diagonal() const;
 };
 
+/// The matrix of this diagonal.
+CsrMatrix diagonal_matrix(std::span<const double> diagonal);
+
 }  // namespace carom

@@ -24,7 +24,10 @@ Mesh finished(Mesh mesh) {
     throw CaseError({mesh.report.source, 0, 0}, "", "a mesh without cells", "at least one cell",
                     "Save the mesh after meshing, with all its cells.");
   for (auto& [name, nodes] : mesh.node_groups) sort_unique(nodes);
-  for (auto& [name, cells] : mesh.cell_groups) sort_unique(cells);
+  for (auto& [name, cells] : mesh.cell_groups) {
+    sort_unique(cells);
+    cells.shrink_to_fit();  // they may be millions
+  }
   orient_cells(mesh);
   return renumbered(std::move(mesh));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "base/types.hpp"
 #include "mesh/cell_topology.hpp"
@@ -13,44 +14,60 @@ namespace carom {
 
 namespace {
 
-/// The faces of cells that may be on a skin.
-struct Candidates {
-  std::vector<FaceKey> key;
-  std::vector<CellRef> cell;
-  std::vector<std::uint8_t> face;
-
-  void reserve(const Mesh& mesh) {
-    std::size_t most = 0;
-    for (const CellBlock& block : mesh.blocks) most += block.size() * cell_faces(block.type).size();
-    key.reserve(most);
-    cell.reserve(most);
-    face.reserve(most);
+/// The faces of all cells by number, block after block; those that cannot be on a skin are flagged.
+class CellFaces {
+ public:
+  explicit CellFaces(const Mesh& mesh) : mesh_(mesh) {
+    for (const CellBlock& block : mesh.blocks)
+      first_.push_back(first_.back() + block.size() * cell_faces(block.type).size());
+    is_out_.resize(first_.back());
+    const std::vector<std::uint8_t> dimensions = node_dimensions(mesh);
+    for (std::size_t block = 0; block < mesh.blocks.size(); ++block) flag(block, dimensions);
   }
-};
 
-/// Appends the faces of the cells of a block.
-void append_candidates(const Mesh& mesh, std::size_t block, std::span<const std::uint8_t> dimensions,
-                       Candidates& candidates) {
-  const CellBlock& cells = mesh.blocks[block];
-  const std::span<const CellFace> faces = cell_faces(cells.type);
-  const bool may_end_in_others = dimension(cells.type) < 3;
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    const CellRef cell{static_cast<Index>(block), static_cast<Index>(k)};
-    const std::span<const Index> nodes = cells.nodes(cell.cell);
-    if (may_end_in_others && on_boundary(nodes, cells.type, dimensions)) continue;
-    if (has_zero_thickness(mesh, cells.type, nodes)) continue;
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      std::array<Index, 4> corner;
-      const std::span<const LocalNode> local = faces[f].corners();
-      for (std::size_t a = 0; a < local.size(); ++a) corner[a] = nodes[local[a]];
-      const std::span<const Index> corners(corner.data(), local.size());
-      if (may_end_in_others && on_boundary(corners, cells.type, dimensions)) continue;
-      candidates.key.push_back(face_key(corners));
-      candidates.cell.push_back(cell);
-      candidates.face.push_back(static_cast<std::uint8_t>(f));
+  std::size_t size() const { return is_out_.size(); }
+  bool is_out(std::size_t i) const { return is_out_[i]; }
+  /// The cell and its face.
+  std::pair<CellRef, int> at_number(std::size_t i) const {
+    const auto block = static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), i) - first_.begin()) - 1;
+    const std::size_t faces = cell_faces(mesh_.blocks[block].type).size(), own = i - first_[block];
+    return {{static_cast<Index>(block), static_cast<Index>(own / faces)}, static_cast<int>(own % faces)};
+  }
+  FaceKey key(std::size_t i) const {
+    if (is_out_[i]) return no_face;
+    const auto [cell, face] = at_number(i);
+    const CellBlock& block = mesh_.blocks[at(cell.block)];
+    std::array<Index, 4> corner{};
+    return face_key(corners(block, block.nodes(cell.cell), static_cast<std::size_t>(face), corner));
+  }
+
+ private:
+  static std::span<const Index> corners(const CellBlock& block, std::span<const Index> nodes, std::size_t face,
+                                        std::array<Index, 4>& corner) {
+    const std::span<const LocalNode> local = cell_faces(block.type)[face].corners();
+    for (std::size_t a = 0; a < local.size(); ++a) corner[a] = nodes[local[a]];
+    return {corner.data(), local.size()};
+  }
+  void flag(std::size_t number, std::span<const std::uint8_t> dimensions) {
+    const CellBlock& block = mesh_.blocks[number];
+    const std::size_t faces = cell_faces(block.type).size();
+    const bool may_end_in_others = dimension(block.type) < 3;
+    for (std::size_t k = 0; k < block.size() && faces > 0; ++k) {
+      const std::span<const Index> nodes = block.nodes(static_cast<Index>(k));
+      const bool none = (may_end_in_others && on_boundary(nodes, block.type, dimensions)) ||
+                        has_zero_thickness(mesh_, block.type, nodes);
+      for (std::size_t f = 0; f < faces; ++f) {
+        std::array<Index, 4> corner{};
+        is_out_[first_[number] + faces * k + f] =
+            none || (may_end_in_others && on_boundary(corners(block, nodes, f, corner), block.type, dimensions));
+      }
     }
   }
-}
+
+  const Mesh& mesh_;
+  std::vector<std::size_t> first_{0};
+  std::vector<bool> is_out_;
+};
 
 /// Appends the linear facets of a face.
 void append_facets(const Mesh& mesh, const CellRef& cell, int number, std::vector<OuterFacet>& outer) {
@@ -68,15 +85,15 @@ void append_facets(const Mesh& mesh, const CellRef& cell, int number, std::vecto
 }  // namespace
 
 std::vector<OuterFacet> outer_facets(const Mesh& mesh) {
-  const std::vector<std::uint8_t> dimensions = node_dimensions(mesh);
-  Candidates candidates;
-  candidates.reserve(mesh);
-  for (std::size_t block = 0; block < mesh.blocks.size(); ++block)
-    append_candidates(mesh, block, dimensions, candidates);
-  const std::vector<std::uint32_t> twin = face_twins(candidates.key, mesh.node_count());
+  const CellFaces faces(mesh);
+  const std::vector<std::uint32_t> twin = face_twins(
+      faces.size(), [&](std::size_t i) { return faces.key(i); }, mesh.node_count());
   std::vector<OuterFacet> outer;
-  for (std::size_t i = 0; i < twin.size(); ++i)
-    if (twin[i] == no_twin) append_facets(mesh, candidates.cell[i], candidates.face[i], outer);
+  for (std::size_t i = 0; i < twin.size(); ++i) {
+    if (twin[i] != no_twin || faces.is_out(i)) continue;
+    const auto [cell, face] = faces.at_number(i);
+    append_facets(mesh, cell, face, outer);
+  }
   return outer;
 }
 

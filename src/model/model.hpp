@@ -90,9 +90,15 @@ using Load = std::variant<NodalForce, Pressure, Gravity>;
 /// beginning of a stage, counted from 1 as the first after [scheme]; 0: the first stage with inertia.
 struct InitialState {
   std::vector<Index> nodes;
-  std::vector<Vec3> displacement;  ///< one for each of the nodes, or empty
+  std::vector<Vec3> displacement;  ///< one for each of the nodes, one for all of them, or empty
   std::vector<Vec3> velocity;      ///< likewise
   std::size_t stage = 0;
+
+  /// Of the node at a position in `nodes`; there are some.
+  const Vec3& displacement_of(std::size_t k) const {
+    return displacement.size() == 1 ? displacement[0] : displacement[k];
+  }
+  const Vec3& velocity_of(std::size_t k) const { return velocity.size() == 1 ? velocity[0] : velocity[k]; }
 };
 
 /// The law of one contact. Stiffnesses are stress per length (force per length on rows that are counted per node); an
@@ -215,6 +221,7 @@ struct Model {
   std::vector<Spring> springs;
   std::vector<RigidBody> rigid_bodies;
   std::vector<TurningBody> turning_bodies;
+  std::shared_ptr<const std::vector<double>> node_lengths;  ///< of model/node_lengths.hpp, once the parts are complete
 
   /// The part that a cell belongs to; null: none.
   const Part* part_of(const CellRef& cell) const;

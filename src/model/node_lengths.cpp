@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesh/cell_size.hpp"
 
 namespace carom {
 
-std::vector<double> node_lengths(const Model& model) {
+std::shared_ptr<const std::vector<double>> node_lengths(const Model& model) {
+  if (model.node_lengths) return model.node_lengths;
   const Mesh& mesh = *model.mesh;
   std::vector<double> length(mesh.node_count(), std::numeric_limits<double>::infinity());
   for (const Part& part : model.parts) {
@@ -25,7 +28,7 @@ std::vector<double> node_lengths(const Model& model) {
         length[static_cast<std::size_t>(n)] = std::min(length[static_cast<std::size_t>(n)], of_cell);
     }
   }
-  return length;
+  return std::make_shared<const std::vector<double>>(std::move(length));
 }
 
 double least_length(std::span<const double> node_lengths, std::span<const Index> nodes) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/node_lengths.hpp"
 #include "run/attached.hpp"
 #include "run/build_mesh.hpp"
 #include "run/groups.hpp"
@@ -25,6 +26,7 @@ class ModelBuilder {
 
   void build() {
     model_.parts = parts_.parts();
+    model_.node_lengths = node_lengths(model_);
     model_.motions = parts_.held();
     add_attached(case_, mesh_, groups_, parts_, static_cast<Index>(given_nodes(case_, mesh_)), model_);
     for (std::size_t i = 0; i < case_.supports.size(); ++i) add_support(case_.supports[i], i);
@@ -109,7 +111,7 @@ class ModelBuilder {
           std::find_if(model_.parts.begin(), model_.parts.end(), [&](const Part& p) { return p.name == **given.part; });
       initial.nodes = parts_.nodes_of(*part);
     }
-    if (given.displacement) initial.displacement.assign(initial.nodes.size(), *given.displacement);
+    if (given.displacement) initial.displacement = {*given.displacement};
     initial.velocity = initial_velocities(given, mesh_, initial.nodes);
     model_.initial.push_back(std::move(initial));
   }

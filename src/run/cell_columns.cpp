@@ -27,11 +27,16 @@ constexpr std::array<std::array<int, 4>, 6> quad4_sides{{{0, 3, none, none},
 
 CellColumns::CellColumns(const Mesh& mesh, const Solid& solid)
     : mesh_(mesh), solid_(solid), of_cell_(solid.cell_count(), {none, none, none}) {
-  find_neighbours();
+  const auto key_of = [this](Side side) {
+    if (side % 6 >= 2 * at(dimension(side / 6))) return no_face;
+    const Facet f = facet(side);
+    return face_key({f.begin(), f.end()});
+  };
+  neighbour_ = face_twins(6 * solid_.cell_count(), key_of, mesh_.node_count());
   for (std::size_t k = 0; k < solid_.cell_count(); ++k) {
     for (int axis = 0; axis < dimension(k); ++axis) {
       for (const Side side : {6 * k + 2 * at(axis), 6 * k + 2 * at(axis) + 1})
-        if (neighbour_[side] < 0 && of_cell_[k][at(axis)] < 0) walk(side);
+        if (neighbour_[side] == no_twin && of_cell_[k][at(axis)] < 0) walk(side);
     }
   }
 }
@@ -61,26 +66,6 @@ double CellColumns::length(std::size_t k, int axis) const {
   return norm(subtract(middle(side + 1), middle(side)));
 }
 
-void CellColumns::find_neighbours() {
-  std::vector<FaceKey> faces;
-  std::vector<Side> sides;
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < solid_.cell_count(); ++k) count += 2 * at(dimension(k));
-  faces.reserve(count);
-  sides.reserve(count);
-  for (std::size_t k = 0; k < solid_.cell_count(); ++k) {
-    for (Side side = 6 * k; side < 6 * k + 2 * at(dimension(k)); ++side) {
-      const Facet f = facet(side);
-      faces.push_back(face_key({f.begin(), f.end()}));
-      sides.push_back(side);
-    }
-  }
-  const std::vector<std::uint32_t> twin = face_twins(faces, mesh_.node_count());
-  neighbour_.assign(6 * solid_.cell_count(), -1);
-  for (std::size_t i = 0; i < twin.size(); ++i)
-    if (twin[i] != no_twin) neighbour_[sides[i]] = static_cast<std::ptrdiff_t>(sides[twin[i]]);
-}
-
 void CellColumns::walk(Side start) {
   CellColumn column{0, 0.0, {}, facet(start), {}};
   Side side = start, opposite = start ^ 1U;
@@ -89,8 +74,8 @@ void CellColumns::walk(Side start) {
     ++column.cells;
     opposite = side / 6 * 6 + ((side % 6) ^ 1U);
     column.length += norm(subtract(middle(opposite), middle(side)));
-    if (neighbour_[opposite] < 0 || at(static_cast<Index>(column.cells)) > solid_.cell_count()) break;
-    side = static_cast<Side>(neighbour_[opposite]);
+    if (neighbour_[opposite] == no_twin || at(static_cast<Index>(column.cells)) > solid_.cell_count()) break;
+    side = neighbour_[opposite];
   }
   column.last = facet(opposite);
   const Vec3 way = subtract(middle(opposite), middle(start));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -37,14 +38,13 @@ class CellColumns {
 
  private:
   using Side = std::size_t;  ///< 6 k + side of cell k
-  void find_neighbours();
   void walk(Side start);
   Facet facet(Side side) const;
   Vec3 middle(Side side) const;
 
   const Mesh& mesh_;
   const Solid& solid_;
-  std::vector<std::ptrdiff_t> neighbour_;  ///< per side: the side of the next cell that is the same face, or -1
+  std::vector<std::uint32_t> neighbour_;  ///< per side: the side of the next cell that is the same face, or no_twin
   std::vector<std::array<Index, 3>> of_cell_;
   std::vector<CellColumn> columns_;
   CellColumn endless_;

@@ -89,21 +89,24 @@ long long frame_interval(const Simulation& s) {
 CostEstimate estimate_cost(const Simulation& s) {
   const double cells = static_cast<double>(s.solid().cell_count()), nodes = static_cast<double>(s.mesh().node_count());
   CostEstimate cost;
-  // A core does about two million cells a second in explicit steps, and thirty times that work in an implicit one, ten
+  // A core does about eight million cells a second in explicit steps, and fifty times that work in an implicit one, ten
   // times more where it factors in every iteration. Pairs cost some times their cells in explicit steps.
-  const double implicit_work = s.solid().is_linear() ? 30.0 : 300.0, explicit_work = s.contact().is_fixed() ? 1.0 : 5.0;
+  const double implicit_work = s.solid().is_linear() ? 50.0 : 500.0, explicit_work = s.contact().is_fixed() ? 1.0 : 5.0;
   for (const auto& stage : s.stages())
     cost.seconds +=
-        cells * static_cast<double>(stage->steps()) * (is_implicit(*stage) ? implicit_work : explicit_work) / 2e6;
-  // 1 kB per cell for the mesh, the kernels' tables and the states, and twice what points remember. A factor of nested
-  // dissection has about 8 n^(4/3) blocks of 3 x 3 over n nodes of a cube (A. George, SIAM J. Numer. Anal. 10, 1973),
-  // less where a body is slender; with the matrix and the space of its factorisation 14 (measured: 0.90 GB for 28^3
-  // cells, 0.28 GB for 8 x 8 x 160).
+        cells * static_cast<double>(stage->steps()) * (is_implicit(*stage) ? implicit_work : explicit_work) / 8e6;
+  // 0.5 kB per cell for the mesh, the kernels' tables and the states (0.44 to 0.46 measured), 2 kB where steps are
+  // implicit, with grids and a consistent mass (2.2 measured for 655,000 cells), and twice what points remember. A
+  // factor of nested dissection has about 8 n^(4/3) blocks of 3 x 3 over n nodes of a cube (A. George, SIAM J. Numer.
+  // Anal. 10, 1973), less where a body is slender; with the matrix and the space of its factorisation 14 (measured:
+  // 0.90 GB for 28^3 cells, 0.28 GB for 8 x 8 x 160).
   const bool has_matrix =
       std::any_of(s.stages().begin(), s.stages().end(), [](const auto& stage) { return has_factor(*stage); });
+  const bool has_implicit =
+      std::any_of(s.stages().begin(), s.stages().end(), [](const auto& stage) { return is_implicit(*stage); });
   const double history = 8.0 * static_cast<double>(s.solid().history_size());
-  cost.memory_bytes =
-      2.4e7 + 1e3 * cells + 2.0 * history + (has_matrix ? 14.0 * 72.0 * std::pow(nodes, 4.0 / 3.0) : 0.0);
+  cost.memory_bytes = 2.4e7 + (has_implicit ? 2e3 : 5e2) * cells + 2.0 * history +
+                      (has_matrix ? 14.0 * 72.0 * std::pow(nodes, 4.0 / 3.0) : 0.0);
   cost.frames = s.given().output.fields.empty() ? 0 : s.steps() / frame_interval(s) + 2;
   const long long rows = s.steps() / s.given().output.curves_every + 1;
   constexpr double page = 2.5e5;                         // of the report, with what draws its curves

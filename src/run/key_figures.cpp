@@ -23,25 +23,24 @@ long long stress_interval(const Simulation& simulation) {
 }  // namespace
 
 KeyFigures::KeyFigures(const Simulation& simulation)
-    : simulation_(simulation),
-      cell_mass_(simulation.solid().cell_masses()),
-      stress_every_(stress_interval(simulation)) {}
+    : simulation_(simulation), stress_every_(stress_interval(simulation)) {}
 
 std::vector<Vec3> KeyFigures::velocities(const std::vector<double>& v) const {
   const Solid& solid = simulation_.solid();
   std::vector<Vec3> out;
   std::size_t k = 0;  // the cells stand part after part
   for (const Part& part : simulation_.model().parts) {
+    const double rho = part.material.rho;
     Vec3 momentum{};
     double mass = 0.0;
     for (std::size_t c = 0; c < part.cells.size(); ++c, ++k) {
       const auto nodes = solid.nodes_of_cell(k);
-      const double share = cell_mass_[k] / static_cast<double>(nodes.size());
+      const double of_cell = rho * solid.cell_volumes()[k], share = of_cell / static_cast<double>(nodes.size());
       for (const Index n : nodes) {
         const double* of_node = v.data() + 3 * static_cast<std::size_t>(n);
         momentum = add(momentum, scaled({of_node[0], of_node[1], of_node[2]}, share));
       }
-      mass += cell_mass_[k];
+      mass += of_cell;
     }
     out.push_back(scaled(momentum, 1.0 / mass));
   }
@@ -50,16 +49,8 @@ std::vector<Vec3> KeyFigures::velocities(const std::vector<double>& v) const {
 
 void KeyFigures::look_at_stress(const StepView& view) {
   const Solid& solid = simulation_.solid();
-  const std::vector<std::array<double, 6>> stress = solid.cell_stress(view.state.q, view.points());
-  std::size_t worst = 0, end_of_part = 0;
-  double largest = -1.0;
-  for (std::size_t k = 0; k < stress.size(); ++k) {
-    const double value = von_mises(stress[k]);
-    if (value > largest) {
-      largest = value;
-      worst = k;
-    }
-  }
+  const auto [largest, worst] = solid.largest_stress(view.state.q, view.points(), von_mises);
+  std::size_t end_of_part = 0;
   ++stress_.instants;
   if (!(largest > stress_.value)) return;
   const Mesh& mesh = simulation_.mesh();
@@ -96,12 +87,13 @@ void KeyFigures::sample(const StepView& view, bool is_last) {
 
 std::vector<PartSummary> KeyFigures::parts() const {
   std::vector<PartSummary> out;
-  auto first = cell_mass_.begin();
+  auto volume = simulation_.solid().cell_volumes().begin();
   for (std::size_t p = 0; p < end_.size(); ++p) {
     const Part& part = simulation_.model().parts[p];
-    const auto last = first + static_cast<std::ptrdiff_t>(part.cells.size());
-    out.push_back({part.name, std::accumulate(first, last, 0.0), begin_.empty() ? end_[p] : begin_[p], end_[p]});
-    first = last;
+    const auto end = volume + static_cast<std::ptrdiff_t>(part.cells.size());
+    const double mass = part.material.rho * std::accumulate(volume, end, 0.0);
+    out.push_back({part.name, mass, begin_.empty() ? end_[p] : begin_[p], end_[p]});
+    volume = end;
   }
   return out;
 }

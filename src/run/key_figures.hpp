@@ -37,7 +37,6 @@ class KeyFigures {
   bool is_static(double t) const;
 
   const Simulation& simulation_;
-  std::vector<double> cell_mass_;
   std::vector<Vec3> begin_, end_;  ///< velocities of the parts
   long long stress_every_;
   long long last_step_ = -1;

@@ -182,7 +182,7 @@ void March::note_solver() {
 /// Magnitude of the impulse of the loads over a step, by their forces at its end; static stages have none.
 double March::load_impulse() const {
   if (s_.model().loads.empty() || stage().settings().kind == SchemeKind::statics) return 0.0;
-  const std::vector<double>& f = state_.forces.external;
+  const std::vector<double>& f = state_.forces.external.value;
   const auto sum = parallel_sums<3>(f.size(), [&f](std::size_t i, std::array<double, 3>& s) { s[i % 3] += f[i]; });
   return norm(sum) * dt_;
 }

@@ -39,8 +39,8 @@ class MotionLimit {
              std::optional<Overrun>& worst) const;
   double allowed(const ConstraintRows& rows, std::size_t r) const;
 
-  std::vector<double> length_;  ///< by node: the least of the cells there
-  std::vector<double> most_;    ///< by contact
+  std::shared_ptr<const std::vector<double>> length_;  ///< by node: the least of the cells there
+  std::vector<double> most_;                           ///< by contact
 };
 
 }  // namespace carom

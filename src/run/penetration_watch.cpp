@@ -26,12 +26,10 @@ double PenetrationWatch::Place::limit() const {
   return std::clamp(share_of_shortening * shortening, least_depth, most_depth);
 }
 
-PenetrationWatch::PenetrationWatch(const Model& model) : model_(model), node_length_(node_lengths(model)) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const double length : node_length_) smallest = std::min(smallest, length);
-  for (double& length : node_length_)
-    if (!std::isfinite(length)) length = smallest;  // nodes of no part, which may be those of an interface
-}
+PenetrationWatch::PenetrationWatch(const Model& model)
+    : model_(model),
+      node_length_(node_lengths(model)),
+      smallest_(*std::min_element(node_length_->begin(), node_length_->end())) {}
 
 /// The cells of parts at each node.
 void PenetrationWatch::find_cells() {
@@ -50,7 +48,8 @@ void PenetrationWatch::find_cells() {
 
 double PenetrationWatch::cell_at(const ConstraintRows& rows, std::size_t r) const {
   const auto first = static_cast<std::size_t>(rows.begin[r]), last = static_cast<std::size_t>(rows.begin[r + 1]);
-  return least_length(node_length_, std::span(rows.node).subspan(first, last - first));
+  const double least = least_length(*node_length_, std::span(rows.node).subspan(first, last - first));
+  return std::isfinite(least) ? least : smallest_;  // nodes of no part, which may be those of an interface
 }
 
 /// Of the cell that gives way by the greatest length.

@@ -49,7 +49,8 @@ class PenetrationWatch : public Observer {
   double shortening(const ConstraintRows& rows, std::size_t r, std::span<const double> u);
 
   const Model& model_;
-  std::vector<double> node_length_;
+  std::shared_ptr<const std::vector<double>> node_length_;
+  double smallest_;                 ///< of them
   std::vector<std::size_t> begin_;  ///< by node, in cells_; made when first needed
   std::vector<std::pair<const Part*, Index>> cells_;
   std::vector<Place> places_;  ///< by slot

@@ -142,7 +142,7 @@ void Recorder::record_frame(const StepView& view) {
   if (output.fields.empty()) return;
   last_frame_ = view.step;
   std::vector<std::array<double, 6>> stress, strain;
-  std::vector<double> equivalent, part;
+  std::vector<double> equivalent, part, contact_force;
   std::list<std::vector<double>> remembered;
   const auto tensors = [](const std::vector<std::array<double, 6>>& values) {
     return std::span<const double>(values.data()->data(), 6 * values.size());
@@ -157,7 +157,8 @@ void Recorder::record_frame(const StepView& view) {
     if (*field == "displacement") point_fields.push_back({*field, 3, view.state.q});
     if (*field == "velocity") point_fields.push_back({*field, 3, view.state.v});
     if (*field == "acceleration") point_fields.push_back({*field, 3, view.state.a});
-    if (*field == "contact_force" && has_contact) point_fields.push_back({*field, 3, view.forces.contact});
+    if (*field == "contact_force" && has_contact)
+      point_fields.push_back({*field, 3, contact_force = view.forces.contact.dense()});
     if (*field == "contact_pressure" && has_contact) point_fields.push_back({*field, 1, contact.pressure});
     if (*field == "contact_gap" && has_contact) point_fields.push_back({*field, 1, contact.gap});
     if (*field == "contact_status" && has_contact) point_fields.push_back({*field, 1, contact.status});

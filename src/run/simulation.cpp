@@ -97,8 +97,8 @@ std::vector<bool> Simulation::later_velocities(std::size_t stage) const {
   for (std::size_t i = 0; i <= stage; ++i)
     if (!is_static(i)) return later;
   for (const InitialState& initial : model_.initial) {
-    for (std::size_t k = 0; k < initial.velocity.size(); ++k) {
-      const bool is_given = norm(initial.velocity[k]) > 0.0;
+    for (std::size_t k = 0; k < initial.nodes.size() && !initial.velocity.empty(); ++k) {
+      const bool is_given = norm(initial.velocity_of(k)) > 0.0;
       if (is_given || initial.stage == 0) later[static_cast<std::size_t>(initial.nodes[k])] = is_given;
     }
   }
@@ -196,8 +196,8 @@ State Simulation::initial_state() const {
     for (std::size_t k = 0; k < initial.nodes.size(); ++k) {
       for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t i = 3 * static_cast<std::size_t>(initial.nodes[k]) + c;
-        if (!initial.displacement.empty()) state.q[i] = initial.displacement[k][c];
-        if (!initial.velocity.empty()) state.v[i] = initial.velocity[k][c];
+        if (!initial.displacement.empty()) state.q[i] = initial.displacement_of(k)[c];
+        if (!initial.velocity.empty()) state.v[i] = initial.velocity_of(k)[c];
       }
     }
   }
@@ -212,9 +212,10 @@ bool Simulation::begin_velocities(std::size_t stage, State& state) const {
   for (const InitialState& initial : model_.initial) {
     if (initial.velocity.empty() || stage != (initial.stage > 0 ? initial.stage : first)) continue;
     given = true;
-    for (std::size_t k = 0; k < initial.nodes.size(); ++k)
-      std::copy(initial.velocity[k].begin(), initial.velocity[k].end(),
-                state.v.begin() + 3 * static_cast<std::ptrdiff_t>(initial.nodes[k]));
+    for (std::size_t k = 0; k < initial.nodes.size(); ++k) {
+      const Vec3& velocity = initial.velocity_of(k);
+      std::copy(velocity.begin(), velocity.end(), state.v.begin() + 3 * static_cast<std::ptrdiff_t>(initial.nodes[k]));
+    }
   }
   return given;
 }

@@ -26,10 +26,8 @@ void Bathe::start(State& state, double dt) {
 bool Bathe::solve(ImplicitStage& stage, const SubStep& sub_step, const StepRequest& request, const State& begin,
                   State& end, StepReport& report) {
   const double share = sub_step.share;
-  std::vector<double>& external = end.forces.external;
-  external.resize(end.q.size());
-  system_.solid.external_force(end.t, system_.mass, external);
-  for (std::size_t i = 0; i < known_.size(); ++i) known_[i] = share * external[i];
+  evaluate_loads(system_, end.t, end.forces);
+  for (std::size_t i = 0; i < known_.size(); ++i) known_[i] = share * end.forces.external[i];
   const StageEquation equation{.m = share,
                                .k = share,
                                .s = sub_step.s,
@@ -62,7 +60,7 @@ bool Bathe::to_middle(const State& begin, const StepRequest& request, StepReport
   middle_.t = request.t_end - k;
   imposed_steps(system_.supports, begin.t, middle_.t, begin.q, imposed_);
   if (!start_.set(begin, k, imposed_, [](const ImposedStep& s) { return s.a_begin; }) ||
-      (impulses_ && !impulses_->accelerations(begin.forces.contact, pushed_begin_))) {
+      (impulses_ && !impulses_->accelerations(begin.forces.contact.dense(), pushed_begin_))) {
     report.failure = MassSolver::failure;
     return false;
   }
@@ -83,7 +81,7 @@ bool Bathe::to_middle(const State& begin, const StepRequest& request, StepReport
 
 /// From the unknown of the first sub-step to the acceleration, and from its velocity to that of VelocityImpulses.
 bool Bathe::stop_at_rows(double k, StepReport& report) {
-  if (!impulses_->accelerations(middle_.forces.contact, pushed_half_)) {
+  if (!impulses_->accelerations(middle_.forces.contact.dense(), pushed_half_)) {
     report.failure = MassSolver::failure;
     return false;
   }

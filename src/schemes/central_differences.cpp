@@ -21,7 +21,7 @@ void CentralDifferences::start(State& state, double dt) {
   for (const ImposedStep& s : imposed_next_) state.a[s.dof] = acceleration_to_middle(s, dt);
   contact_->start(system_, dt, 0.5 * dt, state);
   start_accelerations(system_, mass_solver_, state);
-  if (is_lumped()) state.forces.inertia = {};
+  if (is_lumped()) state.forces.inertia = std::vector<double>();  // its memory as well
 }
 
 StepReport CentralDifferences::step(const State& begin, const StepRequest& request, State& end) {

@@ -64,8 +64,7 @@ StepReport ContactStabilizedNewmark::step(const State& begin, const StepRequest&
   end.t = request.t_end;
   const Forces& now = begin.forces;
   Forces& next = end.forces;
-  next.external.resize(n);
-  system_.solid.external_force(end.t, system_.mass, next.external);
+  evaluate_loads(system_, end.t, next);
   for (std::size_t i = 0; i < n; ++i) {
     known_[i] = gamma_ * next.external[i] + (1.0 - gamma_) * (now.external[i] - now.internal[i]);
   }

@@ -43,8 +43,7 @@ StepReport EnergyMomentum::step(const State& begin, const StepRequest& request, 
   end.t = request.t_end;
   const Forces& now = begin.forces;
   Forces& next = end.forces;
-  next.external.resize(n);
-  system_.solid.external_force(end.t, system_.mass, next.external);
+  evaluate_loads(system_, end.t, next);
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   for (std::size_t i = 0; i < n; ++i) {
     x_hat_[i] = begin.q[i] + h * begin.v[i];

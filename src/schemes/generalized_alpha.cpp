@@ -99,7 +99,7 @@ bool GeneralizedAlpha::predict(const State& begin, double h, State& end) {
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   if (!start_.set(begin, h, imposed_, [](const ImposedStep& s) { return s.a_begin; }) ||
-      (impulses_ && !impulses_->accelerations(begin.forces.contact, pushed_begin_)))
+      (impulses_ && !impulses_->accelerations(begin.forces.contact.dense(), pushed_begin_)))
     return false;
   const Forces& now = begin.forces;
   const std::span<const double> inertia = start_.balance().inertia;
@@ -118,7 +118,7 @@ bool GeneralizedAlpha::predict(const State& begin, double h, State& end) {
 
 /// From the unknown s + M^-1 G^T lambda / (2 beta) to the acceleration, and to the velocity of VelocityImpulses.
 bool GeneralizedAlpha::stop_at_rows(double h, State& end, StepReport& report) {
-  if (!impulses_->accelerations(end.forces.contact, pushed_end_)) {
+  if (!impulses_->accelerations(end.forces.contact.dense(), pushed_end_)) {
     report.failure = MassSolver::failure;
     return false;
   }
@@ -156,8 +156,7 @@ StepReport GeneralizedAlpha::step(const State& begin, const StepRequest& request
   const double h = request.dt;
   go_on_from(begin, end);
   end.t = request.t_end;
-  end.forces.external.resize(begin.q.size());
-  system_.solid.external_force(end.t, system_.mass, end.forces.external);
+  evaluate_loads(system_, end.t, end.forces);
   if (!predict(begin, h, end)) return {false, 0, 0, MassSolver::failure, {}};
   // Times 2 beta / (1 - alpha_m) the equation has the multipliers as they are.
   const double share = impulses_ ? 2.0 * beta / (1.0 - alpha_m) : 1.0;

@@ -99,7 +99,7 @@ void ImplicitStage::start(State& state, std::size_t place) {
   start_memory(state, place);
   port_->begin({&state, &state.stages[place], 1.0, 0.0, 1.0, 0.0, nullptr, state.q, {}});
   port_->respond(state.q, state.v, forces.rows);
-  forces.contact.assign(state.q.size(), 0.0);
+  forces.contact.clear(state.q.size());
   forces.rows.add_force(forces.contact);
 }
 
@@ -107,7 +107,7 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   Forces& forces = end.forces;
   follow(eq, end);
   force_.value(point_step(eq, begin), end);
-  forces.contact.assign(end.q.size(), 0.0);
+  forces.contact.clear(end.q.size());
   port_->respond(end.q, end.v, forces.rows);
   forces.rows.add_force(forces.contact);
   system_.mass.apply(end.a, forces.inertia);

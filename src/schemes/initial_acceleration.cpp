@@ -33,7 +33,7 @@ void start_multipliers(const System& system, MassSolver& solver, double dt, Stat
   Forces& forces = state.forces;
   const std::shared_ptr<const ConstraintRows> shared = forces.rows.rows;
   const ConstraintRows& rows = *shared;
-  forces.contact.assign(state.q.size(), 0.0);
+  forces.contact.clear(state.q.size());
   open_response(shared, state.contact.size(), forces.rows);
   std::vector<double> rhs(state.q.size()), a_free = state.a;
   force_sum(forces, rhs);

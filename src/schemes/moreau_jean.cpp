@@ -30,8 +30,7 @@ StepReport MoreauJean::step(const State& begin, const StepRequest& request, Stat
   end.t = request.t_end;
   const Forces& now = begin.forces;
   Forces& next = end.forces;
-  next.external.resize(n);
-  system_.solid.external_force(end.t, system_.mass, next.external);
+  evaluate_loads(system_, end.t, next);
   for (std::size_t i = 0; i < n; ++i) {
     x_hat_[i] = begin.q[i] + h * begin.v[i];
     x_predicted_[i] = begin.q[i] + 0.5 * h * begin.v[i];

@@ -45,7 +45,7 @@ bool NonsmoothGeneralizedAlpha::solve_jump(const Forces& forces) {
   std::fill(jump_.begin(), jump_.end(), 0.0);
   const std::vector<RowStatus>& status = forces.rows.status;
   if (std::all_of(status.begin(), status.end(), [](RowStatus s) { return s == RowStatus::open; })) return true;
-  return mass_solver_->solve(forces.contact, jump_) >= 0;
+  return mass_solver_->solve(forces.contact.dense(), jump_) >= 0;
 }
 
 /// Resultant of p / h and of what the supports answer to it.
@@ -87,8 +87,7 @@ StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest
   const std::size_t n = begin.q.size();
   go_on_from(begin, end);
   end.t = request.t_end;
-  end.forces.external.resize(n);
-  system_.solid.external_force(end.t, system_.mass, end.forces.external);
+  evaluate_loads(system_, end.t, end.forces);
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   if (!start_from_the_right(begin, h)) return {false, 0, 0, MassSolver::failure, {}};
   for (std::size_t i = 0; i < n; ++i) {

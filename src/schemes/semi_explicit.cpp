@@ -148,7 +148,7 @@ struct SemiExplicit::Boundary {
   }
 
   /// r = f - F(u) on the dofs b, zero elsewhere.
-  void residual(std::span<const double> f, std::span<const double> u, const PointStep& step, std::span<double> r) {
+  void residual(const LoadVector& f, std::span<const double> u, const PointStep& step, std::span<double> r) {
     std::fill(force.begin(), force.end(), 0.0);
     system.solid.add_internal_force_of(cells, u, force, step);
     std::fill(r.begin(), r.end(), 0.0);
@@ -275,7 +275,7 @@ std::string SemiExplicit::equilibrate(const Target& target, std::span<double> u,
     constexpr int patience = 8;  // iterations with one factorisation
     if (iterations % patience == 0 && !is_linear) b.factorise(u, target.step());
   }
-  forces.contact.assign(u.size(), 0.0);
+  forces.contact.clear(u.size());
   forces.rows.add_force(forces.contact);
   return {};
 }
@@ -301,8 +301,7 @@ void SemiExplicit::start(State& state, double dt) {
   const std::vector<double> velocities = state.v;
   start_with_supports(system_, state);
   for (const std::size_t i : boundary_->dofs) state.v[i] = velocities[i];
-  state.forces.external.resize(state.q.size());
-  system_.solid.external_force(state.t, system_.mass, state.forces.external);
+  evaluate_loads(system_, state.t, state.forces);
   if (!system_.solid.is_linear()) boundary_->factorise(state.q, {dt, state.points});
   const State given = state;
   int iterations = 0;
@@ -339,8 +338,7 @@ StepReport SemiExplicit::step(const State& begin, const StepRequest& request, St
     end.a[s.dof] = acceleration_from_middle(s, h);
   }
   Forces& forces = end.forces;
-  forces.external.resize(n);
-  system_.solid.external_force(request.t_end, system_.mass, forces.external);
+  evaluate_loads(system_, request.t_end, forces);
   try {
     const auto fixed_rows = system_.contact.is_fixed() ? system_.contact.rows_at(begin.q, begin.q) : nullptr;
     boundary_->go_on(std::get<ModifiedMassMemory>(begin.memory), fixed_rows.get());

@@ -30,8 +30,7 @@ void Statics::start(State& state, double dt) {
 StepReport Statics::step(const State& begin, const StepRequest& request, State& end) {
   go_on_from(begin, end);
   end.t = request.t_end;
-  end.forces.external.resize(begin.q.size());
-  system_.solid.external_force(end.t, system_.mass, end.forces.external);
+  evaluate_loads(system_, end.t, end.forces);
   // The unknown is the displacement of the step; it stands in end.a while the stage is solved.
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   for (ImposedStep& s : imposed_) {
@@ -45,7 +44,7 @@ StepReport Statics::step(const State& begin, const StepRequest& request, State& 
                                .free = &free_,
                                .x_hat = begin.q,
                                .v_hat = zero_,
-                               .known = end.forces.external,
+                               .known = system_.solid.has_loads() ? end.forces.external.value : zero_,
                                .imposed = imposed_};
   StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};

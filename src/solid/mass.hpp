@@ -17,10 +17,10 @@ enum class MassKind : std::uint8_t { consistent, lumped };
 /// Zienkiewicz 1976). Nodes without mass (clamped walls of interface cells) have zero rows.
 class Mass {
  public:
-  /// node_matrix: nodes x nodes, entries are masses. For `lumped` only its diagonal is kept.
-  Mass(MassKind kind, CsrMatrix node_matrix);
+  /// Consistent: nodes x nodes, entries are masses.
+  explicit Mass(CsrMatrix node_matrix);
   /// Lumped: the masses of the nodes.
-  explicit Mass(const std::vector<double>& node_masses);
+  explicit Mass(std::vector<double> node_masses);
 
   MassKind kind() const { return kind_; }
   /// y = M x, dof vectors of 3 x nodes entries, x y z of a node together. Threaded, same bits for any thread count.
@@ -43,16 +43,16 @@ class Mass {
   const std::vector<double>& node_diagonal() const { return diagonal_; }
   /// f += M 1 times a uniform acceleration: the force of gravity, under which every free body falls with a = g.
   void add_gravity(const Vec3& acceleration, std::span<double> f) const;
-  /// The node matrix (diagonal matrix when lumped).
+  /// The node matrix of a consistent mass.
   const CsrMatrix& node_matrix() const { return matrix_; }
   /// Sum of all entries: the total mass.
   double total() const;
 
  private:
   MassKind kind_;
-  CsrMatrix matrix_;
+  CsrMatrix matrix_;  ///< empty when lumped
   std::vector<double> diagonal_;
-  std::vector<double> row_sums_;
+  std::vector<double> row_sums_;  ///< likewise
 };
 
 }  // namespace carom

@@ -353,12 +353,7 @@ ModifiedMass modify_mass(const Solid& solid, const Model& model, const MassModif
       break;
   }
   refuse_bodies_on_a_line(model, graph, massless, before);
-  CsrMatrix diagonal;
-  diagonal.size = graph.size;
-  diagonal.value = after;
-  for (Index n = 0; n <= graph.size; ++n) diagonal.row_begin.push_back(n);
-  for (Index n = 0; n < graph.size; ++n) diagonal.column.push_back(n);
-  return {Mass(MassKind::lumped, std::move(diagonal)), compare(*model.mesh, massless, before, after)};
+  return {Mass(after), compare(*model.mesh, massless, before, after)};
 }
 
 }  // namespace carom

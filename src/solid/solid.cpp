@@ -109,7 +109,7 @@ struct Solid::Impl {
       for (std::size_t a = 0; a < nodes.size(); ++a) m[at(nodes[a])] += factor(c) * of_cell[a];
     });
     for_each_body_mass([&](Index node, double mass) { m[at(node)] += mass; });
-    return Mass(m);
+    return Mass(std::move(m));
   }
   const Block& block(const Chunk& chunk) const { return solid.blocks[at(chunk.block)]; }
   CellBatches batches(const Chunk& chunk, const PointStep& step = {}, std::span<double> end = {}) const {
@@ -428,7 +428,7 @@ Mass Solid::mass(MassKind kind) const {
         M.value[entry(M, nodes[a], nodes[b])] += cell[a * nodes.size() + b];
   });
   impl_->for_each_body_mass([&](Index node, double mass) { add_diagonal(M, node, mass); });
-  return Mass(kind, std::move(M));
+  return Mass(std::move(M));
 }
 
 Mass Solid::lumped_mass(std::span<const double> cell_factors) const {
@@ -520,6 +520,24 @@ std::vector<std::array<double, 6>> Solid::cell_stress(std::span<const double> u,
     block.kernels.mean_stress(impl_->batches(chunk, step), block.law(), u.data(), first);
   });
   return stress;
+}
+
+std::pair<double, std::size_t> Solid::largest_stress(std::span<const double> u, const PointStep& step,
+                                                     double (*measure)(const Voigt& stress)) const {
+  using Largest = std::pair<double, std::size_t>;
+  const auto is_less = [](const Largest& a, const Largest& b) {
+    return a.first < b.first || (a.first == b.first && a.second > b.second);
+  };
+  std::vector<Largest> of_chunk(impl_->solid.chunks.size(), {-1.0, 0});
+  parallel_for(of_chunk.size(), 1, [&](std::size_t c, std::size_t) {
+    const Chunk& chunk = impl_->solid.chunks[c];
+    const Block& block = impl_->block(chunk);
+    std::vector<Voigt> stress(at(chunk.cells));
+    block.kernels.mean_stress(impl_->batches(chunk, step), block.law(), u.data(), stress.front().data());
+    for (std::size_t k = 0; k < stress.size(); ++k)
+      of_chunk[c] = std::max(of_chunk[c], {measure(stress[k]), at(block.first + chunk.first) + k}, is_less);
+  });
+  return of_chunk.empty() ? Largest{-1.0, 0} : *std::max_element(of_chunk.begin(), of_chunk.end(), is_less);
 }
 
 std::vector<double> Solid::cell_history(std::string_view variable, std::span<const double> history) const {

@@ -5,10 +5,12 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "linalg/block_matrix.hpp"
 #include "linalg/csr_matrix.hpp"
+#include "math/voigt.hpp"
 #include "model/model.hpp"
 #include "solid/evaluation.hpp"
 #include "solid/mass.hpp"
@@ -148,6 +150,9 @@ class Solid {
   /// Mean over the reference volume of the Cauchy stress of each solid cell: xx, yy, zz, xy, yz, zx. zz is the hoop
   /// stress of axisymmetric cells; bars give the tensor of their axial stress.
   std::vector<std::array<double, 6>> cell_stress(std::span<const double> u, const PointStep& step = {}) const;
+  /// The largest measure of these stresses and its cell, the first of several.
+  std::pair<double, std::size_t> largest_stress(std::span<const double> u, const PointStep& step,
+                                                double (*measure)(const Voigt& stress)) const;
   /// Mean over the reference volume of a history variable of each solid cell (Law::history), from the history of all
   /// points; 0 in cells of laws without it. Empty when no law of the bodies has it.
   std::vector<double> cell_history(std::string_view variable, std::span<const double> history) const;

@@ -1,6 +1,7 @@
 // State: everything that evolves, as a value.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <tuple>
 #include <variant>
@@ -26,10 +27,19 @@ void fields(A& archive, SupportForce& x) {
   archive("momentum", x.momentum);
 }
 
+/// A dof vector that has no entries where nothing acts.
+struct LoadVector {
+  std::vector<double> value;
+  double operator[](std::size_t i) const { return value.empty() ? 0.0 : value[i]; }
+  friend bool operator==(const LoadVector&, const LoadVector&) = default;
+};
+
 /// All forces at one instant. Where a dof is free, inertia = external - internal + contact up to the residual of the
 /// solver; where it is prescribed, the support's reaction closes the equation.
 struct Forces {
-  std::vector<double> internal, external, contact;  ///< dof vectors
+  std::vector<double> internal;  ///< a dof vector, as
+  LoadVector external;
+  NodeForces contact;
   /// M a, a dof vector; none where a scheme makes nothing of it but what follows from the accelerations (central
   /// differences with a lumped mass).
   std::vector<double> inertia;
@@ -43,7 +53,7 @@ struct Forces {
 template <class A>
 void fields(A& archive, Forces& x) {
   archive("internal", x.internal);
-  archive("external", x.external);
+  archive("external", x.external.value);
   archive("contact", x.contact);
   archive("inertia", x.inertia);
   archive("supports", x.supports);

@@ -318,7 +318,9 @@ class DirectSolver final : public EffectiveSolver {
 };
 
 CsrMatrix DirectSolver::assemble() const {
-  const CsrMatrix& M = system_.mass.node_matrix();
+  const bool is_lumped = system_.mass.kind() == MassKind::lumped;
+  const CsrMatrix lumped = is_lumped ? diagonal_matrix(system_.mass.node_diagonal()) : CsrMatrix{};
+  const CsrMatrix& M = is_lumped ? lumped : system_.mass.node_matrix();
   std::vector<double> held(compressed_of_.size(), 0.0);
   for (const DofSpring& spring : springs_) held[spring.dof] += spring.stiffness;
   CsrMatrix A;

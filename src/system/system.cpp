@@ -26,20 +26,17 @@ void evaluate_solid(const System& system, const PointStep& step, State& end) {
 
 void evaluate_bodies(const System& system, const PointStep& step, State& end) {
   evaluate_solid(system, step, end);
-  std::vector<double>& external = end.forces.external;
-  const bool is_ready = external.size() == end.q.size() && !system.solid.has_loads();  // it is zero throughout
-  external.resize(end.q.size());
-  if (!is_ready) system.solid.external_force(end.t, system.mass, external);
+  evaluate_loads(system, end.t, end.forces);
+}
+
+void evaluate_loads(const System& system, double t, Forces& forces) {
+  if (!system.solid.has_loads()) return forces.external.value.clear();
+  forces.external.value.resize(system.solid.dof_count());
+  system.solid.external_force(t, system.mass, forces.external.value);
 }
 
 Momentum momentum_from(const double* sums) {
   return {{sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5]}};
-}
-
-void clear_contact(std::size_t dof_count, Forces& forces) {
-  if (forces.contact.size() != dof_count || !forces.rows.rows) return forces.contact.assign(dof_count, 0.0);
-  for (const Index n : forces.rows.rows->node)
-    for (std::size_t c = 0; c < 3; ++c) forces.contact[3 * static_cast<std::size_t>(n) + c] = 0.0;
 }
 
 void force_sum(const Forces& forces, std::span<double> rhs) {

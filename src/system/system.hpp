@@ -28,15 +28,14 @@ struct System {
 void evaluate_solid(const System& system, const PointStep& step, State& end);
 /// The same, and the external forces at end.t.
 void evaluate_bodies(const System& system, const PointStep& step, State& end);
+/// The external forces alone.
+void evaluate_loads(const System& system, double t, Forces& forces);
 
 /// Fills what the accelerations and velocities of the state add to its forces: inertia, those of the supports, stored
 /// energies and total momentum (moments by MomentArms). The other forces are there (evaluate_bodies).
 void complete_forces(const System& system, State& state);
 /// The forces of the supports alone.
 void complete_supports(const System& system, State& state);
-
-/// Overwrites the contact forces by zero, having those of its rows to take away.
-void clear_contact(std::size_t dof_count, Forces& forces);
 
 /// rhs = f - F(u) + contact.
 void force_sum(const Forces& forces, std::span<double> rhs);

@@ -74,7 +74,8 @@ TEST(FaceTwins, AreTheFacesThatOccurAgain) {
     faces.push_back(face_key(shuffled));
     EXPECT_TRUE(std::is_sorted(faces.back().begin(), faces.back().end()));
   }
-  const std::vector<std::uint32_t> twin = face_twins(faces, 8);
+  const std::vector<std::uint32_t> twin = face_twins(
+      faces.size(), [&](std::size_t i) { return faces[i]; }, 8);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const auto count = std::count(faces.begin(), faces.end(), faces[i]);
     ASSERT_EQ(twin[i] == no_twin, count == 1);

@@ -178,7 +178,7 @@ TEST(ImplicitSchemes, AreNotTouchedByAStepThatIsGivenUp) {
         const StepReport report = scheme->step(state, {i * h, h, 1e-14}, next);
         ASSERT_TRUE(report.converged) << report.failure;
         std::swap(state, next);
-        touched = touched || largest(state.forces.contact) > 0.0;
+        touched = touched || largest(state.forces.contact.dense()) > 0.0;
       }
       EXPECT_TRUE(touched);
       ends.push_back(state);

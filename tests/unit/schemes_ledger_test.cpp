@@ -200,7 +200,7 @@ TEST(Books, AgreeWithIndependentSums) {
   AsterTerms sums;
   const auto observe = [&](const State& now) {
     p.solid.internal_force(now.q, F);
-    C = now.forces.contact;
+    C = now.forces.contact.dense();
     if (!before.q.empty()) {
       for (std::size_t i = 0; i < n; ++i) work[i] = now.v[i] - before.v[i];
       std::vector<double> M_dv(n);
