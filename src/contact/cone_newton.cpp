@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "linalg/conjugate_gradients.hpp"
-#include "linalg/dense.hpp"
 
 namespace carom::cone {
 
@@ -17,45 +16,35 @@ namespace {
 constexpr double negligible = 1e-14;
 constexpr auto no_row = static_cast<std::size_t>(-1);
 
-/// Normal forces on the active rows from (W_AA + rho D) r_A = -(b_A - rho D centre_A); zero on the others. False if the
-/// system is singular all the same.
-bool solve_active(Problem& p, const RowList& rows, const std::vector<bool>& active) {
+}  // namespace
+
+// Normal forces on the active rows from (W_AA + rho D) r_A = -(b_A - rho D centre_A); zero on the others. False if the
+// system is singular all the same.
+bool ActiveSystem::solve(Problem& p, const RowList& rows, const std::vector<bool>& active) {
   RowList set;
   std::vector<double> x, d;  // unknowns r_i / d_i, which make the diagonal 1
-  std::vector<std::size_t> position(p.W.size(), no_row);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::size_t i = rows[k];
     p.r[i][0] = 0.0;
     if (!active[k]) continue;
-    position[i] = set.size();
     set.push_back(i);
     d.push_back(1.0 / std::sqrt(p.normal_compliance(i)));
     x.push_back(-d.back() * (p.b[i][0] - p.added(i) * p.centre(i)));
   }
   const std::size_t n = set.size();
-  const auto each_entry = [&](std::size_t row, auto&& visit) {
-    for (std::size_t k = p.W.begin[set[row]]; k < p.W.begin[set[row] + 1]; ++k) {
-      const std::size_t column = position[p.W.column[k]];
-      if (column == no_row) continue;
-      const double own = row == column ? p.added(set[row]) : 0.0;
-      visit(column, d[row] * d[column] * (p.W.block[k][0] + own));
-    }
-  };
   if (n <= dense_limit) {
-    std::vector<double> A(n * n, 0.0);
-    for (std::size_t row = 0; row < n; ++row)
-      each_entry(row, [&](std::size_t column, double value) { A[row * n + column] = value; });
-    try {
-      DenseLu(std::move(A), static_cast<int>(n)).solve(x);
-    } catch (const std::runtime_error&) {
-      return false;
-    }
+    if (!factor(p, set, d)) return false;
+    factors_->solve(x);
   } else {
+    std::vector<std::size_t> position(p.W.size(), no_row);
+    for (std::size_t k = 0; k < n; ++k) position[set[k]] = k;
     const std::vector<double> rhs = x, ones(n, 1.0);
     const LinearOperator apply = [&](std::span<const double> v, std::span<double> y) {
       for (std::size_t row = 0; row < n; ++row) {
-        double sum = 0.0;
-        each_entry(row, [&](std::size_t column, double value) { sum += value * v[column]; });
+        double sum = p.added(set[row]) * d[row] * d[row] * v[row];
+        p.each_normal(set[row], [&](std::size_t j, double value) {
+          if (position[j] != no_row) sum += d[row] * d[position[j]] * value * v[position[j]];
+        });
         y[row] = sum;
       }
     };
@@ -64,6 +53,32 @@ bool solve_active(Problem& p, const RowList& rows, const std::vector<bool>& acti
   for (std::size_t row = 0; row < n; ++row) p.r[set[row]][0] = d[row] * x[row];
   return true;
 }
+
+/// Makes the factors, unless they are those of this system.
+bool ActiveSystem::factor(const Problem& p, const RowList& set, const std::vector<double>& d) {
+  if (factors_ && set == set_ && p.strength() == strength_) return true;
+  const std::size_t n = set.size();
+  std::vector<std::size_t> position(p.W.size(), no_row);
+  for (std::size_t k = 0; k < n; ++k) position[set[k]] = k;
+  std::vector<double> A(n * n, 0.0);
+  for (std::size_t row = 0; row < n; ++row) {
+    p.each_normal(set[row], [&](std::size_t j, double value) {
+      if (position[j] == no_row) return;
+      A[row * n + position[j]] = d[row] * d[position[j]] * (value + (set[row] == j ? p.added(j) : 0.0));
+    });
+  }
+  set_ = set;
+  strength_ = p.strength();
+  factors_.reset();
+  try {
+    factors_.emplace(std::move(A), static_cast<int>(n));
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+  return true;
+}
+
+namespace {
 
 enum class Status { stick, slip };
 
@@ -191,13 +206,13 @@ bool shorten(Problem& p, const RowList& rows, const std::vector<Vec3>& from, dou
 
 }  // namespace
 
-int pivot(Problem& p, const RowList& rows, std::vector<bool>& active) {
+int pivot(Problem& p, const RowList& rows, std::vector<bool>& active, ActiveSystem& system) {
   const std::size_t n = rows.size();
   const int most = 100 + 5 * static_cast<int>(n);
   std::size_t fewest = n + 1;
   int patience = 10;
   for (int step = 1; step <= most; ++step) {
-    if (!solve_active(p, rows, active)) return step;
+    if (!system.solve(p, rows, active)) return step;
     const double tiny = negligible * p.scale(rows);
     std::vector<std::size_t> wrong;
     for (std::size_t k = 0; k < n; ++k) {

@@ -18,6 +18,10 @@ constexpr double most_amplified = 1e6;
 Problem::Problem(const Delassus& operator_W, std::span<const Vec3> given, std::span<const double> friction,
                  std::vector<Vec3>& force)
     : W(operator_W), b(given), mu(friction), r(force), centre_(operator_W.size()) {
+  if (std::ranges::all_of(mu, [](double m) { return m == 0.0; })) {
+    normal_.reserve(W.block.size());
+    for (const FrameBlock& block : W.block) normal_.push_back(block[0]);
+  }
   for (std::size_t i = 0; i < W.size(); ++i) {
     for (std::size_t k = W.begin[i]; k < W.begin[i + 1]; ++k) {
       if (W.column[k] == i) own_.push_back(W.block[k]);
@@ -36,6 +40,11 @@ void Problem::regularise(const RowList& rows, double strength) {
 
 Vec3 Problem::sum_of_blocks(std::size_t i, std::size_t left_out) const {
   Vec3 w = b[i];
+  if (!normal_.empty()) {
+    for (std::size_t k = W.begin[i]; k < W.begin[i + 1]; ++k)
+      if (W.column[k] != left_out) w[0] += normal_[k] * r[W.column[k]][0];
+    return w;
+  }
   for (std::size_t k = W.begin[i]; k < W.begin[i + 1]; ++k) {
     if (W.column[k] == left_out) continue;
     const FrameBlock& B = W.block[k];

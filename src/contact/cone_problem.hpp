@@ -50,6 +50,13 @@ class Problem {
   double tangential_compliance(std::size_t i) const { return tangential_[i]; }
   /// rho D_i
   double added(std::size_t i) const { return rho_ * compliance_[i]; }
+  double strength() const { return rho_; }
+  /// visit(j, normal entry of W_ij) for the rows j that act on i.
+  template <class Visit>
+  void each_normal(std::size_t i, const Visit& visit) const {
+    for (std::size_t k = W.begin[i]; k < W.begin[i + 1]; ++k)
+      visit(W.column[k], normal_.empty() ? W.block[k][0] : normal_[k]);
+  }
   double centre(std::size_t i) const { return centre_[i][0]; }
 
   /// r of the rows, in their order.
@@ -69,6 +76,7 @@ class Problem {
   template <class Motion>
   double relative_error(const RowList& rows, const Motion& motion_of) const;
 
+  std::vector<double> normal_;  ///< normal entries of all blocks, where there is no friction
   std::vector<FrameBlock> own_;
   std::vector<double> compliance_, tangential_;
   std::vector<Vec3> centre_;

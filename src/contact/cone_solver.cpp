@@ -44,6 +44,7 @@ int solve_frictionless(Problem& p, const RowList& rows, double tolerance, double
   std::vector<bool> active;
   for (const std::size_t i : rows)
     active.push_back(p.normal_compliance(i) > 0.0 && p.normal_compliance(i) * p.r[i][0] > p.motion(i)[0]);
+  cone::ActiveSystem system;
   Best best;
   best.offer(p, rows);
   constexpr int most_proximal_steps = 60;
@@ -51,12 +52,12 @@ int solve_frictionless(Problem& p, const RowList& rows, double tolerance, double
   int steps = 0;
   for (int n = 0; n < most_proximal_steps && best.error > tolerance; ++n) {
     p.regularise(rows, rho);
-    steps += cone::pivot(p, rows, active);
+    steps += cone::pivot(p, rows, active, system);
     for (const std::size_t i : rows) p.r[i][0] = std::max(0.0, p.r[i][0]);
     const double before = best.error;
     best.offer(p, rows);
     if (best.error > 0.5 * before && before <= accepted) break;
-    rho = std::max(least_proximal, 0.1 * rho);
+    if (best.error > 0.1 * before) rho = std::max(least_proximal, 0.1 * rho);
   }
   best.restore(p, rows);
   return steps;
@@ -181,7 +182,7 @@ int sweeps(Problem& p, const RowList& rows, double tolerance, double accepted, i
 
 int solve_set(Problem& p, const RowList& rows, double tolerance, double accepted) {
   const bool frictionless = std::ranges::all_of(rows, [&](std::size_t i) { return p.mu[i] == 0.0; });
-  const bool has_factors = 3 * rows.size() <= cone::dense_limit;
+  const bool has_factors = 3 * rows.size() <= cone::newton_limit;
   const int most = frictionless  ? first_sweeps
                    : has_factors ? std::max(first_sweeps, sweeps_per_factorisation(p, rows) / 2)
                                  : most_sweeps;

@@ -4,41 +4,16 @@
 #include <cassert>
 #include <utility>
 
+#include "contact/compliance.hpp"
 #include "math/vec3.hpp"
-#include "parallel/threads.hpp"
 
 namespace carom {
 
 namespace {
 
-constexpr std::size_t batch_size = 32;      ///< columns that are solved at once
-constexpr std::size_t rows_per_chunk = 16;  ///< rows read from a batch by one thread at a time
-
 /// Number of components of a row that take part: normal, and with friction the two tangents.
 std::size_t components(const ConstraintRows& rows, std::size_t row) {
   return rows.law[row].mu > 0.0 ? 3 : 1;
-}
-
-/// One column of G^T: component c of row i of W.
-struct Column {
-  std::size_t i, c;
-};
-
-/// W = (W + W^T) / 2: an inverse that is an iteration, or rounds, leaves W symmetric only nearly.
-void make_symmetric(Delassus& W) {
-  const std::size_t n = W.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i; j < n; ++j) {
-      FrameBlock& upper = W.block[i * n + j];
-      FrameBlock& lower = W.block[j * n + i];
-      for (std::size_t a = 0; a < 3; ++a) {
-        for (std::size_t b = 0; b < 3; ++b) {
-          const double mean = 0.5 * (upper[3 * a + b] + lower[3 * b + a]);
-          upper[3 * a + b] = lower[3 * b + a] = mean;
-        }
-      }
-    }
-  }
 }
 
 /// One appearance of a node in a row.
@@ -83,46 +58,38 @@ void Delassus::apply(std::span<const Vec3> r, std::span<Vec3> w) const {
   }
 }
 
+void add_components(const ConstraintRows& rows, std::size_t row, std::size_t first, std::size_t last,
+                    SparseColumns& G) {
+  for (std::size_t c = first; c < last; ++c) {
+    for (auto k = static_cast<std::size_t>(rows.begin[row]); k < static_cast<std::size_t>(rows.begin[row + 1]); ++k) {
+      for (Index d = 0; d < 3; ++d) G.add_entry(3 * rows.node[k] + d, rows.block[k][c][static_cast<std::size_t>(d)]);
+    }
+    G.end_column();
+  }
+}
+
 Delassus make_delassus(const ConstraintRows& rows, std::vector<std::size_t> chosen, std::size_t dof_count,
-                       const InverseOperator& inverse, std::vector<double>* columns) {
+                       const InverseOperator& inverse) {
   Delassus W;
   W.rows = std::move(chosen);
   const std::size_t n = W.size();
+  SparseColumns G;
+  std::vector<std::size_t> first;
+  for (const std::size_t row : W.rows) {
+    first.push_back(G.size());
+    add_components(rows, row, 0, components(rows, row), G);
+  }
+  Compliance C;
+  C.add(G, dof_count, inverse);
   W.block.assign(n * n, FrameBlock{});
   for (std::size_t i = 0; i <= n; ++i) W.begin.push_back(i * n);
-  for (std::size_t k = 0; k < n * n; ++k) W.column.push_back(k % n);
-  if (columns != nullptr) columns->assign(3 * n * dof_count, 0.0);
-  std::vector<Column> wanted;
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t c = 0; c < components(rows, W.rows[i]); ++c) wanted.push_back({i, c});
+  for (std::size_t k = 0; k < n * n; ++k) {
+    const std::size_t i = k / n, j = k % n;
+    W.column.push_back(j);
+    for (std::size_t a = 0; a < components(rows, W.rows[i]); ++a)
+      for (std::size_t b = 0; b < components(rows, W.rows[j]); ++b)
+        W.block[k][3 * a + b] = C(first[i] + a, first[j] + b);
   }
-  std::vector<double> batch;
-  for (std::size_t first = 0; first < wanted.size(); first += batch_size) {
-    const std::size_t count = std::min(batch_size, wanted.size() - first);
-    batch.assign(count * dof_count, 0.0);
-    const auto vector = [&](std::size_t k) { return std::span(batch).subspan(k * dof_count, dof_count); };
-    for (std::size_t k = 0; k < count; ++k) {
-      Vec3 unit{};
-      unit[wanted[first + k].c] = 1.0;
-      rows.scatter(W.rows[wanted[first + k].i], unit, vector(k));
-    }
-    inverse(batch, static_cast<int>(count));
-    parallel_for(n, rows_per_chunk, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = 0; k < count; ++k) {
-        const auto [j, c] = wanted[first + k];
-        for (std::size_t i = begin; i < end; ++i) {
-          const Vec3 w = rows.relative(W.rows[i], vector(k));
-          for (std::size_t a = 0; a < components(rows, W.rows[i]); ++a) W.block[i * n + j][3 * a + c] = w[a];
-        }
-      }
-    });
-    if (columns == nullptr) continue;
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto [j, c] = wanted[first + k];
-      std::ranges::copy(vector(k), columns->begin() + static_cast<std::ptrdiff_t>((3 * j + c) * dof_count));
-    }
-  }
-  make_symmetric(W);
   return W;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact/constraint_rows.hpp"
+#include "linalg/half_solution.hpp"
 
 namespace carom {
 
@@ -27,16 +28,21 @@ struct Delassus {
   void apply(std::span<const Vec3> r, std::span<Vec3> w) const;
 };
 
-/// A^-1: overwrites the dof vectors b (columns of them, stored one after the other) by A^-1 b, with zero on fixed dofs
-/// whatever b is there.
-using InverseOperator = std::function<void(std::span<double> b, int columns)>;
+/// A^-1, with zero on fixed dofs whatever stands there on the right.
+struct InverseOperator {
+  /// Overwrites the dof vectors b (columns of them, stored one after the other) by A^-1 b.
+  std::function<void(std::span<double> b, int columns)> solve;
+  /// Y of sparse dof vectors B, B^T A^-1 B = Y^T Y; empty where A has no factors L L^T.
+  std::function<std::vector<HalfPanel>(const SparseColumns& B)> half{};
+};
 
-/// For any symmetric positive definite A: one solve per row and component (tangential ones only where the row has
-/// friction), in batches of up to 32. All blocks are stored; W is made symmetric by the mean with its transpose.
-/// `columns` receives A^-1 G^T, 3 dof vectors per row one after the other (zero for tangential components without
-/// friction), when it is not nullptr.
+/// Appends the components [first, last) of a row of G to sparse dof vectors.
+void add_components(const ConstraintRows& rows, std::size_t row, std::size_t first, std::size_t last, SparseColumns& G);
+
+/// For any symmetric positive definite A: a solve, or half of one, per row and component (tangential ones only where
+/// the row has friction). All blocks are stored.
 Delassus make_delassus(const ConstraintRows& rows, std::vector<std::size_t> chosen, std::size_t dof_count,
-                       const InverseOperator& inverse, std::vector<double>* columns = nullptr);
+                       const InverseOperator& inverse);
 
 /// For a diagonal A (lumped mass): inverse_diagonal has one entry per dof, 0 on fixed ones. Only blocks of rows that
 /// share a node are stored.

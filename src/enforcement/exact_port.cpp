@@ -17,6 +17,7 @@ namespace carom {
 
 namespace {
 
+constexpr const char* no_compliance = "the linear solver does not find the compliance of the rows in contact";
 constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
 
 double largest(std::span<const double> x) {
@@ -190,18 +191,22 @@ bool ExactPort::forget_stale(EffectiveSolver& solver, const std::shared_ptr<cons
   const bool is_other = operator_ != solver.operators_made();
   operator_ = solver.operators_made();
   if (is_other) nodes_.forget();
-  if (is_other || !is_linear || !is_fixed) {
-    compliance_.forget();
-    chosen_.clear();
-    W_ = {};
-  }
+  if (is_other || !is_linear || !is_fixed) forget_rows(rows);
   compliance_.use(rows);
-  is_chosen_.resize(rows->size());
-  std::fill(is_chosen_.begin(), is_chosen_.end(), false);
+  is_chosen_.assign(rows->size(), false);
   if (!is_solved_ && go_on_directly()) W_ = {};
   const bool is_good = is_solved_ || !is_linear || go_on(solver);
   for (const std::size_t r : chosen_) is_chosen_[r] = true;
   return is_good;
+}
+
+/// W is to be made for other rows.
+void ExactPort::forget_rows(const std::shared_ptr<const ConstraintRows>& rows) {
+  compliance_.forget();
+  compliance_.use(rows);
+  chosen_.clear();
+  W_ = {};
+  is_chosen_.assign(rows->size(), false);
 }
 
 /// Brings what is kept to where the state at the beginning of the stage has it.
@@ -223,7 +228,7 @@ bool ExactPort::go_on(EffectiveSolver& solver) {
 
 /// A^-1 on the free dofs.
 InverseOperator ExactPort::inverse(EffectiveSolver& solver, LinearSolveReport& linear) const {
-  return [this, &solver, &linear](std::span<double> b, int columns) {
+  const auto solve = [this, &solver, &linear](std::span<double> b, int columns) {
     const std::vector<bool>& fixed = system_.supports.fixed();
     for (std::size_t i = 0; i < b.size(); ++i) {
       if (fixed[i % fixed.size()]) b[i] = 0.0;
@@ -232,46 +237,122 @@ InverseOperator ExactPort::inverse(EffectiveSolver& solver, LinearSolveReport& l
     linear.converged = linear.converged && report.converged;
     linear.iterations += report.iterations;
   };
+  return {solve, solver.halves()};
 }
 
 PortSolve ExactPort::solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
                            const ContactResponse& response, std::span<const double> residual, double absolute,
                            std::span<double> dy) {
-  const ConstraintRows& rows = *response.rows;
   const std::span<const double> z = seen(x, v);
-  constexpr const char* no_compliance = "the linear solver does not find the compliance of the rows in contact";
   if (!forget_stale(solver, response.rows)) return {{}, no_compliance};
   is_solved_ = true;
   free_.resize(dy.size());
   PortSolve out{solver.solve(residual, response.rows, {}, absolute, free_), {}};
   std::copy(free_.begin(), free_.end(), dy.begin());
+  load_.assign(dy.size(), 0.0);
   force_.clear();
   see_all(response);
-  for (std::size_t r = 0; r < rows.size(); ++r) {
+  const bool acts = take_acting(response, z);
+  if (!out.linear.converged || !acts) return out;
+  const ContactResponse* at = &response;
+  for (bool is_done = false; !is_done;) {
+    out.failure = solve_surface(solver, *at, z, residual, absolute, out.linear, dy);
+    if (!out.failure.empty()) return out;
+    if (!by_nodes_) break;
+    if (rows_follow()) at = follow_rows(solver, *at, z, residual, absolute, out.linear, dy, out.failure);
+    if (!out.failure.empty()) return out;
+    add_forces(solver, *at, residual, absolute, out.linear, dy);
+    const std::size_t before = chosen_.size();
+    choose(*at->rows, z, dy);  // rows whose nodes were not known to move
+    is_done = chosen_.size() == before;
+  }
+  return out;
+}
+
+/// Adds to chosen_ the rows that act or that free_ and load_ violate. False when there are none.
+bool ExactPort::take_acting(const ContactResponse& response, std::span<const double> z) {
+  for (std::size_t r = 0; r < response.status.size(); ++r) {
     if (response.status[r] != RowStatus::open) add(r);
   }
-  const bool acts = choose(rows, z, free_) || std::any_of(response.status.begin(), response.status.end(),
-                                                          [](RowStatus s) { return s != RowStatus::open; });
-  if (!out.linear.converged || !acts) return out;
-  for (std::size_t before = 0; before != chosen_.size();) {
-    before = chosen_.size();
-    if (!assemble(solver, response.rows, out.linear)) {
-      out.failure = no_compliance;
-      return out;
-    }
+  const bool is_violated = choose(*response.rows, z, free_);
+  return is_violated ||
+         std::any_of(response.status.begin(), response.status.end(), [](RowStatus s) { return s != RowStatus::open; });
+}
+
+/// The forces of the chosen rows and of those that these push others into, and dy: where the compliance of the nodes is
+/// known, on those.
+std::string ExactPort::solve_surface(EffectiveSolver& solver, const ContactResponse& response,
+                                     std::span<const double> z, std::span<const double> residual, double absolute,
+                                     LinearSolveReport& linear, std::span<double> dy) {
+  const ConstraintRows& rows = *response.rows;
+  const std::vector<double> before = load_;
+  for (std::size_t known = 0; known != chosen_.size();) {
+    known = chosen_.size();
+    load_ = before;
+    if (!assemble(solver, response.rows, linear)) return no_compliance;
     note_compliances(rows);
-    choose(rows, z, free_);
-    out.failure = solve_rows(response);
-    if (!out.failure.empty()) return out;
-    add_forces(solver, response, residual, absolute, out.linear, dy);
+    move_surface(dy);
+    choose(rows, z, by_nodes_ ? dy : free_);
+    std::string failure = solve_rows(response);
+    if (!failure.empty()) return failure;
+    for (std::size_t i = 0; i < force_.size(); ++i)
+      rows.scatter(W_.rows[i], subtract(force_[i], response.force[W_.rows[i]]), load_);
+    if (by_nodes_)
+      move_surface(dy);
+    else
+      add_forces(solver, response, residual, absolute, linear, dy);
     see_forces(rows, W_.rows, force_);
     choose(rows, z, dy);  // what the forces push other rows into
     see_all(response);
   }
-  for (std::size_t i = 0; i < force_.size(); ++i) {
+  for (std::size_t i = 0; i < force_.size(); ++i)
     multiplier_[static_cast<std::size_t>(rows.slot[W_.rows[i]])] = rows.to_space(W_.rows[i], force_[i]);
+  return {};
+}
+
+/// Rows move with their nodes. What that changes is found on the nodes of the contact alone, whose compliance is known,
+/// until the forces are in balance within `absolute`. While they keep their nodes, W stays: it changes by as little as
+/// the rows do, and the motions are those of the rows as they are. Returns the response on the rows of the last forces.
+const ContactResponse* ExactPort::follow_rows(EffectiveSolver& solver, const ContactResponse& response,
+                                              std::span<const double> z, std::span<const double> residual,
+                                              double absolute, LinearSolveReport& linear, std::span<double> dy,
+                                              std::string& failure) {
+  constexpr int most = 5;
+  const ContactResponse* last = &response;
+  if (!system_.contact.is_fixed()) base_.assign(z.size(), 0.0), response.add_force(base_);
+  double before = infinity;
+  for (int n = 0; n < most; ++n) {
+    ContactResponse& next = followed_[static_cast<std::size_t>(n % 2)];
+    moved_.resize(z.size());
+    parallel_each(z.size(), [&](std::size_t i) { moved_[i] = z[i] + slope() * dy[i]; });
+    respond(moved_, {}, next);
+    // What the turn of the rows has changed.
+    turn_.assign(z.size(), 0.0);
+    next.add_force(turn_);
+    const std::vector<bool>& fixed = system_.supports.fixed();
+    for (std::size_t i = 0; i < turn_.size(); ++i) turn_[i] = fixed[i] ? 0.0 : turn_[i] - base_[i] - load_[i];
+    const double change = std::sqrt(dot(turn_, turn_));
+    if (change <= absolute || !(change < 0.1 * before)) break;
+    before = change;
+    parallel_each(load_.size(), [&](std::size_t i) { load_[i] += turn_[i]; });
+    if (next.rows->node != last->rows->node || next.rows->slot != last->rows->slot) forget_rows(next.rows);
+    force_.clear();
+    move_surface(dy);
+    for (std::size_t r = 0; r < next.status.size(); ++r) {
+      if (next.status[r] != RowStatus::open) add(r);
+    }
+    choose(*next.rows, z, dy);
+    failure = solve_surface(solver, next, z, residual, absolute, linear, dy);
+    last = &next;
+    if (!failure.empty() || !by_nodes_) break;
   }
-  return out;
+  return last;
+}
+
+/// dy = free_, and on the nodes of the contact A^-1 load_ too.
+void ExactPort::move_surface(std::span<double> dy) {
+  std::copy(free_.begin(), free_.end(), dy.begin());
+  if (by_nodes_) nodes_.add_motion(load_, dy);
 }
 
 void ExactPort::see_all(const ContactResponse& response) {
@@ -280,23 +361,20 @@ void ExactPort::see_all(const ContactResponse& response) {
   see_forces(*response.rows, all, response.force);
 }
 
-/// dy = free_ + A^-1 G^T (force - force of the response).
+/// dy = free_ + A^-1 load_.
 void ExactPort::add_forces(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> residual,
                            double absolute, LinearSolveReport& linear, std::span<double> dy) {
-  std::vector<Vec3> change(force_.size());
-  for (std::size_t i = 0; i < change.size(); ++i) change[i] = subtract(force_[i], response.force[W_.rows[i]]);
   if (!by_nodes_ && compliance_.has_columns()) {
+    std::vector<Vec3> change(force_.size());
+    for (std::size_t i = 0; i < change.size(); ++i) change[i] = subtract(force_[i], response.force[W_.rows[i]]);
     std::copy(free_.begin(), free_.end(), dy.begin());
     compliance_.add_columns(W_.rows, change, dy);
     return;
   }
-  load_.assign(residual.begin(), residual.end());
-  for (std::size_t i = 0; i < change.size(); ++i) response.rows->scatter(W_.rows[i], change[i], load_);
   const std::vector<bool>& fixed = system_.supports.fixed();
-  for (std::size_t i = 0; i < load_.size(); ++i) {
-    if (fixed[i]) load_[i] = 0.0;
-  }
-  const LinearSolveReport report = solver.solve(load_, response.rows, {}, absolute, dy);
+  sum_.resize(load_.size());
+  for (std::size_t i = 0; i < load_.size(); ++i) sum_[i] = fixed[i] ? 0.0 : residual[i] + load_[i];
+  const LinearSolveReport report = solver.solve(sum_, response.rows, {}, absolute, dy);
   linear.converged = linear.converged && report.converged;
   linear.iterations += report.iterations;
 }

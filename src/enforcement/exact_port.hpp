@@ -40,6 +40,8 @@ class ExactPort : public ContactPort {
   virtual std::span<const double> seen(std::span<const double> x, std::span<const double> v) const = 0;
   /// w of row r when they see z.
   virtual Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const = 0;
+  /// True when the rows are those at the end of the correction.
+  virtual bool rows_follow() const { return false; }
   virtual bool may_act(std::size_t /*r*/) const { return true; }
   virtual double friction(const RowLaw& law) const { return law.mu; }
   /// Adds to W what the acting rows (counts[i] components of row i) answer to their forces beside slope x G A^-1 G^T,
@@ -70,6 +72,15 @@ class ExactPort : public ContactPort {
   void add(std::size_t r);
   bool assemble(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& shared,
                 LinearSolveReport& linear);
+  bool take_acting(const ContactResponse& response, std::span<const double> z);
+  void forget_rows(const std::shared_ptr<const ConstraintRows>& rows);
+  std::string solve_surface(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> z,
+                            std::span<const double> residual, double absolute, LinearSolveReport& linear,
+                            std::span<double> dy);
+  const ContactResponse* follow_rows(EffectiveSolver& solver, const ContactResponse& response,
+                                     std::span<const double> z, std::span<const double> residual, double absolute,
+                                     LinearSolveReport& linear, std::span<double> dy, std::string& failure);
+  void move_surface(std::span<double> dy);
   void see_all(const ContactResponse& response);
   void note_compliances(const ConstraintRows& rows);
   std::string solve_rows(const ContactResponse& response);
@@ -84,7 +95,10 @@ class ExactPort : public ContactPort {
   std::vector<bool> is_chosen_;
   Delassus W_;               ///< of those that may act
   std::vector<Vec3> force_;  ///< of the rows of W_, in their frames
-  std::vector<double> free_, moved_, load_;
+  ContactResponse followed_[2];
+  std::vector<double> free_, moved_;
+  std::vector<double> load_;  ///< what the forces have changed since the response
+  std::vector<double> base_, turn_, sum_;
 };
 
 /// 0 <= g(x) perpendicular to lambda_n >= 0 at the end of the stage, slip over the step in Coulomb's cone.
@@ -99,6 +113,7 @@ class MultiplierPort : public ExactPort {
  protected:
   std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> x) const override;
   double slope() const override { return start_.s; }
+  bool rows_follow() const override { return start_.free == nullptr || start_.free->empty(); }
   std::span<const double> seen(std::span<const double> x, std::span<const double> /*v*/) const override { return x; }
   Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const override;
 };

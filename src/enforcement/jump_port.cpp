@@ -30,7 +30,8 @@ void JumpPort::invert(std::span<double> b, int columns) {
 bool JumpPort::go_on_directly() {
   const Growth& grown = start_.memory->mass_nodes;
   if (!grown.entries.empty()) mass_->factorise();
-  return nodes_.grow_as(grown, load_.size(), [this](std::span<double> b, int columns) { invert(b, columns); });
+  return nodes_.grow_as(grown, load_.size(),
+                        {[this](std::span<double> b, int columns) { invert(b, columns); }, mass_->halves()});
 }
 
 Vec3 JumpPort::value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const {
@@ -47,7 +48,7 @@ void JumpPort::add_direct_compliance(const std::shared_ptr<const ConstraintRows>
   if (ratio_ == 0.0) return;
   mass_->factorise();
   const std::size_t n = acting.size(), dofs = load_.size();
-  const InverseOperator inverse = [this](std::span<double> b, int columns) { invert(b, columns); };
+  const InverseOperator inverse{[this](std::span<double> b, int columns) { invert(b, columns); }, mass_->halves()};
   const auto add = [&](std::size_t i, std::size_t j, const FrameBlock& direct) {
     for (std::size_t k = 0; k < direct.size(); ++k) W[i * n + j][k] += ratio_ * direct[k];
   };

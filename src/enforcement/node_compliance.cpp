@@ -6,24 +6,6 @@ namespace carom {
 
 namespace {
 
-/// Row r of the frame block B times the 3 x 3 matrix M, and M times its transpose.
-FrameBlock times_transpose(const FrameBlock& M, const RowBlock& B) {
-  FrameBlock out{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      out[3 * i + c] = M[3 * i] * B[c][0] + M[3 * i + 1] * B[c][1] + M[3 * i + 2] * B[c][2];
-    }
-  }
-  return out;
-}
-
-/// W += B T
-void add_product(const RowBlock& B, const FrameBlock& T, FrameBlock& W) {
-  for (std::size_t a = 0; a < 3; ++a) {
-    for (std::size_t c = 0; c < 3; ++c) W[3 * a + c] += B[a][0] * T[c] + B[a][1] * T[3 + c] + B[a][2] * T[6 + c];
-  }
-}
-
 std::size_t first_entry(const ConstraintRows& rows, std::size_t r) {
   return static_cast<std::size_t>(rows.begin[r]);
 }
@@ -33,7 +15,7 @@ std::size_t first_entry(const ConstraintRows& rows, std::size_t r) {
 void NodeCompliance::forget() {
   growth_ = {};
   place_.clear();
-  lower_.clear();
+  of_dofs_.forget();
 }
 
 bool NodeCompliance::extend(const ConstraintRows& rows, std::span<const std::size_t> chosen, std::size_t dof_count,
@@ -58,7 +40,7 @@ bool NodeCompliance::grow_as(const Growth& growth, std::size_t dof_count, const 
   for (std::size_t k = calls; k < growth_.calls.size(); ++k)
     for (const Index n : entries_of_call(growth_, k)) place_[static_cast<std::size_t>(n)] = -1;
   cut_growth(growth_, calls);
-  lower_.resize(3 * growth_.entries.size());
+  of_dofs_.cut(3 * growth_.entries.size());
   place_.resize(dof_count / 3, -1);
   for (std::size_t k = calls; k < growth.calls.size(); ++k) add(entries_of_call(growth, k), dof_count, inverse);
   return true;
@@ -68,67 +50,90 @@ void NodeCompliance::add(std::span<const Index> missing, std::size_t dof_count, 
   if (missing.empty()) return;
   std::size_t known = growth_.entries.size();
   add_call(growth_, missing);
-  constexpr std::size_t most = 10;  // nodes per call: 30 columns, enough for matrix-matrix kernels
-  for (std::size_t first = 0; first < missing.size(); first += most) {
-    const std::size_t count = std::min(most, missing.size() - first);
-    std::vector<double> columns(3 * count * dof_count, 0.0);
-    for (std::size_t k = 0; k < 3 * count; ++k) {
-      columns[k * dof_count + 3 * static_cast<std::size_t>(missing[first + k / 3]) + k % 3] = 1.0;
-    }
-    inverse(columns, static_cast<int>(3 * count));
-    for (std::size_t k = 0; k < 3 * count; ++k) {
-      if (k % 3 == 0) {
-        place_[static_cast<std::size_t>(missing[first + k / 3])] = static_cast<Index>(known++);
-      }
-      std::vector<double>& line = lower_.emplace_back();
-      line.reserve(3 * known);
-      for (const Index n : std::span(growth_.entries).first(known)) {
-        const double* at_node = &columns[k * dof_count + 3 * static_cast<std::size_t>(n)];
-        line.insert(line.end(), at_node, at_node + 3);
-      }
+  SparseColumns unit;
+  for (const Index n : missing) {
+    place_[static_cast<std::size_t>(n)] = static_cast<Index>(known++);
+    for (Index i = 0; i < 3; ++i) {
+      unit.add_entry(3 * n + i, 1.0);
+      unit.end_column();
     }
   }
+  of_dofs_.add(unit, dof_count, inverse);
 }
 
-/// C(a, b) for places a and b.
-FrameBlock NodeCompliance::block(std::size_t a, std::size_t b) const {
-  FrameBlock out{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j)
-      out[3 * i + j] = a >= b ? lower_[3 * a + i][3 * b + j] : lower_[3 * b + j][3 * a + i];
-  }
-  return out;
-}
-
+// With the lower triangle C' of C, its diagonal halved, W = V + V^T, V = G C' G^T: line by line of C'.
 std::vector<FrameBlock> NodeCompliance::compliance(const ConstraintRows& rows, std::span<const std::size_t> chosen,
                                                    std::span<const std::size_t> components) const {
-  const std::size_t n = chosen.size();
-  std::vector<FrameBlock> W(n * n, FrameBlock{}), answer(growth_.entries.size());
-  for (std::size_t j = 0; j < n; ++j) {
-    // answer = C G_j^T at the nodes of the rows from j on
-    std::fill(answer.begin(), answer.end(), FrameBlock{});
-    std::vector<bool> is_made(growth_.entries.size(), false);
-    for (std::size_t i = j; i < n; ++i) {
-      FrameBlock& entry = W[i * n + j];
-      for (std::size_t k = first_entry(rows, chosen[i]); k < first_entry(rows, chosen[i] + 1); ++k) {
-        const auto a = static_cast<std::size_t>(place_[static_cast<std::size_t>(rows.node[k])]);
-        if (!is_made[a]) {
-          is_made[a] = true;
-          for (std::size_t m = first_entry(rows, chosen[j]); m < first_entry(rows, chosen[j] + 1); ++m) {
-            const auto b = static_cast<std::size_t>(place_[static_cast<std::size_t>(rows.node[m])]);
-            const FrameBlock part = times_transpose(block(a, b), rows.block[m]);
-            for (std::size_t e = 0; e < 9; ++e) answer[a][e] += part[e];
-          }
+  struct Entry {
+    std::size_t dof;  ///< by place
+    std::size_t at;   ///< component of a row
+    double g;
+  };
+  const std::size_t n = chosen.size(), dofs = of_dofs_.size();
+  std::vector<std::size_t> first(n + 1, 0);
+  for (std::size_t i = 0; i < n; ++i) first[i + 1] = first[i] + components[i];
+  const std::size_t size = first[n];
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = first_entry(rows, chosen[i]); k < first_entry(rows, chosen[i] + 1); ++k) {
+      const auto a = static_cast<std::size_t>(place_[static_cast<std::size_t>(rows.node[k])]);
+      for (std::size_t c = 0; c < components[i]; ++c) {
+        for (std::size_t d = 0; d < 3; ++d) {
+          if (rows.block[k][c][d] != 0.0) entries.push_back({3 * a + d, first[i] + c, rows.block[k][c][d]});
         }
-        add_product(rows.block[k], answer[a], entry);
       }
-      for (std::size_t e = 0; e < 9; ++e) {
-        if (e / 3 >= components[i] || e % 3 >= components[j]) entry[e] = 0.0;
+    }
+  }
+  std::ranges::stable_sort(entries, {}, &Entry::dof);
+  std::vector<std::size_t> begin(dofs + 1, 0);
+  for (const Entry& e : entries) ++begin[e.dof + 1];
+  for (std::size_t i = 0; i < dofs; ++i) begin[i + 1] += begin[i];
+  std::vector<double> V(size * size, 0.0), answer(size);
+  for (std::size_t dof = 0; dof < dofs; ++dof) {
+    if (begin[dof] == begin[dof + 1]) continue;
+    const Compliance::Line& line = of_dofs_.line(dof);
+    std::fill(answer.begin(), answer.end(), 0.0);
+    for (std::size_t k = begin[line.first]; k < begin[dof]; ++k)
+      answer[entries[k].at] += entries[k].g * line.value[entries[k].dof - line.first];
+    for (std::size_t k = begin[dof]; k < begin[dof + 1]; ++k)
+      answer[entries[k].at] += 0.5 * entries[k].g * line.value.back();
+    for (std::size_t k = begin[dof]; k < begin[dof + 1]; ++k) {
+      double* to = V.data() + entries[k].at * size;
+      for (std::size_t j = 0; j < size; ++j) to[j] += entries[k].g * answer[j];
+    }
+  }
+  std::vector<FrameBlock> W(n * n, FrameBlock{});
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      for (std::size_t a = 0; a < components[i]; ++a) {
+        for (std::size_t b = 0; b < components[j]; ++b) {
+          const std::size_t p = first[i] + a, q = first[j] + b;
+          W[i * n + j][3 * a + b] = V[p * size + q] + V[q * size + p];
+        }
       }
-      for (std::size_t e = 0; e < 9; ++e) W[j * n + i][3 * (e % 3) + e / 3] = entry[e];
     }
   }
   return W;
+}
+
+void NodeCompliance::add_motion(std::span<const double> f, std::span<double> y) const {
+  std::vector<double> force, motion(of_dofs_.size(), 0.0);
+  for (const Index n : growth_.entries)
+    for (std::size_t d = 0; d < 3; ++d) force.push_back(f[3 * static_cast<std::size_t>(n) + d]);
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const Compliance::Line& line = of_dofs_.line(i);
+    const std::size_t below = line.value.size() - 1;
+    const double* c = line.value.data();
+    const double *f_j = force.data() + line.first, f_i = force[i];
+    double* y_j = motion.data() + line.first;
+    double sum = c[below] * f_i;
+    for (std::size_t j = 0; j < below; ++j) sum += c[j] * f_j[j];
+    if (f_i != 0.0)
+      for (std::size_t j = 0; j < below; ++j) y_j[j] += f_i * c[j];
+    motion[i] += sum;
+  }
+  for (std::size_t i = 0; i < motion.size(); ++i)
+    y[3 * static_cast<std::size_t>(growth_.entries[i / 3]) + i % 3] += motion[i];
 }
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/compliance.hpp"
 #include "contact/delassus.hpp"
 #include "state/growth.hpp"
 
@@ -31,15 +32,16 @@ class NodeCompliance {
   /// chosen[i] has components[i] components (1: the normal; 3); the entries of others are zero.
   std::vector<FrameBlock> compliance(const ConstraintRows& rows, std::span<const std::size_t> chosen,
                                      std::span<const std::size_t> components) const;
+  /// y += C f on the nodes, for a force that acts on them.
+  void add_motion(std::span<const double> f, std::span<double> y) const;
 
  private:
-  FrameBlock block(std::size_t a, std::size_t b) const;
   void add(std::span<const Index> missing, std::size_t dof_count, const InverseOperator& inverse);
 
   std::size_t most_nodes_;
-  Growth growth_;                           ///< the nodes, in the order in which they came
-  std::vector<Index> place_;                ///< of each node of the mesh in nodes_, -1: not there
-  std::vector<std::vector<double>> lower_;  ///< line 3 a + i: C(a i, b j) for all b <= a and all j
+  Growth growth_;             ///< the nodes, in the order in which they came
+  std::vector<Index> place_;  ///< of each node of the mesh in nodes_, -1: not there
+  Compliance of_dofs_;        ///< in the order of the nodes
 };
 
 }  // namespace carom

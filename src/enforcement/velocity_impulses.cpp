@@ -30,7 +30,7 @@ void VelocityImpulses::invert(std::span<double> b, int columns) {
 /// From the compliances of the nodes; no rows where there are too many nodes.
 Delassus VelocityImpulses::of_consistent_mass(const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {
   const std::size_t dofs = push_.size(), n = chosen.size();
-  const InverseOperator inverse = [this](std::span<double> b, int columns) { invert(b, columns); };
+  const InverseOperator inverse{[this](std::span<double> b, int columns) { invert(b, columns); }, mass_.halves()};
   Delassus W;
   if (!nodes_.extend(rows, chosen, dofs, inverse)) return W;
   std::vector<std::size_t> components;
@@ -62,7 +62,8 @@ std::string VelocityImpulses::respond(double k, const ContactResponse& closed, G
     return {};
   }
   mass_.factorise();
-  nodes_.grow_as(nodes, push_.size(), [this](std::span<double> b, int columns) { invert(b, columns); });
+  nodes_.grow_as(nodes, push_.size(),
+                 {[this](std::span<double> b, int columns) { invert(b, columns); }, mass_.halves()});
   std::string failure = close_rows(system_.contact, closing_, closed.history, operator_, response_, push_);
   nodes = nodes_.growth();
   if (failure.empty()) parallel_each(v.size(), [&](std::size_t i) { v[i] += k * push_[i]; });

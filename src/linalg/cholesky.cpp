@@ -7,8 +7,10 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "linalg/lapack.hpp"
@@ -80,6 +82,8 @@ struct Cholesky::Impl {
   cholmod_dense* X = nullptr;
   cholmod_dense* Y = nullptr;
   cholmod_dense* E = nullptr;
+  // Of the factor: supernode of each pivot, pivot of each row of A.
+  std::vector<Index> supernode_of, pivot_of;
 
   Impl();
   ~Impl();
@@ -87,6 +91,8 @@ struct Cholesky::Impl {
   Impl& operator=(const Impl&) = delete;
 
   void factorize(cholmod_sparse& A);
+  void number_pivots();
+  void substitute(HalfPanel& panel, std::vector<std::size_t>& place) const;
 };
 
 Cholesky::Impl::Impl() {
@@ -119,6 +125,47 @@ void Cholesky::Impl::factorize(cholmod_sparse& A) {
   if (!done) throw std::runtime_error("Cholesky factorisation failed: " + reason(common));
 }
 
+void Cholesky::Impl::number_pivots() {
+  if (!pivot_of.empty()) return;
+  const auto* first = static_cast<const SuiteSparse_long*>(L->super);
+  const auto* row = static_cast<const SuiteSparse_long*>(L->Perm);
+  supernode_of.resize(L->n);
+  pivot_of.resize(L->n);
+  for (std::size_t s = 0; s < L->nsuper; ++s)
+    std::fill(supernode_of.begin() + first[s], supernode_of.begin() + first[s + 1], static_cast<Index>(s));
+  for (std::size_t k = 0; k < L->n; ++k) pivot_of[static_cast<std::size_t>(row[k])] = static_cast<Index>(k);
+}
+
+/// panel = L^-1 panel by supernodes: dense triangles, and what lies below them. place: of each of its supernodes, its
+/// first row.
+void Cholesky::Impl::substitute(HalfPanel& panel, std::vector<std::size_t>& place) const {
+  const auto* first = static_cast<const SuiteSparse_long*>(L->super);
+  const auto* index = static_cast<const SuiteSparse_long*>(L->pi);
+  const auto* entry = static_cast<const SuiteSparse_long*>(L->px);
+  const auto* row = static_cast<const SuiteSparse_long*>(L->s);
+  const auto* x = static_cast<const double*>(L->x);
+  const int width = static_cast<int>(panel.column.size()), rows = static_cast<int>(panel.rows());
+  const double one = 1.0, zero = 0.0;
+  std::vector<double> below;
+  for (std::size_t k = 0; k < panel.supernode.size(); ++k) {
+    const Index s = panel.supernode[k];
+    const int size = static_cast<int>(first[s + 1] - first[s]), all = static_cast<int>(index[s + 1] - index[s]);
+    const int rest = all - size;
+    double* own = panel.value.data() + panel.begin[k];
+    dtrsm_("L", "L", "N", "N", &size, &width, &one, x + entry[s], &all, own, &rows);
+    if (rest == 0) continue;
+    below.resize(static_cast<std::size_t>(rest) * panel.column.size());
+    dgemm_("N", "N", &rest, &width, &size, &one, x + entry[s] + size, &all, own, &rows, &zero, below.data(), &rest);
+    for (int i = 0; i < rest; ++i) {
+      const SuiteSparse_long pivot = row[index[s] + size + i];
+      const auto t = static_cast<std::size_t>(supernode_of[static_cast<std::size_t>(pivot)]);
+      double* to = panel.value.data() + place[t] + (pivot - first[t]);
+      const double* from = below.data() + i;
+      for (std::ptrdiff_t c = 0; c < width; ++c) to[c * rows] -= from[c * rest];
+    }
+  }
+}
+
 Cholesky::Cholesky(const CsrMatrix& A) : impl_(std::make_unique<Impl>()) {
   if (A.size == 0) return;
   openblas_set_num_threads(1);
@@ -146,6 +193,63 @@ void Cholesky::solve(std::span<double> b, int columns) const {
     throw std::runtime_error("Cholesky solve failed: " + reason(impl_->common));
   const auto* x = static_cast<const double*>(impl_->X->x);
   std::copy(x, x + b.size(), b.begin());
+}
+
+std::vector<HalfPanel> Cholesky::half_solve(const SparseColumns& B) const {
+  std::vector<HalfPanel> panels;
+  if (impl_->L == nullptr || B.size() == 0) return panels;
+  impl_->number_pivots();
+  const auto* first = static_cast<const SuiteSparse_long*>(impl_->L->super);
+  const auto* index = static_cast<const SuiteSparse_long*>(impl_->L->pi);
+  const auto* row = static_cast<const SuiteSparse_long*>(impl_->L->s);
+  const std::vector<Index>&pivot_of = impl_->pivot_of, &supernode_of = impl_->supernode_of;
+  std::vector<std::pair<Index, std::size_t>> order;  // first pivot, column
+  for (std::size_t c = 0; c < B.size(); ++c) {
+    Index lowest = std::numeric_limits<Index>::max();
+    for (std::size_t k = B.begin[c]; k < B.begin[c + 1]; ++k)
+      lowest = std::min(lowest, pivot_of[static_cast<std::size_t>(B.row[k])]);
+    if (B.begin[c] < B.begin[c + 1]) order.emplace_back(lowest, c);
+  }
+  std::sort(order.begin(), order.end());
+  constexpr std::size_t most = 48;  // columns of a panel: enough for the matrix-matrix kernels
+  constexpr auto absent = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> place(impl_->L->nsuper, absent);
+  for (std::size_t from = 0; from < order.size(); from += most) {
+    HalfPanel& Y = panels.emplace_back();
+    const std::size_t width = std::min(most, order.size() - from);
+    for (std::size_t k = 0; k < width; ++k) {
+      const std::size_t c = order[from + k].second;
+      Y.column.push_back(c);
+      for (std::size_t e = B.begin[c]; e < B.begin[c + 1]; ++e) {
+        auto s = static_cast<std::size_t>(
+            supernode_of[static_cast<std::size_t>(pivot_of[static_cast<std::size_t>(B.row[e])])]);
+        while (place[s] == absent) {
+          place[s] = 0;
+          Y.supernode.push_back(static_cast<Index>(s));
+          const SuiteSparse_long parent = index[s] + first[s + 1] - first[s];  // the first row below the triangle
+          if (parent == index[s + 1]) break;
+          s = static_cast<std::size_t>(supernode_of[static_cast<std::size_t>(row[parent])]);
+        }
+      }
+    }
+    std::sort(Y.supernode.begin(), Y.supernode.end());
+    Y.begin.push_back(0);
+    for (const Index s : Y.supernode) {
+      place[static_cast<std::size_t>(s)] = Y.begin.back();
+      Y.begin.push_back(Y.begin.back() + static_cast<std::size_t>(first[s + 1] - first[s]));
+    }
+    Y.value.assign(Y.rows() * width, 0.0);
+    for (std::size_t k = 0; k < width; ++k) {
+      for (std::size_t e = B.begin[Y.column[k]]; e < B.begin[Y.column[k] + 1]; ++e) {
+        const Index pivot = pivot_of[static_cast<std::size_t>(B.row[e])];
+        const auto s = static_cast<std::size_t>(supernode_of[static_cast<std::size_t>(pivot)]);
+        Y.value[k * Y.rows() + place[s] + static_cast<std::size_t>(pivot - first[s])] += B.value[e];
+      }
+    }
+    impl_->substitute(Y, place);
+    for (const Index s : Y.supernode) place[static_cast<std::size_t>(s)] = absent;
+  }
+  return panels;
 }
 
 double Cholesky::factor_entries() const {

@@ -4,8 +4,10 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <vector>
 
 #include "linalg/csr_matrix.hpp"
+#include "linalg/half_solution.hpp"
 
 namespace carom {
 
@@ -27,6 +29,9 @@ class Cholesky {
   /// Solves A X = B in place for `columns` right-hand sides stored one after the other (column-major, n x columns).
   /// The workspace is kept between calls, so one object must not solve from several threads at once.
   void solve(std::span<double> b, int columns = 1) const;
+  /// L^-1 P B, P the ordering. Columns whose rows are eliminated one after the other share a panel. Not from several
+  /// threads at once.
+  std::vector<HalfPanel> half_solve(const SparseColumns& B) const;
   /// Entries of L.
   double factor_entries() const;
   /// Bytes of L.

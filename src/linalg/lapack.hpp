@@ -2,6 +2,13 @@
 #pragma once
 
 extern "C" {
+/// C = alpha op(A) op(B) + beta C
+void dgemm_(const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k, const double* alpha,
+            const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
+            const int* ldc);
+/// B = alpha op(A)^-1 B or alpha B op(A)^-1, A triangular.
+void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
+            const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
 /// A = P L U
 void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* pivot, int* info);
 /// Solves A X = B or A^T X = B from dgetrf's factors.

@@ -213,7 +213,8 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
       report.failure = cycling_rows(before, forces) + (eq.m == 0.0 ? without_inertia : with_inertia);
       return report;
     }
-    // Rows that move leave their motion out of the tangent; a new set of acting rows is another equation.
+    // Rows that move leave their motion out of the tangent, and turns may have inertia; a new set of acting rows is
+    // another equation.
     if (newton == 0 || before != forces.rows.status) mixing_.forget();
     earlier = last;
     last = newton == 0 ? none : error;  // before the first solve, the work is of a displacement that is a guess
@@ -271,7 +272,11 @@ ImplicitStage::Residual ImplicitStage::shorten(const StageEquation& eq, const St
 std::string ImplicitStage::improve(const StageEquation& eq, const State& begin, double absolute, State& end,
                                    StageReport& report) {
   is_improved_ = true;
-  std::string failure = solver_->prepare(eq.m, stiffness_share(eq), force_.tangent_at(end.q), point_step(eq, begin));
+  const PointStep step = point_step(eq, begin);
+  const bool needs_inertia = eq.m == 0.0 && eq.free != nullptr && !port_->is_law();
+  const double m = needs_inertia ? stiffness_share(eq) * eq.free->inertia_for_turns(end.q, step) : eq.m;
+  has_more_inertia_ = m > eq.m;
+  std::string failure = solver_->prepare(m, stiffness_share(eq), force_.tangent_at(end.q), step);
   if (!failure.empty()) return failure;
   const PortSolve solved = port_->solve(*solver_, end.q, end.v, end.forces.rows, residual_, absolute, correction_);
   report.linear_iterations += solved.linear.iterations;
@@ -287,7 +292,7 @@ std::string ImplicitStage::improve(const StageEquation& eq, const State& begin, 
                                     : "",
         describe_motion(system_.mesh, solved.linear.worst));
   }
-  if (system_.contact.is_fixed())
+  if (system_.contact.is_fixed() && !has_more_inertia_)
     parallel_each(correction_.size(), [&](std::size_t i) { end.a[i] += correction_[i]; });
   else
     mixing_.advance(end.a, correction_);

@@ -98,6 +98,7 @@ class ImplicitStage {
   std::vector<double> correction_;                            ///< the last step of Newton's method
   std::vector<double> stiffness_diagonal_, closed_diagonal_;  ///< of K and the springs; of all contact rows, closed
   bool is_improved_ = false;                                  ///< the stage under way has made a Newton step
+  bool has_more_inertia_ = false;                             ///< than the equation, in the operator of the last step
   double slope_ = 0.0;                                        ///< of the residual along the last step, before it
   double softest_ = std::numeric_limits<double>::infinity();  ///< smallest entry of K's diagonal above 0
   double body_force_ = 0.0;  ///< 2-norm of the forces by which rigid bodies that turn round (Solid)

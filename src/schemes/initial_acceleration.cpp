@@ -44,6 +44,7 @@ void start_multipliers(const System& system, MassSolver& solver, double dt, Stat
     const Vec3 a = rows.relative(r, a_free), v = rows.relative(r, state.v);
     closing.push_back({r, {a[0] + std::max(0.0, v[0]) / dt, a[1] + v[1] / dt, a[2] + v[2] / dt}});
   }
+  if (!closing.empty()) solver.factorise();
   std::vector<double> push(state.q.size());
   if (!close_rows(system.contact, closing, state.contact, mass_operator(system, solver), forces.rows, push).empty())
     open_response(shared, state.contact.size(), forces.rows);

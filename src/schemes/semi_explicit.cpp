@@ -58,7 +58,7 @@ struct SemiExplicit::Boundary {
     const bool is_same =
         memory.factored_at == factored_at || (memory.factored_at && factored_at && *memory.factored_at == *factored_at);
     if (!is_same) factorise(memory.factored_at->u, {memory.factored_at->dt, memory.factored_at->points});
-    of_nodes.grow_as(memory.nodes, of_dof.size(), [this](std::span<double> b, int columns) { invert(b, columns); });
+    of_nodes.grow_as(memory.nodes, of_dof.size(), {[this](std::span<double> b, int columns) { invert(b, columns); }});
     if (rows != nullptr && !std::ranges::equal(memory.rows, W.rows)) {
       W = memory.rows.empty() ? Delassus{} : make(*rows, {memory.rows.begin(), memory.rows.end()});
     }
@@ -106,7 +106,7 @@ struct SemiExplicit::Boundary {
 
   /// W on rows that move: linear bodies keep the compliance of their nodes, so that new rows cost no solve.
   Delassus moving(const ConstraintRows& rows, std::vector<std::size_t> chosen) {
-    const InverseOperator inverse = [this](std::span<double> b, int columns) { invert(b, columns); };
+    const InverseOperator inverse{[this](std::span<double> b, int columns) { invert(b, columns); }};
     if (!system.solid.is_linear() || !of_nodes.extend(rows, chosen, of_dof.size(), inverse))
       return make_delassus(rows, std::move(chosen), of_dof.size(), inverse);
     std::vector<std::size_t> components;
@@ -144,7 +144,7 @@ struct SemiExplicit::Boundary {
   }
   Delassus make(const ConstraintRows& rows, std::vector<std::size_t> set) const {
     return make_delassus(rows, std::move(set), of_dof.size(),
-                         [this](std::span<double> b, int columns) { invert(b, columns); });
+                         {[this](std::span<double> b, int columns) { invert(b, columns); }});
   }
 
   /// r = f - F(u) on the dofs b, zero elsewhere.

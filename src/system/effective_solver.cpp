@@ -289,6 +289,11 @@ class DirectSolver final : public EffectiveSolver {
     return {true, columns, 0.0, false};
   }
 
+  std::function<std::vector<HalfPanel>(const SparseColumns&)> halves() override {
+    if (factors_.cholesky() == nullptr) return {};
+    return [this](const SparseColumns& B) { return factors_.cholesky()->half_solve(on_unknowns(B)); };
+  }
+
   std::string name(const StageMemory& memory) const override { return factors_.name(memory.negative_eigenvalues); }
 
  private:
@@ -296,10 +301,13 @@ class DirectSolver final : public EffectiveSolver {
   void go_on() {
     if (is_compliance_ready_ || memory_ == nullptr || !system_.solid.is_linear() || !system_.contact.is_fixed()) return;
     const bool is_same = memory_->m == m_ && memory_->c == c_;
-    compliance_.grow_as(is_same ? memory_->solver_rows : Growth{},
-                        [this](std::span<double> b, int columns) { back_substitute(b, columns); });
+    compliance_.grow_as(is_same ? memory_->solver_rows : Growth{}, inverse());
     is_compliance_ready_ = true;
   }
+  InverseOperator inverse() {
+    return {[this](std::span<double> b, int columns) { back_substitute(b, columns); }, halves()};
+  }
+  SparseColumns on_unknowns(const SparseColumns& B) const;
   CsrMatrix assemble() const;
   std::vector<RowComponent> active_components(const std::vector<RowTangent>& D) const;
   void back_substitute(std::span<double> b, int columns) const;
@@ -334,7 +342,7 @@ CsrMatrix DirectSolver::assemble() const {
     }
     for (std::int64_t k = stiffness_.row_begin[i]; k < stiffness_.row_begin[i + 1]; ++k) {
       const auto j = static_cast<std::size_t>(stiffness_.column[k]);
-      if (compressed_of_[j] < 0) continue;
+      if (compressed_of_[j] < 0 || (c_ == 0.0 && j % 3 != i % 3)) continue;  // a mass couples no directions
       double value = c_ * stiffness_.value[k] + (j == i ? held[i] : 0.0);
       if (j % 3 == i % 3) {
         while (m < M.row_begin[i / 3 + 1] && static_cast<std::size_t>(M.column[m]) < j / 3) ++m;
@@ -358,6 +366,19 @@ std::vector<RowComponent> DirectSolver::active_components(const std::vector<RowT
   return active;
 }
 
+/// The entries of B on free dofs, by unknowns.
+SparseColumns DirectSolver::on_unknowns(const SparseColumns& B) const {
+  SparseColumns out;
+  for (std::size_t c = 0; c < B.size(); ++c) {
+    for (std::size_t e = B.begin[c]; e < B.begin[c + 1]; ++e) {
+      const Index unknown = compressed_of_[static_cast<std::size_t>(B.row[e])];
+      if (unknown >= 0) out.add_entry(unknown, B.value[e]);
+    }
+    out.end_column();
+  }
+  return out;
+}
+
 /// b = A^-1 b on the free dofs, zero elsewhere.
 void DirectSolver::back_substitute(std::span<double> b, int columns) const {
   const std::size_t n = free_.size(), all = compressed_of_.size();
@@ -377,7 +398,7 @@ void DirectSolver::back_substitute(std::span<double> b, int columns) const {
 std::vector<double> DirectSolver::contact_displacements(const ConstraintRows& rows, const std::vector<RowTangent>& D,
                                                         const std::vector<RowComponent>& active,
                                                         std::span<const double> x) {
-  compliance_.extend(active, [&](std::span<double> b, int columns) { back_substitute(b, columns); });
+  compliance_.extend(active, inverse());
   const std::size_t m = active.size();
   std::vector<double> matrix(m * m, 0.0), w(m);
   for (std::size_t i = 0; i < m; ++i) {

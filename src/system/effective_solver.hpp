@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "linalg/half_solution.hpp"
 #include "model/compatibility.hpp"
 #include "model/options.hpp"
 #include "system/system.hpp"
@@ -50,6 +52,8 @@ class EffectiveSolver {
                                   const std::vector<RowTangent>& D, double absolute, std::span<double> x) = 0;
   /// Overwrites the dof vectors b (one after the other, zero on fixed dofs) by A^-1 b, close to round-off.
   virtual LinearSolveReport invert(std::span<double> b, int columns) = 0;
+  /// Halves of A^-1 for sparse dof vectors (InverseOperator::half); empty where the solver has no factors L L^T.
+  virtual std::function<std::vector<HalfPanel>(const SparseColumns&)> halves() { return {}; }
   /// Of the solver that goes on from this memory, for the log.
   virtual std::string name(const StageMemory& memory) const = 0;
   /// Grows whenever A becomes another operator.

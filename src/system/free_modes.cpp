@@ -131,6 +131,56 @@ void FreeModes::find_modes() {
   }
 }
 
+double FreeModes::inertia_for_turns(std::span<const double> u, const PointStep& step) const {
+  if (system_.solid.is_linear() || empty()) return 0.0;
+  const std::size_t dofs = u.size();
+  const std::vector<double>& mass = system_.mass.node_diagonal();
+  std::array<std::vector<double>, 6> c, Kc;
+  for (std::size_t j = 0; j < 6; ++j) {
+    c[j].assign(dofs, 0.0);
+    Kc[j].resize(dofs);
+    for (const Body& body : bodies_) {
+      if (j >= body.modes.size()) continue;
+      for (const Index n : body.nodes) {
+        const Vec3 v = displacement(body.first + j, n, u);
+        std::copy(v.begin(), v.end(), c[j].begin() + 3 * static_cast<std::ptrdiff_t>(n));
+      }
+    }
+    system_.solid.tangent_action(u, c[j], Kc[j], step);
+  }
+  double most = 0.0;
+  for (const Body& body : bodies_) {
+    const std::size_t d = body.modes.size();
+    if (d == 0) continue;
+    std::vector<double> T(d * d, 0.0), M(d * d, 0.0);
+    for (const Index n : body.nodes) {
+      for (std::size_t i = 3 * static_cast<std::size_t>(n); i < 3 * static_cast<std::size_t>(n) + 3; ++i) {
+        for (std::size_t j = 0; j < d; ++j) {
+          for (std::size_t k = 0; k < d; ++k) {
+            T[d * j + k] += 0.5 * (c[j][i] * Kc[k][i] + c[k][i] * Kc[j][i]);
+            M[d * j + k] += mass[i / 3] * c[j][i] * c[k][i];
+          }
+        }
+      }
+    }
+    // Least eigenvalue of T by M: of S^T T S, S^T M S = 1.
+    const SymmetricEigen inertia = symmetric_eigen(M, static_cast<int>(d));
+    if (!(inertia.values.front() > 0.0)) continue;
+    std::vector<double> of_unit(d * d, 0.0);
+    for (std::size_t j = 0; j < d; ++j) {
+      for (std::size_t k = 0; k < d; ++k) {
+        for (std::size_t p = 0; p < d; ++p)
+          for (std::size_t q = 0; q < d; ++q)
+            of_unit[d * j + k] += inertia.vectors[d * j + p] * T[d * p + q] * inertia.vectors[d * k + q];
+        of_unit[d * j + k] /= std::sqrt(inertia.values[j] * inertia.values[k]);
+      }
+    }
+    constexpr double margin = 1.25;
+    most = std::max(most, -margin * symmetric_eigen(of_unit, static_cast<int>(d)).values.front());
+  }
+  return most;
+}
+
 /// Gram-Schmidt with the largest remaining dof first.
 void FreeModes::choose_pins(Body& body) const {
   const std::size_t d = body.modes.size();

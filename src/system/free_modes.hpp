@@ -32,6 +32,12 @@ class FreeModes {
   /// stiffness that a node of its body has on the diagonal of K.
   std::vector<DofSpring> pins(double share = 1.0) const;
 
+  /// m of the inertia m M that makes up for what stresses take away from the free motions: a body that is compressed
+  /// between contacts resists its turning by less than nothing (u . K_sigma u = - p V per square of the angle under a
+  /// pressure p on two faces), although the contacts hold it. 1.25 times the least eigenvalue of R^T K(u) R by R^T M R,
+  /// M lumped, where it is negative; 0 for linear bodies. Six actions of K.
+  double inertia_for_turns(std::span<const double> u, const PointStep& step) const;
+
   /// What of a force no tangent of the rows resists: coefficients rho of the modes, with (T + e) alpha = R^T f,
   /// rho = e alpha, T = R^T G^T D G R and e 1e-12 of the stiffness of pins(). Coefficients below 1e-8 of what the parts
   /// of the force in `magnitude` could do, whatever their direction, are zero: rounding.

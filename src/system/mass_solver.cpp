@@ -89,10 +89,12 @@ ContactOperator mass_operator(const System& system, MassSolver& solver) {
     };
     return out;
   }
-  out.delassus = [n, invert = out.inverse](const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {
-    return make_delassus(rows, chosen, n, [&](std::span<double> b, int columns) {
+  out.delassus = [n, &solver, invert = out.inverse](const ConstraintRows& rows,
+                                                    const std::vector<std::size_t>& chosen) {
+    const auto solve = [&](std::span<double> b, int columns) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) invert(b.subspan(k * n, n));
-    });
+    };
+    return make_delassus(rows, chosen, n, {solve, solver.halves()});
   };
   return out;
 }

@@ -1,6 +1,7 @@
 // Accelerations from forces.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -26,6 +27,10 @@ class MassSolver {
   /// a holds the prescribed accelerations on fixed dofs on entry (zero where there is no mass); its other entries are
   /// the start value. Returns the number of iterations, or -1 when they do not converge.
   int solve(std::span<const double> f, std::span<double> a);
+  /// Of the factors, where there are some (EffectiveSolver::halves).
+  std::function<std::vector<HalfPanel>(const SparseColumns&)> halves() const {
+    return factors_ ? factors_->halves() : std::function<std::vector<HalfPanel>(const SparseColumns&)>{};
+  }
   /// What to say when it does not converge.
   static constexpr const char* failure =
       "the accelerations cannot be solved for: the forces are not finite or the mass is not positive";

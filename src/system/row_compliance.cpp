@@ -12,7 +12,7 @@ void RowCompliance::use(const std::shared_ptr<const ConstraintRows>& rows) {
   rows_ = rows;
   growth_ = {};
   components_.clear();
-  lower_.clear();
+  S_.forget();
   columns_.clear();
   known_.assign(3 * rows->size(), -1);
 }
@@ -39,7 +39,7 @@ void RowCompliance::cut(std::size_t calls) {
   for (std::size_t k = count; k < components_.size(); ++k)
     known_[3 * components_[k].row + components_[k].component] = -1;
   components_.resize(count);
-  lower_.resize(count);
+  S_.cut(count);
   if (columns_.size() > count * dof_count_) columns_.resize(count * dof_count_);
 }
 
@@ -47,35 +47,23 @@ void RowCompliance::add(std::span<const Index> missing, const InverseOperator& i
   if (missing.empty()) return;
   add_call(growth_, missing);
   const ConstraintRows& rows = *rows_;
-  const std::size_t n = dof_count_;
-  constexpr std::size_t most = 32;  // columns per call: enough for the matrix-matrix kernels of the solver
-  for (std::size_t first = 0; first < missing.size(); first += most) {
-    const std::size_t count = std::min(most, missing.size() - first);
-    std::vector<double> block(n * count, 0.0);
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto i = static_cast<std::size_t>(missing[first + k]);
-      Vec3 unit{};
-      unit[i % 3] = 1.0;
-      rows.scatter(i / 3, unit, std::span(block).subspan(k * n, n));
-    }
-    inverse(block, static_cast<int>(count));
-    const bool keep = has_columns() && (components_.size() + count) * n <= column_entries_;
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto i = static_cast<std::size_t>(missing[first + k]);
-      const std::span<const double> column = std::span(block).subspan(k * n, n);
-      known_[i] = static_cast<int>(components_.size());
-      components_.push_back({i / 3, i % 3});
-      std::vector<double>& line = lower_.emplace_back();
-      for (const RowComponent& other : components_) line.push_back(rows.relative(other.row, column)[other.component]);
-    }
-    if (keep) columns_.insert(columns_.end(), block.begin(), block.end());
+  SparseColumns B;
+  for (const Index i : missing) {
+    const auto row = static_cast<std::size_t>(i) / 3, c = static_cast<std::size_t>(i) % 3;
+    known_[static_cast<std::size_t>(i)] = static_cast<int>(components_.size());
+    components_.push_back({row, c});
+    add_components(rows, row, c, c + 1, B);
   }
+  S_.add(B, dof_count_, inverse, [this](std::size_t first, std::span<const double> block) {
+    const bool keep = columns_.size() == first * dof_count_ && columns_.size() + block.size() <= column_entries_;
+    if (keep) columns_.insert(columns_.end(), block.begin(), block.end());
+  });
 }
 
 double RowCompliance::operator()(const RowComponent& a, const RowComponent& b) const {
   const auto i = static_cast<std::size_t>(known_[3 * a.row + a.component]);
   const auto j = static_cast<std::size_t>(known_[3 * b.row + b.component]);
-  return lower_[std::max(i, j)][std::min(i, j)];
+  return S_(i, j);
 }
 
 std::vector<FrameBlock> RowCompliance::blocks(std::span<const std::size_t> rows, std::span<const std::size_t> counts,

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/compliance.hpp"
 #include "contact/delassus.hpp"
 #include "state/growth.hpp"
 
@@ -20,7 +21,7 @@ struct RowComponent {
 /// S = G A^-1 G^T for some components of the rows of one ConstraintRows; a component is solved for once.
 class RowCompliance {
  public:
-  /// column_entries: how many numbers of A^-1 G^T may be kept (0: none).
+  /// column_entries: how many numbers of A^-1 G^T may be kept (0: none), where inverses have no halves.
   RowCompliance(std::size_t dof_count, std::size_t column_entries)
       : dof_count_(dof_count), column_entries_(column_entries) {}
 
@@ -55,8 +56,8 @@ class RowCompliance {
   std::shared_ptr<const ConstraintRows> rows_;
   Growth growth_;
   std::vector<RowComponent> components_;
-  std::vector<int> known_;                  ///< position of each row component, -1 when it is not there yet
-  std::vector<std::vector<double>> lower_;  ///< lower triangle of S: line i has i + 1 entries
+  std::vector<int> known_;  ///< position of each row component, -1 when it is not there yet
+  Compliance S_;            ///< in the order of components_
   std::vector<double> columns_;
 };
 

@@ -31,6 +31,8 @@ class TangentFactors {
   bool has_factors() const { return has_factors_; }
   /// Overwrites b by A^-1 b, column by column.
   void solve(std::span<double> b, int columns) const;
+  /// L of A = L L^T where the factors are of that kind, else nullptr.
+  const Cholesky* cholesky() const { return cholesky_ && has_factors_ ? &*cholesky_ : nullptr; }
   /// For the log; says how many directions of the first indefinite tangent were unstable.
   std::string name(Index negative) const;
 

@@ -52,6 +52,51 @@ TEST(Cholesky, SolvesSeveralColumnsAtOnceAndInTurn) {
   EXPECT_LT(test::largest_difference(in_turn, exact), 30 * 2.3e-16 * kappa);
 }
 
+// Columns on one face of a cube: the products of their halves are entries of the inverse, and a half has the supernodes
+// on the way to the root alone.
+TEST(Cholesky, HalvesOfSparseColumnsGiveTheInverseOnThem) {
+  const Index m = 15;
+  const std::size_t n = 3375, face = 225;
+  const Cholesky factors(test::laplacian(m));
+  SparseColumns B;
+  for (std::size_t i = 0; i < face; ++i) {
+    B.add_entry(static_cast<Index>(i), 1.0);
+    if (i % 2 == 0) B.add_entry(static_cast<Index>(n - 1 - i), -0.5);
+    B.end_column();
+  }
+  B.end_column();  // an empty column is zero
+  const std::vector<HalfPanel> panels = factors.half_solve(B);
+  std::vector<double> C((face + 1) * (face + 1), 0.0), block;
+  std::size_t kept = 0, columns = 0;
+  for (const HalfPanel& a : panels) {
+    kept += a.value.size();
+    columns += a.column.size();
+    for (const HalfPanel& b : panels) {
+      block.assign(a.column.size() * b.column.size(), 0.0);
+      add_product(a, b, b.column.size(), block);
+      for (std::size_t i = 0; i < a.column.size(); ++i)
+        for (std::size_t j = 0; j < b.column.size(); ++j)
+          C[a.column[i] * (face + 1) + b.column[j]] = block[i * b.column.size() + j];
+    }
+  }
+  EXPECT_EQ(columns, face);
+  EXPECT_LT(kept, face * n / 2);
+  // eps kappa of entries of the inverse, at most 1 / smallest eigenvalue, times 30 for the length of the sums.
+  const double smallest = test::smallest_laplacian_eigenvalue(m);
+  const double bound = 30 * 2.3e-16 * test::largest_laplacian_eigenvalue(m) / (smallest * smallest);
+  for (const std::size_t j : {std::size_t{0}, std::size_t{7}, std::size_t{112}, face}) {
+    std::vector<double> x(n, 0.0);
+    for (std::size_t e = B.begin[j]; e < B.begin[j + 1]; ++e) x[static_cast<std::size_t>(B.row[e])] += B.value[e];
+    factors.solve(x);
+    for (std::size_t i = 0; i <= face; ++i) {
+      double expected = 0.0;
+      for (std::size_t e = B.begin[i]; e < B.begin[i + 1]; ++e)
+        expected += B.value[e] * x[static_cast<std::size_t>(B.row[e])];
+      EXPECT_NEAR(C[i * (face + 1) + j], expected, bound);
+    }
+  }
+}
+
 TEST(Cholesky, ReadsTheLowerTriangleOnly) {
   const CsrMatrix A = test::sparse({4, 99, 2, 5}, 2);
   std::vector<double> b{6, 7};  // (4 2; 2 5) (1, 1)

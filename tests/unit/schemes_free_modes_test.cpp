@@ -126,6 +126,44 @@ TEST(StaticsScheme, HoldsAFreeBodyByFriction) {
   }
 }
 
+// A neo-Hookean block that only contact and friction hold, under 5 % of Young's modulus: its own tangent resists
+// turning by less than nothing. The floor bears the whole pressure, and nothing sideways, by the equilibrium of the
+// block.
+TEST(StaticsScheme, PressesAFiniteStrainBlockThatFrictionHolds) {
+  Model model = one_part(block_mesh({3, 3, 3}, 0.0), NeoHookean{{.E = 2.0, .nu = 0.3, .rho = 1.5}});
+  model.contacts.emplace_back(plane_below(model, 0.0, 20.0, {20.0, 0.3}));
+  model.loads.emplace_back(Pressure{{faces_of(*model.mesh, "ZMAX")}, 0.1, {}});
+  const Problem p(model);
+  Statics scheme(p.system, {.enforcement = EnforcementKind::lagrange}, stable_step(p.system).omega_max_squared_free);
+  State state = p.moving({}), next;
+  scheme.start(state, 1.0);
+  const StepReport report = scheme.step(state, {1.0, 1.0, 0.0}, next);
+  ASSERT_TRUE(report.converged) << report.failure;
+  Vec3 floor{}, load{};
+  for (std::size_t i = 0; i < next.q.size(); ++i) {
+    floor[i % 3] += next.forces.contact[i];
+    load[i % 3] += next.forces.external[i];
+  }
+  EXPECT_LT(load[2], 0.0);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(floor[c], -load[c], 1e-8 * -load[2]);  // what statics is solved to
+}
+
+TEST(FreeModes, NeedInertiaWhereStressesTurnThem) {
+  Model model = one_part(block_mesh({2, 2, 2}, 0.0), NeoHookean{{.E = 2.0, .nu = 0.0, .rho = 1.5}});
+  const Problem p(model);
+  const FreeModes free(p.system);
+  std::vector<double> u(p.solid.dof_count(), 0.0);
+  EXPECT_LT(free.inertia_for_turns(u, {}), 1e-12);  // unstressed: rounding
+  for (const double strain : {0.05, -0.05}) {
+    for (std::size_t n = 0; n < p.solid.node_count(); ++n) u[3 * n + 2] = strain * model.mesh->coordinates[n][2];
+    // In tension turns are resisted; compressed they are not.
+    if (strain > 0.0)
+      EXPECT_LT(free.inertia_for_turns(u, {}), 1e-12);
+    else
+      EXPECT_GT(free.inertia_for_turns(u, {}), 0.1);
+  }
+}
+
 TEST(StaticsScheme, SaysWhatNothingHolds) {
   Model model = pressed_cube(0.0, 0.0);
   model.loads.emplace_back(Gravity{{1.0, 0.0, 0.0}, {}});  // it slides

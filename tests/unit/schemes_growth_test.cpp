@@ -51,25 +51,25 @@ std::vector<FrameBlock> compliance_of(const NodeCompliance& nodes, const Constra
 TEST(Growth, OfNodesGivesTheSameBits) {
   const auto rows = random_rows(1);
   NodeCompliance a(node_count), made_anew(node_count), longer(node_count), other(node_count);
-  for (const auto& set : {first, second}) ASSERT_TRUE(a.extend(*rows, set, dof_count, rough_inverse));
-  for (const auto& set : {first, second, third}) ASSERT_TRUE(longer.extend(*rows, set, dof_count, rough_inverse));
-  for (const auto& set : {third, second, first}) ASSERT_TRUE(other.extend(*rows, set, dof_count, rough_inverse));
+  for (const auto& set : {first, second}) ASSERT_TRUE(a.extend(*rows, set, dof_count, {rough_inverse}));
+  for (const auto& set : {first, second, third}) ASSERT_TRUE(longer.extend(*rows, set, dof_count, {rough_inverse}));
+  for (const auto& set : {third, second, first}) ASSERT_TRUE(other.extend(*rows, set, dof_count, {rough_inverse}));
   EXPECT_NE(compliance_of(other, *rows), compliance_of(a, *rows));  // else the test would say nothing
   const Growth wanted = a.growth();
-  EXPECT_FALSE(a.grow_as(wanted, dof_count, rough_inverse));
+  EXPECT_FALSE(a.grow_as(wanted, dof_count, {rough_inverse}));
   for (NodeCompliance* nodes : {&made_anew, &longer, &other}) {
-    EXPECT_TRUE(nodes->grow_as(wanted, dof_count, rough_inverse));
+    EXPECT_TRUE(nodes->grow_as(wanted, dof_count, {rough_inverse}));
     EXPECT_EQ(nodes->growth(), wanted);
     EXPECT_EQ(compliance_of(*nodes, *rows), compliance_of(a, *rows));
-    ASSERT_TRUE(nodes->extend(*rows, third, dof_count, rough_inverse));
+    ASSERT_TRUE(nodes->extend(*rows, third, dof_count, {rough_inverse}));
   }
-  ASSERT_TRUE(a.extend(*rows, third, dof_count, rough_inverse));
+  ASSERT_TRUE(a.extend(*rows, third, dof_count, {rough_inverse}));
   EXPECT_EQ(made_anew.growth(), a.growth());
   EXPECT_EQ(longer.compliance(*rows, third, components), a.compliance(*rows, third, components));
 }
 
 std::vector<FrameBlock> blocks_of(RowCompliance& rows, const std::vector<std::size_t>& chosen) {
-  return rows.blocks(chosen, std::span(components).first(chosen.size()), rough_inverse);
+  return rows.blocks(chosen, std::span(components).first(chosen.size()), {rough_inverse});
 }
 
 TEST(Growth, OfRowsGivesTheSameBits) {
@@ -84,9 +84,9 @@ TEST(Growth, OfRowsGivesTheSameBits) {
     const std::vector<FrameBlock> wanted_blocks = blocks_of(a, second);
     EXPECT_NE(blocks_of(other, second), wanted_blocks);  // else the test would say nothing
     const Growth wanted = a.growth();
-    EXPECT_FALSE(a.grow_as(wanted, rough_inverse));
+    EXPECT_FALSE(a.grow_as(wanted, {rough_inverse}));
     for (RowCompliance* one : {&made_anew, &longer, &other}) {
-      EXPECT_TRUE(one->grow_as(wanted, rough_inverse));
+      EXPECT_TRUE(one->grow_as(wanted, {rough_inverse}));
       EXPECT_EQ(one->growth(), wanted);
       EXPECT_EQ(one->has_columns(), a.has_columns());
       EXPECT_EQ(blocks_of(*one, second), wanted_blocks);

@@ -48,12 +48,12 @@ struct CountingInverse {
 
   explicit CountingInverse(unsigned seed) : factors(random_operator(seed), static_cast<int>(dof_count)) {}
   InverseOperator as_operator() {
-    return [this](std::span<double> b, int count) {
+    return {[this](std::span<double> b, int count) {
       columns += count;
       for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
         factors.solve(b.subspan(k * dof_count, dof_count));
       }
-    };
+    }};
   }
 };
 
