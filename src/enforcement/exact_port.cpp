@@ -319,7 +319,8 @@ const ContactResponse* ExactPort::follow_rows(EffectiveSolver& solver, const Con
                                               std::string& failure) {
   constexpr int most = 5;
   const ContactResponse* last = &response;
-  if (!system_.contact.is_fixed()) base_.assign(z.size(), 0.0), response.add_force(base_);
+  base_.assign(z.size(), 0.0);
+  response.add_force(base_);
   double before = infinity;
   for (int n = 0; n < most; ++n) {
     ContactResponse& next = followed_[static_cast<std::size_t>(n % 2)];
