@@ -105,7 +105,7 @@ std::vector<Vec3> initial_positions(const Model& model) {
     if (initial.displacement.empty() || initial.stage > 0) continue;
     for (std::size_t k = 0; k < initial.nodes.size(); ++k) {
       const auto i = static_cast<std::size_t>(initial.nodes[k]);
-      x[i] = add(model.mesh->coordinates[i], initial.displacement[k]);
+      x[i] = add(model.mesh->coordinates[i], initial.displacement_of(k));
     }
   }
   return x;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
@@ -46,10 +47,12 @@ Supports::Supports(const Model& model, const std::vector<bool>& has_mass) {
   fixed_components_.assign(has_mass.size(), 0);
   for (std::size_t i = 0; i < fixed_.size(); ++i)
     if (fixed_[i]) fixed_components_[i / 3] |= static_cast<std::uint8_t>(1U << (i % 3));
+  const bool has_acceleration = std::any_of(motions_.begin(), motions_.end(),
+                                            [](const Motion& m) { return m.kind == MotionKind::acceleration; });
   for (const InitialState& initial : model.initial) {
-    if (initial.velocity.empty()) continue;
+    if (initial.velocity.empty() || !has_acceleration) continue;
     std::map<Index, Vec3> velocity;
-    for (std::size_t k = 0; k < initial.nodes.size(); ++k) velocity[initial.nodes[k]] = initial.velocity[k];
+    for (std::size_t k = 0; k < initial.nodes.size(); ++k) velocity[initial.nodes[k]] = initial.velocity_of(k);
     for (PrescribedDof& p : prescribed_) {
       if (motions_[p.motion].kind != MotionKind::acceleration) continue;
       const auto given = velocity.find(p.dof / 3);

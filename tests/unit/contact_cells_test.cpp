@@ -304,6 +304,27 @@ TEST(FacingFacets, OfAnyCellsAreTheFacesBetweenTheBodies) {
   }
 }
 
+// A body that begins elsewhere, by one displacement of all its nodes or by one of each: under the other, its upper face
+// looks at the other's lower one.
+TEST(FacingFacets, AreThoseOfThePlacesWhereBodiesBegin) {
+  const TwoBodies bodies(CellType::hexa8, CellType::hexa8, 2, 3, 0.3);
+  PairContact pair = bodies.pair(PairMethod::node_to_surface);
+  for (Surface* side : {&pair.slave, &pair.master}) side->facets.clear();
+  InitialState initial;
+  for (std::size_t n = 0; n < bodies.is_upper.size(); ++n)
+    if (bodies.is_upper[n]) initial.nodes.push_back(static_cast<Index>(n));
+  for (const Facet& facet : skin(*bodies.model.mesh))
+    (bodies.is_upper[static_cast<std::size_t>(facet[0])] ? pair.slave : pair.master).facets.push_back(facet);
+  for (const std::size_t given : {std::size_t{1}, initial.nodes.size()}) {
+    initial.displacement.assign(given, {0.0, 0.0, -5.0});
+    Model model = bodies.model;
+    model.initial = {initial};
+    const FacingFacets facing = facing_facets(model, pair);
+    EXPECT_EQ(facing.slave.size(), bodies.upper.facets.size());
+    EXPECT_NE(facing.slave, bodies.upper.facets);
+  }
+}
+
 // M / h with h the height of the cells behind the face, 0.5 in a grid of 2 cells: pyramids end at the centres of the
 // grid's cells, quadratic cells have nodes in the middle.
 TEST(Stiffness, OfAnyCellsIsTheModulusOverTheirHeight) {

@@ -142,6 +142,23 @@ TEST(ImposedMotion, DoesNotRingAfterAKink) {
   }
 }
 
+/// Where the acceleration is imposed, the velocity that the nodes begin with is kept: v t + a t^2 / 2.
+TEST(ImposedMotion, OfAnAccelerationBeginsWithTheVelocityGiven) {
+  const TimeFunction f{{0.0}, {0.5}};
+  Model model = driven(MotionKind::acceleration, f);
+  const std::vector<Index> foot = model.mesh->nodes_of("ZMIN");
+  for (const std::size_t given : {std::size_t{1}, foot.size()}) {
+    model.initial = {{foot, {}, std::vector<Vec3>(given, {0.0, 0.0, 0.25}), 0}};
+    const Problem p(model);
+    const SchemeSettings settings{};
+    const auto scheme = make_scheme({p.system, settings, 0.1, 100.0});
+    march(*scheme, p.moving({0.0, 0.0, 0.25}), 0.1, 10, [&](const State& state) {
+      const double exact = 0.25 * state.t + f.second_integral(0.0, state.t);
+      for (const Index n : foot) EXPECT_NEAR(state.q[3 * static_cast<std::size_t>(n) + 2], exact, 1e-15);
+    });
+  }
+}
+
 /// The work of a support that starts a body at once is its kinetic energy, whatever the step: nothing for the scheme.
 TEST(ImposedMotion, WorkOfAJumpIsTheKineticEnergy) {
   const TimeFunction f{{0.25, 0.25}, {0.0, 2.0}};
