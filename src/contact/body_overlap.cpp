@@ -14,8 +14,8 @@
 #include "contact/rigid_shapes.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_size.hpp"
-#include "mesh/skin.hpp"
 #include "model/node_lengths.hpp"
+#include "model/outer_facets.hpp"
 #include "parallel/threads.hpp"
 
 namespace carom {
@@ -108,7 +108,8 @@ void BodyOverlap::Impl::find_skin() {
   std::vector<std::vector<Index>> number;  // by block and cell
   for (const CellBlock& block : model.mesh->blocks) number.emplace_back(block.size(), -1);
   for (std::size_t k = 0; k < cells.size(); ++k) number[cells.ref(k).block][cells.ref(k).cell] = static_cast<Index>(k);
-  for (const OuterFacet& outer : outer_facets(*model.mesh)) {
+  const auto skin = outer_facets(model);
+  for (const OuterFacet& outer : *skin) {
     const Index k = number[outer.cell.block][outer.cell.cell];
     if (k < 0) continue;
     on_skin[k] = static_cast<std::uint8_t>(on_skin[k] | 1U << static_cast<unsigned>(outer.face));

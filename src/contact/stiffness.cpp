@@ -18,8 +18,8 @@
 #include "contact/facing_facets.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
-#include "mesh/skin.hpp"
 #include "model/node_lengths.hpp"
+#include "model/outer_facets.hpp"
 #include "model/wave_modulus.hpp"
 
 namespace carom {
@@ -47,14 +47,19 @@ struct Side {
   double mean_height() const { return modulus / stiffness; }
 };
 
-/// Finds the cells of parts by their nodes.
+/// Finds the cells of parts by their nodes on the skin.
 class PartCells {
  public:
   explicit PartCells(const Model& model) : mesh_(*model.mesh), begin_(mesh_.node_count() + 1, 0) {
+    std::vector<bool> is_outer(mesh_.node_count());
+    const auto skin = outer_facets(model);
+    for (const OuterFacet& outer : *skin)
+      for (const Index n : outer.facet) is_outer[static_cast<std::size_t>(n)] = true;
     const auto each = [&](auto&& visit) {
       for (const Part& part : model.parts) {
         for (const Index cell : part.cells) {
-          for (const Index n : nodes_of({&part, cell})) visit(static_cast<std::size_t>(n), Cell{&part, cell});
+          for (const Index n : nodes_of({&part, cell}))
+            if (is_outer[static_cast<std::size_t>(n)]) visit(static_cast<std::size_t>(n), Cell{&part, cell});
         }
       }
     };
@@ -198,7 +203,9 @@ struct Chooser {
     for (const Index n : contact.nodes) listed[static_cast<std::size_t>(n)] = true;
     const auto on_list = [&](Index n) { return listed[static_cast<std::size_t>(n)]; };
     std::vector<Facet> whole, touched;
-    for (const Facet& facet : skin(mesh)) {
+    const auto skin = outer_facets(model);
+    for (const OuterFacet& outer : *skin) {
+      const Facet& facet = outer.facet;
       if (std::all_of(facet.begin(), facet.end(), on_list)) whole.push_back(facet);
       if (std::any_of(facet.begin(), facet.end(), on_list)) touched.push_back(facet);
     }

@@ -71,6 +71,9 @@ double area(const std::array<Vec3, 4>& x) {
   constexpr double g = 0.57735026918962576451;  // 1 / sqrt(3)
   const Vec3 middle = cross(a, b), along_xi = scaled(cross(a, d), g), along_eta = scaled(cross(d, b), g);
   const auto length = [](const Vec3& n) { return std::sqrt(dot(n, n)); };
+  // d of a parallelogram is round-off, and what it would add of the second order in it.
+  constexpr double round_off = 1e-10;
+  if (dot(d, d) <= round_off * round_off * (dot(a, a) + dot(b, b))) return 4.0 * length(middle);
   double sum = 0.0;
   for (const Vec3& normal : {add(middle, along_xi), subtract(middle, along_xi)})
     sum += length(add(normal, along_eta)) + length(subtract(normal, along_eta));

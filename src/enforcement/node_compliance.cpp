@@ -29,7 +29,7 @@ bool NodeCompliance::extend(const ConstraintRows& rows, std::span<const std::siz
   }
   std::sort(missing.begin(), missing.end());
   missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-  if (growth_.entries.size() + missing.size() > most_nodes_) return false;
+  if (growth_.entries.size() + missing.size() > capacity_) return false;
   add(missing, dof_count, inverse);
   return true;
 }

@@ -16,8 +16,8 @@ namespace carom {
 /// first takes part. What has been solved for is kept until forget().
 class NodeCompliance {
  public:
-  /// most_nodes: how many nodes are taken in; n nodes take 36 n^2 bytes.
-  explicit NodeCompliance(std::size_t most_nodes) : most_nodes_(most_nodes) {}
+  /// capacity: how many nodes are taken in; n nodes take 36 n^2 bytes.
+  explicit NodeCompliance(std::size_t capacity) : capacity_(capacity) {}
 
   /// For another operator A.
   void forget();
@@ -38,7 +38,7 @@ class NodeCompliance {
  private:
   void add(std::span<const Index> missing, std::size_t dof_count, const InverseOperator& inverse);
 
-  std::size_t most_nodes_;
+  std::size_t capacity_;
   Growth growth_;             ///< the nodes, in the order in which they came
   std::vector<Index> place_;  ///< of each node of the mesh in nodes_, -1: not there
   Compliance of_dofs_;        ///< in the order of the nodes

@@ -89,7 +89,6 @@ constexpr std::array<FacePiece, 4> kQuad9Pieces{
     {{{0, 4, 8, 7}, 4}, {{4, 1, 5, 8}, 4}, {{8, 5, 2, 6}, 4}, {{7, 8, 6, 3}, 4}}};
 
 struct Shape {
-  int corners;
   std::span<const Edge> edges;
   std::span<const CellFace> faces;
   std::span<const FacePiece> pieces;
@@ -97,23 +96,23 @@ struct Shape {
 };
 
 /// In the order of CellType.
-constexpr std::array<Shape, 17> kShapes{{{1, {}, {}, kPointPieces, 1},
-                                         {2, kLineEdges, kLineFaces, kLine2Pieces, 3},
-                                         {2, kLineEdges, kLineFaces, kLine3Pieces, 21},
-                                         {3, kTriaEdges, kTria3Faces, kTria3Pieces, 5},
-                                         {3, kTriaEdges, kTria6Faces, kTria6Pieces, 22},
-                                         {4, kQuadEdges, kQuad4Faces, kQuad4Pieces, 9},
-                                         {4, kQuadEdges, kQuad8Faces, kQuad8Pieces, 23},
-                                         {4, kQuadEdges, kQuad8Faces, kQuad9Pieces, 28},
-                                         {4, kTetraEdges, kTetra4Faces, {}, 10},
-                                         {4, kTetraEdges, kTetra10Faces, {}, 24},
-                                         {5, kPyraEdges, kPyra5Faces, {}, 14},
-                                         {5, kPyraEdges, kPyra13Faces, {}, 27},
-                                         {6, kPentaEdges, kPenta6Faces, {}, 13},
-                                         {6, kPentaEdges, kPenta15Faces, {}, 26},
-                                         {8, kHexaEdges, kHexa8Faces, {}, 12},
-                                         {8, kHexaEdges, kHexa20Faces, {}, 25},
-                                         {8, kHexaEdges, kHexa27Faces, {}, 29}}};
+constexpr std::array<Shape, 17> kShapes{{{{}, {}, kPointPieces, 1},
+                                         {kLineEdges, kLineFaces, kLine2Pieces, 3},
+                                         {kLineEdges, kLineFaces, kLine3Pieces, 21},
+                                         {kTriaEdges, kTria3Faces, kTria3Pieces, 5},
+                                         {kTriaEdges, kTria6Faces, kTria6Pieces, 22},
+                                         {kQuadEdges, kQuad4Faces, kQuad4Pieces, 9},
+                                         {kQuadEdges, kQuad8Faces, kQuad8Pieces, 23},
+                                         {kQuadEdges, kQuad8Faces, kQuad9Pieces, 28},
+                                         {kTetraEdges, kTetra4Faces, {}, 10},
+                                         {kTetraEdges, kTetra10Faces, {}, 24},
+                                         {kPyraEdges, kPyra5Faces, {}, 14},
+                                         {kPyraEdges, kPyra13Faces, {}, 27},
+                                         {kPentaEdges, kPenta6Faces, {}, 13},
+                                         {kPentaEdges, kPenta15Faces, {}, 26},
+                                         {kHexaEdges, kHexa8Faces, {}, 12},
+                                         {kHexaEdges, kHexa20Faces, {}, 25},
+                                         {kHexaEdges, kHexa27Faces, {}, 29}}};
 
 const Shape& shape(CellType type) {
   return kShapes.at(static_cast<std::size_t>(type));
@@ -121,9 +120,6 @@ const Shape& shape(CellType type) {
 
 }  // namespace
 
-int corner_count(CellType type) {
-  return shape(type).corners;
-}
 CellType linear_type(CellType type) {
   CellType linear = type;
   for (std::size_t t = kShapes.size(); t-- > 0;)

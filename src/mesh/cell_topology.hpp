@@ -31,9 +31,6 @@ std::span<const LocalNode> mirrored_order(CellType type);
 /// of zero thickness.
 std::span<const std::span<const std::array<LocalNode, 2>>> opposite_faces(CellType type);
 
-/// Number of corners: the nodes of the linear cell, which come first. Mid-side nodes follow in the order of cell_edges,
-/// then the centres of faces and of the cell.
-int corner_count(CellType type);
 /// The type of the cell of the corners alone, e.g. TETRA4 of TETRA10.
 CellType linear_type(CellType type);
 

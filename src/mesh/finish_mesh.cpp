@@ -13,7 +13,7 @@ namespace {
 
 template <class T>
 void sort_unique(std::vector<T>& entries) {
-  std::sort(entries.begin(), entries.end());
+  if (!std::is_sorted(entries.begin(), entries.end())) std::sort(entries.begin(), entries.end());
   entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
 }
 

@@ -1,40 +1,11 @@
 #include "mesh/mesh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 
 namespace carom {
 
 namespace {
-
-struct CellTraits {
-  std::string_view name;
-  int nodes;
-  int dimension;
-};
-
-constexpr std::array<CellTraits, 17> kTraits{{{"POINT1", 1, 0},
-                                              {"LINE2", 2, 1},
-                                              {"LINE3", 3, 1},
-                                              {"TRIA3", 3, 2},
-                                              {"TRIA6", 6, 2},
-                                              {"QUAD4", 4, 2},
-                                              {"QUAD8", 8, 2},
-                                              {"QUAD9", 9, 2},
-                                              {"TETRA4", 4, 3},
-                                              {"TETRA10", 10, 3},
-                                              {"PYRA5", 5, 3},
-                                              {"PYRA13", 13, 3},
-                                              {"PENTA6", 6, 3},
-                                              {"PENTA15", 15, 3},
-                                              {"HEXA8", 8, 3},
-                                              {"HEXA20", 20, 3},
-                                              {"HEXA27", 27, 3}}};
-
-const CellTraits& traits(CellType type) {
-  return kTraits.at(static_cast<std::size_t>(type));
-}
 
 /// The nodes whose flag is set.
 std::vector<Index> marked(const std::vector<char>& flags) {
@@ -45,21 +16,6 @@ std::vector<Index> marked(const std::vector<char>& flags) {
 }
 
 }  // namespace
-
-int node_count(CellType type) {
-  return traits(type).nodes;
-}
-int dimension(CellType type) {
-  return traits(type).dimension;
-}
-std::string_view name(CellType type) {
-  return traits(type).name;
-}
-
-std::span<const Index> CellBlock::nodes(Index cell) const {
-  const auto n = static_cast<std::size_t>(carom::node_count(type));
-  return {connectivity.data() + n * static_cast<std::size_t>(cell), n};
-}
 
 const CellBlock* Mesh::block(CellType type) const {
   const auto found = std::find_if(blocks.begin(), blocks.end(), [&](const CellBlock& b) { return b.type == type; });

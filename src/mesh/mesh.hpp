@@ -1,6 +1,7 @@
 // The mesh: coordinates, cells by type and named groups; immutable once read.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -35,12 +36,51 @@ enum class CellType : std::uint8_t {
   hexa27
 };
 
+struct CellTraits {
+  std::string_view name;  ///< "HEXA8", "QUAD4", ... (upper case, the field's usual names)
+  int nodes;
+  int corners;
+  int dimension;  ///< 0 points, 1 lines, 2 faces, 3 solids
+};
+
+inline constexpr std::array<CellTraits, 17> cell_traits{{{"POINT1", 1, 1, 0},
+                                                         {"LINE2", 2, 2, 1},
+                                                         {"LINE3", 3, 2, 1},
+                                                         {"TRIA3", 3, 3, 2},
+                                                         {"TRIA6", 6, 3, 2},
+                                                         {"QUAD4", 4, 4, 2},
+                                                         {"QUAD8", 8, 4, 2},
+                                                         {"QUAD9", 9, 4, 2},
+                                                         {"TETRA4", 4, 4, 3},
+                                                         {"TETRA10", 10, 4, 3},
+                                                         {"PYRA5", 5, 5, 3},
+                                                         {"PYRA13", 13, 5, 3},
+                                                         {"PENTA6", 6, 6, 3},
+                                                         {"PENTA15", 15, 6, 3},
+                                                         {"HEXA8", 8, 8, 3},
+                                                         {"HEXA20", 20, 8, 3},
+                                                         {"HEXA27", 27, 8, 3}}};
+
+constexpr const CellTraits& traits(CellType type) {
+  return cell_traits[static_cast<std::size_t>(type)];
+}
 /// Number of nodes of one cell, e.g. 8 for hexa8.
-int node_count(CellType type);
-/// Topological dimension: 0 points, 1 lines, 2 faces, 3 solids.
-int dimension(CellType type);
-/// "HEXA8", "QUAD4", ... (upper case, the field's usual names).
-std::string_view name(CellType type);
+constexpr int node_count(CellType type) {
+  return traits(type).nodes;
+}
+/// Nodes of a cell at most.
+inline constexpr std::size_t most_nodes = 27;
+/// Number of corners: the nodes of the linear cell, which come first. Mid-side nodes follow in the order of cell_edges,
+/// then the centres of faces and of the cell.
+constexpr int corner_count(CellType type) {
+  return traits(type).corners;
+}
+constexpr int dimension(CellType type) {
+  return traits(type).dimension;
+}
+constexpr std::string_view name(CellType type) {
+  return traits(type).name;
+}
 
 /// All cells of one type. connectivity has node_count(type) local node indices per cell.
 struct CellBlock {
@@ -50,7 +90,10 @@ struct CellBlock {
 
   std::size_t size() const { return file_numbers.size(); }
   /// The nodes of one cell.
-  std::span<const Index> nodes(Index cell) const;
+  std::span<const Index> nodes(Index cell) const {
+    const auto n = static_cast<std::size_t>(node_count(type));
+    return {connectivity.data() + n * static_cast<std::size_t>(cell), n};
+  }
 };
 
 /// One cell: block (index into Mesh::blocks) and position in that block.

@@ -257,6 +257,20 @@ void renumber_nodes(Mesh& mesh, const std::vector<Index>& order) {
   }
 }
 
+/// Are the nodes of a cell near each other in the order that they have?
+bool is_local(const Mesh& mesh) {
+  double spread = 0.0, cells = 0.0;
+  for (const CellBlock& block : mesh.blocks) {
+    for (std::size_t cell = 0; cell < block.size(); ++cell) {
+      const auto [low, high] = std::ranges::minmax(block.nodes(static_cast<Index>(cell)));
+      spread += high - low;
+    }
+    cells += static_cast<double>(block.size());
+  }
+  constexpr double near = 0.02;  // as in grid_order: two of its bins
+  return spread <= near * cells * static_cast<double>(mesh.node_count());
+}
+
 /// Nodes along the bins of a coarse grid: near enough to the final order that finding it does not wait for memory.
 std::vector<Index> grid_order(const Mesh& mesh) {
   constexpr std::size_t kBins = 100;
@@ -278,6 +292,18 @@ std::vector<Index> grid_order(const Mesh& mesh) {
   return order;
 }
 
+/// Sorts the cells of a group, each of which is there once.
+void sort_refs(const Mesh& mesh, std::vector<CellRef>& cells) {
+  if (cells.size() < 1000) return std::sort(cells.begin(), cells.end());
+  std::vector<std::vector<bool>> is_member;
+  for (const CellBlock& block : mesh.blocks) is_member.emplace_back(block.size());
+  for (const CellRef& ref : cells) is_member[at(ref.block)][at(ref.cell)] = true;
+  cells.clear();
+  for (std::size_t b = 0; b < is_member.size(); ++b)
+    for (std::size_t cell = 0; cell < is_member[b].size(); ++cell)
+      if (is_member[b][cell]) cells.push_back({static_cast<Index>(b), static_cast<Index>(cell)});
+}
+
 /// Brings nodes into this order (order[new] = old) and cells along.
 void reorder(const std::vector<Index>& order, Mesh& mesh) {
   renumber_nodes(mesh, order);
@@ -285,14 +311,14 @@ void reorder(const std::vector<Index>& order, Mesh& mesh) {
   for (CellBlock& block : mesh.blocks) new_cell.push_back(inverse(sort_cells(block, mesh.node_count())));
   for (auto& [name, cells] : mesh.cell_groups) {
     for (CellRef& ref : cells) ref.cell = new_cell[at(ref.block)][at(ref.cell)];
-    std::sort(cells.begin(), cells.end());
+    sort_refs(mesh, cells);
   }
 }
 
 }  // namespace
 
 Mesh renumbered(Mesh mesh) {
-  reorder(grid_order(mesh), mesh);
+  if (!is_local(mesh)) reorder(grid_order(mesh), mesh);
   reorder(LevelOrder(mesh).compute(), mesh);
   return mesh;
 }

@@ -18,54 +18,78 @@ namespace {
 class CellFaces {
  public:
   explicit CellFaces(const Mesh& mesh) : mesh_(mesh) {
-    for (const CellBlock& block : mesh.blocks)
-      first_.push_back(first_.back() + block.size() * cell_faces(block.type).size());
-    is_out_.resize(first_.back());
+    std::size_t first = 0;
+    for (const CellBlock& block : mesh.blocks) {
+      blocks_.push_back({&block, cell_faces(block.type), first});
+      first += block.size() * blocks_.back().faces.size();
+    }
+    is_out_.resize(first);
     const std::vector<std::uint8_t> dimensions = node_dimensions(mesh);
-    for (std::size_t block = 0; block < mesh.blocks.size(); ++block) flag(block, dimensions);
+    for (const Block& block : blocks_) flag(block, dimensions);
   }
 
   std::size_t size() const { return is_out_.size(); }
   bool is_out(std::size_t i) const { return is_out_[i]; }
+  /// Faces of a cell of the largest block.
+  std::size_t per_cell() const {
+    const auto largest = std::max_element(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) {
+      return a.cells->size() < b.cells->size();
+    });
+    return largest == blocks_.end() ? 0 : largest->faces.size();
+  }
   /// The cell and its face.
   std::pair<CellRef, int> at_number(std::size_t i) const {
-    const auto block = static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), i) - first_.begin()) - 1;
-    const std::size_t faces = cell_faces(mesh_.blocks[block].type).size(), own = i - first_[block];
-    return {{static_cast<Index>(block), static_cast<Index>(own / faces)}, static_cast<int>(own % faces)};
+    const Block& block = block_of(i);
+    const std::size_t own = i - block.first;
+    return {{static_cast<Index>(&block - blocks_.data()), static_cast<Index>(own / block.faces.size())},
+            static_cast<int>(own % block.faces.size())};
   }
   FaceKey key(std::size_t i) const {
     if (is_out_[i]) return no_face;
-    const auto [cell, face] = at_number(i);
-    const CellBlock& block = mesh_.blocks[at(cell.block)];
-    std::array<Index, 4> corner{};
-    return face_key(corners(block, block.nodes(cell.cell), static_cast<std::size_t>(face), corner));
+    const Block& block = block_of(i);
+    const std::size_t own = i - block.first;
+    std::array<Index, 4> corner;
+    return face_key(corners(block.faces[own % block.faces.size()],
+                            block.cells->nodes(static_cast<Index>(own / block.faces.size())), corner));
   }
 
  private:
-  static std::span<const Index> corners(const CellBlock& block, std::span<const Index> nodes, std::size_t face,
+  struct Block {
+    const CellBlock* cells;
+    std::span<const CellFace> faces;
+    std::size_t first;  ///< number of its first face
+  };
+
+  const Block& block_of(std::size_t i) const {
+    std::size_t b = blocks_.size() - 1;
+    while (blocks_[b].first > i || blocks_[b].faces.empty()) --b;
+    return blocks_[b];
+  }
+  static std::span<const Index> corners(const CellFace& face, std::span<const Index> nodes,
                                         std::array<Index, 4>& corner) {
-    const std::span<const LocalNode> local = cell_faces(block.type)[face].corners();
+    const std::span<const LocalNode> local = face.corners();
     for (std::size_t a = 0; a < local.size(); ++a) corner[a] = nodes[local[a]];
     return {corner.data(), local.size()};
   }
-  void flag(std::size_t number, std::span<const std::uint8_t> dimensions) {
-    const CellBlock& block = mesh_.blocks[number];
-    const std::size_t faces = cell_faces(block.type).size();
-    const bool may_end_in_others = dimension(block.type) < 3;
-    for (std::size_t k = 0; k < block.size() && faces > 0; ++k) {
-      const std::span<const Index> nodes = block.nodes(static_cast<Index>(k));
-      const bool none = (may_end_in_others && on_boundary(nodes, block.type, dimensions)) ||
-                        has_zero_thickness(mesh_, block.type, nodes);
+  void flag(const Block& block, std::span<const std::uint8_t> dimensions) {
+    const CellType type = block.cells->type;
+    const std::size_t faces = block.faces.size();
+    const bool may_end_in_others = dimension(type) < 3;
+    for (std::size_t k = 0; k < block.cells->size() && faces > 0; ++k) {
+      const std::span<const Index> nodes = block.cells->nodes(static_cast<Index>(k));
+      const bool none =
+          (may_end_in_others && on_boundary(nodes, type, dimensions)) || has_zero_thickness(mesh_, type, nodes);
+      if (!none && !may_end_in_others) continue;
       for (std::size_t f = 0; f < faces; ++f) {
-        std::array<Index, 4> corner{};
-        is_out_[first_[number] + faces * k + f] =
-            none || (may_end_in_others && on_boundary(corners(block, nodes, f, corner), block.type, dimensions));
+        std::array<Index, 4> corner;
+        is_out_[block.first + faces * k + f] =
+            none || on_boundary(corners(block.faces[f], nodes, corner), type, dimensions);
       }
     }
   }
 
   const Mesh& mesh_;
-  std::vector<std::size_t> first_{0};
+  std::vector<Block> blocks_;
   std::vector<bool> is_out_;
 };
 
@@ -87,7 +111,7 @@ void append_facets(const Mesh& mesh, const CellRef& cell, int number, std::vecto
 std::vector<OuterFacet> outer_facets(const Mesh& mesh) {
   const CellFaces faces(mesh);
   const std::vector<std::uint32_t> twin = face_twins(
-      faces.size(), [&](std::size_t i) { return faces.key(i); }, mesh.node_count());
+      faces.size(), faces.per_cell(), [&](std::size_t i) { return faces.key(i); }, mesh.node_count());
   std::vector<OuterFacet> outer;
   for (std::size_t i = 0; i < twin.size(); ++i) {
     if (twin[i] != no_twin || faces.is_out(i)) continue;

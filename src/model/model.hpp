@@ -17,6 +17,7 @@
 #include "math/time_function.hpp"
 #include "mesh/facet.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/skin.hpp"
 #include "model/options.hpp"
 #include "model/turning_body.hpp"
 
@@ -222,6 +223,7 @@ struct Model {
   std::vector<RigidBody> rigid_bodies;
   std::vector<TurningBody> turning_bodies;
   std::shared_ptr<const std::vector<double>> node_lengths;  ///< of model/node_lengths.hpp, once the parts are complete
+  std::shared_ptr<const std::vector<OuterFacet>> outer_facets;  ///< of the mesh (mesh/skin.hpp), where they are known
 
   /// The part that a cell belongs to; null: none.
   const Part* part_of(const CellRef& cell) const;

@@ -1,6 +1,7 @@
 #include "model/node_lengths.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <span>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "mesh/cell_size.hpp"
+#include "parallel/threads.hpp"
 
 namespace carom {
 
@@ -17,15 +19,17 @@ std::shared_ptr<const std::vector<double>> node_lengths(const Model& model) {
   std::vector<double> length(mesh.node_count(), std::numeric_limits<double>::infinity());
   for (const Part& part : model.parts) {
     if (part.cells.empty()) continue;
-    const auto size = static_cast<std::size_t>(node_count(part.type));
-    const std::span<const Index> connectivity = mesh.block(part.type)->connectivity;
-    std::vector<Vec3> x(size);
-    for (const Index cell : part.cells) {
-      const std::span<const Index> nodes = connectivity.subspan(size * static_cast<std::size_t>(cell), size);
-      for (std::size_t a = 0; a < size; ++a) x[a] = mesh.coordinates[static_cast<std::size_t>(nodes[a])];
-      const double of_cell = cell_length(part.type, x);
-      for (const Index n : nodes)
-        length[static_cast<std::size_t>(n)] = std::min(length[static_cast<std::size_t>(n)], of_cell);
+    const CellBlock& block = *mesh.block(part.type);
+    std::vector<double> of_cell(part.cells.size());
+    parallel_each(of_cell.size(), [&](std::size_t k) {
+      std::array<Vec3, most_nodes> x;
+      const std::span<const Index> nodes = block.nodes(part.cells[k]);
+      for (std::size_t a = 0; a < nodes.size(); ++a) x[a] = mesh.coordinates[static_cast<std::size_t>(nodes[a])];
+      of_cell[k] = cell_length(part.type, std::span(x).first(nodes.size()));
+    });
+    for (std::size_t k = 0; k < of_cell.size(); ++k) {
+      for (const Index n : block.nodes(part.cells[k]))
+        length[static_cast<std::size_t>(n)] = std::min(length[static_cast<std::size_t>(n)], of_cell[k]);
     }
   }
   return std::make_shared<const std::vector<double>>(std::move(length));

@@ -27,6 +27,7 @@ class ModelBuilder {
   void build() {
     model_.parts = parts_.parts();
     model_.node_lengths = node_lengths(model_);
+    model_.outer_facets = groups_.outer_facets();
     model_.motions = parts_.held();
     add_attached(case_, mesh_, groups_, parts_, static_cast<Index>(given_nodes(case_, mesh_)), model_);
     for (std::size_t i = 0; i < case_.supports.size(); ++i) add_support(case_.supports[i], i);

@@ -26,14 +26,14 @@ constexpr std::array<std::array<int, 4>, 6> quad4_sides{{{0, 3, none, none},
 }  // namespace
 
 CellColumns::CellColumns(const Mesh& mesh, const Solid& solid)
-    : mesh_(mesh), solid_(solid), of_cell_(solid.cell_count(), {none, none, none}) {
+    : mesh_(mesh), cells_(solid.cells()), of_cell_(cells_.size(), {none, none, none}) {
   const auto key_of = [this](Side side) {
     if (side % 6 >= 2 * at(dimension(side / 6))) return no_face;
     const Facet f = facet(side);
     return face_key({f.begin(), f.end()});
   };
-  neighbour_ = face_twins(6 * solid_.cell_count(), key_of, mesh_.node_count());
-  for (std::size_t k = 0; k < solid_.cell_count(); ++k) {
+  neighbour_ = face_twins(6 * cells_.size(), 6, key_of, mesh_.node_count());
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
     for (int axis = 0; axis < dimension(k); ++axis) {
       for (const Side side : {6 * k + 2 * at(axis), 6 * k + 2 * at(axis) + 1})
         if (neighbour_[side] == no_twin && of_cell_[k][at(axis)] < 0) walk(side);
@@ -42,12 +42,13 @@ CellColumns::CellColumns(const Mesh& mesh, const Solid& solid)
 }
 
 int CellColumns::dimension(std::size_t k) const {
-  const CellType type = mesh_.blocks[at(solid_.cells()[k].block)].type;
+  const CellType type = mesh_.blocks[at(cells_[k].block)].type;
   return type == CellType::hexa8 ? 3 : (type == CellType::quad4 ? 2 : 0);
 }
 
 Facet CellColumns::facet(Side side) const {
-  const std::span<const Index> nodes = solid_.nodes_of_cell(side / 6);
+  const CellRef& cell = cells_[side / 6];
+  const std::span<const Index> nodes = mesh_.blocks[at(cell.block)].nodes(cell.cell);
   Facet facet;
   for (const int local : (dimension(side / 6) == 3 ? hexa8_sides : quad4_sides)[side % 6])
     if (local != none) facet.node[at(facet.size++)] = nodes[at(local)];
@@ -69,16 +70,20 @@ double CellColumns::length(std::size_t k, int axis) const {
 void CellColumns::walk(Side start) {
   CellColumn column{0, 0.0, {}, facet(start), {}};
   Side side = start, opposite = start ^ 1U;
+  const Vec3 first = middle(start);
+  Vec3 last = first;
   for (;;) {
     of_cell_[side / 6][side % 6 / 2] = static_cast<Index>(columns_.size());
     ++column.cells;
     opposite = side / 6 * 6 + ((side % 6) ^ 1U);
-    column.length += norm(subtract(middle(opposite), middle(side)));
-    if (neighbour_[opposite] == no_twin || at(static_cast<Index>(column.cells)) > solid_.cell_count()) break;
+    const Vec3 next = middle(opposite);
+    column.length += norm(subtract(next, last));
+    last = next;
+    if (neighbour_[opposite] == no_twin || at(static_cast<Index>(column.cells)) > cells_.size()) break;
     side = neighbour_[opposite];
   }
   column.last = facet(opposite);
-  const Vec3 way = subtract(middle(opposite), middle(start));
+  const Vec3 way = subtract(last, first);
   if (norm(way) > 0.0) column.direction = scaled(way, 1.0 / norm(way));
   columns_.push_back(column);
 }

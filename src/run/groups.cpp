@@ -166,13 +166,12 @@ Groups::TypedCells Groups::cells(const Located<std::string>& name, const std::st
     refuse(name, key, fmt::format("\"{}\" without {} cells", *name, carom::name(*only)), expected,
            "Leave `type` out, or name a type that the group has (`carom mesh` lists them).");
   if (found.empty()) throw CaseError(name.where, key, "\"all\" in a mesh without such cells", expected);
-  TypedCells result{found.begin()->first, std::move(found.begin()->second)};
-  std::sort(result.cells.begin(), result.cells.end());
-  return result;
+  return {found.begin()->first, std::move(found.begin()->second)};
 }
 
 const Groups::Skin& Groups::skin() const {
-  if (!skin_) skin_ = Skin{carom::outer_facets(mesh_), node_dimensions(mesh_)};
+  if (!skin_)
+    skin_ = Skin{std::make_shared<const std::vector<OuterFacet>>(carom::outer_facets(mesh_)), node_dimensions(mesh_)};
   return *skin_;
 }
 
@@ -191,7 +190,7 @@ std::vector<OuterFacet> Groups::outer_facets(const Located<std::string>& name, c
   }
   for (auto& faces : chosen) std::sort(faces.begin(), faces.end());
   std::vector<OuterFacet> result;
-  for (const OuterFacet& outer : skin().facets) {
+  for (const OuterFacet& outer : *skin().facets) {
     const WholeFace face(mesh_, outer);
     const auto& of_its_kind = chosen[static_cast<std::size_t>(dimension(face.type))];
     const auto belongs = [&](Index n) { return is_member[static_cast<std::size_t>(n)] != 0; };
@@ -214,7 +213,7 @@ std::vector<OuterFacet> Groups::exterior(const std::vector<Located<std::string>>
   std::set<std::array<Index, 4>> out;
   for (const auto& name : excluded)
     for (const OuterFacet& outer : outer_facets(name, key)) out.insert(outer.facet.node);
-  std::vector<OuterFacet> facets = skin().facets;
+  std::vector<OuterFacet> facets = *skin().facets;
   std::erase_if(facets, [&](const OuterFacet& outer) { return out.contains(outer.facet.node); });
   return facets;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,6 +38,8 @@ class Groups {
   /// that are boundary cells of it (faces, lines), or whose nodes are all in it where it has no boundary cells of their
   /// dimension.
   std::vector<OuterFacet> outer_facets(const Located<std::string>& name, const std::string& key) const;
+  /// The whole skin.
+  std::shared_ptr<const std::vector<OuterFacet>> outer_facets() const { return skin().facets; }
   /// All of the skin but what lies in the excluded groups.
   std::vector<OuterFacet> exterior(const std::vector<Located<std::string>>& excluded, const std::string& key) const;
   /// Faces of the group (lines in two dimensions) as they are numbered, quadratic ones in linear pieces: the faces of a
@@ -55,7 +58,7 @@ class Groups {
                            const std::string& expected, const std::string& remedy = "") const;
 
   struct Skin {
-    std::vector<OuterFacet> facets;
+    std::shared_ptr<const std::vector<OuterFacet>> facets;
     std::vector<std::uint8_t> node_dimensions;
   };
   const Skin& skin() const;

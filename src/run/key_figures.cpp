@@ -1,11 +1,13 @@
 #include "run/key_figures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "math/vec3.hpp"
 #include "math/voigt.hpp"
+#include "parallel/threads.hpp"
 
 namespace carom {
 
@@ -28,21 +30,17 @@ KeyFigures::KeyFigures(const Simulation& simulation)
 std::vector<Vec3> KeyFigures::velocities(const std::vector<double>& v) const {
   const Solid& solid = simulation_.solid();
   std::vector<Vec3> out;
-  std::size_t k = 0;  // the cells stand part after part
+  std::size_t first = 0;  // the cells stand part after part
   for (const Part& part : simulation_.model().parts) {
-    const double rho = part.material.rho;
-    Vec3 momentum{};
-    double mass = 0.0;
-    for (std::size_t c = 0; c < part.cells.size(); ++c, ++k) {
-      const auto nodes = solid.nodes_of_cell(k);
-      const double of_cell = rho * solid.cell_volumes()[k], share = of_cell / static_cast<double>(nodes.size());
-      for (const Index n : nodes) {
-        const double* of_node = v.data() + 3 * static_cast<std::size_t>(n);
-        momentum = add(momentum, scaled({of_node[0], of_node[1], of_node[2]}, share));
-      }
-      mass += of_cell;
-    }
-    out.push_back(scaled(momentum, 1.0 / mass));
+    const auto of_part = parallel_sums<4>(part.cells.size(), [&](std::size_t c, std::array<double, 4>& sums) {
+      const auto nodes = solid.nodes_of_cell(first + c);
+      const double volume = solid.cell_volumes()[first + c], share = volume / static_cast<double>(nodes.size());
+      for (const Index n : nodes)
+        for (std::size_t i = 0; i < 3; ++i) sums[i] += share * v[3 * static_cast<std::size_t>(n) + i];
+      sums[3] += volume;
+    });
+    out.push_back(scaled({of_part[0], of_part[1], of_part[2]}, 1.0 / of_part[3]));
+    first += part.cells.size();
   }
   return out;
 }

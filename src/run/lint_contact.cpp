@@ -9,7 +9,7 @@
 
 #include "contact/row_maker.hpp"
 #include "math/vec3.hpp"
-#include "mesh/skin.hpp"
+#include "model/outer_facets.hpp"
 #include "run/approach.hpp"
 #include "run/facing.hpp"
 #include "run/groups.hpp"
@@ -39,7 +39,8 @@ double surface_area(const Simulation& s, const CaseContact& contact) {
   const std::vector<Index> nodes = groups.nodes(contact.group, "contact.group");
   const auto is_member = [&](Index n) { return std::binary_search(nodes.begin(), nodes.end(), n); };
   double area = 0.0;
-  for (const OuterFacet& outer : outer_facets(s.mesh())) {
+  const auto skin = outer_facets(s.model());
+  for (const OuterFacet& outer : *skin) {
     const Part* part = parts.part_of(outer.cell);
     if (part != nullptr && std::all_of(outer.facet.begin(), outer.facet.end(), is_member))
       area += area_of(s.mesh(), outer.facet, *part);

@@ -8,12 +8,12 @@
 
 #include "base/types.hpp"
 #include "element/cell_list.hpp"
+#include "mesh/mesh.hpp"
 #include "solid/kernels.hpp"
 
 namespace carom {
 
-/// Nodes of a cell at most. Node matrices: entry (a, b) of a cell of n nodes at [n a + b].
-inline constexpr std::size_t most_nodes = 27;
+/// Node matrices: entry (a, b) of a cell of n nodes at [n a + b].
 using NodeMatrix = std::array<double, most_nodes * most_nodes>;
 /// Positions or displacements of the nodes of a cell; the first n count.
 using CellNodes = std::array<Vec3, most_nodes>;

@@ -74,16 +74,18 @@ TEST(FaceTwins, AreTheFacesThatOccurAgain) {
     faces.push_back(face_key(shuffled));
     EXPECT_TRUE(std::is_sorted(faces.back().begin(), faces.back().end()));
   }
-  const std::vector<std::uint32_t> twin = face_twins(
-      faces.size(), [&](std::size_t i) { return faces[i]; }, 8);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const auto count = std::count(faces.begin(), faces.end(), faces[i]);
-    ASSERT_EQ(twin[i] == no_twin, count == 1);
-    if (count == 1) continue;
-    EXPECT_NE(twin[i], i);
-    EXPECT_EQ(faces[twin[i]], faces[i]);
-    if (count == 2) {
-      EXPECT_EQ(twin[twin[i]], i);
+  for (const std::size_t per_cell : {1, 2, 6, 7}) {
+    const std::vector<std::uint32_t> twin = face_twins(
+        faces.size(), per_cell, [&](std::size_t i) { return faces[i]; }, 8);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      const auto count = std::count(faces.begin(), faces.end(), faces[i]);
+      ASSERT_EQ(twin[i] == no_twin, count == 1);
+      if (count == 1) continue;
+      EXPECT_NE(twin[i], i);
+      EXPECT_EQ(faces[twin[i]], faces[i]);
+      if (count == 2) {
+        EXPECT_EQ(twin[twin[i]], i);
+      }
     }
   }
 }
