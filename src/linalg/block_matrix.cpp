@@ -18,6 +18,22 @@ void for_each_block(const BlockMatrix& A, const Body& body) {
       body(static_cast<Index>(n), A.column[k], A.value.data() + 9 * k);
 }
 
+template <class Scalar>
+void apply_blocks(const BlockMatrix& A, const Scalar* value, std::span<const double> x, std::span<double> y) {
+  parallel_for(A.points(), points_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      double sum[3] = {};
+      for (std::int64_t k = A.row_begin[n]; k < A.row_begin[n + 1]; ++k) {
+        const Scalar* a = value + 9 * k;
+        const double* of_point = x.data() + 3 * at(A.column[static_cast<std::size_t>(k)]);
+        for (int i = 0; i < 3; ++i)
+          sum[i] += a[3 * i] * of_point[0] + a[3 * i + 1] * of_point[1] + a[3 * i + 2] * of_point[2];
+      }
+      for (std::size_t i = 0; i < 3; ++i) y[3 * n + i] = sum[i];
+    }
+  });
+}
+
 }  // namespace
 
 BlockMatrix BlockMatrix::with_graph(const std::vector<std::vector<Index>>& neighbours) {
@@ -36,18 +52,15 @@ double* BlockMatrix::block(Index row, Index col) {
 }
 
 void BlockMatrix::apply(std::span<const double> x, std::span<double> y) const {
-  parallel_for(points(), points_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      double sum[3] = {};
-      for (std::int64_t k = row_begin[n]; k < row_begin[n + 1]; ++k) {
-        const double* a = value.data() + 9 * k;
-        const double* of_point = x.data() + 3 * at(column[static_cast<std::size_t>(k)]);
-        for (int i = 0; i < 3; ++i)
-          sum[i] += a[3 * i] * of_point[0] + a[3 * i + 1] * of_point[1] + a[3 * i + 2] * of_point[2];
-      }
-      for (std::size_t i = 0; i < 3; ++i) y[3 * n + i] = sum[i];
-    }
-  });
+  if (single.empty())
+    apply_blocks(*this, value.data(), x, y);
+  else
+    apply_blocks(*this, single.data(), x, y);
+}
+
+void BlockMatrix::round_to_single() {
+  single.assign(value.begin(), value.end());
+  value = {};
 }
 
 std::vector<double> BlockMatrix::diagonal() const {

@@ -15,6 +15,7 @@ struct BlockMatrix {
   std::vector<std::int64_t> row_begin{0};  ///< points + 1 entries
   std::vector<Index> column;
   std::vector<double> value;  ///< entry (i, j) of block k at [9 k + 3 i + j]
+  std::vector<float> single;  ///< those of a matrix that is only applied (round_to_single), instead
 
   /// Of this graph, all zero; neighbours: those of each point, sorted.
   static BlockMatrix with_graph(const std::vector<std::vector<Index>>& neighbours);
@@ -24,6 +25,8 @@ struct BlockMatrix {
   double* block(Index row, Index col);
   /// y = A x; threaded, same bits for any thread count.
   void apply(std::span<const double> x, std::span<double> y) const;
+  /// Keeps the entries in single precision, half the memory to go through, for apply() and nothing else.
+  void round_to_single();
   /// One entry per unknown.
   std::vector<double> diagonal() const;
 };

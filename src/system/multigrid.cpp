@@ -125,11 +125,15 @@ void Multigrid::make(double m, double c, std::shared_ptr<const TangentPlace> pla
   const std::vector<bool>& fixed = system_.supports.fixed();
   for (std::size_t i = 0; i < fine.size(); ++i) fine[i] = fixed[i] ? 0.0 : (fine[i] > 0.0 ? fine[i] : most);
   make_first_grid();
-  for (std::size_t l = 2; l < levels_.size(); ++l) levels_[l].A = galerkin(levels_[l - 1].A, P_[l - 1]);
+  for (std::size_t l = 1; l < levels_.size(); ++l) {
+    levels_[l].diagonal = levels_[l].A.diagonal();
+    if (l + 1 == levels_.size()) break;
+    levels_[l + 1].A = galerkin(levels_[l].A, P_[l]);
+    levels_[l].A.round_to_single();  // smoothing needs no more
+  }
   D_.clear();
   for (std::size_t l = 0; l < levels_.size(); ++l) {
     levels_[l].rows = nullptr;
-    if (l > 0) levels_[l].diagonal = levels_[l].A.diagonal();
     make_diagonal(levels_[l]);
     make_top(l);
   }
