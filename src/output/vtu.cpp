@@ -19,6 +19,20 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "raw appended data is written as little endian");
 static_assert(sizeof(Vec3) == 3 * sizeof(double));
 
+/// VTK's name of a type of numbers.
+constexpr std::string_view vtk_type(double) {
+  return "Float64";
+}
+constexpr std::string_view vtk_type(float) {
+  return "Float32";
+}
+constexpr std::string_view vtk_type(Index) {
+  return "Int32";
+}
+constexpr std::string_view vtk_type(std::uint8_t) {
+  return "UInt8";
+}
+
 /// One array of the appended section: in the header with its offset, after it as a byte count and the bytes.
 struct AppendedArray {
   const void* data;
@@ -32,10 +46,10 @@ class VtuHeader {
   void line(std::string_view text) { text_.append(text).push_back('\n'); }
 
   template <class T>
-  void array(std::string_view type, std::string_view name, int components, std::span<const T> values) {
+  void array(std::string_view name, int components, std::span<const T> values) {
     fmt::format_to(std::back_inserter(text_),
                    "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-                   type, xml_escape(name), components, offset_);
+                   vtk_type(T{}), xml_escape(name), components, offset_);
     arrays_.push_back({values.data(), values.size_bytes()});
     offset_ += sizeof(std::uint64_t) + values.size_bytes();
   }
@@ -43,8 +57,12 @@ class VtuHeader {
   void fields(std::string_view section, std::span<const VtuField> fields, [[maybe_unused]] std::size_t entries) {
     line(fmt::format("<{}>", section));
     for (const VtuField& field : fields) {
-      assert(field.values.size() == entries * static_cast<std::size_t>(field.components));
-      array("Float64", field.name, field.components, field.values);
+      std::visit(
+          [&]<class T>(const std::vector<T>& values) {
+            assert(values.size() == entries * static_cast<std::size_t>(field.components));
+            array(field.name, field.components, std::span<const T>(values));
+          },
+          field.values);
     }
     line(fmt::format("</{}>", section));
   }
@@ -63,7 +81,7 @@ void VtuCells::add(std::span<const Index> points, CellType type) {
   assert(points.size() == static_cast<std::size_t>(node_count(type)));
   const VtkCellType vtk = vtk_cell_type(type);
   for (std::size_t a = 0; a < points.size(); ++a) connectivity.push_back(points[vtk.order.empty() ? a : vtk.order[a]]);
-  ends.push_back(static_cast<std::int64_t>(connectivity.size()));
+  ends.push_back(static_cast<Index>(connectivity.size()));
   types.push_back(vtk.number);
 }
 
@@ -81,11 +99,11 @@ void write_vtu(const std::string& path, std::span<const Vec3> points, const VtuC
   header.fields("PointData", point_fields, points.size());
   header.fields("CellData", cell_fields, cells.types.size());
   header.line("<Points>");
-  header.array("Float64", "Points", 3, coordinates);
+  header.array("Points", 3, coordinates);
   header.line("</Points>\n<Cells>");
-  header.array("Int32", "connectivity", 1, std::span<const Index>(cells.connectivity));
-  header.array("Int64", "offsets", 1, std::span<const std::int64_t>(cells.ends));
-  header.array("UInt8", "types", 1, std::span<const std::uint8_t>(cells.types));
+  header.array("connectivity", 1, std::span<const Index>(cells.connectivity));
+  header.array("offsets", 1, std::span<const Index>(cells.ends));
+  header.array("types", 1, std::span<const std::uint8_t>(cells.types));
   header.line("</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">");
 
   FileWriter file(path);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "base/types.hpp"
@@ -11,19 +12,19 @@
 
 namespace carom {
 
-/// One field: `components` values per point or cell, entry after entry. 3 components are a vector, 6 a symmetric tensor
-/// in VTK's order xx, yy, zz, xy, yz, zx.
+/// One field: `components` values per point or cell, entry after entry, of the type that they have. 3 components are a
+/// vector, 6 a symmetric tensor in VTK's order xx, yy, zz, xy, yz, zx.
 struct VtuField {
   std::string name;
   int components = 1;
-  std::span<const double> values;
+  std::variant<std::vector<double>, std::vector<float>, std::vector<Index>, std::vector<std::uint8_t>> values;
 };
 
 /// Cells in any order: the points of each in VTK's order (vtk_cell_type), one after the other, and per cell where they
 /// end and VTK's number of its type.
 struct VtuCells {
   std::vector<Index> connectivity;
-  std::vector<std::int64_t> ends;
+  std::vector<Index> ends;
   std::vector<std::uint8_t> types;
 
   /// points: in our order.

@@ -69,10 +69,11 @@ class TwoPassNodes {
 /// Means over the rows that see a node from one side, by their weights along the normal; pressures without the nodes of
 /// two passes.
 struct SideMeans {
-  std::vector<double> pressure, gap, status, weight;
+  std::vector<double> pressure, gap, weight;
+  std::vector<std::uint8_t> status;
 
   SideMeans(const ContactResponse& response, const TwoPassNodes& two_pass, std::span<const double> u, bool is_other)
-      : pressure(u.size() / 3, 0.0), gap(pressure), status(pressure), weight(pressure) {
+      : pressure(u.size() / 3, 0.0), gap(pressure), weight(pressure), status(weight.size(), 0) {
     const ConstraintRows& rows = *response.rows;
     std::vector<double> pressing = weight;
     for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -83,7 +84,7 @@ struct SideMeans {
         const auto n = static_cast<std::size_t>(rows.node[k]);
         weight[n] += w;
         gap[n] += w * rows.gap_at(r, u);
-        status[n] = std::max(status[n], 1.0 + static_cast<double>(response.status[r]));
+        status[n] = std::max(status[n], static_cast<std::uint8_t>(1 + static_cast<int>(response.status[r])));
         if (two_pass.has(r, rows.node[k])) continue;
         pressing[n] += w;
         pressure[n] += w * response.force[r][0] / rows.measure[r];

@@ -1,6 +1,7 @@
 // Contact at the nodes.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace carom {
 /// rows on the node over the area that its own row stands for: that is unique, the share of each pass is not. Nodes
 /// that stand for obstacles have values, too, which mean nothing.
 struct NodalContact {
-  std::vector<double> pressure, gap, status;
+  std::vector<double> pressure, gap;
+  std::vector<std::uint8_t> status;
 };
 NodalContact nodal_contact(const ContactResponse& response, std::span<const double> u);
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <string_view>
 
 #include "base/types.hpp"
 #include "run/recorder.hpp"
@@ -33,23 +35,26 @@ bool has_factor(const Stage& stage) {
   return kind == SolverKind::cholesky || kind == SolverKind::ldlt;
 }
 
-/// Of one .vtu file: coordinates, cells, and 24 bytes for a vector and 8 for a scalar on a node, 48 for a tensor and 8
-/// for a scalar of a cell (output/vtu.hpp).
+/// Of one .vtu file (output/vtu.hpp): coordinates and cells, and the fields with the types that the recorder gives
+/// them.
 double frame_bytes(const Simulation& s) {
-  const double nodes = static_cast<double>(s.mesh().node_count()), cells = static_cast<double>(s.solid().cell_count());
+  static const std::map<std::string_view, double> per_node{
+      {"displacement", 24.0},    {"velocity", 24.0},   {"acceleration", 24.0}, {"contact_force", 12.0},
+      {"contact_pressure", 4.0}, {"contact_gap", 4.0}, {"contact_status", 1.0}};
+  static const std::map<std::string_view, double> per_cell{
+      {"stress", 24.0}, {"strain", 24.0}, {"von_mises", 4.0}, {"part", 4.0}};
   if (s.given().output.fields.empty()) return 0.0;
-  double connectivity = 0.0;
+  double of_node = 24.0, of_cell = 5.0, corners = 0.0;
   for (std::size_t k = 0; k < s.solid().cell_count(); ++k)
-    connectivity += 8.0 * static_cast<double>(s.solid().nodes_of_cell(k).size()) + 9.0;
-  double bytes = 24.0 * nodes + connectivity;
+    corners += static_cast<double>(s.solid().nodes_of_cell(k).size());
   for (const auto& field : s.given().output.fields) {
-    const bool is_scalar_of_cells = *field == "von_mises" || *field == "part" ||
-                                    !s.solid().cell_history(*field, s.solid().initial_history()).empty();
-    const bool is_cellwise = is_scalar_of_cells || *field == "stress" || *field == "strain";
-    const bool is_scalar = *field == "contact_pressure" || *field == "contact_gap" || *field == "contact_status";
-    bytes += is_cellwise ? (is_scalar_of_cells ? 8.0 : 48.0) * cells : (is_scalar ? 8.0 : 24.0) * nodes;
+    const bool is_off = field->starts_with("contact_") && s.given().contacts.empty();
+    if (const auto found = per_node.find(*field); found != per_node.end() && !is_off) of_node += found->second;
+    if (const auto found = per_cell.find(*field); found != per_cell.end()) of_cell += found->second;
+    if (!s.solid().cell_history(*field, s.solid().initial_history()).empty()) of_cell += 4.0;
   }
-  return bytes;
+  return of_node * static_cast<double>(s.mesh().node_count()) + of_cell * static_cast<double>(s.solid().cell_count()) +
+         4.0 * corners;
 }
 
 /// Numbers in a row of the tables, each with about 14 characters.

@@ -92,7 +92,7 @@ ObstacleBodies::ObstacleBodies(const Simulation& simulation) : model_(simulation
     if (obstacle == nullptr) continue;
     bodies_.push_back({c, points_.size()});
     add_shape(simulation, obstacle->shape);
-    contact_.resize(cells_.types.size(), static_cast<double>(c));
+    contact_.resize(cells_.types.size(), static_cast<Index>(c));
   }
 }
 
@@ -169,8 +169,9 @@ void ObstacleBodies::write(const std::string& path, const State& state) const {
         displacement[p] = add(displacement[p], scaled(moved.directors[i], dot(body.axes[i], r)));
     }
   }
-  const double* values = displacement.empty() ? nullptr : displacement.front().data();
-  const std::array<VtuField, 1> point_fields{{{"displacement", 3, {values, 3 * displacement.size()}}}};
+  std::vector<double> values;
+  for (const Vec3& u : displacement) values.insert(values.end(), u.begin(), u.end());
+  const std::array<VtuField, 1> point_fields{{{"displacement", 3, std::move(values)}}};
   const std::array<VtuField, 1> cell_fields{{{"contact", 1, contact_}}};
   write_vtu(path, points_, cells_, point_fields, cell_fields);
 }

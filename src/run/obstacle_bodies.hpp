@@ -34,7 +34,7 @@ class ObstacleBodies {
   std::vector<Body> bodies_;
   std::vector<Vec3> points_;
   VtuCells cells_;
-  std::vector<double> contact_;  ///< per cell
+  std::vector<Index> contact_;  ///< per cell
 };
 
 }  // namespace carom

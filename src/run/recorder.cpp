@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <list>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "output/results_folder.hpp"
 #include "output/units.hpp"
 #include "output/vtu.hpp"
+#include "parallel/threads.hpp"
 #include "report/csv_table.hpp"
 #include "run/cost_estimate.hpp"
 #include "solid/cell_strain.hpp"
@@ -44,11 +44,61 @@ VtuCells vtu_cells(const Simulation& simulation) {
 }
 
 /// The position of each cell's part in the case, from 0.
-std::vector<double> part_numbers(const Model& model) {
-  std::vector<double> numbers;
+std::vector<Index> part_numbers(const Model& model) {
+  std::vector<Index> numbers;
   for (std::size_t p = 0; p < model.parts.size(); ++p)
-    numbers.insert(numbers.end(), model.parts[p].cells.size(), static_cast<double>(p));
+    numbers.insert(numbers.end(), model.parts[p].cells.size(), static_cast<Index>(p));
   return numbers;
+}
+
+/// In single precision, enough for what is looked at.
+std::vector<float> rounded(std::span<const double> values) {
+  std::vector<float> out(values.size());
+  parallel_each(out.size(), [&](std::size_t i) { out[i] = static_cast<float>(values[i]); });
+  return out;
+}
+
+std::vector<float> rounded(const std::vector<Voigt>& tensors) {
+  return rounded(std::span(tensors.data()->data(), 6 * tensors.size()));
+}
+
+/// The fields of one instant.
+struct Frame {
+  std::vector<VtuField> points, cells;
+};
+
+Frame frame_of(const Simulation& s, const StepView& view) {
+  const State& state = view.state;
+  Frame frame;
+  std::vector<Voigt> stress;
+  const auto need_stress = [&]() -> const std::vector<Voigt>& {
+    if (stress.empty()) stress = s.solid().cell_stress(state.q, view.points());
+    return stress;
+  };
+  const auto von_mises_of = [](const std::vector<Voigt>& tensors) {
+    std::vector<float> out(tensors.size());
+    parallel_each(out.size(), [&](std::size_t k) { out[k] = static_cast<float>(von_mises(tensors[k])); });
+    return out;
+  };
+  std::optional<NodalContact> contact;
+  if (!s.given().contacts.empty()) contact = nodal_contact(view.forces.rows, state.q);
+  for (const auto& field : s.given().output.fields) {
+    const std::string& name = *field;
+    if (name == "displacement") frame.points.push_back({name, 3, state.q});
+    if (name == "velocity") frame.points.push_back({name, 3, state.v});
+    if (name == "acceleration") frame.points.push_back({name, 3, state.a});
+    if (contact && name == "contact_force") frame.points.push_back({name, 3, rounded(view.forces.contact.dense())});
+    if (contact && name == "contact_pressure") frame.points.push_back({name, 1, rounded(contact->pressure)});
+    if (contact && name == "contact_gap") frame.points.push_back({name, 1, rounded(contact->gap)});
+    if (contact && name == "contact_status") frame.points.push_back({name, 1, contact->status});
+    if (name == "stress") frame.cells.push_back({name, 6, rounded(need_stress())});
+    if (name == "strain") frame.cells.push_back({name, 6, rounded(cell_strain(s.model(), state.q))});
+    if (name == "von_mises") frame.cells.push_back({name, 1, von_mises_of(need_stress())});
+    const std::vector<double> variable = s.solid().cell_history(name, view.points().history);
+    if (!variable.empty()) frame.cells.push_back({name, 1, rounded(variable)});
+    if (name == "part") frame.cells.push_back({name, 1, part_numbers(s.model())});
+  }
+  return frame;
 }
 
 bool wants_filter(const Case& given) {
@@ -112,6 +162,7 @@ void Recorder::go_on() {
 
 /// Writes out what there is of the tables.
 void Recorder::keep_places() {
+  writer_.finish();
   places_.clear();
   for (OpenTable& open : files_->tables) places_.push_back(open.file.sync());
   frames_ = files_->frames.frames();
@@ -137,54 +188,15 @@ void Recorder::record(const StepView& view, bool is_last) {
 }
 
 void Recorder::record_frame(const StepView& view) {
-  const Simulation& s = simulation_;
-  const CaseOutput& output = s.given().output;
-  if (output.fields.empty()) return;
+  if (simulation_.given().output.fields.empty()) return;
   last_frame_ = view.step;
-  std::vector<std::array<double, 6>> stress, strain;
-  std::vector<double> equivalent, part, contact_force;
-  std::list<std::vector<double>> remembered;
-  const auto tensors = [](const std::vector<std::array<double, 6>>& values) {
-    return std::span<const double>(values.data()->data(), 6 * values.size());
-  };
-  const auto need_stress = [&] {
-    if (stress.empty()) stress = s.solid().cell_stress(view.state.q, view.points());
-  };
-  const NodalContact contact = nodal_contact(view.forces.rows, view.state.q);
-  const bool has_contact = !s.given().contacts.empty();
-  std::vector<VtuField> point_fields, cell_fields;
-  for (const auto& field : output.fields) {
-    if (*field == "displacement") point_fields.push_back({*field, 3, view.state.q});
-    if (*field == "velocity") point_fields.push_back({*field, 3, view.state.v});
-    if (*field == "acceleration") point_fields.push_back({*field, 3, view.state.a});
-    if (*field == "contact_force" && has_contact)
-      point_fields.push_back({*field, 3, contact_force = view.forces.contact.dense()});
-    if (*field == "contact_pressure" && has_contact) point_fields.push_back({*field, 1, contact.pressure});
-    if (*field == "contact_gap" && has_contact) point_fields.push_back({*field, 1, contact.gap});
-    if (*field == "contact_status" && has_contact) point_fields.push_back({*field, 1, contact.status});
-    if (*field == "stress") {
-      need_stress();
-      cell_fields.push_back({*field, 6, tensors(stress)});
-    }
-    if (*field == "strain") {
-      strain = cell_strain(s.model(), view.state.q);
-      cell_fields.push_back({*field, 6, tensors(strain)});
-    }
-    if (*field == "von_mises") {
-      need_stress();
-      for (const auto& of_cell : stress) equivalent.push_back(von_mises(of_cell));
-      cell_fields.push_back({*field, 1, equivalent});
-    }
-    std::vector<double> variable = s.solid().cell_history(*field, view.points().history);
-    if (!variable.empty()) cell_fields.push_back({*field, 1, remembered.emplace_back(std::move(variable))});
-    if (*field == "part") {
-      part = part_numbers(s.model());
-      cell_fields.push_back({*field, 1, part});
-    }
-  }
-  const std::string file = frame_file(static_cast<int>(view.step));
-  write_vtu(folder_ + "/" + file, s.mesh().coordinates, cells_, point_fields, cell_fields);
-  files_->frames.add(view.state.t, file, record_obstacles(view));
+  writer_.finish();  // one frame in memory at a time
+  Frame frame = frame_of(simulation_, view);
+  const std::string obstacles = record_obstacles(view), file = frame_file(static_cast<int>(view.step));
+  writer_.start([this, frame = std::move(frame), t = view.state.t, file, obstacles] {
+    write_vtu(folder_ + "/" + file, simulation_.mesh().coordinates, cells_, frame.points, frame.cells);
+    files_->frames.add(t, file, obstacles);
+  });
 }
 
 /// The file of the obstacles of this frame: one for all of them while none moves.
@@ -271,6 +283,7 @@ void Recorder::fill(Summary& summary) const {
 }
 
 void Recorder::close() {
+  writer_.finish();
   for (OpenTable& open : files_->tables) open.file.close();
   write_filtered();
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "output/background.hpp"
 #include "output/csv.hpp"
 #include "output/pvd.hpp"
 #include "output/vtu.hpp"
@@ -32,7 +33,8 @@ struct RunTables {
   Checks checks;
 };
 
-/// Samples the curves, the checks and the fields at the steps where they are due.
+/// Samples the curves, the checks and the fields at the steps where they are due. Files of fields are written beside
+/// the computation, one at a time; what goes wrong there is thrown by the next call.
 class Recorder : public Observer {
  public:
   /// Touches no file yet. Throws CaseError as RunTables does.
@@ -103,6 +105,7 @@ class Recorder : public Observer {
   std::string obstacles_file_;  ///< the last that was written
   long long frame_every_;
   long long last_sample_ = -1, last_frame_ = -1, last_row_ = -1;  ///< steps sampled or written last
+  Background writer_;                                             ///< last: it waits before the others go
 };
 
 }  // namespace carom

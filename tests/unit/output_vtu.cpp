@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -72,8 +73,16 @@ class VtuTest : public testing::Test {
     const std::vector<double> displacement = values(3 * grid.points.size(), scale);
     const std::vector<double> stress = values(6 * grid.cells.types.size(), -scale);
     const std::vector<double> energy = values(grid.cells.types.size(), 2 * scale);
-    const std::vector<VtuField> on_points{{"displacement", 3, displacement}};
-    const std::vector<VtuField> on_cells{{"stress", 6, stress}, {"energy <&\"> density", 1, energy}};
+    const std::vector<float> in_single(energy.begin(), energy.end());
+    std::vector<Index> number(grid.cells.types.size());
+    std::iota(number.begin(), number.end(), -7);
+    std::vector<std::uint8_t> status(grid.points.size());
+    for (std::size_t n = 0; n < status.size(); ++n) status[n] = static_cast<std::uint8_t>(n % 251);
+    const std::vector<VtuField> on_points{{"displacement", 3, displacement}, {"status", 1, status}};
+    const std::vector<VtuField> on_cells{{"stress", 6, stress},
+                                         {"energy <&\"> density", 1, energy},
+                                         {"in single precision", 1, in_single},
+                                         {"number", 1, number}};
     write_vtu((folder_ / frame_file(step)).string(), grid.points, grid.cells, on_points, on_cells);
   }
 

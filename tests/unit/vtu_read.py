@@ -1,10 +1,12 @@
 """Reads a results folder with VTK and compares every number: vtu_read.py FOLDER nx ny nz hexahedra|mixed STEP...
 
 The expected numbers are computed here from the rules in output_vtu.cpp (unit cubes, x fastest; entry i of a field is
-scale * (i + 1/3) with scale = step + 1, negated for the stress and doubled for the energy density). Equality is exact:
-raw binary data lose nothing. `mixed`: behind the cubes come the face z = 0 of the first one and that face's first edge.
+scale * (i + 1/3) with scale = step + 1, negated for the stress and doubled for the energy density, which is there in
+single precision as well; points have their number modulo 251, cells theirs less 7). Equality is exact: raw binary data
+lose nothing. `mixed`: behind the cubes come the face z = 0 of the first one and that face's first edge.
 """
 
+import struct
 import sys
 import xml.etree.ElementTree as ElementTree
 
@@ -65,11 +67,16 @@ def check_frame(path, shape, is_mixed, scale):
     ends = [int(n) for (n,) in tuples(grid.GetCells().GetOffsetsArray())]
     same("cells", [tuple(connectivity[a:b]) for a, b in zip(ends, ends[1:])], cells)
     on_points, on_cells = grid.GetPointData(), grid.GetCellData()
-    if on_points.GetNumberOfArrays() != 1 or on_cells.GetNumberOfArrays() != 2:
+    if on_points.GetNumberOfArrays() != 2 or on_cells.GetNumberOfArrays() != 4:
         sys.exit("missing or unexpected arrays")
     same("displacement", tuples(on_points.GetArray("displacement")), values(len(points), 3, scale))
     same("stress", tuples(on_cells.GetArray("stress")), values(len(cells), 6, -scale))
-    same("energy", tuples(on_cells.GetArray('energy <&"> density')), values(len(cells), 1, 2 * scale))
+    energy = values(len(cells), 1, 2 * scale)
+    same("energy", tuples(on_cells.GetArray('energy <&"> density')), energy)
+    in_single = [struct.unpack("f", struct.pack("f", e)) for (e,) in energy]
+    same("in single precision", tuples(on_cells.GetArray("in single precision")), in_single)
+    same("status", tuples(on_points.GetArray("status")), [(n % 251,) for n in range(len(points))])
+    same("number", tuples(on_cells.GetArray("number")), [(c - 7,) for c in range(len(cells))])
 
 
 def main():

@@ -216,14 +216,15 @@ def read_csv(path):
 
 
 def read_field(path, name):
-    """An array of doubles of a .vtu file with raw appended data."""
+    """An array of a .vtu file with raw appended data."""
     data = path.read_bytes()
     head, _, tail = data.partition(b'<AppendedData encoding="raw">')
     tail = tail[tail.index(b"_") + 1:]
     line = next(line for line in head.decode().splitlines() if f'Name="{name}"' in line)
     offset = int(line.partition('offset="')[2].partition('"')[0])
     size = struct.unpack_from("<Q", tail, offset)[0]
-    values = array.array("d")
+    kind = line.partition('type="')[2].partition('"')[0]
+    values = array.array({"Float64": "d", "Float32": "f"}[kind])
     values.frombytes(tail[offset + 8:offset + 8 + size])
     return values
 
