@@ -46,7 +46,7 @@ void RotationWatch::see(const StepView& view) {
   const long long step = view.step;
   if (step == 0 || !view.alarm.empty()) return;
   if (is_explicit(view.stage.settings().kind) && step < next_ && !view.ends_stage) return;
-  constexpr long long every = 10;
+  constexpr long long every = 10, seldom = 50;  // explicit steps
   const CaseGuards& guards = simulation_.given().guards;
   const Rotation rotation = simulation_.solid().largest_rotation(state.q);
   const double angle = rotation.angle / degree;
@@ -55,7 +55,10 @@ void RotationWatch::see(const StepView& view) {
   looked_ = step;
   const bool has_warned = !warnings_.empty();
   const double limit = has_warned || angle > guards.rotation_warning ? guards.rotation_stop : guards.rotation_warning;
-  next_ = step + (angle + 2.0 * growth_ * static_cast<double>(every) > limit ? 1 : every);
+  const auto may_reach = [&](long long steps, double share) {
+    return angle + 2.0 * growth_ * static_cast<double>(steps) > share * limit;
+  };
+  next_ = step + (may_reach(every, 1.0) ? 1 : (may_reach(seldom, 0.5) ? every : seldom));
   if (angle > guards.rotation_stop) {
     throw RunError(
         static_cast<int>(step), state.t,
