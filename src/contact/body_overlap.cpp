@@ -254,12 +254,15 @@ Overlap BodyOverlap::deepest(std::span<const double> u) {
 }
 
 Index BodyOverlap::part_of(Index node) const {
-  const PlacedCells& cells = impl_->cells;
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    const std::span<const Index> nodes = cells.nodes(k);
-    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) return cells.part(k);
-  }
-  return -1;
+  const std::vector<Part>& parts = impl_->model.parts;
+  const auto has_node = [&](const Part& part) {
+    return std::any_of(part.cells.begin(), part.cells.end(), [&](Index cell) {
+      const std::span<const Index> nodes = impl_->model.mesh->block(part.type)->nodes(cell);
+      return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+    });
+  };
+  const auto found = std::find_if(parts.begin(), parts.end(), has_node);
+  return found == parts.end() ? -1 : static_cast<Index>(found - parts.begin());
 }
 
 Index BodyOverlap::part_of(const CellRef& cell) const {

@@ -77,10 +77,10 @@ bool KeyFigures::is_static(double t) const {
 
 void KeyFigures::sample(const StepView& view, bool is_last) {
   if (begin_.empty() && !is_static(view.state.t)) begin_ = velocities(view.state.v);
+  if (is_last) end_ = velocities(view.state.v);
   if (view.step == last_step_ || !(is_last || view.step % stress_every_ == 0)) return;
   last_step_ = view.step;
   look_at_stress(view);
-  end_ = velocities(view.state.v);
 }
 
 std::vector<PartSummary> KeyFigures::parts() const {

@@ -118,6 +118,47 @@ TEST(Tunnelling, WithoutAnyContactIsNamed) {
   EXPECT_NE(summary.find("between which no contact is defined"), std::string::npos) << summary;
 }
 
+// Springs of no strength let a bar through a wall; bars have no inside of their own, and are named all the same.
+TEST(Tunnelling, OfABarThroughAWallIsNamed) {
+  const TemporaryCase one(R"(units = "SI"
+[[mesh.block]]
+kind = "bar"
+end = [0.0, 0.0, 1.0]
+divisions = 10
+groups = { cells = "BAR", start = "FOOT" }
+[materials.s]
+law = "linear_elastic"
+E = 1e5
+nu = 0.3
+rho = 1000.0
+[[part]]
+name = "rod"
+cells = "BAR"
+material = "s"
+section = "bar"
+area = 1e-3
+[[initial]]
+part = "rod"
+velocity = [0.0, 0.0, -1.0]
+[[contact]]
+name = "wall"
+kind = "plane"
+group = "FOOT"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+stiffness = 1.0
+[scheme]
+kind = "central_differences"
+[time]
+end = 0.5
+[output]
+fields = []
+)");
+  EXPECT_EQ(one.run(), ExitCode::verdict_failed);
+  const std::string summary = one.result("summary.json");
+  EXPECT_NE(summary.find(R"(of part \"rod\" inside of the obstacle of \"wall\")"), std::string::npos) << summary;
+}
+
 // An implicit step that would carry the blocks through half a cell is cut; where the case fixes it the run says so.
 TEST(Tunnelling, OfImplicitStepsIsCutOrRefused) {
   const std::string scheme = "kind = \"newmark\"\ngamma = 0.6\nbeta = 0.31\n[time]\nend = 0.04\nstep = 1e-2\n";
