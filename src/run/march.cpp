@@ -183,7 +183,10 @@ void March::note_solver() {
 double March::load_impulse() const {
   if (s_.model().loads.empty() || stage().settings().kind == SchemeKind::statics) return 0.0;
   const std::vector<double>& f = state_.forces.external.value;
-  const auto sum = parallel_sums<3>(f.size(), [&f](std::size_t i, std::array<double, 3>& s) { s[i % 3] += f[i]; });
+  const std::vector<Index>& nodes = s_.solid().loaded_nodes();
+  const auto sum = parallel_sums<3>(nodes.size(), [&](std::size_t k, std::array<double, 3>& s) {
+    for (std::size_t c = 0; c < 3; ++c) s[c] += f[3 * static_cast<std::size_t>(nodes[k]) + c];
+  });
   return norm(sum) * dt_;
 }
 

@@ -1,7 +1,6 @@
 #include "schemes/explicit_books.hpp"
 
 #include <array>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -106,16 +105,15 @@ LedgerIncrement central_difference_books(const System& system, const State& begi
 }
 
 PushedNodes::PushedNodes(const System& system)
-    : are_all_(system.solid.has_loads()), is_pushed_(system.solid.node_count(), are_all_ ? 1 : 0) {
-  if (!are_all_) return;
-  nodes_.resize(is_pushed_.size());
-  std::iota(nodes_.begin(), nodes_.end(), Index{0});
+    : loaded_(system.solid.loaded_nodes().size()),
+      nodes_(system.solid.loaded_nodes()),
+      is_pushed_(system.solid.node_count(), 0) {
+  for (const Index n : nodes_) is_pushed_[static_cast<std::size_t>(n)] = 1;
 }
 
 void PushedNodes::look(const ConstraintRows& before, const ConstraintRows& after) {
-  if (are_all_) return;
-  for (const Index n : nodes_) is_pushed_[static_cast<std::size_t>(n)] = 0;
-  nodes_.clear();
+  for (std::size_t k = loaded_; k < nodes_.size(); ++k) is_pushed_[static_cast<std::size_t>(nodes_[k])] = 0;
+  nodes_.resize(loaded_);
   for (const ConstraintRows* rows : {&before, &after})
     for (const Index n : rows->node)
       if (std::exchange(is_pushed_[static_cast<std::size_t>(n)], std::uint8_t{1}) == 0) nodes_.push_back(n);

@@ -17,7 +17,7 @@ namespace carom {
 LedgerIncrement central_difference_books(const System& system, const State& begin, const Balance& balance,
                                          std::span<const double> a_begin, const State& end, double h);
 
-/// The nodes that loads or contact may push: all of them where there are loads.
+/// The nodes that loads or contact may push.
 class PushedNodes {
  public:
   explicit PushedNodes(const System& system);
@@ -27,8 +27,8 @@ class PushedNodes {
   const std::vector<Index>& nodes() const { return nodes_; }
 
  private:
-  bool are_all_;
-  std::vector<Index> nodes_;
+  std::size_t loaded_;        ///< how many of the nodes loads may push
+  std::vector<Index> nodes_;  ///< these first
   std::vector<std::uint8_t> is_pushed_;
 };
 

@@ -148,7 +148,7 @@ struct SemiExplicit::Boundary {
   }
 
   /// r = f - F(u) on the dofs b, zero elsewhere.
-  void residual(const LoadVector& f, std::span<const double> u, const PointStep& step, std::span<double> r) {
+  void residual(const ExternalForce& f, std::span<const double> u, const PointStep& step, std::span<double> r) {
     std::fill(force.begin(), force.end(), 0.0);
     system.solid.add_internal_force_of(cells, u, force, step);
     std::fill(r.begin(), r.end(), 0.0);

@@ -75,6 +75,7 @@ struct Solid::Impl {
         solid(make_solid_cells(model, kernels(wanted))),
         loads(make_loads(model)),
         gravity(gravity_loads(model)),
+        loaded_nodes(nodes_of_loads()),
         rigid_bodies(model.rigid_bodies),
         point_masses(model.point_masses),
         springs(model.springs),
@@ -90,6 +91,19 @@ struct Solid::Impl {
       }
     });
     bound_damping();
+  }
+
+  std::vector<Index> nodes_of_loads() const {
+    std::vector<Index> nodes;
+    if (!gravity.empty()) {
+      nodes.resize(solid.mesh->node_count());
+      std::iota(nodes.begin(), nodes.end(), Index{0});
+      return nodes;
+    }
+    for (const LoadVector& load : loads) nodes.insert(nodes.end(), load.nodes.begin(), load.nodes.end());
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
   }
 
   /// Calls add(node, mass) for the masses of points and rigid bodies.
@@ -208,6 +222,7 @@ struct Solid::Impl {
   SolidCells solid;
   std::vector<LoadVector> loads;
   std::vector<Gravity> gravity;
+  std::vector<Index> loaded_nodes;
   std::vector<RigidBody> rigid_bodies;
   std::vector<PointMass> point_masses;
   Springs springs;
@@ -507,8 +522,8 @@ void Solid::external_force(double t, const Mass& mass, std::span<double> f) cons
   }
 }
 
-bool Solid::has_loads() const {
-  return !impl_->loads.empty() || !impl_->gravity.empty();
+const std::vector<Index>& Solid::loaded_nodes() const {
+  return impl_->loaded_nodes;
 }
 
 std::vector<std::array<double, 6>> Solid::cell_stress(std::span<const double> u, const PointStep& step) const {

@@ -139,7 +139,9 @@ class Solid {
   /// f = external force at time t (nodal forces, pressures, gravity); overwrites f. Gravity acts on the mass that the
   /// scheme uses.
   void external_force(double t, const Mass& mass, std::span<double> f) const;
-  bool has_loads() const;
+  bool has_loads() const { return !loaded_nodes().empty(); }
+  /// The nodes that it may act on, increasing: all of them under gravity.
+  const std::vector<Index>& loaded_nodes() const;
 
   const std::vector<Spring>& springs() const;
 

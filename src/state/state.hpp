@@ -28,17 +28,17 @@ void fields(A& archive, SupportForce& x) {
 }
 
 /// A dof vector that has no entries where nothing acts.
-struct LoadVector {
+struct ExternalForce {
   std::vector<double> value;
   double operator[](std::size_t i) const { return value.empty() ? 0.0 : value[i]; }
-  friend bool operator==(const LoadVector&, const LoadVector&) = default;
+  friend bool operator==(const ExternalForce&, const ExternalForce&) = default;
 };
 
 /// All forces at one instant. Where a dof is free, inertia = external - internal + contact up to the residual of the
 /// solver; where it is prescribed, the support's reaction closes the equation.
 struct Forces {
   std::vector<double> internal;  ///< a dof vector, as
-  LoadVector external;
+  ExternalForce external;
   NodeForces contact;
   /// M a, a dof vector; none where a scheme makes nothing of it but what follows from the accelerations (central
   /// differences with a lumped mass).
