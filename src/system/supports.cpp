@@ -47,8 +47,8 @@ Supports::Supports(const Model& model, const std::vector<bool>& has_mass) {
   fixed_components_.assign(has_mass.size(), 0);
   for (std::size_t i = 0; i < fixed_.size(); ++i)
     if (fixed_[i]) fixed_components_[i / 3] |= static_cast<std::uint8_t>(1U << (i % 3));
-  const bool has_acceleration = std::any_of(motions_.begin(), motions_.end(),
-                                            [](const Motion& m) { return m.kind == MotionKind::acceleration; });
+  const bool has_acceleration =
+      std::any_of(motions_.begin(), motions_.end(), [](const Motion& m) { return m.kind == MotionKind::acceleration; });
   for (const InitialState& initial : model.initial) {
     if (initial.velocity.empty() || !has_acceleration) continue;
     std::map<Index, Vec3> velocity;
