@@ -1,11 +1,10 @@
 // The steps by which the cone problem is solved to round-off: active sets without friction, Newton with it.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "contact/cone_problem.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/reused_factors.hpp"
 
 namespace carom::cone {
 
@@ -13,27 +12,33 @@ namespace carom::cone {
 /// left to the sweeps, of which thousands cost more than some factorisations of 300 MB.
 constexpr std::size_t dense_limit = 2000, newton_limit = 6000;
 
-/// The system of some active frictionless rows, factored again only where they or the strength are others.
+/// The system of some active frictionless rows.
 class ActiveSystem {
  public:
-  bool solve(Problem& p, const RowList& rows, const std::vector<bool>& active);
+  bool solve(Problem& p, const std::vector<bool>& active);
 
  private:
-  bool factor(const Problem& p, const RowList& set, const std::vector<double>& d);
-
-  RowList set_;
-  double strength_ = 0.0;
-  std::optional<DenseLu> factors_;
+  ReusedFactors factors_;
 };
 
 /// Frictionless rows, solved exactly by block principal pivoting (Judice and Pires, Comput. Oper. Res. 21, 1994): every
 /// wrong row changes sides, as in the primal-dual active set; when that has not lowered their number for ten steps,
 /// only the last of them does, which ends after finitely many steps (Murty). `active`: one entry per row, start and
 /// answer. Returns the number of systems solved.
-int pivot(Problem& p, const RowList& rows, std::vector<bool>& active, ActiveSystem& system);
+int pivot(Problem& p, std::vector<bool>& active, ActiveSystem& system);
+
+/// The linearised projection equations of the closed rows.
+class NewtonSystem {
+ public:
+  /// One step of semismooth Newton from r; false if the system is singular.
+  bool step(Problem& p);
+
+ private:
+  ReusedFactors factors_;
+};
 
 /// Semismooth Newton on the natural map from r, each step shortened until the sum of squares falls, at most `most`
 /// steps, until the proximal error is at most `tolerance`. r never gets worse. Returns the number of steps.
-int newton(Problem& p, const RowList& rows, double tolerance, int most);
+int newton(Problem& p, double tolerance, int most, NewtonSystem& system);
 
 }  // namespace carom::cone

@@ -7,11 +7,20 @@
 
 #include "base/types.hpp"
 #include "contact/delassus.hpp"
+#include "parallel/threads.hpp"
 
 namespace carom::cone {
 
 /// Rows that act on each other, in ascending order.
 using RowList = std::vector<std::size_t>;
+
+/// visit(entry) for the entries of a list, in threads: a visit costs a row of W.
+template <class List, class Visit>
+void each_of(const List& list, const Visit& visit) {
+  parallel_for(list.size(), 32, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) visit(list[k]);
+  });
+}
 
 /// What is known and what is wanted, with the diagonal of W at hand. The solvers work on the problem with
 ///   w = W r + b + rho D (r - centre),
@@ -22,63 +31,78 @@ class Problem {
   Problem(const Delassus& operator_W, std::span<const Vec3> given, std::span<const double> friction,
           std::vector<Vec3>& force);
 
+  /// What follows is about these rows.
+  void select(const RowList& rows);
+  const RowList& rows() const { return rows_; }
+  const Vec3& force(std::size_t i) const { return r_[i]; }
+  void set_force(std::size_t i, const Vec3& force);
+  /// Of the rows, in their order.
+  std::vector<Vec3> forces() const;
+  void set_forces(const std::vector<Vec3>& forces);
+
   /// Takes the present forces of the rows for the centre.
-  void regularise(const RowList& rows, double strength);
+  void regularise(double strength);
 
   /// w_i of the proximal problem.
   Vec3 motion(std::size_t i) const;
+  /// What a change of the forces (one entry per row of W) changes of it.
+  Vec3 change_of_motion(std::size_t i, const std::vector<Vec3>& change) const;
   /// Largest violation of the natural map among the rows, as a motion, over scale(): of the given problem, and of the
   /// proximal one. Not finite entries count as infinite. The map: min(w_n, W_nn r_n), and W_tt (r_T - the projection of
   /// r_T - w_T / W_tt on the disc of radius mu r_n).
-  double error(const RowList& rows) const;
-  double proximal_error(const RowList& rows) const;
+  double error() const;
+  double proximal_error() const;
   /// Sum of squares of the violations of the proximal problem.
-  double merit(const RowList& rows) const;
+  double merit() const;
   /// Largest |b| and |W_ii r_i|, the latter counted up to a limit: forces that grow without end, since no force would
   /// do, must not make any motion look small.
-  double scale(const RowList& rows) const;
+  double scale() const;
   /// Largest |b|.
-  double scale_of_given(const RowList& rows) const;
+  double scale_of_given() const;
   /// The row that violates the given problem most.
-  std::size_t worst(const RowList& rows) const;
+  std::size_t worst() const;
 
   /// Diagonal block of the proximal problem.
   FrameBlock own_block(std::size_t i) const;
   double compliance(std::size_t i) const { return compliance_[i]; }
   double normal_compliance(std::size_t i) const { return own_[i][0]; }
+  /// Unit of the forces of a row that makes the diagonal of W 1.
+  double unit(std::size_t i) const { return unit_[i]; }
   /// Compliance by which tangential forces are compared with motions.
   double tangential_compliance(std::size_t i) const { return tangential_[i]; }
   /// rho D_i
   double added(std::size_t i) const { return rho_ * compliance_[i]; }
   double strength() const { return rho_; }
-  /// visit(j, normal entry of W_ij) for the rows j that act on i.
-  template <class Visit>
-  void each_normal(std::size_t i, const Visit& visit) const {
-    for (std::size_t k = W.begin[i]; k < W.begin[i + 1]; ++k)
-      visit(W.column[k], normal_.empty() ? W.block[k][0] : normal_[k]);
-  }
+  /// Sum of W_ij x_j over the normal entries (one x per row of W).
+  double normal_motion(std::size_t i, std::span<const double> x) const;
+  double normal_entry(std::size_t k) const { return normal_.empty() ? W.block[k][0] : normal_[k]; }
   double centre(std::size_t i) const { return centre_[i][0]; }
 
-  /// r of the rows, in their order.
-  std::vector<Vec3> forces(const RowList& rows) const;
   /// One Gauss-Seidel sweep over the proximal problem, each row solved exactly for the forces of the others; forwards
   /// or backwards (Jourdan, Alart and Jean, Comput. Methods Appl. Mech. Eng. 155, 1998).
-  void sweep(const RowList& rows, bool forwards);
+  void sweep(bool forwards);
 
   const Delassus& W;
   std::span<const Vec3> b;
   std::span<const double> mu;
-  std::vector<Vec3>& r;
 
  private:
+  void add_blocks(std::size_t i, std::size_t left_out, const std::vector<Vec3>& force, Vec3& w) const;
   Vec3 sum_of_blocks(std::size_t i, std::size_t left_out) const;
+  const Vec3& given_motion(std::size_t i) const;
   double violation(std::size_t i, const Vec3& w) const;
   template <class Motion>
-  double relative_error(const RowList& rows, const Motion& motion_of) const;
+  double relative_error(const Motion& motion_of) const;
 
+  std::vector<Vec3>& r_;
+  RowList rows_;
+  mutable std::vector<Vec3> w_;               ///< W r + b on the rows, unless they are stale
+  mutable std::vector<double> normal_force_;  ///< those that w_ belongs to
+  mutable bool is_stale_ = true;
+  bool is_full_;                ///< W has all blocks
   std::vector<double> normal_;  ///< normal entries of all blocks, where there is no friction
   std::vector<FrameBlock> own_;
-  std::vector<double> compliance_, tangential_;
+  std::vector<double> compliance_, tangential_, unit_;
   std::vector<Vec3> centre_;
   double rho_ = 0.0;
 };

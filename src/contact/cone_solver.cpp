@@ -16,7 +16,7 @@ namespace {
 using cone::Problem;
 using cone::RowList;
 
-constexpr int first_sweeps = 3;
+constexpr int first_sweeps = 3, few_sweeps = 8;
 constexpr int most_sweeps = 20000;
 /// Least rho: what a factorisation in double precision still tells from nothing.
 constexpr double least_proximal = 1e-13;
@@ -27,62 +27,58 @@ struct Best {
   double error = infinity;
 
   /// Takes the present forces when they are better.
-  void offer(const Problem& p, const RowList& rows) {
-    const double now = p.error(rows);
+  void offer(const Problem& p) {
+    const double now = p.error();
     if (now >= error) return;
     error = now;
-    force = p.forces(rows);
-  }
-  void restore(Problem& p, const RowList& rows) const {
-    for (std::size_t k = 0; k < force.size(); ++k) p.r[rows[k]] = force[k];
+    force = p.forces();
   }
 };
 
 /// Frictionless rows: proximal steps around the active set, so that redundant rows have an answer; one or two steps
 /// where W is regular.
-int solve_frictionless(Problem& p, const RowList& rows, double tolerance, double accepted) {
+int solve_frictionless(Problem& p, double tolerance, double accepted, cone::ActiveSystem& system) {
   std::vector<bool> active;
-  for (const std::size_t i : rows)
-    active.push_back(p.normal_compliance(i) > 0.0 && p.normal_compliance(i) * p.r[i][0] > p.motion(i)[0]);
-  cone::ActiveSystem system;
+  for (const std::size_t i : p.rows())
+    active.push_back(p.normal_compliance(i) > 0.0 && p.normal_compliance(i) * p.force(i)[0] > p.motion(i)[0]);
   Best best;
-  best.offer(p, rows);
+  best.offer(p);
   constexpr int most_proximal_steps = 60;
   double rho = 1e-10;
   int steps = 0;
   for (int n = 0; n < most_proximal_steps && best.error > tolerance; ++n) {
-    p.regularise(rows, rho);
-    steps += cone::pivot(p, rows, active, system);
-    for (const std::size_t i : rows) p.r[i][0] = std::max(0.0, p.r[i][0]);
+    p.regularise(rho);
+    steps += cone::pivot(p, active, system);
+    for (const std::size_t i : p.rows()) p.set_force(i, {std::max(0.0, p.force(i)[0]), 0.0, 0.0});
     const double before = best.error;
-    best.offer(p, rows);
+    best.offer(p);
     if (best.error > 0.5 * before && before <= accepted) break;
     if (best.error > 0.1 * before) rho = std::max(least_proximal, 0.1 * rho);
   }
-  best.restore(p, rows);
+  p.set_forces(best.force);
   return steps;
 }
 
 /// Sweeps worth the time of one factorisation: 18 operations per block against 2/3 n^3 at ten times the speed.
-int sweeps_per_factorisation(const Problem& p, const RowList& rows) {
+int sweeps_per_factorisation(const Problem& p) {
   double blocks = 0.0;
-  for (const std::size_t i : rows) blocks += static_cast<double>(p.W.begin[i + 1] - p.W.begin[i]);
-  const double n = 3.0 * static_cast<double>(rows.size());
+  for (const std::size_t i : p.rows()) blocks += static_cast<double>(p.W.begin[i + 1] - p.W.begin[i]);
+  const double n = 3.0 * static_cast<double>(p.rows().size());
   return static_cast<int>(std::clamp(n * n * n / (15.0 * 18.0 * blocks), 5.0, 500.0));
 }
 
 /// Solves the proximal problem by Newton and sweeps in turn; false when it is not solved.
-bool solve_proximal(Problem& p, const RowList& rows, double tolerance, int& steps) {
+bool solve_proximal(Problem& p, double tolerance, cone::NewtonSystem& system, int& steps) {
   constexpr int rounds = 3, most_newton_steps = 20;
-  int sweeps = sweeps_per_factorisation(p, rows);
+  int sweeps = sweeps_per_factorisation(p);
   for (int round = 0; round < rounds; ++round, sweeps *= 2) {
-    steps += cone::newton(p, rows, tolerance, most_newton_steps);
+    steps += cone::newton(p, tolerance, most_newton_steps, system);
     for (int n = 0; n < sweeps; ++n, ++steps) {
-      if (n % 8 == 0 && p.proximal_error(rows) <= tolerance) return true;
-      p.sweep(rows, n % 2 == 0);
+      if (n % 8 == 0 && p.proximal_error() <= tolerance) return true;
+      p.sweep(n % 2 == 0);
     }
   }
-  return p.proximal_error(rows) <= tolerance;
+  return p.proximal_error() <= tolerance;
 }
 
 /// How many times the change d of its force takes a row from r, inside its cone, to the cone; `longest` where that is
@@ -101,107 +97,104 @@ double way_to_cone(const Vec3& r, const Vec3& d, double mu, double longest) {
 }
 
 /// Moves the forces on by their change since `from` until the first row reaches its cone, at most ten times as far.
-void continue_drift(Problem& p, const RowList& rows, const std::vector<Vec3>& from) {
+void continue_drift(Problem& p, const std::vector<Vec3>& from) {
   double longer = 10.0;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const Vec3& r = p.r[rows[k]];
-    longer = way_to_cone(r, subtract(r, from[k]), p.mu[rows[k]], longer);
-  }
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    Vec3& r = p.r[rows[k]];
-    r = add(r, scaled(subtract(r, from[k]), longer));
-  }
+  const std::vector<Vec3> now = p.forces();
+  for (std::size_t k = 0; k < now.size(); ++k)
+    longer = way_to_cone(now[k], subtract(now[k], from[k]), p.mu[p.rows()[k]], longer);
+  for (std::size_t k = 0; k < now.size(); ++k)
+    p.set_force(p.rows()[k], add(now[k], scaled(subtract(now[k], from[k]), longer)));
 }
 
 /// Rows with friction, few enough to factor: proximal steps. Where redundant rows contradict each other by a little,
 /// each step adds contradiction / rho to forces that cancel, until one of the rows slips; so rho falls, slowly where
 /// only such forces grow, and rises where Newton finds no way, and after two steps of that kind the next is longer.
-int approach(Problem& p, const RowList& rows, double tolerance, double accepted, Best& best) {
+int approach(Problem& p, double tolerance, double accepted, cone::NewtonSystem& system, Best& best) {
   constexpr int most_proximal_steps = 100;
-  best.offer(p, rows);
+  best.offer(p);
   double rho = 1e-6, last = best.error;
   std::vector<Vec3> from;
   int steps = 0;
   for (int n = 0; n < most_proximal_steps && best.error > tolerance; ++n) {
-    p.regularise(rows, rho);
-    const bool found = solve_proximal(p, rows, 0.3 * tolerance, steps);
-    best.offer(p, rows);
+    p.regularise(rho);
+    const bool found = solve_proximal(p, 0.3 * tolerance, system, steps);
+    best.offer(p);
     if (!found) {
       rho = std::min(1.0, 10.0 * rho);
       from.clear();
       continue;
     }
-    const double error = p.error(rows);
+    const double error = p.error();
     const bool stays = error > 0.5 * last, drifts = stays && !from.empty();
     if (stays && last <= accepted) break;
     last = error;
     if (drifts) {
-      continue_drift(p, rows, from);
+      continue_drift(p, from);
       from.clear();
       continue;
     }
     rho = std::max(least_proximal, (stays ? 0.5 : 0.1) * rho);
-    from = p.forces(rows);
+    from = p.forces();
   }
   return steps;
 }
 
 /// The same from the forces given, from none, and from the best of both, until they are accepted.
-int solve_with_friction(Problem& p, const RowList& rows, double tolerance, double accepted) {
+int solve_with_friction(Problem& p, double tolerance, double accepted, cone::NewtonSystem& system) {
   Best best;
-  int steps = approach(p, rows, tolerance, accepted, best);
+  int steps = approach(p, tolerance, accepted, system, best);
   for (const bool from_none : {true, false}) {
     if (best.error <= accepted) break;
-    best.restore(p, rows);
+    p.set_forces(best.force);
     if (from_none) {
-      for (const std::size_t i : rows) p.r[i] = {};
+      for (const std::size_t i : p.rows()) p.set_force(i, {});
     }
-    steps += approach(p, rows, tolerance, accepted, best);
+    steps += approach(p, tolerance, accepted, system, best);
   }
-  best.restore(p, rows);
+  p.set_forces(best.force);
   return steps;
 }
 
 /// Sweeps until solved, or accepted and no longer getting much better, or `most` are done. Returns their number.
-int sweeps(Problem& p, const RowList& rows, double tolerance, double accepted, int most) {
+int sweeps(Problem& p, double tolerance, double accepted, int most) {
   constexpr int batch = 64;
   double last = infinity;
   for (int n = 0; n < most; ++n) {
     if (n < first_sweeps || n % 8 == 0) {
-      const double error = p.error(rows);
+      const double error = p.error();
       if (error <= tolerance) return n;
       if (n % batch == 0) {
         if (error <= accepted && error > 0.5 * last) return n;
         last = error;
       }
     }
-    p.sweep(rows, n % 2 == 0);
+    p.sweep(n % 2 == 0);
   }
   return most;
 }
 
-int solve_set(Problem& p, const RowList& rows, double tolerance, double accepted) {
-  const bool frictionless = std::ranges::all_of(rows, [&](std::size_t i) { return p.mu[i] == 0.0; });
-  const bool has_factors = 3 * rows.size() <= cone::newton_limit;
-  const int most = frictionless  ? first_sweeps
-                   : has_factors ? std::max(first_sweeps, sweeps_per_factorisation(p, rows) / 2)
-                                 : most_sweeps;
-  const int swept = sweeps(p, rows, tolerance, accepted, most);
-  if (p.error(rows) <= tolerance || (!frictionless && !has_factors)) return swept;
-  return swept + (frictionless ? solve_frictionless(p, rows, tolerance, accepted)
-                               : solve_with_friction(p, rows, tolerance, accepted));
+int solve_set(Problem& p, double tolerance, double accepted, ConeFactors& factors) {
+  const bool frictionless = std::ranges::all_of(p.rows(), [&](std::size_t i) { return p.mu[i] == 0.0; });
+  const bool has_factors = 3 * p.rows().size() <= cone::newton_limit;
+  const int most = frictionless ? first_sweeps : has_factors ? few_sweeps : most_sweeps;
+  const int swept = sweeps(p, tolerance, accepted, most);
+  if (p.error() <= tolerance || (!frictionless && !has_factors)) return swept;
+  return swept + (frictionless ? solve_frictionless(p, tolerance, accepted, factors.active)
+                               : solve_with_friction(p, tolerance, accepted, factors.newton));
 }
 
 }  // namespace
 
 ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<const double> mu, std::vector<Vec3>& r,
-                      double tolerance, double accepted, double round_off) {
+                      double tolerance, double accepted, double round_off, ConeFactors* factors) {
   assert(b.size() == W.size() && mu.size() == W.size());
   r.resize(W.size());
   const auto finite = [](const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); };
   for (std::size_t i = 0; i < b.size(); ++i) {
     if (!finite(b[i])) return {false, 0, infinity, i};
   }
+  ConeFactors of_this_call;
+  ConeFactors& kept = factors != nullptr ? *factors : of_this_call;
   Problem p(W, b, mu, r);
   for (std::size_t i = 0; i < W.size(); ++i) {
     if (p.normal_compliance(i) < 0.0) return {false, 0, infinity, i};
@@ -213,14 +206,15 @@ ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<cons
   ConeResult result;
   result.converged = true;
   for (const RowList& rows : cone::coupled_sets(W)) {
-    const double given = p.scale_of_given(rows);
+    p.select(rows);
+    const double given = p.scale_of_given();
     const double enough = std::max({accepted, tolerance, given > 0.0 ? round_off / given : 0.0});
-    result.iterations = std::max(result.iterations, solve_set(p, rows, tolerance, enough));
-    const double error = p.error(rows);
+    result.iterations = std::max(result.iterations, solve_set(p, tolerance, enough, kept));
+    const double error = p.error();
     if (!(error <= enough)) result.converged = false;
     if (error <= result.error) continue;
     result.error = error;
-    result.worst = p.worst(rows);
+    result.worst = p.worst();
   }
   return result;
 }

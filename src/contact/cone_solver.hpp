@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/cone_newton.hpp"
 #include "contact/delassus.hpp"
 
 namespace carom {
@@ -14,6 +15,12 @@ struct ConeResult {
   int iterations = 0;     ///< sweeps and linear systems, of the set of coupled rows that took most; 0: start accepted
   double error = 0.0;     ///< largest violation of the conditions, relative (see solve_cone)
   std::size_t worst = 0;  ///< the row of W where that is
+};
+
+/// Factors that one call leaves to the next, which is alike: they save time and change nothing but rounding.
+struct ConeFactors {
+  cone::ActiveSystem active;
+  cone::NewtonSystem newton;
 };
 
 /// Finds r (r[i] is the force or impulse of row i of W in its frame; start values in, solution out) and w = W r + b so
@@ -43,6 +50,7 @@ struct ConeResult {
 /// at most `round_off`, and no longer falling: so forces can be had to round-off, wherever that is. The forces are
 /// always exact for a b that differs from the given one by the error.
 ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<const double> mu, std::vector<Vec3>& r,
-                      double tolerance = 1e-12, double accepted = 0.0, double round_off = 0.0);
+                      double tolerance = 1e-12, double accepted = 0.0, double round_off = 0.0,
+                      ConeFactors* factors = nullptr);
 
 }  // namespace carom

@@ -23,7 +23,10 @@ struct Delassus {
   std::vector<std::size_t> column;
   std::vector<FrameBlock> block;
 
+  std::vector<std::size_t> names;  ///< of the rows, the same in one W after the other; empty: the numbers
+
   std::size_t size() const { return rows.size(); }
+  std::size_t name(std::size_t i) const { return names.empty() ? rows[i] : names[i]; }
   /// w = W r
   void apply(std::span<const Vec3> r, std::span<Vec3> w) const;
 };

@@ -48,6 +48,7 @@ ExactPort::ExactPort(const System& system)
 void ExactPort::begin(const StageStart& start) {
   start_ = start;
   is_solved_ = false;
+  factors_ = {};
   const std::vector<RowHistory>& history = start.begin->contact;
   multiplier_.resize(history.size());
   compliance_of_.assign(history.size(), 0.0);
@@ -135,6 +136,8 @@ bool ExactPort::assemble(EffectiveSolver& solver, const std::shared_ptr<const Co
     for (std::size_t j = 0; j < n; ++j) W_.column.push_back(j);
     W_.begin.push_back(W_.column.size());
   }
+  W_.names.clear();
+  for (const std::size_t r : acting) W_.names.push_back(static_cast<std::size_t>(rows.slot[r]));
   W_.rows = std::move(acting);
   if (columns.converged) return true;
   W_ = {};
@@ -174,7 +177,8 @@ std::string ExactPort::solve_rows(const ContactResponse& response) {
   const bool is_held = start_.free == nullptr || start_.free->empty();
   const bool has_friction = std::any_of(mu.begin(), mu.end(), [](double m) { return m > 0.0; });
   const double wanted = !is_held ? (has_friction ? 1e-14 : 1e-16) : system_.contact.is_fixed() ? accepted : 1e-15;
-  const ConeResult result = solve_cone(W_, b, mu, force_, wanted, accepted);
+  const ConeResult result =
+      solve_cone(W_, b, mu, force_, std::max(wanted, looseness_), std::max(accepted, looseness_), 0.0, &factors_);
   if (result.converged) return {};
   if (std::isinf(result.error))
     return "a body gives way against its contact forces (its tangent is indefinite on the rows in contact, or its "
@@ -255,7 +259,9 @@ PortSolve ExactPort::solve(EffectiveSolver& solver, std::span<const double> x, s
   const bool acts = take_acting(response, z);
   if (!out.linear.converged || !acts) return out;
   const ContactResponse* at = &response;
+  const bool follows = rows_follow() && system_.solid.is_linear() && !system_.contact.is_fixed();
   for (bool is_done = false; !is_done;) {
+    looseness_ = follows ? 1e-4 : 0.0;
     out.failure = solve_surface(solver, *at, z, residual, absolute, out.linear, dy);
     if (!out.failure.empty()) return out;
     if (!by_nodes_) break;
@@ -333,7 +339,9 @@ const ContactResponse* ExactPort::follow_rows(EffectiveSolver& solver, const Con
     const std::vector<bool>& fixed = system_.supports.fixed();
     for (std::size_t i = 0; i < turn_.size(); ++i) turn_[i] = fixed[i] ? 0.0 : turn_[i] - base_[i] - load_[i];
     const double change = std::sqrt(dot(turn_, turn_));
-    if (change <= absolute || !(change < 0.1 * before)) break;
+    const bool is_last = change <= absolute || !(change < 0.1 * before) || n + 1 == most;
+    if (is_last && looseness_ == 0.0) break;
+    looseness_ = is_last ? 0.0 : 1e-3 * change / std::sqrt(dot(load_, load_));
     before = change;
     parallel_each(load_.size(), [&](std::size_t i) { load_[i] += turn_[i]; });
     if (next.rows->node != last->rows->node || next.rows->slot != last->rows->slot) forget_rows(next.rows);

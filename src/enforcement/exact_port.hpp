@@ -95,6 +95,8 @@ class ExactPort : public ContactPort {
   std::vector<bool> is_chosen_;
   Delassus W_;               ///< of those that may act
   std::vector<Vec3> force_;  ///< of the rows of W_, in their frames
+  ConeFactors factors_;      ///< of the systems of the stage
+  double looseness_ = 0.0;   ///< error of the forces that is small beside what the rows still have to turn
   ContactResponse followed_[2];
   std::vector<double> free_, moved_;
   std::vector<double> load_;  ///< what the forces have changed since the response

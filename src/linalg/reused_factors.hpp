@@ -1,0 +1,34 @@
+// Dense systems that come one after the other and are much alike: the factors of one serve the next.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "linalg/conjugate_gradients.hpp"
+#include "linalg/dense.hpp"
+
+namespace carom {
+
+/// Factors of a dense system whose unknowns have names (numbers). Other systems, over some of these unknowns
+/// and others, are solved by GMRES with them: k unknowns that came, went, or obey another equation cost about 2 k
+/// iterations of a few n^2 operations, a factorisation n^3.
+class ReusedFactors {
+ public:
+  /// Solves A x = b until |b - A x|_2 <= relative |b|_2 by the factors there are; false where there are none, or where
+  /// to make others is expected to cost less. Unknowns that the factors do not have are to have a diagonal near 1.
+  bool solve(std::span<const std::size_t> unknowns, const LinearOperator& A, std::span<const double> b,
+             std::span<double> x, double relative) const;
+  /// Makes the factors of the matrix a (row-major) and solves a x = b. False, and no factors, where it is singular.
+  bool factor(std::span<const std::size_t> unknowns, std::vector<double> a, std::span<const double> b,
+              std::span<double> x);
+  void forget() { factors_.reset(); }
+
+ private:
+  std::unordered_map<std::size_t, std::size_t> place_;  ///< of each unknown in the factors
+  std::optional<DenseLu> factors_;
+};
+
+}  // namespace carom

@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <random>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "linalg/reused_factors.hpp"
+
+namespace {
+
+using carom::ReusedFactors;
+
+/// Entries that follow from the unknowns' numbers, 1 on the diagonal, the others together below it.
+struct System {
+  std::vector<std::size_t> unknowns;
+  std::vector<double> matrix;
+
+  explicit System(std::vector<std::size_t> names) : unknowns(std::move(names)) {
+    const std::size_t n = unknowns.size();
+    for (const std::size_t i : unknowns)
+      for (const std::size_t j : unknowns)
+        matrix.push_back(i == j ? 1.0 : std::sin(static_cast<double>(3 * i + 7 * j)) / static_cast<double>(n));
+  }
+  std::size_t size() const { return unknowns.size(); }
+  void apply(std::span<const double> x, std::span<double> y) const {
+    for (std::size_t i = 0; i < size(); ++i)
+      y[i] = std::inner_product(x.begin(), x.end(), matrix.begin() + static_cast<std::ptrdiff_t>(i * size()), 0.0);
+  }
+  carom::LinearOperator function() const {
+    return [this](std::span<const double> x, std::span<double> y) { apply(x, y); };
+  }
+};
+
+std::vector<double> random_vector(std::size_t n) {
+  std::mt19937 random(5);
+  std::vector<double> x(n);
+  for (double& entry : x) entry = std::uniform_real_distribution<>(-1.0, 1.0)(random);
+  return x;
+}
+
+std::vector<std::size_t> names(std::size_t first, std::size_t count) {
+  std::vector<std::size_t> out(count);
+  std::iota(out.begin(), out.end(), first);
+  return out;
+}
+
+double residual(const System& s, const std::vector<double>& x, const std::vector<double>& b) {
+  std::vector<double> y(b.size());
+  s.apply(x, y);
+  double sum = 0.0, scale = 0.0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    sum += (y[i] - b[i]) * (y[i] - b[i]);
+    scale += b[i] * b[i];
+  }
+  return std::sqrt(sum / scale);
+}
+
+TEST(ReusedFactors, SolveSystemsWithOtherUnknownsInAnyOrder) {
+  const System first(names(0, 200));
+  std::vector<double> b = random_vector(200), x(200);
+  ReusedFactors factors;
+  ASSERT_TRUE(factors.factor(first.unknowns, first.matrix, b, x));
+  EXPECT_LT(residual(first, x, b), 1e-13);  // round-off
+
+  std::vector<std::size_t> others = names(4, 200);  // four have gone, four are new
+  std::swap(others.front(), others.back());
+  const System second(others);
+  for (const double wanted : {1e-6, 1e-12}) {
+    ASSERT_TRUE(factors.solve(second.unknowns, second.function(), b, x, wanted));
+    EXPECT_LE(residual(second, x, b), 1.01 * wanted);  // GMRES knows its residual to round-off
+  }
+}
+
+TEST(ReusedFactors, LeaveWhatIsTooDifferentToOthers) {
+  const System first(names(0, 200));
+  std::vector<double> b = random_vector(200), x(200);
+  ReusedFactors factors;
+  EXPECT_FALSE(factors.solve(first.unknowns, first.function(), b, x, 1e-6)) << "without factors";
+  ASSERT_TRUE(factors.factor(first.unknowns, first.matrix, b, x));
+  const System far(names(100, 200));
+  EXPECT_FALSE(factors.solve(far.unknowns, far.function(), b, x, 1e-6));
+  factors.forget();
+  EXPECT_FALSE(factors.solve(first.unknowns, first.function(), b, x, 1e-6)) << "forgotten";
+}
+
+TEST(ReusedFactors, AreNotThereForASingularMatrix) {
+  std::vector<double> b = random_vector(100), x(100);
+  ReusedFactors factors;
+  EXPECT_FALSE(factors.factor(names(0, 100), std::vector<double>(100 * 100, 1.0), b, x));
+  const System first(names(0, 100));
+  EXPECT_FALSE(factors.solve(first.unknowns, first.function(), b, x, 1e-6));
+}
+
+}  // namespace
