@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -19,16 +20,18 @@ namespace carom {
 
 namespace {
 
-/// The lower triangle by rows. CHOLMOD reads it as the upper triangle by columns (stype = 1).
+/// The lower triangle by rows. CHOLMOD reads it as the upper triangle by columns (stype = 1). Without values: a
+/// pattern.
 struct LowerTriangle {
   std::vector<SuiteSparse_long> begin, column;
   std::vector<double> value;
 
-  explicit LowerTriangle(const CsrMatrix& A);
   cholmod_sparse view();
 };
 
-LowerTriangle::LowerTriangle(const CsrMatrix& A) : begin(static_cast<std::size_t>(A.size) + 1, 0) {
+LowerTriangle lower_triangle(const CsrMatrix& A) {
+  LowerTriangle lower{std::vector<SuiteSparse_long>(static_cast<std::size_t>(A.size) + 1, 0), {}, {}};
+  auto& [begin, column, value] = lower;
   const std::size_t about_half = (A.value.size() + static_cast<std::size_t>(A.size)) / 2;
   column.reserve(about_half);
   value.reserve(about_half);
@@ -43,21 +46,38 @@ LowerTriangle::LowerTriangle(const CsrMatrix& A) : begin(static_cast<std::size_t
     }
     begin[row + 1] = static_cast<SuiteSparse_long>(value.size());
   }
+  return lower;
 }
 
 cholmod_sparse LowerTriangle::view() {
   cholmod_sparse view{};
   view.nrow = view.ncol = begin.size() - 1;
-  view.nzmax = value.size();
+  view.nzmax = column.size();
   view.p = begin.data();
   view.i = column.data();
   view.x = value.data();
   view.stype = 1;
   view.itype = CHOLMOD_LONG;
-  view.xtype = CHOLMOD_REAL;
+  view.xtype = value.empty() ? CHOLMOD_PATTERN : CHOLMOD_REAL;
   view.dtype = CHOLMOD_DOUBLE;
   view.sorted = view.packed = 1;
   return view;
+}
+
+/// Which nodes of three rows each share an entry.
+LowerTriangle by_nodes(std::span<const SuiteSparse_long> begin, std::span<const SuiteSparse_long> column) {
+  const std::size_t nodes = (begin.size() - 1) / 3;
+  LowerTriangle out{std::vector<SuiteSparse_long>(nodes + 1, 0), {}, {}};
+  std::vector<std::size_t> seen_by(nodes, nodes);
+  for (std::size_t node = 0; node < nodes; ++node) {
+    for (auto k = begin[3 * node]; k < begin[3 * node + 3]; ++k) {
+      const SuiteSparse_long other = column[static_cast<std::size_t>(k)] / 3;
+      if (std::exchange(seen_by[static_cast<std::size_t>(other)], node) != node) out.column.push_back(other);
+    }
+    std::sort(out.column.begin() + out.begin[node], out.column.end());
+    out.begin[node + 1] = static_cast<SuiteSparse_long>(out.column.size());
+  }
+  return out;
 }
 
 std::string reason(const cholmod_common& common) {
@@ -90,7 +110,10 @@ struct Cholesky::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  void factorize(cholmod_sparse& A);
+  std::vector<SuiteSparse_long> begin, column;  ///< of the lower triangle that L has been analysed for
+
+  void analyse(cholmod_sparse A);
+  void factorize(LowerTriangle lower);
   void number_pivots();
   void substitute(HalfPanel& panel, std::vector<std::size_t>& place) const;
 };
@@ -100,7 +123,6 @@ Cholesky::Impl::Impl() {
   common.print = 0;
   common.supernodal = CHOLMOD_SUPERNODAL;
   common.nmethods = 1;
-  common.method[0].ordering = CHOLMOD_METIS;
   common.postorder = 1;
   common.quick_return_if_not_posdef = 1;
 }
@@ -113,12 +135,37 @@ Cholesky::Impl::~Impl() {
   cholmod_l_finish(&common);
 }
 
-void Cholesky::Impl::factorize(cholmod_sparse& A) {
-  L = cholmod_l_analyze(&A, &common);
-  if (L == nullptr) throw std::runtime_error("Cholesky factorisation: ordering failed: " + reason(common));
+/// Orders and analyses A: where its rows come in threes, those of a node, nodes are ordered, by a graph of a ninth of
+/// the entries.
+void Cholesky::Impl::analyse(cholmod_sparse A) {
+  std::vector<SuiteSparse_long> order;
+  if (A.nrow % 3 == 0) {
+    LowerTriangle nodes = by_nodes(begin, column);
+    cholmod_sparse graph = nodes.view();
+    std::vector<SuiteSparse_long> order_of_nodes(graph.ncol);
+    if (cholmod_l_metis(&graph, nullptr, 0, 1, order_of_nodes.data(), &common) == 0)
+      throw std::runtime_error("Cholesky factorisation: ordering failed: " + reason(common));
+    for (const SuiteSparse_long node : order_of_nodes)
+      for (SuiteSparse_long d = 0; d < 3; ++d) order.push_back(3 * node + d);
+  }
+  common.method[0].ordering = order.empty() ? CHOLMOD_METIS : CHOLMOD_GIVEN;
+  L = cholmod_l_analyze_p(&A, order.empty() ? nullptr : order.data(), nullptr, 0, &common);
+  if (L == nullptr) throw std::runtime_error("Cholesky factorisation: analysis failed: " + reason(common));
+}
+
+void Cholesky::Impl::factorize(LowerTriangle lower) {
+  cholmod_sparse A = lower.view();
+  if (L == nullptr || lower.begin != begin || lower.column != column) {
+    cholmod_l_free_factor(&L, &common);
+    pivot_of.clear();
+    begin = lower.begin;
+    column = lower.column;
+    analyse(A);
+  }
   const bool done = cholmod_l_factorize(&A, L, &common) != 0;
   if (common.status == CHOLMOD_NOT_POSDEF || (done && L->minor < L->n)) {
     const SuiteSparse_long row = static_cast<const SuiteSparse_long*>(L->Perm)[L->minor];
+    cholmod_l_free_factor(&L, &common);
     throw NotPositiveDefinite(
         fmt::format("Cholesky factorisation: the matrix is not positive definite (pivot of row {})", row));
   }
@@ -167,11 +214,13 @@ void Cholesky::Impl::substitute(HalfPanel& panel, std::vector<std::size_t>& plac
 }
 
 Cholesky::Cholesky(const CsrMatrix& A) : impl_(std::make_unique<Impl>()) {
+  factorize(A);
+}
+
+void Cholesky::factorize(const CsrMatrix& A) {
   if (A.size == 0) return;
   openblas_set_num_threads(1);
-  LowerTriangle lower(A);
-  cholmod_sparse view = lower.view();
-  impl_->factorize(view);
+  impl_->factorize(lower_triangle(A));
 }
 
 Cholesky::~Cholesky() = default;

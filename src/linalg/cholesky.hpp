@@ -22,6 +22,8 @@ class Cholesky {
   /// Reads the lower triangle of A. Throws NotPositiveDefinite (names the 0-based row), std::runtime_error when an
   /// entry is not finite or when memory runs out.
   explicit Cholesky(const CsrMatrix& A);
+  /// Factors another matrix in the place of the last; ordering and analysis are made anew only for another pattern.
+  void factorize(const CsrMatrix& A);
   ~Cholesky();
   Cholesky(Cholesky&&) noexcept;
   Cholesky& operator=(Cholesky&&) noexcept;

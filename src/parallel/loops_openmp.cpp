@@ -7,6 +7,8 @@ namespace carom {
 int set_threads(int count) {
   omp_set_dynamic(0);
   omp_set_num_threads(count > 0 ? count : omp_get_num_procs());
+  // One thread is one thread for libraries too, which ask for their own number (CHOLMOD: four).
+  omp_set_max_active_levels(thread_count() > 1 ? 1 : 0);
   return thread_count();
 }
 

@@ -17,16 +17,21 @@ void TangentFactors::go_on(Index negative) {
 std::string TangentFactors::factorize(const CsrMatrix& A) {
   has_factors_ = false;
   singular_row_ = -1;
-  cholesky_.reset();  // before others are made: both at once may not fit
   try {
     if (method_ == Method::cholesky) {
       try {
-        cholesky_.emplace(A);
+        if (cholesky_)
+          cholesky_->factorize(A);
+        else
+          cholesky_.emplace(A);
       } catch (const NotPositiveDefinite&) {
         method_ = Method::ldlt;
       }
     }
-    if (method_ == Method::ldlt) ldlt_.factorize(A);
+    if (method_ == Method::ldlt) {
+      cholesky_.reset();  // both at once may not fit
+      ldlt_.factorize(A);
+    }
     if (method_ != first_ && negative_ < 0) negative_ = ldlt_.negative_eigenvalues();
   } catch (const SingularMatrix& e) {
     singular_row_ = e.row;

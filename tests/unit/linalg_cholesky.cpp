@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -113,6 +114,30 @@ TEST(Cholesky, NestedDissectionKeepsTheFactorSmall) {
   EXPECT_LT(factors.factor_entries(), 1.6e6);
   EXPECT_GT(factors.factor_entries(), static_cast<double>(A.value.size()) / 2);
   EXPECT_GE(factors.factor_bytes(), 8 * factors.factor_entries());
+}
+
+TEST(Cholesky, FactorsOtherMatricesInTheSamePlace) {
+  const CsrMatrix A = test::laplacian(9);  // 729 rows: ordered by threes
+  CsrMatrix stiffer = A, other = test::laplacian(10);
+  for (double& entry : stiffer.value) entry *= 4.0;
+  Cholesky factors(A);
+  for (const CsrMatrix* next :
+       std::initializer_list<const CsrMatrix*>{&stiffer, &other, &A}) {  // the same pattern, another one, and back
+    std::vector<double> x = test::random_vector(static_cast<std::size_t>(next->size), 17), anew = x;
+    factors.factorize(*next);
+    factors.solve(x);
+    Cholesky(*next).solve(anew);
+    EXPECT_EQ(x, anew);
+  }
+  // What cannot be factored leaves nothing behind that the next matrix would meet.
+  CsrMatrix indefinite = A;
+  for (double& entry : indefinite.value) entry = -entry;
+  EXPECT_THROW(factors.factorize(indefinite), NotPositiveDefinite);
+  std::vector<double> x = test::random_vector(729, 17), anew = x;
+  factors.factorize(A);
+  factors.solve(x);
+  Cholesky(A).solve(anew);
+  EXPECT_EQ(x, anew);
 }
 
 TEST(Cholesky, NamesTheRowOfAnIndefiniteMatrix) {
