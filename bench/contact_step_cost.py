@@ -144,7 +144,6 @@ MODELS = {
     "bar_friction": (BAR, "linear_elastic", 0.2, 1.0),
     "slide": (SLIDE, "linear_elastic", 0.0, 10.0),
     "slide_friction": (SLIDE, "linear_elastic", 0.2, 10.0),
-    "slide_friction": (SLIDE, "linear_elastic", 0.2, 10.0),
     "plane": (PLANE, "st_venant_kirchhoff", 0.0, 10.0),
     "plane_friction": (PLANE, "st_venant_kirchhoff", 0.2, 10.0),
 }

@@ -29,7 +29,7 @@ void run_parts(std::size_t count, LoopPart part, const void* body) {
     is_inside = threads > 1;
     for (std::size_t k = t * count / threads; k < (t + 1) * count / threads; ++k) part(body, k);
   };
-  if (threads == 1) {
+  if (threads <= 1) {
     for (std::size_t k = 0; k < count; ++k) part(body, k);
     return;
   }
