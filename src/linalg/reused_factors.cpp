@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
+
+#include "parallel/threads.hpp"
 
 namespace carom {
 
@@ -14,10 +15,6 @@ namespace {
 constexpr int most_iterations = 30;
 /// Unknowns below which a factorisation is cheaper than one iteration's overhead.
 constexpr std::size_t least_size = 64;
-
-double inner(std::span<const double> a, std::span<const double> b) {
-  return std::transform_reduce(a.begin(), a.end(), b.begin(), 0.0);
-}
 
 void add_multiple(std::span<double> y, double factor, std::span<const double> x) {
   for (std::size_t i = 0; i < y.size(); ++i) y[i] += factor * x[i];
@@ -30,7 +27,7 @@ template <class Precondition>
 bool gmres(const LinearOperator& A, const Precondition& precondition, std::span<const double> b, std::span<double> x,
            double relative, int most) {
   const std::size_t n = b.size();
-  const double start = std::sqrt(inner(b, b)), enough = relative * start;
+  const double start = std::sqrt(dot(b, b)), enough = relative * start;
   std::fill(x.begin(), x.end(), 0.0);
   if (start == 0.0) return true;
   std::vector<std::vector<double>> basis(1, {b.begin(), b.end()}), column;  // of the Krylov space, and of R
@@ -43,10 +40,10 @@ bool gmres(const LinearOperator& A, const Precondition& precondition, std::span<
     std::vector<double> w(n), h;
     A(z, w);
     for (const std::vector<double>& v : basis) {
-      h.push_back(inner(v, w));
+      h.push_back(dot(v, w));
       add_multiple(w, -h.back(), v);
     }
-    const double length = std::sqrt(inner(w, w));
+    const double length = std::sqrt(dot(w, w));
     for (std::size_t j = 0; j < cosine.size(); ++j) {
       const double turned = cosine[j] * h[j] + sine[j] * h[j + 1];
       h[j + 1] = cosine[j] * h[j + 1] - sine[j] * h[j];
@@ -61,7 +58,7 @@ bool gmres(const LinearOperator& A, const Precondition& precondition, std::span<
     g[g.size() - 2] *= cosine.back();
     column.push_back(std::move(h));
     residual = std::abs(g.back());
-    if (k >= most / 2 && residual > 0.1 * start) return false;
+    if (k >= most / 2 && residual > 0.1 * start) return false;  // not a digit: this is another system
     if (length > 0.0) {
       for (double& entry : w) entry /= length;
     }
