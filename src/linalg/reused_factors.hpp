@@ -12,9 +12,9 @@
 
 namespace carom {
 
-/// Factors of a dense system whose unknowns have names (numbers). Other systems, over some of these unknowns and others,
-/// are solved by GMRES with them: k unknowns that came, went, or obey another equation change the matrix by a rank of
-/// 2 k at most, and cost as many iterations of a few n^2 operations; a factorisation costs 2/3 n^3.
+/// Factors of a dense system whose unknowns have names (numbers). Other systems, over some of these unknowns and
+/// others, are solved by GMRES with them: k unknowns that came, went, or obey another equation change the matrix by a
+/// rank of 2 k at most, and cost as many iterations of a few n^2 operations; a factorisation costs 2/3 n^3.
 class ReusedFactors {
  public:
   /// Solves A x = b until |b - A x|_2 <= relative |b|_2 by the factors there are; false where there are none, or where
