@@ -333,7 +333,7 @@ const ContactResponse* ExactPort::follow_rows(EffectiveSolver& solver, const Con
   response.add_force(base_);
   double before = infinity;
   for (int n = 0; n < most; ++n) {
-    ContactResponse& next = followed_[static_cast<std::size_t>(n % 2)];
+    ContactResponse& next = followed_[last == &followed_[0] ? 1 : 0];  // `response` may be one of them
     moved_.resize(z.size());
     parallel_each(z.size(), [&](std::size_t i) { moved_[i] = z[i] + slope() * dy[i]; });
     respond(moved_, {}, next);

@@ -17,8 +17,9 @@ namespace carom {
 /// rank of 2 k at most, and cost as many iterations of a few n^2 operations; a factorisation costs 2/3 n^3.
 class ReusedFactors {
  public:
-  /// Solves A x = b until |b - A x|_2 <= relative |b|_2 by the factors there are; false where there are none, or where
-  /// to make others is expected to cost less. Unknowns that the factors do not have are to have a diagonal near 1.
+  /// Solves A x = b by the factors there are until |b - A x|_2 is about relative |b|_2, at most ten times that; false
+  /// where there are none, where they do not get there, or where to make others is expected to cost less. Unknowns that
+  /// the factors do not have are to have a diagonal near 1.
   bool solve(std::span<const std::size_t> unknowns, const LinearOperator& A, std::span<const double> b,
              std::span<double> x, double relative) const;
   /// Makes the factors of the matrix a (row-major) and solves a x = b. False, and no factors, where it is singular.

@@ -2,7 +2,7 @@
 """300 impacts of two bodies with default settings, drawn from a seed: every one must end good and be right.
 
     python3 impact_trial.py build/release/carom                 all, about an hour
-    python3 impact_trial.py build/release/carom --small         one in twenty of them, about a minute
+    python3 impact_trial.py build/release/carom --small         one in twenty of them and what once failed, half a minute
     python3 impact_trial.py build/release/carom --only 17,203   these alone; --keep DIR keeps decks and results
     python3 impact_trial.py build/release/carom --seed 31337    300 others
 
@@ -63,6 +63,7 @@ COMBINATIONS = [(scheme, enforcement) for schemes, enforcements in (
 EXPLICIT = {"central_differences", "hulbert_chung", "noh_bathe", "tchamwa_wielgosz", "cd_lagrange",
             "forward_increment", "modified_mass"}
 UNITS = {"SI": (1.0, 1.0), "mm-t-s": (1e3, 1e-3)}  # factors of length and mass; time is in seconds in both
+ONCE_WRONG = (41, 81, 139, 159)  # broken off by a crash, 159 slow too: redundant rows of exact contact that follow
 TIME_LIMIT = 120  # s of processor time
 DEPTH_LIMIT = 0.25
 
@@ -507,7 +508,7 @@ def line(r):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n\n")[0])
     parser.add_argument("carom", type=lambda path: str(pathlib.Path(path).resolve()))
-    parser.add_argument("--small", action="store_true", help="every twentieth variant")
+    parser.add_argument("--small", action="store_true", help="every twentieth variant, and those that once failed")
     parser.add_argument("--only", help="numbers of variants, or of impacts as i3, separated by commas")
     parser.add_argument("--keep", type=pathlib.Path, help="keep decks and results here")
     parser.add_argument("--jobs", type=int, default=1)
@@ -518,7 +519,7 @@ def main():
         wanted = given.only.split(",")
         chosen = [v for v in chosen if str(v.number) in wanted or f"i{v.impact.number}" in wanted]
     elif given.small:
-        chosen = chosen[::20]
+        chosen = [v for v in chosen if v.number % 20 == 0 or v.number in ONCE_WRONG]
     begin = time.monotonic()
     folder = given.keep or pathlib.Path(tempfile.mkdtemp())
     try:
