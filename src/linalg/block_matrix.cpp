@@ -10,14 +10,6 @@ namespace {
 
 constexpr std::size_t points_per_task = 512;
 
-/// Calls body(row, column, its nine entries) for all blocks.
-template <class Body>
-void for_each_block(const BlockMatrix& A, const Body& body) {
-  for (std::size_t n = 0; n < A.points(); ++n)
-    for (auto k = static_cast<std::size_t>(A.row_begin[n]); k < static_cast<std::size_t>(A.row_begin[n + 1]); ++k)
-      body(static_cast<Index>(n), A.column[k], A.value.data() + 9 * k);
-}
-
 template <class Scalar>
 void apply_blocks(const BlockMatrix& A, const Scalar* value, std::span<const double> x, std::span<double> y) {
   parallel_for(A.points(), points_per_task, [&](std::size_t begin, std::size_t end) {
@@ -46,9 +38,9 @@ BlockMatrix BlockMatrix::with_graph(const std::vector<std::vector<Index>>& neigh
   return A;
 }
 
-double* BlockMatrix::block(Index row, Index col) {
+std::ptrdiff_t BlockMatrix::place(Index row, Index col) const {
   const auto first = column.begin() + row_begin[at(row)], last = column.begin() + row_begin[at(row) + 1];
-  return value.data() + 9 * (std::lower_bound(first, last, col) - column.begin());
+  return std::lower_bound(first, last, col) - column.begin();
 }
 
 void BlockMatrix::apply(std::span<const double> x, std::span<double> y) const {
@@ -60,14 +52,15 @@ void BlockMatrix::apply(std::span<const double> x, std::span<double> y) const {
 
 void BlockMatrix::round_to_single() {
   single.assign(value.begin(), value.end());
-  value = {};
+  value = std::vector<double>();  // frees; = {} keeps the memory
 }
 
 std::vector<double> BlockMatrix::diagonal() const {
   std::vector<double> d(3 * points(), 0.0);
-  for_each_block(*this, [&](Index n, Index m, const double* a) {
-    for (std::size_t i = 0; i < 3 && n == m; ++i) d[3 * at(n) + i] = a[4 * i];
-  });
+  for (std::size_t n = 0; n < points(); ++n)
+    for (auto k = static_cast<std::size_t>(row_begin[n]); k < static_cast<std::size_t>(row_begin[n + 1]); ++k)
+      for (std::size_t i = 0; i < 3 && at(column[k]) == n; ++i)
+        d[3 * n + i] = single.empty() ? value[9 * k + 4 * i] : static_cast<double>(single[9 * k + 4 * i]);
   return d;
 }
 
@@ -171,10 +164,14 @@ void Interpolation::restrict_to(std::span<const double> r, std::span<double> R) 
   });
 }
 
-BlockMatrix galerkin(const BlockMatrix& A, const Interpolation& P) {
-  PointGraph graph(P.coarse_points());
-  for_each_block(A, [&](Index n, Index m, const double*) { graph.couple(P.coarse_of(at(n)), P.coarse_of(at(m))); });
-  BlockMatrix out = graph.matrix();
+void galerkin(const BlockMatrix& A, const Interpolation& P, BlockMatrix& out) {
+  if (out.column.empty()) {
+    PointGraph graph(P.coarse_points());
+    for_each_block(A, [&](Index n, Index m, const double*) { graph.couple(P.coarse_of(at(n)), P.coarse_of(at(m))); });
+    out = graph.matrix();
+  }
+  out.value.assign(9 * out.column.size(), 0.0);
+  out.single.clear();
   for_each_block(A, [&](Index n, Index m, const double* a) {
     const auto I = P.coarse_of(at(n)), J = P.coarse_of(at(m));
     const auto w = P.weights_of(at(n)), v = P.weights_of(at(m));
@@ -184,7 +181,6 @@ BlockMatrix galerkin(const BlockMatrix& A, const Interpolation& P) {
         for (std::size_t c = 0; c < 9; ++c) b[c] += w[p] * v[q] * a[c];
       }
   });
-  return out;
 }
 
 }  // namespace carom

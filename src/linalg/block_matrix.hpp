@@ -15,20 +15,25 @@ struct BlockMatrix {
   std::vector<std::int64_t> row_begin{0};  ///< points + 1 entries
   std::vector<Index> column;
   std::vector<double> value;  ///< entry (i, j) of block k at [9 k + 3 i + j]
-  std::vector<float> single;  ///< those of a matrix that is only applied (round_to_single), instead
+  std::vector<float> single;  ///< those of a matrix that is only applied, instead
 
   /// Of this graph, all zero; neighbours: those of each point, sorted.
   static BlockMatrix with_graph(const std::vector<std::vector<Index>>& neighbours);
 
   std::size_t points() const { return row_begin.size() - 1; }
   /// The block of a pair of neighbours.
-  double* block(Index row, Index col);
+  double* block(Index row, Index col) { return value.data() + 9 * place(row, col); }
+  /// The same of a matrix in single precision.
+  float* single_block(Index row, Index col) { return single.data() + 9 * place(row, col); }
   /// y = A x; threaded, same bits for any thread count.
   void apply(std::span<const double> x, std::span<double> y) const;
   /// Keeps the entries in single precision, half the memory to go through, for apply() and nothing else.
   void round_to_single();
   /// One entry per unknown.
   std::vector<double> diagonal() const;
+
+ private:
+  std::ptrdiff_t place(Index row, Index col) const;
 };
 
 /// The pairs of points that a sparse matrix couples.
@@ -81,7 +86,15 @@ class Interpolation {
   std::vector<double> weight_, to_weight_;
 };
 
-/// P^T A P (Galerkin).
-BlockMatrix galerkin(const BlockMatrix& A, const Interpolation& P);
+/// out = P^T A P (Galerkin). out: empty, or of an earlier call with the same graph of A, whose graph it keeps.
+void galerkin(const BlockMatrix& A, const Interpolation& P, BlockMatrix& out);
+
+/// Calls body(row, column, its nine entries) for all blocks of a matrix in double precision.
+template <class Body>
+void for_each_block(const BlockMatrix& A, const Body& body) {
+  for (std::size_t n = 0; n < A.points(); ++n)
+    for (auto k = static_cast<std::size_t>(A.row_begin[n]); k < static_cast<std::size_t>(A.row_begin[n + 1]); ++k)
+      body(static_cast<Index>(n), A.column[k], A.value.data() + 9 * k);
+}
 
 }  // namespace carom

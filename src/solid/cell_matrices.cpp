@@ -50,6 +50,17 @@ void batch_stiffness(const CellBatches& batch, const CellKernels& kernels, const
   apart.cells = static_cast<Index>(lanes);
   apart.new_history = nullptr;
   K.resize(lanes * dofs * dofs);
+  if (kernels.stiffness != nullptr) {
+    std::vector<double> packed(K.size());
+    kernels.stiffness(apart, law, at.data(), packed.data());
+    for (std::size_t r = 0; r < dofs; ++r)
+      for (std::size_t s = r; s < dofs; ++s)
+        for (std::size_t l = 0; l < lanes; ++l) {
+          const double value = packed[(dofs * r + s) * lanes + l];
+          K[(dofs * l + r) * dofs + s] = K[(dofs * l + s) * dofs + r] = value;
+        }
+    return;
+  }
   for (std::size_t s = 0; s < dofs; ++s) {
     const auto set_unit = [&](double value) {
       for (std::size_t l = 0; l < lanes; ++l) unit[3 * (s / 3 * lanes + l) + s % 3] = value;

@@ -23,8 +23,9 @@ using CellMass = NodeMatrix (*)(const CellNodes& x, double thickness, double rho
 CellMass cell_mass(CellKind kind);
 
 /// Stiffness matrices K_e(u) of the cells of one batch: entry (r, s) of lane l, row 3 a + i being component i of node
-/// a, at [(3 n l + r) 3 n + s]. Their columns are tangent actions on unit displacements; the lower triangle repeats the
-/// upper one where the law's tangent is symmetric. u: null at rest. K is made as large as it must be.
+/// a, at [(3 n l + r) 3 n + s]. Where the kernels have no stiffness of their own, columns are tangent actions on unit
+/// displacements. The lower triangle repeats the upper one where the law's tangent is symmetric. u: null at rest. K is
+/// made as large as it must be.
 void batch_stiffness(const CellBatches& batch, const CellKernels& kernels, const BatchLaw& law, bool is_symmetric,
                      const double* u, std::vector<double>& K);
 

@@ -166,6 +166,86 @@ static void add_tangent_action(const CellBatches& batches, const BatchLaw& law, 
       });
 }
 
+/// 8 dN_a/dxi_k at Gauss point p.
+static constexpr double parent_derivative(int p, int a, int k) {
+  const int way[3] = {((a + 1) >> 1) & 1, (a >> 1) & 1, a >> 2};  // of node a along xi, eta, zeta: 0 or 1
+  double value = way[k] != 0 ? 1.0 : -1.0;
+  for (int m = 0; m < 3; ++m)
+    if (m != k) value *= 1.0 + (way[m] == ((p >> m) & 1) ? 1.0 : -1.0) * hexa8::gauss_abscissa;
+  return value;
+}
+
+struct ParentTable {
+  double value[8][8][3];  ///< [point][node][direction]
+};
+static constexpr ParentTable make_parent_table() {
+  ParentTable table{};
+  for (int p = 0; p < 8; ++p)
+    for (int a = 0; a < 8; ++a)
+      for (int k = 0; k < 3; ++k) table.value[p][a][k] = parent_derivative(p, a, k);
+  return table;
+}
+
+/// K_ab = sum over points of w (B_a^T D B_b + (g_a . S g_b) 1), g_a = dN_a/dX, B_a the change of E by the motion of
+/// node a, D what the law answers to each component of E, w = det J (Belytschko et al., section 6.4).
+template <class Real>
+static void stiffness(const CellBatches& batch, const BatchLaw& law, const double* u, double* K) {
+  static constexpr ParentTable table = make_parent_table();
+  constexpr int n = lanes<Real>, dofs = 24;
+  constexpr int pair[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+  BatchState<Real> state;
+  PointValues<Real, 6> unit, answer[6];
+  evaluate(batch.x, batch.offset, law, u, state, false);
+  for (int c = 0; c < 6; ++c) {
+    for (int p = 0; p < 8; ++p)
+      for (int d = 0; d < 6; ++d) store(unit.value + (6 * p + d) * n, Real(Real{} + (c == d ? 1.0 : 0.0)));
+    law.tangent(law.parameters, {8, state.strain.data(), unit.data(), answer[c].data()});
+  }
+  for (int k = 0; k < dofs * dofs * n; ++k) K[k] = 0.0;
+  for (int p = 0; p < 8; ++p) {
+    Real F[3][3], S[6], D[6][6], g[8][3], B[8][6][3];
+    load_matrix(state.F, p, F);
+    load_voigt(state.stress, p, S);
+    for (int c = 0; c < 6; ++c) load_voigt(answer[c], p, D[c]);
+    const Real(&cofactor)[3][3] = state.geometry.cofactor[p];
+    const Real inverse = 1.0 / state.geometry.det[p], weight = state.geometry.det[p] * (1.0 / 512.0);
+    for (int a = 0; a < 8; ++a) {
+      const double* h = table.value[p][a];
+      for (int j = 0; j < 3; ++j)
+        g[a][j] = inverse * (h[0] * cofactor[0][j] + h[1] * cofactor[1][j] + h[2] * cofactor[2][j]);
+      for (int i = 0; i < 3; ++i)
+        for (int c = 0; c < 3; ++c) {
+          const int r = pair[c][0], s = pair[c][1];
+          B[a][c][i] = F[i][c] * g[a][c];
+          B[a][3 + c][i] = F[i][r] * g[a][s] + F[i][s] * g[a][r];
+        }
+    }
+    for (int b = 0; b < 8; ++b) {
+      Real DB[6][3], Sg[3];
+      for (int c = 0; c < 6; ++c)
+        for (int j = 0; j < 3; ++j) {
+          Real sum = D[0][c] * B[b][0][j];
+          for (int d = 1; d < 6; ++d) sum += D[d][c] * B[b][d][j];
+          DB[c][j] = weight * sum;
+        }
+      Sg[0] = weight * (S[0] * g[b][0] + S[3] * g[b][1] + S[5] * g[b][2]);
+      Sg[1] = weight * (S[3] * g[b][0] + S[1] * g[b][1] + S[4] * g[b][2]);
+      Sg[2] = weight * (S[5] * g[b][0] + S[4] * g[b][1] + S[2] * g[b][2]);
+      for (int a = 0; a <= b; ++a) {
+        const Real by_stress = g[a][0] * Sg[0] + g[a][1] * Sg[1] + g[a][2] * Sg[2];
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j) {
+            double* entry = K + (dofs * (3 * a + i) + 3 * b + j) * n;
+            Real sum = load<Real>(entry);
+            for (int c = 0; c < 6; ++c) sum += B[a][c][i] * DB[c][j];
+            if (i == j) sum += by_stress;
+            store(entry, sum);
+          }
+      }
+    }
+  }
+}
+
 /// P = F_mid S_alg, F_mid = (F_0 + F_1) / 2, S_alg by discrete_gradient_stress.
 template <class Real>
 static void add_discrete_gradient_force(const CellBatches& batches, const BatchLaw& law, const double* u_0,
@@ -224,7 +304,8 @@ static void mean_stress(const CellBatches& batches, const BatchLaw& law, const d
 
 template <class Real>
 static constexpr CellKernels kernels() {
-  return {add_internal_force<Real>, add_tangent_action<Real>, add_discrete_gradient_force<Real>, mean_stress<Real>};
+  return {add_internal_force<Real>, add_tangent_action<Real>, stiffness<Real>, add_discrete_gradient_force<Real>,
+          mean_stress<Real>};
 }
 
 }  // namespace carom::hexa8_finite

@@ -102,7 +102,8 @@ static void mean_stress(const CellBatches& batches, const BatchLaw& law, const d
 
 template <class Real>
 static constexpr CellKernels kernels() {
-  return {add_internal_force<Real>, add_tangent_action<Real>, add_discrete_gradient_force<Real>, mean_stress<Real>};
+  return {add_internal_force<Real>, add_tangent_action<Real>, nullptr, add_discrete_gradient_force<Real>,
+          mean_stress<Real>};
 }
 
 }  // namespace carom::hexa8_small

@@ -67,6 +67,9 @@ struct CellKernels {
   /// y += K(u) x of the cells.
   void (*add_tangent_action)(const CellBatches&, const BatchLaw&, const double* u, const double* x,
                              double* y) = nullptr;
+  /// K_e(u) of one batch, where it costs less than a tangent action for each of its columns; null elsewhere. Entry
+  /// (r, s) of lane l at [(3 n r + s) lanes + l], the upper triangle by blocks of nodes alone.
+  void (*stiffness)(const CellBatches&, const BatchLaw&, const double* u, double* K) = nullptr;
   /// f += energy-momentum force between u_0 and u_1 (Solid::discrete_gradient_force).
   void (*add_discrete_gradient_force)(const CellBatches&, const BatchLaw&, const double* u_0, const double* u_1,
                                       double* f) = nullptr;

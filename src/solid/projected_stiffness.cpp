@@ -10,89 +10,144 @@ namespace {
 /// What one cell adds: a block for each pair of the coarse points that its nodes are interpolated from.
 struct CellPart {
   std::vector<Index> points;
-  std::vector<double> blocks;  ///< [9 (points p + q) + 3 i + j]
+  std::vector<double> matrix;  ///< [3 (points) (3 p + i) + 3 q + j]
 };
 
-std::vector<Index> points_of(std::span<const Index> nodes, const Interpolation& P) {
-  std::vector<Index> points;
+/// An entry of P_e for one component: what a dof of the cell has of one of a coarse point.
+struct Weight {
+  std::size_t of = 0, row = 0;
+  double value = 0.0;
+};
+
+/// The parts of some cells of a chunk, and room to work in.
+struct Slice {
+  std::vector<CellPart> parts;
+  std::vector<double> K, PK, KP;
+  std::vector<Weight> weights;
+};
+
+void find_points(std::span<const Index> nodes, const Interpolation& P, std::vector<Index>& points) {
+  points.clear();
   for (const Index n : nodes)
     for (const Index I : P.coarse_of(at(n)))
       if (std::find(points.begin(), points.end(), I) == points.end()) points.push_back(I);
-  return points;
 }
 
-/// P_e^T K_e P_e, K_e being the stiffness matrix of a cell.
-CellPart project(std::span<const double> K, std::span<const Index> nodes, const Interpolation& P,
-                 std::span<const std::uint8_t> fixed) {
-  CellPart out{points_of(nodes, P), {}};
-  const std::size_t n = nodes.size(), m = out.points.size(), dofs = 3 * n;
-  std::vector<double> weight(n * m, 0.0), KP(9 * n * m, 0.0);
-  for (std::size_t a = 0; a < n; ++a) {
-    const auto coarse = P.coarse_of(at(nodes[a]));
-    const auto weights = P.weights_of(at(nodes[a]));
-    for (std::size_t k = 0; k < coarse.size(); ++k)
-      weight[a * m + at(std::find(out.points.begin(), out.points.end(), coarse[k]) - out.points.begin())] = weights[k];
+/// out = P_e^T A without fixed components: A has `columns` entries in each row.
+void restrict_rows(const double* __restrict A, std::size_t columns, const std::vector<Weight>& weights,
+                   double* __restrict out) {
+  for (const Weight& w : weights) {
+    double* __restrict to = out + w.row * columns;
+    const double* __restrict from = A + w.of * columns;
+    for (std::size_t s = 0; s < columns; ++s) to[s] += w.value * from[s];
   }
-  const auto is_fixed = [&](std::size_t a, std::size_t i) { return (fixed[at(nodes[a])] >> i & 1U) != 0; };
-  for (std::size_t b = 0; b < n; ++b)
-    for (std::size_t q = 0; q < m; ++q) {
-      const double w = weight[b * m + q];
-      if (w == 0.0) continue;
-      for (std::size_t a = 0; a < n; ++a)
-        for (std::size_t i = 0; i < 3; ++i)
-          for (std::size_t j = 0; j < 3; ++j)
-            if (!is_fixed(b, j)) KP[9 * (a * m + q) + 3 * i + j] += w * K[(3 * a + i) * dofs + 3 * b + j];
+}
+
+void transpose(const std::vector<double>& A, std::size_t rows, std::size_t columns, std::vector<double>& out) {
+  out.resize(A.size());
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t s = 0; s < columns; ++s) out[s * rows + r] = A[r * columns + s];
+}
+
+/// P_e^T K_e P_e, K_e being the stiffness matrix of a cell: P_e^T (P_e^T K_e^T)^T.
+void project(const double* K, std::span<const Index> nodes, const Interpolation& P, std::span<const std::uint8_t> fixed,
+             Slice& room, CellPart& out) {
+  find_points(nodes, P, out.points);
+  const std::size_t rows = 3 * out.points.size(), dofs = 3 * nodes.size();
+  room.weights.clear();
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    const auto coarse = P.coarse_of(at(nodes[a]));
+    for (std::size_t k = 0; k < coarse.size(); ++k) {
+      const std::size_t p = at(std::find(out.points.begin(), out.points.end(), coarse[k]) - out.points.begin());
+      for (std::size_t i = 0; i < 3; ++i)
+        if ((fixed[at(nodes[a])] >> i & 1U) == 0)
+          room.weights.push_back({3 * a + i, 3 * p + i, P.weights_of(at(nodes[a]))[k]});
     }
-  out.blocks.assign(9 * m * m, 0.0);
-  for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t p = 0; p < m; ++p) {
-      const double w = weight[a * m + p];
-      if (w == 0.0) continue;
-      for (std::size_t q = 0; q < m; ++q)
-        for (std::size_t i = 0; i < 3; ++i)
-          if (!is_fixed(a, i))
-            for (std::size_t j = 0; j < 3; ++j)
-              out.blocks[9 * (p * m + q) + 3 * i + j] += w * KP[9 * (a * m + q) + 3 * i + j];
+  }
+  room.PK.assign(rows * dofs, 0.0);
+  restrict_rows(K, dofs, room.weights, room.PK.data());
+  transpose(room.PK, rows, dofs, room.KP);
+  room.PK.assign(rows * rows, 0.0);
+  restrict_rows(room.KP.data(), rows, room.weights, room.PK.data());
+  transpose(room.PK, rows, rows, out.matrix);
+}
+
+void add_to_coarse(const CellPart& part, BlockMatrix& coarse) {
+  const std::size_t rows = 3 * part.points.size();
+  for (std::size_t p = 0; p < part.points.size(); ++p)
+    for (std::size_t q = 0; q < part.points.size(); ++q) {
+      double* sum = coarse.block(part.points[p], part.points[q]);
+      const double* from = part.matrix.data() + 3 * p * rows + 3 * q;
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) sum[3 * i + j] += from[i * rows + j];
     }
-  return out;
+}
+
+void add_to_fine(std::span<const double> K, std::span<const Index> nodes, BlockMatrix& fine) {
+  const std::size_t dofs = 3 * nodes.size();
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    for (std::size_t b = 0; b < nodes.size(); ++b) {
+      float* sum = fine.single_block(nodes[a], nodes[b]);
+      const double* from = K.data() + 3 * a * dofs + 3 * b;
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) sum[3 * i + j] += static_cast<float>(from[i * dofs + j]);
+    }
 }
 
 BlockMatrix coarse_graph(const SolidCells& solid, const Interpolation& P) {
   PointGraph graph(P.coarse_points());
-  for (std::size_t k = 0; k < solid.cells.size(); ++k) graph.couple(points_of(solid.nodes_of(k), P));
+  std::vector<Index> points;
+  for (std::size_t k = 0; k < solid.cells.size(); ++k) {
+    find_points(solid.nodes_of(k), P, points);
+    graph.couple(points);
+  }
   return graph.matrix();
 }
 
 }  // namespace
 
-BlockMatrix projected_stiffness(const SolidCells& solid, std::span<const double> u, const PointStep& step,
-                                const Interpolation& P, std::span<const std::uint8_t> fixed) {
-  BlockMatrix out = coarse_graph(solid, P);
-  constexpr std::size_t batches_at_once = 64;
-  std::vector<CellPart> parts;
-  for (const Block& block : solid.blocks) {
-    const std::size_t lanes = block.lanes(), cells = at(block.cells);
-    for (std::size_t begin = 0; begin < cells; begin += batches_at_once * lanes) {
-      const std::size_t end = std::min(cells, begin + batches_at_once * lanes);
-      parts.assign(end - begin, {});
-      parallel_for(end - begin, lanes, [&](std::size_t first, std::size_t last) {
-        std::vector<double> K;
-        batch_stiffness(solid.batches(block, static_cast<Index>(begin + first), static_cast<Index>(last - first), step),
-                        block.kernels, block.law(), block.is_symmetric, u.empty() ? nullptr : u.data(), K);
-        const std::size_t size = 9 * block.nodes() * block.nodes();
-        for (std::size_t l = 0; l < last - first; ++l)
-          parts[first + l] = project(std::span<const double>(K).subspan(size * l, size),
-                                     solid.nodes_of(at(block.first) + begin + first + l), P, fixed);
-      });
-      for (const CellPart& part : parts)
-        for (std::size_t p = 0; p < part.points.size(); ++p)
-          for (std::size_t q = 0; q < part.points.size(); ++q) {
-            double* sum = out.block(part.points[p], part.points[q]);
-            for (std::size_t c = 0; c < 9; ++c) sum[c] += part.blocks[9 * (p * part.points.size() + q) + c];
-          }
+// Chunks of a colour share no nodes, so that they add to the fine matrix at the same time; coarse points they may
+// share, so that their parts are added one after the other. A few of them at a time, slice by slice: parts take
+// kilobytes.
+void project_stiffness(const SolidCells& solid, std::span<const double> u, const PointStep& step,
+                       const Interpolation& P, std::span<const std::uint8_t> fixed, BlockMatrix& coarse,
+                       BlockMatrix* fine) {
+  constexpr std::size_t chunks_at_once = 16;
+  constexpr Index cells_at_once = 64;  // whole batches
+  if (coarse.column.empty()) coarse = coarse_graph(solid, P);
+  coarse.value.assign(9 * coarse.column.size(), 0.0);
+  coarse.single.clear();
+  if (fine != nullptr) fine->single.assign(9 * fine->column.size(), 0.0F);
+  std::vector<Slice> slices(chunks_at_once);
+  const auto take = [&](const Chunk& chunk, Index begin, Slice& slice) {
+    const Block& block = solid.blocks[at(chunk.block)];
+    const Index end = std::min(chunk.cells, begin + cells_at_once);
+    const auto lanes = static_cast<Index>(block.lanes());
+    slice.parts.resize(at(std::max<Index>(0, end - begin)));
+    for (Index first = begin; first < end; first += lanes) {
+      const Index count = std::min(lanes, end - first), cell = chunk.first + first;
+      batch_stiffness(solid.batches(block, cell, count, step), block.kernels, block.law(), block.is_symmetric,
+                      u.empty() ? nullptr : u.data(), slice.K);
+      const std::size_t size = 9 * block.nodes() * block.nodes();
+      for (std::size_t l = 0; l < at(count); ++l) {
+        const auto K = std::span<const double>(slice.K).subspan(size * l, size);
+        const auto nodes = solid.nodes_of(at(block.first + cell) + l);
+        project(K.data(), nodes, P, fixed, slice, slice.parts[at(first - begin) + l]);
+        if (fine != nullptr) add_to_fine(K, nodes, *fine);
+      }
     }
-  }
-  return out;
+  };
+  for (std::size_t colour = 0; colour + 1 < solid.colour_begin.size(); ++colour)
+    for (std::size_t c = solid.colour_begin[colour]; c < solid.colour_begin[colour + 1]; c += chunks_at_once) {
+      const std::size_t count = std::min(chunks_at_once, solid.colour_begin[colour + 1] - c);
+      Index longest = 0;
+      for (std::size_t k = 0; k < count; ++k) longest = std::max(longest, solid.chunks[c + k].cells);
+      for (Index begin = 0; begin < longest; begin += cells_at_once) {
+        parallel_for(count, 1, [&](std::size_t k, std::size_t) { take(solid.chunks[c + k], begin, slices[k]); });
+        for (std::size_t k = 0; k < count; ++k)
+          for (const CellPart& part : slices[k].parts) add_to_coarse(part, coarse);
+      }
+    }
 }
 
 }  // namespace carom

@@ -6,9 +6,13 @@
 
 namespace carom {
 
-/// P^T K(u) P summed over the cells, P^T K P = sum of P_e^T K_e P_e. fixed: bit c of a node's entry takes its component
-/// c out of P. `u` empty: at rest. Threaded, the same bits for any thread count.
-BlockMatrix projected_stiffness(const SolidCells& solid, std::span<const double> u, const PointStep& step,
-                                const Interpolation& P, std::span<const std::uint8_t> fixed);
+/// K(u), summed over the cells, on a coarse space and as it is, from one computation of the cells' matrices:
+///   coarse = P^T K P = sum of P_e^T K_e P_e, fixed: bit c of a node's entry takes its component c out of P;
+///   fine   = K in single precision, all components in it; null: not wanted, else it has the graph of the nodes.
+/// coarse: empty, or of an earlier call, whose graph it keeps. `u` empty: at rest. Threaded, the same bits for any
+/// thread count.
+void project_stiffness(const SolidCells& solid, std::span<const double> u, const PointStep& step,
+                       const Interpolation& P, std::span<const std::uint8_t> fixed, BlockMatrix& coarse,
+                       BlockMatrix* fine);
 
 }  // namespace carom

@@ -106,6 +106,18 @@ struct Solid::Impl {
     return nodes;
   }
 
+  /// What springs and turning bodies add to the tangent.
+  CsrMatrix tangent_of_ties(std::span<const double> u) const {
+    SolidCells no_cells;
+    no_cells.mesh = solid.mesh;
+    CsrMatrix graph = node_graph(no_cells, springs.all());
+    turning_bodies.add_rows(graph);
+    CsrMatrix ties = dof_graph(graph);
+    springs.add_tangent(ties);
+    turning_bodies.add_tangent(u, ties);
+    return ties;
+  }
+
   /// Calls add(node, mass) for the masses of points and rigid bodies.
   template <class Add>
   void for_each_body_mass(const Add& add) const {
@@ -356,23 +368,47 @@ CsrMatrix Solid::tangent(std::span<const double> u, const PointStep& step) const
   return K;
 }
 
-BlockMatrix Solid::projected_tangent(std::span<const double> u, const PointStep& step, const Interpolation& P,
-                                     std::span<const std::uint8_t> fixed) const {
-  BlockMatrix K = projected_stiffness(impl_->solid, u, step, P, fixed);
-  if (impl_->springs.empty() && impl_->turning_bodies.empty()) return K;
-  SolidCells no_cells;
-  no_cells.mesh = impl_->solid.mesh;
-  CsrMatrix graph = node_graph(no_cells, impl_->springs.all());
-  impl_->turning_bodies.add_rows(graph);
-  CsrMatrix ties = dof_graph(graph);
-  impl_->springs.add_tangent(ties);
-  impl_->turning_bodies.add_tangent(u, ties);
+void Solid::project_tangent(std::span<const double> u, const PointStep& step, const Interpolation& P,
+                            std::span<const std::uint8_t> fixed, BlockMatrix& coarse, BlockMatrix* fine) const {
+  if (fine != nullptr && fine->column.empty()) {
+    CsrMatrix graph = node_graph(impl_->solid, impl_->springs.all());
+    impl_->turning_bodies.add_rows(graph);
+    fine->row_begin = std::move(graph.row_begin);
+    fine->column = std::move(graph.column);
+  }
+  project_stiffness(impl_->solid, u, step, P, fixed, coarse, fine);
+  if (impl_->springs.empty() && impl_->turning_bodies.empty()) return;
+  CsrMatrix ties = impl_->tangent_of_ties(u);
+  if (fine != nullptr) {
+    const BlockMatrix blocks = by_points(ties);
+    for_each_block(blocks, [&](Index n, Index m, const double* block) {
+      float* sum = fine->single_block(n, m);
+      for (std::size_t c = 0; c < 9; ++c) sum[c] += static_cast<float>(block[c]);
+    });
+  }
   const auto is_fixed = [&](Index dof) { return (fixed[at(dof / 3)] >> (dof % 3) & 1U) != 0; };
   for (Index i = 0; i < ties.size; ++i)
     for (auto k = static_cast<std::size_t>(ties.row_begin[at(i)]);
          k < static_cast<std::size_t>(ties.row_begin[at(i) + 1]); ++k)
       if (is_fixed(i) || is_fixed(ties.column[k])) ties.value[k] = 0.0;
-  return sum(K, galerkin(by_points(ties), P));
+  BlockMatrix projected;
+  galerkin(by_points(ties), P, projected);
+  coarse = sum(coarse, projected);
+}
+
+double Solid::largest_change(std::span<const double> u_0, std::span<const double> u_1) const {
+  const auto of_cell = [&](std::size_t k) {
+    const auto nodes = nodes_of_cell(k);
+    const auto moved = [&](Index n, std::size_t c) { return u_1[3 * at(n) + c] - u_0[3 * at(n) + c]; };
+    double most = 0.0;
+    for (const Index n : nodes) {
+      double square = 0.0;
+      for (std::size_t c = 0; c < 3; ++c) square += std::pow(moved(n, c) - moved(nodes[0], c), 2);
+      most = std::max(most, square);
+    }
+    return std::sqrt(most) / impl_->lengths[k];
+  };
+  return parallel_max(cells().size(), impl_->turning_bodies.largest_change(u_0, u_1), of_cell);
 }
 
 std::vector<double> Solid::tangent_diagonal(std::span<const double> u, const PointStep& step) const {

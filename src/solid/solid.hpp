@@ -94,9 +94,14 @@ class Solid {
   void discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1, std::span<double> f) const;
   /// Assembled K(u), 3 nodes x 3 nodes.
   CsrMatrix tangent(std::span<const double> u, const PointStep& step = {}) const;
-  /// P^T K(u) P without the fixed components of nodes (solid/projected_stiffness.hpp).
-  BlockMatrix projected_tangent(std::span<const double> u, const PointStep& step, const Interpolation& P,
-                                std::span<const std::uint8_t> fixed) const;
+  /// P^T K(u) P without the fixed components of nodes, and K(u) itself in single precision unless null
+  /// (solid/projected_stiffness.hpp). Both: empty, or of an earlier call, whose graph they keep.
+  void project_tangent(std::span<const double> u, const PointStep& step, const Interpolation& P,
+                       std::span<const std::uint8_t> fixed, BlockMatrix& coarse, BlockMatrix* fine) const;
+  /// How far anything has strained or turned from u_0 to u_1, so that its tangent is another one: the largest over the
+  /// cells of |w_a - w_0| / length of their nodes, w = u_1 - u_0 (cell_lengths), and over the directors of turning
+  /// bodies of their change.
+  double largest_change(std::span<const double> u_0, std::span<const double> u_1) const;
   /// Diagonal of K(u).
   std::vector<double> tangent_diagonal(std::span<const double> u, const PointStep& step = {}) const;
   /// The strain energy of `evaluate` for points at rest before; allocates.

@@ -497,6 +497,7 @@ void wave_modulus(const CellBatches& cells, const BatchLaw& law, const double* u
   });
 }
 
-const CellKernels staged_kernels{add_internal_force, add_tangent_action, add_discrete_gradient_force, mean_stress};
+const CellKernels staged_kernels{add_internal_force, add_tangent_action, nullptr, add_discrete_gradient_force,
+                                 mean_stress};
 
 }  // namespace carom

@@ -175,6 +175,15 @@ std::vector<std::pair<Index, double>> TurningBodies::masses() const {
   return masses;
 }
 
+double TurningBodies::largest_change(std::span<const double> u_0, std::span<const double> u_1) const {
+  double most = 0.0;
+  for (const Body& body : bodies_) {
+    const BodyFrame from = frame(body, u_0), to = frame(body, u_1);
+    for (std::size_t i = 0; i < 3; ++i) most = std::max(most, norm(subtract(to.directors[i], from.directors[i])));
+  }
+  return most;
+}
+
 double TurningBodies::largest_strain(std::span<const double> u) const {
   double largest = 0.0;
   for (const Body& body : bodies_) largest = std::max(largest, body_strain(frame(body, u)));

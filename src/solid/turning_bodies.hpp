@@ -37,6 +37,8 @@ class TurningBodies {
   std::vector<std::pair<Index, double>> masses() const;
   /// Largest strain over the bodies; 0 without.
   double largest_strain(std::span<const double> u) const;
+  /// Largest change of a director between two displacements; 0 without.
+  double largest_change(std::span<const double> u_0, std::span<const double> u_1) const;
 
  private:
   using Matrix = std::array<Vec3, 3>;  ///< symmetric: S or k

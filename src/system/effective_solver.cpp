@@ -13,7 +13,6 @@
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
-#include "solid/smallest_cell.hpp"
 #include "system/multigrid.hpp"
 #include "system/row_compliance.hpp"
 #include "system/tangent_factors.hpp"
@@ -54,16 +53,14 @@ void subtract_contact(const ConstraintRows& rows, const std::vector<RowTangent>&
 /// Conjugate gradients on the whole operator, contact rows included; preconditioned by its diagonal, or by a V-cycle.
 class CgSolver final : public EffectiveSolver {
  public:
-  CgSolver(const System& system, bool is_multilevel)
-      : system_(system),
-        u_(system.solid.dof_count(), 0.0),
-        stiffness_diagonal_(system.solid.tangent_diagonal(u_)),
-        smallest_cell_(smallest_cell(system.solid)) {
-    if (!system.solid.is_linear()) diagonal_at_ = u_;
-    if (is_multilevel)
+  CgSolver(const System& system, bool is_multilevel) : system_(system), u_(system.solid.dof_count(), 0.0) {
+    if (is_multilevel) {
       grids_.emplace(system);
-    else
-      inverse_diagonal_.resize(u_.size());
+      return;
+    }
+    stiffness_diagonal_ = system.solid.tangent_diagonal(u_);
+    inverse_diagonal_.resize(u_.size());
+    if (!system.solid.is_linear()) diagonal_at_ = u_;
   }
 
   bool iterates() const override { return true; }
@@ -91,13 +88,15 @@ class CgSolver final : public EffectiveSolver {
     if (!is_linear) {
       u_.assign(u.begin(), u.end());
       step_ = step;
-      if (has_moved()) {
-        stiffness_diagonal_ = system_.solid.tangent_diagonal(u_, step_);
-        diagonal_at_ = u_;
-        are_grids_made_ = false;
-        if (grids_)
+      if (has_changed()) {
+        if (grids_) {
+          are_grids_made_ = false;
           grids_at_ = std::make_shared<const TangentPlace>(
               TangentPlace{step.dt, u_, {step.history.begin(), step.history.end()}});
+        } else {
+          stiffness_diagonal_ = system_.solid.tangent_diagonal(u_, step_);
+          diagonal_at_ = u_;
+        }
       }
     }
     if (grids_ && !are_grids_made_) make_grids();
@@ -138,15 +137,14 @@ class CgSolver final : public EffectiveSolver {
   }
 
  private:
-  /// True when a node has moved by a hundredth of the smallest cell since the diagonal was made, which costs as much as
-  /// some tens of iterations: before, no cell has turned or strained by more than a few hundredths, nor has its
-  /// diagonal changed by more, and nothing but the number of iterations hangs on it.
-  bool has_moved() const {
-    double most = 0.0;
-    for (std::size_t i = 0; i < u_.size(); i += 3)
-      most = std::max(
-          most, std::hypot(u_[i] - diagonal_at_[i], u_[i + 1] - diagonal_at_[i + 1], u_[i + 2] - diagonal_at_[i + 2]));
-    return !(most < 0.01 * smallest_cell_);
+  /// Whether the tangent is another one than what preconditions it: by how much, nothing but the number of iterations
+  /// hangs on. A diagonal costs as much as some tens of them; grids cost as much as ten, which a body that has turned
+  /// by half a radian needs more. A body that flies keeps both.
+  bool has_changed() const {
+    if (grids_ && !grids_at_) return true;
+    const std::vector<double>& before = grids_ ? grids_at_->u : diagonal_at_;
+    const double enough = grids_ ? 0.3 : 0.03;
+    return !(system_.solid.largest_change(before, u_) < enough);
   }
 
   LinearSolveReport iterate(std::span<const double> b, double relative, double absolute, std::span<double> x) {
@@ -210,14 +208,13 @@ class CgSolver final : public EffectiveSolver {
     const auto place =
         grids_at_ ? grids_at_
                   : std::make_shared<const TangentPlace>(TangentPlace{0.0, std::vector<double>(u_.size(), 0.0), {}});
-    grids_->make(m_, c_, place, stiffness_diagonal_, springs_);
+    grids_->make(m_, c_, place, springs_);
   }
 
   const System& system_;
   std::vector<double> u_, stiffness_diagonal_, inverse_diagonal_;
-  std::vector<double> diagonal_at_;  ///< of bodies that are not linear
-  PointStep step_;                   ///< that ends at u_
-  double smallest_cell_;
+  std::vector<double> diagonal_at_;             ///< of bodies that are not linear
+  PointStep step_;                              ///< that ends at u_
   std::shared_ptr<const ConstraintRows> rows_;  ///< of the solve under way
   std::vector<RowTangent> tangents_;
   double m_ = 1.0, c_ = 0.0;

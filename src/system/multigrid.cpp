@@ -110,25 +110,25 @@ std::vector<std::size_t> Multigrid::sizes() const {
   return out;
 }
 
-void Multigrid::make(double m, double c, std::shared_ptr<const TangentPlace> place, std::span<const double> diagonal,
+void Multigrid::make(double m, double c, std::shared_ptr<const TangentPlace> place,
                      const std::vector<DofSpring>& springs) {
   m_ = m;
   c_ = c;
   springs_ = springs;
   place_ = std::move(place);
+  make_first_grid();
   std::vector<double>& fine = levels_[0].diagonal;
-  fine.resize(diagonal.size());
-  for (std::size_t i = 0; i < fine.size(); ++i) fine[i] = m * masses_[i / 3] + c * diagonal[i];
+  fine.resize(diagonal_.size());
+  for (std::size_t i = 0; i < fine.size(); ++i) fine[i] = m * masses_[i / 3] + c * diagonal_[i];
   for (const DofSpring& spring : springs_) fine[spring.dof] += spring.stiffness;
   // Nothing resists a dof without a diagonal entry: any finite number serves it.
   const double most = *std::max_element(fine.begin(), fine.end());
   const std::vector<bool>& fixed = system_.supports.fixed();
   for (std::size_t i = 0; i < fine.size(); ++i) fine[i] = fixed[i] ? 0.0 : (fine[i] > 0.0 ? fine[i] : most);
-  make_first_grid();
   for (std::size_t l = 1; l < levels_.size(); ++l) {
     levels_[l].diagonal = levels_[l].A.diagonal();
     if (l + 1 == levels_.size()) break;
-    levels_[l + 1].A = galerkin(levels_[l].A, P_[l]);
+    galerkin(levels_[l].A, P_[l], levels_[l + 1].A);
     levels_[l].A.round_to_single();  // smoothing needs no more
   }
   D_.clear();
@@ -140,12 +140,16 @@ void Multigrid::make(double m, double c, std::shared_ptr<const TangentPlace> pla
   factor_last();
 }
 
-/// P^T A P from the finite elements.
+/// P^T A P from the finite elements, and what these keep.
 void Multigrid::make_first_grid() {
   const std::vector<std::uint8_t>& fixed = system_.supports.fixed_components();
-  BlockMatrix& A = levels_[1].A;
-  A = {};
-  A = system_.solid.projected_tangent(place_->u, step_to(*place_), P_[0], fixed);
+  const bool is_linear = system_.solid.is_linear();
+  BlockMatrix &A = levels_[1].A, &K = levels_[0].A;
+  system_.solid.project_tangent(place_->u, step_to(*place_), P_[0], fixed, A, is_linear ? nullptr : &K);
+  if (!is_linear)
+    diagonal_ = K.diagonal();
+  else if (diagonal_.empty())
+    diagonal_ = system_.solid.tangent_diagonal(place_->u);
   for (double& value : A.value) value *= c_;
   const auto add = [&](std::size_t n, std::size_t i, double value) {
     const auto coarse = P_[0].coarse_of(n);
@@ -160,7 +164,7 @@ void Multigrid::make_first_grid() {
   for (const DofSpring& spring : springs_) add(spring.dof / 3, spring.dof % 3, spring.stiffness);
 }
 
-/// By Lanczos iterations, with what these may lack.
+/// By Lanczos iterations: the residual bound makes up for what the value lacks.
 void Multigrid::make_top(std::size_t l) {
   Level& level = levels_[l];
   const std::vector<double>&D = level.diagonal, &inverse = level.inverse_diagonal;
@@ -171,9 +175,9 @@ void Multigrid::make_top(std::size_t l) {
                       [&](std::span<const double> x, std::span<double> y) {
                         parallel_each(x.size(), [&](std::size_t i) { y[i] = inverse[i] * x[i]; });
                       }};
-  constexpr double rough = 0.02, margin = 1.02;
+  constexpr double rough = 0.05;
   constexpr int most = 25;
-  level.top = margin * largest_eigenvalue(pencil, D.size(), rough, most).upper;
+  level.top = largest_eigenvalue(pencil, D.size(), rough, most).upper;
 }
 
 void Multigrid::make_diagonal(Level& level) const {
@@ -230,7 +234,10 @@ void Multigrid::factor_last() {
 
 /// (m M + c K) x on the finite elements, without fixed dofs.
 void Multigrid::apply_fine(std::span<const double> x, std::span<double> y) const {
-  system_.solid.tangent_action(place_->u, x, y, step_to(*place_));
+  if (system_.solid.is_linear())
+    system_.solid.tangent_action(place_->u, x, y, step_to(*place_));
+  else
+    levels_[0].A.apply(x, y);
   const std::vector<std::uint8_t>& all_fixed = system_.supports.fixed_components();
   constexpr std::size_t nodes_per_task = 512;
   parallel_for(masses_.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {

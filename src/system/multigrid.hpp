@@ -15,18 +15,19 @@ namespace carom {
 
 /// z = B r with B near to A^-1, A = m M + c K + G^T D G: one symmetric V-cycle (Briggs, Henson and McCormick, A
 /// Multigrid Tutorial, 2nd ed., chapters 3 and 10) over the finite elements and the grids of background_grids. M is
-/// lumped. The finite elements keep no matrix; the grids have Galerkin's, A_l+1 = P^T A_l P, the first one summed over
-/// the cells. Contact stands on every level as rows of its own, G_l+1 = G_l P, so that no matrix depends on it but the
-/// last, which is factored. Smoothing is by Chebyshev polynomials in D^-1 A (Adams, Brezina, Hu and Tuminaro, J.
-/// Comput. Phys. 188, 2003), D the diagonal, of contact as many times over as it has entries in a row: then rows do not
-/// raise the largest eigenvalue. B is symmetric and positive definite; it is the same for any thread count.
+/// lumped. Linear finite elements keep no matrix: their kernels are faster than one; others, whose tangents cost
+/// several times as much, keep K in single precision. The grids have Galerkin's, A_l+1 = P^T A_l P, the first one
+/// summed over the cells. Contact stands on every level as rows of its own, G_l+1 = G_l P, so that no matrix depends on
+/// it but the last, which is factored. Smoothing is by Chebyshev polynomials in D^-1 A (Adams, Brezina, Hu and
+/// Tuminaro, J. Comput. Phys. 188, 2003), D the diagonal, of contact as many times over as it has entries in a row:
+/// then rows do not raise the largest eigenvalue. B is symmetric and positive definite; it is the same for any thread
+/// count.
 class Multigrid {
  public:
   explicit Multigrid(const System& system);
 
-  /// A = m M + c K + springs between dofs and the ground, K being the tangent at `place`, and `diagonal` its own.
-  void make(double m, double c, std::shared_ptr<const TangentPlace> place, std::span<const double> diagonal,
-            const std::vector<DofSpring>& springs);
+  /// A = m M + c K + springs between dofs and the ground, K being the tangent at `place`.
+  void make(double m, double c, std::shared_ptr<const TangentPlace> place, const std::vector<DofSpring>& springs);
   /// What contact adds; `rows` is kept.
   void use(const std::shared_ptr<const ConstraintRows>& rows, const std::vector<RowTangent>& D);
   /// z = B r. r and z are zero on fixed dofs.
@@ -37,7 +38,7 @@ class Multigrid {
 
  private:
   struct Level {
-    BlockMatrix A;  ///< empty on the finite elements
+    BlockMatrix A;  ///< on the finite elements K alone, if that
     std::vector<double> diagonal, inverse_diagonal;
     double top = 0.0;                            ///< bound of the eigenvalues of D^-1 A
     std::shared_ptr<const ConstraintRows> rows;  ///< of contact, where D acts
@@ -55,6 +56,7 @@ class Multigrid {
 
   const System& system_;
   std::vector<double> masses_;    ///< of the nodes, lumped
+  std::vector<double> diagonal_;  ///< of K
   std::vector<Interpolation> P_;  ///< from level l + 1 to level l
   std::vector<Level> levels_;     ///< the finite elements first
   double m_ = 0.0, c_ = 0.0;

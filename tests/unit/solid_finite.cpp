@@ -75,6 +75,56 @@ TEST_P(EveryFiniteBody, AssembledTangentItsDiagonalAndItsActionAgree) {
 }
 
 // Work along the straight path from rest, by 20 Gauss points: the integrand is a polynomial of degree 3 or analytic.
+/// Every node between the same three coarse points, with weights of its own.
+Interpolation some_interpolation(std::size_t nodes) {
+  Interpolation P;
+  const auto weight = random_vector(3 * nodes, 22);
+  const std::vector<Index> coarse{0, 1, 2};
+  for (std::size_t n = 0; n < nodes; ++n) P.add_point(coarse, {weight.data() + 3 * n, 3});
+  P.finish(3);
+  return P;
+}
+
+// x . P^T K P y = (P x) . K (P y) without fixed components, of the coarse tangent to round-off, of the fine one to
+// single precision, 2^-24 of the entries; and both again into the graphs of a first call, at another place.
+TEST_P(EveryFiniteBody, CoarseAndRoughTangentsAreTheTangent) {
+  const Interpolation P = some_interpolation(solid_.dof_count() / 3);
+  std::vector<std::uint8_t> fixed(solid_.dof_count() / 3, 0);
+  fixed[0] = 5, fixed[2] = 2;
+  BlockMatrix coarse, rough;
+  for (const unsigned seed : {23U, 24U}) {
+    const auto u = displacement(seed), x = random_vector(9, seed + 1), y = random_vector(9, seed + 2);
+    solid_.project_tangent(u, step(), P, fixed, coarse, &rough);
+    std::vector<double> Px(u.size()), Py(u.size()), KPy(u.size()), rough_KPy(u.size()), coarse_y(9);
+    P.apply(x, Px);
+    P.apply(y, Py);
+    for (std::size_t i = 0; i < u.size(); ++i)
+      if ((fixed[i / 3] >> (i % 3) & 1U) != 0) Px[i] = Py[i] = 0.0;
+    const CsrMatrix K = solid_.tangent(u, step());
+    K.apply(Py, KPy);
+    coarse.apply(y, coarse_y);
+    rough.apply(Py, rough_KPy);
+    const double scale = static_cast<double>(u.size()) * largest(KPy);
+    EXPECT_NEAR(dot(x, coarse_y), dot(Px, KPy), 1e-13 * scale);
+    EXPECT_LT(largest_difference(rough_KPy, KPy), 1e-6 * std::max(1.0, largest(K.value)));
+    EXPECT_LT(largest_difference(rough.diagonal(), K.diagonal()), 1e-6 * largest(K.diagonal()));
+  }
+}
+
+// A cell that strains by e has nodes apart by e times its edges, which are at most a few of its lengths.
+TEST_P(EveryFiniteBody, ChangeIsOfShapeAndTurnAlone) {
+  const auto u = displacement(25);
+  auto moved = u;
+  for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += static_cast<double>(i % 3) - 0.7;
+  EXPECT_LT(solid_.largest_change(u, moved), 1e-13);
+  EXPECT_EQ(solid_.largest_change(u, u), 0.0);
+  for (const double e : {1e-3, 1e-1}) {
+    const auto strained = sum(e, affine(*model_.mesh, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}), u);
+    EXPECT_GE(solid_.largest_change(u, strained), 0.99 * e);
+    EXPECT_LT(solid_.largest_change(u, strained), 10.0 * e);
+  }
+}
+
 TEST_P(EveryFiniteBody, EnergyIsTheWorkOfTheForce) {
   if (remembers(GetParam())) return;  // the next test
   const auto u = displacement(6);
@@ -314,6 +364,7 @@ TEST_P(EveryIsaAndBody, KernelsEqualTheReference) {
   solid.tangent_action(u, v, y);
   reference.tangent_action(u, v, expected);
   EXPECT_LT(largest_difference(y, expected), round_off);
+  EXPECT_LT(largest_difference(solid.tangent(u).value, reference.tangent(u).value), round_off);
   if (remembers(of)) {
     expect_equal_second_steps(solid, reference, u, v);
   } else {
