@@ -11,6 +11,7 @@ namespace carom {
 namespace {
 
 constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr double drift = 64.0;  // of a displacement that is a sum over steps: rounding as a random walk of 4096
 
 /// A unit vector normal to n, from the axis least aligned with it.
 Vec3 any_tangent(const Vec3& n) {
@@ -76,7 +77,7 @@ double ConstraintRows::gap_rounding(std::size_t r, std::span<const double> x) co
 
 bool ConstraintRows::is_closed(std::size_t r, std::span<const double> x) const {
   const Vec3 w = relative(r, x);
-  return gap[r] + w[0] <= precision * (reach[r] + std::abs(gap[r]) + norm(w));
+  return gap[r] + w[0] <= drift * precision * (reach[r] + std::abs(gap[r]) + norm(w));
 }
 
 Vec3 ConstraintRows::to_space(std::size_t r, const Vec3& s) const {

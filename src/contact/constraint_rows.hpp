@@ -103,8 +103,9 @@ struct ConstraintRows {
   double rounding(std::size_t r, std::span<const double> x) const;
   /// The same of g_r(x), whose gap is a difference of lengths up to `reach`.
   double gap_rounding(std::size_t r, std::span<const double> x) const;
-  /// True when the gap is not above its own rounding: 16 units of round-off of reach, gap and displacement. A body
-  /// that rests or slides would else lift off for a step at every gap of 1e-17.
+  /// True when the gap is not above what rounding makes of it over some thousand steps: 1024 units of round-off of
+  /// reach, gap and displacement, 2e-13. A body that rests or slides would else lift off for a step at every gap of
+  /// 1e-17, and slip without friction.
   bool is_closed(std::size_t r, std::span<const double> x) const;
   /// Calls add(node, force on it) for G_r^T s, s being the row's force in its frame.
   template <class Add>

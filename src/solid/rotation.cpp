@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "element/kinematics.hpp"
 #include "math/vec3.hpp"
+#include "solid/batch_gradients.hpp"
 
 namespace carom {
 
@@ -35,6 +37,32 @@ double angle_between(const Vec3& a, const Vec3& b) {
   const double size = norm(a) * norm(b);
   if (!(size > 0.0) || !std::isfinite(size)) return std::numbers::pi;
   return std::atan2(norm(cross(a, b)), dot(a, b));
+}
+
+void follow_rotation(const BatchGradients& gradients, CellType type, int lanes, int count, Index first,
+                     Rotation& largest) {
+  double H[9 * most_lanes], square[most_lanes] = {}, skew[most_lanes] = {};
+  gradients.means(H);
+  for (int c = 0; c < 9; ++c)
+    for (int l = 0; l < lanes; ++l) square[l] += H[c * lanes + l] * H[c * lanes + l];
+  for (const auto& [c, d] : {std::pair{1, 3}, {2, 6}, {5, 7}})
+    for (int l = 0; l < lanes; ++l) {
+      const double twice = H[c * lanes + l] - H[d * lanes + l];
+      skew[l] += 0.5 * twice * twice;
+    }
+  double sine = std::sin(0.5 * largest.angle);
+  for (int l = 0; l < count; ++l) {
+    const double room = 1.0 - std::sqrt(square[l]), least = std::sqrt(8.0) * room * sine;
+    if (dimension(type) > 1 && room > 0.0 && skew[l] <= least * least) continue;
+    double A[3][3], F[3][3];
+    gradients.frame(l, A);
+    for (int c = 0; c < 9; ++c) F[c / 3][c % 3] = A[c / 3][c % 3] + H[c * lanes + l];
+    const double angle = dimension(type) > 1 ? rotation_angle(F)
+                                             : angle_between({A[0][0], A[1][0], A[2][0]}, {F[0][0], F[1][0], F[2][0]});
+    if (angle <= largest.angle) continue;
+    largest = {angle, first + l};
+    sine = std::sin(0.5 * angle);
+  }
 }
 
 }  // namespace carom

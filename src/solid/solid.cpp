@@ -16,7 +16,6 @@
 #include "solid/kernels.hpp"
 #include "solid/loads.hpp"
 #include "solid/projected_stiffness.hpp"
-#include "solid/rotation.hpp"
 #include "solid/springs.hpp"
 #include "solid/turning_bodies.hpp"
 
@@ -35,36 +34,6 @@ const KernelTable& kernels(Isa isa) {
       break;
   }
   return kernels_reference();
-}
-
-/// Takes note of the cell of a batch whose R in the mean F = R U has the largest angle, of bars that by which the axis
-/// turns, where it is larger than `largest`. first: position of the batch's first cell. F = 1 + H and 1 + sym H, whose
-/// R is 1, differ by W = skew H, so that 2 sqrt(2) sin(angle / 2) = |R - 1| <= |W| / (1 - |H|) in Frobenius' norm (Li,
-/// SIAM J. Matrix Anal. Appl. 16, 1995): hardly a cell needs a decomposition.
-void follow_rotation(const BatchGradients& gradients, CellType type, int lanes, int count, Index first,
-                     Rotation& largest) {
-  double H[9 * most_lanes], square[most_lanes] = {}, skew[most_lanes] = {};
-  gradients.means(H);
-  for (int c = 0; c < 9; ++c)
-    for (int l = 0; l < lanes; ++l) square[l] += H[c * lanes + l] * H[c * lanes + l];
-  for (const auto& [c, d] : {std::pair{1, 3}, {2, 6}, {5, 7}})
-    for (int l = 0; l < lanes; ++l) {
-      const double twice = H[c * lanes + l] - H[d * lanes + l];
-      skew[l] += 0.5 * twice * twice;
-    }
-  double sine = std::sin(0.5 * largest.angle);
-  for (int l = 0; l < count; ++l) {
-    const double room = 1.0 - std::sqrt(square[l]), least = std::sqrt(8.0) * room * sine;
-    if (dimension(type) > 1 && room > 0.0 && skew[l] <= least * least) continue;
-    double A[3][3], F[3][3];
-    gradients.frame(l, A);
-    for (int c = 0; c < 9; ++c) F[c / 3][c % 3] = A[c / 3][c % 3] + H[c * lanes + l];
-    const double angle = dimension(type) > 1 ? rotation_angle(F)
-                                             : angle_between({A[0][0], A[1][0], A[2][0]}, {F[0][0], F[1][0], F[2][0]});
-    if (angle <= largest.angle) continue;
-    largest = {angle, first + l};
-    sine = std::sin(0.5 * angle);
-  }
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "model/model.hpp"
 #include "solid/evaluation.hpp"
 #include "solid/mass.hpp"
+#include "solid/rotation.hpp"
 
 namespace carom {
 
@@ -26,12 +27,6 @@ Isa chosen_isa();
 std::string_view name(Isa isa);
 /// True when this processor has the instruction set.
 bool supported(Isa isa);
-
-/// A rotation angle (radian) and the cell that has it, a position in Solid::cells(); -1: no cell has been turned.
-struct Rotation {
-  double angle = 0.0;
-  Index cell = -1;
-};
 
 /// Bodies of the elements of solid/element_table.hpp. Dof 3 n + c is component c of node n whatever the cells; dof
 /// vectors have 3 x node_count entries. Plane cells have no forces and no stiffness in z, bars none across their axis
