@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "apps/report_commands.hpp"
 #include "base/errors.hpp"
 #include "base/terminal_text.hpp"
 #include "base/version.hpp"
@@ -80,6 +81,9 @@ struct Arguments {
   int jobs = 0;
   std::string part;
   carom::PathRequest path;
+  std::vector<std::string> folders;
+  std::string page;
+  int every = 2;
 };
 
 void stop_at_signals() {
@@ -161,6 +165,11 @@ ExitCode dispatch(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("resume")) return resume(arguments);
   if (app.got_subcommand("compare")) return compare(arguments);
   unblock_sigterm();  // nothing to be kept
+  if (app.got_subcommand("watch")) {
+    std::signal(SIGINT, request_stop);
+    return carom::watch_run(arguments.folder, arguments.every, stop_requested);
+  }
+  if (app.got_subcommand("report")) return carom::report_runs(arguments.folders, arguments.page);
   if (app.got_subcommand("check")) return check(arguments);
   if (app.got_subcommand("material")) return material(arguments);
   if (app.got_subcommand("mesh")) return mesh(arguments);
@@ -219,6 +228,19 @@ void add_material(CLI::App& app, Arguments& arguments) {
   command->add_option("--measured", arguments.path.measured,
                       "File of rows strain,stress (engineering strain, Cauchy stress) to lay over the curve");
   command->add_option("--out", arguments.folder, "Folder (default: out/<name of the case>_material)");
+}
+
+void add_report(CLI::App& app, Arguments& arguments) {
+  CLI::App* report_command = app.add_subcommand(
+      "report", "Write the report of a results folder again, or lay several over each other on one page");
+  report_command->add_option("folders", arguments.folders, "Results folders")->required();
+  report_command->add_option("--out", arguments.page,
+                             "File of the page (default: report.html in the folder, or out/comparison.html)");
+  CLI::App* watch_command =
+      app.add_subcommand("watch", "Follow a run that is going on, on a page that reads itself again");
+  watch_command->add_option("folder", arguments.folder, "Results folder")->required();
+  watch_command->add_option("--every", arguments.every, "Seconds between looks (default: 2)")
+      ->check(CLI::Range(1, 3600));
 }
 
 void print_error(const std::string& what) {
@@ -292,6 +314,7 @@ int main(int argc, char** argv) {
   check_command->add_option("case", arguments.case_file, "Case file (TOML)")->required();
   add_compare(app, arguments);
   add_material(app, arguments);
+  add_report(app, arguments);
   CLI::App* mesh_command = app.add_subcommand("mesh", "Describe a mesh file");
   mesh_command->add_option("file", arguments.mesh_file, "Mesh file (Gmsh 2.2 or 4.1, MED)")->required();
   app.add_subcommand("schema", "Print the JSON Schema of the case format");

@@ -28,13 +28,6 @@ double fraction_done(double t, double t_end) {
   return std::clamp(t / t_end, 0.0, 1.0);
 }
 
-std::string duration(double seconds) {
-  if (seconds < 59.5) return fmt::format("{:.0f} s", seconds);
-  const auto whole = static_cast<long>(std::lround(seconds));
-  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
-  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
-}
-
 /// Unicode eighths of a block; `width` columns, three bytes each.
 std::string bar(double fraction, int width) {
   const auto full = static_cast<int>(fraction * width);
@@ -47,7 +40,7 @@ std::string bar(double fraction, int width) {
 std::vector<std::string> entries(const ProgressUpdate& now, double t_end, double seconds_left) {
   const double fraction = fraction_done(now.t, t_end);
   std::vector<std::string> list{fmt::format("{:3.0f} %", std::floor(100.0 * fraction)), fmt::format("t {:.4g}", now.t)};
-  if (std::isfinite(seconds_left)) list.push_back("left " + duration(seconds_left));
+  if (std::isfinite(seconds_left)) list.push_back("left " + duration_text(seconds_left));
   list.push_back(fmt::format("step {}", now.step));
   list.push_back(fmt::format("dt {:.3g}", now.dt));
   if (now.iterations > 0) list.push_back(fmt::format("it {}", now.iterations));
@@ -62,6 +55,19 @@ void show(std::FILE* stream, const std::string& text) {
 }
 
 }  // namespace
+
+std::string duration_text(double seconds) {
+  if (seconds < 59.5) return fmt::format("{:.0f} s", seconds);
+  const auto whole = static_cast<long>(std::lround(seconds));
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+std::string progress_share(double t, double t_end, std::optional<double> seconds_left) {
+  std::string text = t_end > 0.0 ? fmt::format("{:.0f} % of the time", 100.0 * fraction_done(t, t_end)) : "";
+  if (seconds_left) text += fmt::format(", about {} left", duration_text(*seconds_left));
+  return text;
+}
 
 std::string progress_line(const ProgressUpdate& now, double t_end, double seconds_left, int width) {
   constexpr int kShortestBar = 8, kLongestBar = 30;

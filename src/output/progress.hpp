@@ -54,6 +54,12 @@ class Progress {
   bool live_shown_ = false;  ///< a live line stands on the terminal
 };
 
+/// A span of the clock, e.g. "50 s", "12 min 05 s", "3 h 24 min".
+std::string duration_text(double seconds);
+
+/// "43 % of the time, about 50 s left", as far as end (0: not known) and the rest are known.
+std::string progress_share(double t, double t_end, std::optional<double> seconds_left);
+
 /// The text of one progress line, at most `width` columns: bar, percentage, t, step, dt, iterations, energy error, time
 /// left (where it is finite). What does not fit is left out from the right, the bar shrinks first.
 std::string progress_line(const ProgressUpdate& now, double t_end, double seconds_left, int width);

@@ -18,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 10> kFiles{"probes_filtered.csv", "summary.json", "energy.csv", "contact.csv",
+constexpr std::array<std::string_view, 11> kFiles{"probes_filtered.csv", "summary.json", "energy.csv", "contact.csv",
                                                   "probes.csv",          "exact.csv",    "fields.pvd", "mesh.txt",
-                                                  resolved_case_file,    "report.html"};
+                                                  resolved_case_file,    "report.html",  "watch.html"};
 
 /// The digits of a name such as step_000010.vtu; "" where it has not this form.
 std::string_view digits_of(std::string_view name, std::string_view begin, std::string_view end) {
@@ -86,7 +86,7 @@ void prepare_results_folder(const std::string& path) {
 
 void continue_results_folder(const std::string& path, const std::vector<std::string>& frames) {
   const fs::path folder(path);
-  for (const char* name : {"probes_filtered.csv", "summary.json", "report.html"}) {
+  for (const char* name : {"probes_filtered.csv", "summary.json", "report.html", "watch.html"}) {
     remove_file(folder / name);
     remove_file(folder / (std::string(name) + ".tmp"));
   }

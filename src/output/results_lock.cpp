@@ -24,6 +24,14 @@ ResultsLock::ResultsLock(const std::string& folder) {
   throw OutputError(folder, "another run is writing there; wait for its end, or choose another folder with --out");
 }
 
+bool is_held(const std::string& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool is_held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return is_held;
+}
+
 ResultsLock::~ResultsLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }

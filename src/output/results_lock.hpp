@@ -19,4 +19,7 @@ class ResultsLock {
   int descriptor_ = -1;
 };
 
+/// Does a process hold the folder? False where that cannot be told.
+bool is_held(const std::string& folder);
+
 }  // namespace carom

@@ -90,4 +90,12 @@ std::string unit_of_column(const Units& units, std::string_view column) {
   return {};
 }
 
+std::string unit_of_field(const Units& units, std::string_view field) {
+  if (field == "von_mises" || field == "contact_pressure") return units.stress;
+  if (field == "contact_force") return units.force;
+  if (field == "contact_gap") return units.length;
+  if (field == "temperature_rise") return "K";
+  return unit_of_column(units, field);
+}
+
 }  // namespace carom

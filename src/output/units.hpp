@@ -32,4 +32,7 @@ ColumnName parse_column(std::string_view column);
 /// numbers without a unit.
 std::string unit_of_column(const Units& units, std::string_view column);
 
+/// Unit of a field of the frames by its name, e.g. "N" for "contact_force" in SI; "" for numbers without a unit.
+std::string unit_of_field(const Units& units, std::string_view field);
+
 }  // namespace carom

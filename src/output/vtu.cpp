@@ -29,6 +29,9 @@ constexpr std::string_view vtk_type(float) {
 constexpr std::string_view vtk_type(Index) {
   return "Int32";
 }
+constexpr std::string_view vtk_type(std::int64_t) {
+  return "Int64";
+}
 constexpr std::string_view vtk_type(std::uint8_t) {
   return "UInt8";
 }

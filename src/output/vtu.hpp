@@ -17,7 +17,9 @@ namespace carom {
 struct VtuField {
   std::string name;
   int components = 1;
-  std::variant<std::vector<double>, std::vector<float>, std::vector<Index>, std::vector<std::uint8_t>> values;
+  std::variant<std::vector<double>, std::vector<float>, std::vector<Index>, std::vector<std::int64_t>,
+               std::vector<std::uint8_t>>
+      values;
 };
 
 /// Cells in any order: the points of each in VTK's order (vtk_cell_type), one after the other, and per cell where they

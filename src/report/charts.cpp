@@ -11,9 +11,9 @@
 #include <string_view>
 
 #include "energy/energy_terms.hpp"
+#include "output/readable_unit.hpp"
 #include "report/decimate.hpp"
 #include "report/html.hpp"
-#include "report/readable_unit.hpp"
 
 namespace carom {
 

@@ -2,15 +2,10 @@
 (function () {
   "use strict";
   const data = JSON.parse(document.getElementById("charts").textContent);
-  const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const { css, short } = carom;
 
   function axisTitle(name, unit) {
     return unit === "" ? name : name + " [" + unit + "]";
-  }
-
-  // A number in the readable unit of its axis.
-  function short(value, power) {
-    return value === null || value === undefined ? "" : String(Number((value / Math.pow(10, power)).toPrecision(7)));
   }
 
   // Values of one curve at the times of all curves, straight between its own points as the line is drawn.
@@ -107,8 +102,23 @@
     context.restore();
   }
 
-  function draw(element) {
-    const chart = data.charts[Number(element.dataset.chart)];
+  // The line of the instant that is shown, over the picture.
+  function makeCursor(element, graph) {
+    const line = document.createElement("i");
+    line.className = "cursor";
+    element.append(line);
+    return () => {
+      const [from, to] = graph.xAxisRange();
+      line.hidden = carom.t === null || carom.t < from || carom.t > to;
+      if (line.hidden) return;
+      const area = graph.getArea();
+      line.style.cssText = `left: ${graph.toDomXCoord(carom.t)}px; top: ${area.y}px; height: ${area.h}px`;
+    };
+  }
+
+  // Draws a chart; what is returned takes it away again.
+  function draw(element, chart) {
+    let placeCursor = null;
     const isCrowded = chart.curves.length > 5;
     const legend = makeLegend(element.parentElement.querySelector(".legend"), chart);
     const power = chart.power;
@@ -134,7 +144,9 @@
       underlayCallback: drawMarks,
       highlightCallback: (event, x, points, row) => show(x, content[row]),
       unhighlightCallback: () => show(null, null),
+      clickCallback: (event, t) => carom.show(t),
       drawCallback: (g, first) => {
+        if (placeCursor) placeCursor();
         if (!first) follow(g, g.isZoomed("x") ? g.xAxisRange() : null);
       },
       ...theme(chart),
@@ -147,8 +159,21 @@
         graph.setVisibility(l.k, on);
       });
     }
-    drawn.push({ graph, chart, legend });
-    paint(drawn[drawn.length - 1]);
+    const own = { graph, chart, legend };
+    drawn.push(own);
+    paint(own);
+    const caption = element.parentElement.querySelector("figcaption"), title = caption.firstChild.textContent.trim();
+    carom.addExports(caption, () => ({
+      title, chart, graph, rows: content, colours: colours(chart).map((c, k) => (chart.curves[k].kind === "exact" ? "#333" : c)), time: { unit: data.time_unit, power: data.time_power },
+      shown: chart.curves.map((_, k) => k).filter((k) => graph.visibility()[k]),
+    }));
+    placeCursor = makeCursor(element, graph);
+    own.placeCursor = placeCursor;
+    placeCursor();
+    return () => {
+      drawn.splice(drawn.indexOf(own), 1);
+      graph.destroy();
+    };
   }
 
   function theme(chart) {
@@ -169,7 +194,11 @@
     syncing = false;
   }
 
-  for (const element of document.querySelectorAll("[data-chart]")) draw(element);
+  for (const element of document.querySelectorAll("[data-chart]")) draw(element, data.charts[Number(element.dataset.chart)]);
+  carom.drawChart = draw;
+  carom.follow(() => {
+    for (const d of drawn) d.placeCursor();
+  });
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
   // A canvas cannot be drawn again while the page is printed: the style turns dark ones light (page.css).
   const mark = () => document.documentElement.classList.toggle("drawn-dark", dark.matches);

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string_view>
+#include <utility>
 
+#include "output/readable_unit.hpp"
 #include "report/charts.hpp"
 #include "report/html.hpp"
-#include "report/readable_unit.hpp"
 
 namespace carom {
 
@@ -142,7 +145,86 @@ void add_stress(const Summary& summary, const Units& units, std::vector<KeyFigur
                                  time_text(stress.time, units), stress.instants)});
 }
 
+/// Columns of a table that are components of one quantity at one place.
+struct Quantity {
+  std::string place, name;
+  std::vector<std::size_t> columns;
+};
+
+std::vector<Quantity> quantities_of(const CsvTable& table) {
+  std::vector<Quantity> found;
+  for (std::size_t c = 1; c < table.columns.size(); ++c) {
+    const ColumnName column = parse_column(table.columns[c]);
+    const auto same = std::find_if(found.begin(), found.end(), [&](const Quantity& q) {
+      return q.place == column.place && q.name == column.quantity;
+    });
+    if (same != found.end())
+      same->columns.push_back(c);
+    else
+      found.push_back({std::string(column.place), std::string(column.quantity), {c}});
+  }
+  return found;
+}
+
+/// The largest magnitude in the rows and what it is: the length of a vector, the component of a tensor that is largest.
+std::pair<double, LargestValue> largest_value(const Quantity& quantity, const CsvTable& table, const Units& units) {
+  const bool is_vector = quantity.columns.size() <= 3;
+  double largest = 0.0;
+  std::size_t at = 0, component = quantity.columns.front();
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    double squares = 0.0;
+    for (const std::size_t c : quantity.columns) {
+      const double value = std::abs(table.values[c][row]);
+      squares += value * value;
+      if (is_vector || !(value > largest)) continue;
+      largest = value, at = row, component = c;
+    }
+    if (!is_vector || !(std::sqrt(squares) > largest)) continue;
+    largest = std::sqrt(squares), at = row;
+  }
+  std::string name = quantity.name;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  const std::string_view axes = parse_column(table.columns[component]).component;
+  if (!is_vector || quantity.columns.size() == 1) name += axes.empty() ? "" : fmt::format(" {}", axes);
+  const std::string unit = unit_of_column(units, table.columns[component]);
+  return {largest, LargestValue{name, with_readable_unit(largest, unit, 4), time_text(table.values.front()[at], units),
+                                quantity.place}};
+}
+
 }  // namespace
+
+std::vector<LargestValue> largest_values(const Tables& tables, const std::optional<Summary>& summary,
+                                         const Units& units) {
+  std::vector<LargestValue> all;
+  const auto add = [&](const std::optional<CsvTable>& table, const auto& is_wanted) {
+    if (!table || table->rows() == 0) return;
+    std::map<std::string, double> of_kind;
+    std::vector<std::pair<double, LargestValue>> found;
+    std::vector<std::string> kinds;
+    for (const Quantity& quantity : quantities_of(*table)) {
+      if (!is_wanted(quantity.name)) continue;
+      found.push_back(largest_value(quantity, *table, units));
+      kinds.push_back(quantity.name);
+      of_kind[quantity.name] = std::max(of_kind[quantity.name], found.back().first);
+    }
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (found[i].first > kNegligible * of_kind[kinds[i]]) all.push_back(std::move(found[i].second));
+  };
+  add(tables.contact, [](std::string_view name) { return name == "force" || name == "penetration"; });
+  add(tables.probes, [](std::string_view) { return true; });
+  if (!summary) return all;
+  for (LargestValue& value : all)
+    for (const ProbeSummary& probe : summary->probes)
+      if (probe.name == value.where)
+        value.where = fmt::format("{}: {} at {}", probe.name, probe.place,
+                                  place_text(probe.position, summary->mesh.reach, units.length));
+  const StressSummary& stress = summary->stress;
+  if (stress.instants > 0 && stress.value > 0.0)
+    all.push_back({"von Mises stress", with_readable_unit(stress.value, units.stress, 4), time_text(stress.time, units),
+                   fmt::format("{}: cell {} at {}", stress.part, stress.cell,
+                               place_text(stress.position, summary->mesh.reach, units.length))});
+  return all;
+}
 
 std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units) {
   std::vector<KeyFigure> figures;

@@ -21,4 +21,14 @@ struct KeyFigure {
 /// largest four.
 std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units);
 
+/// The largest magnitude of something over the run.
+struct LargestValue {
+  std::string quantity, value, time, where;
+};
+
+/// Of every contact the largest force and penetration, of every probe the largest of each of its quantities (of a
+/// tensor that of its components), and the largest stress of all.
+std::vector<LargestValue> largest_values(const Tables& tables, const std::optional<Summary>& summary,
+                                         const Units& units);
+
 }  // namespace carom

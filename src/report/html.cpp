@@ -6,12 +6,9 @@
 
 #include "output/xml.hpp"
 #include "report/assets.hpp"
+#include "view/packed_arrays.hpp"
 
 namespace carom {
-
-std::string number_text(double value, int digits) {
-  return std::isnan(value) ? "–" : fmt::format("{:.{}g}", value, digits);
-}
 
 std::string place_text(const Vec3& x, double reach, const std::string& unit) {
   constexpr double rounding = 1e-9;
@@ -90,18 +87,57 @@ std::string chart_figures(const std::vector<Chart>& charts) {
          "and largest value in each of 1000 intervals of time; the .csv files hold every row.</p>\n";
 }
 
-std::string html_document(std::string_view title, const std::string& content, const ChartData& data) {
+std::string view_sections(const std::vector<PageView>& views) {
+  if (views.empty()) return "";
+  std::string html = "<div class=\"views\">\n";
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    html += fmt::format("<section class=\"view\" data-view=\"view-{}\">\n<h2>{}</h2>\n</section>\n", v,
+                        xml_escape(views[v].title));
+  }
+  html += "</div>\n";
+  for (const PageView& v : views) html += fmt::format("<p class=\"note\">{}</p>\n", xml_escape(v.view.note));
+  return html;
+}
+
+namespace {
+
+/// The libraries of views, deflated: view_data.js runs them.
+std::string view_libraries() {
+  const auto element = [](std::string_view id, std::string_view library) {
+    return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, base64_deflated(library));
+  };
+  return element("three-js", assets::three_js) + element("orbit-js", assets::orbit_js);
+}
+
+}  // namespace
+
+std::size_t view_library_bytes() {
+  return view_libraries().size();
+}
+
+std::string html_document(std::string_view title, const std::string& content, const ChartData& data,
+                          const std::vector<PageView>& views, int refresh) {
   std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{}"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{} · Carom</title>\n"
       "<link rel=\"icon\" href=\"data:,\">\n<style>{}\n{}</style>\n</head>\n<body>\n<main>\n",
-      xml_escape(title), assets::dygraph_css, assets::page_css);
+      refresh > 0 ? fmt::format("<meta http-equiv=\"refresh\" content=\"{}\">\n", refresh) : "", xml_escape(title),
+      assets::dygraph_css, assets::page_css);
   html += content;
   html += fmt::format("</main>\n<script type=\"application/json\" id=\"charts\">{}</script>\n", charts_json(data));
-  html += fmt::format("<script>{}</script>\n<script>{}</script>\n</body>\n</html>\n", assets::dygraph_js,
-                      assets::curves_js);
-  return html;
+  const auto run = [&html](std::string_view script) { html += fmt::format("<script>{}</script>\n", script); };
+  for (const std::string_view script : {assets::cursor_js, assets::dygraph_js, assets::export_js, assets::curves_js})
+    run(script);
+  if (!views.empty()) {
+    html += view_libraries();
+    for (std::size_t v = 0; v < views.size(); ++v)
+      html += fmt::format("<script type=\"application/json\" id=\"view-{}\">{}</script>\n", v, views[v].view.json);
+    for (const std::string_view script :
+         {assets::view_data_js, assets::view_field_js, assets::view_model_js, assets::view_still_js, assets::view_js})
+      run(script);
+  }
+  return html + "</body>\n</html>\n";
 }
 
 }  // namespace carom

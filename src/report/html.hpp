@@ -6,16 +6,21 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "output/readable_unit.hpp"
 #include "output/units.hpp"
 #include "report/charts.hpp"
+#include "view/view.hpp"
 
 namespace carom {
 
-/// The number with so many digits, or a dash for NaN.
-std::string number_text(double value, int digits);
-
 /// "(0, 12.5, 3) mm": a place, without the round-off of coordinates, which is relative to `reach`.
 std::string place_text(const Vec3& x, double reach, const std::string& unit);
+
+/// A three-dimensional view under a title of its own.
+struct PageView {
+  std::string title;
+  View view;
+};
 
 /// One cell of a table: HTML, and the style of page.css ("number": right-aligned, figures of equal width).
 struct TableCell {
@@ -45,7 +50,15 @@ std::string foldable(std::string_view title, std::string_view text);
 /// "" without charts. The charts themselves go to html_document.
 std::string chart_figures(const std::vector<Chart>& charts);
 
-/// One document with style, script and the data of the charts inside; `content` is HTML.
-std::string html_document(std::string_view title, const std::string& content, const ChartData& data);
+/// Places for the views, a section each; "" without views. What they show goes to html_document.
+std::string view_sections(const std::vector<PageView>& views);
+
+/// The bytes that the libraries of a page with views take.
+std::size_t view_library_bytes();
+
+/// One document with style, scripts and the data of charts and views inside; `content` is HTML. It is read again every
+/// `refresh` seconds where that is not 0.
+std::string html_document(std::string_view title, const std::string& content, const ChartData& data,
+                          const std::vector<PageView>& views = {}, int refresh = 0);
 
 }  // namespace carom

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
+#include "output/progress.hpp"
+#include "output/readable_unit.hpp"
 #include "output/xml.hpp"
 #include "report/assets.hpp"
 #include "report/html.hpp"
@@ -38,8 +41,23 @@ Banner banner_of(const std::optional<Summary>& summary) {
   return {};
 }
 
+/// Bar, time reached and time left of a run that goes on.
+std::string progress_bar(const ReportData& data) {
+  if (!data.running) return "";
+  const RunningState& state = *data.running;
+  std::string text = fmt::format("t = {}", with_readable_unit(data.time_reached, data.units.time, 4));
+  if (state.end > 0.0)
+    text += fmt::format(" of {}, {}", with_readable_unit(state.end, data.units.time, 4),
+                        progress_share(data.time_reached, state.end, state.seconds_left));
+  const double share = state.end > 0.0 ? std::min(data.time_reached / state.end, 1.0) : 0.0;
+  return fmt::format("<div class=\"progress\"><progress max=\"1\" value=\"{:.4f}\"></progress> <span>{}</span></div>\n",
+                     share, xml_escape(text));
+}
+
 std::string header(const ReportData& data) {
-  const Banner banner = banner_of(data.summary);
+  const Banner banner = data.running ? Banner{"unchecked", "Running",
+                                              "What there is so far; this page reads itself again until the run ends."}
+                                     : banner_of(data.summary);
   const std::string title = data.summary ? data.summary->case_info.title : data.folder;
   const bool has_message = data.summary && !data.summary->message.empty();
   const std::size_t warnings = data.summary ? data.summary->warnings.size() : 0;
@@ -50,6 +68,7 @@ std::string header(const ReportData& data) {
       xml_escape(has_message ? std::string_view(data.summary->message) : banner.text),
       warnings == 0 ? ""
                     : fmt::format("<span class=\"warned\">{} warning{}</span>", warnings, warnings == 1 ? "" : "s"));
+  html += progress_bar(data);
   if (!data.notes.empty()) {
     html += "<ul class=\"notes\">\n";
     for (const std::string& note : data.notes) html += fmt::format("<li>{}</li>\n", xml_escape(note));
@@ -68,6 +87,15 @@ std::string figures_list(const std::vector<KeyFigure>& figures) {
   return html + "</dl>\n</section>\n";
 }
 
+std::string largest_table(const std::vector<LargestValue>& largest) {
+  if (largest.empty()) return "";
+  std::vector<TableRow> rows;
+  for (const LargestValue& l : largest)
+    rows.push_back({text_cell(l.quantity), number_cell(l.value), number_cell(l.time), text_cell(l.where)});
+  return "<section>\n<h2>Largest values</h2>\n" +
+         html_table({{"Quantity"}, {"value", true}, {"time", true}, {"where"}}, rows) + "</section>\n";
+}
+
 /// Where another scheme takes over.
 std::vector<TimeMark> stage_marks(const std::optional<Summary>& summary) {
   std::vector<TimeMark> marks;
@@ -81,6 +109,7 @@ std::string footer(const ReportData& data) {
   std::string html = "<footer>\n";
   if (!data.case_text.empty()) html += foldable("The case with all defaults (case.resolved.toml)", data.case_text);
   html += foldable("Licence of dygraphs, which draws the curves", assets::dygraph_licence);
+  if (!data.views.empty()) html += foldable("Licence of three.js, which draws the view", assets::three_licence);
   return html + "</footer>\n";
 }
 
@@ -90,10 +119,12 @@ std::string make_page(const ReportData& data) {
   std::string content = header(data);
   if (data.summary) content += warnings_list(*data.summary);
   content += figures_list(data.figures);
+  content += view_sections(data.views);
   if (data.summary) {
     content += checks_table(*data.summary, data.units);
     content += verdict_table(*data.summary);
   }
+  content += largest_table(data.largest);
   content += chart_figures(data.charts);
   if (data.summary) {
     content += notes_list(*data.summary);
@@ -102,7 +133,8 @@ std::string make_page(const ReportData& data) {
   }
   content += footer(data);
   return html_document(data.summary ? data.summary->case_info.title : data.folder, content,
-                       {data.charts, data.units.time, stage_marks(data.summary)});
+                       {data.charts, data.units.time, stage_marks(data.summary)}, data.views,
+                       data.running ? data.running->refresh : 0);
 }
 
 }  // namespace carom

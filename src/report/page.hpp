@@ -9,8 +9,16 @@
 #include "output/units.hpp"
 #include "report/charts.hpp"
 #include "report/figures.hpp"
+#include "report/html.hpp"
 
 namespace carom {
+
+/// How far a run that is still going on has come.
+struct RunningState {
+  double end = 0.0;                    ///< of the case; 0: not known
+  std::optional<double> seconds_left;  ///< of the clock, by its pace lately
+  int refresh = 0;                     ///< seconds until the page is read again
+};
 
 /// All that the page shows.
 struct ReportData {
@@ -18,7 +26,11 @@ struct ReportData {
   std::optional<Summary> summary;  ///< nothing when the run was interrupted
   Units units;
   std::vector<KeyFigure> figures;
+  std::vector<LargestValue> largest{};
   std::vector<Chart> charts;
+  double time_reached = 0.0;  ///< of the last row of energy.csv
+  std::optional<RunningState> running{};
+  std::vector<PageView> views{};
   std::string case_text;           ///< case.resolved.toml
   std::vector<std::string> notes;  ///< files that are missing or cut short
 };

@@ -1,79 +1,34 @@
 #include "report/report.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <optional>
-#include <stdexcept>
 
 #include "output/file_writer.hpp"
-#include "output/summary.hpp"
-#include "report/charts.hpp"
-#include "report/csv_table.hpp"
 #include "report/page.hpp"
+#include "report/results.hpp"
 
 namespace carom {
 
-namespace {
-
-namespace fs = std::filesystem;
-
-std::optional<CsvTable> read_table(const fs::path& folder, const std::string& name, std::vector<std::string>& notes) {
-  std::optional<CsvTable> table = read_csv((folder / name).string());
-  if (table && !table->damage.empty()) notes.push_back(fmt::format("{}: {}.", name, table->damage));
-  return table;
+void write_report(const std::string& results_folder, const std::string& file) {
+  ReportData data = read_results(results_folder);
+  const std::size_t rest = make_page(data).size() + view_library_bytes();
+  add_view(data, most_page_bytes - std::min(rest, most_page_bytes), "Bodies in motion");
+  const std::string beside = (std::filesystem::path(results_folder) / "report.html").string();
+  write_file(file.empty() ? beside : file, make_page(data));
 }
 
-std::optional<Summary> read_summary_if_whole(const fs::path& folder, std::vector<std::string>& notes) {
-  const fs::path path = folder / "summary.json";
-  if (!fs::exists(path)) {
-    notes.emplace_back("summary.json is missing.");
-    return std::nullopt;
-  }
-  try {
-    return read_summary(path.string());
-  } catch (const std::runtime_error& error) {
-    notes.push_back(fmt::format("summary.json is damaged: {}.", error.what()));
-    return std::nullopt;
-  }
+double write_watch_page(const std::string& results_folder, const RunningState& state) {
+  ReportData data = read_results(results_folder);
+  data.running = state;
+  std::erase(data.notes, "summary.json is missing.");  // there is none before the end
+  write_file((std::filesystem::path(results_folder) / "watch.html").string(), make_page(data));
+  return data.time_reached;
 }
 
-std::string read_case(const fs::path& folder, std::vector<std::string>& notes) {
-  std::ifstream stream(folder / "case.resolved.toml", std::ios::binary);
-  if (!stream) notes.emplace_back("case.resolved.toml is missing.");
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// From the summary, else from the first table that names them.
-Units find_units(const std::optional<Summary>& summary, std::initializer_list<const std::optional<CsvTable>*> tables) {
-  if (summary) return units_of(summary->case_info.units);
-  for (const auto* table : tables) {
-    if (*table && (*table)->units) return *(*table)->units;
-  }
-  return {};
-}
-
-}  // namespace
-
-void write_report(const std::string& results_folder) {
-  const fs::path folder(results_folder);
-  ReportData data;
-  data.folder = results_folder;
-  data.summary = read_summary_if_whole(folder, data.notes);
-  Tables tables;
-  tables.energy = read_table(folder, "energy.csv", data.notes);
-  tables.contact = read_table(folder, "contact.csv", data.notes);
-  tables.probes = read_table(folder, "probes.csv", data.notes);
-  tables.probes_filtered = read_table(folder, "probes_filtered.csv", data.notes);
-  tables.exact = read_table(folder, "exact.csv", data.notes);
-  if (!tables.energy) data.notes.emplace_back("energy.csv is missing.");
-  data.case_text = read_case(folder, data.notes);
-  data.units = find_units(data.summary, {&tables.energy, &tables.contact, &tables.probes});
-  data.figures = key_figures(tables, data.summary, data.units);
-  data.charts = make_charts(tables, data.units, data.summary);
-  write_file((folder / "report.html").string(), make_page(data));
+void end_watch_page(const std::string& results_folder) {
+  write_file((std::filesystem::path(results_folder) / "watch.html").string(),
+             "<!DOCTYPE html>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"refresh\" content=\"0; url=report.html\">\n"
+             "<title>Carom</title>\n<p>The run has ended: <a href=\"report.html\">its report</a>.</p>\n");
 }
 
 }  // namespace carom

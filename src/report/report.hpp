@@ -2,13 +2,27 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "report/page.hpp"
 
 namespace carom {
 
-/// Writes <results_folder>/report.html, one self-contained page that needs no network, from the files of the folder
-/// alone (summary.json, energy.csv, contact.csv, probes.csv, probes_filtered.csv, exact.csv, case.resolved.toml). Files
-/// that are missing or cut short leave a note on the page instead of an error. Throws OutputError when the page cannot
-/// be written.
-void write_report(const std::string& results_folder);
+/// Writes <results_folder>/report.html, or `file` where it is not "": one self-contained page that needs no network,
+/// from the files of the folder alone (summary.json, energy.csv, contact.csv, probes.csv, probes_filtered.csv,
+/// exact.csv, case.resolved.toml, fields.pvd and its frames). Files that are missing or cut short leave a note on the
+/// page instead of an error. Throws OutputError when the page cannot be written.
+void write_report(const std::string& results_folder, const std::string& file = "");
+
+/// Writes <results_folder>/watch.html, the page of a run that goes on: how far it is, its curves so far; no view.
+/// Returns the time that it has reached. Throws OutputError.
+double write_watch_page(const std::string& results_folder, const RunningState& state);
+/// The run has ended: the page leads to the report.
+void end_watch_page(const std::string& results_folder);
+
+/// Several runs on one page: their key figures, checks and energies column by column, their curves laid over each
+/// other, their views side by side, at one time. `file` is the page. Throws CaseError for runs in different units and
+/// OutputError.
+void write_comparison(const std::vector<std::string>& results_folders, const std::string& file);
 
 }  // namespace carom

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "output/readable_unit.hpp"
 #include "output/xml.hpp"
-#include "report/readable_unit.hpp"
 
 namespace carom {
 

@@ -10,10 +10,10 @@
 #include "base/errors.hpp"
 #include "output/csv.hpp"
 #include "output/file_writer.hpp"
+#include "output/readable_unit.hpp"
 #include "output/units.hpp"
 #include "output/xml.hpp"
 #include "report/html.hpp"
-#include "report/readable_unit.hpp"
 #include "report/xy_plot.hpp"
 #include "run/measured_curve.hpp"
 

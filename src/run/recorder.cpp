@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -51,6 +52,23 @@ std::vector<Index> part_numbers(const Model& model) {
   return numbers;
 }
 
+/// The number of each cell in the mesh file.
+std::vector<std::int64_t> cell_numbers(const Simulation& simulation) {
+  std::vector<std::int64_t> numbers;
+  for (const CellRef& cell : simulation.solid().cells())
+    numbers.push_back(simulation.mesh()
+                          .blocks[static_cast<std::size_t>(cell.block)]
+                          .file_numbers[static_cast<std::size_t>(cell.cell)]);
+  return numbers;
+}
+
+/// Numbers of nodes or cells, in 32 bits where they fit.
+VtuField numbers_field(std::string name, const std::vector<std::int64_t>& numbers) {
+  const auto fits = [](std::int64_t n) { return n >= 0 && n <= std::numeric_limits<Index>::max(); };
+  if (!std::all_of(numbers.begin(), numbers.end(), fits)) return {std::move(name), 1, numbers};
+  return {std::move(name), 1, std::vector<Index>(numbers.begin(), numbers.end())};
+}
+
 /// In single precision, enough for what is looked at.
 std::vector<float> rounded(std::span<const double> values) {
   std::vector<float> out(values.size());
@@ -82,6 +100,9 @@ Frame frame_of(const Simulation& s, const StepView& view) {
   };
   std::optional<NodalContact> contact;
   if (!s.given().contacts.empty()) contact = nodal_contact(view.forces.rows, state.q);
+  frame.points.push_back(numbers_field("node_number", s.mesh().node_numbers));
+  frame.cells.push_back(numbers_field("cell_number", cell_numbers(s)));
+  frame.cells.push_back({"part", 1, part_numbers(s.model())});
   for (const auto& field : s.given().output.fields) {
     const std::string& name = *field;
     if (name == "displacement") frame.points.push_back({name, 3, state.q});
@@ -96,7 +117,6 @@ Frame frame_of(const Simulation& s, const StepView& view) {
     if (name == "von_mises") frame.cells.push_back({name, 1, von_mises_of(need_stress())});
     const std::vector<double> variable = s.solid().cell_history(name, view.points().history);
     if (!variable.empty()) frame.cells.push_back({name, 1, rounded(variable)});
-    if (name == "part") frame.cells.push_back({name, 1, part_numbers(s.model())});
   }
   return frame;
 }

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "output/readable_unit.hpp"
 #include "report/charts.hpp"
-#include "report/readable_unit.hpp"
 
 namespace carom::report_charts_test {
 namespace {

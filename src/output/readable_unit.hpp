@@ -5,6 +5,9 @@
 
 namespace carom {
 
+/// The number with so many digits, or a dash for NaN.
+std::string number_text(double value, int digits);
+
 /// A unit and the power of ten that it stands for: a number in the unit given is shown divided by 10^power.
 struct ReadableUnit {
   int power = 0;

@@ -1,4 +1,4 @@
-#include "report/readable_unit.hpp"
+#include "output/readable_unit.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,6 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
-
-#include "report/html.hpp"
 
 namespace carom {
 
@@ -48,6 +46,10 @@ std::string superscript(int number) {
 }
 
 }  // namespace
+
+std::string number_text(double value, int digits) {
+  return std::isnan(value) ? "–" : fmt::format("{:.{}g}", value, digits);
+}
 
 ReadableUnit readable_unit(double largest, const std::string& unit) {
   if (!(largest > 0.0) || !std::isfinite(largest) || (largest >= 0.1 && largest < 1e3)) return {0, unit};

@@ -1,0 +1,232 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <string_view>
+
+#include "base/errors.hpp"
+#include "output/file_writer.hpp"
+#include "output/xml.hpp"
+#include "report/assets.hpp"
+#include "report/page.hpp"
+#include "report/report.hpp"
+#include "report/results.hpp"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NamedRun {
+  std::string name;  ///< the end of its folder's path that tells it from the others
+  ReportData data;
+};
+
+/// The last parts of the paths, as many as it takes until no two are the same.
+std::vector<std::string> short_names(const std::vector<std::string>& folders) {
+  std::vector<fs::path> paths;
+  std::size_t longest = 0;
+  for (const std::string& folder : folders) {
+    paths.push_back(fs::absolute(folder).lexically_normal());
+    if (paths.back().filename().empty()) paths.back() = paths.back().parent_path();
+    longest = std::max(longest, static_cast<std::size_t>(std::distance(paths.back().begin(), paths.back().end())));
+  }
+  std::vector<std::string> names(paths.size());
+  for (std::size_t count = 1; count <= longest; ++count) {
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      fs::path end;
+      const auto all = std::distance(paths[i].begin(), paths[i].end());
+      for (auto part =
+               std::next(paths[i].begin(), std::max<std::ptrdiff_t>(all - static_cast<std::ptrdiff_t>(count), 0));
+           part != paths[i].end(); ++part)
+        end /= *part;
+      names[i] = end.generic_string();
+    }
+    std::vector<std::string> sorted = names;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) break;
+  }
+  return names;
+}
+
+std::vector<NamedRun> read_runs(const std::vector<std::string>& folders) {
+  const std::vector<std::string> names = short_names(folders);
+  std::vector<NamedRun> runs;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    runs.push_back({names[i], read_results(folders[i])});
+    const Units &first = runs.front().data.units, &own = runs.back().data.units;
+    if (own.length != first.length || own.time != first.time || own.mass != first.mass)
+      throw CaseError({folders[i], 0, 0}, "", fmt::format("a run in {}", units_comment(own)),
+                      fmt::format("{}, as {} has", units_comment(first), folders.front()),
+                      "Runs in different units cannot be laid over each other.");
+  }
+  return runs;
+}
+
+/// One row per name in the order in which the runs know them, one column per run.
+struct RunRows {
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<TableCell>> cells;
+
+  void set(const std::string& name, std::size_t run, std::size_t runs, TableCell cell) {
+    auto [entry, is_new] = cells.try_emplace(name, runs, TableCell{"–", "number"});
+    if (is_new) names.push_back(name);
+    entry->second[run] = std::move(cell);
+  }
+};
+
+std::string rows_table(const RunRows& rows, const std::vector<NamedRun>& runs, const std::string& title,
+                       const std::string& heading) {
+  if (rows.names.empty()) return "";
+  std::vector<TableColumn> columns{{heading}};
+  for (const NamedRun& run : runs) columns.push_back({run.name, true});
+  std::vector<TableRow> table;
+  for (const std::string& name : rows.names) {
+    table.push_back({text_cell(name)});
+    const std::vector<TableCell>& cells = rows.cells.at(name);
+    table.back().insert(table.back().end(), cells.begin(), cells.end());
+  }
+  return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title, html_table(columns, table));
+}
+
+std::string figures_rows(const std::vector<NamedRun>& runs) {
+  RunRows rows;
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    for (const KeyFigure& f : runs[r].data.figures) rows.set(f.title, r, runs.size(), number_cell(f.value));
+  return rows_table(rows, runs, "Key figures", "Figure");
+}
+
+std::string check_rows(const std::vector<NamedRun>& runs) {
+  RunRows rows;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (!runs[r].data.summary) continue;
+    const Units& units = runs[r].data.units;
+    for (const CheckSummary& check : runs[r].data.summary->checks) {
+      const std::string unit = unit_of_column(units, check.quantity);
+      const std::string name = fmt::format("{} at t = {}{}{}", check.name, number_text(check.time, 6),
+                                           units.time.empty() ? "" : " ", units.time);
+      TableCell cell = number_cell(
+          fmt::format("{}{}{} {}", number_text(check.value, 7), unit.empty() ? "" : " ", unit, check.pass ? "✓" : "✗"));
+      if (!check.pass) cell.style = "number fail";
+      rows.set(name, r, runs.size(), std::move(cell));
+    }
+  }
+  return rows_table(rows, runs, "Checks", "Quantity");
+}
+
+std::string energy_rows(const std::vector<NamedRun>& runs) {
+  RunRows rows;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (!runs[r].data.summary) continue;
+    for (const NamedValue& term : runs[r].data.summary->ledger) {
+      std::string name = term.name;
+      std::replace(name.begin(), name.end(), '_', ' ');
+      rows.set(name, r, runs.size(), number_cell(number_text(term.value, 6)));
+    }
+  }
+  const std::string& unit = runs.front().data.units.energy;
+  return rows_table(rows, runs, "Energy at the end", unit.empty() ? "energy" : fmt::format("energy [{}]", unit));
+}
+
+/// What was run, each with a way to its own report.
+std::string runs_table(const std::vector<NamedRun>& runs, const fs::path& beside) {
+  std::vector<TableRow> rows;
+  for (const NamedRun& run : runs) {
+    const ReportData& data = run.data;
+    const fs::path page = fs::proximate(fs::path(data.folder) / "report.html", beside);
+    TableRow row{{fmt::format("<a href=\"{}\">{}</a>", xml_escape(page.generic_string()), xml_escape(run.name))}};
+    if (data.summary) {
+      const Summary& s = *data.summary;
+      row.push_back(text_cell(s.case_info.title));
+      row.push_back(text_cell(fmt::format("{}{}", to_string(s.outcome), s.message.empty() ? "" : ": " + s.message)));
+      row.push_back(text_cell(s.scheme.name));
+      for (const std::string& number :
+           {fmt::format("{}", s.mesh.cells), fmt::format("{}", s.scheme.steps), number_text(s.cost.wall_seconds, 3)})
+        row.push_back(number_cell(number));
+    } else {
+      row.push_back(text_cell("–"));
+      row.push_back(text_cell("no summary: still going on, or interrupted"));
+      for (int i = 0; i < 4; ++i) row.push_back(text_cell("–"));
+    }
+    rows.push_back(std::move(row));
+  }
+  std::string html =
+      "<section>\n<h2>Runs</h2>\n" +
+      html_table(
+          {{"Run"}, {"case"}, {"outcome"}, {"scheme"}, {"cells", true}, {"steps", true}, {"wall clock [s]", true}},
+          rows, "wide") +
+      "</section>\n";
+  for (const NamedRun& run : runs)
+    for (const std::string& note : run.data.notes)
+      html += fmt::format("<p class=\"note\">{}: {}</p>\n", xml_escape(run.name), xml_escape(note));
+  return html;
+}
+
+/// Curves of the same chart on one picture, each with its run's name before its own. Exact ones are drawn once.
+std::vector<Chart> merged(std::vector<NamedRun>& runs) {
+  std::vector<Chart> all;
+  for (NamedRun& run : runs) {
+    for (Chart& chart : run.data.charts) {
+      if (chart.curves.empty()) continue;
+      auto same = std::find_if(all.begin(), all.end(), [&chart](const Chart& c) {
+        return c.section == chart.section && c.title == chart.title;
+      });
+      if (same == all.end()) {
+        const auto end_of_section =
+            std::find_if(all.rbegin(), all.rend(), [&chart](const Chart& c) { return c.section == chart.section; });
+        Chart empty = chart;
+        empty.curves.clear();
+        same = all.insert(end_of_section == all.rend() ? all.end() : end_of_section.base(), std::move(empty));
+      }
+      for (Curve& curve : chart.curves) {
+        const bool is_exact = curve.kind == CurveKind::exact;
+        if (is_exact && std::any_of(same->curves.begin(), same->curves.end(),
+                                    [&curve](const Curve& c) { return c.name == curve.name; }))
+          continue;
+        if (!is_exact) curve.name = fmt::format("{}: {}", run.name, curve.name);
+        same->curves.push_back(std::move(curve));
+      }
+    }
+  }
+  return all;
+}
+
+/// The views share what the rest of the page leaves.
+std::vector<PageView> views_of(std::vector<NamedRun>& runs, std::size_t most_bytes) {
+  std::vector<PageView> views;
+  for (NamedRun& run : runs) {
+    add_view(run.data, most_bytes / runs.size(), run.name);
+    std::move(run.data.views.begin(), run.data.views.end(), std::back_inserter(views));
+  }
+  return views;
+}
+
+}  // namespace
+
+void write_comparison(const std::vector<std::string>& results_folders, const std::string& file) {
+  std::vector<NamedRun> runs = read_runs(results_folders);
+  const fs::path folder = fs::absolute(file).parent_path();
+  fs::create_directories(folder);
+  const std::string title = fmt::format("{} runs side by side", runs.size());
+  const std::vector<Chart> charts = merged(runs);
+  const Units units = runs.front().data.units;
+  const auto page = [&](const std::vector<PageView>& views) {
+    std::string content =
+        fmt::format("<header>\n<p class=\"kicker\">Carom · runs compared</p>\n<h1>{}</h1>\n</header>\n", title);
+    content += runs_table(runs, folder) + figures_rows(runs) + view_sections(views) + check_rows(runs) +
+               chart_figures(charts) + energy_rows(runs);
+    content += fmt::format(
+        "<footer>\n{}{}</footer>\n", foldable("Licence of dygraphs, which draws the curves", assets::dygraph_licence),
+        views.empty() ? "" : foldable("Licence of three.js, which draws the view", assets::three_licence));
+    return html_document(title, content, {charts, units.time}, views);
+  };
+  const std::size_t rest = page({}).size() + view_library_bytes();
+  const std::vector<PageView> views = views_of(runs, most_page_bytes - std::min(rest, most_page_bytes));
+  write_file(file, page(views));
+}
+
+}  // namespace carom

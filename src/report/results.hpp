@@ -1,0 +1,20 @@
+// What a results folder holds, ready to be shown.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "report/page.hpp"
+
+namespace carom {
+
+/// Everything but the view, as far as it is there: what is missing or damaged is said in the notes.
+ReportData read_results(const std::string& folder);
+
+/// The view of the folder's frames in about so many bytes under this title, or a note why there is none.
+void add_view(ReportData& data, std::size_t most_bytes, const std::string& title);
+
+/// Of a page, as far as its views can be reduced.
+inline constexpr std::size_t most_page_bytes = 6'000'000;
+
+}  // namespace carom

@@ -1,0 +1,99 @@
+// What a view is coloured by: one number per node or cell, its range and its colours.
+carom.Colouring = (function () {
+  "use strict";
+
+  // Stops of viridis (S. van der Walt, N. Smith, 2015) and of a blue - white - red scale for numbers of both signs.
+  const VIRIDIS = ["440154", "482475", "414487", "355f8d", "2a788e", "21918c", "22a884", "44bf70", "7ad151", "bddf26", "fde725"];
+  const BOTH_SIGNS = ["2c4fa0", "5b83c4", "9cb8dd", "d8e1ec", "f2f2f0", "f0d6cb", "e0a085", "c8604c", "a3262b"];
+  const PARTS = ["6f9fd0", "d99a6c", "79b894", "b08fc0", "cbb45f", "79b3c2", "c9839f", "9aa0a6"];
+  const TENSOR = ["xx", "yy", "zz", "xy", "yz", "zx"];
+
+  const rgb = (hex) => [0, 2, 4].map((i) => parseInt(hex.slice(i, i + 2), 16));
+  function table(stops, count) {
+    const colours = stops.map(rgb);
+    return Array.from({ length: count }, (_, i) => {
+      const x = (i / (count - 1)) * (stops.length - 1);
+      const k = Math.min(Math.floor(x), stops.length - 2);
+      return [0, 1, 2].map((c) => Math.round(colours[k][c] + (x - k) * (colours[k + 1][c] - colours[k][c])));
+    });
+  }
+  const palettes = { viridis: table(VIRIDIS, 256), signed: table(BOTH_SIGNS, 256), parts: PARTS.map(rgb), none: rgb("9aa4ac") };
+
+  // What may be chosen of a field: its length, its components.
+  function choices(field) {
+    const n = field.ranges.length;
+    if (n === 1) return [{ component: 0, label: field.label }];
+    const names = n === 3 ? ["x", "y", "z"] : TENSOR;
+    const parts = names.map((name, component) => ({ component, label: field.label + " " + name }));
+    if (n !== 3) return parts;
+    return [{ component: -1, label: field.name === "velocity" ? "speed" : field.label + ", length" }, ...parts];
+  }
+
+  class Colouring {
+    // Without a field every part has its colour.
+    constructor(scene, field, component) {
+      Object.assign(this, { scene, field, component });
+      this.cover(field ? this.rangeOver(scene.frames) : [0, 0]);
+    }
+
+    // The colours go from one of these numbers to the other; where they lie on both sides of zero, that has the middle.
+    cover([low, high]) {
+      const isSigned = low < 0 && high > 0, most = Math.max(-low, high);
+      this.covered = [low, high];
+      this.range = isSigned ? [-most, most] : [low, high];
+      this.palette = isSigned ? palettes.signed : palettes.viridis;
+    }
+
+    value(frame, i) {
+      if (this.component >= 0) return this.field.value(this.component, frame, i);
+      let sum = 0;
+      for (let c = 0; c < this.field.ranges.length; c++) sum += this.field.value(c, frame, i) ** 2;
+      return Math.sqrt(sum);
+    }
+
+    rangeOver(frames) {
+      if (this.component >= 0) return this.field.ranges[this.component];
+      const count = this.field.at === "cell" ? this.scene.cells : this.scene.nodes;
+      let low = Infinity, high = -Infinity;
+      for (let t = 0; t < frames; t++) {
+        for (let i = 0; i < count; i++) {
+          const v = this.value(t, i);
+          if (v < low) low = v;
+          if (v > high) high = v;
+        }
+      }
+      return low <= high ? [low, high] : [0, 0];
+    }
+
+    // Of every node or cell, its place between the ends of the range; -1 where there is no value.
+    places(frame) {
+      const count = this.field.at === "cell" ? this.scene.cells : this.scene.nodes;
+      const out = new Float32Array(count);
+      const [low, high] = this.range, width = high > low ? high - low : 1;
+      for (let i = 0; i < count; i++) {
+        const v = this.value(frame, i);
+        out[i] = Number.isNaN(v) ? -1 : Math.min(1, Math.max(0, (v - low) / width));
+      }
+      return out;
+    }
+
+    colour(place, part) {
+      if (!this.field) return palettes.parts[part % palettes.parts.length];
+      return place < 0 ? palettes.none : this.palette[Math.round(place * 255)];
+    }
+  }
+
+  Colouring.choices = choices;
+  Colouring.palettes = palettes;
+  return Colouring;
+})();
+
+// Where one node of a scene is, and where all are: reference and displacement times a scale.
+carom.positionOf = function (scene, frame, node, scale = 1) {
+  const u = scene.field("displacement");
+  return scene.at.map((xs, c) => xs[node] + (u ? scale * u.value(c, frame, node) : 0));
+};
+carom.positions = function (scene, frame, scale) {
+  const u = scene.field("displacement");
+  return scene.at.map((xs, c) => (u ? xs.map((x, i) => x + scale * u.value(c, frame, i)) : xs));
+};
