@@ -1,6 +1,6 @@
 # The commands of the project; `make help` lists them. The work itself is done by CMake presets and the scripts of tools/.
 .DEFAULT_GOAL := help
-.PHONY: help demo build test verify bench format lint clean
+.PHONY: help demo build test verify bench gallery book package format lint clean
 
 help:    ## this list
 	@awk -F ':.*## ' '/^[a-z]+: .*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -27,6 +27,18 @@ verify: build ## long verification cases, resumable, writes docs/verification.md
 bench:   ## measures kernels, steps, growth, implicit runs, peers: writes docs/performance.md (half an hour)
 	@tools/setup build bench
 	@tools/bench
+
+gallery: build ## runs one case of each kind, leaves their pictures in out/gallery/index.html, and in docs/gallery.md
+	@tools/setup test
+	@/usr/bin/python3 tools/gallery.py build/release/carom --docs
+
+book: build ## runs every case, leaves the verification book, out/book/verification.html and .pdf
+	@tools/setup test book
+	@/usr/bin/python3 tools/book.py build/release/carom
+
+package: ## the Debian package, build/release/carom_*.deb, looked at by lintian
+	@tools/setup build package
+	@tools/package
 
 format:  ## rewrite all sources as .clang-format says
 	@tools/setup ci

@@ -237,6 +237,7 @@ Json to_json(const Summary& s) {
   json["linear_momentum"] = to_json(s.linear_momentum);
   json["angular_momentum"] = to_json(s.angular_momentum);
   json["parts"] = list(s.parts);
+  json["contacts"] = s.contacts;
   json["stress"] = to_json(s.stress);
   json["probes"] = list(s.probes);
   json["verdict"] = list(s.verdict);
@@ -264,6 +265,7 @@ Summary summary_from(const Json& json) {
   s.linear_momentum = momentum_from(json.at("linear_momentum"));
   s.angular_momentum = momentum_from(json.at("angular_momentum"));
   s.parts = list_from(json.at("parts"), part_from);
+  s.contacts = json.at("contacts").get<std::vector<std::string>>();
   s.stress = stress_from(json.at("stress"));
   s.probes = list_from(json.at("probes"), probe_from);
   s.verdict = list_from(json.at("verdict"), verdict_item_from);

@@ -146,6 +146,7 @@ struct Summary {
   MomentumSummary linear_momentum, angular_momentum;
   std::vector<CheckSummary> checks;
   std::vector<PartSummary> parts;
+  std::vector<std::string> contacts;  ///< their names, in the order of the case
   StressSummary stress;
   std::vector<ProbeSummary> probes;
   std::vector<VerdictItem> verdict;

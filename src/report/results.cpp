@@ -79,7 +79,7 @@ ReportData read_results(const std::string& results_folder) {
 }
 
 void add_view(ReportData& data, std::size_t most_bytes, const std::string& title) {
-  ViewLabels labels{data.units, {}};
+  ViewLabels labels{data.units, {}, data.summary ? data.summary->contacts : std::vector<std::string>()};
   if (data.summary)
     for (const PartSummary& part : data.summary->parts) labels.parts.push_back(part.name);
   try {

@@ -158,16 +158,16 @@
     makePanel() {
       this.quantity = create("select", { title: "What the colours show" });
       this.bodies.fields.forEach((field, f) => {
-        for (const choice of carom.Colouring.choices(field))
+        for (const choice of carom.Colouring.choices(this.bodies, field))
           this.quantity.append(create("option", { value: f + " " + choice.component, textContent: choice.label }));
       });
       this.quantity.append(create("option", { value: "", textContent: "parts" }));
-      const first = ["von_mises", "velocity", "displacement"].map((name) => this.bodies.fields.findIndex((f) => f.name === name)).find((f) => f >= 0);
-      if (first !== undefined) this.quantity.value = first + " " + carom.Colouring.choices(this.bodies.fields[first])[0].component;
+      const first = ["von_mises", "stress", "velocity", "displacement"].map((name) => this.bodies.fields.findIndex((f) => f.name === name)).find((f) => f >= 0);
+      if (first !== undefined) this.quantity.value = first + " " + carom.Colouring.choices(this.bodies, this.bodies.fields[first])[0].component;
       this.scale = create("input", { type: "number", value: 1, min: 0, step: "any", title: "Displacements are drawn times this" });
       this.edges = create("input", { type: "checkbox", checked: this.bodies.triangles < 60000 });
       this.arrows = create("input", { type: "checkbox", checked: true });
-      this.clip = create("select", { title: "Cut the bodies open" }, ...["", "x", "y", "z"].map((a) => create("option", { value: a, textContent: a === "" ? "no cut" : "cut along " + a })));
+      this.clip = create("select", { title: "Cut the bodies open" }, ...["", "x", "y", ...(this.isPlane ? [] : ["z"])].map((a) => create("option", { value: a, textContent: a === "" ? "no cut" : "cut along " + a })));
       this.cut = create("input", { type: "range", min: 0, max: 1, step: 0.005, value: 0.5, title: "Where the cut is" });
       this.flip = create("button", { type: "button", textContent: "other half" });
       const directions = { iso: [1, -1.4, 0.8], x: [1, 0, 0], y: [0, -1, 0], z: [0, 0, 1] };
@@ -196,7 +196,9 @@
     partSwitches() {
       const box = create("span", { className: "parts" });
       for (const model of this.models) {
+        const there = new Set(model.scene.part);
         model.scene.parts.forEach((name, part) => {
+          if (!there.has(part)) return;
           const button = create("button", { type: "button", textContent: name, title: "Show or hide", "aria-pressed": "true" });
           button.addEventListener("click", () => {
             const isShown = button.getAttribute("aria-pressed") !== "true";
@@ -246,7 +248,7 @@
         Home: () => this.goTo(0), End: () => this.goTo(last), f: () => this.fit(), e: () => press(this.edges), a: () => press(this.arrows),
         "+": zoom(1.2), "-": zoom(1 / 1.2), x: look([1, 0, 0]), y: look([0, -1, 0]), z: look(this.isPlane ? [0, 0, 1] : [0, -1e-6, 1]), i: look([1, -1.4, 0.8]),
         c: () => {
-          this.clip.selectedIndex = (this.clip.selectedIndex + 1) % 4;
+          this.clip.selectedIndex = (this.clip.selectedIndex + 1) % this.clip.options.length;
           this.choose();
         },
       };

@@ -1,6 +1,7 @@
 // What a view is coloured by: one number per node or cell, its range and its colours.
 carom.Colouring = (function () {
   "use strict";
+  const LENGTH = -1, VON_MISES = -2;  // in place of a component
 
   // Stops of viridis (S. van der Walt, N. Smith, 2015) and of a blue - white - red scale for numbers of both signs.
   const VIRIDIS = ["440154", "482475", "414487", "355f8d", "2a788e", "21918c", "22a884", "44bf70", "7ad151", "bddf26", "fde725"];
@@ -20,13 +21,14 @@ carom.Colouring = (function () {
   const palettes = { viridis: table(VIRIDIS, 256), signed: table(BOTH_SIGNS, 256), parts: PARTS.map(rgb), none: rgb("9aa4ac") };
 
   // What may be chosen of a field: its length, its components.
-  function choices(field) {
+  function choices(scene, field) {
     const n = field.ranges.length;
     if (n === 1) return [{ component: 0, label: field.label }];
     const names = n === 3 ? ["x", "y", "z"] : TENSOR;
     const parts = names.map((name, component) => ({ component, label: field.label + " " + name }));
+    if (field.name === "stress" && !scene.field("von_mises")) return [{ component: VON_MISES, label: "von Mises stress" }, ...parts];
     if (n !== 3) return parts;
-    return [{ component: -1, label: field.name === "velocity" ? "speed" : field.label + ", length" }, ...parts];
+    return [{ component: LENGTH, label: field.name === "velocity" ? "speed" : field.label + ", length" }, ...parts];
   }
 
   class Colouring {
@@ -46,6 +48,10 @@ carom.Colouring = (function () {
 
     value(frame, i) {
       if (this.component >= 0) return this.field.value(this.component, frame, i);
+      if (this.component === VON_MISES) {
+        const [xx, yy, zz, xy, yz, zx] = this.field.ranges.map((_, c) => this.field.value(c, frame, i));
+        return Math.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (xy ** 2 + yz ** 2 + zx ** 2));
+      }
       let sum = 0;
       for (let c = 0; c < this.field.ranges.length; c++) sum += this.field.value(c, frame, i) ** 2;
       return Math.sqrt(sum);

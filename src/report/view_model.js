@@ -59,7 +59,7 @@ carom.SceneModel = (function () {
       const lines = new THREE.BufferGeometry();
       this.linePosition = attribute(lines, "position", (2 * this.edges.length) / 3, 3);
       lines.boundingSphere = everywhere;
-      this.lines = new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ color: 0x000000, transparent: true, opacity: isObstacle ? 0.25 : 0.45, clippingPlanes: clipping }));
+      this.lines = new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ color: isObstacle ? 0x808080 : 0x000000, transparent: true, opacity: isObstacle ? 0.6 : 0.45, clippingPlanes: clipping }));
       for (const object of [this.mesh, this.lines]) object.frustumCulled = false;
       this.objects = [this.mesh, this.lines];
       if (!isObstacle) this.makeArrows(clipping);

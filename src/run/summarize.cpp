@@ -97,6 +97,7 @@ Summary summary_of(const Simulation& s) {
   summary.mesh.nodes = given_nodes(s.given(), s.mesh());
   summary.mesh.cells = s.solid().cell_count();
   summary.mesh.reach = reach(s.mesh());
+  for (const CaseContact& contact : s.given().contacts) summary.contacts.push_back(*contact.name);
   for (const std::string& group : s.mesh().group_names()) {
     const auto cells = s.mesh().cell_groups.find(group);
     summary.mesh.groups.push_back(

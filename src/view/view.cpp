@@ -261,7 +261,7 @@ std::optional<View> make_view(const std::string& folder, const ViewLabels& label
     scenes.back()["parts"] = part_names(bodies, labels.parts, "part");
     if (obstacles) {
       scenes.push_back(pack_scene(*obstacles, detail, labels.units, arrays));
-      scenes.back()["parts"] = part_names(*obstacles, {}, "obstacle");
+      scenes.back()["parts"] = part_names(*obstacles, labels.contacts, "obstacle");
     }
     json["scenes"] = std::move(scenes);
     const bool is_hopeless = static_cast<double>(arrays.size()) > best_ratio * static_cast<double>(most_bytes);

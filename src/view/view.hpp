@@ -18,7 +18,8 @@ struct View {
 /// What the frames of a results folder do not tell.
 struct ViewLabels {
   Units units;
-  std::vector<std::string> parts;  ///< in their order in the case; "part 1" ... where there are fewer
+  std::vector<std::string> parts;     ///< in their order in the case; "part 1" ... where there are fewer
+  std::vector<std::string> contacts;  ///< likewise: of obstacles
 };
 
 /// Reads fields.pvd and its frames, as many of them as a page can hold: the outer surface, its motion and all fields on

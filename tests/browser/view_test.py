@@ -120,7 +120,7 @@ class View(unittest.TestCase):
         return self.driver.find_element(By.XPATH, f"//div[@class='panel']//label[contains(., '{text}')]/input")
 
     def hide_floor(self):
-        self.panel("obstacle 1").click()
+        self.panel("floor").click()
 
     def seen(self):
         return picture(self.driver, self.canvas)

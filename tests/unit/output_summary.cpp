@@ -50,6 +50,7 @@ Summary sample() {
   s.checks = {{"B.displacement_z", "displacement_z", "B", 1e-4, 1.5, 1.25, 0.25, 0.1, ToleranceKind::absolute, true,
                "manual V5.03.100, table 3.2"}};
   s.verdict = {{"energy balance", 1e-12, 1e-10, true, "largest imbalance over the run"}};
+  s.contacts = {"wall", "floor"};
   s.warnings = {"a warning", "another"};
   s.notes = {"a note"};
   s.outcome = Outcome::stopped;
@@ -105,6 +106,7 @@ TEST(Summary, EveryFieldComesBack) {
   EXPECT_EQ(b.probes[0].name, "B");
   EXPECT_EQ(b.probes[0].place, "node 12");
   EXPECT_EQ(b.probes[0].position, (Vec3{0.1, 0.2, 0.3}));
+  EXPECT_EQ(b.contacts, a.contacts);
   EXPECT_EQ(b.warnings, a.warnings);
   EXPECT_EQ(b.notes, a.notes);
   EXPECT_EQ(b.outcome, a.outcome);

@@ -182,7 +182,7 @@ TEST_F(ViewFrames, AViewTellsWhatItHoldsAndFitsItsPage) {
       frames.add(0.1 * i, name);
     }
   }
-  const ViewLabels labels{units_of("SI"), {"cube"}};
+  const ViewLabels labels{units_of("SI"), {"cube"}, {}};
   const std::optional<View> whole = make_view(folder_.string(), labels, 4'000'000);
   ASSERT_TRUE(whole.has_value());
   const auto json = nlohmann::json::parse(whole->json);

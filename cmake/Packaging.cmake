@@ -1,0 +1,37 @@
+# The Debian package of the program (`make package`): CPack, dependencies found by dpkg-shlibdeps, manual page and
+# completions made from what the program says of itself (tools/command_pages.py).
+set(pages ${CMAKE_BINARY_DIR}/pages)
+add_custom_command(
+  OUTPUT ${pages}/carom.1.gz ${pages}/changelog.gz
+  COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tools/command_pages.py $<TARGET_FILE:carom> ${pages}
+  COMMAND gzip -9nf ${pages}/carom.1
+  COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tools/debian_texts.py ${PROJECT_VERSION} ${pages}
+  DEPENDS carom ${CMAKE_SOURCE_DIR}/tools/command_pages.py ${CMAKE_SOURCE_DIR}/tools/debian_texts.py
+  VERBATIM)
+add_custom_target(pages DEPENDS ${pages}/carom.1.gz)
+
+include(GNUInstallDirs)
+install(TARGETS carom RUNTIME DESTINATION bin)
+install(FILES ${pages}/carom.1.gz DESTINATION share/man/man1)
+install(FILES ${pages}/carom.bash DESTINATION share/bash-completion/completions RENAME carom)
+install(FILES ${pages}/_carom DESTINATION share/zsh/vendor-completions)
+install(FILES ${pages}/copyright ${pages}/changelog.gz README.md DESTINATION share/doc/carom)
+install(DIRECTORY cases DESTINATION share/doc/carom/examples PATTERN "stiffness" EXCLUDE)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME carom)
+set(CPACK_PACKAGE_CONTACT "The Carom developers <carom@example.org>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "impact dynamics of deformable solids")
+set(CPACK_PACKAGE_DESCRIPTION
+    "Carom computes impacts of deformable solids: what happens in the
+microseconds when a body strikes another, with the contact forces, the
+waves, and where every joule went. Implicit and explicit steps, contact
+with friction, bodies that yield; every run closes an energy ledger and
+ends with a verdict.")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
+                                                WORLD_EXECUTE)
+include(CPack)
