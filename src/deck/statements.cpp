@@ -80,7 +80,7 @@ class Unfolding {
     const std::string name = keyword.required("NAME");
     const auto part = parts_.find(keyword.required("PART"));
     if (part == parts_.end())
-      keyword.fail("the unknown part " + keyword.required("PART"), "the NAME of a *PART before it");
+      keyword.fail(fmt::format("the unknown part {}", keyword.required("PART")), "the NAME of a *PART before it");
     if (result_.instance(name) >= 0) keyword.fail("the instance " + name + " a second time", "a name of its own");
     scope_ = static_cast<int>(result_.scopes.size());
     result_.scopes.push_back({name + ".", placement_of(keyword)});
@@ -96,7 +96,8 @@ class Unfolding {
   }
 
   static void end(const DeckKeyword& keyword, const DeckKeyword*& open) {
-    if (open == nullptr) keyword.fail("an end without a beginning", "*" + keyword.name.substr(4) + " before it");
+    if (open == nullptr)
+      keyword.fail("an end without a beginning", fmt::format("*{} before it", keyword.name.substr(4)));
     open = nullptr;
   }
 

@@ -302,7 +302,7 @@ class DeckMeshReader {
       if (names_.loaded_faces.count(key) != 0) continue;
       const std::vector<Index>& elements = elements_named(at, s.scope);
       names_.loaded_faces[key] = key;
-      faces_.append(elements, "S" + label.substr(1), at, mesh_.cell_groups[key], next_number_);
+      faces_.append(elements, fmt::format("S{}", label.substr(1)), at, mesh_.cell_groups[key], next_number_);
     }
   }
 

@@ -10,6 +10,7 @@ namespace carom {
 
 void DeckSets::expect(const std::vector<std::size_t>& counts) {
   for (const std::size_t count : counts) numbers_.emplace_back(count);
+  highest_.assign(counts.size(), 0);
 }
 
 const std::vector<Index>* DeckSets::entries(std::string_view text, int scope, const Statements& statements) {
@@ -31,13 +32,12 @@ void DeckSets::append_range(DeckCursor& at, int scope, std::vector<Index>& to, s
   constexpr std::int64_t most = 2'000'000'000;
   if (step < 1 || step > most || first < 0 || last < first || last > most)
     at.fail(fmt::format("{}, {}, {}", first, last, step), "first, last and a positive increment");
-  for (std::int64_t number = first; number <= last; number += step) {
+  const std::size_t before = to.size();
+  for (std::int64_t number = first; number <= std::min(last, highest_[carom::at(scope)]); number += step) {
     const Index index = find(scope, number);
-    if (index < 0)
-      ++missing;
-    else
-      to.push_back(index);
+    if (index >= 0) to.push_back(index);
   }
+  missing += static_cast<std::size_t>((last - first) / step) + 1 - (to.size() - before);
 }
 
 void DeckSets::read(const Statement& statement, const Statements& statements, std::vector<std::string>& notes) {
@@ -46,7 +46,8 @@ void DeckSets::read(const Statement& statement, const Statements& statements, st
   int scope = statement.scope;
   if (keyword.has("INSTANCE")) {
     scope = statements.instance(keyword.required("INSTANCE"));
-    if (scope < 0) keyword.fail("the unknown instance " + keyword.required("INSTANCE"), "the NAME of an *INSTANCE");
+    if (scope < 0)
+      keyword.fail(fmt::format("the unknown instance {}", keyword.required("INSTANCE")), "the NAME of an *INSTANCE");
   }
   std::vector<Index> found;
   std::size_t missing = 0;
@@ -70,6 +71,8 @@ void DeckSets::read(const Statement& statement, const Statements& statements, st
         fmt::format("{}: {} numbers of the range are no {}s; left out", to_string(keyword.where), missing, entry_));
   std::vector<Index>& set = sets_[name];
   set.insert(set.end(), found.begin(), found.end());
+  std::sort(set.begin(), set.end());  // a set that names itself would grow without end
+  set.erase(std::unique(set.begin(), set.end()), set.end());
 }
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 // The sets of a deck while it is read: nodes and elements by number and by name.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -33,7 +34,10 @@ class DeckSets {
   /// Room for about so many numbers in each scope.
   void expect(const std::vector<std::size_t>& counts);
   /// False when the number is there already.
-  bool insert(int scope, std::int64_t number, Index index) { return numbers_[at(scope)].insert(number, index); }
+  bool insert(int scope, std::int64_t number, Index index) {
+    highest_[at(scope)] = std::max(highest_[at(scope)], number);
+    return numbers_[at(scope)].insert(number, index);
+  }
   Index find(int scope, std::int64_t number) const { return numbers_[at(scope)].find(number); }
 
   std::vector<Index>& set(const std::string& name) { return sets_[name]; }
@@ -47,7 +51,8 @@ class DeckSets {
   void append_range(DeckCursor& at, int scope, std::vector<Index>& to, std::size_t& missing) const;
 
   std::string entry_, parameter_;
-  std::vector<NodeNumbers> numbers_;  ///< by scope
+  std::vector<NodeNumbers> numbers_;   ///< by scope
+  std::vector<std::int64_t> highest_;  ///< by scope
   std::map<std::string, std::vector<Index>> sets_;
   std::vector<Index> single_;
 };
