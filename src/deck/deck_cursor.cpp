@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -40,6 +41,10 @@ std::optional<double> as_real(std::string_view text) {
   const char* const last = text.data() + text.size();
   const auto [end, error] = std::from_chars(text.data(), last, value);
   if (error == std::errc{} && end == last) return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  if (error == std::errc::result_out_of_range && end == last) {
+    value = std::strtod(std::string(text).c_str(), nullptr);  // 0 or infinity
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  }
   if (error == std::errc{} && (*end == 'D' || *end == 'd')) {
     std::string with_e(text);
     with_e[static_cast<std::size_t>(end - text.data())] = 'e';

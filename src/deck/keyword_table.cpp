@@ -9,7 +9,7 @@ namespace {
 
 using enum KeywordUse;
 
-constexpr std::array<KeywordEntry, 123> kKeywords{{
+constexpr std::array<KeywordEntry, 126> kKeywords{{
     {"AMPLITUDE", model, "NAME,TIME,DEFINITION,VALUE", "",
      "A function of time; SMOOTH STEP becomes a table of 33 points."},
     {"ASSEMBLY", mesh, "NAME", "", "Begins the list of instances."},
@@ -32,18 +32,21 @@ constexpr std::array<KeywordEntry, 123> kKeywords{{
     {"CONTACT DAMPING", refused, "", "", "Contact would not damp."},
     {"CONTACT EXCLUSIONS", refused, "", "", "All surfaces would touch."},
     {"CONTACT FILE", output, "", "*", "Results of contact are in contact.csv and the fields."},
+    {"CONTACT FORMULATION", solver, "", "*",
+     "Steers the contact of the other program; contact is enforced as Carom does."},
     {"CONTACT INCLUSIONS", step, "ALL EXTERIOR", "", "ALL EXTERIOR: every outer face may touch every other."},
     {"CONTACT OUTPUT", output, "", "*", "Results of contact are in contact.csv and the fields."},
     {"CONTACT PAIR", model, "INTERACTION,TYPE,ADJUST",
      "SMALL SLIDING,MECHANICAL CONSTRAINT,CPSET,EXTENSION ZONE,OP,TRACKING",
-     "Contact of two surfaces, slave and master; sliding is always followed. ADJUST: overlaps at the start count as "
-     "touching."},
+     "Contact of two surfaces, slave and master; sliding is always followed. ADJUST=0: overlaps at the start count as "
+     "touching; other values, which close gaps, are refused unless accepted."},
     {"CONTACT PRINT", output, "", "*", "Results of contact are in contact.csv and the fields."},
     {"CONTACT PROPERTY ASSIGNMENT", step, "", "", "The interaction of general contact; one for all surfaces."},
     {"CONTROLS", solver, "", "*", "Steers the solver of the other program; Carom's own settings hold."},
     {"COUPLED TEMPERATURE-DISPLACEMENT", refused, "", "", "The step is left out."},
     {"COUPLING", refused, "", "", "The reference node would hold nothing."},
     {"CREEP", refused, "", "", "The material would not creep."},
+    {"CYCLIC SYMMETRY MODEL", refused, "", "", "Nothing would hold the edges of the sector."},
     {"DAMPING", refused, "", "", "The bodies would not be damped."},
     {"DASHPOT", refused, "", "", "The damper would be left out."},
     {"DENSITY", model, "", "", "Density."},
@@ -121,11 +124,14 @@ constexpr std::array<KeywordEntry, 123> kKeywords{{
     {"PRE-TENSION SECTION", refused, "", "", "Nothing would be tightened."},
     {"RATE DEPENDENT", model, "TYPE", "", "TYPE=JOHNSON COOK: C and the reference rate."},
     {"RESTART", output, "", "*", "Carom writes checkpoints by itself (output.checkpoint_every)."},
-    {"RIGID BODY", refused, "", "", "The body would deform, or be no body at all."},
+    {"RIGID BODY", model, "ELSET,REF NODE", "",
+     "A surface of faces that follows its reference node, or is free where that has a *MASS; it does not turn. It is "
+     "met by *CONTACT PAIR, as the second surface."},
     {"ROTARY INERTIA", refused, "", "", "The inertia would be left out."},
     {"SECTION CONTROLS", solver, "", "*",
      "Hourglass control of the other program; Carom's own holds (part.hourglass)."},
     {"SECTION PRINT", output, "", "*", "Results over sections."},
+    {"SELECT CYCLIC SYMMETRY MODES", refused, "", "", "The step is left out."},
     {"SHELL SECTION", refused, "", "", "Carom has no shells."},
     {"SOLID SECTION", model, "ELSET,MATERIAL", "ORIENTATION,CONTROLS",
      "A part; the thickness of plane cells, the area of bars."},

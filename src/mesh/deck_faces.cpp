@@ -51,6 +51,23 @@ const std::vector<std::uint32_t>& DeckFaces::outer(const CellRef& cell) {
   return outer_[key_of_cell(cell)];
 }
 
+std::vector<CellRef> DeckFaces::between(const std::vector<Index>& nodes, std::int64_t& last) {
+  std::vector<char> is_given(mesh_.node_count(), 0);
+  for (const Index n : nodes) is_given[at(n)] = 1;
+  std::vector<CellRef> faces;
+  for (const DeckElement& element : elements_) {
+    if (element.type->kind != DeckElementType::Kind::cell || element.type->section.empty()) continue;
+    for (const std::uint32_t number : outer(element.cell)) {
+      const CellBlock& block = mesh_.blocks[at(element.cell.block)];
+      const std::span<const LocalNode> own = cell_faces(block.type)[number].nodes();
+      const std::span<const Index> all = block.nodes(element.cell.cell);
+      if (std::all_of(own.begin(), own.end(), [&](LocalNode n) { return is_given[at(all[n])] != 0; }))
+        faces.push_back(face(element.cell, number, last));
+    }
+  }
+  return faces;
+}
+
 void DeckFaces::append(const std::vector<Index>& elements, const std::string& label, const DeckCursor& at,
                        std::vector<CellRef>& to, std::int64_t& last) {
   const bool is_side = label == "SPOS" || label == "SNEG";

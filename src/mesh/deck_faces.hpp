@@ -26,6 +26,8 @@ class DeckFaces {
   /// thrown at the place of the cursor.
   void append(const std::vector<Index>& elements, const std::string& label, const DeckCursor& at,
               std::vector<CellRef>& to, std::int64_t& last);
+  /// The faces on the outside of the mesh all of whose nodes are given.
+  std::vector<CellRef> between(const std::vector<Index>& nodes, std::int64_t& last);
 
  private:
   CellRef face(const CellRef& cell, std::size_t number, std::int64_t& last);

@@ -193,7 +193,7 @@ class DeckMeshReader {
     if (type == "NODE") {
       read_node_surface(s, name);
     } else if (type == "ELEMENT") {
-      names_.surfaces[name] = {name, DeckNames::SurfaceKind::faces};
+      names_.surfaces[name] = {name, DeckNames::SurfaceKind::faces, name};
       for (DeckCursor at(keyword); at.next_line();) {
         const std::vector<Index>& elements = elements_named(at, s.scope);
         faces_.append(elements, upper_case(at.field()), at, surface_cells_[name], next_number_);
@@ -205,7 +205,7 @@ class DeckMeshReader {
   }
 
   void read_node_surface(const Statement& s, const std::string& name) {
-    names_.surfaces[name] = {name, DeckNames::SurfaceKind::nodes};
+    names_.surfaces[name] = {name, DeckNames::SurfaceKind::nodes, {}};
     std::vector<Index>& to = surface_nodes_[name];
     for (DeckCursor at(*s.keyword); at.next_line();) {
       const std::string_view text = at.field();
@@ -260,14 +260,17 @@ class DeckMeshReader {
     static const std::set<std::string> by_number{"BOUNDARY", "CLOAD", "INITIAL CONDITIONS"};
     for (const auto& [name, nodes] : node_sets_.all()) add_nodes(name, nodes);
     for (const Statement& s : statements_.list) {
+      if (const std::string* node = s.keyword->parameter("REF NODE")) add_node(s, *node);
       if (by_number.count(s.keyword->name) == 0) continue;
-      for (DeckCursor at(*s.keyword); at.next_line();) {
-        const std::string key = scope(s).prefix + upper_case(at.field());
-        if (names_.node_sets.count(key) != 0) continue;
-        const std::vector<Index>* nodes = node_sets_.entries(key, 0, statements_);
-        if (nodes != nullptr && nodes->size() == 1) add_nodes(key, *nodes);
-      }
+      for (DeckCursor at(*s.keyword); at.next_line();) add_node(s, at.field());
     }
+  }
+
+  void add_node(const Statement& s, std::string_view number) {
+    const std::string key = scope(s).prefix + upper_case(number);
+    if (names_.node_sets.count(key) != 0) return;
+    const std::vector<Index>* nodes = node_sets_.entries(key, 0, statements_);
+    if (nodes != nullptr && nodes->size() == 1) add_nodes(key, *nodes);
   }
 
   void add_nodes(const std::string& name, const std::vector<Index>& nodes) {
@@ -309,10 +312,15 @@ class DeckMeshReader {
   void name_surfaces() {
     for (auto& [name, surface] : names_.surfaces) {
       if (mesh_.has_group(name)) surface.group = name + " (surface)";
-      if (surface.kind == DeckNames::SurfaceKind::faces)
+      surface.faces = surface.group;
+      if (surface.kind == DeckNames::SurfaceKind::faces) {
         mesh_.cell_groups[surface.group] = surface_cells_[name];
-      else
-        mesh_.node_groups[surface.group] = surface_nodes_[name];
+        continue;
+      }
+      mesh_.node_groups[surface.group] = surface_nodes_[name];
+      const std::vector<CellRef> faces = faces_.between(surface_nodes_[name], next_number_);
+      surface.faces = faces.empty() ? "" : name + " (faces)";
+      if (!faces.empty()) mesh_.cell_groups[surface.faces] = faces;
     }
   }
 

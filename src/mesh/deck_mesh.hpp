@@ -29,6 +29,7 @@ struct DeckNames {
   struct Surface {
     std::string group;
     SurfaceKind kind{};
+    std::string faces;  ///< the group that is a slave of contact: of a surface of nodes "NAME (faces)", "" without any
   };
   std::map<std::string, std::string> node_sets;  ///< also nodes that loads and supports name by their number, "5"
   std::map<std::string, std::vector<Cells>> element_sets;

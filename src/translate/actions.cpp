@@ -233,6 +233,8 @@ class Actions {
     for (const auto& [time, value] : points)
       if (std::abs(value) > std::abs(size)) size = value;
     const bool is_support = acting.keyword == "BOUNDARY";
+    if (is_support)
+      if (RigidBody* body = referred_to(t_, acting.group)) return move_rigid(*body, acting, points);
     if (size == 0.0 && !is_support) return t_.findings.note(acting.where, "a load of 0: left out");
     std::string function;
     const bool is_constant = std::all_of(points.begin(), points.end(), [&](const auto& p) { return p.second == size; });
@@ -241,6 +243,36 @@ class Actions {
       write_support(acting, size, function);
     else
       write_load(acting, size, function);
+  }
+
+  /// A rigid surface is moved by its velocity: that of a displacement is the slope of its polygon.
+  void move_rigid(RigidBody& body, const Acting& acting, Points points) {
+    if (acting.what == "acceleration")
+      body.keyword->fail("an imposed acceleration of the reference node", "its velocity or displacement");
+    if (acting.what == "displacement") points = slopes(*body.keyword, points);
+    double size = 0.0;
+    for (const auto& [time, value] : points)
+      if (std::abs(value) > std::abs(size)) size = value;
+    const bool is_constant = std::all_of(points.begin(), points.end(), [&](const auto& p) { return p.second == size; });
+    body.motion.at(static_cast<std::size_t>(acting.component)) =
+        RigidBody::Motion{size, is_constant || size == 0.0 ? "" : function_of(acting, points, size)};
+  }
+
+  static Points slopes(const DeckKeyword& keyword, const Points& points) {
+    Points result;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const double dt = points[i].first - points[i - 1].first, du = points[i].second - points[i - 1].second;
+      if (dt == 0.0) {
+        if (du != 0.0) keyword.fail("a displacement of the reference node that jumps", "one that grows");
+        continue;
+      }
+      result.emplace_back(points[i - 1].first, du / dt);
+      result.emplace_back(points[i].first, du / dt);
+    }
+    const bool starts_elsewhere = !points.empty() && points.front().second != 0.0;
+    if (starts_elsewhere) keyword.fail("a displacement of the reference node that jumps", "one that grows from 0");
+    if (!result.empty()) result.emplace_back(points.back().first, 0.0);  // stays where it is
+    return result;
   }
 
   std::string function_of(const Acting& acting, const Points& points, double size) {

@@ -64,13 +64,22 @@ void add_point(Points& points, double t, double value) {
     points.emplace_back(t, value);
 }
 
-void follow_amplitude(Points& points, const Action& action, const DeckStep& step) {
+/// The value at the beginning of a step. The step before ends with its own, so that a jump between two steps comes just
+/// after their common time; at the start of the run it is there from the beginning.
+void begin_step(Points& points, const DeckStep& step, double before, double value) {
+  constexpr double just_after = 1e-9;  // of the step
+  if (step.start == 0.0) return add_point(points, 0.0, value);
+  add_point(points, step.start, before);
+  if (value != before) add_point(points, step.start + just_after * step.period, value);
+}
+
+void follow_amplitude(Points& points, const Action& action, const DeckStep& step, double before) {
   const double shift = action.amplitude->is_total ? 0.0 : step.start;
   const Points& of = action.amplitude->points;
-  add_point(points, step.start, action.value * value_at(of, step.start - shift));
+  begin_step(points, step, before, action.value * value_at(of, step.start - shift));
   for (const auto& [time, value] : of) {
     const double t = time + shift;
-    if (t >= step.start && t <= step.finish()) add_point(points, t, action.value * value);
+    if (t > points.back().first && t <= step.finish()) add_point(points, t, action.value * value);
   }
   add_point(points, step.finish(), action.value * value_at(of, step.finish() - shift));
 }
@@ -109,11 +118,10 @@ Points history(const std::vector<Action>& actions, const std::vector<DeckStep>& 
     if (is_said) acting = *next++;
     const bool goes_on = acting.amplitude != nullptr && acting.amplitude->is_total;
     if (!is_said && !goes_on) continue;
-    if (step.start > 0.0 || step.ramps) add_point(points, step.start, now);
     if (acting.amplitude != nullptr) {
-      follow_amplitude(points, acting, step);
+      follow_amplitude(points, acting, step, now);
     } else {
-      if (!step.ramps) add_point(points, step.start, acting.value);
+      begin_step(points, step, now, step.ramps ? now : acting.value);
       add_point(points, step.finish(), acting.value);
     }
     now = points.back().second;

@@ -73,14 +73,16 @@ const Interaction& interaction(const std::map<std::string, Interaction>& all, co
   return found->second;
 }
 
-std::string faces_of(const Translation& t, const Statement& s, const DeckCursor& at, const std::string& name) {
+std::string faces_of(Translation& t, const Statement& s, const DeckCursor& at, const std::string& name) {
   const std::string key = key_of(t.mesh.names.surfaces, t.scope(s), name);
   if (key.empty()) at.fail("\"" + name + "\"", "the NAME of a *SURFACE");
   const DeckNames::Surface& surface = t.mesh.names.surfaces.at(key);
-  if (surface.kind == DeckNames::SurfaceKind::nodes)
-    at.fail(name + ", a surface of nodes", "TYPE=ELEMENT, a surface of faces",
+  if (surface.faces.empty())
+    at.fail(name + ", a surface of nodes that make no face", "nodes with all those of a face, or TYPE=ELEMENT",
             "Carom's contact needs the faces of both sides.");
-  return surface.group;
+  if (surface.kind == DeckNames::SurfaceKind::nodes)
+    t.findings.note(at.where(), name + " is a surface of nodes: the faces between them touch");
+  return surface.faces;
 }
 
 std::string method_of(const DeckKeyword& pair) {
@@ -92,16 +94,34 @@ std::string method_of(const DeckKeyword& pair) {
   pair.fail("TYPE=" + *type, "NODE TO SURFACE or SURFACE TO SURFACE");
 }
 
+/// ADJUST=0 takes overlaps as touching; a distance or a set also closes gaps.
+void refuse_closing(Translation& t, const DeckKeyword& pair) {
+  const std::string* adjust = pair.parameter("ADJUST");
+  if (adjust == nullptr) return;
+  const auto distance = as_real(*adjust);
+  if (!distance || *distance != 0.0)
+    t.findings.refuse(pair, pair.where, "ADJUST=" + *adjust, "Gaps at the start would stay open.");
+}
+
 void translate_pairs(Translation& t, const std::map<std::string, Interaction>& all, const Statement& s) {
   const DeckKeyword& keyword = *s.keyword;
+  refuse_closing(t, keyword);
   for (DeckCursor at(keyword); at.next_line();) {
     const std::string slave(at.field()), master(at.field());
     TableMaker contact(at.where());
     const bool is_self = master.empty() || upper_case(master) == upper_case(slave);
+    const std::string group = faces_of(t, s, at, slave), other = is_self ? group : faces_of(t, s, at, master);
     contact.text("name", is_self ? upper_case(slave) + " self" : upper_case(slave) + " on " + upper_case(master));
-    contact.text("kind", is_self ? "self" : "pair").text("group", faces_of(t, s, at, slave));
-    if (!is_self) contact.text("master", faces_of(t, s, at, master));
-    contact.text("method", method_of(keyword));
+    if (body_of_cells(t, group) != nullptr)
+      at.fail(slave + ", the surface of a rigid body", "the deformable one first", "Name the rigid surface second.");
+    if (RigidBody* body = body_of_cells(t, other)) {
+      contact.text("kind", "surface").text("group", group).text("surface", other);
+      add_rigid_motion(t, *body, contact);
+    } else {
+      contact.text("kind", is_self ? "self" : "pair").text("group", group);
+      if (!is_self) contact.text("master", other);
+      contact.text("method", method_of(keyword));
+    }
     contact.text("initial_penetration", keyword.has("ADJUST") ? "offset" : "prestress");
     add_interaction(interaction(all, keyword.required("INTERACTION"), at), contact);
     t.append("contact", contact.node());
@@ -112,6 +132,9 @@ void translate_pairs(Translation& t, const std::map<std::string, Interaction>& a
 void translate_general(Translation& t, const std::map<std::string, Interaction>& all, const DeckKeyword& inclusions) {
   if (!inclusions.has("ALL EXTERIOR"))
     inclusions.fail("contact of chosen surfaces", "ALL EXTERIOR", "Write pairs as *CONTACT PAIR.");
+  for (const RigidBody& body : t.rigid_bodies)
+    t.findings.refuse(inclusions, body.keyword->where, "a *RIGID BODY in general contact",
+                      "It would touch nothing; write *CONTACT PAIR.");
   TableMaker contact(inclusions.where);
   contact.text("name", "general contact").text("kind", "all").text("initial_penetration", "offset");
   for (const Statement& s : t.statements.list) {

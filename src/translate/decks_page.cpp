@@ -64,8 +64,12 @@ CalculiX; Abaqus integrates a rate, which differs at large elastic strains.
 ## Contact
 
 The first surface of a pair is the slave. Both sides are searched unless `TYPE` says `NODE TO SURFACE` or `SURFACE TO
-SURFACE`. `HARD` contact has the stiffness that Carom chooses. Overlaps at the start push, as in CalculiX, and with `ADJUST`
-count as touching. Slaves need faces: surfaces of nodes are refused.
+SURFACE`. `HARD` contact has the stiffness that Carom chooses. Overlaps at the start push, as in CalculiX, and with
+`ADJUST=0` count as touching. Of a surface of nodes the faces between them touch, a group `NAME (faces)`; one that makes no face is
+refused.
+
+A `*RIGID BODY` of faces (R3D3, R3D4) is an obstacle: its reference node is held or moved along all three axes by
+`*BOUNDARY`, or is free along all of them and has a `*MASS`. It does not turn. Behind its last imposed displacement it stays.
 
 ## neo-Hookean bodies
 

@@ -88,6 +88,10 @@ void translate_initial(Translation& t) {
   }
   refuse_mixed(t, all);
   for (const GroupVelocity& v : all) {
+    if (RigidBody* body = referred_to(t, v.group)) {
+      body->initial_velocity = v.velocity;
+      continue;
+    }
     TableMaker initial(v.where);
     t.append("initial", initial.text("nodes", v.group).vector("velocity", v.velocity).node());
   }
@@ -98,8 +102,13 @@ void translate_mass(Translation& t, const Statement& s) {
   if (key.empty()) s.keyword->fail("ELSET=" + set, "a set of elements of TYPE=MASS");
   DeckCursor at(*s.keyword);
   if (!at.next_line()) s.keyword->fail("no data", "the mass");
+  const double value = at.real("the mass");
+  if (RigidBody* body = referred_to(t, t.mesh.names.masses.at(key))) {
+    body->mass = value;
+    return;
+  }
   TableMaker mass(s.keyword->where);
-  mass.text("nodes", t.mesh.names.masses.at(key)).number("mass", at.real("the mass"));
+  mass.text("nodes", t.mesh.names.masses.at(key)).number("mass", value);
   t.append("point_mass", mass.node());
 }
 

@@ -89,13 +89,17 @@ TranslatedDeck translate_deck(std::string bytes, const std::string& path, const 
   const Statements statements = statements_of(deck);
   const DeckMesh mesh = deck_mesh(statements, path);
   Findings findings(accepted);
-  Translation t{statements, mesh, findings, {}, {}};
+  Translation t{statements, mesh, findings, {}, {}, {}};
   survey(t);
   find_steps(t);
+  t.rigid_bodies = rigid_bodies_of(t);
   const Location top{path, 1, 0};
   t.root.members.push_back({"title", top, title_of(statements, path)});
   TableMaker of_mesh(top);
   of_mesh.text("file", std::filesystem::path(path).filename().string());
+  const auto leaves_cells = {"SHELL SECTION", "BEAM SECTION", "BEAM GENERAL SECTION", "MEMBRANE SECTION"};
+  if (std::any_of(leaves_cells.begin(), leaves_cells.end(), [&](const char* name) { return findings.accepts(name); }))
+    of_mesh.text("unused", "ignore");
   t.root.members.push_back({"mesh", top, of_mesh.node()});
   translate_bodies(t);
   translate_discrete(t);

@@ -11,6 +11,7 @@
 #include "deck/statements.hpp"
 #include "mesh/deck_mesh.hpp"
 #include "translate/findings.hpp"
+#include "translate/rigid.hpp"
 
 namespace carom {
 
@@ -35,6 +36,7 @@ struct Translation {
   const DeckMesh& mesh;
   Findings& findings;
   std::vector<DeckStep> steps;
+  std::vector<RigidBody> rigid_bodies;
   Table root;
 
   const DeckScope& scope(const Statement& s) const { return statements.scopes[at(s.scope)]; }

@@ -95,6 +95,7 @@ TEST(Deck, NumbersOfFortran) {
   EXPECT_FALSE(as_real("nan"));
   EXPECT_FALSE(as_real("inf"));
   EXPECT_FALSE(as_real("1e999"));
+  EXPECT_EQ(as_real("1e-999"), 0.0);
   EXPECT_FALSE(as_real(""));
   EXPECT_EQ(as_integer("+12"), 12);
   EXPECT_FALSE(as_integer("12."));

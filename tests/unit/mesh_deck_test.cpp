@@ -96,6 +96,12 @@ TEST(MeshDeck, ASurfaceWithoutFaceNumbersIsTheOutside) {
   EXPECT_EQ(mesh.cell_groups.at("LOW").size(), 5U);
 }
 
+TEST(MeshDeck, FacesBetweenTheNodesOfASurface) {
+  const Mesh mesh = read(kTwoCubes + "*SURFACE, NAME=N, TYPE=NODE\n1, 2, 3, 4, 5, 6\n");
+  EXPECT_EQ(mesh.cell_groups.at("N (faces)").size(), 2U);  // below, and in front
+  EXPECT_EQ(numbers_of(mesh, "N (faces)"), (std::set<std::int64_t>{1, 2, 3, 4, 5, 6}));
+}
+
 TEST(MeshDeck, AFaceInSeveralSurfacesIsOneCell) {
   const Mesh mesh = read(kTwoCubes + "*SURFACE, NAME=A\n1, S1\n*SURFACE, NAME=B\n1, S1\n1, S3\n");
   EXPECT_EQ(mesh.block(CellType::quad4)->size(), 2U);

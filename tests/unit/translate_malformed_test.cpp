@@ -138,9 +138,9 @@ const std::vector<Spoiled> spoiled_decks{
      ":49: *CONTACT PAIR: found the unknown interaction J; expected the NAME of a *SURFACE INTERACTION"},
     {"contact_surface", "FOOT, FLOOR", "FEET, FLOOR",
      ":49: *CONTACT PAIR: found \"FEET\"; expected the NAME of a *SURFACE"},
-    {"contact_nodes", "*SURFACE, NAME=FOOT\nUPPER, S1", "*SURFACE, NAME=FOOT, TYPE=NODE\nFALLING",
-     ":49: *CONTACT PAIR: found FOOT, a surface of nodes; expected TYPE=ELEMENT, a surface of faces. Carom's contact "
-     "needs the faces of both sides."},
+    {"contact_nodes", "*SURFACE, NAME=FOOT\nUPPER, S1", "*SURFACE, NAME=FOOT, TYPE=NODE\n11, 12",
+     ":49: *CONTACT PAIR: found FOOT, a surface of nodes that make no face; expected nodes with all those of a face, "
+     "or TYPE=ELEMENT. Carom's contact needs the faces of both sides."},
     {"contact_type", "*CONTACT PAIR, INTERACTION=I", "*CONTACT PAIR, INTERACTION=I, TYPE=MORTAR",
      ":48: *CONTACT PAIR: found TYPE=MORTAR; expected NODE TO SURFACE or SURFACE TO SURFACE"},
     {"behavior_slope", "LINEAR\n1e6", "LINEAR\n0.", ":45: *SURFACE BEHAVIOR: found slope 0; expected a positive one"},

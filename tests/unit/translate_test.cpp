@@ -159,6 +159,22 @@ TEST(Translate, FormulationsOfElementTypes) {
   EXPECT_TRUE(has_note(made, "C3D8R: one point"));
 }
 
+TEST(Translate, FacesBetweenTheNodesOfASurface) {
+  const TranslatedDeck made =
+      translated(replaced(good_deck, "*SURFACE, NAME=FOOT\nUPPER, S1", "*SURFACE, NAME=FOOT, TYPE=NODE\nFALLING"));
+  EXPECT_EQ(*case_of(made.tree, "x.inp").contacts[0].group, "FOOT (faces)");
+  EXPECT_TRUE(has_note(made, "surface of nodes"));
+}
+
+TEST(Translate, GravityLineByLineIsThatOfAll) {
+  const std::string deck =
+      replaced(good_deck, "*CLOAD, AMPLITUDE=A\n15, 1, 5.", "*DLOAD\nUPPER, GRAV, 9., 0., 0., -1.\n");
+  EXPECT_THROW(translated(deck), CaseError);
+  const Case made = case_from(replaced(deck, "*DLOAD\n", "*DLOAD\nLOWER, GRAV, 9., 0., 0., -1.\n"));
+  ASSERT_EQ(made.loads.size(), 1U);
+  EXPECT_EQ(made.loads[0].vector, (Vec3{0.0, 0.0, -9.0}));
+}
+
 TEST(Translate, NamedSupports) {
   const Case made = case_from(replaced(good_deck, "BASE, 1, 3", "BASE, YSYMM\nFALLING, 4, 6\n5, PINNED"));
   ASSERT_EQ(made.supports.size(), 4U);
@@ -204,9 +220,10 @@ TEST(Translate, HistoriesOfStepsWithAndWithoutRamps) {
   second.start = 1.0;
   second.period = 2.0;
   const std::vector<DeckStep> steps{first, second};
+  // A jump between two steps comes just after: the first ends with its own value.
   EXPECT_EQ(history({{0, 4.0}}, steps), (Points{{0.0, 0.0}, {1.0, 4.0}}));
-  EXPECT_EQ(history({{0, 4.0}, {1, 6.0}}, steps), (Points{{0.0, 0.0}, {1.0, 4.0}, {1.0, 6.0}, {3.0, 6.0}}));
-  EXPECT_EQ(history({{1, 6.0}}, steps), (Points{{1.0, 0.0}, {1.0, 6.0}, {3.0, 6.0}}));
+  EXPECT_EQ(history({{0, 4.0}, {1, 6.0}}, steps), (Points{{0.0, 0.0}, {1.0, 4.0}, {1.0 + 2e-9, 6.0}, {3.0, 6.0}}));
+  EXPECT_EQ(history({{1, 6.0}}, steps), (Points{{1.0, 0.0}, {1.0 + 2e-9, 6.0}, {3.0, 6.0}}));
   Amplitude amplitude{nullptr, {{0.0, 0.0}, {0.5, 1.0}, {1.0, 0.0}}, false};
   EXPECT_EQ(history({{1, 2.0, &amplitude}}, steps), (Points{{1.0, 0.0}, {1.5, 2.0}, {2.0, 0.0}, {3.0, 0.0}}));
   Amplitude total{nullptr, {{0.0, 0.0}, {4.0, 8.0}}, true};  // goes on where nothing is said

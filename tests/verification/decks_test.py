@@ -110,6 +110,11 @@ class Decks(unittest.TestCase):
         for values in two:
             self.assertAlmostEqual(values[-1], -0.02, delta=1e-9)
 
+    def test_a_bar_leaves_a_moving_rigid_wall_at_twice_its_speed(self):
+        # One-dimensional waves: the bar leaves after 2 L / c = 0.8 ms, gap included 0.9 ms, with 2 V.
+        leaves = self.column("bar_on_moving_wall", "BAR-1.ALL", "velocity_z")[-1]
+        self.assertAlmostEqual(leaves, 20.0, delta=0.3)
+
     def test_what_is_left_out_is_told_and_what_changes_the_physics_is_refused(self):
         notes = self.call("check", DECKS / "driven.inp")
         self.assertIn("small strains and rotations", notes)
