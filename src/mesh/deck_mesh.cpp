@@ -212,6 +212,7 @@ class DeckMeshReader {
       const std::vector<Index>* nodes = node_sets_.entries(text, s.scope, statements_);
       if (nodes == nullptr) at.fail(printable(text), "the number of a node or the name of a node set");
       to.insert(to.end(), nodes->begin(), nodes->end());
+      if (!at.at_end()) at.fail("more than one field", "one node or set in a line", "Areas of nodes are not taken.");
     }
   }
 

@@ -32,12 +32,12 @@ void Findings::refuse(const DeckKeyword& keyword, const Location& where, const s
 
 void Findings::check(const std::string& source) const {
   if (refusals_.empty()) return;
-  throw CaseError({source, 0, 0}, "",
-                  fmt::format("{} that Carom does not carry over\n  {}\n",
-                              refusals_.size() == 1 ? "something" : fmt::format("{} things", refusals_.size()),
-                              fmt::join(refusals_, "\n  ")),
-                  "a deck that loses nothing of its physics",
-                  fmt::format("To run without them: --accept \"{}\"", fmt::join(keywords_, ",")));
+  throw CaseError(
+      {source, 0, 0}, "",
+      fmt::format("{} that Carom does not carry over",
+                  refusals_.size() == 1 ? "something" : fmt::format("{} things", refusals_.size())),
+      "a deck that loses nothing of its physics",
+      fmt::format("--accept \"{}\" runs without:\n  {}", fmt::join(keywords_, ","), fmt::join(refusals_, "\n  ")));
 }
 
 }  // namespace carom

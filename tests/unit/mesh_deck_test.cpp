@@ -97,7 +97,7 @@ TEST(MeshDeck, ASurfaceWithoutFaceNumbersIsTheOutside) {
 }
 
 TEST(MeshDeck, FacesBetweenTheNodesOfASurface) {
-  const Mesh mesh = read(kTwoCubes + "*SURFACE, NAME=N, TYPE=NODE\n1, 2, 3, 4, 5, 6\n");
+  const Mesh mesh = read(kTwoCubes + "*SURFACE, NAME=N, TYPE=NODE\n1\n2,\n3\n4\n5\n6\n");
   EXPECT_EQ(mesh.cell_groups.at("N (faces)").size(), 2U);  // below, and in front
   EXPECT_EQ(numbers_of(mesh, "N (faces)"), (std::set<std::int64_t>{1, 2, 3, 4, 5, 6}));
 }

@@ -44,7 +44,7 @@ const std::vector<Spoiled> spoiled_decks{
      ":32: found a * alone; expected a keyword such as *NODE"},
     {"open_quote", "NSET=NALL", "NSET=\"NALL",
      ":3: *NODE: found '\"NALL'; expected a closing quotation mark. Names with blanks stand in \"quotes\"."},
-    {"latin_name", "NSET=NALL", "NSET=N\xc4", ":3: *NODE: found 'NSET=N\xc4'; expected letters of ASCII. Rename it."},
+    {"latin_name", "NSET=NALL", "NSET=N\xc4", ":3: *NODE: found 'NSET=N\\xc4'; expected letters of ASCII. Rename it."},
     {"include_nothing", "*HEADING", "*INCLUDE\n*HEADING",
      ":1: *INCLUDE: found no file; expected INPUT=NAME. *INCLUDE, INPUT=mesh.inp reads that file in this place."},
     {"include_missing", "*HEADING", "*INCLUDE, INPUT=a.inc\n*HEADING",
@@ -69,8 +69,11 @@ const std::vector<Spoiled> spoiled_decks{
      ":21: *ELEMENT: found 7 nodes of element 1; expected 8 of a C3D8"},
     {"element_long", "1,1,2,3,4,5,6,7,8", "1,1,2,3,4,5,6,7,8,11",
      ":21: *ELEMENT: found more than 8 nodes of element 1; expected 8 of a C3D8. Is the TYPE right?"},
-    {"set_unknown", "NSET=BASE, GENERATE\n1, 4", "NSET=BASE\nNOWHERE", ": found ?"},
-    {"set_parameter", "GENERATE\n1, 4", "GENERATES\n1, 4", "?"},
+    {"set_unknown", "NSET=BASE, GENERATE\n1, 4", "NSET=BASE\nNOWHERE",
+     ":25: *NSET: found 'NOWHERE'; expected the number of a node or the name of a set before this one"},
+    {"set_parameter", "GENERATE\n1, 4", "GENERATES\n1, 4",
+     ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
+     "\"NSET\" runs without:\n  x.inp:24: *NSET: the parameter GENERATES is not known. What it changes would be lost."},
     {"set_range", "GENERATE\n1, 4", "GENERATE\n4, 1",
      ":25: *NSET: found 4, 1, 1; expected first, last and a positive increment"},
     {"set_no_name", "*NSET, NSET=BASE, GENERATE", "*NSET, GENERATE",
@@ -131,23 +134,31 @@ const std::vector<Spoiled> spoiled_decks{
     {"initial_dof", "FALLING, 3, -1000.", "FALLING, 4, -1000.",
      ":42: *INITIAL CONDITIONS: found degree of freedom 4; expected 1, 2 or 3"},
     {"initial_type", "TYPE=VELOCITY", "TYPE=STRESS",
-     ": found something that Carom does not carry over\n  x.inp:41: *INITIAL CONDITIONS: TYPE=STRESS. The run would "
-     "begin without.\n; expected a deck that loses nothing of its physics. To run without them: --accept \"INITIAL "
-     "CONDITIONS\""},
+     ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
+     "\"INITIAL CONDITIONS\" runs without:\n  x.inp:41: *INITIAL CONDITIONS: TYPE=STRESS. The run would begin "
+     "without."},
     {"interaction", "*CONTACT PAIR, INTERACTION=I", "*CONTACT PAIR, INTERACTION=J",
      ":49: *CONTACT PAIR: found the unknown interaction J; expected the NAME of a *SURFACE INTERACTION"},
     {"contact_surface", "FOOT, FLOOR", "FEET, FLOOR",
      ":49: *CONTACT PAIR: found \"FEET\"; expected the NAME of a *SURFACE"},
-    {"contact_nodes", "*SURFACE, NAME=FOOT\nUPPER, S1", "*SURFACE, NAME=FOOT, TYPE=NODE\n11, 12",
+    {"contact_nodes", "*SURFACE, NAME=FOOT\nUPPER, S1", "*SURFACE, NAME=FOOT, TYPE=NODE\n11",
      ":49: *CONTACT PAIR: found FOOT, a surface of nodes that make no face; expected nodes with all those of a face, "
      "or TYPE=ELEMENT. Carom's contact needs the faces of both sides."},
+    {"surface_area", "*SURFACE, NAME=FOOT\nUPPER, S1", "*SURFACE, NAME=FOOT, TYPE=NODE\nFALLING, 1.",
+     ":31: *SURFACE: found more than one field; expected one node or set in a line. Areas of nodes are not taken."},
     {"contact_type", "*CONTACT PAIR, INTERACTION=I", "*CONTACT PAIR, INTERACTION=I, TYPE=MORTAR",
      ":48: *CONTACT PAIR: found TYPE=MORTAR; expected NODE TO SURFACE or SURFACE TO SURFACE"},
+    {"contact_adjust", "*CONTACT PAIR, INTERACTION=I", "*CONTACT PAIR, INTERACTION=I, ADJUST=0.2",
+     ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
+     "\"CONTACT PAIR\" runs without:\n  x.inp:48: *CONTACT PAIR: ADJUST=0.2. Gaps at the start would stay open."},
+    {"contact_rigid", "*STEP\n", "*RIGID BODY, ELSET=LOWER, REF NODE=1\n*STEP\n",
+     ":52: *RIGID BODY: found LOWER, elements of type C3D8; expected R3D3, R3D4, or other faces. Carom's rigid bodies "
+     "are surfaces; bodies made of cells deform."},
     {"behavior_slope", "LINEAR\n1e6", "LINEAR\n0.", ":45: *SURFACE BEHAVIOR: found slope 0; expected a positive one"},
     {"behavior_kind", "OVERCLOSURE=LINEAR", "OVERCLOSURE=EXPONENTIAL",
-     ": found something that Carom does not carry over\n  x.inp:44: *SURFACE BEHAVIOR: "
-     "PRESSURE-OVERCLOSURE=EXPONENTIAL. Contact would have the stiffness that Carom chooses from the material and the "
-     "cells.\n; expected a deck that loses nothing of its physics. To run without them: --accept \"SURFACE BEHAVIOR\""},
+     ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
+     "\"SURFACE BEHAVIOR\" runs without:\n  x.inp:44: *SURFACE BEHAVIOR: PRESSURE-OVERCLOSURE=EXPONENTIAL. Contact "
+     "would have the stiffness that Carom chooses from the material and the cells."},
     {"amplitude_unknown", "AMPLITUDE=A", "AMPLITUDE=B",
      ":55: *CLOAD: found the unknown amplitude B; expected the NAME of an *AMPLITUDE"},
     {"amplitude_order", "0., 0., 1e-3, 1.", "0., 0., 1e-3, 1., 5e-4, 1.",
@@ -172,16 +183,16 @@ const std::vector<Spoiled> spoiled_decks{
      ":53: scheme.alpha: found -0.5 with scheme hht; expected a number >= -1/3 and <= 0. Below, HHT dissipates less "
      "again: choose -1/3, or scheme wbz."},
     {"frequency", "*DYNAMIC, DIRECT\n1e-6, 1e-3", "*FREQUENCY\n10",
-     ": found no step with *STATIC or *DYNAMIC; expected at least one. `carom mesh` describes a deck without steps; "
-     "other procedures are not computed."},
+     ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
+     "\"FREQUENCY\" runs without:\n  x.inp:53: *FREQUENCY: not carried out. The step is left out."},
     {"cload_dof", "15, 1, 5.", "15, 5, 5.",
      ":56: *CLOAD: found degree of freedom 5; expected 1, 2 or 3. Nodes of solids take no moments."},
     {"cload_node", "15, 1, 5.", "99, 1, 5.",
      ":56: *CLOAD: found \"99\"; expected the name of a node set or the number of a node. Names of an instance have "
      "the instance before them, as in PART-1-1.TOP."},
     {"unknown_keyword", "*BOUNDARY\nBASE", "*ELASTICS\n*BOUNDARY\nBASE",
-     ": found something that Carom does not carry over\n  x.inp:39: *ELASTICS: an unknown keyword. What it means would "
-     "be lost.\n; expected a deck that loses nothing of its physics. To run without them: --accept \"ELASTICS\""},
+     ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
+     "\"ELASTICS\" runs without:\n  x.inp:39: *ELASTICS: an unknown keyword. What it means would be lost."},
 };
 
 INSTANTIATE_TEST_SUITE_P(Decks, TranslateMalformed, testing::ValuesIn(spoiled_decks),
