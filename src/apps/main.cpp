@@ -38,6 +38,8 @@
 #include "run/recorder.hpp"
 #include "run/run_case.hpp"
 #include "run/simulation.hpp"
+#include "translate/convert_deck.hpp"
+#include "translate/translate_deck.hpp"
 
 namespace {
 
@@ -73,7 +75,8 @@ extern "C" void request_stop(int /*signal*/) {
 }
 
 struct Arguments {
-  std::string case_file, mesh_file, folder;
+  std::string case_file, mesh_file, folder, output;
+  std::vector<std::string> accepted;
   int threads = 0;
   bool quiet = false;
   std::optional<double> end;
@@ -113,6 +116,7 @@ ExitCode run(const Arguments& arguments) {
   options.folder = results_folder(arguments, "");
   options.threads = arguments.threads;
   options.progress = arguments.quiet ? carom::ProgressMode::quiet : carom::ProgressMode::automatic;
+  options.accepted = arguments.accepted;
   return carom::run_case(arguments.case_file, options, stop_requested);
 }
 
@@ -127,10 +131,11 @@ ExitCode resume(const Arguments& arguments) {
 
 ExitCode check(const Arguments& arguments) {
   carom::set_threads(arguments.threads);
-  const carom::Case given = carom::read_case(arguments.case_file);
-  const carom::Simulation simulation(given);
+  const carom::ReadCase read = carom::read_case_or_deck(arguments.case_file, arguments.accepted);
+  const carom::Simulation simulation(read.given);
   const carom::RunTables tables(simulation);  // refuses probes and checks that a run would refuse
   show("{}", carom::check_summary(simulation));
+  for (const std::string& note : read.notes) show("note: {}\n", note);
   for (const std::string& note : simulation.notes()) show("note: {}\n", note);
   for (const std::string& note : tables.probes.notes()) show("note: {}\n", note);
   std::vector<std::string> warnings = carom::lint_warnings(simulation);
@@ -155,6 +160,16 @@ ExitCode material(const Arguments& arguments) {
   return ExitCode::good;
 }
 
+ExitCode convert(const Arguments& arguments) {
+  const std::string output = arguments.output.empty()
+                                 ? std::filesystem::path(arguments.case_file).stem().string() + ".toml"
+                                 : arguments.output;
+  const carom::ConvertedDeck converted = carom::convert_deck(arguments.case_file, output, arguments.accepted);
+  for (const std::string& note : converted.notes) show("note: {}\n", note);
+  show("{} and {} written\n", converted.case_file, converted.mesh_file);
+  return ExitCode::good;
+}
+
 ExitCode mesh(const Arguments& arguments) {
   show("{}", carom::mesh_summary(carom::read_mesh(arguments.mesh_file)));
   return ExitCode::good;
@@ -172,9 +187,25 @@ ExitCode dispatch(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("report")) return carom::report_runs(arguments.folders, arguments.page);
   if (app.got_subcommand("check")) return check(arguments);
   if (app.got_subcommand("material")) return material(arguments);
+  if (app.got_subcommand("convert")) return convert(arguments);
   if (app.got_subcommand("mesh")) return mesh(arguments);
   fmt::print("{}\n", carom::json_schema());
   return ExitCode::good;
+}
+
+/// For commands that take a deck as well.
+void add_accept(CLI::App* command, Arguments& arguments) {
+  command
+      ->add_option("--accept", arguments.accepted,
+                   "Keywords of a deck, with commas between, that may be left out although they change the physics")
+      ->delimiter(',');
+}
+
+void add_convert(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = app.add_subcommand("convert", "Write a deck of Abaqus or CalculiX as a case and its mesh");
+  command->add_option("deck", arguments.case_file, "Deck (.inp)")->required();
+  command->add_option("-o,--out", arguments.output, "Case file to write, its mesh beside it (default: <deck>.toml)");
+  add_accept(command, arguments);
 }
 
 void add_compare(CLI::App& app, Arguments& arguments) {
@@ -300,7 +331,8 @@ int main(int argc, char** argv) {
       "checkpoints cannot be used; 3 the run failed (what was computed is kept).");
   Arguments arguments;
   CLI::App* run_command = app.add_subcommand("run", "Run a case and write its results folder and report");
-  run_command->add_option("case", arguments.case_file, "Case file (TOML)")->required();
+  run_command->add_option("case", arguments.case_file, "Case file (TOML) or deck of Abaqus or CalculiX")->required();
+  add_accept(run_command, arguments);
   run_command->add_option("--out", arguments.folder, "Results folder (default: out/<name of the case>)");
   run_command->add_option("--threads", arguments.threads, "Threads (default: all cores)")->check(CLI::Range(0, 1024));
   run_command->add_flag("--quiet", arguments.quiet, "Print errors, and why a run is not good");
@@ -311,12 +343,15 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0, 1024));
   resume_command->add_flag("--quiet", arguments.quiet, "Print errors, and why a run is not good");
   CLI::App* check_command = app.add_subcommand("check", "Read, resolve and examine a case without running it");
-  check_command->add_option("case", arguments.case_file, "Case file (TOML)")->required();
+  check_command->add_option("case", arguments.case_file, "Case file (TOML) or deck of Abaqus or CalculiX")->required();
+  add_accept(check_command, arguments);
+  add_convert(app, arguments);
   add_compare(app, arguments);
   add_material(app, arguments);
   add_report(app, arguments);
   CLI::App* mesh_command = app.add_subcommand("mesh", "Describe a mesh file");
-  mesh_command->add_option("file", arguments.mesh_file, "Mesh file (Gmsh 2.2 or 4.1, MED)")->required();
+  mesh_command->add_option("file", arguments.mesh_file, "Mesh file (Gmsh 2.2 or 4.1, MED, Abaqus or CalculiX)")
+      ->required();
   app.add_subcommand("schema", "Print the JSON Schema of the case format");
   if (const std::vector<std::string> commands = command_names(app); starts_with_no_command(argc, argv, commands)) {
     print_error(

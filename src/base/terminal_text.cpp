@@ -25,4 +25,16 @@ std::string terminal_text(std::string_view text) {
   return safe;
 }
 
+std::string printable(std::string_view text) {
+  constexpr std::size_t kMost = 40;
+  std::string result(1, '\'');
+  for (const char c : text.substr(0, kMost)) {
+    if (c >= 32 && c < 127)
+      result += c;
+    else
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+  }
+  return result + (text.size() > kMost ? "...'" : "'");
+}
+
 }  // namespace carom

@@ -11,4 +11,7 @@ namespace carom {
 /// U+009F do not.
 std::string terminal_text(std::string_view text);
 
+/// At most 40 characters of `text`, in quotes, with unprintable bytes as \xNN.
+std::string printable(std::string_view text);
+
 }  // namespace carom

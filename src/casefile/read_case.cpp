@@ -11,6 +11,7 @@
 #include "casefile/case_schema.hpp"
 #include "casefile/cross_references.hpp"
 #include "casefile/read_toml.hpp"
+#include "deck/deck.hpp"
 
 namespace carom {
 
@@ -67,7 +68,10 @@ void refuse_other_encodings(std::string_view text, const std::string& path) {
 }  // namespace
 
 Case parse_case(std::string_view text, const std::string& name) {
-  const Node root = read_toml(text, name);
+  return case_of(read_toml(text, name), name);
+}
+
+Case case_of(const Node& root, const std::string& name) {
   Case result;
   result.file = name;
   case_schema().read(result, root, {root, message_units(root), "", case_schema().description});
@@ -92,6 +96,10 @@ Case read_case(const std::string& path) {
   if (text.starts_with("$MeshFormat") || text.starts_with("\x89HDF")) {
     throw CaseError({path, 0, 0}, "", "a mesh file", "a case file (.toml)",
                     "`carom mesh` describes it; a case names it in [mesh] as file = \"...\".");
+  }
+  if (looks_like_deck(text)) {
+    throw CaseError({path, 0, 0}, "", "a deck of Abaqus or CalculiX", "a case file (.toml)",
+                    "`carom convert` makes a case of it; `carom run` and `carom check` also take it as it is.");
   }
   refuse_other_encodings(text, path);
   return parse_case(text, path);

@@ -143,7 +143,8 @@ SectionSchema<StructuredBlock> block_section() {
 
 SectionSchema<CaseMesh> mesh_section() {
   SectionSchema<CaseMesh> s("Where the mesh comes from: a file, or structured blocks.");
-  s.key("file", &CaseMesh::file, "Gmsh (.msh) or MED (.med) file, relative to the folder of the case file.");
+  s.key("file", &CaseMesh::file,
+        "Gmsh (.msh), MED (.med), Abaqus or CalculiX (.inp) file, relative to the folder of the case file.");
   s.tables("block", &CaseMesh::blocks, block_section());
   s.key("order", &CaseMesh::order,
         "linear: cells of second order are taken by their corners (HEXA20 as HEXA8, TETRA10 as TETRA4, ...), and nodes "

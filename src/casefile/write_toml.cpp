@@ -43,26 +43,27 @@ void write_values(const Table& table, std::string& text) {
   }
 }
 
-void write_entries(const std::string& path, const List& entries, std::string& text) {
+void write_entries(const std::string& path, const List& entries, const SectionComment& comment, std::string& text) {
   for (const Node& entry : entries) {
-    text += "\n[[" + path + "]]\n";
+    text += "\n" + comment(entry) + "[[" + path + "]]\n";
     for (const Member& m : std::get<Table>(entry.value).members) {
       text += toml_key(m.key) + " = " + toml_value(m.value) + "\n";
     }
   }
 }
 
-void write_sections(const std::string& path, const Table& table, std::string& text) {
+void write_sections(const std::string& path, const Table& table, const SectionComment& comment, std::string& text) {
   for (const Member& m : table.members) {
     const std::string child = join(path, m.key);
-    if (is_list_of_tables(m.value)) write_entries(child, std::get<List>(m.value.value), text);
+    if (is_list_of_tables(m.value)) write_entries(child, std::get<List>(m.value.value), comment, text);
     const auto* section = std::get_if<Table>(&m.value.value);
     if (section == nullptr) continue;
     const auto& members = section->members;
     const auto plain = [](const Member& member) { return !is_section(member.value); };
-    if (members.empty() || std::any_of(members.begin(), members.end(), plain)) text += "\n[" + child + "]\n";
+    if (members.empty() || std::any_of(members.begin(), members.end(), plain))
+      text += "\n" + comment(m.value) + "[" + child + "]\n";
     write_values(*section, text);
-    write_sections(child, *section, text);
+    write_sections(child, *section, comment, text);
   }
 }
 
@@ -73,10 +74,14 @@ std::string toml_value(const Node& node) {
 }
 
 std::string write_toml(const Node& root) {
+  return write_toml(root, [](const Node&) { return std::string(); });
+}
+
+std::string write_toml(const Node& root, const SectionComment& comment) {
   std::string text;
   const Table& table = std::get<Table>(root.value);
   write_values(table, text);
-  write_sections("", table, text);
+  write_sections("", table, comment, text);
   return text;
 }
 

@@ -30,18 +30,6 @@ std::string advice(std::string_view found, std::string otherwise) {
 
 }  // namespace
 
-std::string printable(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  std::string result = "'";
-  for (const char c : text.substr(0, kMost)) {
-    if (is_printable(c))
-      result += c;
-    else
-      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-  }
-  return result + (text.size() > kMost ? "...'" : "'");
-}
-
 void GmshCursor::fail(std::string found, std::string expected, std::string suggestion) const {
   const auto place = std::min(failure_, bytes_.size());
   std::string key = section_;

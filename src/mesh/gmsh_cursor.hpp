@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/terminal_text.hpp"
+
 namespace carom {
 
 /// Reads words of text from the bytes of a file and knows section, line and offset for messages.
@@ -54,8 +56,5 @@ class GmshCursor {
   std::size_t failure_ = 0;  ///< where the last word began
   bool locates_by_offset_ = false;
 };
-
-/// At most 40 characters of `text`, in quotes, with unprintable bytes as \xNN.
-std::string printable(std::string_view text);
 
 }  // namespace carom

@@ -9,7 +9,9 @@
 #include <fstream>
 
 #include "base/errors.hpp"
-#include "mesh/gmsh_cursor.hpp"
+#include "base/terminal_text.hpp"
+#include "deck/deck.hpp"
+#include "mesh/deck_mesh.hpp"
 #include "mesh/read_gmsh.hpp"
 #include "mesh/read_med.hpp"
 
@@ -17,7 +19,7 @@ namespace carom {
 
 namespace {
 
-constexpr const char* kKnown = "a mesh file: Gmsh 2.2 or 4.1 (.msh) or MED 2.2 to 4 (.med)";
+constexpr const char* kKnown = "a mesh file: Gmsh 2.2 or 4.1 (.msh), MED 2.2 to 4 (.med), Abaqus or CalculiX (.inp)";
 
 std::string read_bytes(const std::string& path) {
   std::error_code error;
@@ -47,6 +49,7 @@ Mesh read_mesh(std::string_view bytes, const std::string& source) {
   const std::string_view first = beginning(bytes);
   if (bytes.starts_with("\x89HDF\r\n\x1a\n")) return read_med(bytes, source);
   if (first.starts_with("$")) return read_gmsh(bytes, source);
+  if (looks_like_deck(bytes)) return read_deck_mesh(std::string(bytes), source, read_included);
   throw CaseError({source, 0, 0}, "", first.empty() ? "an empty file" : "a file that begins with " + printable(first),
                   kKnown,
                   source.ends_with(".toml") ? "`carom check` and `carom run` take cases."

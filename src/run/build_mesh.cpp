@@ -27,7 +27,7 @@ Mesh bodies(const Case& given) {
           std::any_of(file.native().begin(), file.native().end(), [](unsigned char c) { return c < 0x20; });
       throw CaseError(given.mesh.file.where, "mesh.file",
                       toml_string(*given.mesh.file) + ", and no file " + toml_string(path.string()),
-                      "a mesh file (.msh, .med)",
+                      "a mesh file (.msh, .med, .inp)",
                       has_escapes ? "A backslash in quotes begins a special character: write paths with /."
                                   : "The path is relative to the folder of the case file.");
     }

@@ -37,6 +37,7 @@
 #include "run/rotation_watch.hpp"
 #include "run/simulation.hpp"
 #include "run/summarize.hpp"
+#include "translate/translate_deck.hpp"
 
 namespace carom {
 
@@ -272,14 +273,16 @@ std::string read_text(const std::string& path) {
 ExitCode run_case(const std::string& case_file, const RunOptions& options, const std::atomic<bool>& stop) {
   const Clock::time_point begin = Clock::now();
   set_threads(options.threads);
-  const Case given = read_case(case_file);
+  const ReadCase read = read_case_or_deck(case_file, options.accepted);
+  const Case& given = read.given;
   refuse_own_folder(given, options.folder);
   const Simulation simulation(given);
   Run run(simulation, options);
   run.case_file = simulation.given().file;
   run.warnings = lint_warnings(simulation);
   for (std::string& warning : cost_warnings(simulation, options.folder)) run.warnings.push_back(std::move(warning));
-  run.notes = simulation.notes();
+  run.notes = read.notes;
+  run.notes.insert(run.notes.end(), simulation.notes().begin(), simulation.notes().end());
   run.notes.insert(run.notes.end(), run.recorder.notes().begin(), run.recorder.notes().end());
   const ResultsLock lock(options.folder);
   run.recorder.begin();

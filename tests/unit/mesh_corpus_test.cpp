@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "mesh/deck_mesh.hpp"
 #include "mesh/finish_mesh.hpp"
 #include "mesh/hdf5_tree.hpp"
 #include "mesh/med_mesh.hpp"
@@ -118,6 +119,14 @@ std::vector<std::filesystem::path> seeds_in(const std::string& folder, const std
 
 TEST(MeshCorpus, Gmsh) {
   run(seeds_in("gmsh", ".msh"), 600, read_gmsh);
+}
+
+TEST(MeshCorpus, Deck) {
+  const auto no_file = [](const std::string&, const Location& where) -> std::string {
+    throw CaseError(where, "*INCLUDE", "a file", "none here");
+  };
+  run(seeds_in("deck", ".inp"), 600,
+      [&](const std::string& bytes, const std::string& source) { return read_deck_mesh(bytes, source, no_file); });
 }
 
 TEST(MeshCorpus, StreamOfTheMedProcess) {

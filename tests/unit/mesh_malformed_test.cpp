@@ -203,11 +203,12 @@ TEST(MeshMalformed, CellsOfUnknownTypeAreCounted) {
 
 TEST(MeshMalformed, BytesThatAreNoMesh) {
   const std::string known =
-      "; expected a mesh file: Gmsh 2.2 or 4.1 (.msh) or MED 2.2 to 4 (.med). Export the mesh in one "
+      "; expected a mesh file: Gmsh 2.2 or 4.1 (.msh), MED 2.2 to 4 (.med), Abaqus or CalculiX "
+      "(.inp). Export the mesh in one "
       "of these formats.";
   EXPECT_EQ(message_of_bytes(""), "bad.msh: found an empty file" + known);
   EXPECT_EQ(message_of_bytes(" \n\n"), "bad.msh: found an empty file" + known);
-  EXPECT_EQ(message_of_bytes("*NODE\n1, 0, 0, 0\n"), "bad.msh: found a file that begins with '*NODE'" + known);
+  EXPECT_EQ(message_of_bytes("*\n1, 0, 0, 0\n"), "bad.msh: found a file that begins with '*'" + known);
   EXPECT_EQ(message_of_bytes(std::string("\x7f"
                                          "ELF\0\0",
                                          6)),
@@ -217,16 +218,17 @@ TEST(MeshMalformed, BytesThatAreNoMesh) {
 TEST(MeshMalformed, PathsThatAreNoFile) {
   EXPECT_EQ(message_of([] { read_mesh(std::string("/nowhere/beam.msh")); }),
             "/nowhere/beam.msh: found no readable file (No such file or directory); expected a mesh file: Gmsh 2.2 or "
-            "4.1 (.msh) or MED 2.2 to 4 (.med). Check the path; it is relative to the folder of the case file.");
+            "4.1 (.msh), MED 2.2 to 4 (.med), Abaqus or CalculiX (.inp). Check the path; it is relative to the folder "
+            "of the case file.");
   const std::string folder = CAROM_SOURCE_DIR "/cases";
   EXPECT_EQ(message_of([&] { read_mesh(folder); }),
             folder +
-                ": found a folder; expected a mesh file: Gmsh 2.2 or 4.1 (.msh) or MED 2.2 to 4 (.med). Name the file "
+                ": found a folder; expected a mesh file: Gmsh 2.2 or 4.1 (.msh), MED 2.2 to 4 (.med), Abaqus or "
+                "CalculiX (.inp). Name the file "
                 "inside it.");
-  EXPECT_EQ(
-      message_of([] { read_mesh(std::string("/dev/null")); }),
-      "/dev/null: found something that is not a regular file; expected a mesh file: Gmsh 2.2 or 4.1 (.msh) or MED "
-      "2.2 to 4 (.med)");
+  EXPECT_EQ(message_of([] { read_mesh(std::string("/dev/null")); }),
+            "/dev/null: found something that is not a regular file; expected a mesh file: Gmsh 2.2 or 4.1 (.msh), MED "
+            "2.2 to 4 (.med), Abaqus or CalculiX (.inp)");
 }
 
 TEST(MeshMalformed, BinaryFlaggedAsTextAndTheReverse) {

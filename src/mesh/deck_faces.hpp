@@ -1,0 +1,43 @@
+// Faces of the elements of a deck as cells of their own.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "deck/deck_cursor.hpp"
+#include "mesh/deck_sets.hpp"
+#include "mesh/mesh.hpp"
+
+namespace carom {
+
+/// The block of this type, made where there is none.
+std::size_t block_of(Mesh& mesh, CellType type);
+
+/// Adds faces to a mesh, each once.
+class DeckFaces {
+ public:
+  DeckFaces(Mesh& mesh, const std::vector<DeckElement>& elements) : mesh_(mesh), elements_(elements) {}
+
+  /// Appends the faces `label` of these elements to `to`: "S3" the third as Abaqus counts (docs/decks.md), which is
+  /// also the order of cell_faces; "SPOS" and "SNEG" the cells themselves, where these are faces; "" those of the cells
+  /// that are on the outside of the mesh, or the cells themselves. New cells are numbered from last + 1 on. Errors are
+  /// thrown at the place of the cursor.
+  void append(const std::vector<Index>& elements, const std::string& label, const DeckCursor& at,
+              std::vector<CellRef>& to, std::int64_t& last);
+  /// The faces on the outside of the mesh all of whose nodes are given.
+  std::vector<CellRef> between(const std::vector<Index>& nodes, std::int64_t& last);
+
+ private:
+  CellRef face(const CellRef& cell, std::size_t number, std::int64_t& last);
+  const std::vector<std::uint32_t>& outer(const CellRef& cell);
+
+  Mesh& mesh_;
+  const std::vector<DeckElement>& elements_;
+  std::unordered_map<std::uint64_t, CellRef> made_;                      ///< by element and face
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> outer_;  ///< by cell: its faces on the outside
+  bool knows_outer_ = false;
+};
+
+}  // namespace carom

@@ -1,0 +1,362 @@
+#include "mesh/deck_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "base/terminal_text.hpp"
+#include "deck/keyword_table.hpp"
+#include "mesh/deck_faces.hpp"
+#include "mesh/deck_sets.hpp"
+#include "mesh/finish_mesh.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr std::int64_t highest_number = 2'000'000'000;
+
+class DeckMeshReader {
+ public:
+  DeckMeshReader(const Statements& statements, const std::string& source)
+      : statements_(statements), faces_(mesh_, elements_) {
+    mesh_.report.source = source;
+    mesh_.report.format = "deck of Abaqus or CalculiX";
+  }
+
+  DeckMesh run() {
+    refuse_made_elsewhere();
+    expect_numbers();
+    each({"NODE"}, [this](const Statement& s) { read_nodes(s); });
+    each({"ELEMENT"}, [this](const Statement& s) { read_elements(s); });
+    next_number_ = element_offset_;
+    for (const Statement& s : statements_.list) read_set(s);
+    each({"SURFACE"}, [this](const Statement& s) { read_surface(s); });
+    make_element_groups();
+    make_node_groups();
+    each({"DLOAD"}, [this](const Statement& s) { make_loaded_faces(s); });
+    name_surfaces();
+    note_others();
+    return {std::move(mesh_), std::move(names_)};
+  }
+
+ private:
+  const DeckScope& scope(const Statement& s) const { return statements_.scopes[at(s.scope)]; }
+
+  /// Scope after scope, so that numbers of instances count on from those of the deck itself.
+  template <class Visit>
+  void each(const std::set<std::string>& names, const Visit& visit) {
+    for (std::size_t own = 0; own < statements_.scopes.size(); ++own) {
+      node_offset_ = highest_node_, element_offset_ = highest_element_;
+      for (const Statement& s : statements_.list)
+        if (at(s.scope) == own && names.count(s.keyword->name) != 0) visit(s);
+    }
+    node_offset_ = highest_node_, element_offset_ = highest_element_;
+  }
+
+  void refuse_made_elsewhere() const {
+    for (const Statement& s : statements_.list) {
+      const KeywordEntry* entry = find_keyword(s.keyword->name);
+      if (entry == nullptr || entry->use != KeywordUse::refused_mesh) continue;
+      s.keyword->fail("a keyword that Carom does not carry out", "nodes and elements in full",
+                      std::string(entry->meaning) + " Write the deck with all its nodes and elements.");
+    }
+  }
+
+  /// Tables as large as the bytes of the lines let expect.
+  void expect_numbers() {
+    constexpr std::size_t node_bytes = 16, element_bytes = 24;
+    std::vector<std::size_t> nodes(statements_.scopes.size()), elements(statements_.scopes.size());
+    for (const Statement& s : statements_.list)
+      for (const DeckChunk& chunk : s.keyword->data) {
+        if (s.keyword->name == "NODE") nodes[at(s.scope)] += chunk.text.size() / node_bytes;
+        if (s.keyword->name == "ELEMENT") elements[at(s.scope)] += chunk.text.size() / element_bytes;
+      }
+    node_sets_.expect(nodes);
+    element_sets_.expect(elements);
+  }
+
+  std::int64_t number(DeckCursor& at, std::string_view what) const {
+    const std::int64_t value = at.integer(what);
+    if (value < 1 || value > highest_number)
+      at.fail(fmt::format("{}", value), fmt::format("{} from 1 to {}", what, highest_number));
+    return value;
+  }
+
+  void read_nodes(const Statement& s) {
+    const std::string* set = s.keyword->parameter("NSET");
+    std::vector<Index> members;
+    for (DeckCursor at(*s.keyword); at.next_line();) {
+      const std::int64_t own = number(at, "the number of a node");
+      const auto index = static_cast<Index>(mesh_.coordinates.size());
+      Vec3 x{};
+      for (double& component : x) component = at.real_or(0.0, "a coordinate");
+      if (mesh_.coordinates.size() >= at_most) at.fail("more than 2147483647 nodes", "fewer");
+      if (!node_sets_.insert(s.scope, own, index))
+        at.fail(fmt::format("node {} a second time", own), "every node once", "Renumber the nodes.");
+      mesh_.coordinates.push_back(scope(s).placement.of(x));
+      mesh_.node_numbers.push_back(node_offset_ + own);
+      highest_node_ = std::max(highest_node_, node_offset_ + own);
+      if (set != nullptr) members.push_back(index);
+    }
+    if (set == nullptr) return;
+    std::vector<Index>& to = node_sets_.set(scope(s).prefix + upper_case(*set));
+    to.insert(to.end(), members.begin(), members.end());
+  }
+
+  const DeckElementType& element_type(const DeckKeyword& keyword) const {
+    const std::string name = keyword.required("TYPE");
+    const DeckElementType* type = deck_element_type(name);
+    if (type != nullptr) return *type;
+    std::vector<std::string> known;
+    for (const DeckElementType& each : deck_element_types()) known.emplace_back(each.name);
+    const std::string near = nearest(name, known);
+    keyword.fail("elements of type " + name, "a type that Carom reads (docs/decks.md)",
+                 near.empty() ? "" : "The nearest is " + near + ".");
+  }
+
+  void read_elements(const Statement& s) {
+    const DeckElementType& type = element_type(*s.keyword);
+    const std::size_t block = type.kind == DeckElementType::Kind::cell ? block_of(mesh_, type.type) : 0;
+    const std::string* set = s.keyword->parameter("ELSET");
+    std::vector<Index> members;
+    for (DeckCursor at(*s.keyword); at.next_line();) {
+      const auto index = static_cast<Index>(elements_.size());
+      const std::int64_t own = number(at, "the number of an element");
+      if (elements_.size() >= at_most) at.fail("more than 2147483647 elements", "fewer");
+      if (!element_sets_.insert(s.scope, own, index))
+        at.fail(fmt::format("element {} a second time", own), "every element once", "Renumber the elements.");
+      read_element(at, s, type, block, own);
+      if (set != nullptr) members.push_back(index);
+    }
+    if (set == nullptr) return;
+    std::vector<Index>& to = element_sets_.set(scope(s).prefix + upper_case(*set));
+    to.insert(to.end(), members.begin(), members.end());
+  }
+
+  void read_element(DeckCursor& at, const Statement& s, const DeckElementType& type, std::size_t block,
+                    std::int64_t own) {
+    std::array<Index, most_nodes> nodes{};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(type.nodes); ++i) {
+      if (at.at_end() && !at.next_line())
+        at.fail(fmt::format("{} nodes of element {}", i, own), fmt::format("{} of a {}", type.nodes, type.name));
+      const std::int64_t node = at.integer("the number of a node");
+      nodes[i] = node_sets_.find(s.scope, node);
+      if (nodes[i] < 0) at.fail(fmt::format("node {} in element {}", node, own), "the number of a node in *NODE");
+    }
+    if (!at.at_end() && !at.field().empty())
+      at.fail(fmt::format("more than {} nodes of element {}", type.nodes, own),
+              fmt::format("{} of a {}", type.nodes, type.name), "Is the TYPE right?");
+    DeckElement element{&type, {}, {nodes[0], nodes[1]}, own};
+    highest_element_ = std::max(highest_element_, element_offset_ + own);
+    if (type.kind == DeckElementType::Kind::cell) {
+      CellBlock& cells = mesh_.blocks[block];
+      element.cell = {static_cast<Index>(block), static_cast<Index>(cells.size())};
+      for (std::size_t i = 0; i < static_cast<std::size_t>(type.nodes); ++i)
+        cells.connectivity.push_back(nodes[type.order.empty() ? i : type.order[i]]);
+      cells.file_numbers.push_back(element_offset_ + own);
+    }
+    elements_.push_back(element);
+  }
+
+  void read_set(const Statement& s) {
+    const DeckKeyword& keyword = *s.keyword;
+    if (keyword.name == "ELSET") element_sets_.read(s, statements_, mesh_.report.notes);
+    if (keyword.name != "NSET") return;
+    const std::string* of = keyword.parameter("ELSET");
+    if (of == nullptr) return node_sets_.read(s, statements_, mesh_.report.notes);
+    const std::vector<Index>* elements = element_sets_.entries(*of, s.scope, statements_);
+    if (elements == nullptr) keyword.fail("the unknown element set " + *of, "the name of an ELSET before this one");
+    std::vector<Index>& to = node_sets_.set(scope(s).prefix + keyword.required("NSET"));
+    for (const Index e : *elements) {
+      const std::vector<Index> nodes = nodes_of(elements_[at(e)]);
+      to.insert(to.end(), nodes.begin(), nodes.end());
+    }
+  }
+
+  std::vector<Index> nodes_of(const DeckElement& element) const {
+    if (element.type->kind != DeckElementType::Kind::cell)
+      return {element.node.begin(), element.node.begin() + element.type->nodes};
+    const auto nodes = mesh_.blocks[at(element.cell.block)].nodes(element.cell.cell);
+    return {nodes.begin(), nodes.end()};
+  }
+
+  void read_surface(const Statement& s) {
+    const DeckKeyword& keyword = *s.keyword;
+    const std::string name = scope(s).prefix + keyword.required("NAME");
+    const std::string* given = keyword.parameter("TYPE");
+    const std::string type = given == nullptr ? "ELEMENT" : upper_case(*given);
+    if (type == "NODE") {
+      read_node_surface(s, name);
+    } else if (type == "ELEMENT") {
+      names_.surfaces[name] = {name, DeckNames::SurfaceKind::faces, name};
+      for (DeckCursor at(keyword); at.next_line();) {
+        const std::vector<Index>& elements = elements_named(at, s.scope);
+        faces_.append(elements, upper_case(at.field()), at, surface_cells_[name], next_number_);
+      }
+    } else {
+      mesh_.report.notes.push_back(
+          fmt::format("{}: the surface {} of TYPE={} is no mesh; left out", to_string(keyword.where), name, type));
+    }
+  }
+
+  void read_node_surface(const Statement& s, const std::string& name) {
+    names_.surfaces[name] = {name, DeckNames::SurfaceKind::nodes, {}};
+    std::vector<Index>& to = surface_nodes_[name];
+    for (DeckCursor at(*s.keyword); at.next_line();) {
+      const std::string_view text = at.field();
+      const std::vector<Index>* nodes = node_sets_.entries(text, s.scope, statements_);
+      if (nodes == nullptr) at.fail(printable(text), "the number of a node or the name of a node set");
+      to.insert(to.end(), nodes->begin(), nodes->end());
+      if (!at.at_end()) at.fail("more than one field", "one node or set in a line", "Areas of nodes are not taken.");
+    }
+  }
+
+  const std::vector<Index>& elements_named(DeckCursor& at, int scope) {
+    const std::string_view text = at.field();
+    const std::vector<Index>* elements = element_sets_.entries(text, scope, statements_);
+    if (elements == nullptr) at.fail(printable(text), "the number of an element or the name of an element set");
+    return *elements;
+  }
+
+  /// Of each ELSET: its cells, those of each type where it has several; nodes of point masses; ends of springs.
+  void make_element_groups() {
+    for (const auto& [name, members] : element_sets_.all()) {
+      std::map<const DeckElementType*, std::vector<CellRef>> cells;
+      for (const Index e : members) {
+        const DeckElement& element = elements_[at(e)];
+        if (element.type->kind == DeckElementType::Kind::cell)
+          cells[element.type].push_back(element.cell);
+        else
+          group_discrete(name, element, e);
+      }
+      for (const auto& [type, refs] : cells) {
+        const std::string own = cells.size() == 1 ? name : fmt::format("{} {}", name, type->name);
+        names_.element_sets[name].push_back({own, type});
+        if (cells.size() > 1) mesh_.cell_groups[own] = refs;
+        std::vector<CellRef>& all = mesh_.cell_groups[name];
+        all.insert(all.end(), refs.begin(), refs.end());
+      }
+    }
+  }
+
+  void group_discrete(const std::string& set, const DeckElement& element, Index number) {
+    if (element.type->kind == DeckElementType::Kind::mass) {
+      names_.masses[set] = set;
+      mesh_.node_groups[set].push_back(element.node[0]);
+      return;
+    }
+    const std::string from = fmt::format("SPRING {}, from", number + 1), to = fmt::format("SPRING {}, to", number + 1);
+    mesh_.node_groups[from] = {element.node[0]};
+    if (element.type->nodes == 2) mesh_.node_groups[to] = {element.node[1]};
+    names_.springs[set].push_back({from, element.type->nodes == 2 ? to : ""});
+  }
+
+  /// Sets, and nodes that loads and supports name by number.
+  void make_node_groups() {
+    static const std::set<std::string> by_number{"BOUNDARY", "CLOAD", "INITIAL CONDITIONS"};
+    for (const auto& [name, nodes] : node_sets_.all()) add_nodes(name, nodes);
+    for (const Statement& s : statements_.list) {
+      if (const std::string* node = s.keyword->parameter("REF NODE")) add_node(s, *node);
+      if (by_number.count(s.keyword->name) == 0) continue;
+      for (DeckCursor at(*s.keyword); at.next_line();) add_node(s, at.field());
+    }
+  }
+
+  void add_node(const Statement& s, std::string_view number) {
+    const std::string key = scope(s).prefix + upper_case(number);
+    if (names_.node_sets.count(key) != 0) return;
+    const std::vector<Index>* nodes = node_sets_.entries(key, 0, statements_);
+    if (nodes != nullptr && nodes->size() == 1) add_nodes(key, *nodes);
+  }
+
+  void add_nodes(const std::string& name, const std::vector<Index>& nodes) {
+    const auto cells = mesh_.cell_groups.find(name);
+    const bool has_masses = names_.masses.count(name) != 0;
+    std::string group = name;
+    if (has_masses || (cells != mesh_.cell_groups.end() && !are_nodes_of(nodes, cells->second))) group += " (nodes)";
+    names_.node_sets[name] = group;
+    mesh_.node_groups[group] = nodes;
+  }
+
+  bool are_nodes_of(std::vector<Index> nodes, const std::vector<CellRef>& cells) const {
+    std::vector<Index> own;
+    for (const CellRef& cell : cells) {
+      const auto more = mesh_.blocks[at(cell.block)].nodes(cell.cell);
+      own.insert(own.end(), more.begin(), more.end());
+    }
+    for (std::vector<Index>* list : {&nodes, &own}) {
+      std::sort(list->begin(), list->end());
+      list->erase(std::unique(list->begin(), list->end()), list->end());
+    }
+    return nodes == own;
+  }
+
+  /// "EALL, P3" in *DLOAD loads the third face of each element.
+  void make_loaded_faces(const Statement& s) {
+    for (DeckCursor at(*s.keyword); at.next_line();) {
+      DeckCursor peek = at;
+      const std::string set = upper_case(peek.field()), label = upper_case(peek.field());
+      if (label.size() != 2 || label[0] != 'P' || label[1] < '1' || label[1] > '6') continue;
+      const std::string key = scope(s).prefix + set + " " + label;
+      if (names_.loaded_faces.count(key) != 0) continue;
+      const std::vector<Index>& elements = elements_named(at, s.scope);
+      names_.loaded_faces[key] = key;
+      faces_.append(elements, fmt::format("S{}", label.substr(1)), at, mesh_.cell_groups[key], next_number_);
+    }
+  }
+
+  void name_surfaces() {
+    for (auto& [name, surface] : names_.surfaces) {
+      if (mesh_.has_group(name)) surface.group = name + " (surface)";
+      surface.faces = surface.group;
+      if (surface.kind == DeckNames::SurfaceKind::faces) {
+        mesh_.cell_groups[surface.group] = surface_cells_[name];
+        continue;
+      }
+      mesh_.node_groups[surface.group] = surface_nodes_[name];
+      const std::vector<CellRef> faces = faces_.between(surface_nodes_[name], next_number_);
+      surface.faces = faces.empty() ? "" : name + " (faces)";
+      if (!faces.empty()) mesh_.cell_groups[surface.faces] = faces;
+    }
+  }
+
+  void note_others() {
+    std::set<std::string> others;
+    for (const Statement& s : statements_.list) {
+      const KeywordEntry* entry = find_keyword(s.keyword->name);
+      if (entry == nullptr || entry->use != KeywordUse::mesh) others.insert("*" + s.keyword->name);
+    }
+    if (!others.empty())
+      mesh_.report.notes.push_back(fmt::format("keywords that are no mesh: {}", fmt::join(others, ", ")));
+  }
+
+  static constexpr std::size_t at_most = std::numeric_limits<Index>::max();
+
+  const Statements& statements_;
+  Mesh mesh_;
+  DeckNames names_;
+  DeckSets node_sets_{"node", "NSET"}, element_sets_{"element", "ELSET"};
+  std::vector<DeckElement> elements_;
+  DeckFaces faces_;
+  std::map<std::string, std::vector<CellRef>> surface_cells_;
+  std::map<std::string, std::vector<Index>> surface_nodes_;
+  std::int64_t node_offset_ = 0, element_offset_ = 0, highest_node_ = 0, highest_element_ = 0, next_number_ = 0;
+};
+
+}  // namespace
+
+DeckMesh deck_mesh(const Statements& statements, const std::string& source) {
+  return DeckMeshReader(statements, source).run();
+}
+
+Mesh read_deck_mesh(std::string bytes, const std::string& source, const IncludeReader& include) {
+  const Deck deck = read_deck(std::move(bytes), source, include);
+  return finished(deck_mesh(statements_of(deck), source).mesh);
+}
+
+}  // namespace carom

@@ -1,0 +1,132 @@
+#include "translate/amplitudes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace carom {
+
+namespace {
+
+/// x^3 (10 - 15 x + 6 x^2) between each two points: first and second derivative vanish at both.
+Points smooth(const Points& points) {
+  constexpr int pieces = 32;
+  Points result{points.front()};
+  for (std::size_t i = 1; i < points.size(); ++i)
+    for (int k = 1; k <= pieces; ++k) {
+      const double x = static_cast<double>(k) / pieces, s = x * x * x * (10.0 + x * (6.0 * x - 15.0));
+      const auto [t0, a0] = points[i - 1];
+      const auto [t1, a1] = points[i];
+      if (a0 == a1 && k < pieces) continue;
+      result.emplace_back(k == pieces ? t1 : t0 + x * (t1 - t0), k == pieces ? a1 : a0 + s * (a1 - a0));
+    }
+  return result;
+}
+
+Amplitude read_amplitude(const DeckKeyword& keyword) {
+  Amplitude amplitude{&keyword, {}, false};
+  for (DeckCursor at(keyword); at.next_line();)
+    while (!at.at_end()) {
+      const double time = at.real("a time");
+      if (at.at_end()) at.fail("a time without a value", "pairs of time and value");
+      const double value = at.real("a value");
+      if (!amplitude.points.empty() && time < amplitude.points.back().first)
+        at.fail(fmt::format("time {:g} after {:g}", time, amplitude.points.back().first), "times in increasing order");
+      amplitude.points.emplace_back(time, value);
+    }
+  if (amplitude.points.empty()) keyword.fail("no data", "pairs of time and value");
+  const std::string* definition = keyword.parameter("DEFINITION");
+  const std::string kind = definition == nullptr ? "TABULAR" : upper_case(*definition);
+  if (kind == "SMOOTH STEP")
+    amplitude.points = smooth(amplitude.points);
+  else if (kind != "TABULAR")
+    keyword.fail("DEFINITION=" + kind, "TABULAR or SMOOTH STEP", "Write it as a table.");
+  if (const std::string* value = keyword.parameter("VALUE"); value != nullptr && upper_case(*value) != "RELATIVE")
+    keyword.fail("VALUE=" + *value, "VALUE=RELATIVE", "Write the values as multiples of those of the loads.");
+  if (const std::string* time = keyword.parameter("TIME")) {
+    const std::string which = upper_case(*time);
+    if (which != "TOTAL TIME" && which != "STEP TIME" && which != "TOTALTIME" && which != "STEPTIME")
+      keyword.fail("TIME=" + *time, "STEP TIME or TOTAL TIME");
+    amplitude.is_total = which.starts_with("TOTAL");
+  }
+  return amplitude;
+}
+
+/// Appends a point; what lies in a straight line with its neighbours is left out.
+void add_point(Points& points, double t, double value) {
+  if (!points.empty() && points.back() == std::pair(t, value)) return;
+  const std::size_t n = points.size();
+  const bool holds = n > 1 && points[n - 1].second == value && points[n - 2].second == value;
+  const bool jumps_twice = n > 1 && points[n - 1].first == t && points[n - 2].first == t;
+  if (holds || jumps_twice)
+    points.back() = {t, value};
+  else
+    points.emplace_back(t, value);
+}
+
+/// The value at the beginning of a step. The step before ends with its own, so that a jump between two steps comes just
+/// after their common time; at the start of the run it is there from the beginning.
+void begin_step(Points& points, const DeckStep& step, double before, double value) {
+  constexpr double just_after = 1e-9;  // of the step
+  if (step.start == 0.0) return add_point(points, 0.0, value);
+  add_point(points, step.start, before);
+  if (value != before) add_point(points, step.start + just_after * step.period, value);
+}
+
+void follow_amplitude(Points& points, const Action& action, const DeckStep& step, double before) {
+  const double shift = action.amplitude->is_total ? 0.0 : step.start;
+  const Points& of = action.amplitude->points;
+  begin_step(points, step, before, action.value * value_at(of, step.start - shift));
+  for (const auto& [time, value] : of) {
+    const double t = time + shift;
+    if (t > points.back().first && t <= step.finish()) add_point(points, t, action.value * value);
+  }
+  add_point(points, step.finish(), action.value * value_at(of, step.finish() - shift));
+}
+
+}  // namespace
+
+std::map<std::string, Amplitude> amplitudes_of(const Statements& statements) {
+  std::map<std::string, Amplitude> amplitudes;
+  for (const Statement& s : statements.list) {
+    if (s.keyword->name != "AMPLITUDE") continue;
+    const std::string name = s.keyword->required("NAME");
+    if (!amplitudes.emplace(name, read_amplitude(*s.keyword)).second)
+      s.keyword->fail("the amplitude " + name + " a second time", "a name of its own");
+  }
+  return amplitudes;
+}
+
+double value_at(const Points& points, double t) {
+  const auto after =
+      std::upper_bound(points.begin(), points.end(), t, [](double x, const auto& point) { return x < point.first; });
+  if (after == points.begin()) return points.front().second;
+  const auto before = after - 1;
+  if (after == points.end() || after->first == before->first) return before->second;
+  const double x = (t - before->first) / (after->first - before->first);
+  return before->second + x * (after->second - before->second);
+}
+
+Points history(const std::vector<Action>& actions, const std::vector<DeckStep>& steps) {
+  Points points;
+  double now = 0.0;
+  Action acting;
+  auto next = actions.begin();
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const DeckStep& step = steps[k];
+    const bool is_said = next != actions.end() && next->step == k;
+    if (is_said) acting = *next++;
+    const bool goes_on = acting.amplitude != nullptr && acting.amplitude->is_total;
+    if (!is_said && !goes_on) continue;
+    if (acting.amplitude != nullptr) {
+      follow_amplitude(points, acting, step, now);
+    } else {
+      begin_step(points, step, now, step.ramps ? now : acting.value);
+      add_point(points, step.finish(), acting.value);
+    }
+    now = points.back().second;
+  }
+  return points;
+}
+
+}  // namespace carom

@@ -1,0 +1,162 @@
+// *CONTACT PAIR and general contact.
+#include <fmt/format.h>
+
+#include "deck/keyword_table.hpp"
+#include "translate/translation.hpp"
+#include "translate/tree.hpp"
+
+namespace carom {
+
+namespace {
+
+/// What a *SURFACE INTERACTION says.
+struct Interaction {
+  const DeckKeyword* keyword = nullptr;
+  std::optional<double> stiffness, tangential_stiffness;
+  double friction = 0.0;
+};
+
+void read_behavior(Translation& t, const DeckKeyword& keyword, Interaction& to) {
+  const std::string* given = keyword.parameter("PRESSURE-OVERCLOSURE");
+  const std::string kind = given == nullptr ? "HARD" : upper_case(*given);
+  if (kind == "HARD") return;
+  DeckCursor at(keyword);
+  if (kind == "LINEAR") {
+    if (!at.next_line()) keyword.fail("no data", "the slope of pressure over overclosure");
+    const double slope = at.real("the slope");
+    if (!(slope > 0.0)) at.fail(fmt::format("slope {:g}", slope), "a positive one");
+    to.stiffness = slope;
+    return;
+  }
+  t.findings.refuse(keyword, keyword.where, "PRESSURE-OVERCLOSURE=" + kind,
+                    "Contact would have the stiffness that Carom chooses from the material and the cells.");
+}
+
+void read_friction(const DeckKeyword& keyword, Interaction& to) {
+  DeckCursor at(keyword);
+  if (!at.next_line()) return;
+  to.friction = at.real("the coefficient of friction");
+  if (at.at_end()) return;
+  const double stick = at.real_or(0.0, "the stiffness of sticking");
+  if (stick > 0.0) to.tangential_stiffness = stick;
+}
+
+std::map<std::string, Interaction> interactions_of(Translation& t) {
+  std::map<std::string, Interaction> all;
+  Interaction* last = nullptr;
+  for (const Statement& s : t.statements.list) {
+    const DeckKeyword& keyword = *s.keyword;
+    if (keyword.name == "SURFACE INTERACTION") {
+      last = &all[keyword.required("NAME")];
+      last->keyword = &keyword;
+    }
+    if (keyword.name != "SURFACE BEHAVIOR" && keyword.name != "FRICTION") continue;
+    if (last == nullptr) keyword.fail("*" + keyword.name + " of no interaction", "*SURFACE INTERACTION before it");
+    if (keyword.name == "FRICTION")
+      read_friction(keyword, *last);
+    else
+      read_behavior(t, keyword, *last);
+  }
+  return all;
+}
+
+void add_interaction(const Interaction& of, TableMaker& to) {
+  if (of.stiffness) to.number("stiffness", *of.stiffness);
+  if (of.friction != 0.0) to.number("friction", of.friction);
+  if (of.friction != 0.0 && of.tangential_stiffness) to.number("tangential_stiffness", *of.tangential_stiffness);
+}
+
+const Interaction& interaction(const std::map<std::string, Interaction>& all, const std::string& name,
+                               const DeckCursor& at) {
+  const auto found = all.find(name);
+  if (found == all.end()) at.fail("the unknown interaction " + name, "the NAME of a *SURFACE INTERACTION");
+  return found->second;
+}
+
+std::string faces_of(Translation& t, const Statement& s, const DeckCursor& at, const std::string& name) {
+  const std::string key = key_of(t.mesh.names.surfaces, t.scope(s), name);
+  if (key.empty()) at.fail("\"" + name + "\"", "the NAME of a *SURFACE");
+  const DeckNames::Surface& surface = t.mesh.names.surfaces.at(key);
+  if (surface.faces.empty())
+    at.fail(name + ", a surface of nodes that make no face", "nodes with all those of a face, or TYPE=ELEMENT",
+            "Carom's contact needs the faces of both sides.");
+  if (surface.kind == DeckNames::SurfaceKind::nodes)
+    t.findings.note(at.where(), name + " is a surface of nodes: the faces between them touch");
+  return surface.faces;
+}
+
+std::string method_of(const DeckKeyword& pair) {
+  const std::string* type = pair.parameter("TYPE");
+  if (type == nullptr) return "two_pass";
+  const std::string name = without_blanks(*type);
+  if (name == "SURFACETOSURFACE") return "surface_to_surface";
+  if (name == "NODETOSURFACE") return "node_to_surface";
+  pair.fail("TYPE=" + *type, "NODE TO SURFACE or SURFACE TO SURFACE");
+}
+
+/// ADJUST=0 takes overlaps as touching; a distance or a set also closes gaps.
+void refuse_closing(Translation& t, const DeckKeyword& pair) {
+  const std::string* adjust = pair.parameter("ADJUST");
+  if (adjust == nullptr) return;
+  const auto distance = as_real(*adjust);
+  if (!distance || *distance != 0.0)
+    t.findings.refuse(pair, pair.where, "ADJUST=" + *adjust, "Gaps at the start would stay open.");
+}
+
+void translate_pairs(Translation& t, const std::map<std::string, Interaction>& all, const Statement& s) {
+  const DeckKeyword& keyword = *s.keyword;
+  refuse_closing(t, keyword);
+  for (DeckCursor at(keyword); at.next_line();) {
+    const std::string slave(at.field()), master(at.field());
+    TableMaker contact(at.where());
+    const bool is_self = master.empty() || upper_case(master) == upper_case(slave);
+    const std::string group = faces_of(t, s, at, slave), other = is_self ? group : faces_of(t, s, at, master);
+    contact.text("name", is_self ? upper_case(slave) + " self" : upper_case(slave) + " on " + upper_case(master));
+    if (body_of_cells(t, group) != nullptr)
+      at.fail(slave + ", the surface of a rigid body", "the deformable one first", "Name the rigid surface second.");
+    if (RigidBody* body = body_of_cells(t, other)) {
+      contact.text("kind", "surface").text("group", group).text("surface", other);
+      add_rigid_motion(t, *body, contact);
+    } else {
+      contact.text("kind", is_self ? "self" : "pair").text("group", group);
+      if (!is_self) contact.text("master", other);
+      contact.text("method", method_of(keyword));
+    }
+    contact.text("initial_penetration", keyword.has("ADJUST") ? "offset" : "prestress");
+    add_interaction(interaction(all, keyword.required("INTERACTION"), at), contact);
+    t.append("contact", contact.node());
+  }
+}
+
+/// One interaction for all surfaces.
+void translate_general(Translation& t, const std::map<std::string, Interaction>& all, const DeckKeyword& inclusions) {
+  if (!inclusions.has("ALL EXTERIOR"))
+    inclusions.fail("contact of chosen surfaces", "ALL EXTERIOR", "Write pairs as *CONTACT PAIR.");
+  for (const RigidBody& body : t.rigid_bodies)
+    t.findings.refuse(inclusions, body.keyword->where, "a *RIGID BODY in general contact",
+                      "It would touch nothing; write *CONTACT PAIR.");
+  TableMaker contact(inclusions.where);
+  contact.text("name", "general contact").text("kind", "all").text("initial_penetration", "offset");
+  for (const Statement& s : t.statements.list) {
+    if (s.keyword->name != "CONTACT PROPERTY ASSIGNMENT") continue;
+    DeckCursor at(*s.keyword);
+    if (!at.next_line()) continue;
+    const std::string first(at.field()), second(at.field());
+    if (!first.empty() || !second.empty()) at.fail("an interaction of single surfaces", "one for all: , , NAME");
+    add_interaction(interaction(all, upper_case(at.field()), at), contact);
+    if (at.next_line()) at.fail("a second line", "one interaction for all surfaces");
+  }
+  t.append("contact", contact.node());
+}
+
+}  // namespace
+
+void translate_contacts(Translation& t) {
+  const std::map<std::string, Interaction> all = interactions_of(t);
+  for (const Statement& s : t.statements.list) {
+    if (s.keyword->name == "CONTACT PAIR") translate_pairs(t, all, s);
+    if (s.keyword->name == "CONTACT INCLUSIONS") translate_general(t, all, *s.keyword);
+  }
+}
+
+}  // namespace carom

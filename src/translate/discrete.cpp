@@ -1,0 +1,151 @@
+// *INITIAL CONDITIONS, *MASS and *SPRING.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "math/vec3.hpp"
+#include "translate/translation.hpp"
+#include "translate/tree.hpp"
+
+namespace carom {
+
+namespace {
+
+/// Velocities of one group, component by component.
+struct GroupVelocity {
+  std::string group;
+  Vec3 velocity{};
+  std::array<bool, 3> given{};
+  Location where;
+};
+
+void read_velocities(Translation& t, const Statement& s, std::vector<GroupVelocity>& all) {
+  for (DeckCursor at(*s.keyword); at.next_line();) {
+    const std::string target(at.field());
+    const std::string group = t.node_group(at, s, target);
+    const std::int64_t dof = at.integer("the degree of freedom");
+    const double value = at.real("the velocity");
+    if (dof < 1 || dof > 3) at.fail(fmt::format("degree of freedom {}", dof), "1, 2 or 3");
+    auto found = std::find_if(all.begin(), all.end(), [&](const GroupVelocity& v) { return v.group == group; });
+    if (found == all.end()) found = all.insert(all.end(), {group, {}, {}, at.where()});
+    found->velocity[carom::at(dof - 1)] = value;
+    found->given[carom::at(dof - 1)] = true;
+  }
+}
+
+/// A later section of the case replaces the whole velocity of a node: components of sets that overlap cannot be told
+/// one after the other.
+void refuse_mixed(const Translation& t, const std::vector<GroupVelocity>& all) {
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (all[i].given == all[j].given) continue;
+      const std::vector<Index> a = t.mesh.mesh.nodes_of(all[i].group), b = t.mesh.mesh.nodes_of(all[j].group);
+      std::vector<Index> sorted_a = a, sorted_b = b, both;
+      std::sort(sorted_a.begin(), sorted_a.end());
+      std::sort(sorted_b.begin(), sorted_b.end());
+      std::set_intersection(sorted_a.begin(), sorted_a.end(), sorted_b.begin(), sorted_b.end(),
+                            std::back_inserter(both));
+      if (!both.empty())
+        throw CaseError(
+            all[i].where, "*INITIAL CONDITIONS",
+            fmt::format("other components for {} than for {}, which share nodes", all[i].group, all[j].group),
+            "all components of a node in one set", "Give the same components for both sets.");
+    }
+}
+
+/// Node or cell set, angular velocity, velocity; then two points of the axis.
+void translate_rotation(Translation& t, const Statement& s) {
+  for (DeckCursor at(*s.keyword); at.next_line();) {
+    const std::string target(at.field());
+    const std::string cells = key_of(t.mesh.names.element_sets, t.scope(s), target);
+    TableMaker initial(at.where());
+    initial.text("nodes", cells.empty() ? t.node_group(at, s, target) : cells);
+    const double speed = at.real("the angular velocity");
+    Vec3 velocity{}, a{}, b{};
+    for (double& c : velocity) c = at.real_or(0.0, "a velocity");
+    if (!at.next_line()) at.fail("no axis", "a second line with two points");
+    for (double& c : a) c = at.real_or(0.0, "a coordinate");
+    for (double& c : b) c = at.real_or(0.0, "a coordinate");
+    const Vec3 axis = subtract(b, a);
+    if (norm(axis) == 0.0) at.fail("an axis from a point to itself", "two points");
+    initial.vector("velocity", velocity).vector("angular_velocity", scaled(normalized(axis), speed));
+    initial.vector("centre", a);
+    t.append("initial", initial.node());
+  }
+}
+
+void translate_initial(Translation& t) {
+  std::vector<GroupVelocity> all;
+  for (const Statement& s : t.statements.list) {
+    if (s.keyword->name != "INITIAL CONDITIONS") continue;
+    const std::string type = s.keyword->required("TYPE");
+    if (type == "VELOCITY")
+      read_velocities(t, s, all);
+    else if (type == "ROTATING VELOCITY" || type == "ROTATINGVELOCITY")
+      translate_rotation(t, s);
+    else
+      t.findings.refuse(*s.keyword, s.keyword->where, "TYPE=" + type, "The run would begin without.");
+  }
+  refuse_mixed(t, all);
+  for (const GroupVelocity& v : all) {
+    if (RigidBody* body = referred_to(t, v.group)) {
+      body->initial_velocity = v.velocity;
+      continue;
+    }
+    TableMaker initial(v.where);
+    t.append("initial", initial.text("nodes", v.group).vector("velocity", v.velocity).node());
+  }
+}
+
+void translate_mass(Translation& t, const Statement& s) {
+  const std::string set = s.keyword->required("ELSET"), key = key_of(t.mesh.names.masses, t.scope(s), set);
+  if (key.empty()) s.keyword->fail("ELSET=" + set, "a set of elements of TYPE=MASS");
+  DeckCursor at(*s.keyword);
+  if (!at.next_line()) s.keyword->fail("no data", "the mass");
+  const double value = at.real("the mass");
+  if (RigidBody* body = referred_to(t, t.mesh.names.masses.at(key))) {
+    body->mass = value;
+    return;
+  }
+  TableMaker mass(s.keyword->where);
+  mass.text("nodes", t.mesh.names.masses.at(key)).number("mass", value);
+  t.append("point_mass", mass.node());
+}
+
+void translate_spring(Translation& t, const Statement& s) {
+  const std::string set = s.keyword->required("ELSET"), key = key_of(t.mesh.names.springs, t.scope(s), set);
+  if (key.empty()) s.keyword->fail("ELSET=" + set, "a set of elements of TYPE=SPRINGA or SPRING1");
+  const std::vector<DeckNames::Spring>& springs = t.mesh.names.springs.at(key);
+  const bool is_grounded = springs.front().to.empty();
+  DeckCursor at(*s.keyword);
+  if (!at.next_line()) s.keyword->fail("no data", "the stiffness");
+  const std::int64_t dof = is_grounded ? at.integer("the degree of freedom") : 0;
+  if (is_grounded && (dof < 1 || dof > 3)) at.fail(fmt::format("degree of freedom {}", dof), "1, 2 or 3");
+  if (is_grounded && !at.next_line()) at.fail("no stiffness", "a second line with the stiffness");
+  const double stiffness = at.real("the stiffness");
+  for (const DeckNames::Spring& spring : springs) {
+    if (spring.to.empty() != is_grounded) s.keyword->fail("SPRINGA and SPRING1 in one set", "one type in a set");
+    TableMaker table(s.keyword->where);
+    table.text("nodes", spring.from);
+    if (is_grounded) {
+      Vec3 along{};
+      along[carom::at(dof - 1)] = stiffness;
+      table.vector("stiffness", along);
+    } else {
+      table.text("to", spring.to).number("axial", stiffness);
+    }
+    t.append("spring", table.node());
+  }
+}
+
+}  // namespace
+
+void translate_discrete(Translation& t) {
+  for (const Statement& s : t.statements.list) {
+    if (s.keyword->name == "MASS") translate_mass(t, s);
+    if (s.keyword->name == "SPRING") translate_spring(t, s);
+  }
+  translate_initial(t);
+}
+
+}  // namespace carom

@@ -1,0 +1,155 @@
+// *STEP, *STATIC and *DYNAMIC as stages.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "translate/translation.hpp"
+#include "translate/tree.hpp"
+
+namespace carom {
+
+namespace {
+
+bool says_yes(const std::string* value) {
+  return value != nullptr && upper_case(*value) != "NO";
+}
+
+/// CalculiX writes EXPLICIT=1; Abaqus' explicit program, which knows no value, follows finite rotations unless told
+/// otherwise.
+bool is_explicit_abaqus(const DeckStep& step) {
+  const std::string* value = step.procedure->parameter("EXPLICIT");
+  return value != nullptr && value->empty();
+}
+
+void read_times(DeckStep& step) {
+  DeckCursor at(*step.procedure);
+  step.period = 1.0;
+  if (at.next_line()) {
+    const double increment = at.real_or(0.0, "the increment of time");
+    const bool says_period = !at.at_end();
+    step.period = at.real_or(1.0, "the time of the step");
+    if (increment > 0.0) step.increment = increment;
+    if (increment < 0.0 || !(step.period > 0.0))
+      at.fail(fmt::format("increment {}, time {}", increment, step.period), "positive times");
+    if (step.increment && !says_period) step.period = std::max(1.0, increment);
+  }
+  if (!step.increment && step.kind == DeckStep::Kind::statics) step.increment = step.period;
+  if (!step.increment && step.kind == DeckStep::Kind::implicit_dynamics)
+    step.procedure->fail("no increment of time", "increment, time in its data line",
+                         "An implicit step needs the size of its increments.");
+}
+
+void read_procedure(DeckStep& step, const DeckKeyword& keyword) {
+  if (step.procedure != nullptr)
+    keyword.fail(
+        fmt::format("*{} beside the *{} of line {}", keyword.name, step.procedure->name, step.procedure->where.line),
+        "one procedure in a step");
+  step.procedure = &keyword;
+  const bool is_static = keyword.name == "STATIC";
+  step.kind = is_static                 ? DeckStep::Kind::statics
+              : keyword.has("EXPLICIT") ? DeckStep::Kind::explicit_dynamics
+                                        : DeckStep::Kind::implicit_dynamics;
+  step.ramps = is_static;
+  if (const std::string* amplitude = step.step->parameter("AMPLITUDE")) step.ramps = upper_case(*amplitude) == "RAMP";
+  const std::string* nlgeom = step.step->parameter("NLGEOM");
+  step.is_finite = nlgeom != nullptr ? says_yes(nlgeom) : is_explicit_abaqus(step);
+  read_times(step);
+}
+
+const char* scheme_of(DeckStep::Kind kind) {
+  switch (kind) {
+    case DeckStep::Kind::statics:
+      return "statics";
+    case DeckStep::Kind::implicit_dynamics:
+      return "hht";
+    case DeckStep::Kind::explicit_dynamics:
+      break;
+  }
+  return "central_differences";
+}
+
+void add_scheme(const DeckStep& step, TableMaker& table) {
+  table.text("kind", scheme_of(step.kind));
+  if (step.kind != DeckStep::Kind::implicit_dynamics) return;
+  const std::string* alpha = step.procedure->parameter("ALPHA");
+  double value = -0.05;
+  if (alpha != nullptr) {
+    const auto number = as_real(*alpha);
+    if (!number) step.procedure->fail("ALPHA=" + *alpha, "a number from -1/3 to 0");
+    value = *number;
+  }
+  table.number("alpha", value);
+}
+
+void add_time(const DeckStep& step, TableMaker& table) {
+  table.number("end", step.finish());
+  if (step.kind == DeckStep::Kind::explicit_dynamics) return;
+  table.number("step", *step.increment);
+  if (step.procedure->has("DIRECT")) table.truth("fixed", true);
+}
+
+void note_step(const DeckStep& step, Findings& findings) {
+  const Location& where = step.procedure->where;
+  if (step.kind == DeckStep::Kind::explicit_dynamics)
+    findings.note(where, "explicit steps are 0.9 of the stable step, as Carom finds it");
+  else if (!step.procedure->has("DIRECT"))
+    findings.note(where, fmt::format("steps of the first increment, {:g}: Carom shortens them where one fails, and "
+                                     "does not lengthen them",
+                                     *step.increment));
+  findings.note(step.step->where, step.is_finite ? "finite rotations and strains" : "small strains and rotations");
+}
+
+}  // namespace
+
+void find_steps(Translation& t) {
+  static const std::set<std::string> procedures{"STATIC", "DYNAMIC"};
+  DeckStep step;
+  double start = 0.0;
+  for (std::size_t i = 0; i < t.statements.list.size(); ++i) {
+    const DeckKeyword& keyword = *t.statements.list[i].keyword;
+    if (keyword.name == "STEP") {
+      if (step.step != nullptr)
+        keyword.fail(fmt::format("*STEP within the *STEP of line {}", step.step->where.line), "*END STEP before it");
+      step = {};
+      step.step = &keyword;
+      step.begin = i;
+      step.start = start;
+    } else if (procedures.count(keyword.name) != 0) {
+      if (step.step == nullptr) keyword.fail("*" + keyword.name + " outside of a step", "*STEP before it");
+      read_procedure(step, keyword);
+    } else if (keyword.name == "END STEP") {
+      if (step.step == nullptr) keyword.fail("*END STEP without *STEP", "*STEP before it");
+      step.end = i;
+      if (step.procedure != nullptr) t.steps.push_back(step);
+      if (step.procedure != nullptr) start = step.finish();
+      step = {};
+    }
+  }
+  if (step.step != nullptr) step.step->fail("*STEP without *END STEP", "*END STEP at its end", "Is the file complete?");
+  const Location top{t.mesh.mesh.report.source, 0, 0};
+  if (t.steps.empty()) t.findings.check(top.file);
+  if (t.steps.empty())
+    throw CaseError(top, "", "no step with *STATIC or *DYNAMIC", "at least one",
+                    "`carom mesh` describes a deck without steps; other procedures are not computed.");
+}
+
+void translate_steps(Translation& t) {
+  for (std::size_t i = 0; i < t.steps.size(); ++i) {
+    const DeckStep& step = t.steps[i];
+    note_step(step, t.findings);
+    TableMaker scheme(step.procedure->where);
+    add_scheme(step, scheme);
+    if (i == 0) {
+      TableMaker time(step.procedure->where);
+      add_time(step, time);
+      t.root.members.push_back({"scheme", step.procedure->where, scheme.node()});
+      t.root.members.push_back({"time", step.procedure->where, time.node()});
+    } else {
+      add_time(step, scheme);
+      t.append("stage", scheme.node());
+    }
+  }
+}
+
+}  // namespace carom

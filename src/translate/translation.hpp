@@ -1,0 +1,70 @@
+// What the parts of a translation share.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casefile/document.hpp"
+#include "deck/deck_cursor.hpp"
+#include "deck/statements.hpp"
+#include "mesh/deck_mesh.hpp"
+#include "translate/findings.hpp"
+#include "translate/rigid.hpp"
+
+namespace carom {
+
+/// One *STEP: what it says stands between two indices of the statements.
+struct DeckStep {
+  enum class Kind : std::uint8_t { statics, implicit_dynamics, explicit_dynamics };
+  Kind kind{};
+  const DeckKeyword* step = nullptr;
+  const DeckKeyword* procedure = nullptr;
+  std::size_t begin = 0, end = 0;  ///< statements
+  double start = 0.0, period = 1.0;
+  std::optional<double> increment;
+  bool is_finite = false;  ///< finite rotations
+  bool ramps = false;      ///< loads without an amplitude grow with the time of the step
+
+  double finish() const { return start + period; }
+};
+
+/// The deck, what is known of it, and the tree that grows.
+struct Translation {
+  const Statements& statements;
+  const DeckMesh& mesh;
+  Findings& findings;
+  std::vector<DeckStep> steps;
+  std::vector<RigidBody> rigid_bodies;
+  Table root;
+
+  const DeckScope& scope(const Statement& s) const { return statements.scopes[at(s.scope)]; }
+  /// Is the body to be followed through finite rotations?
+  bool is_finite() const;
+  /// Appends to the list `section` of the case.
+  void append(const std::string& section, Node entry);
+  /// Adds a member to the table `section` of the case.
+  void define(const std::string& section, const std::string& name, Node entry);
+  /// The node group of a set or node number; CaseError at the cursor.
+  std::string node_group(const DeckCursor& at, const Statement& s, std::string_view text) const;
+};
+
+/// Each keyword and parameter that is not understood, as a note or a refusal.
+void survey(Translation& t);
+/// The steps of the deck in their order. Throws CaseError, with what the survey has refused where there is none.
+void find_steps(Translation& t);
+/// [scheme], [time] and [[stage]].
+void translate_steps(Translation& t);
+/// [materials] and [[part]].
+void translate_bodies(Translation& t);
+/// [[support]], [[load]] and their functions.
+void translate_actions(Translation& t);
+/// [[contact]].
+void translate_contacts(Translation& t);
+/// [[initial]], [[point_mass]], [[spring]].
+void translate_discrete(Translation& t);
+/// [[probe]].
+void translate_probes(Translation& t);
+
+}  // namespace carom

@@ -1,0 +1,218 @@
+// Meshes from decks: numbers, node orders, sets, surfaces, instances.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "mesh/cell_topology.hpp"
+#include "mesh/deck_mesh.hpp"
+#include "mesh/read_gmsh.hpp"
+#include "mesh/read_mesh.hpp"
+#include "mesh/write_gmsh.hpp"
+#include "mesh_fixture.hpp"
+
+namespace carom::mesh_deck_test {
+namespace {
+
+std::string no_file(const std::string& path, const Location& where) {
+  throw CaseError(where, "*INCLUDE", "no file " + path, "");
+}
+
+Mesh read(const std::string& text) {
+  return read_deck_mesh(text, "x.inp", no_file);
+}
+
+std::set<std::int64_t> numbers_of(const Mesh& mesh, const std::string& group) {
+  std::set<std::int64_t> numbers;
+  for (const Index n : mesh.nodes_of(group)) numbers.insert(mesh.node_numbers[at(n)]);
+  return numbers;
+}
+
+/// Two cubes of side 1 along z: nodes 1 to 12, elements 1 and 2.
+const std::string kTwoCubes =
+    "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n9,0,0,2\n10,1,0,2\n11,1,1,2\n"
+    "12,0,1,2\n*ELEMENT, TYPE=C3D8, ELSET=ALL\n1,1,2,3,4,5,6,7,8\n2,5,6,7,8,\n9,10,11,12\n";
+
+TEST(MeshDeck, NodesAndCellsByNumber) {
+  const Mesh mesh = read(kTwoCubes);
+  EXPECT_EQ(mesh.node_count(), 12U);
+  ASSERT_NE(mesh.block(CellType::hexa8), nullptr);
+  EXPECT_EQ(mesh.block(CellType::hexa8)->size(), 2U);
+  EXPECT_EQ(numbers_of(mesh, "ALL").size(), 12U);
+  EXPECT_EQ(mesh.report.turned, 0U);
+}
+
+TEST(MeshDeck, IsToldByItsFirstKeywordWhateverTheName) {
+  EXPECT_EQ(read_mesh(std::string_view(kTwoCubes), "mesh.txt").report.format, "deck of Abaqus or CalculiX");
+}
+
+TEST(MeshDeck, SetsGeneratedNestedUnsortedAndUnited) {
+  const Mesh mesh = read(kTwoCubes +
+                         "*NSET, NSET=A, GENERATE\n1, 9, 4\n*NSET, NSET=b\n a, 7, 2, 7\n*NSET, NSET=A\n12\n"
+                         "*ELSET, ELSET=TOP\n2\n*NSET, NSET=OF_TOP, ELSET=TOP\n");
+  EXPECT_EQ(numbers_of(mesh, "A"), (std::set<std::int64_t>{1, 5, 9, 12}));
+  EXPECT_EQ(numbers_of(mesh, "B"), (std::set<std::int64_t>{1, 2, 5, 7, 9}));
+  EXPECT_EQ(numbers_of(mesh, "OF_TOP"), (std::set<std::int64_t>{5, 6, 7, 8, 9, 10, 11, 12}));
+}
+
+TEST(MeshDeck, ANodeSetNamedLikeAnotherSetOfCellsKeepsItsOwnNodes) {
+  const Mesh mesh = read(kTwoCubes + "*NSET, NSET=ALL\n1, 2\n*SURFACE, NAME=ALL\n2, S2\n");
+  EXPECT_EQ(numbers_of(mesh, "ALL (nodes)"), (std::set<std::int64_t>{1, 2}));
+  EXPECT_EQ(numbers_of(mesh, "ALL (surface)"), (std::set<std::int64_t>{9, 10, 11, 12}));
+}
+
+/// Abaqus Analysis User's Guide, "Solid (continuum) elements", faces of a hexahedron: 1-2-3-4, 5-8-7-6, 1-5-6-2,
+/// 2-6-7-3, 3-7-8-4, 4-8-5-1.
+TEST(MeshDeck, FacesOfAHexahedronAsAbaqusCountsThem) {
+  const std::vector<std::set<std::int64_t>> faces{{1, 2, 3, 4}, {5, 6, 7, 8}, {1, 2, 5, 6},
+                                                  {2, 3, 6, 7}, {3, 4, 7, 8}, {1, 4, 5, 8}};
+  for (std::size_t f = 0; f < 6; ++f) {
+    const Mesh mesh = read(kTwoCubes + fmt::format("*SURFACE, NAME=F, TYPE=ELEMENT\n1, S{}\n", f + 1));
+    EXPECT_EQ(numbers_of(mesh, "F"), faces[f]) << f + 1;
+    EXPECT_EQ(mesh.cell_groups.at("F").size(), 1U);
+  }
+}
+
+/// The same guide: tetrahedra 1-2-3, 1-4-2, 2-4-3, 3-4-1; wedges 1-2-3, 4-6-5, 1-4-5-2, 2-5-6-3, 3-6-4-1.
+TEST(MeshDeck, FacesOfTetrahedraAndWedges) {
+  const std::string tetra = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n";
+  const std::vector<std::set<std::int64_t>> of_tetra{{1, 2, 3}, {1, 2, 4}, {2, 3, 4}, {1, 3, 4}};
+  for (std::size_t f = 0; f < 4; ++f)
+    EXPECT_EQ(numbers_of(read(tetra + fmt::format("*SURFACE, NAME=F\n1, S{}\n", f + 1)), "F"), of_tetra[f]) << f + 1;
+  const std::string wedge =
+      "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,1,0,1\n6,0,1,1\n*ELEMENT, TYPE=C3D6\n1,1,2,3,4,5,6\n";
+  const std::vector<std::set<std::int64_t>> of_wedge{{1, 2, 3}, {4, 5, 6}, {1, 2, 4, 5}, {2, 3, 5, 6}, {1, 3, 4, 6}};
+  for (std::size_t f = 0; f < 5; ++f)
+    EXPECT_EQ(numbers_of(read(wedge + fmt::format("*SURFACE, NAME=F\n1, S{}\n", f + 1)), "F"), of_wedge[f]) << f + 1;
+}
+
+TEST(MeshDeck, ASurfaceWithoutFaceNumbersIsTheOutside) {
+  const Mesh mesh = read(kTwoCubes + "*SURFACE, NAME=SKIN\nALL,\n*SURFACE, NAME=LOW\n1\n");
+  EXPECT_EQ(mesh.cell_groups.at("SKIN").size(), 10U);
+  EXPECT_EQ(mesh.cell_groups.at("LOW").size(), 5U);
+}
+
+TEST(MeshDeck, FacesBetweenTheNodesOfASurface) {
+  const Mesh mesh = read(kTwoCubes + "*SURFACE, NAME=N, TYPE=NODE\n1\n2,\n3\n4\n5\n6\n");
+  EXPECT_EQ(mesh.cell_groups.at("N (faces)").size(), 2U);  // below, and in front
+  EXPECT_EQ(numbers_of(mesh, "N (faces)"), (std::set<std::int64_t>{1, 2, 3, 4, 5, 6}));
+}
+
+TEST(MeshDeck, AFaceInSeveralSurfacesIsOneCell) {
+  const Mesh mesh = read(kTwoCubes + "*SURFACE, NAME=A\n1, S1\n*SURFACE, NAME=B\n1, S1\n1, S3\n");
+  EXPECT_EQ(mesh.block(CellType::quad4)->size(), 2U);
+}
+
+/// A cell of second order whose nodes stand where the manuals put them: middles of the edges 1-2, 2-3, 3-4, 4-1, those
+/// of the top, the upright ones; of 27 nodes then the centre, and those of the faces S1 to S6. Then every node must be
+/// the mean of the corners of its edge or face in Carom's order.
+std::string quadratic_hexa(const char* type, std::size_t nodes) {
+  const std::vector<Vec3> corner{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                 {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  const std::vector<std::vector<std::size_t>> rest{{1, 2},
+                                                   {2, 3},
+                                                   {3, 4},
+                                                   {4, 1},
+                                                   {5, 6},
+                                                   {6, 7},
+                                                   {7, 8},
+                                                   {8, 5},
+                                                   {1, 5},
+                                                   {2, 6},
+                                                   {3, 7},
+                                                   {4, 8},
+                                                   {1, 2, 3, 4, 5, 6, 7, 8},
+                                                   {1, 2, 3, 4},
+                                                   {5, 8, 7, 6},
+                                                   {1, 5, 6, 2},
+                                                   {2, 6, 7, 3},
+                                                   {3, 7, 8, 4},
+                                                   {4, 8, 5, 1}};
+  std::string text = "*NODE\n", element = fmt::format("*ELEMENT, TYPE={}, ELSET=E\n1", type);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    Vec3 x{};
+    if (n < 8) x = corner[n];
+    for (std::size_t k = 0; n >= 8 && k < rest[n - 8].size(); ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        x[c] += corner[rest[n - 8][k] - 1][c] / static_cast<double>(rest[n - 8].size());
+    text += fmt::format("{}, {}, {}, {}\n", n + 1, x[0], x[1], x[2]);
+    element += (n % 15 == 14 ? ",\n" : ", ") + std::to_string(n + 1);
+  }
+  return text + element + "\n";
+}
+
+void expect_middles(const Mesh& mesh, CellType type) {
+  const auto nodes = mesh.block(type)->nodes(0);
+  const auto mean = [&](std::span<const LocalNode> of) {
+    Vec3 x{};
+    for (const LocalNode n : of)
+      for (std::size_t c = 0; c < 3; ++c) x[c] += mesh.coordinates[at(nodes[n])][c] / static_cast<double>(of.size());
+    return x;
+  };
+  const auto edges = cell_edges(type);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const std::size_t middle = static_cast<std::size_t>(corner_count(type)) + e;
+    EXPECT_EQ(mesh.coordinates[at(nodes[middle])], mean(edges[e])) << e;
+  }
+  if (type != CellType::hexa27) return;
+  for (const CellFace& face : cell_faces(type))
+    EXPECT_EQ(mesh.coordinates[at(nodes[face.node[8]])], mean(face.corners()));
+  EXPECT_EQ(mesh.coordinates[at(nodes[26])], (Vec3{0.5, 0.5, 0.5}));
+}
+
+TEST(MeshDeck, OrderOfQuadraticHexahedra) {
+  expect_middles(read(quadratic_hexa("C3D20R", 20)), CellType::hexa20);
+  expect_middles(read(quadratic_hexa("C3D27", 27)), CellType::hexa27);
+}
+
+/// The same guide: middles of 1-2, 2-3, 3-1, 1-4, 2-4, 3-4.
+TEST(MeshDeck, OrderOfQuadraticTetrahedra) {
+  expect_middles(read("*NODE\n1,0,0,0\n2,2,0,0\n3,0,2,0\n4,0,0,2\n5,1,0,0\n6,1,1,0\n7,0,1,0\n8,0,0,1\n9,1,0,1\n"
+                      "10,0,1,1\n*ELEMENT, TYPE=C3D10\n1,1,2,3,4,5,6,7,8,9,10\n"),
+                 CellType::tetra10);
+}
+
+TEST(MeshDeck, InstancesHaveTheirOwnNumbersAndPlaces) {
+  const std::string part = "*PART, NAME=P\n" + kTwoCubes + "*NSET, NSET=TOP\n9,10,11,12\n*END PART\n";
+  const Mesh mesh = read(part +
+                         "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n*INSTANCE, NAME=J, PART=P\n"
+                         "0., 0., 5.\n*END INSTANCE\n*NSET, NSET=MINE, INSTANCE=J\n1\n*NSET, NSET=MINE\nI.2, J.TOP\n"
+                         "*SURFACE, NAME=S\nJ.ALL, S1\n*END ASSEMBLY\n");
+  EXPECT_EQ(mesh.node_count(), 24U);
+  EXPECT_EQ(numbers_of(mesh, "J.TOP"), (std::set<std::int64_t>{21, 22, 23, 24}));
+  EXPECT_EQ(numbers_of(mesh, "MINE"), (std::set<std::int64_t>{2, 13, 21, 22, 23, 24}));
+  EXPECT_EQ(mesh.cell_groups.at("S").size(), 2U);
+  for (const Index n : mesh.nodes_of("J.TOP")) EXPECT_EQ(mesh.coordinates[at(n)][2], 7.0);
+}
+
+TEST(MeshDeck, NodesAndFacesThatLoadsNameAreGroups) {
+  const Mesh mesh = read(kTwoCubes + "*BOUNDARY\n3, 1\n*DLOAD\nALL, P1, 2.\n2, P2, 1.\n");
+  EXPECT_EQ(numbers_of(mesh, "3"), (std::set<std::int64_t>{3}));
+  EXPECT_EQ(mesh.cell_groups.at("ALL P1").size(), 2U);
+  EXPECT_EQ(numbers_of(mesh, "2 P2"), (std::set<std::int64_t>{9, 10, 11, 12}));
+}
+
+TEST(MeshDeck, CellsOfSeveralTypesInOneSetHaveGroupsOfTheirOwn) {
+  const std::string text = kTwoCubes + "*ELEMENT, TYPE=C3D8R, ELSET=ALL\n3,1,2,3,4,9,10,11,12\n";
+  const Deck deck = read_deck(text, "x.inp", no_file);
+  const DeckMesh made = deck_mesh(statements_of(deck), "x.inp");
+  ASSERT_EQ(made.names.element_sets.at("ALL").size(), 2U);
+  EXPECT_EQ(made.mesh.cell_groups.at("ALL C3D8").size(), 2U);
+  EXPECT_EQ(made.mesh.cell_groups.at("ALL C3D8R").size(), 1U);
+}
+
+TEST(MeshDeck, WhatIsWrittenAsGmshIsReadBackTheSame) {
+  const std::string text =
+      kTwoCubes + "*NSET, NSET=SOME NODES\n1, 7\n*ELSET, ELSET=ONE\n1\n*SURFACE, NAME=TOP\n2, S2\n";
+  const Mesh mesh = read(text), again = read_gmsh(gmsh_text(mesh), "again.msh");
+  EXPECT_EQ(test::by_file_numbers(mesh), test::by_file_numbers(again));
+  const Mesh quadratic = read(quadratic_hexa("C3D27", 27));
+  EXPECT_EQ(test::by_file_numbers(quadratic), test::by_file_numbers(read_gmsh(gmsh_text(quadratic), "again.msh")));
+}
+
+}  // namespace
+}  // namespace carom::mesh_deck_test

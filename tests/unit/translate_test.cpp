@@ -1,0 +1,244 @@
+// Decks as cases: what each keyword becomes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "casefile/read_case.hpp"
+#include "casefile/write_toml.hpp"
+#include "translate/amplitudes.hpp"
+#include "translate/decks_page.hpp"
+#include "translate/translate_deck.hpp"
+#include "translate_fixture.hpp"
+
+namespace carom::translate_test {
+namespace {
+
+using test::good_deck;
+using test::replaced;
+
+std::string no_file(const std::string& path, const Location& where) {
+  throw CaseError(where, "*INCLUDE", "no file " + path, "");
+}
+
+TranslatedDeck translated(const std::string& text, const std::vector<std::string>& accepted = {}) {
+  return translate_deck(text, "x.inp", accepted, no_file);
+}
+
+Case case_from(const std::string& text, const std::vector<std::string>& accepted = {}) {
+  return case_of(translated(text, accepted).tree, "x.inp");
+}
+
+bool has_note(const TranslatedDeck& deck, const std::string& part) {
+  return std::any_of(deck.notes.begin(), deck.notes.end(),
+                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
+}
+
+TEST(Translate, TheWholeOfASmallDeck) {
+  const Case made = case_from(good_deck);
+  EXPECT_EQ(made.title, "Two cubes");
+  EXPECT_EQ(made.units, UnitSystem::mm_t_s);
+  EXPECT_EQ(*made.mesh.file, "x.inp");
+  ASSERT_EQ(made.materials.size(), 1U);
+  EXPECT_EQ(*made.materials[0].law, "linear_elastic");
+  EXPECT_EQ(*made.materials[0].value("E"), 210000.0);
+  EXPECT_EQ(*made.materials[0].rho, 7.8e-9);
+  ASSERT_EQ(made.parts.size(), 2U);
+  EXPECT_EQ(*made.parts[1].cells, "UPPER");
+  ASSERT_EQ(made.supports.size(), 3U);
+  EXPECT_EQ(*made.supports[0].nodes, "BASE");
+  EXPECT_TRUE(made.supports[2].blocked[2]);
+  ASSERT_EQ(made.initial.size(), 1U);
+  EXPECT_EQ(*made.initial[0].velocity, (Vec3{0.0, 0.0, -1000.0}));
+  ASSERT_EQ(made.contacts.size(), 1U);
+  EXPECT_EQ(*made.contacts[0].group, "FOOT");
+  EXPECT_EQ(*made.contacts[0].master, "FLOOR");
+  EXPECT_EQ(**made.contacts[0].stiffness, 1e6);
+  EXPECT_EQ(made.contacts[0].friction, 0.2);
+  ASSERT_EQ(made.loads.size(), 1U);
+  EXPECT_EQ(made.loads[0].vector, (Vec3{5.0, 0.0, 0.0}));
+  EXPECT_EQ(**made.loads[0].function, "A");
+  EXPECT_EQ(*made.scheme.kind, SchemeKind::hht);
+  EXPECT_EQ(*made.time.end, 1e-3);
+  EXPECT_EQ(**made.time.step, 1e-6);
+  EXPECT_TRUE(made.time.fixed);
+}
+
+TEST(Translate, PlacesAreThoseOfTheDeck) {
+  const Case made = case_from(good_deck);
+  EXPECT_EQ(to_string(made.parts[1].cells.where), "x.inp:38");
+  EXPECT_EQ(to_string(made.contacts[0].where), "x.inp:49");
+  EXPECT_EQ(to_string(made.time.end.where), "x.inp:53");
+}
+
+TEST(Translate, ErrorsOfTheSchemaNameTheLineOfTheDeck) {
+  try {
+    case_from(replaced(good_deck, "210000., 0.3", "210000., 0.7"));
+    FAIL();
+  } catch (const CaseError& error) {
+    EXPECT_EQ(to_string(error.where()), "x.inp:33");
+    EXPECT_EQ(error.key(), "materials.STEEL.nu");
+  }
+}
+
+TEST(Translate, RotationsAreFiniteAsTheProgramHasThem) {
+  const auto law = [](const std::string& step, const std::string& dynamic) {
+    return *case_from(replaced(replaced(good_deck, "*STEP\n", step), "*DYNAMIC, DIRECT\n1e-6, 1e-3", dynamic))
+                .materials[0]
+                .law;
+  };
+  EXPECT_EQ(law("*STEP\n", "*DYNAMIC\n1e-6, 1e-3"), "linear_elastic");
+  EXPECT_EQ(law("*STEP, NLGEOM\n", "*DYNAMIC\n1e-6, 1e-3"), "st_venant_kirchhoff");
+  EXPECT_EQ(law("*STEP, NLGEOM=NO\n", "*DYNAMIC\n1e-6, 1e-3"), "linear_elastic");
+  EXPECT_EQ(law("*STEP\n", "*DYNAMIC, EXPLICIT\n, 1e-3"), "st_venant_kirchhoff");  // Abaqus' explicit program
+  EXPECT_EQ(law("*STEP, NLGEOM=NO\n", "*DYNAMIC, EXPLICIT\n, 1e-3"), "linear_elastic");
+  EXPECT_EQ(law("*STEP\n", "*DYNAMIC, EXPLICIT=2\n1e-6, 1e-3"), "linear_elastic");  // CalculiX
+}
+
+TEST(Translate, SchemesOfTheProcedures) {
+  const auto made = [](const std::string& procedure) {
+    return case_from(replaced(good_deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3", procedure));
+  };
+  EXPECT_EQ(std::get<AlphaParameters>(made("*DYNAMIC, ALPHA=-0.2\n1e-6, 1e-3").scheme.parameters).alpha, -0.2);
+  EXPECT_EQ(*made("*DYNAMIC, EXPLICIT\n, 1e-3").scheme.kind, SchemeKind::central_differences);
+  EXPECT_FALSE(made("*DYNAMIC, EXPLICIT\n, 1e-3").time.step);
+  EXPECT_EQ(made("*DYNAMIC, EXPLICIT\n, 1e-3").parts[0].linear_bulk_viscosity, 0.06);
+  EXPECT_EQ(made("*DYNAMIC, EXPLICIT\n, 1e-3\n*BULK VISCOSITY\n0.1, 2.").parts[0].quadratic_bulk_viscosity, 2.0);
+  EXPECT_EQ(*made("*STATIC\n0.1, 1.").scheme.kind, SchemeKind::statics);
+  EXPECT_EQ(**made("*STATIC\n").time.step, 1.0);
+}
+
+TEST(Translate, StepsAreStagesThatGoOn) {
+  const Case made = case_from(good_deck + "*STEP\n*STATIC, DIRECT\n0.5, 2.\n*END STEP\n");
+  ASSERT_EQ(made.stages.size(), 1U);
+  EXPECT_EQ(*made.stages[0].scheme.kind, SchemeKind::statics);
+  EXPECT_EQ(*made.stages[0].time.end, 2.001);
+}
+
+TEST(Translate, PlasticityAsATable) {
+  const std::string deck = replaced(good_deck, "*DENSITY", "*PLASTIC\n300., 0.\n400., 0.1\n*DENSITY");
+  const Case made = case_from(deck);
+  EXPECT_EQ(*made.materials[0].law, "j2_small_strain");
+  EXPECT_EQ(*made.materials[0].curve, (std::vector<std::array<double, 2>>{{0.0, 300.0}, {0.1, 400.0}}));
+  EXPECT_EQ(*case_from(replaced(deck, "*STEP\n", "*STEP, NLGEOM\n")).materials[0].law, "j2");
+}
+
+TEST(Translate, JohnsonAndCook) {
+  const Case made = case_from(replaced(replaced(good_deck, "*DENSITY",
+                                                "*PLASTIC, HARDENING=JOHNSON COOK\n90., 292., 0.31, 1.09, 1356., 298.\n"
+                                                "*RATE DEPENDENT, TYPE=JOHNSON COOK\n0.025, 1.\n*SPECIFIC HEAT\n3.8e8\n"
+                                                "*DENSITY"),
+                                       "*DYNAMIC, DIRECT\n1e-6", "*DYNAMIC, EXPLICIT, ADIABATIC\n"));
+  EXPECT_EQ(*made.materials[0].law, "johnson_cook");
+  EXPECT_EQ(*made.materials[0].value("n"), 0.31);
+  EXPECT_EQ(*made.materials[0].value("m"), 1.09);
+  EXPECT_EQ(*made.materials[0].value("C"), 0.025);
+  EXPECT_EQ(*made.materials[0].value("melting_temperature"), 1356.0);
+  EXPECT_EQ(*made.materials[0].value("taylor_quinney"), 0.9);
+}
+
+/// C10 = G / 2 and D1 = 2 / K: E = 9 K G / (3 K + G).
+TEST(Translate, NeoHookeOnlyWhereItsPotentialIsAccepted) {
+  const std::string deck = replaced(replaced(good_deck, "*ELASTIC\n210000., 0.3", "*HYPERELASTIC, NEO HOOKE\n0.5, 0.2"),
+                                    "*STEP\n", "*STEP, NLGEOM\n");
+  EXPECT_THROW(case_from(deck), CaseError);
+  const Case made = case_from(deck, {"hyperelastic"});
+  EXPECT_EQ(*made.materials[0].law, "neo_hookean");
+  EXPECT_NEAR(*made.materials[0].value("E"), 90.0 / 31.0, 1e-15);  // K = 10, G = 1
+  EXPECT_NEAR(*made.materials[0].value("nu"), 28.0 / 62.0, 1e-15);
+}
+
+TEST(Translate, FormulationsOfElementTypes) {
+  const TranslatedDeck made = translated(replaced(good_deck, "TYPE=C3D8,", "TYPE=C3D8R,"));
+  const Case read = case_of(made.tree, "x.inp");
+  EXPECT_EQ(**read.parts[0].formulation, "one_point");
+  EXPECT_FALSE(read.parts[1].formulation);
+  EXPECT_TRUE(has_note(made, "C3D8R: one point"));
+}
+
+TEST(Translate, FacesBetweenTheNodesOfASurface) {
+  const TranslatedDeck made =
+      translated(replaced(good_deck, "*SURFACE, NAME=FOOT\nUPPER, S1", "*SURFACE, NAME=FOOT, TYPE=NODE\nFALLING"));
+  EXPECT_EQ(*case_of(made.tree, "x.inp").contacts[0].group, "FOOT (faces)");
+  EXPECT_TRUE(has_note(made, "surface of nodes"));
+}
+
+TEST(Translate, GravityLineByLineIsThatOfAll) {
+  const std::string deck =
+      replaced(good_deck, "*CLOAD, AMPLITUDE=A\n15, 1, 5.", "*DLOAD\nUPPER, GRAV, 9., 0., 0., -1.\n");
+  EXPECT_THROW(translated(deck), CaseError);
+  const Case made = case_from(replaced(deck, "*DLOAD\n", "*DLOAD\nLOWER, GRAV, 9., 0., 0., -1.\n"));
+  ASSERT_EQ(made.loads.size(), 1U);
+  EXPECT_EQ(made.loads[0].vector, (Vec3{0.0, 0.0, -9.0}));
+}
+
+TEST(Translate, NamedSupports) {
+  const Case made = case_from(replaced(good_deck, "BASE, 1, 3", "BASE, YSYMM\nFALLING, 4, 6\n5, PINNED"));
+  ASSERT_EQ(made.supports.size(), 4U);
+  EXPECT_TRUE(made.supports[0].blocked[1]);
+  EXPECT_EQ(*made.supports[3].nodes, "5");
+}
+
+TEST(Translate, GravityPressureAndMasses) {
+  const Case made = case_from(replaced(good_deck, "*CLOAD, AMPLITUDE=A\n15, 1, 5.",
+                                       "*DLOAD\n, GRAV, 9810., 0., 0., -2.\nUPPER, P2, 3.\n*DSLOAD\nFLOOR, P, -1."));
+  ASSERT_EQ(made.loads.size(), 3U);
+  EXPECT_EQ(made.loads[0].vector, (Vec3{0.0, 0.0, -9810.0}));
+  EXPECT_EQ(**made.loads[1].group, "UPPER P2");
+  EXPECT_EQ(made.loads[2].pressure, -1.0);
+}
+
+TEST(Translate, WhatChangesThePhysicsIsRefusedAllAtOnceUnlessAccepted) {
+  const std::string deck = replaced(good_deck, "*BOUNDARY", "*TIE, NAME=T\nFOOT, FLOOR\n*FANCY STUFF\n*BOUNDARY");
+  try {
+    translated(deck);
+    FAIL();
+  } catch (const CaseError& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find("x.inp:39: *TIE"), std::string::npos) << what;
+    EXPECT_NE(what.find("x.inp:41: *FANCY STUFF: an unknown keyword"), std::string::npos) << what;
+    EXPECT_NE(what.find("--accept \"TIE,FANCY STUFF\""), std::string::npos) << what;
+  }
+  EXPECT_TRUE(has_note(translated(deck, {"tie", "FancyStuff"}), "*TIE: not carried out"));
+}
+
+TEST(Translate, UnknownParametersAreRefusedAndThoseOfOutputNoted) {
+  EXPECT_THROW(translated(replaced(good_deck, "*CLOAD, ", "*CLOAD, FOLLOWER, ")), CaseError);
+  const TranslatedDeck made =
+      translated(replaced(good_deck, "*END STEP", "*NODE PRINT, NSET=BASE\nU, RF\n*EL FILE\nS\n*END STEP"));
+  EXPECT_TRUE(has_note(made, "*EL FILE"));
+  EXPECT_TRUE(has_note(made, "RF: no probe"));
+  EXPECT_EQ(case_of(made.tree, "x.inp").probes.size(), 4U);
+}
+
+TEST(Translate, HistoriesOfStepsWithAndWithoutRamps) {
+  DeckStep first, second;
+  first.ramps = true;
+  second.start = 1.0;
+  second.period = 2.0;
+  const std::vector<DeckStep> steps{first, second};
+  // A jump between two steps comes just after: the first ends with its own value.
+  EXPECT_EQ(history({{0, 4.0}}, steps), (Points{{0.0, 0.0}, {1.0, 4.0}}));
+  EXPECT_EQ(history({{0, 4.0}, {1, 6.0}}, steps), (Points{{0.0, 0.0}, {1.0, 4.0}, {1.0 + 2e-9, 6.0}, {3.0, 6.0}}));
+  EXPECT_EQ(history({{1, 6.0}}, steps), (Points{{1.0, 0.0}, {1.0 + 2e-9, 6.0}, {3.0, 6.0}}));
+  Amplitude amplitude{nullptr, {{0.0, 0.0}, {0.5, 1.0}, {1.0, 0.0}}, false};
+  EXPECT_EQ(history({{1, 2.0, &amplitude}}, steps), (Points{{1.0, 0.0}, {1.5, 2.0}, {2.0, 0.0}, {3.0, 0.0}}));
+  Amplitude total{nullptr, {{0.0, 0.0}, {4.0, 8.0}}, true};  // goes on where nothing is said
+  EXPECT_EQ(history({{0, 1.0, &total}}, steps), (Points{{0.0, 0.0}, {1.0, 2.0}, {3.0, 6.0}}));
+  amplitude.is_total = true;  // its second half lies in the first step
+  EXPECT_EQ(history({{1, 2.0, &amplitude}}, steps), (Points{{1.0, 0.0}, {3.0, 0.0}}));
+}
+
+TEST(Translate, ThePageInTheRepositoryIsCurrent) {
+  std::ifstream file(std::string(CAROM_SOURCE_DIR) + "/docs/decks.md");
+  const std::string committed{std::istreambuf_iterator<char>(file), {}};
+  const std::string written = testing::TempDir() + "decks.md";
+  if (committed != decks_markdown()) std::ofstream(written) << decks_markdown();
+  EXPECT_TRUE(committed == decks_markdown()) << "copy " << written << " to docs/decks.md";
+}
+
+}  // namespace
+}  // namespace carom::translate_test
