@@ -30,6 +30,7 @@
 #include "mesh/mesh_summary.hpp"
 #include "mesh/read_mesh.hpp"
 #include "output/checkpoint_file.hpp"
+#include "output/mesh_file.hpp"
 #include "parallel/threads.hpp"
 #include "run/check_summary.hpp"
 #include "run/cost_estimate.hpp"
@@ -85,7 +86,6 @@ struct Arguments {
   std::string part;
   carom::PathRequest path;
   std::vector<std::string> folders;
-  std::string page;
   int every = 2;
 };
 
@@ -171,7 +171,9 @@ ExitCode convert(const Arguments& arguments) {
 }
 
 ExitCode mesh(const Arguments& arguments) {
-  show("{}", carom::mesh_summary(carom::read_mesh(arguments.mesh_file)));
+  const carom::Mesh mesh = carom::read_mesh(arguments.mesh_file);
+  show("{}", carom::mesh_summary(mesh));
+  if (!arguments.output.empty()) carom::write_mesh(arguments.output, mesh);
   return ExitCode::good;
 }
 
@@ -184,7 +186,7 @@ ExitCode dispatch(const CLI::App& app, const Arguments& arguments) {
     std::signal(SIGINT, request_stop);
     return carom::watch_run(arguments.folder, arguments.every, stop_requested);
   }
-  if (app.got_subcommand("report")) return carom::report_runs(arguments.folders, arguments.page);
+  if (app.got_subcommand("report")) return carom::report_runs(arguments.folders, arguments.output);
   if (app.got_subcommand("check")) return check(arguments);
   if (app.got_subcommand("material")) return material(arguments);
   if (app.got_subcommand("convert")) return convert(arguments);
@@ -265,7 +267,7 @@ void add_report(CLI::App& app, Arguments& arguments) {
   CLI::App* report_command = app.add_subcommand(
       "report", "Write the report of a results folder again, or lay several over each other on one page");
   report_command->add_option("folders", arguments.folders, "Results folders")->required();
-  report_command->add_option("--out", arguments.page,
+  report_command->add_option("--out", arguments.output,
                              "File of the page (default: report.html in the folder, or out/comparison.html)");
   CLI::App* watch_command =
       app.add_subcommand("watch", "Follow a run that is going on, on a page that reads itself again");
@@ -349,9 +351,10 @@ int main(int argc, char** argv) {
   add_compare(app, arguments);
   add_material(app, arguments);
   add_report(app, arguments);
-  CLI::App* mesh_command = app.add_subcommand("mesh", "Describe a mesh file");
+  CLI::App* mesh_command = app.add_subcommand("mesh", "Describe a mesh file, and write it in another format");
   mesh_command->add_option("file", arguments.mesh_file, "Mesh file (Gmsh 2.2 or 4.1, MED, Abaqus or CalculiX)")
       ->required();
+  mesh_command->add_option("-o,--out", arguments.output, "File to write it to: .msh (Gmsh 2.2), .med, .inp or .vtu");
   app.add_subcommand("schema", "Print the JSON Schema of the case format");
   if (const std::vector<std::string> commands = command_names(app); starts_with_no_command(argc, argv, commands)) {
     print_error(

@@ -262,6 +262,12 @@ class MedReader {
 
 }  // namespace
 
+std::string_view med_code(CellType type) {
+  const auto* const found =
+      std::find_if(kMedTypes.begin(), kMedTypes.end(), [type](const MedType& t) { return t.type == type; });
+  return found == kMedTypes.end() ? std::string_view() : found->code;
+}
+
 Mesh med_mesh(const Hdf5Tree& tree, const std::string& source) {
   return MedReader(tree, source).run();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "mesh/hdf5_tree.hpp"
 #include "mesh/mesh.hpp"
@@ -13,5 +14,8 @@ namespace carom {
 /// to our order (mirrored_order), so that a cell written as MED's manual asks comes out with a positive Jacobian.
 /// With several computing steps the first is read; MED 2 has none. Throws CaseError with the path inside the file.
 Mesh med_mesh(const Hdf5Tree& tree, const std::string& source);
+
+/// MED's name of a type of cells, "HE8"; "" where it has none.
+std::string_view med_code(CellType type);
 
 }  // namespace carom
