@@ -26,6 +26,26 @@ Vec3 any_tangent(const Vec3& n) {
 
 }  // namespace
 
+void ConstraintRows::clear() {
+  begin.assign(1, 0);
+  node.clear();
+  block.clear();
+  gap.clear();
+  normal.clear();
+  tangent_1.clear();
+  tangent_2.clear();
+  position.clear();
+  reach.clear();
+  measure.clear();
+  law.clear();
+  source.clear();
+  behind.clear();
+  is_back.clear();
+  rounded.clear();
+  facet.clear();
+  slot.clear();
+}
+
 void ConstraintRows::add_row(double row_gap, const Vec3& row_normal, const Vec3& row_position, double row_measure,
                              const RowLaw& row_law, Index row_source) {
   slot.push_back(static_cast<Index>(size()));
