@@ -21,7 +21,8 @@ Vec3 any_tangent(const Vec3& n) {
   }
   Vec3 e{};
   e[axis] = 1.0;
-  return normalized(cross(n, e));
+  const Vec3 t = cross(n, e);  // of length 0.8 at least
+  return scaled(t, 1.0 / std::sqrt(dot(t, t)));
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ void ConstraintRows::add_row(double row_gap, const Vec3& row_normal, const Vec3&
   tangent_1.push_back(any_tangent(row_normal));
   tangent_2.push_back(cross(row_normal, tangent_1.back()));
   position.push_back(row_position);
-  reach.push_back(norm(row_position));
+  reach.push_back(std::sqrt(dot(row_position, row_position)));
   measure.push_back(row_measure);
   law.push_back(row_law);
   source.push_back(row_source);

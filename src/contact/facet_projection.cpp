@@ -19,8 +19,17 @@ Projection finish(const PlacedFacet& facet, const Vec3& x, double xi, double eta
   const FacetShape shape = facet_shape(facet.size, xi, eta);
   const FacetFrame frame = facet_frame(facet, shape);
   const Vec3 r = subtract(x, frame.position);
-  return {xi,      eta,       shape.N,     frame.position, frame.a_1, frame.a_2, frame.normal, dot(r, frame.normal),
-          norm(r), site.site, site.feature};
+  return {xi,
+          eta,
+          shape.N,
+          frame.position,
+          frame.a_1,
+          frame.a_2,
+          frame.normal,
+          dot(r, frame.normal),
+          std::sqrt(dot(r, r)),
+          site.site,
+          site.feature};
 }
 
 Projection project_on_segment(const PlacedFacet& facet, const Vec3& x) {

@@ -83,8 +83,7 @@ class NodeRows : public RowMaker {
         const SurfacePoint* met = search_.find(i, space);
         if (met == nullptr) continue;
         const Index n = search_.nodes()[i];
-        made.add_row(met->gap, normalized(met->gradient), motion.x[n], measure_[i], row_law(law_, measure_[i]),
-                     source_);
+        made.add_row(met->gap, direction(met->gradient), motion.x[n], measure_[i], row_law(law_, measure_[i]), source_);
         made.facet.back() = met->facet;
         made.rounded.back() = met->rounded;
         add_nodes(made, n, *met, search_.facets(), blocks);

@@ -14,6 +14,7 @@ namespace {
 constexpr double rim_slack = 0.1;  // of the facet's size: continuation beyond a rim
 constexpr double smooth = 0.5;     // product of the normals of facets that pass a node on to each other
 constexpr double tie = 1e-12;      // relative: the same point seen from two facets
+constexpr double settled = 1e-9;   // step in parent coordinates after which, shrinking as its square, none is left
 constexpr double tiny = 1e-6;      // of the reach: below, the direction to a corner is round-off
 
 double squared_distance(const Bounds& box, const Vec3& x) {
@@ -32,12 +33,6 @@ Vec3 area_vector(const PlacedFacet& facet) {
   if (facet.size == 3) return scaled(cross(subtract(x[1], x[0]), subtract(x[2], x[0])), 0.5);
   if (facet.size == 2) return {x[1][1] - x[0][1], x[0][0] - x[1][0], 0.0};
   return {};
-}
-
-/// n / |n|, or zero; faster than normalized().
-Vec3 direction(const Vec3& n) {
-  const double length = std::sqrt(dot(n, n));
-  return length > 0.0 ? scaled(n, 1.0 / length) : Vec3{};
 }
 
 double size_of(const PlacedFacet& facet) {
@@ -68,7 +63,7 @@ ParentPoint foot(const PlacedFacet& facet, const Vec3& x, ParentPoint at) {
     const double dxi = (a22 * b1 - a12 * b2) / det, deta = (a11 * b2 - a12 * b1) / det;
     at.xi += dxi;
     if (facet.size > 2) at.eta += deta;
-    if (std::abs(dxi) + std::abs(deta) < 1e-15) break;
+    if (std::abs(dxi) + std::abs(deta) < settled) break;
   }
   return at;
 }
@@ -252,7 +247,7 @@ Vec3 SurfaceSearch::node_normal(Index n) const {
 
 bool SurfaceSearch::counts(const Query& query, Index f) const {
   const std::vector<Index>& excluded = excluded_[query.q];
-  if (std::binary_search(excluded.begin(), excluded.end(), f)) return false;
+  if (!excluded.empty() && std::binary_search(excluded.begin(), excluded.end(), f)) return false;
   const bool has_normal = dot(query.normal, query.normal) > 0.0;
   return !has_normal || dot(query.normal, facet_normal(f)) < opposed;
 }
@@ -415,13 +410,17 @@ SurfaceSearch::Best SurfaceSearch::followed(const Query& query, Index from) cons
   return best;
 }
 
-/// The node's foot on a candidate with its weight, not yet divided by the sum; nothing where it takes no part.
-std::optional<FacetFoot> SurfaceSearch::foot_beside(const Query& query, std::size_t candidate, const Best& best) const {
-  const Index f = query.candidates[candidate];
-  // Where the nearest facet is turned by 60 degrees, f still has a weight at (1 + tan 60) distance + 2 width. Far
-  // rows, which nobody touches, need no such care.
-  const double width = range_.width[f], most = best.distance + 2.0 * (width + std::min(best.distance, width));
-  if (query.box_distance[candidate] >= most * most) return std::nullopt;
+/// At what distance from facet f a node has no foot on it, its least distance from the surface given. Where the nearest
+/// facet is turned by 60 degrees, f still has a weight at (1 + tan 60) least + 2 width. Far rows, which nobody touches,
+/// need no such care.
+double SurfaceSearch::farthest_foot(Index f, double least) const {
+  const double width = range_.width[f];
+  return least + 2.0 * (width + std::min(least, width));
+}
+
+/// The node's foot on facet f with its weight, not yet divided by the sum; nothing where the facet takes no part.
+std::optional<FacetFoot> SurfaceSearch::foot_beside(const Query& query, Index f, const Best& best) const {
+  const double width = range_.width[f], most = farthest_foot(f, best.distance);
   const PlacedFacet facet = placed(f);
   const bool is_known = f == best.facet && !best.is_continued;
   const Projection p = is_known ? best.projection : project(facet, query.x);
@@ -459,8 +458,9 @@ void SurfaceSearch::feet_around(const Query& query, const Best& best, std::vecto
   }
   for (std::size_t i = 0; i < query.candidates.size(); ++i) {
     const Index f = query.candidates[i];
-    if (!agrees(f) || !counts(query, f)) continue;
-    if (const std::optional<FacetFoot> one = foot_beside(query, i, best)) feet.push_back(*one);
+    const double most = farthest_foot(f, best.distance);
+    if (query.box_distance[i] >= most * most || !agrees(f) || !counts(query, f)) continue;
+    if (const std::optional<FacetFoot> one = foot_beside(query, f, best)) feet.push_back(*one);
   }
 }
 

@@ -117,7 +117,8 @@ class SurfaceSearch {
   std::optional<Index> crossed_facet(const Query& query) const;
   Best followed(const Query& query, Index from) const;
   bool met(const Query& query, const Best& best, SurfacePoint& point) const;
-  std::optional<FacetFoot> foot_beside(const Query& query, std::size_t candidate, const Best& best) const;
+  double farthest_foot(Index f, double least) const;
+  std::optional<FacetFoot> foot_beside(const Query& query, Index f, const Best& best) const;
   void feet_around(const Query& query, const Best& best, std::vector<FacetFoot>& feet) const;
 
   std::vector<Index> nodes_;
