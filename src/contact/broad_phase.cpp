@@ -57,8 +57,7 @@ bool BroadPhase::update(std::span<const Vec3> x, std::span<const Vec3> displacem
 bool BroadPhase::is_valid(std::span<const Vec3> x, std::span<const Vec3> displacement) const {
   std::atomic<bool> valid = true;
   parallel_each(nodes_.size(), [&](std::size_t i) {
-    Bounds allowed = node_boxes_[i];
-    allowed.grow(0.5 * margin_);
+    const Bounds& allowed = allowed_[i];
     const Vec3& from = x[nodes_[i]];
     const bool inside =
         allowed.contains(from) && (displacement.empty() || allowed.contains(add(from, displacement[nodes_[i]])));
@@ -68,12 +67,13 @@ bool BroadPhase::is_valid(std::span<const Vec3> x, std::span<const Vec3> displac
 }
 
 void BroadPhase::build(std::span<const Vec3> x, std::span<const Vec3> displacement) {
-  node_boxes_.resize(nodes_.size());
+  allowed_.resize(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Index node = nodes_[i];
     if (!is_finite(x[node]) || !(displacement.empty() || is_finite(displacement[node])))
       throw std::domain_error(fmt::format("contact search: the position of node {} is not finite", node));
-    node_boxes_[i] = way_of(node, x, displacement);
+    allowed_[i] = way_of(node, x, displacement);
+    allowed_[i].grow(0.5 * margin_);
   }
   target_boxes_.resize(targets_.size());
   parallel_for(targets_.size(), query_grain, [&](std::size_t first, std::size_t last) {

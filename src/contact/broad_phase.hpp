@@ -44,8 +44,8 @@ class BroadPhase {
 
   std::vector<Facet> queries_, targets_;
   double reach_, margin_;
-  std::vector<Index> nodes_;        ///< of all facets, each once, increasing
-  std::vector<Bounds> node_boxes_;  ///< their ways at the last build
+  std::vector<Index> nodes_;     ///< of all facets, each once, increasing
+  std::vector<Bounds> allowed_;  ///< where they may go until the next build
   std::vector<Bounds> target_boxes_;
   BoxTree tree_;
   std::vector<std::vector<Index>> chunks_;  ///< candidates found by each range of queries

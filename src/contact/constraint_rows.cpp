@@ -21,10 +21,31 @@ Vec3 any_tangent(const Vec3& n) {
   }
   Vec3 e{};
   e[axis] = 1.0;
-  return normalized(cross(n, e));
+  const Vec3 t = cross(n, e);  // of length 0.8 at least
+  return scaled(t, 1.0 / std::sqrt(dot(t, t)));
 }
 
 }  // namespace
+
+void ConstraintRows::clear() {
+  begin.assign(1, 0);
+  node.clear();
+  block.clear();
+  gap.clear();
+  normal.clear();
+  tangent_1.clear();
+  tangent_2.clear();
+  position.clear();
+  reach.clear();
+  measure.clear();
+  law.clear();
+  source.clear();
+  behind.clear();
+  is_back.clear();
+  rounded.clear();
+  facet.clear();
+  slot.clear();
+}
 
 void ConstraintRows::add_row(double row_gap, const Vec3& row_normal, const Vec3& row_position, double row_measure,
                              const RowLaw& row_law, Index row_source) {
@@ -35,7 +56,7 @@ void ConstraintRows::add_row(double row_gap, const Vec3& row_normal, const Vec3&
   tangent_1.push_back(any_tangent(row_normal));
   tangent_2.push_back(cross(row_normal, tangent_1.back()));
   position.push_back(row_position);
-  reach.push_back(norm(row_position));
+  reach.push_back(std::sqrt(dot(row_position, row_position)));
   measure.push_back(row_measure);
   law.push_back(row_law);
   source.push_back(row_source);

@@ -77,6 +77,8 @@ struct ConstraintRows {
   std::vector<Index> slot;      ///< entry of State::contact; at most one row per slot
 
   std::size_t size() const { return gap.size(); }
+  /// Leaves no rows, and the memory.
+  void clear();
 
   /// Appends a row without nodes, whose slot is its own number; add_node or add_block then give it its nodes. The
   /// tangents are made from the normal.

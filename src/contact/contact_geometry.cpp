@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "contact/pair_rows.hpp"
 #include "contact/row_maker.hpp"
 #include "math/vec3.hpp"
+#include "parallel/threads.hpp"
 
 namespace carom {
 
@@ -93,32 +95,54 @@ struct ContactGeometry::Impl {
   Vec3 centre{};                                ///< of all nodes; pairs see positions relative to it
   std::vector<Vec3> x_begin, x, displacement;   ///< scratch of rows_at
 
+  std::vector<std::shared_ptr<ConstraintRows>> made;  ///< rows that were given out; what nobody holds is filled again
+
+  std::shared_ptr<ConstraintRows> empty_rows();
   bool place(const Vec3& origin, std::span<const double> u_begin, std::span<const double> u);
   /// Where a maker takes positions from: gaps of pairs are differences of positions of nodes, which far from the origin
   /// would be known to the rounding of their coordinates only; obstacles stand where the case says.
   Vec3 origin_of(std::size_t maker) const {
     return std::holds_alternative<PairContact>(model.contacts[maker]) ? centre : Vec3{};
   }
-  ConstraintRows make(std::span<const double> u_begin, std::span<const double> u, std::span<const RowHistory> history);
+  std::shared_ptr<ConstraintRows> make(std::span<const double> u_begin, std::span<const double> u,
+                                       std::span<const RowHistory> history);
 };
+
+/// Rows without entries that nobody else holds.
+std::shared_ptr<ConstraintRows> ContactGeometry::Impl::empty_rows() {
+  for (const std::shared_ptr<ConstraintRows>& rows : made) {
+    if (rows.use_count() > 1) continue;
+    std::atomic_thread_fence(std::memory_order_acquire);  // another thread may have let them go
+    rows->clear();
+    return rows;
+  }
+  return made.emplace_back(std::make_shared<ConstraintRows>());
+}
 
 /// Positions of the nodes; false when one is not finite.
 bool ContactGeometry::Impl::place(const Vec3& origin, std::span<const double> u_begin, std::span<const double> u) {
-  bool is_finite = true;
-  for (const Index n : nodes) {
-    const auto i = 3 * static_cast<std::size_t>(n);
-    const Vec3 X = subtract(model.mesh->coordinates[n], origin);
-    x_begin[n] = add(X, {u_begin[i], u_begin[i + 1], u_begin[i + 2]});
-    x[n] = add(X, {u[i], u[i + 1], u[i + 2]});
-    displacement[n] = subtract(x[n], x_begin[n]);
-    is_finite = is_finite && std::isfinite(dot(displacement[n], displacement[n]));
-  }
+  std::atomic<bool> is_finite = true;
+  constexpr std::size_t grain = 512;  // nodes per task: some ten microseconds of work
+  parallel_for(nodes.size(), grain, [&](std::size_t begin, std::size_t end) {
+    bool all = true;
+    for (std::size_t k = begin; k < end; ++k) {
+      const Index n = nodes[k];
+      const auto i = 3 * static_cast<std::size_t>(n);
+      const Vec3 X = subtract(model.mesh->coordinates[n], origin);
+      x_begin[n] = add(X, {u_begin[i], u_begin[i + 1], u_begin[i + 2]});
+      x[n] = add(X, {u[i], u[i + 1], u[i + 2]});
+      displacement[n] = subtract(x[n], x_begin[n]);
+      all = all && std::isfinite(dot(displacement[n], displacement[n]));
+    }
+    if (!all) is_finite.store(false, std::memory_order_relaxed);
+  });
   return is_finite;
 }
 
-ConstraintRows ContactGeometry::Impl::make(std::span<const double> u_begin, std::span<const double> u,
-                                           std::span<const RowHistory> history) {
-  ConstraintRows rows;
+std::shared_ptr<ConstraintRows> ContactGeometry::Impl::make(std::span<const double> u_begin, std::span<const double> u,
+                                                            std::span<const RowHistory> history) {
+  const std::shared_ptr<ConstraintRows> kept = empty_rows();
+  ConstraintRows& rows = *kept;
   for (std::size_t i = 0; i < makers.size(); ++i) {
     if (makers[i]->is_fixed()) {
       makers[i]->append({}, first_slot[i], rows);
@@ -131,7 +155,7 @@ ConstraintRows ContactGeometry::Impl::make(std::span<const double> u_begin, std:
     for (std::size_t r = before; r < rows.size(); ++r) rows.position[r] = add(rows.position[r], origin);
   }
   for (std::size_t r = 0; r < rows.size(); ++r) rows.gap[r] -= offset[rows.slot[r]];
-  return rows;
+  return kept;
 }
 
 ContactGeometry::ContactGeometry(const Model& model) : impl_(std::make_unique<Impl>(model)) {
@@ -148,7 +172,7 @@ ContactGeometry::ContactGeometry(const Model& model) : impl_(std::make_unique<Im
   if (!impl.nodes.empty()) impl.x_begin = impl.x = impl.displacement = std::vector<Vec3>(model.mesh->node_count());
   const bool is_fixed =
       std::all_of(impl.makers.begin(), impl.makers.end(), [](const auto& m) { return m->is_fixed(); });
-  if (is_fixed) impl.fixed = std::make_shared<const ConstraintRows>(impl.make({}, {}, {}));
+  if (is_fixed) impl.fixed = impl.make({}, {}, {});
 }
 ContactGeometry::~ContactGeometry() = default;
 ContactGeometry::ContactGeometry(ContactGeometry&&) noexcept = default;
@@ -172,7 +196,7 @@ bool ContactGeometry::is_fixed() const {
 std::shared_ptr<const ConstraintRows> ContactGeometry::rows_at(std::span<const double> u_begin,
                                                                std::span<const double> u,
                                                                std::span<const RowHistory> history) const {
-  return impl_->fixed ? impl_->fixed : std::make_shared<const ConstraintRows>(impl_->make(u_begin, u, history));
+  return impl_->fixed ? impl_->fixed : impl_->make(u_begin, u, history);
 }
 
 std::vector<Penetration> ContactGeometry::initial_penetrations(std::span<const double> u) const {
@@ -191,10 +215,10 @@ std::vector<Penetration> ContactGeometry::initial_penetrations(std::span<const d
 
 void ContactGeometry::set_initial(std::span<const double> u) {
   impl_->offset.assign(slots(), 0.0);
-  if (impl_->fixed) impl_->fixed = std::make_shared<const ConstraintRows>(impl_->make({}, {}, {}));
+  if (impl_->fixed) impl_->fixed = impl_->make({}, {}, {});
   for (const Penetration& p : initial_penetrations(u))
     impl_->offset[p.slot] = takes_offsets(impl_->model.contacts[p.contact]) ? -p.depth : -p.rounded;
-  if (impl_->fixed) impl_->fixed = std::make_shared<const ConstraintRows>(impl_->make({}, {}, {}));
+  if (impl_->fixed) impl_->fixed = impl_->make({}, {}, {});
 }
 
 std::string ContactGeometry::describe(const ConstraintRows& rows, std::size_t r) const {

@@ -12,21 +12,6 @@ namespace {
 /// round-off of the cross product, far below any cell that a solver accepts.
 constexpr double collapsed = 1e-10;
 
-/// Position and tangents.
-FacetFrame tangents_at(const PlacedFacet& facet, double xi, double eta) {
-  const FacetShape shape = facet_shape(facet.size, xi, eta);
-  FacetFrame frame;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      frame.position[i] += shape.N[a] * facet.x[a][i];
-      frame.a_1[i] += shape.dN_dxi[a] * facet.x[a][i];
-      frame.a_2[i] += shape.dN_deta[a] * facet.x[a][i];
-    }
-  }
-  if (facet.size == 2) frame.a_2 = {0.0, 0.0, 1.0};
-  return frame;
-}
-
 /// Integral of N_a n dGamma over a facet, for each of its nodes.
 std::array<Vec3, 4> node_area_vectors(const PlacedFacet& facet) {
   std::array<Vec3, 4> vectors{};
@@ -45,25 +30,6 @@ std::array<Vec3, 4> node_area_vectors(const PlacedFacet& facet) {
 
 }  // namespace
 
-FacetShape facet_shape(int size, double xi, double eta) {
-  FacetShape shape;
-  if (size == 4) {
-    shape.N = quad4::shape(xi, eta);
-    shape.dN_dxi = {-0.25 * (1 - eta), 0.25 * (1 - eta), 0.25 * (1 + eta), -0.25 * (1 + eta)};
-    shape.dN_deta = {-0.25 * (1 - xi), -0.25 * (1 + xi), 0.25 * (1 + xi), 0.25 * (1 - xi)};
-  } else if (size == 3) {
-    shape.N = {1.0 - xi - eta, xi, eta, 0.0};
-    shape.dN_dxi = {-1.0, 1.0, 0.0, 0.0};
-    shape.dN_deta = {-1.0, 0.0, 1.0, 0.0};
-  } else if (size == 2) {
-    shape.N = {0.5 * (1.0 - xi), 0.5 * (1.0 + xi), 0.0, 0.0};
-    shape.dN_dxi = {-0.5, 0.5, 0.0, 0.0};
-  } else {
-    shape.N = {1.0, 0.0, 0.0, 0.0};
-  }
-  return shape;
-}
-
 ParentPoint facet_centre(int size) {
   if (size == 3) return {1.0 / 3.0, 1.0 / 3.0};
   return {0.0, 0.0};
@@ -77,8 +43,27 @@ Vec3 facet_position(const PlacedFacet& facet, double xi, double eta) {
   return position;
 }
 
-FacetFrame facet_frame(const PlacedFacet& facet, double xi, double eta) {
-  FacetFrame frame = tangents_at(facet, xi, eta);
+FacetFrame facet_tangents(const PlacedFacet& facet, const FacetShape& shape) {
+  FacetFrame frame;
+  const auto sum = [&](std::size_t size) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t a = 0; a < size; ++a) {
+        frame.position[i] += shape.N[a] * facet.x[a][i];
+        frame.a_1[i] += shape.dN_dxi[a] * facet.x[a][i];
+        frame.a_2[i] += shape.dN_deta[a] * facet.x[a][i];
+      }
+    }
+  };
+  if (facet.size == 4)
+    sum(4);  // known to the compiler
+  else
+    sum(static_cast<std::size_t>(facet.size));
+  if (facet.size == 2) frame.a_2 = {0.0, 0.0, 1.0};
+  return frame;
+}
+
+FacetFrame facet_frame(const PlacedFacet& facet, const FacetShape& shape) {
+  FacetFrame frame = facet_tangents(facet, shape);
   if (facet.size == 1) {
     frame.jacobian = 1.0;
     return frame;

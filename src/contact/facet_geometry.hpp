@@ -2,11 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "base/types.hpp"
+#include "element/quad4.hpp"
+#include "math/vec3.hpp"
 #include "mesh/facet.hpp"
 
 namespace carom {
@@ -39,7 +42,22 @@ struct FacetShape {
 };
 
 /// Linear (segment, triangle) or bilinear (quadrilateral) shape functions; N_0 = 1 for a point.
-FacetShape facet_shape(int size, double xi, double eta);
+inline FacetShape facet_shape(int size, double xi, double eta) {
+  if (size == 4) {
+    return {quad4::shape(xi, eta),
+            {-0.25 * (1 - eta), 0.25 * (1 - eta), 0.25 * (1 + eta), -0.25 * (1 + eta)},
+            {-0.25 * (1 - xi), -0.25 * (1 + xi), 0.25 * (1 + xi), 0.25 * (1 - xi)}};
+  }
+  if (size == 3) return {{1.0 - xi - eta, xi, eta, 0.0}, {-1.0, 1.0, 0.0, 0.0}, {-1.0, 0.0, 1.0, 0.0}};
+  if (size == 2) return {{0.5 * (1.0 - xi), 0.5 * (1.0 + xi), 0.0, 0.0}, {-0.5, 0.5, 0.0, 0.0}, {}};
+  return {{1.0, 0.0, 0.0, 0.0}, {}, {}};
+}
+
+/// n / |n|, or zero; faster than normalized().
+inline Vec3 direction(const Vec3& n) {
+  const double length = std::sqrt(dot(n, n));
+  return length > 0.0 ? scaled(n, 1.0 / length) : Vec3{};
+}
 
 /// Parent coordinates of the centre (the mean of the nodes).
 ParentPoint facet_centre(int size);
@@ -55,7 +73,12 @@ struct FacetFrame {
   Vec3 position{}, a_1{}, a_2{}, normal{};
   double jacobian = 0.0;
 };
-FacetFrame facet_frame(const PlacedFacet& facet, double xi, double eta);
+FacetFrame facet_frame(const PlacedFacet& facet, const FacetShape& shape);
+inline FacetFrame facet_frame(const PlacedFacet& facet, double xi, double eta) {
+  return facet_frame(facet, facet_shape(facet.size, xi, eta));
+}
+/// Its position and tangents alone.
+FacetFrame facet_tangents(const PlacedFacet& facet, const FacetShape& shape);
 
 /// Length of a segment, area of a triangle or a quadrilateral (2 x 2 Gauss points: exact when flat), 1 for a point.
 double measure(const PlacedFacet& facet);

@@ -16,19 +16,20 @@ struct Site {
 };
 
 Projection finish(const PlacedFacet& facet, const Vec3& x, double xi, double eta, const Site& site) {
-  const FacetFrame frame = facet_frame(facet, xi, eta);
-  Projection result;
-  result.xi = xi;
-  result.eta = eta;
-  result.N = facet_shape(facet.size, xi, eta).N;
-  result.point = frame.position;
-  result.normal = frame.normal;
+  const FacetShape shape = facet_shape(facet.size, xi, eta);
+  const FacetFrame frame = facet_frame(facet, shape);
   const Vec3 r = subtract(x, frame.position);
-  result.gap = dot(r, frame.normal);
-  result.distance = norm(r);
-  result.site = site.site;
-  result.feature = site.feature;
-  return result;
+  return {xi,
+          eta,
+          shape.N,
+          frame.position,
+          frame.a_1,
+          frame.a_2,
+          frame.normal,
+          dot(r, frame.normal),
+          std::sqrt(dot(r, r)),
+          site.site,
+          site.feature};
 }
 
 Projection project_on_segment(const PlacedFacet& facet, const Vec3& x) {

@@ -18,7 +18,8 @@ struct Projection {
   double xi = 0.0, eta = 0.0;
   std::array<double, 4> N{};
   Vec3 point{};           ///< sum of N_a x_a
-  Vec3 normal{};          ///< the facet's unit outward normal there; zero for a facet that is a point
+  Vec3 a_1{}, a_2{};      ///< the facet's tangents there, see FacetFrame
+  Vec3 normal{};          ///< and its unit outward normal; zero for a facet that is a point
   double gap = 0.0;       ///< (x - point) . normal: positive on the outer side
   double distance = 0.0;  ///< |x - point|
   ProjectionSite site = ProjectionSite::interior;

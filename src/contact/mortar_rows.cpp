@@ -42,7 +42,7 @@ struct Slave {
     axis_2 = cross(normal, axis_1);
     extent = extent_of(facet);
     const FacetShape shape = facet_shape(facet.size, at.xi, at.eta);
-    const TangentDual dual = tangent_dual(frame, normal);
+    const TangentDual dual = tangent_dual(frame.a_1, frame.a_2, normal);
     for (std::size_t b = 0; b < 4; ++b)
       turn[b] = add(scaled(dual.dual_1, shape.dN_dxi[b]), scaled(dual.dual_2, shape.dN_deta[b]));
   }
@@ -144,6 +144,7 @@ class MortarRows : public RowMaker {
   std::vector<double> depth_;
   std::vector<Node> nodes_;
   mutable BroadPhase broad_phase_;
+  mutable RowParts parts_;
   mutable std::vector<FacetSums> sums_;
   /// By slave facet: all its nodes were behind the master at x_begin. One is not enough: the facets beside a rim would
   /// see the far side of the body that the rim touches.
@@ -181,8 +182,8 @@ void MortarRows::append(const ContactMotion& motion, Index first_slot, Constrain
   parallel_for(sums_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) integrate(f, motion, sums_[f]);
   });
-  append_in_parallel(nodes_.size(), rows, [&](std::size_t i, ConstraintRows& made) {
-    add_row(nodes_[i], first_slot + static_cast<Index>(i), motion, made);
+  parts_.append(nodes_.size(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
+    for (std::size_t i = begin; i < end; ++i) add_row(nodes_[i], first_slot + static_cast<Index>(i), motion, made);
   });
 }
 

@@ -35,6 +35,10 @@ class NodeForces {
     const Index place = place_[dof / 3];
     return place == nowhere ? 0.0 : force_[static_cast<std::size_t>(place)][dof % 3];
   }
+  Vec3 at(std::size_t node) const {
+    const Index place = place_[node];
+    return place == nowhere ? Vec3{} : force_[static_cast<std::size_t>(place)];
+  }
   /// All entries.
   std::vector<double> dense() const {
     std::vector<double> f(size());

@@ -134,18 +134,21 @@ class ShapeRows : public RowMaker {
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
     const Stand stand = touching_.stand(motion.x);
-    append_in_parallel(slots(), rows, [&](std::size_t i, ConstraintRows& made) {
-      const Vec3& x = motion.x[touching_.nodes[i].first];
-      const FaceDistance at = distance(shape_, stand.seen(x), motion.behind(first_slot + static_cast<Index>(i)));
-      touching_.add_row(i, at.distance, x, stand, made);
-      made.facet.back() = at.face;
-      finish_row(made, motion.u, first_slot + static_cast<Index>(i));
+    parts_.append(slots(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Vec3& x = motion.x[touching_.nodes[i].first];
+        const FaceDistance at = distance(shape_, stand.seen(x), motion.behind(first_slot + static_cast<Index>(i)));
+        touching_.add_row(i, at.distance, x, stand, made);
+        made.facet.back() = at.face;
+        finish_row(made, motion.u, first_slot + static_cast<Index>(i));
+      }
     });
   }
 
  private:
   Touching touching_;
   Shape shape_;
+  mutable RowParts parts_;
 };
 
 /// Nodes against the facets of a rigid surface, seen from the surface: points 0 ... n - 1 are the nodes that may touch,
@@ -165,12 +168,15 @@ class RigidSurfaceRows : public RowMaker {
       displacement_[i] = subtract(x_[i], x_begin_[i]);
     }
     search_.update(x_begin_, x_, displacement_, motion.behind(first_slot, slots()));
-    append_in_parallel(slots(), rows, [&](std::size_t i, ConstraintRows& made) {
-      const std::optional<SurfacePoint> met = search_.find(i);
-      if (!met) return;
-      touching_.add_row(i, {met->gradient, met->gap}, motion.x[touching_.nodes[i].first], stand, made);
-      made.facet.back() = met->facet;
-      finish_row(made, motion.u, first_slot + static_cast<Index>(i));
+    parts_.append(slots(), rows, [&](std::size_t from, std::size_t to, ConstraintRows& made) {
+      SurfaceSearch::Space space;
+      for (std::size_t i = from; i < to; ++i) {
+        const SurfacePoint* met = search_.find(i, space);
+        if (met == nullptr) continue;
+        touching_.add_row(i, {met->gradient, met->gap}, motion.x[touching_.nodes[i].first], stand, made);
+        made.facet.back() = met->facet;
+        finish_row(made, motion.u, first_slot + static_cast<Index>(i));
+      }
     });
   }
 
@@ -205,6 +211,7 @@ class RigidSurfaceRows : public RowMaker {
   Touching touching_;
   mutable std::vector<Vec3> x_begin_, x_, displacement_;
   mutable SurfaceSearch search_;
+  mutable RowParts parts_;
 };
 
 class StopRows : public RowMaker {

@@ -33,13 +33,11 @@ std::vector<Index> keys(const std::map<Index, double>& map) {
 }
 
 /// Adds what the last row sees of one facet to its master nodes.
-void add_foot(const ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, const PlacedFacet& placed,
-              RowBlocks& blocks) {
-  const FacetFrame frame = facet_frame(placed, foot.xi, foot.eta);
+void add_foot(const ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, RowBlocks& blocks) {
   const FacetShape shape = facet_shape(facet.size, foot.xi, foot.eta);
   const Vec3 n = foot.normal, t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
   TangentDual dual;
-  if (std::abs(dot(frame.normal, n)) >= least_cosine) dual = tangent_dual(frame, n);
+  if (std::abs(dot(foot.facet_normal, n)) >= least_cosine) dual = tangent_dual(foot.a_1, foot.a_2, n);
   for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) {
     const double w = -foot.weight * foot.N[a];
     const Vec3 tilt = scaled(add(scaled(dual.dual_1, shape.dN_dxi[a]), scaled(dual.dual_2, shape.dN_deta[a])),
@@ -51,10 +49,10 @@ void add_foot(const ConstraintRows& rows, const FacetFoot& foot, const Facet& fa
 
 /// Adds the nodes of the last row.
 void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, std::span<const Facet> facets,
-               std::span<const Vec3> x) {
+               RowBlocks& blocks) {
   rows.add_block(slave, {met.gradient, rows.tangent_1.back(), rows.tangent_2.back()});
-  RowBlocks blocks;
-  for (const FacetFoot& foot : met.feet) add_foot(rows, foot, facets[foot.facet], place(facets[foot.facet], x), blocks);
+  blocks.clear();
+  for (const FacetFoot& foot : met.feet) add_foot(rows, foot, facets[foot.facet], blocks);
   blocks.append_to(rows);
   rows.behind.back() = static_cast<Index>(blocks.size());
 }
@@ -78,15 +76,19 @@ class NodeRows : public RowMaker {
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
     search_.update(motion.x_begin, motion.x, motion.displacement, motion.behind(first_slot, slots()));
-    append_in_parallel(slots(), rows, [&](std::size_t i, ConstraintRows& made) {
-      const std::optional<SurfacePoint> met = search_.find(i);
-      if (!met) return;
-      const Index n = search_.nodes()[i];
-      made.add_row(met->gap, normalized(met->gradient), motion.x[n], measure_[i], row_law(law_, measure_[i]), source_);
-      made.facet.back() = met->facet;
-      made.rounded.back() = met->rounded;
-      add_nodes(made, n, *met, search_.facets(), motion.x);
-      finish_row(made, motion.u, first_slot + static_cast<Index>(i));
+    parts_.append(slots(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
+      SurfaceSearch::Space space;
+      RowBlocks blocks;
+      for (std::size_t i = begin; i < end; ++i) {
+        const SurfacePoint* met = search_.find(i, space);
+        if (met == nullptr) continue;
+        const Index n = search_.nodes()[i];
+        made.add_row(met->gap, direction(met->gradient), motion.x[n], measure_[i], row_law(law_, measure_[i]), source_);
+        made.facet.back() = met->facet;
+        made.rounded.back() = met->rounded;
+        add_nodes(made, n, *met, search_.facets(), blocks);
+        finish_row(made, motion.u, first_slot + static_cast<Index>(i));
+      }
     });
   }
 
@@ -96,6 +98,7 @@ class NodeRows : public RowMaker {
   ContactLaw law_;
   Index source_;
   mutable SurfaceSearch search_;
+  mutable RowParts parts_;
 };
 
 /// Both directions of a pair.
@@ -177,9 +180,9 @@ class EndRows : public RowMaker {
 
 }  // namespace
 
-TangentDual tangent_dual(const FacetFrame& frame, const Vec3& n) {
-  const double scale = 1.0 / dot(n, cross(frame.a_1, frame.a_2));
-  return {scaled(cross(frame.a_2, n), scale), scaled(cross(n, frame.a_1), scale)};
+TangentDual tangent_dual(const Vec3& a_1, const Vec3& a_2, const Vec3& n) {
+  const double scale = 1.0 / dot(n, cross(a_1, a_2));
+  return {scaled(cross(a_2, n), scale), scaled(cross(n, a_1), scale)};
 }
 
 std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& contact, Index source) {

@@ -39,6 +39,6 @@ std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& conta
 struct TangentDual {
   Vec3 dual_1{}, dual_2{};
 };
-TangentDual tangent_dual(const FacetFrame& frame, const Vec3& n);
+TangentDual tangent_dual(const Vec3& a_1, const Vec3& a_2, const Vec3& n);
 
 }  // namespace carom

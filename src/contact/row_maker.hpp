@@ -50,6 +50,7 @@ class RowBlocks {
  public:
   /// Adds to the block of node n.
   void add(Index n, const Vec3& normal, const Vec3& tangent_1, const Vec3& tangent_2);
+  void clear() { entries_.clear(); }
   std::size_t size() const { return entries_.size(); }
   /// Gives them to the last row.
   void append_to(ConstraintRows& rows) const;
@@ -75,16 +76,25 @@ void finish_row(ConstraintRows& rows, std::span<const double> u, Index slot);
 /// Appends all rows of `from`, their slots moved by first_slot.
 void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_slot = 0);
 
-/// Calls make(i, rows_of_the_range) for i in [0, n), at the same time for different ranges, and appends what they made
-/// in the order of i.
-template <class Make>
-void append_in_parallel(std::size_t n, ConstraintRows& rows, const Make& make) {
-  constexpr std::size_t grain = 256;  // rows per task: some hundred microseconds of work
-  std::vector<ConstraintRows> made((n + grain - 1) / grain);
-  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) make(i, made[begin / grain]);
-  });
-  for (const ConstraintRows& part : made) append_rows(rows, part);
-}
+/// Rows that are made in parts, whose memory is kept.
+class RowParts {
+ public:
+  /// Calls make(begin, end, rows_of_the_range) on ranges that cover [0, n), at the same time for different ranges, and
+  /// appends what they made in the order of the ranges.
+  template <class Make>
+  void append(std::size_t n, ConstraintRows& rows, const Make& make) {
+    constexpr std::size_t grain = 256;  // rows per task: some hundred microseconds of work
+    parts_.resize((n + grain - 1) / grain);
+    parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+      ConstraintRows& part = parts_[begin / grain];
+      part.clear();
+      make(begin, end, part);
+    });
+    for (const ConstraintRows& part : parts_) append_rows(rows, part);
+  }
+
+ private:
+  std::vector<ConstraintRows> parts_;
+};
 
 }  // namespace carom

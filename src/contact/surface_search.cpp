@@ -14,12 +14,13 @@ namespace {
 constexpr double rim_slack = 0.1;  // of the facet's size: continuation beyond a rim
 constexpr double smooth = 0.5;     // product of the normals of facets that pass a node on to each other
 constexpr double tie = 1e-12;      // relative: the same point seen from two facets
+constexpr double settled = 1e-9;   // step in parent coordinates after which, shrinking as its square, none is left
 constexpr double tiny = 1e-6;      // of the reach: below, the direction to a corner is round-off
 
 double squared_distance(const Bounds& box, const Vec3& x) {
   double sum = 0.0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const double d = std::max({box.low[c] - x[c], 0.0, x[c] - box.high[c]});
+    const double d = std::max(std::max(box.low[c] - x[c], x[c] - box.high[c]), 0.0);
     sum += d * d;
   }
   return sum;
@@ -34,12 +35,6 @@ Vec3 area_vector(const PlacedFacet& facet) {
   return {};
 }
 
-/// n / |n|, or zero; faster than normalized().
-Vec3 direction(const Vec3& n) {
-  const double length = std::sqrt(dot(n, n));
-  return length > 0.0 ? scaled(n, 1.0 / length) : Vec3{};
-}
-
 double size_of(const PlacedFacet& facet) {
   const double extent = measure(facet);
   return facet.size == 2 ? extent : std::sqrt(extent);
@@ -49,12 +44,17 @@ bool contains(const Facet& facet, Index node) {
   return std::find(facet.begin(), facet.end(), node) != facet.end();
 }
 
+/// A foot at the facet's closest point, alone.
+FacetFoot foot_at(Index f, const Projection& p, const Vec3& normal, double gap) {
+  return {f, 1.0, p.xi, p.eta, p.N, p.a_1, p.a_2, p.normal, normal, gap, {}, {}, p.N};
+}
+
 /// Foot of the perpendicular from x on the facet continued beyond its edges, by Newton's method from a near point.
 ParentPoint foot(const PlacedFacet& facet, const Vec3& x, ParentPoint at) {
   Vec3 twist{};  // d2x / (dxi deta)
   if (facet.size == 4) twist = scaled(subtract(add(facet.x[0], facet.x[2]), add(facet.x[1], facet.x[3])), 0.25);
   for (int i = 0; i < 20; ++i) {
-    const FacetFrame frame = facet_frame(facet, at.xi, at.eta);
+    const FacetFrame frame = facet_tangents(facet, facet_shape(facet.size, at.xi, at.eta));
     const Vec3 r = subtract(x, frame.position);
     const double a11 = dot(frame.a_1, frame.a_1), a22 = dot(frame.a_2, frame.a_2);
     const double a12 = dot(frame.a_1, frame.a_2) - dot(r, twist);
@@ -63,7 +63,7 @@ ParentPoint foot(const PlacedFacet& facet, const Vec3& x, ParentPoint at) {
     const double dxi = (a22 * b1 - a12 * b2) / det, deta = (a11 * b2 - a12 * b1) / det;
     at.xi += dxi;
     if (facet.size > 2) at.eta += deta;
-    if (std::abs(dxi) + std::abs(deta) < 1e-15) break;
+    if (std::abs(dxi) + std::abs(deta) < settled) break;
   }
   return at;
 }
@@ -121,10 +121,11 @@ std::vector<double> half_thickness(std::span<const Vec3> coordinates, const std:
 /// One node and what it brings along.
 struct SurfaceSearch::Query {
   std::size_t q;
-  Index node;
   Vec3 x;
-  Vec3 normal;             ///< its averaged normal, or zero
-  bool is_behind = false;  ///< it is known to be behind the surface, however deep
+  Vec3 normal;                           ///< its averaged normal, or zero
+  std::span<const Index> candidates;     ///< facets
+  std::span<const double> box_distance;  ///< squared, of their boxes
+  bool is_behind = false;                ///< it is known to be behind the surface, however deep
 };
 
 /// The closest point so far.
@@ -157,6 +158,11 @@ SurfaceSearch::SurfaceSearch(std::vector<Index> nodes, std::vector<Facet> own, s
   facets_at_.resize(static_cast<std::size_t>(last) + 1);
   for (std::size_t f = 0; f < targets.size(); ++f)
     for (const Index n : targets[f]) facets_at_[n].push_back(static_cast<Index>(f));
+  own_at_.resize(facets_at_.size());
+  for (std::size_t f = 0; f < own_.size(); ++f)
+    for (const Index n : own_[f]) own_at_[n].push_back(static_cast<Index>(f));
+  for (std::size_t n = 0; n < facets_at_.size(); ++n)
+    if (!facets_at_[n].empty()) target_nodes_.push_back(static_cast<Index>(n));
   std::vector<std::vector<Index>> ring(facets_at_.size());  // nodes of the facets that a node belongs to
   for (const std::span<const Facet> all : {targets, std::span<const Facet>(own_)})
     for (const Facet& facet : all)
@@ -180,38 +186,70 @@ void SurfaceSearch::update(std::span<const Vec3> x_begin, std::span<const Vec3> 
   behind_ = std::move(behind);
   const bool none_is_behind = std::all_of(behind_.begin(), behind_.end(), [](Index f) { return f < 0; });
   if (broad_phase_.pair_count() == 0 && none_is_behind) return;
-  const std::span<const Facet> targets = facets();
-  placed_.resize(targets.size());
-  bounds_.resize(targets.size());
-  facet_normals_.resize(targets.size());
-  parallel_each(targets.size(), [&](std::size_t f) {
-    placed_[f] = place(targets[f], x);
-    bounds_[f] = {};
-    for (int a = 0; a < placed_[f].size; ++a) bounds_[f].include(placed_[f].x[static_cast<std::size_t>(a)]);
-    facet_normals_[f] = direction(area_vector(placed_[f]));
-  });
-  node_normals_.assign(facets_at_.size(), {});
-  for (const Facet& facet : own_) {
-    const Vec3 n = area_vector(place(facet, x));
-    for (const Index node : facet) node_normals_[node] = add(node_normals_[node], n);
-  }
+  if (active_since_ != broad_phase_.builds()) find_active();
+  place_active();
   double of_nodes = 0.0, of_facets = 0.0;
   for (const Index n : nodes_) of_nodes = std::max(of_nodes, dot(displacement[n], displacement[n]));
-  for (const Facet& facet : targets)
-    for (const Index n : facet) of_facets = std::max(of_facets, dot(displacement[n], displacement[n]));
+  for (const Index n : target_nodes_) of_facets = std::max(of_facets, dot(displacement[n], displacement[n]));
   is_fast_ = std::sqrt(of_nodes) + std::sqrt(of_facets) > 0.25 * least_depth_;
 }
 
-SurfaceSearch::Query SurfaceSearch::query(std::size_t q) const {
-  const Index n = nodes_[q];
-  return {q, n, x_[n], direction(node_normals_[n])};
+void SurfaceSearch::find_active() {
+  active_since_ = broad_phase_.builds();
+  is_active_.assign(facets().size(), 0);
+  is_active_own_.assign(own_.size(), 0);
+  for (std::size_t q = 0; q < nodes_.size(); ++q) {
+    const std::span<const Index> candidates = broad_phase_.targets_of(q);
+    if (candidates.empty()) continue;
+    for (const Index f : candidates) is_active_[f] = 1;
+    for (const Index f : own_at_[nodes_[q]]) is_active_own_[f] = 1;
+  }
+  const auto list = [](std::span<const std::uint8_t> is_listed, std::vector<Index>& listed) {
+    listed.clear();
+    for (std::size_t f = 0; f < is_listed.size(); ++f)
+      if (is_listed[f] != 0) listed.push_back(static_cast<Index>(f));
+  };
+  list(is_active_, active_);
+  list(is_active_own_, active_own_);
+}
+
+void SurfaceSearch::place_active() {
+  constexpr std::size_t grain = 512;  // facets per task: some ten microseconds of work
+  bounds_.resize(facets().size());
+  facet_normals_.resize(facets().size());
+  parallel_for(active_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index f = active_[i];
+      const PlacedFacet facet = placed(f);
+      Bounds& box = bounds_[f] = {};
+      for (int a = 0; a < facet.size; ++a) box.include(facet.x[static_cast<std::size_t>(a)]);
+      facet_normals_[f] = direction(area_vector(facet));
+    }
+  });
+  own_areas_.resize(own_.size());
+  parallel_for(active_own_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) own_areas_[active_own_[i]] = area_vector(place(own_[active_own_[i]], x_));
+  });
+}
+
+/// At its centre.
+Vec3 SurfaceSearch::facet_normal(Index f) const {
+  return is_active_[f] != 0 ? facet_normals_[f] : direction(area_vector(placed(f)));
+}
+
+/// Averaged over the own facets there; zero where there are none.
+Vec3 SurfaceSearch::node_normal(Index n) const {
+  Vec3 sum{};
+  for (const Index f : own_at_[n])
+    sum = add(sum, is_active_own_[f] != 0 ? own_areas_[f] : area_vector(place(own_[f], x_)));
+  return direction(sum);
 }
 
 bool SurfaceSearch::counts(const Query& query, Index f) const {
   const std::vector<Index>& excluded = excluded_[query.q];
-  if (std::binary_search(excluded.begin(), excluded.end(), f)) return false;
+  if (!excluded.empty() && std::binary_search(excluded.begin(), excluded.end(), f)) return false;
   const bool has_normal = dot(query.normal, query.normal) > 0.0;
-  return !has_normal || dot(query.normal, facet_normals_[f]) < opposed;
+  return !has_normal || dot(query.normal, facet_normal(f)) < opposed;
 }
 
 /// True when no other facet that counts goes on beyond the edge where p lies, or beyond an edge at the vertex where p
@@ -242,12 +280,12 @@ bool SurfaceSearch::ends_at(const Query& query, Index f, const Projection& p) co
 bool SurfaceSearch::goes_on_nearer(const Query& query, Index f, const Projection& p) const {
   const std::vector<Index>& around = facets_at_[facets()[f][static_cast<std::size_t>(p.feature)]];
   return std::any_of(around.begin(), around.end(), [&](Index g) {
-    return g != f && counts(query, g) && project(placed_[g], query.x).distance < p.distance * (1.0 - 1e-9);
+    return g != f && counts(query, g) && project(placed(g), query.x).distance < p.distance * (1.0 - 1e-9);
   });
 }
 
 void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
-  const PlacedFacet& facet = placed_[f];
+  const PlacedFacet facet = placed(f);
   Projection p = project(facet, query.x);
   // On a common edge or corner the facet is taken that the point is seen from best.
   const bool is_tied = best.facet >= 0 && std::abs(p.distance - best.distance) <= tie * best.distance;
@@ -257,14 +295,17 @@ void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
   const bool is_beyond = p.site != ProjectionSite::interior && ends_at(query, f, p);
   if (is_beyond) {
     const ParentPoint at = foot(facet, query.x, {p.xi, p.eta});
-    const FacetFrame frame = facet_frame(facet, at.xi, at.eta);
+    const FacetShape shape = facet_shape(facet.size, at.xi, at.eta);
+    const FacetFrame frame = facet_frame(facet, shape);
     is_continued = norm(subtract(frame.position, p.point)) <= rim_slack * size_of(facet);
     if (!is_continued && p.gap < 0.0) return;
     if (is_continued) {
       p.xi = at.xi;
       p.eta = at.eta;
-      p.N = facet_shape(facet.size, at.xi, at.eta).N;
+      p.N = shape.N;
       p.point = frame.position;
+      p.a_1 = frame.a_1;
+      p.a_2 = frame.a_2;
       p.normal = frame.normal;
       p.gap = dot(subtract(query.x, frame.position), frame.normal);
     }
@@ -279,17 +320,18 @@ Vec3 SurfaceSearch::pseudonormal(Index f, const Projection& p) const {
   Vec3 sum{};
   for (const Index other : facets_at_[facet[k]]) {
     const Facet& beside = facets()[other];
+    const PlacedFacet there = placed(other);
     if (p.site == ProjectionSite::edge && !contains(beside, facet[(k + 1) % size])) continue;
     double weight = 1.0;
     if (p.site == ProjectionSite::vertex && beside.size > 2) {
       const auto n = static_cast<std::size_t>(beside.size);
       const auto a = static_cast<std::size_t>(std::find(beside.begin(), beside.end(), facet[k]) - beside.begin());
-      const Vec3& corner = placed_[other].x[a];
-      const Vec3 to_next = subtract(placed_[other].x[(a + 1) % n], corner);
-      const Vec3 to_last = subtract(placed_[other].x[(a + n - 1) % n], corner);
+      const Vec3& corner = there.x[a];
+      const Vec3 to_next = subtract(there.x[(a + 1) % n], corner);
+      const Vec3 to_last = subtract(there.x[(a + n - 1) % n], corner);
       weight = std::atan2(norm(cross(to_next, to_last)), dot(to_next, to_last));
     }
-    sum = add(sum, scaled(project(placed_[other], p.point).normal, weight));
+    sum = add(sum, scaled(project(there, p.point).normal, weight));
   }
   const double length = norm(sum);
   return length > 0.0 ? scaled(sum, 1.0 / length) : p.normal;
@@ -299,7 +341,7 @@ Vec3 SurfaceSearch::pseudonormal(Index f, const Projection& p) const {
 std::optional<Index> SurfaceSearch::crossed_facet(const Query& query) const {
   std::optional<Index> first;
   double least = INFINITY;
-  for (const Index f : broad_phase_.targets_of(query.q)) {
+  for (const Index f : query.candidates) {
     if (!counts(query, f)) continue;
     const Facet& facet = facets()[f];
     const ParentPoint centre = facet_centre(facet.size);
@@ -307,15 +349,15 @@ std::optional<Index> SurfaceSearch::crossed_facet(const Query& query) const {
     std::optional<RayHit> hit;
     double way = 0.0;
     for (int i = 0; i < 3; ++i) {  // the facet's motion is that of the point that is hit
-      Vec3 motion = displacement_[query.node];
+      Vec3 motion = displacement_[nodes_[query.q]];
       for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a)
         motion = subtract(motion, scaled(displacement_[facet[a]], N[a]));
       way = norm(motion);
-      if (!(way > 0.0) || dot(motion, facet_normals_[f]) >= 0.0) {
+      if (!(way > 0.0) || dot(motion, facet_normal(f)) >= 0.0) {
         hit.reset();
         break;
       }
-      hit = intersect(placed_[f], subtract(query.x, motion), scaled(motion, 1.0 / way), 1e-6);
+      hit = intersect(placed(f), subtract(query.x, motion), scaled(motion, 1.0 / way), 1e-6);
       if (!hit) break;
       N = facet_shape(facet.size, hit->xi, hit->eta).N;
     }
@@ -328,20 +370,19 @@ std::optional<Index> SurfaceSearch::crossed_facet(const Query& query) const {
 
 /// The closest point of the facets that count, the nearest by its bounds first, so that few have to be projected on.
 SurfaceSearch::Best SurfaceSearch::closest(const Query& query) const {
-  const std::span<const Index> candidates = broad_phase_.targets_of(query.q);
   Best best{std::nextafter(range_.reach, INFINITY)};
   Index nearest = -1;
   double bound = best.distance * best.distance;
-  for (const Index f : candidates) {
-    const double d = squared_distance(bounds_[f], query.x);
-    if (d >= bound || !counts(query, f)) continue;
+  for (std::size_t i = 0; i < query.candidates.size(); ++i) {
+    const double d = query.box_distance[i];
+    if (d >= bound || !counts(query, query.candidates[i])) continue;
     bound = d;
-    nearest = f;
+    nearest = query.candidates[i];
   }
   if (nearest >= 0) consider(query, nearest, best);
-  for (const Index f : candidates) {
-    if (f == nearest || squared_distance(bounds_[f], query.x) > (1.0 + 4.0 * tie) * best.distance * best.distance)
-      continue;
+  for (std::size_t i = 0; i < query.candidates.size(); ++i) {
+    const Index f = query.candidates[i];
+    if (f == nearest || query.box_distance[i] > (1.0 + 4.0 * tie) * best.distance * best.distance) continue;
     if (counts(query, f)) consider(query, f, best);
   }
   return best;
@@ -350,7 +391,7 @@ SurfaceSearch::Best SurfaceSearch::closest(const Query& query) const {
 /// The closest point that the facet `from` and ever nearer neighbours lead to.
 SurfaceSearch::Best SurfaceSearch::followed(const Query& query, Index from) const {
   Index f = from;
-  Projection p = project(placed_[f], query.x);
+  Projection p = project(placed(f), query.x);
   Best best{INFINITY};
   for (std::size_t hops = 0; hops < facets().size(); ++hops) {
     consider(query, f, best);
@@ -359,7 +400,7 @@ SurfaceSearch::Best SurfaceSearch::followed(const Query& query, Index from) cons
     for (const Index g : facets_at_[facets()[last][static_cast<std::size_t>(p.feature)]]) {
       if (!counts(query, g)) continue;
       consider(query, g, best);
-      const Projection there = project(placed_[g], query.x);
+      const Projection there = project(placed(g), query.x);
       if (!(there.distance < p.distance * (1.0 - 1e-9))) continue;
       f = g;
       p = there;
@@ -369,22 +410,32 @@ SurfaceSearch::Best SurfaceSearch::followed(const Query& query, Index from) cons
   return best;
 }
 
+/// At what distance from facet f a node has no foot on it, its least distance from the surface given. Where the nearest
+/// facet is turned by 60 degrees, f still has a weight at (1 + tan 60) least + 2 width. Far rows, which nobody touches,
+/// need no such care.
+double SurfaceSearch::farthest_foot(Index f, double least) const {
+  const double width = range_.width[f];
+  return least + 2.0 * (width + std::min(least, width));
+}
+
 /// The node's foot on facet f with its weight, not yet divided by the sum; nothing where the facet takes no part.
-std::optional<FacetFoot> SurfaceSearch::foot_beside(const Query& query, Index f, double least_distance) const {
-  // Where the nearest facet is turned by 60 degrees, f still has a weight at (1 + tan 60) least_distance + 2 width. Far
-  // rows, which nobody touches, need no such care.
-  const double width = range_.width[f], most = least_distance + 2.0 * (width + std::min(least_distance, width));
-  if (squared_distance(bounds_[f], query.x) >= most * most) return std::nullopt;
-  const Projection p = project(placed_[f], query.x);
+std::optional<FacetFoot> SurfaceSearch::foot_beside(const Query& query, Index f, const Best& best) const {
+  const double width = range_.width[f], most = farthest_foot(f, best.distance);
+  const PlacedFacet facet = placed(f);
+  const bool is_known = f == best.facet && !best.is_continued;
+  const Projection p = is_known ? best.projection : project(facet, query.x);
   if (p.distance >= most || (!query.is_behind && p.gap < -range_.depth[f])) return std::nullopt;
-  FacetFoot out{f, 1.0, p.xi, p.eta, p.N, p.normal, p.gap, {}, {}, p.N};
+  FacetFoot out = foot_at(f, p, p.normal, p.gap);
   if (p.site == ProjectionSite::interior) return out;
-  const ParentPoint at = foot(placed_[f], query.x, {p.xi, p.eta});
-  const FacetFrame frame = facet_frame(placed_[f], at.xi, at.eta);
+  const ParentPoint at = foot(facet, query.x, {p.xi, p.eta});
+  const FacetShape shape = facet_shape(facet.size, at.xi, at.eta);
+  const FacetFrame frame = facet_frame(facet, shape);
   out.xi = at.xi;
   out.eta = at.eta;
-  out.N = facet_shape(placed_[f].size, at.xi, at.eta).N;
-  out.normal = frame.normal;
+  out.N = shape.N;
+  out.a_1 = frame.a_1;
+  out.a_2 = frame.a_2;
+  out.normal = out.facet_normal = frame.normal;
   out.gap = dot(subtract(query.x, frame.position), frame.normal);
   const double inside = 1.0 - std::max(0.0, p.distance * p.distance - out.gap * out.gap) / (width * width);
   if (!(inside > 0.0) || norm(subtract(frame.position, p.point)) > 2.0 * width) return std::nullopt;
@@ -396,87 +447,101 @@ std::optional<FacetFoot> SurfaceSearch::foot_beside(const Query& query, Index f,
 }
 
 /// The feet on all facets about the closest point; none where that lies on an edge too sharp to go round.
-std::vector<FacetFoot> SurfaceSearch::feet_around(const Query& query, const Best& best) const {
-  const auto agrees = [&](Index f) { return dot(facet_normals_[f], facet_normals_[best.facet]) > smooth; };
-  std::vector<FacetFoot> feet;
-  if (range_.width.empty() || facets()[best.facet].size == 1 || best.is_beside) return feet;
+void SurfaceSearch::feet_around(const Query& query, const Best& best, std::vector<FacetFoot>& feet) const {
+  feet.clear();
+  if (range_.width.empty() || facets()[best.facet].size == 1 || best.is_beside) return;
+  const Vec3 normal = facet_normal(best.facet);
+  const auto agrees = [&](Index f) { return dot(facet_normal(f), normal) > smooth; };
   if (best.projection.site != ProjectionSite::interior && !best.is_continued) {
     const auto& around = facets_at_[facets()[best.facet][static_cast<std::size_t>(best.projection.feature)]];
-    if (!std::all_of(around.begin(), around.end(), [&](Index f) { return !counts(query, f) || agrees(f); }))
-      return feet;
+    if (!std::all_of(around.begin(), around.end(), [&](Index f) { return !counts(query, f) || agrees(f); })) return;
   }
-  for (const Index f : broad_phase_.targets_of(query.q)) {
-    if (!agrees(f) || !counts(query, f)) continue;
-    if (const std::optional<FacetFoot> one = foot_beside(query, f, best.distance)) feet.push_back(*one);
+  for (std::size_t i = 0; i < query.candidates.size(); ++i) {
+    const Index f = query.candidates[i];
+    const double most = farthest_foot(f, best.distance);
+    if (query.box_distance[i] >= most * most || !agrees(f) || !counts(query, f)) continue;
+    if (const std::optional<FacetFoot> one = foot_beside(query, f, best)) feet.push_back(*one);
   }
-  return feet;
 }
 
 namespace {
 
-/// The mean over the feet, whose gradients are those of their weights.
-SurfacePoint mean_of(std::vector<FacetFoot> feet) {
+/// Makes the point the mean over its feet, whose gradients are those of their weights.
+void take_mean(SurfacePoint& met) {
   double sum = 0.0;
-  for (const FacetFoot& foot : feet) sum += foot.weight;
-  SurfacePoint met;
-  for (FacetFoot& foot : feet) {
+  for (const FacetFoot& foot : met.feet) sum += foot.weight;
+  met.gap = 0.0;
+  met.gradient = {};
+  for (FacetFoot& foot : met.feet) {
     foot.weight /= sum;
     met.gap += foot.weight * foot.gap;
   }
-  for (FacetFoot& foot : feet) {
+  for (FacetFoot& foot : met.feet) {
     const double share = (foot.gap - met.gap) / sum;
     foot.at_closest = scaled(foot.at_closest, share);
     foot.gradient = add(scaled(foot.gradient, share), scaled(foot.normal, foot.weight));
     met.gradient = add(met.gradient, add(foot.gradient, foot.at_closest));
   }
-  met.feet = std::move(feet);
-  return met;
 }
 
-SurfacePoint only(Index f, const Projection& p, const SignedDistance& at) {
-  return {f, {{f, 1.0, p.xi, p.eta, p.N, at.normal, at.gap, at.normal, {}, p.N}}, at.normal, at.gap};
+/// Makes the point one of facet f alone.
+void take_only(Index f, const Projection& p, const SignedDistance& at, SurfacePoint& met) {
+  met.facet = f;
+  met.feet.assign(1, foot_at(f, p, at.normal, at.gap));
+  met.feet.front().gradient = at.normal;
+  met.gradient = at.normal;
+  met.gap = at.gap;
+  met.rounded = 0.0;
 }
 
 }  // namespace
 
-/// What the closest point found amounts to.
-std::optional<SurfacePoint> SurfaceSearch::met(const Query& query, const Best& best) const {
-  if (best.facet < 0) return std::nullopt;
+/// What the closest point found amounts to; false: nothing.
+bool SurfaceSearch::met(const Query& query, const Best& best, SurfacePoint& point) const {
+  if (best.facet < 0) return false;
   const Projection& p = best.projection;
   SignedDistance at{p.normal, p.gap};
   if (!best.is_continued && p.site != ProjectionSite::interior)
     at = signed_distance(p, query.x, pseudonormal(best.facet, p), tiny * range_.reach);
   // Beside a rim a node is behind some of the facets there and in front of others, and touches none of them.
-  if (best.is_beside && at.gap < 0.0) return std::nullopt;
-  if (!query.is_behind && at.gap < -range_.depth[best.facet]) return std::nullopt;
-  std::vector<FacetFoot> feet = feet_around(query, best);
-  if (feet.empty()) return only(best.facet, p, at);
-  SurfacePoint mean = mean_of(std::move(feet));
-  mean.facet = best.facet;
-  mean.rounded = std::max(0.0, at.gap - mean.gap);
-  return mean;
+  if (best.is_beside && at.gap < 0.0) return false;
+  if (!query.is_behind && at.gap < -range_.depth[best.facet]) return false;
+  feet_around(query, best, point.feet);
+  if (point.feet.empty()) {
+    take_only(best.facet, p, at, point);
+    return true;
+  }
+  take_mean(point);
+  point.facet = best.facet;
+  point.rounded = std::max(0.0, at.gap - point.gap);
+  return true;
 }
 
-std::optional<SurfacePoint> SurfaceSearch::find(std::size_t q) const {
+const SurfacePoint* SurfaceSearch::find(std::size_t q, Space& space) const {
   const Index behind = behind_.empty() ? -1 : behind_[q];
-  if (behind < 0 && broad_phase_.targets_of(q).empty()) return std::nullopt;
-  Query query = this->query(q);
-  std::optional<SurfacePoint> found = met(query, closest(query));
-  if (found && found->gap < 0.0) return found;
+  const std::span<const Index> candidates = broad_phase_.targets_of(q);
+  if (behind < 0 && candidates.empty()) return nullptr;
+  const Vec3& x = x_[nodes_[q]];
+  space.box_distance.resize(candidates.size());
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    space.box_distance[i] = squared_distance(bounds_[candidates[i]], x);
+  Query query{q, x, node_normal(nodes_[q]), candidates, space.box_distance};
+  const bool is_found = met(query, closest(query), space.found);
+  if (is_found && space.found.gap < 0.0) return &space.found;
   if (behind >= 0 && counts(query, behind)) {
     query.is_behind = true;
-    const std::optional<SurfacePoint> kept = met(query, followed(query, behind));
-    if (kept && kept->gap < 0.0) return kept;
+    if (met(query, followed(query, behind), space.other) && space.other.gap < 0.0) return &space.other;
   }
   if (is_fast_) {
     if (const std::optional<Index> crossed = crossed_facet(query)) {
-      const Projection p = project(placed_[*crossed], query.x);
+      const Projection p = project(placed(*crossed), query.x);
       SignedDistance at{p.normal, p.gap};
       if (p.site != ProjectionSite::interior) at = {scaled(subtract(p.point, query.x), 1.0 / p.distance), -p.distance};
-      return only(*crossed, p, at);
+      take_only(*crossed, p, at, space.other);
+      return &space.other;
     }
   }
-  return found;
+  return is_found ? &space.found : nullptr;
 }
 
 }  // namespace carom

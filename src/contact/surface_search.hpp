@@ -1,6 +1,7 @@
 // Where nodes touch a surface: the closest point that counts, through edges and corners, and crossings within a step.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,6 +18,7 @@ struct FacetFoot {
   double weight = 1.0;         ///< share of this facet in what the node meets
   double xi = 0.0, eta = 0.0;  ///< a little outside of the facet beyond an edge
   std::array<double, 4> N{};
+  Vec3 a_1{}, a_2{}, facet_normal{};  ///< tangents and normal of the facet there
   Vec3 normal{};                      ///< unit vector along x - foot
   double gap = 0.0;                   ///< (x - foot) . normal
   Vec3 gradient{};                    ///< of the node's gap: along x, and times -N_a along x_a
@@ -86,8 +88,13 @@ class SurfaceSearch {
   /// node of nodes() the facet that it was behind at x_begin, -1: none; empty: none was.
   void update(std::span<const Vec3> x_begin, std::span<const Vec3> x, std::span<const Vec3> displacement,
               std::vector<Index> behind = {});
-  /// What nodes[q] meets, if anything. May be called from many threads.
-  std::optional<SurfacePoint> find(std::size_t q) const;
+  /// Memory of one thread for its calls of find.
+  struct Space {
+    SurfacePoint found, other;
+    std::vector<double> box_distance;
+  };
+  /// What nodes[q] meets, or null; it stands in the space until the next call. May be called from many threads.
+  const SurfacePoint* find(std::size_t q, Space& space) const;
 
   std::span<const Index> nodes() const { return nodes_; }
   std::span<const Facet> facets() const { return broad_phase_.targets(); }
@@ -96,7 +103,11 @@ class SurfaceSearch {
  private:
   struct Query;
   struct Best;
-  Query query(std::size_t q) const;
+  void find_active();
+  void place_active();
+  PlacedFacet placed(Index f) const { return place(facets()[f], x_); }
+  Vec3 facet_normal(Index f) const;
+  Vec3 node_normal(Index n) const;
   bool counts(const Query& query, Index f) const;
   bool ends_at(const Query& query, Index f, const Projection& p) const;
   bool goes_on_nearer(const Query& query, Index f, const Projection& p) const;
@@ -105,22 +116,28 @@ class SurfaceSearch {
   Vec3 pseudonormal(Index f, const Projection& p) const;
   std::optional<Index> crossed_facet(const Query& query) const;
   Best followed(const Query& query, Index from) const;
-  std::optional<SurfacePoint> met(const Query& query, const Best& best) const;
-  std::optional<FacetFoot> foot_beside(const Query& query, Index f, double least_distance) const;
-  std::vector<FacetFoot> feet_around(const Query& query, const Best& best) const;
+  bool met(const Query& query, const Best& best, SurfacePoint& point) const;
+  double farthest_foot(Index f, double least) const;
+  std::optional<FacetFoot> foot_beside(const Query& query, Index f, const Best& best) const;
+  void feet_around(const Query& query, const Best& best, std::vector<FacetFoot>& feet) const;
 
   std::vector<Index> nodes_;
   std::vector<Facet> own_;
   SearchRange range_;
   BroadPhase broad_phase_;
   std::vector<std::vector<Index>> facets_at_;  ///< by node
+  std::vector<std::vector<Index>> own_at_;     ///< by node: which of own_
+  std::vector<Index> target_nodes_;            ///< of all facets, each once
   std::vector<std::vector<Index>> excluded_;   ///< by query, increasing: neighbours of the node's own facets
   std::span<const Vec3> x_begin_, x_, displacement_;
   std::vector<Index> behind_;
-  std::vector<PlacedFacet> placed_;
-  std::vector<Bounds> bounds_;
-  std::vector<Vec3> facet_normals_;  ///< at the centres
-  std::vector<Vec3> node_normals_;   ///< sums of the area vectors of own_, by node
+  // What many queries ask for: the facets on the lists, and the own facets of the nodes that have any.
+  std::vector<Index> active_, active_own_;
+  std::vector<std::uint8_t> is_active_, is_active_own_;
+  long active_since_ = -1;           ///< the build of the lists that they belong to
+  std::vector<Bounds> bounds_;       ///< of active facets
+  std::vector<Vec3> facet_normals_;  ///< of active facets, at their centres
+  std::vector<Vec3> own_areas_;      ///< area vectors of active own facets
   double least_depth_ = 0.0;
   bool is_fast_ = false;  ///< something may have crossed a facet without being near it now
 };

@@ -12,12 +12,6 @@ constexpr std::array<std::array<double, 2>, 4> corner{{{-1, -1}, {1, -1}, {1, 1}
 
 }  // namespace
 
-std::array<double, 4> shape(double xi, double eta) {
-  std::array<double, 4> N{};
-  for (std::size_t a = 0; a < 4; ++a) N[a] = 0.25 * (1.0 + xi * corner[a][0]) * (1.0 + eta * corner[a][1]);
-  return N;
-}
-
 Vec3 area_normal(const std::array<Vec3, 4>& x, double xi, double eta) {
   Vec3 s{}, t{};
   for (std::size_t a = 0; a < 4; ++a) {

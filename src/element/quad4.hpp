@@ -8,7 +8,10 @@
 namespace carom::quad4 {
 
 /// N_a = (1 + xi xi_a)(1 + eta eta_a) / 4 with nodes (-1,-1), (1,-1), (1,1), (-1,1).
-std::array<double, 4> shape(double xi, double eta);
+inline std::array<double, 4> shape(double xi, double eta) {
+  return {0.25 * (1.0 - xi) * (1.0 - eta), 0.25 * (1.0 + xi) * (1.0 - eta), 0.25 * (1.0 + xi) * (1.0 + eta),
+          0.25 * (1.0 - xi) * (1.0 + eta)};
+}
 
 /// Normal of length |dX/dxi x dX/deta| (area density), by the right-hand rule of the node order.
 Vec3 area_normal(const std::array<Vec3, 4>& x, double xi, double eta);

@@ -38,6 +38,9 @@ struct MostOfContact {
 
 MotionLimit::MotionLimit(const Model& model) : length_(node_lengths(model)) {
   for (const ContactDefinition& contact : model.contacts) most_.push_back(std::visit(MostOfContact{}, contact));
+  least_ = share_of_cell * *std::min_element(length_->begin(), length_->end());
+  for (const double most : most_)
+    if (most >= 0.0) least_ = std::min(least_, most);
 }
 
 /// Negative where the row is not limited.
@@ -52,7 +55,7 @@ double MotionLimit::allowed(const ConstraintRows& rows, std::size_t r) const {
 void MotionLimit::judge(const ConstraintRows& rows, std::size_t r, double before, double after,
                         std::optional<Overrun>& worst) const {
   const double depth = std::min(0.0, before) - after;
-  if (!(depth > 0.0)) return;
+  if (!(depth > least_)) return;
   const double most = allowed(rows, r);
   if (most < 0.0 || depth <= most) return;
   const double fraction = (std::max(0.0, before) + 0.5 * most) / (before - after);

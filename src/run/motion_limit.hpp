@@ -41,6 +41,7 @@ class MotionLimit {
 
   std::shared_ptr<const std::vector<double>> length_;  ///< by node: the least of the cells there
   std::vector<double> most_;                           ///< by contact
+  double least_;                                       ///< what any row that is limited may do
 };
 
 }  // namespace carom

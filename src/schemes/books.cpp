@@ -9,23 +9,6 @@ namespace carom {
 
 namespace {
 
-double mix(double w, double x0, double x1) {
-  return (1.0 - w) * x0 + w * x1;
-}
-
-}  // namespace
-
-double support_work(const System& system, std::size_t k, const State& begin, const Balance& b0, const State& end,
-                    double w) {
-  const auto i = static_cast<std::size_t>(system.supports.prescribed()[k].dof);
-  const SupportForce &before = b0.supports[k], &after = end.forces.supports[k];
-  const double rest = mix(w, before.reaction - before.inertia, after.reaction - after.inertia);
-  return 0.5 * (begin.v[i] + end.v[i]) * (after.momentum - begin.forces.supports[k].momentum) +
-         rest * (end.q[i] - begin.q[i]);
-}
-
-namespace {
-
 /// The sums, and the reactions of the supports.
 Momentum with_reactions(const System& system, std::span<const double> u, const Balance& balance, double* sums) {
   const MomentArms arms(system, u);

@@ -6,6 +6,11 @@
 
 namespace carom {
 
+/// (1 - w) x0 + w x1
+inline double mix(double w, double x0, double x1) {
+  return (1.0 - w) * x0 + w * x1;
+}
+
 /// Weights of the end of the step (1 minus those of its beginning) in the scheme's equation of motion
 ///   M a~ + F~ = f~ + C~ + R~,  x~ = (1 - w) x0 + w x1,
 /// and in the work of the supports (support_work).
@@ -20,8 +25,14 @@ struct StepWeights {
 /// both ends, and what balances the forces, ((1 - w) (R0 - M a0) + w (R1 - M a1)) du. The first is the change of
 /// kinetic energy, whatever the velocity does within the step. balance: M a0 and R0, here and below
 /// (StepStart::balance).
-double support_work(const System& system, std::size_t k, const State& begin, const Balance& balance, const State& end,
-                    double w);
+inline double support_work(const System& system, std::size_t k, const State& begin, const Balance& balance,
+                           const State& end, double w) {
+  const auto i = static_cast<std::size_t>(system.supports.prescribed()[k].dof);
+  const SupportForce &before = balance.supports[k], &after = end.forces.supports[k];
+  const double rest = mix(w, before.reaction - before.inertia, after.reaction - after.inertia);
+  return 0.5 * (begin.v[i] + end.v[i]) * (after.momentum - begin.forces.supports[k].momentum) +
+         rest * (end.q[i] - begin.q[i]);
+}
 
 /// The energies of a step, and the resultant of external, contact and support forces in the scheme's equation.
 struct StepBooks {

@@ -35,22 +35,23 @@ class StepSums {
   }
   /// What pushes the body.
   void add_pushes(std::size_t node, double* sums) const {
+    const Vec3 contact_0 = f0_.contact.at(node), contact_1 = f1_.contact.at(node);
     Vec3 impulse_0, impulse_1;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t i = 3 * node + c;
       const double half_way = 0.5 * (q1_[i] - q0_[i]);
-      sums[0] += (f0_.contact[i] + f1_.contact[i]) * half_way;
+      sums[0] += (contact_0[c] + contact_1[c]) * half_way;
       sums[1] += (f0_.external[i] + f1_.external[i]) * half_way;
-      impulse_0[c] = half_ * (f0_.external[i] + f0_.contact[i]);
-      impulse_1[c] = half_ * (f1_.external[i] + f1_.contact[i]);
+      impulse_0[c] = half_ * (f0_.external[i] + contact_0[c]);
+      impulse_1[c] = half_ * (f1_.external[i] + contact_1[c]);
     }
     add_with_moment(arms_0_.at(node), impulse_0, sums + 2);
     add_with_moment(arms_1_.at(node), impulse_1, sums + 2);
   }
-  /// The half impulses of a support.
-  void add_support(std::size_t dof, double reaction_0, double reaction_1, double* sums) const {
-    add_with_moment(arms_0_.at(dof / 3), dof % 3, half_ * reaction_0, sums + 2);
-    add_with_moment(arms_1_.at(dof / 3), dof % 3, half_ * reaction_1, sums + 2);
+  /// The half impulses of the supports of a node.
+  void add_support(std::size_t node, const Vec3& reaction_0, const Vec3& reaction_1, double* sums) const {
+    add_with_moment(arms_0_.at(node), scaled(reaction_0, half_), sums + 2);
+    add_with_moment(arms_1_.at(node), scaled(reaction_1, half_), sums + 2);
   }
 
  private:
@@ -67,11 +68,17 @@ LedgerIncrement books_of_sums(const System& system, const State& begin, const Ba
   const Forces &f0 = begin.forces, &f1 = end.forces;
   double support = 0.0, inertia_power = f1.inertia_power - b0.inertia_power;  // da . (M a0 + M a1), as M is symmetric
   const std::vector<PrescribedDof>& prescribed = system.supports.prescribed();
-  for (std::size_t k = 0; k < prescribed.size(); ++k) {
-    const auto i = static_cast<std::size_t>(prescribed[k].dof);
-    support += support_work(system, k, begin, b0, end, 0.5);
-    inertia_power -= (end.a[i] - a_begin[i]) * (b0.supports[k].inertia + f1.supports[k].inertia);
-    terms.add_support(i, b0.supports[k].reaction, f1.supports[k].reaction, sums.data());
+  for (std::size_t k = 0; k < prescribed.size();) {
+    const auto node = static_cast<std::size_t>(prescribed[k].dof) / 3;
+    Vec3 before{}, after{};  // the reactions on its dofs, which stand together
+    for (; k < prescribed.size() && static_cast<std::size_t>(prescribed[k].dof) / 3 == node; ++k) {
+      const auto i = static_cast<std::size_t>(prescribed[k].dof);
+      support += support_work(system, k, begin, b0, end, 0.5);
+      inertia_power -= (end.a[i] - a_begin[i]) * (b0.supports[k].inertia + f1.supports[k].inertia);
+      before[i % 3] = b0.supports[k].reaction;
+      after[i % 3] = f1.supports[k].reaction;
+    }
+    terms.add_support(node, before, after, sums.data());
   }
   const double contact_work = sums[0];
   LedgerIncrement step;
@@ -130,12 +137,13 @@ LedgerIncrement end_lumped_step(const System& system, const State& begin, const 
   const auto sums = parallel_sums<count>(mass.size(), [&](std::size_t node, std::array<double, count>& s) {
     const double m = mass[node], inverse = 1.0 / m;
     const bool is_pushed = pushed[node];
+    const Vec3 contact = is_pushed ? f1.contact.at(node) : Vec3{};
     const unsigned fixed = system.supports.fixed_components(node);
     Vec3 a, v, Ma, Mv;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t i = 3 * node + c;
       if ((fixed >> c & 1U) == 0) {
-        const double push = is_pushed ? f1.external[i] + f1.contact[i] : 0.0;
+        const double push = is_pushed ? f1.external[i] + contact[c] : 0.0;
         end.a[i] = inverse * (push - f1.internal[i]);
         end.v[i] += half * end.a[i];
       }

@@ -76,12 +76,21 @@ void complete_supports(const System& system, State& state) {
   Forces& forces = state.forces;
   const std::vector<PrescribedDof>& prescribed = system.supports.prescribed();
   forces.supports.resize(prescribed.size());
+  std::size_t node = 0;
+  Vec3 Ma, Mv, contact;
   for (std::size_t k = 0; k < prescribed.size(); ++k) {
     const auto i = static_cast<std::size_t>(prescribed[k].dof);
+    const std::size_t c = i % 3;
+    if (k == 0 || i / 3 != node) {  // the dofs of a node stand together
+      node = i / 3;
+      Ma = system.mass.at_node(node, state.a);
+      Mv = system.mass.at_node(node, state.v);
+      contact = forces.contact.at(node);
+    }
     SupportForce& support = forces.supports[k];
-    support.inertia = system.mass.at_node(i / 3, state.a)[i % 3];
-    support.momentum = system.mass.at_node(i / 3, state.v)[i % 3];
-    support.reaction = support.inertia + forces.internal[i] - forces.external[i] - forces.contact[i];
+    support.inertia = Ma[c];
+    support.momentum = Mv[c];
+    support.reaction = support.inertia + forces.internal[i] - forces.external[i] - contact[c];
   }
 }
 
