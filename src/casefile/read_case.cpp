@@ -67,7 +67,10 @@ void refuse_other_encodings(std::string_view text, const std::string& path) {
 }  // namespace
 
 Case parse_case(std::string_view text, const std::string& name) {
-  const Node root = read_toml(text, name);
+  return parse_tree(read_toml(text, name), name);
+}
+
+Case parse_tree(const Node& root, const std::string& name) {
   Case result;
   result.file = name;
   case_schema().read(result, root, {root, message_units(root), "", case_schema().description});

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "casefile/case.hpp"
+#include "casefile/document.hpp"
 
 namespace carom {
 
@@ -14,5 +15,8 @@ Case read_case(const std::string& path);
 
 /// The same for a text in memory; `name` stands for the file in messages and in Case::file.
 Case parse_case(std::string_view text, const std::string& name);
+
+/// The same for the tree of such a text.
+Case parse_tree(const Node& root, const std::string& name);
 
 }  // namespace carom
