@@ -34,9 +34,7 @@
 #include "parallel/threads.hpp"
 #include "run/check_summary.hpp"
 #include "run/cost_estimate.hpp"
-#include "run/lint.hpp"
 #include "run/material_page.hpp"
-#include "run/recorder.hpp"
 #include "run/run_case.hpp"
 #include "run/simulation.hpp"
 #include "translate/convert_deck.hpp"
@@ -133,18 +131,10 @@ ExitCode check(const Arguments& arguments) {
   carom::set_threads(arguments.threads);
   const carom::ReadCase read = carom::read_case_or_deck(arguments.case_file, arguments.accepted);
   const carom::Simulation simulation(read.given);
-  const carom::RunTables tables(simulation);  // refuses probes and checks that a run would refuse
-  show("{}", carom::check_summary(simulation));
-  for (const std::string& note : read.notes) show("note: {}\n", note);
-  for (const std::string& note : simulation.notes()) show("note: {}\n", note);
-  for (const std::string& note : tables.probes.notes()) show("note: {}\n", note);
-  std::vector<std::string> warnings = carom::lint_warnings(simulation);
-  for (std::string& warning : carom::cost_warnings(simulation, results_folder(arguments, "")))
-    warnings.push_back(std::move(warning));
-  for (const std::string& warning : warnings) show("warning: {}\n", warning);
-  fmt::print("{}\n", warnings.empty() ? "ready to run"
-                                      : fmt::format("{} warning{}", warnings.size(), warnings.size() == 1 ? "" : "s"));
-  return warnings.empty() ? ExitCode::good : ExitCode::verdict_failed;
+  carom::Examination found = carom::examine(simulation, results_folder(arguments, ""));
+  found.notes.insert(found.notes.begin(), read.notes.begin(), read.notes.end());
+  show("{}\n", found.text());
+  return found.warnings.empty() ? ExitCode::good : ExitCode::verdict_failed;
 }
 
 ExitCode compare(const Arguments& arguments) {

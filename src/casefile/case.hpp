@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -33,6 +34,8 @@ struct Located {
 struct CaseMesh {
   Location where;
   Located<std::string> file;  ///< "" when blocks are given; relative to the case file's folder
+  /// What a mesh file would hold, where a program gives the mesh (write_gmsh.hpp); `file` is then the name of it.
+  std::shared_ptr<const std::string> text;
   std::vector<StructuredBlock> blocks;
   enum class Order : std::uint8_t { as_written, linear };
   Order order = Order::as_written;  ///< linear: cells of second order are taken by their corners
@@ -175,6 +178,7 @@ struct CaseContact {
 struct CaseFunction {
   std::string name;
   Location where;
+  bool is_called = false;  ///< computed by the program that uses Carom as a library, which sets function.called
   TimeFunction function;
 };
 

@@ -12,15 +12,21 @@ const std::vector<std::string> step{"step"};
 
 /// The kind decides how the function is written; what is kept is the table it makes.
 void add_kind(SectionSchema<CaseFunction>& s) {
-  const KeyDescription key{"kind",
-                           Shape::text,
-                           "A table, linear between its entries, or a step from one value to another.",
-                           {.choices = {"table", "step"}},
-                           Node{std::string("table"), {}},
-                           {}};
+  const KeyDescription key{
+      "kind",
+      Shape::text,
+      "A table, linear between its entries; a step from one value to another; or called: what a "
+      "program computes that uses Carom as a library (docs/python.md), and which it alone can run.",
+      {.choices = {"table", "step", "called"}},
+      Node{std::string("table"), {}},
+      {}};
   SectionSchema<CaseFunction>::Handlers handlers;
-  handlers.read = [](CaseFunction&, const Node&, const ReadContext&) {};  // already judged as the selector
-  handlers.write = [](const CaseFunction&, const Node&) { return Node{std::string("table"), {}}; };
+  handlers.read = [](CaseFunction& f, const Node& node, const ReadContext&) {  // already judged as the selector
+    f.is_called = std::get<std::string>(node.value) == "called";
+  };
+  handlers.write = [](const CaseFunction& f, const Node&) {
+    return Node{std::string(f.is_called ? "called" : "table"), {}};
+  };
   s.add(key, handlers);
 }
 

@@ -25,6 +25,7 @@ void dstevx_(const char* jobz, const char* range, const int* n, double* d, doubl
 void dsyev_(const char* jobz, const char* uplo, const int* n, double* a, const int* lda, double* w, double* work,
             const int* lwork, int* info);
 void openblas_set_num_threads(int count);
+int openblas_get_num_threads();
 /// Name of the processor family whose kernels OpenBLAS uses.
 char* openblas_get_corename();
 }

@@ -74,4 +74,17 @@ void prepare_process_environment(char** argv) {
   for (const auto& [name, value] : wanted) unsetenv(name);
 }
 
+BlasKernels blas_kernels() {
+  const char* better = better_kernels();
+  return {openblas_get_corename(), better != nullptr ? better : ""};
+}
+
+BlasScope::BlasScope() : threads_(openblas_get_num_threads()) {
+  if (threads_ != 1) openblas_set_num_threads(1);
+}
+
+BlasScope::~BlasScope() {
+  if (threads_ != 1) openblas_set_num_threads(threads_);
+}
+
 }  // namespace carom

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "math/called_function.hpp"
+
 namespace carom {
 
 namespace {
@@ -33,6 +35,7 @@ void each_piece(const TimeFunction& f, double a, double b, const Visit& visit) {
 }  // namespace
 
 double TimeFunction::operator()(double t) const {
+  if (called) return value.front() * called->at(t);
   const auto next = first_after(time, t);
   if (next == time.begin()) return value.front();
   if (next == time.end()) return value.back();
@@ -41,6 +44,7 @@ double TimeFunction::operator()(double t) const {
 }
 
 double TimeFunction::derivative(double t) const {
+  if (called) return value.front() * called->derivative(t);
   const auto next = first_after(time, t);
   if (next == time.begin() || next == time.end()) return 0.0;
   const auto i = static_cast<std::size_t>(next - time.begin());
@@ -48,12 +52,14 @@ double TimeFunction::derivative(double t) const {
 }
 
 double TimeFunction::integral(double a, double b) const {
+  if (called) return value.front() * called->integral(a, b);
   double sum = 0.0;
   each_piece(*this, a, b, [&](double p, double f_p, double q, double f_q) { sum += 0.5 * (q - p) * (f_p + f_q); });
   return sum;
 }
 
 double TimeFunction::second_integral(double a, double b) const {
+  if (called) return value.front() * called->second_integral(a, b);
   double sum = 0.0;
   each_piece(*this, a, b, [&](double p, double f_p, double q, double f_q) {
     // Simpson's rule on the product of two linear functions.

@@ -10,6 +10,8 @@ namespace carom {
 /// is from (that run's resolved case and checkpoint, in places of the same names).
 inline constexpr const char* resolved_case_file = "case.resolved.toml";
 inline constexpr const char* kept_state_folder = "initial_state";
+/// A mesh that was given in memory.
+inline constexpr const char* given_mesh_file = "case.mesh.msh";
 
 /// Creates `path` (and parents) and `path`/fields, and removes the files that an earlier run left there: only names
 /// that carom writes, nothing else is touched. Throws OutputError when the folder cannot be made or written to.

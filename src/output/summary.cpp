@@ -281,9 +281,13 @@ std::string_view to_string(Outcome outcome) {
   return kOutcomes.at(static_cast<std::size_t>(outcome));
 }
 
-void write_summary(const std::string& path, const Summary& summary) {
+std::string summary_text(const Summary& summary) {
   // Bytes of titles or paths that are not UTF-8 become the replacement character rather than an error.
-  write_file(path, to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_summary(const std::string& path, const Summary& summary) {
+  write_file(path, summary_text(summary));
 }
 
 Summary read_summary(const std::string& path) {

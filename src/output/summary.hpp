@@ -156,8 +156,10 @@ struct Summary {
   std::string message;  ///< one sentence for the banner; the error's text when there is one
 };
 
-/// Writes JSON; replaces an older file at once, never leaving half a file. NaN and infinities become null.
-/// Throws OutputError.
+/// As JSON; NaN and infinities become null.
+std::string summary_text(const Summary& summary);
+
+/// Writes it; replaces an older file at once, never leaving half a file. Throws OutputError.
 void write_summary(const std::string& path, const Summary& summary);
 
 /// Reads what write_summary wrote; null numbers become NaN. Throws std::runtime_error naming the path when the file is

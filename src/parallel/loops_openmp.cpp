@@ -16,6 +16,21 @@ int thread_count() {
   return omp_get_max_threads();
 }
 
+ThreadScope::ThreadScope(int count)
+    : count_(omp_get_max_threads()), dynamic_(omp_get_dynamic()), levels_(omp_get_max_active_levels()) {
+  set_threads(count);
+}
+
+ThreadScope::~ThreadScope() {
+  omp_set_num_threads(count_);
+  omp_set_dynamic(dynamic_);
+  omp_set_max_active_levels(levels_);
+}
+
+void release_threads() {
+  omp_pause_resource_all(omp_pause_soft);
+}
+
 void run_parts(std::size_t count, LoopPart part, const void* body) {
   const auto parts = static_cast<std::ptrdiff_t>(count);
 #pragma omp parallel for schedule(static)

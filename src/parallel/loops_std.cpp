@@ -22,6 +22,16 @@ int thread_count() {
   return chosen_threads;
 }
 
+ThreadScope::ThreadScope(int count) : count_(chosen_threads) {
+  set_threads(count);
+}
+
+ThreadScope::~ThreadScope() {
+  chosen_threads = count_;
+}
+
+void release_threads() {}
+
 /// Threads of its own for every loop: for checks, not for speed.
 void run_parts(std::size_t count, LoopPart part, const void* body) {
   const std::size_t threads = is_inside ? 1 : std::min(count, static_cast<std::size_t>(chosen_threads));

@@ -11,6 +11,22 @@ namespace carom {
 int set_threads(int count);
 int thread_count();
 
+/// Sets the number of threads of the calling thread for a while, in a process that has other work: what it was comes
+/// back at the end.
+class ThreadScope {
+ public:
+  explicit ThreadScope(int count);
+  ~ThreadScope();
+  ThreadScope(const ThreadScope&) = delete;
+  ThreadScope& operator=(const ThreadScope&) = delete;
+
+ private:
+  int count_, dynamic_ = 0, levels_ = 0;
+};
+
+/// Ends the threads that wait for the next loop of the calling thread.
+void release_threads();
+
 /// Part k of a loop, with what it works on.
 using LoopPart = void (*)(const void* body, std::size_t k);
 /// Calls part(body, k) for every k in [0, count), each thread a contiguous share of them; does not allocate. By OpenMP

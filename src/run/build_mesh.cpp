@@ -18,6 +18,7 @@ namespace carom {
 namespace {
 
 Mesh bodies(const Case& given) {
+  if (given.mesh.text) return read_mesh(*given.mesh.text, *given.mesh.file);
   if (!given.mesh.file->empty()) {
     const std::filesystem::path file = *given.mesh.file;
     const auto folder = std::filesystem::path(given.file).parent_path();

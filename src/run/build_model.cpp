@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "casefile/document.hpp"
 #include "model/node_lengths.hpp"
 #include "run/attached.hpp"
 #include "run/build_mesh.hpp"
@@ -46,6 +47,11 @@ class ModelBuilder {
     if (!name) return {{0.0}, {amplitude}};
     const auto found = std::find_if(case_.functions.begin(), case_.functions.end(),
                                     [&](const CaseFunction& f) { return f.name == **name; });
+    if (found->is_called && !found->function.called) {
+      throw CaseError(found->where, join("functions", found->name), "a function that a program computes",
+                      "a table or a step",
+                      "The program that gave it can run this case, and go on with it from its own snapshots.");
+    }
     TimeFunction scaled = found->function;
     for (double& value : scaled.value) value *= amplitude;
     return scaled;

@@ -12,6 +12,8 @@
 #include "run/approach.hpp"
 #include "run/build_mesh.hpp"
 #include "run/cost_estimate.hpp"
+#include "run/lint.hpp"
+#include "run/recorder.hpp"
 #include "run/waves.hpp"
 #include "solid/smallest_cell.hpp"
 
@@ -113,6 +115,23 @@ std::string check_summary(const Simulation& s) {
   return text + fmt::format("  cost      {} on one core, {} of memory, {} on disk ({})\n", about_seconds(cost.seconds),
                             about_bytes(cost.memory_bytes), about_bytes(cost.disk_bytes),
                             count_of(cost.frames, "file") + " of fields");
+}
+
+std::string Examination::text() const {
+  std::string out = summary;
+  for (const std::string& note : notes) out += fmt::format("note: {}\n", note);
+  for (const std::string& warning : warnings) out += fmt::format("warning: {}\n", warning);
+  return out + (warnings.empty() ? "ready to run"
+                                 : fmt::format("{} warning{}", warnings.size(), warnings.size() == 1 ? "" : "s"));
+}
+
+Examination examine(const Simulation& simulation, const std::string& folder) {
+  const RunTables tables(simulation);
+  Examination out{check_summary(simulation), simulation.notes(), lint_warnings(simulation)};
+  const std::vector<std::string>& places = tables.probes.notes();
+  out.notes.insert(out.notes.end(), places.begin(), places.end());
+  for (std::string& warning : cost_warnings(simulation, folder)) out.warnings.push_back(std::move(warning));
+  return out;
 }
 
 }  // namespace carom

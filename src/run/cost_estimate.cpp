@@ -160,7 +160,7 @@ std::vector<std::string> cost_warnings(const Simulation& s, const std::string& f
   const CostEstimate cost = estimate_cost(s);
   std::vector<std::string> out;
   const double disk = available_disk(folder), memory = available_memory();
-  if (cost.disk_bytes > std::min(many_bytes, 0.5 * disk)) {
+  if (!folder.empty() && cost.disk_bytes > std::min(many_bytes, 0.5 * disk)) {
     out.push_back(
         fmt::format("the results will take {} ({} files of fields), and {} are free: raise output.fields_every "
                     "or output.curves_every, or shorten output.fields",

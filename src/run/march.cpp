@@ -76,6 +76,12 @@ void March::prolong(double end) {
   end_ = end;
 }
 
+std::vector<double> March::hand_over(std::vector<double> State::*values) {
+  std::vector<double> given = std::move(state_.*values);
+  state_.*values = given;
+  return given;
+}
+
 void March::start() {
   begin_stage();
   show();

@@ -53,6 +53,8 @@ class March {
   bool is_started() const { return ledger_.has_value(); }
 
   const State& state() const { return state_; }
+  /// Gives away what holds q, v or a for those that go on looking at it, and goes on with a copy.
+  std::vector<double> hand_over(std::vector<double> State::*values);
   long long steps() const { return step_; }
   double dt_smallest() const { return dt_smallest_; }
   double dt_largest() const { return dt_largest_; }

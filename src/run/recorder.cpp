@@ -150,12 +150,53 @@ std::vector<Recorder::TableFile> Recorder::table_files() const {
   return list;
 }
 
+void Recorder::keep_rows() {
+  rows_.resize(table_files().size());
+}
+
+std::vector<Recorder::KeptTable> Recorder::kept() const {
+  std::vector<KeptTable> out;
+  const std::vector<TableFile> list = table_files();
+  for (std::size_t i = 0; i < list.size(); ++i)
+    out.push_back(
+        {list[i].table, i < rows_.size() ? std::span<const double>(rows_[i].values) : std::span<const double>{}});
+  return out;
+}
+
 void Recorder::begin() {
   prepare_results_folder(folder_);
+  open_files({});
+}
+
+void Recorder::begin_in(std::string folder) {
+  folder_ = std::move(folder);
+  begin();
+}
+
+/// New files with the rows that have been kept.
+void Recorder::open_files(const std::vector<PvdFrame>& frames) {
   std::vector<OpenTable> tables;
   for (const TableFile& file : table_files())
     tables.push_back({CsvFile(file.path, file.table.columns, comments(simulation_, file.what)), file.table});
-  files_.emplace(Files{std::move(tables), PvdCollection(folder_ + "/fields.pvd")});
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const std::span<const double> values = rows_[i].values;
+    const std::size_t width = tables[i].table.columns.size();
+    for (std::size_t k = 0; k < values.size(); k += width) tables[i].file.append(values.subspan(k, width));
+  }
+  files_.emplace(Files{std::move(tables), PvdCollection(folder_ + "/fields.pvd", frames)});
+}
+
+void Recorder::rewrite() {
+  const auto is_there = [&](const std::string& file) { return std::filesystem::exists(folder_ + "/" + file); };
+  std::erase_if(frames_, [&](const PvdFrame& frame) { return !is_there(frame.file); });
+  if (!obstacles_file_.empty() && !is_there(obstacles_file_)) obstacles_file_.clear();
+  std::vector<std::string> names;
+  for (PvdFrame& frame : frames_) {
+    if (!frame.obstacles.empty() && !is_there(frame.obstacles)) frame.obstacles.clear();
+    names.insert(names.end(), {frame.file, frame.obstacles});
+  }
+  continue_results_folder(folder_, names);
+  open_files(frames_);
 }
 
 void Recorder::go_on() {
@@ -178,6 +219,11 @@ void Recorder::go_on() {
   for (std::size_t i = 0; i < list.size(); ++i)
     tables.push_back({CsvFile(list[i].path, list[i].table.columns.size(), places_[i]), list[i].table});
   files_.emplace(Files{std::move(tables), PvdCollection(folder_ + "/fields.pvd", frames_)});
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const std::optional<CsvTable> read = read_csv(list[i].path);
+    for (std::size_t k = 0; read && k < read->rows(); ++k)
+      for (const std::vector<double>& column : read->values) rows_[i].values.push_back(column[k]);
+  }
 }
 
 /// Writes out what there is of the tables.
@@ -202,13 +248,26 @@ void Recorder::record(const StepView& view, bool is_last) {
   if (due && view.step != last_row_) {
     last_row_ = view.step;
     if (tables_.exact) tables_.exact->sample(view.state.t);
-    for (OpenTable& open : files_->tables) open.file.append(open.table.row);
+    add_row();
   }
   if ((is_last || view.step % frame_every_ == 0) && view.step != last_frame_) record_frame(view);
 }
 
+void Recorder::add_row() {
+  if (files_)
+    for (OpenTable& open : files_->tables) open.file.append(open.table.row);
+  if (rows_.empty()) return;
+  const auto append = [](Rows& rows, const CurveTable& table) {
+    rows.values.insert(rows.values.end(), table.row.begin(), table.row.end());
+  };
+  append(rows_[0], tables_.energy.table());
+  append(rows_[1], tables_.contact.table());
+  append(rows_[2], tables_.probes.table());
+  if (tables_.exact) append(rows_[3], tables_.exact->table());
+}
+
 void Recorder::record_frame(const StepView& view) {
-  if (simulation_.given().output.fields.empty()) return;
+  if (!files_ || simulation_.given().output.fields.empty()) return;
   last_frame_ = view.step;
   writer_.finish();  // one frame in memory at a time
   Frame frame = frame_of(simulation_, view);
@@ -304,6 +363,7 @@ void Recorder::fill(Summary& summary) const {
 
 void Recorder::close() {
   writer_.finish();
+  if (!files_) return;
   for (OpenTable& open : files_->tables) open.file.close();
   write_filtered();
 }

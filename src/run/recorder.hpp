@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,17 +41,42 @@ class Recorder : public Observer {
   /// Touches no file yet. Throws CaseError as RunTables does.
   Recorder(const Simulation& simulation, std::string folder);
 
-  /// Prepares the folder and opens its files. Throws OutputError.
+  /// Keeps the rows of the tables in memory from here on, beside the files or without any.
+  void keep_rows();
+  /// Prepares the folder and opens its files; rows that have been kept are written first. Without it, nothing is
+  /// written. Throws OutputError.
   void begin();
+  /// The same in another folder, for a recorder that has had none.
+  void begin_in(std::string folder);
+  /// Writes the fields of this instant.
+  void write_fields(const StepView& view) { record_frame(view); }
   /// Opens the files of a folder where its memory, which has been read, has left them; what was written later is cut
   /// off or removed. Throws OutputError, before anything is changed where files are missing or too short.
   void go_on();
+  /// Makes the folder what the memory says, which has been read and holds the rows: tables are written anew, later
+  /// frames removed. Throws OutputError.
+  void rewrite();
 
   /// The last step forces everything out.
   void see(const StepView& view) override { record(view, view.is_last()); }
   void leave(const StepView& view) override { record(view, true); }
   /// Writes the filtered curves and closes all files.
   void close();
+
+  /// One table: the columns, time first, and the rows that have been kept, one after the other.
+  struct KeptTable {
+    const CurveTable& table;
+    std::span<const double> values;
+  };
+  /// energy, contact, probes, and exact where there is one; no rows without keep_rows.
+  std::vector<KeptTable> kept() const;
+  /// What contact.csv says of this instant.
+  const CurveTable& contact() const { return tables_.contact.table(); }
+  /// The rows, for snapshots.
+  template <class A>
+  friend void rows(A& archive, Recorder& x) {
+    archive.each("rows", x.rows_);
+  }
 
   /// Where probes stand.
   const std::vector<std::string>& notes() const { return tables_.probes.notes(); }
@@ -73,6 +99,13 @@ class Recorder : public Observer {
     archive("last_row", x.last_row_);
   }
 
+  struct Rows {
+    std::vector<double> values;
+    template <class A>
+    friend void fields(A& archive, Rows& x) {
+      archive("values", x.values);
+    }
+  };
   struct OpenTable {
     CsvFile file;
     const CurveTable& table;
@@ -87,6 +120,8 @@ class Recorder : public Observer {
     const CurveTable& table;
   };
   std::vector<TableFile> table_files() const;
+  void open_files(const std::vector<PvdFrame>& frames);
+  void add_row();
   void keep_places();
   void record(const StepView& view, bool is_last);
   void record_frame(const StepView& view);
@@ -97,7 +132,8 @@ class Recorder : public Observer {
   std::string folder_;
   RunTables tables_;
   KeyFigures figures_;
-  std::optional<Files> files_;
+  std::optional<Files> files_;       ///< none without a folder
+  std::vector<Rows> rows_;           ///< of each table, where they are kept
   std::vector<std::size_t> places_;  ///< how long the tables were at the last checkpoint
   std::vector<PvdFrame> frames_;     ///< which there were then
   VtuCells cells_;

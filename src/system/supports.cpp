@@ -18,7 +18,8 @@ bool same_motion(const PrescribedMotion& a, const PrescribedMotion& b) {
     return true;
   };
   if (is_blocked(a) && is_blocked(b)) return true;
-  return a.kind == b.kind && a.function.time == b.function.time && a.function.value == b.function.value;
+  return a.kind == b.kind && a.function.time == b.function.time && a.function.value == b.function.value &&
+         a.function.called == b.function.called;
 }
 
 }  // namespace

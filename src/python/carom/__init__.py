@@ -1,0 +1,23 @@
+"""Carom from Python: impact dynamics of deformable solids.
+
+A case is read (`load`) or made of dicts (`Case`), examined (`Case.check`), started (`Case.start`), stepped
+(`Run.step`, `Run.until`) and brought to its end (`Run.finish`). Results have the same bits as those of the command
+line. All numbers are in the units of the case; nothing is ever converted.
+"""
+
+from carom import _environment  # before the libraries of the extension are loaded
+
+with _environment.prepared():
+    from carom._carom import Snapshot, version
+_environment.warn_of_kernels()
+
+from carom.case import Case, Check, load
+from carom.curves import ContactState, Curves
+from carom.errors import CaseError, CheckpointError, Error, OutputError, RunError
+from carom.mesh import Mesh, read_mesh
+from carom.result import Result
+from carom.run import Run, resume
+
+__version__ = version()
+__all__ = ["Case", "CaseError", "Check", "CheckpointError", "ContactState", "Curves", "Error", "Mesh", "OutputError",
+           "Result", "Run", "RunError", "Snapshot", "load", "read_mesh", "resume", "version"]

@@ -1,0 +1,164 @@
+"""Cases: trees of dicts and lists with the keys of a case file (docs/case_format.md)."""
+
+from __future__ import annotations
+
+import copy as _copy
+import os
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
+from typing import Any
+
+from carom import _carom
+from carom.mesh import Mesh
+from carom.run import Run
+
+
+class Check:
+    """What is known of a case before it runs; str() is what `carom check` prints."""
+
+    text: str
+    """The lines of `carom check`."""
+    warnings: list[str]
+    """What is doubtful."""
+    notes: list[str]
+    """What was chosen or mended."""
+
+    def __init__(self, text: str, warnings: list[str], notes: list[str]) -> None:
+        """Made by Case.check."""
+        self.text, self.warnings, self.notes = text, warnings, notes
+
+    def __str__(self) -> str:
+        """The lines of `carom check`."""
+        return self.text
+
+    def __bool__(self) -> bool:
+        """True when there are no warnings."""
+        return not self.warnings
+
+
+class Case(MutableMapping[str, Any]):
+    """A case as a tree of dicts and lists, with the keys that its file has: `case["initial"][0]["velocity"]`.
+
+    Numbers may be numpy's, lists may be tuples or arrays. What is wrong is said when the case is checked or started,
+    as for a file. A function of time may be a callable: `case["functions"]["pulse"] = lambda t: ...`.
+    """
+
+    def __init__(self, tree: Mapping[str, Any], file: str | os.PathLike[str] = "case.toml") -> None:
+        """A case from a tree, which is copied. file: names it in messages; relative paths of meshes and of initial
+        states are looked for in its folder."""
+        self._tree: dict[str, Any] = _copy.deepcopy(dict(tree))
+        self._file = os.fspath(file)
+        self._source: _carom.Source | None = None
+        self._mesh: Mesh | None = None
+        self._mesh_text: str | None = None
+
+    def __getitem__(self, key: str) -> Any:
+        """A section or value of the case. Raises KeyError where it has none."""
+        return self._tree[key]
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        """Sets a section or value."""
+        self._tree[key] = value
+
+    def __delitem__(self, key: str) -> None:
+        """Leaves a section out."""
+        del self._tree[key]
+
+    def __iter__(self) -> Iterator[str]:
+        """The keys of the sections."""
+        return iter(self._tree)
+
+    def __len__(self) -> int:
+        """The number of sections."""
+        return len(self._tree)
+
+    def __repr__(self) -> str:
+        """File and title."""
+        return f"<carom.Case {self._file}: {self._tree.get('title', 'no title')}>"
+
+    @property
+    def file(self) -> str:
+        """The file it was read from, or its name in messages."""
+        return self._file
+
+    @property
+    def end(self) -> float:
+        """Time at which the last stage ends, in the case's unit."""
+        stages = self._tree.get("stage") or [self._tree]
+        last = stages[-1]
+        return float((last if "end" in last else self._tree["time"])["end"])
+
+    @property
+    def mesh(self) -> Mesh | None:
+        """The mesh of arrays that the case has been given; None while it has that of its [mesh] section."""
+        return self._mesh
+
+    @mesh.setter
+    def mesh(self, mesh: Mesh | None) -> None:
+        """Replaces the file or blocks of [mesh]; its other keys (order, refine, unused) hold on. The arrays are read
+        now: what becomes of them later does not matter. Raises CaseError for arrays that make no mesh."""
+        self._mesh_text = None if mesh is None else mesh._text()
+        self._mesh = mesh
+
+    def function(self, name: str, f: Callable[[float], float]) -> Callable[[float], float]:
+        """Makes [functions.name] the callable f(t), for loads, supports and obstacles that name it. Returns f.
+
+        t is the time in the case's unit. f gives the same finite number whenever it is asked for the same time, and
+        has no jumps where motions are imposed (their integrals are made by quadrature). It is called a few times a
+        step, with the lock of the interpreter; what it raises ends the run and comes out of the step. Such a case can
+        be run by this program alone: `carom resume` and `carom.resume` refuse its folder.
+        """
+        if not callable(f):
+            raise TypeError("f: something that can be called with a time")
+        self._tree.setdefault("functions", {})[name] = f
+        return f
+
+    def copy(self) -> Case:
+        """A case of its own, with the same values, functions and mesh."""
+        other = Case({})
+        other.__dict__.update(self.__dict__)
+        other._tree = _copy.deepcopy(self._tree)
+        return other
+
+    def __getstate__(self) -> dict[str, Any]:
+        """For other processes; the lines that values were written in stay behind."""
+        return {**self.__dict__, "_source": None}
+
+    def check(self, folder: str | os.PathLike[str] | None = None) -> Check:
+        """Reads, resolves and examines the case without running it, as `carom check`. folder: where results would go,
+        for the disk they need. Raises CaseError."""
+        return Check(*_carom.check(self._prepared(), "" if folder is None else os.fspath(folder)))
+
+    def start(self, folder: str | os.PathLike[str] | None = None, threads: int = 0) -> Run:
+        """A run of the case as it is now, at its initial state.
+
+        folder: results folder that is written as the command line does; None: nothing is written. threads: cores, 0
+        for all; results do not depend on it. Raises CaseError, OutputError, and RunError where there is no way to
+        start.
+        """
+        return Run(self._prepared(), "" if folder is None else os.fspath(folder), threads)
+
+    def resolved(self) -> str:
+        """The case as a text of TOML with all defaults written out. Raises CaseError."""
+        return self._prepared().resolved
+
+    def _prepared(self) -> _carom.PreparedCase:
+        """The case as the solver takes it. Raises CaseError."""
+        tree = dict(self._tree)
+        functions = {}
+        if isinstance(tree.get("functions"), dict):
+            functions = {name: f for name, f in tree["functions"].items() if callable(f)}
+            tree["functions"] = {name: {"kind": "called"} if name in functions else f
+                                 for name, f in tree["functions"].items()}
+        if self._mesh_text is not None:
+            kept = {key: value for key, value in tree.get("mesh", {}).items() if key not in ("file", "block")}
+            tree["mesh"] = {"file": "case.mesh.msh", **kept}
+        return _carom.prepare(tree, self._source, self._file, functions, self._mesh_text)
+
+
+def load(path: str | os.PathLike[str]) -> Case:
+    """Reads a case file. The tree holds what is written there; defaults are filled when the case is checked or started
+    (`Case.resolved` shows them). Raises CaseError with file, line, column and key."""
+    tree, source = _carom.read(os.fspath(path))
+    case = Case(tree, path)
+    case._source = source
+    return case

@@ -1,0 +1,102 @@
+"""Runs: stepping, looking on, saving and ending."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from carom import _carom
+from carom.curves import ContactState, Curves, contact_states
+from carom.mesh import Mesh
+from carom.result import Result
+
+_Observer = TypeVar("_Observer", bound=Callable[["Run"], object])
+_ENERGY, _CONTACT, _PROBES, _EXACT = range(4)
+
+
+class Run(_carom.RunBase):
+    """A run of a case: what `Case.start` and `resume` give.
+
+    Runs know nothing of each other: there may be many, one after the other and side by side. Runs that are stepped by
+    several threads of Python take turns, step by step; one run's steps use `threads` cores. What a run holds (files,
+    the lock on its folder, threads) goes with it when nobody refers to it any more, finished or not.
+    """
+
+    def observe(self, observer: _Observer, every: int = 1) -> _Observer:
+        """Has `observer(run)` called after every `every`-th step (counted from the start), and after the last.
+
+        What the observer raises comes out of step, until or finish; the run can go on from there. Returns the
+        observer, so that it can be used as a decorator. Observers are not part of snapshots and checkpoints.
+        """
+        if not callable(observer):
+            raise TypeError("observer: something that can be called with a run")
+        self._observe(observer, every)
+        return observer
+
+    @property
+    def contact(self) -> dict[str, ContactState]:
+        """The contacts at the end of the last step, by name: `run.contact["floor"].force[2]`."""
+        return contact_states(*self._contact())
+
+    @property
+    def history(self) -> Curves:
+        """Curves of probes and contacts so far (every `output.curves_every` steps)."""
+        return _joined(self, _CONTACT, _PROBES)
+
+    @property
+    def energy(self) -> Curves:
+        """The ledger of energies so far."""
+        return _joined(self, _ENERGY)
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh as it is run: views of its arrays, which hold it. Nodes of springs' and obstacles' carriers are left
+        out of displacement, velocity and acceleration, and come last here."""
+        data = self._mesh()
+        nodes = len(self.displacement)
+        return Mesh._of(data, nodes)
+
+    def finish(self, folder: str | os.PathLike[str] | None = None) -> Result:
+        """Steps to the end of the case, closes the run and judges it.
+
+        folder: for a run without one, a results folder as the command line writes it: summary, report, all curves, a
+        checkpoint; of the fields, those of the end alone. Raises as step does; then the run is not finished, but for
+        OutputError from closing. After a RunError, stop() closes it.
+        """
+        self._advance(np.inf, -1)
+        return self.stop(folder)
+
+    def stop(self, folder: str | os.PathLike[str] | None = None) -> Result:
+        """Closes the run where it is; before its end the verdict is "stopped" (or "error"). folder: as finish."""
+        summary = self._close("" if folder is None else os.fspath(folder))
+        return Result(summary, self.history, self.energy, _joined(self, _EXACT), self.folder)
+
+    def __repr__(self) -> str:
+        """Where it is."""
+        return f"<carom.Run: step {self.steps}, t = {self.time:g} of {self.end:g}>"
+
+
+def _joined(run: Run, *tables: int) -> Curves:
+    """One or more tables as one, whose first column is the time."""
+    columns: list[str] = []
+    rows = []
+    for which in tables:
+        names, values = run._table(which)
+        if values is None:
+            continue
+        rows.append(values[:, 1:] if columns else values)
+        columns += names[1:] if columns else names
+    return Curves(columns, np.hstack(rows) if rows else np.empty((0, 0)))
+
+
+def resume(folder: str | os.PathLike[str], end: float | None = None, threads: int = 0) -> Run:
+    """Goes on with the run of a results folder from its last checkpoint, as `carom resume` does.
+
+    end: another end than that of the case, in its unit of time. threads: cores, 0 for all. Raises CheckpointError where
+    the folder cannot be gone on from, OutputError where another run holds it, and CaseError where the case has
+    functions that a program computes: these are not in the folder; take snapshots instead (Run.save).
+    """
+    return Run(os.fspath(folder), end, threads)

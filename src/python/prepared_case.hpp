@@ -1,0 +1,25 @@
+// A case as Python has put it together, ready to be built.
+#pragma once
+
+#include <memory>
+
+#include "casefile/document.hpp"
+#include "python/bindings.hpp"
+#include "run/simulation.hpp"
+
+namespace carom::python {
+
+/// The tree a case was read from, for the places of errors.
+struct Source {
+  Node root;
+};
+
+/// Immutable.
+struct PreparedCase {
+  Case given;
+};
+
+/// With the lock of the interpreter let go of meanwhile. Throws CaseError.
+std::shared_ptr<const Simulation> build(const PreparedCase& prepared, int threads);
+
+}  // namespace carom::python

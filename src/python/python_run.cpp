@@ -1,0 +1,224 @@
+#include "python/python_run.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "math/called_function.hpp"
+#include "python/arrays.hpp"
+#include "python/callables.hpp"
+#include "python/compute.hpp"
+#include "run/build_mesh.hpp"
+
+namespace carom::python {
+
+namespace {
+
+constexpr std::array<std::vector<double> State::*, 3> viewed{&State::q, &State::v, &State::a};
+
+/// Runs of this process; threads that wait for loops go with the last.
+std::atomic<int> live_runs{0};
+
+}  // namespace
+
+/// While the run steps, nobody else may: neither another thread nor a function that it calls.
+class PythonRun::Busy {
+ public:
+  explicit Busy(bool& flag) : flag_(flag) {
+    if (flag) throw std::runtime_error("this run is in the middle of a step");
+    flag = true;
+  }
+  ~Busy() { flag_ = false; }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+
+ private:
+  bool& flag_;
+};
+
+PythonRun::PythonRun(const PreparedCase& prepared, const std::string& folder, int threads) : threads_(threads) {
+  const Run::Clock::time_point begun = Run::Clock::now();
+  simulation_ = build(prepared, threads);
+  {
+    const py::gil_scoped_release release;
+    const Computing computing(threads);
+    run_ = std::make_unique<Run>(*simulation_, folder, begun);
+    run_->keep_rows();
+    run_->begin();
+  }
+  begin();
+}
+
+PythonRun::PythonRun(const std::string& folder, std::optional<double> end, int threads) : threads_(threads) {
+  const Run::Clock::time_point begun = Run::Clock::now();
+  {
+    const py::gil_scoped_release release;
+    const Computing computing(threads);
+    FoundRun found = find_run(folder);
+    simulation_ = std::make_shared<const Simulation>(found.given);
+    run_ = std::make_unique<Run>(*simulation_, folder, begun);
+    run_->keep_rows();
+    run_->go_on(std::move(found), end);
+  }
+  ++live_runs;
+}
+
+/// The initial state. A run that cannot start is closed: its folder says why.
+void PythonRun::begin() {
+  ++live_runs;
+  try {
+    long long count = 1;
+    advance_quietly(0.0, count);
+    if (run_->outcome() == Outcome::good) return;
+    const std::string message = run_->message();
+    close("");
+    throw RunError(0, 0.0, message);
+  } catch (...) {
+    --live_runs;
+    throw;
+  }
+}
+
+PythonRun::~PythonRun() {
+  if (run_) settle_leases();
+  observers_.clear();
+  const py::gil_scoped_release release;
+  run_.reset();  // waits for files that are being written
+  simulation_.reset();
+  if (--live_runs == 0) release_threads();
+}
+
+void PythonRun::refuse_closed() const {
+  if (is_closed_) throw std::runtime_error("this run has been finished");
+}
+
+/// Arrays that are still looked at keep what they show.
+void PythonRun::settle_leases() {
+  for (std::size_t i = 0; i < leases_.size(); ++i) {
+    if (const std::shared_ptr<Lease> lease = leases_[i].lock()) lease->kept = run_->march().hand_over(viewed[i]);
+    leases_[i].reset();
+  }
+}
+
+bool PythonRun::has_arrived(double time, long long count) const {
+  return count == 0 || run_->is_over() || this->time() >= time * (1.0 - 1e-12);
+}
+
+/// Do observers want to see this step?
+bool PythonRun::is_watched() const {
+  return std::any_of(observers_.begin(), observers_.end(),
+                     [&](const PythonObserver& o) { return steps() % o.every == 0 || run_->is_over(); });
+}
+
+/// Without the lock of the interpreter, for a moment at most: signals wait for it.
+void PythonRun::advance_quietly(double time, long long& count) {
+  constexpr std::chrono::milliseconds moment(50);
+  const py::gil_scoped_release release;
+  const Computing computing(threads_);
+  const Run::Clock::time_point begun = Run::Clock::now();
+  try {
+    do {
+      settle_leases();
+      run_->step();
+      if (count > 0) --count;
+    } while (!has_arrived(time, count) && !is_watched() && !take_interrupt() && Run::Clock::now() - begun < moment);
+  } catch (const CallFailure& failure) {
+    std::rethrow_exception(failure.error);
+  }
+}
+
+void PythonRun::show() {
+  const py::object self = py::cast(this);
+  const std::vector<PythonObserver> observers = observers_;  // they may add others
+  for (const PythonObserver& o : observers)
+    if (steps() % o.every == 0 || run_->is_over()) o.callable(self);
+}
+
+void PythonRun::throw_failure() const {
+  if (run_->outcome() == Outcome::good) return;
+  throw RunError(static_cast<int>(steps()), time(), run_->message());
+}
+
+void PythonRun::advance(double time, long long count) {
+  refuse_closed();
+  throw_failure();
+  while (!has_arrived(time, count)) {
+    {
+      const Busy busy(is_busy_);
+      advance_quietly(time, count);
+    }
+    throw_failure();
+    if (!observers_.empty() && is_watched()) show();
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+}
+
+void PythonRun::observe(py::object callable, long long every) {
+  refuse_closed();
+  if (every < 1) throw py::value_error("every: a number of steps, at least 1");
+  observers_.push_back({std::move(callable), every});
+}
+
+std::shared_ptr<const Snapshot> PythonRun::save() {
+  const Busy busy(is_busy_);
+  const py::gil_scoped_release release;
+  const Computing computing(threads_);
+  return run_->save();
+}
+
+void PythonRun::restore(const Snapshot& snapshot) {
+  if (is_closed_ && !folder().empty())
+    throw std::runtime_error("this run has been finished, and its folder is closed; start another");
+  const Busy busy(is_busy_);
+  settle_leases();
+  const py::gil_scoped_release release;
+  const Computing computing(threads_);
+  run_->restore(snapshot);
+  is_closed_ = false;
+}
+
+std::string PythonRun::close(const std::string& folder) {
+  refuse_closed();
+  if (!folder.empty() && !this->folder().empty())
+    throw py::value_error("folder: this run writes into " + this->folder() + " since its start");
+  const Busy busy(is_busy_);
+  const py::gil_scoped_release release;
+  const Computing computing(threads_);
+  if (!run_->is_over()) run_->interrupt();
+  if (!folder.empty()) run_->begin_folder(folder);
+  is_closed_ = true;
+  return summary_text(run_->finish());
+}
+
+py::array PythonRun::values(std::size_t which) {
+  const Busy busy(is_busy_);
+  std::shared_ptr<Lease> lease = leases_[which].lock();
+  if (!lease) leases_[which] = lease = std::make_shared<Lease>();
+  const std::vector<double>& x = run_->march().state().*viewed[which];
+  const std::size_t nodes = given_nodes(simulation_->given(), simulation_->mesh());
+  return view(x.data(), {static_cast<py::ssize_t>(nodes), 3}, std::move(lease));
+}
+
+std::shared_ptr<const Mesh> PythonRun::mesh() const {
+  return {simulation_, &simulation_->mesh()};
+}
+
+py::tuple PythonRun::table(std::size_t which) const {
+  const std::vector<Recorder::KeptTable> tables = run_->watched().recorder.kept();
+  if (which >= tables.size()) return py::make_tuple(py::list(), py::none());
+  const auto& [table, values] = tables[which];
+  const auto columns = static_cast<py::ssize_t>(table.columns.size());
+  const auto rows = static_cast<py::ssize_t>(values.size()) / columns;
+  return py::make_tuple(py::cast(table.columns), py::array_t<double>({rows, columns}, values.data()));
+}
+
+py::tuple PythonRun::contact() const {
+  const CurveTable& table = run_->watched().recorder.contact();
+  return py::make_tuple(py::cast(table.columns),
+                        py::array_t<double>(static_cast<py::ssize_t>(table.row.size()), table.row.data()));
+}
+
+}  // namespace carom::python

@@ -1,0 +1,83 @@
+// A run as Python sees it.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "python/prepared_case.hpp"
+#include "run/run.hpp"
+
+namespace carom::python {
+
+/// Steps a Run with the lock of the interpreter let go of. Its files, locks and threads go with it.
+class PythonRun {
+ public:
+  /// From the start of a case; the initial state is there then.
+  PythonRun(const PreparedCase& prepared, const std::string& folder, int threads);
+  /// From the last checkpoint of a folder.
+  PythonRun(const std::string& folder, std::optional<double> end, int threads);
+  ~PythonRun();
+  PythonRun(const PythonRun&) = delete;
+  PythonRun& operator=(const PythonRun&) = delete;
+
+  /// At most `count` steps (-1: any number), to the first end of a step at or after `time`, or to the end.
+  void advance(double time, long long count);
+  void observe(py::object callable, long long every);
+  std::shared_ptr<const Snapshot> save();
+  void restore(const Snapshot& snapshot);
+  /// Closes the run where it is; folder: of the results, if it has had none. The text of the summary.
+  std::string close(const std::string& folder);
+
+  double time() const { return run_->march().state().t; }
+  long long steps() const { return run_->march().steps(); }
+  double end() const { return run_->march().end(); }
+  bool is_over() const { return run_->is_over(); }
+  bool is_closed() const { return is_closed_; }
+  double last_dt() const { return run_->march().view().dt; }
+  const std::vector<std::string>& warnings() const { return run_->watched().warnings; }
+  const std::vector<std::string>& notes() const { return run_->watched().notes; }
+  const std::string& folder() const { return run_->folder(); }
+
+  /// q, v or a of the nodes of the mesh, without a copy; kept as they are now when the run steps.
+  py::array values(std::size_t which);
+  std::shared_ptr<const Mesh> mesh() const;
+  /// Columns and rows of a table so far.
+  py::tuple table(std::size_t which) const;
+  /// What contact.csv says of this instant.
+  py::tuple contact() const;
+
+ private:
+  /// What arrays look at: the state's own vector, or, once the run has stepped, what it was.
+  struct Lease {
+    std::vector<double> kept;
+  };
+  struct PythonObserver {
+    py::object callable;
+    long long every;
+  };
+  class Busy;
+
+  void begin();
+  void refuse_closed() const;
+  void advance_quietly(double time, long long& count);
+  bool has_arrived(double time, long long count) const;
+  bool is_watched() const;
+  void show();
+  void settle_leases();
+  void throw_failure() const;
+
+  std::shared_ptr<const Simulation> simulation_;
+  std::unique_ptr<Run> run_;
+  int threads_;
+  std::array<std::weak_ptr<Lease>, 3> leases_;
+  std::vector<PythonObserver> observers_;
+  bool is_busy_ = false, is_closed_ = false;
+};
+
+}  // namespace carom::python

@@ -1,0 +1,300 @@
+#include "run/run.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <filesystem>
+#include <fstream>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "base/checksum.hpp"
+#include "base/errors.hpp"
+#include "base/version.hpp"
+#include "casefile/read_case.hpp"
+#include "casefile/resolved_case.hpp"
+#include "math/called_function.hpp"
+#include "mesh/mesh_summary.hpp"
+#include "output/file_writer.hpp"
+#include "output/results_folder.hpp"
+#include "report/report.hpp"
+#include "run/build_mesh.hpp"
+#include "run/cost_estimate.hpp"
+#include "run/initial_state.hpp"
+#include "run/lint.hpp"
+#include "run/summarize.hpp"
+
+namespace carom {
+
+namespace {
+
+double seconds_since(Run::Clock::time_point begin) {
+  return std::chrono::duration<double>(Run::Clock::now() - begin).count();
+}
+
+double cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+/// The case with its files as seen from the results folder, so that the resolved case can be run there: the mesh stays
+/// where it is, an initial state has been copied (keep_state).
+Case beside(Case given, const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::string& file = given.mesh.file.value;
+  if (given.mesh.text)
+    file = given_mesh_file;
+  else if (!file.empty() && !fs::path(file).is_absolute())
+    file = fs::proximate(fs::path(given.file).parent_path() / file, folder).generic_string();
+  if (given.initial_state) given.initial_state->from.value = kept_state_folder;
+  return given;
+}
+
+/// What the checkpoints of a run are of.
+CheckpointInfo origin_of(const Simulation& simulation, const std::string& resolved_case) {
+  const std::size_t nodes = given_nodes(simulation.given(), simulation.mesh());
+  return {version(),
+          compiler(),
+          std::string(name(simulation.solid().isa())),
+          checksum(resolved_case),
+          mesh_digest(simulation.mesh()),
+          bodies_digest(simulation.model(), nodes),
+          static_cast<long long>(nodes)};
+}
+
+std::string read_text(const std::string& path) {
+  const std::ifstream file(path, std::ios::binary);
+  if (!file) throw CheckpointError(path, "it is missing, and a run cannot go on without it");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+FoundRun find_run(const std::string& folder) {
+  if (!std::filesystem::is_directory(folder)) throw CheckpointError(folder, "there is no such folder");
+  FoundRun found;
+  found.lock = std::make_unique<ResultsLock>(folder);
+  found.checkpoint = find_checkpoint(folder);
+  const std::string case_file = folder + "/" + resolved_case_file;
+  found.resolved = read_text(case_file);
+  const CheckpointInfo& its = found.checkpoint.info;
+  refuse_others(found.checkpoint, {version(), compiler(), its.isa, checksum(found.resolved), its.mesh_digest});
+  found.given = read_case(case_file);
+  return found;
+}
+
+Run::Run(const Simulation& simulation, std::string folder, Clock::time_point begin)
+    : simulation_(simulation), folder_(std::move(folder)), begin_(begin) {
+  if (!folder_.empty()) refuse_own_folder(simulation.given(), folder_);
+  watched_ = make_watched();
+}
+
+/// A march at its beginning, seen by all that are to see it.
+std::unique_ptr<WatchedMarch> Run::make_watched() const {
+  auto made = std::make_unique<WatchedMarch>(simulation_, folder_);
+  if (keeps_rows_) made->recorder.keep_rows();
+  for (Observer* observer : observers_) made->march.add(*observer);
+  return made;
+}
+
+void Run::add(Observer& observer) {
+  observers_.push_back(&observer);
+  watched_->march.add(observer);
+}
+
+void Run::keep_rows() {
+  keeps_rows_ = true;
+  watched_->recorder.keep_rows();
+}
+
+void Run::begin() {
+  watched_->case_file = simulation_.given().file;
+  watched_->warnings = lint_warnings(simulation_);
+  for (std::string& warning : cost_warnings(simulation_, folder_)) watched_->warnings.push_back(std::move(warning));
+  watched_->notes = reading_notes_;
+  watched_->notes.insert(watched_->notes.end(), simulation_.notes().begin(), simulation_.notes().end());
+  const std::vector<std::string>& places = watched_->recorder.notes();
+  watched_->notes.insert(watched_->notes.end(), places.begin(), places.end());
+  if (folder_.empty()) return;
+  lock_ = std::make_unique<ResultsLock>(folder_);
+  watched_->recorder.begin();
+  open_folder();
+}
+
+/// What stands in the folder beside the curves, and the checkpoints to come.
+void Run::open_folder() {
+  if (simulation_.taken()) keep_state(*simulation_.taken(), folder_);
+  if (const auto& text = simulation_.given().mesh.text) write_file(folder_ + "/" + given_mesh_file, *text);
+  const std::string resolved = resolved_toml(beside(simulation_.given(), folder_));
+  write_file(folder_ + "/" + resolved_case_file, resolved);
+  write_file(folder_ + "/mesh.txt", mesh_summary(simulation_.mesh()));
+  checkpoints_.emplace(folder_, simulation_.given().output, origin_of(simulation_, resolved));
+}
+
+void Run::begin_folder(const std::string& folder) {
+  refuse_own_folder(simulation_.given(), folder);
+  lock_ = std::make_unique<ResultsLock>(folder);
+  folder_ = folder;
+  watched_->recorder.begin_in(folder);
+  if (march().is_started()) watched_->recorder.write_fields(march().view());
+  open_folder();
+  if (march().is_started() && !march().has_failed()) write_checkpoint();
+}
+
+void Run::go_on(FoundRun found, std::optional<double> end) {
+  lock_ = std::move(found.lock);
+  const CheckpointInfo origin = origin_of(simulation_, found.resolved);
+  refuse_others(found.checkpoint, origin);
+  read_checkpoint(found.checkpoint.path, [&](Archive& archive) { fields(archive, *watched_); });
+  if (end) {
+    try {
+      march().prolong(*end);
+    } catch (const std::invalid_argument& e) {
+      throw CheckpointError(folder_, fmt::format("--end asks for {}", e.what()));
+    }
+  } else if (march().at_end() && std::filesystem::exists(folder_ + "/report.html")) {
+    throw CheckpointError(
+        folder_,
+        fmt::format("the run has come to its end, t = {:.9g}; a later one can be given with --end", march().state().t));
+  }
+  watched_->recorder.go_on();
+  remove_later(folder_, found.checkpoint);
+  checkpoints_.emplace(folder_, simulation_.given().output, origin);
+  write_checkpoint();  // a later end holds from now on
+}
+
+void Run::write_checkpoint() {
+  checkpoints_->write(march().steps(), march().state().t, [&](Archive& archive) { fields(archive, *watched_); });
+}
+
+void Run::fail(std::string message) {
+  outcome_ = Outcome::error;
+  message_ = std::move(message);
+}
+
+void Run::step() {
+  if (!setup_seconds_) setup_seconds_ = seconds_since(begin_);
+  const Clock::time_point stepping = Clock::now();
+  try {
+    if (!march().is_started())
+      march().start();
+    else
+      march().step();
+    if (march().has_failed())
+      fail(march().message());
+    else if (march().steps() > 0 && checkpoints_ && (march().at_end() || checkpoints_->is_due(march().steps())))
+      write_checkpoint();
+  } catch (const RunError& e) {
+    fail(e.what());
+    if (march().is_started()) march().leave();  // what there is to look at where it went wrong
+  } catch (const OutputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    fail("the run could not go on: memory ran out; " + memory_statement(simulation_));
+  } catch (const std::exception& e) {  // a factorisation that fails
+    fail(fmt::format("the run could not go on: {}", e.what()));
+    if (march().is_started()) march().leave();
+  } catch (const CallFailure&) {
+    fail("the run could not go on: a function of the case has failed");
+    throw;
+  }
+  step_seconds_ += seconds_since(stepping);
+}
+
+void Run::interrupt() {
+  if (checkpoints_) write_checkpoint();
+  march().leave();
+  outcome_ = Outcome::stopped;
+  message_ =
+      fmt::format("interrupted after step {}, t = {:.6g} of {:.6g}", march().steps(), march().state().t, march().end());
+}
+
+void Run::fill_in(Summary& summary) const {
+  fill(summary, simulation_, march());
+  watched_->recorder.fill(summary);
+  if (!march().is_started()) return;
+  summary.checks = watched_->recorder.checks();
+  summary.verdict.push_back(watched_->penetration.item());
+  summary.verdict.push_back(watched_->overlap.item());
+  if (!simulation_.model().turning_bodies.empty()) summary.verdict.push_back(body_strain_item(march().body_strain()));
+}
+
+Summary Run::finish() {
+  Summary summary = summary_of(simulation_);
+  summary.case_info.file = watched_->case_file;
+  summary.warnings = watched_->warnings;
+  summary.notes = watched_->notes;
+  summary.outcome = outcome_;
+  summary.message = message_;
+  summary.notes.insert(summary.notes.end(), march().log().begin(), march().log().end());
+  const std::vector<std::string>& turned = watched_->rotation.warnings();
+  summary.warnings.insert(summary.warnings.end(), turned.begin(), turned.end());
+  watched_->recorder.close();
+  fill_in(summary);
+  summary.cost = {seconds_since(begin_),
+                  cpu_seconds(),
+                  {{"setup", setup_seconds_.value_or(seconds_since(begin_))}, {"steps", step_seconds_}},
+                  peak_memory()};
+  judge(summary);
+  if (!folder_.empty()) {
+    write_summary(folder_ + "/summary.json", summary);
+    write_report(folder_);
+  }
+  lock_.reset();
+  return summary;
+}
+
+/// What snapshots are of.
+const CheckpointInfo& Run::origin() {
+  if (!origin_) origin_ = origin_of(simulation_, resolved_toml(simulation_.given()));
+  return *origin_;
+}
+
+std::shared_ptr<const Snapshot> Run::save() {
+  auto snapshot = std::make_shared<Snapshot>();
+  snapshot->origin = origin();
+  snapshot->origin.step = march().steps();
+  snapshot->origin.time = march().state().t;
+  MemoryWriter archive(snapshot->values);
+  fields(archive, *watched_);
+  rows(archive, watched_->recorder);
+  return snapshot;
+}
+
+void Run::restore(const Snapshot& snapshot) {
+  const CheckpointInfo& own = origin();
+  if (snapshot.origin.case_digest != own.case_digest || snapshot.origin.mesh_digest != own.mesh_digest)
+    throw CheckpointError("snapshot", "it is of another case or mesh");
+  std::unique_ptr<WatchedMarch> fresh = make_watched();
+  MemoryReader archive(snapshot.values);
+  try {
+    fields(archive, *fresh);
+    rows(archive, fresh->recorder);
+  } catch (const ArchiveError& e) {
+    throw CheckpointError("snapshot", e.what());
+  }
+  watched_.reset();  // lets go of its files
+  watched_ = std::move(fresh);
+  outcome_ = Outcome::good;
+  message_.clear();
+  if (folder_.empty()) return;
+  watched_->recorder.rewrite();
+  remove_later(folder_, {});
+  write_checkpoint();
+}
+
+}  // namespace carom

@@ -1,0 +1,304 @@
+"""Runs from Python: the command line's bits, stepping, snapshots, views, errors, signals, threads."""
+
+import gc
+import os
+import pathlib
+import signal
+import subprocess
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import carom
+from python_fixture import PROGRAM, FolderTest, falling_block
+
+TABLES = ("energy.csv", "contact.csv", "probes.csv")
+
+
+def text(path):
+    return pathlib.Path(path).read_text()
+
+
+class BitsTest(FolderTest):
+    def assert_same(self, one, other):
+        for table in TABLES:
+            self.assertEqual(text(f"{one}/{table}"), text(f"{other}/{table}"), table)
+
+    def test_folder_from_the_start_and_at_the_end_as_the_command_line(self):
+        # Explicit steps; Newmark with contact by penalty, which factors matrices by CHOLMOD and BLAS.
+        for scheme in ("central_differences", "newmark"):
+            case = falling_block(scheme)
+            self.command_line(case, "cli", "--threads", "1")
+            self.assertEqual(case.start("early", threads=2).finish().verdict, "good")
+            case.start(threads=2).finish("late")
+            self.assert_same("cli", "early")
+            self.assert_same("cli", "late")
+            early = sorted(p.relative_to("early") for p in pathlib.Path("early").rglob("*"))
+            self.assertEqual(early, sorted(p.relative_to("cli") for p in pathlib.Path("cli").rglob("*")))
+
+    def test_result_holds_what_the_files_hold(self):
+        result = falling_block().start("out").finish()
+        for table, curves in (("energy", result.energy), ("probes", result.history), ("contact", result.history)):
+            header, *rows = [line.split(",") for line in text(f"out/{table}.csv").splitlines() if line[0] != "#"]
+            for name, column in zip(header, np.array(rows, dtype=float).T):
+                np.testing.assert_array_equal(curves[name], column, name)
+        self.assertEqual(result.folder, "out")
+        with self.assertRaisesRegex(KeyError, "top.velocity_z"):
+            result.history["top.speed"]
+
+    def test_nothing_is_written_without_a_folder(self):
+        result = falling_block().start().finish()
+        self.assertEqual(list(self.folder.iterdir()), [])
+        self.assertEqual(result.folder, "")
+
+    def test_resume(self):
+        case = falling_block()
+        whole = case.start().finish()
+        run = case.start("out")
+        run.step(20)
+        self.assertEqual(run.stop().verdict, "stopped")
+        resumed = carom.resume("out", threads=1)
+        self.assertEqual(resumed.steps, 20)
+        result = resumed.finish()
+        for name in whole.energy:
+            np.testing.assert_array_equal(whole.energy[name], result.energy[name], name)
+        with self.assertRaises(carom.CheckpointError):
+            carom.resume("out")
+        with self.assertRaises(carom.CheckpointError):
+            carom.resume("nowhere")
+
+    def test_command_line_resumes_what_python_has_stopped(self):
+        case = falling_block()
+        self.command_line(case, "cli")
+        run = case.start("out")
+        run.step(20)
+        run.stop()
+        subprocess.run([PROGRAM, "resume", "out", "--quiet"], check=True)
+        self.assert_same("cli", "out")
+
+
+class StepTest(FolderTest):
+    def test_steps_and_until(self):
+        run = falling_block().start()
+        self.assertEqual((run.time, run.steps, run.at_end), (0.0, 0, False))
+        run.step()
+        self.assertEqual(run.steps, 1)
+        self.assertEqual(run.time, run.dt)
+        run.step(3)
+        self.assertEqual(run.steps, 4)
+        run.until(5e-5)
+        self.assertGreaterEqual(run.time, 5e-5 * (1 - 1e-12))
+        self.assertLess(run.time - run.dt, 5e-5)
+        run.until(1.0)
+        self.assertTrue(run.at_end)
+        steps = run.steps
+        run.step()
+        self.assertEqual(run.steps, steps)
+        result = run.finish()
+        self.assertEqual(result.summary["scheme"]["steps"], steps)
+        with self.assertRaisesRegex(RuntimeError, "finished"):
+            run.step()
+
+    def test_contact_of_the_instant(self):
+        run = falling_block().start()
+        self.assertEqual(run.contact["floor"].closed, 0)
+        while run.contact["floor"].force[2] <= 0.0:
+            run.step()
+        self.assertGreater(run.contact["floor"].closed, 0)
+        self.assertEqual(run.contact["floor"].force[2], run.history["floor.force_z"][-1])
+        self.assertIsNone(run.contact["floor"].velocity)
+
+    def test_snapshot_gives_the_same_bits_again_and_in_another_run(self):
+        for scheme in ("central_differences", "newmark"):
+            case = falling_block(scheme)
+            run = case.start()
+            run.step(15)
+            snapshot = run.save()
+            self.assertEqual((snapshot.steps, snapshot.time), (15, run.time))
+            first = run.finish()
+            run.restore(snapshot)
+            self.assertEqual((run.steps, len(run.energy["time"])), (15, 16))
+            again = run.finish()
+            other = case.start(threads=1)
+            other.restore(snapshot)
+            third = other.finish()
+            for name in first.energy:
+                np.testing.assert_array_equal(first.energy[name], again.energy[name], name)
+                np.testing.assert_array_equal(first.energy[name], third.energy[name], name)
+
+    def test_snapshot_takes_the_folder_back(self):
+        case = falling_block()
+        case.start("plain").finish()
+        run = case.start("out")
+        run.step(15)
+        snapshot = run.save()
+        run.step(20)
+        run.restore(snapshot)
+        run.finish()
+        for table in TABLES:
+            self.assertEqual(text(f"plain/{table}"), text(f"out/{table}"))
+        self.assertEqual(text("plain/fields.pvd"), text("out/fields.pvd"))
+        with self.assertRaisesRegex(RuntimeError, "closed"):
+            run.restore(snapshot)
+
+    def test_snapshot_of_another_case_is_refused(self):
+        run = falling_block().start()
+        other = falling_block(speed=-4.0).start()
+        with self.assertRaises(carom.CheckpointError):
+            other.restore(run.save())
+        other.step()  # untouched
+
+    def test_views_keep_their_instant_and_their_memory(self):
+        run = falling_block().start()
+        begin = run.velocity
+        copy = begin.copy()
+        self.assertIs(begin.flags.writeable, False)
+        self.assertFalse(begin.flags.owndata)
+        self.assertEqual(begin.ctypes.data, run.velocity.ctypes.data)  # no copies
+        with self.assertRaises(ValueError):
+            begin.flags.writeable = True
+        run.step(5)
+        later = run.velocity
+        np.testing.assert_array_equal(begin, copy)
+        self.assertTrue((later != begin).any())
+        last = later.copy()
+        del run
+        gc.collect()
+        np.testing.assert_array_equal(later, last)
+
+    def test_state_is_that_of_the_probe(self):
+        run = falling_block().start()
+        run.step(30)
+        top = run.mesh.nodes_of("TOP")
+        mean = run.displacement[top].mean(axis=0)
+        self.assertAlmostEqual(mean[2], run.history["top.displacement_z"][-1], delta=1e-14 * abs(mean[2]))
+        np.testing.assert_allclose(run.mesh.points[top][:, 2], 0.2 + 5e-5, rtol=1e-15)
+
+    def test_runs_side_by_side(self):
+        case = falling_block()
+        alone = case.start().finish().energy["kinetic"]
+        runs = [case.start(threads=n) for n in (1, 2)]
+        while not runs[0].at_end:
+            for run in runs:
+                run.step()
+        for run in runs:
+            np.testing.assert_array_equal(run.finish().energy["kinetic"], alone)
+
+    def test_runs_in_threads(self):
+        case = falling_block("newmark")
+        alone = case.start(threads=1).finish().energy["kinetic"]
+        found = []
+        threads = [threading.Thread(target=lambda: found.append(case.start(threads=1).finish().energy["kinetic"]))
+                   for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(found), 3)
+        for kinetic in found:
+            np.testing.assert_array_equal(kinetic, alone)
+
+    def test_a_dropped_run_leaves_no_threads_and_no_lock(self):
+        def tasks():
+            return len(os.listdir("/proc/self/task"))
+        gc.collect()
+        before = tasks()
+        run = falling_block().start("out", threads=2)
+        run.step(12)
+        with self.assertRaises(carom.OutputError):
+            falling_block().start("out")
+        del run
+        gc.collect()
+        self.assertLessEqual(tasks(), before)
+        falling_block().start("out").stop()
+
+
+class ErrorTest(FolderTest):
+    def test_case_error_of_a_file_has_its_place(self):
+        lines = falling_block().resolved().splitlines()
+        line = next(i for i, text in enumerate(lines) if text.startswith("rho"))
+        lines[line] = "rho = -1.0"
+        pathlib.Path("bad.toml").write_text("\n".join(lines))
+        with self.assertRaises(carom.CaseError) as caught:
+            carom.load("bad.toml")
+        error = caught.exception
+        self.assertEqual((error.file, error.line, error.column), ("bad.toml", line + 1, 7))
+        self.assertEqual((error.key, error.found), ("materials.steel.rho", "-1.0"))
+        self.assertIn("> 0", error.expected)
+
+    def test_case_error_of_a_tree_has_its_key(self):
+        case = falling_block()
+        case["materials"]["steel"]["law"] = "linear_elastik"
+        with self.assertRaises(carom.CaseError) as caught:
+            case.check()
+        self.assertEqual((caught.exception.line, caught.exception.key), (0, "materials.steel.law"))
+        self.assertIn("linear_elastic", caught.exception.suggestion)
+
+    def test_values_that_are_none_of_a_case(self):
+        for value in (None, object(), {1: 2}, 2**70):
+            case = falling_block()
+            case["title"] = value
+            with self.assertRaises(carom.CaseError):
+                case.check()
+
+    def test_places_of_what_has_not_been_changed(self):
+        pathlib.Path("case.toml").write_text(falling_block().resolved())
+        case = carom.load("case.toml")
+        line = next(i for i, text in enumerate(pathlib.Path("case.toml").read_text().splitlines(), 1)
+                    if text.startswith("material ") or "material = " in text)
+        case["materials"]["copper"] = case["materials"].pop("steel")
+        with self.assertRaises(carom.CaseError) as caught:
+            case.start()
+        self.assertEqual((caught.exception.key, caught.exception.line), ("part[0].material", line))
+
+    def test_run_error_has_step_and_time_and_snapshots_bring_the_run_back(self):
+        case = falling_block()
+        case["initial"][0].update(angular_velocity=[0.0, 0.0, 1.0e3], centre=[0.05, 0.05, 0.1])  # 0.1 rad in all
+        case["guards"] = {"rotation_warning": 0.5, "rotation_stop": 1.0}
+        run = case.start()
+        snapshot = run.save()
+        with self.assertRaises(carom.RunError) as caught:
+            run.finish()
+        self.assertGreater(caught.exception.step, 0)
+        self.assertEqual(caught.exception.time, run.time)
+        with self.assertRaises(carom.RunError):
+            run.step()
+        run.restore(snapshot)
+        run.step()
+        with self.assertRaises(carom.RunError):
+            run.finish()
+        self.assertEqual(run.stop().verdict, "error")
+
+    def test_output_error(self):
+        pathlib.Path("file").write_text("")
+        with self.assertRaises(carom.OutputError) as caught:
+            falling_block().start("file")
+        self.assertIn("file", caught.exception.path)
+
+    def test_interrupt_leaves_a_usable_run(self):
+        whole = falling_block(end=2e-3).start().finish()
+        for act in (lambda run: run.finish(), lambda run: run.until(1.0), lambda run: run.step(10**6)):
+            run = falling_block(end=2e-3).start(threads=1)
+            threading.Timer(0.01, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+            with self.assertRaises(KeyboardInterrupt):
+                while True:  # the signal may come between two calls
+                    act(run)
+                    if run.at_end:
+                        time.sleep(0.1)
+                        break
+            if not run.finished:
+                result = run.finish()
+                np.testing.assert_array_equal(whole.energy["kinetic"], result.energy["kinetic"])
+
+    def test_check_prints_what_the_command_line_prints(self):
+        case = falling_block()
+        pathlib.Path("cli.toml").write_text(case.resolved())
+        printed = subprocess.run([PROGRAM, "check", "cli.toml"], capture_output=True, text=True, check=False).stdout
+        self.assertEqual(str(carom.load("cli.toml").check("out/cli")) + "\n", printed)
+        self.assertTrue(case.check())
+
+
+if __name__ == "__main__":
+    unittest.main()
