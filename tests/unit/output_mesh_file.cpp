@@ -29,9 +29,14 @@ Mesh block_of(CellType type) {
   low.face_groups = {"", "SIDE", "", "", "FOOT", ""};
   high.face_groups = {"", "SIDE", "", "", "", "TOP"};
   Mesh mesh = test::with_cells(make_structured_blocks({low, high}), type);
-  for (const CellRef& cell : mesh.cell_groups.at("LOW")) mesh.cell_groups["ALL OF IT"].push_back(cell);
-  for (const CellRef& cell : mesh.cell_groups.at("HIGH")) mesh.cell_groups["ALL OF IT"].push_back(cell);
-  std::sort(mesh.cell_groups.at("ALL OF IT").begin(), mesh.cell_groups.at("ALL OF IT").end());
+  const std::vector<CellRef> all = mesh.cell_groups.at("LOW");  // with_cells knows one body only
+  for (const char* name : {"LOW", "HIGH"}) mesh.cell_groups.at(name).clear();
+  for (const CellRef& cell : all) {
+    const Index first = mesh.blocks[static_cast<std::size_t>(cell.block)].nodes(cell.cell)[0];
+    const bool is_high = mesh.coordinates[static_cast<std::size_t>(first)][2] > 1.25;
+    mesh.cell_groups.at(is_high ? "HIGH" : "LOW").push_back(cell);
+  }
+  mesh.cell_groups["ALL OF IT"] = all;
   mesh.node_groups["CORNERS"] = {0, 1};
   mesh.node_groups["FIRST"] = {0};
   return mesh;
