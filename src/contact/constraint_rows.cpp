@@ -76,6 +76,17 @@ void ConstraintRows::add_block(Index n, const RowBlock& b) {
   ++begin.back();
 }
 
+void ConstraintRows::add_behind(Index n, const RowBlock& b) {
+  const auto there = std::find(node.end() - behind.back(), node.end(), n);
+  if (there == node.end()) {
+    add_block(n, b);
+    ++behind.back();
+    return;
+  }
+  RowBlock& sum = block[static_cast<std::size_t>(there - node.begin())];
+  for (std::size_t i = 0; i < 3; ++i) sum[i] = add(sum[i], b[i]);
+}
+
 void ConstraintRows::scatter(std::size_t r, const Vec3& s, std::span<double> f) const {
   for_each_share(r, s, [&](Index n, const Vec3& share) {
     for (std::size_t c = 0; c < 3; ++c) f[3 * static_cast<std::size_t>(n) + c] += share[c];

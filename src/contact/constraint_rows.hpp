@@ -88,6 +88,8 @@ struct ConstraintRows {
   void add_node(Index n, double w);
   /// A node that the last row sees by a block of its own.
   void add_block(Index n, const RowBlock& b);
+  /// The same of a node of the other side, which the last row may see already: its blocks are added up.
+  void add_behind(Index n, const RowBlock& b);
 
   /// w = (G x)_r in the row's frame; x is a dof vector.
   Vec3 relative(std::size_t r, std::span<const double> x) const {

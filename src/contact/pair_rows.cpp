@@ -33,7 +33,7 @@ std::vector<Index> keys(const std::map<Index, double>& map) {
 }
 
 /// Adds what the last row sees of one facet to its master nodes.
-void add_foot(const ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, RowBlocks& blocks) {
+void add_foot(ConstraintRows& rows, const FacetFoot& foot, const Facet& facet) {
   const FacetShape shape = facet_shape(facet.size, foot.xi, foot.eta);
   const Vec3 n = foot.normal, t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
   TangentDual dual;
@@ -42,19 +42,16 @@ void add_foot(const ConstraintRows& rows, const FacetFoot& foot, const Facet& fa
     const double w = -foot.weight * foot.N[a];
     const Vec3 tilt = scaled(add(scaled(dual.dual_1, shape.dN_dxi[a]), scaled(dual.dual_2, shape.dN_deta[a])),
                              foot.weight * foot.gap);
-    blocks.add(facet[a], add(scaled(foot.gradient, -foot.N[a]), scaled(foot.at_closest, -foot.N_closest[a])),
-               add(scaled(t_1, w), scaled(n, dot(t_1, tilt))), add(scaled(t_2, w), scaled(n, dot(t_2, tilt))));
+    rows.add_behind(facet[a],
+                    {add(scaled(foot.gradient, -foot.N[a]), scaled(foot.at_closest, -foot.N_closest[a])),
+                     add(scaled(t_1, w), scaled(n, dot(t_1, tilt))), add(scaled(t_2, w), scaled(n, dot(t_2, tilt)))});
   }
 }
 
 /// Adds the nodes of the last row.
-void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, std::span<const Facet> facets,
-               RowBlocks& blocks) {
+void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, std::span<const Facet> facets) {
   rows.add_block(slave, {met.gradient, rows.tangent_1.back(), rows.tangent_2.back()});
-  blocks.clear();
-  for (const FacetFoot& foot : met.feet) add_foot(rows, foot, facets[foot.facet], blocks);
-  blocks.append_to(rows);
-  rows.behind.back() = static_cast<Index>(blocks.size());
+  for (const FacetFoot& foot : met.feet) add_foot(rows, foot, facets[foot.facet]);
 }
 
 /// The nodes of one surface against the facets of another.
@@ -78,7 +75,6 @@ class NodeRows : public RowMaker {
     search_.update(motion.x_begin, motion.x, motion.displacement, motion.behind(first_slot, slots()));
     parts_.append(slots(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
       SurfaceSearch::Space space;
-      RowBlocks blocks;
       for (std::size_t i = begin; i < end; ++i) {
         const SurfacePoint* met = search_.find(i, space);
         if (met == nullptr) continue;
@@ -86,7 +82,7 @@ class NodeRows : public RowMaker {
         made.add_row(met->gap, direction(met->gradient), motion.x[n], measure_[i], row_law(law_, measure_[i]), source_);
         made.facet.back() = met->facet;
         made.rounded.back() = met->rounded;
-        add_nodes(made, n, *met, search_.facets(), blocks);
+        add_nodes(made, n, *met, search_.facets());
         finish_row(made, motion.u, first_slot + static_cast<Index>(i));
       }
     });

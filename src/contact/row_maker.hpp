@@ -50,7 +50,6 @@ class RowBlocks {
  public:
   /// Adds to the block of node n.
   void add(Index n, const Vec3& normal, const Vec3& tangent_1, const Vec3& tangent_2);
-  void clear() { entries_.clear(); }
   std::size_t size() const { return entries_.size(); }
   /// Gives them to the last row.
   void append_to(ConstraintRows& rows) const;

@@ -158,9 +158,13 @@ SurfaceSearch::SurfaceSearch(std::vector<Index> nodes, std::vector<Facet> own, s
   facets_at_.resize(static_cast<std::size_t>(last) + 1);
   for (std::size_t f = 0; f < targets.size(); ++f)
     for (const Index n : targets[f]) facets_at_[n].push_back(static_cast<Index>(f));
-  own_at_.resize(facets_at_.size());
+  std::vector<std::vector<Index>> own_at_node(facets_at_.size());
   for (std::size_t f = 0; f < own_.size(); ++f)
-    for (const Index n : own_[f]) own_at_[n].push_back(static_cast<Index>(f));
+    for (const Index n : own_[f]) own_at_node[n].push_back(static_cast<Index>(f));
+  for (const Index n : nodes_) {
+    own_at_.insert(own_at_.end(), own_at_node[n].begin(), own_at_node[n].end());
+    own_begin_.push_back(own_at_.size());
+  }
   for (std::size_t n = 0; n < facets_at_.size(); ++n)
     if (!facets_at_[n].empty()) target_nodes_.push_back(static_cast<Index>(n));
   std::vector<std::vector<Index>> ring(facets_at_.size());  // nodes of the facets that a node belongs to
@@ -202,7 +206,7 @@ void SurfaceSearch::find_active() {
     const std::span<const Index> candidates = broad_phase_.targets_of(q);
     if (candidates.empty()) continue;
     for (const Index f : candidates) is_active_[f] = 1;
-    for (const Index f : own_at_[nodes_[q]]) is_active_own_[f] = 1;
+    for (const Index f : own_facets(q)) is_active_own_[f] = 1;
   }
   const auto list = [](std::span<const std::uint8_t> is_listed, std::vector<Index>& listed) {
     listed.clear();
@@ -237,10 +241,10 @@ Vec3 SurfaceSearch::facet_normal(Index f) const {
   return is_active_[f] != 0 ? facet_normals_[f] : direction(area_vector(placed(f)));
 }
 
-/// Averaged over the own facets there; zero where there are none.
-Vec3 SurfaceSearch::node_normal(Index n) const {
+/// At nodes_[q], averaged over the own facets there; zero where there are none.
+Vec3 SurfaceSearch::node_normal(std::size_t q) const {
   Vec3 sum{};
-  for (const Index f : own_at_[n])
+  for (const Index f : own_facets(q))
     sum = add(sum, is_active_own_[f] != 0 ? own_areas_[f] : area_vector(place(own_[f], x_)));
   return direction(sum);
 }
@@ -525,7 +529,7 @@ const SurfacePoint* SurfaceSearch::find(std::size_t q, Space& space) const {
   space.box_distance.resize(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i)
     space.box_distance[i] = squared_distance(bounds_[candidates[i]], x);
-  Query query{q, x, node_normal(nodes_[q]), candidates, space.box_distance};
+  Query query{q, x, node_normal(q), candidates, space.box_distance};
   const bool is_found = met(query, closest(query), space.found);
   if (is_found && space.found.gap < 0.0) return &space.found;
   if (behind >= 0 && counts(query, behind)) {

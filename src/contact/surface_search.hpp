@@ -107,7 +107,10 @@ class SurfaceSearch {
   void place_active();
   PlacedFacet placed(Index f) const { return place(facets()[f], x_); }
   Vec3 facet_normal(Index f) const;
-  Vec3 node_normal(Index n) const;
+  std::span<const Index> own_facets(std::size_t q) const {
+    return std::span(own_at_).subspan(own_begin_[q], own_begin_[q + 1] - own_begin_[q]);
+  }
+  Vec3 node_normal(std::size_t q) const;
   bool counts(const Query& query, Index f) const;
   bool ends_at(const Query& query, Index f, const Projection& p) const;
   bool goes_on_nearer(const Query& query, Index f, const Projection& p) const;
@@ -126,9 +129,10 @@ class SurfaceSearch {
   SearchRange range_;
   BroadPhase broad_phase_;
   std::vector<std::vector<Index>> facets_at_;  ///< by node
-  std::vector<std::vector<Index>> own_at_;     ///< by node: which of own_
-  std::vector<Index> target_nodes_;            ///< of all facets, each once
-  std::vector<std::vector<Index>> excluded_;   ///< by query, increasing: neighbours of the node's own facets
+  std::vector<std::size_t> own_begin_{0};      ///< those of own_ at nodes_[q]: own_at_[own_begin_[q]] ...
+  std::vector<Index> own_at_;
+  std::vector<Index> target_nodes_;           ///< of all facets, each once
+  std::vector<std::vector<Index>> excluded_;  ///< by query, increasing: neighbours of the node's own facets
   std::span<const Vec3> x_begin_, x_, displacement_;
   std::vector<Index> behind_;
   // What many queries ask for: the facets on the lists, and the own facets of the nodes that have any.
