@@ -176,8 +176,10 @@ class Actions {
     if (!target.empty()) {
       const std::string key = key_of(t_.mesh.names.element_sets, t_.scope(s), target);
       if (key.empty()) at.fail("\"" + target + "\"", "the name of a set of cells, or nothing for all of them");
-      const std::vector<CellRef>& cells = t_.mesh.mesh.cell_groups.at(key);
-      on.cells.insert(cells.begin(), cells.end());
+      for (const DeckNames::Cells& each : t_.mesh.names.element_sets.at(key)) {
+        const std::vector<CellRef>& cells = t_.mesh.mesh.cell_groups.at(each.group);
+        on.cells.insert(cells.begin(), cells.end());
+      }
     }
     act(at, {"DLOAD", "", "gravity", 0, normalized(direction), at.where(), {}}, step, size);
   }
