@@ -216,6 +216,15 @@ TEST(Translate, GravityLineByLineIsThatOfAll) {
   EXPECT_EQ(made.loads[0].vector, (Vec3{0.0, 0.0, -9.0}));
 }
 
+TEST(Translate, SupportsAndContactOfLaterStepsAreRefusedUnlessAccepted) {
+  const std::string second = "*STEP\n*STATIC\n1., 1.\n";
+  EXPECT_THROW(case_from(good_deck + second + "*BOUNDARY\nFALLING, 1\n*END STEP\n"), CaseError);
+  EXPECT_THROW(case_from(good_deck + second + "*BOUNDARY, OP=NEW\nBASE, 1\n*END STEP\n"), CaseError);
+  EXPECT_THROW(case_from(good_deck + second + "*CONTACT PAIR, INTERACTION=I\nFLOOR, FOOT\n*END STEP\n"), CaseError);
+  EXPECT_EQ(case_from(good_deck + second + "*BOUNDARY, OP=NEW\nBASE, 1\n*END STEP\n", {"boundary"}).supports.size(),
+            3U);
+}
+
 TEST(Translate, NamedSupports) {
   const Case made = case_from(replaced(good_deck, "BASE, 1, 3", "BASE, YSYMM\nFALLING, 4, 6\n5, PINNED"));
   ASSERT_EQ(made.supports.size(), 4U);
