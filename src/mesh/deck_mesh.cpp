@@ -301,6 +301,7 @@ class DeckMeshReader {
     for (DeckCursor at(*s.keyword); at.next_line();) {
       DeckCursor peek = at;
       const std::string set = upper_case(peek.field()), label = upper_case(peek.field());
+      if (label == "GRAV") group_element(at, s, set);
       if (label.size() != 2 || label[0] != 'P' || label[1] < '1' || label[1] > '6') continue;
       const std::string key = scope(s).prefix + set + " " + label;
       if (names_.loaded_faces.count(key) != 0) continue;
@@ -308,6 +309,16 @@ class DeckMeshReader {
       names_.loaded_faces[key] = key;
       faces_.append(elements, fmt::format("S{}", label.substr(1)), at, mesh_.cell_groups[key], next_number_);
     }
+  }
+
+  /// An element that a load names by its number is a set.
+  void group_element(DeckCursor at, const Statement& s, const std::string& number) {
+    if (!as_integer(number) || !key_of(names_.element_sets, scope(s), number).empty()) return;
+    const DeckElement& element = elements_[carom::at(elements_named(at, s.scope).front())];
+    if (element.type->kind != DeckElementType::Kind::cell) return;
+    const std::string key = scope(s).prefix + number;
+    names_.element_sets[key] = {{key + " (element)", element.type}};
+    mesh_.cell_groups[key + " (element)"] = {element.cell};
   }
 
   void name_surfaces() {

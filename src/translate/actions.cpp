@@ -27,6 +27,7 @@ struct Acting {
   Vec3 direction{};  ///< of gravity
   Location where;
   std::vector<Action> actions;
+  const DeckKeyword* source = nullptr;  ///< the first keyword that says it
 };
 
 /// The cells that gravity of one size is given to in a step, line by line.
@@ -61,6 +62,7 @@ class Actions {
   void each_line(const Statement& s, std::size_t i, Line line) {
     const std::string* amplitude = s.keyword->parameter("AMPLITUDE");
     amplitude_ = nullptr;
+    keyword_ = s.keyword;
     if (amplitude != nullptr) {
       const auto found = amplitudes_.find(upper_case(*amplitude));
       if (found == amplitudes_.end())
@@ -84,7 +86,10 @@ class Actions {
     const std::string kind = wanted.keyword == "BOUNDARY" ? "" : wanted.what;
     const auto [place, is_new] =
         places_.emplace(Key{wanted.keyword + kind, wanted.group, wanted.component, wanted.direction}, all_.size());
-    if (is_new) all_.push_back(wanted);
+    if (is_new) {
+      all_.push_back(wanted);
+      all_.back().source = keyword_;
+    }
     Acting* const found = &all_[place->second];
     if (found->what != wanted.what) {
       const bool rests =
@@ -176,8 +181,10 @@ class Actions {
     if (!target.empty()) {
       const std::string key = key_of(t_.mesh.names.element_sets, t_.scope(s), target);
       if (key.empty()) at.fail("\"" + target + "\"", "the name of a set of cells, or nothing for all of them");
-      const std::vector<CellRef>& cells = t_.mesh.mesh.cell_groups.at(key);
-      on.cells.insert(cells.begin(), cells.end());
+      for (const DeckNames::Cells& each : t_.mesh.names.element_sets.at(key)) {
+        const std::vector<CellRef>& cells = t_.mesh.mesh.cell_groups.at(each.group);
+        on.cells.insert(cells.begin(), cells.end());
+      }
     }
     act(at, {"DLOAD", "", "gravity", 0, normalized(direction), at.where(), {}}, step, size);
   }
@@ -217,7 +224,7 @@ class Actions {
                                          [step = step](const Action& a) { return a.step == step; });
         if (is_said) continue;
         if (keyword == "BOUNDARY") {
-          t_.findings.refuse(*t_.steps[step].step, t_.steps[step].step->where, "OP=NEW lets go of " + acting.group,
+          t_.findings.refuse(*acting.source, t_.steps[step].step->where, "OP=NEW lets go of " + acting.group,
                              "Carom's supports hold for the whole run.");
           continue;
         }
@@ -233,6 +240,9 @@ class Actions {
     for (const auto& [time, value] : points)
       if (std::abs(value) > std::abs(size)) size = value;
     const bool is_support = acting.keyword == "BOUNDARY";
+    if (is_support && acting.actions.front().step > 0)
+      t_.findings.refuse(*acting.source, acting.where, "a support that begins with a later step",
+                         "Carom's supports hold for the whole run.");
     if (is_support)
       if (RigidBody* body = referred_to(t_, acting.group)) return move_rigid(*body, acting, points);
     if (size == 0.0 && !is_support) return t_.findings.note(acting.where, "a load of 0: left out");
@@ -331,7 +341,8 @@ class Actions {
   std::map<Key, std::size_t> places_;  ///< in all_
   std::map<std::tuple<std::size_t, double, Vec3>, GravityCells> gravity_;
   std::map<std::string, Amplitude> amplitudes_;
-  const Amplitude* amplitude_ = nullptr;
+  const Amplitude* amplitude_ = nullptr;  ///< of the keyword at hand
+  const DeckKeyword* keyword_ = nullptr;  ///< at hand
   std::vector<Acting> all_;
   std::set<std::pair<std::string, std::size_t>> renewed_;
   std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> functions_;

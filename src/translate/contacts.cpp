@@ -32,13 +32,14 @@ void read_behavior(Translation& t, const DeckKeyword& keyword, Interaction& to) 
                     "Contact would have the stiffness that Carom chooses from the material and the cells.");
 }
 
-void read_friction(const DeckKeyword& keyword, Interaction& to) {
+void read_friction(Translation& t, const DeckKeyword& keyword, Interaction& to) {
   DeckCursor at(keyword);
   if (!at.next_line()) return;
   to.friction = at.real("the coefficient of friction");
-  if (at.at_end()) return;
   const double stick = at.real_or(0.0, "the stiffness of sticking");
   if (stick > 0.0) to.tangential_stiffness = stick;
+  if (at.next_line())
+    t.findings.refuse(keyword, at.where(), "friction that depends on slip or pressure", "The first line would hold.");
 }
 
 std::map<std::string, Interaction> interactions_of(Translation& t) {
@@ -53,7 +54,7 @@ std::map<std::string, Interaction> interactions_of(Translation& t) {
     if (keyword.name != "SURFACE BEHAVIOR" && keyword.name != "FRICTION") continue;
     if (last == nullptr) keyword.fail("*" + keyword.name + " of no interaction", "*SURFACE INTERACTION before it");
     if (keyword.name == "FRICTION")
-      read_friction(keyword, *last);
+      read_friction(t, keyword, *last);
     else
       read_behavior(t, keyword, *last);
   }
@@ -153,9 +154,17 @@ void translate_general(Translation& t, const std::map<std::string, Interaction>&
 
 void translate_contacts(Translation& t) {
   const std::map<std::string, Interaction> all = interactions_of(t);
-  for (const Statement& s : t.statements.list) {
-    if (s.keyword->name == "CONTACT PAIR") translate_pairs(t, all, s);
-    if (s.keyword->name == "CONTACT INCLUSIONS") translate_general(t, all, *s.keyword);
+  for (std::size_t i = 0; i < t.statements.list.size(); ++i) {
+    const Statement& s = t.statements.list[i];
+    const bool is_pair = s.keyword->name == "CONTACT PAIR";
+    if (!is_pair && s.keyword->name != "CONTACT INCLUSIONS") continue;
+    if (t.steps.size() > 1 && i > t.steps[1].begin)
+      t.findings.refuse(*s.keyword, s.keyword->where, "contact that begins with a later step",
+                        "It would be there from the start.");
+    if (is_pair)
+      translate_pairs(t, all, s);
+    else
+      translate_general(t, all, *s.keyword);
   }
 }
 

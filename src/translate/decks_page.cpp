@@ -52,7 +52,9 @@ outside of the mesh.
 
 Each step is a stage that goes on where the one before ended. Loads and imposed motions without an amplitude grow with the
 time of a static step and act at once in a dynamic one (`AMPLITUDE` of `*STEP` says otherwise); they hold until a later step
-says something else, and `OP=NEW` ends loads that it does not name again. Supports hold for the whole run. A motion that
+says something else, and `OP=NEW` ends loads that it does not name again. Amplitudes in total time go on in
+later steps. Supports and contact hold for the whole run: those that begin with a later step, or are let go, are refused
+unless accepted. A motion that
 begins from another value than it has moves the nodes at once. Implicit steps have the first increment of the
 deck, and are shortened where they fail; explicit ones follow from the stable step.
 

@@ -51,7 +51,11 @@ void read_procedure(DeckStep& step, const DeckKeyword& keyword) {
               : keyword.has("EXPLICIT") ? DeckStep::Kind::explicit_dynamics
                                         : DeckStep::Kind::implicit_dynamics;
   step.ramps = is_static;
-  if (const std::string* amplitude = step.step->parameter("AMPLITUDE")) step.ramps = upper_case(*amplitude) == "RAMP";
+  if (const std::string* amplitude = step.step->parameter("AMPLITUDE")) {
+    const std::string kind = upper_case(*amplitude);
+    if (kind != "RAMP" && kind != "STEP") step.step->fail("AMPLITUDE=" + kind, "RAMP or STEP");
+    step.ramps = kind == "RAMP";
+  }
   const std::string* nlgeom = step.step->parameter("NLGEOM");
   step.is_finite = nlgeom != nullptr ? says_yes(nlgeom) : is_explicit_abaqus(step);
   read_times(step);

@@ -166,6 +166,47 @@ TEST(Translate, FacesBetweenTheNodesOfASurface) {
   EXPECT_TRUE(has_note(made, "surface of nodes"));
 }
 
+/// The lower cube replaced by a rigid square with the reference node 99.
+std::string with_rigid_wall(const std::string& reference) {
+  const std::string wall = replaced(good_deck, "*ELEMENT, TYPE=C3D8, ELSET=LOWER\n1,1,2,3,4,5,6,7,8\n",
+                                    "99,0,0,0\n*ELEMENT, TYPE=R3D4, ELSET=LOWER\n1,5,6,7,8\n");
+  return replaced(replaced(replaced(wall, "LOWER, S2", "LOWER, SPOS"), "*SOLID SECTION, ELSET=LOWER, MATERIAL=STEEL\n",
+                           "*RIGID BODY, ELSET=LOWER, REF NODE=99\n"),
+                  "*BOUNDARY\nBASE, 1, 3\n", reference);
+}
+
+TEST(Translate, ARigidSurfaceAtRestIsAnObstacle) {
+  const Case made = case_from(with_rigid_wall("*BOUNDARY\n99, ENCASTRE\n"));
+  EXPECT_EQ(*made.contacts[0].kind, CaseContact::Kind::surface);
+  EXPECT_EQ(*made.contacts[0].surface, "FLOOR");
+  EXPECT_FALSE(made.contacts[0].velocity);
+  EXPECT_TRUE(made.supports.empty());
+}
+
+TEST(Translate, ADisplacedReferenceNodeMovesItsSurfaceByTheSlope) {
+  const Case made = case_from(with_rigid_wall("*BOUNDARY\n99, 1, 2\n*BOUNDARY, AMPLITUDE=A\n99, 3, 3, 0.5\n"));
+  EXPECT_EQ(*made.contacts[0].velocity, (Vec3{0.0, 0.0, 500.0}));  // 0.5 in 1e-3
+  ASSERT_TRUE(made.contacts[0].function);
+  for (const CaseFunction& function : made.functions) {
+    if (function.name != **made.contacts[0].function) continue;
+    EXPECT_EQ(function.function(5e-4), 1.0);
+    EXPECT_EQ(function.function(2e-3), 0.0);
+  }
+}
+
+TEST(Translate, AFreeRigidSurfaceHasTheMassOfItsReferenceNode) {
+  const Case made = case_from(replaced(with_rigid_wall("*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n*MASS, ELSET=M\n2.5\n"),
+                                       "FALLING, 3, -1000.", "FALLING, 3, -1000.\n99, 3, 20."));
+  EXPECT_EQ(*made.contacts[0].mass, 2.5);
+  EXPECT_EQ(*made.contacts[0].velocity, (Vec3{0.0, 0.0, 20.0}));
+  EXPECT_TRUE(made.point_masses.empty());
+  EXPECT_EQ(made.initial.size(), 1U);
+}
+
+TEST(Translate, AReferenceNodeThatIsNotHeldIsRefused) {
+  EXPECT_THROW(case_from(with_rigid_wall("*BOUNDARY\n99, 3\n")), CaseError);
+}
+
 TEST(Translate, GravityLineByLineIsThatOfAll) {
   const std::string deck =
       replaced(good_deck, "*CLOAD, AMPLITUDE=A\n15, 1, 5.", "*DLOAD\nUPPER, GRAV, 9., 0., 0., -1.\n");
@@ -173,6 +214,15 @@ TEST(Translate, GravityLineByLineIsThatOfAll) {
   const Case made = case_from(replaced(deck, "*DLOAD\n", "*DLOAD\nLOWER, GRAV, 9., 0., 0., -1.\n"));
   ASSERT_EQ(made.loads.size(), 1U);
   EXPECT_EQ(made.loads[0].vector, (Vec3{0.0, 0.0, -9.0}));
+}
+
+TEST(Translate, SupportsAndContactOfLaterStepsAreRefusedUnlessAccepted) {
+  const std::string second = "*STEP\n*STATIC\n1., 1.\n";
+  EXPECT_THROW(case_from(good_deck + second + "*BOUNDARY\nFALLING, 1\n*END STEP\n"), CaseError);
+  EXPECT_THROW(case_from(good_deck + second + "*BOUNDARY, OP=NEW\nBASE, 1\n*END STEP\n"), CaseError);
+  EXPECT_THROW(case_from(good_deck + second + "*CONTACT PAIR, INTERACTION=I\nFLOOR, FOOT\n*END STEP\n"), CaseError);
+  EXPECT_EQ(case_from(good_deck + second + "*BOUNDARY, OP=NEW\nBASE, 1\n*END STEP\n", {"boundary"}).supports.size(),
+            3U);
 }
 
 TEST(Translate, NamedSupports) {
