@@ -38,7 +38,7 @@ kind = "central_differences"
 [time]
 end = 2.0
 [[stage]]
-kind = "generalized_alpha"
+kind = "newmark"
 end = 4.0
 step = 0.1
 )";
