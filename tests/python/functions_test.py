@@ -274,6 +274,12 @@ class MeshTest(FolderTest):
             except ImportError:
                 with self.assertRaisesRegex(ImportError, "not installed"):
                     convert()
+            else:  # with all groups, where it is there
+                self.assertEqual(len(convert().points), 12)
+                if module == "meshio":
+                    again = Mesh.from_meshio(convert())
+                    self.assertEqual(sorted(again.cell_groups), ["BODY", "FOOT", "HEAD", "UPPER"])
+                    np.testing.assert_array_equal(again.nodes_of("HEAD"), two_cells().nodes_of("HEAD"))
 
     def test_from_meshio(self):
         class Block:
