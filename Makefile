@@ -1,6 +1,6 @@
 # The commands of the project; `make help` lists them. The work itself is done by CMake presets and the scripts of tools/.
 .DEFAULT_GOAL := help
-.PHONY: help demo build test verify bench gallery book package format lint clean
+.PHONY: help demo build python test verify bench gallery book package format lint clean
 
 help:    ## this list
 	@awk -F ':.*## ' '/^[a-z]+: .*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -12,8 +12,12 @@ build:   ## the program alone: build/release/carom
 	@tools/setup build
 	@tools/build release carom
 
+python:  ## the Python module: build/release/python/carom, for PYTHONPATH (docs/python.md)
+	@tools/setup build python
+	@tools/build release carom_package
+
 test:    ## the same set-up, then all tests through ctest
-	@tools/setup build test
+	@tools/setup build python test
 	@tools/build release all
 	@ctest --preset release -j "$$(nproc)"
 
@@ -47,7 +51,7 @@ format:  ## rewrite all sources as .clang-format says
 	@tools/sources | xargs clang-format-14 -i
 
 lint:    ## formatting, layers, sizes, words, links, clang-tidy
-	@tools/setup build test ci
+	@tools/setup build python test ci
 	@tools/lint
 
 clean:   ## remove build/ and out/

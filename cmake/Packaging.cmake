@@ -11,7 +11,6 @@ add_custom_command(
 add_custom_target(pages DEPENDS ${pages}/carom.1.gz)
 
 include(GNUInstallDirs)
-install(TARGETS carom RUNTIME DESTINATION bin)
 install(FILES ${pages}/carom.1.gz DESTINATION share/man/man1)
 install(FILES ${pages}/carom.bash DESTINATION share/bash-completion/completions RENAME carom)
 install(FILES ${pages}/_carom DESTINATION share/zsh/vendor-completions)

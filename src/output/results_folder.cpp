@@ -18,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 12> kFiles{"probes_filtered.csv", "summary.json", "energy.csv",   "contact.csv",
-                                                  "probes.csv",          "exact.csv",    "fields.pvd",   "mesh.txt",
-                                                  resolved_case_file,    "report.html",  given_mesh_file, "watch.html"};
+constexpr std::array<std::string_view, 11> kFiles{"probes_filtered.csv", "summary.json", "energy.csv", "contact.csv",
+                                                  "probes.csv",          "exact.csv",    "fields.pvd", "mesh.txt",
+                                                  resolved_case_file,    "report.html",  "watch.html"};
 
 /// The digits of a name such as step_000010.vtu; "" where it has not this form.
 std::string_view digits_of(std::string_view name, std::string_view begin, std::string_view end) {

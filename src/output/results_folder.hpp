@@ -10,7 +10,7 @@ namespace carom {
 /// is from (that run's resolved case and checkpoint, in places of the same names).
 inline constexpr const char* resolved_case_file = "case.resolved.toml";
 inline constexpr const char* kept_state_folder = "initial_state";
-/// A mesh that was given in memory.
+/// A mesh that was given in memory. A later run does not remove it, since it may be the mesh of that run.
 inline constexpr const char* given_mesh_file = "case.mesh.msh";
 
 /// Creates `path` (and parents) and `path`/fields, and removes the files that an earlier run left there: only names

@@ -63,6 +63,7 @@ PythonRun::PythonRun(const std::string& folder, std::optional<double> end, int t
     run_->keep_rows();
     run_->go_on(std::move(found), end);
   }
+  note_place();
   ++live_runs;
 }
 
@@ -84,8 +85,8 @@ void PythonRun::begin() {
 
 PythonRun::~PythonRun() {
   if (run_) settle_leases();
-  observers_.clear();
   const py::gil_scoped_release release;
+  const Computing computing(threads_);
   run_.reset();  // waits for files that are being written
   simulation_.reset();
   if (--live_runs == 0) release_threads();
@@ -93,6 +94,17 @@ PythonRun::~PythonRun() {
 
 void PythonRun::refuse_closed() const {
   if (is_closed_) throw std::runtime_error("this run has been finished");
+}
+
+const Run& PythonRun::quiet() const {
+  if (is_busy_) throw std::runtime_error("this run is in the middle of a step");
+  return *run_;
+}
+
+/// For those who ask from other threads.
+void PythonRun::note_place() {
+  time_.store(run_->march().state().t);
+  steps_.store(run_->march().steps());
 }
 
 /// Arrays that are still looked at keep what they show.
@@ -109,8 +121,8 @@ bool PythonRun::has_arrived(double time, long long count) const {
 
 /// Do observers want to see this step?
 bool PythonRun::is_watched() const {
-  return std::any_of(observers_.begin(), observers_.end(),
-                     [&](const PythonObserver& o) { return steps() % o.every == 0 || run_->is_over(); });
+  return std::any_of(watched_every_.begin(), watched_every_.end(),
+                     [&](long long every) { return steps() % every == 0 || run_->is_over(); });
 }
 
 /// Without the lock of the interpreter, for a moment at most: signals wait for it.
@@ -123,18 +135,12 @@ void PythonRun::advance_quietly(double time, long long& count) {
     do {
       settle_leases();
       run_->step();
+      note_place();
       if (count > 0) --count;
     } while (!has_arrived(time, count) && !is_watched() && !take_interrupt() && Run::Clock::now() - begun < moment);
   } catch (const CallFailure& failure) {
     std::rethrow_exception(failure.error);
   }
-}
-
-void PythonRun::show() {
-  const py::object self = py::cast(this);
-  const std::vector<PythonObserver> observers = observers_;  // they may add others
-  for (const PythonObserver& o : observers)
-    if (steps() % o.every == 0 || run_->is_over()) o.callable(self);
 }
 
 void PythonRun::throw_failure() const {
@@ -143,6 +149,7 @@ void PythonRun::throw_failure() const {
 }
 
 void PythonRun::advance(double time, long long count) {
+  quiet();
   refuse_closed();
   throw_failure();
   while (!has_arrived(time, count)) {
@@ -151,15 +158,15 @@ void PythonRun::advance(double time, long long count) {
       advance_quietly(time, count);
     }
     throw_failure();
-    if (!observers_.empty() && is_watched()) show();
+    if (!watched_every_.empty() && is_watched()) py::cast(this).attr("_show")();
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
 }
 
-void PythonRun::observe(py::object callable, long long every) {
+void PythonRun::observe(long long every) {
   refuse_closed();
   if (every < 1) throw py::value_error("every: a number of steps, at least 1");
-  observers_.push_back({std::move(callable), every});
+  watched_every_.push_back(every);
 }
 
 std::shared_ptr<const Snapshot> PythonRun::save() {
@@ -177,6 +184,7 @@ void PythonRun::restore(const Snapshot& snapshot) {
   const py::gil_scoped_release release;
   const Computing computing(threads_);
   run_->restore(snapshot);
+  note_place();
   is_closed_ = false;
 }
 
@@ -207,7 +215,7 @@ std::shared_ptr<const Mesh> PythonRun::mesh() const {
 }
 
 py::tuple PythonRun::table(std::size_t which) const {
-  const std::vector<Recorder::KeptTable> tables = run_->watched().recorder.kept();
+  const std::vector<Recorder::KeptTable> tables = quiet().watched().recorder.kept();
   if (which >= tables.size()) return py::make_tuple(py::list(), py::none());
   const auto& [table, values] = tables[which];
   const auto columns = static_cast<py::ssize_t>(table.columns.size());
@@ -216,7 +224,7 @@ py::tuple PythonRun::table(std::size_t which) const {
 }
 
 py::tuple PythonRun::contact() const {
-  const CurveTable& table = run_->watched().recorder.contact();
+  const CurveTable& table = quiet().watched().recorder.contact();
   return py::make_tuple(py::cast(table.columns),
                         py::array_t<double>(static_cast<py::ssize_t>(table.row.size()), table.row.data()));
 }

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,18 +29,21 @@ class PythonRun {
 
   /// At most `count` steps (-1: any number), to the first end of a step at or after `time`, or to the end.
   void advance(double time, long long count);
-  void observe(py::object callable, long long every);
+  /// Has the method _show called after every so-many-th step, and the last. Who looks on stands in the object of
+  /// Python, where its collector sees circles.
+  void observe(long long every);
   std::shared_ptr<const Snapshot> save();
   void restore(const Snapshot& snapshot);
   /// Closes the run where it is; folder: of the results, if it has had none. The text of the summary.
   std::string close(const std::string& folder);
 
-  double time() const { return run_->march().state().t; }
-  long long steps() const { return run_->march().steps(); }
-  double end() const { return run_->march().end(); }
-  bool is_over() const { return run_->is_over(); }
+  /// These may be asked while another thread steps; the others throw then.
+  double time() const { return time_.load(); }
+  long long steps() const { return steps_.load(); }
   bool is_closed() const { return is_closed_; }
-  double last_dt() const { return run_->march().view().dt; }
+  double end() const { return quiet().march().end(); }
+  bool is_over() const { return quiet().is_over(); }
+  double last_dt() const { return quiet().march().view().dt; }
   const std::vector<std::string>& warnings() const { return run_->watched().warnings; }
   const std::vector<std::string>& notes() const { return run_->watched().notes; }
   const std::string& folder() const { return run_->folder(); }
@@ -57,14 +61,13 @@ class PythonRun {
   struct Lease {
     std::vector<double> kept;
   };
-  struct PythonObserver {
-    py::object callable;
-    long long every;
-  };
   class Busy;
 
   void begin();
   void refuse_closed() const;
+  /// The run, which nobody steps now. Throws where somebody does.
+  const Run& quiet() const;
+  void note_place();
   void advance_quietly(double time, long long& count);
   bool has_arrived(double time, long long count) const;
   bool is_watched() const;
@@ -76,7 +79,9 @@ class PythonRun {
   std::unique_ptr<Run> run_;
   int threads_;
   std::array<std::weak_ptr<Lease>, 3> leases_;
-  std::vector<PythonObserver> observers_;
+  std::vector<long long> watched_every_;
+  std::atomic<double> time_{0.0};
+  std::atomic<long long> steps_{0};
   bool is_busy_ = false, is_closed_ = false;
 };
 

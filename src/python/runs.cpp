@@ -32,7 +32,7 @@ void bind_runs(py::module_& module) {
           "Steps to the first end of a step at or after `time` (in the case's unit), or to the end of the run.\n\n"
           "Steps are not shortened for it. Raises as step does.")
       .def("_advance", &PythonRun::advance, py::arg("time"), py::arg("count"))
-      .def("_observe", &PythonRun::observe, py::arg("callable"), py::arg("every"))
+      .def("_observe", &PythonRun::observe, py::arg("every"))
       .def("_close", &PythonRun::close, py::arg("folder"))
       .def("_table", &PythonRun::table, py::arg("which"))
       .def("_contact", &PythonRun::contact)

@@ -1,11 +1,14 @@
 """Functions of time and observers that are Python's, and meshes from arrays."""
 
+import gc
 import math
 import os
 import pathlib
 import pickle
 import signal
 import subprocess
+import threading
+import time
 import unittest
 
 import numpy as np
@@ -164,6 +167,29 @@ class ObserverTest(FolderTest):
         means = [v[top][:, 2].mean() for v in kept]
         np.testing.assert_allclose(means, result.history["top.velocity_z"][1:], rtol=1e-13)
 
+    def test_an_observer_that_refers_to_its_run_does_not_keep_it(self):
+        run = falling_block().start("out")
+        run.observe(lambda _: run.time)
+        run.step()
+        del run
+        gc.collect()
+        falling_block().start("out").stop()  # not locked any more
+
+    def test_another_thread_sees_how_far_it_is(self):
+        run = falling_block(end=2e-3).start(threads=1)
+        thread = threading.Thread(target=run.finish)
+        thread.start()
+        seen = set()
+        while thread.is_alive():
+            seen.add(run.steps)
+            time.sleep(0.001)
+            try:
+                run.history
+            except RuntimeError as error:
+                self.assertIn("middle of a step", str(error))
+        self.assertGreater(len(seen), 2)
+        self.assertGreaterEqual(run.time, 2e-3 * (1 - 1e-12))
+
     def test_what_an_observer_raises_comes_out_after_the_step(self):
         whole = falling_block().start().finish().energy["kinetic"]
         run = falling_block().start()
@@ -248,6 +274,12 @@ class MeshTest(FolderTest):
             except ImportError:
                 with self.assertRaisesRegex(ImportError, "not installed"):
                     convert()
+            else:  # with all groups, where it is there
+                self.assertEqual(len(convert().points), 12)
+                if module == "meshio":
+                    again = Mesh.from_meshio(convert())
+                    self.assertEqual(sorted(again.cell_groups), ["BODY", "FOOT", "HEAD", "UPPER"])
+                    np.testing.assert_array_equal(again.nodes_of("HEAD"), two_cells().nodes_of("HEAD"))
 
     def test_from_meshio(self):
         class Block:

@@ -87,7 +87,9 @@ class Mesh:
             raise ImportError("to_meshio needs meshio, which is not installed (Debian: python3-meshio)") from error
         return meshio.Mesh(self.points, [(_MESHIO[name], rows) for name, rows in self.cells.items()],
                            point_data={name: np.asarray(values) for name, values in point_data.items()},
-                           point_sets={name: np.asarray(rows) for name, rows in self.node_groups.items()})
+                           point_sets={name: np.asarray(rows) for name, rows in self.node_groups.items()},
+                           cell_sets={name: [np.asarray(of.get(kind, []), dtype=np.int64) for kind in self.cells]
+                                      for name, of in self.cell_groups.items()})
 
     @classmethod
     def from_meshio(cls, mesh: Any) -> Mesh:

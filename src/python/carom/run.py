@@ -33,8 +33,15 @@ class Run(_carom.RunBase):
         """
         if not callable(observer):
             raise TypeError("observer: something that can be called with a run")
-        self._observe(observer, every)
+        self._observe(every)
+        self.__dict__.setdefault("_observers", []).append((observer, every))
         return observer
+
+    def _show(self) -> None:
+        """Called after steps that an observer waits for."""
+        for observer, every in list(self.__dict__.get("_observers", ())):
+            if self.steps % every == 0 or self.at_end:
+                observer(self)
 
     @property
     def contact(self) -> dict[str, ContactState]:
