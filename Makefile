@@ -42,8 +42,8 @@ book: build ## runs every case, leaves the verification book, out/book/verificat
 	@tools/setup test book
 	@/usr/bin/python3 tools/book.py build/release/carom
 
-package: ## the Debian package, build/release/carom_*.deb, looked at by lintian
-	@tools/setup build package
+package: ## the Debian packages, build/release/*.deb: the program and its Python module, looked at by lintian
+	@tools/setup build python package
 	@tools/package
 
 format:  ## rewrite all sources as .clang-format says

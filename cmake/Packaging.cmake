@@ -1,4 +1,4 @@
-# The Debian package of the program (`make package`): CPack, dependencies found by dpkg-shlibdeps, manual page and
+# The Debian packages of the program and of its Python module (`make package`): CPack, dependencies found by dpkg-shlibdeps, manual page and
 # completions made from what the program says of itself (tools/command_pages.py).
 set(pages ${CMAKE_BINARY_DIR}/pages)
 add_custom_command(
@@ -10,23 +10,37 @@ add_custom_command(
   VERBATIM)
 add_custom_target(pages DEPENDS ${pages}/carom.1.gz)
 
-include(GNUInstallDirs)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME carom)
 install(FILES ${pages}/carom.1.gz DESTINATION share/man/man1)
 install(FILES ${pages}/carom.bash DESTINATION share/bash-completion/completions RENAME carom)
 install(FILES ${pages}/_carom DESTINATION share/zsh/vendor-completions)
 install(FILES ${pages}/copyright ${pages}/changelog.gz README.md DESTINATION share/doc/carom)
 install(DIRECTORY cases DESTINATION share/doc/carom/examples PATTERN "stiffness" EXCLUDE)
+install(FILES ${pages}/copyright ${pages}/changelog.gz DESTINATION share/doc/python3-carom COMPONENT python)
+install(DIRECTORY examples/python/ DESTINATION share/doc/python3-carom/examples COMPONENT python)
 
 set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL carom python)
+set(CPACK_DEBIAN_CAROM_PACKAGE_NAME carom)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-carom)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-meshio, python3-matplotlib, python3-scipy")
 set(CPACK_PACKAGE_NAME carom)
 set(CPACK_PACKAGE_CONTACT "The Carom developers <carom@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "impact dynamics of deformable solids")
-set(CPACK_PACKAGE_DESCRIPTION
-    "Carom computes impacts of deformable solids: what happens in the
+set(CPACK_COMPONENT_CAROM_DESCRIPTION
+    "impact dynamics of deformable solids
+Carom computes impacts of deformable solids: what happens in the
 microseconds when a body strikes another, with the contact forces, the
 waves, and where every joule went. Implicit and explicit steps, contact
 with friction, bodies that yield; every run closes an energy ledger and
 ends with a verdict.")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+    "impact dynamics of deformable solids, Python module
+Cases as dicts, runs stepped and branched, curves as arrays: the solver
+carom as a module of Python.")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
