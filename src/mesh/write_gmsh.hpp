@@ -1,4 +1,4 @@
-// Writes a mesh as Gmsh 2.2.
+// A mesh as the text of a Gmsh file.
 #pragma once
 
 #include <string>
@@ -7,8 +7,10 @@
 
 namespace carom {
 
-/// The mesh as Gmsh 2.2 text with its groups as physical names, in its own order; read_gmsh gives it back. A cell
-/// stands there once for each of its groups. Throws CaseError where a group has a name that the format cannot hold.
+/// Format 2.2, as read_mesh takes it: nodes and cells with their numbers, coordinates to the last bit. Node groups
+/// become groups of points, sets of groups that a cell is in physical names joined by +. The mesh need not be finished
+/// (its groups neither sorted nor unique). Throws CaseError, at mesh.report.source, for a name of a group that Gmsh's
+/// format cannot hold.
 std::string gmsh_text(const Mesh& mesh);
 
 }  // namespace carom

@@ -53,8 +53,8 @@ struct Content {
       for (const Index n : block.nodes(ref.cell)) places.push_back(mesh.coordinates[static_cast<std::size_t>(n)]);
       return std::pair(block.type, places);
     };
-    for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-      for (std::size_t c = 0; c < mesh.blocks[b].size(); ++c)
+    for (std::size_t b = 0; b < mesh.blocks.size(); ++b)  // Gmsh has groups of nodes as cells of one point
+      for (std::size_t c = 0; dimension(mesh.blocks[b].type) > 0 && c < mesh.blocks[b].size(); ++c)
         cells.insert(cell({static_cast<Index>(b), static_cast<Index>(c)}));
     for (const auto& [name, members] : mesh.cell_groups)
       for (const CellRef& member : members) cell_groups[name].insert(cell(member));
@@ -98,11 +98,12 @@ TEST_P(MeshFile, IsReadAsItWasWritten) {
   EXPECT_EQ(read.report.turned, 0U);
   const Content given(mesh), found(read);
   EXPECT_EQ(found.nodes, given.nodes);
-  EXPECT_EQ(found.cells, given.cells);
+  EXPECT_EQ(found.cells.size(), given.cells.size());
+  EXPECT_TRUE(found.cells == given.cells);
   EXPECT_EQ(found.node_groups, given.node_groups);
   for (const auto& [name, cells] : given.cell_groups) {
     ASSERT_EQ(found.cell_groups.count(name), 1U) << name;
-    EXPECT_EQ(found.cell_groups.at(name), cells) << name;
+    EXPECT_TRUE(found.cell_groups.at(name) == cells) << name;
   }
 }
 
