@@ -8,6 +8,7 @@
 #include "base/terminal_text.hpp"
 #include "casefile/read_case.hpp"
 #include "parallel/threads.hpp"
+#include "run/initial_state.hpp"
 #include "run/run.hpp"
 #include "run/simulation.hpp"
 
@@ -93,7 +94,9 @@ ExitCode conduct(Run& run, ShownProgress& progress, const RunOptions& options, c
 ExitCode run_case(const std::string& case_file, const RunOptions& options, const std::atomic<bool>& stop) {
   const Run::Clock::time_point begin = Run::Clock::now();
   set_threads(options.threads);
-  const Simulation simulation(read_case(case_file));
+  Case given = read_case(case_file);
+  refuse_own_folder(given, options.folder);
+  const Simulation simulation(std::move(given));
   Run run(simulation, options.folder, begin);
   ShownProgress progress(simulation.end(), options.progress);
   run.add(progress);
