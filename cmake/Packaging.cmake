@@ -10,7 +10,7 @@ add_custom_command(
   VERBATIM)
 add_custom_target(pages DEPENDS ${pages}/carom.1.gz)
 
-set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME carom)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 install(FILES ${pages}/carom.1.gz DESTINATION share/man/man1)
 install(FILES ${pages}/carom.bash DESTINATION share/bash-completion/completions RENAME carom)
 install(FILES ${pages}/_carom DESTINATION share/zsh/vendor-completions)
@@ -21,8 +21,8 @@ install(DIRECTORY examples/python/ DESTINATION share/doc/python3-carom/examples 
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL carom python)
-set(CPACK_DEBIAN_CAROM_PACKAGE_NAME carom)
+set(CPACK_COMPONENTS_ALL program python)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME carom)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-carom)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
@@ -30,7 +30,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-meshio, python3-matplotlib, py
 set(CPACK_PACKAGE_NAME carom)
 set(CPACK_PACKAGE_CONTACT "The Carom developers <carom@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "impact dynamics of deformable solids")
-set(CPACK_COMPONENT_CAROM_DESCRIPTION
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
     "impact dynamics of deformable solids
 Carom computes impacts of deformable solids: what happens in the
 microseconds when a body strikes another, with the contact forces, the

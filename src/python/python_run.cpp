@@ -12,6 +12,7 @@
 #include "python/callables.hpp"
 #include "python/compute.hpp"
 #include "run/build_mesh.hpp"
+#include "run/initial_state.hpp"
 
 namespace carom::python {
 
@@ -41,6 +42,7 @@ class PythonRun::Busy {
 
 PythonRun::PythonRun(const PreparedCase& prepared, const std::string& folder, int threads) : threads_(threads) {
   const Run::Clock::time_point begun = Run::Clock::now();
+  if (!folder.empty()) refuse_own_folder(prepared.given, folder);
   simulation_ = build(prepared, threads);
   {
     const py::gil_scoped_release release;

@@ -99,7 +99,6 @@ FoundRun find_run(const std::string& folder) {
 
 Run::Run(const Simulation& simulation, std::string folder, Clock::time_point begin)
     : simulation_(simulation), folder_(std::move(folder)), begin_(begin) {
-  if (!folder_.empty()) refuse_own_folder(simulation.given(), folder_);
   watched_ = make_watched();
 }
 

@@ -35,7 +35,8 @@ class Run {
   using Clock = std::chrono::steady_clock;
 
   /// Touches no file yet. folder: of the results, "" for none; begin: since when the cost of the run is counted. The
-  /// simulation outlives the run. Throws CaseError for what the run would not take.
+  /// simulation outlives the run. Throws CaseError for what the run would not take. That a case does not begin from its
+  /// own folder (refuse_own_folder) is asked before it is built.
   Run(const Simulation& simulation, std::string folder, Clock::time_point begin);
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;

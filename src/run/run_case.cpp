@@ -8,6 +8,7 @@
 #include "base/terminal_text.hpp"
 #include "casefile/read_case.hpp"
 #include "parallel/threads.hpp"
+#include "run/initial_state.hpp"
 #include "run/run.hpp"
 #include "run/simulation.hpp"
 #include "translate/translate_deck.hpp"
@@ -95,6 +96,7 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   const Run::Clock::time_point begin = Run::Clock::now();
   set_threads(options.threads);
   ReadCase read = read_case_or_deck(case_file, options.accepted);
+  refuse_own_folder(read.given, options.folder);
   const Simulation simulation(std::move(read.given));
   Run run(simulation, options.folder, begin);
   run.note(std::move(read.notes));

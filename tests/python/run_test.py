@@ -278,19 +278,24 @@ class ErrorTest(FolderTest):
         self.assertIn("file", caught.exception.path)
 
     def test_interrupt_leaves_a_usable_run(self):
-        whole = falling_block(end=2e-3).start().finish()
+        # Half a second of steps; the signal is sent once ten are made, so it meets the run within the call.
+        def interrupt(run):
+            while run.steps < 10:
+                time.sleep(0.0005)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        case = falling_block(end=4e-2)
+        case["output"] = {"curves_every": 100}
+        whole = case.start(threads=1).finish()
         for act in (lambda run: run.finish(), lambda run: run.until(1.0), lambda run: run.step(10**6)):
-            run = falling_block(end=2e-3).start(threads=1)
-            threading.Timer(0.01, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+            run = case.start(threads=1)
+            thread = threading.Thread(target=interrupt, args=(run,))
             with self.assertRaises(KeyboardInterrupt):
-                while True:  # the signal may come between two calls
-                    act(run)
-                    if run.at_end:
-                        time.sleep(0.1)
-                        break
-            if not run.finished:
-                result = run.finish()
-                np.testing.assert_array_equal(whole.energy["kinetic"], result.energy["kinetic"])
+                thread.start()
+                act(run)
+            thread.join()
+            self.assertFalse(run.at_end)
+            np.testing.assert_array_equal(whole.energy["kinetic"], run.finish().energy["kinetic"])
 
     def test_check_prints_what_the_command_line_prints(self):
         case = falling_block()
