@@ -18,7 +18,7 @@ class CommandLine(unittest.TestCase):
     def test_a_word_that_is_no_command_is_named_with_those_that_are(self):
         code, out, error = carom("runn", "case.toml")
         self.assertEqual((code, out), (2, ""))
-        self.assertEqual(error, 'error: "runn" is no command of carom; it has run, resume, check, convert, compare, material, mesh, '
+        self.assertEqual(error, 'error: "runn" is no command of carom; it has run, resume, check, convert, compare, material, report, watch, mesh, '
                                 "schema (carom --help)\n")
 
     def test_no_command_at_all(self):
