@@ -110,8 +110,8 @@ TEST_P(MeshFile, IsReadAsItWasWritten) {
 INSTANTIATE_TEST_SUITE_P(Formats, MeshFile,
                          testing::Combine(testing::Values(".msh", ".med", ".inp"),
                                           testing::ValuesIn(test::solid_types)),
-                         [](const auto& info) {
-                           return std::get<0>(info.param).substr(1) + "_" + std::string(name(std::get<1>(info.param)));
+                         [](const auto& each) {
+                           return std::get<0>(each.param).substr(1) + "_" + std::string(name(std::get<1>(each.param)));
                          });
 
 TEST(MeshFileName, OtherEndingsAreRefused) {
