@@ -14,6 +14,7 @@
 #include "base/errors.hpp"
 #include "mesh/cell_topology.hpp"
 #include "mesh/med_mesh.hpp"
+#include "output/file_writer.hpp"
 
 namespace carom {
 
@@ -35,6 +36,22 @@ class Held {
  private:
   hid_t id_;
   herr_t (*close_)(hid_t);
+};
+
+/// HDF5 keeps its complaints to itself: every call is looked at here.
+class QuietCalls {
+ public:
+  QuietCalls() {
+    H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~QuietCalls() { H5Eset_auto2(H5E_DEFAULT, report_, data_); }
+  QuietCalls(const QuietCalls&) = delete;
+  QuietCalls& operator=(const QuietCalls&) = delete;
+
+ private:
+  H5E_auto2_t report_ = nullptr;
+  void* data_ = nullptr;
 };
 
 /// A MED file being written; groups by their paths.
@@ -244,6 +261,8 @@ void write(const std::string& path, const Mesh& mesh) {
 
 void write_med(const std::string& path, const Mesh& mesh) {
   refuse_long_names(mesh);
+  const QuietCalls quiet;
+  { const FileWriter probe(path); }  // says why, where a file cannot be made there
   const std::string temporary = path + ".tmp";
   try {
     write(temporary, mesh);

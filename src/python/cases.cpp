@@ -24,15 +24,16 @@ namespace {
 
 /// The tree as it is written where the file is a text of TOML, else as it is meant. Read as a case first, so that
 /// everything that is wrong in it is said with its place.
-py::tuple read(const std::string& path) {
-  const Case given = read_case_or_deck(path, {}).given;
+py::tuple read(const std::string& path, const std::vector<std::string>& accept) {
+  ReadCase read = read_case_or_deck(path, accept);
   auto source = std::make_shared<Source>();
+  source->notes = std::move(read.notes);
   if (std::filesystem::path(path).extension() == ".toml") {
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     source->root = read_toml(text, path);
   } else {
-    source->root = resolved_tree(given);
+    source->root = resolved_tree(read.given);
   }
   return py::make_tuple(to_python(source->root), source);
 }
@@ -48,6 +49,7 @@ std::shared_ptr<PreparedCase> prepare(const py::dict& tree, const std::shared_pt
   const Node root = from_python(tree, source ? &source->root : nullptr, file, "");
   auto prepared = std::make_shared<PreparedCase>();
   prepared->given = case_of(root, file);
+  if (source) prepared->notes = source->notes;
   for (CaseFunction& function : prepared->given.functions) {
     const auto given = functions.find(function.name);
     if (given == functions.end()) continue;
@@ -65,6 +67,7 @@ py::tuple check(const PreparedCase& prepared, const std::string& folder) {
     const py::gil_scoped_release release;
     const Computing computing(0);
     found = examine(*simulation, folder);
+    found.notes.insert(found.notes.begin(), prepared.notes.begin(), prepared.notes.end());
   }
   return py::make_tuple(found.text(), found.warnings, found.notes);
 }
@@ -82,14 +85,16 @@ std::shared_ptr<const Simulation> build(const PreparedCase& prepared, int thread
 }
 
 void bind_cases(py::module_& module) {
-  py::class_<Source, std::shared_ptr<Source>>(module, "Source", "Where the values of a case were written.");
+  const py::class_<Source, std::shared_ptr<Source>> source(module, "Source",
+                                                           "Where the values of a case were written.");
   py::class_<PreparedCase, std::shared_ptr<PreparedCase>>(module, "PreparedCase", "A case that has been checked.")
       .def_property_readonly(
           "end", [](const PreparedCase& x) { return end_of(x.given); }, "Time at which the last stage ends.")
       .def_property_readonly(
           "resolved", [](const PreparedCase& x) { return resolved_toml(x.given); },
           "The case as a text of TOML with all defaults.");
-  module.def("read", &read, py::arg("path"), "Tree of dicts and lists of a case file, and its Source.");
+  module.def("read", &read, py::arg("path"), py::arg("accept"),
+             "Tree of dicts and lists of a case file, and its Source.");
   module.def("prepare", &prepare, py::arg("tree"), py::arg("source"), py::arg("file"), py::arg("functions"),
              py::arg("mesh"), "Checks a tree and makes a case of it.");
   module.def("check", &check, py::arg("case"), py::arg("folder"), "Text of `carom check`, warnings, notes.");

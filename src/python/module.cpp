@@ -4,19 +4,18 @@
 #include "python/bindings.hpp"
 
 PYBIND11_MODULE(_carom, module) {
-  using namespace carom::python;
   module.doc() = "The solver behind the package carom; use that.";
-  bind_errors(module);
-  bind_cases(module);
-  bind_meshes(module);
-  bind_runs(module);
+  carom::python::bind_errors(module);
+  carom::python::bind_cases(module);
+  carom::python::bind_meshes(module);
+  carom::python::bind_runs(module);
   module.def(
       "version", [] { return carom::version(); }, "Version of Carom.");
   module.def(
       "blas_kernels",
       [] {
         const carom::BlasKernels kernels = carom::blas_kernels();
-        return py::make_tuple(kernels.loaded, kernels.better);
+        return pybind11::make_tuple(kernels.loaded, kernels.better);
       },
       "Kernels that OpenBLAS has loaded, and the value of OPENBLAS_CORETYPE for better ones ('' where there are "
       "none).");

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "casefile/document.hpp"
 #include "python/bindings.hpp"
@@ -12,11 +14,13 @@ namespace carom::python {
 /// The tree a case was read from, for the places of errors.
 struct Source {
   Node root;
+  std::vector<std::string> notes;  ///< of the translation of a deck
 };
 
 /// Immutable.
 struct PreparedCase {
   Case given;
+  std::vector<std::string> notes;  ///< of reading it
 };
 
 /// With the lock of the interpreter let go of meanwhile. Throws CaseError.

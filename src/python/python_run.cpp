@@ -41,6 +41,7 @@ class PythonRun::Busy {
 };
 
 PythonRun::PythonRun(const PreparedCase& prepared, const std::string& folder, int threads) : threads_(threads) {
+  if (threads < 0) throw py::value_error("threads: a number of cores, or 0 for all");
   const Run::Clock::time_point begun = Run::Clock::now();
   if (!folder.empty()) refuse_own_folder(prepared.given, folder);
   simulation_ = build(prepared, threads);
@@ -49,6 +50,7 @@ PythonRun::PythonRun(const PreparedCase& prepared, const std::string& folder, in
     const Computing computing(threads);
     run_ = std::make_unique<Run>(*simulation_, folder, begun);
     run_->keep_rows();
+    run_->note(prepared.notes);
     run_->begin();
   }
   begin();
@@ -169,6 +171,11 @@ void PythonRun::observe(long long every) {
   refuse_closed();
   if (every < 1) throw py::value_error("every: a number of steps, at least 1");
   watched_every_.push_back(every);
+}
+
+void PythonRun::forget(long long every) {
+  const auto found = std::find(watched_every_.begin(), watched_every_.end(), every);
+  if (found != watched_every_.end()) watched_every_.erase(found);
 }
 
 std::shared_ptr<const Snapshot> PythonRun::save() {

@@ -32,6 +32,8 @@ class PythonRun {
   /// Has the method _show called after every so-many-th step, and the last. Who looks on stands in the object of
   /// Python, where its collector sees circles.
   void observe(long long every);
+  /// One of those that want to see every so many steps wants to no more.
+  void forget(long long every);
   std::shared_ptr<const Snapshot> save();
   void restore(const Snapshot& snapshot);
   /// Closes the run where it is; folder: of the results, if it has had none. The text of the summary.

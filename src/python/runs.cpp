@@ -1,4 +1,5 @@
 // Runs: the class that carom.Run derives from.
+#include <cmath>
 #include <limits>
 
 #include "python/python_run.hpp"
@@ -22,17 +23,27 @@ void bind_runs(py::module_& module) {
       .def(py::init<const std::string&, std::optional<double>, int>(), py::arg("folder"), py::arg("end"),
            py::arg("threads"))
       .def(
-          "step", [](PythonRun& run, long long n) { run.advance(std::numeric_limits<double>::infinity(), n); },
+          "step",
+          [](PythonRun& run, long long n) {
+            if (n < 0) throw py::value_error("n: a number of steps");
+            run.advance(std::numeric_limits<double>::infinity(), n);
+          },
           py::arg("n") = 1,
           "Makes n steps, fewer where the run comes to its end.\n\n"
           "Raises RunError where the run cannot go on, OutputError where results cannot be written, and what a\n"
           "function of time or an observer raises. Ctrl-C is answered at the end of the step; the run can go on.")
       .def(
-          "until", [](PythonRun& run, double time) { run.advance(time, -1); }, py::arg("time"),
+          "until",
+          [](PythonRun& run, double time) {
+            if (std::isnan(time)) throw py::value_error("time: a number");
+            run.advance(time, -1);
+          },
+          py::arg("time"),
           "Steps to the first end of a step at or after `time` (in the case's unit), or to the end of the run.\n\n"
           "Steps are not shortened for it. Raises as step does.")
       .def("_advance", &PythonRun::advance, py::arg("time"), py::arg("count"))
       .def("_observe", &PythonRun::observe, py::arg("every"))
+      .def("_forget", &PythonRun::forget, py::arg("every"))
       .def("_close", &PythonRun::close, py::arg("folder"))
       .def("_table", &PythonRun::table, py::arg("which"))
       .def("_contact", &PythonRun::contact)

@@ -35,7 +35,7 @@
   function colours(chart) {
     const numbered = chart.curves.filter((c) => c.kind === "computed" || c.kind === "raw").map((c) => c.name);
     return chart.curves.map((c) => {
-      if (c.kind === "exact") return css("--ink");
+      if (c.kind === "exact" || /(^|: )total: /.test(c.name)) return css("--ink");
       const own = css("--curve-" + ((numbered.indexOf(c.name.replace(/, filtered$/, "")) % 8) + 1));
       return c.kind === "raw" ? own + "70" : own;
     });

@@ -95,7 +95,9 @@ std::string view_sections(const std::vector<PageView>& views) {
                         xml_escape(views[v].title));
   }
   html += "</div>\n";
-  for (const PageView& v : views) html += fmt::format("<p class=\"note\">{}</p>\n", xml_escape(v.view.note));
+  for (std::size_t v = 0; v < views.size(); ++v)
+    if (v == 0 || views[v].view.note != views[v - 1].view.note)
+      html += fmt::format("<p class=\"note\">{}</p>\n", xml_escape(views[v].view.note));
   return html;
 }
 

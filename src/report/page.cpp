@@ -54,17 +54,22 @@ std::string progress_bar(const ReportData& data) {
                      share, xml_escape(text));
 }
 
+std::string title_of(const ReportData& data) {
+  if (data.summary) return data.summary->case_info.title;
+  return data.title.empty() ? data.folder : data.title;
+}
+
 std::string header(const ReportData& data) {
   const Banner banner = data.running ? Banner{"unchecked", "Running",
                                               "What there is so far; this page reads itself again until the run ends."}
                                      : banner_of(data.summary);
-  const std::string title = data.summary ? data.summary->case_info.title : data.folder;
+  const std::string title = title_of(data);
   const bool has_message = data.summary && !data.summary->message.empty();
   const std::size_t warnings = data.summary ? data.summary->warnings.size() : 0;
   std::string html = fmt::format(
-      "<header>\n<p class=\"kicker\">Carom · report of a run</p>\n<h1>{}</h1>\n"
+      "<header>\n<p class=\"kicker\">Carom · {}</p>\n<h1>{}</h1>\n"
       "<div class=\"banner {}\" role=\"status\"><strong>{}</strong><span>{}</span>{}</div>\n",
-      xml_escape(title), banner.style, banner.word,
+      data.running ? "a run that goes on" : "report of a run", xml_escape(title), banner.style, banner.word,
       xml_escape(has_message ? std::string_view(data.summary->message) : banner.text),
       warnings == 0 ? ""
                     : fmt::format("<span class=\"warned\">{} warning{}</span>", warnings, warnings == 1 ? "" : "s"));
@@ -132,8 +137,7 @@ std::string make_page(const ReportData& data) {
     content += run_table(*data.summary, data.units);
   }
   content += footer(data);
-  return html_document(data.summary ? data.summary->case_info.title : data.folder, content,
-                       {data.charts, data.units.time, stage_marks(data.summary)}, data.views,
+  return html_document(title_of(data), content, {data.charts, data.units.time, stage_marks(data.summary)}, data.views,
                        data.running ? data.running->refresh : 0);
 }
 

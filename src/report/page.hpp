@@ -28,6 +28,7 @@ struct ReportData {
   std::vector<KeyFigure> figures;
   std::vector<LargestValue> largest{};
   std::vector<Chart> charts;
+  std::string title;          ///< of the case, as the tables know it; "" where there are none
   double time_reached = 0.0;  ///< of the last row of energy.csv
   std::optional<RunningState> running{};
   std::vector<PageView> views{};

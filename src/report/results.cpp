@@ -74,6 +74,10 @@ ReportData read_results(const std::string& results_folder) {
   data.figures = key_figures(tables, data.summary, data.units);
   data.largest = largest_values(tables, data.summary, data.units);
   data.charts = make_charts(tables, data.units, data.summary);
+  if (tables.energy && !tables.energy->comments.empty()) {
+    const std::string& line = tables.energy->comments.front();  // "Title - energies"
+    data.title = line.substr(0, line.rfind(" - "));
+  }
   if (tables.energy && tables.energy->rows() > 0) data.time_reached = tables.energy->values.front().back();
   return data;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "deck/keyword_table.hpp"
@@ -197,20 +198,16 @@ void translate_material(Translation& t, const MaterialKeywords& m) {
 
 /// The last *BULK VISCOSITY, or what Abaqus' explicit program has without one.
 std::array<double, 2> bulk_viscosity(const Translation& t) {
-  std::array<double, 2> values{};
-  for (const DeckStep& step : t.steps) {
-    const std::string* value = step.procedure->parameter("EXPLICIT");
-    if (value != nullptr && value->empty()) {
-      values = {0.06, 1.2};
-      t.findings.note(step.procedure->where, "bulk viscosity 0.06 and 1.2, which Abaqus has where none is given");
-    }
-  }
+  std::optional<std::array<double, 2>> given;
   for (const Statement& s : t.statements.list) {
     if (s.keyword->name != "BULK VISCOSITY") continue;
     const std::vector<double> v = values_of(*s.keyword, 1, "linear, quadratic bulk viscosity");
-    values = {v[0], v.size() > 1 ? v[1] : 0.0};
+    given = {v[0], v.size() > 1 ? v[1] : 0.0};
   }
-  return values;
+  if (given || !t.is_explicit_abaqus()) return given.value_or(std::array<double, 2>{});
+  t.findings.note(t.steps.front().procedure->where,
+                  "bulk viscosity 0.06 and 1.2, which Abaqus has where none is given");
+  return {0.06, 1.2};
 }
 
 void translate_section(Translation& t, const Statement& s, const std::array<double, 2>& viscosity) {

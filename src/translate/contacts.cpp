@@ -123,7 +123,7 @@ void translate_pairs(Translation& t, const std::map<std::string, Interaction>& a
       if (!is_self) contact.text("master", other);
       contact.text("method", method_of(keyword));
     }
-    contact.text("initial_penetration", keyword.has("ADJUST") ? "offset" : "prestress");
+    contact.text("initial_penetration", keyword.has("ADJUST") || t.is_explicit_abaqus() ? "offset" : "prestress");
     add_interaction(interaction(all, keyword.required("INTERACTION"), at), contact);
     t.append("contact", contact.node());
   }

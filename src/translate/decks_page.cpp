@@ -66,8 +66,8 @@ CalculiX; Abaqus integrates a rate, which differs at large elastic strains.
 ## Contact
 
 The first surface of a pair is the slave. Both sides are searched unless `TYPE` says `NODE TO SURFACE` or `SURFACE TO
-SURFACE`. `HARD` contact has the stiffness that Carom chooses. Overlaps at the start push, as in CalculiX, and with
-`ADJUST=0` count as touching. Of a surface of nodes the faces between them touch, a group `NAME (faces)`; one that makes no face is
+SURFACE`. `HARD` contact has the stiffness that Carom chooses. Overlaps at the start push, as in CalculiX; they
+count as touching with `ADJUST=0`, and in decks of Abaqus' explicit program, which takes them away. Of a surface of nodes the faces between them touch, a group `NAME (faces)`; one that makes no face is
 refused.
 
 A `*RIGID BODY` of faces (R3D3, R3D4) is an obstacle: its reference node is held or moved along all three axes by

@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "deck/keyword_table.hpp"
 
 namespace carom {
 
 Findings::Findings(const std::vector<std::string>& accepted) {
-  for (const std::string& name : accepted) accepted_.insert(without_blanks(name));
+  for (const std::string& name : accepted)
+    accepted_.insert(without_blanks(name.starts_with('*') ? std::string_view(name).substr(1) : std::string_view(name)));
 }
 
 void Findings::note(const Location& where, const std::string& text) {

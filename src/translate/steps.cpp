@@ -15,25 +15,23 @@ bool says_yes(const std::string* value) {
   return value != nullptr && upper_case(*value) != "NO";
 }
 
-/// CalculiX writes EXPLICIT=1; Abaqus' explicit program, which knows no value, follows finite rotations unless told
-/// otherwise.
-bool is_explicit_abaqus(const DeckStep& step) {
-  const std::string* value = step.procedure->parameter("EXPLICIT");
-  return value != nullptr && value->empty();
-}
-
 void read_times(DeckStep& step) {
   DeckCursor at(*step.procedure);
   step.period = 1.0;
+  bool has_period = false;
   if (at.next_line()) {
     const double increment = at.real_or(0.0, "the increment of time");
     const bool says_period = !at.at_end();
     step.period = at.real_or(1.0, "the time of the step");
+    has_period = says_period;
     if (increment > 0.0) step.increment = increment;
     if (increment < 0.0 || !(step.period > 0.0))
       at.fail(fmt::format("increment {}, time {}", increment, step.period), "positive times");
     if (step.increment && !says_period) step.period = std::max(1.0, increment);
   }
+  if (step.is_explicit_abaqus() && !has_period)
+    step.procedure->fail("no time of the step", "it as the second number of the data line: `, 1.0e-3`",
+                         "The first number is an increment, which the program finds itself.");
   if (!step.increment && step.kind == DeckStep::Kind::statics) step.increment = step.period;
   if (!step.increment && step.kind == DeckStep::Kind::implicit_dynamics)
     step.procedure->fail("no increment of time", "increment, time in its data line",
@@ -57,7 +55,7 @@ void read_procedure(DeckStep& step, const DeckKeyword& keyword) {
     step.ramps = kind == "RAMP";
   }
   const std::string* nlgeom = step.step->parameter("NLGEOM");
-  step.is_finite = nlgeom != nullptr ? says_yes(nlgeom) : is_explicit_abaqus(step);
+  step.is_finite = nlgeom != nullptr ? says_yes(nlgeom) : step.is_explicit_abaqus();
   read_times(step);
 }
 
@@ -105,6 +103,15 @@ void note_step(const DeckStep& step, Findings& findings) {
 }
 
 }  // namespace
+
+bool DeckStep::is_explicit_abaqus() const {
+  const std::string* value = procedure->parameter("EXPLICIT");
+  return value != nullptr && value->empty();
+}
+
+bool Translation::is_explicit_abaqus() const {
+  return std::any_of(steps.begin(), steps.end(), [](const DeckStep& step) { return step.is_explicit_abaqus(); });
+}
 
 void find_steps(Translation& t) {
   static const std::set<std::string> procedures{"STATIC", "DYNAMIC"};

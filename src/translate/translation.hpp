@@ -28,6 +28,9 @@ struct DeckStep {
   bool ramps = false;      ///< loads without an amplitude grow with the time of the step
 
   double finish() const { return start + period; }
+  /// CalculiX writes EXPLICIT=1; Abaqus' explicit program knows no value. It follows finite rotations unless told
+  /// otherwise, has bulk viscosity, and takes overlaps away before the first step without straining the bodies.
+  bool is_explicit_abaqus() const;
 };
 
 /// The deck, what is known of it, and the tree that grows.
@@ -42,6 +45,8 @@ struct Translation {
   const DeckScope& scope(const Statement& s) const { return statements.scopes[at(s.scope)]; }
   /// Is the body to be followed through finite rotations?
   bool is_finite() const;
+  /// Is there a step of Abaqus' explicit program?
+  bool is_explicit_abaqus() const;
   /// Appends to the list `section` of the case.
   void append(const std::string& section, Node entry);
   /// Adds a member to the table `section` of the case.

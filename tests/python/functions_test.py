@@ -152,6 +152,30 @@ class ObserverTest(FolderTest):
         self.assertEqual(all_steps, list(range(1, run.steps + 1)))
         self.assertEqual(tenth, sorted({*range(10, run.steps + 1, 10), run.steps}))
 
+    def test_observers_are_let_go_of(self):
+        run = falling_block().start()
+        seen = []
+
+        def look(r):
+            seen.append(r.steps)
+            raise ArithmeticError
+
+        run.observe(look, every=2)
+        with self.assertRaises(ArithmeticError):
+            run.step(5)
+        run.unobserve(look)
+        run.step(3)
+        self.assertEqual(seen, [2])
+        with self.assertRaises(ValueError):
+            run.unobserve(look)
+
+    def test_numbers_that_mean_nothing_are_refused(self):
+        run = falling_block().start()
+        for call in (lambda: run.step(-3), lambda: run.until(float("nan")), lambda: falling_block().start(threads=-5)):
+            with self.assertRaises(ValueError):
+                call()
+        self.assertEqual(run.steps, 0)
+
     def test_observers_change_no_bits_and_may_hold_views(self):
         plain = falling_block().start().finish()
         run = falling_block().start()

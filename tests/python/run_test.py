@@ -1,6 +1,7 @@
 """Runs from Python: the command line's bits, stepping, snapshots, views, errors, signals, threads."""
 
 import gc
+import json
 import os
 import pathlib
 import signal
@@ -19,6 +20,30 @@ TABLES = ("energy.csv", "contact.csv", "probes.csv")
 
 def text(path):
     return pathlib.Path(path).read_text()
+
+
+class DeckTest(FolderTest):
+    def test_notes_of_a_deck_are_those_of_check_and_run(self):
+        deck = pathlib.Path(__file__).resolve().parent.parent / "data/decks/two_bars.inp"
+        told = subprocess.run([PROGRAM, "check", deck], capture_output=True, text=True, check=False).stdout
+        case = carom.load(deck)
+        notes = case.check().notes
+        self.assertGreater(len(notes), 2)
+        for note in notes:
+            self.assertIn(f"note: {note}", told)
+        run = case.start("out")
+        run.step()
+        run.stop()
+        summary = json.loads(pathlib.Path("out/summary.json").read_text(encoding="utf-8"))
+        self.assertTrue(set(notes) <= set(summary["notes"]))
+
+    def test_losses_are_accepted_by_name(self):
+        deck = pathlib.Path(__file__).resolve().parent.parent / "data/decks/two_bars.inp"
+        lossy = pathlib.Path("lossy.inp")
+        lossy.write_text(deck.read_text(encoding="utf-8").replace("*Step", "*TIE, NAME=T\nA, B\n*Step", 1), encoding="utf-8")
+        with self.assertRaises(carom.CaseError):
+            carom.load(lossy)
+        self.assertTrue(any("TIE" in note for note in carom.load(lossy, accept=["*TIE"]).check().notes))
 
 
 class BitsTest(FolderTest):

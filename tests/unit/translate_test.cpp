@@ -126,6 +126,17 @@ TEST(Translate, PlasticityAsATable) {
   EXPECT_EQ(*case_from(replaced(deck, "*STEP\n", "*STEP, NLGEOM\n")).materials[0].law, "j2");
 }
 
+TEST(Translate, AnExplicitStepHasItsTimeInTheSecondNumber) {
+  for (const char* line : {"*DYNAMIC, EXPLICIT\n4e-5", "*DYNAMIC, EXPLICIT\n"}) {
+    try {
+      case_from(replaced(good_deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3", line));
+      ADD_FAILURE() << line;
+    } catch (const CaseError& error) {
+      EXPECT_EQ(error.found(), "no time of the step") << line;
+    }
+  }
+}
+
 TEST(Translate, JohnsonAndCook) {
   const Case made = case_from(replaced(replaced(good_deck, "*DENSITY",
                                                 "*PLASTIC, HARDENING=JOHNSON COOK\n90., 292., 0.31, 1.09, 1356., 298.\n"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy as _copy
 import os
-from collections.abc import Callable, Iterator, Mapping, MutableMapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
 from typing import Any
 
 from carom import _carom
@@ -155,10 +155,13 @@ class Case(MutableMapping[str, Any]):
         return _carom.prepare(tree, self._source, self._file, functions, self._mesh_text)
 
 
-def load(path: str | os.PathLike[str]) -> Case:
-    """Reads a case file. The tree holds what is written there; defaults are filled when the case is checked or started
-    (`Case.resolved` shows them). Raises CaseError with file, line, column and key."""
-    tree, source = _carom.read(os.fspath(path))
+def load(path: str | os.PathLike[str], accept: Sequence[str] = ()) -> Case:
+    """Reads a case file, or a deck of Abaqus or CalculiX (docs/decks.md). The tree holds what is written there, of a deck
+    what it means; defaults are filled when the case is checked or started (`Case.resolved` shows them).
+
+    accept: keywords of a deck that are lost without stopping, as `--accept`; what is lost is among the notes of the
+    check and of the run. Raises CaseError with file, line, column and key."""
+    tree, source = _carom.read(os.fspath(path), list(accept))
     case = Case(tree, path)
     case._source = source
     return case

@@ -28,7 +28,8 @@ class Run(_carom.RunBase):
     def observe(self, observer: _Observer, every: int = 1) -> _Observer:
         """Has `observer(run)` called after every `every`-th step (counted from the start), and after the last.
 
-        What the observer raises comes out of step, until or finish; the run can go on from there. Returns the
+        What the observer raises comes out of step, until or finish; the run can go on from there, where `unobserve`
+        lets go of it. Returns the
         observer, so that it can be used as a decorator. Observers are not part of snapshots and checkpoints.
         """
         if not callable(observer):
@@ -36,6 +37,16 @@ class Run(_carom.RunBase):
         self._observe(every)
         self.__dict__.setdefault("_observers", []).append((observer, every))
         return observer
+
+    def unobserve(self, observer: _Observer) -> None:
+        """Has it called no more. Raises ValueError where it does not observe this run."""
+        observers = self.__dict__.get("_observers", [])
+        for entry in observers:
+            if entry[0] is observer:
+                observers.remove(entry)
+                self._forget(entry[1])
+                return
+        raise ValueError("it does not observe this run")
 
     def _show(self) -> None:
         """Called after steps that an observer waits for."""
