@@ -30,6 +30,9 @@ std::string_view take_line(std::string_view bytes, std::size_t& at) {
   return line;
 }
 
+/// Of UTF-8, which some editors write.
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
 bool is_comment(std::string_view line) {
   return line.starts_with("**");
 }
@@ -57,9 +60,10 @@ class DeckReader {
     deck_.files.push_back(std::make_unique<Deck::File>(Deck::File{source, std::move(bytes)}));
     const Deck::File& file = *deck_.files.back();
     const std::string_view text = file.bytes;
-    std::size_t data_begin = 0;
+    const std::size_t first = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    std::size_t data_begin = first;
     int line = 1, data_line = 1;
-    for (std::size_t at = 0; at < text.size();) {
+    for (std::size_t at = first; at < text.size();) {
       const std::size_t begin = at;
       const std::string_view content = trimmed(take_line(text, at));
       const int own_line = line++;
@@ -171,6 +175,7 @@ void DeckKeyword::fail(std::string found, std::string expected, std::string sugg
 }
 
 bool looks_like_deck(std::string_view bytes) {
+  bytes.remove_prefix(bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
   for (std::size_t at = 0; at < bytes.size();) {
     const std::string_view line = trimmed(take_line(bytes, at));
     if (line.empty() || is_comment(line)) continue;
@@ -190,7 +195,9 @@ std::string read_included(const std::string& path, const Location& where) {
   std::ifstream file(path, std::ios::binary);
   if (!file || !std::filesystem::is_regular_file(path, error))
     throw CaseError(where, "*INCLUDE", "no file " + path, "a file that can be read",
-                    "The path counts from the folder of the file that includes it.");
+                    path.find('\\') == std::string::npos
+                        ? "The path counts from the folder of the file that includes it."
+                        : "Folders are parted by /.");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -109,6 +109,12 @@ double DeckCursor::real_or(double otherwise, std::string_view what) {
   fail(printable(text), fmt::format("{}, a finite number", what));
 }
 
+void DeckCursor::end_line(std::string expected) {
+  while (!at_end())
+    if (const std::string_view text = field(); !text.empty())
+      fail(printable(text) + " behind the others", std::move(expected));
+}
+
 Location DeckCursor::where() const {
   return file_ == nullptr ? keyword_.where : Location{*file_, line_number_, 0};
 }

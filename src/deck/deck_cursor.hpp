@@ -26,6 +26,8 @@ class DeckCursor {
   double real(std::string_view what);
   /// The same, or what stands for a blank field.
   double real_or(double otherwise, std::string_view what);
+  /// Throws where the line goes on with something; `expected` is for the message.
+  void end_line(std::string expected);
   /// The whole line without outer blanks.
   std::string_view line() const;
   Location where() const;

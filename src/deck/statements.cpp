@@ -25,8 +25,10 @@ Placement placement_of(const DeckKeyword& instance) {
   DeckCursor at(instance);
   if (!at.next_line()) return placement;
   placement.shift = point_of(at);
+  at.end_line("the three components of the shift");
   if (!at.next_line()) return placement;
   Placement::Turn turn{point_of(at), point_of(at), at.real("the angle in degrees")};
+  at.end_line("two points and an angle");
   if (norm(subtract(turn.b, turn.a)) == 0.0)
     at.fail("an axis from a point to itself", "two points", "The instance turns about the line from a to b.");
   placement.turn = turn;

@@ -70,6 +70,7 @@ class Actions {
       amplitude_ = &found->second;
     }
     const std::size_t step = step_at(i);
+    is_before_steps_ = t_.steps.empty() || i < t_.steps.front().begin;
     const std::string* op = s.keyword->parameter("OP");
     if (op != nullptr && upper_case(*op) == "NEW") renewed_.insert({s.keyword->name, step});
     for (DeckCursor at(*s.keyword); at.next_line();) (this->*line)(at, s, step);
@@ -115,6 +116,10 @@ class Actions {
     const std::string_view end = at.field();
     const int to = end.empty() ? from : component(at, end);
     const double value = at.real_or(0.0, "the value");
+    at.end_line("nodes, first and last degree of freedom, value");
+    if (value != 0.0 && is_before_steps_)
+      at.fail(fmt::format("the value {:g} before the first step", value), "it within a *STEP",
+              "Before the steps stand supports alone.");
     if (from < 1 || to < from || to > 6)
       at.fail(fmt::format("degrees of freedom {} to {}", from, to), "1 to 3, or 1 to 6 with those of turning");
     for (int dof = from; dof <= to; ++dof) impose(at, group, dof, what, step, value);
@@ -156,6 +161,7 @@ class Actions {
     const int dof = component(at, at.field());
     if (dof > 3) at.fail(fmt::format("degree of freedom {}", dof), "1, 2 or 3", "Nodes of solids take no moments.");
     act(at, {"CLOAD", group, "force", dof - 1, {}, at.where(), {}}, step, at.real("the force"));
+    at.end_line("nodes, degree of freedom, force");
   }
 
   void distributed(DeckCursor& at, const Statement& s, std::size_t step) {
@@ -341,7 +347,8 @@ class Actions {
   std::map<Key, std::size_t> places_;  ///< in all_
   std::map<std::tuple<std::size_t, double, Vec3>, GravityCells> gravity_;
   std::map<std::string, Amplitude> amplitudes_;
-  const Amplitude* amplitude_ = nullptr;  ///< of the keyword at hand
+  const Amplitude* amplitude_ = nullptr;
+  bool is_before_steps_ = false;          ///< the statement that is read  ///< of the keyword at hand
   const DeckKeyword* keyword_ = nullptr;  ///< at hand
   std::vector<Acting> all_;
   std::set<std::pair<std::string, std::size_t>> renewed_;

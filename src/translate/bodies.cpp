@@ -91,16 +91,17 @@ Elasticity elasticity(Translation& t, const MaterialKeywords& m) {
 
 void add_table(const DeckKeyword& plastic, Translation& t, TableMaker& to) {
   List rows;
+  std::set<double> temperatures;
   for (DeckCursor at(plastic); at.next_line();) {
     const double stress = at.real("the yield stress"), strain = at.real_or(0.0, "the plastic strain");
     rows.push_back(numbers_node({strain, stress}, at.where()));
-    const double temperature = at.real_or(0.0, "the temperature");
-    static_cast<void>(temperature);
+    temperatures.insert(at.real_or(0.0, "the temperature"));
+    at.end_line("yield stress, plastic strain, temperature");
   }
   if (rows.empty()) plastic.fail("no data", "lines of yield stress, plastic strain");
   std::set<double> strains;
   for (const Node& row : rows) strains.insert(std::get<double>(std::get<List>(row.value)[0].value));
-  if (strains.size() < rows.size())
+  if (strains.size() < rows.size() || temperatures.size() > 1)
     t.findings.refuse(plastic, plastic.where, "several curves, one for each temperature or rate",
                       "Only one is carried.");
   if (rows.size() == 1)

@@ -109,6 +109,7 @@ void translate_pairs(Translation& t, const std::map<std::string, Interaction>& a
   refuse_closing(t, keyword);
   for (DeckCursor at(keyword); at.next_line();) {
     const std::string slave(at.field()), master(at.field());
+    at.end_line("the slave and the master");
     TableMaker contact(at.where());
     const bool is_self = master.empty() || upper_case(master) == upper_case(slave);
     const std::string group = faces_of(t, s, at, slave), other = is_self ? group : faces_of(t, s, at, master);

@@ -129,8 +129,19 @@ const std::vector<Spoiled> spoiled_decks{
      ":40: *BOUNDARY: found degrees of freedom 3 to 1; expected 1 to 3, or 1 to 6 with those of turning"},
     {"boundary_name", "BASE, 1, 3", "BASE, FIXED",
      ":40: *BOUNDARY: found \"FIXED\"; expected a degree of freedom, ENCASTRE, PINNED, XSYMM or the like"},
-    {"boundary_turn", "BASE, 1, 3", "BASE, 4, 4, 0.1",
-     ":40: *BOUNDARY: found a turn of degree of freedom 4; expected 1, 2 or 3. Nodes do not turn."},
+    {"boundary_turn", "*CLOAD", "*BOUNDARY\nBASE, 4, 4, 0.1\n*CLOAD",
+     ":56: *BOUNDARY: found a turn of degree of freedom 4; expected 1, 2 or 3. Nodes do not turn."},
+    {"boundary_value_before_steps", "BASE, 1, 3", "BASE, 1, 3, 0.1",
+     ":40: *BOUNDARY: found the value 0.1 before the first step; expected it within a *STEP. Before the steps stand "
+     "supports alone."},
+    {"boundary_fifth_field", "BASE, 1, 3", "BASE, 1, 3, 0., 7",
+     ":40: *BOUNDARY: found '7' behind the others; expected nodes, first and last degree of freedom, value"},
+    {"contact_third_surface", "FOOT, FLOOR", "FOOT, FLOOR, TOP",
+     ":49: *CONTACT PAIR: found 'TOP' behind the others; expected the slave and the master"},
+    {"plastic_temperatures", "*DENSITY", "*PLASTIC\n90., 0.\n120., 0.1, 300.\n*DENSITY",
+     ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
+     "\"PLASTIC\" runs without:\n  x.inp:35: *PLASTIC: several curves, one for each temperature or rate. Only one is "
+     "carried."},
     {"initial_dof", "FALLING, 3, -1000.", "FALLING, 4, -1000.",
      ":42: *INITIAL CONDITIONS: found degree of freedom 4; expected 1, 2 or 3"},
     {"initial_type", "TYPE=VELOCITY", "TYPE=STRESS",

@@ -126,6 +126,19 @@ TEST(Translate, PlasticityAsATable) {
   EXPECT_EQ(*case_from(replaced(deck, "*STEP\n", "*STEP, NLGEOM\n")).materials[0].law, "j2");
 }
 
+TEST(Translate, OverlapsOfAbaqusExplicitCountAsTouching) {
+  const auto penetration = [](const char* line) {
+    return *case_from(replaced(good_deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3", line)).contacts[0].initial_penetration;
+  };
+  EXPECT_EQ(penetration("*DYNAMIC, EXPLICIT\n, 1e-3"), InitialPenetration::strain_free_offset);
+  EXPECT_EQ(penetration("*DYNAMIC, EXPLICIT=1\n1e-7, 1e-3"), InitialPenetration::prestress);
+}
+
+TEST(Translate, AMarkOfUtf8IsPassedOver) {
+  EXPECT_TRUE(looks_like_deck("\xef\xbb\xbf" + good_deck));
+  EXPECT_EQ(case_from("\xef\xbb\xbf" + good_deck).parts.size(), 2U);
+}
+
 TEST(Translate, AnExplicitStepHasItsTimeInTheSecondNumber) {
   for (const char* line : {"*DYNAMIC, EXPLICIT\n4e-5", "*DYNAMIC, EXPLICIT\n"}) {
     try {
@@ -195,7 +208,8 @@ TEST(Translate, ARigidSurfaceAtRestIsAnObstacle) {
 }
 
 TEST(Translate, ADisplacedReferenceNodeMovesItsSurfaceByTheSlope) {
-  const Case made = case_from(with_rigid_wall("*BOUNDARY\n99, 1, 2\n*BOUNDARY, AMPLITUDE=A\n99, 3, 3, 0.5\n"));
+  const Case made = case_from(
+      replaced(with_rigid_wall("*BOUNDARY\n99, 1, 2\n"), "*CLOAD", "*BOUNDARY, AMPLITUDE=A\n99, 3, 3, 0.5\n*CLOAD"));
   EXPECT_EQ(*made.contacts[0].velocity, (Vec3{0.0, 0.0, 500.0}));  // 0.5 in 1e-3
   ASSERT_TRUE(made.contacts[0].function);
   for (const CaseFunction& function : made.functions) {
