@@ -31,15 +31,13 @@ set(CPACK_PACKAGE_NAME carom)
 set(CPACK_PACKAGE_CONTACT "The Carom developers <carom@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "impact dynamics of deformable solids")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
-    "impact dynamics of deformable solids
-Carom computes impacts of deformable solids: what happens in the
+    "Carom computes impacts of deformable solids: what happens in the
 microseconds when a body strikes another, with the contact forces, the
 waves, and where every joule went. Implicit and explicit steps, contact
 with friction, bodies that yield; every run closes an energy ledger and
 ends with a verdict.")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
-    "impact dynamics of deformable solids, Python module
-Cases as dicts, runs stepped and branched, curves as arrays: the solver
+    "Module of Python: cases as dicts, runs stepped and branched, curves as arrays: the solver
 carom as a module of Python.")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
