@@ -117,9 +117,10 @@ class Actions {
     const int to = end.empty() ? from : component(at, end);
     const double value = at.real_or(0.0, "the value");
     at.end_line("nodes, first and last degree of freedom, value");
-    if (value != 0.0 && is_before_steps_)
-      at.fail(fmt::format("the value {:g} before the first step", value), "it within a *STEP",
-              "Before the steps stand supports alone.");
+    const bool jumps = what == "DISPLACEMENT" && amplitude_ == nullptr && !t_.steps.empty() && !t_.steps.front().ramps;
+    if (value != 0.0 && is_before_steps_ && jumps)
+      at.fail(fmt::format("the displacement {:g} before the first step", value), "one with an AMPLITUDE",
+              "The nodes would jump there when the first step begins.");
     if (from < 1 || to < from || to > 6)
       at.fail(fmt::format("degrees of freedom {} to {}", from, to), "1 to 3, or 1 to 6 with those of turning");
     for (int dof = from; dof <= to; ++dof) impose(at, group, dof, what, step, value);

@@ -132,8 +132,9 @@ const std::vector<Spoiled> spoiled_decks{
     {"boundary_turn", "*CLOAD", "*BOUNDARY\nBASE, 4, 4, 0.1\n*CLOAD",
      ":56: *BOUNDARY: found a turn of degree of freedom 4; expected 1, 2 or 3. Nodes do not turn."},
     {"boundary_value_before_steps", "BASE, 1, 3", "BASE, 1, 3, 0.1",
-     ":40: *BOUNDARY: found the value 0.1 before the first step; expected it within a *STEP. Before the steps stand "
-     "supports alone."},
+     ":40: *BOUNDARY: found the displacement 0.1 before the first step; expected one with an AMPLITUDE. The nodes "
+     "would "
+     "jump there when the first step begins."},
     {"boundary_fifth_field", "BASE, 1, 3", "BASE, 1, 3, 0., 7",
      ":40: *BOUNDARY: found '7' behind the others; expected nodes, first and last degree of freedom, value"},
     {"contact_third_surface", "FOOT, FLOOR", "FOOT, FLOOR, TOP",
