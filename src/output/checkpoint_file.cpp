@@ -15,6 +15,7 @@
 
 #include "base/checksum.hpp"
 #include "base/errors.hpp"
+#include "output/hdf5_handle.hpp"
 
 namespace carom {
 
@@ -24,45 +25,12 @@ constexpr int kFormat = 2;
 constexpr std::size_t kHeaderBytes = 1024;  // HDF5's user block, in front of what HDF5 writes: a power of 2 from 512 on
 constexpr std::string_view kTitle = "carom checkpoint, format ", kHeaderSum = "header ";
 
-/// A descriptor or a handle of HDF5 that is given back.
-template <class T, auto close>
-class Handle {
- public:
-  explicit Handle(T value) : value_(value) {}
-  ~Handle() {
-    if (value_ >= 0) close(value_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator T() const { return value_; }  // NOLINT(google-explicit-constructor): stands for the number itself
-  /// What closing says.
-  auto release() { return close(std::exchange(value_, T{-1})); }
-
- private:
-  T value_;
-};
 using Descriptor = Handle<int, ::close>;
 using File = Handle<hid_t, H5Fclose>;
 using Plist = Handle<hid_t, H5Pclose>;
 using Space = Handle<hid_t, H5Sclose>;
 using Set = Handle<hid_t, H5Dclose>;
 using Type = Handle<hid_t, H5Tclose>;
-
-/// HDF5 keeps its complaints to itself: every call is looked at here.
-class QuietHdf5 {
- public:
-  QuietHdf5() {
-    H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, report_, data_); }
-  QuietHdf5(const QuietHdf5&) = delete;
-  QuietHdf5& operator=(const QuietHdf5&) = delete;
-
- private:
-  H5E_auto2_t report_ = nullptr;
-  void* data_ = nullptr;
-};
 
 Type variable_string() {
   const hid_t type = H5Tcopy(H5T_C_S1);

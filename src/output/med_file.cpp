@@ -4,8 +4,6 @@
 #include <hdf5.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <system_error>
@@ -15,6 +13,7 @@
 #include "mesh/cell_topology.hpp"
 #include "mesh/med_mesh.hpp"
 #include "output/file_writer.hpp"
+#include "output/hdf5_handle.hpp"
 
 namespace carom {
 
@@ -22,50 +21,27 @@ namespace {
 
 constexpr std::size_t kGroupName = 80;  ///< bytes of a name in MED
 
-/// Something of HDF5 that is closed when it goes.
-class Held {
- public:
-  Held(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Held() {
-    if (id_ >= 0) close_(id_);
-  }
-  Held(const Held&) = delete;
-  Held& operator=(const Held&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): stands for the number itself
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// HDF5 keeps its complaints to itself: every call is looked at here.
-class QuietCalls {
- public:
-  QuietCalls() {
-    H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~QuietCalls() { H5Eset_auto2(H5E_DEFAULT, report_, data_); }
-  QuietCalls(const QuietCalls&) = delete;
-  QuietCalls& operator=(const QuietCalls&) = delete;
-
- private:
-  H5E_auto2_t report_ = nullptr;
-  void* data_ = nullptr;
-};
+using File = Handle<hid_t, H5Fclose>;
+using Plist = Handle<hid_t, H5Pclose>;
+using Group = Handle<hid_t, H5Gclose>;
+using Type = Handle<hid_t, H5Tclose>;
+using Object = Handle<hid_t, H5Oclose>;
+using Space = Handle<hid_t, H5Sclose>;
+using Attribute = Handle<hid_t, H5Aclose>;
+using Set = Handle<hid_t, H5Dclose>;
 
 /// A MED file being written; groups by their paths.
 class MedFile {
  public:
   explicit MedFile(const std::string& path)
-      : path_(path), file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {
+      : path_(path), file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)) {
     check(file_, "the file");
   }
 
   void group(const std::string& name) {
-    const Held links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    const Plist links(H5Pcreate(H5P_LINK_CREATE));
     H5Pset_create_intermediate_group(links, 1);
-    const Held made(H5Gcreate2(file_, name.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    const Group made(H5Gcreate2(file_, name.c_str(), links, H5P_DEFAULT, H5P_DEFAULT));
     check(made, name);
   }
   void attribute(const std::string& owner, const char* name, int value) {
@@ -78,7 +54,7 @@ class MedFile {
   void attribute(const std::string& owner, const char* name, const std::string& text, std::size_t bytes) {
     std::string filled = text;
     filled.resize(bytes + 1, '\0');
-    const Held type(H5Tcopy(H5T_C_S1), H5Tclose);
+    const Type type(H5Tcopy(H5T_C_S1));
     H5Tset_size(type, bytes + 1);
     write_attribute(owner, name, type, type, filled.c_str());
   }
@@ -96,7 +72,7 @@ class MedFile {
       all.resize((all.size() + kGroupName - 1) / kGroupName * kGroupName, '\0');
     }
     const hsize_t length = kGroupName;
-    const Held type(H5Tarray_create2(H5T_STD_I8LE, 1, &length), H5Tclose);
+    const Type type(H5Tarray_create2(H5T_STD_I8LE, 1, &length));
     write(name, type, type, texts.size(), all.data());
   }
   /// Number of entries of a data set, and that it is in no profile.
@@ -110,22 +86,22 @@ class MedFile {
     if (id < 0) throw OutputError(path_, fmt::format("HDF5 could not write {}: is the disk full?", what));
   }
   void write_attribute(const std::string& owner, const char* name, hid_t type, hid_t memory, const void* value) {
-    const Held object(H5Oopen(file_, owner.c_str(), H5P_DEFAULT), H5Oclose);
-    const Held space(H5Screate(H5S_SCALAR), H5Sclose);
-    const Held made(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    const Object object(H5Oopen(file_, owner.c_str(), H5P_DEFAULT));
+    const Space space(H5Screate(H5S_SCALAR));
+    const Attribute made(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT));
     check(made, owner);
     check(H5Awrite(made, memory, value), owner);
   }
   void write(const std::string& name, hid_t type, hid_t memory, std::size_t entries, const void* values) {
     const hsize_t extent = entries;
-    const Held space(H5Screate_simple(1, &extent, nullptr), H5Sclose);
-    const Held set(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+    const Space space(H5Screate_simple(1, &extent, nullptr));
+    const Set set(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
     check(set, name);
     check(H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
   }
 
   std::string path_;
-  Held file_;
+  File file_;
 };
 
 /// The sets of groups that occur, with the number of the family that stands for each: positive for nodes, negative for
@@ -261,7 +237,7 @@ void write(const std::string& path, const Mesh& mesh) {
 
 void write_med(const std::string& path, const Mesh& mesh) {
   refuse_long_names(mesh);
-  const QuietCalls quiet;
+  const QuietHdf5 quiet;
   { const FileWriter probe(path); }  // says why, where a file cannot be made there
   const std::string temporary = path + ".tmp";
   try {
