@@ -32,7 +32,7 @@ void add_surfaces(SectionSchema<CaseContact>& s) {
       "Both "
       "sides' nodes (two_pass) sink nowhere, on coarse curved faces either; the overlaps carry pressure exactly across "
       "flat meshes that do not match, but see the mean gap: a coarse curved face sinks in by part of its rise.",
-      {.choices = {"node_to_surface", "two_pass", "surface_to_surface"}, .kinds = pairs});
+      {.choices = {"node_to_surface", "two_pass", "surface_to_surface", "faces"}, .kinds = pairs});
 }
 
 void add_law(SectionSchema<CaseContact>& s) {

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "contact/bilinear_patch.hpp"
 #include "math/gauss_legendre.hpp"
@@ -131,7 +132,17 @@ struct SeenFacet {
 
   /// Point of the facet over a point of its shadow, moved by round-off into the facet.
   std::optional<ParentPoint> over(const Point& p) const;
+  /// Its height there; that of the plane through its middle where round-off has no point.
+  double height(const Point& p) const;
 };
+
+double SeenFacet::height(const Point& p) const {
+  if (size == 4) {
+    if (const std::optional<ParentPoint> at = over(p)) return patch.at(at->xi, at->eta)[2];
+  }
+  const Vec3 n = cross(patch.p, patch.q);
+  return patch.m[2] - (n[0] * (p[0] - patch.m[0]) + n[1] * (p[1] - patch.m[1])) / n[2];
+}
 
 std::optional<ParentPoint> SeenFacet::over(const Point& p) const {
   constexpr double slack = 1e-6;  // p lies in the shadow: only the round-off of slender shadows is to be allowed
@@ -171,12 +182,52 @@ std::array<TrianglePoint, 7> radon_rule() {
 /// One overlap in the making.
 struct Clipping {
   SeenFacet slave, master;
+  const OverlapRule& rule;
   std::vector<OverlapPoint>& points;
+  OverlapExtent extent{};
 
+  void add(const Polygon& polygon);
+
+ private:
+  double gap_over(const Point& p) const { return master.height(p) - slave.height(p); }
+  Polygon part_behind(const Polygon& polygon, std::span<const double> gap) const;
   void add_point(const Point& p, double area) const;
   void add_triangle(const Point& a, const Point& b, const Point& c) const;
   void add_polygon(const Polygon& polygon) const;
+  void add_moment_points(const Polygon& polygon) const;
 };
+
+/// The polygon with what there is of it over its whole extent.
+void Clipping::add(const Polygon& polygon) {
+  std::array<double, 16> gap{};
+  bool is_divided = false;
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    gap[i] = gap_over(polygon.corner[i]);
+    extent.least_gap = std::min(extent.least_gap, gap[i]);
+    is_divided = is_divided || (gap[i] < 0.0) != (gap[0] < 0.0);
+  }
+  extent.area += polygon.area();
+  const Polygon part = rule.only_behind && is_divided ? part_behind(polygon, gap) : polygon;
+  if (rule.is_high)
+    add_polygon(part);
+  else
+    add_moment_points(part);
+}
+
+/// The part where the gap is negative, linear along the sides.
+Polygon Clipping::part_behind(const Polygon& polygon, std::span<const double> gap) const {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    const std::size_t next = i + 1 < polygon.size ? i + 1 : 0;
+    const Point &p = polygon.corner[i], &q = polygon.corner[next];
+    if (gap[i] <= 0.0) kept.push(p);
+    if ((gap[i] > 0.0 && gap[next] < 0.0) || (gap[i] < 0.0 && gap[next] > 0.0)) {
+      const double s = gap[i] / (gap[i] - gap[next]);
+      kept.push({p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1])});
+    }
+  }
+  return kept;
+}
 
 void Clipping::add_point(const Point& p, double area) const {
   const std::optional<ParentPoint> on_slave = slave.over(p), on_master = master.over(p);
@@ -199,12 +250,42 @@ void Clipping::add_polygon(const Polygon& polygon) const {
     add_triangle(polygon.corner[0], polygon.corner[i - 1], polygon.corner[i]);
 }
 
-void add_segment_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector<OverlapPoint>& points) {
+void Clipping::add_moment_points(const Polygon& polygon) const {
+  double area = 0.0, first[2]{}, xx = 0.0, xy = 0.0, yy = 0.0;
+  const Point& o = polygon.corner[0];
+  for (std::size_t i = 2; i < polygon.size; ++i) {
+    const Point &p = polygon.corner[i - 1], &q = polygon.corner[i];
+    const double a = area_of(o, p, q), px = p[0] - o[0], py = p[1] - o[1], qx = q[0] - o[0], qy = q[1] - o[1];
+    area += a;
+    first[0] += a / 3.0 * (px + qx);
+    first[1] += a / 3.0 * (py + qy);
+    xx += a / 6.0 * (px * px + px * qx + qx * qx);
+    yy += a / 6.0 * (py * py + py * qy + qy * qy);
+    xy += a / 12.0 * (2.0 * px * py + 2.0 * qx * qy + px * qy + qx * py);
+  }
+  if (!(area > 0.0)) return;
+  const double cx = first[0] / area, cy = first[1] / area;
+  const double l_11 = std::sqrt(std::max(0.0, xx / area - cx * cx));
+  const double l_21 = l_11 > 0.0 ? (xy / area - cx * cy) / l_11 : 0.0;
+  const double l_22 = std::sqrt(std::max(0.0, yy / area - cy * cy - l_21 * l_21));
+  const double half_root = std::sqrt(0.5), root = std::sqrt(1.5);  // sqrt(2) sin 30, sqrt(2) cos 30
+  const double s[3] = {0.0, -root, root}, t[3] = {2.0 * half_root, -half_root, -half_root};
+  for (std::size_t k = 0; k < 3; ++k)
+    add_point({o[0] + cx + l_11 * s[k], o[1] + cy + l_21 * s[k] + l_22 * t[k]}, area / 3.0);
+}
+
+OverlapExtent add_segment_overlap(const PlacedFacet& slave, const PlacedFacet& master, bool only_behind,
+                                  std::vector<OverlapPoint>& points) {
   static const std::vector<QuadraturePoint> rule = gauss_legendre(3);
   const PlacedFacet seen = SlavePlane(slave).seen(master);
   const double half = 0.5 * measure(slave), start = seen.x[0][0], end = seen.x[1][0];
-  const double low = std::max(-half, std::min(start, end)), high = std::min(half, std::max(start, end));
-  if (!(high - low > negligible * std::min(2.0 * half, measure(master)))) return;
+  double low = std::max(-half, std::min(start, end)), high = std::min(half, std::max(start, end));
+  if (!(high - low > negligible * std::min(2.0 * half, measure(master)))) return {};
+  const double slope = (seen.x[1][2] - seen.x[0][2]) / (end - start);
+  const double gap_low = seen.x[0][2] + slope * (low - start), gap_high = seen.x[0][2] + slope * (high - start);
+  const OverlapExtent extent{high - low, std::min(gap_low, gap_high)};
+  if (only_behind && gap_low < 0.0 && gap_high > 0.0) high = low + (high - low) * gap_low / (gap_low - gap_high);
+  if (only_behind && gap_low > 0.0 && gap_high < 0.0) low = high - (high - low) * gap_high / (gap_high - gap_low);
   for (const QuadraturePoint& point : rule) {
     const double s = 0.5 * (low + high) + 0.5 * (high - low) * point.x;
     const double master_xi = std::clamp((2.0 * s - start - end) / (end - start), -1.0, 1.0);
@@ -213,28 +294,32 @@ void add_segment_overlap(const PlacedFacet& slave, const PlacedFacet& master, st
                       0.5 * (high - low) * point.weight,
                       facet_position(seen, master_xi, 0.0)[2]});
   }
+  return extent;
 }
 
 }  // namespace
 
-int add_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector<OverlapPoint>& points) {
+OverlapExtent add_overlap(const PlacedFacet& slave, const PlacedFacet& master, const OverlapRule& rule,
+                          std::vector<OverlapPoint>& points) {
   assert((slave.size == 2) == (master.size == 2) && slave.size > 1 && master.size > 1);
-  const std::size_t before = points.size();
-  if (slave.size == 2) {
-    add_segment_overlap(slave, master, points);
-    return static_cast<int>(points.size() - before);
-  }
+  if (slave.size == 2) return add_segment_overlap(slave, master, rule.only_behind, points);
   const SlavePlane plane(slave);
   const PlacedFacet seen_slave = plane.seen(slave), seen_master = plane.seen(master);
   const Shadow of_slave(seen_slave), of_master(seen_master);
-  const Clipping overlap{{BilinearPatch(seen_slave), slave.size}, {BilinearPatch(seen_master), master.size}, points};
+  Clipping overlap{{BilinearPatch(seen_slave), slave.size}, {BilinearPatch(seen_master), master.size}, rule, points};
   const double least = negligible * std::min(measure(slave), measure(master));
   for (std::size_t i = 0; i < of_slave.count; ++i) {
     for (std::size_t j = 0; j < of_master.count; ++j) {
       const Polygon common = clip(of_slave.part[i], of_master.part[j]);
-      if (common.area() > least) overlap.add_polygon(common);
+      if (common.area() > least) overlap.add(common);
     }
   }
+  return overlap.extent;
+}
+
+int add_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector<OverlapPoint>& points) {
+  const std::size_t before = points.size();
+  add_overlap(slave, master, OverlapRule{}, points);
   return static_cast<int>(points.size() - before);
 }
 

@@ -1,6 +1,7 @@
 // Overlap of two facets: clipped polygons with quadrature points, for surface-to-surface contact.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "base/types.hpp"
@@ -25,5 +26,24 @@ struct OverlapPoint {
 /// integrated exactly. A facet that is not convex when projected is split into two triangles. Overlaps below 1e-12 of
 /// the smaller facet's area are dropped. Both facets: segments, or triangles and quadrilaterals.
 int add_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector<OverlapPoint>& points);
+
+/// Which points stand for an overlap.
+struct OverlapRule {
+  /// False: three points a polygon, c + sqrt(2) L (cos t, sin t) at t = 90, 210 and 330 degrees, c being its centroid
+  /// and L L^T = S its second moments over its area: degree 2 exactly, whatever its corners, and always inside
+  /// (Kannan, Lovasz and Simonovits, Discrete Comput. Geom. 13, 1995: a convex body holds sqrt(1 + 2 / n) times the
+  /// ball of its second moments). True: 7 points a triangle, as above.
+  bool is_high = true;
+  /// Overlaps that the gap 0 divides have points where it is negative alone.
+  bool only_behind = false;
+};
+
+/// What there is of an overlap, points or not.
+struct OverlapExtent {
+  double area = 0.0;
+  double least_gap = std::numeric_limits<double>::infinity();  ///< at the polygon's corners
+};
+OverlapExtent add_overlap(const PlacedFacet& slave, const PlacedFacet& master, const OverlapRule& rule,
+                          std::vector<OverlapPoint>& points);
 
 }  // namespace carom

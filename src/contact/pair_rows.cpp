@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contact/face_rows.hpp"
 #include "contact/mortar_rows.hpp"
 #include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
@@ -187,10 +188,16 @@ std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& conta
     throw std::invalid_argument("contact \"" + contact.name +
                                 "\": the ends of bars cannot be the master of facets; exchange group and master");
   }
-  const bool both_ways = contact.self || (contact.method == PairMethod::two_pass && !has_points);
+  const bool both_ways = contact.self || (has_both_passes(contact.method) && !has_points);
   const ContactLaw law = both_ways ? with_half_stiffness(contact.law) : contact.law;
   if (both_points) return std::make_unique<EndRows>(model, contact.slave, contact.master, law, source);
   if (contact.method == PairMethod::surface_to_surface && !has_points) return mortar_rows(model, contact, law, source);
+  if (contact.method == PairMethod::faces && !has_points) {
+    auto first = face_rows(model, contact.slave, contact.master, contact.self, law, source);
+    if (contact.self) return first;
+    auto second = face_rows(model, contact.master, contact.slave, false, law, source);
+    return std::make_unique<TwoPassRows>(std::move(first), std::move(second));
+  }
   const std::span<const Vec3> X = model.mesh->coordinates;
   auto rows = std::make_unique<NodeRows>(X, contact.slave, contact.master, contact.self, law, source);
   if (!both_ways || contact.self) return rows;

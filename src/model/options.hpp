@@ -33,8 +33,13 @@ enum class InitialPenetration : std::uint8_t { refuse, strain_free_offset, prest
 
 /// How the rows of a pair of deformable surfaces are made: one row per slave node at its closest point on the master
 /// surface; the same with the roles exchanged as well; or one row per slave node, averaged over its facets' overlaps
-/// with the master surface (mortar).
-enum class PairMethod : std::uint8_t { node_to_surface, two_pass, surface_to_surface };
+/// with the master surface (mortar); or the penetration integrated over the overlaps, from both sides.
+enum class PairMethod : std::uint8_t { node_to_surface, two_pass, surface_to_surface, faces };
+
+/// True when both sides of a pair have rows of their own, each with half of the stiffness.
+constexpr bool has_both_passes(PairMethod method) {
+  return method == PairMethod::two_pass || method == PairMethod::faces;
+}
 
 /// How the damper of a stop acts while it touches: never so that its sum with the spring pulls, or in both directions.
 enum class DamperActs : std::uint8_t { compression, two_sided };

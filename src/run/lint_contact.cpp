@@ -117,7 +117,7 @@ class ContactLint {
   /// Only the nodes of the group are seen: a finer master enters between them.
   void check_sides(std::size_t c) {
     const auto* pair = std::get_if<PairContact>(&s_.model().contacts[c]);
-    if (pair == nullptr || pair->self || pair->method == PairMethod::two_pass) return;
+    if (pair == nullptr || pair->self || has_both_passes(pair->method)) return;
     constexpr double coarser = 1.5;
     const double slave = mean_facet_size(s_.mesh().coordinates, pair->slave.facets);
     const double master = mean_facet_size(s_.mesh().coordinates, pair->master.facets);
@@ -166,7 +166,7 @@ class ContactLint {
     if (given(c).per_node) return surface_area(s_, given(c));
     const auto* pair = std::get_if<PairContact>(&s_.model().contacts[c]);
     const bool has_facets = pair != nullptr && !pair->slave.facets.empty() && pair->slave.facets[0].size > 1;
-    const bool is_twice = has_facets && (pair->self || pair->method == PairMethod::two_pass);
+    const bool is_twice = has_facets && (pair->self || has_both_passes(pair->method));
     return approaches_[c].measure / (is_twice ? 2.0 : 1.0);
   }
 

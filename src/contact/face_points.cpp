@@ -1,0 +1,255 @@
+#include "contact/face_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "contact/facet_projection.hpp"
+#include "contact/pair_rows.hpp"
+#include "contact/surface_pieces.hpp"
+#include "contact/surface_search.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double face_look = 1.5;              // of the facet size: overlaps within count
+constexpr double least_facing_of_faces = 0.2;  // c_0
+constexpr double wall_slack = 0.02;            // s_0, of the facet size
+
+/// a^alpha N_b,alpha at the centre of a facet, by which its normal turns: dn = - sum_b turn_b (n . du_b).
+std::array<Vec3, 4> turns_of(const PlacedFacet& facet, const FacetFrame& frame, const ParentPoint& centre) {
+  const FacetShape shape = facet_shape(facet.size, centre.xi, centre.eta);
+  const TangentDual dual = tangent_dual(frame.a_1, frame.a_2, frame.normal);
+  std::array<Vec3, 4> turn{};
+  for (std::size_t b = 0; b < 4; ++b)
+    turn[b] = add(scaled(dual.dual_1, shape.dN_dxi[b]), scaled(dual.dual_2, shape.dN_deta[b]));
+  return turn;
+}
+
+double size_of_measure(const PlacedFacet& facet) {
+  const double extent = measure(facet);
+  return facet.size == 2 ? extent : std::sqrt(extent);
+}
+
+}  // namespace
+
+/// A slave facet at its current position, and its extent along its plane's axes and normal.
+struct FaceOverlaps::Slave {
+  std::size_t f;
+  PlacedFacet placed, reference;
+  Vec3 centre, axis_1, axis_2, normal;
+  double stretch;  ///< reference measure over the current one
+  Bounds extent{};
+
+  Slave(std::size_t number, const PlacedFacet& now, const PlacedFacet& before)
+      : f(number), placed(now), reference(before), stretch(measure(before) / measure(now)) {
+    const ParentPoint at = facet_centre(placed.size);
+    const FacetFrame frame = facet_frame(placed, at.xi, at.eta);
+    centre = frame.position;
+    normal = frame.normal;
+    axis_1 = normalized(frame.a_1);
+    axis_2 = cross(normal, axis_1);
+    extent = extent_of(placed);
+  }
+  Bounds extent_of(const PlacedFacet& facet) const {
+    Bounds bounds;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) {
+      const Vec3 r = subtract(facet.x[a], centre);
+      bounds.include(Vec3{dot(r, axis_1), dot(r, axis_2), dot(r, normal)});
+    }
+    return bounds;
+  }
+  /// False when the other facet lies nowhere over or under this one, or farther outward than `reach`.
+  bool may_overlap(const PlacedFacet& other, double reach) const {
+    Bounds column = extent;
+    column.low[2] = -INFINITY;
+    column.high[2] += reach;
+    return column.overlaps(extent_of(other));
+  }
+};
+
+/// A master facet that the slave meets, and its points.
+struct FaceOverlaps::Met {
+  Index master;
+  PlacedFacet placed;
+  FacetFrame frame;  ///< at its centre
+  double facing;     ///< c
+  double area;       ///< of the overlap
+  std::size_t begin, end;
+};
+
+FaceOverlaps::FaceOverlaps(const Model& model, const Surface& slave, const Surface& master, bool self)
+    : X_(model.mesh->coordinates),
+      slave_(slave),
+      size_(std::max(mean_facet_size(X_, slave.facets), mean_facet_size(X_, master.facets))),
+      depth_(self ? half_thickness(X_, master.facets, size_) : std::vector<double>(master.facets.size(), size_)),
+      slave_faces_(parent_faces(*model.mesh, slave.facets)),
+      master_faces_(parent_faces(*model.mesh, master.facets)),
+      broad_phase_(slave.facets, master.facets, face_look * size_, 0.5 * mean_facet_size(X_, master.facets)) {
+  std::vector<Facet> all = slave.facets;
+  all.insert(all.end(), master.facets.begin(), master.facets.end());
+  const std::vector<Index> piece = surface_pieces(all);
+  const auto middle = piece.begin() + static_cast<std::ptrdiff_t>(slave.facets.size());
+  slave_piece_.assign(piece.begin(), middle);
+  master_piece_.assign(middle, piece.end());
+}
+
+void FaceOverlaps::update(const ContactMotion& motion, std::vector<bool> was_behind) {
+  broad_phase_.update(motion.x_begin, motion.displacement);
+  was_behind_ = std::move(was_behind);
+}
+
+/// The point and the master's point over it, in the slave's frame at the beginning of the step.
+bool FaceOverlaps::was_in_front(std::size_t f, Index g, const OverlapPoint& point, const ContactMotion& motion) const {
+  const PlacedFacet slave = place(slave_.facets[f], motion.x_begin), master = place(master_facet(g), motion.x_begin);
+  const Vec3 way = subtract(facet_position(master, point.master.xi, point.master.eta),
+                            facet_position(slave, point.slave.xi, point.slave.eta));
+  return dot(way, facet_frame(slave, point.slave.xi, point.slave.eta).normal) >= 0.0;
+}
+
+/// Enters master g and appends its points, if it counts.
+bool FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& motion, std::vector<Met>& met,
+                              std::vector<OverlapPoint>& overlap) const {
+  const PlacedFacet master = place(master_facet(g), motion.x);
+  if (!slave.may_overlap(master, face_look * size_)) return false;
+  const ParentPoint centre = facet_centre(master.size);
+  const FacetFrame frame = facet_frame(master, centre.xi, centre.eta);
+  const double facing = -dot(frame.normal, slave.normal);
+  if (facing <= least_facing_of_faces) return false;
+  const bool is_high = !slave_faces_[slave.f].is_linear || !master_face(g).is_linear;
+  const std::size_t before = overlap.size();
+  const OverlapExtent extent = add_overlap(slave.placed, master, {is_high, true}, overlap);
+  if (overlap.size() == before) return false;
+  const bool is_deep = extent.least_gap < -depth_[static_cast<std::size_t>(g)];
+  if (extent.least_gap <= face_look * size_ &&
+      (!is_deep || was_behind_[slave.f] || was_in_front(slave.f, g, overlap[before], motion))) {
+    met.push_back({g, master, frame, facing, extent.area, before, overlap.size()});
+    return true;
+  }
+  overlap.resize(before);
+  return false;
+}
+
+/// Sets the weight of every point to zero that has another master nearer along the normal.
+void FaceOverlaps::hide_layers(const Slave& slave, std::span<const Met> met, std::vector<OverlapPoint>& overlap) const {
+  for (const Met& own : met) {
+    for (std::size_t q = own.begin; q < own.end; ++q) {
+      const Vec3 x = facet_position(slave.placed, overlap[q].slave.xi, overlap[q].slave.eta);
+      for (const Met& other : met) {
+        if (other.master == own.master) continue;
+        const std::optional<RayHit> hit = intersect(other.placed, x, slave.normal);
+        if (hit && std::abs(hit->distance) < std::abs(overlap[q].gap)) overlap[q].weight = 0.0;
+      }
+    }
+  }
+}
+
+void FaceOverlaps::find(std::size_t f, const ContactMotion& motion, FacetPoints& found) const {
+  found.points.clear();
+  found.least_gap = INFINITY;
+  const std::span<const Index> candidates = broad_phase_.targets_of(f);
+  if (candidates.empty()) return;
+  const Slave slave(f, place(slave_.facets[f], motion.x), place(slave_.facets[f], X_));
+  std::vector<OverlapPoint> overlap;
+  std::vector<Met> met;
+  for (const Index g : candidates) add_master(slave, g, motion, met, overlap);
+  if (met.empty()) return;
+  double covered = 0.0;
+  for (const Met& one : met) covered += one.area;
+  if (covered > measure(slave.placed) * (1.0 + 1e-6)) hide_layers(slave, met, overlap);
+  found.normal = slave.normal;
+  const ParentPoint centre = facet_centre(slave.placed.size);
+  found.turn = turns_of(slave.placed, facet_frame(slave.placed, centre.xi, centre.eta), centre);
+  for (const Met& one : met)
+    for (std::size_t q = one.begin; q < one.end; ++q)
+      if (overlap[q].weight > 0.0) add_point(slave, one, overlap[q], motion, found);
+}
+
+namespace {
+
+/// A point of a face where the line from x along n meets it, from a near point on: Newton's method in the plane normal
+/// to n.
+ParentPoint on_line(const ParentFace& face, std::span<const Vec3> x_nodes, const Vec3& x, const Vec3& n,
+                    ParentPoint at) {
+  const bool is_segment = dimension(face.type) == 1;
+  for (int i = 0; i < 4; ++i) {
+    const FacetFrame frame = face_frame(face, face_shape(face, at), x_nodes);
+    const Vec3 away = subtract(x, frame.position), r = subtract(away, scaled(n, dot(away, n)));
+    const Vec3 p = subtract(frame.a_1, scaled(n, dot(frame.a_1, n)));
+    const Vec3 q = subtract(frame.a_2, scaled(n, dot(frame.a_2, n)));
+    const double pp = dot(p, p), qq = dot(q, q), pq = is_segment ? 0.0 : dot(p, q), det = pp * qq - pq * pq;
+    if (!(det > 0.0)) break;
+    at.xi += (qq * dot(p, r) - pq * dot(q, r)) / det;
+    if (!is_segment) at.eta += (pp * dot(q, r) - pq * dot(p, r)) / det;
+  }
+  return at;
+}
+
+}  // namespace
+
+void FaceOverlaps::add_point(const Slave& slave, const Met& met, const OverlapPoint& at, const ContactMotion& motion,
+                             FacetPoints& found) const {
+  const ParentFace &own = slave_faces_[slave.f], &other = master_face(met.master);
+  const Facet& facet = slave_.facets[slave.f];
+  const FaceShape shape = face_shape(own, in_parent(own, facet, at.slave));
+  FacePoint point;
+  point.position = face_frame(own, shape, motion.x).position;
+  ParentPoint on_other = in_parent(other, master_facet(met.master), at.master);
+  if (!own.is_linear || !other.is_linear) on_other = on_line(other, motion.x, point.position, slave.normal, on_other);
+  const FaceShape other_shape = face_shape(other, on_other);
+  const FacetFrame there = face_frame(other, other_shape, motion.x);
+  const double cosine = dot(there.normal, slave.normal);
+  if (!(cosine < -0.5 * least_facing_of_faces)) return;
+  const double g = dot(subtract(there.position, point.position), slave.normal);
+  const double s = std::sqrt((met.facing - least_facing_of_faces) / (1.0 - least_facing_of_faces));
+  const double of_facing = 0.5 * g / (s * (1.0 - least_facing_of_faces));  // dg~ / dc
+  const Vec3 m = scaled(there.normal, 1.0 / cosine);
+  const bool is_ring = slave_.section == Section::axisymmetric;
+  const double width = is_ring ? 2.0 * std::numbers::pi * facet_position(slave.reference, at.slave.xi, at.slave.eta)[0]
+                       : facet.size == 2 ? slave_.thickness
+                                         : 1.0;
+  point.weight = at.weight * slave.stretch * width;
+  point.gap = s * g;
+  point.distance = g;
+  point.master = met.master;
+  point.share = facet_shape(facet.size, at.slave.xi, at.slave.eta).N;
+  point.N = shape.N;
+  point.N_master = other_shape.N;
+  point.along = scaled(m, s);
+  point.of_turn = add(scaled(m, s * g), scaled(met.frame.normal, of_facing));
+  point.master_turn = of_facing;
+  point.master_normal = met.frame.normal;
+  point.turn_of_master = turns_of(met.placed, met.frame, facet_centre(met.placed.size));
+  if (g < 0.0 && slave_piece_[slave.f] != master_piece_[static_cast<std::size_t>(met.master)])
+    keep_to_walls(slave, met.master, motion, point);
+  found.least_gap = std::min(found.least_gap, point.gap);
+  found.points.push_back(point);
+}
+
+/// Takes the distance from a wall of the other body beside the point where that plus s_0 is less than its depth.
+void FaceOverlaps::keep_to_walls(const Slave& slave, Index master, const ContactMotion& motion,
+                                 FacePoint& point) const {
+  const double s_0 = wall_slack * size_of_measure(slave.reference);
+  if (-point.gap <= s_0) return;
+  for (const Index w : broad_phase_.targets_of(slave.f)) {
+    if (master_piece_[static_cast<std::size_t>(w)] != master_piece_[static_cast<std::size_t>(master)]) continue;
+    const PlacedFacet wall = place(master_facet(w), motion.x);
+    const ParentPoint centre = facet_centre(wall.size);
+    if (-dot(facet_frame(wall, centre.xi, centre.eta).normal, slave.normal) > least_facing_of_faces) continue;
+    const Projection p = project(wall, point.position);
+    if (p.site != ProjectionSite::interior || !(p.gap < 0.0) || !(s_0 - p.gap < -point.gap)) continue;
+    point.gap = p.gap - s_0;
+    point.distance = 0.0;
+    point.master = w;
+    point.along = scaled(p.normal, -1.0);
+    point.of_turn = {};
+    point.master_turn = 0.0;
+    const ParentFace& face = master_face(w);
+    point.N_master = face_shape(face, in_parent(face, master_facet(w), {p.xi, p.eta})).N;
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,78 @@
+// Points of the overlaps of one facet with the facets that face it.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "contact/broad_phase.hpp"
+#include "contact/clipping.hpp"
+#include "contact/parent_faces.hpp"
+#include "contact/row_maker.hpp"
+
+namespace carom {
+
+/// One point of an overlap: its gap g~ = s g and what the gap's gradient is made of, see face_rows.hpp. The gradient is
+///   - along N_b(x_s): -along,   along N_c(x_m): along,
+/// and with the turning of the facets' normals
+///   slave corner b: n_s (turn_b . of_turn),   master corner c: n_m (turn_c . n_s) master_turn.
+struct FacePoint {
+  double weight = 0.0;            ///< reference measure
+  double gap = 0.0;               ///< s g
+  double distance = 0.0;          ///< g, from x_s along n_s to x_m
+  Index master = -1;              ///< facet of the other surface
+  std::array<double, 4> share{};  ///< N^ of the slave facet's corners
+  std::array<double, 9> N{}, N_master{};
+  Vec3 along{}, of_turn{};
+  double master_turn = 0.0;
+  Vec3 master_normal{};                  ///< n_m
+  std::array<Vec3, 4> turn_of_master{};  ///< turn_c
+  Vec3 position{};                       ///< x_s
+};
+
+/// The points of one slave facet.
+struct FacetPoints {
+  Vec3 normal{};               ///< n_s
+  std::array<Vec3, 4> turn{};  ///< dn_s = - sum_b turn_b (n_s . du_b)
+  double least_gap = 0.0;      ///< of all of them
+  std::vector<FacePoint> points;
+};
+
+/// Two surfaces whose facets are laid over each other.
+class FaceOverlaps {
+ public:
+  /// `self`: see PairContact; thin parts are then looked into half as deep as they are thick.
+  FaceOverlaps(const Model& model, const Surface& slave, const Surface& master, bool self);
+
+  /// Brings the candidates up to date; was_behind: by slave facet, all of its nodes were behind the other surface.
+  void update(const ContactMotion& motion, std::vector<bool> was_behind);
+  /// The points of slave facet f at motion.x. May be called from many threads.
+  void find(std::size_t f, const ContactMotion& motion, FacetPoints& found) const;
+
+  double size() const { return size_; }  ///< the larger mean facet size
+  const ParentFace& slave_face(std::size_t f) const { return slave_faces_[f]; }
+  const ParentFace& master_face(Index g) const { return master_faces_[static_cast<std::size_t>(g)]; }
+  const Facet& master_facet(Index g) const { return broad_phase_.targets()[static_cast<std::size_t>(g)]; }
+
+ private:
+  struct Slave;
+  struct Met;
+  bool add_master(const Slave& slave, Index g, const ContactMotion& motion, std::vector<Met>& met,
+                  std::vector<OverlapPoint>& overlap) const;
+  bool was_in_front(std::size_t f, Index g, const OverlapPoint& point, const ContactMotion& motion) const;
+  void hide_layers(const Slave& slave, std::span<const Met> met, std::vector<OverlapPoint>& overlap) const;
+  void add_point(const Slave& slave, const Met& met, const OverlapPoint& at, const ContactMotion& motion,
+                 FacetPoints& found) const;
+  void keep_to_walls(const Slave& slave, Index master, const ContactMotion& motion, FacePoint& point) const;
+
+  std::span<const Vec3> X_;
+  Surface slave_;
+  double size_;
+  std::vector<double> depth_;  ///< by master facet: how far behind it overlaps count
+  std::vector<ParentFace> slave_faces_, master_faces_;
+  std::vector<Index> slave_piece_, master_piece_;  ///< connected parts of the surfaces
+  BroadPhase broad_phase_;
+  std::vector<bool> was_behind_;
+};
+
+}  // namespace carom

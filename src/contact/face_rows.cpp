@@ -1,0 +1,189 @@
+#include "contact/face_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "contact/face_points.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double least_share = 1e-9;  // of a node's measure: less is round-off of an edge
+
+/// Points of one slave facet as one of its corners sees them.
+struct CornerOf {
+  std::size_t facet, corner;
+};
+
+class FaceRows : public RowMaker {
+ public:
+  FaceRows(const Model& model, const Surface& slave, const Surface& master, bool self, const ContactLaw& law,
+           Index source);
+  std::size_t slots() const override { return nodes_.size(); }
+  bool is_fixed() const override { return false; }
+  void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override;
+
+ private:
+  struct Node {
+    Index node;
+    double measure;
+    std::vector<CornerOf> corners;
+  };
+  /// What the points about a node amount to.
+  struct Sums {
+    double area = 0.0, first = 0.0, second = 0.0;  ///< sum of w N^ <- s g>^k, of all points for k = 0
+    double least_gap = INFINITY;
+    Vec3 along{};  ///< of the gap's gradient, over the own nodes
+    Index master = -1;
+    double deepest = INFINITY;
+
+    bool is_closed() const { return second > 0.0; }
+  };
+
+  Sums sums_of(const Node& node) const;
+  template <class Use>
+  void for_each_weight(const Node& node, const Sums& sums, const Use& use) const;
+  void add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const;
+  void add_blocks(const Node& node, const Sums& sums, ConstraintRows& rows) const;
+
+  Surface slave_;
+  ContactLaw law_;
+  Index source_;
+  std::vector<Node> nodes_;
+  mutable FaceOverlaps overlaps_;
+  mutable RowParts parts_;
+  mutable std::vector<FacetPoints> points_;  ///< by slave facet
+};
+
+FaceRows::FaceRows(const Model& model, const Surface& slave, const Surface& master, bool self, const ContactLaw& law,
+                   Index source)
+    : slave_(slave), law_(law), source_(source), overlaps_(model, slave, master, self), points_(slave.facets.size()) {
+  std::map<Index, std::size_t> number;
+  for (const auto& [n, measure] : nodal_measures(model.mesh->coordinates, slave_)) {
+    number[n] = nodes_.size();
+    nodes_.push_back({n, measure, {}});
+  }
+  for (std::size_t f = 0; f < slave_.facets.size(); ++f)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(slave_.facets[f].size); ++a)
+      nodes_[number.at(slave_.facets[f][a])].corners.push_back({f, a});
+}
+
+void FaceRows::append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const {
+  std::vector<bool> was_behind(points_.size(), true);
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (motion.behind(first_slot + static_cast<Index>(i)) < 0)
+      for (const CornerOf& at : nodes_[i].corners) was_behind[at.facet] = false;
+  overlaps_.update(motion, std::move(was_behind));
+  constexpr std::size_t grain = 16;  // facets per task: some hundred microseconds of work
+  parallel_for(points_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) overlaps_.find(f, motion, points_[f]);
+  });
+  parts_.append(nodes_.size(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
+    for (std::size_t i = begin; i < end; ++i) add_row(nodes_[i], first_slot + static_cast<Index>(i), motion, made);
+  });
+}
+
+FaceRows::Sums FaceRows::sums_of(const Node& node) const {
+  Sums sums;
+  for (const CornerOf& at : node.corners) {
+    for (const FacePoint& q : points_[at.facet].points) {
+      const double w = q.weight * q.share[at.corner], depth = std::max(0.0, -q.gap);
+      if (!(w > 0.0)) continue;
+      sums.area += w;
+      sums.first += w * depth;
+      sums.second += w * depth * depth;
+      sums.least_gap = std::min(sums.least_gap, q.gap);
+      if (q.gap >= sums.deepest) continue;
+      sums.deepest = q.gap;
+      sums.master = q.master;
+    }
+  }
+  return sums;
+}
+
+/// Calls use(facet, point, weight of the point's gap in the gradient of the row's).
+template <class Use>
+void FaceRows::for_each_weight(const Node& node, const Sums& sums, const Use& use) const {
+  const double depth = std::sqrt(sums.second / node.measure);
+  for (const CornerOf& at : node.corners) {
+    const FacetPoints& facet = points_[at.facet];
+    for (const FacePoint& q : facet.points) {
+      const double w = q.weight * q.share[at.corner];
+      if (!(w > 0.0)) continue;
+      if (!sums.is_closed()) {
+        use(at.facet, facet, q, w / sums.area);
+      } else if (q.gap < 0.0) {
+        use(at.facet, facet, q, -w * q.gap / (node.measure * depth));
+      }
+    }
+  }
+}
+
+void FaceRows::add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const {
+  const Sums sums = sums_of(node);
+  if (!(sums.area > least_share * node.measure) || sums.least_gap > overlaps_.size()) return;
+  Vec3 along{}, position{};
+  double weight = 0.0;
+  for_each_weight(node, sums, [&](std::size_t /*f*/, const FacetPoints& /*facet*/, const FacePoint& q, double w) {
+    along = subtract(along, scaled(q.along, w));
+    position = add(position, scaled(q.position, w));
+    weight += w;
+  });
+  const double length = norm(along);
+  if (!(length > 1e-6 * weight)) return;
+  // Where nothing penetrates the row stands for what is covered.
+  const double measure = sums.is_closed() ? node.measure : std::min(sums.area, node.measure);
+  const double gap = sums.is_closed() ? -std::sqrt(sums.second / node.measure) : sums.least_gap;
+  RowLaw law = row_law(law_, measure);
+  if (sums.is_closed()) law.mu *= std::min(1.0, sums.first / std::sqrt(node.measure * sums.second));
+  rows.add_row(gap, scaled(along, 1.0 / length), scaled(position, 1.0 / weight), measure, law, source_);
+  rows.facet.back() = sums.master;
+  add_blocks(node, sums, rows);
+  finish_row(rows, motion.u, slot);
+}
+
+/// The normal blocks are the gradient of the gap; the tangents see the mean of the points' motions, in which the
+/// slave's turning takes the way between x_s and x_m along.
+void FaceRows::add_blocks(const Node& node, const Sums& sums, ConstraintRows& rows) const {
+  const Vec3 t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
+  double total = 0.0;
+  for_each_weight(node, sums, [&](std::size_t, const FacetPoints&, const FacePoint&, double w) { total += w; });
+  RowBlocks own, others;
+  own.add(node.node, {}, {}, {});  // first of all
+  for_each_weight(node, sums, [&](std::size_t f, const FacetPoints& facet, const FacePoint& q, double w) {
+    const ParentFace &face = overlaps_.slave_face(f), &other = overlaps_.master_face(q.master);
+    const double mean = w / total;
+    for (std::size_t b = 0; b < static_cast<std::size_t>(face.size); ++b) {
+      const double at = mean * q.N[b];
+      own.add(face.node[b], scaled(q.along, -w * q.N[b]), scaled(t_1, at), scaled(t_2, at));
+    }
+    const Facet& corners = slave_.facets[f];
+    for (std::size_t b = 0; b < static_cast<std::size_t>(corners.size); ++b) {
+      const auto turned = [&](const Vec3& v, double s) { return scaled(facet.normal, s * dot(v, facet.turn[b])); };
+      own.add(corners[b], turned(q.of_turn, w), turned(t_1, -mean * q.distance), turned(t_2, -mean * q.distance));
+    }
+    for (std::size_t c = 0; c < static_cast<std::size_t>(other.size); ++c) {
+      const double at = -mean * q.N_master[c];
+      others.add(other.node[c], scaled(q.along, w * q.N_master[c]), scaled(t_1, at), scaled(t_2, at));
+    }
+    if (q.master_turn == 0.0) return;
+    const Facet& far = overlaps_.master_facet(q.master);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(far.size); ++c)
+      others.add(far[c], scaled(q.master_normal, w * q.master_turn * dot(q.turn_of_master[c], facet.normal)), {}, {});
+  });
+  own.append_to(rows);
+  others.append_to(rows);
+  rows.behind.back() = static_cast<Index>(others.size());
+}
+
+}  // namespace
+
+std::unique_ptr<RowMaker> face_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
+                                    const ContactLaw& law, Index source) {
+  return std::make_unique<FaceRows>(model, slave, master, self, law, source);
+}
+
+}  // namespace carom

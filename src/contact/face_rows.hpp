@@ -1,0 +1,38 @@
+// Rows of the faces of a pair: penetration integrated over the overlaps of facets.
+#pragma once
+
+#include <memory>
+
+#include "contact/row_maker.hpp"
+
+namespace carom {
+
+/// One slot per node A of the first surface, by increasing node. At the points q of the overlaps of its facets with
+/// those of the other surface (clipping.hpp), clipped once more where the gap changes sign, let
+///   g_q  the gap from the slave's point x_s along the normal n_s at its facet's centre to the master's point x_m,
+///   s_q  = sqrt((c - c_0) / (1 - c_0)), c = - n_s . n_m of the two facets' centres, c_0 = 0.2: how far they face each
+///          other; pairs of a lesser c do not count,
+///   w_q  the area (length times thickness, or 2 pi X) in the reference configuration,
+///   N^_A the shape functions of the facet, N_a those of the face of the cell that it is a piece of (ParentFace).
+/// With D_A the node's share of its surface (nodal_measures) the row's depth is the mean square
+///   d_A = sqrt(sum_q w_q N^_A <- s_q g_q>^2 / D_A),  gap = - d_A,
+/// and its normal blocks are the gradient of that, the turning of n_s and n_m included, at held weights. A spring eps
+/// D_A of every row then is the potential sum_q w_q (eps / 2) <- s g>^2 itself, since the N^_A add up to 1: uniform
+/// pressure gives the consistent nodal forces of both sides, between meshes that match or not, of first and second
+/// order (cells' own N_a), and a face that is met somewhere between its nodes is met there. Force and moment of every
+/// row are in balance. The limit of friction is mu times sum_q w_q N^_A (eps <- s g>) (RowLaw::mu is smaller than the
+/// contact's by S_1 / sqrt(D_A S_2), S_k = sum_q w_q N^_A <- s g>^k), and it acts at the points of the pressure.
+/// Where nothing penetrates, a row within reach is open by the least of s g, over the area that is covered.
+///
+/// Sideways entry: behind a border of the other body the depth of a point is at most its distance from the wall that
+/// stands there plus s_0 = 0.02 facet sizes, along the normal of the wall. So what comes in over an edge begins with
+/// s_0 however deep it is under the face.
+///
+/// How deep is looked: as in mortar_rows.hpp. law: that of one pass. Held weights leave out what the ends of overlaps
+/// add where the other surface ends; it is of second order in the depth (Sauer and De Lorenzis, Int. J. Numer. Methods
+/// Eng. 101, 2015, for a contact potential over current surfaces; Puso and Laursen, Comput. Methods Appl. Mech. Engrg.
+/// 193, 2004, for the segments).
+std::unique_ptr<RowMaker> face_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
+                                    const ContactLaw& law, Index source);
+
+}  // namespace carom
