@@ -97,9 +97,21 @@ FaceOverlaps::FaceOverlaps(const Model& model, const Surface& slave, const Surfa
   master_piece_.assign(middle, piece.end());
 }
 
-void FaceOverlaps::update(const ContactMotion& motion, std::vector<bool> was_behind) {
+void FaceOverlaps::update(const ContactMotion& motion, std::vector<std::array<Index, 4>> behind) {
   broad_phase_.update(motion.x_begin, motion.displacement);
-  was_behind_ = std::move(was_behind);
+  behind_ = std::move(behind);
+}
+
+/// True when a corner of the slave facet was behind this facet or a neighbour of it: what is deep under it has gone in
+/// there, and is not the far side of a thin part.
+bool FaceOverlaps::was_behind(std::size_t f, Index g) const {
+  const Facet& facet = master_facet(g);
+  return std::any_of(behind_[f].begin(), behind_[f].end(), [&](Index met) {
+    if (met < 0) return false;
+    const Facet& other = master_facet(met);
+    return std::any_of(other.begin(), other.end(),
+                       [&](Index n) { return std::find(facet.begin(), facet.end(), n) != facet.end(); });
+  });
 }
 
 /// The point and the master's point over it, in the slave's frame at the beginning of the step.
@@ -125,7 +137,7 @@ bool FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
   if (overlap.size() == before) return false;
   const bool is_deep = extent.least_gap < -depth_[static_cast<std::size_t>(g)];
   if (extent.least_gap <= face_look * size_ &&
-      (!is_deep || was_behind_[slave.f] || was_in_front(slave.f, g, overlap[before], motion))) {
+      (!is_deep || was_behind(slave.f, g) || was_in_front(slave.f, g, overlap[before], motion))) {
     met.push_back({g, master, frame, facing, extent.area, before, overlap.size()});
     return true;
   }

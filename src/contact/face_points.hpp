@@ -44,8 +44,9 @@ class FaceOverlaps {
   /// `self`: see PairContact; thin parts are then looked into half as deep as they are thick.
   FaceOverlaps(const Model& model, const Surface& slave, const Surface& master, bool self);
 
-  /// Brings the candidates up to date; was_behind: by slave facet, all of its nodes were behind the other surface.
-  void update(const ContactMotion& motion, std::vector<bool> was_behind);
+  /// Brings the candidates up to date; behind: by slave facet, the facets that its corners were behind at x_begin, -1
+  /// for none.
+  void update(const ContactMotion& motion, std::vector<std::array<Index, 4>> behind);
   /// The points of slave facet f at motion.x. May be called from many threads.
   void find(std::size_t f, const ContactMotion& motion, FacetPoints& found) const;
 
@@ -59,6 +60,7 @@ class FaceOverlaps {
   struct Met;
   bool add_master(const Slave& slave, Index g, const ContactMotion& motion, std::vector<Met>& met,
                   std::vector<OverlapPoint>& overlap) const;
+  bool was_behind(std::size_t f, Index g) const;
   bool was_in_front(std::size_t f, Index g, const OverlapPoint& point, const ContactMotion& motion) const;
   void hide_layers(const Slave& slave, std::span<const Met> met, std::vector<OverlapPoint>& overlap) const;
   void add_point(const Slave& slave, const Met& met, const OverlapPoint& at, const ContactMotion& motion,
@@ -72,7 +74,7 @@ class FaceOverlaps {
   std::vector<ParentFace> slave_faces_, master_faces_;
   std::vector<Index> slave_piece_, master_piece_;  ///< connected parts of the surfaces
   BroadPhase broad_phase_;
-  std::vector<bool> was_behind_;
+  std::vector<std::array<Index, 4>> behind_;
 };
 
 }  // namespace carom

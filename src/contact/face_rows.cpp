@@ -72,11 +72,11 @@ FaceRows::FaceRows(const Model& model, const Surface& slave, const Surface& mast
 }
 
 void FaceRows::append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const {
-  std::vector<bool> was_behind(points_.size(), true);
+  std::vector<std::array<Index, 4>> behind(points_.size(), {-1, -1, -1, -1});
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (motion.behind(first_slot + static_cast<Index>(i)) < 0)
-      for (const CornerOf& at : nodes_[i].corners) was_behind[at.facet] = false;
-  overlaps_.update(motion, std::move(was_behind));
+    for (const CornerOf& at : nodes_[i].corners)
+      behind[at.facet][at.corner] = motion.behind(first_slot + static_cast<Index>(i));
+  overlaps_.update(motion, std::move(behind));
   constexpr std::size_t grain = 16;  // facets per task: some hundred microseconds of work
   parallel_for(points_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) overlaps_.find(f, motion, points_[f]);
