@@ -145,7 +145,7 @@ struct CaseContact {
                                 ///< nodes (stop)
   Located<std::string> master;  ///< pair: faces of the other body
   std::vector<Located<std::string>> exclude;  ///< all: groups whose faces take no part
-  PairMethod method = PairMethod::two_pass;   ///< pair, self, all
+  std::optional<Located<PairMethod>> method;  ///< pair, self, all: filled on reading
   std::optional<Located<double>> stiffness;   ///< eps_N: stress per length (per node and stop: force per length)
   double stiffness_factor = 1.0;              ///< on the stiffness that is chosen where none is given
   bool per_node = false;                      ///< obstacles: measure = "node" instead of "area"

@@ -107,6 +107,25 @@ void check_stages(const Case& given) {
   }
 }
 
+/// True when all stages enforce contact by springs alone.
+bool is_all_penalty(const Case& given) {
+  const auto is_penalty = [](const CaseScheme& scheme) { return **scheme.enforcement == EnforcementKind::penalty; };
+  return is_penalty(given.scheme) && std::all_of(given.stages.begin(), given.stages.end(),
+                                                 [&](const CaseStage& s) { return is_penalty(s.scheme); });
+}
+
+/// The depth of a row of `faces` is a mean square, whose gradient is lost where it is zero: no multiplier can hold it.
+void check_methods(const Case& given) {
+  if (is_all_penalty(given)) return;
+  for (std::size_t i = 0; i < given.contacts.size(); ++i) {
+    const CaseContact& contact = given.contacts[i];
+    if (!contact.method || **contact.method != PairMethod::faces) continue;
+    throw CaseError(contact.method->where, entry_path("contact", i, "method"),
+                    "\"faces\" with an enforcement that is not penalty", "enforcement = \"penalty\" with faces",
+                    "Take surface_to_surface or two_pass, or a scheme with penalty in every stage.");
+  }
+}
+
 /// What a stop or a restitution cannot do with the enforcement of a stage.
 void check_enforcement(const Case& given, const CaseScheme& scheme) {
   const EnforcementKind enforcement = **scheme.enforcement;
@@ -196,9 +215,19 @@ void check_references(const Case& given) {
   check_initial_state(given);
   check_functions(given);
   check_stages(given);
+  check_methods(given);
   check_enforcement(given, given.scheme);
   for (const CaseStage& stage : given.stages) check_enforcement(given, stage.scheme);
   check_checks(given);
+}
+
+void choose_methods(Case& given) {
+  using Kind = CaseContact::Kind;
+  const PairMethod method = is_all_penalty(given) ? PairMethod::faces : PairMethod::two_pass;
+  for (CaseContact& contact : given.contacts) {
+    const bool is_pair = *contact.kind == Kind::pair || *contact.kind == Kind::self || *contact.kind == Kind::all;
+    if (is_pair && !contact.method) contact.method = Located<PairMethod>{method, contact.where};
+  }
 }
 
 }  // namespace carom

@@ -76,6 +76,7 @@ Case case_of(const Node& root, const std::string& name) {
   result.file = name;
   case_schema().read(result, root, {root, message_units(root), "", case_schema().description});
   check_references(result);
+  choose_methods(result);
   return result;
 }
 

@@ -26,13 +26,15 @@ void add_surfaces(SectionSchema<CaseContact>& s) {
   s.key("master", &CaseContact::master, "Group of faces of the other body; the coarser or stiffer one.",
         {.kinds = {"pair"}, .need = Need::required});
   s.key("exclude", &CaseContact::exclude, "Groups whose faces take no part.", {.kinds = {"all"}});
-  s.key(
-      "method", &CaseContact::method,
-      "Where the gap is measured: at the nodes of one side, of both, or integrated over the overlaps of the faces. "
-      "Both "
-      "sides' nodes (two_pass) sink nowhere, on coarse curved faces either; the overlaps carry pressure exactly across "
-      "flat meshes that do not match, but see the mean gap: a coarse curved face sinks in by part of its rise.",
-      {.choices = {"node_to_surface", "two_pass", "surface_to_surface", "faces"}, .kinds = pairs});
+  s.key("method", &CaseContact::method,
+        "Where the gap is measured: at the nodes of one side, of both, or over the overlaps of the faces. faces, for "
+        "the penalty alone, integrates the penetration from both sides: pressure is exact across meshes that match or "
+        "not, of first and second order, and what lies between nodes is seen. Both sides' nodes (two_pass) sink "
+        "nowhere; surface_to_surface sees the mean gap of a node's faces: pressure is exact across flat meshes, and a "
+        "coarse curved face sinks in by part of its rise.",
+        {.choices = {"node_to_surface", "two_pass", "surface_to_surface", "faces"},
+         .kinds = pairs,
+         .default_phrase = "faces where all enforcement is penalty, else two_pass"});
 }
 
 void add_law(SectionSchema<CaseContact>& s) {

@@ -165,7 +165,7 @@ class ModelBuilder {
                       "One surface with itself is kind = \"self\".");
     PairContact pair;
     pair.name = *given.name;
-    pair.method = given.method;
+    pair.method = **given.method;
     pair.law = law(given);
     pair.initial = initial(given);
     pair.self = *given.kind != CaseContact::Kind::pair;
