@@ -17,6 +17,7 @@ namespace {
 
 constexpr double face_look = 1.5;              // of the facet size: overlaps within count
 constexpr double least_facing_of_faces = 0.2;  // c_0
+constexpr double going_on = 0.5;               // product of the normals of facets that go on with each other
 constexpr double wall_slack = 0.02;            // s_0, of the facet size
 
 /// a^alpha N_b,alpha at the centre of a facet, by which its normal turns: dn = - sum_b turn_b (n . du_b).
@@ -102,15 +103,23 @@ void FaceOverlaps::update(const ContactMotion& motion, std::vector<std::array<In
   behind_ = std::move(behind);
 }
 
-/// True when a corner of the slave facet was behind this facet or a neighbour of it: what is deep under it has gone in
-/// there, and is not the far side of a thin part.
-bool FaceOverlaps::was_behind(std::size_t f, Index g) const {
+/// True when a corner of the slave facet was behind this facet or one beside it that goes on with it, and that faced
+/// the slave: what is deep under it has gone in there, and is not the far side of a thin part.
+bool FaceOverlaps::was_behind(const Slave& slave, Index g, const ContactMotion& motion) const {
+  const auto normal = [&](Index f) {
+    const PlacedFacet facet = place(master_facet(f), motion.x);
+    const ParentPoint centre = facet_centre(facet.size);
+    return facet_frame(facet, centre.xi, centre.eta).normal;
+  };
   const Facet& facet = master_facet(g);
-  return std::any_of(behind_[f].begin(), behind_[f].end(), [&](Index met) {
-    if (met < 0) return false;
+  return std::any_of(behind_[slave.f].begin(), behind_[slave.f].end(), [&](Index met) {
+    if (met < 0 || met == g) return met == g;
     const Facet& other = master_facet(met);
-    return std::any_of(other.begin(), other.end(),
-                       [&](Index n) { return std::find(facet.begin(), facet.end(), n) != facet.end(); });
+    const bool is_beside = std::any_of(
+        other.begin(), other.end(), [&](Index n) { return std::find(facet.begin(), facet.end(), n) != facet.end(); });
+    if (!is_beside) return false;
+    const Vec3 n = normal(met);
+    return dot(n, normal(g)) > going_on && -dot(n, slave.normal) > least_facing_of_faces;
   });
 }
 
@@ -137,7 +146,7 @@ bool FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
   if (overlap.size() == before) return false;
   const bool is_deep = extent.least_gap < -depth_[static_cast<std::size_t>(g)];
   if (extent.least_gap <= face_look * size_ &&
-      (!is_deep || was_behind(slave.f, g) || was_in_front(slave.f, g, overlap[before], motion))) {
+      (!is_deep || was_behind(slave, g, motion) || was_in_front(slave.f, g, overlap[before], motion))) {
     met.push_back({g, master, frame, facing, extent.area, before, overlap.size()});
     return true;
   }
@@ -216,8 +225,9 @@ void FaceOverlaps::add_point(const Slave& slave, const Met& met, const OverlapPo
   const double cosine = dot(there.normal, slave.normal);
   if (!(cosine < -0.5 * least_facing_of_faces)) return;
   const double g = dot(subtract(there.position, point.position), slave.normal);
-  const double s = std::sqrt((met.facing - least_facing_of_faces) / (1.0 - least_facing_of_faces));
-  const double of_facing = 0.5 * g / (s * (1.0 - least_facing_of_faces));  // dg~ / dc
+  const double t = (met.facing - least_facing_of_faces) / (1.0 - least_facing_of_faces);
+  const double s = t * t * (3.0 - 2.0 * t);
+  const double of_facing = g * 6.0 * t * (1.0 - t) / (1.0 - least_facing_of_faces);  // dg~ / dc
   const Vec3 m = scaled(there.normal, 1.0 / cosine);
   const bool is_ring = slave_.section == Section::axisymmetric;
   const double width = is_ring ? 2.0 * std::numbers::pi * facet_position(slave.reference, at.slave.xi, at.slave.eta)[0]

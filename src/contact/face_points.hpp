@@ -60,7 +60,7 @@ class FaceOverlaps {
   struct Met;
   bool add_master(const Slave& slave, Index g, const ContactMotion& motion, std::vector<Met>& met,
                   std::vector<OverlapPoint>& overlap) const;
-  bool was_behind(std::size_t f, Index g) const;
+  bool was_behind(const Slave& slave, Index g, const ContactMotion& motion) const;
   bool was_in_front(std::size_t f, Index g, const OverlapPoint& point, const ContactMotion& motion) const;
   void hide_layers(const Slave& slave, std::span<const Met> met, std::vector<OverlapPoint>& overlap) const;
   void add_point(const Slave& slave, const Met& met, const OverlapPoint& at, const ContactMotion& motion,
