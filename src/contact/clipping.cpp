@@ -323,4 +323,90 @@ int add_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector
   return static_cast<int>(points.size() - before);
 }
 
+namespace {
+
+/// The stretch [low, high] of a segment from a (0) to b (1) inside of a convex polygon, away from its sides by more
+/// than round-off; empty where low >= high.
+struct Stretch {
+  double low = 0.0, high = 1.0;
+
+  /// Keeps the part where the value, linear from `at_a` to `at_b`, is positive.
+  void keep_positive(double at_a, double at_b) {
+    if (at_a <= 0.0 && at_b <= 0.0) high = low;
+    if (at_a <= 0.0 && at_b > 0.0) low = std::max(low, at_a / (at_a - at_b));
+    if (at_a > 0.0 && at_b <= 0.0) high = std::min(high, at_a / (at_a - at_b));
+  }
+};
+
+Stretch inside(const Point& a, const Point& b, const Polygon& polygon) {
+  constexpr double inset = 1e-9;  // of the polygon's area, as the area over a side: a border that runs along a side
+  const double least = inset * polygon.area();
+  Stretch stretch;
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    const Point &p = polygon.corner[i], &q = polygon.corner[i + 1 < polygon.size ? i + 1 : 0];
+    stretch.keep_positive(area_of(p, q, a) - least, area_of(p, q, b) - least);
+  }
+  return stretch;
+}
+
+ParentPoint on_edge(int size, std::size_t edge, double s) {
+  static constexpr ParentPoint triangle[3] = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
+  static constexpr ParentPoint quad[4] = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
+  const auto n = static_cast<std::size_t>(size);
+  const ParentPoint &p = size == 3 ? triangle[edge] : quad[edge],
+                    &q = size == 3 ? triangle[(edge + 1) % n] : quad[(edge + 1) % n];
+  return {p.xi + s * (q.xi - p.xi), p.eta + s * (q.eta - p.eta)};
+}
+
+void add_end(const PlacedFacet& slave, const SlavePlane& plane, const PlacedFacet& master, std::size_t end,
+             std::vector<BorderPoint>& points) {
+  constexpr double inside_by = 1.0 - 1e-9;
+  const PlacedFacet seen = plane.seen(master);
+  const double half = 0.5 * measure(slave), at = seen.x[end][0], gap = seen.x[end][2];
+  if (!(std::abs(at) < inside_by * half) || !(gap < 0.0)) return;
+  const double sign = at > seen.x[1 - end][0] ? 1.0 : -1.0;
+  points.push_back({{at / half, 0.0}, {end == 0 ? -1.0 : 1.0, 0.0}, 1.0, gap, scaled(plane.e_1, sign)});
+}
+
+}  // namespace
+
+void add_border(const PlacedFacet& slave, const PlacedFacet& master, std::size_t edge,
+                std::vector<BorderPoint>& points) {
+  static const std::vector<QuadraturePoint> rule = gauss_legendre(3);
+  const SlavePlane plane(slave);
+  if (slave.size == 2) {
+    add_end(slave, plane, master, edge, points);
+    return;
+  }
+  const PlacedFacet seen_slave = plane.seen(slave), seen = plane.seen(master);
+  const SeenFacet facet{BilinearPatch(seen_slave), slave.size};
+  const auto next = (edge + 1) % static_cast<std::size_t>(master.size);
+  const Point a{seen.x[edge][0], seen.x[edge][1]}, b{seen.x[next][0], seen.x[next][1]};
+  Point middle{};
+  for (std::size_t c = 0; c < static_cast<std::size_t>(seen.size); ++c)
+    for (std::size_t k = 0; k < 2; ++k) middle[k] += seen.x[c][k] / seen.size;
+  const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+  if (!(length > 0.0)) return;
+  const double side = area_of(a, b, middle) > 0.0 ? 1.0 : -1.0;  // the master lies on the left: outward is the right
+  const Vec3 outward =
+      add(scaled(plane.e_1, side * (b[1] - a[1]) / length), scaled(plane.e_2, -side * (b[0] - a[0]) / length));
+  const double gap_a = seen.x[edge][2] - facet.height(a), gap_b = seen.x[next][2] - facet.height(b);
+  const Shadow shadow(seen_slave);
+  for (std::size_t i = 0; i < shadow.count; ++i) {
+    Stretch stretch = inside(a, b, shadow.part[i]);
+    stretch.keep_positive(-gap_a, -gap_b);
+    if (!(stretch.high > stretch.low)) continue;
+    for (const QuadraturePoint& point : rule) {
+      const double s = 0.5 * (stretch.low + stretch.high) + 0.5 * (stretch.high - stretch.low) * point.x;
+      const Point p{a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])};
+      const std::optional<ParentPoint> on_slave = facet.over(p);
+      if (!on_slave) continue;
+      const double gap = seen.x[edge][2] + s * (seen.x[next][2] - seen.x[edge][2]) - facet.height(p);
+      if (gap < 0.0)
+        points.push_back({*on_slave, on_edge(master.size, edge, s),
+                          0.5 * point.weight * (stretch.high - stretch.low) * length, gap, outward});
+    }
+  }
+}
+
 }  // namespace carom

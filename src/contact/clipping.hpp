@@ -46,4 +46,18 @@ struct OverlapExtent {
 OverlapExtent add_overlap(const PlacedFacet& slave, const PlacedFacet& master, const OverlapRule& rule,
                           std::vector<OverlapPoint>& points);
 
+/// A point of the master's border over the slave.
+struct BorderPoint {
+  ParentPoint slave, master;  ///< inside of the slave, on the edge of the master
+  double length = 0.0;        ///< of the border that the point stands for; 1 for segments
+  double gap = 0.0;           ///< as of OverlapPoint, negative
+  Vec3 outward{};             ///< unit vector in the slave's plane, normal to the border, away from the master
+};
+
+/// Appends points of edge `edge` of the master (from its node `edge` to the next; of a segment that node) where it lies
+/// over the inside of the slave, by more than round-off, and behind it: 3 Gauss points. An overlap grows by what this
+/// border moves outward.
+void add_border(const PlacedFacet& slave, const PlacedFacet& master, std::size_t edge,
+                std::vector<BorderPoint>& points);
+
 }  // namespace carom

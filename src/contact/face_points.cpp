@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -18,7 +19,14 @@ namespace {
 constexpr double face_look = 1.5;              // of the facet size: overlaps within count
 constexpr double least_facing_of_faces = 0.2;  // c_0
 constexpr double going_on = 0.5;               // product of the normals of facets that go on with each other
+constexpr double smooth_edge = 0.9;            // the same, of those whose parts at their common edge cancel
 constexpr double wall_slack = 0.02;            // s_0, of the facet size
+
+/// s as a function of c.
+double facing_factor(double c) {
+  const double t = (c - least_facing_of_faces) / (1.0 - least_facing_of_faces);
+  return t * t * (3.0 - 2.0 * t);
+}
 
 /// a^alpha N_b,alpha at the centre of a facet, by which its normal turns: dn = - sum_b turn_b (n . du_b).
 std::array<Vec3, 4> turns_of(const PlacedFacet& facet, const FacetFrame& frame, const ParentPoint& centre) {
@@ -28,6 +36,25 @@ std::array<Vec3, 4> turns_of(const PlacedFacet& facet, const FacetFrame& frame, 
   for (std::size_t b = 0; b < 4; ++b)
     turn[b] = add(scaled(dual.dual_1, shape.dN_dxi[b]), scaled(dual.dual_2, shape.dN_deta[b]));
   return turn;
+}
+
+/// Facets beside each edge (segment: end) of a facet, -1 where there is none.
+std::vector<std::array<Index, 4>> facets_beside(std::span<const Facet> facets) {
+  std::map<std::array<Index, 2>, std::vector<std::pair<std::size_t, std::size_t>>> at;
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const auto n = static_cast<std::size_t>(facets[f].size);
+    for (std::size_t a = 0; a < n; ++a) {
+      const Index p = facets[f][a], q = n == 2 ? p : facets[f][(a + 1) % n];
+      at[{std::min(p, q), std::max(p, q)}].emplace_back(f, a);
+    }
+  }
+  std::vector<std::array<Index, 4>> beside(facets.size(), {-1, -1, -1, -1});
+  for (const auto& [edge, users] : at) {
+    for (const auto& [f, a] : users)
+      for (const auto& [g, b] : users)
+        if (g != f) beside[f][a] = static_cast<Index>(g);
+  }
+  return beside;
 }
 
 double size_of_measure(const PlacedFacet& facet) {
@@ -42,11 +69,10 @@ struct FaceOverlaps::Slave {
   std::size_t f;
   PlacedFacet placed, reference;
   Vec3 centre, axis_1, axis_2, normal;
-  double stretch;  ///< reference measure over the current one
   Bounds extent{};
 
   Slave(std::size_t number, const PlacedFacet& now, const PlacedFacet& before)
-      : f(number), placed(now), reference(before), stretch(measure(before) / measure(now)) {
+      : f(number), placed(now), reference(before) {
     const ParentPoint at = facet_centre(placed.size);
     const FacetFrame frame = facet_frame(placed, at.xi, at.eta);
     centre = frame.position;
@@ -54,6 +80,12 @@ struct FaceOverlaps::Slave {
     axis_1 = normalized(frame.a_1);
     axis_2 = cross(normal, axis_1);
     extent = extent_of(placed);
+  }
+  /// Reference measure over the current one.
+  double measure_at(const ParentPoint& at) const {
+    const FacetShape shape = facet_shape(placed.size, at.xi, at.eta);
+    const double now = facet_frame(placed, shape).jacobian;
+    return now > 0.0 ? facet_frame(reference, shape).jacobian / now : 0.0;
   }
   Bounds extent_of(const PlacedFacet& facet) const {
     Bounds bounds;
@@ -89,6 +121,7 @@ FaceOverlaps::FaceOverlaps(const Model& model, const Surface& slave, const Surfa
       depth_(self ? half_thickness(X_, master.facets, size_) : std::vector<double>(master.facets.size(), size_)),
       slave_faces_(parent_faces(*model.mesh, slave.facets)),
       master_faces_(parent_faces(*model.mesh, master.facets)),
+      beside_(facets_beside(master.facets)),
       broad_phase_(slave.facets, master.facets, face_look * size_, 0.5 * mean_facet_size(X_, master.facets)) {
   std::vector<Facet> all = slave.facets;
   all.insert(all.end(), master.facets.begin(), master.facets.end());
@@ -170,6 +203,7 @@ void FaceOverlaps::hide_layers(const Slave& slave, std::span<const Met> met, std
 
 void FaceOverlaps::find(std::size_t f, const ContactMotion& motion, FacetPoints& found) const {
   found.points.clear();
+  found.border.clear();
   found.least_gap = INFINITY;
   const std::span<const Index> candidates = broad_phase_.targets_of(f);
   if (candidates.empty()) return;
@@ -187,6 +221,54 @@ void FaceOverlaps::find(std::size_t f, const ContactMotion& motion, FacetPoints&
   for (const Met& one : met)
     for (std::size_t q = one.begin; q < one.end; ++q)
       if (overlap[q].weight > 0.0) add_point(slave, one, overlap[q], motion, found);
+  if (found.least_gap < 0.0)
+    for (const Met& one : met) add_borders(slave, one, motion, found);
+}
+
+/// Reference thickness of the slave at a point: 1 in three dimensions.
+double FaceOverlaps::width_at(const Slave& slave, const ParentPoint& at) const {
+  if (slave.placed.size > 2) return 1.0;
+  if (slave_.section != Section::axisymmetric) return slave_.thickness;
+  return 2.0 * std::numbers::pi * facet_position(slave.reference, at.xi, at.eta)[0];
+}
+
+/// True when the master's surface does not go on beyond an edge with a facet that is turned by little: there the parts
+/// of both facets cancel.
+bool FaceOverlaps::ends_at(const Met& met, std::size_t edge, const ContactMotion& motion) const {
+  const Index next = beside_[static_cast<std::size_t>(met.master)][edge];
+  if (next < 0) return true;
+  const PlacedFacet facet = place(master_facet(next), motion.x);
+  const ParentPoint centre = facet_centre(facet.size);
+  return dot(facet_frame(facet, centre.xi, centre.eta).normal, met.frame.normal) < smooth_edge;
+}
+
+void FaceOverlaps::add_borders(const Slave& slave, const Met& met, const ContactMotion& motion,
+                               FacetPoints& found) const {
+  const ParentFace &own = slave_faces_[slave.f], &other = master_face(met.master);
+  const double s = facing_factor(met.facing);
+  const bool is_other_body = slave_piece_[slave.f] != master_piece_[static_cast<std::size_t>(met.master)];
+  std::vector<BorderPoint> border;
+  for (std::size_t edge = 0; edge < static_cast<std::size_t>(met.placed.size); ++edge) {
+    if (!ends_at(met, edge, motion)) continue;
+    const bool has_wall = is_other_body && beside_[static_cast<std::size_t>(met.master)][edge] >= 0;
+    border.clear();
+    add_border(slave.placed, met.placed, edge, border);
+    for (const BorderPoint& at : border) {
+      double gap = s * at.gap;
+      if (has_wall) gap = std::max(gap, -wall_slack * size_of_measure(slave.reference));
+      FacePoint point;
+      point.weight = 0.5 * at.length * slave.measure_at(at.slave) * width_at(slave, at.slave) * gap * gap;
+      point.gap = gap;
+      point.distance = at.gap;
+      point.master = met.master;
+      point.share = facet_shape(slave.placed.size, at.slave.xi, at.slave.eta).N;
+      point.N = face_shape(own, in_parent(own, slave_.facets[slave.f], at.slave)).N;
+      point.N_master = face_shape(other, in_parent(other, master_facet(met.master), at.master)).N;
+      point.along = at.outward;
+      point.of_turn = scaled(at.outward, at.gap);
+      found.border.push_back(point);
+    }
+  }
 }
 
 namespace {
@@ -226,14 +308,10 @@ void FaceOverlaps::add_point(const Slave& slave, const Met& met, const OverlapPo
   if (!(cosine < -0.5 * least_facing_of_faces)) return;
   const double g = dot(subtract(there.position, point.position), slave.normal);
   const double t = (met.facing - least_facing_of_faces) / (1.0 - least_facing_of_faces);
-  const double s = t * t * (3.0 - 2.0 * t);
+  const double s = facing_factor(met.facing);
   const double of_facing = g * 6.0 * t * (1.0 - t) / (1.0 - least_facing_of_faces);  // dg~ / dc
   const Vec3 m = scaled(there.normal, 1.0 / cosine);
-  const bool is_ring = slave_.section == Section::axisymmetric;
-  const double width = is_ring ? 2.0 * std::numbers::pi * facet_position(slave.reference, at.slave.xi, at.slave.eta)[0]
-                       : facet.size == 2 ? slave_.thickness
-                                         : 1.0;
-  point.weight = at.weight * slave.stretch * width;
+  point.weight = at.weight * slave.measure_at(at.slave) * width_at(slave, at.slave);
   point.gap = s * g;
   point.distance = g;
   point.master = met.master;

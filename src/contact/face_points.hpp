@@ -30,12 +30,14 @@ struct FacePoint {
   Vec3 position{};                       ///< x_s
 };
 
-/// The points of one slave facet.
+/// The points of one slave facet. Points of `border` stand where an overlap ends under it at a border of the other
+/// surface: their gradient is that of the way of the border outward over the slave, and their weight w l g~^2 / 2 what
+/// the integral of g~^2 / 2 gains by it.
 struct FacetPoints {
   Vec3 normal{};               ///< n_s
   std::array<Vec3, 4> turn{};  ///< dn_s = - sum_b turn_b (n_s . du_b)
   double least_gap = 0.0;      ///< of all of them
-  std::vector<FacePoint> points;
+  std::vector<FacePoint> points, border;
 };
 
 /// Two surfaces whose facets are laid over each other.
@@ -63,6 +65,9 @@ class FaceOverlaps {
   bool was_behind(const Slave& slave, Index g, const ContactMotion& motion) const;
   bool was_in_front(std::size_t f, Index g, const OverlapPoint& point, const ContactMotion& motion) const;
   void hide_layers(const Slave& slave, std::span<const Met> met, std::vector<OverlapPoint>& overlap) const;
+  void add_borders(const Slave& slave, const Met& met, const ContactMotion& motion, FacetPoints& found) const;
+  double width_at(const Slave& slave, const ParentPoint& at) const;
+  bool ends_at(const Met& met, std::size_t edge, const ContactMotion& motion) const;
   void add_point(const Slave& slave, const Met& met, const OverlapPoint& at, const ContactMotion& motion,
                  FacetPoints& found) const;
   void keep_to_walls(const Slave& slave, Index master, const ContactMotion& motion, FacePoint& point) const;
@@ -72,6 +77,7 @@ class FaceOverlaps {
   double size_;
   std::vector<double> depth_;  ///< by master facet: how far behind it overlaps count
   std::vector<ParentFace> slave_faces_, master_faces_;
+  std::vector<std::array<Index, 4>> beside_;  ///< by master facet and edge (segment: end): the facet there, -1: none
   std::vector<Index> slave_piece_, master_piece_;  ///< connected parts of the surfaces
   BroadPhase broad_phase_;
   std::vector<std::array<Index, 4>> behind_;

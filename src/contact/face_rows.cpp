@@ -43,7 +43,15 @@ class FaceRows : public RowMaker {
     bool is_closed() const { return second > 0.0; }
   };
 
+  /// Blocks of a row in the making.
+  struct Blocks {
+    Vec3 tangent_1, tangent_2;
+    RowBlocks own, others;
+  };
+
   Sums sums_of(const Node& node) const;
+  void add_point(std::size_t f, const FacetPoints& facet, const FacePoint& q, double w, double mean,
+                 Blocks& blocks) const;
   template <class Use>
   void for_each_weight(const Node& node, const Sums& sums, const Use& use) const;
   void add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const;
@@ -148,35 +156,48 @@ void FaceRows::add_row(const Node& node, Index slot, const ContactMotion& motion
 /// The normal blocks are the gradient of the gap; the tangents see the mean of the points' motions, in which the
 /// slave's turning takes the way between x_s and x_m along.
 void FaceRows::add_blocks(const Node& node, const Sums& sums, ConstraintRows& rows) const {
-  const Vec3 t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
   double total = 0.0;
   for_each_weight(node, sums, [&](std::size_t, const FacetPoints&, const FacePoint&, double w) { total += w; });
-  RowBlocks own, others;
-  own.add(node.node, {}, {}, {});  // first of all
+  Blocks blocks{rows.tangent_1.back(), rows.tangent_2.back(), {}, {}};
+  blocks.own.add(node.node, {}, {}, {});  // first of all
   for_each_weight(node, sums, [&](std::size_t f, const FacetPoints& facet, const FacePoint& q, double w) {
-    const ParentFace &face = overlaps_.slave_face(f), &other = overlaps_.master_face(q.master);
-    const double mean = w / total;
-    for (std::size_t b = 0; b < static_cast<std::size_t>(face.size); ++b) {
-      const double at = mean * q.N[b];
-      own.add(face.node[b], scaled(q.along, -w * q.N[b]), scaled(t_1, at), scaled(t_2, at));
-    }
-    const Facet& corners = slave_.facets[f];
-    for (std::size_t b = 0; b < static_cast<std::size_t>(corners.size); ++b) {
-      const auto turned = [&](const Vec3& v, double s) { return scaled(facet.normal, s * dot(v, facet.turn[b])); };
-      own.add(corners[b], turned(q.of_turn, w), turned(t_1, -mean * q.distance), turned(t_2, -mean * q.distance));
-    }
-    for (std::size_t c = 0; c < static_cast<std::size_t>(other.size); ++c) {
-      const double at = -mean * q.N_master[c];
-      others.add(other.node[c], scaled(q.along, w * q.N_master[c]), scaled(t_1, at), scaled(t_2, at));
-    }
-    if (q.master_turn == 0.0) return;
-    const Facet& far = overlaps_.master_facet(q.master);
-    for (std::size_t c = 0; c < static_cast<std::size_t>(far.size); ++c)
-      others.add(far[c], scaled(q.master_normal, w * q.master_turn * dot(q.turn_of_master[c], facet.normal)), {}, {});
+    add_point(f, facet, q, w, w / total, blocks);
   });
-  own.append_to(rows);
-  others.append_to(rows);
-  rows.behind.back() = static_cast<Index>(others.size());
+  if (sums.is_closed()) {
+    const double depth = std::sqrt(sums.second / node.measure);
+    for (const CornerOf& at : node.corners)
+      for (const FacePoint& q : points_[at.facet].border)
+        add_point(at.facet, points_[at.facet], q, -q.weight * q.share[at.corner] / (node.measure * depth), 0.0, blocks);
+  }
+  blocks.own.append_to(rows);
+  blocks.others.append_to(rows);
+  rows.behind.back() = static_cast<Index>(blocks.others.size());
+}
+
+/// What one point adds: w times the gradient of its gap, and `mean` times its tangential motion.
+void FaceRows::add_point(std::size_t f, const FacetPoints& facet, const FacePoint& q, double w, double mean,
+                         Blocks& blocks) const {
+  const ParentFace &face = overlaps_.slave_face(f), &other = overlaps_.master_face(q.master);
+  const Vec3 &t_1 = blocks.tangent_1, &t_2 = blocks.tangent_2;
+  for (std::size_t b = 0; b < static_cast<std::size_t>(face.size); ++b) {
+    const double at = mean * q.N[b];
+    blocks.own.add(face.node[b], scaled(q.along, -w * q.N[b]), scaled(t_1, at), scaled(t_2, at));
+  }
+  const Facet& corners = slave_.facets[f];
+  for (std::size_t b = 0; b < static_cast<std::size_t>(corners.size); ++b) {
+    const auto turned = [&](const Vec3& v, double s) { return scaled(facet.normal, s * dot(v, facet.turn[b])); };
+    blocks.own.add(corners[b], turned(q.of_turn, w), turned(t_1, -mean * q.distance), turned(t_2, -mean * q.distance));
+  }
+  for (std::size_t c = 0; c < static_cast<std::size_t>(other.size); ++c) {
+    const double at = -mean * q.N_master[c];
+    blocks.others.add(other.node[c], scaled(q.along, w * q.N_master[c]), scaled(t_1, at), scaled(t_2, at));
+  }
+  if (q.master_turn == 0.0) return;
+  const Facet& far = overlaps_.master_facet(q.master);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(far.size); ++c) {
+    const double at = w * q.master_turn * dot(q.turn_of_master[c], facet.normal);
+    blocks.others.add(far[c], scaled(q.master_normal, at), {}, {});
+  }
 }
 
 }  // namespace

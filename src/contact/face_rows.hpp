@@ -10,7 +10,8 @@ namespace carom {
 /// One slot per node A of the first surface, by increasing node. At the points q of the overlaps of its facets with
 /// those of the other surface (clipping.hpp), clipped once more where the gap changes sign, let
 ///   g_q  the gap from the slave's point x_s along the normal n_s at its facet's centre to the master's point x_m,
-///   s_q  = t^2 (3 - 2 t), t = (c - c_0) / (1 - c_0), c = - n_s . n_m of the two facets' centres, c_0 = 0.2: how far they
+///   s_q  = t^2 (3 - 2 t), t = (c - c_0) / (1 - c_0), c = - n_s . n_m of the two facets' centres, c_0 = 0.2: how far
+///   they
 ///          face each other; pairs of a lesser c do not count,
 ///   w_q  the area (length times thickness, or 2 pi X) in the reference configuration,
 ///   N^_A the shape functions of the facet, N_a those of the face of the cell that it is a piece of (ParentFace).
