@@ -208,7 +208,8 @@ void Clipping::add(const Polygon& polygon) {
   }
   extent.area += polygon.area();
   const Polygon part = rule.only_behind && is_divided ? part_behind(polygon, gap) : polygon;
-  if (rule.is_high)
+  const bool is_bent = slave.size == 4 || master.size == 4;
+  if (rule.is_high || (rule.only_behind && is_bent && extent.least_gap < 0.0))
     add_polygon(part);
   else
     add_moment_points(part);

@@ -213,6 +213,14 @@ std::vector<Penetration> ContactGeometry::initial_penetrations(std::span<const d
   return found;
 }
 
+std::vector<RowHistory> ContactGeometry::first_history(std::span<const double> u) const {
+  std::vector<RowHistory> history(slots());
+  const auto rows = rows_at(u, u);
+  for (std::size_t r = 0; r < rows->size(); ++r)
+    if (rows->gap_at(r, u) < 0.0) history[static_cast<std::size_t>(rows->slot[r])].facet = rows->facet[r];
+  return history;
+}
+
 void ContactGeometry::set_initial(std::span<const double> u) {
   impl_->offset.assign(slots(), 0.0);
   if (impl_->fixed) impl_->fixed = impl_->make({}, {}, {});

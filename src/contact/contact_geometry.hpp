@@ -53,6 +53,8 @@ class ContactGeometry {
 
   /// What penetrates at displacement u, worst first; offsets of set_initial count as they stand.
   std::vector<Penetration> initial_penetrations(std::span<const double> u) const;
+  /// Histories of a run that begins at displacement u: what is behind a facet there is taken to have been.
+  std::vector<RowHistory> first_history(std::span<const double> u) const;
   /// Takes the penetrations at displacement u as free of strain in the contacts that say so
   /// (InitialPenetration::strain_free_offset), and in all others what is the rounding of edges alone: their gaps are
   /// subtracted from the slots' gaps from here on. Open slots have no offset.

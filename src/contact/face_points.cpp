@@ -9,7 +9,6 @@
 
 #include "contact/facet_projection.hpp"
 #include "contact/pair_rows.hpp"
-#include "contact/surface_pieces.hpp"
 #include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
 
@@ -20,7 +19,7 @@ constexpr double face_look = 1.5;              // of the facet size: overlaps wi
 constexpr double least_facing_of_faces = 0.2;  // c_0
 constexpr double going_on = 0.5;               // product of the normals of facets that go on with each other
 constexpr double smooth_edge = 0.9;            // the same, of those whose parts at their common edge cancel
-constexpr double wall_slack = 0.02;            // s_0, of the facet size
+constexpr double sideways_depth = 0.02;        // of the facet size: deeper, a facet has to come in from the front
 
 /// s as a function of c.
 double facing_factor(double c) {
@@ -55,11 +54,6 @@ std::vector<std::array<Index, 4>> facets_beside(std::span<const Facet> facets) {
         if (g != f) beside[f][a] = static_cast<Index>(g);
   }
   return beside;
-}
-
-double size_of_measure(const PlacedFacet& facet) {
-  const double extent = measure(facet);
-  return facet.size == 2 ? extent : std::sqrt(extent);
 }
 
 }  // namespace
@@ -122,14 +116,7 @@ FaceOverlaps::FaceOverlaps(const Model& model, const Surface& slave, const Surfa
       slave_faces_(parent_faces(*model.mesh, slave.facets)),
       master_faces_(parent_faces(*model.mesh, master.facets)),
       beside_(facets_beside(master.facets)),
-      broad_phase_(slave.facets, master.facets, face_look * size_, 0.5 * mean_facet_size(X_, master.facets)) {
-  std::vector<Facet> all = slave.facets;
-  all.insert(all.end(), master.facets.begin(), master.facets.end());
-  const std::vector<Index> piece = surface_pieces(all);
-  const auto middle = piece.begin() + static_cast<std::ptrdiff_t>(slave.facets.size());
-  slave_piece_.assign(piece.begin(), middle);
-  master_piece_.assign(middle, piece.end());
-}
+      broad_phase_(slave.facets, master.facets, face_look * size_, 0.5 * mean_facet_size(X_, master.facets)) {}
 
 void FaceOverlaps::update(const ContactMotion& motion, std::vector<std::array<Index, 4>> behind) {
   broad_phase_.update(motion.x_begin, motion.displacement);
@@ -177,7 +164,9 @@ bool FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
   const std::size_t before = overlap.size();
   const OverlapExtent extent = add_overlap(slave.placed, master, {is_high, true}, overlap);
   if (overlap.size() == before) return false;
-  const bool is_deep = extent.least_gap < -depth_[static_cast<std::size_t>(g)];
+  // Without a history, at the start, all counts that is not the far side of a thin part.
+  const double most = motion.history.empty() ? depth_[static_cast<std::size_t>(g)] : sideways_depth * size_;
+  const bool is_deep = extent.least_gap < -most;
   if (extent.least_gap <= face_look * size_ &&
       (!is_deep || was_behind(slave, g, motion) || was_in_front(slave.f, g, overlap[before], motion))) {
     met.push_back({g, master, frame, facing, extent.area, before, overlap.size()});
@@ -246,16 +235,13 @@ void FaceOverlaps::add_borders(const Slave& slave, const Met& met, const Contact
                                FacetPoints& found) const {
   const ParentFace &own = slave_faces_[slave.f], &other = master_face(met.master);
   const double s = facing_factor(met.facing);
-  const bool is_other_body = slave_piece_[slave.f] != master_piece_[static_cast<std::size_t>(met.master)];
   std::vector<BorderPoint> border;
   for (std::size_t edge = 0; edge < static_cast<std::size_t>(met.placed.size); ++edge) {
     if (!ends_at(met, edge, motion)) continue;
-    const bool has_wall = is_other_body && beside_[static_cast<std::size_t>(met.master)][edge] >= 0;
     border.clear();
     add_border(slave.placed, met.placed, edge, border);
     for (const BorderPoint& at : border) {
-      double gap = s * at.gap;
-      if (has_wall) gap = std::max(gap, -wall_slack * size_of_measure(slave.reference));
+      const double gap = s * at.gap;
       FacePoint point;
       point.weight = 0.5 * at.length * slave.measure_at(at.slave) * width_at(slave, at.slave) * gap * gap;
       point.gap = gap;
@@ -323,33 +309,8 @@ void FaceOverlaps::add_point(const Slave& slave, const Met& met, const OverlapPo
   point.master_turn = of_facing;
   point.master_normal = met.frame.normal;
   point.turn_of_master = turns_of(met.placed, met.frame, facet_centre(met.placed.size));
-  if (g < 0.0 && slave_piece_[slave.f] != master_piece_[static_cast<std::size_t>(met.master)])
-    keep_to_walls(slave, met.master, motion, point);
   found.least_gap = std::min(found.least_gap, point.gap);
   found.points.push_back(point);
-}
-
-/// Takes the distance from a wall of the other body beside the point where that plus s_0 is less than its depth.
-void FaceOverlaps::keep_to_walls(const Slave& slave, Index master, const ContactMotion& motion,
-                                 FacePoint& point) const {
-  const double s_0 = wall_slack * size_of_measure(slave.reference);
-  if (-point.gap <= s_0) return;
-  for (const Index w : broad_phase_.targets_of(slave.f)) {
-    if (master_piece_[static_cast<std::size_t>(w)] != master_piece_[static_cast<std::size_t>(master)]) continue;
-    const PlacedFacet wall = place(master_facet(w), motion.x);
-    const ParentPoint centre = facet_centre(wall.size);
-    if (-dot(facet_frame(wall, centre.xi, centre.eta).normal, slave.normal) > least_facing_of_faces) continue;
-    const Projection p = project(wall, point.position);
-    if (p.site != ProjectionSite::interior || !(p.gap < 0.0) || !(s_0 - p.gap < -point.gap)) continue;
-    point.gap = p.gap - s_0;
-    point.distance = 0.0;
-    point.master = w;
-    point.along = scaled(p.normal, -1.0);
-    point.of_turn = {};
-    point.master_turn = 0.0;
-    const ParentFace& face = master_face(w);
-    point.N_master = face_shape(face, in_parent(face, master_facet(w), {p.xi, p.eta})).N;
-  }
 }
 
 }  // namespace carom

@@ -70,7 +70,6 @@ class FaceOverlaps {
   bool ends_at(const Met& met, std::size_t edge, const ContactMotion& motion) const;
   void add_point(const Slave& slave, const Met& met, const OverlapPoint& at, const ContactMotion& motion,
                  FacetPoints& found) const;
-  void keep_to_walls(const Slave& slave, Index master, const ContactMotion& motion, FacePoint& point) const;
 
   std::span<const Vec3> X_;
   Surface slave_;
@@ -78,7 +77,6 @@ class FaceOverlaps {
   std::vector<double> depth_;  ///< by master facet: how far behind it overlaps count
   std::vector<ParentFace> slave_faces_, master_faces_;
   std::vector<std::array<Index, 4>> beside_;  ///< by master facet and edge (segment: end): the facet there, -1: none
-  std::vector<Index> slave_piece_, master_piece_;  ///< connected parts of the surfaces
   BroadPhase broad_phase_;
   std::vector<std::array<Index, 4>> behind_;
 };

@@ -50,8 +50,8 @@ class FaceRows : public RowMaker {
   };
 
   Sums sums_of(const Node& node) const;
-  void add_point(std::size_t f, const FacetPoints& facet, const FacePoint& q, double w, double mean,
-                 Blocks& blocks) const;
+  void add_point(std::size_t f, const FacePoint& q, double w, double mean, Blocks& blocks) const;
+  void add_turning(std::size_t f, const FacePoint& q, double w, double mean, Blocks& blocks) const;
   template <class Use>
   void for_each_weight(const Node& node, const Sums& sums, const Use& use) const;
   void add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const;
@@ -153,21 +153,25 @@ void FaceRows::add_row(const Node& node, Index slot, const ContactMotion& motion
   finish_row(rows, motion.u, slot);
 }
 
-/// The normal blocks are the gradient of the gap; the tangents see the mean of the points' motions, in which the
+/// The normal blocks are the gradient of the gap, of open rows without what the facets' turning moves across it, which
+/// is gone when they close; the tangents see the mean of the points' motions, in which the
 /// slave's turning takes the way between x_s and x_m along.
 void FaceRows::add_blocks(const Node& node, const Sums& sums, ConstraintRows& rows) const {
   double total = 0.0;
   for_each_weight(node, sums, [&](std::size_t, const FacetPoints&, const FacePoint&, double w) { total += w; });
   Blocks blocks{rows.tangent_1.back(), rows.tangent_2.back(), {}, {}};
   blocks.own.add(node.node, {}, {}, {});  // first of all
-  for_each_weight(node, sums, [&](std::size_t f, const FacetPoints& facet, const FacePoint& q, double w) {
-    add_point(f, facet, q, w, w / total, blocks);
-  });
+  const auto add = [&](std::size_t f, const FacePoint& q, double w, double mean) {
+    add_point(f, q, w, mean, blocks);
+    if (sums.is_closed()) add_turning(f, q, w, mean, blocks);
+  };
+  for_each_weight(node, sums,
+                  [&](std::size_t f, const FacetPoints&, const FacePoint& q, double w) { add(f, q, w, w / total); });
   if (sums.is_closed()) {
     const double depth = std::sqrt(sums.second / node.measure);
     for (const CornerOf& at : node.corners)
       for (const FacePoint& q : points_[at.facet].border)
-        add_point(at.facet, points_[at.facet], q, -q.weight * q.share[at.corner] / (node.measure * depth), 0.0, blocks);
+        add(at.facet, q, -q.weight * q.share[at.corner] / (node.measure * depth), 0.0);
   }
   blocks.own.append_to(rows);
   blocks.others.append_to(rows);
@@ -175,22 +179,27 @@ void FaceRows::add_blocks(const Node& node, const Sums& sums, ConstraintRows& ro
 }
 
 /// What one point adds: w times the gradient of its gap, and `mean` times its tangential motion.
-void FaceRows::add_point(std::size_t f, const FacetPoints& facet, const FacePoint& q, double w, double mean,
-                         Blocks& blocks) const {
+void FaceRows::add_point(std::size_t f, const FacePoint& q, double w, double mean, Blocks& blocks) const {
   const ParentFace &face = overlaps_.slave_face(f), &other = overlaps_.master_face(q.master);
   const Vec3 &t_1 = blocks.tangent_1, &t_2 = blocks.tangent_2;
   for (std::size_t b = 0; b < static_cast<std::size_t>(face.size); ++b) {
     const double at = mean * q.N[b];
     blocks.own.add(face.node[b], scaled(q.along, -w * q.N[b]), scaled(t_1, at), scaled(t_2, at));
   }
-  const Facet& corners = slave_.facets[f];
-  for (std::size_t b = 0; b < static_cast<std::size_t>(corners.size); ++b) {
-    const auto turned = [&](const Vec3& v, double s) { return scaled(facet.normal, s * dot(v, facet.turn[b])); };
-    blocks.own.add(corners[b], turned(q.of_turn, w), turned(t_1, -mean * q.distance), turned(t_2, -mean * q.distance));
-  }
   for (std::size_t c = 0; c < static_cast<std::size_t>(other.size); ++c) {
     const double at = -mean * q.N_master[c];
     blocks.others.add(other.node[c], scaled(q.along, w * q.N_master[c]), scaled(t_1, at), scaled(t_2, at));
+  }
+}
+
+/// What the turning of the facets' normals adds.
+void FaceRows::add_turning(std::size_t f, const FacePoint& q, double w, double mean, Blocks& blocks) const {
+  const FacetPoints& facet = points_[f];
+  const Facet& corners = slave_.facets[f];
+  const Vec3 &t_1 = blocks.tangent_1, &t_2 = blocks.tangent_2;
+  for (std::size_t b = 0; b < static_cast<std::size_t>(corners.size); ++b) {
+    const auto turned = [&](const Vec3& v, double s) { return scaled(facet.normal, s * dot(v, facet.turn[b])); };
+    blocks.own.add(corners[b], turned(q.of_turn, w), turned(t_1, -mean * q.distance), turned(t_2, -mean * q.distance));
   }
   if (q.master_turn == 0.0) return;
   const Facet& far = overlaps_.master_facet(q.master);

@@ -25,14 +25,12 @@ namespace carom {
 /// contact's by S_1 / sqrt(D_A S_2), S_k = sum_q w_q N^_A <- s g>^k), and it acts at the points of the pressure.
 /// Where nothing penetrates, a row within reach is open by the least of s g, over the area that is covered.
 ///
-/// Sideways entry: behind a border of the other body the depth of a point is at most its distance from the wall that
-/// stands there plus s_0 = 0.02 facet sizes, along the normal of the wall. So what comes in over an edge begins with
-/// s_0 however deep it is under the face.
-///
-/// How deep is looked: as in mortar_rows.hpp. law: that of one pass. Held weights leave out what the ends of overlaps
-/// add where the other surface ends; it is of second order in the depth (Sauer and De Lorenzis, Int. J. Numer. Methods
-/// Eng. 101, 2015, for a contact potential over current surfaces; Puso and Laursen, Comput. Methods Appl. Mech. Engrg.
-/// 193, 2004, for the segments).
+/// What comes under a facet from the side, deeper than 0.02 facet sizes, does not count there: it is the faces at the
+/// side that meet. Deeper counts what was in front at the beginning of the step, or where a corner of the facet was
+/// behind the same facet or one that goes on with it then. Ends of overlaps at borders of the other surface, where the
+/// depth is not zero, move with that: the integral changes by w g~^2 / 2 times the way of the border over the slave,
+/// which is part of the gradient (the transport theorem), so that the force is that of the potential there, too. law:
+/// that of one pass. (Segments: Puso and Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004.)
 std::unique_ptr<RowMaker> face_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
                                     const ContactLaw& law, Index source);
 

@@ -189,7 +189,6 @@ State Simulation::initial_state() const {
   State state;
   state.q.assign(solid_.dof_count(), 0.0);
   state.v = state.a = state.q;
-  state.contact.resize(contact_.slots());
   if (taken_) state.points = taken_->points;
   for (const InitialState& initial : model_.initial) {
     if (initial.stage > 0) continue;
@@ -201,6 +200,7 @@ State Simulation::initial_state() const {
       }
     }
   }
+  state.contact = contact_.first_history(state.q);
   return state;
 }
 
