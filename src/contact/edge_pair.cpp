@@ -59,12 +59,14 @@ class EdgePairing {
         c_(cross(d_[0], d_[1])),
         cc_(dot(c_, c_)) {}
 
-  std::optional<EdgePair> make(const std::array<EdgeEnd, 2>& ends_1, const std::array<EdgeEnd, 2>& ends_2);
+  std::optional<EdgePair> make(const std::array<EdgeEnd, 2>& ends_1, const std::array<EdgeEnd, 2>& ends_2,
+                               PairFactor factor);
 
  private:
   bool take_angle();
   bool take_end(const std::array<EdgeEnd, 2>& ends, std::size_t edge);
   bool take_facets();
+  void add_factor();
   bool take(const Fade& part) {
     pair_.factor *= part.value;
     return pair_.factor > least_factor;
@@ -161,7 +163,19 @@ void EdgePairing::add_facet(std::size_t edge, std::size_t facet, double w) {
   gradient_.add_cross(scaled(subtract(b, scaled(n, z)), w * pair_.turning_), d_[0], d_[1]);
 }
 
-std::optional<EdgePair> EdgePairing::make(const std::array<EdgeEnd, 2>& ends_1, const std::array<EdgeEnd, 2>& ends_2) {
+/// g times the gradient of f.
+void EdgePairing::add_factor() {
+  const double scale = pair_.gap * pair_.factor;
+  if (angle_slope_ != 0.0) add_angle(scale * angle_slope_);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (parameter_slope_[i] != 0.0) add_parameter(i, scale * parameter_slope_[i]);
+    for (std::size_t f = 0; f < 2; ++f)
+      if (facet_slope_[i][f] != 0.0) add_facet(i, f, scale * facet_slope_[i][f]);
+  }
+}
+
+std::optional<EdgePair> EdgePairing::make(const std::array<EdgeEnd, 2>& ends_1, const std::array<EdgeEnd, 2>& ends_2,
+                                          PairFactor factor) {
   pair_.factor = 1.0;
   if (!take_angle()) return std::nullopt;
   pair_.s = -dot(cross(r_, d_[1]), c_) / cc_;
@@ -174,15 +188,7 @@ std::optional<EdgePair> EdgePairing::make(const std::array<EdgeEnd, 2>& ends_1, 
   gradient_.r = scaled(pair_.normal, pair_.factor);
   gradient_.d_1 = scaled(pair_.normal, pair_.factor * pair_.s);
   gradient_.d_2 = scaled(pair_.normal, -pair_.factor * pair_.t);
-  const double scale = std::min(0.0, pair_.gap) * pair_.factor;
-  if (scale != 0.0) {
-    if (angle_slope_ != 0.0) add_angle(scale * angle_slope_);
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (parameter_slope_[i] != 0.0) add_parameter(i, scale * parameter_slope_[i]);
-      for (std::size_t f = 0; f < 2; ++f)
-        if (facet_slope_[i][f] != 0.0) add_facet(i, f, scale * facet_slope_[i][f]);
-    }
-  }
+  if (factor == PairFactor::moves && pair_.gap < 0.0) add_factor();
   pair_.of_gap = gradient_.shares();
   return pair_;
 }
@@ -197,8 +203,8 @@ std::array<EdgeShares, 2> EdgePair::along(const Vec3& m) const {
 }
 
 std::optional<EdgePair> edge_pair(const PlacedEdge& first, const std::array<EdgeEnd, 2>& ends_1,
-                                  const PlacedEdge& second, const std::array<EdgeEnd, 2>& ends_2) {
-  return EdgePairing(first, second).make(ends_1, ends_2);
+                                  const PlacedEdge& second, const std::array<EdgeEnd, 2>& ends_2, PairFactor factor) {
+  return EdgePairing(first, second).make(ends_1, ends_2, factor);
 }
 
 double EdgePair::line_gap(const PlacedEdge& first, const PlacedEdge& second) const {

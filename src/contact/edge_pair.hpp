@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "base/types.hpp"
@@ -20,6 +21,12 @@ struct EdgeShares {
   std::array<Vec3, 2> x{}, far{};
 };
 
+/// Whether the factor of a pair is a part of its motion. It is where a row's force grows with its gap: the energy that
+/// is stored is then a function of the positions. Where the force follows from the motion that is allowed it is not, as
+/// a pair behind each other would else be allowed to close on by sliding to where the factor is smaller, and be thrown
+/// out where it is larger.
+enum class PairFactor : std::uint8_t { moves, held };
+
 /// Closest points x_1 = a_1 + s d_1 and x_2 = a_2 + t d_2 of the lines of two segments.
 struct EdgePair {
   Vec3 normal{};  ///< n = +-d_1 x d_2 / |d_1 x d_2|, out of the second body towards the first
@@ -27,7 +34,7 @@ struct EdgePair {
   double gap = 0.0;                  ///< g = n . (x_1 - x_2)
   double factor = 0.0;               ///< f, 0 < f <= 1
   Vec3 point{};                      ///< x_1
-  std::array<EdgeShares, 2> of_gap;  ///< gradient of f g; where g > 0 of g alone, times f
+  std::array<EdgeShares, 2> of_gap;  ///< gradient of f g; of g alone, times f, where f is held or g > 0
   /// Tangential motion along the unit vector m normal to n, times f: f (m . (dx_1 - dx_2) - g m . dn), with s and t
   /// held. The second term turns the foot with the normal, so that a rigid rotation gives nothing.
   std::array<EdgeShares, 2> along(const Vec3& m) const;
@@ -52,6 +59,7 @@ struct EdgePair {
 /// within a tenth of the segment to both sides of the node, so that their factors' squares add up to 1 on a straight
 /// edge, and to nothing within two tenths before an end.
 std::optional<EdgePair> edge_pair(const PlacedEdge& first, const std::array<EdgeEnd, 2>& ends_1,
-                                  const PlacedEdge& second, const std::array<EdgeEnd, 2>& ends_2);
+                                  const PlacedEdge& second, const std::array<EdgeEnd, 2>& ends_2,
+                                  PairFactor factor = PairFactor::moves);
 
 }  // namespace carom

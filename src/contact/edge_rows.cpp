@@ -79,6 +79,7 @@ class EdgeRows : public RowMaker {
         self_(self),
         size_(size),
         law_(law),
+        factor_(law.eps_N ? PairFactor::moves : PairFactor::held),
         source_(source),
         broad_phase_(segments_of(first_), segments_of(second_), size, 0.5 * size) {}
   std::size_t slots() const override { return slots_per_segment * first_.size(); }
@@ -116,6 +117,7 @@ class EdgeRows : public RowMaker {
   bool self_;
   double size_;
   ContactLaw law_;
+  PairFactor factor_;
   Index source_;
   mutable BroadPhase broad_phase_;
   mutable RowParts parts_;
@@ -166,7 +168,7 @@ void EdgeRows::find(Index i, const ContactMotion& motion, std::vector<Found>& fo
   const PlacedEdge placed = place(first_[i], motion.x);
   for (const Index j : candidates) {
     if ((self_ && j <= i) || are_neighbours(first_[i], second_[j])) continue;
-    const auto pair = edge_pair(placed, first_[i].end, place(second_[j], motion.x), second_[j].end);
+    const auto pair = edge_pair(placed, first_[i].end, place(second_[j], motion.x), second_[j].end, factor_);
     if (pair && counts(i, j, *pair, motion)) found.push_back({j, *pair});
   }
 }

@@ -9,7 +9,8 @@ namespace carom {
 
 /// One row per pair of segments of sharp edges (feature_edges.hpp) of the two surfaces that cross, with the gap, the
 /// frame and the blocks of edge_pair.hpp; with `self` every pair once, the lower number first. Its measure is the
-/// smaller of both shares of area, its law the contact's own: there is one pass only. Segments that share a node, or of
+/// smaller of both shares of area, its law the contact's own: there is one pass only. The factor moves with the pair
+/// where the contact has springs (ContactLaw::eps_N), and is held where it has none. Segments that share a node, or of
 /// which two facets do, make no pair.
 ///
 /// With h the larger mean facet size of both surfaces rows are made to a gap of h. Behind each other edges count that
