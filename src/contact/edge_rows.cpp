@@ -17,7 +17,9 @@ namespace carom {
 namespace {
 
 constexpr std::size_t slots_per_segment = 4;
-constexpr double shallow = 0.05;  // of the facet size: how deep a pair may begin that has not come from the front
+// Of the facet size: depths at which a pair may begin that has not come from the front. Where its factor grows from
+// nothing its force does, too; else this depth is what it jumps by.
+constexpr double shallow = 0.002, shallow_from_nothing = 0.05;
 
 std::vector<Facet> segments_of(const std::vector<FeatureEdge>& edges) {
   std::vector<Facet> segments;
@@ -150,10 +152,11 @@ bool EdgeRows::was_behind(Index i, Index j) const {
 
 bool EdgeRows::counts(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const {
   if (pair.gap > size_) return false;
-  if (pair.gap > -shallow * size_) return true;
+  if (pair.gap > -shallow * size_ || was_behind(i, j)) return true;
   if (motion.history.empty() && pair.gap > -size_) return true;
-  const double at_begin = pair.line_gap(place(first_[i], motion.x_begin), place(second_[j], motion.x_begin));
-  return at_begin > -shallow * size_ || was_behind(i, j);
+  const PlacedEdge first = place(first_[i], motion.x_begin), second = place(second_[j], motion.x_begin);
+  if (pair.line_gap(first, second) > -shallow * size_) return true;
+  return pair.gap > -shallow_from_nothing * size_ && !edge_pair(first, first_[i].end, second, second_[j].end, factor_);
 }
 
 /// The pairs of segment i that count, by increasing segment of the other side.

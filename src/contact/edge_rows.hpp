@@ -14,9 +14,11 @@ namespace carom {
 /// which two facets do, make no pair.
 ///
 /// With h the larger mean facet size of both surfaces rows are made to a gap of h. Behind each other edges count that
-/// - are less than h / 20 deep, or were less deep at the beginning of the step: so those count that have come from the
-///   front, at any speed, and not those that have come in sideways; or
+/// - are less than h / 500 deep, or were less deep at the beginning of the step: so those count that have come from the
+///   front, at any speed;
+/// - are less than h / 20 deep and made no pair there, as their factor was zero: it grows from nothing; or
 /// - were behind each other there, or segments next to them were.
+/// What is deep for other reasons, having come in sideways, makes no row until it has been in front.
 /// Where there is no history, as of what stands still at the start, they count to a depth of h.
 ///
 /// Four slots per segment of the first surface (of more pairs the deepest). A pair that was behind at the beginning of

@@ -283,8 +283,8 @@ TEST(EdgeRows, EndWithTheEdgeWithoutAJump) {
   EXPECT_EQ(last, 0.0);
 }
 
-// Deeper than a twentieth of a cell of 0.5 a pair begins when it was in front at the beginning of the step, however far
-// it goes, and not when it comes in sideways or stands there.
+// A pair begins when it was in front at the beginning of the step, however far it goes, and not when it comes in deep
+// from the side, or stands there. Less deep than a twentieth of the facets' size, 0.5, it begins from the side.
 TEST(EdgeRows, BeginInFront) {
   Lie lie;
   lie.gap = 0.01;
@@ -293,8 +293,11 @@ TEST(EdgeRows, BeginInFront) {
   EXPECT_EQ(bars.rows(bars.moved({}), bars.moved({0.0, 0.0, -0.9}), bars.in_front()).size(), 1U);
   EXPECT_EQ(bars.rows(bars.moved({3.0, 0.0, -0.3}), bars.moved({0.5, 0.0, -0.3}), bars.in_front()).size(), 0U);
   EXPECT_EQ(bars.rows(bars.moved({3.0, 0.0, -0.02}), bars.moved({0.5, 0.0, -0.02}), bars.in_front()).size(), 1U);
+  for (const double depth : {0.3, 0.02}) {
+    const std::vector<double> behind = bars.moved({0.0, 0.0, -0.01 - depth});
+    EXPECT_EQ(bars.rows(behind, behind, bars.in_front()).size(), 0U);
+  }
   const std::vector<double> deep = bars.moved({0.0, 0.0, -0.3});
-  EXPECT_EQ(bars.rows(deep, deep, bars.in_front()).size(), 0U);
   EXPECT_EQ(bars.rows(deep, deep).size(), 1U);  // at the start, where nothing is known
 }
 
