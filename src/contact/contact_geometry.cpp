@@ -164,6 +164,7 @@ ContactGeometry::ContactGeometry(const Model& model) : impl_(std::make_unique<Im
     impl.makers.push_back(std::visit(MakeRows{model, impl.notes, static_cast<Index>(i)}, model.contacts[i]));
     impl.first_slot.push_back(impl.first_slot.back() + static_cast<Index>(impl.makers.back()->slots()));
     if (!impl.makers.back()->is_fixed()) std::visit(MovingNodes{model, impl.nodes}, model.contacts[i]);
+    impl.makers.back()->add_moving_nodes(impl.nodes);
   }
   std::sort(impl.nodes.begin(), impl.nodes.end());
   impl.nodes.erase(std::unique(impl.nodes.begin(), impl.nodes.end()), impl.nodes.end());

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contact/edge_rows.hpp"
 #include "contact/face_rows.hpp"
 #include "contact/mortar_rows.hpp"
 #include "contact/surface_search.hpp"
@@ -98,22 +99,38 @@ class NodeRows : public RowMaker {
   mutable RowParts parts_;
 };
 
-/// Both directions of a pair.
-class TwoPassRows : public RowMaker {
+/// The rows of several makers, one after the other.
+class MakersInOrder : public RowMaker {
  public:
-  TwoPassRows(std::unique_ptr<RowMaker> first, std::unique_ptr<RowMaker> second)
-      : first_(std::move(first)), second_(std::move(second)) {}
-  std::size_t slots() const override { return first_->slots() + second_->slots(); }
-  bool is_fixed() const override { return first_->is_fixed() && second_->is_fixed(); }
+  /// is_back: of all its rows, ConstraintRows::is_back.
+  void add(std::unique_ptr<RowMaker> maker, bool is_back = false) { makers_.push_back({std::move(maker), is_back}); }
+  std::size_t slots() const override {
+    std::size_t sum = 0;
+    for (const Entry& entry : makers_) sum += entry.maker->slots();
+    return sum;
+  }
+  bool is_fixed() const override {
+    return std::all_of(makers_.begin(), makers_.end(), [](const Entry& entry) { return entry.maker->is_fixed(); });
+  }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
-    first_->append(motion, first_slot, rows);
-    const std::size_t before = rows.size();
-    second_->append(motion, first_slot + static_cast<Index>(first_->slots()), rows);
-    std::fill(rows.is_back.begin() + static_cast<std::ptrdiff_t>(before), rows.is_back.end(), true);
+    for (const Entry& entry : makers_) {
+      const std::size_t before = rows.size();
+      entry.maker->append(motion, first_slot, rows);
+      first_slot += static_cast<Index>(entry.maker->slots());
+      if (entry.is_back)
+        std::fill(rows.is_back.begin() + static_cast<std::ptrdiff_t>(before), rows.is_back.end(), true);
+    }
+  }
+  void add_moving_nodes(std::vector<Index>& nodes) const override {
+    for (const Entry& entry : makers_) entry.maker->add_moving_nodes(nodes);
   }
 
  private:
-  std::unique_ptr<RowMaker> first_, second_;
+  struct Entry {
+    std::unique_ptr<RowMaker> maker;
+    bool is_back;
+  };
+  std::vector<Entry> makers_;
 };
 
 /// Ends of bars against ends of bars.
@@ -182,7 +199,10 @@ TangentDual tangent_dual(const Vec3& a_1, const Vec3& a_2, const Vec3& n) {
   return {scaled(cross(a_2, n), scale), scaled(cross(n, a_1), scale)};
 }
 
-std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& contact, Index source) {
+namespace {
+
+/// What the method makes: rows of nodes or of overlaps with facets.
+std::unique_ptr<RowMaker> method_rows(const Model& model, const PairContact& contact, Index source) {
   const bool has_points = is_points(contact.slave), both_points = has_points && is_points(contact.master);
   if (!has_points && is_points(contact.master)) {
     throw std::invalid_argument("contact \"" + contact.name +
@@ -192,17 +212,28 @@ std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& conta
   const ContactLaw law = both_ways ? with_half_stiffness(contact.law) : contact.law;
   if (both_points) return std::make_unique<EndRows>(model, contact.slave, contact.master, law, source);
   if (contact.method == PairMethod::surface_to_surface && !has_points) return mortar_rows(model, contact, law, source);
-  if (contact.method == PairMethod::faces && !has_points) {
-    auto first = face_rows(model, contact.slave, contact.master, contact.self, law, source);
-    if (contact.self) return first;
-    auto second = face_rows(model, contact.master, contact.slave, false, law, source);
-    return std::make_unique<TwoPassRows>(std::move(first), std::move(second));
-  }
-  const std::span<const Vec3> X = model.mesh->coordinates;
-  auto rows = std::make_unique<NodeRows>(X, contact.slave, contact.master, contact.self, law, source);
-  if (!both_ways || contact.self) return rows;
-  auto back = std::make_unique<NodeRows>(X, contact.master, contact.slave, false, law, source);
-  return std::make_unique<TwoPassRows>(std::move(rows), std::move(back));
+  const auto one_way = [&](const Surface& slave, const Surface& master) -> std::unique_ptr<RowMaker> {
+    if (contact.method == PairMethod::faces && !has_points)
+      return face_rows(model, slave, master, contact.self, law, source);
+    return std::make_unique<NodeRows>(model.mesh->coordinates, slave, master, contact.self, law, source);
+  };
+  if (!both_ways || contact.self) return one_way(contact.slave, contact.master);
+  auto both = std::make_unique<MakersInOrder>();
+  both->add(one_way(contact.slave, contact.master));
+  both->add(one_way(contact.master, contact.slave), true);
+  return both;
+}
+
+}  // namespace
+
+std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& contact, Index source) {
+  std::unique_ptr<RowMaker> of_method = method_rows(model, contact, source),
+                            of_edges = edge_rows(model, contact, source);
+  if (!of_edges) return of_method;
+  auto all = std::make_unique<MakersInOrder>();
+  all->add(std::move(of_method));
+  all->add(std::move(of_edges));
+  return all;
 }
 
 }  // namespace carom

@@ -43,6 +43,8 @@ class RowMaker {
   /// Appends the rows at motion.x, in the order of their slots, which count from first_slot. The stored gap is the
   /// exact one at motion.x less (G u)_n.
   virtual void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const = 0;
+  /// Appends the nodes whose positions append asks for, besides those of the contact's own facets.
+  virtual void add_moving_nodes(std::vector<Index>& /*nodes*/) const {}
 };
 
 /// Blocks of one side of a row in the making, one per node, in the order of their first use.

@@ -100,6 +100,20 @@ class Taylor(unittest.TestCase):
         for group in ("BAR", "BAR_B", "FOOT", "FOOT_B", "SIDEX", "SIDEY_B"):
             self.assertRegex(text, rf" {group} +\d+  T")
 
+    def test_bars_that_show_each_other_an_edge_are_those_of_the_cases(self):
+        self.make("make_edge_meshes.py")
+        for name in ("crossed.msh", "rolling.msh"):
+            self.assertIn("0 cells turned", self.summary(name))
+            nodes, cells = read(self.folder / name)
+            in_cases, cells_in_cases = read(TOOLS.parent / "cases" / "edges" / name)
+            self.assertEqual(cells, cells_in_cases)
+            for n, x in nodes.items():
+                self.assertLess(math.dist(x, in_cases[n]), 1e-10)  # written to ten digits
+            lowest_above = min(nodes[n][2] for group, _, members in cells if group == "B" for n in members)
+            highest_below = max(nodes[n][2] for group, _, members in cells if group == "A" for n in members)
+            self.assertAlmostEqual(highest_below, 0.0, delta=1e-10)
+            self.assertAlmostEqual(lowest_above, {"crossed.msh": 1e-5, "rolling.msh": 2e-4}[name], delta=1e-10)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,65 @@
+// Two sharp edges that cross: gap, what it counts, and its exact gradient.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "base/types.hpp"
+#include "contact/feature_edges.hpp"
+
+namespace carom {
+
+/// A segment of a sharp edge at its current position.
+struct PlacedEdge {
+  std::array<Vec3, 2> x{};    ///< of its nodes
+  std::array<Vec3, 2> far{};  ///< means of the other nodes of its facets
+};
+
+/// One vector by node of an edge and by mean of the other nodes of its facets.
+struct EdgeShares {
+  std::array<Vec3, 2> x{}, far{};
+};
+
+/// Whether the factor of a pair is a part of its motion. It is where a row's force grows with its gap: the energy that
+/// is stored is then a function of the positions. Where the force follows from the motion that is allowed it is not, as
+/// a pair behind each other would else be allowed to close on by sliding to where the factor is smaller, and be thrown
+/// out where it is larger.
+enum class PairFactor : std::uint8_t { moves, held };
+
+/// Closest points x_1 = a_1 + s d_1 and x_2 = a_2 + t d_2 of the lines of two segments.
+struct EdgePair {
+  Vec3 normal{};  ///< n = +-d_1 x d_2 / |d_1 x d_2|, out of the second body towards the first
+  double s = 0.0, t = 0.0;
+  double gap = 0.0;                  ///< g = n . (x_1 - x_2)
+  double factor = 0.0;               ///< f, 0 < f <= 1
+  Vec3 point{};                      ///< x_1
+  std::array<EdgeShares, 2> of_gap;  ///< gradient of f g; of g alone, times f, where f is held or g > 0
+  /// Tangential motion along the unit vector m normal to n, times f: f (m . (dx_1 - dx_2) - g m . dn), with s and t
+  /// held. The second term turns the foot with the normal, so that a rigid rotation gives nothing.
+  std::array<EdgeShares, 2> along(const Vec3& m) const;
+  /// n . (x_1 - x_2) of the lines of the same segments elsewhere, with n on the same side of d_1 x d_2; not a number
+  /// where they are parallel.
+  double line_gap(const PlacedEdge& first, const PlacedEdge& second) const;
+
+ private:
+  friend class EdgePairing;
+  Vec3 d_1_{}, d_2_{};
+  double turning_ = 0.0;  ///< +-1 / |d_1 x d_2|
+};
+
+/// The pair, or nothing where f = 0. The row of a pair has the gap f g with
+///   f^2 = m(x) prod over the four facets of S(z / 0.05) prod over the four ends of S(y),  S(z) = z^2 (3 - 2 z).
+/// With b the unit vector in a facet, normal to the edge, away from it: z = b . n for the facets of the first edge and
+/// -b . n for those of the second. So f is 1 where the edges stick out, and 0 with zero slope of f^2 where a facet lies
+/// flat on the other body (Ferguson et al., "Geometric contact potential", ACM Trans. Graph. 2025, take the local
+/// minima of the distance in this way). Parallel edges, whose closest points are not defined, fade by m(x) =
+/// (x / e)(2 - x / e), x = sin^2 of the angle between them, below e = 1e-3, 1.8 degrees (Li et al., "Incremental
+/// potential contact", ACM Trans. Graph. 39, 2020). y takes a pair from one segment to the next where the edge goes on,
+/// within a tenth of the segment to both sides of the node, so that their factors' squares add up to 1 on a straight
+/// edge, and to nothing within two tenths before an end.
+std::optional<EdgePair> edge_pair(const PlacedEdge& first, const std::array<EdgeEnd, 2>& ends_1,
+                                  const PlacedEdge& second, const std::array<EdgeEnd, 2>& ends_2,
+                                  PairFactor factor = PairFactor::moves);
+
+}  // namespace carom

@@ -1,0 +1,258 @@
+#include "contact/edge_rows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "contact/broad_phase.hpp"
+#include "contact/edge_pair.hpp"
+#include "contact/feature_edges.hpp"
+#include "math/vec3.hpp"
+#include "mesh/skin.hpp"
+
+namespace carom {
+namespace {
+
+constexpr std::size_t slots_per_segment = 4;
+// Of the facet size: depths at which a pair may begin that has not come from the front. Where its factor grows from
+// nothing its force does, too; else this depth is what it jumps by.
+constexpr double shallow = 0.002, shallow_from_nothing = 0.05;
+
+std::vector<Facet> segments_of(const std::vector<FeatureEdge>& edges) {
+  std::vector<Facet> segments;
+  for (const FeatureEdge& edge : edges) segments.push_back({{edge.node[0], edge.node[1], -1, -1}, 2});
+  return segments;
+}
+
+bool share_a_node(const Facet& a, const Facet& b) {
+  return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
+}
+
+bool are_neighbours(const FeatureEdge& a, const FeatureEdge& b) {
+  for (const Facet& of_a : a.facet)
+    for (const Facet& of_b : b.facet)
+      if (share_a_node(of_a, of_b)) return true;
+  return false;
+}
+
+bool touch(const FeatureEdge& a, const FeatureEdge& b) {
+  return std::find_first_of(a.node.begin(), a.node.end(), b.node.begin(), b.node.end()) != a.node.end();
+}
+
+/// Mean of the nodes of a facet of the edge that are not on it.
+Vec3 far_of(const FeatureEdge& edge, const Facet& facet, std::span<const Vec3> x) {
+  Vec3 sum{};
+  int count = 0;
+  for (const Index n : facet) {
+    if (n == edge.node[0] || n == edge.node[1]) continue;
+    sum = add(sum, x[n]);
+    ++count;
+  }
+  return scaled(sum, 1.0 / count);
+}
+
+PlacedEdge place(const FeatureEdge& edge, std::span<const Vec3> x) {
+  return {{x[edge.node[0]], x[edge.node[1]]}, {far_of(edge, edge.facet[0], x), far_of(edge, edge.facet[1], x)}};
+}
+
+/// Calls f(node, vector) for the shares of an edge's nodes.
+template <class F>
+void for_each_share(const FeatureEdge& edge, const EdgeShares& shares, const F& f) {
+  for (std::size_t a = 0; a < 2; ++a) f(edge.node[a], shares.x[a]);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (shares.far[i] == Vec3{}) continue;
+    std::array<Index, 4> others{};
+    std::size_t count = 0;
+    for (const Index n : edge.facet[i])
+      if (n != edge.node[0] && n != edge.node[1]) others[count++] = n;
+    for (std::size_t k = 0; k < count; ++k) f(others[k], scaled(shares.far[i], 1.0 / static_cast<double>(count)));
+  }
+}
+
+class EdgeRows : public RowMaker {
+ public:
+  EdgeRows(std::vector<FeatureEdge> first, std::vector<FeatureEdge> second, bool self, double size,
+           const ContactLaw& law, Index source)
+      : first_(std::move(first)),
+        second_(std::move(second)),
+        self_(self),
+        size_(size),
+        law_(law),
+        factor_(law.eps_N ? PairFactor::moves : PairFactor::held),
+        source_(source),
+        broad_phase_(segments_of(first_), segments_of(second_), size, 0.5 * size) {}
+  std::size_t slots() const override { return slots_per_segment * first_.size(); }
+  bool is_fixed() const override { return false; }
+  void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override;
+  void add_moving_nodes(std::vector<Index>& nodes) const override {
+    for (const std::vector<FeatureEdge>* edges : {&first_, &second_})
+      for (const FeatureEdge& edge : *edges)
+        for (const Facet& facet : edge.facet) nodes.insert(nodes.end(), facet.begin(), facet.end());
+  }
+
+ private:
+  /// A pair of segments that were behind each other at the beginning of the step, and where among its first segment's
+  /// slots it stands.
+  struct Behind {
+    Index first, second;
+    std::size_t place;
+  };
+  struct Found {
+    Index other;
+    EdgePair pair;
+  };
+  /// By place among a segment's slots; -1: none.
+  using Places = std::array<std::ptrdiff_t, slots_per_segment>;
+
+  void find_behind(const ContactMotion& motion, Index first_slot) const;
+  std::span<const Behind> behind_of(Index i) const;
+  bool was_behind(Index i, Index j) const;
+  bool counts(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const;
+  void find(Index i, const ContactMotion& motion, std::vector<Found>& found) const;
+  Places places_of(Index i, const std::vector<Found>& found) const;
+  void add_row(Index i, const Found& found, const ContactMotion& motion, Index slot, ConstraintRows& rows) const;
+
+  std::vector<FeatureEdge> first_, second_;
+  bool self_;
+  double size_;
+  ContactLaw law_;
+  PairFactor factor_;
+  Index source_;
+  mutable BroadPhase broad_phase_;
+  mutable RowParts parts_;
+  mutable std::vector<Behind> behind_;  ///< by increasing first segment
+};
+
+void EdgeRows::find_behind(const ContactMotion& motion, Index first_slot) const {
+  behind_.clear();
+  if (motion.history.empty()) return;
+  for (std::size_t s = 0; s < slots(); ++s) {
+    const Index other = motion.behind(first_slot + static_cast<Index>(s));
+    if (other >= 0) behind_.push_back({static_cast<Index>(s / slots_per_segment), other, s % slots_per_segment});
+  }
+}
+
+std::span<const EdgeRows::Behind> EdgeRows::behind_of(Index i) const {
+  const auto [begin, end] = std::ranges::equal_range(behind_, i, {}, &Behind::first);
+  return {begin, end};
+}
+
+/// True when the segments, or neighbours of both along their edges, were behind each other.
+bool EdgeRows::was_behind(Index i, Index j) const {
+  const auto is_near = [&](Index of_first, Index of_second) {
+    return touch(first_[of_first], first_[i]) && touch(second_[of_second], second_[j]);
+  };
+  return std::any_of(behind_.begin(), behind_.end(), [&](const Behind& was) {
+    return is_near(was.first, was.second) || (self_ && is_near(was.second, was.first));
+  });
+}
+
+bool EdgeRows::counts(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const {
+  if (pair.gap > size_) return false;
+  if (pair.gap > -shallow * size_ || was_behind(i, j)) return true;
+  if (motion.history.empty() && pair.gap > -size_) return true;
+  const PlacedEdge first = place(first_[i], motion.x_begin), second = place(second_[j], motion.x_begin);
+  if (pair.line_gap(first, second) > -shallow * size_) return true;
+  return pair.gap > -shallow_from_nothing * size_ && !edge_pair(first, first_[i].end, second, second_[j].end, factor_);
+}
+
+/// The pairs of segment i that count, by increasing segment of the other side.
+void EdgeRows::find(Index i, const ContactMotion& motion, std::vector<Found>& found) const {
+  found.clear();
+  const std::span<const Index> near = broad_phase_.targets_of(static_cast<std::size_t>(i));
+  std::vector<Index> candidates(near.begin(), near.end());
+  for (const Behind& was : behind_of(i)) candidates.push_back(was.second);
+  if (candidates.empty()) return;
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  const PlacedEdge placed = place(first_[i], motion.x);
+  for (const Index j : candidates) {
+    if ((self_ && j <= i) || are_neighbours(first_[i], second_[j])) continue;
+    const auto pair = edge_pair(placed, first_[i].end, place(second_[j], motion.x), second_[j].end, factor_);
+    if (pair && counts(i, j, *pair, motion)) found.push_back({j, *pair});
+  }
+}
+
+EdgeRows::Places EdgeRows::places_of(Index i, const std::vector<Found>& found) const {
+  Places places;
+  places.fill(-1);
+  std::vector<std::ptrdiff_t> others;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const auto kept = std::ranges::find(behind_of(i), found[k].other, &Behind::second);
+    if (kept != behind_of(i).end())
+      places[kept->place] = static_cast<std::ptrdiff_t>(k);
+    else
+      others.push_back(static_cast<std::ptrdiff_t>(k));
+  }
+  const auto free = static_cast<std::size_t>(std::count(places.begin(), places.end(), -1));
+  if (others.size() > free) {
+    std::ranges::stable_sort(others, {}, [&](std::ptrdiff_t k) { return found[static_cast<std::size_t>(k)].pair.gap; });
+    others.resize(free);
+    std::sort(others.begin(), others.end());
+  }
+  auto next = others.begin();
+  for (std::ptrdiff_t& place : places)
+    if (place < 0 && next != others.end()) place = *next++;
+  return places;
+}
+
+void EdgeRows::add_row(Index i, const Found& found, const ContactMotion& motion, Index slot,
+                       ConstraintRows& rows) const {
+  const FeatureEdge &first = first_[i], &second = second_[found.other];
+  const EdgePair& pair = found.pair;
+  const double measure = std::min(first.measure, second.measure);
+  rows.add_row(pair.factor * pair.gap, pair.normal, pair.point, measure, row_law(law_, measure), source_);
+  rows.facet.back() = found.other;
+  const std::array<std::array<EdgeShares, 2>, 3> shares{pair.of_gap, pair.along(rows.tangent_1.back()),
+                                                        pair.along(rows.tangent_2.back())};
+  for (std::size_t side = 0; side < 2; ++side) {
+    RowBlocks blocks;
+    const FeatureEdge& edge = side == 0 ? first : second;
+    for_each_share(edge, shares[0][side], [&](Index n, const Vec3& v) { blocks.add(n, v, {}, {}); });
+    for_each_share(edge, shares[1][side], [&](Index n, const Vec3& v) { blocks.add(n, {}, v, {}); });
+    for_each_share(edge, shares[2][side], [&](Index n, const Vec3& v) { blocks.add(n, {}, {}, v); });
+    blocks.append_to(rows);
+    if (side == 1) rows.behind.back() = static_cast<Index>(blocks.size());
+  }
+  finish_row(rows, motion.u, slot);
+}
+
+void EdgeRows::append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const {
+  broad_phase_.update(motion.x_begin, motion.displacement);
+  find_behind(motion, first_slot);
+  if (broad_phase_.pair_count() == 0 && behind_.empty()) return;
+  parts_.append(first_.size(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
+    std::vector<Found> found;
+    for (std::size_t i = begin; i < end; ++i) {
+      find(static_cast<Index>(i), motion, found);
+      const Places places = places_of(static_cast<Index>(i), found);
+      for (std::size_t k = 0; k < slots_per_segment; ++k)
+        if (places[k] >= 0)
+          add_row(static_cast<Index>(i), found[static_cast<std::size_t>(places[k])], motion,
+                  first_slot + static_cast<Index>(slots_per_segment * i + k), made);
+    }
+  });
+}
+
+bool is_solid(const Surface& surface) {
+  return !surface.facets.empty() && surface.facets.front().size > 2;
+}
+
+}  // namespace
+
+std::unique_ptr<RowMaker> edge_rows(const Model& model, const PairContact& contact, Index source) {
+  if (!is_solid(contact.slave) || !is_solid(contact.master)) return nullptr;
+  const std::span<const Vec3> X = model.mesh->coordinates;
+  std::vector<Facet> beside;
+  if (has_open_edges(contact.slave.facets) || has_open_edges(contact.master.facets)) beside = skin(*model.mesh);
+  std::vector<FeatureEdge> first = feature_edges(X, contact.slave.facets, beside);
+  std::vector<FeatureEdge> second = contact.self ? first : feature_edges(X, contact.master.facets, beside);
+  if (first.empty() || second.empty()) return nullptr;
+  const double size = std::max(mean_facet_size(X, contact.slave.facets), mean_facet_size(X, contact.master.facets));
+  return std::make_unique<EdgeRows>(std::move(first), std::move(second), contact.self, size, contact.law, source);
+}
+
+}  // namespace carom

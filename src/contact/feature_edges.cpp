@@ -1,0 +1,144 @@
+#include "contact/feature_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "contact/facet_geometry.hpp"
+#include "math/vec3.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double least_sharp = 0.5 * std::numbers::sqrt3;    // cosine of 30 degrees between the normals
+constexpr double goes_straight = 0.5 * std::numbers::sqrt2;  // cosine of 45 degrees between segments
+constexpr double passing = 0.1;                              // EdgeEnd::width
+
+/// A side of a facet.
+struct FacetSide {
+  Index low, high;  ///< its nodes
+  Facet facet;
+  bool is_forward;  ///< the facet has them in this order
+  bool is_own;      ///< of the surface
+};
+
+std::array<Index, 4> sorted_nodes(const Facet& facet) {
+  std::array<Index, 4> nodes = facet.node;
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+void add_sides(std::span<const Facet> facets, bool is_own, std::vector<FacetSide>& sides) {
+  for (const Facet& facet : facets) {
+    const auto n = static_cast<std::size_t>(facet.size);
+    for (std::size_t k = 0; n > 2 && k < n; ++k) {
+      const Index a = facet[k], b = facet[(k + 1) % n];
+      if (a != b) sides.push_back({std::min(a, b), std::max(a, b), facet, a < b, is_own});
+    }
+  }
+}
+
+/// Sides of the surface and of what is beside it, those of one edge together.
+std::vector<FacetSide> sides_by_edge(std::span<const Facet> surface, std::span<const Facet> beside) {
+  std::vector<FacetSide> sides;
+  add_sides(surface, true, sides);
+  if (!beside.empty()) {
+    std::set<std::array<Index, 4>> own;
+    for (const Facet& facet : surface) own.insert(sorted_nodes(facet));
+    std::vector<Facet> others;
+    std::copy_if(beside.begin(), beside.end(), std::back_inserter(others),
+                 [&](const Facet& facet) { return !own.contains(sorted_nodes(facet)); });
+    add_sides(others, false, sides);
+  }
+  std::stable_sort(sides.begin(), sides.end(), [](const FacetSide& a, const FacetSide& b) {
+    return std::tie(a.low, a.high) < std::tie(b.low, b.high);
+  });
+  return sides;
+}
+
+/// Calls f with the sides of each edge.
+template <class F>
+void for_each_edge(std::span<const FacetSide> sides, const F& f) {
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high) ++end;
+    f(sides.subspan(begin, end - begin));
+  }
+}
+
+Vec3 normal_of(const Facet& facet, std::span<const Vec3> X) {
+  const ParentPoint centre = facet_centre(facet.size);
+  return facet_frame(place(facet, X), centre.xi, centre.eta).normal;
+}
+
+Vec3 mean_of(const Facet& facet, std::span<const Vec3> X) {
+  Vec3 sum{};
+  for (const Index n : facet) sum = add(sum, X[n]);
+  return scaled(sum, 1.0 / facet.size);
+}
+
+std::optional<FeatureEdge> sharp_edge(std::span<const FacetSide> sides, std::span<const Vec3> X) {
+  if (sides.size() != 2 || sides[0].is_forward == sides[1].is_forward) return std::nullopt;
+  if (!sides[0].is_own && !sides[1].is_own) return std::nullopt;
+  const Facet &first = sides[sides[0].is_forward ? 0 : 1].facet, &second = sides[sides[0].is_forward ? 1 : 0].facet;
+  const Vec3 n = normal_of(first, X);
+  if (!(dot(n, normal_of(second, X)) < least_sharp)) return std::nullopt;
+  const Index a = sides[0].low, b = sides[0].high;
+  if (!(dot(n, subtract(mean_of(second, X), X[a])) < 0.0)) return std::nullopt;
+  const double measure = carom::measure(place(first, X)) / first.size + carom::measure(place(second, X)) / second.size;
+  return FeatureEdge{{a, b}, {first, second}, measure, {}};
+}
+
+/// Direction of edge e away from its end.
+Vec3 leaving(const FeatureEdge& edge, std::size_t end, std::span<const Vec3> X) {
+  return direction(subtract(X[edge.node[1 - end]], X[edge.node[end]]));
+}
+
+double length_of(const FeatureEdge& edge, std::span<const Vec3> X) {
+  return norm(subtract(X[edge.node[1]], X[edge.node[0]]));
+}
+
+void find_ends(std::vector<FeatureEdge>& edges, std::span<const Vec3> X) {
+  std::map<Index, std::vector<std::pair<std::size_t, std::size_t>>> at;  // edges at a node, with their end there
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    for (std::size_t end = 0; end < 2; ++end) at[edges[e].node[end]].emplace_back(e, end);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const Vec3 arriving = scaled(leaving(edges[e], end, X), -1.0);
+      int found = 0;
+      double shorter = length_of(edges[e], X);
+      for (const auto& [other, there] : at[edges[e].node[end]]) {
+        if (other == e || !(dot(leaving(edges[other], there, X), arriving) > goes_straight)) continue;
+        ++found;
+        shorter = std::min(shorter, length_of(edges[other], X));
+      }
+      edges[e].end[end].goes_on = found == 1;
+      edges[e].end[end].width = passing * (found == 1 ? shorter / length_of(edges[e], X) : 1.0);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<FeatureEdge> feature_edges(std::span<const Vec3> X, std::span<const Facet> surface,
+                                       std::span<const Facet> beside) {
+  std::vector<FeatureEdge> edges;
+  for_each_edge(sides_by_edge(surface, beside), [&](std::span<const FacetSide> sides) {
+    if (const std::optional<FeatureEdge> edge = sharp_edge(sides, X)) edges.push_back(*edge);
+  });
+  find_ends(edges, X);
+  return edges;
+}
+
+bool has_open_edges(std::span<const Facet> surface) {
+  bool is_open = false;
+  for_each_edge(sides_by_edge(surface, {}), [&](std::span<const FacetSide> sides) {
+    if (sides.size() == 1) is_open = true;
+  });
+  return is_open;
+}
+
+}  // namespace carom

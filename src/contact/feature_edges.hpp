@@ -1,0 +1,38 @@
+// The sharp convex edges of a surface: what may meet the edges of other bodies before any node meets a facet.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+#include "mesh/facet.hpp"
+
+namespace carom {
+
+/// Where a segment of an edge ends: at a corner, or where the edge goes on.
+struct EdgeEnd {
+  bool goes_on = false;
+  double width = 0.0;  ///< a tenth of the shorter segment there, as a part of this one
+};
+
+/// A segment of a sharp edge, between two nodes of the mesh.
+struct FeatureEdge {
+  std::array<Index, 2> node{};
+  std::array<Facet, 2> facet{};  ///< the first has its nodes in this order, the second in the other
+  double measure = 0.0;          ///< share of area: that of each facet over the number of its nodes
+  std::array<EdgeEnd, 2> end{};  ///< at node[0] and node[1]
+};
+
+/// The edges between two facets of three or four nodes whose outward normals differ by more than 30 degrees and that
+/// stick out, by increasing numbers of their nodes. One of the facets at least is of the surface; where that ends, the
+/// other one is looked for in `beside` (the skin of the mesh; facets of the surface may be in it). Edges with a third
+/// facet have no inside and are left out. An edge goes on at a node where exactly one other edge leaves it within 45
+/// degrees. X: reference configuration.
+std::vector<FeatureEdge> feature_edges(std::span<const Vec3> X, std::span<const Facet> surface,
+                                       std::span<const Facet> beside);
+
+/// True when a facet of the surface has an edge that no other one shares.
+bool has_open_edges(std::span<const Facet> surface);
+
+}  // namespace carom

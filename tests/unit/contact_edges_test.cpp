@@ -1,0 +1,325 @@
+// Sharp edges: which there are, and the rows of edges that cross.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "contact/edge_rows.hpp"
+#include "contact/feature_edges.hpp"
+#include "contact_rows_fixture.hpp"
+
+namespace carom::contact_edges_test {
+namespace {
+
+using namespace test;
+
+constexpr double round_off = 1e-13;  // positions below 10, some ten operations
+constexpr double degree = std::numbers::pi / 180.0;
+
+Vec3 turned(const Vec3& x, std::size_t axis, double angle) {
+  const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;
+  Vec3 out = x;
+  out[i] = std::cos(angle) * x[i] - std::sin(angle) * x[j];
+  out[j] = std::sin(angle) * x[i] + std::cos(angle) * x[j];
+  return out;
+}
+
+/// How two bars lie on each other: both along x and rolled about their axes, the upper one then turned about z, its
+/// lower edge at a height `gap` over the upper edge of the lower bar; they cross on_1 and on_2 from their middles.
+struct Lie {
+  double gap = -0.02;
+  double crossing = 90.0 * degree;
+  double roll_1 = 45.0 * degree, roll_2 = 45.0 * degree;  ///< of the upper (first surface) and the lower bar
+  double on_1 = -0.4, on_2 = 0.3;
+  bool self = false;
+};
+
+/// Two bars of 4 x 1 x 1, of 4 cells along their edges.
+struct Bars {
+  Scene scene;
+  std::vector<Facet> upper, lower;
+  PairContact contact;
+  std::unique_ptr<RowMaker> maker;
+
+  explicit Bars(const Lie& lie) {
+    const auto bar = [&](double roll, double crossing, double side, double height) {
+      const std::size_t first = scene.mesh.coordinates.size();
+      std::vector<Facet> facets = scene.add_box({-2.0, -0.5, -0.5}, {2.0, 0.5, 0.5}, 4);
+      const Vec3 move = side > 0 ? Vec3{} : add({lie.on_2, 0.0, 0.0}, turned({-lie.on_1, 0.0, 0.0}, 2, crossing));
+      double top = 0.0;
+      for (std::size_t n = first; n < scene.mesh.coordinates.size(); ++n) {
+        scene.mesh.coordinates[n] = turned(turned(scene.mesh.coordinates[n], 0, roll), 2, crossing);
+        top = std::max(top, side * scene.mesh.coordinates[n][2]);
+      }
+      for (std::size_t n = first; n < scene.mesh.coordinates.size(); ++n)
+        scene.mesh.coordinates[n] = add(scene.mesh.coordinates[n], {move[0], move[1], height - side * top});
+      return facets;
+    };
+    lower = bar(lie.roll_2, 0.0, 1.0, 0.0);
+    upper = bar(lie.roll_1, lie.crossing, -1.0, lie.gap);
+    contact.name = "bars";
+    contact.slave = {upper};
+    contact.master = {lower};
+    if (lie.self) {
+      contact.self = true;
+      contact.slave.facets.insert(contact.slave.facets.end(), lower.begin(), lower.end());
+      contact.master = contact.slave;
+    }
+    contact.law.eps_N = 4.0;
+    contact.law.eps_T = 2.0;
+    contact.law.mu = 0.3;
+    scene.finish();
+    maker = edge_rows(scene.model, contact, 0);
+  }
+  std::vector<Vec3> at(const std::vector<double>& u) const {
+    std::vector<Vec3> x = scene.mesh.coordinates;
+    for (std::size_t n = 0; n < x.size(); ++n) x[n] = add(x[n], vector_at(u, n));
+    return x;
+  }
+  ConstraintRows rows(const std::vector<double>& u_begin, const std::vector<double>& u,
+                      const std::vector<RowHistory>& history = {}) const {
+    const std::vector<Vec3> x_begin = at(u_begin), x = at(u);
+    std::vector<Vec3> d(x.size());
+    for (std::size_t n = 0; n < x.size(); ++n) d[n] = subtract(x[n], x_begin[n]);
+    ConstraintRows made;
+    maker->append({x_begin, x, d, u, history}, 0, made);
+    return made;
+  }
+  ConstraintRows rows(const std::vector<double>& u) const { return rows(u, u); }
+  ConstraintRows rows() const { return rows(scene.zero()); }
+  std::vector<RowHistory> in_front() const { return std::vector<RowHistory>(maker->slots()); }
+  /// The upper bar, its nodes the last, moved.
+  std::vector<double> moved(const Vec3& d) const {
+    std::vector<double> u = scene.zero();
+    const std::size_t nodes = scene.mesh.coordinates.size();
+    for (std::size_t n = nodes / 2; n < nodes; ++n)
+      for (std::size_t c = 0; c < 3; ++c) u[3 * n + c] = d[c];
+    return u;
+  }
+  /// Sum of f^2 g^2 / 2 over the rows.
+  double energy(const std::vector<double>& u) const {
+    const ConstraintRows made = rows(u);
+    double sum = 0.0;
+    for (std::size_t r = 0; r < made.size(); ++r) sum += 0.5 * std::pow(std::min(0.0, made.gap_at(r, u)), 2);
+    return sum;
+  }
+  std::vector<double> shaken(unsigned seed) const {
+    Random random(seed);
+    std::vector<double> u = scene.zero();
+    for (double& component : u) component = random(-0.005, 0.005);
+    return u;
+  }
+};
+
+TEST(FeatureEdges, AreThoseOfABox) {
+  Scene scene;
+  const std::vector<Facet> box = scene.add_box({0.0, 0.0, 0.0}, {3.0, 3.0, 3.0}, 3);
+  const std::vector<FeatureEdge> edges = feature_edges(scene.mesh.coordinates, box, {});
+  ASSERT_EQ(edges.size(), 12U * 3U);
+  for (const FeatureEdge& edge : edges) {
+    EXPECT_NEAR(edge.measure, 0.5, round_off);  // two facets of 1, four nodes each
+    for (const EdgeEnd& end : edge.end) EXPECT_NEAR(end.width, 0.1, round_off);
+  }
+  EXPECT_EQ(std::count_if(edges.begin(), edges.end(),
+                          [](const FeatureEdge& e) { return e.end[0].goes_on && e.end[1].goes_on; }),
+            12);
+  EXPECT_FALSE(has_open_edges(box));
+}
+
+TEST(FeatureEdges, AreFoundWhereTheSurfaceEnds) {
+  Scene scene;
+  const std::vector<Facet> box = scene.add_box({0.0, 0.0, 0.0}, {2.0, 2.0, 2.0}, 2);
+  const std::vector<Facet> bottom(box.begin() + 16, box.begin() + 20);  // the fifth side is that of least z
+  EXPECT_TRUE(has_open_edges(bottom));
+  EXPECT_EQ(feature_edges(scene.mesh.coordinates, bottom, box).size(), 8U);
+  EXPECT_TRUE(feature_edges(scene.mesh.coordinates, bottom, {}).empty());
+}
+
+// A roof of two facets, and the same seen from below: 2 x 14 degrees are smooth, 2 x 16 are sharp; a valley is not.
+TEST(FeatureEdges, AreConvexAndTurnByMoreThan30Degrees) {
+  for (const bool triangles : {false, true}) {
+    const auto count = [&](double slope) {
+      Scene scene;
+      const std::vector<Facet> roof = scene.add_patch(
+          2, 1,
+          [&](double s, double t) {
+            return Vec3{2.0 * s - 1.0, t, -slope * std::abs(2.0 * s - 1.0)};
+          },
+          triangles);
+      return feature_edges(scene.mesh.coordinates, roof, {}).size();
+    };
+    EXPECT_EQ(count(std::tan(14.0 * degree)), 0U);
+    EXPECT_EQ(count(std::tan(16.0 * degree)), 1U);
+    EXPECT_EQ(count(-std::tan(16.0 * degree)), 0U);
+  }
+}
+
+TEST(EdgeRows, PushAlongTheCrossProductOfTheEdges) {
+  for (const double angle : {90.0, 45.0, 15.0, 5.0}) {
+    Lie lie;
+    lie.crossing = angle * degree;
+    const Bars bars(lie);
+    const ConstraintRows rows = bars.rows();
+    ASSERT_EQ(rows.size(), 1U) << angle;
+    EXPECT_NEAR(rows.gap_at(0, bars.scene.zero()), lie.gap, round_off);
+    EXPECT_NEAR(norm(subtract(rows.normal[0], {0.0, 0.0, 1.0})), 0.0, round_off);
+    EXPECT_NEAR(rows.measure[0], 2.0 / 16.0, round_off);  // two facets of 1 x 1/4, four nodes each
+    EXPECT_NEAR(rows.law[0].eps_N, 0.5, round_off);       // all of 4, not half
+    EXPECT_EQ(rows.node.size(), 4U);
+    EXPECT_EQ(rows.behind[0], 2);
+    EXPECT_FALSE(rows.is_back[0]);
+  }
+}
+
+TEST(EdgeRows, OfASurfaceWithItselfStandOnce) {
+  Lie lie;
+  lie.self = true;
+  const Bars bars(lie);
+  const ConstraintRows rows = bars.rows();
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_NEAR(rows.gap_at(0, bars.scene.zero()), lie.gap, round_off);
+  EXPECT_NEAR(rows.law[0].eps_N, 0.5, round_off);
+}
+
+// Flat on flat the four edges of each bar that cross the other's have no rows at all; nor have parallel edges.
+TEST(EdgeRows, AreNoneWhereFacesOrEdgesLieAlongEachOther) {
+  for (const double angle : {90.0, 45.0, 20.0}) {
+    Lie lie;
+    lie.crossing = angle * degree;
+    lie.roll_1 = lie.roll_2 = 0.0;
+    EXPECT_EQ(Bars(lie).rows().size(), 0U) << angle;
+    lie.roll_1 = 45.0 * degree;  // an edge on a face
+    EXPECT_EQ(Bars(lie).rows().size(), 0U) << angle;
+  }
+  Lie lie;
+  lie.crossing = 0.0;
+  EXPECT_EQ(Bars(lie).rows().size(), 0U);
+}
+
+/// Places where every part of the factor acts: edges that stick out; a facet 2 and 1.4 degrees from lying flat (the
+/// factor fades below 2.9); edges 1 degree from parallel (it fades below 1.8); a crossing beside nodes of both edges.
+std::vector<Lie> places() {
+  std::vector<Lie> places(5);
+  places[1].roll_1 = 2.0 * degree;
+  places[2].roll_2 = 1.4 * degree;
+  places[2].crossing = 70.0 * degree;
+  places[3].crossing = 1.0 * degree;
+  places[4].on_1 = 0.96;
+  places[4].on_2 = -0.03;
+  places[4].crossing = 80.0 * degree;
+  return places;
+}
+
+TEST(EdgeRows, HaveTheGradientOfTheirGap) {
+  // Rounding 1e-15 / step; third derivatives to 2e7 where the edges are within 2 degrees of parallel, times step^2 / 6.
+  constexpr double step = 1e-7, error = 1e-7;
+  for (const Lie& lie : places()) {
+    const Bars bars(lie);
+    const std::vector<double> u = bars.shaken(7);
+    const ConstraintRows rows = bars.rows(u);
+    ASSERT_GE(rows.size(), 1U);
+    const auto gap = [&](std::size_t r, const std::vector<double>& at) {
+      const ConstraintRows there = bars.rows(at);
+      const std::ptrdiff_t k = row_of(there, rows.slot[r]);
+      return k < 0 ? NAN : there.gap_at(static_cast<std::size_t>(k), at);
+    };
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      std::vector<double> gradient = bars.scene.zero();
+      rows.scatter(r, {1.0, 0.0, 0.0}, gradient);
+      for (const Index n : std::span(rows.node).subspan(static_cast<std::size_t>(rows.begin[r]),
+                                                        static_cast<std::size_t>(rows.begin[r + 1] - rows.begin[r]))) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          Vec3 d{};
+          d[c] = step;
+          const double slope =
+              (gap(r, with_displacement(u, n, d)) - gap(r, with_displacement(u, n, scaled(d, -1.0)))) / (2.0 * step);
+          EXPECT_NEAR(gradient[3 * static_cast<std::size_t>(n) + c], slope, error) << "slot " << rows.slot[r];
+        }
+      }
+    }
+  }
+}
+
+TEST(EdgeRows, GiveNoForceAndNoMomentInTotal) {
+  for (const Lie& lie : places()) {
+    for (const double gap : {-0.05, 0.1}) {
+      Lie at = lie;
+      at.gap = gap;
+      const Bars bars(at);
+      const std::vector<double> u = bars.shaken(3);
+      const ConstraintRows rows = bars.rows(u);
+      ASSERT_GE(rows.size(), 1U);
+      for (std::size_t r = 0; r < rows.size(); ++r) {
+        for (const Vec3& s : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+          const Resultant sum = resultant(bars.scene, rows, r, s, u);
+          EXPECT_LT(norm(sum.force), 1e-12);  // blocks to 1e2 / sin(1 degree) beside parallel edges
+          EXPECT_LT(norm(sum.moment), 1e-11);
+        }
+      }
+    }
+  }
+}
+
+// Along straight edges the crossing goes over nodes of both: the stored energy stays what it is, at the nodes as well.
+TEST(EdgeRows, PassFromSegmentToSegmentWithoutAJump) {
+  Lie lie;
+  const Bars bars(lie);
+  const double expected = 0.5 * lie.gap * lie.gap;
+  for (int i = 0; i <= 400; ++i)
+    EXPECT_NEAR(bars.energy(bars.moved({-1.3 + 0.005 * i, -0.7 + 0.004 * i, 0.0})), expected, 1e-15) << i;
+}
+
+TEST(EdgeRows, EndWithTheEdgeWithoutAJump) {
+  const Bars bars(Lie{});
+  double last = bars.energy(bars.moved({1.2, 0.0, 0.0}));
+  EXPECT_GT(last, 0.0);
+  for (int i = 1; i <= 600; ++i) {
+    const double next = bars.energy(bars.moved({1.2 + 0.001 * i, 0.0, 0.0}));
+    EXPECT_LE(next, last);
+    EXPECT_LT(last - next, 0.01 * 0.5 * 0.02 * 0.02);  // fades over 0.2, 1.5 / 200 a step at most
+    last = next;
+  }
+  EXPECT_EQ(last, 0.0);
+}
+
+// A pair begins when it was in front at the beginning of the step, however far it goes, and not when it comes in deep
+// from the side, or stands there. Less deep than a twentieth of the facets' size, 0.5, it begins from the side.
+TEST(EdgeRows, BeginInFront) {
+  Lie lie;
+  lie.gap = 0.01;
+  const Bars bars(lie);
+  EXPECT_EQ(bars.rows(bars.moved({}), bars.moved({0.0, 0.0, -0.3}), bars.in_front()).size(), 1U);
+  EXPECT_EQ(bars.rows(bars.moved({}), bars.moved({0.0, 0.0, -0.9}), bars.in_front()).size(), 1U);
+  EXPECT_EQ(bars.rows(bars.moved({3.0, 0.0, -0.3}), bars.moved({0.5, 0.0, -0.3}), bars.in_front()).size(), 0U);
+  EXPECT_EQ(bars.rows(bars.moved({3.0, 0.0, -0.02}), bars.moved({0.5, 0.0, -0.02}), bars.in_front()).size(), 1U);
+  for (const double depth : {0.3, 0.02}) {
+    const std::vector<double> behind = bars.moved({0.0, 0.0, -0.01 - depth});
+    EXPECT_EQ(bars.rows(behind, behind, bars.in_front()).size(), 0U);
+  }
+  const std::vector<double> deep = bars.moved({0.0, 0.0, -0.3});
+  EXPECT_EQ(bars.rows(deep, deep).size(), 1U);  // at the start, where nothing is known
+}
+
+TEST(EdgeRows, RememberWhatWasBehind) {
+  const Bars bars(Lie{});
+  std::vector<RowHistory> history = bars.in_front();
+  const std::vector<double> deep = bars.moved({0.0, 0.0, -0.3});
+  const ConstraintRows before = bars.rows(deep);
+  ASSERT_EQ(before.size(), 1U);
+  const Index segment = before.slot[0] / 4;
+  history[static_cast<std::size_t>(4 * segment + 2)].facet = before.facet[0];
+  const ConstraintRows after = bars.rows(deep, deep, history);
+  ASSERT_EQ(after.size(), 1U);
+  EXPECT_EQ(after.slot[0], 4 * segment + 2);  // it keeps its slot
+  EXPECT_EQ(after.facet[0], before.facet[0]);
+  const std::vector<double> beside = bars.moved({1.0, 0.0, -0.3});  // on the next segment of the lower edge
+  const ConstraintRows next = bars.rows(beside, beside, history);
+  ASSERT_EQ(next.size(), 1U);
+  EXPECT_NE(next.facet[0], before.facet[0]);
+  const std::vector<double> far = bars.moved({-1.9, 0.0, -0.3});  // two segments on
+  EXPECT_EQ(bars.rows(far, far, history).size(), 0U);
+}
+
+}  // namespace
+}  // namespace carom::contact_edges_test
