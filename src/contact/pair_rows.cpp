@@ -6,9 +6,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contact/half_thickness.hpp"
 #include "contact/mortar_rows.hpp"
 #include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
+#include "model/bodies.hpp"
 
 namespace carom {
 namespace {
@@ -57,14 +59,15 @@ void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, std::
 /// The nodes of one surface against the facets of another.
 class NodeRows : public RowMaker {
  public:
-  NodeRows(std::span<const Vec3> X, const Surface& slave, const Surface& master, bool self, const ContactLaw& law,
-           Index source)
+  /// self: the two surfaces are one; bodies: by node, see half_thickness, needed for `self` alone.
+  NodeRows(std::span<const Vec3> X, const Surface& slave, const Surface& master, bool self,
+           const std::vector<Index>& bodies, const ContactLaw& law, Index source)
       : measures_(nodal_measures(X, slave)), law_(law), source_(source), search_([&] {
           const double size = mean_facet_size(X, master.facets),
                        reach = std::max(size, mean_facet_size(X, slave.facets));
           SearchRange range{reach, 0.5 * size, std::vector<double>(master.facets.size(), reach),
                             edge_widths(X, master.facets)};
-          if (self) range.depth = half_thickness(X, master.facets, reach);
+          if (self) range.depth = half_thickness(X, master.facets, bodies, reach);
           return SurfaceSearch(keys(measures_), slave.facets, master.facets, std::move(range));
         }()) {
     for (const auto& [n, measure] : measures_) measure_.push_back(measure);
@@ -192,9 +195,10 @@ std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& conta
   if (both_points) return std::make_unique<EndRows>(model, contact.slave, contact.master, law, source);
   if (contact.method == PairMethod::surface_to_surface && !has_points) return mortar_rows(model, contact, law, source);
   const std::span<const Vec3> X = model.mesh->coordinates;
-  auto rows = std::make_unique<NodeRows>(X, contact.slave, contact.master, contact.self, law, source);
+  auto rows = std::make_unique<NodeRows>(X, contact.slave, contact.master, contact.self,
+                                         contact.self ? bodies_of_nodes(model) : std::vector<Index>{}, law, source);
   if (!both_ways || contact.self) return rows;
-  auto back = std::make_unique<NodeRows>(X, contact.master, contact.slave, false, law, source);
+  auto back = std::make_unique<NodeRows>(X, contact.master, contact.slave, false, std::vector<Index>{}, law, source);
   return std::make_unique<TwoPassRows>(std::move(rows), std::move(back));
 }
 

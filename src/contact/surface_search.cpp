@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "math/vec3.hpp"
@@ -70,52 +69,10 @@ ParentPoint foot(const PlacedFacet& facet, const Vec3& x, ParentPoint at) {
 
 }  // namespace
 
-namespace {
-
-/// Numbers that are equal for facets of one connected piece of a surface.
-std::vector<Index> pieces(const std::vector<Facet>& facets) {
-  Index last = -1;
-  for (const Facet& facet : facets) last = std::max(last, *std::max_element(facet.begin(), facet.end()));
-  std::vector<Index> parent(static_cast<std::size_t>(last) + 1);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index n) {
-    while (parent[n] != n) n = parent[n] = parent[parent[n]];
-    return n;
-  };
-  for (const Facet& facet : facets)
-    for (const Index n : facet) parent[root(n)] = root(facet[0]);
-  std::vector<Index> piece;
-  for (const Facet& facet : facets) piece.push_back(root(facet[0]));
-  return piece;
-}
-
-}  // namespace
-
 std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<const Facet> facets) {
   std::vector<double> widths;
   for (const Facet& facet : facets) widths.push_back(rim_slack * size_of(place(facet, coordinates)));
   return widths;
-}
-
-std::vector<double> half_thickness(std::span<const Vec3> coordinates, const std::vector<Facet>& skin, double limit) {
-  BroadPhase broad_phase(skin, skin, limit, 0.0);
-  broad_phase.update(coordinates);
-  const std::vector<Index> piece = pieces(skin);
-  std::vector<double> half(skin.size(), 0.5 * limit);
-  parallel_each(skin.size(), [&](std::size_t f) {
-    const PlacedFacet facet = place(skin[f], coordinates);
-    const ParentPoint centre = facet_centre(facet.size);
-    const FacetFrame frame = facet_frame(facet, centre.xi, centre.eta);
-    const Vec3 inward = scaled(frame.normal, -1.0);
-    for (const Index other : broad_phase.targets_of(f)) {
-      if (piece[other] != piece[f]) continue;
-      const PlacedFacet far = place(skin[other], coordinates);
-      const std::optional<RayHit> hit = intersect(far, frame.position, inward);
-      if (!hit || hit->distance <= 0.0 || dot(facet_frame(far, hit->xi, hit->eta).normal, inward) <= 0.0) continue;
-      half[f] = std::min(half[f], 0.5 * hit->distance);
-    }
-  });
-  return half;
 }
 
 /// One node and what it brings along.

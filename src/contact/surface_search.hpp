@@ -50,10 +50,6 @@ struct SearchRange {
 /// For SearchRange::width: a tenth of each facet's size.
 std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<const Facet> facets);
 
-/// Half of the least of `limit` and the thickness of the body behind each facet of its skin: the length of the ray from
-/// the facet's centre inwards to the next facet. Deeper points would be taken for points of the far side.
-std::vector<double> half_thickness(std::span<const Vec3> coordinates, const std::vector<Facet>& skin, double limit);
-
 /// Closest points of nodes on a surface of segments, triangles and quadrilaterals.
 ///
 /// Of the facets within `reach` those count that do not contain the node and are not neighbours of facets that do, and
