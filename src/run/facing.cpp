@@ -6,11 +6,13 @@
 #include <limits>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/types.hpp"
 #include "contact/facet_geometry.hpp"
 #include "math/vec3.hpp"
+#include "model/bodies.hpp"
 
 namespace carom {
 
@@ -151,12 +153,11 @@ bool faces_away(const Simulation& s, std::size_t c, const State& state) {
   return obstacle != nullptr && obstacle_faces_away(s, c, *obstacle, state);
 }
 
-bool passes_by(const Simulation& s, std::size_t c, const State& state) {
-  const auto* pair = std::get_if<PairContact>(&s.model().contacts[c]);
-  if (pair == nullptr || pair->self) return false;
-  const Box3 a = box_around(s, pair->slave.facets, state), b = box_around(s, pair->master.facets, state);
-  const Vec3 v = subtract(mean_motion(s, pair->slave.facets, state).v, mean_motion(s, pair->master.facets, state).v);
-  double enter = 0.0, leave = s.end();
+namespace {
+
+/// Do boxes that move at a velocity relative to each other stay apart until the end?
+bool stay_apart(const Box3& a, const Box3& b, const Vec3& v, double end) {
+  double enter = 0.0, leave = end;
   for (std::size_t i = 0; i < 3; ++i) {
     if (v[i] == 0.0) {
       if (a.high[i] < b.low[i] || a.low[i] > b.high[i]) return true;
@@ -167,6 +168,32 @@ bool passes_by(const Simulation& s, std::size_t c, const State& state) {
     leave = std::min(leave, std::max(first, second));
   }
   return enter > leave;
+}
+
+}  // namespace
+
+bool passes_by(const Simulation& s, std::size_t c, const State& state) {
+  const auto* pair = std::get_if<PairContact>(&s.model().contacts[c]);
+  if (pair == nullptr || pair->self) return false;
+  const Box3 a = box_around(s, pair->slave.facets, state), b = box_around(s, pair->master.facets, state);
+  const Vec3 v = subtract(mean_motion(s, pair->slave.facets, state).v, mean_motion(s, pair->master.facets, state).v);
+  return stay_apart(a, b, v, s.end());
+}
+
+bool all_stay_apart(const Simulation& s, std::size_t c, const State& state) {
+  const auto* pair = std::get_if<PairContact>(&s.model().contacts[c]);
+  if (pair == nullptr || !pair->self) return false;
+  const std::vector<Index> body_of = bodies_of_nodes(s.model());
+  std::map<Index, std::vector<Facet>> skins;
+  for (const Facet& facet : pair->slave.facets) skins[body_of[at(facet[0])]].push_back(facet);
+  std::vector<std::pair<Box3, Vec3>> bodies;
+  for (const auto& [body, facets] : skins)
+    bodies.emplace_back(box_around(s, facets, state), mean_motion(s, facets, state).v);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (!stay_apart(bodies[i].first, bodies[j].first, subtract(bodies[i].second, bodies[j].second), s.end()))
+        return false;
+  return bodies.size() > 1;
 }
 
 }  // namespace carom

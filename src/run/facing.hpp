@@ -22,4 +22,8 @@ bool faces_away(const Simulation& simulation, std::size_t contact, const State& 
 /// velocities of the surfaces.
 bool passes_by(const Simulation& simulation, std::size_t contact, const State& state);
 
+/// Of a contact of all bodies with each other: true when there are several and the boxes around no two of them, each
+/// grown by a facet, meet before the end at the mean velocities of their skins.
+bool all_stay_apart(const Simulation& simulation, std::size_t contact, const State& state);
+
 }  // namespace carom
