@@ -10,11 +10,12 @@
 namespace carom {
 namespace {
 
-constexpr double rim_slack = 0.1;  // of the facet's size: continuation beyond a rim
-constexpr double smooth = 0.5;     // product of the normals of facets that pass a node on to each other
-constexpr double tie = 1e-12;      // relative: the same point seen from two facets
-constexpr double settled = 1e-9;   // step in parent coordinates after which, shrinking as its square, none is left
-constexpr double tiny = 1e-6;      // of the reach: below, the direction to a corner is round-off
+constexpr double rim_slack = 0.1;    // of the facet's size: continuation beyond a rim
+constexpr double side_slack = 0.02;  // of the facet's size: how far sides that do not count are moved out
+constexpr double smooth = 0.5;       // product of the normals of facets that pass a node on to each other
+constexpr double tie = 1e-12;        // relative: the same point seen from two facets
+constexpr double settled = 1e-9;     // step in parent coordinates after which, shrinking as its square, none is left
+constexpr double tiny = 1e-6;        // of the reach: below, the direction to a corner is round-off
 
 double squared_distance(const Bounds& box, const Vec3& x) {
   double sum = 0.0;
@@ -92,6 +93,13 @@ struct SurfaceSearch::Best {
   Projection projection{};
   bool is_continued = false;  ///< beyond a rim, a little
   bool is_beside = false;     ///< beyond a rim, farther
+};
+
+/// The closest point of the facets beside one that counts which do not.
+struct SurfaceSearch::SidePoint {
+  Index facet = -1;
+  Projection projection{};
+  SignedDistance at{};  ///< of the sides as they are moved out
 };
 
 SurfaceSearch::SurfaceSearch(std::vector<Index> nodes, std::vector<Facet> own, std::vector<Facet> facets,
@@ -245,6 +253,37 @@ bool SurfaceSearch::goes_on_nearer(const Query& query, Index f, const Projection
   });
 }
 
+/// True when the surface has another facet beyond the edge or end where p lies, whether it counts or not.
+bool SurfaceSearch::goes_on(Index f, const Projection& p) const {
+  const Facet& facet = facets()[f];
+  const auto k = static_cast<std::size_t>(p.feature);
+  const Index a = facet[k], b = facet[(k + 1) % static_cast<std::size_t>(facet.size)];
+  const bool is_edge = p.site == ProjectionSite::edge;
+  return std::ranges::any_of(facets_at_[a], [&](Index g) { return g != f && (!is_edge || contains(facets()[g], b)); });
+}
+
+/// Where the node is behind or before the neighbours of f that face away from it; nothing where f has none.
+std::optional<SurfaceSearch::SidePoint> SurfaceSearch::side_at(const Query& query, Index f) const {
+  if (dot(query.normal, query.normal) == 0.0) return std::nullopt;
+  const std::vector<Index>& excluded = excluded_[query.q];
+  SidePoint side;
+  for (const Index n : facets()[f])
+    for (const Index g : facets_at_[n]) {
+      if (g == f || g == side.facet || counts(query, g) || std::ranges::binary_search(excluded, g)) continue;
+      const Projection p = project(placed(g), query.x);
+      if (side.facet >= 0 && p.distance >= side.projection.distance) continue;
+      side.facet = g;
+      side.projection = p;
+    }
+  if (side.facet < 0) return std::nullopt;
+  const Projection& p = side.projection;
+  side.at = p.site == ProjectionSite::interior
+                ? SignedDistance{p.normal, p.gap}
+                : signed_distance(p, query.x, pseudonormal(side.facet, p), tiny * range_.reach);
+  side.at.gap -= side_slack * (range_.width.empty() ? size_of(placed(f)) : range_.width[f] / rim_slack);
+  return side;
+}
+
 void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
   const PlacedFacet facet = placed(f);
   Projection p = project(facet, query.x);
@@ -260,6 +299,8 @@ void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
     const FacetFrame frame = facet_frame(facet, shape);
     is_continued = norm(subtract(frame.position, p.point)) <= rim_slack * size_of(facet);
     if (!is_continued && p.gap < 0.0) return;
+    if (p.gap < 0.0 && goes_on(f, p))
+      if (const std::optional<SidePoint> side = side_at(query, f); side && side->at.gap >= 0.0) return;
     if (is_continued) {
       p.xi = at.xi;
       p.eta = at.eta;
@@ -467,6 +508,12 @@ bool SurfaceSearch::met(const Query& query, const Best& best, SurfacePoint& poin
   // Beside a rim a node is behind some of the facets there and in front of others, and touches none of them.
   if (best.is_beside && at.gap < 0.0) return false;
   if (!query.is_behind && at.gap < -range_.depth[best.facet]) return false;
+  if (at.gap < 0.0)
+    if (const std::optional<SidePoint> side = side_at(query, best.facet); side && side->at.gap > at.gap) {
+      if (side->at.gap >= 0.0) return false;
+      take_only(side->facet, side->projection, side->at, point);
+      return true;
+    }
   feet_around(query, best, point.feet);
   if (point.feet.empty()) {
     take_only(best.facet, p, at, point);

@@ -64,9 +64,13 @@ std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<con
 /// (1 - (d_f^2 - g_f^2) / b_f^2)^2 over their sum. So gap and gradient pass from facet to facet without a jump, alike
 /// from all sides and whatever the order of the facets.
 ///
-/// Where the surface ends (or goes on with facets that do not count) a node behind it and beside it touches nothing;
-/// but the facets are continued by a tenth of their size, so that nodes on the common rim of two aligned bodies are not
-/// lost.
+/// Where the surface goes on with facets that do not count, a node is no deeper than it is behind those and s_0, a
+/// fiftieth of the facet's size: where that is the way out, the row pushes it out sideways, and the node is behind a
+/// body whose sides are moved out by s_0. So a node that enters sideways begins at the surface, and nodes on the common
+/// rim of two aligned bodies are not lost.
+///
+/// Where the surface ends a node behind it and beside it touches nothing; but the facets are continued by a tenth of
+/// their size, on which the gap fades to zero as its product with a cubic of the distance beside the facet.
 ///
 /// A node that was behind a facet at x_begin stays behind the surface there, however deep it goes, until it comes out
 /// in front or leaves it sideways: unless it is behind what the search finds, its closest point is looked for from that
@@ -99,6 +103,7 @@ class SurfaceSearch {
  private:
   struct Query;
   struct Best;
+  struct SidePoint;
   void find_active();
   void place_active();
   PlacedFacet placed(Index f) const { return place(facets()[f], x_); }
@@ -116,6 +121,8 @@ class SurfaceSearch {
   std::optional<Index> crossed_facet(const Query& query) const;
   Best followed(const Query& query, Index from) const;
   bool met(const Query& query, const Best& best, SurfacePoint& point) const;
+  bool goes_on(Index f, const Projection& p) const;
+  std::optional<SidePoint> side_at(const Query& query, Index f) const;
   double farthest_foot(Index f, double least) const;
   std::optional<FacetFoot> foot_beside(const Query& query, Index f, const Best& best) const;
   void feet_around(const Query& query, const Best& best, std::vector<FacetFoot>& feet) const;

@@ -11,6 +11,7 @@
 #include "contact/body_overlap.hpp"
 #include "contact/buried_facets.hpp"
 #include "contact/cell_location.hpp"
+#include "contact/facet_geometry.hpp"
 #include "contact/facing_facets.hpp"
 #include "contact/half_thickness.hpp"
 #include "contact/stiffness.hpp"
