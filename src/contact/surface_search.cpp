@@ -100,6 +100,7 @@ struct SurfaceSearch::SidePoint {
   Index facet = -1;
   Projection projection{};
   SignedDistance at{};  ///< of the sides as they are moved out
+  double slack = 0.0;   ///< by how much
 };
 
 SurfaceSearch::SurfaceSearch(std::vector<Index> nodes, std::vector<Facet> own, std::vector<Facet> facets,
@@ -280,7 +281,8 @@ std::optional<SurfaceSearch::SidePoint> SurfaceSearch::side_at(const Query& quer
   side.at = p.site == ProjectionSite::interior
                 ? SignedDistance{p.normal, p.gap}
                 : signed_distance(p, query.x, pseudonormal(side.facet, p), tiny * range_.reach);
-  side.at.gap -= side_slack * (range_.width.empty() ? size_of(placed(f)) : range_.width[f] / rim_slack);
+  side.slack = side_slack * (range_.width.empty() ? size_of(placed(f)) : range_.width[f] / rim_slack);
+  side.at.gap -= side.slack;
   return side;
 }
 
@@ -508,20 +510,25 @@ bool SurfaceSearch::met(const Query& query, const Best& best, SurfacePoint& poin
   // Beside a rim a node is behind some of the facets there and in front of others, and touches none of them.
   if (best.is_beside && at.gap < 0.0) return false;
   if (!query.is_behind && at.gap < -range_.depth[best.facet]) return false;
-  if (at.gap < 0.0)
-    if (const std::optional<SidePoint> side = side_at(query, best.facet); side && side->at.gap > at.gap) {
-      if (side->at.gap >= 0.0) return false;
+  double outside = 0.0;  // by how much the gap is below that of the body as it is
+  if (const std::optional<SidePoint> side = at.gap < 0.0 ? side_at(query, best.facet) : std::nullopt) {
+    if (side->at.gap >= 0.0) return false;
+    if (side->at.gap > at.gap) {
       take_only(side->facet, side->projection, side->at, point);
+      point.rounded = std::min(-side->at.gap, side->slack);
       return true;
     }
+    if (side->at.gap + side->slack > tiny * side->slack) outside = -at.gap;
+  }
   feet_around(query, best, point.feet);
   if (point.feet.empty()) {
     take_only(best.facet, p, at, point);
+    point.rounded = outside;
     return true;
   }
   take_mean(point);
   point.facet = best.facet;
-  point.rounded = std::max(0.0, at.gap - point.gap);
+  point.rounded = std::max({0.0, at.gap - point.gap, outside == 0.0 ? 0.0 : -point.gap});
   return true;
 }
 

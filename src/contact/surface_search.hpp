@@ -33,7 +33,8 @@ struct SurfacePoint {
   std::vector<FacetFoot> feet;
   Vec3 gradient{};
   double gap = 0.0;
-  double rounded = 0.0;  ///< by how much the gap is below that of the nearest facet alone, >= 0
+  /// By how much the gap is below that of the nearest facet alone, and of the body with its sides where they are; >= 0.
+  double rounded = 0.0;
 };
 
 /// Two unit normals oppose each other when their product is below this: sides that stand at a right angle do not.
