@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contact/surface_point.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
@@ -42,11 +43,6 @@ double size_of(const PlacedFacet& facet) {
 
 bool contains(const Facet& facet, Index node) {
   return std::find(facet.begin(), facet.end(), node) != facet.end();
-}
-
-/// A foot at the facet's closest point, alone.
-FacetFoot foot_at(Index f, const Projection& p, const Vec3& normal, double gap) {
-  return {f, 1.0, p.xi, p.eta, p.N, p.a_1, p.a_2, p.normal, normal, gap, {}, {}, p.N};
 }
 
 /// Foot of the perpendicular from x on the facet continued beyond its edges, by Newton's method from a near point.
@@ -93,6 +89,7 @@ struct SurfaceSearch::Best {
   Projection projection{};
   bool is_continued = false;  ///< beyond a rim, a little
   bool is_beside = false;     ///< beyond a rim, farther
+  std::optional<Rim> rim{};   ///< where it is continued beyond the end of the surface
 };
 
 /// The closest point of the facets beside one that counts which do not.
@@ -281,9 +278,14 @@ std::optional<SurfaceSearch::SidePoint> SurfaceSearch::side_at(const Query& quer
   side.at = p.site == ProjectionSite::interior
                 ? SignedDistance{p.normal, p.gap}
                 : signed_distance(p, query.x, pseudonormal(side.facet, p), tiny * range_.reach);
-  side.slack = side_slack * (range_.width.empty() ? size_of(placed(f)) : range_.width[f] / rim_slack);
+  side.slack = side_slack / rim_slack * rim_width(f);
   side.at.gap -= side.slack;
   return side;
+}
+
+/// How far facet f is continued beyond an end.
+double SurfaceSearch::rim_width(Index f) const {
+  return range_.width.empty() ? rim_slack * size_of(placed(f)) : range_.width[f];
 }
 
 void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
@@ -294,16 +296,19 @@ void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
   if (is_tied ? std::abs(p.gap) <= std::abs(best.projection.gap) : !(p.distance < best.distance)) return;
   if (!query.is_behind && p.gap < -range_.depth[f]) return;
   bool is_continued = false;
+  std::optional<Rim> rim;
   const bool is_beyond = p.site != ProjectionSite::interior && ends_at(query, f, p);
   if (is_beyond) {
     const ParentPoint at = foot(facet, query.x, {p.xi, p.eta});
     const FacetShape shape = facet_shape(facet.size, at.xi, at.eta);
     const FacetFrame frame = facet_frame(facet, shape);
-    is_continued = norm(subtract(frame.position, p.point)) <= rim_slack * size_of(facet);
+    const double width = rim_width(f);
+    is_continued = norm(subtract(frame.position, p.point)) <= width;
     if (!is_continued && p.gap < 0.0) return;
-    if (p.gap < 0.0 && goes_on(f, p))
-      if (const std::optional<SidePoint> side = side_at(query, f); side && side->at.gap >= 0.0) return;
+    const std::optional<SidePoint> side = p.gap < 0.0 ? side_at(query, f) : std::nullopt;
+    if (side && side->at.gap >= 0.0 && goes_on(f, p)) return;
     if (is_continued) {
+      if (p.gap < 0.0 && !side) rim = Rim{p.point, p.N, width};
       p.xi = at.xi;
       p.eta = at.eta;
       p.N = shape.N;
@@ -315,7 +320,7 @@ void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
     }
   }
   if (!is_beyond && p.site != ProjectionSite::interior && goes_on_nearer(query, f, p)) return;
-  best = {p.distance, f, p, is_continued, is_beyond && !is_continued};
+  best = {p.distance, f, p, is_continued, is_beyond && !is_continued, rim};
 }
 
 Vec3 SurfaceSearch::pseudonormal(Index f, const Projection& p) const {
@@ -468,38 +473,6 @@ void SurfaceSearch::feet_around(const Query& query, const Best& best, std::vecto
   }
 }
 
-namespace {
-
-/// Makes the point the mean over its feet, whose gradients are those of their weights.
-void take_mean(SurfacePoint& met) {
-  double sum = 0.0;
-  for (const FacetFoot& foot : met.feet) sum += foot.weight;
-  met.gap = 0.0;
-  met.gradient = {};
-  for (FacetFoot& foot : met.feet) {
-    foot.weight /= sum;
-    met.gap += foot.weight * foot.gap;
-  }
-  for (FacetFoot& foot : met.feet) {
-    const double share = (foot.gap - met.gap) / sum;
-    foot.at_closest = scaled(foot.at_closest, share);
-    foot.gradient = add(scaled(foot.gradient, share), scaled(foot.normal, foot.weight));
-    met.gradient = add(met.gradient, add(foot.gradient, foot.at_closest));
-  }
-}
-
-/// Makes the point one of facet f alone.
-void take_only(Index f, const Projection& p, const SignedDistance& at, SurfacePoint& met) {
-  met.facet = f;
-  met.feet.assign(1, foot_at(f, p, at.normal, at.gap));
-  met.feet.front().gradient = at.normal;
-  met.gradient = at.normal;
-  met.gap = at.gap;
-  met.rounded = 0.0;
-}
-
-}  // namespace
-
 /// What the closest point found amounts to; false: nothing.
 bool SurfaceSearch::met(const Query& query, const Best& best, SurfacePoint& point) const {
   if (best.facet < 0) return false;
@@ -524,11 +497,13 @@ bool SurfaceSearch::met(const Query& query, const Best& best, SurfacePoint& poin
   if (point.feet.empty()) {
     take_only(best.facet, p, at, point);
     point.rounded = outside;
+    if (best.rim) fade(best.facet, p, *best.rim, query.x, point);
     return true;
   }
   take_mean(point);
   point.facet = best.facet;
   point.rounded = std::max({0.0, at.gap - point.gap, outside == 0.0 ? 0.0 : -point.gap});
+  if (best.rim && point.gap < 0.0) fade(best.facet, p, *best.rim, query.x, point);
   return true;
 }
 

@@ -71,7 +71,8 @@ std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<con
 /// rim of two aligned bodies are not lost.
 ///
 /// Where the surface ends a node behind it and beside it touches nothing; but the facets are continued by a tenth of
-/// their size, on which the gap fades to zero as its product with a cubic of the distance beside the facet.
+/// their size (SearchRange::width), on which a gap below zero fades: it is multiplied by (1 - t^2 / width^2)^2, t the
+/// distance beside the facet.
 ///
 /// A node that was behind a facet at x_begin stays behind the surface there, however deep it goes, until it comes out
 /// in front or leaves it sideways: unless it is behind what the search finds, its closest point is looked for from that
@@ -123,6 +124,7 @@ class SurfaceSearch {
   Best followed(const Query& query, Index from) const;
   bool met(const Query& query, const Best& best, SurfacePoint& point) const;
   bool goes_on(Index f, const Projection& p) const;
+  double rim_width(Index f) const;
   std::optional<SidePoint> side_at(const Query& query, Index f) const;
   double farthest_foot(Index f, double least) const;
   std::optional<FacetFoot> foot_beside(const Query& query, Index f, const Best& best) const;

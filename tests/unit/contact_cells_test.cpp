@@ -293,6 +293,43 @@ TEST(BuriedFacets, OfAnyCellsAreThoseInside) {
   }
 }
 
+/// Gaps of the rows at u, by slot; zero where there is none or it is open.
+std::vector<double> depths(const ContactGeometry& contact, std::span<const double> u) {
+  const auto rows = contact.rows_at(u, u);
+  std::vector<double> depth(contact.slots());
+  for (std::size_t r = 0; r < rows->size(); ++r)
+    depth[static_cast<std::size_t>(rows->slot[r])] = std::max(0.0, -rows->gap_at(r, u));
+  return depth;
+}
+
+// A cube comes sideways under the upper face of another, a fifth of a cell deep: no row begins deeper than what a step
+// moves, wherever it begins, by whole skins and by faces alone.
+TEST(NodeRows, BeginAtTheSurfaceWhenACubeComesFromTheSide) {
+  constexpr double step = 1e-3;
+  for (const bool is_all : {true, false}) {
+    TwoBodies bodies(CellType::hexa8, CellType::hexa8, 2, 3, -0.07, {1.1, 0.23, 0.0});
+    PairContact contact = bodies.pair(PairMethod::two_pass);
+    if (is_all) {
+      contact.self = true;
+      contact.slave.facets = contact.master.facets = skin(*bodies.model.mesh);
+    }
+    bodies.model.contacts.emplace_back(contact);
+    const ContactGeometry geometry(bodies.model);
+    std::vector<double> u = bodies.u, before = depths(geometry, u);
+    for (int k = 0; k < 600; ++k) {
+      for (std::size_t n = 0; n < bodies.is_upper.size(); ++n)
+        if (bodies.is_upper[n]) u[3 * n] -= step;
+      const std::vector<double> now = depths(geometry, u);
+      for (std::size_t slot = 0; slot < now.size(); ++slot)
+        // Faces alone: the slope of the fading gap, at most 1.54 depths over a width of a tenth of a facet of 0.33.
+        EXPECT_LT(std::abs(now[slot] - before[slot]), (is_all ? 1.001 : 3.3) * step)
+            << "step " << k << " slot " << slot;
+      before = now;
+    }
+    EXPECT_GT(*std::ranges::max_element(before), 0.06) << "nothing has begun";
+  }
+}
+
 /// The unit cube, n cells along its edges, with every node moved.
 template <class Move>
 Model moved_box(CellType type, int n, const Move& move) {
