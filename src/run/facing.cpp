@@ -56,6 +56,19 @@ Look look(const Simulation& s, const Facet& facet, const State& state) {
   return seen;
 }
 
+/// Ends of bars look out of them.
+Vec3 outward_of_bar(const Simulation& s, Index end, const State& state) {
+  const CellBlock* lines = s.mesh().block(CellType::line2);
+  const auto x = [&](Index n) {
+    Vec3 at_n = s.mesh().coordinates[at(n)];
+    for (std::size_t c = 0; c < 3; ++c) at_n[c] += state.q[3 * at(n) + c];
+    return at_n;
+  };
+  for (std::size_t i = 0; lines != nullptr && i < lines->connectivity.size(); ++i)
+    if (lines->connectivity[i] == end) return normalized(subtract(x(end), x(lines->connectivity[i ^ 1U])));
+  return {};
+}
+
 /// Every so manieth facet, so that there are at most `most`.
 std::vector<Look> looks(const Simulation& s, std::span<const Facet> facets, const State& state) {
   constexpr std::size_t most = 1500;
@@ -141,9 +154,23 @@ bool shows_its_back(const Simulation& s, std::size_t c, const State& state) {
   const auto distance = [&](const Facet& facet) { return norm(subtract(look(s, facet, state).centre, middle)); };
   const auto nearer = [&](const Facet& a, const Facet& b) { return distance(a) < distance(b); };
   const std::vector<Facet>&own = obstacle->surface.facets, &others = rigid->surface.facets;
-  const Look here = look(s, *std::min_element(own.begin(), own.end(), nearer), state);
+  const Facet& nearest = *std::min_element(own.begin(), own.end(), nearer);
+  Look here = look(s, nearest, state);
+  if (nearest.size == 1) here.normal = outward_of_bar(s, nearest[0], state);
   const Look there = look(s, *std::min_element(others.begin(), others.end(), nearer), state);
-  return dot(here.normal, there.normal) > 0.5 && dot(subtract(there.centre, here.centre), here.normal) > 0.0;
+  return dot(here.normal, there.normal) > 0.5 && dot(subtract(there.centre, here.centre), there.normal) > 0.0;
+}
+
+bool goes_through_its_back(const Simulation& s, std::size_t c, const State& state) {
+  if (!shows_its_back(s, c, state)) return false;
+  const auto& obstacle = std::get<ObstacleContact>(s.model().contacts[c]);
+  const auto& rigid = std::get<RigidSurface>(obstacle.shape);
+  Vec3 normal{};
+  for (const Facet& facet : rigid.surface.facets) normal = add(normal, look(s, facet, state).normal);
+  Vec3 v = mean_motion(s, obstacle.surface.facets, state).v;
+  if (obstacle.carrier >= 0)
+    for (std::size_t i = 0; i < 3; ++i) v[i] -= state.v[3 * at(obstacle.carrier) + i];
+  return dot(v, normal) > 0.0;
 }
 
 bool faces_away(const Simulation& s, std::size_t c, const State& state) {

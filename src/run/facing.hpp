@@ -14,6 +14,9 @@ std::optional<double> middle_approach(const Simulation& simulation, std::size_t 
 /// as that does and lies before it.
 bool shows_its_back(const Simulation& simulation, std::size_t contact, const State& state);
 
+/// True when, moreover, the touching surface begins with a velocity towards it: it passes through from behind.
+bool goes_through_its_back(const Simulation& simulation, std::size_t contact, const State& state);
+
 /// True when no facet of the contact's surface looks at the obstacle, or no facets of a pair look at each other: what
 /// would touch first is not in the contact.
 bool faces_away(const Simulation& simulation, std::size_t contact, const State& state);

@@ -67,7 +67,10 @@ TEST(Lint, SaysWhenNoWaveCrossesACell) {
 TEST(Lint, SaysWhenARigidSurfaceShowsItsBack) {
   const std::string what = "look away from";
   EXPECT_FALSE(is_warned(sheet(-0.1, "FOOT") + moving(-1.0), what));
-  EXPECT_TRUE(is_warned(sheet(3.1, "HEAD") + moving(1.0), what));
+  EXPECT_TRUE(is_warned(sheet(3.1, "HEAD") + moving(-1.0), what));
+  // A body that moves towards the back would pass: refused.
+  const std::string text = case_of_block(sheet(3.1, "HEAD") + moving(1.0) + central_differences);
+  EXPECT_THROW(Simulation(parse_case(text, "case.toml")), CaseError);
 }
 
 TEST(Lint, SaysWhenAContactIsReachedAfterTheEnd) {
