@@ -80,6 +80,7 @@ struct SurfaceSearch::Query {
   std::span<const Index> candidates;     ///< facets
   std::span<const double> box_distance;  ///< squared, of their boxes
   bool is_behind = false;                ///< it is known to be behind the surface, however deep
+  bool was_behind = false;               ///< at x_begin, of a facet that counts
 };
 
 /// The closest point so far.
@@ -260,9 +261,11 @@ bool SurfaceSearch::goes_on(Index f, const Projection& p) const {
   return std::ranges::any_of(facets_at_[a], [&](Index g) { return g != f && (!is_edge || contains(facets()[g], b)); });
 }
 
-/// Where the node is behind or before the neighbours of f that face away from it; nothing where f has none.
+/// Where the node is behind or before the neighbours of f that face away from it; nothing where f has none, and for a
+/// node that has come through f or was in front of it at x_begin.
 std::optional<SurfaceSearch::SidePoint> SurfaceSearch::side_at(const Query& query, Index f) const {
-  if (dot(query.normal, query.normal) == 0.0) return std::nullopt;
+  if (query.was_behind || dot(query.normal, query.normal) == 0.0) return std::nullopt;
+  if (project(place(facets()[f], x_begin_), x_begin_[nodes_[query.q]]).gap >= 0.0) return std::nullopt;
   const std::vector<Index>& excluded = excluded_[query.q];
   SidePoint side;
   for (const Index n : facets()[f])
@@ -516,9 +519,10 @@ const SurfacePoint* SurfaceSearch::find(std::size_t q, Space& space) const {
   for (std::size_t i = 0; i < candidates.size(); ++i)
     space.box_distance[i] = squared_distance(bounds_[candidates[i]], x);
   Query query{q, x, node_normal(q), candidates, space.box_distance};
+  query.was_behind = behind >= 0 && counts(query, behind);
   const bool is_found = met(query, closest(query), space.found);
   if (is_found && space.found.gap < 0.0) return &space.found;
-  if (behind >= 0 && counts(query, behind)) {
+  if (query.was_behind) {
     query.is_behind = true;
     if (met(query, followed(query, behind), space.other) && space.other.gap < 0.0) return &space.other;
   }

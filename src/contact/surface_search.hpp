@@ -65,14 +65,15 @@ std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<con
 /// (1 - (d_f^2 - g_f^2) / b_f^2)^2 over their sum. So gap and gradient pass from facet to facet without a jump, alike
 /// from all sides and whatever the order of the facets.
 ///
-/// Where the surface goes on with facets that do not count, a node is no deeper than it is behind those and s_0, a
-/// fiftieth of the facet's size: where that is the way out, the row pushes it out sideways, and the node is behind a
-/// body whose sides are moved out by s_0. So a node that enters sideways begins at the surface, and nodes on the common
-/// rim of two aligned bodies are not lost.
+/// Where the surface goes on with facets that do not count, a node that was behind the facet's plane at x_begin without
+/// having been behind the surface is no deeper than it is behind those and s_0, a fiftieth of the facet's size: where
+/// that is the way out, the row pushes it out sideways, as if it were behind a body whose sides are moved out by s_0.
+/// So a node that enters sideways begins at the surface, nodes on the common rim of two aligned bodies are not lost,
+/// and those that have come through the front stay with it.
 ///
-/// Where the surface ends a node behind it and beside it touches nothing; but the facets are continued by a tenth of
-/// their size (SearchRange::width), on which a gap below zero fades: it is multiplied by (1 - t^2 / width^2)^2, t the
-/// distance beside the facet.
+/// Where the surface ends, or the node has come through the front, it touches nothing behind it and beside it; but the
+/// facets are continued by a tenth of their size (SearchRange::width), on which a gap below zero fades: it is
+/// multiplied by (1 - t^2 / width^2)^2, t the distance beside the facet.
 ///
 /// A node that was behind a facet at x_begin stays behind the surface there, however deep it goes, until it comes out
 /// in front or leaves it sideways: unless it is behind what the search finds, its closest point is looked for from that

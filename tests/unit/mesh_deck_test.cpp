@@ -59,7 +59,7 @@ TEST(MeshDeck, SidesOfRigidFacesAreThoseOfTheirNormals) {
     EXPECT_EQ(order_in(line, "M"), (std::vector<std::int64_t>{1, 2})) << type;
     EXPECT_EQ(order_in(line, "U"), order_in(line, "P")) << type;
   }
-  const Mesh face = read(nodes + "*ELEMENT, TYPE=R3D4, ELSET=W\n1,1,2,3,4\n" + sides);
+  const Mesh face = read(kTwoCubes + "*ELEMENT, TYPE=R3D4, ELSET=W\n9,1,2,3,4\n" + sides);
   EXPECT_EQ(order_in(face, "P"), (std::vector<std::int64_t>{1, 2, 3, 4}));
   EXPECT_TRUE(turned(order_in(face, "P"), order_in(face, "M")));
 }
