@@ -6,6 +6,7 @@
 #include "contact/cell_location.hpp"
 #include "contact/facet_geometry.hpp"
 #include "math/vec3.hpp"
+#include "model/bodies.hpp"
 
 namespace carom {
 namespace {
@@ -21,16 +22,12 @@ Vec3 point_under(const PlacedFacet& facet) {
   return subtract(frame.position, scaled(frame.normal, under * size));
 }
 
-bool owns(std::span<const Index> cell, const Facet& facet) {
-  return std::all_of(facet.begin(), facet.end(),
-                     [&](Index n) { return std::find(cell.begin(), cell.end(), n) != cell.end(); });
-}
-
 }  // namespace
 
 std::vector<BuriedFacet> buried_facets(const Model& model, const PairContact& pair, std::span<const double> u) {
   const std::vector<Vec3> x = current_positions(*model.mesh, u);
   const PlacedCells cells(model, u);
+  const std::vector<Index> body = bodies_of_nodes(model);
   std::vector<BuriedFacet> found;
   std::vector<Index> near;
   for (const Surface* surface : {&pair.slave, &pair.master}) {
@@ -38,7 +35,8 @@ std::vector<BuriedFacet> buried_facets(const Model& model, const PairContact& pa
       const Vec3 at = point_under(place(facet, x));
       cells.find(at, near);
       const auto inside_of = std::find_if(near.begin(), near.end(), [&](Index c) {
-        return !owns(cells.nodes(static_cast<std::size_t>(c)), facet) &&
+        return body[static_cast<std::size_t>(cells.nodes(static_cast<std::size_t>(c))[0])] !=
+                   body[static_cast<std::size_t>(facet[0])] &&
                cells.inside(static_cast<std::size_t>(c), at, within).has_value();
       });
       if (inside_of != near.end()) found.push_back({facet, at, cells.ref(static_cast<std::size_t>(*inside_of))});

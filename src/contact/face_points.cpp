@@ -8,9 +8,10 @@
 #include <utility>
 
 #include "contact/facet_projection.hpp"
+#include "contact/half_thickness.hpp"
 #include "contact/pair_rows.hpp"
-#include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
+#include "model/bodies.hpp"
 
 namespace carom {
 namespace {
@@ -112,7 +113,7 @@ FaceOverlaps::FaceOverlaps(const Model& model, const Surface& slave, const Surfa
     : X_(model.mesh->coordinates),
       slave_(slave),
       size_(std::max(mean_facet_size(X_, slave.facets), mean_facet_size(X_, master.facets))),
-      depth_(self ? half_thickness(X_, master.facets, size_) : std::vector<double>(master.facets.size(), size_)),
+      depth_(self ? half_thickness(X_, master.facets, bodies_of_nodes(model), size_) : std::vector<double>(master.facets.size(), size_)),
       slave_faces_(parent_faces(*model.mesh, slave.facets)),
       master_faces_(parent_faces(*model.mesh, master.facets)),
       beside_(facets_beside(master.facets)),

@@ -11,9 +11,11 @@
 #include "contact/broad_phase.hpp"
 #include "contact/clipping.hpp"
 #include "contact/facet_projection.hpp"
+#include "contact/half_thickness.hpp"
 #include "contact/pair_rows.hpp"
 #include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
+#include "model/bodies.hpp"
 
 namespace carom {
 namespace {
@@ -157,7 +159,7 @@ MortarRows::MortarRows(const Model& model, const PairContact& contact, const Con
       law_(law),
       source_(source),
       size_(std::max(mean_facet_size(X_, contact.slave.facets), mean_facet_size(X_, contact.master.facets))),
-      depth_(contact.self ? half_thickness(X_, contact.master.facets, size_)
+      depth_(contact.self ? half_thickness(X_, contact.master.facets, bodies_of_nodes(model), size_)
                           : std::vector<double>(contact.master.facets.size(), size_)),
       broad_phase_(contact.slave.facets, contact.master.facets, look * size_,
                    0.5 * mean_facet_size(X_, contact.master.facets)),

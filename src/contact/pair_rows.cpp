@@ -8,9 +8,11 @@
 
 #include "contact/edge_rows.hpp"
 #include "contact/face_rows.hpp"
+#include "contact/half_thickness.hpp"
 #include "contact/mortar_rows.hpp"
 #include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
+#include "model/bodies.hpp"
 
 namespace carom {
 namespace {
@@ -59,14 +61,15 @@ void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, std::
 /// The nodes of one surface against the facets of another.
 class NodeRows : public RowMaker {
  public:
-  NodeRows(std::span<const Vec3> X, const Surface& slave, const Surface& master, bool self, const ContactLaw& law,
-           Index source)
+  /// self: the two surfaces are one; bodies: by node, see half_thickness, needed for `self` alone.
+  NodeRows(std::span<const Vec3> X, const Surface& slave, const Surface& master, bool self,
+           const std::vector<Index>& bodies, const ContactLaw& law, Index source)
       : measures_(nodal_measures(X, slave)), law_(law), source_(source), search_([&] {
           const double size = mean_facet_size(X, master.facets),
                        reach = std::max(size, mean_facet_size(X, slave.facets));
           SearchRange range{reach, 0.5 * size, std::vector<double>(master.facets.size(), reach),
                             edge_widths(X, master.facets)};
-          if (self) range.depth = half_thickness(X, master.facets, reach);
+          if (self) range.depth = half_thickness(X, master.facets, bodies, reach);
           return SurfaceSearch(keys(measures_), slave.facets, master.facets, std::move(range));
         }()) {
     for (const auto& [n, measure] : measures_) measure_.push_back(measure);
@@ -215,7 +218,8 @@ std::unique_ptr<RowMaker> method_rows(const Model& model, const PairContact& con
   const auto one_way = [&](const Surface& slave, const Surface& master) -> std::unique_ptr<RowMaker> {
     if (contact.method == PairMethod::faces && !has_points)
       return face_rows(model, slave, master, contact.self, law, source);
-    return std::make_unique<NodeRows>(model.mesh->coordinates, slave, master, contact.self, law, source);
+    const std::vector<Index> bodies = contact.self ? bodies_of_nodes(model) : std::vector<Index>{};
+    return std::make_unique<NodeRows>(model.mesh->coordinates, slave, master, contact.self, bodies, law, source);
   };
   if (!both_ways || contact.self) return one_way(contact.slave, contact.master);
   auto both = std::make_unique<MakersInOrder>();

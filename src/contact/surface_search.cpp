@@ -2,20 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "contact/surface_point.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
 namespace carom {
 namespace {
 
-constexpr double rim_slack = 0.1;  // of the facet's size: continuation beyond a rim
-constexpr double smooth = 0.5;     // product of the normals of facets that pass a node on to each other
-constexpr double tie = 1e-12;      // relative: the same point seen from two facets
-constexpr double settled = 1e-9;   // step in parent coordinates after which, shrinking as its square, none is left
-constexpr double tiny = 1e-6;      // of the reach: below, the direction to a corner is round-off
+constexpr double rim_slack = 0.1;    // of the facet's size: continuation beyond a rim
+constexpr double side_slack = 0.02;  // of the facet's size: how far sides that do not count are moved out
+constexpr double smooth = 0.5;       // product of the normals of facets that pass a node on to each other
+constexpr double tie = 1e-12;        // relative: the same point seen from two facets
+constexpr double settled = 1e-9;     // step in parent coordinates after which, shrinking as its square, none is left
+constexpr double tiny = 1e-6;        // of the reach: below, the direction to a corner is round-off
 
 double squared_distance(const Bounds& box, const Vec3& x) {
   double sum = 0.0;
@@ -44,11 +45,6 @@ bool contains(const Facet& facet, Index node) {
   return std::find(facet.begin(), facet.end(), node) != facet.end();
 }
 
-/// A foot at the facet's closest point, alone.
-FacetFoot foot_at(Index f, const Projection& p, const Vec3& normal, double gap) {
-  return {f, 1.0, p.xi, p.eta, p.N, p.a_1, p.a_2, p.normal, normal, gap, {}, {}, p.N};
-}
-
 /// Foot of the perpendicular from x on the facet continued beyond its edges, by Newton's method from a near point.
 ParentPoint foot(const PlacedFacet& facet, const Vec3& x, ParentPoint at) {
   Vec3 twist{};  // d2x / (dxi deta)
@@ -70,52 +66,10 @@ ParentPoint foot(const PlacedFacet& facet, const Vec3& x, ParentPoint at) {
 
 }  // namespace
 
-namespace {
-
-/// Numbers that are equal for facets of one connected piece of a surface.
-std::vector<Index> pieces(const std::vector<Facet>& facets) {
-  Index last = -1;
-  for (const Facet& facet : facets) last = std::max(last, *std::max_element(facet.begin(), facet.end()));
-  std::vector<Index> parent(static_cast<std::size_t>(last) + 1);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index n) {
-    while (parent[n] != n) n = parent[n] = parent[parent[n]];
-    return n;
-  };
-  for (const Facet& facet : facets)
-    for (const Index n : facet) parent[root(n)] = root(facet[0]);
-  std::vector<Index> piece;
-  for (const Facet& facet : facets) piece.push_back(root(facet[0]));
-  return piece;
-}
-
-}  // namespace
-
 std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<const Facet> facets) {
   std::vector<double> widths;
   for (const Facet& facet : facets) widths.push_back(rim_slack * size_of(place(facet, coordinates)));
   return widths;
-}
-
-std::vector<double> half_thickness(std::span<const Vec3> coordinates, const std::vector<Facet>& skin, double limit) {
-  BroadPhase broad_phase(skin, skin, limit, 0.0);
-  broad_phase.update(coordinates);
-  const std::vector<Index> piece = pieces(skin);
-  std::vector<double> half(skin.size(), 0.5 * limit);
-  parallel_each(skin.size(), [&](std::size_t f) {
-    const PlacedFacet facet = place(skin[f], coordinates);
-    const ParentPoint centre = facet_centre(facet.size);
-    const FacetFrame frame = facet_frame(facet, centre.xi, centre.eta);
-    const Vec3 inward = scaled(frame.normal, -1.0);
-    for (const Index other : broad_phase.targets_of(f)) {
-      if (piece[other] != piece[f]) continue;
-      const PlacedFacet far = place(skin[other], coordinates);
-      const std::optional<RayHit> hit = intersect(far, frame.position, inward);
-      if (!hit || hit->distance <= 0.0 || dot(facet_frame(far, hit->xi, hit->eta).normal, inward) <= 0.0) continue;
-      half[f] = std::min(half[f], 0.5 * hit->distance);
-    }
-  });
-  return half;
 }
 
 /// One node and what it brings along.
@@ -126,6 +80,7 @@ struct SurfaceSearch::Query {
   std::span<const Index> candidates;     ///< facets
   std::span<const double> box_distance;  ///< squared, of their boxes
   bool is_behind = false;                ///< it is known to be behind the surface, however deep
+  bool was_behind = false;               ///< at x_begin, of a facet that counts
 };
 
 /// The closest point so far.
@@ -135,6 +90,15 @@ struct SurfaceSearch::Best {
   Projection projection{};
   bool is_continued = false;  ///< beyond a rim, a little
   bool is_beside = false;     ///< beyond a rim, farther
+  std::optional<Rim> rim{};   ///< where it is continued beyond the end of the surface
+};
+
+/// The closest point of the facets beside one that counts which do not.
+struct SurfaceSearch::SidePoint {
+  Index facet = -1;
+  Projection projection{};
+  SignedDistance at{};  ///< of the sides as they are moved out
+  double slack = 0.0;   ///< by how much
 };
 
 SurfaceSearch::SurfaceSearch(std::vector<Index> nodes, std::vector<Facet> own, std::vector<Facet> facets,
@@ -288,6 +252,45 @@ bool SurfaceSearch::goes_on_nearer(const Query& query, Index f, const Projection
   });
 }
 
+/// True when the surface has another facet beyond the edge or end where p lies, whether it counts or not.
+bool SurfaceSearch::goes_on(Index f, const Projection& p) const {
+  const Facet& facet = facets()[f];
+  const auto k = static_cast<std::size_t>(p.feature);
+  const Index a = facet[k], b = facet[(k + 1) % static_cast<std::size_t>(facet.size)];
+  const bool is_edge = p.site == ProjectionSite::edge;
+  return std::ranges::any_of(facets_at_[a], [&](Index g) { return g != f && (!is_edge || contains(facets()[g], b)); });
+}
+
+/// Where the node is behind or before the neighbours of f that face away from it; nothing where f has none, and for a
+/// node that has come through f or was in front of it at x_begin.
+std::optional<SurfaceSearch::SidePoint> SurfaceSearch::side_at(const Query& query, Index f) const {
+  if (query.was_behind || dot(query.normal, query.normal) == 0.0) return std::nullopt;
+  if (project(place(facets()[f], x_begin_), x_begin_[nodes_[query.q]]).gap >= 0.0) return std::nullopt;
+  const std::vector<Index>& excluded = excluded_[query.q];
+  SidePoint side;
+  for (const Index n : facets()[f])
+    for (const Index g : facets_at_[n]) {
+      if (g == f || g == side.facet || counts(query, g) || std::ranges::binary_search(excluded, g)) continue;
+      const Projection p = project(placed(g), query.x);
+      if (side.facet >= 0 && p.distance >= side.projection.distance) continue;
+      side.facet = g;
+      side.projection = p;
+    }
+  if (side.facet < 0) return std::nullopt;
+  const Projection& p = side.projection;
+  side.at = p.site == ProjectionSite::interior
+                ? SignedDistance{p.normal, p.gap}
+                : signed_distance(p, query.x, pseudonormal(side.facet, p), tiny * range_.reach);
+  side.slack = side_slack / rim_slack * rim_width(f);
+  side.at.gap -= side.slack;
+  return side;
+}
+
+/// How far facet f is continued beyond an end.
+double SurfaceSearch::rim_width(Index f) const {
+  return range_.width.empty() ? rim_slack * size_of(placed(f)) : range_.width[f];
+}
+
 void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
   const PlacedFacet facet = placed(f);
   Projection p = project(facet, query.x);
@@ -296,14 +299,19 @@ void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
   if (is_tied ? std::abs(p.gap) <= std::abs(best.projection.gap) : !(p.distance < best.distance)) return;
   if (!query.is_behind && p.gap < -range_.depth[f]) return;
   bool is_continued = false;
+  std::optional<Rim> rim;
   const bool is_beyond = p.site != ProjectionSite::interior && ends_at(query, f, p);
   if (is_beyond) {
     const ParentPoint at = foot(facet, query.x, {p.xi, p.eta});
     const FacetShape shape = facet_shape(facet.size, at.xi, at.eta);
     const FacetFrame frame = facet_frame(facet, shape);
-    is_continued = norm(subtract(frame.position, p.point)) <= rim_slack * size_of(facet);
+    const double width = rim_width(f);
+    is_continued = norm(subtract(frame.position, p.point)) <= width;
     if (!is_continued && p.gap < 0.0) return;
+    const std::optional<SidePoint> side = p.gap < 0.0 ? side_at(query, f) : std::nullopt;
+    if (side && side->at.gap >= 0.0 && goes_on(f, p)) return;
     if (is_continued) {
+      if (p.gap < 0.0 && !side) rim = Rim{p.point, p.N, width};
       p.xi = at.xi;
       p.eta = at.eta;
       p.N = shape.N;
@@ -315,7 +323,7 @@ void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
     }
   }
   if (!is_beyond && p.site != ProjectionSite::interior && goes_on_nearer(query, f, p)) return;
-  best = {p.distance, f, p, is_continued, is_beyond && !is_continued};
+  best = {p.distance, f, p, is_continued, is_beyond && !is_continued, rim};
 }
 
 Vec3 SurfaceSearch::pseudonormal(Index f, const Projection& p) const {
@@ -468,38 +476,6 @@ void SurfaceSearch::feet_around(const Query& query, const Best& best, std::vecto
   }
 }
 
-namespace {
-
-/// Makes the point the mean over its feet, whose gradients are those of their weights.
-void take_mean(SurfacePoint& met) {
-  double sum = 0.0;
-  for (const FacetFoot& foot : met.feet) sum += foot.weight;
-  met.gap = 0.0;
-  met.gradient = {};
-  for (FacetFoot& foot : met.feet) {
-    foot.weight /= sum;
-    met.gap += foot.weight * foot.gap;
-  }
-  for (FacetFoot& foot : met.feet) {
-    const double share = (foot.gap - met.gap) / sum;
-    foot.at_closest = scaled(foot.at_closest, share);
-    foot.gradient = add(scaled(foot.gradient, share), scaled(foot.normal, foot.weight));
-    met.gradient = add(met.gradient, add(foot.gradient, foot.at_closest));
-  }
-}
-
-/// Makes the point one of facet f alone.
-void take_only(Index f, const Projection& p, const SignedDistance& at, SurfacePoint& met) {
-  met.facet = f;
-  met.feet.assign(1, foot_at(f, p, at.normal, at.gap));
-  met.feet.front().gradient = at.normal;
-  met.gradient = at.normal;
-  met.gap = at.gap;
-  met.rounded = 0.0;
-}
-
-}  // namespace
-
 /// What the closest point found amounts to; false: nothing.
 bool SurfaceSearch::met(const Query& query, const Best& best, SurfacePoint& point) const {
   if (best.facet < 0) return false;
@@ -510,14 +486,27 @@ bool SurfaceSearch::met(const Query& query, const Best& best, SurfacePoint& poin
   // Beside a rim a node is behind some of the facets there and in front of others, and touches none of them.
   if (best.is_beside && at.gap < 0.0) return false;
   if (!query.is_behind && at.gap < -range_.depth[best.facet]) return false;
+  double outside = 0.0;  // by how much the gap is below that of the body as it is
+  if (const std::optional<SidePoint> side = at.gap < 0.0 ? side_at(query, best.facet) : std::nullopt) {
+    if (side->at.gap >= 0.0) return false;
+    if (side->at.gap > at.gap) {
+      take_only(side->facet, side->projection, side->at, point);
+      point.rounded = std::min(-side->at.gap, side->slack);
+      return true;
+    }
+    if (side->at.gap + side->slack > tiny * side->slack) outside = -at.gap;
+  }
   feet_around(query, best, point.feet);
   if (point.feet.empty()) {
     take_only(best.facet, p, at, point);
+    point.rounded = outside;
+    if (best.rim) fade(best.facet, p, *best.rim, query.x, point);
     return true;
   }
   take_mean(point);
   point.facet = best.facet;
-  point.rounded = std::max(0.0, at.gap - point.gap);
+  point.rounded = std::max({0.0, at.gap - point.gap, outside == 0.0 ? 0.0 : -point.gap});
+  if (best.rim && point.gap < 0.0) fade(best.facet, p, *best.rim, query.x, point);
   return true;
 }
 
@@ -530,9 +519,10 @@ const SurfacePoint* SurfaceSearch::find(std::size_t q, Space& space) const {
   for (std::size_t i = 0; i < candidates.size(); ++i)
     space.box_distance[i] = squared_distance(bounds_[candidates[i]], x);
   Query query{q, x, node_normal(q), candidates, space.box_distance};
+  query.was_behind = behind >= 0 && counts(query, behind);
   const bool is_found = met(query, closest(query), space.found);
   if (is_found && space.found.gap < 0.0) return &space.found;
-  if (behind >= 0 && counts(query, behind)) {
+  if (query.was_behind) {
     query.is_behind = true;
     if (met(query, followed(query, behind), space.other) && space.other.gap < 0.0) return &space.other;
   }

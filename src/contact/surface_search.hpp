@@ -33,7 +33,8 @@ struct SurfacePoint {
   std::vector<FacetFoot> feet;
   Vec3 gradient{};
   double gap = 0.0;
-  double rounded = 0.0;  ///< by how much the gap is below that of the nearest facet alone, >= 0
+  /// By how much the gap is below that of the nearest facet alone, and of the body with its sides where they are; >= 0.
+  double rounded = 0.0;
 };
 
 /// Two unit normals oppose each other when their product is below this: sides that stand at a right angle do not.
@@ -50,10 +51,6 @@ struct SearchRange {
 /// For SearchRange::width: a tenth of each facet's size.
 std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<const Facet> facets);
 
-/// Half of the least of `limit` and the thickness of the body behind each facet of its skin: the length of the ray from
-/// the facet's centre inwards to the next facet. Deeper points would be taken for points of the far side.
-std::vector<double> half_thickness(std::span<const Vec3> coordinates, const std::vector<Facet>& skin, double limit);
-
 /// Closest points of nodes on a surface of segments, triangles and quadrilaterals.
 ///
 /// Of the facets within `reach` those count that do not contain the node and are not neighbours of facets that do, and
@@ -68,9 +65,15 @@ std::vector<double> half_thickness(std::span<const Vec3> coordinates, const std:
 /// (1 - (d_f^2 - g_f^2) / b_f^2)^2 over their sum. So gap and gradient pass from facet to facet without a jump, alike
 /// from all sides and whatever the order of the facets.
 ///
-/// Where the surface ends (or goes on with facets that do not count) a node behind it and beside it touches nothing;
-/// but the facets are continued by a tenth of their size, so that nodes on the common rim of two aligned bodies are not
-/// lost.
+/// Where the surface goes on with facets that do not count, a node that was behind the facet's plane at x_begin without
+/// having been behind the surface is no deeper than it is behind those and s_0, a fiftieth of the facet's size: where
+/// that is the way out, the row pushes it out sideways, as if it were behind a body whose sides are moved out by s_0.
+/// So a node that enters sideways begins at the surface, nodes on the common rim of two aligned bodies are not lost,
+/// and those that have come through the front stay with it.
+///
+/// Where the surface ends, or the node has come through the front, it touches nothing behind it and beside it; but the
+/// facets are continued by a tenth of their size (SearchRange::width), on which a gap below zero fades: it is
+/// multiplied by (1 - t^2 / width^2)^2, t the distance beside the facet.
 ///
 /// A node that was behind a facet at x_begin stays behind the surface there, however deep it goes, until it comes out
 /// in front or leaves it sideways: unless it is behind what the search finds, its closest point is looked for from that
@@ -103,6 +106,7 @@ class SurfaceSearch {
  private:
   struct Query;
   struct Best;
+  struct SidePoint;
   void find_active();
   void place_active();
   PlacedFacet placed(Index f) const { return place(facets()[f], x_); }
@@ -120,6 +124,9 @@ class SurfaceSearch {
   std::optional<Index> crossed_facet(const Query& query) const;
   Best followed(const Query& query, Index from) const;
   bool met(const Query& query, const Best& best, SurfacePoint& point) const;
+  bool goes_on(Index f, const Projection& p) const;
+  double rim_width(Index f) const;
+  std::optional<SidePoint> side_at(const Query& query, Index f) const;
   double farthest_foot(Index f, double least) const;
   std::optional<FacetFoot> foot_beside(const Query& query, Index f, const Best& best) const;
   void feet_around(const Query& query, const Best& best, std::vector<FacetFoot>& feet) const;

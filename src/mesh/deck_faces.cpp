@@ -39,6 +39,27 @@ CellRef DeckFaces::face(const CellRef& cell, std::size_t number, std::int64_t& l
   return made;
 }
 
+/// The cell, which is a face itself, with the order of its nodes by which its normal looks to the side that is named:
+/// SPOS (and where none is named) that of the right-hand rule for triangles and quadrilaterals, and for lines that a
+/// quarter turn counter-clockwise from the first node to the second, which is not that of Facet; SNEG the other one.
+CellRef DeckFaces::side(const CellRef& cell, bool is_negative, std::int64_t& last) {
+  const CellType type = mesh_.blocks[at(cell.block)].type;
+  const bool is_turned = is_negative != (type == CellType::line2);
+  const std::uint64_t key = key_of_cell(cell);
+  const auto [found, is_new] = is_turned_.try_emplace(key, is_turned);
+  CellBlock& block = mesh_.blocks[at(cell.block)];
+  const auto n = static_cast<std::size_t>(node_count(type));
+  const std::vector<Index> nodes(block.nodes(cell.cell).begin(), block.nodes(cell.cell).end());
+  if (is_new && is_turned) std::reverse_copy(nodes.begin(), nodes.end(), &block.connectivity[n * at(cell.cell)]);
+  if (is_new || found->second == is_turned) return cell;
+  const auto [other, is_first] = made_.try_emplace(key * 8 + 7);  // cells have six faces at most
+  if (!is_first) return other->second;
+  other->second = {cell.block, static_cast<Index>(block.size())};
+  block.connectivity.insert(block.connectivity.end(), nodes.rbegin(), nodes.rend());
+  block.file_numbers.push_back(++last);
+  return other->second;
+}
+
 const std::vector<std::uint32_t>& DeckFaces::outer(const CellRef& cell) {
   if (!knows_outer_) {
     for (const OuterFacet& facet : outer_facets(mesh_)) {
@@ -82,7 +103,7 @@ void DeckFaces::append(const std::vector<Index>& elements, const std::string& la
     if (is_side && !is_surface)
       at.fail(fmt::format("{} of element {}, a {}", label, element.number, element.type->name), "a face, S1 to S6");
     if (is_side || (label.empty() && is_surface)) {
-      to.push_back(element.cell);
+      to.push_back(side(element.cell, label == "SNEG", last));
       continue;
     }
     if (label.empty()) {

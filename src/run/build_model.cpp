@@ -99,6 +99,22 @@ class ModelBuilder {
     return parts_.surface(groups_.outer_facets(group, key), group.where, key);
   }
 
+  /// The surface of a contact. Bars have none but their ends: what meets the nodes between them would pass.
+  Surface touching_surface(const CaseContact& given, const Located<std::string>& group, const std::string& key) const {
+    const Surface touching = surface(group, key);
+    const std::vector<Index> nodes = groups_.nodes(group, key);
+    const std::vector<Facet>& facets = touching.facets;
+    if (facets.empty() || facets[0].size != 1 || nodes.size() <= facets.size()) return touching;
+    const bool is_obstacle = *given.kind != CaseContact::Kind::pair && *given.kind != CaseContact::Kind::self;
+    throw CaseError(
+        group.where, key,
+        fmt::format("{} nodes of \"{}\", of which {} are ends of bars", nodes.size(), *group, facets.size()),
+        "ends of bars alone: only they have an area, and what meets the nodes between them passes",
+        is_obstacle ? "measure = \"node\" (with a stiffness of force per length) takes all nodes; or name the "
+                      "nodes of the ends."
+                    : "Name the nodes of the ends; bars cannot touch with their sides.");
+  }
+
   /// A force on a node that no part holds would move nothing.
   void refuse_outside_parts(Index node, const Located<std::string>& group) const {
     if (parts_.hold(node) || has_point_mass(model_, node)) return;
@@ -174,9 +190,9 @@ class ModelBuilder {
       std::erase_if(facets, [&](const OuterFacet& outer) { return parts_.part_of(outer.cell) == nullptr; });
       pair.slave = parts_.surface(facets, given.where, "contact");
     } else {
-      pair.slave = surface(given.group, "contact.group");
+      pair.slave = touching_surface(given, given.group, "contact.group");
     }
-    pair.master = pair.self ? pair.slave : surface(given.master, "contact.master");
+    pair.master = pair.self ? pair.slave : touching_surface(given, given.master, "contact.master");
     model_.contacts.emplace_back(std::move(pair));
   }
 
@@ -205,7 +221,7 @@ class ModelBuilder {
       obstacle.measure = RowMeasure::per_node;
       obstacle.nodes = groups_.nodes(given.group, "contact.group");
     } else {
-      obstacle.surface = surface(given.group, "contact.group");
+      obstacle.surface = touching_surface(given, given.group, "contact.group");
     }
     add_carrier(given, obstacle);
     model_.contacts.emplace_back(std::move(obstacle));

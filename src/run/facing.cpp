@@ -6,11 +6,13 @@
 #include <limits>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/types.hpp"
 #include "contact/facet_geometry.hpp"
 #include "math/vec3.hpp"
+#include "model/bodies.hpp"
 
 namespace carom {
 
@@ -52,6 +54,19 @@ Look look(const Simulation& s, const Facet& facet, const State& state) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a)
     seen.size = std::max(seen.size, norm(subtract(placed.x[a], seen.centre)));
   return seen;
+}
+
+/// Ends of bars look out of them.
+Vec3 outward_of_bar(const Simulation& s, Index end, const State& state) {
+  const CellBlock* lines = s.mesh().block(CellType::line2);
+  const auto x = [&](Index n) {
+    Vec3 at_n = s.mesh().coordinates[at(n)];
+    for (std::size_t c = 0; c < 3; ++c) at_n[c] += state.q[3 * at(n) + c];
+    return at_n;
+  };
+  for (std::size_t i = 0; lines != nullptr && i < lines->connectivity.size(); ++i)
+    if (lines->connectivity[i] == end) return normalized(subtract(x(end), x(lines->connectivity[i ^ 1U])));
+  return {};
 }
 
 /// Every so manieth facet, so that there are at most `most`.
@@ -139,9 +154,23 @@ bool shows_its_back(const Simulation& s, std::size_t c, const State& state) {
   const auto distance = [&](const Facet& facet) { return norm(subtract(look(s, facet, state).centre, middle)); };
   const auto nearer = [&](const Facet& a, const Facet& b) { return distance(a) < distance(b); };
   const std::vector<Facet>&own = obstacle->surface.facets, &others = rigid->surface.facets;
-  const Look here = look(s, *std::min_element(own.begin(), own.end(), nearer), state);
+  const Facet& nearest = *std::min_element(own.begin(), own.end(), nearer);
+  Look here = look(s, nearest, state);
+  if (nearest.size == 1) here.normal = outward_of_bar(s, nearest[0], state);
   const Look there = look(s, *std::min_element(others.begin(), others.end(), nearer), state);
-  return dot(here.normal, there.normal) > 0.5 && dot(subtract(there.centre, here.centre), here.normal) > 0.0;
+  return dot(here.normal, there.normal) > 0.5 && dot(subtract(there.centre, here.centre), there.normal) > 0.0;
+}
+
+bool goes_through_its_back(const Simulation& s, std::size_t c, const State& state) {
+  if (!shows_its_back(s, c, state)) return false;
+  const auto& obstacle = std::get<ObstacleContact>(s.model().contacts[c]);
+  const auto& rigid = std::get<RigidSurface>(obstacle.shape);
+  Vec3 normal{};
+  for (const Facet& facet : rigid.surface.facets) normal = add(normal, look(s, facet, state).normal);
+  Vec3 v = mean_motion(s, obstacle.surface.facets, state).v;
+  if (obstacle.carrier >= 0)
+    for (std::size_t i = 0; i < 3; ++i) v[i] -= state.v[3 * at(obstacle.carrier) + i];
+  return dot(v, normal) > 0.0;
 }
 
 bool faces_away(const Simulation& s, std::size_t c, const State& state) {
@@ -151,12 +180,11 @@ bool faces_away(const Simulation& s, std::size_t c, const State& state) {
   return obstacle != nullptr && obstacle_faces_away(s, c, *obstacle, state);
 }
 
-bool passes_by(const Simulation& s, std::size_t c, const State& state) {
-  const auto* pair = std::get_if<PairContact>(&s.model().contacts[c]);
-  if (pair == nullptr || pair->self) return false;
-  const Box3 a = box_around(s, pair->slave.facets, state), b = box_around(s, pair->master.facets, state);
-  const Vec3 v = subtract(mean_motion(s, pair->slave.facets, state).v, mean_motion(s, pair->master.facets, state).v);
-  double enter = 0.0, leave = s.end();
+namespace {
+
+/// Do boxes that move at a velocity relative to each other stay apart until the end?
+bool stay_apart(const Box3& a, const Box3& b, const Vec3& v, double end) {
+  double enter = 0.0, leave = end;
   for (std::size_t i = 0; i < 3; ++i) {
     if (v[i] == 0.0) {
       if (a.high[i] < b.low[i] || a.low[i] > b.high[i]) return true;
@@ -167,6 +195,32 @@ bool passes_by(const Simulation& s, std::size_t c, const State& state) {
     leave = std::min(leave, std::max(first, second));
   }
   return enter > leave;
+}
+
+}  // namespace
+
+bool passes_by(const Simulation& s, std::size_t c, const State& state) {
+  const auto* pair = std::get_if<PairContact>(&s.model().contacts[c]);
+  if (pair == nullptr || pair->self) return false;
+  const Box3 a = box_around(s, pair->slave.facets, state), b = box_around(s, pair->master.facets, state);
+  const Vec3 v = subtract(mean_motion(s, pair->slave.facets, state).v, mean_motion(s, pair->master.facets, state).v);
+  return stay_apart(a, b, v, s.end());
+}
+
+bool all_stay_apart(const Simulation& s, std::size_t c, const State& state) {
+  const auto* pair = std::get_if<PairContact>(&s.model().contacts[c]);
+  if (pair == nullptr || !pair->self) return false;
+  const std::vector<Index> body_of = bodies_of_nodes(s.model());
+  std::map<Index, std::vector<Facet>> skins;
+  for (const Facet& facet : pair->slave.facets) skins[body_of[at(facet[0])]].push_back(facet);
+  std::vector<std::pair<Box3, Vec3>> bodies;
+  for (const auto& [body, facets] : skins)
+    bodies.emplace_back(box_around(s, facets, state), mean_motion(s, facets, state).v);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (!stay_apart(bodies[i].first, bodies[j].first, subtract(bodies[i].second, bodies[j].second), s.end()))
+        return false;
+  return bodies.size() > 1;
 }
 
 }  // namespace carom

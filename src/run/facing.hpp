@@ -14,6 +14,9 @@ std::optional<double> middle_approach(const Simulation& simulation, std::size_t 
 /// as that does and lies before it.
 bool shows_its_back(const Simulation& simulation, std::size_t contact, const State& state);
 
+/// True when, moreover, the touching surface begins with a velocity towards it: it passes through from behind.
+bool goes_through_its_back(const Simulation& simulation, std::size_t contact, const State& state);
+
 /// True when no facet of the contact's surface looks at the obstacle, or no facets of a pair look at each other: what
 /// would touch first is not in the contact.
 bool faces_away(const Simulation& simulation, std::size_t contact, const State& state);
@@ -21,5 +24,9 @@ bool faces_away(const Simulation& simulation, std::size_t contact, const State& 
 /// True when the boxes around the two surfaces of a pair, each grown by a facet, do not meet before the end at the mean
 /// velocities of the surfaces.
 bool passes_by(const Simulation& simulation, std::size_t contact, const State& state);
+
+/// Of a contact of all bodies with each other: true when there are several and the boxes around no two of them, each
+/// grown by a facet, meet before the end at the mean velocities of their skins.
+bool all_stay_apart(const Simulation& simulation, std::size_t contact, const State& state);
 
 }  // namespace carom

@@ -13,6 +13,7 @@
 #include "math/vec3.hpp"
 #include "run/build_mesh.hpp"
 #include "run/build_model.hpp"
+#include "run/facing.hpp"
 #include "solid/smallest_cell.hpp"
 
 namespace carom {
@@ -74,6 +75,7 @@ Simulation::Simulation(Case given)
     refuse_other_points(case_, *taken_, solid_);
     notes_.insert(notes_.begin(), taken_->note);
   }
+  refuse_surfaces_from_behind();
   settle_initial_penetrations();
   const StageContext context{case_, *mesh_, model_, solid_, contact_};
   stages_.push_back(std::make_unique<Stage>(context, case_.scheme, case_.time, 0.0, later_velocities(0)));
@@ -151,6 +153,23 @@ void Simulation::settle_initial_penetrations() {
         "{}; {}", what, wanted == InitialPenetration::prestress ? "kept as prestress" : "taken as free of strain"));
   }
   contact_.set_initial(state.q);
+}
+
+/// Rigid surfaces are met from the side that their normals look to; from the other side everything passes.
+void Simulation::refuse_surfaces_from_behind() const {
+  const State state = initial_state();
+  for (std::size_t c = 0; c < case_.contacts.size(); ++c) {
+    if (!goes_through_its_back(*this, c, state)) continue;
+    const CaseContact& contact = case_.contacts[c];
+    throw CaseError(contact.where, "contact",
+                    fmt::format("faces of the rigid surface of \"{}\" that look away from \"{}\", which moves towards "
+                                "their back and would pass",
+                                *contact.name, *contact.group),
+                    "normals that look at what touches: by the right-hand rule, and of lines a quarter turn clockwise "
+                    "from the first node to the second",
+                    "Turn the faces round (the order of their nodes; in a deck, of whose lines the normal is a quarter "
+                    "turn counter-clockwise, SNEG instead of SPOS).");
+  }
 }
 
 /// Facets of a pair inside of another body and too deep for any row: contact would not see them, ever.

@@ -58,6 +58,7 @@ class Simulation {
 
  private:
   std::vector<bool> later_velocities(std::size_t stage) const;
+  void refuse_surfaces_from_behind() const;
   void settle_initial_penetrations();
   void refuse_buried_facets(std::size_t c, const State& state) const;
 

@@ -38,7 +38,7 @@ const Element* element_of(const Part& part) {
 }
 
 void check_shape(const Mesh& mesh, const Part& part, const CellNodes& x, std::size_t nodes, std::int64_t number,
-                 double det_J) {
+                 double det_J, double largest_radius) {
   if (!(det_J > 0.0))
     throw part_error(mesh, part, fmt::format("Jacobian determinant {:.3g} in cell {}", det_J, number),
                      "a positive Jacobian determinant at every Gauss point",
@@ -49,8 +49,9 @@ void check_shape(const Mesh& mesh, const Part& part, const CellNodes& x, std::si
     if (std::abs(x[a][2] - x[0][2]) > flat * std::sqrt(det_J))
       throw part_error(mesh, part, fmt::format("z = {:.6g} and {:.6g} in cell {}", x[0][2], x[a][2], number),
                        "plane cells in the x-y plane", "turn the mesh so that z is constant");
+  constexpr double on_axis = 1e-9;  // as Parts::axis_tolerance
   for (std::size_t a = 0; a < nodes && part.section == Section::axisymmetric; ++a)
-    if (x[a][0] < 0.0)
+    if (x[a][0] < -on_axis * largest_radius)
       throw part_error(mesh, part, fmt::format("x = {:.6g} in cell {}", x[a][0], number),
                        "x >= 0: the radius about the y axis", "move the mesh to the right of the y axis");
 }
@@ -156,11 +157,15 @@ void check_shapes(const Mesh& mesh, const Part& part, const std::vector<CellRef>
       block.stages.cell->smallest_jacobian(mesh.coordinates.front().data(), block.offset.data() + block.nodes() * c,
                                            &det_J[c]);
   });
+  double largest_radius = 0.0;
+  for (const CellRef& cell : cells)
+    for (const Index n : connectivity_of(mesh, cell))
+      largest_radius = std::max(largest_radius, mesh.coordinates[at(n)][0]);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (det_J[c] > 0.0 && dimension(part.type) != 2) continue;
     const auto nodes = connectivity_of(mesh, cells[c]);
     check_shape(mesh, part, positions(mesh, nodes), nodes.size(),
-                mesh.blocks[at(cells[c].block)].file_numbers[at(cells[c].cell)], det_J[c]);
+                mesh.blocks[at(cells[c].block)].file_numbers[at(cells[c].cell)], det_J[c], largest_radius);
   }
 }
 

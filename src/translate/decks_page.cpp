@@ -72,6 +72,8 @@ refused.
 
 A `*RIGID BODY` of faces (R3D3, R3D4) is an obstacle: its reference node is held or moved along all three axes by
 `*BOUNDARY`, or is free along all of them and has a `*MASS`. It does not turn. Behind its last imposed displacement it stays.
+It is met from the side of its normal: by the right-hand rule, of R2D2 and RAX2 a quarter turn counter-clockwise from
+the first node to the second; `SNEG` names the other side. What would pass from behind is refused.
 
 ## neo-Hookean bodies
 

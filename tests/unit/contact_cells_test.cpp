@@ -11,11 +11,14 @@
 #include "contact/body_overlap.hpp"
 #include "contact/buried_facets.hpp"
 #include "contact/cell_location.hpp"
+#include "contact/facet_geometry.hpp"
 #include "contact/facing_facets.hpp"
+#include "contact/half_thickness.hpp"
 #include "contact/stiffness.hpp"
 #include "contact_rows_fixture.hpp"
 #include "mesh/cell_size.hpp"
 #include "mesh/structured_block.hpp"
+#include "model/bodies.hpp"
 
 namespace carom::contact_cells_test {
 namespace {
@@ -287,6 +290,110 @@ TEST(BuriedFacets, OfAnyCellsAreThoseInside) {
     const std::size_t found = buried_facets(bodies.model, pair, bodies.lowered(0.5)).size();
     EXPECT_GT(found, all / 2) << name(above) << " on " << name(below);
     EXPECT_TRUE(buried_facets(bodies.model, pair, bodies.lowered(-0.5)).empty());
+  }
+}
+
+/// Gaps of the rows at u, by slot; zero where there is none or it is open.
+std::vector<double> depths(const ContactGeometry& contact, std::span<const double> u) {
+  const auto rows = contact.rows_at(u, u);
+  std::vector<double> depth(contact.slots());
+  for (std::size_t r = 0; r < rows->size(); ++r)
+    depth[static_cast<std::size_t>(rows->slot[r])] = std::max(0.0, -rows->gap_at(r, u));
+  return depth;
+}
+
+// A cube comes sideways under the upper face of another, a fifth of a cell deep: no row begins deeper than what a step
+// moves, wherever it begins, by whole skins and by faces alone.
+TEST(NodeRows, BeginAtTheSurfaceWhenACubeComesFromTheSide) {
+  constexpr double step = 1e-3;
+  for (const bool is_all : {true, false}) {
+    TwoBodies bodies(CellType::hexa8, CellType::hexa8, 2, 3, -0.07, {1.1, 0.23, 0.0});
+    PairContact contact = bodies.pair(PairMethod::two_pass);
+    if (is_all) {
+      contact.self = true;
+      contact.slave.facets = contact.master.facets = skin(*bodies.model.mesh);
+    }
+    bodies.model.contacts.emplace_back(contact);
+    const ContactGeometry geometry(bodies.model);
+    std::vector<double> u = bodies.u, before = depths(geometry, u);
+    for (int k = 0; k < 600; ++k) {
+      for (std::size_t n = 0; n < bodies.is_upper.size(); ++n)
+        if (bodies.is_upper[n]) u[3 * n] -= step;
+      const std::vector<double> now = depths(geometry, u);
+      for (std::size_t slot = 0; slot < now.size(); ++slot)
+        // Faces alone: the slope of the fading gap, at most 1.54 depths over a width of a tenth of a facet of 0.33.
+        EXPECT_LT(std::abs(now[slot] - before[slot]), (is_all ? 1.001 : 3.3) * step)
+            << "step " << k << " slot " << slot;
+      before = now;
+    }
+    EXPECT_GT(*std::ranges::max_element(before), 0.06) << "nothing has begun";
+  }
+}
+
+/// The unit cube, n cells along its edges, with every node moved.
+template <class Move>
+Model moved_box(CellType type, int n, const Move& move) {
+  Mesh mesh = with_cells(make_structured_blocks({unit_box({}, n)}), type);
+  for (Vec3& x : mesh.coordinates) x = move(x);
+  return model_of(std::move(mesh));
+}
+
+PairContact with_itself(const Model& model) {
+  PairContact contact;
+  contact.name = "all";
+  contact.self = true;
+  contact.slave.facets = contact.master.facets = skin(*model.mesh);
+  return contact;
+}
+
+// Straight pieces of curved faces lie inside of neighbouring cells of the same body.
+TEST(BuriedFacets, AreNoneOfACurvedBodyAlone) {
+  for (const CellType type : {CellType::tetra10, CellType::hexa20}) {
+    const Model ring = moved_box(type, 4, [](const Vec3& x) {
+      const double angle = -1.5 * 3.14159 * x[0], radius = 1.0 + x[1];  // 67 degrees per cell
+      return Vec3{radius * std::cos(angle), radius * std::sin(angle), x[2]};
+    });
+    const std::vector<double> u(3 * ring.mesh->node_count(), 0.0);
+    EXPECT_TRUE(buried_facets(ring, with_itself(ring), u).empty()) << name(type);
+  }
+}
+
+// The nodes of the tip of a punch are not deep inside of its flanks, and half of the tip is how deep these may be met.
+TEST(HalfThickness, OfATaperedBodyIsThatOfItsTip) {
+  constexpr double tip = 0.05;
+  for (const int n : {1, 2, 4}) {
+    Model punch = moved_box(CellType::hexa8, n, [](const Vec3& x) {
+      const double width = tip + (1.0 - tip) * x[2];
+      return Vec3{width * (x[0] - 0.5), width * (x[1] - 0.5), 2.0 * x[2]};
+    });
+    const PairContact contact = with_itself(punch);
+    const std::vector<double> half =
+        half_thickness(punch.mesh->coordinates, contact.slave.facets, bodies_of_nodes(punch), 1.0);
+    EXPECT_LE(*std::ranges::min_element(half), n == 2 ? 0.5 * tip * 1.01 : 0.5) << n;
+    punch.contacts.emplace_back(contact);
+    const std::vector<double> u(3 * punch.mesh->node_count(), 0.0);
+    for (const Penetration& p : ContactGeometry(punch).initial_penetrations(u))
+      ADD_FAILURE() << n << " cells along: " << p.depth << " at " << p.position[0] << " " << p.position[2];
+  }
+}
+
+// A hollow body has two skins, of which the inner one is behind the outer one.
+TEST(HalfThickness, IsKnownThroughAHollow) {
+  Mesh mesh = make_structured_blocks({unit_box({}, 5)});
+  Model shell = model_of(std::move(mesh));
+  std::erase_if(shell.parts[0].cells, [](Index c) { return c == 62; });  // the middle one of 125
+  Mesh hollow = *shell.mesh;
+  CellBlock& block = hollow.blocks[static_cast<std::size_t>(hollow.block(CellType::hexa8) - hollow.blocks.data())];
+  block.connectivity.erase(block.connectivity.begin() + 62 * 8, block.connectivity.begin() + 63 * 8);
+  block.file_numbers.pop_back();
+  shell = model_of(std::move(hollow));
+  const std::vector<Facet> facets = skin(*shell.mesh);
+  const std::vector<double> half = half_thickness(shell.mesh->coordinates, facets, bodies_of_nodes(shell), 1.0);
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const PlacedFacet placed = place(facets[f], shell.mesh->coordinates);
+    const ParentPoint centre = facet_centre(placed.size);
+    if (norm(subtract(facet_position(placed, centre.xi, centre.eta), {0.5, 0.5, 0.0})) > round_off) continue;
+    EXPECT_NEAR(half[f], 0.2, round_off) << "two cells of 0.2 between the middle of a face and the hollow";
   }
 }
 

@@ -37,6 +37,33 @@ const std::string kTwoCubes =
     "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n9,0,0,2\n10,1,0,2\n11,1,1,2\n"
     "12,0,1,2\n*ELEMENT, TYPE=C3D8, ELSET=ALL\n1,1,2,3,4,5,6,7,8\n2,5,6,7,8,\n9,10,11,12\n";
 
+/// Order of the nodes of the only cell of a group.
+std::vector<std::int64_t> order_in(const Mesh& mesh, const std::string& group) {
+  const CellRef& cell = mesh.cell_groups.at(group).at(0);
+  std::vector<std::int64_t> numbers;
+  for (const Index n : mesh.blocks[at(cell.block)].nodes(cell.cell)) numbers.push_back(mesh.node_numbers[at(n)]);
+  return numbers;
+}
+
+// The positive side of a line is a quarter turn counter-clockwise from its first node to its second (Abaqus Analysis
+// User's Guide, Rigid elements); Facet has the clockwise one. That of a face is by the right-hand rule in both.
+TEST(MeshDeck, SidesOfRigidFacesAreThoseOfTheirNormals) {
+  const std::string nodes = "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n";
+  const std::string sides = "*SURFACE, NAME=P\nW, SPOS\n*SURFACE, NAME=M\nW, SNEG\n*SURFACE, NAME=U\nW,\n";
+  const auto turned = [](const std::vector<std::int64_t>& from, const std::vector<std::int64_t>& to) {
+    return std::vector<std::int64_t>(from.rbegin(), from.rend()) == to;
+  };
+  for (const std::string type : {"R2D2", "RAX2"}) {
+    const Mesh line = read(nodes + "*ELEMENT, TYPE=" + type + ", ELSET=W\n1,1,2\n" + sides);
+    EXPECT_EQ(order_in(line, "P"), (std::vector<std::int64_t>{2, 1})) << type;
+    EXPECT_EQ(order_in(line, "M"), (std::vector<std::int64_t>{1, 2})) << type;
+    EXPECT_EQ(order_in(line, "U"), order_in(line, "P")) << type;
+  }
+  const Mesh face = read(kTwoCubes + "*ELEMENT, TYPE=R3D4, ELSET=W\n9,1,2,3,4\n" + sides);
+  EXPECT_EQ(order_in(face, "P"), (std::vector<std::int64_t>{1, 2, 3, 4}));
+  EXPECT_TRUE(turned(order_in(face, "P"), order_in(face, "M")));
+}
+
 TEST(MeshDeck, NodesAndCellsByNumber) {
   const Mesh mesh = read(kTwoCubes);
   EXPECT_EQ(mesh.node_count(), 12U);

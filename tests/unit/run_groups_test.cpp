@@ -102,6 +102,19 @@ TEST(Groups, TheFreeEndOfABarIsStillASurface) {
   EXPECT_EQ(std::get<Pressure>(model.loads[0]).surface.facets.size(), 1U);
 }
 
+// Bars touch with their ends: a group of more of their nodes is refused, not taken by its ends alone.
+TEST(Groups, NodesBetweenTheEndsOfBarsAreNoSurfaceOfAContact) {
+  const auto plane = [](const std::string& group) {
+    return pad_and_bar +
+           "[[contact]]\nname = \"c\"\nkind = \"plane\"\nnormal = [1.0, 0.0, 0.0]\npoint = [-9.0, 0.0, "
+           "0.0]\ngroup = \"" +
+           group + "\"\n";
+  };
+  EXPECT_NO_THROW(model_of(plane("FAR_END"), square_with_bar()));
+  EXPECT_NE(message_of(plane("BAR"), square_with_bar()).find("ends of bars alone"), std::string::npos)
+      << message_of(plane("BAR"), square_with_bar());
+}
+
 TEST(Groups, AllCellsOfASectionLeaveBoundariesAndOtherSectionsAlone) {
   const Model plane = model_of(part("section = \"plane_strain\""), square_with_bar());
   EXPECT_EQ(plane.parts[0].cells.size(), 2U);

@@ -67,7 +67,10 @@ TEST(Lint, SaysWhenNoWaveCrossesACell) {
 TEST(Lint, SaysWhenARigidSurfaceShowsItsBack) {
   const std::string what = "look away from";
   EXPECT_FALSE(is_warned(sheet(-0.1, "FOOT") + moving(-1.0), what));
-  EXPECT_TRUE(is_warned(sheet(3.1, "HEAD") + moving(1.0), what));
+  EXPECT_TRUE(is_warned(sheet(3.1, "HEAD") + moving(-1.0), what));
+  // A body that moves towards the back would pass: refused.
+  const std::string text = case_of_block(sheet(3.1, "HEAD") + moving(1.0) + central_differences);
+  EXPECT_THROW(Simulation(parse_case(text, "case.toml")), CaseError);
 }
 
 TEST(Lint, SaysWhenAContactIsReachedAfterTheEnd) {
@@ -136,6 +139,39 @@ TEST(Lint, FollowsTheFunctionOfAnObstacle) {
   EXPECT_NEAR(found.at(0).first_touch, 0.75, 2.0 / 512.0);  // the jump is smeared over an interval
   EXPECT_FALSE(is_warned(plane(2.0), "is not reached before the end"));
   EXPECT_TRUE(is_warned(plane(1.0), "is not reached before the end"));
+}
+
+/// A body that touches at the start and is moved at its head alone: the flight of free nodes does not say when it
+/// closes.
+TEST(Lint, SaysNothingFalseOfContactsThatTouch) {
+  const std::string press =
+      "[functions.ramp]\ntime = [0.0, 1.0]\nvalue = [0.0, 1.0]\n[[support]]\nnodes = \"HEAD\"\n"
+      "displacement = { z = -0.1, function = \"ramp\" }\n";
+  const std::string under =
+      "[[contact]]\nname = \"under\"\nkind = \"plane\"\nnormal = [0.0, 0.0, 1.0]\npoint = [0.0, "
+      "0.0, 0.0]\ngroup = \"FOOT\"\n";
+  EXPECT_FALSE(is_warned(press + under, "before the end"));
+  EXPECT_FALSE(is_warned(press + under, "nothing moves"));
+}
+
+/// Of all bodies with each other: one alone may fold, two may be too far apart; a fall together onto a plane says
+/// nothing of what comes after.
+TEST(Lint, SaysWhenBodiesThatAllTouchStayApart) {
+  const std::string what = "no two of its bodies come together";
+  const std::string all = "[[contact]]\nname = \"all\"\nkind = \"all\"\n";
+  const auto two = [&](double height) {
+    std::string text = second_body(height);
+    return text.substr(0, text.find("[[contact]]")) + all;
+  };
+  EXPECT_FALSE(is_warned(all + moving(1.0), "moves towards"));
+  EXPECT_FALSE(is_warned(all + moving(1.0), what));
+  EXPECT_FALSE(is_warned(two(8.0) + moving(6.0), what));
+  EXPECT_TRUE(is_warned(two(8.0) + moving(2.0), what));
+  EXPECT_TRUE(is_warned(two(8.0), what));
+  const std::string floor =
+      "[[contact]]\nname = \"under\"\nkind = \"plane\"\nnormal = [0.0, 0.0, 1.0]\npoint = [0.0, "
+      "0.0, -0.1]\ngroup = \"FOOT\"\n[[initial]]\nnodes = \"all\"\nvelocity = [0.0, 0.0, -1.0]\n";
+  EXPECT_FALSE(is_warned(two(3.001) + floor, "before the end"));
 }
 
 TEST(Lint, AdvisesMoreStiffnessThanIsChosen) {
