@@ -177,7 +177,7 @@ def draw_body(draw, shape, size):
             d, stretch = (wide, wide * min(1.2, b), 1.5 * c), aspect if shape == "needle" else 1.0
             return box([size * x for x in d], [count(d[0], own), count(d[1], own), count(d[2], own * stretch, 3)])
         if shape == "ball":
-            return ball(0.5 * size * a, finer * max(2, min(6, 2 * round(0.5 * a / cell))))
+            return ball(0.5 * size * a, finer * max(2, min(4, 2 * round(0.5 * a / cell))))
         if shape in ("tube", "sector"):
             outer, turn = 0.5 * a, 2.0 * math.pi if shape == "tube" else angle
             n = [count(outer * (1.0 - inner), cell), count(turn * outer, cell, 12 if shape == "tube" else 4),

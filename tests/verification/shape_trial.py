@@ -11,8 +11,9 @@
 Two to five bodies: boxes, rolled boxes, wedges, needles, balls, tubes, sectors of rings, L and H sections, bars. One
 rests; each further one is turned so that an edge, a corner or a face of it points to an edge, a corner or a face of a
 body that is there (edges on edges and corners on faces preferred), put at a small gap and thrown along that direction.
-Types of cells come by turns, and so do schemes, an implicit one after each explicit one; drawn are laws (linear up to
-3e-3 of the wave's speed, St. Venant and Kirchhoff's up to 1e-2, as their strains and rotations allow), stiffnesses 1 : 1
+Types of cells come by turns, and so do schemes, an implicit one after each explicit one (but modified_mass, which wants
+bodies of many layers); drawn are laws (those of small strains up to 1.5e-3 of the wave's speed, St. Venant and Kirchhoff's
+up to 1e-2, as their strains and rotations allow; no plasticity by energy_momentum, which refuses it), stiffnesses 1 : 1
 to 1 : 100, cells, speeds (1e-4 to 1e-1 of the bar wave's in the softest body), units, friction (half) and place (the
 origin, or 100 m from it).
 The deck says [[contact]] kind = "all" and the scheme, and nothing else: method, enforcement, stiffnesses, tolerances and
@@ -59,10 +60,10 @@ SMALL = range(0, VARIANTS, 29)
 TIME_LIMIT = 60  # s of processor time
 SLOW = 4.0
 NOTED = 0.05  # of a cell
-NODES = {True: 1400, False: 500}  # most nodes, explicit and implicit; fewer in --small
+NODES = {True: 2000, False: 700}  # most nodes, explicit and implicit
 SCHEMES = (("central_differences", "cd_lagrange", "central_differences", "cd_lagrange", "hulbert_chung",
             "central_differences", "cd_lagrange", "noh_bathe", "central_differences", "tchamwa_wielgosz",
-            "cd_lagrange", "forward_increment", "central_differences", "cd_lagrange", "modified_mass"),
+            "cd_lagrange", "forward_increment", "central_differences", "cd_lagrange"),
            ("newmark", "hht", "generalized_alpha", "newmark", "hht", "bathe", "newmark", "moreau_jean", "hht",
             "energy_momentum", "newmark", "wbz", "hht", "contact_stabilized_newmark", "newmark",
             "nonsmooth_generalized_alpha"))
@@ -93,11 +94,12 @@ class Variant:
 
     def laws(self):
         """Those that are made for the speed, which is about the strain."""
-        if self.speed < 3e-3:
-            return ("linear_elastic",) * 3 + ("st_venant_kirchhoff", "neo_hookean", "j2_small_strain")
+        yields = self.scheme != "energy_momentum"
+        if self.speed < 1.5e-3:
+            return ("linear_elastic",) * 3 + ("st_venant_kirchhoff", "neo_hookean") + ("j2_small_strain",) * yields
         if self.speed < 1e-2:
-            return ("st_venant_kirchhoff", "neo_hookean", "neo_hookean", "j2")
-        return ("neo_hookean",) * 4 + ("j2",)
+            return ("st_venant_kirchhoff", "neo_hookean", "neo_hookean") + ("j2",) * yields
+        return ("neo_hookean",) * 4 + ("j2",) * yields
 
     def draw_bodies(self, draw, count):
         budget = NODES[self.scheme in EXPLICIT] / count
@@ -106,7 +108,7 @@ class Variant:
             kind = shape_bodies.TYPES[(self.number + (i if draw.random() < 0.4 else 0)) % len(shape_bodies.TYPES)]
             shape, size = draw.choice(shape_bodies.SHAPES), 0.05 * draw.uniform(0.7, 1.4)
             make = shape_bodies.draw_body(draw, shape, size)
-            cell = draw.uniform(0.12, 0.45)
+            cell = draw.uniform(0.09, 0.3)
             while len((body := make(cell, 1).of_type(kind)).nodes) > budget and cell < 1.0:
                 cell *= 1.15
             if self.finer > 1:
@@ -262,7 +264,10 @@ class Variant:
 # --------------------------------------------------------------------------------------------------------- the trial
 def judge_impulse(carom, folder, record, seed):
     """Against the same bodies on cells half as large."""
-    fine = Variant(record["number"], seed, 2).run(carom, folder / f"{record['number']}_refined")
+    try:
+        fine = Variant(record["number"], seed, 2).run(carom, folder / f"{record['number']}_refined")
+    except ValueError:  # a pyramid at the corner of a fine ball is too flat
+        return
     if "impulses" not in record or "impulses" not in fine or fine["fault"]:
         return
     one, two = np.array(record["impulses"]), np.array(fine["impulses"])
