@@ -234,11 +234,11 @@ class Variant:
         if not found["gain"] <= 5e-3:
             faults.append("gain")
         if not found["overlap"] <= DEPTH_LIMIT:
-            faults.append("crossing")
+            faults.append("crossing of " + found["between"].split()[0])
         return found | {"fault": "; ".join(faults)}
 
     def deepest(self, out):
-        """Greatest depth of two skins in each other over all frames, in the smaller cell, and of which bodies and frame."""
+        """Greatest depth of two skins in each other over all frames, in the smaller cell, and of what, which and when."""
         length = UNITS[self.units][0]
         frames = sorted((out / "fields").glob("step_*.vtu"))
         points = np.array(read_field(frames[0], "Points")).reshape(-1, 3)
@@ -250,14 +250,14 @@ class Variant:
         for frame in frames:
             u = np.array(read_field(frame, "displacement")).reshape(-1, 3)[order] / length
             if not np.isfinite(u).all():
-                return math.inf, frame.stem
+                return math.inf, f"nodes, {frame.stem}"
             x = self.nodes() - middle + u
             placed = [b.skin.placed(x[f:f + len(b.nodes)]) for b, f in zip(self.bodies, first)]
             for i, one in enumerate(placed):
                 for j, two in enumerate(placed[:i]):
                     cell = min(self.bodies[i].cell_size, self.bodies[j].cell_size)
-                    depth = float(surface_crossing.crossing_depth(two, one)) / cell
-                    deepest = max(deepest, (depth, f"B{j} and B{i}, {frame.stem}"))
+                    for depth, what in zip(surface_crossing.crossing_depths(two, one), ("nodes", "edges")):
+                        deepest = max(deepest, (depth / cell, f"{what} of B{j} and B{i}, {frame.stem}"))
         return deepest
 
 
@@ -285,7 +285,7 @@ def report(records):
     for fault, own in sorted(classes.items(), key=lambda item: -len(item[1])):
         print(f"\n{len(own)} {fault}")
         for r in own:
-            print(f"  {r['number']:4} {r['name']:26} {r['shapes']} | {r['types']} | {r['meetings']} | {figures(r)}\n"
+            print(f"  {r['number']:4} {r['name']:26} {r['shapes']} | {r['types']} | {r['meetings']} | {figures(r)} {r.get('between', '')}\n"
                   f"       {(r['message'].splitlines() or [''])[0][:220]}")
     slow = [r for r in records if r["foretold"] and r.get("steps", 0) > SLOW * r["foretold"]]
     deep = [r for r in records if r.get("overlap", 0.0) > NOTED]

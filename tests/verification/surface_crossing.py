@@ -118,11 +118,11 @@ class Placed:
         return depth
 
 
-def crossing_depth(a, b):
-    """How deep two placed skins are in each other; 0 where they do not cross."""
+def crossing_depths(a, b):
+    """How deep two placed skins are in each other: by nodes inside, and by edges that go in and out again."""
     if (a.low > b.high).any() or (b.low > a.high).any():
-        return 0.0
-    return max(a.inside(b.x).max(), b.inside(a.x).max(), pierced(a, b), pierced(b, a))
+        return 0.0, 0.0
+    return float(max(a.inside(b.x).max(), b.inside(a.x).max())), max(pierced(a, b), pierced(b, a))
 
 
 def pierced(a, b):
@@ -224,7 +224,7 @@ def self_test():
         ("cells of second order, flat on flat", skin(bodies.box((4.0, 1.0, 1.0), (8, 2, 2)).of_type("HEXA20")),
          skin(bodies.box((4.0, 1.0, 1.0), (8, 2, 2)).of_type("TETRA10"), quarter, (0.13, 0.07, 1.0 - d)), d)]
     for name, one, two, due in known:
-        found = crossing_depth(one, two)
+        found = max(crossing_depths(one, two))
         right = abs(found - due) <= 1e-9
         wrong += not right
         print(f"{name:40} depth {found:.6f}, due {due:.6f}{'' if right else '  WRONG'}")
