@@ -156,7 +156,8 @@ SHAPES = ("box", "rolled box", "wedge", "needle", "ball", "tube", "sector", "L",
 
 
 def draw_body(draw, shape, size):
-    """A function of the size of the cells, in sizes of the body, and of how often they are cut, so that a mesh can be made to fit a number of nodes."""
+    """A function of the size of the cells, in sizes of the body, and of how often they are cut: meshes fit a number of nodes
+    by it."""
     a, b, c = (draw.uniform(0.6, 1.4) for _ in range(3))
     shear, angle, inner = 1.0 / math.tan(draw.uniform(0.6, 1.1)), draw.uniform(1.0, 3.5), draw.uniform(0.4, 0.7)
     aspect = draw.uniform(1.0, 3.0)

@@ -129,6 +129,7 @@ class Variant:
         longest = 0.0
         for i, body in enumerate(self.bodies[1:], 1):
             gap = cell * 10.0 ** draw.uniform(-4.0, -2.0)
+            gap += body.skin.unlike(body.nodes) + max(b.skin.unlike(b.nodes) for b in self.bodies[:i])
             target = draw.randrange(i)
             direction = place(draw, self.bodies[:i], body, gap, self.bodies[target])
             aside = np.cross(direction, [draw.gauss(0.0, 1.0) for _ in range(3)])
@@ -285,8 +286,8 @@ def report(records):
     for fault, own in sorted(classes.items(), key=lambda item: -len(item[1])):
         print(f"\n{len(own)} {fault}")
         for r in own:
-            print(f"  {r['number']:4} {r['name']:26} {r['shapes']} | {r['types']} | {r['meetings']} | {figures(r)} {r.get('between', '')}\n"
-                  f"       {(r['message'].splitlines() or [''])[0][:220]}")
+            print(f"  {r['number']:4} {r['name']:26} {r['shapes']} | {r['types']} | {r['meetings']} | {figures(r)}"
+                  f" {r.get('between', '')}\n       {(r['message'].splitlines() or [''])[0][:220]}")
     slow = [r for r in records if r["foretold"] and r.get("steps", 0) > SLOW * r["foretold"]]
     deep = [r for r in records if r.get("overlap", 0.0) > NOTED]
     print(f"\n{len(slow)} with more than {SLOW:g} times the steps foretold:",

@@ -58,6 +58,12 @@ class Skin:
     def placed(self, x):
         return Placed(self, self.points(x))
 
+    def unlike(self, x):
+        """Greatest distance of the triangles from the bilinear faces: a quarter of the part w of x = ... + w xi eta."""
+        corners = np.asarray(x)[self.nodes][self.quads]
+        w = 0.25 * (corners[:, 0] - corners[:, 1] + corners[:, 2] - corners[:, 3])
+        return 0.25 * np.linalg.norm(w, axis=1).max(initial=0.0)
+
 
 class Placed:
     """A skin at its place."""
