@@ -3,11 +3,12 @@
 Facets are taken as the program takes them: a quadrilateral by four triangles about the middle of its corners, faces of
 second order by linear pieces over their nodes. Nodes and middles that are inside, by the winding number (van Oosterom and
 Strackee, The solid angle of a plane triangle, IEEE Transactions on Biomedical Engineering 30, 1983), count with their
-distance from the surface. An edge that goes through a triangle while its inner end is not inside goes in and out again;
-it counts with the least distance between an edge of its facets and one of the pierced facet along their cross product n,
-where n stands in the arc between the normals on both sides of the one edge, and -n in that of the other: there the bodies
-part along n (Gregorius, The separating axis test between convex polyhedra, Game Developers Conference, 2013). Where no two
-edges are such, with the greatest distance of points of the edge, inside of the body, from its surface.
+distance from the surface. An edge that goes in and out again counts with the least of
+  - the depth of the one end of its part inside below the plane of the triangle at the other;
+  - the distance between an edge of its facets and one of the pierced facets along their cross product n, where n stands in
+    the arc between the normals on both sides of the one edge, and -n in that of the other: there the bodies part along n
+    (Gregorius, The separating axis test between convex polyhedra, Game Developers Conference, 2013);
+or with the greatest distance of points of that part from the surface, where the faces are so bent that it is more.
 Needs numpy.
 """
 
@@ -132,30 +133,31 @@ def crossing_depths(a, b):
 
 
 def pierced(a, b):
-    """Greatest depth of an edge of a that goes through a triangle of b."""
+    """Greatest depth of an edge of a that goes into b and out again."""
     e, t = near_pairs(a, b)
     p, q = a.ends[e, 0], a.ends[e, 1]
     corner, normal = b.corner[t], b.normal[t]
     above, below = ((p - corner[:, 0]) * normal).sum(axis=1), ((q - corner[:, 0]) * normal).sum(axis=1)
     hit = np.flatnonzero(above * below < 0.0)
     e, t, p, q, corner, normal, above, below = (v[hit] for v in (e, t, p, q, corner, normal, above, below))
-    x = p + (above / (above - below))[:, None] * (q - p)
+    share = above / (above - below)
+    x = p + share[:, None] * (q - p)
     within = np.ones(len(x), dtype=bool)
     for i in range(3):
         side = corner[:, (i + 1) % 3] - corner[:, i]
         within &= (np.cross(side, x - corner[:, i]) * normal).sum(axis=1) >= 0.0
-    e, t, x, above, below, p, q = (v[within] for v in (e, t, x, above, below, p, q))
-    if not len(e):
+    e, t, x, share, enters = e[within], t[within], x[within], share[within], above[within] > 0.0
+    order = np.lexsort((share, e))
+    first, last = order[:-1], order[1:]
+    chords = (e[first] == e[last]) & enters[first] & ~enters[last]
+    first, last = first[chords], last[chords]
+    if not len(first):
         return 0.0
-    ends = np.where((above < below)[:, None], p, q)
-    through = np.flatnonzero(b.inside(ends) == 0.0)
-    e, t, x, ends = e[through], t[through], x[through], ends[through]
-    if not len(e):
-        return 0.0
-    depth = parting(a, b, e, t)
-    for k in np.flatnonzero(np.isinf(depth)):
-        depth[k] = b.inside(x[k] + np.linspace(0.0, 1.0, 12)[1:-1, None] * (ends[k] - x[k])).max()
-    return float(depth.max())
+    way = x[last] - x[first]
+    depth = np.minimum(-(way * b.normal[t[first]]).sum(axis=1), (way * b.normal[t[last]]).sum(axis=1))
+    depth = np.minimum(depth, np.minimum(parting(a, b, e[first], t[first]), parting(a, b, e[last], t[last])))
+    inside = (x[first][:, None] + np.linspace(0.0, 1.0, 10)[1:-1, None] * way[:, None]).reshape(-1, 3)
+    return float(np.maximum(depth, b.inside(inside).reshape(len(first), -1).max(axis=1)).max())
 
 
 def near_pairs(a, b):
@@ -218,6 +220,7 @@ def self_test():
         ("crossed bars, flat on flat", skin(bar), skin(bar, quarter, (0.13, 0.07, 1.0 - d)), d),
         ("crossed bars, flat on flat, touching", skin(bar), skin(bar, quarter, (0.13, 0.07, 1.0)), 0.0),
         ("crossed bars, flat on flat, apart", skin(bar), skin(bar, quarter, (0.13, 0.07, 1.0 + d)), 0.0),
+        ("bars side by side, nearly", skin(bar), skin(bar, about((0, 0, 1), 0.01), (0.3, 0.2, 1.0 - d)), d),
         ("edge on edge", skin(bar, roll), skin(bar, quarter @ roll, (0.13, 0.07, np.sqrt(2.0) - d)), d),
         ("edge on edge, askew", skin(bar, roll),
          skin(bar, about((0, 0, 1), 0.8) @ roll, (0.13, 0.07, np.sqrt(2.0) - d)), d),
