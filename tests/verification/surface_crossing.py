@@ -3,18 +3,17 @@
 Facets are taken as the program takes them: a quadrilateral by four triangles about the middle of its corners, faces of
 second order by linear pieces over their nodes. Nodes and middles that are inside, by the winding number (van Oosterom and
 Strackee, The solid angle of a plane triangle, IEEE Transactions on Biomedical Engineering 30, 1983), count with their
-distance from the surface. An edge that goes in and out again counts with the least of
-  - the depth of the one end of its part inside below the plane of the triangle at the other;
-  - the distance between an edge of its facets and one of the pierced facets along their cross product n, where n stands in
-    the arc between the normals on both sides of the one edge, and -n in that of the other: there the bodies part along n
-    (Gregorius, The separating axis test between convex polyhedra, Game Developers Conference, 2013);
-or with the greatest distance of points of that part from the surface, where the faces are so bent that it is more.
+distance from the surface. An edge that goes in and out again counts with the least way that takes its part
+inside out of the body, out of the half-space below the triangle it comes in by, or goes out by, or below one that is
+nearest to a point of that part; or over the ridge of the first two, along the cross product of edge and ridge. It is at
+least the greatest distance of points of that part from the surface.
 Needs numpy.
 """
 
 import numpy as np
 
-ARC = 0.05  # rad by which a direction may stand outside of the arc of an edge's normals
+RIDGE = 0.1  # sine of the angle between two triangles above which they have a ridge
+SAMPLES = np.linspace(0.0, 1.0, 10)[1:-1, None]  # of the part of an edge that is inside
 
 PIECES = {3: ((0, 1, 2),), 4: ((0, 1, 2, 3),), 6: ((0, 3, 5), (1, 4, 3), (2, 5, 4), (3, 4, 5)),
           8: ((0, 4, 7), (1, 5, 4), (2, 6, 5), (3, 7, 6), (4, 5, 6, 7)),
@@ -46,10 +45,6 @@ class Skin:
                 sides.setdefault((min(a, b), max(a, b)), []).append(t)
         self.edges = np.array(list(sides))
         self.beside = np.array([(t[0], t[-1]) for t in sides.values()])
-        self.of_facet = [[] for _ in pieces]
-        for e, t in enumerate(sides.values()):
-            for facet in {owner[k] for k in t}:
-                self.of_facet[facet].append(e)
 
     def points(self, x):
         """Positions of the corners and of the middles of the quadrilaterals; x of all nodes."""
@@ -78,15 +73,6 @@ class Placed:
         self.ends = x[skin.edges]
         self.sides = self.normal[skin.beside]  # of each edge
 
-    def in_arc(self, e, n):
-        """Do the directions n, normal to the edges e, stand between the normals on the sides of edges that bulge?"""
-        one, two = self.sides[e, 0], self.sides[e, 1]
-        across = self.corner[self.skin.beside[e, 1]].mean(axis=1) - self.ends[e, 0]
-        bend, first, second = (np.arccos(np.clip((x * y).sum(axis=1), -1.0, 1.0))
-                               for x, y in ((one, two), (n, one), (n, two)))
-        bulges = ((across * one).sum(axis=1) < 0.0) | (bend < ARC)
-        return bulges & (first + second <= bend + ARC)
-
     def winding(self, p):
         """1 of points inside, 0 outside."""
         if not len(p):
@@ -97,10 +83,8 @@ class Placed:
         dots = [(a[:, :, i] * a[:, :, (i + 1) % 3]).sum(axis=2) * length[:, :, (i + 2) % 3] for i in range(3)]
         return (2.0 * np.arctan2(det, length.prod(axis=2) + sum(dots))).sum(axis=1) / (4.0 * np.pi)
 
-    def distance(self, p):
-        """From the surface."""
-        if not len(p):
-            return np.zeros(0)
+    def nearest(self, p):
+        """Distances from the surface, and the triangles."""
         a = self.corner
         d = p[:, None] - a[None, :, 0]
         plane = (d * self.normal[None]).sum(axis=2)
@@ -113,7 +97,8 @@ class Placed:
             share = np.clip((rest * side).sum(axis=2) / np.maximum((side * side).sum(axis=1), 1e-300), 0.0, 1.0)
             best = np.minimum(best, np.linalg.norm(rest - share[..., None] * side, axis=2))
             within &= (np.cross(side[None], foot - a[None, :, i]) * self.normal[None]).sum(axis=2) >= 0.0
-        return np.where(within, np.abs(plane), best).min(axis=1)
+        best = np.where(within, np.abs(plane), best)
+        return best.min(axis=1), best.argmin(axis=1)
 
     def inside(self, p):
         """Depth of points inside, 0 of others."""
@@ -121,7 +106,8 @@ class Placed:
         near = np.flatnonzero(((p > self.low) & (p < self.high)).all(axis=1))
         for part in np.array_split(near, 1 + len(near) * len(self.corner) // 200000):
             hit = part[self.winding(p[part]) > 0.5]
-            depth[hit] = self.distance(p[hit])
+            if len(hit):
+                depth[hit] = self.nearest(p[hit])[0]
         return depth
 
 
@@ -153,11 +139,23 @@ def pierced(a, b):
     first, last = first[chords], last[chords]
     if not len(first):
         return 0.0
-    way = x[last] - x[first]
-    depth = np.minimum(-(way * b.normal[t[first]]).sum(axis=1), (way * b.normal[t[last]]).sum(axis=1))
-    depth = np.minimum(depth, np.minimum(parting(a, b, e[first], t[first]), parting(a, b, e[last], t[last])))
-    inside = (x[first][:, None] + np.linspace(0.0, 1.0, 10)[1:-1, None] * way[:, None]).reshape(-1, 3)
-    return float(np.maximum(depth, b.inside(inside).reshape(len(first), -1).max(axis=1)).max())
+    return max(chord_depth(b, x[i], x[j], b.normal[[t[i], t[j]]]) for i, j in zip(first, last))
+
+
+def chord_depth(b, start, end, normals):
+    """How deep the part of an edge between two points of the surface of b is inside, of triangles with these normals."""
+    way, points = end - start, start + SAMPLES * (end - start)
+    depth, inside = min(-normals[0] @ way, normals[1] @ way), b.inside(points)
+    if inside.any():
+        _, t = b.nearest(points[inside > 0.0])
+        below = [((b.corner[t, 0] - x) * b.normal[t]).sum(axis=1) for x in (start, end)]
+        depth = min(depth, np.maximum(*below).min())
+    ridge = np.cross(*normals)
+    out = np.cross(way, ridge)
+    if np.linalg.norm(ridge) > RIDGE and np.linalg.norm(out) > RIDGE * np.linalg.norm(way) * np.linalg.norm(ridge):
+        on_ridge = np.linalg.lstsq(normals, [normals[0] @ start, normals[1] @ end], rcond=None)[0]
+        depth = min(depth, abs((on_ridge - start) @ out) / np.linalg.norm(out))
+    return float(max(depth, inside.max()))
 
 
 def near_pairs(a, b):
@@ -171,31 +169,6 @@ def near_pairs(a, b):
         touch &= (high[edges, c][:, None] >= bottom[triangles, c]) & (low[edges, c][:, None] <= top[triangles, c])
     i, j = np.nonzero(touch)
     return edges[i], triangles[j]
-
-
-def parting(a, b, e, t):
-    """Of edges of a and triangles of b that they pierce: least way along a cross product of edges that parts them, or inf."""
-    which, d, f = [], [], []
-    for k, facet in enumerate(b.skin.owner[t]):
-        own = sorted({i for side in a.skin.beside[e[k]] for i in a.skin.of_facet[a.skin.owner[side]]})
-        for other in b.skin.of_facet[facet]:
-            which += [k] * len(own)
-            d += own
-            f += [other] * len(own)
-    which, d, f = np.array(which), np.array(d), np.array(f)
-    u, v = a.ends[d], b.ends[f]
-    along_a, along_b = u[:, 1] - u[:, 0], v[:, 1] - v[:, 0]
-    n = np.cross(along_a, along_b)
-    size = np.linalg.norm(n, axis=1)
-    good = size > 0.02 * np.linalg.norm(along_a, axis=1) * np.linalg.norm(along_b, axis=1)
-    n /= np.where(size > 0.0, size, 1.0)[:, None]
-    n *= np.where((n * b.sides[f].sum(axis=1)).sum(axis=1) < 0.0, -1.0, 1.0)[:, None]
-    good &= b.in_arc(f, n) & a.in_arc(d, -n)
-    way = ((v[:, 0] - u[:, 0]) * n).sum(axis=1)
-    good &= way > 0.0
-    least = np.full(len(e), np.inf)
-    np.minimum.at(least, which[good], way[good])
-    return least
 
 
 # ------------------------------------------------------------------------------------------------- known configurations
