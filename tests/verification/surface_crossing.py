@@ -101,21 +101,21 @@ class Placed:
         return best.min(axis=1), best.argmin(axis=1)
 
     def inside(self, p):
-        """Depth of points inside, 0 of others."""
-        depth = np.zeros(len(p))
+        """Depth of points inside, 0 of others, and the nearest triangles of those inside, -1."""
+        depth, triangle = np.zeros(len(p)), np.full(len(p), -1)
         near = np.flatnonzero(((p > self.low) & (p < self.high)).all(axis=1))
         for part in np.array_split(near, 1 + len(near) * len(self.corner) // 200000):
             hit = part[self.winding(p[part]) > 0.5]
             if len(hit):
-                depth[hit] = self.nearest(p[hit])[0]
-        return depth
+                depth[hit], triangle[hit] = self.nearest(p[hit])
+        return depth, triangle
 
 
 def crossing_depths(a, b):
     """How deep two placed skins are in each other: by nodes inside, and by edges that go in and out again."""
     if (a.low > b.high).any() or (b.low > a.high).any():
         return 0.0, 0.0
-    return float(max(a.inside(b.x).max(), b.inside(a.x).max())), max(pierced(a, b), pierced(b, a))
+    return float(max(a.inside(b.x)[0].max(), b.inside(a.x)[0].max())), max(pierced(a, b), pierced(b, a))
 
 
 def pierced(a, b):
@@ -139,15 +139,18 @@ def pierced(a, b):
     first, last = first[chords], last[chords]
     if not len(first):
         return 0.0
-    return max(chord_depth(b, x[i], x[j], b.normal[[t[i], t[j]]]) for i, j in zip(first, last))
+    start, end, normals = x[first], x[last], b.normal[np.stack([t[first], t[last]], axis=1)]
+    points = start[:, None] + SAMPLES * (end - start)[:, None]
+    depth, triangle = (v.reshape(len(first), -1) for v in b.inside(points.reshape(-1, 3)))
+    return max(chord_depth(b, *chord) for chord in zip(start, end, normals, depth, triangle))
 
 
-def chord_depth(b, start, end, normals):
-    """How deep the part of an edge between two points of the surface of b is inside, of triangles with these normals."""
-    way, points = end - start, start + SAMPLES * (end - start)
-    depth, inside = min(-normals[0] @ way, normals[1] @ way), b.inside(points)
-    if inside.any():
-        _, t = b.nearest(points[inside > 0.0])
+def chord_depth(b, start, end, normals, depths, nearest):
+    """How deep the part of an edge between two points of the surface of b is inside; normals at these points, depths and
+    nearest triangles of some between."""
+    way = end - start
+    depth, t = min(-normals[0] @ way, normals[1] @ way), nearest[nearest >= 0]
+    if len(t):
         below = [((b.corner[t, 0] - x) * b.normal[t]).sum(axis=1) for x in (start, end)]
         depth = min(depth, np.maximum(*below).min())
     ridge = np.cross(*normals)
@@ -155,7 +158,7 @@ def chord_depth(b, start, end, normals):
     if np.linalg.norm(ridge) > RIDGE and np.linalg.norm(out) > RIDGE * np.linalg.norm(way) * np.linalg.norm(ridge):
         on_ridge = np.linalg.lstsq(normals, [normals[0] @ start, normals[1] @ end], rcond=None)[0]
         depth = min(depth, abs((on_ridge - start) @ out) / np.linalg.norm(out))
-    return float(max(depth, inside.max()))
+    return float(max(depth, depths.max()))
 
 
 def near_pairs(a, b):
