@@ -138,6 +138,8 @@ class Variant:
             longest = max(longest, gap)
         travel = max(np.ptp(b.nodes, axis=0).max() / c for b, c in zip(self.bodies, waves))
         self.end = longest / self.normal_speed + draw.uniform(3.0, 5.0) * travel
+        if set(self.laws_of) & {"linear_elastic", "j2_small_strain"}:  # before bodies have turned by 5 degrees
+            self.end = min(self.end, (longest + 0.0125 * min(b.size for b in self.bodies)) / self.normal_speed)
         turn = np.array(rotation([draw.gauss(0.0, 1.0) for _ in range(3)], draw.uniform(0.0, math.pi)))
         away = np.array([draw.gauss(0.0, 1.0) for _ in range(3)])
         for body in self.bodies:
