@@ -354,12 +354,7 @@ class Variant:
         sign = 1.0 if impact.ratio >= 1.0 else -1.0  # the force is the slave's
         found = {"impulse": sign * sum(a * b for a, b in zip(axis, impulse)),
                  "momentum": summary["linear_momentum"]["error"]}
-        first = max(energy["kinetic"][0], 1e-300)
-        lost = [a + q + min(0.0, i) for a, q, i in zip(energy["algorithmic"], energy["quadrature"], energy["impact"])]
-        tail = lost[-max(1, len(lost) // 10):]
-        kept = [q + min(0.0, i) for q, i in zip(energy["quadrature"], energy["impact"])] \
-            if self.scheme in EXPLICIT else lost
-        found["gain"] = max(-statistics.fmean(tail), -min(kept)) / first
+        found["gain"] = gained(energy, self.scheme)
         found["overlap"] = self.deepest(out, length) / min(impact.upper.cell, impact.lower.cell)
         faults = []
         if summary["outcome"] != "good":
@@ -386,6 +381,15 @@ class Variant:
             sides = (x[:len(upper.nodes)], upper), (x[len(upper.nodes):], lower)
             deepest = max(deepest, depth(*sides[0], *sides[1]), depth(*sides[1], *sides[0]))
         return deepest
+
+
+def gained(energy, scheme):
+    """Energy gained at the end (mean of the last tenth) or, what explicit schemes lend left out, at any time, over the
+    initial kinetic energy."""
+    lost = [a + q + min(0.0, i) for a, q, i in zip(energy["algorithmic"], energy["quadrature"], energy["impact"])]
+    tail = lost[-max(1, len(lost) // 10):]
+    kept = [q + min(0.0, i) for q, i in zip(energy["quadrature"], energy["impact"])] if scheme in EXPLICIT else lost
+    return max(-statistics.fmean(tail), -min(kept)) / max(energy["kinetic"][0], 1e-300)
 
 
 # ----------------------------------------------------------------------------------------------------- inside or not
