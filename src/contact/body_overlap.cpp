@@ -253,6 +253,11 @@ Overlap BodyOverlap::deepest(std::span<const double> u) {
   return worst;
 }
 
+void BodyOverlap::each_at_start(const std::function<void(Index, double)>& visit) const {
+  for (std::size_t i = 0; i < impl_->at_start.size(); ++i)
+    if (impl_->at_start[i] > 0.0) visit(impl_->skin_nodes[i], impl_->at_start[i]);
+}
+
 Index BodyOverlap::part_of(Index node) const {
   const std::vector<Part>& parts = impl_->model.parts;
   const auto has_node = [&](const Part& part) {

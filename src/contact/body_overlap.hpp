@@ -1,6 +1,7 @@
 // Do bodies overlap? A test by geometry alone, that knows nothing of rows.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -44,6 +45,9 @@ class BodyOverlap {
 
   /// The deepest node at displacement u. Costs about as much as a few explicit steps.
   Overlap deepest(std::span<const double> u);
+
+  /// Calls visit(node, depth in cells) for the nodes that are inside of cells at the start.
+  void each_at_start(const std::function<void(Index, double)>& visit) const;
 
   /// Numbers of the parts of the node and of the cell (Model::parts); -1: none.
   Index part_of(Index node) const;
