@@ -11,7 +11,7 @@ namespace {
 
 constexpr double allowed_motion = 0.25;  ///< of a cell between two looks
 constexpr std::int64_t most_steps_unseen = 16;
-constexpr std::int64_t steps_between_folds = 1000;  ///< a look at all of the skin costs as much as some steps
+constexpr std::int64_t work_between_folds = 100;  ///< explicit steps; a look at all of the skin costs about one
 
 /// Largest distance between two displacements of the boxes.
 double apart(const Bounds& a, const Bounds& b) {
@@ -34,7 +34,11 @@ void SkinMotion::looked(std::span<const double> u, bool with_folds) {
   for (std::size_t k = 0; k < skin_.nodes.size(); ++k)
     for (std::size_t c = 0; c < 3; ++c) u_[3 * k + c] = u[3 * static_cast<std::size_t>(skin_.nodes[k]) + c];
   steps_ = scan_ = 0;
-  if (with_folds) fold_steps_ = 0;
+  if (with_folds) fold_work_ = 0;
+}
+
+bool SkinMotion::may_see_folds() const {
+  return fold_work_ >= work_between_folds;
 }
 
 /// What bodies have done since the look.
@@ -88,13 +92,13 @@ double SkinMotion::spread() const {
   return apart(moved, moved) / *std::min_element(least_.begin(), least_.end());
 }
 
-LookDue SkinMotion::due(std::span<const Vec3> X, std::span<const double> u) {
+LookDue SkinMotion::due(std::span<const Vec3> X, std::span<const double> u, int iterations) {
   if (skin_.body_count() == 0) return LookDue::none;
   ++steps_;
-  ++fold_steps_;
+  fold_work_ += iterations > 0 ? work_between_folds : 1;
   if (steps_ < scan_) return LookDue::none;
   follow(X, u);
-  if (fold_steps_ >= steps_between_folds && folding() > allowed_motion) return LookDue::folds;
+  if (may_see_folds() && folding() > allowed_motion) return LookDue::folds;
   if (meeting() > allowed_motion) return LookDue::bodies;
   const double per_step = spread() / static_cast<double>(steps_);
   const double free_steps = 0.5 * allowed_motion / std::max(per_step, 1e-300);

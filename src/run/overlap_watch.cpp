@@ -66,11 +66,9 @@ void OverlapWatch::see(const StepView& view) {
   const State& state = view.state;
   if (view.step == 0) return;
   const bool is_regular = state.t >= next_ || view.is_last();
-  const LookDue due = motion_.due(simulation_.mesh().coordinates, state.q);
-  if (is_regular || due == LookDue::folds)
-    look(state, Folds::seen);
-  else if (due == LookDue::bodies)
-    look(state, Folds::left_out);
+  const LookDue due = motion_.due(simulation_.mesh().coordinates, state.q, view.iterations);
+  const bool sees_folds = due == LookDue::folds || view.is_last() || (is_regular && motion_.may_see_folds());
+  if (is_regular || due != LookDue::none) look(state, sees_folds ? Folds::seen : Folds::left_out);
   if (!is_regular) return;
   while (next_ <= state.t) next_ += every_;
   const Overlap now = overlap_.deepest(state.q);
