@@ -33,7 +33,9 @@ void fields(A& archive, Overlap& x) {
 /// - inside of cells that are neither their own nor neighbours of those: of other bodies, or of a fold of their own.
 ///   The depth is that under the nearest of the cell's skin faces (PlacedCells::depth_under) times the cell's length; a
 ///   cell without skin faces counts by the shape functions of its corners that are not on the skin, at most its length;
-/// - inside of rigid obstacles or behind their planes and surfaces, for the nodes that a contact names.
+/// - inside of rigid obstacles or behind their planes and surfaces, for the nodes that a contact names and all of the
+/// bars that they belong
+///   to.
 /// Depths are taken over the smaller of the reference lengths of the cells at the node and of the cell it is inside of.
 /// What overlaps at the start does so on purpose: growth counts. Bars have no inside.
 class BodyOverlap {

@@ -9,6 +9,8 @@ namespace carom {
 
 namespace {
 
+constexpr const char* no_contact = ", between which no contact is defined";
+
 /// Which nodes a contact knows.
 struct MarkNodes {
   const Mesh& mesh;
@@ -100,18 +102,25 @@ std::string OverlapWatch::names() const {
   }
   const Index other = overlap_.part_of(worst_.cell);
   const bool is_known = are_in_contact(model, part(own), part(other));
-  return fmt::format("{} inside of part \"{}\"{}", node, part(other).name,
-                     is_known ? "" : ", between which no contact is defined");
+  return fmt::format("{} inside of part \"{}\"{}", node, part(other).name, is_known ? "" : no_contact);
 }
 
 std::string OverlapWatch::crossing_names() const {
   const Model& model = simulation_.model();
   const Part &own = *model.part_of(crossing_.edge_cell), &other = *model.part_of(crossing_.cell);
   const std::string what = dimension(own.type) == 1 ? "a bar" : "an edge";
-  if (&own == &other) return fmt::format("{} of part \"{}\" goes through another face of it", what, own.name);
-  const bool is_known = are_in_contact(model, own, other);
-  return fmt::format("{} of part \"{}\" goes through a face of part \"{}\"{}", what, own.name, other.name,
-                     is_known ? "" : ", between which no contact is defined");
+  const bool is_fold = &own == &other;
+  const std::string who =
+      is_fold ? fmt::format("{} of part \"{}\" goes through another face of it", what, own.name)
+              : fmt::format("{} of part \"{}\" goes through a face of part \"{}\"", what, own.name, other.name);
+  return who + (are_in_contact(model, own, other) ? "" : is_fold ? ", which no contact knows" : no_contact);
+}
+
+/// What helps where surfaces cross.
+std::string OverlapWatch::remedy() const {
+  const Model& model = simulation_.model();
+  const bool is_known = are_in_contact(model, *model.part_of(crossing_.edge_cell), *model.part_of(crossing_.cell));
+  return is_known ? ": shorter cells, a stiffer contact or another method of it" : ": define a contact there";
 }
 
 VerdictItem OverlapWatch::item() const {
@@ -125,6 +134,7 @@ VerdictItem OverlapWatch::item() const {
   if (depth > named) {
     explanation += fmt::format(": {} at ({:.4g}, {:.4g}, {:.4g}), t = {:.4g}", is_crossing ? crossing_names() : names(),
                                place[0], place[1], place[2], is_crossing ? crossing_time_ : time_);
+    if (is_crossing && depth > limit) explanation += remedy();
   }
   return {"overlap of bodies", depth, limit, depth <= limit, explanation};
 }

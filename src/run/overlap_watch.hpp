@@ -37,6 +37,7 @@ class OverlapWatch : public Observer {
   void look(const State& state, Folds folds);
   std::string names() const;
   std::string crossing_names() const;
+  std::string remedy() const;
 
   const Simulation& simulation_;
   BodyOverlap overlap_;
