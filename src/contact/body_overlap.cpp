@@ -42,6 +42,20 @@ double distance_behind(const Surface& surface, std::span<const Vec3> X, const Ve
   return is_found && nearest.site == ProjectionSite::interior ? nearest.gap : infinity;
 }
 
+/// All nodes of the bars that have one of the nodes.
+void add_bars(const Model& model, std::vector<Index>& nodes) {
+  std::vector<bool> is_named(model.mesh->node_count(), false);
+  for (const Index n : nodes) is_named[static_cast<std::size_t>(n)] = true;
+  for (const Part& part : model.parts) {
+    if (part.cells.empty() || dimension(part.type) != 1) continue;
+    std::vector<Index> own;
+    for (const Index cell : part.cells)
+      for (const Index n : model.mesh->block(part.type)->nodes(cell)) own.push_back(n);
+    const auto named = [&](Index n) { return is_named[static_cast<std::size_t>(n)]; };
+    if (std::any_of(own.begin(), own.end(), named)) nodes.insert(nodes.end(), own.begin(), own.end());
+  }
+}
+
 struct GapOfShape {
   std::span<const Vec3> X;
   const Vec3& x;
@@ -93,6 +107,7 @@ BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
       std::vector<Index>& nodes = obstacle_nodes.back();
       nodes = obstacle->nodes;
       for (const Facet& facet : obstacle->surface.facets) nodes.insert(nodes.end(), facet.begin(), facet.end());
+      add_bars(model, nodes);
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
       std::erase_if(nodes, [&](Index n) { return node_length(n) == infinity; });
@@ -251,6 +266,11 @@ Overlap BodyOverlap::deepest(std::span<const double> u) {
     }
   }
   return worst;
+}
+
+void BodyOverlap::each_at_start(const std::function<void(Index, double)>& visit) const {
+  for (std::size_t i = 0; i < impl_->at_start.size(); ++i)
+    if (impl_->at_start[i] > 0.0) visit(impl_->skin_nodes[i], impl_->at_start[i]);
 }
 
 Index BodyOverlap::part_of(Index node) const {

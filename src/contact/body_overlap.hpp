@@ -1,6 +1,7 @@
 // Do bodies overlap? A test by geometry alone, that knows nothing of rows.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -32,7 +33,9 @@ void fields(A& archive, Overlap& x) {
 /// - inside of cells that are neither their own nor neighbours of those: of other bodies, or of a fold of their own.
 ///   The depth is that under the nearest of the cell's skin faces (PlacedCells::depth_under) times the cell's length; a
 ///   cell without skin faces counts by the shape functions of its corners that are not on the skin, at most its length;
-/// - inside of rigid obstacles or behind their planes and surfaces, for the nodes that a contact names.
+/// - inside of rigid obstacles or behind their planes and surfaces, for the nodes that a contact names and all of the
+/// bars that they belong
+///   to.
 /// Depths are taken over the smaller of the reference lengths of the cells at the node and of the cell it is inside of.
 /// What overlaps at the start does so on purpose: growth counts. Bars have no inside.
 class BodyOverlap {
@@ -44,6 +47,9 @@ class BodyOverlap {
 
   /// The deepest node at displacement u. Costs about as much as a few explicit steps.
   Overlap deepest(std::span<const double> u);
+
+  /// Calls visit(node, depth in cells) for the nodes that are inside of cells at the start.
+  void each_at_start(const std::function<void(Index, double)>& visit) const;
 
   /// Numbers of the parts of the node and of the cell (Model::parts); -1: none.
   Index part_of(Index node) const;

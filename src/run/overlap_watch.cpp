@@ -9,6 +9,8 @@ namespace carom {
 
 namespace {
 
+constexpr const char* no_contact = ", between which no contact is defined";
+
 /// Which nodes a contact knows.
 struct MarkNodes {
   const Mesh& mesh;
@@ -54,17 +56,36 @@ bool are_in_contact(const Model& model, const Part& a, const Part& b) {
 OverlapWatch::OverlapWatch(const Simulation& simulation, const State& start)
     : simulation_(simulation),
       overlap_(simulation.model(), start.q),
+      surfaces_(simulation.model(), start.q),
+      motion_(surfaces_.skin()),
       next_(simulation.end() / 50.0),
-      every_(simulation.end() / 50.0) {}
+      every_(simulation.end() / 50.0) {
+  overlap_.each_at_start([&](Index node, double depth) { surfaces_.add_start(node, depth); });
+  motion_.looked(start.q, true);
+}
 
 void OverlapWatch::see(const StepView& view) {
   const State& state = view.state;
-  if (view.step == 0 || (state.t < next_ && !view.is_last())) return;
+  if (view.step == 0) return;
+  const bool is_regular = state.t >= next_ || view.is_last();
+  const LookDue due = motion_.due(simulation_.mesh().coordinates, state.q, view.iterations);
+  const bool sees_folds = due == LookDue::folds || view.is_last() || (is_regular && motion_.may_see_folds());
+  if (is_regular || due != LookDue::none) look(state, sees_folds ? Folds::seen : Folds::left_out);
+  if (!is_regular) return;
   while (next_ <= state.t) next_ += every_;
   const Overlap now = overlap_.deepest(state.q);
   if (now.depth <= worst_.depth) return;
   worst_ = now;
   time_ = state.t;
+}
+
+/// For surfaces that cross.
+void OverlapWatch::look(const State& state, Folds folds) {
+  motion_.looked(state.q, folds == Folds::seen);
+  const SurfaceCrossing now = surfaces_.deepest(state.q, folds);
+  if (now.depth <= crossing_.depth) return;
+  crossing_ = now;
+  crossing_time_ = state.t;
 }
 
 /// The two that overlap.
@@ -81,19 +102,41 @@ std::string OverlapWatch::names() const {
   }
   const Index other = overlap_.part_of(worst_.cell);
   const bool is_known = are_in_contact(model, part(own), part(other));
-  return fmt::format("{} inside of part \"{}\"{}", node, part(other).name,
-                     is_known ? "" : ", between which no contact is defined");
+  return fmt::format("{} inside of part \"{}\"{}", node, part(other).name, is_known ? "" : no_contact);
+}
+
+std::string OverlapWatch::crossing_names() const {
+  const Model& model = simulation_.model();
+  const Part &own = *model.part_of(crossing_.edge_cell), &other = *model.part_of(crossing_.cell);
+  const std::string what = dimension(own.type) == 1 ? "a bar" : "an edge";
+  const bool is_fold = &own == &other;
+  const std::string who =
+      is_fold ? fmt::format("{} of part \"{}\" goes through another face of it", what, own.name)
+              : fmt::format("{} of part \"{}\" goes through a face of part \"{}\"", what, own.name, other.name);
+  return who + (are_in_contact(model, own, other) ? "" : is_fold ? ", which no contact knows" : no_contact);
+}
+
+/// What helps where surfaces cross.
+std::string OverlapWatch::remedy() const {
+  const Model& model = simulation_.model();
+  const bool is_known = are_in_contact(model, *model.part_of(crossing_.edge_cell), *model.part_of(crossing_.cell));
+  return is_known ? ": shorter cells, a stiffer contact or another method of it" : ": define a contact there";
 }
 
 VerdictItem OverlapWatch::item() const {
-  constexpr double limit = 0.25;
+  constexpr double limit = 0.25, named = 0.01;
+  const bool is_crossing = crossing_.depth > worst_.depth;
+  const double depth = is_crossing ? crossing_.depth : worst_.depth;
+  const Vec3& place = is_crossing ? crossing_.position : worst_.position;
   std::string explanation =
-      "how deep nodes of a body's skin are inside of another body or obstacle, in cells, more than at the start";
-  if (worst_.node >= 0 && worst_.depth > 0.01) {
-    explanation += fmt::format(": {} at ({:.4g}, {:.4g}, {:.4g}), t = {:.4g}", names(), worst_.position[0],
-                               worst_.position[1], worst_.position[2], time_);
+      "how deep bodies are inside of each other, of a fold of their own or of an obstacle, in cells, more than at the "
+      "start: nodes inside of cells, edges through faces";
+  if (depth > named) {
+    explanation += fmt::format(": {} at ({:.4g}, {:.4g}, {:.4g}), t = {:.4g}", is_crossing ? crossing_names() : names(),
+                               place[0], place[1], place[2], is_crossing ? crossing_time_ : time_);
+    if (is_crossing && depth > limit) explanation += remedy();
   }
-  return {"overlap of bodies", worst_.depth, limit, worst_.depth <= limit, explanation};
+  return {"overlap of bodies", depth, limit, depth <= limit, explanation};
 }
 
 }  // namespace carom

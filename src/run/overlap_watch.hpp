@@ -4,14 +4,17 @@
 #include <string>
 
 #include "contact/body_overlap.hpp"
+#include "contact/skin_motion.hpp"
+#include "contact/surface_crossings.hpp"
 #include "output/summary.hpp"
 #include "run/observer.hpp"
 #include "run/simulation.hpp"
 
 namespace carom {
 
-/// About fifty looks over the run, and one at its end. Contact is judged by what it has not prevented, whether it was
-/// defined or not.
+/// About fifty looks over the run, and one at its end, for nodes that are inside of cells and for surfaces that cross;
+/// for the latter as many more as it takes that nothing passes between two looks (SkinMotion). Contact is judged by
+/// what it has not prevented, whether it was defined or not.
 class OverlapWatch : public Observer {
  public:
   explicit OverlapWatch(const Simulation& simulation, const State& start);
@@ -26,15 +29,25 @@ class OverlapWatch : public Observer {
     archive("next", x.next_);
     archive("worst", x.worst_);
     archive("time", x.time_);
+    archive("crossing", x.crossing_);
+    archive("crossing_time", x.crossing_time_);
+    archive("motion", x.motion_);
   }
 
+  void look(const State& state, Folds folds);
   std::string names() const;
+  std::string crossing_names() const;
+  std::string remedy() const;
 
   const Simulation& simulation_;
   BodyOverlap overlap_;
+  SurfaceCrossings surfaces_;
+  SkinMotion motion_;
   double next_, every_;
   Overlap worst_;
   double time_ = 0.0;  ///< of the worst
+  SurfaceCrossing crossing_;
+  double crossing_time_ = 0.0;
 };
 
 }  // namespace carom

@@ -118,6 +118,94 @@ TEST(Tunnelling, WithoutAnyContactIsNamed) {
   EXPECT_NE(summary.find("between which no contact is defined"), std::string::npos) << summary;
 }
 
+/// Two bars that cross with cells so long that no node of one is ever inside of the other; nothing holds them apart.
+std::string crossed_bars(const std::string& scheme) {
+  return R"(units = "SI"
+[[mesh.block]]
+origin = [-0.03, -0.005, -0.01]
+size = [0.06, 0.01, 0.01]
+divisions = [5, 2, 2]
+groups = { cells = "A" }
+[[mesh.block]]
+origin = [-0.005, -0.03, 0.001]
+size = [0.01, 0.06, 0.01]
+divisions = [2, 5, 2]
+groups = { cells = "B" }
+[materials.s]
+law = "neo_hookean"
+E = 1e6
+nu = 0.3
+rho = 1000.0
+[[part]]
+name = "low"
+cells = "A"
+material = "s"
+[[part]]
+name = "high"
+cells = "B"
+material = "s"
+[[initial]]
+part = "high"
+velocity = [0.0, 0.0, -10.0]
+[scheme]
+)" + scheme +
+         "[output]\nfields = []\n";
+}
+
+// At the end they are apart again, and they pass within one of the fifty parts of the run.
+TEST(Tunnelling, OfCrossedBarsBetweenTheirNodesIsNamed) {
+  for (const char* scheme : {"kind = \"central_differences\"\n[time]\nend = 0.2\n",
+                             "kind = \"newmark\"\n[time]\nend = 0.01\nstep = 1e-4\n"}) {
+    SCOPED_TRACE(scheme);
+    const TemporaryCase one(crossed_bars(scheme));
+    EXPECT_EQ(one.run(), ExitCode::verdict_failed);
+    const std::string summary = one.result("summary.json");
+    EXPECT_NE(summary.find(" goes through a face of part "), std::string::npos) << summary;
+    EXPECT_NE(summary.find("between which no contact is defined"), std::string::npos) << summary;
+  }
+}
+
+// A plane that a contact names for the ends of a bar alone holds its middle no more than what the verdict sees of it.
+TEST(Tunnelling, OfTheMiddleOfABarIsNamed) {
+  const TemporaryCase one(R"(units = "SI"
+[[mesh.block]]
+kind = "bar"
+origin = [0.0, 0.0, 0.01]
+end = [1.0, 0.0, 0.01]
+divisions = 10
+groups = { cells = "BAR", start = "FOOT", end = "HEAD" }
+[materials.s]
+law = "st_venant_kirchhoff"
+E = 1e5
+nu = 0.3
+rho = 1000.0
+[[part]]
+name = "rod"
+cells = "BAR"
+material = "s"
+section = "bar"
+area = 1e-3
+[[initial]]
+part = "rod"
+velocity = [0.0, 0.0, -1.0]
+[[contact]]
+name = "floor"
+kind = "plane"
+group = "FOOT"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+[scheme]
+kind = "central_differences"
+[time]
+end = 0.5
+[output]
+fields = []
+)");
+  EXPECT_EQ(one.run(), ExitCode::verdict_failed);
+  const std::string summary = one.result("summary.json");
+  EXPECT_NE(summary.find(R"(of part \"rod\" inside of the obstacle of \"floor\")"), std::string::npos) << summary;
+}
+
 // Springs of no strength let a bar through a wall; bars have no inside of their own, and are named all the same.
 TEST(Tunnelling, OfABarThroughAWallIsNamed) {
   const TemporaryCase one(R"(units = "SI"
