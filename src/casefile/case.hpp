@@ -139,11 +139,11 @@ struct CaseInitialState {
 struct CaseContact {
   Location where;
   Located<std::string> name;
-  enum class Kind : std::uint8_t { interface, plane, sphere, cylinder, box, surface, pair, self, all, stop };
+  enum class Kind : std::uint8_t { interface, plane, sphere, cylinder, box, surface, pair, self, all, stop, tie };
   Located<Kind> kind{};
-  Located<std::string> group;   ///< cells (interface), faces or nodes (obstacles), slave faces (pair), faces (self),
+  Located<std::string> group;   ///< cells (interface), faces or nodes (obstacles), slave faces (pair, tie), faces (self),
                                 ///< nodes (stop)
-  Located<std::string> master;  ///< pair: faces of the other body
+  Located<std::string> master;  ///< pair, tie: faces of the other body
   std::vector<Located<std::string>> exclude;  ///< all: groups whose faces take no part
   PairMethod method = PairMethod::two_pass;   ///< pair, self, all
   std::optional<Located<double>> stiffness;   ///< eps_N: stress per length (per node and stop: force per length)
@@ -173,6 +173,8 @@ struct CaseContact {
   double gap = 0.0;                             ///< stop
   double damping = 0.0;                         ///< stop
   DamperActs damper = DamperActs::compression;  ///< stop
+  double tolerance = 0.05;                      ///< tie: largest distance from the master, in facet sizes
+  FarNodes far = FarNodes::refuse;              ///< tie
 };
 
 struct CaseFunction {

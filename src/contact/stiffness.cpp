@@ -198,6 +198,10 @@ struct Chooser {
     return {{side_of(cells, facing.slave, contact.name), side_of(cells, facing.master, contact.name)}};
   }
 
+  Choice operator()(const TieContact& contact) const {
+    return {{side_of(cells, contact.slave.facets, contact.name), side_of(cells, contact.master.facets, contact.name)}};
+  }
+
   Choice per_node(const ObstacleContact& contact) const {
     std::vector<bool> listed(mesh.node_count(), false);
     for (const Index n : contact.nodes) listed[static_cast<std::size_t>(n)] = true;
@@ -241,6 +245,7 @@ class LinearDepth {
   double operator()(const ObstacleContact& contact) const {
     return share * std::min(shortest(contact.surface), shortest(contact.nodes));
   }
+  double operator()(const TieContact& /*contact*/) const { return infinity; }
   double operator()(const PairContact& contact) const {
     return share * std::min(shortest(contact.slave), shortest(contact.master));
   }

@@ -187,7 +187,17 @@ struct StopContact {
   DamperActs damper_acts = DamperActs::compression;
 };
 
-using ContactDefinition = std::variant<InterfaceContact, ObstacleContact, PairContact, StopContact>;
+/// Two surfaces whose facets stay together, glued: every slave node within `tolerance` (in facet sizes) of the master
+/// keeps its place on it.
+struct TieContact {
+  std::string name;
+  Surface slave, master;
+  double tolerance = 0.05;
+  FarNodes far = FarNodes::refuse;
+  ContactLaw law;  ///< its stiffness alone, for schemes that tie by springs
+};
+
+using ContactDefinition = std::variant<InterfaceContact, ObstacleContact, PairContact, StopContact, TieContact>;
 
 /// A rigid body that moves without turning: a node of its own with a mass.
 struct RigidBody {

@@ -36,6 +36,9 @@ enum class InitialPenetration : std::uint8_t { refuse, strain_free_offset, prest
 /// with the master surface (mortar).
 enum class PairMethod : std::uint8_t { node_to_surface, two_pass, surface_to_surface };
 
+/// What is done about slave nodes that are too far from the master to be tied.
+enum class FarNodes : std::uint8_t { refuse, leave };
+
 /// How the damper of a stop acts while it touches: never so that its sum with the spring pulls, or in both directions.
 enum class DamperActs : std::uint8_t { compression, two_sided };
 

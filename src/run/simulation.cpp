@@ -13,6 +13,7 @@
 #include "math/vec3.hpp"
 #include "run/build_mesh.hpp"
 #include "run/build_model.hpp"
+#include "run/torn_ties.hpp"
 #include "solid/smallest_cell.hpp"
 
 namespace carom {
@@ -75,6 +76,8 @@ Simulation::Simulation(Case given)
     notes_.insert(notes_.begin(), taken_->note);
   }
   settle_initial_penetrations();
+  const State first = initial_state();
+  refuse_torn_ties(case_, contact_, first.q, first.v);
   const StageContext context{case_, *mesh_, model_, solid_, contact_};
   stages_.push_back(std::make_unique<Stage>(context, case_.scheme, case_.time, 0.0, later_velocities(0)));
   for (const CaseStage& stage : case_.stages) {

@@ -99,7 +99,7 @@ bool GeneralizedAlpha::predict(const State& begin, double h, State& end) {
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   if (!start_.set(begin, h, imposed_, [](const ImposedStep& s) { return s.a_begin; }) ||
-      (impulses_ && !impulses_->accelerations(begin.forces.contact.dense(), pushed_begin_)))
+      (impulses_ && !impulses_->accelerations(begin.forces.rows, pushed_begin_)))
     return false;
   const Forces& now = begin.forces;
   const std::span<const double> inertia = start_.balance().inertia;
@@ -118,7 +118,7 @@ bool GeneralizedAlpha::predict(const State& begin, double h, State& end) {
 
 /// From the unknown s + M^-1 G^T lambda / (2 beta) to the acceleration, and to the velocity of VelocityImpulses.
 bool GeneralizedAlpha::stop_at_rows(double h, State& end, StepReport& report) {
-  if (!impulses_->accelerations(end.forces.contact.dense(), pushed_end_)) {
+  if (!impulses_->accelerations(end.forces.rows, pushed_end_)) {
     report.failure = MassSolver::failure;
     return false;
   }
@@ -128,6 +128,7 @@ bool GeneralizedAlpha::stop_at_rows(double h, State& end, StepReport& report) {
     end.v[i] -= parameters_.gamma * h * share * pushed_end_[i];
   }
   report.failure = impulses_->respond(h, end.forces.rows, end.stages.front().mass_nodes, end.v);
+  if (report.failure.empty()) report.failure = impulses_->settle_bonds(h, end);
   return report.failure.empty();
 }
 
