@@ -17,12 +17,13 @@ Names joined(Names a, const Names& b) {
 }
 
 void add_surfaces(SectionSchema<CaseContact>& s) {
-  s.key("group", &CaseContact::group,
-        "Group of cells (interface), of faces or nodes that may touch (obstacles), of slave faces (pair, tie), of faces "
-        "(self), of nodes (stop).",
-        {.kinds = joined(obstacles, {"interface", "pair", "self", "stop", "tie"}),
-         .need = Need::required,
-         .aliases = {"slave"}});
+  s.key(
+      "group", &CaseContact::group,
+      "Group of cells (interface), of faces or nodes that may touch (obstacles), of slave faces (pair, tie), of faces "
+      "(self), of nodes (stop).",
+      {.kinds = joined(obstacles, {"interface", "pair", "self", "stop", "tie"}),
+       .need = Need::required,
+       .aliases = {"slave"}});
   s.key("master", &CaseContact::master, "Group of faces of the other body; the coarser or stiffer one.",
         {.kinds = {"pair", "tie"}, .need = Need::required});
   s.key("exclude", &CaseContact::exclude, "Groups whose faces take no part.", {.kinds = {"all"}});
@@ -61,7 +62,8 @@ void add_law(SectionSchema<CaseContact>& s) {
          .required_for = {"stop"},
          .aliases = aliases});
   s.key("stiffness_factor", &CaseContact::stiffness_factor,
-        "Multiplies the stiffness that is chosen where none is given.", {.range = greater_than(0.0), .kinds = joined(chosen, {"tie"})});
+        "Multiplies the stiffness that is chosen where none is given.",
+        {.range = greater_than(0.0), .kinds = joined(chosen, {"tie"})});
   s.key("measure", &CaseContact::per_node, "What the stiffness is counted per: area of the faces, or node.",
         {.choices = {"area", "node"}, .kinds = obstacles});
   s.key("tangential_stiffness", &CaseContact::tangential_stiffness,
@@ -140,11 +142,13 @@ void add_shapes(SectionSchema<CaseContact>& s) {
 }
 
 void add_tie(SectionSchema<CaseContact>& s) {
-  s.key("tolerance", &CaseContact::tolerance,
-        "Largest distance of a slave node from the nearest master face that is tied, over the size of that face (root of "
-        "its area, or its length).",
-        {.range = at_least(0.0), .kinds = {"tie"}});
-  s.key("far", &CaseContact::far, "What to do about slave nodes that are farther away: refuse the case, or leave them free.",
+  s.key(
+      "tolerance", &CaseContact::tolerance,
+      "Largest distance of a slave node from the nearest master face that is tied, over the size of that face (root of "
+      "its area, or its length).",
+      {.range = at_least(0.0), .kinds = {"tie"}});
+  s.key("far", &CaseContact::far,
+        "What to do about slave nodes that are farther away: refuse the case, or leave them free.",
         {.choices = {"refuse", "leave"}, .kinds = {"tie"}});
 }
 
@@ -157,9 +161,10 @@ SectionSchema<CaseContact> contact_section() {
       "discrete stops on nodes, or who stays together: two surfaces that are glued (tie).");
   s.description.selector = "kind";
   s.key("name", &CaseContact::name, "Name in results and in [[check]].", {.need = Need::required});
-  s.key("kind", &CaseContact::kind, "What touches; decides which of the other keys are taken.",
-        {.choices = {"interface", "plane", "sphere", "cylinder", "box", "surface", "pair", "self", "all", "stop", "tie"},
-         .need = Need::required});
+  s.key(
+      "kind", &CaseContact::kind, "What touches; decides which of the other keys are taken.",
+      {.choices = {"interface", "plane", "sphere", "cylinder", "box", "surface", "pair", "self", "all", "stop", "tie"},
+       .need = Need::required});
   s.key("moment_point", &CaseContact::moment_point, "Point about which contact.csv gives the moment of the contact.",
         {.unit = Dimension::length});
   add_surfaces(s);

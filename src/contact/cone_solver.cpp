@@ -188,8 +188,8 @@ int solve_set(Problem& p, double tolerance, double accepted, ConeFactors& factor
 
 }  // namespace
 
-ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<const Admissible> sets, std::vector<Vec3>& r,
-                      double tolerance, double accepted, double round_off, ConeFactors* factors) {
+ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<const Admissible> sets,
+                      std::vector<Vec3>& r, double tolerance, double accepted, double round_off, ConeFactors* factors) {
   assert(b.size() == W.size() && sets.size() == W.size());
   r.resize(W.size());
   const auto finite = [](const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); };

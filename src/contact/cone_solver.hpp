@@ -28,8 +28,8 @@ struct ConeFactors {
 /// that in every row (normal n, tangents T)
 ///   0 <= r_n, 0 <= w_n, r_n w_n = 0                                   (Signorini)
 ///   |r_T| <= mu r_n;  w_T = 0 where |r_T| < mu r_n, else w_T = -s r_T, s >= 0   (Coulomb)
-/// Rows with mu = 0 have r_T = 0; bonds have w = 0 instead, whatever r. What w means is the caller's affair: displacement, slip increment or velocity, the
-/// gap or the restitution being part of b_n.
+/// Rows with mu = 0 have r_T = 0; bonds have w = 0 instead, whatever r. What w means is the caller's affair:
+/// displacement, slip increment or velocity, the gap or the restitution being part of b_n.
 ///
 /// Sets of rows that do not act on each other are problems of their own. Each starts with block Gauss-Seidel sweeps
 /// (Jourdan, Alart and Jean, Comput. Methods Appl. Mech. Eng. 155, 1998), whose rows are solved exactly: independent

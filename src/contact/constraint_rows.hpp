@@ -15,8 +15,8 @@ namespace carom {
 /// What a row sees of one node: the rows n, t_1, t_2 of the node's 3 x 3 block of G.
 using RowBlock = std::array<Vec3, 3>;
 
-/// The forces that a row may bear (contact/admissible.hpp): those of unilateral contact with Coulomb friction, or any at
-/// all, as a tie does.
+/// The forces that a row may bear (contact/admissible.hpp): those of unilateral contact with Coulomb friction, or any
+/// at all, as a tie does.
 enum class AdmissibleSet : std::uint8_t { cone, bond };
 
 /// The law of one row, times its measure: force per length (eps_N, eps_T), force per velocity (damping). The normal
@@ -60,8 +60,8 @@ void fields(A& archive, RowLaw& x) {
   archive("linear_depth", x.linear_depth);
 }
 
-/// Rows of constraints, each with the set of forces that it admits. Row r sees the displacements of its nodes, in its frame (normal, tangent_1,
-/// tangent_2), as
+/// Rows of constraints, each with the set of forces that it admits. Row r sees the displacements of its nodes, in its
+/// frame (normal, tangent_1, tangent_2), as
 ///   w = (G u)_r = sum over its nodes of block_a u_a,
 /// and its gap is g_r(u) = gap_r + w_n (length; positive: open), exactly for fixed rows, to first order about the
 /// displacement that they were made for otherwise. The normal points from the obstacle (or the other body) to the body

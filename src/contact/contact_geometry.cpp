@@ -99,8 +99,8 @@ struct ContactGeometry::Impl {
   std::vector<std::string> notes;
   std::shared_ptr<const ConstraintRows> fixed;  ///< null when some rows are not fixed
   ConstraintRows bonds;
-  Vec3 centre{};                                ///< of all nodes; pairs see positions relative to it
-  std::vector<Vec3> x_begin, x, displacement;   ///< scratch of rows_at
+  Vec3 centre{};                               ///< of all nodes; pairs see positions relative to it
+  std::vector<Vec3> x_begin, x, displacement;  ///< scratch of rows_at
 
   std::vector<std::shared_ptr<ConstraintRows>> made;  ///< rows that were given out; what nobody holds is filled again
 

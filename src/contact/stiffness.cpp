@@ -245,7 +245,6 @@ class LinearDepth {
   double operator()(const ObstacleContact& contact) const {
     return share * std::min(shortest(contact.surface), shortest(contact.nodes));
   }
-  double operator()(const TieContact& /*contact*/) const { return infinity; }
   double operator()(const PairContact& contact) const {
     return share * std::min(shortest(contact.slave), shortest(contact.master));
   }
@@ -278,12 +277,29 @@ std::string sentence(const std::string& contact, double stiffness, const Choice&
 
 }  // namespace
 
+std::vector<std::string> choose_tie_stiffness(Model& model) {
+  constexpr double stiffer = 1000.0;
+  std::vector<std::string> notes;
+  std::optional<PartCells> cells;
+  for (ContactDefinition& contact : model.contacts) {
+    auto* tie = std::get_if<TieContact>(&contact);
+    if (tie == nullptr || tie->law.eps_N) continue;
+    if (!cells) cells.emplace(model);
+    const Choice choice = Chooser{model, *cells}(*tie);
+    const double factor = stiffer * tie->law.stiffness_factor;
+    tie->law.eps_N = factor * choice.stiffness();
+    notes.push_back(sentence(tie->name, *tie->law.eps_N, choice, factor));
+  }
+  return notes;
+}
+
 std::vector<std::string> choose_stiffness(Model& model) {
   std::vector<std::string> notes;
   std::optional<PartCells> cells;  // made when first needed
   const LinearDepth linear_depth(model);
   const auto choose = [&](auto& contact) {
-    if constexpr (!std::is_same_v<std::decay_t<decltype(contact)>, StopContact>) {
+    using Contact = std::decay_t<decltype(contact)>;
+    if constexpr (!std::is_same_v<Contact, StopContact> && !std::is_same_v<Contact, TieContact>) {
       ContactLaw& law = contact.law;
       if (!law.eps_N) {
         if (!cells) cells.emplace(model);

@@ -196,11 +196,12 @@ class TieMaker {
   /// "12 of 40 slave nodes, the farthest of them ...".
   std::string far_ones() const {
     const Vec3& x = X_[static_cast<std::size_t>(farthest_)];
-    return fmt::format("{} of {} slave nodes are farther from the master than {:.4g} facet sizes, the farthest, node {} "
-                       "at ({:.4g}, {:.4g}, {:.4g}), by {:.4g}, which is {:.3g} facet sizes",
-                       far, far + joined + rows.size(), contact_.tolerance,
-                       model_.mesh->node_numbers[static_cast<std::size_t>(farthest_)], x[0], x[1], x[2], distance_,
-                       size_ > 0.0 ? distance_ / size_ : std::numeric_limits<double>::infinity());
+    return fmt::format(
+        "{} of {} slave nodes are farther from the master than {:.4g} facet sizes, the farthest, node {} "
+        "at ({:.4g}, {:.4g}, {:.4g}), by {:.4g}, which is {:.3g} facet sizes",
+        far, far + joined + rows.size(), contact_.tolerance,
+        model_.mesh->node_numbers[static_cast<std::size_t>(farthest_)], x[0], x[1], x[2], distance_,
+        size_ > 0.0 ? distance_ / size_ : std::numeric_limits<double>::infinity());
   }
 
  private:
@@ -222,6 +223,7 @@ class TieMaker {
     law.set = AdmissibleSet::bond;
     rows.add_row(0.0, has_normal ? foot.at.normal : Vec3{1.0, 0.0, 0.0}, x, share, law, source_);
     rows.facet.back() = foot.facet;
+    rows.reach.back() = 0.0;  // it sees displacements, no places
     rows.add_node(slave, 1.0);
     for (const auto& [n, w] : weights) rows.add_node(n, -w);
     rows.behind.back() = static_cast<Index>(weights.size());

@@ -400,7 +400,8 @@ ContactError MultiplierPort::error(std::span<const double> x, std::span<const do
     const double length = precision * std::abs(rows.gap[r]) + reach;
     const double compliance = compliance_of_[static_cast<std::size_t>(rows.slot[r])];
     if (compliance == 0.0) {
-      if (admitted(rows.law[r]).violates(w, length) || force[0] > 0.0) return {std::numeric_limits<double>::infinity(), 0.0};
+      if (admitted(rows.law[r]).violates(w, length) || force[0] > 0.0)
+        return {std::numeric_limits<double>::infinity(), 0.0};
       continue;
     }
     // The forces that projection on the cone makes of these: lambda itself where the conditions hold.
@@ -423,6 +424,11 @@ Vec3 MultiplierPort::value(const ConstraintRows& rows, std::size_t r, std::span<
   if (set.components() == 1) return {rows.gap[r] + w[0], 0.0, 0.0};
   const Vec3 w_begin = rows.relative(r, start_.begin->q);
   return {rows.gap[r] + w[0], w[1] - w_begin[1], w[2] - w_begin[2]};
+}
+
+void ProjectionPort::begin(const StageStart& start) {
+  MultiplierPort::begin(start);
+  for (const Index slot : system_.contact.bonds().slot) multiplier_[static_cast<std::size_t>(slot)] = {};
 }
 
 void ImpulsePort::begin(const StageStart& start) {

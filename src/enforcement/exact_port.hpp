@@ -13,12 +13,12 @@ namespace carom {
 
 /// The forces lambda on the rows that satisfy Signorini's and Coulomb's conditions exactly:
 ///   w = w_free + slope G A^-1 G^T lambda,  (lambda, w) in the cones of solve_cone,
-/// where w_free is what the rows would see without lambda. Rows enter when they would be violated, bonds at once. For linear bodies
-/// what has been solved for is kept for the run: with fixed rows the columns A^-1 G^T, so that an iteration with
-/// contact costs one back-substitution and products with the columns; with moving rows the compliance of their nodes,
-/// so that it costs two. With nonlinear bodies columns are made anew for the rows in question at every iterate.
-/// Multipliers go on from step to step as start values, in State::contact; in which order the compliances have grown
-/// stands in StageMemory.
+/// where w_free is what the rows would see without lambda. Rows enter when they would be violated, bonds at once. For
+/// linear bodies what has been solved for is kept for the run: with fixed rows the columns A^-1 G^T, so that an
+/// iteration with contact costs one back-substitution and products with the columns; with moving rows the compliance of
+/// their nodes, so that it costs two. With nonlinear bodies columns are made anew for the rows in question at every
+/// iterate. Multipliers go on from step to step as start values, in State::contact; in which order the compliances have
+/// grown stands in StageMemory.
 class ExactPort : public ContactPort {
  public:
   explicit ExactPort(const System& system);
@@ -126,6 +126,9 @@ class MultiplierPort : public ExactPort {
 class ProjectionPort final : public MultiplierPort {
  public:
   using MultiplierPort::MultiplierPort;
+  /// Bonds start without force: those of the step before are of another kind, whose rounding would move what needs no
+  /// projection.
+  void begin(const StageStart& start) override;
 
  protected:
   Admissible admitted(const RowLaw& law) const override { return admissible(law).without_friction(); }

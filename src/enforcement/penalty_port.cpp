@@ -45,9 +45,8 @@ PortSolve PenaltyPort::solve(EffectiveSolver& solver, std::span<const double> x,
   const ConstraintRows& rows = *response.rows;
   tangents_.resize(rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    tangents_[r] = is_bond(rows.law[r])
-                       ? bond_tangent(rows.law[r].eps_N)
-                       : penalty_tangent(rows, r, begin_->q, x, v, begin_->contact, dv_dx_, slip_);
+    tangents_[r] = is_bond(rows.law[r]) ? bond_tangent(rows.law[r].eps_N)
+                                        : penalty_tangent(rows, r, begin_->q, x, v, begin_->contact, dv_dx_, slip_);
     for (double& d : tangents_[r]) d *= s_;
   }
   return solve_with_tangents(solver, x, response, residual, absolute, dy);

@@ -181,8 +181,7 @@ class ModelBuilder {
   }
 
   void add_pair(const CaseContact& given) {
-    if (*given.kind == CaseContact::Kind::pair)
-      refuse_itself(given, "One surface with itself is kind = \"self\".");
+    if (*given.kind == CaseContact::Kind::pair) refuse_itself(given, "One surface with itself is kind = \"self\".");
     PairContact pair;
     pair.name = *given.name;
     pair.method = given.method;

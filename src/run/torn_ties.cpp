@@ -22,10 +22,10 @@ void refuse(const Case& given, const ContactGeometry& contact, std::span<const d
   for (std::size_t r = 0; r < bonds.size(); ++r) {
     const double parting = norm(bonds.relative(r, x));
     if (parting <= rounding * largest) continue;
-    throw CaseError(given.contacts[static_cast<std::size_t>(bonds.source[r])].where, "contact",
-                    fmt::format("initial {} that part what is tied, by {:.4g}: {}", what, parting,
-                                contact.describe(bonds, r)),
-                    "initial values that both sides of a tie share", remedy);
+    throw CaseError(
+        given.contacts[static_cast<std::size_t>(bonds.source[r])].where, "contact",
+        fmt::format("initial {} that part what is tied, by {:.4g}: {}", what, parting, contact.describe(bonds, r)),
+        "initial values that both sides of a tie share", remedy);
   }
 }
 

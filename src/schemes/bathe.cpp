@@ -90,7 +90,7 @@ bool Bathe::stop_at_rows(double k, StepReport& report) {
     middle_.v[i] -= k * pushed_half_[i];
   }
   report.failure = impulses_->respond(k, middle_.forces.rows, middle_.stages.front().mass_nodes, middle_.v);
-  if (report.failure.empty()) report.failure = impulses_->settle_bonds(k, middle_);
+  if (report.failure.empty()) report.failure = impulses_->settle_bonds(middle_);
   return report.failure.empty();
 }
 

@@ -128,7 +128,7 @@ bool GeneralizedAlpha::stop_at_rows(double h, State& end, StepReport& report) {
     end.v[i] -= parameters_.gamma * h * share * pushed_end_[i];
   }
   report.failure = impulses_->respond(h, end.forces.rows, end.stages.front().mass_nodes, end.v);
-  if (report.failure.empty()) report.failure = impulses_->settle_bonds(h, end);
+  if (report.failure.empty()) report.failure = impulses_->settle_bonds(end);
   return report.failure.empty();
 }
 

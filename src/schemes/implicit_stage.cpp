@@ -292,7 +292,8 @@ std::string ImplicitStage::improve(const StageEquation& eq, const State& begin, 
                                     : "",
         describe_motion(system_.mesh, solved.linear.worst));
   }
-  if (system_.contact.is_fixed() && !has_more_inertia_)
+  const bool is_held = eq.free == nullptr || eq.free->empty();  // else springs of hold() stay behind
+  if (system_.contact.is_fixed() && !has_more_inertia_ && (is_held || port_->is_law()))
     parallel_each(correction_.size(), [&](std::size_t i) { end.a[i] += correction_[i]; });
   else
     mixing_.advance(end.a, correction_);

@@ -40,7 +40,9 @@ struct BondedMass::Impl {
   bool is_lumped() const { return system.mass.kind() == MassKind::lumped; }
   void factorise();
   bool solve(const std::vector<Vec3>& parting, std::vector<Vec3>& force);
-  bool free_acceleration(const BondMotion& motion, const Forces& forces);
+  bool free_acceleration(std::span<const double> a, const Forces& forces);
+  template <class Held>
+  std::string answer_forces(std::span<const double> a, Forces& forces, const Held& held);
   void take_off(Forces& forces) const;
   void give(Forces& forces) const;
   bool invert(std::span<double> b);
@@ -96,7 +98,6 @@ void BondedMass::Impl::factorise() {
 
 /// force with W force = -parting, by steps of the regularised matrix.
 bool BondedMass::Impl::solve(const std::vector<Vec3>& w, std::vector<Vec3>& to) {
-  factorise();
   constexpr int most = 6;
   constexpr double round_off = 1e-15;
   to.assign(w.size(), Vec3{});
@@ -121,11 +122,11 @@ bool BondedMass::Impl::solve(const std::vector<Vec3>& w, std::vector<Vec3>& to) 
   return true;
 }
 
-/// moved = M^-1 f where bonds look, the prescribed accelerations being those of the motion.
-bool BondedMass::Impl::free_acceleration(const BondMotion& motion, const Forces& forces) {
+/// moved = M^-1 f where bonds look, the prescribed accelerations being those in a.
+bool BondedMass::Impl::free_acceleration(std::span<const double> a, const Forces& forces) {
   const std::vector<bool>& fixed = system.supports.fixed();
   if (!is_lumped()) {
-    moved.assign(motion.a.begin(), motion.a.end());
+    moved.assign(a.begin(), a.end());
     rhs.resize(moved.size());
     force_sum(forces, rhs);
     return mass.solve(rhs, moved) >= 0;
@@ -133,10 +134,23 @@ bool BondedMass::Impl::free_acceleration(const BondMotion& motion, const Forces&
   for (const Index n : rows.node) {
     for (std::size_t i = 3 * static_cast<std::size_t>(n); i < 3 * static_cast<std::size_t>(n) + 3; ++i) {
       const double f = forces.external[i] - forces.internal[i] + forces.contact[i];
-      moved[i] = fixed[i] ? motion.a[i] : inverse[i] * f;
+      moved[i] = fixed[i] ? a[i] : inverse[i] * f;
     }
   }
   return true;
+}
+
+/// Gives the bonds the forces that leave G a = -held.
+template <class Held>
+std::string BondedMass::Impl::answer_forces(std::span<const double> a, Forces& forces, const Held& held) {
+  take_off(forces);
+  factorise();
+  if (!free_acceleration(a, forces)) return MassSolver::failure;
+  parting.resize(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) parting[r] = add(rows.relative(r, moved), held(r));
+  if (!solve(parting, force)) return no_bonds;
+  give(forces);
+  return {};
 }
 
 /// The bonds among the rows of a response stand in the order of bonds().
@@ -168,6 +182,7 @@ void BondedMass::Impl::give(Forces& forces) const {
 
 /// b = A^-1 b
 bool BondedMass::Impl::invert(std::span<double> b) {
+  factorise();
   plain.inverse(b);
   parting.resize(rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) parting[r] = rows.relative(r, b);
@@ -197,18 +212,16 @@ bool BondedMass::any() const {
 
 std::string BondedMass::hold(const BondMotion& motion, Forces& forces) {
   if (!any()) return {};
-  Impl& impl = *impl_;
-  impl.take_off(forces);
-  if (!impl.free_acceleration(motion, forces)) return MassSolver::failure;
   const double k_v = of_velocity / motion.h, k_u = of_displacement / (motion.h * motion.h);
-  impl.parting.resize(impl.rows.size());
-  for (std::size_t r = 0; r < impl.rows.size(); ++r) {
-    const Vec3 held = add(scaled(impl.rows.relative(r, motion.v), k_v), scaled(impl.rows.relative(r, motion.u), k_u));
-    impl.parting[r] = add(impl.rows.relative(r, impl.moved), held);
-  }
-  if (!impl.solve(impl.parting, impl.force)) return no_bonds;
-  impl.give(forces);
-  return {};
+  return impl_->answer_forces(motion.a, forces, [&](std::size_t r) {
+    const ConstraintRows& rows = impl_->rows;
+    return add(scaled(rows.relative(r, motion.v), k_v), scaled(rows.relative(r, motion.u), k_u));
+  });
+}
+
+std::string BondedMass::balance(std::span<const double> a, Forces& forces) {
+  if (!any()) return {};
+  return impl_->answer_forces(a, forces, [&](std::size_t r) { return scaled(impl_->rows.relative(r, a), -1.0); });
 }
 
 ContactOperator BondedMass::contact_operator() {
