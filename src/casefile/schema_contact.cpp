@@ -142,6 +142,10 @@ void add_shapes(SectionSchema<CaseContact>& s) {
 }
 
 void add_tie(SectionSchema<CaseContact>& s) {
+  s.key("method", &CaseContact::tie_method,
+        "What is tied: each slave node to its nearest place on the master; or the means over the overlaps of the faces "
+        "(mortar), which carry uniform stress exactly across meshes that do not match.",
+        {.choices = {"node_to_surface", "surface_to_surface"}, .kinds = {"tie"}});
   s.key(
       "tolerance", &CaseContact::tolerance,
       "Largest distance of a slave node from the nearest master face that is tied, over the size of that face (root of "

@@ -13,6 +13,7 @@
 #include "contact/box_tree.hpp"
 #include "contact/facet_geometry.hpp"
 #include "contact/facet_projection.hpp"
+#include "contact/mortar_rows.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
 
@@ -131,6 +132,9 @@ std::optional<Vec3> solved(std::array<Vec3, 3> S, Vec3 b) {
   return b;
 }
 
+/// Of coordinates.
+constexpr double round_off = 8.0 * std::numeric_limits<double>::epsilon();
+
 using Weights = std::vector<std::pair<Index, double>>;
 
 /// Adds the least change d of weights, sum of d = 0, sum of d_a X_a = o:
@@ -190,6 +194,32 @@ class TieMaker {
     if (!foot || !tie(slave, share, *foot)) note_far(slave);
   }
 
+  /// Row r of mortar_rows, whose first node it belongs to, as a bond.
+  void add_mean(const ConstraintRows& means, std::size_t r) {
+    const auto begin = static_cast<std::size_t>(means.begin[r]), end = static_cast<std::size_t>(means.begin[r + 1]);
+    const std::size_t split = end - static_cast<std::size_t>(means.behind[r]);
+    const Vec3& t = means.tangent_1[r];
+    Weights own, others;
+    for (std::size_t k = begin; k < split; ++k) own.emplace_back(means.node[k], dot(means.block[k][1], t));
+    for (std::size_t k = split; k < end; ++k) others.emplace_back(means.node[k], -dot(means.block[k][1], t));
+    const Index slave = means.node[begin];
+    const Vec3 o = subtract(mean_place(own), mean_place(others));
+    const Vec3 place = mean_place(others);
+    const std::optional<Foot> near = master_.near(place);
+    const Foot foot = near ? *near : master_.any(place);
+    const double rounding = round_off * norm(means.position[r]);
+    const bool is_near = norm(o) <= contact_.tolerance * master_.size(foot.facet) + rounding;
+    if (!is_near || (norm(o) > rounding && !add_offset(X_, behind_.of(foot.facet), o, others))) {
+      note_far(slave, norm(o), foot.facet);
+      return;
+    }
+    add_bond(means.normal[r], means.position[r], means.measure[r], own, others);
+  }
+  void note_far(Index slave) {
+    const Foot foot = master_.any(X_[static_cast<std::size_t>(slave)]);
+    note_far(slave, foot.at.distance, foot.facet);
+  }
+
   ConstraintRows rows;
   std::size_t joined = 0, far = 0;
 
@@ -216,26 +246,33 @@ class TieMaker {
     Weights weights;
     for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) weights.emplace_back(facet[a], foot.at.N[a]);
     const Vec3 o = subtract(x, foot.at.point);
-    constexpr double round_off = 4.0 * std::numeric_limits<double>::epsilon();
     if (norm(o) > round_off * norm(x) && !add_offset(X_, behind_.of(foot.facet), o, weights)) return false;
-    const bool has_normal = norm(foot.at.normal) > 0.0;
-    RowLaw law = row_law(contact_.law, share);
-    law.set = AdmissibleSet::bond;
-    rows.add_row(0.0, has_normal ? foot.at.normal : Vec3{1.0, 0.0, 0.0}, x, share, law, source_);
+    add_bond(norm(foot.at.normal) > 0.0 ? foot.at.normal : Vec3{1.0, 0.0, 0.0}, x, share, {{slave, 1.0}}, weights);
     rows.facet.back() = foot.facet;
-    rows.reach.back() = 0.0;  // it sees displacements, no places
-    rows.add_node(slave, 1.0);
-    for (const auto& [n, w] : weights) rows.add_node(n, -w);
-    rows.behind.back() = static_cast<Index>(weights.size());
     return true;
   }
 
-  void note_far(Index slave) {
+  void add_bond(const Vec3& normal, const Vec3& x, double share, const Weights& own, const Weights& others) {
+    RowLaw law = row_law(contact_.law, share);
+    law.set = AdmissibleSet::bond;
+    rows.add_row(0.0, normal, x, share, law, source_);
+    rows.reach.back() = 0.0;  // it sees displacements, no places
+    for (const auto& [n, w] : own) rows.add_node(n, w);
+    for (const auto& [n, w] : others) rows.add_node(n, -w);
+    rows.behind.back() = static_cast<Index>(others.size());
+  }
+
+  Vec3 mean_place(const Weights& weights) const {
+    Vec3 x{};
+    for (const auto& [n, w] : weights) x = carom::add(x, scaled(X_[static_cast<std::size_t>(n)], w));
+    return x;
+  }
+
+  void note_far(Index slave, double distance, Index facet) {
     ++far;
-    const Foot foot = master_.any(X_[static_cast<std::size_t>(slave)]);
-    if (foot.at.distance < distance_) return;
-    distance_ = foot.at.distance;
-    size_ = master_.size(foot.facet);
+    if (distance < distance_) return;
+    distance_ = distance;
+    size_ = master_.size(facet);
     farthest_ = slave;
   }
 
@@ -249,12 +286,37 @@ class TieMaker {
   double distance_ = 0.0, size_ = 0.0;
 };
 
+/// By the rows of the same surfaces in contact, where they stand.
+void add_means(const Model& model, const TieContact& contact, Index source, const std::map<Index, double>& slaves,
+               TieMaker& made) {
+  PairContact pair;
+  pair.name = contact.name;
+  pair.slave = contact.slave;
+  pair.master = contact.master;
+  const std::vector<Vec3>& X = model.mesh->coordinates;
+  const std::vector<Vec3> at_rest(X.size());
+  const std::vector<double> zero(3 * X.size(), 0.0);
+  ConstraintRows means;
+  mortar_rows(model, pair, {}, source)->append({X, X, at_rest, zero}, 0, means);
+  std::size_t r = 0;
+  for (const auto& [node, share] : slaves) {
+    if (r < means.size() && means.node[static_cast<std::size_t>(means.begin[r])] == node)
+      made.add_mean(means, r++);
+    else
+      made.note_far(node);
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<RowMaker> tie_rows(const Model& model, const TieContact& contact, Index source,
                                    std::vector<std::string>& notes) {
   TieMaker made(model, contact, source);
-  for (const auto& [node, share] : nodal_measures(model.mesh->coordinates, contact.slave)) made.add(node, share);
+  const std::map<Index, double> slaves = nodal_measures(model.mesh->coordinates, contact.slave);
+  if (contact.method == TieMethod::node_to_surface)
+    for (const auto& [node, share] : slaves) made.add(node, share);
+  else
+    add_means(model, contact, source, slaves, made);
   if (made.far > 0 && (contact.far == FarNodes::refuse || made.rows.size() + made.joined == 0)) {
     throw std::invalid_argument(fmt::format(
         "contact \"{}\": {}; mend the groups (is the finer surface the group, and the master as wide as it is?), raise "

@@ -187,11 +187,11 @@ struct StopContact {
   DamperActs damper_acts = DamperActs::compression;
 };
 
-/// Two surfaces whose facets stay together, glued: every slave node within `tolerance` (in facet sizes) of the master
-/// keeps its place on it.
+/// Two surfaces that stay together, glued, as far as they are within `tolerance` (in facet sizes) of each other.
 struct TieContact {
   std::string name;
   Surface slave, master;
+  TieMethod method = TieMethod::node_to_surface;
   double tolerance = 0.05;
   FarNodes far = FarNodes::refuse;
   ContactLaw law;  ///< its stiffness alone, for schemes that tie by springs

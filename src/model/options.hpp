@@ -36,6 +36,10 @@ enum class InitialPenetration : std::uint8_t { refuse, strain_free_offset, prest
 /// with the master surface (mortar).
 enum class PairMethod : std::uint8_t { node_to_surface, two_pass, surface_to_surface };
 
+/// How the rows of a tie are made: each slave node at its closest point of the master, or means over the overlaps of
+/// the facets (mortar).
+enum class TieMethod : std::uint8_t { node_to_surface, surface_to_surface };
+
 /// What is done about slave nodes that are too far from the master to be tied.
 enum class FarNodes : std::uint8_t { refuse, leave };
 

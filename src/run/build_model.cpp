@@ -167,6 +167,7 @@ class ModelBuilder {
     tie.name = *given.name;
     tie.slave = surface(given.group, "contact.group");
     tie.master = surface(given.master, "contact.master");
+    tie.method = given.tie_method;
     tie.tolerance = given.tolerance;
     tie.far = given.far;
     tie.law = law(given);
