@@ -141,9 +141,9 @@ struct CaseContact {
   Located<std::string> name;
   enum class Kind : std::uint8_t { interface, plane, sphere, cylinder, box, surface, pair, self, all, stop, tie };
   Located<Kind> kind{};
-  Located<std::string> group;  ///< cells (interface), faces or nodes (obstacles), slave faces (pair, tie), faces
-                               ///< (self), nodes (stop)
-  Located<std::string> master;                ///< pair, tie: faces of the other body
+  Located<std::string> group;   ///< cells (interface), faces or nodes (obstacles), slave faces (pair, tie), faces
+                                ///< (self), nodes (stop)
+  Located<std::string> master;  ///< pair, tie: faces of the other body
   std::vector<Located<std::string>> exclude;  ///< all: groups whose faces take no part
   PairMethod method = PairMethod::two_pass;   ///< pair, self, all
   std::optional<Located<double>> stiffness;   ///< eps_N: stress per length (per node and stop: force per length)
@@ -175,6 +175,7 @@ struct CaseContact {
   DamperActs damper = DamperActs::compression;        ///< stop
   TieMethod tie_method = TieMethod::node_to_surface;  ///< tie: `method`
   double tolerance = 0.05;                            ///< tie: largest distance from the master, in facet sizes
+  std::optional<double> distance;                     ///< tie: instead of the tolerance
   FarNodes far = FarNodes::refuse;                    ///< tie
 };
 

@@ -151,6 +151,11 @@ void add_tie(SectionSchema<CaseContact>& s) {
       "Largest distance of a slave node from the nearest master face that is tied, over the size of that face (root of "
       "its area, or its length).",
       {.range = at_least(0.0), .kinds = {"tie"}});
+  s.key("distance", &CaseContact::distance, "The same as a length, in the place of `tolerance`.",
+        {.unit = Dimension::length,
+         .range = at_least(0.0),
+         .kinds = {"tie"},
+         .default_phrase = "tolerance times the size of the face"});
   s.key("far", &CaseContact::far,
         "What to do about slave nodes that are farther away: refuse the case, or leave them free.",
         {.choices = {"refuse", "leave"}, .kinds = {"tie"}});

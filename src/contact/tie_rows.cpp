@@ -35,13 +35,12 @@ struct Foot {
 /// The master in the reference configuration.
 class Master {
  public:
-  Master(std::span<const Vec3> X, std::span<const Facet> facets, double tolerance)
-      : X_(X), facets_(facets), tolerance_(tolerance) {
+  Master(std::span<const Vec3> X, const TieContact& tie) : X_(X), facets_(tie.master.facets), tie_(tie) {
     std::vector<Bounds> boxes;
-    for (const Facet& facet : facets) {
+    for (const Facet& facet : facets_) {
       Bounds box;
       for (const Index n : facet) box.include(X[static_cast<std::size_t>(n)]);
-      box.grow(reach_of(facet));
+      box.grow(reach(facet));
       boxes.push_back(box);
     }
     tree_.build(boxes);
@@ -61,20 +60,20 @@ class Master {
     return *nearest(x, all, false);
   }
   double size(Index f) const { return facet_size(place(facets_[static_cast<std::size_t>(f)], X_)); }
-
- private:
-  /// Coincident nodes are tied whatever the tolerance is.
-  double reach_of(const Facet& facet) const {
+  /// How far from the facet nodes are tied; coincident ones are whatever the tolerance is.
+  double reach(const Facet& facet) const {
     double far = 0.0;
     for (const Index n : facet) far = std::max(far, norm(X_[static_cast<std::size_t>(n)]));
-    return tolerance_ * facet_size(place(facet, X_)) + 1e-12 * far;
+    return tie_.distance.value_or(tie_.tolerance * facet_size(place(facet, X_))) + 1e-12 * far;
   }
+
+ private:
   std::optional<Foot> nearest(const Vec3& x, std::span<const Index> candidates, bool within) const {
     std::optional<Foot> best;
     for (const Index f : candidates) {
       const Facet& facet = facets_[static_cast<std::size_t>(f)];
       const Projection at = project(place(facet, X_), x);
-      if (within && !(at.distance <= reach_of(facet))) continue;
+      if (within && !(at.distance <= reach(facet))) continue;
       if (!best || at.distance < best->at.distance) best = {f, at};
     }
     return best;
@@ -82,7 +81,7 @@ class Master {
 
   std::span<const Vec3> X_;
   std::span<const Facet> facets_;
-  double tolerance_;
+  const TieContact& tie_;
   BoxTree tree_;
 };
 
@@ -185,7 +184,7 @@ class TieMaker {
         contact_(contact),
         source_(source),
         X_(model.mesh->coordinates),
-        master_(X_, contact.master.facets, contact.tolerance),
+        master_(X_, contact),
         behind_(model, contact.master.facets) {}
 
   void add(Index slave, double share) {
@@ -208,7 +207,7 @@ class TieMaker {
     const std::optional<Foot> near = master_.near(place);
     const Foot foot = near ? *near : master_.any(place);
     const double rounding = round_off * norm(means.position[r]);
-    const bool is_near = norm(o) <= contact_.tolerance * master_.size(foot.facet) + rounding;
+    const bool is_near = norm(o) <= master_.reach(contact_.master.facets[static_cast<std::size_t>(foot.facet)]);
     if (!is_near || (norm(o) > rounding && !add_offset(X_, behind_.of(foot.facet), o, others))) {
       note_far(slave, norm(o), foot.facet);
       return;
@@ -226,12 +225,13 @@ class TieMaker {
   /// "12 of 40 slave nodes, the farthest of them ...".
   std::string far_ones() const {
     const Vec3& x = X_[static_cast<std::size_t>(farthest_)];
+    const std::string limit = contact_.distance ? fmt::format("{:.4g}", *contact_.distance)
+                                                : fmt::format("{:.4g} facet sizes", contact_.tolerance);
     return fmt::format(
-        "{} of {} slave nodes are farther from the master than {:.4g} facet sizes, the farthest, node {} "
-        "at ({:.4g}, {:.4g}, {:.4g}), by {:.4g}, which is {:.3g} facet sizes",
-        far, far + joined + rows.size(), contact_.tolerance,
-        model_.mesh->node_numbers[static_cast<std::size_t>(farthest_)], x[0], x[1], x[2], distance_,
-        size_ > 0.0 ? distance_ / size_ : std::numeric_limits<double>::infinity());
+        "{} of {} slave nodes are farther from the master than {}, the farthest, node {} at ({:.4g}, {:.4g}, {:.4g}), "
+        "by {:.4g}, which is {:.3g} facet sizes",
+        far, far + joined + rows.size(), limit, model_.mesh->node_numbers[static_cast<std::size_t>(farthest_)], x[0],
+        x[1], x[2], distance_, size_ > 0.0 ? distance_ / size_ : std::numeric_limits<double>::infinity());
   }
 
  private:

@@ -60,8 +60,8 @@ bool VelocityImpulses::accelerations(const ContactResponse& response, std::span<
   return true;
 }
 
-std::string VelocityImpulses::settle_bonds(State& state) {
-  return bonds_.balance(state.a, state.forces);
+std::string VelocityImpulses::settle_bonds(State& state, std::span<const double> besides) {
+  return bonds_.balance(state.a, state.forces, besides);
 }
 
 std::string VelocityImpulses::respond(double k, const ContactResponse& closed, Growth& nodes, std::span<double> v) {

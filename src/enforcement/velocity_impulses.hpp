@@ -32,9 +32,10 @@ class VelocityImpulses {
   /// What the forces of a response make of the bodies, those of bonds apart: a = A^-1 contact (BondedMass) on the free
   /// dofs, 0 on the others. False when the mass matrix cannot be solved.
   bool accelerations(const ContactResponse& contact, std::span<double> a);
-  /// The bonds' forces at the end of a stage that has scaled those of multipliers: they balance its accelerations.
-  /// Returns why there are none, "" when there are.
-  std::string settle_bonds(State& state);
+  /// The bonds' forces at the end of a stage that has scaled those of multipliers: they balance its accelerations
+  /// (BondedMass::balance). Returns why there are none, "" when there are.
+  std::string settle_bonds(State& state, std::span<const double> besides = {});
+  bool has_bonds() const { return bonds_.any(); }
   /// v: v* on entry, v on return. `closed`: the multipliers at the same instant. `nodes`: StageMemory::mass_nodes,
   /// which grows. Returns why there are no such forces, "" when there are.
   std::string respond(double k, const ContactResponse& closed, Growth& nodes, std::span<double> v);

@@ -193,6 +193,7 @@ struct TieContact {
   Surface slave, master;
   TieMethod method = TieMethod::node_to_surface;
   double tolerance = 0.05;
+  std::optional<double> distance;  ///< takes the place of the tolerance
   FarNodes far = FarNodes::refuse;
   ContactLaw law;  ///< its stiffness alone, for schemes that tie by springs
 };

@@ -169,6 +169,7 @@ class ModelBuilder {
     tie.master = surface(given.master, "contact.master");
     tie.method = given.tie_method;
     tie.tolerance = given.tolerance;
+    tie.distance = given.distance;
     tie.far = given.far;
     tie.law = law(given);
     model_.contacts.emplace_back(std::move(tie));

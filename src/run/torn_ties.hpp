@@ -1,7 +1,8 @@
-// Ties whose sides part as the run begins.
+// Ties that cannot hold: sides that part as the run begins, bodies in statics that nothing else holds.
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "casefile/case.hpp"
 #include "contact/contact_geometry.hpp"
@@ -12,5 +13,10 @@ namespace carom {
 /// be torn back before the first step, by energy that nobody asked for. Rounding apart: 1e-9 of the largest entry.
 void refuse_torn_ties(const Case& given, const ContactGeometry& contact, std::span<const double> displacement,
                       std::span<const double> velocity);
+
+/// CaseError where a tie joins two bodies of which statics finds neither held by supports. `free_bodies`: their nodes
+/// (FreeModes).
+void refuse_floating_ties(const Case& given, const ContactGeometry& contact,
+                          const std::vector<std::vector<Index>>& free_bodies, std::size_t nodes);
 
 }  // namespace carom

@@ -40,9 +40,10 @@ struct BondedMass::Impl {
   bool is_lumped() const { return system.mass.kind() == MassKind::lumped; }
   void factorise();
   bool solve(const std::vector<Vec3>& parting, std::vector<Vec3>& force);
-  bool free_acceleration(std::span<const double> a, const Forces& forces);
+  bool free_acceleration(std::span<const double> a, const Forces& forces, std::span<const double> besides);
   template <class Held>
-  std::string answer_forces(std::span<const double> a, Forces& forces, const Held& held);
+  std::string answer_forces(std::span<const double> a, Forces& forces, std::span<const double> besides,
+                            const Held& held);
   void take_off(Forces& forces) const;
   void give(Forces& forces) const;
   bool invert(std::span<double> b);
@@ -123,17 +124,20 @@ bool BondedMass::Impl::solve(const std::vector<Vec3>& w, std::vector<Vec3>& to) 
 }
 
 /// moved = M^-1 f where bonds look, the prescribed accelerations being those in a.
-bool BondedMass::Impl::free_acceleration(std::span<const double> a, const Forces& forces) {
+bool BondedMass::Impl::free_acceleration(std::span<const double> a, const Forces& forces,
+                                         std::span<const double> besides) {
   const std::vector<bool>& fixed = system.supports.fixed();
   if (!is_lumped()) {
     moved.assign(a.begin(), a.end());
     rhs.resize(moved.size());
     force_sum(forces, rhs);
+    for (std::size_t i = 0; i < besides.size(); ++i) rhs[i] -= besides[i];
     return mass.solve(rhs, moved) >= 0;
   }
   for (const Index n : rows.node) {
     for (std::size_t i = 3 * static_cast<std::size_t>(n); i < 3 * static_cast<std::size_t>(n) + 3; ++i) {
-      const double f = forces.external[i] - forces.internal[i] + forces.contact[i];
+      const double f =
+          forces.external[i] - forces.internal[i] + forces.contact[i] - (besides.empty() ? 0.0 : besides[i]);
       moved[i] = fixed[i] ? a[i] : inverse[i] * f;
     }
   }
@@ -142,10 +146,11 @@ bool BondedMass::Impl::free_acceleration(std::span<const double> a, const Forces
 
 /// Gives the bonds the forces that leave G a = -held.
 template <class Held>
-std::string BondedMass::Impl::answer_forces(std::span<const double> a, Forces& forces, const Held& held) {
+std::string BondedMass::Impl::answer_forces(std::span<const double> a, Forces& forces, std::span<const double> besides,
+                                            const Held& held) {
   take_off(forces);
   factorise();
-  if (!free_acceleration(a, forces)) return MassSolver::failure;
+  if (!free_acceleration(a, forces, besides)) return MassSolver::failure;
   parting.resize(rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) parting[r] = add(rows.relative(r, moved), held(r));
   if (!solve(parting, force)) return no_bonds;
@@ -213,15 +218,16 @@ bool BondedMass::any() const {
 std::string BondedMass::hold(const BondMotion& motion, Forces& forces) {
   if (!any()) return {};
   const double k_v = of_velocity / motion.h, k_u = of_displacement / (motion.h * motion.h);
-  return impl_->answer_forces(motion.a, forces, [&](std::size_t r) {
+  return impl_->answer_forces(motion.a, forces, {}, [&](std::size_t r) {
     const ConstraintRows& rows = impl_->rows;
     return add(scaled(rows.relative(r, motion.v), k_v), scaled(rows.relative(r, motion.u), k_u));
   });
 }
 
-std::string BondedMass::balance(std::span<const double> a, Forces& forces) {
+std::string BondedMass::balance(std::span<const double> a, Forces& forces, std::span<const double> besides) {
   if (!any()) return {};
-  return impl_->answer_forces(a, forces, [&](std::size_t r) { return scaled(impl_->rows.relative(r, a), -1.0); });
+  return impl_->answer_forces(a, forces, besides,
+                              [&](std::size_t r) { return scaled(impl_->rows.relative(r, a), -1.0); });
 }
 
 ContactOperator BondedMass::contact_operator() {

@@ -36,8 +36,9 @@ class BondedMass {
   /// history, and adds them to forces.contact; what they had before is taken off. Returns why there are none, "" when
   /// there are.
   std::string hold(const BondMotion& motion, Forces& forces);
-  /// The same of the forces that balance accelerations which are known: G M^-1 (M a - f - G^T lambda) = 0.
-  std::string balance(std::span<const double> a, Forces& forces);
+  /// The same of the forces that balance accelerations which are known, and another force on the left side:
+  ///   G M^-1 (M a + besides - f - G^T lambda) = 0.
+  std::string balance(std::span<const double> a, Forces& forces, std::span<const double> besides = {});
   /// Forces on rows that are no bonds, and what they make of the bodies that bonds keep together:
   ///   A^-1 = M^-1 - M^-1 G^T (G M^-1 G^T)^-1 G M^-1; mass_operator without bonds.
   ContactOperator contact_operator();

@@ -29,6 +29,15 @@ std::vector<double> affine(const Mesh& mesh, const std::array<Vec3, 3>& A, const
 constexpr std::array<Vec3, 3> any_gradient{{{0.7, -2.0, 0.3}, {1.1, 0.4, -0.9}, {-0.2, 0.8, 1.7}}};
 constexpr double round_off = 1e-14;  // some ten terms below 10
 
+std::string refusal(const Model& model) {
+  try {
+    const ContactGeometry contact(model);
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+  return "";
+}
+
 TEST(TieRows, SeeNothingOfAffineMotions) {
   // 0.04 is 4 % of the master's facets, of size 1.
   for (const double gap : {0.0, 1e-7, 0.04, -0.04}) {
@@ -56,6 +65,25 @@ TEST(TieRows, FromFacetsAloneWhereTheSurfacesMeet) {
   EXPECT_NEAR(area, 4.0, 1e-12);
 }
 
+TEST(TieRows, OfMeansSeeNothingOfAffineMotions) {
+  for (const double gap : {0.0, 1e-7, 0.04, -0.04}) {
+    Model model = tied_blocks(gap);
+    tie_of(model).method = TieMethod::surface_to_surface;
+    const ContactGeometry contact(model);
+    ASSERT_EQ(contact.bonds().size(), 16U);
+    EXPECT_LT(parting(contact, affine(*model.mesh, any_gradient, {3.0, -1.0, 2.0})), 10 * round_off) << gap;
+    EXPECT_GT(parting(contact, random_vector(3 * model.mesh->node_count(), 3)), 0.1);
+  }
+}
+
+TEST(TieRows, TakeADistanceInThePlaceOfATolerance) {
+  Model model = tied_blocks(0.3);
+  tie_of(model).distance = 0.29;
+  EXPECT_NE(refusal(model).find("16 of 16 slave nodes are farther from the master than 0.29,"), std::string::npos);
+  tie_of(model).distance = 0.31;
+  EXPECT_EQ(ContactGeometry(model).bonds().size(), 16U);
+}
+
 // What a force of a row does has no resultant and no moment, wherever the node stands off its facet.
 TEST(TieRows, ForcesBalance) {
   const Model model = tied_blocks(0.04);
@@ -70,15 +98,6 @@ TEST(TieRows, ForcesBalance) {
     EXPECT_LT(norm(sum), round_off);
     EXPECT_LT(norm(moment), 10 * round_off);
   }
-}
-
-std::string refusal(const Model& model) {
-  try {
-    const ContactGeometry contact(model);
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-  return "";
 }
 
 TEST(TieRows, RefuseNodesThatAreFarAway) {

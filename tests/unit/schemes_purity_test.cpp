@@ -243,7 +243,9 @@ class Purity {
 /// One-point cells where contact is simplest, since it knows nothing of them. Conjugate gradients on one body in each
 /// scene; they need not find the equilibrium of what friction alone holds.
 bool is_tried(SchemeKind scheme, EnforcementKind enforcement, const Scene& scene, const Body& body, SolverKind solver) {
-  if (scheme == SchemeKind::modified_mass && scene.model == tied_on_plane) return false;  // takes no ties
+  // It takes no ties; statics none between bodies that only contact holds.
+  const bool takes_scene = scheme != SchemeKind::modified_mass && scheme != SchemeKind::statics;
+  if (!takes_scene && scene.model == tied_on_plane) return false;
   const bool remembers = !body.material.law->history.empty() || body.viscosity.is_any();
   if (remembers && !traits(scheme).takes_history) return false;
   if (body.formulation != Formulation::full && enforcement != EnforcementKind::penalty) return false;

@@ -88,7 +88,7 @@ TEST(Threads, CentralDifferencesWithImpulses) {
 TEST(Threads, Ties) {
   const auto run_tied = [](int threads, MassKind kind, const MakeScheme& make) {
     set_threads(threads);
-    Model model = tied_blocks(0.02, 19);
+    Model model = tied_blocks(0.02, 19, 0.0);
     model.contacts.emplace_back(plane_below(model, 0.002, 20.0, {10.0, 0.3}));
     const Problem p(std::move(model), kind);
     const History run = march(*make(p), p.moving({0.1, 0.05, -0.2}), 0.02, 3);

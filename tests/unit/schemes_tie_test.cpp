@@ -86,7 +86,7 @@ TEST_P(Ties, OfMatchingMeshesAreOneMesh) {
     // by 1/1000 of a cell, more in bending.
     const double share = is_exact(kind, enforcement) ? 1e-9 : 3e-3;
     EXPECT_LT(norm(subtract(got, wanted)), share * norm(wanted));
-    EXPECT_LT(parting(two.contact, b.state.q), is_exact(kind, enforcement) ? 1e-13 : 1e-4);
+    EXPECT_LT(parting(two.contact, b.state.q), is_exact(kind, enforcement) ? 1e-13 : 1e-3 * norm(wanted));
     EXPECT_EQ(b.ledger.now().impact, 0.0);
     EXPECT_EQ(b.ledger.now().friction, 0.0);
     EXPECT_LT(b.imbalance, 1e-10 * b.ledger.scale());
@@ -112,7 +112,10 @@ TEST_P(Ties, KeepTogetherWhatTurns) {
     EXPECT_LT(run.imbalance, 1e-10 * run.ledger.scale());
     const double momentum = std::sqrt(2.0 * p.mass.total() * run.ledger.scale());
     EXPECT_LT(run.linear_momentum_error, 1e-9 * momentum);
-    EXPECT_LT(run.angular_momentum_error, 1e-9 * momentum);
+    // Schemes that keep the moment of momentum to their order only do so for what is tied.
+    if (traits(kind).angular_momentum == AngularMomentum::exactly) {
+      EXPECT_LT(run.angular_momentum_error, 1e-9 * momentum);
+    }
     if (!is_exact(kind, enforcement)) return;
     EXPECT_LT(parting(p.contact, run.state.q), 1e-12);
     EXPECT_LT(parting(p.contact, run.state.v), 1e-12);
@@ -122,17 +125,20 @@ TEST_P(Ties, KeepTogetherWhatTurns) {
 INSTANTIATE_TEST_SUITE_P(AllSchemes, Ties, testing::ValuesIn(tying_schemes()),
                          [](const auto& of) { return std::string(of.param.name); });
 
-// The patch test: a linear field passes meshes that do not match, and surfaces that do not meet, unchanged.
+// The patch test: a linear field passes meshes that do not match, and surfaces that do not meet, unchanged; means over
+// the overlaps carry uniform tractions exactly.
 TEST(TiePatch, LinearFieldsPass) {
   for (const double gap : {0.0, 0.04}) {
     Model model = tied_blocks(gap);
+    std::get<TieContact>(model.contacts.front()).method = TieMethod::surface_to_surface;
     const auto wanted = [](const Vec3& X) { return Vec3{0.01 * X[0] + 0.002 * X[1], -0.0025 * X[1], 0.003 * X[0]}; };
     for (std::size_t n = 0; n < model.mesh->node_count(); ++n) {  // on the outer faces, but where tied nodes follow
       const Vec3& X = model.mesh->coordinates[n];
       const bool is_end = X[0] == 0.0 || X[0] == 4.0 + gap;
       const bool is_side = X[1] == 0.0 || X[1] == 2.0 || X[2] == 0.0 || X[2] == 2.0;
       const bool is_slave = X[0] == 2.0 + gap && n >= 27;
-      if (!is_end && (!is_side || is_slave)) continue;
+      const bool is_master = X[0] == 2.0 && n < 27;
+      if (!is_end && (!is_side || is_slave || is_master)) continue;
       const Vec3 u = wanted(X);
       for (int c = 0; c < 3; ++c)
         model.motions.push_back({"patch",
