@@ -132,7 +132,7 @@ std::optional<Vec3> solved(std::array<Vec3, 3> S, Vec3 b) {
 }
 
 /// Of coordinates.
-constexpr double round_off = 8.0 * std::numeric_limits<double>::epsilon();
+constexpr double place_rounding = 8.0 * std::numeric_limits<double>::epsilon();
 
 using Weights = std::vector<std::pair<Index, double>>;
 
@@ -206,7 +206,7 @@ class TieMaker {
     const Vec3 place = mean_place(others);
     const std::optional<Foot> near = master_.near(place);
     const Foot foot = near ? *near : master_.any(place);
-    const double rounding = round_off * norm(means.position[r]);
+    const double rounding = place_rounding * norm(means.position[r]);
     const bool is_near = norm(o) <= master_.reach(contact_.master.facets[static_cast<std::size_t>(foot.facet)]);
     if (!is_near || (norm(o) > rounding && !add_offset(X_, behind_.of(foot.facet), o, others))) {
       note_far(slave, norm(o), foot.facet);
@@ -246,7 +246,7 @@ class TieMaker {
     Weights weights;
     for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) weights.emplace_back(facet[a], foot.at.N[a]);
     const Vec3 o = subtract(x, foot.at.point);
-    if (norm(o) > round_off * norm(x) && !add_offset(X_, behind_.of(foot.facet), o, weights)) return false;
+    if (norm(o) > place_rounding * norm(x) && !add_offset(X_, behind_.of(foot.facet), o, weights)) return false;
     add_bond(norm(foot.at.normal) > 0.0 ? foot.at.normal : Vec3{1.0, 0.0, 0.0}, x, share, {{slave, 1.0}}, weights);
     rows.facet.back() = foot.facet;
     return true;

@@ -38,7 +38,7 @@ void refuse_torn_ties(const Case& given, const ContactGeometry& contact, std::sp
          "Give both parts the same velocity. Bodies that come together first and stay so are contact, not a tie.");
 }
 
-void refuse_floating_ties(const Case& given, const ContactGeometry& contact,
+void refuse_floating_ties(const Case& given, const ContactGeometry& contact, EnforcementKind enforcement,
                           const std::vector<std::vector<Index>>& free_bodies, std::size_t nodes) {
   std::vector<bool> floats(nodes, false);
   for (const std::vector<Index>& body : free_bodies)
@@ -46,9 +46,14 @@ void refuse_floating_ties(const Case& given, const ContactGeometry& contact,
   const ConstraintRows& bonds = contact.bonds();
   for (std::size_t r = 0; r < bonds.size(); ++r) {
     const auto begin = bonds.node.begin() + bonds.begin[r], end = bonds.node.begin() + bonds.begin[r + 1];
-    if (!std::all_of(begin, end, [&](Index n) { return floats[static_cast<std::size_t>(n)]; })) continue;
-    throw CaseError(given.contacts[static_cast<std::size_t>(bonds.source[r])].where, "contact",
-                    "a tie, in statics, between two bodies that no support holds",
+    const auto can_move = [&](Index n) { return floats[static_cast<std::size_t>(n)]; };
+    const Location& where = given.contacts[static_cast<std::size_t>(bonds.source[r])].where;
+    if (enforcement == EnforcementKind::lagrange && std::any_of(begin, end, can_move))
+      throw CaseError(where, "contact", "a tie, in statics with enforcement = \"lagrange\", that alone holds a body",
+                      "bodies that supports hold, or another enforcement",
+                      "Take enforcement = \"penalty\" or \"augmented_lagrangian\".");
+    if (!std::all_of(begin, end, can_move)) continue;
+    throw CaseError(where, "contact", "a tie, in statics, between two bodies that no support holds",
                     "one of the two held by supports in all directions",
                     "Give one of them supports, make one mesh of both, or take a scheme with inertia.");
   }

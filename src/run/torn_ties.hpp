@@ -6,6 +6,7 @@
 
 #include "casefile/case.hpp"
 #include "contact/contact_geometry.hpp"
+#include "model/compatibility.hpp"
 
 namespace carom {
 
@@ -14,9 +15,10 @@ namespace carom {
 void refuse_torn_ties(const Case& given, const ContactGeometry& contact, std::span<const double> displacement,
                       std::span<const double> velocity);
 
-/// CaseError where a tie joins two bodies of which statics finds neither held by supports. `free_bodies`: their nodes
-/// (FreeModes).
-void refuse_floating_ties(const Case& given, const ContactGeometry& contact,
+/// CaseError where a tie joins two bodies that no support holds, which statics does not find the place of; and where a
+/// tie alone is to hold one by multipliers. `free_bodies`: nodes of the bodies that can move (FreeModes), of all
+/// `nodes`.
+void refuse_floating_ties(const Case& given, const ContactGeometry& contact, EnforcementKind enforcement,
                           const std::vector<std::vector<Index>>& free_bodies, std::size_t nodes);
 
 }  // namespace carom

@@ -292,8 +292,7 @@ std::string ImplicitStage::improve(const StageEquation& eq, const State& begin, 
                                     : "",
         describe_motion(system_.mesh, solved.linear.worst));
   }
-  const bool is_held = eq.free == nullptr || eq.free->empty();  // else springs of hold() stay behind
-  if (system_.contact.is_fixed() && !has_more_inertia_ && (is_held || port_->is_law()))
+  if (system_.contact.is_fixed() && !has_more_inertia_)
     parallel_each(correction_.size(), [&](std::size_t i) { end.a[i] += correction_[i]; });
   else
     mixing_.advance(end.a, correction_);

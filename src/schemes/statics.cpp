@@ -15,9 +15,7 @@ Statics::Statics(const System& system, const ImplicitSettings& settings, double 
       free_(system),
       stage_(system, settings, std::numeric_limits<double>::infinity(), omega_max_squared) {
   zero_.resize(system.solid.dof_count());
-  // What a tie alone holds is found in few iterations with soft pins; contact that opens and closes wants harder ones.
-  const double of_multipliers = system.contact.bonds().size() > 0 ? 1e-4 : 0.1;
-  stage_.hold(free_.pins(settings.enforcement == EnforcementKind::lagrange ? of_multipliers : 1.0));
+  stage_.hold(free_.pins(settings.enforcement == EnforcementKind::lagrange ? 0.1 : 1.0));
 }
 
 void Statics::start(State& state, double dt) {

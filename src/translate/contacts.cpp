@@ -154,9 +154,9 @@ void translate_general(Translation& t, const std::map<std::string, Interaction>&
 void translate_ties(Translation& t, const Statement& s) {
   const DeckKeyword& keyword = *s.keyword;
   const std::string* given = keyword.parameter("POSITION TOLERANCE");
-  const std::optional<double> distance = given == nullptr ? std::nullopt : as_real(*given);
-  if (given != nullptr && !(distance && *distance >= 0.0))
-    keyword.fail("POSITION TOLERANCE=" + *given, "a distance of 0 or more");
+  double distance = 0.0;
+  if (given != nullptr) distance = as_real(*given).value_or(-1.0);
+  if (distance < 0.0) keyword.fail("POSITION TOLERANCE=" + *given, "a distance of 0 or more");
   for (DeckCursor at(keyword); at.next_line();) {
     const std::string slave(at.field()), master(at.field());
     at.end_line("the slave and the master");
@@ -168,7 +168,7 @@ void translate_ties(Translation& t, const Statement& s) {
     tie.text("name", upper_case(slave) + " to " + upper_case(master)).text("kind", "tie").text("group", group);
     tie.text("master", other);
     if (keyword.has("TYPE")) tie.text("method", method_of(keyword));
-    if (distance) tie.number("distance", *distance).text("far", "leave");
+    if (given != nullptr) tie.number("distance", distance).text("far", "leave");
     t.append("contact", tie.node());
   }
 }

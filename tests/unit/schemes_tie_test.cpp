@@ -74,6 +74,8 @@ Vec3 corner(const Model& model, const State& state) {
 
 TEST_P(Ties, OfMatchingMeshesAreOneMesh) {
   with_each_enforcement([](SchemeKind kind, EnforcementKind enforcement) {
+    // Refused by Stage: there multipliers alone would hold the second block.
+    if (kind == SchemeKind::statics && enforcement == EnforcementKind::lagrange) return;
     const Problem one(whole(), mass_of(kind)), two(loaded(tied_blocks(0.0, 2, 0.0)), mass_of(kind));
     const double h = step_of(one, kind);
     const int steps = static_cast<int>(4.0 / h);
@@ -125,20 +127,21 @@ TEST_P(Ties, KeepTogetherWhatTurns) {
 INSTANTIATE_TEST_SUITE_P(AllSchemes, Ties, testing::ValuesIn(tying_schemes()),
                          [](const auto& of) { return std::string(of.param.name); });
 
-// The patch test: a linear field passes meshes that do not match, and surfaces that do not meet, unchanged; means over
-// the overlaps carry uniform tractions exactly.
+// The patch test: a linear field passes meshes that do not match unchanged, since means over the overlaps carry uniform
+// tractions exactly; and surfaces that do not meet with little change.
 TEST(TiePatch, LinearFieldsPass) {
   for (const double gap : {0.0, 0.04}) {
+    // Across a gap the place of the glue strains as the cells behind do, without their stress.
+    const double tolerance = gap == 0.0 ? 1e-13 : 0.05 * gap;
     Model model = tied_blocks(gap);
     std::get<TieContact>(model.contacts.front()).method = TieMethod::surface_to_surface;
-    const auto wanted = [](const Vec3& X) { return Vec3{0.01 * X[0] + 0.002 * X[1], -0.0025 * X[1], 0.003 * X[0]}; };
-    for (std::size_t n = 0; n < model.mesh->node_count(); ++n) {  // on the outer faces, but where tied nodes follow
+    // Stretched along x, nu = 0.3 of the material making it narrower; a turn; the sides are free.
+    const auto wanted = [](const Vec3& X) {
+      return Vec3{0.01 * X[0] - 0.002 * X[1], -0.003 * X[1] + 0.002 * X[0], -0.003 * X[2]};
+    };
+    for (std::size_t n = 0; n < model.mesh->node_count(); ++n) {
       const Vec3& X = model.mesh->coordinates[n];
-      const bool is_end = X[0] == 0.0 || X[0] == 4.0 + gap;
-      const bool is_side = X[1] == 0.0 || X[1] == 2.0 || X[2] == 0.0 || X[2] == 2.0;
-      const bool is_slave = X[0] == 2.0 + gap && n >= 27;
-      const bool is_master = X[0] == 2.0 && n < 27;
-      if (!is_end && (!is_side || is_slave || is_master)) continue;
+      if (X[0] != 0.0 && X[0] != 4.0 + gap) continue;
       const Vec3 u = wanted(X);
       for (int c = 0; c < 3; ++c)
         model.motions.push_back({"patch",
@@ -152,7 +155,8 @@ TEST(TiePatch, LinearFieldsPass) {
     ASSERT_TRUE(run.converged) << run.failure;
     for (std::size_t n = 0; n < (*p.model.mesh).node_count(); ++n) {
       const Vec3 u = wanted((*p.model.mesh).coordinates[n]);
-      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(run.state.q[3 * n + c], u[c], 1e-13);  // of 0.04, solved directly
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(run.state.q[3 * n + c], u[c], tolerance);  // of 0.04, solved directly
     }
   }
 }
