@@ -35,7 +35,7 @@ struct Foot {
 /// The master in the reference configuration.
 class Master {
  public:
-  Master(std::span<const Vec3> X, const TieContact& tie) : X_(X), facets_(tie.master.facets), tie_(tie) {
+  Master(std::span<const Vec3> X, const TieContact& given) : X_(X), facets_(given.master.facets), tie_(given) {
     std::vector<Bounds> boxes;
     for (const Facet& facet : facets_) {
       Bounds box;
