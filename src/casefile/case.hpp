@@ -139,11 +139,11 @@ struct CaseInitialState {
 struct CaseContact {
   Location where;
   Located<std::string> name;
-  enum class Kind : std::uint8_t { interface, plane, sphere, cylinder, box, surface, pair, self, all, stop };
+  enum class Kind : std::uint8_t { interface, plane, sphere, cylinder, box, surface, pair, self, all, stop, tie };
   Located<Kind> kind{};
-  Located<std::string> group;   ///< cells (interface), faces or nodes (obstacles), slave faces (pair), faces (self),
-                                ///< nodes (stop)
-  Located<std::string> master;  ///< pair: faces of the other body
+  Located<std::string> group;   ///< cells (interface), faces or nodes (obstacles), slave faces (pair, tie), faces
+                                ///< (self), nodes (stop)
+  Located<std::string> master;  ///< pair, tie: faces of the other body
   std::vector<Located<std::string>> exclude;  ///< all: groups whose faces take no part
   std::optional<Located<PairMethod>> method;  ///< pair, self, all: filled on reading
   std::optional<Located<double>> stiffness;   ///< eps_N: stress per length (per node and stop: force per length)
@@ -169,10 +169,14 @@ struct CaseContact {
   std::optional<double> mass;            ///< obstacles: free rigid body, which turns where it has an inertia
   std::optional<Located<Vec3>> inertia;  ///< I_xx, I_yy, I_zz about the centre of mass
   std::optional<Vec3> products_of_inertia, centre_of_mass, angular_velocity;
-  std::optional<double> rigidity;               ///< of the body that turns (TurningBody)
-  double gap = 0.0;                             ///< stop
-  double damping = 0.0;                         ///< stop
-  DamperActs damper = DamperActs::compression;  ///< stop
+  std::optional<double> rigidity;                     ///< of the body that turns (TurningBody)
+  double gap = 0.0;                                   ///< stop
+  double damping = 0.0;                               ///< stop
+  DamperActs damper = DamperActs::compression;        ///< stop
+  TieMethod tie_method = TieMethod::node_to_surface;  ///< tie: `method`
+  double tolerance = 0.05;                            ///< tie: largest distance from the master, in facet sizes
+  std::optional<double> distance;                     ///< tie: instead of the tolerance
+  FarNodes far = FarNodes::refuse;                    ///< tie
 };
 
 struct CaseFunction {

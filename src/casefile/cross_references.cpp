@@ -136,6 +136,13 @@ void check_enforcement(const Case& given, const CaseScheme& scheme) {
                       fmt::format("a stop, which is a spring, with enforcement = \"{}\"", name(enforcement)),
                       "enforcement = \"penalty\" with stops", "Take a plane instead, or a scheme with penalty.");
     }
+    if (*contact.kind == CaseContact::Kind::tie && **scheme.mass == CaseScheme::Mass::modified) {
+      throw CaseError(
+          contact.kind.where, entry_path("contact", i, "kind"), "a tie, with mass = \"modified\"",
+          "a scheme whose contact nodes keep their mass",
+          "What is tied moves by its inertia, also where it touches something: take another mass, or another "
+          "scheme than modified_mass.");
+    }
     if (*scheme.kind == SchemeKind::statics && contact.inertia) {
       throw CaseError(contact.inertia->where, entry_path("contact", i, "inertia"), "a body that turns, with statics",
                       "a scheme with inertia, or a free body without `inertia`, which does not turn",

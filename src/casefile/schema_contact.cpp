@@ -17,14 +17,15 @@ Names joined(Names a, const Names& b) {
 }
 
 void add_surfaces(SectionSchema<CaseContact>& s) {
-  s.key("group", &CaseContact::group,
-        "Group of cells (interface), of faces or nodes that may touch (obstacles), of slave faces (pair), of faces "
-        "(self), of nodes (stop).",
-        {.kinds = joined(obstacles, {"interface", "pair", "self", "stop"}),
-         .need = Need::required,
-         .aliases = {"slave"}});
+  s.key(
+      "group", &CaseContact::group,
+      "Group of cells (interface), of faces or nodes that may touch (obstacles), of slave faces (pair, tie), of faces "
+      "(self), of nodes (stop).",
+      {.kinds = joined(obstacles, {"interface", "pair", "self", "stop", "tie"}),
+       .need = Need::required,
+       .aliases = {"slave"}});
   s.key("master", &CaseContact::master, "Group of faces of the other body; the coarser or stiffer one.",
-        {.kinds = {"pair"}, .need = Need::required});
+        {.kinds = {"pair", "tie"}, .need = Need::required});
   s.key("exclude", &CaseContact::exclude, "Groups whose faces take no part.", {.kinds = {"all"}});
   s.key("method", &CaseContact::method,
         "Where the gap is measured: at the nodes of one side, of both, or over the overlaps of the faces. faces, for "
@@ -48,6 +49,14 @@ void add_law(SectionSchema<CaseContact>& s) {
          .kinds = chosen,
          .aliases = aliases,
          .default_phrase = automatic});
+  s.key("stiffness", &CaseContact::stiffness,
+        "Stress per distance that the surfaces part, where the scheme is implicit and ties by springs (enforcement = "
+        "\"penalty\" or \"augmented_lagrangian\").",
+        {.unit = Dimension::stress_per_length,
+         .range = greater_than(0.0),
+         .kinds = {"tie"},
+         .aliases = aliases,
+         .default_phrase = automatic});
   s.key("stiffness", &CaseContact::stiffness, "Force of a node per penetration.",
         {.unit = Dimension::force_per_length,
          .range = greater_than(0.0),
@@ -55,7 +64,8 @@ void add_law(SectionSchema<CaseContact>& s) {
          .required_for = {"stop"},
          .aliases = aliases});
   s.key("stiffness_factor", &CaseContact::stiffness_factor,
-        "Multiplies the stiffness that is chosen where none is given.", {.range = greater_than(0.0), .kinds = chosen});
+        "Multiplies the stiffness that is chosen where none is given.",
+        {.range = greater_than(0.0), .kinds = joined(chosen, {"tie"})});
   s.key("measure", &CaseContact::per_node, "What the stiffness is counted per: area of the faces, or node.",
         {.choices = {"area", "node"}, .kinds = obstacles});
   s.key("tangential_stiffness", &CaseContact::tangential_stiffness,
@@ -133,18 +143,39 @@ void add_shapes(SectionSchema<CaseContact>& s) {
         {.unit = Dimension::angular_velocity, .kinds = obstacles, .default_phrase = "0"});
 }
 
+void add_tie(SectionSchema<CaseContact>& s) {
+  s.key("method", &CaseContact::tie_method,
+        "What is tied: each slave node to its nearest place on the master; or the means over the overlaps of the faces "
+        "(mortar), which carry uniform stress exactly across meshes that do not match.",
+        {.choices = {"node_to_surface", "surface_to_surface"}, .kinds = {"tie"}});
+  s.key(
+      "tolerance", &CaseContact::tolerance,
+      "Largest distance of a slave node from the nearest master face that is tied, over the size of that face (root of "
+      "its area, or its length).",
+      {.range = at_least(0.0), .kinds = {"tie"}});
+  s.key("distance", &CaseContact::distance, "The same as a length, in the place of `tolerance`.",
+        {.unit = Dimension::length,
+         .range = at_least(0.0),
+         .kinds = {"tie"},
+         .default_phrase = "tolerance times the size of the face"});
+  s.key("far", &CaseContact::far,
+        "What to do about slave nodes that are farther away: refuse the case, or leave them free.",
+        {.choices = {"refuse", "leave"}, .kinds = {"tie"}});
+}
+
 }  // namespace
 
 SectionSchema<CaseContact> contact_section() {
   SectionSchema<CaseContact> s(
       "Who touches whom: interface cells of zero thickness, rigid obstacles (plane, sphere, cylinder, box, surface), "
-      "two deformable surfaces (pair), one with itself (self), all exterior surfaces with each other (all), or "
-      "discrete stops on nodes.");
+      "two deformable surfaces (pair), one with itself (self), all exterior surfaces with each other (all), "
+      "discrete stops on nodes, or who stays together: two surfaces that are glued (tie).");
   s.description.selector = "kind";
   s.key("name", &CaseContact::name, "Name in results and in [[check]].", {.need = Need::required});
-  s.key("kind", &CaseContact::kind, "What touches; decides which of the other keys are taken.",
-        {.choices = {"interface", "plane", "sphere", "cylinder", "box", "surface", "pair", "self", "all", "stop"},
-         .need = Need::required});
+  s.key(
+      "kind", &CaseContact::kind, "What touches; decides which of the other keys are taken.",
+      {.choices = {"interface", "plane", "sphere", "cylinder", "box", "surface", "pair", "self", "all", "stop", "tie"},
+       .need = Need::required});
   s.key("moment_point", &CaseContact::moment_point, "Point about which contact.csv gives the moment of the contact.",
         {.unit = Dimension::length});
   add_surfaces(s);
@@ -158,6 +189,7 @@ SectionSchema<CaseContact> contact_section() {
         "How the damping acts while the node touches: so that the stop never pulls (compression), or also holding the "
         "node back when it moves off (two_sided).",
         {.choices = {"compression", "two_sided"}, .kinds = {"stop"}});
+  add_tie(s);
   s.finish = check_contact;
   return s;
 }

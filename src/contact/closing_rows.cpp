@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contact/admissible.hpp"
 #include "contact/cone_solver.hpp"
 #include "math/vec3.hpp"
 
@@ -16,14 +17,8 @@ namespace {
 /// Puts the multiplier of row r (in its frame) into response and history.
 void set_multiplier(std::size_t r, const Vec3& force, ContactResponse& response) {
   const ConstraintRows& rows = *response.rows;
-  const double limit = rows.law[r].mu * force[0];
   response.force[r] = force;
-  response.status[r] = RowStatus::open;
-  if (force[0] > 0.0) {
-    // On the cone up to the accuracy of the solver.
-    const bool slips = limit > 0.0 && std::hypot(force[1], force[2]) >= (1.0 - 1e-9) * limit;
-    response.status[r] = slips ? RowStatus::slip : RowStatus::stick;
-  }
+  response.status[r] = admissible(rows.law[r]).status(force);
   response.history[static_cast<std::size_t>(rows.slot[r])].multiplier = rows.to_space(r, force);
 }
 
@@ -73,17 +68,17 @@ std::string close_rows(const ContactGeometry& contact, const std::vector<Closing
     const Delassus W = contact_operator.delassus(rows, chosen);
     chosen = W.rows;
     std::vector<Vec3> b, r;
-    std::vector<double> mu;
+    std::vector<Admissible> sets;
     double round_off = 0.0;
     auto candidate = candidates.begin();
     for (const std::size_t row : chosen) {
       candidate = std::find_if(candidate, candidates.end(), [row](const ClosingRow& c) { return c.row == row; });
       b.push_back(candidate->w);
       round_off = std::max(round_off, candidate->round_off);
-      mu.push_back(rows.law[row].mu);
+      sets.push_back(admissible(rows.law[row]));
       r.push_back(rows.to_frame(row, history[static_cast<std::size_t>(rows.slot[row])].multiplier));
     }
-    const ConeResult result = solve_cone(W, b, mu, r, kWantedError, kAcceptedError, round_off);
+    const ConeResult result = solve_cone(W, b, sets, r, kWantedError, kAcceptedError, round_off);
     if (!result.converged) return failure(contact, rows, W, result);
     for (std::size_t k = 0; k < chosen.size(); ++k) set_multiplier(chosen[k], r[k], response);
     std::fill(x.begin(), x.end(), 0.0);

@@ -27,7 +27,8 @@ struct ClosingRow {
   double round_off = 0.0;  ///< how much of w rounding may have made
 };
 
-/// Finds the multipliers of solve_cone for w + W r on the rows given, working only on those that close: rows are added
+/// Finds the multipliers of solve_cone for w + W r on the rows given (none of them a bond: BondedMass), working only on
+/// those that close: rows are added
 /// until none of the others closes under the answer of these. `response` has been opened (open_response) and receives
 /// the multipliers, x receives A^-1 G^T r. Start values are those of the history. Multipliers are good when they are
 /// exact for w that differ from the given ones by 1e-5 of the largest, or by their rounding; as a rule they are to

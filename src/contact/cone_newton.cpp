@@ -90,15 +90,16 @@ std::vector<NewtonRow> closed_rows(Problem& p) {
   std::size_t unknowns = 0;
   for (const std::size_t i : p.rows()) {
     const Vec3 w = p.motion(i);
-    if (p.normal_compliance(i) == 0.0 || !(p.normal_compliance(i) * p.force(i)[0] > w[0])) {
+    const bool presses = p.is_bond(i) || p.normal_compliance(i) * p.force(i)[0] > w[0];
+    if (!p.gives_way(i) || !presses) {
       open.push_back(i);
       continue;
     }
-    NewtonRow row{i, unknowns, p.mu[i] > 0.0 ? std::size_t{3} : std::size_t{1}, Status::stick, 0.0, 0.0, 0.0};
-    if (p.mu[i] > 0.0) {
+    NewtonRow row{i, unknowns, p.components(i), Status::stick, 0.0, 0.0, 0.0};
+    if (!p.is_bond(i) && p.mu(i) > 0.0) {
       const double compliance = p.tangential_compliance(i);
       const double p_1 = p.force(i)[1] - w[1] / compliance, p_2 = p.force(i)[2] - w[2] / compliance;
-      const double length = std::hypot(p_1, p_2), radius = p.mu[i] * std::max(0.0, p.force(i)[0]);
+      const double length = std::hypot(p_1, p_2), radius = p.mu(i) * std::max(0.0, p.force(i)[0]);
       if (length > radius) row = {i, unknowns, 3, Status::slip, p_1 / length, p_2 / length, radius / length};
     }
     unknowns += row.count;
@@ -122,7 +123,7 @@ NewtonEquations newton_equations(const Problem& p, const NewtonRow& row) {
   eq.through = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
   eq.rhs = {-w[0], -w[1], -w[2]};
   if (row.status == Status::stick) return eq;
-  const double compliance = p.tangential_compliance(row.i), mu = p.mu[row.i];
+  const double compliance = p.tangential_compliance(row.i), mu = p.mu(row.i);
   const Vec3& r = p.force(row.i);
   const std::array<double, 2> e{row.e_1, row.e_2};
   for (std::size_t a = 0; a < 2; ++a) {

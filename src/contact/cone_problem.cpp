@@ -13,6 +13,8 @@ namespace {
 
 /// Motions caused by forces count into the scale of errors up to this multiple of the given ones.
 constexpr double most_amplified = 1e6;
+/// Of the largest of a bond's compliances: what is below is rounding.
+constexpr double least_share = 1e-12;
 
 /// Sum of a_k b_k in an order that vector units can follow.
 double inner(std::span<const double> a, std::span<const double> b) {
@@ -29,16 +31,16 @@ double inner(std::span<const double> a, std::span<const double> b) {
 
 }  // namespace
 
-Problem::Problem(const Delassus& operator_W, std::span<const Vec3> given, std::span<const double> friction,
+Problem::Problem(const Delassus& operator_W, std::span<const Vec3> given, std::span<const Admissible> sets_of_rows,
                  std::vector<Vec3>& force)
     : W(operator_W),
       b(given),
-      mu(friction),
+      sets(sets_of_rows),
       r_(force),
       w_(operator_W.size()),
       is_full_(operator_W.block.size() == operator_W.size() * operator_W.size()),
       centre_(operator_W.size()) {
-  if (std::ranges::all_of(mu, [](double m) { return m == 0.0; })) {
+  if (std::ranges::all_of(sets, [](const Admissible& set) { return set.components() == 1; })) {
     normal_.reserve(W.block.size());
     for (const FrameBlock& block : W.block) normal_.push_back(block[0]);
   }
@@ -47,8 +49,8 @@ Problem::Problem(const Delassus& operator_W, std::span<const Vec3> given, std::s
       if (W.column[k] == i) own_.push_back(W.block[k]);
     }
     const FrameBlock& block = own_.back();
-    unit_.push_back(1.0 / std::sqrt(block[0]));
-    const double of_tangents = mu[i] > 0.0 ? std::max(block[4], block[8]) : 0.0;
+    const double of_tangents = components(i) > 1 ? std::max(block[4], block[8]) : 0.0;
+    unit_.push_back(1.0 / std::sqrt(is_bond(i) ? std::max(block[0], of_tangents) : block[0]));
     tangential_.push_back(of_tangents > 0.0 ? of_tangents : block[0]);
     compliance_.push_back(std::max(block[0], of_tangents));
   }
@@ -126,7 +128,7 @@ const Vec3& Problem::given_motion(std::size_t i) const {
 
 Vec3 Problem::motion(std::size_t i) const {
   Vec3 w = given_motion(i);
-  const std::size_t count = mu[i] > 0.0 ? 3 : 1;
+  const std::size_t count = components(i);
   for (std::size_t a = 0; a < count; ++a) w[a] += added(i) * (r_[i][a] - centre_[i][a]);
   return w;
 }
@@ -134,24 +136,29 @@ Vec3 Problem::motion(std::size_t i) const {
 Vec3 Problem::change_of_motion(std::size_t i, const std::vector<Vec3>& change) const {
   Vec3 w{};
   add_blocks(i, W.size(), change, w);
-  const std::size_t count = mu[i] > 0.0 ? 3 : 1;
+  const std::size_t count = components(i);
   for (std::size_t a = 0; a < count; ++a) w[a] += added(i) * change[i][a];
   return w;
 }
 
 FrameBlock Problem::own_block(std::size_t i) const {
   FrameBlock block = own_[i];
-  const std::size_t count = mu[i] > 0.0 ? 3 : 1;
+  const std::size_t count = components(i);
   for (std::size_t a = 0; a < count; ++a) block[4 * a] += added(i);
   return block;
 }
 
 double Problem::violation(std::size_t i, const Vec3& w) const {
+  if (is_bond(i)) {
+    double sum = 0.0;
+    for (std::size_t a = 0; a < 3; ++a) sum += own_[i][4 * a] > least_share * compliance_[i] ? w[a] * w[a] : 0.0;
+    return std::sqrt(sum);
+  }
   const double of_normal = own_[i][0];
   if (of_normal == 0.0) return std::max(0.0, -w[0]);
   const double normal = std::abs(std::min(w[0], of_normal * r_[i][0]));
-  if (mu[i] == 0.0) return normal;
-  const double of_tangents = tangential_[i], radius = mu[i] * std::max(0.0, r_[i][0]);
+  if (mu(i) == 0.0) return normal;
+  const double of_tangents = tangential_[i], radius = mu(i) * std::max(0.0, r_[i][0]);
   const double p_1 = r_[i][1] - w[1] / of_tangents, p_2 = r_[i][2] - w[2] / of_tangents;
   const double length = std::hypot(p_1, p_2), keep = length > radius ? radius / length : 1.0;
   return normal + of_tangents * std::hypot(r_[i][1] - keep * p_1, r_[i][2] - keep * p_2);
@@ -160,7 +167,7 @@ double Problem::violation(std::size_t i, const Vec3& w) const {
 double Problem::scale_of_given() const {
   double given = 0.0;
   for (const std::size_t i : rows_)
-    given = std::max({given, std::abs(b[i][0]), mu[i] > 0.0 ? std::hypot(b[i][1], b[i][2]) : 0.0});
+    given = std::max({given, std::abs(b[i][0]), components(i) > 1 ? std::hypot(b[i][1], b[i][2]) : 0.0});
   return given;
 }
 
@@ -180,8 +187,8 @@ double Problem::scale() const {
   const double given = scale_of_given();
   double caused = 0.0;
   for (const std::size_t i : rows_) {
-    caused = std::max(caused, own_[i][0] * r_[i][0]);
-    if (mu[i] > 0.0) caused = std::max(caused, tangential_[i] * std::hypot(r_[i][1], r_[i][2]));
+    caused = std::max(caused, own_[i][0] * std::abs(r_[i][0]));
+    if (components(i) > 1) caused = std::max(caused, tangential_[i] * std::hypot(r_[i][1], r_[i][2]));
   }
   return std::max(given, std::min(caused, most_amplified * given));
 }
@@ -219,11 +226,11 @@ double Problem::merit() const {
 void Problem::sweep(bool forwards) {
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const std::size_t i = rows_[forwards ? k : rows_.size() - 1 - k];
-    if (own_[i][0] == 0.0) continue;
+    if (!gives_way(i)) continue;
     Vec3 by_others = sum_of_blocks(i, i);
-    const std::size_t count = mu[i] > 0.0 ? 3 : 1;
+    const std::size_t count = components(i);
     for (std::size_t a = 0; a < count; ++a) by_others[a] -= added(i) * centre_[i][a];
-    set_force(i, solve_coulomb(own_block(i), by_others, mu[i]));
+    set_force(i, is_bond(i) ? solve_bond(own_block(i), by_others) : solve_coulomb(own_block(i), by_others, mu(i)));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "contact/admissible.hpp"
 #include "contact/delassus.hpp"
 #include "parallel/threads.hpp"
 
@@ -28,7 +29,7 @@ void each_of(const List& list, const Visit& visit) {
 /// solution is that of the given problem where r = centre; W + rho D is regular also where W is not.
 class Problem {
  public:
-  Problem(const Delassus& operator_W, std::span<const Vec3> given, std::span<const double> friction,
+  Problem(const Delassus& operator_W, std::span<const Vec3> given, std::span<const Admissible> sets,
           std::vector<Vec3>& force);
 
   /// What follows is about these rows.
@@ -49,7 +50,7 @@ class Problem {
   Vec3 change_of_motion(std::size_t i, const std::vector<Vec3>& change) const;
   /// Largest violation of the natural map among the rows, as a motion, over scale(): of the given problem, and of the
   /// proximal one. Not finite entries count as infinite. The map: min(w_n, W_nn r_n), and W_tt (r_T - the projection of
-  /// r_T - w_T / W_tt on the disc of radius mu r_n).
+  /// r_T - w_T / W_tt on the disc of radius mu r_n); of a bond w, but for components that nothing moves.
   double error() const;
   double proximal_error() const;
   /// Sum of squares of the violations of the proximal problem.
@@ -65,6 +66,11 @@ class Problem {
   /// Diagonal block of the proximal problem.
   FrameBlock own_block(std::size_t i) const;
   double compliance(std::size_t i) const { return compliance_[i]; }
+  std::size_t components(std::size_t i) const { return sets[i].components(); }
+  bool is_bond(std::size_t i) const { return sets[i].is_bond(); }
+  double mu(std::size_t i) const { return sets[i].mu; }
+  /// Its forces move it; else there are none.
+  bool gives_way(std::size_t i) const { return is_bond(i) ? compliance_[i] > 0.0 : own_[i][0] > 0.0; }
   double normal_compliance(std::size_t i) const { return own_[i][0]; }
   /// Unit of the forces of a row that makes the diagonal of W 1.
   double unit(std::size_t i) const { return unit_[i]; }
@@ -84,7 +90,7 @@ class Problem {
 
   const Delassus& W;
   std::span<const Vec3> b;
-  std::span<const double> mu;
+  std::span<const Admissible> sets;
 
  private:
   void add_blocks(std::size_t i, std::size_t left_out, const std::vector<Vec3>& force, Vec3& w) const;

@@ -84,7 +84,9 @@ bool solve_proximal(Problem& p, double tolerance, cone::NewtonSystem& system, in
 
 /// How many times the change d of its force takes a row from r, inside its cone, to the cone; `longest` where that is
 /// more, and on the cone.
-double way_to_cone(const Vec3& r, const Vec3& d, double mu, double longest) {
+double way_to_cone(const Vec3& r, const Vec3& d, const Admissible& set, double longest) {
+  if (set.is_bond()) return longest;
+  const double mu = set.mu;
   if (mu == 0.0) return d[0] < 0.0 && r[0] > 0.0 ? std::min(longest, -r[0] / d[0]) : longest;
   // (mu r_n)^2 - |r_T|^2 along r + t d: a + 2 b t + c t^2
   const double a = mu * mu * r[0] * r[0] - r[1] * r[1] - r[2] * r[2];
@@ -102,7 +104,7 @@ void continue_drift(Problem& p, const std::vector<Vec3>& from) {
   double longer = 10.0;
   const std::vector<Vec3> now = p.forces();
   for (std::size_t k = 0; k < now.size(); ++k)
-    longer = way_to_cone(now[k], subtract(now[k], from[k]), p.mu[p.rows()[k]], longer);
+    longer = way_to_cone(now[k], subtract(now[k], from[k]), p.sets[p.rows()[k]], longer);
   for (std::size_t k = 0; k < now.size(); ++k)
     p.set_force(p.rows()[k], add(now[k], scaled(subtract(now[k], from[k]), longer)));
 }
@@ -175,7 +177,7 @@ int sweeps(Problem& p, double tolerance, double accepted, int most) {
 }
 
 int solve_set(Problem& p, double tolerance, double accepted, ConeFactors& factors) {
-  const bool frictionless = std::ranges::all_of(p.rows(), [&](std::size_t i) { return p.mu[i] == 0.0; });
+  const bool frictionless = std::ranges::all_of(p.rows(), [&](std::size_t i) { return p.components(i) == 1; });
   const bool has_factors = 3 * p.rows().size() <= cone::newton_limit;
   const int most = frictionless ? first_sweeps : has_factors ? few_sweeps : most_sweeps;
   const int swept = sweeps(p, tolerance, accepted, most);
@@ -186,9 +188,9 @@ int solve_set(Problem& p, double tolerance, double accepted, ConeFactors& factor
 
 }  // namespace
 
-ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<const double> mu, std::vector<Vec3>& r,
-                      double tolerance, double accepted, double round_off, ConeFactors* factors) {
-  assert(b.size() == W.size() && mu.size() == W.size());
+ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<const Admissible> sets,
+                      std::vector<Vec3>& r, double tolerance, double accepted, double round_off, ConeFactors* factors) {
+  assert(b.size() == W.size() && sets.size() == W.size());
   r.resize(W.size());
   const auto finite = [](const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); };
   for (std::size_t i = 0; i < b.size(); ++i) {
@@ -196,13 +198,13 @@ ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<cons
   }
   ConeFactors of_this_call;
   ConeFactors& kept = factors != nullptr ? *factors : of_this_call;
-  Problem p(W, b, mu, r);
+  Problem p(W, b, sets, r);
   for (std::size_t i = 0; i < W.size(); ++i) {
     if (p.normal_compliance(i) < 0.0) return {false, 0, infinity, i};
     if (!finite(r[i])) r[i] = {};
-    r[i][0] = std::max(0.0, r[i][0]);
-    if (p.normal_compliance(i) == 0.0) r[i] = {};
-    if (mu[i] == 0.0) r[i][1] = r[i][2] = 0.0;
+    if (sets[i].opens()) r[i][0] = std::max(0.0, r[i][0]);
+    if (!p.gives_way(i)) r[i] = {};
+    if (p.components(i) == 1) r[i][1] = r[i][2] = 0.0;
   }
   ConeResult result;
   result.converged = true;
@@ -218,6 +220,13 @@ ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<cons
     result.worst = p.worst();
   }
   return result;
+}
+
+ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<const double> mu, std::vector<Vec3>& r,
+                      double tolerance, double accepted, double round_off, ConeFactors* factors) {
+  std::vector<Admissible> sets;
+  for (const double m : mu) sets.push_back({AdmissibleSet::cone, m});
+  return solve_cone(W, b, sets, r, tolerance, accepted, round_off, factors);
 }
 
 }  // namespace carom

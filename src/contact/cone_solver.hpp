@@ -1,9 +1,10 @@
-// The one complementarity solver: unilateral contact with Coulomb friction on a few rows.
+// The one complementarity solver: unilateral contact with Coulomb friction, and bonds, on a few rows.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "contact/admissible.hpp"
 #include "contact/cone_newton.hpp"
 #include "contact/delassus.hpp"
 
@@ -27,8 +28,8 @@ struct ConeFactors {
 /// that in every row (normal n, tangents T)
 ///   0 <= r_n, 0 <= w_n, r_n w_n = 0                                   (Signorini)
 ///   |r_T| <= mu r_n;  w_T = 0 where |r_T| < mu r_n, else w_T = -s r_T, s >= 0   (Coulomb)
-/// Rows with mu = 0 have r_T = 0. What w means is the caller's affair: displacement, slip increment or velocity, the
-/// gap or the restitution being part of b_n.
+/// Rows with mu = 0 have r_T = 0; bonds have w = 0 instead, whatever r. What w means is the caller's affair:
+/// displacement, slip increment or velocity, the gap or the restitution being part of b_n.
 ///
 /// Sets of rows that do not act on each other are problems of their own. Each starts with block Gauss-Seidel sweeps
 /// (Jourdan, Alart and Jean, Comput. Methods Appl. Mech. Eng. 155, 1998), whose rows are solved exactly: independent
@@ -49,6 +50,10 @@ struct ConeFactors {
 /// Iterations end when the error is at most `tolerance`; or at most `accepted` (where that is larger), or a motion of
 /// at most `round_off`, and no longer falling: so forces can be had to round-off, wherever that is. The forces are
 /// always exact for a b that differs from the given one by the error.
+ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<const Admissible> sets,
+                      std::vector<Vec3>& r, double tolerance = 1e-12, double accepted = 0.0, double round_off = 0.0,
+                      ConeFactors* factors = nullptr);
+/// The same where all rows are cones, of these coefficients of friction.
 ConeResult solve_cone(const Delassus& W, std::span<const Vec3> b, std::span<const double> mu, std::vector<Vec3>& r,
                       double tolerance = 1e-12, double accepted = 0.0, double round_off = 0.0,
                       ConeFactors* factors = nullptr);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -14,6 +15,10 @@ namespace carom {
 /// What a row sees of one node: the rows n, t_1, t_2 of the node's 3 x 3 block of G.
 using RowBlock = std::array<Vec3, 3>;
 
+/// The forces that a row may bear (contact/admissible.hpp): those of unilateral contact with Coulomb friction, or any
+/// at all, as a tie does.
+enum class AdmissibleSet : std::uint8_t { cone, bond };
+
 /// The law of one row, times its measure: force per length (eps_N, eps_T), force per velocity (damping). The normal
 /// spring of the penalty is linear down to linear_depth and hardens below: at depth d
 ///   force eps_N (d + <d - d_0>^3 / d_0^2),  d_0 = linear_depth.
@@ -24,6 +29,7 @@ struct RowLaw {
   double mu = 0.0;           ///< Coulomb's coefficient
   double restitution = 0.0;  ///< Newton's coefficient
   DamperActs damper_acts = DamperActs::compression;
+  AdmissibleSet set = AdmissibleSet::cone;
   double linear_depth = std::numeric_limits<double>::infinity();
 
   /// Force, slope and energy of the normal spring at a depth d >= 0.
@@ -50,11 +56,12 @@ void fields(A& archive, RowLaw& x) {
   archive("mu", x.mu);
   archive("restitution", x.restitution);
   archive("damper_acts", x.damper_acts);
+  archive("set", x.set);
   archive("linear_depth", x.linear_depth);
 }
 
-/// Rows of unilateral constraints. Row r sees the displacements of its nodes, in its frame (normal, tangent_1,
-/// tangent_2), as
+/// Rows of constraints, each with the set of forces that it admits. Row r sees the displacements of its nodes, in its
+/// frame (normal, tangent_1, tangent_2), as
 ///   w = (G u)_r = sum over its nodes of block_a u_a,
 /// and its gap is g_r(u) = gap_r + w_n (length; positive: open), exactly for fixed rows, to first order about the
 /// displacement that they were made for otherwise. The normal points from the obstacle (or the other body) to the body

@@ -8,10 +8,12 @@
 #include <tuple>
 #include <utility>
 
+#include "contact/admissible.hpp"
 #include "contact/interface_rows.hpp"
 #include "contact/obstacle_rows.hpp"
 #include "contact/pair_rows.hpp"
 #include "contact/row_maker.hpp"
+#include "contact/tie_rows.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
@@ -32,6 +34,9 @@ struct MakeRows {
   }
   std::unique_ptr<RowMaker> operator()(const PairContact& contact) const { return pair_rows(model, contact, source); }
   std::unique_ptr<RowMaker> operator()(const StopContact& contact) const { return stop_rows(model, contact, source); }
+  std::unique_ptr<RowMaker> operator()(const TieContact& contact) const {
+    return tie_rows(model, contact, source, notes);
+  }
 };
 
 /// Nodes whose positions the rows of a contact ask for.
@@ -44,6 +49,7 @@ struct MovingNodes {
   }
   void operator()(const InterfaceContact& /*contact*/) const {}
   void operator()(const StopContact& /*contact*/) const {}
+  void operator()(const TieContact& /*contact*/) const {}
   void operator()(const ObstacleContact& contact) const {
     nodes.insert(nodes.end(), contact.nodes.begin(), contact.nodes.end());
     add(contact.surface);
@@ -61,7 +67,7 @@ struct MovingNodes {
 bool takes_offsets(const ContactDefinition& definition) {
   return std::visit(
       [](const auto& contact) {
-        if constexpr (std::is_same_v<decltype(contact), const StopContact&>)
+        if constexpr (!requires { contact.initial; })
           return false;
         else
           return contact.initial == InitialPenetration::strain_free_offset;
@@ -92,8 +98,9 @@ struct ContactGeometry::Impl {
   std::vector<double> offset;        ///< by slot, <= 0
   std::vector<std::string> notes;
   std::shared_ptr<const ConstraintRows> fixed;  ///< null when some rows are not fixed
-  Vec3 centre{};                                ///< of all nodes; pairs see positions relative to it
-  std::vector<Vec3> x_begin, x, displacement;   ///< scratch of rows_at
+  ConstraintRows bonds;
+  Vec3 centre{};                               ///< of all nodes; pairs see positions relative to it
+  std::vector<Vec3> x_begin, x, displacement;  ///< scratch of rows_at
 
   std::vector<std::shared_ptr<ConstraintRows>> made;  ///< rows that were given out; what nobody holds is filled again
 
@@ -163,6 +170,8 @@ ContactGeometry::ContactGeometry(const Model& model) : impl_(std::make_unique<Im
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     impl.makers.push_back(std::visit(MakeRows{model, impl.notes, static_cast<Index>(i)}, model.contacts[i]));
     impl.first_slot.push_back(impl.first_slot.back() + static_cast<Index>(impl.makers.back()->slots()));
+    if (std::holds_alternative<TieContact>(model.contacts[i]))
+      impl.makers.back()->append({}, impl.first_slot[i], impl.bonds);
     if (!impl.makers.back()->is_fixed()) std::visit(MovingNodes{model, impl.nodes}, model.contacts[i]);
     impl.makers.back()->add_moving_nodes(impl.nodes);
   }
@@ -194,6 +203,9 @@ std::size_t ContactGeometry::slots() const {
 bool ContactGeometry::is_fixed() const {
   return impl_->fixed != nullptr;
 }
+const ConstraintRows& ContactGeometry::bonds() const {
+  return impl_->bonds;
+}
 std::shared_ptr<const ConstraintRows> ContactGeometry::rows_at(std::span<const double> u_begin,
                                                                std::span<const double> u,
                                                                std::span<const RowHistory> history) const {
@@ -205,7 +217,7 @@ std::vector<Penetration> ContactGeometry::initial_penetrations(std::span<const d
   std::vector<Penetration> found;
   for (std::size_t r = 0; r < rows->size(); ++r) {
     const double gap = rows->gap_at(r, u);
-    if (gap < 0.0)
+    if (gap < 0.0 && !is_bond(rows->law[r]))
       found.push_back({rows->slot[r], rows->source[r], rows->position[r], -gap, std::min(-gap, rows->rounded[r])});
   }
   std::sort(found.begin(), found.end(), [](const Penetration& a, const Penetration& b) {

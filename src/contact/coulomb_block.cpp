@@ -141,6 +141,10 @@ Vec3 shortened(const Vec3& r, double mu) {
 
 }  // namespace
 
+Vec3 solve_bond(const FrameBlock& W, const Vec3& q) {
+  return stick_force(W, q);
+}
+
 Vec3 solve_coulomb(const FrameBlock& W, const Vec3& q, double mu) {
   assert(W[0] > 0.0);
   if (q[0] >= 0.0) return {};

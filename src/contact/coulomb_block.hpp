@@ -1,4 +1,4 @@
-// One row of contact with Coulomb friction, solved exactly.
+// One row, solved exactly: of contact with Coulomb friction, or of a bond.
 #pragma once
 
 #include "base/types.hpp"
@@ -13,5 +13,8 @@ namespace carom {
 /// Components without compliance (W_tt = 0, as the third one in plane models) get no force in stick. mu = 0 gives
 /// r_T = 0.
 Vec3 solve_coulomb(const FrameBlock& W, const Vec3& q, double mu);
+
+/// The force r of one bond: W r + q = 0, components without compliance getting none.
+Vec3 solve_bond(const FrameBlock& W, const Vec3& q);
 
 }  // namespace carom

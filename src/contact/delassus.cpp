@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "contact/admissible.hpp"
 #include "contact/compliance.hpp"
 #include "math/vec3.hpp"
 
@@ -11,9 +12,9 @@ namespace carom {
 
 namespace {
 
-/// Number of components of a row that take part: normal, and with friction the two tangents.
+/// Number of components of a row that take part.
 std::size_t components(const ConstraintRows& rows, std::size_t row) {
-  return rows.law[row].mu > 0.0 ? 3 : 1;
+  return components(rows.law[row]);
 }
 
 /// One appearance of a node in a row.

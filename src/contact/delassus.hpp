@@ -15,8 +15,8 @@ namespace carom {
 using FrameBlock = std::array<double, 9>;
 
 /// W = G A^-1 G^T for some rows of a ConstraintRows: symmetric, 3 x 3 blocks in compressed rows, columns sorted, the
-/// diagonal block always there. Row i of W is rows[i] of the ConstraintRows. Tangential components of rows without
-/// friction (mu = 0) take no part: their entries are zero.
+/// diagonal block always there. Row i of W is rows[i] of the ConstraintRows. Components that take no part
+/// (Admissible::components: the tangential ones of rows without friction) have entries of zero.
 struct Delassus {
   std::vector<std::size_t> rows;   ///< numbers of the rows in the ConstraintRows
   std::vector<std::size_t> begin;  ///< rows.size() + 1 entries

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contact/admissible.hpp"
 #include "math/vec3.hpp"
 
 namespace carom {
@@ -31,6 +32,7 @@ RowForce row_force(const ConstraintRows& rows, std::size_t r, std::span<const do
                    CountedSlip counted) {
   const RowLaw& law = rows.law[r];
   RowForce out;
+  if (is_bond(law)) return out;
   const Vec3 w = rows.relative(r, x);
   const double gap = rows.gap[r] + w[0];
   const bool damped = law.damping > 0.0 && rows.gap_at(r, x_begin) < 0.0;
@@ -129,6 +131,7 @@ void add_closed_stiffness(const ConstraintRows& rows, std::span<const double> x,
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Vec3 w = rows.relative(r, x);
     const RowLaw& law = rows.law[r];
+    if (is_bond(law)) continue;
     rows.scatter(r, {law.eps_N * w[0], law.eps_T * w[1], law.eps_T * w[2]}, y);
   }
 }
@@ -136,11 +139,12 @@ void add_closed_stiffness(const ConstraintRows& rows, std::span<const double> x,
 void add_closed_diagonal(const ConstraintRows& rows, std::span<double> d) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const RowLaw& law = rows.law[r];
+    const double eps_T = is_bond(law) ? law.eps_N : law.eps_T;
     for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
       for (std::size_t c = 0; c < 3; ++c) {
         const RowBlock& b = rows.block[k];
         d[3 * static_cast<std::size_t>(rows.node[k]) + c] +=
-            law.eps_N * b[0][c] * b[0][c] + law.eps_T * (b[1][c] * b[1][c] + b[2][c] * b[2][c]);
+            law.eps_N * b[0][c] * b[0][c] + eps_T * (b[1][c] * b[1][c] + b[2][c] * b[2][c]);
       }
     }
   }

@@ -22,7 +22,7 @@ enum class CountedSlip : std::uint8_t { after_touch, whole_step };
 ///   (CountedSlip::after_touch). Without inertia the path has a corner at the touch, where the body stops and slides
 ///   on: all of the step's sliding counts then, as it does for multipliers (CountedSlip::whole_step).
 /// Forces at displacement x and velocity v on rows made at x, the history (one entry per slot) standing at displacement
-/// x_begin; slots without a closed row forget theirs.
+/// x_begin; slots without a closed row forget theirs. Bonds are left without force (bond_springs.hpp, BondedMass).
 void penalty_response(std::shared_ptr<const ConstraintRows> rows, std::span<const double> x_begin,
                       std::span<const double> x, std::span<const double> v, std::span<const RowHistory> history,
                       ContactResponse& response, CountedSlip slip = CountedSlip::after_touch);
@@ -32,9 +32,10 @@ RowTangent penalty_tangent(const ConstraintRows& rows, std::size_t r, std::span<
                            std::span<const double> x, std::span<const double> v, std::span<const RowHistory> history,
                            double dv_dx, CountedSlip slip = CountedSlip::after_touch);
 
-/// y += G^T diag(eps_N, eps_T, eps_T) G x with every row closed: the stiffness that the stable step must allow for.
+/// y += G^T diag(eps_N, eps_T, eps_T) G x with every row closed: the stiffness that the stable step must allow for,
+/// where bonds have none (BondedMass).
 void add_closed_stiffness(const ConstraintRows& rows, std::span<const double> x, std::span<double> y);
-/// d += the diagonal of that stiffness, one entry per dof.
+/// d += the diagonal of that stiffness and of the springs of bonds, one entry per dof.
 void add_closed_diagonal(const ConstraintRows& rows, std::span<double> d);
 
 }  // namespace carom

@@ -2,6 +2,8 @@
 
 #include <tuple>
 
+#include "contact/admissible.hpp"
+
 namespace carom {
 
 void ContactResponse::add_force(NodeForces& f) const {
@@ -27,7 +29,8 @@ void take_history(const ContactResponse& response, std::span<const double> u, st
   history = response.history;
   const ConstraintRows& rows = *response.rows;
   for (std::size_t r = 0; r < rows.size(); ++r)
-    if (rows.gap_at(r, u) < 0.0) history[static_cast<std::size_t>(rows.slot[r])].facet = rows.facet[r];
+    if (!is_bond(rows.law[r]) && rows.gap_at(r, u) < 0.0)
+      history[static_cast<std::size_t>(rows.slot[r])].facet = rows.facet[r];
 }
 
 }  // namespace carom

@@ -198,6 +198,10 @@ struct Chooser {
     return {{side_of(cells, facing.slave, contact.name), side_of(cells, facing.master, contact.name)}};
   }
 
+  Choice operator()(const TieContact& contact) const {
+    return {{side_of(cells, contact.slave.facets, contact.name), side_of(cells, contact.master.facets, contact.name)}};
+  }
+
   Choice per_node(const ObstacleContact& contact) const {
     std::vector<bool> listed(mesh.node_count(), false);
     for (const Index n : contact.nodes) listed[static_cast<std::size_t>(n)] = true;
@@ -273,12 +277,29 @@ std::string sentence(const std::string& contact, double stiffness, const Choice&
 
 }  // namespace
 
+std::vector<std::string> choose_tie_stiffness(Model& model) {
+  constexpr double stiffer = 1000.0;
+  std::vector<std::string> notes;
+  std::optional<PartCells> cells;
+  for (ContactDefinition& contact : model.contacts) {
+    auto* tie = std::get_if<TieContact>(&contact);
+    if (tie == nullptr || tie->law.eps_N) continue;
+    if (!cells) cells.emplace(model);
+    const Choice choice = Chooser{model, *cells}(*tie);
+    const double factor = stiffer * tie->law.stiffness_factor;
+    tie->law.eps_N = factor * choice.stiffness();
+    notes.push_back(sentence(tie->name, *tie->law.eps_N, choice, factor));
+  }
+  return notes;
+}
+
 std::vector<std::string> choose_stiffness(Model& model) {
   std::vector<std::string> notes;
   std::optional<PartCells> cells;  // made when first needed
   const LinearDepth linear_depth(model);
   const auto choose = [&](auto& contact) {
-    if constexpr (!std::is_same_v<std::decay_t<decltype(contact)>, StopContact>) {
+    using Contact = std::decay_t<decltype(contact)>;
+    if constexpr (!std::is_same_v<Contact, StopContact> && !std::is_same_v<Contact, TieContact>) {
       ContactLaw& law = contact.law;
       if (!law.eps_N) {
         if (!cells) cells.emplace(model);

@@ -33,4 +33,8 @@ namespace carom {
 /// std::invalid_argument naming the contact where no cell of a part is behind it.
 std::vector<std::string> choose_stiffness(Model& model);
 
+/// The same for ties, where a scheme ties by springs: 1000 times the stiffness of a pair, as no explicit step has to
+/// follow them, so that what they give way by is a thousandth of what the cells beside them do.
+std::vector<std::string> choose_tie_stiffness(Model& model);
+
 }  // namespace carom

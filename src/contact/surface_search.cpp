@@ -311,7 +311,7 @@ void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
     const std::optional<SidePoint> side = p.gap < 0.0 ? side_at(query, f) : std::nullopt;
     if (side && side->at.gap >= 0.0 && goes_on(f, p)) return;
     if (is_continued) {
-      if (p.gap < 0.0 && !side) rim = Rim{p.point, p.N, width};
+      if (range_.fades && p.gap < 0.0 && !side) rim = Rim{p.point, p.N, width};
       p.xi = at.xi;
       p.eta = at.eta;
       p.N = shape.N;

@@ -46,6 +46,8 @@ struct SearchRange {
   double margin = 0.0;        ///< of the lists that are kept (BroadPhase)
   std::vector<double> depth;  ///< of each facet: largest distance behind it that counts
   std::vector<double> width;  ///< of each facet: how far it acts beyond its edges (none: where it is nearest only)
+  bool fades = true;  ///< gaps fade beyond the end of the surface, as the potential of springs has to; multipliers,
+                      ///< whose rows would depend on each other there, keep them whole
 };
 
 /// For SearchRange::width: a tenth of each facet's size.

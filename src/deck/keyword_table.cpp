@@ -148,7 +148,9 @@ constexpr std::array<KeywordEntry, 126> kKeywords{{
     {"SURFACE INTERACTION", model, "NAME", "", "What contacts have: stiffness and friction."},
     {"SYSTEM", refused_mesh, "", "", "Nodes would stand elsewhere."},
     {"TEMPERATURE", refused, "", "", "There would be no thermal strains."},
-    {"TIE", refused, "", "", "The surfaces would not hold together."},
+    {"TIE", model, "TYPE,POSITION TOLERANCE", "NAME,ADJUST,NO ROTATION",
+     "Two surfaces that stay together, slave and master. Nodes keep their places, at whatever distance within the "
+     "tolerance, also with ADJUST=YES; POSITION TOLERANCE: nodes that are farther away are left free, else refused."},
     {"TIME POINTS", output, "", "*", "When the other program writes."},
     {"TRANSFORM", refused, "", "", "Supports and forces would act along the global axes."},
     {"USER MATERIAL", refused, "", "", "Carom has laws of its own only."},

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "contact/admissible.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
@@ -62,6 +63,7 @@ std::vector<double> sizes(const System& system, const ConstraintRows& rows, std:
       const double gap = rows.gap_at(r, u);
       const bool is_open = gap > 0.0;
       const RowLaw& law = rows.law[r];
+      if (is_bond(law)) continue;  // held by BondedMass, without springs
       const RootSlopes roots = roots_of({law.spring_slope(std::max(0.0, -gap)), law.eps_T, law.eps_T});
       for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
         const Vec3 inverse_mass = inverse_mass_of(system, rows.node[k]);

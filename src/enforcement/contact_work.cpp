@@ -1,5 +1,6 @@
 #include "enforcement/contact_work.hpp"
 
+#include "contact/admissible.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
@@ -7,19 +8,25 @@ namespace carom {
 
 ContactWork multiplier_work(const State& begin, const State& end, double end_weight) {
   ContactWork out;
+  double of_bonds = 0.0;
   const auto add = [&](const ContactResponse& response, double weight) {
     const ConstraintRows& rows = *response.rows;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       if (response.status[r] == RowStatus::open) continue;
       const Vec3 dw = subtract(rows.relative(r, end.q), rows.relative(r, begin.q));
       const Vec3& force = response.force[r];
-      out.impact -= weight * force[0] * dw[0];
-      out.friction -= weight * (force[1] * dw[1] + force[2] * dw[2]);
+      const double normal = weight * force[0] * dw[0], tangential = weight * (force[1] * dw[1] + force[2] * dw[2]);
+      if (!admissible(rows.law[r]).feeds_impact()) {
+        of_bonds += normal + tangential;
+        continue;
+      }
+      out.impact -= normal;
+      out.friction -= tangential;
     }
   };
   if (end_weight < 1.0) add(begin.forces.rows, 1.0 - end_weight);
   add(end.forces.rows, end_weight);
-  out.total = -out.impact - out.friction;
+  out.total = of_bonds - out.impact - out.friction;
   return out;
 }
 

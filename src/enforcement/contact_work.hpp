@@ -15,7 +15,7 @@ struct ContactWork {
 };
 
 /// Work of multipliers over a step (ContactPort::work), those of each end on its rows: the normal part goes to
-/// `impact`, the tangential one to `friction`.
+/// `impact`, the tangential one to `friction`; that of bonds, whose sides do not part, is rounding and goes nowhere.
 ContactWork multiplier_work(const State& begin, const State& end, double end_weight);
 /// The same with the weights 1/2, for books that have it in `quadrature`.
 void book_multipliers(const State& begin, const State& end, EnergyTerms& energy);

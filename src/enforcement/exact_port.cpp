@@ -30,16 +30,6 @@ double largest(std::span<const double> x) {
   return m;
 }
 
-RowStatus status_of(const Vec3& force, double mu) {
-  if (force[0] <= 0.0) return RowStatus::open;
-  return mu > 0.0 && std::hypot(force[1], force[2]) >= mu * force[0] * (1.0 - 1e-9) ? RowStatus::slip
-                                                                                    : RowStatus::stick;
-}
-
-std::size_t components(double mu) {
-  return mu > 0.0 ? 3 : 1;
-}
-
 }  // namespace
 
 // 64 Mi numbers of columns, and 3,800 nodes: 512 MiB each, of which one at most is in use.
@@ -70,8 +60,9 @@ void ExactPort::respond(std::span<const double> x, std::span<const double> /*v*/
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const auto slot = static_cast<std::size_t>(rows.slot[r]);
     Vec3 force = rows.to_frame(r, multiplier_[slot]);
-    if (friction(rows.law[r]) == 0.0) force[1] = force[2] = 0.0;
-    response.status[r] = status_of(force, friction(rows.law[r]));
+    const Admissible set = admitted(rows.law[r]);
+    if (set.components() == 1) force[1] = force[2] = 0.0;
+    response.status[r] = set.status(force);
     if (response.status[r] == RowStatus::open) force = {};
     response.force[r] = force;
     response.history[slot].multiplier = rows.to_space(r, force);
@@ -105,7 +96,8 @@ bool ExactPort::choose(const ConstraintRows& rows, std::span<const double> z, st
   const double round_off = precision * (extent_ + largest(moved_));
   bool is_violated = false;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (!may_act(r) || value(rows, r, moved_)[0] >= -round_off - precision * std::abs(rows.gap[r])) continue;
+    const double tolerance = round_off + precision * std::abs(rows.gap[r]);
+    if (!may_act(r) || !admitted(rows.law[r]).violates(value(rows, r, moved_), tolerance)) continue;
     is_violated = true;
     add(r);
   }
@@ -125,7 +117,7 @@ bool ExactPort::assemble(EffectiveSolver& solver, const std::shared_ptr<const Co
   std::vector<std::size_t> acting, counts;
   std::copy_if(chosen_.begin(), chosen_.end(), std::back_inserter(acting), [&](std::size_t r) { return may_act(r); });
   if (W_.rows == acting) return true;
-  for (const std::size_t r : acting) counts.push_back(components(friction(rows.law[r])));
+  for (const std::size_t r : acting) counts.push_back(admitted(rows.law[r]).components());
   LinearSolveReport columns{true};
   const InverseOperator inverse = this->inverse(solver, columns);
   const bool moves = system_.solid.is_linear() && !system_.contact.is_fixed();
@@ -164,14 +156,14 @@ std::string ExactPort::solve_rows(const ContactResponse& response) {
   const ConstraintRows& rows = *response.rows;
   const std::size_t n = W_.size();
   std::vector<Vec3> b(n), present(n);
-  std::vector<double> mu(n);
+  std::vector<Admissible> sets(n);
   for (std::size_t i = 0; i < n; ++i) present[i] = response.force[W_.rows[i]];
   W_.apply(present, b);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t r = W_.rows[i];
-    mu[i] = friction(rows.law[r]);
+    sets[i] = admitted(rows.law[r]);
     b[i] = subtract(scaled(value(rows, r, moved_), 1.0 / slope()), b[i]);
-    if (mu[i] == 0.0) b[i][1] = b[i][2] = 0.0;
+    if (sets[i].components() == 1) b[i][1] = b[i][2] = 0.0;
   }
   force_.insert(force_.end(), present.begin() + static_cast<std::ptrdiff_t>(force_.size()), present.end());
   // Forces that miss their cone by 1e-10 are in equilibrium all the same. Where rows move, error() measures by how much
@@ -179,11 +171,13 @@ std::string ExactPort::solve_rows(const ContactResponse& response) {
   // contact alone holds a body, b is that of the body on its springs, far more than the motion that is looked for.
   constexpr double accepted = 1e-10;
   const bool is_held = start_.free == nullptr || start_.free->empty();
-  const bool has_friction = std::any_of(mu.begin(), mu.end(), [](double m) { return m > 0.0; });
-  const double wanted = !is_held ? (has_friction ? 1e-14 : 1e-16) : system_.contact.is_fixed() ? accepted : 1e-15;
+  const bool has_tangents = std::ranges::any_of(sets, [](const Admissible& set) { return set.components() > 1; });
+  const bool has_bonds = std::ranges::any_of(sets, [](const Admissible& set) { return set.is_bond(); });
+  const bool is_fixed = system_.contact.is_fixed() && !has_bonds;  // what bonds miss would add up from step to step
+  const double wanted = !is_held ? (has_tangents ? 1e-14 : 1e-16) : is_fixed ? accepted : 1e-15;
   const double enough = by_nodes_ ? looseness_ : 0.0;  // rows that are not followed are solved for once
   const ConeResult result =
-      solve_cone(W_, b, mu, force_, std::max(wanted, enough), std::max(accepted, enough), 0.0, &factors_);
+      solve_cone(W_, b, sets, force_, std::max(wanted, enough), std::max(accepted, enough), 0.0, &factors_);
   if (result.converged) return {};
   if (std::isinf(result.error))
     return "a body gives way against its contact forces (its tangent is indefinite on the rows in contact, or its "
@@ -406,18 +400,12 @@ ContactError MultiplierPort::error(std::span<const double> x, std::span<const do
     const double length = precision * std::abs(rows.gap[r]) + reach;
     const double compliance = compliance_of_[static_cast<std::size_t>(rows.slot[r])];
     if (compliance == 0.0) {
-      if (w[0] < -length || force[0] > 0.0) return {std::numeric_limits<double>::infinity(), 0.0};
+      if (admitted(rows.law[r]).violates(w, length) || force[0] > 0.0)
+        return {std::numeric_limits<double>::infinity(), 0.0};
       continue;
     }
     // The forces that projection on the cone makes of these: lambda itself where the conditions hold.
-    Vec3 projected{std::max(0.0, force[0] - w[0] / compliance), 0.0, 0.0};
-    const double mu = friction(rows.law[r]), limit = mu * projected[0];
-    if (mu > 0.0) {
-      const double t1 = force[1] - w[1] / compliance, t2 = force[2] - w[2] / compliance, t = std::hypot(t1, t2);
-      const double keep = t > limit ? limit / t : 1.0;
-      projected[1] = keep * t1;
-      projected[2] = keep * t2;
-    }
+    const Vec3 projected = admitted(rows.law[r]).project(subtract(force, scaled(w, 1.0 / compliance)));
     const double miss = norm(subtract(force, projected)), scale = norm(force) + norm(projected);
     out.work += scale * miss * compliance;
     out.round_off += scale * length;
@@ -430,10 +418,17 @@ std::shared_ptr<const ConstraintRows> MultiplierPort::rows_at(std::span<const do
 }
 
 Vec3 MultiplierPort::value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const {
+  const Admissible set = admitted(rows.law[r]);
+  if (set.is_bond()) return parted(rows, r, z);
   const Vec3 w = rows.relative(r, z);
-  if (friction(rows.law[r]) == 0.0) return {rows.gap[r] + w[0], 0.0, 0.0};
+  if (set.components() == 1) return {rows.gap[r] + w[0], 0.0, 0.0};
   const Vec3 w_begin = rows.relative(r, start_.begin->q);
   return {rows.gap[r] + w[0], w[1] - w_begin[1], w[2] - w_begin[2]};
+}
+
+void ProjectionPort::begin(const StageStart& start) {
+  MultiplierPort::begin(start);
+  for (const Index slot : system_.contact.bonds().slot) multiplier_[static_cast<std::size_t>(slot)] = {};
 }
 
 void ImpulsePort::begin(const StageStart& start) {
@@ -441,7 +436,7 @@ void ImpulsePort::begin(const StageStart& start) {
   rows_ = system_.contact.rows_at(start.begin->q, start.x_predicted, start.begin->contact);
   is_closed_.resize(rows_->size());
   for (std::size_t r = 0; r < rows_->size(); ++r) {
-    is_closed_[r] = rows_->is_closed(r, start.x_predicted);
+    is_closed_[r] = is_bond(rows_->law[r]) || rows_->is_closed(r, start.x_predicted);
     if (!is_closed_[r]) multiplier_[static_cast<std::size_t>(rows_->slot[r])] = {};
   }
 }
@@ -457,6 +452,7 @@ std::shared_ptr<const ConstraintRows> ImpulsePort::rows_at(std::span<const doubl
 
 Vec3 ImpulsePort::value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const {
   Vec3 w = rows.relative(r, z);
+  if (is_bond(rows.law[r])) return w;
   w[0] += rows.law[r].restitution * std::min(0.0, rows.relative(r, start_.begin->v)[0]);
   return w;
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "contact/admissible.hpp"
 #include "contact/cone_solver.hpp"
 #include "enforcement/contact_port.hpp"
 #include "enforcement/node_compliance.hpp"
@@ -12,12 +13,12 @@ namespace carom {
 
 /// The forces lambda on the rows that satisfy Signorini's and Coulomb's conditions exactly:
 ///   w = w_free + slope G A^-1 G^T lambda,  (lambda, w) in the cones of solve_cone,
-/// where w_free is what the rows would see without lambda. Rows enter when they would be violated. For linear bodies
-/// what has been solved for is kept for the run: with fixed rows the columns A^-1 G^T, so that an iteration with
-/// contact costs one back-substitution and products with the columns; with moving rows the compliance of their nodes,
-/// so that it costs two. With nonlinear bodies columns are made anew for the rows in question at every iterate.
-/// Multipliers go on from step to step as start values, in State::contact; in which order the compliances have grown
-/// stands in StageMemory.
+/// where w_free is what the rows would see without lambda. Rows enter when they would be violated, bonds at once. For
+/// linear bodies what has been solved for is kept for the run: with fixed rows the columns A^-1 G^T, so that an
+/// iteration with contact costs one back-substitution and products with the columns; with moving rows the compliance of
+/// their nodes, so that it costs two. With nonlinear bodies columns are made anew for the rows in question at every
+/// iterate. Multipliers go on from step to step as start values, in State::contact; in which order the compliances have
+/// grown stands in StageMemory.
 class ExactPort : public ContactPort {
  public:
   explicit ExactPort(const System& system);
@@ -43,7 +44,7 @@ class ExactPort : public ContactPort {
   /// True when the rows are those at the end of the correction.
   virtual bool rows_follow() const { return false; }
   virtual bool may_act(std::size_t /*r*/) const { return true; }
-  virtual double friction(const RowLaw& law) const { return law.mu; }
+  virtual Admissible admitted(const RowLaw& law) const { return admissible(law); }
   /// Adds to W what the acting rows (counts[i] components of row i) answer to their forces beside slope x G A^-1 G^T,
   /// over the slope; nothing here, see JumpPort.
   virtual void add_direct_compliance(const std::shared_ptr<const ConstraintRows>& /*rows*/,
@@ -125,9 +126,12 @@ class MultiplierPort : public ExactPort {
 class ProjectionPort final : public MultiplierPort {
  public:
   using MultiplierPort::MultiplierPort;
+  /// Bonds start without force: those of the step before are of another kind, whose rounding would move what needs no
+  /// projection.
+  void begin(const StageStart& start) override;
 
  protected:
-  double friction(const RowLaw& /*law*/) const override { return 0.0; }
+  Admissible admitted(const RowLaw& law) const override { return admissible(law).without_friction(); }
 };
 
 /// On rows with g(x_predicted) <= 0, with U = G v: 0 <= U_n + e min(0, U_n at the beginning) perpendicular to

@@ -2,25 +2,30 @@
 
 #include <stdexcept>
 
+#include "system/bonded_mass.hpp"
+
 namespace carom {
 
 namespace {
 
 class PenaltyContact final : public ExplicitContact {
  public:
-  explicit PenaltyContact(const System& system) : system_(system) {}
+  explicit PenaltyContact(const System& system) : system_(system), mass_(system), bonds_(system, mass_) {}
+  PenaltyContact(const PenaltyContact&) = delete;
 
   std::string respond(const ExplicitPoint& at, Forces& forces) override {
     forces.contact.clear(at.u.size());
     penalty_response(system_.contact.rows_at(at.u_begin, at.u, at.history), at.u_begin, at.u, at.v, at.history,
                      forces.rows);
     forces.rows.add_force(forces.contact);
-    return {};
+    return bonds_.hold({at.h, at.u, at.v, at.a}, forces);
   }
   void book(const State&, const State&, EnergyTerms&) const override {}
 
  private:
   const System& system_;
+  MassSolver mass_;
+  BondedMass bonds_;
 };
 
 }  // namespace

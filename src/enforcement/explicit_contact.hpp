@@ -18,7 +18,8 @@ struct ExplicitPoint {
   std::span<const RowHistory> history;
 };
 
-/// The contact force at the end of an explicit step, and its books.
+/// The contact force at the end of an explicit step, and its books. Bonds hold exactly whatever else contact does
+/// (BondedMass).
 class ExplicitContact {
  public:
   virtual ~ExplicitContact() = default;

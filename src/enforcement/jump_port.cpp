@@ -3,14 +3,18 @@
 #include <cassert>
 #include <utility>
 
+#include "contact/admissible.hpp"
+
 namespace carom {
 
 // 3,800 nodes: 512 MiB.
-JumpPort::JumpPort(const System& system, double ratio, std::shared_ptr<MassSolver> mass)
+JumpPort::JumpPort(const System& system, double ratio, std::shared_ptr<MassSolver> mass,
+                   std::shared_ptr<BondedMass> bonds)
     : ImpulsePort(system),
       ratio_(ratio),
       mass_(std::move(mass)),
-      operator_(mass_operator(system, *mass_)),
+      bonds_(std::move(bonds)),
+      operator_(bonds_->contact_operator()),
       nodes_(3800) {
   assert(ratio >= 0.0);
   load_.resize(system.solid.dof_count());
@@ -27,11 +31,16 @@ void JumpPort::invert(std::span<double> b, int columns) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) operator_.inverse(b.subspan(k * dofs, dofs));
 }
 
+InverseOperator JumpPort::inverse() {
+  InverseOperator out{[this](std::span<double> b, int columns) { invert(b, columns); }};
+  if (!bonds_->any()) out.half = mass_->halves();
+  return out;
+}
+
 bool JumpPort::go_on_directly() {
   const Growth& grown = start_.memory->mass_nodes;
   if (!grown.entries.empty()) mass_->factorise();
-  return nodes_.grow_as(grown, load_.size(),
-                        {[this](std::span<double> b, int columns) { invert(b, columns); }, mass_->halves()});
+  return nodes_.grow_as(grown, load_.size(), inverse());
 }
 
 Vec3 JumpPort::value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const {
@@ -43,21 +52,28 @@ Vec3 JumpPort::value(const ConstraintRows& rows, std::size_t r, std::span<const 
 }
 
 void JumpPort::add_direct_compliance(const std::shared_ptr<const ConstraintRows>& rows,
-                                     std::span<const std::size_t> acting, std::span<const std::size_t> counts,
+                                     std::span<const std::size_t> all, std::span<const std::size_t> components,
                                      std::vector<FrameBlock>& W) {
   if (ratio_ == 0.0) return;
+  std::vector<std::size_t> acting, counts, place;  // of the rows that are no bonds
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (is_bond(rows->law[all[i]])) continue;
+    acting.push_back(all[i]);
+    counts.push_back(components[i]);
+    place.push_back(i);
+  }
+  if (acting.empty()) return;
   mass_->factorise();
   const std::size_t n = acting.size(), dofs = load_.size();
-  const InverseOperator inverse{[this](std::span<double> b, int columns) { invert(b, columns); }, mass_->halves()};
   const auto add = [&](std::size_t i, std::size_t j, const FrameBlock& direct) {
-    for (std::size_t k = 0; k < direct.size(); ++k) W[i * n + j][k] += ratio_ * direct[k];
+    for (std::size_t k = 0; k < direct.size(); ++k) W[place[i] * all.size() + place[j]][k] += ratio_ * direct[k];
   };
-  if (system_.mass.kind() != MassKind::lumped && nodes_.extend(*rows, acting, dofs, inverse)) {
+  if (system_.mass.kind() != MassKind::lumped && nodes_.extend(*rows, acting, dofs, inverse())) {
     const std::vector<FrameBlock> direct = nodes_.compliance(*rows, acting, counts);
     for (std::size_t i = 0; i < n * n; ++i) add(i / n, i % n, direct[i]);
     return;
   }
-  const Delassus direct = operator_.delassus(*rows, {acting.begin(), acting.end()});
+  const Delassus direct = operator_.delassus(*rows, acting);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t k = direct.begin[i]; k < direct.begin[i + 1]; ++k) add(i, direct.column[k], direct.block[k]);
   }
@@ -69,13 +85,18 @@ void JumpPort::see_forces(const ConstraintRows& rows, std::span<const std::size_
   jump_.assign(jump_.size(), 0.0);
   bool acts = false;
   for (std::size_t i = 0; i < which.size(); ++i) {
-    if (force[i] == Vec3{}) continue;
+    if (force[i] == Vec3{} || is_bond(rows.law[which[i]])) continue;
     acts = true;
     rows.scatter(which[i], force[i], load_);
   }
   if (!acts) return;
   mass_->factorise();
-  mass_->solve(load_, jump_);
+  if (bonds_->any()) {
+    jump_ = load_;
+    operator_.inverse(jump_);
+  } else {
+    mass_->solve(load_, jump_);
+  }
   for (double& jump : jump_) jump *= ratio_ * slope();
 }
 

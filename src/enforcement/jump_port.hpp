@@ -5,16 +5,20 @@
 #include <vector>
 
 #include "enforcement/exact_port.hpp"
+#include "system/bonded_mass.hpp"
 #include "system/mass_solver.hpp"
 
 namespace carom {
 
 /// ImpulsePort for stages whose velocity is v = v_hat + r (y + ratio M^-1 G^T lambda): what the rows see is the
-/// velocity with its jump, W is G (A^-1 + ratio M^-1) G^T. The caller adds the jump to the velocity of the stage.
+/// velocity with its jump, W is G (A^-1 + ratio M^-1) G^T. Bonds are no impulses, and jump with what they join: for
+/// them M^-1 stands for A^-1 of BondedMass, which is without any of their forces. The caller adds the jump to the
+/// velocity of the stage.
 class JumpPort final : public ImpulsePort {
  public:
-  /// ratio: 0 or greater. The solver is shared with the scheme, and factors once rows act.
-  JumpPort(const System& system, double ratio, std::shared_ptr<MassSolver> mass);
+  /// ratio: 0 or greater. The solver and the bonds are shared with the scheme; the solver factors
+  /// once rows act.
+  JumpPort(const System& system, double ratio, std::shared_ptr<MassSolver> mass, std::shared_ptr<BondedMass> bonds);
 
   void leave(StageMemory& memory) const override;
 
@@ -27,9 +31,11 @@ class JumpPort final : public ImpulsePort {
 
  private:
   void invert(std::span<double> b, int columns);
+  InverseOperator inverse();
 
   double ratio_;
   std::shared_ptr<MassSolver> mass_;
+  std::shared_ptr<BondedMass> bonds_;
   ContactOperator operator_;
   NodeCompliance nodes_;  ///< of M where it is consistent, which is the same for the whole run
   std::vector<double> load_, jump_;

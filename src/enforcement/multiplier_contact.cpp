@@ -2,10 +2,12 @@
 #include <optional>
 #include <vector>
 
+#include "contact/admissible.hpp"
 #include "contact/closing_rows.hpp"
 #include "enforcement/contact_work.hpp"
 #include "enforcement/explicit_contact.hpp"
 #include "parallel/threads.hpp"
+#include "system/bonded_mass.hpp"
 #include "system/mass_solver.hpp"
 
 namespace carom {
@@ -33,15 +35,19 @@ std::optional<Bias> increment_bias(const ConstraintRows& rows, std::size_t r, co
 class MultiplierContact final : public ExplicitContact {
  public:
   MultiplierContact(const System& system, RowBias bias)
-      : system_(system), bias_(bias), mass_(system), operator_(mass_operator(system, mass_)) {}
+      : system_(system), bias_(bias), mass_(system), bonds_(system, mass_), operator_(bonds_.contact_operator()) {}
   MultiplierContact(const MultiplierContact&) = delete;
 
   std::string respond(const ExplicitPoint& at, Forces& forces) override {
     forces.contact.clear(at.u.size());
     open_response(system_.contact.rows_at(at.u_begin, at.u, at.history), at.history.size(), forces.rows);
     const ConstraintRows& rows = *forces.rows.rows;
+    const BondMotion motion{at.h, at.u, at.v, at.a};
+    std::string failure = bonds_.hold(motion, forces);
+    if (!failure.empty()) return failure;
     closing_.clear();
     for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (is_bond(rows.law[r])) continue;
       if (const auto bias = bias_(rows, r, at)) closing_.push_back({r, {bias->value, 0.0, 0.0}, bias->round_off});
     }
     if (closing_.empty()) return {};
@@ -52,10 +58,11 @@ class MultiplierContact final : public ExplicitContact {
       c.round_off = (c.round_off + rows.rounding(c.row, v_free_)) / at.weight;
     }
     push_.resize(at.u.size());
-    std::string failure = close_rows(system_.contact, closing_, at.history, operator_, forces.rows, push_);
+    failure = close_rows(system_.contact, closing_, at.history, operator_, forces.rows, push_);
     if (!failure.empty()) return failure;
+    forces.contact.clear(at.u.size());
     forces.rows.add_force(forces.contact);
-    return {};
+    return bonds_.hold(motion, forces);  // what the others do to them
   }
 
   void book(const State& begin, const State& end, EnergyTerms& energy) const override {
@@ -76,6 +83,7 @@ class MultiplierContact final : public ExplicitContact {
   const System& system_;
   RowBias bias_;
   MassSolver mass_;
+  BondedMass bonds_;
   ContactOperator operator_;
   std::vector<ClosingRow> closing_;
   std::vector<double> v_free_, push_, rhs_;

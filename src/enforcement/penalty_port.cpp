@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "contact/bond_springs.hpp"
 #include "enforcement/contact_work.hpp"
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
@@ -30,6 +31,7 @@ void PenaltyPort::begin(const StageStart& start) {
 void PenaltyPort::respond(std::span<const double> x, std::span<const double> v, ContactResponse& response) {
   penalty_response(system_.contact.rows_at(begin_->q, x, begin_->contact), begin_->q, x, v, begin_->contact, response,
                    slip_);
+  add_bond_springs(x, response);
 }
 
 ContactError PenaltyPort::error(std::span<const double> /*x*/, std::span<const double> /*v*/,
@@ -43,7 +45,8 @@ PortSolve PenaltyPort::solve(EffectiveSolver& solver, std::span<const double> x,
   const ConstraintRows& rows = *response.rows;
   tangents_.resize(rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    tangents_[r] = penalty_tangent(rows, r, begin_->q, x, v, begin_->contact, dv_dx_, slip_);
+    tangents_[r] = is_bond(rows.law[r]) ? bond_tangent(rows.law[r].eps_N)
+                                        : penalty_tangent(rows, r, begin_->q, x, v, begin_->contact, dv_dx_, slip_);
     for (double& d : tangents_[r]) d *= s_;
   }
   return solve_with_tangents(solver, x, response, residual, absolute, dy);
@@ -214,6 +217,13 @@ void AugmentedLagrangianPort::respond(std::span<const double> x, std::span<const
     const double eps_T = factor * rows.law[r].eps_T;
     Vec3& force = response.force[r];
     RowTangent& D = tangents_[r];
+    if (is_bond(rows.law[r])) {
+      force = subtract(lambda, scaled(parted(rows, r, x), eps_N));
+      D = bond_tangent(s_ * eps_N);
+      response.status[r] = RowStatus::stick;
+      response.history[slot].multiplier = rows.to_space(r, force);
+      continue;
+    }
     force[0] = std::max(0.0, lambda[0] - eps_N * (rows.gap[r] + w[0]));
     // Friction keeps its limit until the multipliers change, on rows that open as well: its force must not jump.
     const double limit = rows.law[r].mu * std::max(0.0, lambda[0]);
@@ -258,11 +268,13 @@ ContactError AugmentedLagrangianPort::error(std::span<const double> x, std::span
   const ConstraintRows& rows = *response.rows;
   std::vector<double> rounding(x.size(), 0.0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (response.force[r][0] == 0.0) continue;
+    const bool is_held = is_bond(rows.law[r]);
+    if (response.force[r][0] == 0.0 && !is_held) continue;
     const double force = stiffening(rows, r) * rows.law[r].eps_N * rows.gap_rounding(r, x);
     for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
       for (std::size_t c = 0; c < 3; ++c)
-        rounding[3 * static_cast<std::size_t>(rows.node[k]) + c] += force * std::abs(rows.block[k][0][c]);
+        for (std::size_t i = 0; i < (is_held ? 3U : 1U); ++i)
+          rounding[3 * static_cast<std::size_t>(rows.node[k]) + c] += force * std::abs(rows.block[k][i][c]);
   }
   double moved = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) moved += (x[i] - begin_->q[i]) * (x[i] - begin_->q[i]);
@@ -278,9 +290,15 @@ AugmentedLagrangianPort::Update AugmentedLagrangianPort::update(std::span<const 
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Vec3 w = rows.relative(r, x), &now = response.force[r];
     const double gap = rows.gap[r] + w[0];
+    const bool is_held = is_bond(rows.law[r]);
+    const double miss = is_held ? norm(parted(rows, r, x)) : std::abs(gap);
     rows.scatter(r, now, force);
-    if (std::abs(gap) > rows.gap_rounding(r, x))
+    if (miss > rows.gap_rounding(r, x))
       rows.scatter(r, subtract(now, rows.to_frame(r, multiplier_[static_cast<std::size_t>(rows.slot[r])])), change);
+    if (is_held) {
+      out.violation = std::max(out.violation, miss);
+      continue;
+    }
     if (now[0] == 0.0 && response.status[r] != RowStatus::open) out.violation = std::numeric_limits<double>::infinity();
     out.violation = std::max(out.violation, now[0] > 0.0 ? std::abs(gap) : -gap);
     if (response.status[r] != RowStatus::stick || rows.law[r].mu == 0.0) continue;

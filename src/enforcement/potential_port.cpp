@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/bond_springs.hpp"
 #include "math/vec3.hpp"
 
 namespace carom {
@@ -63,6 +64,14 @@ void PotentialPort::respond(std::span<const double> x, std::span<const double> /
     const RowLaw& law = rows.law[r];
     const Vec3 w0 = rows.relative(r, x0), w1 = rows.relative(r, x), dw = subtract(w1, w0);
     const double g0 = rows.gap[r] + w0[0], g1 = rows.gap[r] + w1[0], P1 = std::max(0.0, -g1);
+    if (is_bond(law)) {  // linear, so that the mean of its forces is the discrete derivative
+      const Vec3 end = parted(rows, r, x);
+      response.force[r] = scaled(add(parted(rows, r, x0), end), -0.5 * law.eps_N);
+      response.status[r] = RowStatus::stick;
+      response.stored += bond_energy(law, end);
+      tangents_[r] = bond_tangent(0.5 * law.eps_N);
+      continue;
+    }
     response.stored += law.spring_energy(P1);
     NormalForce normal = discrete_derivative(law, g0, g1);
     const double spring = normal.p;

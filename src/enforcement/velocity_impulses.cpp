@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "contact/admissible.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
@@ -11,7 +12,8 @@ namespace carom {
 VelocityImpulses::VelocityImpulses(const System& system)
     : system_(system),
       mass_(system),
-      operator_(mass_operator(system, mass_)),
+      bonds_(system, mass_),
+      operator_(bonds_.contact_operator()),
       nodes_(3800),
       push_(system.solid.dof_count()) {
   if (system.mass.kind() == MassKind::lumped) return;
@@ -27,14 +29,19 @@ void VelocityImpulses::invert(std::span<double> b, int columns) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) operator_.inverse(b.subspan(k * dofs, dofs));
 }
 
+InverseOperator VelocityImpulses::inverse() {
+  InverseOperator out{[this](std::span<double> b, int columns) { invert(b, columns); }};
+  if (!bonds_.any()) out.half = mass_.halves();
+  return out;
+}
+
 /// From the compliances of the nodes; no rows where there are too many nodes.
 Delassus VelocityImpulses::of_consistent_mass(const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {
   const std::size_t dofs = push_.size(), n = chosen.size();
-  const InverseOperator inverse{[this](std::span<double> b, int columns) { invert(b, columns); }, mass_.halves()};
   Delassus W;
-  if (!nodes_.extend(rows, chosen, dofs, inverse)) return W;
+  if (!nodes_.extend(rows, chosen, dofs, inverse())) return W;
   std::vector<std::size_t> components;
-  for (const std::size_t r : chosen) components.push_back(rows.law[r].mu > 0.0 ? 3 : 1);
+  for (const std::size_t r : chosen) components.push_back(carom::components(rows.law[r]));
   W.block = nodes_.compliance(rows, chosen, components);
   W.rows = chosen;
   for (std::size_t i = 0; i <= n; ++i) W.begin.push_back(i * n);
@@ -42,11 +49,19 @@ Delassus VelocityImpulses::of_consistent_mass(const ConstraintRows& rows, const 
   return W;
 }
 
-bool VelocityImpulses::accelerations(std::span<const double> contact, std::span<double> a) {
+bool VelocityImpulses::accelerations(const ContactResponse& response, std::span<double> a) {
   std::fill(a.begin(), a.end(), 0.0);
+  const std::vector<double> contact = force_of_contact(response, a.size());
   if (std::all_of(contact.begin(), contact.end(), [](double f) { return f == 0.0; })) return true;
   mass_.factorise();
-  return mass_.solve(contact, a) >= 0;
+  if (!bonds_.any()) return mass_.solve(contact, a) >= 0;
+  std::copy(contact.begin(), contact.end(), a.begin());
+  operator_.inverse(a);
+  return true;
+}
+
+std::string VelocityImpulses::settle_bonds(State& state, std::span<const double> besides) {
+  return bonds_.balance(state.a, state.forces, besides);
 }
 
 std::string VelocityImpulses::respond(double k, const ContactResponse& closed, Growth& nodes, std::span<double> v) {
@@ -54,7 +69,7 @@ std::string VelocityImpulses::respond(double k, const ContactResponse& closed, G
   open_response(closed.rows, closed.history.size(), response_);
   closing_.clear();
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (closed.status[r] != RowStatus::open)
+    if (closed.status[r] != RowStatus::open && !is_bond(rows.law[r]))
       closing_.push_back({r, scaled(rows.relative(r, v), 1.0 / k), rows.rounding(r, v) / k});
   }
   if (closing_.empty()) {
@@ -62,8 +77,7 @@ std::string VelocityImpulses::respond(double k, const ContactResponse& closed, G
     return {};
   }
   mass_.factorise();
-  nodes_.grow_as(nodes, push_.size(),
-                 {[this](std::span<double> b, int columns) { invert(b, columns); }, mass_.halves()});
+  nodes_.grow_as(nodes, push_.size(), inverse());
   std::string failure = close_rows(system_.contact, closing_, closed.history, operator_, response_, push_);
   nodes = nodes_.growth();
   if (failure.empty()) parallel_each(v.size(), [&](std::size_t i) { v[i] += k * push_[i]; });

@@ -9,6 +9,7 @@
 #include "contact/closing_rows.hpp"
 #include "enforcement/node_compliance.hpp"
 #include "model/compatibility.hpp"
+#include "system/bonded_mass.hpp"
 #include "system/mass_solver.hpp"
 #include "system/system.hpp"
 
@@ -21,14 +22,20 @@ namespace carom {
 /// which is Newton's impact law without restitution (as displacement and velocity have multipliers each in Gear,
 /// Leimkuhler and Gupta, J. Comput. Appl. Math. 12-13, 1985, and in Bruls, Acary and Cardona, Comput. Methods Appl.
 /// Mech. Eng. 281, 2014). v is then the admissible velocity that is nearest to v* in the norm of M: energy is lost, and
-/// momentum is that of k Lambda. Contact nodes have mass.
+/// momentum is that of k Lambda. Contact nodes have mass. Bonds are no part of it: what they
+/// keep together moves as one (A^-1 of BondedMass).
 class VelocityImpulses {
  public:
   explicit VelocityImpulses(const System& system);
   VelocityImpulses(const VelocityImpulses&) = delete;
 
-  /// a = M^-1 contact on the free dofs, 0 on the others. False when the mass matrix cannot be solved.
-  bool accelerations(std::span<const double> contact, std::span<double> a);
+  /// What the forces of a response make of the bodies, those of bonds apart: a = A^-1 contact (BondedMass) on the free
+  /// dofs, 0 on the others. False when the mass matrix cannot be solved.
+  bool accelerations(const ContactResponse& contact, std::span<double> a);
+  /// The bonds' forces at the end of a stage that has scaled those of multipliers: they balance its accelerations
+  /// (BondedMass::balance). Returns why there are none, "" when there are.
+  std::string settle_bonds(State& state, std::span<const double> besides = {});
+  bool has_bonds() const { return bonds_.any(); }
   /// v: v* on entry, v on return. `closed`: the multipliers at the same instant. `nodes`: StageMemory::mass_nodes,
   /// which grows. Returns why there are no such forces, "" when there are.
   std::string respond(double k, const ContactResponse& closed, Growth& nodes, std::span<double> v);
@@ -40,10 +47,12 @@ class VelocityImpulses {
 
  private:
   void invert(std::span<double> b, int columns);
+  InverseOperator inverse();
   Delassus of_consistent_mass(const ConstraintRows& rows, const std::vector<std::size_t>& chosen);
 
   const System& system_;
   MassSolver mass_;
+  BondedMass bonds_;
   ContactOperator operator_;
   NodeCompliance nodes_;  ///< of a consistent mass, which is the same for the whole run
   ContactResponse response_;

@@ -187,7 +187,18 @@ struct StopContact {
   DamperActs damper_acts = DamperActs::compression;
 };
 
-using ContactDefinition = std::variant<InterfaceContact, ObstacleContact, PairContact, StopContact>;
+/// Two surfaces that stay together, glued, as far as they are within `tolerance` (in facet sizes) of each other.
+struct TieContact {
+  std::string name;
+  Surface slave, master;
+  TieMethod method = TieMethod::node_to_surface;
+  double tolerance = 0.05;
+  std::optional<double> distance;  ///< takes the place of the tolerance
+  FarNodes far = FarNodes::refuse;
+  ContactLaw law;  ///< its stiffness alone, for schemes that tie by springs
+};
+
+using ContactDefinition = std::variant<InterfaceContact, ObstacleContact, PairContact, StopContact, TieContact>;
 
 /// A rigid body that moves without turning: a node of its own with a mass.
 struct RigidBody {

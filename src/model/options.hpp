@@ -41,6 +41,13 @@ constexpr bool has_both_passes(PairMethod method) {
   return method == PairMethod::two_pass || method == PairMethod::faces;
 }
 
+/// How the rows of a tie are made: each slave node at its closest point of the master, or means over the overlaps of
+/// the facets (mortar).
+enum class TieMethod : std::uint8_t { node_to_surface, surface_to_surface };
+
+/// What is done about slave nodes that are too far from the master to be tied.
+enum class FarNodes : std::uint8_t { refuse, leave };
+
 /// How the damper of a stop acts while it touches: never so that its sum with the spring pulls, or in both directions.
 enum class DamperActs : std::uint8_t { compression, two_sided };
 

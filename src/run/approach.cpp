@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/admissible.hpp"
+
 namespace carom {
 
 namespace {
@@ -77,7 +79,7 @@ void follow(const Simulation& s, const ConstraintRows& rows, const Flight& fligh
     for (std::size_t r = 0; r < rows.size(); ++r) {
       gap[r] = rows.gap_at(r, q);
       Approach& a = out[static_cast<std::size_t>(rows.source[r])];
-      if (k == 0 || gap[r] > 0.0 || gap[r] >= before[r]) continue;
+      if (k == 0 || is_bond(rows.law[r]) || gap[r] > 0.0 || gap[r] >= before[r]) continue;
       const double share = before[r] > 0.0 ? before[r] / (before[r] - gap[r]) : 0.0;
       a.first_touch = std::min(a.first_touch, dt * (k - 1 + share));
     }
@@ -98,6 +100,7 @@ std::vector<Approach> approaches(const Simulation& s, const State& state) {
   const std::vector<double>& masses = s.mass().node_diagonal();
   std::vector<Approach> out(s.given().contacts.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (is_bond(rows.law[r])) continue;
     Approach& a = out[static_cast<std::size_t>(rows.source[r])];
     const double gap = rows.gap_at(r, state.q), closing = -rows.relative(r, state.v)[0];
     a.gap = std::min(a.gap, gap);

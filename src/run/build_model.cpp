@@ -150,6 +150,9 @@ class ModelBuilder {
       case Kind::all:
         add_pair(given);
         break;
+      case Kind::tie:
+        add_tie(given);
+        break;
       case Kind::stop:
         model_.contacts.emplace_back(StopContact{*given.name, groups_.nodes(given.group, "contact.group"),
                                                  *given.normal, given.gap, **given.stiffness, given.damping,
@@ -174,11 +177,29 @@ class ModelBuilder {
     return given.initial_penetration.value_or(InitialPenetration::prestress);
   }
 
-  void add_pair(const CaseContact& given) {
-    if (*given.kind == CaseContact::Kind::pair && *given.group == *given.master)
+  void add_tie(const CaseContact& given) {
+    refuse_itself(given, "What is one surface needs no tie.");
+    TieContact tie;
+    tie.name = *given.name;
+    tie.slave = surface(given.group, "contact.group");
+    tie.master = surface(given.master, "contact.master");
+    tie.method = given.tie_method;
+    tie.tolerance = given.tolerance;
+    tie.distance = given.distance;
+    tie.far = given.far;
+    tie.law = law(given);
+    model_.contacts.emplace_back(std::move(tie));
+  }
+
+  static void refuse_itself(const CaseContact& given, const std::string& remedy) {
+    if (*given.group == *given.master)
       throw CaseError(given.master.where, "contact.master",
                       fmt::format("\"{}\", which is the group as well", *given.master), "the faces of another body",
-                      "One surface with itself is kind = \"self\".");
+                      remedy);
+  }
+
+  void add_pair(const CaseContact& given) {
+    if (*given.kind == CaseContact::Kind::pair) refuse_itself(given, "One surface with itself is kind = \"self\".");
     PairContact pair;
     pair.name = *given.name;
     pair.method = **given.method;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "contact/admissible.hpp"
+
 namespace carom {
 
 std::optional<double> contact_event(const State& begin, const State& end, const ContactResponse& at_end,
@@ -10,7 +12,7 @@ std::optional<double> contact_event(const State& begin, const State& end, const 
   const double h = end.t - begin.t;
   std::optional<double> first;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (at_end.status[r] == RowStatus::open || rows.is_closed(r, begin.q)) continue;
+    if (at_end.status[r] == RowStatus::open || is_bond(rows.law[r]) || rows.is_closed(r, begin.q)) continue;
     const double before = rows.gap_at(r, begin.q);
     const double after = std::min(rows.gap_at(r, end.q), before + h * rows.relative(r, begin.v)[0]);
     if (after >= 0.0 || before <= 0.0) continue;

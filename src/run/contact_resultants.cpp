@@ -20,6 +20,7 @@ const PairContact* self_contact(const Model& model, std::size_t contact) {
 
 bool is_ring(const ContactDefinition& contact) {
   if (const auto* pair = std::get_if<PairContact>(&contact)) return pair->slave.section == Section::axisymmetric;
+  if (const auto* tie = std::get_if<TieContact>(&contact)) return tie->slave.section == Section::axisymmetric;
   const auto* obstacle = std::get_if<ObstacleContact>(&contact);
   return obstacle != nullptr && obstacle->surface.section == Section::axisymmetric;
 }

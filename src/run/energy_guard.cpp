@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/admissible.hpp"
+
 namespace carom {
 
 namespace {
@@ -14,6 +16,7 @@ constexpr double shortest_cut = 1.0 / 16.0, least_share = 1.0 / 16.0;
 double misplaced(const ConstraintRows& rows, const State& begin, const State& end, double fraction) {
   double sum = 0.0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (is_bond(rows.law[r])) continue;
     const double before = rows.gap_at(r, begin.q), after = before + fraction * (rows.gap_at(r, end.q) - before);
     if (before * after < 0.0) sum += (before < 0.0 ? 1.0 : -1.0) * 0.5 * rows.law[r].eps_N * std::abs(before * after);
   }

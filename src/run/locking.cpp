@@ -78,6 +78,7 @@ class Actions {
   struct Facing {
     const Actions& of;
     bool operator()(const InterfaceContact&) const { return false; }
+    bool operator()(const TieContact&) const { return false; }
     bool operator()(const StopContact& stop) const { return of.thin_.is_along(stop.direction); }
     bool operator()(const PairContact& pair) const {
       return of.flies() && (of.faces(pair.slave) || of.faces(pair.master));

@@ -30,6 +30,7 @@ struct MostOfShape {
 struct MostOfContact {
   double operator()(const InterfaceContact& /*contact*/) const { return -1.0; }
   double operator()(const StopContact& /*contact*/) const { return -1.0; }
+  double operator()(const TieContact& /*contact*/) const { return -1.0; }
   double operator()(const PairContact& /*contact*/) const { return infinity; }
   double operator()(const ObstacleContact& contact) const { return std::visit(MostOfShape{}, contact.shape); }
 };

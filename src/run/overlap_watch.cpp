@@ -24,6 +24,10 @@ struct MarkNodes {
     add(contact.slave);
     add(contact.master);
   }
+  void operator()(const TieContact& contact) const {
+    add(contact.slave);
+    add(contact.master);
+  }
   void operator()(const InterfaceContact& contact) const {
     const CellBlock& block = *mesh.block(CellType::hexa8);
     for (const Index c : contact.cells)

@@ -5,6 +5,7 @@
 #include <limits>
 #include <variant>
 
+#include "contact/admissible.hpp"
 #include "mesh/cell_topology.hpp"
 #include "model/node_lengths.hpp"
 #include "solid/cell_strain.hpp"
@@ -69,7 +70,7 @@ double PenetrationWatch::shortening(const ConstraintRows& rows, std::size_t r, s
 void PenetrationWatch::look(const ContactResponse& response, std::span<const double> u) {
   const ConstraintRows& rows = *response.rows;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (response.status[r] == RowStatus::open) continue;
+    if (response.status[r] == RowStatus::open || is_bond(rows.law[r])) continue;
     if (std::holds_alternative<StopContact>(model_.contacts[static_cast<std::size_t>(rows.source[r])])) continue;
     const auto slot = static_cast<std::size_t>(rows.slot[r]);
     if (slot >= places_.size()) places_.resize(slot + 1);

@@ -73,12 +73,16 @@ bool same_shape(const RigidShape& a, const RigidShape& b) {
 
 /// How many facets, nodes or cells two contacts treat in the same way.
 struct SharedNodes {
-  std::size_t operator()(const PairContact& a, const PairContact& b) const {
+  template <class A, class B>
+  std::size_t met(const A& a, const B& b) const {
     const FacetSet a_slave = keys(a.slave), a_master = keys(a.master), b_slave = keys(b.slave),
                    b_master = keys(b.master);
     const std::size_t along = std::min(shared(a_slave, b_slave), shared(a_master, b_master));
     const std::size_t across = std::min(shared(a_slave, b_master), shared(a_master, b_slave));
-    const std::size_t both = std::max(along, across);
+    return std::max(along, across);
+  }
+  std::size_t operator()(const PairContact& a, const PairContact& b) const {
+    const std::size_t both = met(a, b);
     return a.self && b.self && both == 1 ? 0 : both;  // one facet does not touch itself
   }
   std::size_t operator()(const ObstacleContact& a, const ObstacleContact& b) const {
@@ -89,6 +93,9 @@ struct SharedNodes {
   std::size_t operator()(const InterfaceContact& a, const InterfaceContact& b) const {
     return shared(a.cells, b.cells);
   }
+  std::size_t operator()(const TieContact& a, const TieContact& b) const { return met(a, b); }
+  std::size_t operator()(const TieContact& a, const PairContact& b) const { return met(a, b); }
+  std::size_t operator()(const PairContact& a, const TieContact& b) const { return met(a, b); }
   std::size_t operator()(const StopContact& a, const StopContact& b) const {
     return near(a.direction, b.direction) && a.gap == b.gap ? shared(a.nodes, b.nodes) : 0;
   }

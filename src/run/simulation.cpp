@@ -14,6 +14,7 @@
 #include "run/build_mesh.hpp"
 #include "run/build_model.hpp"
 #include "run/facing.hpp"
+#include "run/torn_ties.hpp"
 #include "solid/smallest_cell.hpp"
 
 namespace carom {
@@ -37,6 +38,14 @@ Location contacts_place(const Case& given) {
 bool needs_stiffness(const CaseScheme& scheme) {
   return traits(**scheme.enforcement).takes_stiffness;
 }
+/// Explicit steps tie exactly.
+bool ties_by_springs(const CaseScheme& scheme) {
+  return needs_stiffness(scheme) && !is_explicit(*scheme.kind);
+}
+bool any_stage(const Case& given, bool (*does)(const CaseScheme& scheme)) {
+  return does(given.scheme) || std::any_of(given.stages.begin(), given.stages.end(),
+                                           [does](const CaseStage& stage) { return does(stage.scheme); });
+}
 
 /// The model of the case, with the state that it takes over, and with a stiffness for every contact whose case gives
 /// none and whose enforcement needs one.
@@ -44,10 +53,12 @@ Model make_model(const Case& given, std::shared_ptr<const Mesh> mesh, std::optio
                  std::vector<std::string>& notes) {
   Model model = build_model(given, std::move(mesh));
   taken = take_over(given, model);
-  const bool needed = needs_stiffness(given.scheme) ||
-                      std::any_of(given.stages.begin(), given.stages.end(),
-                                  [](const CaseStage& stage) { return needs_stiffness(stage.scheme); });
-  if (needed) notes = at_section(contacts_place(given), "contact", [&] { return choose_stiffness(model); });
+  const auto choose = [&](std::vector<std::string> (*choice)(Model&)) {
+    const auto more = at_section(contacts_place(given), "contact", [&] { return choice(model); });
+    notes.insert(notes.end(), more.begin(), more.end());
+  };
+  if (any_stage(given, needs_stiffness)) choose(choose_stiffness);
+  if (any_stage(given, ties_by_springs)) choose(choose_tie_stiffness);
   return model;
 }
 
@@ -77,6 +88,8 @@ Simulation::Simulation(Case given)
   }
   refuse_surfaces_from_behind();
   settle_initial_penetrations();
+  const State first = initial_state();
+  refuse_torn_ties(case_, contact_, first.q, first.v);
   const StageContext context{case_, *mesh_, model_, solid_, contact_};
   stages_.push_back(std::make_unique<Stage>(context, case_.scheme, case_.time, 0.0, later_velocities(0)));
   for (const CaseStage& stage : case_.stages) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "contact/facing_facets.hpp"
+#include "run/torn_ties.hpp"
 #include "solid/mass_scaling.hpp"
 #include "solid/modified_mass.hpp"
 #include "system/free_modes.hpp"
@@ -132,7 +133,12 @@ Stage::Stage(const StageContext& context, const CaseScheme& scheme, const CaseTi
       supports_(make_supports(context, context.model, has_mass_)),
       system_{context.mesh, context.solid, mass_, context.contact, supports_},
       rest_(system_) {
-  if (settings_.kind == SchemeKind::statics) hold_bodies_in_flight(later_velocity);
+  if (settings_.kind == SchemeKind::statics) {
+    hold_bodies_in_flight(later_velocity);
+    if (context.contact.bonds().size() > 0)
+      refuse_floating_ties(context.given, context.contact, settings_.enforcement, FreeModes(system_).free_bodies(),
+                           context.mesh.node_count());
+  }
   refuse_massless_contact();
   refuse_history();
   choose_step();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/errors.hpp"
+#include "contact/admissible.hpp"
 #include "run/contact_event.hpp"
 
 namespace carom {
@@ -137,8 +138,9 @@ bool StepGuard::fits(const State& end) {
   const bool is_damped = watch_->follow_damping(end.points);
   const double dt = control_.dt(), least = dt * std::exp2(-1.0 / 8.0);
   const double longest = this->longest(end.q, dt);
-  const bool springs_act = std::any_of(forces.rows.status.begin(), forces.rows.status.end(),
-                                       [](RowStatus status) { return status != RowStatus::open; });
+  bool springs_act = false;
+  for (std::size_t r = 0; r < forces.rows.status.size(); ++r)
+    springs_act = springs_act || (forces.rows.status[r] != RowStatus::open && !is_bond(rows_->law[r]));
   if ((!springs_act && !is_damped) || longest >= least || !control_.limit(longest)) return true;
   return control_.dt() >= dt;
 }

@@ -60,7 +60,7 @@ bool Bathe::to_middle(const State& begin, const StepRequest& request, StepReport
   middle_.t = request.t_end - k;
   imposed_steps(system_.supports, begin.t, middle_.t, begin.q, imposed_);
   if (!start_.set(begin, k, imposed_, [](const ImposedStep& s) { return s.a_begin; }) ||
-      (impulses_ && !impulses_->accelerations(begin.forces.contact.dense(), pushed_begin_))) {
+      (impulses_ && !impulses_->accelerations(begin.forces.rows, pushed_begin_))) {
     report.failure = MassSolver::failure;
     return false;
   }
@@ -81,7 +81,7 @@ bool Bathe::to_middle(const State& begin, const StepRequest& request, StepReport
 
 /// From the unknown of the first sub-step to the acceleration, and from its velocity to that of VelocityImpulses.
 bool Bathe::stop_at_rows(double k, StepReport& report) {
-  if (!impulses_->accelerations(middle_.forces.contact.dense(), pushed_half_)) {
+  if (!impulses_->accelerations(middle_.forces.rows, pushed_half_)) {
     report.failure = MassSolver::failure;
     return false;
   }
@@ -90,6 +90,7 @@ bool Bathe::stop_at_rows(double k, StepReport& report) {
     middle_.v[i] -= k * pushed_half_[i];
   }
   report.failure = impulses_->respond(k, middle_.forces.rows, middle_.stages.front().mass_nodes, middle_.v);
+  if (report.failure.empty()) report.failure = impulses_->settle_bonds(middle_);
   return report.failure.empty();
 }
 

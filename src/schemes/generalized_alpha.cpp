@@ -99,7 +99,7 @@ bool GeneralizedAlpha::predict(const State& begin, double h, State& end) {
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   if (!start_.set(begin, h, imposed_, [](const ImposedStep& s) { return s.a_begin; }) ||
-      (impulses_ && !impulses_->accelerations(begin.forces.contact.dense(), pushed_begin_)))
+      (impulses_ && !impulses_->accelerations(begin.forces.rows, pushed_begin_)))
     return false;
   const Forces& now = begin.forces;
   const std::span<const double> inertia = start_.balance().inertia;
@@ -117,8 +117,8 @@ bool GeneralizedAlpha::predict(const State& begin, double h, State& end) {
 }
 
 /// From the unknown s + M^-1 G^T lambda / (2 beta) to the acceleration, and to the velocity of VelocityImpulses.
-bool GeneralizedAlpha::stop_at_rows(double h, State& end, StepReport& report) {
-  if (!impulses_->accelerations(end.forces.contact.dense(), pushed_end_)) {
+bool GeneralizedAlpha::stop_at_rows(const State& begin, double h, State& end, StepReport& report) {
+  if (!impulses_->accelerations(end.forces.rows, pushed_end_)) {
     report.failure = MassSolver::failure;
     return false;
   }
@@ -128,7 +128,23 @@ bool GeneralizedAlpha::stop_at_rows(double h, State& end, StepReport& report) {
     end.v[i] -= parameters_.gamma * h * share * pushed_end_[i];
   }
   report.failure = impulses_->respond(h, end.forces.rows, end.stages.front().mass_nodes, end.v);
+  if (report.failure.empty()) report.failure = settle_bonds(begin, end);
   return report.failure.empty();
+}
+
+/// The bonds' forces c1 at the end, which the equation has as (1 - alpha_m) c1 + alpha_m c0.
+std::string GeneralizedAlpha::settle_bonds(const State& begin, State& end) {
+  const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
+  if (!impulses_->has_bonds() || (alpha_m == 0.0 && alpha_f == 0.0)) return impulses_->settle_bonds(end);
+  const Forces &f0 = begin.forces, &f1 = end.forces;
+  const std::span<const double> inertia = start_.balance().inertia;
+  std::vector<double> besides(end.q.size());
+  for (std::size_t i = 0; i < besides.size(); ++i) {
+    const double last = f1.external[i] - f1.internal[i];
+    const double mean = (1.0 - alpha_f) * last + alpha_f * (f0.external[i] - f0.internal[i]);
+    besides[i] = last + (alpha_m * (inertia[i] - f0.contact[i]) - mean) / (1.0 - alpha_m);
+  }
+  return impulses_->settle_bonds(end, besides);
 }
 
 Momentum GeneralizedAlpha::resultant_of(std::span<const double> u, std::span<const double> acceleration) {
@@ -175,7 +191,7 @@ StepReport GeneralizedAlpha::step(const State& begin, const StepRequest& request
   impose_on_stage(equation, end.a);
   StageReport solved = stage_.solve(equation, begin, share * request.work_tolerance, end);
   StepReport report{false, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
-  if (!solved.converged || (impulses_ && !stop_at_rows(h, end, report))) return report;
+  if (!solved.converged || (impulses_ && !stop_at_rows(begin, h, end, report))) return report;
   complete_forces(system_, end);
   const StepWeights weights{
       .inertia = 1.0 - alpha_m, .force = 1.0 - alpha_f, .contact = impulses_ ? 1.0 - alpha_m : 1.0};

@@ -66,7 +66,8 @@ class GeneralizedAlpha final : public Scheme {
 
  private:
   bool predict(const State& begin, double h, State& end);
-  bool stop_at_rows(double h, State& end, StepReport& report);
+  bool stop_at_rows(const State& begin, double h, State& end, StepReport& report);
+  std::string settle_bonds(const State& begin, State& end);
   Momentum impulse(double h, const State& begin, State& end, const Momentum& force);
   Momentum resultant_of(std::span<const double> u, std::span<const double> acceleration);
 

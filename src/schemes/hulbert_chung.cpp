@@ -31,10 +31,10 @@ HulbertChung::HulbertChung(const System& system, const SpectralRadius& p)
 
 void HulbertChung::start(State& state, double dt) {
   start_with_supports(system_, state);
-  contact_->start(system_, dt, dt, state);
   // e0 = e1 = a0
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = mean_acceleration(s, dt);
+  contact_->start(system_, dt, dt, state);
   start_accelerations(system_, mass_solver_, state);
   state.memory = HulbertChungMemory{state.a, resultant(system_, state)};
 }
@@ -68,9 +68,9 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
     end.q[s.dof] = s.u;
     end.v[s.dof] = s.v;
   }
+  for (const ImposedStep& s : imposed_) end.a[s.dof] = mean_acceleration(s, h);
   report.failure = contact_->evaluate(system_, begin, h, end.v, end);
   if (!report.failure.empty()) return report;
-  for (const ImposedStep& s : imposed_) end.a[s.dof] = mean_acceleration(s, h);
   force_sum(end.forces, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);
   if (report.linear_iterations < 0) {

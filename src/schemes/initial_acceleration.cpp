@@ -4,8 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "contact/admissible.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/imposed_motion.hpp"
+#include "system/bonded_mass.hpp"
 
 namespace carom {
 
@@ -35,20 +37,26 @@ void start_multipliers(const System& system, MassSolver& solver, double dt, Stat
   const ConstraintRows& rows = *shared;
   forces.contact.clear(state.q.size());
   open_response(shared, state.contact.size(), forces.rows);
+  BondedMass bonds(system, solver);
+  const BondMotion motion{dt, state.q, state.v, state.a};
+  if (!bonds.hold(motion, forces).empty()) throw std::runtime_error("the ties find no forces at the start");
   std::vector<double> rhs(state.q.size()), a_free = state.a;
   force_sum(forces, rhs);
   if (solver.solve(rhs, a_free) < 0) throw std::runtime_error("the initial accelerations cannot be solved for");
   std::vector<ClosingRow> closing;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (!rows.is_closed(r, state.q)) continue;
+    if (is_bond(rows.law[r]) || !rows.is_closed(r, state.q)) continue;
     const Vec3 a = rows.relative(r, a_free), v = rows.relative(r, state.v);
     closing.push_back({r, {a[0] + std::max(0.0, v[0]) / dt, a[1] + v[1] / dt, a[2] + v[2] / dt}});
   }
   if (!closing.empty()) solver.factorise();
   std::vector<double> push(state.q.size());
-  if (!close_rows(system.contact, closing, state.contact, mass_operator(system, solver), forces.rows, push).empty())
+  if (!close_rows(system.contact, closing, state.contact, bonds.contact_operator(), forces.rows, push).empty())
     open_response(shared, state.contact.size(), forces.rows);
+  forces.contact.clear(state.q.size());
   forces.rows.add_force(forces.contact);
+  if (!closing.empty() && !bonds.hold(motion, forces).empty())
+    throw std::runtime_error("the ties find no forces at the start");
   take_history(forces.rows, state.q, state.contact);
 }
 

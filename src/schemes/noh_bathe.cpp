@@ -39,10 +39,10 @@ double NohBathe::middle_weight() const {
 
 void NohBathe::start(State& state, double dt) {
   start_with_supports(system_, state);
-  contact_->start(system_, dt, dt, state);
   const double k = p_ * dt;
   imposed_steps(system_.supports, state.t, state.t + k, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = acceleration_to_middle(s, k);
+  contact_->start(system_, dt, dt, state);
   start_accelerations(system_, mass_solver_, state);
 }
 
@@ -75,9 +75,9 @@ bool NohBathe::first_part(const State& begin, const StepRequest& request, StepRe
     predicted_[s.dof] = s.mean_velocity;
     middle_.q[s.dof] = s.u;
   }
+  for (const ImposedStep& s : imposed_) middle_.a[s.dof] = acceleration_from_middle(s, k);
   report.failure = contact_->evaluate(system_, begin, k, predicted_, middle_);
   if (!report.failure.empty()) return false;
-  for (const ImposedStep& s : imposed_) middle_.a[s.dof] = acceleration_from_middle(s, k);
   if (!solve(middle_, report)) return false;
   parallel_each(begin.q.size(), [&](std::size_t i) { middle_.v[i] = predicted_[i] + 0.5 * k * middle_.a[i]; });
   take_history(middle_.forces.rows, middle_.q, middle_.contact);

@@ -29,9 +29,10 @@ NonsmoothGeneralizedAlpha::NonsmoothGeneralizedAlpha(const System& system, const
       parameters_(p),
       kappa_(weight_of_new_force(p)),
       mass_solver_(std::make_shared<MassSolver>(system)),
+      bonds_(std::make_shared<BondedMass>(system, *mass_solver_)),
       stage_(system, settings, p.beta * kappa_ * dt * dt, omega_max_squared,
              std::make_unique<JumpPort>(system, (2.0 * p.beta - p.gamma) / (p.gamma * 2.0 * p.beta * kappa_),
-                                        mass_solver_),
+                                        mass_solver_, bonds_),
              force_of_bodies(system)),
       start_(system) {
   assert(settings.enforcement == EnforcementKind::impulse && p.gamma > 0.0 && 2.0 * p.beta >= p.gamma);
@@ -45,7 +46,11 @@ bool NonsmoothGeneralizedAlpha::solve_jump(const Forces& forces) {
   std::fill(jump_.begin(), jump_.end(), 0.0);
   const std::vector<RowStatus>& status = forces.rows.status;
   if (std::all_of(status.begin(), status.end(), [](RowStatus s) { return s == RowStatus::open; })) return true;
-  return mass_solver_->solve(forces.contact.dense(), jump_) >= 0;
+  if (!bonds_->any()) return mass_solver_->solve(forces.contact.dense(), jump_) >= 0;
+  jump_ = force_of_contact(forces.rows, jump_.size());
+  if (std::any_of(jump_.begin(), jump_.end(), [](double f) { return f != 0.0; }))
+    bonds_->contact_operator().inverse(jump_);
+  return true;
 }
 
 /// Resultant of p / h and of what the supports answer to it.
@@ -119,6 +124,11 @@ StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest
     return report;
   }
   split(h, end);
+  report.failure = bonds_->balance(end.a, end.forces);
+  if (!report.failure.empty()) {
+    report.converged = false;
+    return report;
+  }
   complete_forces(system_, end);
   report.books = books(begin, h, end);
   return report;

@@ -8,6 +8,7 @@
 #include "schemes/generalized_alpha.hpp"
 #include "schemes/implicit_stage.hpp"
 #include "schemes/scheme.hpp"
+#include "system/bonded_mass.hpp"
 #include "system/mass_solver.hpp"
 
 namespace carom {
@@ -18,10 +19,11 @@ namespace carom {
 /// (Chen, Acary, Virlez and Bruls, Int. J. Numer. Methods Eng. 96, 2013; the algorithmic acceleration as in Arnold and
 /// Bruls, Multibody System Dynamics 18, 2007), with the parameters of Chung and Hulbert, Newton's restitution and
 /// Coulomb's cone for p on the rows that u0 + h/2 v0 closes (ImpulsePort): a row that has closed keeps a penetration of
-/// at most one step's motion. The projection of the positions that Bruls, Acary and Cardona (Comput. Methods Appl.
-/// Mech. Eng. 281, 2014) add is not made. Order 2 between impacts, 1 across them and while contact lasts;
-/// unconditionally stable (linear, without contact), spectral radius rho_inf at infinite frequency; conserves linear
-/// momentum, and for rho_inf = 1 the energy of linear bodies between impacts.
+/// at most one step's motion. Bonds are part of the smooth motion: z
+/// balances their forces, and what they join jumps as one. The projection of the positions that Bruls, Acary and
+/// Cardona (Comput. Methods Appl. Mech. Eng. 281, 2014) add is not made. Order 2 between impacts, 1 across them and
+/// while contact lasts; unconditionally stable (linear, without contact), spectral radius rho_inf at infinite
+/// frequency; conserves linear momentum, and for rho_inf = 1 the energy of linear bodies between impacts.
 ///
 /// With y = z1 + W / (2 kappa beta h), kappa = (1 - alpha_f) / (1 - alpha_m), u1 follows y alone, and W remains in
 ///   v1 = v_hat + gamma kappa h y + (1 - gamma / (2 beta)) W
@@ -53,6 +55,7 @@ class NonsmoothGeneralizedAlpha final : public Scheme {
   GeneralizedAlphaParameters parameters_;
   double kappa_;
   std::shared_ptr<MassSolver> mass_solver_;
+  std::shared_ptr<BondedMass> bonds_;
   ImplicitStage stage_;
   StepStart start_;
   std::vector<double> u_hat_, v_hat_, carried_, known_, u_predicted_;

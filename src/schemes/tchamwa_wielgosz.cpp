@@ -26,9 +26,9 @@ TchamwaWielgosz::TchamwaWielgosz(const System& system, const TchamwaWielgoszPara
 
 void TchamwaWielgosz::start(State& state, double dt) {
   start_with_supports(system_, state);
-  contact_->start(system_, dt, dt, state);
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_);
   for (const ImposedStep& s : imposed_) state.a[s.dof] = mean_acceleration(s, dt);
+  contact_->start(system_, dt, dt, state);
   start_accelerations(system_, mass_solver_, state);
 }
 
@@ -53,9 +53,9 @@ StepReport TchamwaWielgosz::step(const State& begin, const StepRequest& request,
     end.q[s.dof] = s.u;
     end.v[s.dof] = s.v;
   }
+  for (const ImposedStep& s : imposed_) end.a[s.dof] = mean_acceleration(s, h);
   report.failure = contact_->evaluate(system_, begin, h, end.v, end);
   if (!report.failure.empty()) return report;
-  for (const ImposedStep& s : imposed_) end.a[s.dof] = mean_acceleration(s, h);
   force_sum(end.forces, rhs_);
   report.linear_iterations = mass_solver_.solve(rhs_, end.a);
   if (report.linear_iterations < 0) {

@@ -44,6 +44,7 @@ struct NodeCollector {
     add(contact.slave);
     add(contact.master);
   }
+  void operator()(const TieContact& /*contact*/) const {}
   void operator()(const StopContact& contact) const {
     nodes.insert(nodes.end(), contact.nodes.begin(), contact.nodes.end());
   }

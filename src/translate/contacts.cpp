@@ -1,4 +1,4 @@
-// *CONTACT PAIR and general contact.
+// *CONTACT PAIR, general contact and *TIE.
 #include <fmt/format.h>
 
 #include "deck/keyword_table.hpp"
@@ -151,18 +151,42 @@ void translate_general(Translation& t, const std::map<std::string, Interaction>&
   t.append("contact", contact.node());
 }
 
+void translate_ties(Translation& t, const Statement& s) {
+  const DeckKeyword& keyword = *s.keyword;
+  const std::string* given = keyword.parameter("POSITION TOLERANCE");
+  double distance = 0.0;
+  if (given != nullptr) distance = as_real(*given).value_or(-1.0);
+  if (distance < 0.0) keyword.fail("POSITION TOLERANCE=" + *given, "a distance of 0 or more");
+  for (DeckCursor at(keyword); at.next_line();) {
+    const std::string slave(at.field()), master(at.field());
+    at.end_line("the slave and the master");
+    const std::string group = faces_of(t, s, at, slave), other = faces_of(t, s, at, master);
+    for (const std::string& side : {group, other})
+      if (body_of_cells(t, side) != nullptr)
+        at.fail("a rigid body in a tie", "two deformable surfaces", "Let it push by *CONTACT PAIR instead.");
+    TableMaker tie(at.where());
+    tie.text("name", upper_case(slave) + " to " + upper_case(master)).text("kind", "tie").text("group", group);
+    tie.text("master", other);
+    if (keyword.has("TYPE")) tie.text("method", method_of(keyword));
+    if (given != nullptr) tie.number("distance", distance).text("far", "leave");
+    t.append("contact", tie.node());
+  }
+}
+
 }  // namespace
 
 void translate_contacts(Translation& t) {
   const std::map<std::string, Interaction> all = interactions_of(t);
   for (std::size_t i = 0; i < t.statements.list.size(); ++i) {
     const Statement& s = t.statements.list[i];
-    const bool is_pair = s.keyword->name == "CONTACT PAIR";
-    if (!is_pair && s.keyword->name != "CONTACT INCLUSIONS") continue;
+    const bool is_pair = s.keyword->name == "CONTACT PAIR", is_tie = s.keyword->name == "TIE";
+    if (!is_pair && !is_tie && s.keyword->name != "CONTACT INCLUSIONS") continue;
     if (t.steps.size() > 1 && i > t.steps[1].begin)
       t.findings.refuse(*s.keyword, s.keyword->where, "contact that begins with a later step",
                         "It would be there from the start.");
-    if (is_pair)
+    if (is_tie)
+      translate_ties(t, s);
+    else if (is_pair)
       translate_pairs(t, all, s);
     else
       translate_general(t, all, *s.keyword);

@@ -274,7 +274,7 @@ TEST(Casefile, JsonSchemaListsEveryKey) {
 TEST(Casefile, JsonSchemaKnowsWhatEachKindTakes) {
   const nlohmann::json schema = nlohmann::json::parse(json_schema());
   const nlohmann::json& rules = schema["properties"]["contact"]["items"]["allOf"];
-  ASSERT_EQ(rules.size(), 10U);
+  ASSERT_EQ(rules.size(), 11U);
   EXPECT_EQ(rules[0]["if"]["properties"]["kind"]["const"], "interface");
   EXPECT_EQ(rules[0]["then"]["properties"]["gap"], false);
   EXPECT_FALSE(rules[0]["then"]["properties"].contains("stiffness"));

@@ -51,7 +51,7 @@ fields = []
 /// Each cube has one cell, so that its eight lumped masses are equal and its momentum is 1.5 times the mean velocity.
 /// The impulses between the parts, summed for each, are its change of momentum: to the round-off of some hundred steps.
 TEST(ContactResultants, OfAllGiveTheForceBetweenEachPairOfParts) {
-  const TemporaryCase in(three_cubes("[[contact]]\nname = \"k\"\nkind = \"all\"\nstiffness = 20.0\n"));
+  const TemporaryCase in(three_cubes("[[contact]]\nname = \"k\"\nkind = \"all\"\nstiffness = 4.0\n"));
   in.run();
   const auto contact = test::last_row(in.result("contact.csv"));
   const auto probes = test::read_csv(in.result("probes.csv"));
@@ -70,9 +70,10 @@ TEST(ContactResultants, OfAllGiveTheForceBetweenEachPairOfParts) {
   EXPECT_TRUE(contact.contains("k.penetration"));
 }
 
-// `all` is the pairs in two passes: a spring a unit of the area that the faces share, whatever else a corner stands for.
+// `all` is the pairs in two passes: a corner stands for a quarter of its three faces there, so for three times the
+// stiffness.
 TEST(ContactResultants, OfAllAreThoseOfThePair) {
-  const TemporaryCase all(three_cubes("[[contact]]\nname = \"k\"\nkind = \"all\"\nstiffness = 20.0\n"));
+  const TemporaryCase all(three_cubes("[[contact]]\nname = \"k\"\nkind = \"all\"\nmethod = \"two_pass\"\nstiffness = 4.0\n"));
   const TemporaryCase pairs(three_cubes(R"(
 [[contact]]
 name = "ab"
@@ -80,7 +81,7 @@ kind = "pair"
 method = "two_pass"
 group = "a_high"
 master = "b_low"
-stiffness = 20.0
+stiffness = 12.0
 moment_point = [0.0, 0.3, 0.0]
 [[contact]]
 name = "bc"
@@ -88,7 +89,7 @@ kind = "pair"
 method = "two_pass"
 group = "b_high"
 master = "c_low"
-stiffness = 20.0
+stiffness = 12.0
 )"));
   all.run();
   pairs.run();
@@ -154,7 +155,7 @@ fields = []
 }
 
 TEST(ContactResultants, AChecksPlaceIsAPairOfParts) {
-  const std::string contact = "[[contact]]\nname = \"k\"\nkind = \"all\"\nstiffness = 20.0\n";
+  const std::string contact = "[[contact]]\nname = \"k\"\nkind = \"all\"\nstiffness = 12.0\n";
   const std::string check =
       "[[check]]\nquantity = \"contact.impulse_x\"\nvalue = 0.0\ntolerance = 9.0\nabsolute = true\n";
   const TemporaryCase right(three_cubes(contact + check + "place = \"k.b_on_a\"\n"));
@@ -229,7 +230,7 @@ velocity = [0.0, 0.0, -0.2]
 [[contact]]
 name = "k"
 kind = "all"
-stiffness = 20.0
+stiffness = 12.0
 [scheme]
 kind = "central_differences"
 [time]

@@ -8,6 +8,7 @@
 #include "contact_fixture.hpp"
 #include "math/vec3.hpp"
 #include "schemes_implicit.hpp"
+#include "tie_fixture.hpp"
 
 namespace carom::schemes_ledger_test {
 namespace {
@@ -79,6 +80,13 @@ Model driven(MotionKind kind) {
   return model;
 }
 
+/// Two tied blocks whose undersides, tied nodes among them, touch a plane.
+Model tied_on_plane() {
+  Model model = tied_blocks(0.02);
+  model.contacts.emplace_back(plane_below(model, 0.05, 20.0, {10.0, 0.3}));
+  return model;
+}
+
 std::vector<Scenario> scenarios() {
   return {
       {"plane", [] { return on_plane({}); }, {0, 0, -0.2}},
@@ -92,6 +100,7 @@ std::vector<Scenario> scenarios() {
       {"damped_stop", [] { return on_stop(0.5); }, {0, 0, -0.2}},
       {"stop_that_pulls", [] { return on_stop(5.0, DamperActs::two_sided); }, {0, 0, -0.2}},
       {"attached", with_attached},
+      {"tied", tied_on_plane, {0.15, 0.05, -0.2}},
       {"gravity",
        [] {
          return loaded(Gravity{{0.01, 0, -0.05}, ramp_and_fall});

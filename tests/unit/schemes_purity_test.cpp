@@ -12,6 +12,7 @@
 #include "schemes/scheme_table.hpp"
 #include "schemes_explicit_fixture.hpp"
 #include "schemes_fixture.hpp"
+#include "tie_fixture.hpp"
 
 namespace carom::schemes_purity_test {
 namespace {
@@ -77,12 +78,22 @@ Model sliding_pair(const Body& body) {
   return model;
 }
 
+/// Two tied blocks whose undersides, tied nodes among them, fall obliquely onto a plane.
+Model tied_on_plane(const Body& body) {
+  Model model = tied_blocks(0.02);
+  make_of(model.parts[0], body);
+  model.contacts.emplace_back(plane_below(model, 0.004, 20.0, {10.0, 0.3}));
+  model.loads.emplace_back(Gravity{{0.004, 0.0, -0.04}, {}});
+  return model;
+}
+
 struct Scene {
   const char* name;
   Model (*model)(const Body&);
   double above;  ///< height from which on nodes move at first
 };
-constexpr std::array scenes{Scene{"plane", on_plane, 0.0}, Scene{"sliding pair", sliding_pair, 2.0005}};
+constexpr std::array scenes{Scene{"plane", on_plane, 0.0}, Scene{"sliding pair", sliding_pair, 2.0005},
+                            Scene{"tied on plane", tied_on_plane, -1.0}};
 
 /// The bodies and their system, with the mass that the scheme wants.
 struct Bench {
@@ -232,6 +243,9 @@ class Purity {
 /// One-point cells where contact is simplest, since it knows nothing of them. Conjugate gradients on one body in each
 /// scene; they need not find the equilibrium of what friction alone holds.
 bool is_tried(SchemeKind scheme, EnforcementKind enforcement, const Scene& scene, const Body& body, SolverKind solver) {
+  // It takes no ties; statics none between bodies that only contact holds.
+  const bool takes_scene = scheme != SchemeKind::modified_mass && scheme != SchemeKind::statics;
+  if (!takes_scene && scene.model == tied_on_plane) return false;
   const bool remembers = !body.material.law->history.empty() || body.viscosity.is_any();
   if (remembers && !traits(scheme).takes_history) return false;
   if (body.formulation != Formulation::full && enforcement != EnforcementKind::penalty) return false;

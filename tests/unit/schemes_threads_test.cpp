@@ -4,6 +4,7 @@
 #include "enforcement/explicit_contact.hpp"
 #include "schemes/moreau_jean.hpp"
 #include "schemes_fixture.hpp"
+#include "tie_fixture.hpp"
 
 namespace carom::schemes_threads_test {
 namespace {
@@ -81,6 +82,28 @@ TEST(Threads, CentralDifferencesWithImpulses) {
   expect_same_bits(chosen_isa(), MassKind::lumped, 3, [](const Problem& p) -> std::unique_ptr<Scheme> {
     return std::make_unique<CentralDifferences>(p.system, impulse_contact(p.system));
   });
+}
+
+/// Ties of 400 nodes in front of multipliers and springs, and among multipliers.
+TEST(Threads, Ties) {
+  const auto run_tied = [](int threads, MassKind kind, const MakeScheme& make) {
+    set_threads(threads);
+    Model model = tied_blocks(0.02, 19, 0.0);
+    model.contacts.emplace_back(plane_below(model, 0.002, 20.0, {10.0, 0.3}));
+    const Problem p(std::move(model), kind);
+    const History run = march(*make(p), p.moving({0.1, 0.05, -0.2}), 0.02, 3);
+    EXPECT_TRUE(run.converged) << run.failure;
+    return run.state;
+  };
+  const auto with_impulses = [](const Problem& p) -> std::unique_ptr<Scheme> {
+    return std::make_unique<CentralDifferences>(p.system, impulse_contact(p.system));
+  };
+  for (const MakeScheme& make : {MakeScheme{central}, MakeScheme{with_impulses}}) {
+    const State one = run_tied(1, MassKind::lumped, make);
+    EXPECT_TRUE(run_tied(2, MassKind::lumped, make) == one);
+    EXPECT_TRUE(run_tied(4, MassKind::lumped, make) == one);
+  }
+  set_threads(0);
 }
 
 }  // namespace

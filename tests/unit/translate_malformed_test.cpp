@@ -160,6 +160,12 @@ const std::vector<Spoiled> spoiled_decks{
      ":31: *SURFACE: found more than one field; expected one node or set in a line. Areas of nodes are not taken."},
     {"contact_type", "*CONTACT PAIR, INTERACTION=I", "*CONTACT PAIR, INTERACTION=I, TYPE=MORTAR",
      ":48: *CONTACT PAIR: found TYPE=MORTAR; expected NODE TO SURFACE or SURFACE TO SURFACE"},
+    {"tie_tolerance", "*STEP\n", "*TIE, NAME=T, POSITION TOLERANCE=-1.\nFOOT, FLOOR\n*STEP\n",
+     ":52: *TIE: found POSITION TOLERANCE=-1.; expected a distance of 0 or more"},
+    {"tie_surface", "*STEP\n", "*TIE, NAME=T\nFOOT, GROUND\n*STEP\n",
+     ":53: *TIE: found \"GROUND\"; expected the NAME of a *SURFACE"},
+    {"tie_third_surface", "*STEP\n", "*TIE, NAME=T\nFOOT, FLOOR, TOP\n*STEP\n",
+     ":53: *TIE: found 'TOP' behind the others; expected the slave and the master"},
     {"contact_adjust", "*CONTACT PAIR, INTERACTION=I", "*CONTACT PAIR, INTERACTION=I, ADJUST=0.2",
      ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
      "\"CONTACT PAIR\" runs without:\n  x.inp:48: *CONTACT PAIR: ADJUST=0.2. Gaps at the start would stay open."},

@@ -250,6 +250,25 @@ TEST(Translate, SupportsAndContactOfLaterStepsAreRefusedUnlessAccepted) {
             3U);
 }
 
+TEST(Translate, Ties) {
+  const Case plain = case_from(replaced(good_deck, "*BOUNDARY", "*TIE, NAME=GLUE, ADJUST=NO\nFOOT, FLOOR\n*BOUNDARY"));
+  ASSERT_EQ(plain.contacts.size(), 2U);
+  const CaseContact& tie = plain.contacts[0];
+  EXPECT_EQ(*tie.kind, CaseContact::Kind::tie);
+  EXPECT_EQ(*tie.name, "FOOT to FLOOR");
+  EXPECT_EQ(*tie.group, *plain.contacts[1].group);
+  EXPECT_EQ(*tie.master, *plain.contacts[1].master);
+  EXPECT_EQ(tie.tie_method, TieMethod::node_to_surface);
+  EXPECT_EQ(tie.far, FarNodes::refuse);
+  EXPECT_FALSE(tie.distance.has_value());
+  const Case wide =
+      case_from(replaced(good_deck, "*BOUNDARY",
+                         "*TIE, NAME=GLUE, POSITION TOLERANCE=0.2, TYPE=SURFACE TO SURFACE\nFOOT, FLOOR\n*BOUNDARY"));
+  EXPECT_EQ(wide.contacts[0].tie_method, TieMethod::surface_to_surface);
+  EXPECT_EQ(wide.contacts[0].far, FarNodes::leave);
+  EXPECT_EQ(wide.contacts[0].distance, 0.2);
+}
+
 TEST(Translate, NamedSupports) {
   const Case made = case_from(replaced(good_deck, "BASE, 1, 3", "BASE, YSYMM\nFALLING, 4, 6\n5, PINNED"));
   ASSERT_EQ(made.supports.size(), 4U);
@@ -267,17 +286,17 @@ TEST(Translate, GravityPressureAndMasses) {
 }
 
 TEST(Translate, WhatChangesThePhysicsIsRefusedAllAtOnceUnlessAccepted) {
-  const std::string deck = replaced(good_deck, "*BOUNDARY", "*TIE, NAME=T\nFOOT, FLOOR\n*FANCY STUFF\n*BOUNDARY");
+  const std::string deck = replaced(good_deck, "*BOUNDARY", "*EQUATION\n1\n*FANCY STUFF\n*BOUNDARY");
   try {
     translated(deck);
     FAIL();
   } catch (const CaseError& error) {
     const std::string what = error.what();
-    EXPECT_NE(what.find("x.inp:39: *TIE"), std::string::npos) << what;
+    EXPECT_NE(what.find("x.inp:39: *EQUATION"), std::string::npos) << what;
     EXPECT_NE(what.find("x.inp:41: *FANCY STUFF: an unknown keyword"), std::string::npos) << what;
-    EXPECT_NE(what.find("--accept \"TIE,FANCY STUFF\""), std::string::npos) << what;
+    EXPECT_NE(what.find("--accept \"EQUATION,FANCY STUFF\""), std::string::npos) << what;
   }
-  EXPECT_TRUE(has_note(translated(deck, {"tie", "FancyStuff"}), "*TIE: not carried out"));
+  EXPECT_TRUE(has_note(translated(deck, {"equation", "FancyStuff"}), "*EQUATION: not carried out"));
 }
 
 TEST(Translate, UnknownParametersAreRefusedAndThoseOfOutputNoted) {

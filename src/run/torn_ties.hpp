@@ -1,0 +1,24 @@
+// Ties that cannot hold: sides that part as the run begins, bodies in statics that nothing else holds.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "casefile/case.hpp"
+#include "contact/contact_geometry.hpp"
+#include "model/compatibility.hpp"
+
+namespace carom {
+
+/// CaseError where an initial displacement or velocity (dof vectors) parts what a tie keeps together: it would have to
+/// be torn back before the first step, by energy that nobody asked for. Rounding apart: 1e-9 of the largest entry.
+void refuse_torn_ties(const Case& given, const ContactGeometry& contact, std::span<const double> displacement,
+                      std::span<const double> velocity);
+
+/// CaseError where a tie joins two bodies that no support holds, which statics does not find the place of; and where a
+/// tie alone is to hold one by multipliers. `free_bodies`: nodes of the bodies that can move (FreeModes), of all
+/// `nodes`.
+void refuse_floating_ties(const Case& given, const ContactGeometry& contact, EnforcementKind enforcement,
+                          const std::vector<std::vector<Index>>& free_bodies, std::size_t nodes);
+
+}  // namespace carom

@@ -1,0 +1,54 @@
+// Bonds that hold exactly in what the mass alone decides: explicit steps, impulses, accelerations at the start.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "contact/closing_rows.hpp"
+#include "system/mass_solver.hpp"
+
+namespace carom {
+
+/// Where the bonds of the model are to be kept, and how fast their sides part.
+struct BondMotion {
+  double h = 0.0;                   ///< length of the step
+  std::span<const double> u, v, a;  ///< a holds the accelerations of the prescribed dofs
+};
+
+/// The forces lambda of the bonds, G their rows (all of them together: they act on each other), with
+///   (G M^-1 G^T) lambda = -(G M^-1 f + k_v G v / h + k_u G u / h^2),
+/// so that M a = f + G^T lambda keeps what G u = G v = 0 was at the start; the last terms take back what rounding and
+/// the mean accelerations of imposed motions leave (Baumgarte, Comput. Methods Appl. Mech. Eng. 1, 1972), slowly enough
+/// for every explicit scheme. The matrix is factored once, as sparse as the mass is diagonal. Bonds add no stiffness:
+/// the highest frequency of bodies that they join is at most the highest of the bodies (Rayleigh's quotient on fewer
+/// motions), so that the stable step stays. Forces are zero on dofs that are fixed on both sides.
+class BondedMass {
+ public:
+  /// Refers to the solver.
+  BondedMass(const System& system, MassSolver& mass);
+  ~BondedMass();
+  BondedMass(const BondedMass&) = delete;
+
+  bool any() const;
+  /// Gives the bonds among forces.rows the forces that they need beside all others of `forces`, their status and
+  /// history, and adds them to forces.contact; what they had before is taken off. Returns why there are none, "" when
+  /// there are.
+  std::string hold(const BondMotion& motion, Forces& forces);
+  /// The same of the forces that balance accelerations which are known, and another force on the left side:
+  ///   G M^-1 (M a + besides - f - G^T lambda) = 0.
+  std::string balance(std::span<const double> a, Forces& forces, std::span<const double> besides = {});
+  /// Forces on rows that are no bonds, and what they make of the bodies that bonds keep together:
+  ///   A^-1 = M^-1 - M^-1 G^T (G M^-1 G^T)^-1 G M^-1; mass_operator without bonds.
+  ContactOperator contact_operator();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// G^T s of the rows that are no bonds, as a dof vector.
+std::vector<double> force_of_contact(const ContactResponse& response, std::size_t dofs);
+
+}  // namespace carom
