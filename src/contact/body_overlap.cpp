@@ -12,6 +12,7 @@
 #include "contact/facet_geometry.hpp"
 #include "contact/facet_projection.hpp"
 #include "contact/rigid_shapes.hpp"
+#include "contact/skin_pieces.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_size.hpp"
 #include "model/node_lengths.hpp"
@@ -86,7 +87,6 @@ struct BodyOverlap::Impl {
   Impl(const Model& of, std::span<const double> u);
   void find_skin();
   void find_cells_at_skin();
-  void find_bodies();
   double node_length(Index n) const { return (*lengths)[static_cast<std::size_t>(n)]; }
   double reference_length(std::size_t cell) const;
   bool may_meet(std::size_t skin_node, Index cell) const;
@@ -96,10 +96,9 @@ struct BodyOverlap::Impl {
 };
 
 BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
-    : model(of), cells(of, {}), lengths(node_lengths(of)) {
+    : model(of), cells(of, {}), lengths(node_lengths(of)), body(connected_bodies(of)) {
   find_skin();
   find_cells_at_skin();
-  find_bodies();
   for (const Overlap& overlap : depths(u)) at_start.push_back(overlap.depth);
   for (const ContactDefinition& definition : model.contacts) {
     obstacle_nodes.emplace_back();
@@ -150,20 +149,6 @@ void BodyOverlap::Impl::find_cells_at_skin() {
   cells_at.resize(first_cell.back());
   std::vector<Index> next = first_cell;
   for_each([&](Index skin_node, Index k) { cells_at[next[skin_node]++] = k; });
-}
-
-void BodyOverlap::Impl::find_bodies() {
-  body.resize(model.mesh->node_count());
-  std::iota(body.begin(), body.end(), 0);
-  const auto root = [&](Index n) {
-    while (body[n] != n) n = body[n] = body[body[n]];
-    return n;
-  };
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    const std::span<const Index> nodes = cells.nodes(k);
-    for (const Index n : nodes) body[root(n)] = root(nodes[0]);
-  }
-  for (std::size_t n = 0; n < body.size(); ++n) body[n] = root(static_cast<Index>(n));
 }
 
 /// False for cells of the node and their neighbours.
