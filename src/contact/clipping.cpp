@@ -194,6 +194,7 @@ struct Clipping {
   void add_point(const Point& p, double area) const;
   void add_triangle(const Point& a, const Point& b, const Point& c) const;
   void add_polygon(const Polygon& polygon) const;
+  void add_star(const Polygon& polygon) const;
   void add_moment_points(const Polygon& polygon) const;
 };
 
@@ -208,9 +209,10 @@ void Clipping::add(const Polygon& polygon) {
   }
   extent.area += polygon.area();
   const Polygon part = rule.only_behind && is_divided ? part_behind(polygon, gap) : polygon;
-  const bool is_bent = slave.size == 4 || master.size == 4;
-  if (rule.is_high || (rule.only_behind && is_bent && extent.least_gap < 0.0))
+  if (!rule.only_behind)
     add_polygon(part);
+  else if (rule.is_high || ((slave.size == 4 || master.size == 4) && extent.least_gap < 0.0))
+    add_star(part);
   else
     add_moment_points(part);
 }
@@ -239,16 +241,38 @@ void Clipping::add_point(const Point& p, double area) const {
 }
 
 void Clipping::add_triangle(const Point& a, const Point& b, const Point& c) const {
-  static const std::array<TrianglePoint, 7> rule = radon_rule();
+  static const std::array<TrianglePoint, 7> of_triangle = radon_rule();
   const double area = area_of(a, b, c);
   if (!(area > 0.0)) return;
-  for (const auto& [l, weight] : rule)
+  for (const auto& [l, weight] : of_triangle)
     add_point({l[0] * a[0] + l[1] * b[0] + l[2] * c[0], l[0] * a[1] + l[1] * b[1] + l[2] * c[1]}, weight * area);
 }
 
 void Clipping::add_polygon(const Polygon& polygon) const {
   for (std::size_t i = 2; i < polygon.size; ++i)
     add_triangle(polygon.corner[0], polygon.corner[i - 1], polygon.corner[i]);
+}
+
+/// Triangles from the mean of the corners: whatever mirrors the polygon mirrors its points.
+void Clipping::add_star(const Polygon& polygon) const {
+  Point middle{};
+  for (std::size_t i = 0; i < polygon.size; ++i)
+    for (std::size_t k = 0; k < 2; ++k) middle[k] += polygon.corner[i][k] / static_cast<double>(polygon.size);
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    const Point &a = polygon.corner[i], &b = polygon.corner[i + 1 < polygon.size ? i + 1 : 0];
+    if (rule.is_high) {
+      add_triangle(middle, a, b);
+      continue;
+    }
+    const double area = area_of(middle, a, b);
+    if (!(area > 0.0)) continue;
+    const Point* corner[3] = {&middle, &a, &b};
+    for (const Point* near : corner) {  // 2/3 towards each corner: degree 2 (Strang and Fix 1973)
+      Point p{};
+      for (std::size_t k = 0; k < 2; ++k) p[k] = (middle[k] + a[k] + b[k] + 3.0 * (*near)[k]) / 6.0;
+      add_point(p, area / 3.0);
+    }
+  }
 }
 
 void Clipping::add_moment_points(const Polygon& polygon) const {
@@ -339,13 +363,18 @@ struct Stretch {
   }
 };
 
+/// A border that runs along a side counts when it lies a thousandth of the polygon inside: bodies of one width would
+/// else be pushed by what round-off makes of their common border, on one side and not on the other.
 Stretch inside(const Point& a, const Point& b, const Polygon& polygon) {
-  constexpr double inset = 1e-9;  // of the polygon's area, as the area over a side: a border that runs along a side
-  const double least = inset * polygon.area();
+  constexpr double inset = 1e-9, of_parallels = 1e-3, parallel = 0.01;  // of the polygon's area; sine of the angle
   Stretch stretch;
   for (std::size_t i = 0; i < polygon.size; ++i) {
     const Point &p = polygon.corner[i], &q = polygon.corner[i + 1 < polygon.size ? i + 1 : 0];
-    stretch.keep_positive(area_of(p, q, a) - least, area_of(p, q, b) - least);
+    const double at_a = area_of(p, q, a), at_b = area_of(p, q, b);
+    const double side = std::hypot(q[0] - p[0], q[1] - p[1]), way = std::hypot(b[0] - a[0], b[1] - a[1]);
+    const bool is_along = 2.0 * std::abs(at_b - at_a) < parallel * side * way;
+    const double least = (is_along ? of_parallels : inset) * polygon.area();
+    stretch.keep_positive(at_a - least, at_b - least);
   }
   return stretch;
 }
@@ -361,7 +390,7 @@ ParentPoint on_edge(int size, std::size_t edge, double s) {
 
 void add_end(const PlacedFacet& slave, const SlavePlane& plane, const PlacedFacet& master, std::size_t end,
              std::vector<BorderPoint>& points) {
-  constexpr double inside_by = 1.0 - 1e-9;
+  constexpr double inside_by = 1.0 - 2e-3;  // as along the sides of polygons
   const PlacedFacet seen = plane.seen(master);
   const double half = 0.5 * measure(slave), at = seen.x[end][0], gap = seen.x[end][2];
   if (!(std::abs(at) < inside_by * half) || !(gap < 0.0)) return;
@@ -380,7 +409,7 @@ void add_border(const PlacedFacet& slave, const PlacedFacet& master, std::size_t
     return;
   }
   const PlacedFacet seen_slave = plane.seen(slave), seen = plane.seen(master);
-  const SeenFacet facet{BilinearPatch(seen_slave), slave.size};
+  const SeenFacet over_slave{BilinearPatch(seen_slave), slave.size};
   const auto next = (edge + 1) % static_cast<std::size_t>(master.size);
   const Point a{seen.x[edge][0], seen.x[edge][1]}, b{seen.x[next][0], seen.x[next][1]};
   Point middle{};
@@ -391,7 +420,7 @@ void add_border(const PlacedFacet& slave, const PlacedFacet& master, std::size_t
   const double side = area_of(a, b, middle) > 0.0 ? 1.0 : -1.0;  // the master lies on the left: outward is the right
   const Vec3 outward =
       add(scaled(plane.e_1, side * (b[1] - a[1]) / length), scaled(plane.e_2, -side * (b[0] - a[0]) / length));
-  const double gap_a = seen.x[edge][2] - facet.height(a), gap_b = seen.x[next][2] - facet.height(b);
+  const double gap_a = seen.x[edge][2] - over_slave.height(a), gap_b = seen.x[next][2] - over_slave.height(b);
   const Shadow shadow(seen_slave);
   for (std::size_t i = 0; i < shadow.count; ++i) {
     Stretch stretch = inside(a, b, shadow.part[i]);
@@ -400,9 +429,9 @@ void add_border(const PlacedFacet& slave, const PlacedFacet& master, std::size_t
     for (const QuadraturePoint& point : rule) {
       const double s = 0.5 * (stretch.low + stretch.high) + 0.5 * (stretch.high - stretch.low) * point.x;
       const Point p{a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])};
-      const std::optional<ParentPoint> on_slave = facet.over(p);
+      const std::optional<ParentPoint> on_slave = over_slave.over(p);
       if (!on_slave) continue;
-      const double gap = seen.x[edge][2] + s * (seen.x[next][2] - seen.x[edge][2]) - facet.height(p);
+      const double gap = seen.x[edge][2] + s * (seen.x[next][2] - seen.x[edge][2]) - over_slave.height(p);
       if (gap < 0.0)
         points.push_back({*on_slave, on_edge(master.size, edge, s),
                           0.5 * point.weight * (stretch.high - stretch.low) * length, gap, outward});

@@ -29,12 +29,15 @@ int add_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector
 
 /// Which points stand for an overlap.
 struct OverlapRule {
-  /// False: three points a polygon, c + sqrt(2) L (cos t, sin t) at t = 90, 210 and 330 degrees, c being its centroid
-  /// and L L^T = S its second moments over its area: degree 2 exactly, whatever its corners, and always inside
-  /// (Kannan, Lovasz and Simonovits, Discrete Comput. Geom. 13, 1995: a convex body holds sqrt(1 + 2 / n) times the
-  /// ball of its second moments). True: 7 points a triangle, as above.
+  /// True: 7 points a triangle, as above. False, where one of the facets is a quadrilateral and the overlap is behind:
+  /// 3 points, degree 2, in each triangle from the polygon's middle, so that what mirrors it mirrors them. Else three
+  /// points a polygon, c + sqrt(2) L (cos t, sin t) at t = 90, 210 and 330 degrees, c being its centroid and L L^T = S
+  /// its second moments over its area: degree 2 exactly, whatever its corners, and always inside (Kannan, Lovasz and
+  /// Simonovits, Discrete Comput. Geom. 13, 1995: a convex body holds sqrt(1 + 2 / n) times the ball of its second
+  /// moments).
   bool is_high = true;
-  /// Overlaps that the gap 0 divides have points where it is negative alone.
+  /// Overlaps that the gap 0 divides have points where it is negative alone. The triangles of the rule of 7 points then
+  /// are those from the polygon's middle, too.
   bool only_behind = false;
 };
 

@@ -113,7 +113,8 @@ FaceOverlaps::FaceOverlaps(const Model& model, const Surface& slave, const Surfa
     : X_(model.mesh->coordinates),
       slave_(slave),
       size_(std::max(mean_facet_size(X_, slave.facets), mean_facet_size(X_, master.facets))),
-      depth_(self ? half_thickness(X_, master.facets, bodies_of_nodes(model), size_) : std::vector<double>(master.facets.size(), size_)),
+      depth_(self ? half_thickness(X_, master.facets, bodies_of_nodes(model), size_)
+                  : std::vector<double>(master.facets.size(), size_)),
       slave_faces_(parent_faces(*model.mesh, slave.facets)),
       master_faces_(parent_faces(*model.mesh, master.facets)),
       beside_(facets_beside(master.facets)),

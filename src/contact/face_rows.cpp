@@ -11,6 +11,7 @@
 namespace carom {
 namespace {
 
+constexpr double round_off = 1e-12;   // of the facet size: faces that lie on each other are seen whole
 constexpr double least_share = 1e-9;  // of a node's measure: less is round-off of an edge
 
 /// Points of one slave facet as one of its corners sees them.
@@ -40,7 +41,9 @@ class FaceRows : public RowMaker {
     Index master = -1;
     double deepest = INFINITY;
 
-    bool is_closed() const { return second > 0.0; }
+    double touching = 0.0;  ///< gaps above minus this are round-off
+
+    bool is_closed() const { return second > 0.0 && least_gap < -touching; }
   };
 
   /// Blocks of a row in the making.
@@ -96,6 +99,7 @@ void FaceRows::append(const ContactMotion& motion, Index first_slot, ConstraintR
 
 FaceRows::Sums FaceRows::sums_of(const Node& node) const {
   Sums sums;
+  sums.touching = round_off * overlaps_.size();
   for (const CornerOf& at : node.corners) {
     for (const FacePoint& q : points_[at.facet].points) {
       const double w = q.weight * q.share[at.corner], depth = std::max(0.0, -q.gap);
