@@ -245,7 +245,7 @@ void FaceOverlaps::add_borders(const Slave& slave, const Met& met, const Contact
     for (const BorderPoint& at : border) {
       const double gap = s * at.gap;
       FacePoint point;
-      point.weight = 0.5 * at.length * slave.measure_at(at.slave) * width_at(slave, at.slave) * gap * gap;
+      point.weight = at.length * slave.measure_at(at.slave) * width_at(slave, at.slave);
       point.gap = gap;
       point.distance = at.gap;
       point.master = met.master;

@@ -31,8 +31,8 @@ struct FacePoint {
 };
 
 /// The points of one slave facet. Points of `border` stand where an overlap ends under it at a border of the other
-/// surface: their gradient is that of the way of the border outward over the slave, and their weight w l g~^2 / 2 what
-/// the integral of g~^2 / 2 gains by it.
+/// surface: their gradient is that of the way of the border outward over the slave, their weight the reference measure
+/// that a unit of that way gains.
 struct FacetPoints {
   Vec3 normal{};               ///< n_s
   std::array<Vec3, 4> turn{};  ///< dn_s = - sum_b turn_b (n_s . du_b)

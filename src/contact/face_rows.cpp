@@ -35,15 +35,12 @@ class FaceRows : public RowMaker {
   };
   /// What the points about a node amount to.
   struct Sums {
-    double area = 0.0, first = 0.0, second = 0.0;  ///< sum of w N^ <- s g>^k, of all points for k = 0
+    double area = 0.0, force = 0.0, energy = 0.0;  ///< sum of w N^ times 1, f(<- s g>) and e(<- s g>)
+    double depth = 0.0;                            ///< d_A; 0: open
     double least_gap = INFINITY;
-    Vec3 along{};  ///< of the gap's gradient, over the own nodes
-    Index master = -1;
-    double deepest = INFINITY;
+    Index master = -1;  ///< facet of the deepest point
 
-    double touching = 0.0;  ///< gaps above minus this are round-off
-
-    bool is_closed() const { return second > 0.0 && least_gap < -touching; }
+    bool is_closed() const { return depth > 0.0; }
   };
 
   /// Blocks of a row in the making.
@@ -62,6 +59,7 @@ class FaceRows : public RowMaker {
 
   Surface slave_;
   ContactLaw law_;
+  RowLaw unit_;  ///< the spring e(d), f(d) of a unit of area, over eps_N
   Index source_;
   std::vector<Node> nodes_;
   mutable FaceOverlaps overlaps_;
@@ -71,7 +69,12 @@ class FaceRows : public RowMaker {
 
 FaceRows::FaceRows(const Model& model, const Surface& slave, const Surface& master, bool self, const ContactLaw& law,
                    Index source)
-    : slave_(slave), law_(law), source_(source), overlaps_(model, slave, master, self), points_(slave.facets.size()) {
+    : slave_(slave),
+      law_(law),
+      unit_{.eps_N = 1.0, .linear_depth = law.linear_depth},
+      source_(source),
+      overlaps_(model, slave, master, self),
+      points_(slave.facets.size()) {
   std::map<Index, std::size_t> number;
   for (const auto& [n, measure] : nodal_measures(model.mesh->coordinates, slave_)) {
     number[n] = nodes_.size();
@@ -97,29 +100,40 @@ void FaceRows::append(const ContactMotion& motion, Index first_slot, ConstraintR
   });
 }
 
+/// The depth at which a spring of this law has the energy `energy`: Newton's method from above, where the energy is
+/// convex.
+double depth_of_energy(const RowLaw& law, double energy) {
+  double d = std::sqrt(2.0 * energy / law.eps_N);
+  for (int i = 0; i < 60; ++i) {
+    const double step = (law.spring_energy(d) - energy) / law.spring_force(d);
+    d -= step;
+    if (!(step > 1e-15 * d)) break;
+  }
+  return d;
+}
+
 FaceRows::Sums FaceRows::sums_of(const Node& node) const {
   Sums sums;
-  sums.touching = round_off * overlaps_.size();
   for (const CornerOf& at : node.corners) {
     for (const FacePoint& q : points_[at.facet].points) {
       const double w = q.weight * q.share[at.corner], depth = std::max(0.0, -q.gap);
       if (!(w > 0.0)) continue;
       sums.area += w;
-      sums.first += w * depth;
-      sums.second += w * depth * depth;
-      sums.least_gap = std::min(sums.least_gap, q.gap);
-      if (q.gap >= sums.deepest) continue;
-      sums.deepest = q.gap;
+      sums.force += w * unit_.spring_force(depth);
+      sums.energy += w * unit_.spring_energy(depth);
+      if (q.gap >= sums.least_gap) continue;
+      sums.least_gap = q.gap;
       sums.master = q.master;
     }
   }
+  if (sums.least_gap < -round_off * overlaps_.size()) sums.depth = depth_of_energy(unit_, sums.energy / node.measure);
   return sums;
 }
 
 /// Calls use(facet, point, weight of the point's gap in the gradient of the row's).
 template <class Use>
 void FaceRows::for_each_weight(const Node& node, const Sums& sums, const Use& use) const {
-  const double depth = std::sqrt(sums.second / node.measure);
+  const double whole = node.measure * unit_.spring_force(sums.depth);
   for (const CornerOf& at : node.corners) {
     const FacetPoints& facet = points_[at.facet];
     for (const FacePoint& q : facet.points) {
@@ -128,7 +142,7 @@ void FaceRows::for_each_weight(const Node& node, const Sums& sums, const Use& us
       if (!sums.is_closed()) {
         use(at.facet, facet, q, w / sums.area);
       } else if (q.gap < 0.0) {
-        use(at.facet, facet, q, -w * q.gap / (node.measure * depth));
+        use(at.facet, facet, q, w * unit_.spring_force(-q.gap) / whole);
       }
     }
   }
@@ -148,9 +162,9 @@ void FaceRows::add_row(const Node& node, Index slot, const ContactMotion& motion
   if (!(length > 1e-6 * weight)) return;
   // Where nothing penetrates the row stands for what is covered.
   const double measure = sums.is_closed() ? node.measure : std::min(sums.area, node.measure);
-  const double gap = sums.is_closed() ? -std::sqrt(sums.second / node.measure) : sums.least_gap;
+  const double gap = sums.is_closed() ? -sums.depth : sums.least_gap;
   RowLaw law = row_law(law_, measure);
-  if (sums.is_closed()) law.mu *= std::min(1.0, sums.first / std::sqrt(node.measure * sums.second));
+  if (sums.is_closed()) law.mu *= std::min(1.0, sums.force / (node.measure * unit_.spring_force(sums.depth)));
   rows.add_row(gap, scaled(along, 1.0 / length), scaled(position, 1.0 / weight), measure, law, source_);
   rows.facet.back() = sums.master;
   add_blocks(node, sums, rows);
@@ -172,10 +186,10 @@ void FaceRows::add_blocks(const Node& node, const Sums& sums, ConstraintRows& ro
   for_each_weight(node, sums,
                   [&](std::size_t f, const FacetPoints&, const FacePoint& q, double w) { add(f, q, w, w / total); });
   if (sums.is_closed()) {
-    const double depth = std::sqrt(sums.second / node.measure);
+    const double whole = node.measure * unit_.spring_force(sums.depth);
     for (const CornerOf& at : node.corners)
       for (const FacePoint& q : points_[at.facet].border)
-        add(at.facet, q, -q.weight * q.share[at.corner] / (node.measure * depth), 0.0);
+        add(at.facet, q, -q.weight * unit_.spring_energy(-q.gap) * q.share[at.corner] / whole, 0.0);
   }
   blocks.own.append_to(rows);
   blocks.others.append_to(rows);

@@ -15,20 +15,22 @@ namespace carom {
 ///          face each other; pairs of a lesser c do not count,
 ///   w_q  the area (length times thickness, or 2 pi X) in the reference configuration,
 ///   N^_A the shape functions of the facet, N_a those of the face of the cell that it is a piece of (ParentFace).
-/// With D_A the node's share of its surface (nodal_measures) the row's depth is the mean square
-///   d_A = sqrt(sum_q w_q N^_A <- s_q g_q>^2 / D_A),  gap = - d_A,
-/// and its normal blocks are the gradient of that, the turning of n_s and n_m included, at held weights. A spring eps
-/// D_A of every row then is the potential sum_q w_q (eps / 2) <- s g>^2 itself, since the N^_A add up to 1: uniform
-/// pressure gives the consistent nodal forces of both sides, between meshes that match or not, of first and second
-/// order (cells' own N_a), and a face that is met somewhere between its nodes is met there. Force and moment of every
-/// row are in balance. The limit of friction is mu times sum_q w_q N^_A (eps <- s g>) (RowLaw::mu is smaller than the
-/// contact's by S_1 / sqrt(D_A S_2), S_k = sum_q w_q N^_A <- s g>^k), and it acts at the points of the pressure.
+/// With D_A the node's share of its surface (nodal_measures), f(d) and e(d) the force and energy of the contact's
+/// spring over its stiffness (RowLaw) the row's depth is the mean
+///   d_A: e(d_A) = sum_q w_q N^_A e(<- s_q g_q>) / D_A,  gap = - d_A,
+/// the mean square where springs do not harden, and its normal blocks are the gradient of that, the turning of n_s and
+/// n_m included, at held weights. A spring eps D_A of every row then is the potential sum_q w_q eps e(<- s g>) itself,
+/// since the N^_A add up to 1: uniform pressure gives the consistent nodal forces of both sides, between meshes that
+/// match or not, of first and second order (cells' own N_a), and a face that is met somewhere between its nodes is met
+/// there. Force and moment of every row are in balance. The limit of friction is mu times sum_q w_q N^_A eps f(<- s g>)
+/// (RowLaw::mu is smaller than the contact's by the quotient of that and eps D_A f(d_A)), and it acts at the points of
+/// the pressure.
 /// Where nothing penetrates, a row within reach is open by the least of s g, over the area that is covered.
 ///
 /// What comes under a facet from the side, deeper than 0.02 facet sizes, does not count there: it is the faces at the
 /// side that meet. Deeper counts what was in front at the beginning of the step, or where a corner of the facet was
 /// behind the same facet or one that goes on with it then. Ends of overlaps at borders of the other surface, where the
-/// depth is not zero, move with that: the integral changes by w g~^2 / 2 times the way of the border over the slave,
+/// depth is not zero, move with that: the integral changes by w e(-g~) times the way of the border over the slave,
 /// which is part of the gradient (the transport theorem), so that the force is that of the potential there, too. law:
 /// that of one pass. (Segments: Puso and Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004.)
 std::unique_ptr<RowMaker> face_rows(const Model& model, const Surface& slave, const Surface& master, bool self,

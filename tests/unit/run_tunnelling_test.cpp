@@ -88,7 +88,7 @@ TEST(Tunnelling, OfBlocksThatCrushEachOtherIsPrevented) {
   for (const auto& [speed, end] : {std::pair{5.0, 0.04}, {10.0, 0.02}}) {
     SCOPED_TRACE(speed);
     const TemporaryCase one(
-        blocks(speed, pair("two_pass"), fmt::format("kind = \"central_differences\"\n[time]\nend = {}", end)));
+        blocks(speed, pair("faces"), fmt::format("kind = \"central_differences\"\n[time]\nend = {}", end)));
     EXPECT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
     EXPECT_FALSE(has_passed(one));
   }
