@@ -230,7 +230,11 @@ void check_references(const Case& given) {
 
 void choose_methods(Case& given) {
   using Kind = CaseContact::Kind;
-  const PairMethod method = is_all_penalty(given) ? PairMethod::faces : PairMethod::two_pass;
+  const auto is_static = [](const CaseScheme& scheme) { return *scheme.kind == SchemeKind::statics; };
+  const bool are_static =
+      is_static(given.scheme) &&
+      std::all_of(given.stages.begin(), given.stages.end(), [&](const CaseStage& s) { return is_static(s.scheme); });
+  const PairMethod method = are_static && is_all_penalty(given) ? PairMethod::faces : PairMethod::two_pass;
   for (CaseContact& contact : given.contacts) {
     const bool is_pair = *contact.kind == Kind::pair || *contact.kind == Kind::self || *contact.kind == Kind::all;
     if (is_pair && !contact.method) contact.method = Located<PairMethod>{method, contact.where};

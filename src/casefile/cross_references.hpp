@@ -9,7 +9,7 @@ namespace carom {
 /// checks lie within the run, and that nothing needs an [exact] that is not there. Throws CaseError.
 void check_references(const Case& given);
 
-/// Fills in the methods of pairs that name none: faces where all stages enforce contact by penalty, else two_pass.
+/// Fills in the methods of pairs that name none: faces in statics by penalty alone, else two_pass.
 void choose_methods(Case& given);
 
 }  // namespace carom

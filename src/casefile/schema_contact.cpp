@@ -35,7 +35,7 @@ void add_surfaces(SectionSchema<CaseContact>& s) {
         "coarse curved face sinks in by part of its rise.",
         {.choices = {"node_to_surface", "two_pass", "surface_to_surface", "faces"},
          .kinds = pairs,
-         .default_phrase = "faces where all enforcement is penalty, else two_pass"});
+         .default_phrase = "faces in statics with penalty alone, else two_pass"});
 }
 
 void add_law(SectionSchema<CaseContact>& s) {

@@ -136,7 +136,10 @@ void EdgeRows::find_behind(const ContactMotion& motion, Index first_slot) const 
 }
 
 std::span<const EdgeRows::Behind> EdgeRows::behind_of(Index i) const {
-  const auto [begin, end] = std::ranges::equal_range(behind_, i, {}, &Behind::first);
+  const auto begin = std::lower_bound(behind_.begin(), behind_.end(), i,
+                                      [](const Behind& behind, Index first) { return behind.first < first; });
+  const auto end =
+      std::upper_bound(begin, behind_.end(), i, [](Index first, const Behind& behind) { return first < behind.first; });
   return {begin, end};
 }
 

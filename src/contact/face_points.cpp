@@ -169,8 +169,11 @@ bool FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
   // Without a history, at the start, all counts that is not the far side of a thin part.
   const double most = motion.history.empty() ? depth_[static_cast<std::size_t>(g)] : sideways_depth * size_;
   const bool is_deep = extent.least_gap < -most;
+  // A sliver ten times as deep as wide belongs to what passes by the border of the other facet.
+  const double length = slave.placed.size == 2 ? 1.0 : std::sqrt(measure(slave.placed));
+  const bool is_wide = extent.area >= -0.1 * extent.least_gap * length;
   if (extent.least_gap <= face_look * size_ &&
-      (!is_deep || was_behind(slave, g, motion) || was_in_front(slave.f, g, overlap[before], motion))) {
+      (!is_deep || (is_wide && was_behind(slave, g, motion)) || was_in_front(slave.f, g, overlap[before], motion))) {
     met.push_back({g, master, frame, facing, extent.area, before, overlap.size()});
     return true;
   }
