@@ -12,6 +12,8 @@ constexpr double flat = 0.05;             // b . n below which a facet takes its
 constexpr double nearly_parallel = 1e-3;  // sin^2 of the angle between the edges
 constexpr double least_factor = 1e-4;     // smaller ones make no row: 1e-8 of the force
 
+}  // namespace
+
 /// A vector by each of those that the pair is a function of: r = a_1 - a_2, d_1, d_2, and per edge and facet the way
 /// from the edge's first node to the mean of the facet's other nodes.
 struct PairGradient {
@@ -33,15 +35,18 @@ struct PairGradient {
   }
 };
 
+/// sqrt(S(u)), and the slope of its logarithm.
+struct PairFade {
+  double value, slope;
+};
+
+namespace {
+
 void add_to(Vec3& sum, const Vec3& v, double w) {
   sum = add(sum, scaled(v, w));
 }
 
-/// sqrt(S(u)), and the slope of its logarithm.
-struct Fade {
-  double value, slope;
-};
-Fade fade(double u) {
+PairFade fade(double u) {
   if (u >= 1.0) return {1.0, 0.0};
   if (!(u > 0.0)) return {0.0, 0.0};
   return {u * std::sqrt(3.0 - 2.0 * u), 1.0 / u - 1.0 / (3.0 - 2.0 * u)};
@@ -67,7 +72,7 @@ class EdgePairing {
   bool take_end(const std::array<EdgeEnd, 2>& ends, std::size_t edge);
   bool take_facets();
   void add_factor();
-  bool take(const Fade& part) {
+  bool take(const PairFade& part) {
     pair_.factor *= part.value;
     return pair_.factor > least_factor;
   }
@@ -104,7 +109,7 @@ bool EdgePairing::take_end(const std::array<EdgeEnd, 2>& ends, std::size_t edge)
   const double at = edge == 0 ? pair_.s : pair_.t;
   for (std::size_t end = 0; end < 2; ++end) {
     const double width = ends[end].width, from = end == 0 ? at : 1.0 - at;
-    const Fade part = fade(((ends[end].goes_on ? width : 0.0) + from) / (2.0 * width));
+    const PairFade part = fade(((ends[end].goes_on ? width : 0.0) + from) / (2.0 * width));
     if (!take(part)) return false;
     parameter_slope_[edge] += (end == 0 ? 1.0 : -1.0) * part.slope / (2.0 * width);
   }
@@ -130,7 +135,7 @@ bool EdgePairing::take_facets() {
   for (std::size_t i = 0; i < 2; ++i) {
     const double sign = i == 0 ? 1.0 : -1.0;
     for (std::size_t f = 0; f < 2; ++f) {
-      const Fade part = fade(sign * dot(b_[i][f], pair_.normal) / flat);
+      const PairFade part = fade(sign * dot(b_[i][f], pair_.normal) / flat);
       if (!take(part)) return false;
       facet_slope_[i][f] = sign * part.slope / flat;
     }

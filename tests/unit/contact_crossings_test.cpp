@@ -177,9 +177,10 @@ TEST(SurfaceCrossings, OfTouchingBlocksAreNone) {
   for (const double x : {0.0, 1.0, 0.3, 2.0})
     for (const double y : {0.0, 1.0, 0.7, 2.0})
       for (const double z : {0.0, 1.0, 0.4, 2.0})
-        if (std::max({x, y, z}) == 2.0)
+        if (std::max({x, y, z}) == 2.0) {
           EXPECT_NEAR(depth(surfaces, blocks.at({stay, shift({x, y, z - 100})})), 0.0, round_off)
               << x << " " << y << " " << z;
+        }
 }
 
 // A pin in its hole, with 16 and 12 facets of the same radius: no deeper than the facets' own error, the sagitta of the

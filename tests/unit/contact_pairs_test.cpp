@@ -287,7 +287,9 @@ TEST(NodeRows, KeepTheirSlotsWhileSlidingOverFacetsAndLoseThemBeyondTheRim) {
         ASSERT_GE(r, 0) << x;
         const double beyond = std::max(0.0, x - 1.0) / 0.02, share = std::pow(1.0 - beyond * beyond, 2);
         EXPECT_NEAR(rows->gap_at(static_cast<std::size_t>(r), u), -depth * share, round_off);
-        if (x <= 1.0) EXPECT_NEAR(rows->normal[static_cast<std::size_t>(r)][2], 1.0, round_off);
+        if (x <= 1.0) {
+          EXPECT_NEAR(rows->normal[static_cast<std::size_t>(r)][2], 1.0, round_off);
+        }
       } else if (x > 1.02 + 1e-9) {
         EXPECT_LT(r, 0) << x;
       }
