@@ -72,6 +72,8 @@ void for_each_share(const FeatureEdge& edge, const EdgeShares& shares, const F& 
   }
 }
 
+constexpr double least_held = 0.5;  // factor of a pair that multipliers may hold
+
 class EdgeRows : public RowMaker {
  public:
   EdgeRows(std::vector<FeatureEdge> first, std::vector<FeatureEdge> second, bool self, double size,
@@ -81,7 +83,7 @@ class EdgeRows : public RowMaker {
         self_(self),
         size_(size),
         law_(law),
-        factor_(law.eps_N ? PairFactor::moves : PairFactor::held),
+        factor_(law.eps_N && !law.has_multipliers ? PairFactor::moves : PairFactor::held),
         source_(source),
         broad_phase_(segments_of(first_), segments_of(second_), size, 0.5 * size) {}
   std::size_t slots() const override { return slots_per_segment * first_.size(); }
@@ -175,7 +177,9 @@ void EdgeRows::find(Index i, const ContactMotion& motion, std::vector<Found>& fo
   for (const Index j : candidates) {
     if ((self_ && j <= i) || are_neighbours(first_[i], second_[j])) continue;
     const auto pair = edge_pair(placed, first_[i].end, place(second_[j], motion.x), second_[j].end, factor_);
-    if (pair && counts(i, j, *pair, motion)) found.push_back({j, *pair});
+    // Multipliers hold what sticks out: rows of edges that lie nearly flat would depend on those of the faces.
+    const double least = factor_ == PairFactor::held ? least_held : 0.0;
+    if (pair && pair->factor >= least && counts(i, j, *pair, motion)) found.push_back({j, *pair});
   }
 }
 

@@ -112,6 +112,7 @@ struct ContactLaw {
   double linear_depth = std::numeric_limits<double>::infinity();  ///< below, the spring of the penalty hardens
   double mu = 0.0;                                                ///< Coulomb's coefficient
   double restitution = 0.0;                                       ///< Newton's coefficient e, for impulses
+  bool has_multipliers = false;  ///< some stage enforces it by multipliers or impulses, beside springs or without
 };
 
 /// Contact by HEXA8 cells whose two opposite faces coincide: traction = eps_N x penetration (force per area).

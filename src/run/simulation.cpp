@@ -38,6 +38,9 @@ Location contacts_place(const Case& given) {
 bool needs_stiffness(const CaseScheme& scheme) {
   return traits(**scheme.enforcement).takes_stiffness;
 }
+bool has_multipliers(const CaseScheme& scheme) {
+  return **scheme.enforcement != EnforcementKind::penalty;
+}
 /// Explicit steps tie exactly.
 bool ties_by_springs(const CaseScheme& scheme) {
   return needs_stiffness(scheme) && !is_explicit(*scheme.kind);
@@ -52,6 +55,8 @@ bool any_stage(const Case& given, bool (*does)(const CaseScheme& scheme)) {
 Model make_model(const Case& given, std::shared_ptr<const Mesh> mesh, std::optional<TakenState>& taken,
                  std::vector<std::string>& notes) {
   Model model = build_model(given, std::move(mesh));
+  for (ContactDefinition& contact : model.contacts)
+    if (auto* pair = std::get_if<PairContact>(&contact)) pair->law.has_multipliers = any_stage(given, has_multipliers);
   taken = take_over(given, model);
   const auto choose = [&](std::vector<std::string> (*choice)(Model&)) {
     const auto more = at_section(contacts_place(given), "contact", [&] { return choice(model); });
