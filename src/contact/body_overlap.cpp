@@ -12,9 +12,9 @@
 #include "contact/facet_geometry.hpp"
 #include "contact/facet_projection.hpp"
 #include "contact/rigid_shapes.hpp"
-#include "contact/skin_pieces.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_size.hpp"
+#include "model/bodies.hpp"
 #include "model/node_lengths.hpp"
 #include "model/outer_facets.hpp"
 #include "parallel/threads.hpp"
@@ -96,7 +96,7 @@ struct BodyOverlap::Impl {
 };
 
 BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
-    : model(of), cells(of, {}), lengths(node_lengths(of)), body(connected_bodies(of)) {
+    : model(of), cells(of, {}), lengths(node_lengths(of)), body(bodies_of_nodes(of)) {
   find_skin();
   find_cells_at_skin();
   for (const Overlap& overlap : depths(u)) at_start.push_back(overlap.depth);

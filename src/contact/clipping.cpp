@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -201,17 +202,19 @@ struct Clipping {
 /// The polygon with what there is of it over its whole extent.
 void Clipping::add(const Polygon& polygon) {
   std::array<double, 16> gap{};
+  double least = std::numeric_limits<double>::infinity();
   bool is_divided = false;
   for (std::size_t i = 0; i < polygon.size; ++i) {
     gap[i] = gap_over(polygon.corner[i]);
-    extent.least_gap = std::min(extent.least_gap, gap[i]);
+    least = std::min(least, gap[i]);
     is_divided = is_divided || (gap[i] < 0.0) != (gap[0] < 0.0);
   }
+  extent.least_gap = std::min(extent.least_gap, least);
   extent.area += polygon.area();
   const Polygon part = rule.only_behind && is_divided ? part_behind(polygon, gap) : polygon;
   if (!rule.only_behind)
     add_polygon(part);
-  else if (rule.is_high || ((slave.size == 4 || master.size == 4) && extent.least_gap < 0.0))
+  else if (rule.is_high || ((slave.size == 4 || master.size == 4) && least < 0.0))
     add_star(part);
   else
     add_moment_points(part);

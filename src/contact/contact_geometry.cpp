@@ -12,6 +12,7 @@
 #include "contact/interface_rows.hpp"
 #include "contact/obstacle_rows.hpp"
 #include "contact/pair_rows.hpp"
+#include "contact/response.hpp"
 #include "contact/row_maker.hpp"
 #include "contact/tie_rows.hpp"
 #include "math/vec3.hpp"
@@ -228,9 +229,7 @@ std::vector<Penetration> ContactGeometry::initial_penetrations(std::span<const d
 
 std::vector<RowHistory> ContactGeometry::first_history(std::span<const double> u) const {
   std::vector<RowHistory> history(slots());
-  const auto rows = rows_at(u, u);
-  for (std::size_t r = 0; r < rows->size(); ++r)
-    if (rows->gap_at(r, u) < 0.0) history[static_cast<std::size_t>(rows->slot[r])].facet = rows->facet[r];
+  mark_behind(*rows_at(u, u), u, history);
   return history;
 }
 

@@ -20,23 +20,28 @@ struct FacePoint {
   double weight = 0.0;            ///< reference measure
   double gap = 0.0;               ///< s g
   double distance = 0.0;          ///< g, from x_s along n_s to x_m
-  Index master = -1;              ///< facet of the other surface
+  std::size_t master = 0;         ///< number in FacetPoints::masters
   std::array<double, 4> share{};  ///< N^ of the slave facet's corners
   std::array<double, 9> N{}, N_master{};
   Vec3 along{}, of_turn{};
   double master_turn = 0.0;
-  Vec3 master_normal{};                  ///< n_m
-  std::array<Vec3, 4> turn_of_master{};  ///< turn_c
-  Vec3 position{};                       ///< x_s
+  Vec3 position{};  ///< x_s
 };
 
 /// The points of one slave facet. Points of `border` stand where an overlap ends under it at a border of the other
 /// surface: their gradient is that of the way of the border outward over the slave, their weight the reference measure
 /// that a unit of that way gains.
 struct FacetPoints {
+  /// A facet of the other surface that some of the points lie on.
+  struct Master {
+    Index facet;
+    Vec3 normal;               ///< n_m
+    std::array<Vec3, 4> turn;  ///< turn_c
+  };
   Vec3 normal{};               ///< n_s
   std::array<Vec3, 4> turn{};  ///< dn_s = - sum_b turn_b (n_s . du_b)
   double least_gap = 0.0;      ///< of all of them
+  std::vector<Master> masters;
   std::vector<FacePoint> points, border;
 };
 
@@ -60,15 +65,14 @@ class FaceOverlaps {
  private:
   struct Slave;
   struct Met;
-  bool add_master(const Slave& slave, Index g, const ContactMotion& motion, std::vector<Met>& met,
-                  std::vector<OverlapPoint>& overlap) const;
+  struct Work;
+  void add_master(const Slave& slave, Index g, const ContactMotion& motion, Work& work) const;
   bool was_behind(const Slave& slave, Index g, const ContactMotion& motion) const;
-  bool was_in_front(std::size_t f, Index g, const OverlapPoint& point, const ContactMotion& motion) const;
-  void hide_layers(const Slave& slave, std::span<const Met> met, std::vector<OverlapPoint>& overlap) const;
-  void add_borders(const Slave& slave, const Met& met, const ContactMotion& motion, FacetPoints& found) const;
+  void add_borders(const Slave& slave, const Work& work, std::size_t k, const ContactMotion& motion,
+                   FacetPoints& found) const;
   double width_at(const Slave& slave, const ParentPoint& at) const;
-  bool ends_at(const Met& met, std::size_t edge, const ContactMotion& motion) const;
-  void add_point(const Slave& slave, const Met& met, const OverlapPoint& at, const ContactMotion& motion,
+  bool ends_at(Index master, const Vec3& normal, std::size_t edge, const ContactMotion& motion) const;
+  void add_point(const Slave& slave, double facing, const OverlapPoint& at, const ContactMotion& motion,
                  FacetPoints& found) const;
 
   std::span<const Vec3> X_;

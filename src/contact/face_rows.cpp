@@ -123,7 +123,7 @@ FaceRows::Sums FaceRows::sums_of(const Node& node) const {
       sums.energy += w * unit_.spring_energy(depth);
       if (q.gap >= sums.least_gap) continue;
       sums.least_gap = q.gap;
-      sums.master = q.master;
+      sums.master = points_[at.facet].masters[q.master].facet;
     }
   }
   if (sums.least_gap < -round_off * overlaps_.size()) sums.depth = depth_of_energy(unit_, sums.energy / node.measure);
@@ -198,7 +198,7 @@ void FaceRows::add_blocks(const Node& node, const Sums& sums, ConstraintRows& ro
 
 /// What one point adds: w times the gradient of its gap, and `mean` times its tangential motion.
 void FaceRows::add_point(std::size_t f, const FacePoint& q, double w, double mean, Blocks& blocks) const {
-  const ParentFace &face = overlaps_.slave_face(f), &other = overlaps_.master_face(q.master);
+  const ParentFace &face = overlaps_.slave_face(f), &other = overlaps_.master_face(points_[f].masters[q.master].facet);
   const Vec3 &t_1 = blocks.tangent_1, &t_2 = blocks.tangent_2;
   for (std::size_t b = 0; b < static_cast<std::size_t>(face.size); ++b) {
     const double at = mean * q.N[b];
@@ -220,10 +220,11 @@ void FaceRows::add_turning(std::size_t f, const FacePoint& q, double w, double m
     blocks.own.add(corners[b], turned(q.of_turn, w), turned(t_1, -mean * q.distance), turned(t_2, -mean * q.distance));
   }
   if (q.master_turn == 0.0) return;
-  const Facet& far = overlaps_.master_facet(q.master);
+  const FacetPoints::Master& master = facet.masters[q.master];
+  const Facet& far = overlaps_.master_facet(master.facet);
   for (std::size_t c = 0; c < static_cast<std::size_t>(far.size); ++c) {
-    const double at = w * q.master_turn * dot(q.turn_of_master[c], facet.normal);
-    blocks.others.add(far[c], scaled(q.master_normal, at), {}, {});
+    const double at = w * q.master_turn * dot(master.turn[c], facet.normal);
+    blocks.others.add(far[c], scaled(master.normal, at), {}, {});
   }
 }
 

@@ -135,20 +135,6 @@ void add_interface_cell(ConstraintRows& rows, const Mesh& mesh, const InterfaceF
   }
 }
 
-/// Rows that never change.
-class InterfaceRows : public RowMaker {
- public:
-  explicit InterfaceRows(ConstraintRows rows) : rows_(std::move(rows)) {}
-  std::size_t slots() const override { return rows_.size(); }
-  bool is_fixed() const override { return true; }
-  void append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const override {
-    append_rows(rows, rows_, first_slot);
-  }
-
- private:
-  ConstraintRows rows_;
-};
-
 }  // namespace
 
 std::unique_ptr<RowMaker> interface_rows(const Model& model, const InterfaceContact& contact, Index source,
@@ -174,7 +160,7 @@ std::unique_ptr<RowMaker> interface_rows(const Model& model, const InterfaceCont
     notes.push_back(fmt::format("contact \"{}\": the normal of {} interface cell(s) was turned towards the part",
                                 contact.name, turned));
   }
-  return std::make_unique<InterfaceRows>(std::move(rows));
+  return std::make_unique<FixedRows>(std::move(rows));
 }
 
 }  // namespace carom

@@ -12,6 +12,7 @@
 #include "contact/clipping.hpp"
 #include "contact/facet_projection.hpp"
 #include "contact/half_thickness.hpp"
+#include "contact/overlap_column.hpp"
 #include "contact/pair_rows.hpp"
 #include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
@@ -27,43 +28,6 @@ constexpr double least_facing = -0.5;  // n_s . n_m below: at most 60 degrees fr
 
 using NodePairs = std::array<std::array<double, 4>, 4>;
 using NodePairVectors = std::array<std::array<Vec3, 4>, 4>;
-
-/// A slave facet at its current position, and its extent along its plane's axes and normal.
-struct Slave {
-  PlacedFacet placed;
-  Vec3 centre, axis_1, axis_2, normal;
-  std::array<Vec3, 4> turn{};  ///< FacetSums::turn
-  Bounds extent;
-
-  explicit Slave(const PlacedFacet& facet) : placed(facet) {
-    const ParentPoint at = facet_centre(facet.size);
-    const FacetFrame frame = facet_frame(facet, at.xi, at.eta);
-    centre = frame.position;
-    normal = frame.normal;
-    axis_1 = normalized(frame.a_1);
-    axis_2 = cross(normal, axis_1);
-    extent = extent_of(facet);
-    const FacetShape shape = facet_shape(facet.size, at.xi, at.eta);
-    const TangentDual dual = tangent_dual(frame.a_1, frame.a_2, normal);
-    for (std::size_t b = 0; b < 4; ++b)
-      turn[b] = add(scaled(dual.dual_1, shape.dN_dxi[b]), scaled(dual.dual_2, shape.dN_deta[b]));
-  }
-  Bounds extent_of(const PlacedFacet& facet) const {
-    Bounds bounds;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) {
-      const Vec3 r = subtract(facet.x[a], centre);
-      bounds.include(Vec3{dot(r, axis_1), dot(r, axis_2), dot(r, normal)});
-    }
-    return bounds;
-  }
-  /// False when the other facet lies nowhere over or under this one, or farther outward than `reach`.
-  bool may_overlap(const PlacedFacet& other, double reach) const {
-    Bounds column = extent;
-    column.low[2] = -INFINITY;
-    column.high[2] += reach;
-    return column.overlaps(extent_of(other));
-  }
-};
 
 /// Integrals over the overlaps of one slave facet: entries [A][b] with the slave's node A. m: see mortar_rows.hpp.
 struct FacetSums {
@@ -110,13 +74,6 @@ void FacetSums::add_point(double w, double point_gap, const Vec3& m_point, const
   }
 }
 
-/// Points of the overlap with one master.
-struct MasterOverlap {
-  Index master;
-  PlacedFacet placed;
-  std::size_t begin, end;
-};
-
 class MortarRows : public RowMaker {
  public:
   MortarRows(const Model& model, const PairContact& contact, const ContactLaw& law, Index source);
@@ -133,9 +90,8 @@ class MortarRows : public RowMaker {
   };
 
   void integrate(std::size_t f, const ContactMotion& motion, FacetSums& sums) const;
-  bool add_points(std::size_t f, Index g, const Slave& slave, const ContactMotion& motion,
+  bool add_points(std::size_t f, Index g, const OverlapColumn& slave, const ContactMotion& motion,
                   std::vector<OverlapPoint>& points) const;
-  bool was_in_front(std::size_t f, Index g, const OverlapPoint& point, const ContactMotion& motion) const;
   void add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const;
 
   std::span<const Vec3> X_;
@@ -189,53 +145,34 @@ void MortarRows::append(const ContactMotion& motion, Index first_slot, Constrain
   });
 }
 
-/// The point and the master's point over it, in the slave's frame at the beginning of the step.
-bool MortarRows::was_in_front(std::size_t f, Index g, const OverlapPoint& point, const ContactMotion& motion) const {
-  const PlacedFacet slave = place(slave_.facets[f], motion.x_begin);
-  const PlacedFacet master = place(broad_phase_.targets()[g], motion.x_begin);
-  const Vec3 way = subtract(facet_position(master, point.master.xi, point.master.eta),
-                            facet_position(slave, point.slave.xi, point.slave.eta));
-  return dot(way, facet_frame(slave, point.slave.xi, point.slave.eta).normal) >= 0.0;
-}
-
 /// Appends the points of the overlap with master g, if it counts.
-bool MortarRows::add_points(std::size_t f, Index g, const Slave& slave, const ContactMotion& motion,
+bool MortarRows::add_points(std::size_t f, Index g, const OverlapColumn& slave, const ContactMotion& motion,
                             std::vector<OverlapPoint>& points) const {
   const PlacedFacet master = place(broad_phase_.targets()[g], motion.x);
   if (!slave.may_overlap(master, look * size_)) return false;
   const ParentPoint centre = facet_centre(master.size);
-  if (dot(facet_frame(master, centre.xi, centre.eta).normal, slave.normal) >= least_facing) return false;
+  if (dot(facet_frame(master, centre.xi, centre.eta).normal, slave.normal()) >= least_facing) return false;
   const std::size_t before = points.size();
   if (add_overlap(slave.placed, master, points) == 0) return false;
   const auto nearest = std::min_element(points.begin() + static_cast<std::ptrdiff_t>(before), points.end(),
                                         [](const OverlapPoint& a, const OverlapPoint& b) { return a.gap < b.gap; });
   const bool is_deep = nearest->gap < -depth_[g];
-  if (nearest->gap <= look * size_ && (!is_deep || was_behind_[f] || was_in_front(f, g, *nearest, motion))) return true;
+  const auto was_in_front = [&] {
+    return is_in_front(place(slave_.facets[f], motion.x_begin), place(broad_phase_.targets()[g], motion.x_begin),
+                       *nearest);
+  };
+  if (nearest->gap <= look * size_ && (!is_deep || was_behind_[f] || was_in_front())) return true;
   points.resize(before);
   return false;
-}
-
-/// Sets the weight of every point to zero that has another master nearer along the normal.
-void hide_layers(const Slave& slave, const std::vector<MasterOverlap>& overlaps, std::vector<OverlapPoint>& points) {
-  for (const MasterOverlap& own : overlaps) {
-    for (std::size_t q = own.begin; q < own.end; ++q) {
-      const Vec3 x = facet_position(slave.placed, points[q].slave.xi, points[q].slave.eta);
-      for (const MasterOverlap& other : overlaps) {
-        if (other.master == own.master) continue;
-        const std::optional<RayHit> hit = intersect(other.placed, x, slave.normal);
-        if (hit && std::abs(hit->distance) < std::abs(points[q].gap)) points[q].weight = 0.0;
-      }
-    }
-  }
 }
 
 void MortarRows::integrate(std::size_t f, const ContactMotion& motion, FacetSums& sums) const {
   sums.clear();
   const std::span<const Index> candidates = broad_phase_.targets_of(f);
   if (candidates.empty()) return;
-  const Slave slave(place(slave_.facets[f], motion.x));
+  const OverlapColumn slave(place(slave_.facets[f], motion.x));
   std::vector<OverlapPoint> points;
-  std::vector<MasterOverlap> overlaps;
+  std::vector<ColumnMaster> overlaps;
   for (const Index g : candidates) {
     const std::size_t begin = points.size();
     if (add_points(f, g, slave, motion, points))
@@ -249,14 +186,14 @@ void MortarRows::integrate(std::size_t f, const ContactMotion& motion, FacetSums
   const PlacedFacet reference = place(slave_.facets[f], X_);
   const double stretch = measure(reference) / area, width = reference.size == 2 ? slave_.thickness : 1.0;
   const bool is_ring = slave_.section == Section::axisymmetric;
-  sums.normal = slave.normal;
-  sums.turn = slave.turn;
-  for (const MasterOverlap& overlap : overlaps) {
-    sums.masters.push_back({overlap.master});
+  sums.normal = slave.normal();
+  sums.turn = turn_of_normal(slave.placed, slave.frame);
+  for (const ColumnMaster& overlap : overlaps) {
+    sums.masters.push_back({overlap.facet});
     for (std::size_t q = overlap.begin; q < overlap.end; ++q) {
       const auto& [at, on_master, weight, gap] = points[q];
       const Vec3 n = facet_frame(overlap.placed, on_master.xi, on_master.eta).normal;
-      const double facing_cosine = dot(n, slave.normal);
+      const double facing_cosine = dot(n, slave.normal());
       if (weight == 0.0 || facing_cosine >= least_facing) continue;
       const double around = is_ring ? 2.0 * std::numbers::pi * facet_position(reference, at.xi, at.eta)[0] : width;
       sums.add_point(weight * stretch * around, gap, scaled(n, 1.0 / facing_cosine),

@@ -25,12 +25,15 @@ bool operator==(const ContactResponse& a, const ContactResponse& b) {
   return (a.rows == b.rows || (have_rows && *a.rows == *b.rows)) && values(a) == values(b);
 }
 
-void take_history(const ContactResponse& response, std::span<const double> u, std::vector<RowHistory>& history) {
-  history = response.history;
-  const ConstraintRows& rows = *response.rows;
+void mark_behind(const ConstraintRows& rows, std::span<const double> u, std::vector<RowHistory>& history) {
   for (std::size_t r = 0; r < rows.size(); ++r)
     if (!is_bond(rows.law[r]) && rows.gap_at(r, u) < 0.0)
       history[static_cast<std::size_t>(rows.slot[r])].facet = rows.facet[r];
+}
+
+void take_history(const ContactResponse& response, std::span<const double> u, std::vector<RowHistory>& history) {
+  history = response.history;
+  mark_behind(*response.rows, u, history);
 }
 
 }  // namespace carom

@@ -45,8 +45,11 @@ void fields(A& archive, ContactResponse& x) {
   archive("slip_work", x.slip_work);
 }
 
-/// history = that of the response, and what its rows are behind at displacement u: a row whose gap is negative is taken
-/// to be behind the same facet in the next step, however deep it goes, until it comes out in front.
+/// Enters what the rows are behind at displacement u: where a row's gap is negative its facet, which it is taken to be
+/// behind in the next step, however deep it goes, until it comes out in front.
+void mark_behind(const ConstraintRows& rows, std::span<const double> u, std::vector<RowHistory>& history);
+
+/// history = that of the response, with what its rows are behind at displacement u.
 void take_history(const ContactResponse& response, std::span<const double> u, std::vector<RowHistory>& history);
 
 /// 3 x 3 tangent of one row in its frame, row-major: -d(force)/d(w).

@@ -39,6 +39,10 @@ std::array<double, 4> shares(const PlacedFacet& facet, const Surface& surface) {
 
 }  // namespace
 
+void FixedRows::append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const {
+  append_rows(rows, rows_, first_slot);
+}
+
 void RowBlocks::add(Index n, const Vec3& normal, const Vec3& tangent_1, const Vec3& tangent_2) {
   auto entry = std::find_if(entries_.begin(), entries_.end(), [n](const auto& e) { return e.first == n; });
   if (entry == entries_.end()) entry = entries_.insert(entry, {n, {}});

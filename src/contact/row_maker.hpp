@@ -47,6 +47,18 @@ class RowMaker {
   virtual void add_moving_nodes(std::vector<Index>& /*nodes*/) const {}
 };
 
+/// Rows that never change, made once.
+class FixedRows : public RowMaker {
+ public:
+  explicit FixedRows(ConstraintRows rows) : rows_(std::move(rows)) {}
+  std::size_t slots() const override { return rows_.size(); }
+  bool is_fixed() const override { return true; }
+  void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override;
+
+ private:
+  ConstraintRows rows_;
+};
+
 /// Blocks of one side of a row in the making, one per node, in the order of their first use.
 class RowBlocks {
  public:

@@ -7,6 +7,7 @@
 #include "math/vec3.hpp"
 #include "mesh/cell_size.hpp"
 #include "mesh/cell_topology.hpp"
+#include "model/bodies.hpp"
 #include "model/outer_facets.hpp"
 
 namespace carom {
@@ -34,30 +35,8 @@ void turn_to_left(const Mesh& mesh, SkinPieces::Piece& piece) {
 
 }  // namespace
 
-std::vector<Index> connected_bodies(const Model& model) {
-  std::vector<Index> body(model.mesh->node_count());
-  std::iota(body.begin(), body.end(), 0);
-  const auto root = [&](Index n) {
-    const auto of = [&](Index k) -> Index& { return body[static_cast<std::size_t>(k)]; };
-    while (of(n) != n) n = of(n) = of(of(n));
-    return n;
-  };
-  for (const Part& part : model.parts) {
-    if (part.cells.empty()) continue;
-    const CellBlock& block = *model.mesh->block(part.type);
-    for (const Index cell : part.cells) {
-      for (const Index n : block.nodes(cell)) {
-        const Index a = root(n), b = root(block.nodes(cell)[0]);
-        body[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-      }
-    }
-  }
-  for (std::size_t n = 0; n < body.size(); ++n) body[n] = root(static_cast<Index>(n));
-  return body;
-}
-
 SkinPieces::SkinPieces(const Model& model) {
-  const std::vector<Index> body = connected_bodies(model);
+  const std::vector<Index> body = bodies_of_nodes(model);
   take_pieces(model);
   sort_by_body(*model.mesh, body);
   number_nodes(*model.mesh, body);

@@ -51,7 +51,4 @@ struct SkinPieces {
   void find_pieces_at_nodes();
 };
 
-/// Of each node of the mesh the least node that cells of parts connect it with.
-std::vector<Index> connected_bodies(const Model& model);
-
 }  // namespace carom

@@ -162,20 +162,6 @@ bool add_offset(std::span<const Vec3> X, std::span<const Index> nodes, const Vec
   return true;
 }
 
-/// Rows that never change.
-class TieRows : public RowMaker {
- public:
-  explicit TieRows(ConstraintRows rows) : rows_(std::move(rows)) {}
-  std::size_t slots() const override { return rows_.size(); }
-  bool is_fixed() const override { return true; }
-  void append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const override {
-    append_rows(rows, rows_, first_slot);
-  }
-
- private:
-  ConstraintRows rows_;
-};
-
 /// Makes the bonds and counts what is too far away.
 class TieMaker {
  public:
@@ -325,7 +311,7 @@ std::unique_ptr<RowMaker> tie_rows(const Model& model, const TieContact& contact
   }
   notes.push_back(fmt::format("contact \"{}\": {} nodes tied{}", contact.name, made.rows.size(),
                               made.far > 0 ? "; left free: " + made.far_ones() : ""));
-  return std::make_unique<TieRows>(std::move(made.rows));
+  return std::make_unique<FixedRows>(std::move(made.rows));
 }
 
 }  // namespace carom
