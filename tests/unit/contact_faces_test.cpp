@@ -70,12 +70,14 @@ double largest(const std::vector<double>& x) {
   return std::accumulate(x.begin(), x.end(), 0.0, [](double m, double v) { return std::max(m, std::abs(v)); });
 }
 
-/// Largest difference of the forces from central differences of the energy, over the largest force.
-double force_error(const ContactGeometry& contact, const std::vector<double>& u) {
+/// Largest difference of the forces along the first `components` axes from central differences of the energy, over the
+/// largest force.
+double force_error(const ContactGeometry& contact, const std::vector<double>& u, std::size_t components = 3) {
   constexpr double h = 1e-6;  // truncation h^2 over the square of the depth, 1e-9; round-off 1e-16 / 1e-6 of the energy
   const std::vector<double> f = forces(contact, u);
   double error = 0.0;
   for (std::size_t i = 0; i < u.size(); ++i) {
+    if (i % 3 >= components) continue;
     std::vector<double> up = u, down = u;
     up[i] += h;
     down[i] -= h;
@@ -94,6 +96,43 @@ TEST(FaceRows, ForcesAreTheGradientOfTheirEnergy) {
       const ContactGeometry contact(two.scene.model);
       EXPECT_LT(force_error(contact, shaken(two.scene, random, 0.003)), 1e-5) << triangles << " " << tilt;
     }
+  }
+}
+
+/// Segments in a plane, the upper ones looking down, over a length of 1 and of 3; rings where the middle is 5 away.
+struct TwoLines {
+  Scene scene;
+  TwoLines(Section section, double depth) {
+    std::vector<Facet> upper, lower;
+    const auto add = [&](int n, double length, double y, bool looks_up) {
+      std::vector<Facet> line;
+      Index last = -1;
+      for (int i = 0; i <= n; ++i) {
+        const double s = length * (double(i) / n - 0.5);
+        const Index next = scene.add_node({5.0 + (looks_up ? -s : s), y + (looks_up ? 0.0 : 0.03 * s), 0.0});
+        if (last >= 0) line.push_back({{last, next, -1, -1}, 2});
+        last = next;
+      }
+      return line;
+    };
+    upper = add(3, 1.0, -depth, false);
+    lower = add(7, 3.0, 0.0, true);
+    PairContact contact = faces(upper, lower);
+    contact.slave.section = contact.master.section = section;
+    scene.finish().contacts.emplace_back(contact);
+  }
+};
+
+// Gaps are linear along every overlap: 3 Gauss points are exact for e and its borders, and for the radius of rings.
+TEST(FaceRows, ForcesAreTheGradientOfTheirEnergyInAPlaneAndOfRings) {
+  Random random(11);
+  for (const Section section : {Section::plane_strain, Section::axisymmetric}) {
+    const TwoLines lines(section, 0.04);
+    const ContactGeometry contact(lines.scene.model);
+    std::vector<double> u = shaken(lines.scene, random, 0.003);
+    for (std::size_t i = 2; i < u.size(); i += 3) u[i] = 0.0;
+    EXPECT_GT(energy(contact, u), 0.0);
+    EXPECT_LT(force_error(contact, u, 2), 1e-6);
   }
 }
 

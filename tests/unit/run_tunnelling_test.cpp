@@ -165,18 +165,10 @@ TEST(Tunnelling, OfCrossedBarsBetweenTheirNodesIsNamed) {
   }
 }
 
-// A plane that a contact names for the ends of a bar alone holds its middle no more than what the verdict sees of it.
-TEST(Tunnelling, OfTheMiddleOfABarIsNamed) {
-  const TemporaryCase one(R"(units = "SI"
-[[mesh.block]]
-kind = "bar"
-origin = [0.0, 0.0, 0.01]
-end = [1.0, 0.0, 0.01]
-divisions = 10
-groups = { cells = "BAR", start = "FOOT", end = "HEAD" }
-[materials.s]
-law = "st_venant_kirchhoff"
-E = 1e5
+/// A bar that falls onto a plane: its place, material and contact are given.
+std::string falling_bar(const std::string& place, const std::string& law, const std::string& contact) {
+  return "units = \"SI\"\n[[mesh.block]]\nkind = \"bar\"\n" + place + "divisions = 10\n" + "[materials.s]\nlaw = \"" +
+         law + "\"\n" + R"(E = 1e5
 nu = 0.3
 rho = 1000.0
 [[part]]
@@ -189,18 +181,26 @@ area = 1e-3
 part = "rod"
 velocity = [0.0, 0.0, -1.0]
 [[contact]]
-name = "floor"
 kind = "plane"
 group = "FOOT"
 point = [0.0, 0.0, 0.0]
 normal = [0.0, 0.0, 1.0]
-[scheme]
+)" + contact +
+         R"([scheme]
 kind = "central_differences"
 [time]
 end = 0.5
 [output]
 fields = []
-)");
+)";
+}
+
+// A plane that a contact names for the ends of a bar alone holds its middle no more than what the verdict sees of it.
+TEST(Tunnelling, OfTheMiddleOfABarIsNamed) {
+  const TemporaryCase one(
+      falling_bar("origin = [0.0, 0.0, 0.01]\nend = [1.0, 0.0, 0.01]\n"
+                  "groups = { cells = \"BAR\", start = \"FOOT\", end = \"HEAD\" }\n",
+                  "st_venant_kirchhoff", "name = \"floor\"\n"));
   EXPECT_EQ(one.run(), ExitCode::verdict_failed);
   const std::string summary = one.result("summary.json");
   EXPECT_NE(summary.find(R"(of part \"rod\" inside of the obstacle of \"floor\")"), std::string::npos) << summary;
@@ -208,40 +208,8 @@ fields = []
 
 // Springs of no strength let a bar through a wall; bars have no inside of their own, and are named all the same.
 TEST(Tunnelling, OfABarThroughAWallIsNamed) {
-  const TemporaryCase one(R"(units = "SI"
-[[mesh.block]]
-kind = "bar"
-end = [0.0, 0.0, 1.0]
-divisions = 10
-groups = { cells = "BAR", start = "FOOT" }
-[materials.s]
-law = "linear_elastic"
-E = 1e5
-nu = 0.3
-rho = 1000.0
-[[part]]
-name = "rod"
-cells = "BAR"
-material = "s"
-section = "bar"
-area = 1e-3
-[[initial]]
-part = "rod"
-velocity = [0.0, 0.0, -1.0]
-[[contact]]
-name = "wall"
-kind = "plane"
-group = "FOOT"
-point = [0.0, 0.0, 0.0]
-normal = [0.0, 0.0, 1.0]
-stiffness = 1.0
-[scheme]
-kind = "central_differences"
-[time]
-end = 0.5
-[output]
-fields = []
-)");
+  const TemporaryCase one(falling_bar("end = [0.0, 0.0, 1.0]\ngroups = { cells = \"BAR\", start = \"FOOT\" }\n",
+                                      "linear_elastic", "name = \"wall\"\nstiffness = 1.0\n"));
   EXPECT_EQ(one.run(), ExitCode::verdict_failed);
   const std::string summary = one.result("summary.json");
   EXPECT_NE(summary.find(R"(of part \"rod\" inside of the obstacle of \"wall\")"), std::string::npos) << summary;
