@@ -10,9 +10,8 @@ namespace carom {
 /// One slot per node A of the first surface, by increasing node. At the points q of the overlaps of its facets with
 /// those of the other surface (clipping.hpp), clipped once more where the gap changes sign, let
 ///   g_q  the gap from the slave's point x_s along the normal n_s at its facet's centre to the master's point x_m,
-///   s_q  = t^2 (3 - 2 t), t = (c - c_0) / (1 - c_0), c = - n_s . n_m of the two facets' centres, c_0 = 0.2: how far
-///   they
-///          face each other; pairs of a lesser c do not count,
+///   s_q  = t^2 (3 - 2 t), t = (c - c_0) / (1 - c_0), c = - n_s . n_m of the two facets' centres, c_0 = 0.2: how much
+///          they face each other; pairs of a lesser c do not count,
 ///   w_q  the area (length times thickness, or 2 pi X) in the reference configuration,
 ///   N^_A the shape functions of the facet, N_a those of the face of the cell that it is a piece of (ParentFace).
 /// With D_A the node's share of its surface (nodal_measures), f(d) and e(d) the force and energy of the contact's
@@ -28,8 +27,10 @@ namespace carom {
 /// Where nothing penetrates, a row within reach is open by the least of s g, over the area that is covered.
 ///
 /// What comes under a facet from the side, deeper than 0.02 facet sizes, does not count there: it is the faces at the
-/// side that meet. Deeper counts what was in front at the beginning of the step, or where a corner of the facet was
-/// behind the same facet or one that goes on with it then. Ends of overlaps at borders of the other surface, where the
+/// side that meet. An overlap that deep counts if it was in front at the beginning of the step, or if a corner of the
+/// slave facet was then behind the same facet or one that goes on with it, unless it is ten times as deep as it is
+/// wide. Without a history, at the start, all counts that is no far side of a thin part (half_thickness). Ends of
+/// overlaps at borders of the other surface, where the
 /// depth is not zero, move with that: the integral changes by w e(-g~) times the way of the border over the slave,
 /// which is part of the gradient (the transport theorem), so that the force is that of the potential there, too. law:
 /// that of one pass. (Segments: Puso and Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004.)
