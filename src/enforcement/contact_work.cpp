@@ -30,11 +30,16 @@ ContactWork multiplier_work(const State& begin, const State& end, double end_wei
   return out;
 }
 
-void book_multipliers(const State& begin, const State& end, EnergyTerms& energy) {
-  const ContactWork work = multiplier_work(begin, end, 0.5);
-  energy.impact += work.impact;
-  energy.friction += work.friction;
-  energy.quadrature -= work.impact + work.friction;
+ContactWork spring_work(const State& begin, const State& end) {
+  ContactWork out{.friction = end.forces.rows.slip_work};
+  for (const Forces* forces : {&begin.forces, &end.forces}) {
+    const ConstraintRows& rows = *forces->rows.rows;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const double f = forces->rows.damper[r];
+      if (f != 0.0) out.damping -= 0.5 * f * (rows.relative(r, end.q)[0] - rows.relative(r, begin.q)[0]);
+    }
+  }
+  return out;
 }
 
 double trapezoidal_work(const State& begin, const State& end) {

@@ -17,8 +17,10 @@ struct ContactWork {
 /// Work of multipliers over a step (ContactPort::work), those of each end on its rows: the normal part goes to
 /// `impact`, the tangential one to `friction`; that of bonds, whose sides do not part, is rounding and goes nowhere.
 ContactWork multiplier_work(const State& begin, const State& end, double end_weight);
-/// The same with the weights 1/2, for books that have it in `quadrature`.
-void book_multipliers(const State& begin, const State& end, EnergyTerms& energy);
+
+/// What springs do not store: the work of friction on the slip, and that of dampers, trapezoidal, of the forces at each
+/// end of the step on that end's rows. `total` is left to the caller.
+ContactWork spring_work(const State& begin, const State& end);
 
 /// Work of the contact forces over the step by the trapezoidal rule.
 double trapezoidal_work(const State& begin, const State& end);

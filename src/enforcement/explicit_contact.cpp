@@ -20,7 +20,7 @@ class PenaltyContact final : public ExplicitContact {
     forces.rows.add_force(forces.contact);
     return bonds_.hold({at.h, at.u, at.v, at.a}, forces);
   }
-  void book(const State&, const State&, EnergyTerms&) const override {}
+  ContactWork work(const State& begin, const State& end) const override { return spring_work(begin, end); }
 
  private:
   const System& system_;

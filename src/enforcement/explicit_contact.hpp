@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "enforcement/contact_work.hpp"
 #include "system/system.hpp"
 
 namespace carom {
@@ -30,9 +31,8 @@ class ExplicitContact {
   std::string evaluate(const System& system, const State& begin, double h, std::span<const double> v, State& end);
   /// All forces of a state that a run begins with. Throws std::runtime_error when contact finds none.
   void start(const System& system, double dt, double weight, State& state);
-  /// Books what central_difference_books leaves in `quadrature` of the work of forces that are no function of the
-  /// state.
-  virtual void book(const State& begin, const State& end, EnergyTerms& energy) const = 0;
+  /// Where the work of its forces over the step went, as ContactPort::work has it; `total` is left to the books.
+  virtual ContactWork work(const State& begin, const State& end) const = 0;
 };
 
 /// Penalty springs: c = c(u, v).

@@ -65,9 +65,7 @@ class MultiplierContact final : public ExplicitContact {
     return bonds_.hold(motion, forces);  // what the others do to them
   }
 
-  void book(const State& begin, const State& end, EnergyTerms& energy) const override {
-    book_multipliers(begin, end, energy);
-  }
+  ContactWork work(const State& begin, const State& end) const override { return multiplier_work(begin, end, 0.5); }
 
  private:
   /// v_next without contact.

@@ -159,9 +159,9 @@ void PenaltyPort::add_stiffness_diagonal(std::span<double> d) const {
 }
 
 ContactWork PenaltyPort::work(const State& begin, const State& end, double /*end_weight*/) const {
-  return {.total = trapezoidal_work(begin, end),
-          .friction = end.forces.rows.slip_work,
-          .damping = damping_work(begin, end)};
+  ContactWork out = spring_work(begin, end);
+  out.total = trapezoidal_work(begin, end);
+  return out;
 }
 
 /// Multipliers have settled when their update changes no node's acceleration by more than this share of the largest:

@@ -22,6 +22,25 @@ Momentum with_reactions(const System& system, std::span<const double> u, const B
 
 }  // namespace
 
+LedgerIncrement books_of_works(const State& begin, const State& end, const StepWorks& works) {
+  const ContactWork& contact = works.contact;
+  LedgerIncrement step;
+  EnergyTerms& energy = step.energy;
+  energy = change_of_state(begin.forces.stored, end.forces.stored);
+  energy.friction = contact.friction;
+  energy.damping = contact.damping;
+  energy.impact = contact.impact;
+  energy.external_work = works.external;
+  energy.support_work = works.support;
+  energy.quadrature = works.internal - energy.strain - energy.hourglass - energy.sum(TermKind::spent) - contact.total -
+                      energy.contact_stored - contact.friction - contact.damping - contact.impact;
+  step.aster.ENER_CIN = energy.kinetic;
+  step.aster.ENER_TOT = works.internal;
+  step.aster.TRAV_EXT = works.external + works.support;
+  step.aster.TRAV_LIAI = -contact.total;
+  return step;
+}
+
 StepBooks step_books(const System& system, const State& begin, const Balance& b0, const State& end,
                      const StepWeights& w, const ContactWork& contact, std::span<const double> mean_internal) {
   const Forces &f0 = begin.forces, &f1 = end.forces;
@@ -48,21 +67,9 @@ StepBooks step_books(const System& system, const State& begin, const Balance& b0
     support += support_work(system, k, begin, b0, end, w.support_work);
   StepBooks out;
   out.force = momentum_from(sums.data() + 5);
-  LedgerIncrement& step = out.increment;
-  EnergyTerms& energy = step.energy;
-  energy = change_of_state(f0.stored, f1.stored);
-  energy.friction = contact.friction;
-  energy.damping = contact.damping;
-  energy.impact = contact.impact;
-  energy.external_work = sums[1];
-  energy.support_work = support;
+  out.increment = books_of_works(begin, end, {sums[0], sums[1], support, contact});
+  EnergyTerms& energy = out.increment.energy;
   energy.algorithmic = sums[2] - energy.kinetic + (sums[1] + support - sums[0]) - sums[3] + (contact.total - sums[4]);
-  energy.quadrature = sums[0] - energy.strain - energy.hourglass - energy.sum(TermKind::spent) - contact.total -
-                      energy.contact_stored - contact.friction - contact.damping - contact.impact;
-  step.aster.ENER_CIN = energy.kinetic;
-  step.aster.ENER_TOT = sums[0];
-  step.aster.TRAV_EXT = energy.external_work + energy.support_work;
-  step.aster.TRAV_LIAI = -contact.total;
   return out;
 }
 

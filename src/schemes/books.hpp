@@ -34,6 +34,17 @@ inline double support_work(const System& system, std::size_t k, const State& beg
          rest * (end.q[i] - begin.q[i]);
 }
 
+/// Works over a step by the trapezoidal rule, of internal and external forces and of contact, and of the supports.
+struct StepWorks {
+  double internal = 0.0, external = 0.0, support = 0.0;
+  ContactWork contact;
+};
+
+/// All books of a step but `algorithmic` and the impulse. `quadrature` is what the works of internal forces and of
+/// contact leave of what these forces account for: what bodies and springs store, and what points, friction, dampers
+/// and impacts take.
+LedgerIncrement books_of_works(const State& begin, const State& end, const StepWorks& works);
+
 /// The energies of a step, and the resultant of external, contact and support forces in the scheme's equation.
 struct StepBooks {
   LedgerIncrement increment;

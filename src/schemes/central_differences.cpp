@@ -64,11 +64,11 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
   take_history(end.forces.rows, end.q, end.contact);
   if (is_lumped()) {
     pushed_.look(*begin.forces.rows.rows, *end.forces.rows.rows);
-    report.books = end_lumped_step(system_, begin, start_.balance(), a_begin, pushed_, end, h);
+    report.books =
+        end_lumped_step(system_, begin, start_.balance(), a_begin, contact_->work(begin, end), pushed_, end, h);
   } else if (!end_consistent_step(begin, a_begin, h, end, report)) {
     return report;
   }
-  contact_->book(begin, end, report.books.energy);
   report.converged = true;
   return report;
 }
@@ -86,7 +86,8 @@ bool CentralDifferences::end_consistent_step(const State& begin, std::span<const
   parallel_each(end.v.size(), [&](std::size_t i) { end.v[i] += 0.5 * h * end.a[i]; });
   for (const ImposedStep& s : imposed_) end.v[s.dof] = s.v;
   complete_forces(system_, end);
-  report.books = central_difference_books(system_, begin, start_.balance(), a_begin, end, h);
+  report.books =
+      central_difference_books(system_, begin, start_.balance(), a_begin, contact_->work(begin, end), end, h);
   return true;
 }
 

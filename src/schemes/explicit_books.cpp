@@ -64,8 +64,8 @@ class StepSums {
 /// From the sums over the nodes; takes those of the supports in.
 LedgerIncrement books_of_sums(const System& system, const State& begin, const Balance& b0,
                               std::span<const double> a_begin, const State& end, double h, const StepSums& terms,
-                              double internal_work, std::array<double, StepSums::count> sums) {
-  const Forces &f0 = begin.forces, &f1 = end.forces;
+                              ContactWork contact, double internal_work, std::array<double, StepSums::count> sums) {
+  const Forces& f1 = end.forces;
   double support = 0.0, inertia_power = f1.inertia_power - b0.inertia_power;  // da . (M a0 + M a1), as M is symmetric
   const std::vector<PrescribedDof>& prescribed = system.supports.prescribed();
   for (std::size_t k = 0; k < prescribed.size();) {
@@ -80,21 +80,9 @@ LedgerIncrement books_of_sums(const System& system, const State& begin, const Ba
     }
     terms.add_support(node, before, after, sums.data());
   }
-  const double contact_work = sums[0];
-  LedgerIncrement step;
-  EnergyTerms& energy = step.energy;
-  energy = change_of_state(f0.stored, f1.stored);
-  energy.friction = f1.rows.slip_work;
-  energy.damping = damping_work(begin, end);
-  energy.external_work = sums[1];
-  energy.support_work = support;
-  energy.algorithmic = -0.125 * h * h * inertia_power;
-  energy.quadrature = internal_work - energy.strain - energy.hourglass - energy.sum(TermKind::spent) - contact_work -
-                      energy.contact_stored - energy.friction - energy.damping;
-  step.aster.ENER_CIN = energy.kinetic;
-  step.aster.ENER_TOT = internal_work;
-  step.aster.TRAV_EXT = energy.external_work + energy.support_work;
-  step.aster.TRAV_LIAI = -contact_work;
+  contact.total = sums[0];
+  LedgerIncrement step = books_of_works(begin, end, {internal_work, sums[1], support, contact});
+  step.energy.algorithmic = -0.125 * h * h * inertia_power;
   step.impulse = momentum_from(sums.data() + 2);
   return step;
 }
@@ -102,13 +90,14 @@ LedgerIncrement books_of_sums(const System& system, const State& begin, const Ba
 }  // namespace
 
 LedgerIncrement central_difference_books(const System& system, const State& begin, const Balance& b0,
-                                         std::span<const double> a_begin, const State& end, double h) {
+                                         std::span<const double> a_begin, const ContactWork& contact, const State& end,
+                                         double h) {
   const StepSums terms(system, begin, end, h);
   const std::size_t nodes = end.q.size() / 3;
   const double internal_work = parallel_sum(nodes, [&](std::size_t node) { return terms.internal_work(node); });
   const auto sums = parallel_sums<StepSums::count>(
       nodes, [&](std::size_t node, std::array<double, StepSums::count>& s) { terms.add_pushes(node, s.data()); });
-  return books_of_sums(system, begin, b0, a_begin, end, h, terms, internal_work, sums);
+  return books_of_sums(system, begin, b0, a_begin, end, h, terms, contact, internal_work, sums);
 }
 
 PushedNodes::PushedNodes(const System& system)
@@ -127,7 +116,8 @@ void PushedNodes::look(const ConstraintRows& before, const ConstraintRows& after
 }
 
 LedgerIncrement end_lumped_step(const System& system, const State& begin, const Balance& b0,
-                                std::span<const double> a_begin, const PushedNodes& pushed, State& end, double h) {
+                                std::span<const double> a_begin, const ContactWork& contact_work,
+                                const PushedNodes& pushed, State& end, double h) {
   const double half = 0.5 * h;
   const std::vector<double>& mass = system.mass.node_diagonal();
   Forces& f1 = end.forces;
@@ -161,12 +151,12 @@ LedgerIncrement end_lumped_step(const System& system, const State& begin, const 
       parallel_sums<StepSums::count>(pushed.nodes().size(), [&](std::size_t k, std::array<double, StepSums::count>& s) {
         of_step.add_pushes(static_cast<std::size_t>(pushed.nodes()[k]), s.data());
       });
-  return books_of_sums(system, begin, b0, a_begin, end, h, of_step, sums.back(), pushes);
+  return books_of_sums(system, begin, b0, a_begin, end, h, of_step, contact_work, sums.back(), pushes);
 }
 
-LedgerIncrement explicit_books(const System& system, const State& begin, const Balance& b0, const State& end,
-                               std::span<const double> A, std::span<const double> B, double h) {
-  LedgerIncrement step = central_difference_books(system, begin, b0, begin.a, end, h);
+LedgerIncrement explicit_books(const System& system, const State& begin, const Balance& b0, const ContactWork& contact,
+                               const State& end, std::span<const double> A, std::span<const double> B, double h) {
+  LedgerIncrement step = central_difference_books(system, begin, b0, begin.a, contact, end, h);
   const std::span<const double> inertia = end.forces.inertia;
   std::vector<double> MA(A.size());
   system.mass.apply(A, MA);

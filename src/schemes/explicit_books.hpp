@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "enforcement/contact_work.hpp"
 #include "system/system.hpp"
 
 namespace carom {
@@ -13,9 +14,11 @@ namespace carom {
 /// kinematics give d(1/2 v.Mv) = du . (M a)_bar + h^2/8 d(a.Ma), so that algorithmic = -h^2/8 da . (M a0 + M a1) on the
 /// free dofs; those of the supports are in their work. balance, a_begin: at the beginning (StepStart) (Krenk,
 /// Computer Methods in Applied Mechanics and Engineering 195, 2006, eq. 11 with beta = 0, gamma = 1/2, with forces
-/// instead of K u; it holds with whatever forces contact adds). Friction and damping are those of the penalty.
+/// instead of K u; it holds with whatever forces contact adds). contact: where the work of contact went; its total is
+/// summed here.
 LedgerIncrement central_difference_books(const System& system, const State& begin, const Balance& balance,
-                                         std::span<const double> a_begin, const State& end, double h);
+                                         std::span<const double> a_begin, const ContactWork& contact, const State& end,
+                                         double h);
 
 /// The nodes that loads or contact may push.
 class PushedNodes {
@@ -37,13 +40,15 @@ class PushedNodes {
 /// and end.v being complete on the others; what complete_forces gives but for the inertia; and the books, which are
 /// returned.
 LedgerIncrement end_lumped_step(const System& system, const State& begin, const Balance& balance,
-                                std::span<const double> a_begin, const PushedNodes& pushed, State& end, double h);
+                                std::span<const double> a_begin, const ContactWork& contact_work,
+                                const PushedNodes& pushed, State& end, double h);
 
 /// Books of a step with u1 = u0 + h v0 + h^2 B,  v1 = v0 + h A. With x_bar the mean of both ends and R = M a the
 /// inertia that balances the forces at each end,
 ///   d(1/2 v.Mv) = v_bar . M dv = du . M A + h^2 (A/2 - B) . M A,
 /// so that algorithmic = du . (R_bar - M A) - h^2 (A/2 - B) . M A, on the free dofs. The impulse is left to the caller.
-LedgerIncrement explicit_books(const System& system, const State& begin, const Balance& balance, const State& end,
-                               std::span<const double> A, std::span<const double> B, double h);
+LedgerIncrement explicit_books(const System& system, const State& begin, const Balance& balance,
+                               const ContactWork& contact, const State& end, std::span<const double> A,
+                               std::span<const double> B, double h);
 
 }  // namespace carom

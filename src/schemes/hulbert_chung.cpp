@@ -79,7 +79,7 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
   }
   take_history(end.forces.rows, end.q, end.contact);
   complete_forces(system_, end);
-  report.books = explicit_books(system_, begin, start_.balance(), end, A_, B_, h);
+  report.books = explicit_books(system_, begin, start_.balance(), contact_->work(begin, end), end, A_, B_, h);
   memory_end.force = combine(share, resultant(system_, begin, start_.balance()), -share * alpha_m_, memory.force);
   report.books.impulse = combine(h * (1.0 - gamma_), memory.force, h * gamma_, memory_end.force);
   report.converged = true;

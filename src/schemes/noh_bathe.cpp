@@ -114,13 +114,15 @@ bool NohBathe::second_part(const StepRequest& request, State& end, StepReport& r
 
 LedgerIncrement NohBathe::books(const State& begin, const StepRequest& request, const State& end) {
   const double k = p_ * request.dt, rest = request.dt - k;
-  LedgerIncrement sum = central_difference_books(system_, begin, start_.balance(), start_.a(), middle_, k);
+  LedgerIncrement sum = central_difference_books(system_, begin, start_.balance(), start_.a(),
+                                                 contact_->work(begin, middle_), middle_, k);
   const std::span<const double> a_begin = start_.a();
   parallel_each(begin.q.size(), [&](std::size_t i) {
     B_[i] = 0.5 * middle_.a[i];
     A_[i] = q0_ * a_begin[i] + (0.5 + q1_) * middle_.a[i] + q2_ * end.a[i];
   });
-  LedgerIncrement second = explicit_books(system_, middle_, Balance(middle_.forces), end, A_, B_, rest);
+  LedgerIncrement second =
+      explicit_books(system_, middle_, Balance(middle_.forces), contact_->work(middle_, end), end, A_, B_, rest);
   const Momentum middle = resultant(system_, middle_);
   second.impulse =
       combine(rest * q0_, resultant(system_, begin, start_.balance()), rest * q2_, resultant(system_, end));

@@ -355,8 +355,8 @@ StepReport SemiExplicit::step(const State& begin, const StepRequest& request, St
   take_history(forces.rows, end.q, end.contact);
   for (const ImposedStep& s : imposed_) end.v[s.dof] = s.v;
   complete_forces(system_, end);
-  report.books = central_difference_books(system_, begin, start_.balance(), a_begin, end, h);
-  book_multipliers(begin, end, report.books.energy);
+  report.books =
+      central_difference_books(system_, begin, start_.balance(), a_begin, multiplier_work(begin, end, 0.5), end, h);
   report.converged = true;
   return report;
 }

@@ -64,7 +64,7 @@ StepReport TchamwaWielgosz::step(const State& begin, const StepRequest& request,
   }
   take_history(end.forces.rows, end.q, end.contact);
   complete_forces(system_, end);
-  report.books = explicit_books(system_, begin, start_.balance(), end, a_begin, B_, h);
+  report.books = explicit_books(system_, begin, start_.balance(), contact_->work(begin, end), end, a_begin, B_, h);
   report.books.impulse = combine(h, resultant(system_, begin, start_.balance()), 0.0, {});
   report.converged = true;
   return report;

@@ -60,18 +60,6 @@ void go_on_from(const State& begin, State& end) {
   end.contact = begin.contact;
 }
 
-double damping_work(const State& begin, const State& end) {
-  double work = 0.0;
-  for (const Forces* forces : {&begin.forces, &end.forces}) {
-    const ConstraintRows& rows = *forces->rows.rows;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      const double f = forces->rows.damper[r];
-      if (f != 0.0) work -= 0.5 * f * (rows.relative(r, end.q)[0] - rows.relative(r, begin.q)[0]);
-    }
-  }
-  return work;
-}
-
 void complete_supports(const System& system, State& state) {
   Forces& forces = state.forces;
   const std::vector<PrescribedDof>& prescribed = system.supports.prescribed();

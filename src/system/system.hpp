@@ -119,7 +119,4 @@ class StateSums {
   const double *q_, *internal_;
 };
 
-/// Trapezoidal work of the dampers: of the forces at each end of the step, on that end's rows.
-double damping_work(const State& begin, const State& end);
-
 }  // namespace carom
