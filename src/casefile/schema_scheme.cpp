@@ -59,12 +59,11 @@ template <class S, class Access>
 void add_number(SectionSchema<S>& s, Access scheme_of, const SchemeNumber& number) {
   KeyDescription key{std::string(number.key), Shape::number, std::string(number.meaning), {}, {}, {}};
   key.options.range = range_of(number.range);
-  key.options.default_phrase = number.initial_phrase;
   for (const SchemeTraits& scheme : scheme_table) {
     const std::optional<double> initial = number.value(scheme.parameters);
     if (!initial) continue;
     key.options.kinds.emplace_back(scheme.name);
-    if (number.initial_phrase.empty()) key.default_value = Node{*initial, {}};
+    key.default_value = Node{*initial, {}};
   }
   typename SectionSchema<S>::Handlers handlers;
   handlers.read = [key, number, scheme_of](S& section, const Node& node, const ReadContext& at) {
@@ -181,15 +180,6 @@ void check_mass_scaling(CaseScheme& scheme, const Node& node, const ReadContext&
   if (!scheme.mass_scaling_limit) scheme.mass_scaling_limit = 0.05;
 }
 
-/// Multipliers on contact nodes with inertia make the alpha family throw back what touches (touch_rebound): its
-/// parameters of least rebound, where the case gives none.
-void choose_parameters(CaseScheme& scheme, const Node& node) {
-  if (!traits(**scheme.enforcement).has_multipliers || **scheme.mass == CaseScheme::Mass::modified) return;
-  const auto is_given = [&node](const SchemeNumber& number) { return find(node, std::string(number.key)) != nullptr; };
-  if (std::any_of(scheme_numbers.begin(), scheme_numbers.end(), is_given)) return;
-  scheme.parameters = traits(*scheme.kind).parameters_on_multipliers.value_or(scheme.parameters);
-}
-
 void check_alpha(const CaseScheme& scheme, const Node& node, const ReadContext& at) {
   if (*scheme.kind != SchemeKind::hht) return;
   const double alpha = std::get<AlphaParameters>(scheme.parameters).alpha;
@@ -212,7 +202,6 @@ void finish_scheme(CaseScheme& scheme, const Node& node, const ReadContext& at) 
   check_mass(scheme, node, at);
   check_mass_scaling(scheme, node, at);
   check_alpha(scheme, node, at);
-  choose_parameters(scheme, node);
 }
 
 /// `safety` is written only where it acts: beside no step.

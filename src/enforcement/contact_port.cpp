@@ -13,6 +13,7 @@ std::unique_ptr<ContactPort> make_contact_port(const System& system, const Impli
     case EnforcementKind::augmented_lagrangian:
       return std::make_unique<AugmentedLagrangianPort>(system, settings.penetration * smallest_cell(system.solid));
     case EnforcementKind::lagrange:
+    case EnforcementKind::plain:
       return std::make_unique<MultiplierPort>(system);
     case EnforcementKind::impulse:
       return std::make_unique<ImpulsePort>(system);

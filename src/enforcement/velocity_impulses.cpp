@@ -85,7 +85,7 @@ std::string VelocityImpulses::respond(double k, const ContactResponse& closed, G
 }
 
 std::unique_ptr<VelocityImpulses> velocity_impulses(const System& system, EnforcementKind enforcement) {
-  if (!traits(enforcement).has_multipliers) return nullptr;
+  if (!traits(enforcement).stops_touches) return nullptr;
   const std::vector<double>& mass = system.mass.node_diagonal();
   const std::vector<bool>& fixed = system.supports.fixed();
   for (std::size_t i = 0; i < fixed.size(); ++i) {

@@ -60,7 +60,8 @@ class VelocityImpulses {
   std::vector<double> push_;
 };
 
-/// None where contact is a law, or where free nodes have no mass (a modified mass): nothing is to be stopped there.
+/// None where contact is a law, where its multipliers are plain, or where free nodes have no mass (a modified mass):
+/// nothing is to be stopped there.
 std::unique_ptr<VelocityImpulses> velocity_impulses(const System& system, EnforcementKind enforcement);
 
 }  // namespace carom

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 #include "model/scheme_parameters.hpp"
@@ -41,7 +40,7 @@ enum class SchemeKind : std::uint8_t { CAROM_SCHEMES(CAROM_SCHEME_KIND) };
 inline constexpr std::size_t scheme_count = std::array{CAROM_SCHEMES(CAROM_SCHEME_VALUE)}.size();
 #undef CAROM_SCHEME_VALUE
 
-enum class EnforcementKind : std::uint8_t { penalty, augmented_lagrangian, lagrange, impulse };
+enum class EnforcementKind : std::uint8_t { penalty, augmented_lagrangian, lagrange, plain, impulse };
 
 /// Whether a step solves a system of the whole body.
 enum class Stepping : std::uint8_t { implicit_steps, explicit_steps };
@@ -52,18 +51,21 @@ struct EnforcementTraits {
   std::string_view name;  ///< in case files
   bool takes_stiffness;   ///< contacts have springs, if only as a means
   bool adds_stiffness;    ///< the springs are part of the bodies' vibrations: they limit explicit steps
-  bool has_multipliers;   ///< of constraints on displacements
   bool is_exact;          ///< its conditions are met on the rows by their compliance, a column of the inverse each
+  bool stops_touches;     ///< beside multipliers of displacements the velocities have impulses of their own
+  bool throws_back;       ///< they have none, and follow from the displacements
 };
 
 inline constexpr std::array enforcement_table{
-    EnforcementTraits{EnforcementKind::penalty, "penalty", true, true, false, false},
-    EnforcementTraits{EnforcementKind::augmented_lagrangian, "augmented_lagrangian", true, false, true, false},
-    EnforcementTraits{EnforcementKind::lagrange, "lagrange", false, false, true, true},
-    EnforcementTraits{EnforcementKind::impulse, "impulse", false, false, false, true}};
+    EnforcementTraits{EnforcementKind::penalty, "penalty", true, true, false, false, false},
+    EnforcementTraits{EnforcementKind::augmented_lagrangian, "augmented_lagrangian", true, false, false, true, false},
+    EnforcementTraits{EnforcementKind::lagrange, "lagrange", false, false, true, true, false},
+    EnforcementTraits{EnforcementKind::plain, "plain", false, false, true, false, true},
+    EnforcementTraits{EnforcementKind::impulse, "impulse", false, false, true, false, false}};
 inline constexpr std::size_t enforcement_count = enforcement_table.size();
 inline constexpr std::array enforcement_names{enforcement_table[0].name, enforcement_table[1].name,
-                                              enforcement_table[2].name, enforcement_table[3].name};
+                                              enforcement_table[2].name, enforcement_table[3].name,
+                                              enforcement_table[4].name};
 
 /// How a scheme keeps the angular momentum of bodies that turn far.
 enum class AngularMomentum : std::uint8_t { to_its_order, exactly };
@@ -80,9 +82,6 @@ struct SchemeTraits {
   AngularMomentum angular_momentum = AngularMomentum::to_its_order;
   double gains = 0.005;       ///< energy that it may make, over what there is, without a trend (docs/schemes.md)
   bool takes_history = true;  ///< bodies whose points remember, and so dissipate
-  /// Initial values that throw back least, where multipliers on nodes with inertia throw back what touches; absent:
-  /// the same.
-  std::optional<SchemeParameters> parameters_on_multipliers{};
 };
 
 namespace detail {
@@ -94,7 +93,9 @@ inline constexpr std::string_view smooth_explicit =
 inline constexpr std::string_view velocity_level =
     "it balances velocities over a step, so that contact enters by impulses";
 inline constexpr std::string_view displacement_level =
-    "it is built on constraints of the displacement, solved exactly within the step";
+    "it is built on constraints of the displacement, which it solves exactly within the step by a rule of its own";
+inline constexpr std::string_view timeless =
+    "it has no velocities, which impulses would change and plain multipliers would leave";
 inline constexpr std::string_view potential =
     "it conserves energy through a contact potential, which only the penalty has";
 }  // namespace detail
@@ -106,53 +107,49 @@ inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
      "Newmark",
      Stepping::implicit_steps,
      NewmarkParameters{},
-     {true, true, true, false},
+     {true, true, true, true, false},
      detail::smooth},
     {SchemeKind::hht,
      "hht",
      "HHT",
      Stepping::implicit_steps,
      AlphaParameters{},
-     {true, true, true, false},
-     detail::smooth,
-     AngularMomentum::to_its_order,
-     0.005,
-     true,
-     AlphaParameters{least_alpha_of_hht}},
+     {true, true, true, true, false},
+     detail::smooth},
     {SchemeKind::wbz,
      "wbz",
      "WBZ",
      Stepping::implicit_steps,
      AlphaParameters{},
-     {true, true, true, false},
+     {true, true, true, true, false},
      detail::smooth},
     {SchemeKind::generalized_alpha,
      "generalized_alpha",
      "generalised-alpha",
      Stepping::implicit_steps,
      SpectralRadius{},
-     {true, true, true, false},
+     {true, true, true, true, false},
      detail::smooth},
     {SchemeKind::bathe,
      "bathe",
      "Bathe composite",
      Stepping::implicit_steps,
      NoParameters{},
-     {true, true, true, false},
+     {true, true, true, true, false},
      detail::smooth},
     {SchemeKind::contact_stabilized_newmark,
      "contact_stabilized_newmark",
      "contact-stabilised Newmark",
      Stepping::implicit_steps,
      ContactStabilizedParameters{},
-     {false, false, true, false},
+     {false, false, true, false, false},
      detail::displacement_level},
     {SchemeKind::energy_momentum,
      "energy_momentum",
      "energy-momentum",
      Stepping::implicit_steps,
      NoParameters{},
-     {true, false, false, false},
+     {true, false, false, false, false},
      detail::potential,
      AngularMomentum::exactly,
      0.005,
@@ -162,21 +159,21 @@ inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
      "Moreau-Jean",
      Stepping::implicit_steps,
      MoreauJeanParameters{},
-     {false, false, false, true},
+     {false, false, false, false, true},
      detail::velocity_level},
     {SchemeKind::nonsmooth_generalized_alpha,
      "nonsmooth_generalized_alpha",
      "nonsmooth generalised-alpha",
      Stepping::implicit_steps,
      SpectralRadius{},
-     {false, false, false, true},
+     {false, false, false, false, true},
      detail::velocity_level},
     {SchemeKind::central_differences,
      "central_differences",
      "central differences",
      Stepping::explicit_steps,
      NoParameters{},
-     {true, false, false, false},
+     {true, false, false, false, false},
      detail::smooth_explicit,
      AngularMomentum::exactly},
     {SchemeKind::hulbert_chung,
@@ -184,28 +181,28 @@ inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
      "Hulbert-Chung",
      Stepping::explicit_steps,
      SpectralRadius{},
-     {true, false, false, false},
+     {true, false, false, false, false},
      detail::smooth_explicit},
     {SchemeKind::noh_bathe,
      "noh_bathe",
      "Noh-Bathe",
      Stepping::explicit_steps,
      NohBatheParameters{},
-     {true, false, false, false},
+     {true, false, false, false, false},
      detail::smooth_explicit},
     {SchemeKind::tchamwa_wielgosz,
      "tchamwa_wielgosz",
      "Tchamwa-Wielgosz",
      Stepping::explicit_steps,
      TchamwaWielgoszParameters{},
-     {true, false, false, false},
+     {true, false, false, false, false},
      detail::smooth_explicit},
     {SchemeKind::cd_lagrange,
      "cd_lagrange",
      "CD-Lagrange",
      Stepping::explicit_steps,
      NoParameters{},
-     {false, false, false, true},
+     {false, false, false, false, true},
      detail::velocity_level,
      AngularMomentum::exactly},
     {SchemeKind::forward_increment,
@@ -213,7 +210,7 @@ inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
      "central differences, forward-increment multipliers",
      Stepping::explicit_steps,
      NoParameters{},
-     {false, false, true, false},
+     {false, false, true, false, false},
      detail::displacement_level,
      AngularMomentum::exactly},
     {SchemeKind::modified_mass,
@@ -221,7 +218,7 @@ inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
      "central differences, modified mass",
      Stepping::explicit_steps,
      NoParameters{},
-     {false, false, true, false},
+     {false, false, true, false, false},
      detail::displacement_level,
      AngularMomentum::exactly,
      0.02},
@@ -230,8 +227,8 @@ inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
      "statics",
      Stepping::implicit_steps,
      NoParameters{},
-     {true, true, true, false},
-     detail::smooth},
+     {true, true, true, false, false},
+     detail::timeless},
 }};
 
 constexpr const SchemeTraits& traits(SchemeKind kind) {

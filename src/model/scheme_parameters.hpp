@@ -60,7 +60,6 @@ struct SchemeNumber {
   std::string_view meaning;
   Interval range;
   double* (*in)(SchemeParameters& parameters);  ///< its value; nullptr in parameters that do not have it
-  std::string_view initial_phrase = "";         ///< where its initial value is not the same in all cases
 
   constexpr std::optional<double> value(SchemeParameters parameters) const {
     const double* found = in(parameters);
@@ -84,7 +83,7 @@ constexpr double* any_in(SchemeParameters& parameters) {
 
 /// In the order of the manual.
 inline constexpr std::array scheme_numbers{
-    SchemeNumber{"beta", "Newmark's beta.", {0.0, 0.5, false, true}, detail::any_in<&NewmarkParameters::beta>, "0.25"},
+    SchemeNumber{"beta", "Newmark's beta.", {0.0, 0.5, false, true}, detail::any_in<&NewmarkParameters::beta>},
     SchemeNumber{"gamma",
                  "Newmark's gamma; above 0.5 the scheme dissipates.",
                  {0.5, 1.0, true, true},
@@ -92,8 +91,7 @@ inline constexpr std::array scheme_numbers{
     SchemeNumber{"alpha",
                  "Dissipation of HHT (from -1/3 on) and WBZ; 0 is Newmark's trapezoidal rule.",
                  {-1.0, 0.0, true, true},
-                 detail::any_in<&AlphaParameters::alpha>,
-                 "-0.05; hht with multipliers, which throw nodes back: -1/3"},
+                 detail::any_in<&AlphaParameters::alpha>},
     SchemeNumber{"rho_inf",
                  "Spectral radius at high frequency (Hulbert-Chung: at bifurcation).",
                  {0.0, 1.0, true, true},

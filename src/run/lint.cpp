@@ -102,12 +102,10 @@ void lint_filters(const Simulation& s, std::vector<std::string>& out) {
 
 std::string touch_remedy(const Stage& stage) {
   const std::optional<double> rebound = touch_rebound(stage.settings());
-  const bool has_inertia = **stage.scheme().mass != CaseScheme::Mass::modified;
-  if (!rebound || !has_inertia || *rebound <= largest_touch_rebound) return {};
+  if (!rebound || *rebound <= largest_touch_rebound) return {};
   return fmt::format(
-      "{} with multipliers throws a node that touches for one step back with up to {:.3g} times its speed, and so "
-      "makes energy where touches are short; generalized_alpha (at most 1.25 times), "
-      "contact_stabilized_newmark, moreau_jean, or mass = \"modified\" do not",
+      "{} with plain multipliers throws a node that touches for one step back with up to {:.3g} times its speed, and "
+      "so makes energy where touches are short; enforcement = \"lagrange\", which stops what touches, does not",
       describe(stage.settings()), *rebound);
 }
 

@@ -13,7 +13,7 @@ namespace carom {
 /// plausibility of units.
 std::vector<std::string> lint_warnings(const Simulation& simulation);
 
-/// Why the scheme of a stage makes energy on multipliers (touch_rebound), and what to choose instead; "" where
+/// Why the scheme of a stage makes energy on plain multipliers (touch_rebound), and what to choose instead; "" where
 /// it does not.
 std::string touch_remedy(const Stage& stage);
 

@@ -139,8 +139,9 @@ SchemeRow bathe_row() {
   return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
             return std::make_unique<Bathe>(r.system, r.settings.implicit(), r.dt, r.omega_max_squared);
           },
-          // The backward formula still leaves a mass that reaches the row right after the middle with half its speed.
-          .touch_rebound = [](const SchemeParameters& /*parameters*/) { return 0.5; }};
+          // The trapezoidal rule reflects a mass that reaches the row at the middle, the backward formula makes 5/3 of
+          // that, and the multiplier, which has opened, pushes on through a0: 2 in all.
+          .touch_rebound = [](const SchemeParameters& /*parameters*/) { return 2.0; }};
 }
 
 }  // namespace carom

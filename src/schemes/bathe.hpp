@@ -18,9 +18,9 @@ namespace carom {
 /// stable (linear), spectral radius 0 at infinite frequency. Conserves linear momentum, whose impulse is
 /// h/3 (P0 + P_half + P1); energy decays. The ledger books both sub-steps.
 ///
-/// So it is where contact is a law. Multipliers lambda on contact nodes with mass would make energy at every touch: the
-/// trapezoidal rule reflects what it stops, the backward formula makes 5/3 of that, and the multiplier of a row that
-/// has opened pushes on through a0. There, with s = M^-1 (f - F),
+/// So it is where contact is a law, and with plain multipliers. These make energy at every touch of a node with mass:
+/// the trapezoidal rule reflects what it stops, the backward formula makes 5/3 of that, and the multiplier of a row
+/// that has opened pushes on through a0. With VelocityImpulses, s = M^-1 (f - F) and multipliers lambda,
 ///   u_half = u0 + h/2 v0 + h^2/16 (s0 + s_half) + h^2/8 M^-1 G^T lambda_half,
 ///   v_half = v0 + h/4 (s0 + s_half) + h/2 M^-1 G^T Lambda,
 /// the contact force of the first sub-step being that of its end (Kane, Repetto, Ortiz and Marsden, Comput. Methods
@@ -57,7 +57,7 @@ class Bathe final : public Scheme {
   const System& system_;
   StepStart start_;
   ImplicitStage first_, second_;
-  std::unique_ptr<VelocityImpulses> impulses_;  ///< none where contact is a law, or its nodes have no mass
+  std::unique_ptr<VelocityImpulses> impulses_;  ///< none where contact is a law or plain, or its nodes have no mass
   State middle_;
   std::vector<ImposedStep> imposed_;                ///< of the sub-step under way
   std::vector<double> pushed_begin_, pushed_half_;  ///< M^-1 G^T lambda at the beginning and in the middle

@@ -26,16 +26,11 @@ GeneralizedAlphaParameters chung_hulbert_of(const SchemeParameters& parameters) 
   return chung_hulbert_parameters(std::get<SpectralRadius>(parameters).rho_inf);
 }
 
-/// Of one of the functions above. Where contact is by multipliers: without or with VelocityImpulses.
+/// Of one of the functions above.
 template <auto parameters_of>
-std::unique_ptr<Scheme> make_plain(const SchemeRequest& r) {
+std::unique_ptr<Scheme> make_alpha(const SchemeRequest& r) {
   return std::make_unique<GeneralizedAlpha>(r.system, parameters_of(r.settings.parameters), r.settings.implicit(), r.dt,
                                             r.omega_max_squared);
-}
-template <auto parameters_of>
-std::unique_ptr<Scheme> make_stopping(const SchemeRequest& r) {
-  return std::make_unique<GeneralizedAlpha>(r.system, parameters_of(r.settings.parameters), r.settings.implicit(), r.dt,
-                                            r.omega_max_squared, velocity_impulses(r.system, r.settings.enforcement));
 }
 
 /// The multiplier has to take back the step's displacement h v = beta h^2 a1, and lets go in the next step, where the
@@ -48,10 +43,6 @@ double rebound(const SchemeParameters& parameters) {
   const GeneralizedAlphaParameters p = parameters_of(parameters);
   return (1.0 - p.alpha_m) / p.beta - 1.0;
 }
-/// With VelocityImpulses a touch stops.
-double no_rebound(const SchemeParameters& /*parameters*/) {
-  return 0.0;
-}
 
 /// Hughes, The Finite Element Method, section 9.1.
 double newmark_limit(const SchemeParameters& parameters) {
@@ -63,26 +54,25 @@ double newmark_limit(const SchemeParameters& parameters) {
 }  // namespace
 
 SchemeRow newmark_row() {
-  return {.make = make_stopping<newmark_of>, .stability_limit = newmark_limit, .touch_rebound = no_rebound};
+  return {.make = make_alpha<newmark_of>, .stability_limit = newmark_limit, .touch_rebound = rebound<newmark_of>};
 }
 SchemeRow hht_row() {
-  return {.make = make_plain<hht_of>, .touch_rebound = rebound<hht_of>};
+  return {.make = make_alpha<hht_of>, .touch_rebound = rebound<hht_of>};
 }
 SchemeRow wbz_row() {
-  return {.make = make_stopping<wbz_of>, .touch_rebound = no_rebound};
+  return {.make = make_alpha<wbz_of>, .touch_rebound = rebound<wbz_of>};
 }
 SchemeRow generalized_alpha_row() {
-  return {.make = make_plain<chung_hulbert_of>, .touch_rebound = rebound<chung_hulbert_of>};
+  return {.make = make_alpha<chung_hulbert_of>, .touch_rebound = rebound<chung_hulbert_of>};
 }
 
 GeneralizedAlpha::GeneralizedAlpha(const System& system, const GeneralizedAlphaParameters& p,
-                                   const ImplicitSettings& settings, double dt, double omega_max_squared,
-                                   std::unique_ptr<VelocityImpulses> impulses)
+                                   const ImplicitSettings& settings, double dt, double omega_max_squared)
     : system_(system),
       parameters_(p),
       start_(system),
       stage_(system, settings, (1.0 - p.alpha_f) / (1.0 - p.alpha_m) * p.beta * dt * dt, omega_max_squared),
-      impulses_(std::move(impulses)) {
+      impulses_(velocity_impulses(system, settings.enforcement)) {
   assert(p.beta > 0.0 && p.alpha_m < 1.0 && p.alpha_f < 1.0);
   const std::size_t n = system.solid.dof_count();
   for (std::vector<double>* x : {&u_predicted_, &v_predicted_, &known_, &inertia_, &pushed_begin_, &pushed_end_})

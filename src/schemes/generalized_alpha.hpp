@@ -57,7 +57,7 @@ class GeneralizedAlpha final : public Scheme {
  public:
   /// omega_max_squared: a bound of the spectrum of M^-1 K, for the choice of the solver; dt: the usual step.
   GeneralizedAlpha(const System& system, const GeneralizedAlphaParameters& parameters, const ImplicitSettings& settings,
-                   double dt, double omega_max_squared, std::unique_ptr<VelocityImpulses> impulses = nullptr);
+                   double dt, double omega_max_squared);
 
   void start(State& state, double dt) override;
   StepReport step(const State& begin, const StepRequest& request, State& end) override;

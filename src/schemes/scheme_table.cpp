@@ -38,7 +38,7 @@ double stability_limit(const SchemeSettings& settings) {
 
 std::optional<double> touch_rebound(const SchemeSettings& settings) {
   const auto rebound = row(settings.kind).touch_rebound;
-  if (rebound == nullptr || !traits(settings.enforcement).has_multipliers) return std::nullopt;
+  if (rebound == nullptr || !traits(settings.enforcement).throws_back) return std::nullopt;
   return rebound(settings.parameters);
 }
 

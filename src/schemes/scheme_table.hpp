@@ -29,7 +29,7 @@ struct SchemeRequest {
 struct SchemeRow {
   std::unique_ptr<Scheme> (*make)(const SchemeRequest& request) = nullptr;
   double (*stability_limit)(const SchemeParameters& parameters) = nullptr;  ///< null: any step is stable
-  double (*touch_rebound)(const SchemeParameters& parameters) = nullptr;    ///< on multipliers; null: does not apply
+  double (*touch_rebound)(const SchemeParameters& parameters) = nullptr;    ///< null: it takes no plain multipliers
 };
 
 #define CAROM_DECLARE_SCHEME(scheme) SchemeRow scheme##_row();
@@ -44,13 +44,12 @@ std::string describe(const SchemeSettings& settings);
 /// Largest omega h at which the scheme is stable on an undamped oscillator; infinity where there is none.
 double stability_limit(const SchemeSettings& settings);
 
-/// Above this a run on multipliers may make more energy than it may keep (measured on cases/impact_bar/bars.toml at
-/// Courant numbers 0.15 to 3: growth below 1 % up to 1.4, above 5 % from 2.1 on).
+/// Above this a run on plain multipliers may make more energy than it may keep (measured on cases/impact_bar/bars.toml
+/// at Courant numbers 0.15 to 3: growth below 1 % up to 1.4, above 5 % from 2.1 on).
 inline constexpr double largest_touch_rebound = 1.5;
 
-/// Separating over approaching speed of a free mass that meets a rigid row just before the end of a step; empty for
-/// schemes without such a row, and other enforcements than multipliers. Above 1 touches make energy, whatever the step,
-/// fixed wall or free.
+/// Separating over approaching speed, the most, of a free mass that plain multipliers keep off a rigid row for one
+/// step; empty for other enforcements. Above 1 touches make energy, whatever the step, fixed wall or free.
 std::optional<double> touch_rebound(const SchemeSettings& settings);
 
 }  // namespace carom

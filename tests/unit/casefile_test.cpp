@@ -92,21 +92,28 @@ TEST(Casefile, MassDefaultsToLumpedForCentralDifferences) {
   EXPECT_EQ(**parse_case(consistent, "c").scheme.mass, CaseScheme::Mass::consistent);
 }
 
-/// For HHT with alpha = -1/3 4 / (1 - alpha)^2 - 1 = 1.25; Newmark and WBZ stop what touches
-/// (schemes/scheme_table.hpp).
-TEST(Casefile, ParametersOfTheAlphaFamilyOnMultipliersThrowNoNodeBack) {
-  for (const char* enforcement : {"lagrange", "augmented_lagrangian"}) {
+TEST(Casefile, ParametersOfTheAlphaFamilyAreTheSameForEveryEnforcement) {
+  for (const EnforcementTraits& enforcement : enforcement_table) {
+    if (!takes(SchemeKind::newmark, enforcement.kind)) continue;
     const std::string text =
-        with(minimal, "\"newmark\"", fmt::format("\"newmark\"\nenforcement = \"{}\"", enforcement));
+        with(minimal, "\"newmark\"", fmt::format("\"newmark\"\nenforcement = \"{}\"", enforcement.name));
     EXPECT_EQ(beta_of(parse_case(text, "c")), 0.25);
-    EXPECT_EQ(alpha_of(parse_case(with(text, "newmark", "hht"), "c")), -1.0 / 3.0);
+    EXPECT_EQ(alpha_of(parse_case(with(text, "newmark", "hht"), "c")), -0.05);
     EXPECT_EQ(alpha_of(parse_case(with(text, "newmark", "wbz"), "c")), -0.05);
     const std::string given = with(text, "\"newmark\"", "\"newmark\"\nbeta = 0.3");
     EXPECT_EQ(beta_of(parse_case(given, "c")), 0.3);
   }
-  EXPECT_EQ(alpha_of(parse_case(with(minimal, "newmark", "hht"), "c")), -0.05);  // penalty
-  const std::string massless = with(minimal, "\"newmark\"", "\"hht\"\nenforcement = \"lagrange\"\nmass = \"modified\"");
-  EXPECT_EQ(alpha_of(parse_case(massless, "c")), -0.05);  // no mass that could be thrown back
+}
+
+// Multipliers whose touches are not stopped: where something moves, and where nodes have mass that could be stopped.
+TEST(Casefile, PlainMultipliersAreRefusedWhereNothingCouldBeStopped) {
+  const std::string plain = with(minimal, "\"newmark\"", "\"newmark\"\nenforcement = \"plain\"");
+  EXPECT_EQ(**parse_case(plain, "c").scheme.enforcement, EnforcementKind::plain);
+  for (const SchemeTraits& scheme : scheme_table) {
+    if (takes(scheme.kind, EnforcementKind::plain)) continue;
+    EXPECT_THROW(parse_case(with(plain, "newmark", std::string(scheme.name)), "c"), CaseError) << scheme.name;
+  }
+  EXPECT_THROW(parse_case(with(plain, "\"plain\"", "\"plain\"\nmass = \"modified\""), "c"), CaseError);
 }
 
 TEST(Casefile, CentralDifferencesNeedNoStep) {

@@ -53,8 +53,8 @@ inline ImplicitScheme nonsmooth_scheme(const std::string& title, double rho_inf)
 
 inline std::vector<ImplicitScheme> implicit_schemes() {
   std::vector<ImplicitScheme> all;
-  for (const EnforcementKind e :
-       {EnforcementKind::penalty, EnforcementKind::augmented_lagrangian, EnforcementKind::lagrange}) {
+  for (const EnforcementKind e : {EnforcementKind::penalty, EnforcementKind::augmented_lagrangian,
+                                  EnforcementKind::lagrange, EnforcementKind::plain}) {
     all.push_back(alpha_scheme("newmark", newmark_parameters(0.28, 0.55), e));
     all.push_back(alpha_scheme("hht", hht_parameters(-0.2), e));
     all.push_back(alpha_scheme("wbz", wbz_parameters(-0.2), e));
@@ -66,15 +66,8 @@ inline std::vector<ImplicitScheme> implicit_schemes() {
                    }});
   }
   for (const EnforcementKind e : {EnforcementKind::augmented_lagrangian, EnforcementKind::lagrange}) {
-    for (const auto& [title, parameters] : {std::pair{"trapezoidal_that_stops_", newmark_parameters(0.25, 0.5)},
-                                            {"wbz_that_stops_", wbz_parameters(-0.05)}})
-      all.push_back({title + std::string(name(e)),
-                     {.enforcement = e},
-                     [e, parameters = parameters](const Problem& p, const ImplicitSettings& settings, double h,
-                                                  double omega_squared) {
-                       return std::make_unique<GeneralizedAlpha>(p.system, parameters, settings, h, omega_squared,
-                                                                 velocity_impulses(p.system, e));
-                     }});
+    all.push_back(alpha_scheme("trapezoidal", newmark_parameters(0.25, 0.5), e));
+    all.push_back(alpha_scheme("wbz_hardly_damped", wbz_parameters(-0.05), e));
   }
   all.push_back({"contact_stabilized",
                  {.enforcement = EnforcementKind::lagrange},

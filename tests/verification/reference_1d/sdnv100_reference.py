@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Independent one-dimensional reference of SDNV100 (standard library only).
 
-A bar of two-node elements with consistent mass, Newmark's scheme and a penalty spring below its foot. Within each step
-the contact is either open or closed: both linear problems are solved and the one that agrees with its own assumption
-is kept, so the contact state is exact, not iterated to a tolerance. Nothing here is shared with the solver in C++.
+A bar of two-node elements with consistent mass, Newmark's scheme and a penalty spring, or a multiplier, below its foot.
+Within each step the contact is either open or closed: both linear problems are solved and the one that agrees with its
+own assumption is kept, so the contact state is exact, not iterated to a tolerance. Nothing here is shared with the
+solver in C++.
 
     python3 sdnv100_reference.py            every published quantity as JSON
     python3 sdnv100_reference.py 1e13       the same for another contact stiffness E_n (traction per penetration)
@@ -55,7 +56,10 @@ class Tridiagonal:
 
 
 class Bar:
-    """Two-node elements between the heights `z`; contact spring of `stiffness` [N/m] under node 0, wall at z = 0."""
+    """Two-node elements between the heights `z`; contact spring of `stiffness` [N/m] under node 0, wall at z = 0.
+
+    Stiffness math.inf: node 0 is on the wall, or above it without a force, at the end of every step.
+    """
 
     def __init__(self, z, modulus, density, area, stiffness):
         self.z = z
@@ -68,8 +72,8 @@ class Bar:
             self.tangent.add_element(e, modulus * area / h, -modulus * area / h)
 
     def contact_force(self, u):
-        """Force of the wall on node 0, upwards."""
-        return max(0.0, -self.stiffness * (self.z[0] + u[0]))
+        """Force of the spring on node 0, upwards."""
+        return max(0.0, -self.stiffness * (self.z[0] + u[0])) if math.isfinite(self.stiffness) else 0.0
 
 
 def dot(x, y):
@@ -84,41 +88,53 @@ def difference(x, y):
     return [a - b for a, b in zip(x, y)]
 
 
-def newmark_step(bar, u, v, a):
-    """One step of Newmark's scheme; returns u, v, a at its end."""
+def newmark_step(bar, u, v, a, newmark=(BETA, GAMMA)):
+    """One step of Newmark's scheme; returns u, v, a at its end, and the contact force there."""
+    beta, gamma = newmark
     n = len(u)
-    u_star = [u[i] + DT * v[i] + DT * DT * (0.5 - BETA) * a[i] for i in range(n)]
-    v_star = [v[i] + DT * (1.0 - GAMMA) * a[i] for i in range(n)]
-    c = BETA * DT * DT
+    u_star = [u[i] + DT * v[i] + DT * DT * (0.5 - beta) * a[i] for i in range(n)]
+    v_star = [v[i] + DT * (1.0 - gamma) * a[i] for i in range(n)]
+    c = beta * DT * DT
     off = [m + c * k for m, k in zip(bar.mass.off, bar.tangent.off)]
     for closed in (False, True):
         diagonal = [m + c * k for m, k in zip(bar.mass.diagonal, bar.tangent.diagonal)]
         rhs = [-f for f in bar.tangent.apply(u_star)]
-        if closed:
+        if not closed:
+            a_new = solve_tridiagonal([0.0] + off, diagonal, off + [0.0], rhs)
+        elif math.isfinite(bar.stiffness):
             diagonal[0] += c * bar.stiffness
             rhs[0] -= bar.stiffness * (bar.z[0] + u_star[0])
-        a_new = solve_tridiagonal([0.0] + off, diagonal, off + [0.0], rhs)
+            a_new = solve_tridiagonal([0.0] + off, diagonal, off + [0.0], rhs)
+        else:
+            a_foot = -(bar.z[0] + u_star[0]) / c
+            others = [rhs[1] - off[0] * a_foot] + rhs[2:]
+            a_new = [a_foot] + solve_tridiagonal([0.0] + off[1:], diagonal[1:], off[1:] + [0.0], others)
         u_new = [u_star[i] + c * a_new[i] for i in range(n)]
-        if (bar.z[0] + u_new[0] < 0.0) == closed:
-            v_new = [v_star[i] + GAMMA * DT * a_new[i] for i in range(n)]
-            return u_new, v_new, a_new
+        force = bar.contact_force(u_new)
+        agrees = (bar.z[0] + u_new[0] < 0.0) == closed
+        if closed and not math.isfinite(bar.stiffness):
+            force = diagonal[0] * a_new[0] + off[0] * a_new[1] - rhs[0]
+            agrees = force >= 0.0
+        if agrees:
+            v_new = [v_star[i] + gamma * DT * a_new[i] for i in range(n)]
+            return u_new, v_new, a_new, force
     raise RuntimeError("neither open nor closed agrees with itself")
 
 
-def run(bar, u0, v0):
+def run(bar, u0, v0, newmark=(BETA, GAMMA)):
     """70 steps from the uniform state u0, v0; returns the histories and the energies in Code_Aster's terms."""
     n = len(bar.z)
-    u, v, a = [u0] * n, [v0] * n, [0.0] * n
-    history = [(u, v, bar.contact_force(u))]
+    u, v, a, force = [u0] * n, [v0] * n, [0.0] * n, bar.contact_force([u0] * n)
+    history = [(u, v, force)]
     energy = {"ENER_CIN": 0.0, "ENER_TOT": 0.0, "TRAV_LIAI": 0.0}
     for _ in range(END_STEP):
-        u1, v1, a1 = newmark_step(bar, u, v, a)
+        u1, v1, a1, force1 = newmark_step(bar, u, v, a, newmark)
         du = difference(u1, u)
         energy["ENER_CIN"] += dot(mean(v, v1), bar.mass.apply(difference(v1, v)))
         energy["ENER_TOT"] += dot(bar.tangent.apply(mean(u, u1)), du)
-        energy["TRAV_LIAI"] -= 0.5 * (bar.contact_force(u) + bar.contact_force(u1)) * du[0]
-        u, v, a = u1, v1, a1
-        history.append((u, v, bar.contact_force(u)))
+        energy["TRAV_LIAI"] -= 0.5 * (force + force1) * du[0]
+        u, v, a, force = u1, v1, a1, force1
+        history.append((u, v, force))
     energy["DISS_SCH"] = -energy["ENER_CIN"] - energy["ENER_TOT"] - energy["TRAV_LIAI"]
     return history, energy
 
@@ -146,6 +162,11 @@ def as_published(stiffness_per_area=1.0e14):
 def current(heights=None):
     """nu = 0, full section, 1e10 N/m on each of the four foot nodes, the gap in the mesh."""
     return Bar(heights or uniform_heights(2.0e-3), 2.0e11, 8000.0, 4.0e-4, 4.0e10), 0.0, -100.0
+
+
+def multipliers(heights, newmark=(BETA, GAMMA)):
+    """Modellings B and C of Code_Aster's validation base; H with 0.3025, 0.6."""
+    return Bar(heights, 2.0e11, 8000.0, 4.0e-4, math.inf), 0.0, -100.0, newmark
 
 
 PUBLISHED_POINTS = [("u", "B", 4e-5), ("u", "B", 8e-5), ("u", "B", 1.2e-4), ("v", "B", 4e-5), ("v", "B", 8e-5),

@@ -33,6 +33,13 @@ def rows_of_documentation():
     return [[cell.strip() for cell in line.strip("|\n ").split("|")] for line in text.splitlines() if line[:1] == "|"]
 
 
+def file_heights():
+    """Of the nodes of the bar in Code_Aster's mesh file."""
+    text = (CASES / "meshes" / "sdnv100a.msh").read_text(encoding="ascii")
+    lines = text.partition("$Nodes\n")[2].partition("$EndNodes")[0].splitlines()[1:]
+    return sorted({float(line.split()[3]) for line in lines if float(line.split()[3]) > 0.0})
+
+
 def value_at(history, quantity, place, time):
     u, v, _ = history[round(time / reference.DT)]
     return (u if quantity.startswith(("u", "displacement")) else v)[0 if place == "A" else -1]
@@ -56,6 +63,21 @@ class Documentation(unittest.TestCase):
             self.assertAlmostEqual(found, float(printed), delta=rounding(printed), msg=term)
             # 5e-7: the mesh of Code_Aster is rounded to single precision, which changes TRAV_LIAI by 2e-7.
             self.assertAlmostEqual(found / float(aster), 1.0, delta=5.0e-7, msg=term)
+
+    def test_multipliers(self):
+        rows = [row for row in rows_of_documentation() if row[0] in ("B", "C", "H") and len(row) == 6]
+        self.assertEqual(len(rows), 14)
+        heights = file_heights()
+        for modelling, quantity, time, _, printed, _ in rows:
+            newmark = (0.3025, 0.6) if modelling == "H" else (reference.BETA, reference.GAMMA)
+            history, _ = reference.run(*reference.multipliers(heights, newmark))
+            if quantity.startswith("u"):
+                found, delta = value_at(history, quantity, quantity[2], float(time)), rounding(printed)
+            else:
+                v = [step[1][0] for step in history[10:51]]
+                # 1e-14: round-off of terms of 2.5.
+                found, delta = 12500.0 * reference.DT * (sum(v) - 0.5 * (v[0] + v[-1])), 1.0e-14
+            self.assertAlmostEqual(found, float(printed), delta=delta, msg=f"{modelling}: {quantity} at {time}")
 
     def test_exact_values_on_a_rigid_wall(self):
         """Those that the manual rounds: B turns at t0 + L / c."""
@@ -85,12 +107,13 @@ class Cases(unittest.TestCase):
         self.assert_checks("current.toml", reference.current())
 
     def test_mesh_files(self):
-        text = (CASES / "meshes" / "sdnv100a.msh").read_text(encoding="ascii")
-        lines = text.partition("$Nodes\n")[2].partition("$EndNodes")[0].splitlines()[1:]
-        heights = sorted({float(line.split()[3]) for line in lines if float(line.split()[3]) > 0.0})
+        heights = file_heights()
         self.assertEqual(len(heights), 21)
         for name in ("current_msh.toml", "current_med.toml"):
             self.assert_checks(name, reference.current(heights))
+        for name in ("b", "c"):
+            self.assert_checks(f"plain/{name}.toml", reference.multipliers(heights))
+        self.assert_checks("plain/h.toml", reference.multipliers(heights, (0.3025, 0.6)))
 
 
 class GeneratedFiles(unittest.TestCase):
@@ -156,13 +179,8 @@ class Solver(unittest.TestCase):
         a = reference.solve_tridiagonal([0.0] + bar.mass.off, bar.mass.diagonal, bar.mass.off + [0.0],
                                         [-f for f in bar.tangent.apply(u)])
         start = 0.5 * reference.dot(u, bar.tangent.apply(u))
-        beta, gamma = reference.BETA, reference.GAMMA
-        reference.BETA, reference.GAMMA = 0.25, 0.5
-        try:
-            for _ in range(100):
-                u, v, a = reference.newmark_step(bar, u, v, a)
-        finally:
-            reference.BETA, reference.GAMMA = beta, gamma
+        for _ in range(100):
+            u, v, a, _ = reference.newmark_step(bar, u, v, a, (0.25, 0.5))
         end = 0.5 * reference.dot(u, bar.tangent.apply(u)) + 0.5 * reference.dot(v, bar.mass.apply(v))
         # Newmark 1/4, 1/2 conserves it; 100 steps of round-off on 21 unknowns.
         self.assertAlmostEqual(end / start, 1.0, delta=1.0e-11)
