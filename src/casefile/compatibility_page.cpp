@@ -21,6 +21,10 @@ std::string compatibility_markdown() {
     for (const bool taken : scheme.takes) text += taken ? " yes |" : " - |";
     text += is_explicit(scheme.kind) ? " explicit |\n" : " implicit |\n";
   }
+  text += "\nNames of the literature, which a case may give as its `kind`:\n\n";
+  for (const SchemeAlias& alias : scheme_aliases)
+    text += fmt::format("- `{}`: `{}` with `enforcement = \"{}\"`.\n", alias.name, traits(alias.kind).name,
+                        name(alias.enforcement));
   text += "\nWhy not:\n\n";
   for (const SchemeTraits& scheme : scheme_table) text += fmt::format("- `{}`: {}.\n", scheme.name, scheme.why_not);
   return text;

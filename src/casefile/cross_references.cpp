@@ -153,7 +153,7 @@ void check_enforcement(const Case& given, const CaseScheme& scheme) {
                       fmt::format("{} with enforcement = \"{}\"", *contact.restitution, name(enforcement)),
                       "enforcement = \"impulse\" with a restitution",
                       "Deformable bodies rebound by their own waves; remove restitution, or take moreau_jean, "
-                      "nonsmooth_generalized_alpha or cd_lagrange.");
+                      "nonsmooth_generalized_alpha or central_differences.");
     }
   }
 }

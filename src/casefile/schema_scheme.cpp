@@ -18,6 +18,9 @@ Names schemes_with(const Condition& condition) {
   for (const SchemeTraits& scheme : scheme_table) {
     if (condition(scheme)) names.emplace_back(scheme.name);
   }
+  for (const SchemeAlias& alias : scheme_aliases) {
+    if (condition(traits(alias.kind))) names.emplace_back(alias.name);
+  }
   return names;
 }
 
@@ -41,12 +44,21 @@ Names schemes_of_lumped_mass() {
 /// `kind`, which brings the parameters of the scheme with it.
 template <class S, class Access>
 void add_kind(SectionSchema<S>& s, Access scheme_of) {
-  const KeyDescription key{"kind", Shape::text, "Time scheme.", {.choices = all_schemes(), .need = Need::required},
-                           {},     {}};
+  std::string doc = "Time scheme.";
+  for (const SchemeAlias& alias : scheme_aliases)
+    doc +=
+        fmt::format(" {}: {} with enforcement = \"{}\".", alias.name, traits(alias.kind).name, name(alias.enforcement));
+  const KeyDescription key{"kind", Shape::text, doc, {.choices = all_schemes(), .need = Need::required}, {}, {}};
   typename SectionSchema<S>::Handlers handlers;
   handlers.read = [key, scheme_of](S& section, const Node& node, const ReadContext& at) {
     CaseScheme& scheme = scheme_of(section);
-    decode(node, key, at, scheme.kind);
+    const std::size_t choice = decode_choice(node, key, at);
+    scheme.kind = Located<SchemeKind>{static_cast<SchemeKind>(choice), node.where};
+    if (choice >= scheme_count) {
+      const SchemeAlias& alias = scheme_aliases[choice - scheme_count];
+      scheme.kind.value = alias.kind;
+      scheme.enforcement = Located<EnforcementKind>{alias.enforcement, node.where};
+    }
     scheme.parameters = traits(*scheme.kind).parameters;
   };
   handlers.write = [key, scheme_of](const S& section, const Node&) {
@@ -126,6 +138,19 @@ void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
                   "Choose another enforcement or another scheme; docs/compatibility.md has the whole table.");
 }
 
+/// An enforcement beside a name that stands for another one.
+void check_alias(const CaseScheme& scheme, const Node& node, const ReadContext& at) {
+  const std::string& given = std::get<std::string>(find(node, "kind")->value);
+  for (const SchemeAlias& alias : scheme_aliases) {
+    if (alias.name != given || alias.enforcement == **scheme.enforcement) continue;
+    throw CaseError(
+        scheme.enforcement->where, at.at("enforcement").path,
+        fmt::format("\"{}\" with the scheme {}", name(**scheme.enforcement), alias.name),
+        fmt::format("\"{}\", which this name of {} stands for", name(alias.enforcement), traits(alias.kind).name),
+        fmt::format("Leave enforcement out, or choose kind = \"{}\".", traits(alias.kind).name));
+  }
+}
+
 void check_mass(CaseScheme& scheme, const Node& node, const ReadContext& at) {
   using Mass = CaseScheme::Mass;
   const bool must_be_modified = *scheme.kind == SchemeKind::modified_mass;
@@ -192,6 +217,7 @@ void finish_scheme(CaseScheme& scheme, const Node& node, const ReadContext& at) 
   if (!scheme.enforcement)
     scheme.enforcement = Located<EnforcementKind>{default_enforcement(*scheme.kind), scheme.where};
   if (!takes(*scheme.kind, **scheme.enforcement)) refuse_enforcement(scheme, at);
+  check_alias(scheme, node, at);
   const Node* penetration = find(node, "penetration");
   const bool is_augmented = **scheme.enforcement == EnforcementKind::augmented_lagrangian;
   if (is_augmented && !scheme.penetration) scheme.penetration = 1e-3;

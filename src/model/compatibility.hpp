@@ -27,8 +27,6 @@ namespace carom {
   X(hulbert_chung)               \
   X(noh_bathe)                   \
   X(tchamwa_wielgosz)            \
-  X(cd_lagrange)                 \
-  X(forward_increment)           \
   X(modified_mass)               \
   X(statics)
 
@@ -87,9 +85,10 @@ struct SchemeTraits {
 namespace detail {
 inline constexpr std::string_view smooth = "its forces are smooth functions of time, which impulses are not";
 inline constexpr std::string_view smooth_explicit =
-    "an explicit step has no equation in which a multiplier could be solved for at its end; cd_lagrange, "
-    "forward_increment "
-    "and modified_mass are the explicit schemes with exact contact";
+    "an explicit step has no equation in which a multiplier could be solved for at its end; central_differences and "
+    "modified_mass are the explicit schemes with exact contact";
+inline constexpr std::string_view by_the_mass =
+    "its exact contact follows from the mass alone, at the velocities of the step that comes next";
 inline constexpr std::string_view velocity_level =
     "it balances velocities over a step, so that contact enters by impulses";
 inline constexpr std::string_view displacement_level =
@@ -173,8 +172,8 @@ inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
      "central differences",
      Stepping::explicit_steps,
      NoParameters{},
-     {true, false, false, false, false},
-     detail::smooth_explicit,
+     {true, false, true, false, true},
+     detail::by_the_mass,
      AngularMomentum::exactly},
     {SchemeKind::hulbert_chung,
      "hulbert_chung",
@@ -197,22 +196,6 @@ inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
      TchamwaWielgoszParameters{},
      {true, false, false, false, false},
      detail::smooth_explicit},
-    {SchemeKind::cd_lagrange,
-     "cd_lagrange",
-     "CD-Lagrange",
-     Stepping::explicit_steps,
-     NoParameters{},
-     {false, false, false, false, true},
-     detail::velocity_level,
-     AngularMomentum::exactly},
-    {SchemeKind::forward_increment,
-     "forward_increment",
-     "central differences, forward-increment multipliers",
-     Stepping::explicit_steps,
-     NoParameters{},
-     {false, false, true, false, false},
-     detail::displacement_level,
-     AngularMomentum::exactly},
     {SchemeKind::modified_mass,
      "modified_mass",
      "central differences, modified mass",
@@ -231,6 +214,18 @@ inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
      detail::timeless},
 }};
 
+/// A name that a scheme has in the literature with one of its enforcements: a case may say it as its kind.
+struct SchemeAlias {
+  std::string_view name;
+  std::string_view title;  ///< in reports and messages
+  SchemeKind kind;
+  EnforcementKind enforcement;
+};
+inline constexpr std::array scheme_aliases{
+    SchemeAlias{"cd_lagrange", "CD-Lagrange", SchemeKind::central_differences, EnforcementKind::impulse},
+    SchemeAlias{"forward_increment", "central differences, forward-increment multipliers",
+                SchemeKind::central_differences, EnforcementKind::lagrange}};
+
 constexpr const SchemeTraits& traits(SchemeKind kind) {
   return scheme_table[static_cast<std::size_t>(kind)];
 }
@@ -245,6 +240,12 @@ constexpr std::string_view name(EnforcementKind kind) {
 }
 constexpr bool is_explicit(SchemeKind kind) {
   return traits(kind).stepping == Stepping::explicit_steps;
+}
+constexpr std::string_view title(SchemeKind scheme, EnforcementKind enforcement) {
+  for (const SchemeAlias& alias : scheme_aliases) {
+    if (alias.kind == scheme && alias.enforcement == enforcement) return alias.title;
+  }
+  return traits(scheme).title;
 }
 /// The enforcement that a case gets which names none: the first that the scheme takes.
 constexpr EnforcementKind default_enforcement(SchemeKind scheme) {

@@ -93,31 +93,27 @@ bool CentralDifferences::end_consistent_step(const State& begin, std::span<const
 
 namespace {
 
-double central_difference_limit(const SchemeParameters& /*parameters*/) {
-  return 2.0;
+std::unique_ptr<ExplicitContact> contact_by(EnforcementKind enforcement, const System& system) {
+  switch (enforcement) {
+    case EnforcementKind::impulse:
+      return impulse_contact(system);
+    case EnforcementKind::lagrange:
+      return forward_increment_contact(system);
+    case EnforcementKind::penalty:
+    case EnforcementKind::augmented_lagrangian:
+    case EnforcementKind::plain:
+      break;
+  }
+  return penalty_contact(system);
 }
 
 }  // namespace
 
 SchemeRow central_differences_row() {
   return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
-            return std::make_unique<CentralDifferences>(r.system, penalty_contact(r.system));
+            return std::make_unique<CentralDifferences>(r.system, contact_by(r.settings.enforcement, r.system));
           },
-          .stability_limit = central_difference_limit};
-}
-
-SchemeRow cd_lagrange_row() {
-  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
-            return std::make_unique<CentralDifferences>(r.system, impulse_contact(r.system));
-          },
-          .stability_limit = central_difference_limit};
-}
-
-SchemeRow forward_increment_row() {
-  return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
-            return std::make_unique<CentralDifferences>(r.system, forward_increment_contact(r.system));
-          },
-          .stability_limit = central_difference_limit};
+          .stability_limit = [](const SchemeParameters& /*parameters*/) { return 2.0; }};
 }
 
 }  // namespace carom

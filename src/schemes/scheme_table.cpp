@@ -23,7 +23,7 @@ std::unique_ptr<Scheme> make_scheme(const SchemeRequest& request) {
 }
 
 std::string describe(const SchemeSettings& settings) {
-  std::string text(traits(settings.kind).title);
+  std::string text(title(settings.kind, settings.enforcement));
   for (const SchemeNumber& number : scheme_numbers) {
     if (const std::optional<double> value = number.value(settings.parameters))
       text += fmt::format(" {} {:g}", number.key, *value);

@@ -116,6 +116,26 @@ TEST(Casefile, PlainMultipliersAreRefusedWhereNothingCouldBeStopped) {
   EXPECT_THROW(parse_case(with(plain, "\"plain\"", "\"plain\"\nmass = \"modified\""), "c"), CaseError);
 }
 
+// Names of the literature are read as the scheme with its enforcement, which is what is written.
+TEST(Casefile, AliasesOfSchemesAreTheSchemeWithAnEnforcement) {
+  for (const SchemeAlias& alias : scheme_aliases) {
+    SCOPED_TRACE(alias.name);
+    const std::string text = with(with(minimal, "newmark", std::string(alias.name)), "step = 1e-6", "safety = 0.5");
+    const Case read = parse_case(text, "c");
+    EXPECT_EQ(*read.scheme.kind, alias.kind);
+    EXPECT_EQ(**read.scheme.enforcement, alias.enforcement);
+    const Case again = parse_case(resolved_toml(read), "c");
+    EXPECT_EQ(*again.scheme.kind, alias.kind);
+    EXPECT_EQ(**again.scheme.enforcement, alias.enforcement);
+    const auto beside = [&](std::string_view enforcement) {
+      return with(text, fmt::format("\"{}\"", alias.name),
+                  fmt::format("\"{}\"\nenforcement = \"{}\"", alias.name, enforcement));
+    };
+    EXPECT_NO_THROW(parse_case(beside(name(alias.enforcement)), "c"));
+    EXPECT_THROW(parse_case(beside("penalty"), "c"), CaseError);
+  }
+}
+
 TEST(Casefile, CentralDifferencesNeedNoStep) {
   const std::string text = with(with(minimal, "newmark", "central_differences"), "step = 1e-6", "");
   const Case c = parse_case(text, "c");

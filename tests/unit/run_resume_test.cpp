@@ -218,7 +218,7 @@ const std::string penalty_steps = stepping(SchemeKind::newmark, EnforcementKind:
 
 TEST(Resume, KeepsWhatPlasticBodiesRemember) {
   const std::vector<Pair> pairs{{SchemeKind::newmark, EnforcementKind::penalty},
-                                {SchemeKind::cd_lagrange, EnforcementKind::impulse}};
+                                {SchemeKind::central_differences, EnforcementKind::impulse}};
   for (const Pair& pair : pairs) {
     SCOPED_TRACE(testing::PrintToString(pair));
     const Runs runs(

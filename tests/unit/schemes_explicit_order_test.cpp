@@ -94,9 +94,10 @@ std::vector<Explicit> schemes() {
   list.push_back({"central_differences", {.kind = SchemeKind::central_differences}, 2, [](const System& s) {
                     return std::make_unique<CentralDifferences>(s);
                   }});
-  list.push_back({"cd_lagrange", {.kind = SchemeKind::cd_lagrange}, 2, [](const System& s) {
-                    return std::make_unique<CentralDifferences>(s, impulse_contact(s));
-                  }});
+  list.push_back({"cd_lagrange",
+                  {.kind = SchemeKind::central_differences, .enforcement = EnforcementKind::impulse},
+                  2,
+                  [](const System& s) { return std::make_unique<CentralDifferences>(s, impulse_contact(s)); }});
   list.push_back({"modified_mass",
                   {.kind = SchemeKind::modified_mass},
                   2,

@@ -120,8 +120,8 @@ std::vector<Kind> kinds() {
   const auto increments = [](const System& s) {
     return std::make_unique<CentralDifferences>(s, forward_increment_contact(s));
   };
-  const SchemeSettings cd_lagrange{.kind = SchemeKind::cd_lagrange, .enforcement = EnforcementKind::impulse};
-  const SchemeSettings forward{.kind = SchemeKind::forward_increment, .enforcement = EnforcementKind::lagrange};
+  const SchemeSettings cd_lagrange{.kind = SchemeKind::central_differences, .enforcement = EnforcementKind::impulse};
+  const SchemeSettings forward{.kind = SchemeKind::central_differences, .enforcement = EnforcementKind::lagrange};
   return {
       plain("hulbert_chung", {.kind = SchemeKind::hulbert_chung, .parameters = SpectralRadius{0.6}}, MassKind::lumped,
             [](const System& s) { return std::make_unique<HulbertChung>(s, SpectralRadius{0.6}); }),
