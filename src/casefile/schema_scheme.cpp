@@ -93,7 +93,8 @@ void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
   s.description.selector = "kind";
   add_kind(s, scheme_of);
   s.key_by("enforcement", [scheme_of](auto& section) -> auto& { return scheme_of(section).enforcement; },
-           "How contact is enforced; the table of the manual says which scheme takes which.",
+           "How contact is enforced; the table of the manual says which scheme takes which. plain: multipliers as "
+           "published, which throw back what lagrange stops.",
            {.choices = Names(enforcement_names.begin(), enforcement_names.end()),
             .default_phrase = "the first that the scheme takes"});
   for (const SchemeNumber& number : scheme_numbers) add_number(s, scheme_of, number);

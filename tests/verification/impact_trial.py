@@ -12,7 +12,8 @@ cylinders; of the order of the speed over the wave's, so that one touch grows ov
 on its corner the mesh decides, by the inertia of lumped masses and by the point load), turned arbitrarily in space, at
 the origin or 100 m from it, in SI or mm-t-s, half of them with friction. All end after the rebound.
 Each runs by ten draws of scheme, enforcement and method of contact, so that over all impacts every combination that the
-table of compatibility allows comes twice without and twice with friction. Nothing else is chosen: stiffnesses, safety,
+table of compatibility allows, plain multipliers apart (they make energy), comes twice without and twice with friction.
+Nothing else is chosen: stiffnesses, safety,
 tolerances and masses are the defaults; the coarser side is the master; implicit steps last half as long as a wave of
 the slower body needs through the finest cell, but are at most 600.
 A run is right if
