@@ -14,9 +14,9 @@
 namespace carom {
 namespace {
 
-constexpr double least_sharp = 0.5 * std::numbers::sqrt3;    // cosine of 30 degrees between the normals
-constexpr double goes_straight = 0.5 * std::numbers::sqrt2;  // cosine of 45 degrees between segments
-constexpr double passing = 0.1;                              // EdgeEnd::width
+constexpr double least_sharp = 0.5 * std::numbers::sqrt3;  // cosine of 30 degrees between the normals
+constexpr double goes_straight = 1.0 - 5e-7;               // cosine of 1e-3 between segments
+constexpr double passing = 0.1;                            // EdgeEnd::width
 
 /// A side of a facet.
 struct FacetSide {

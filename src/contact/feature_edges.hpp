@@ -27,8 +27,9 @@ struct FeatureEdge {
 /// The edges between two facets of three or four nodes whose outward normals differ by more than 30 degrees and that
 /// stick out, by increasing numbers of their nodes. One of the facets at least is of the surface; where that ends, the
 /// other one is looked for in `beside` (the skin of the mesh; facets of the surface may be in it). Edges with a third
-/// facet have no inside and are left out. An edge goes on at a node where exactly one other edge leaves it within 45
-/// degrees. X: reference configuration.
+/// facet have no inside and are left out. An edge goes on at a node where exactly one other edge leaves it straight on,
+/// to a thousandth: the line of a segment of a curved edge sticks out of the body beyond the segment's end. X:
+/// reference configuration.
 std::vector<FeatureEdge> feature_edges(std::span<const Vec3> X, std::span<const Facet> surface,
                                        std::span<const Facet> beside);
 
