@@ -155,6 +155,24 @@ TEST(FeatureEdges, AreConvexAndTurnByMoreThan30Degrees) {
   }
 }
 
+// A roof whose ridge of two segments sags from its middle on: beyond that the line of one segment is outside.
+TEST(FeatureEdges, GoOnWhereTheyAreStraight) {
+  const auto ends_that_go_on = [](double sag) {
+    Scene scene;
+    const std::vector<Facet> roof = scene.add_patch(2, 2, [&](double s, double t) {
+      return Vec3{2.0 * s - 1.0, t, -std::abs(2.0 * s - 1.0) - sag * std::abs(t - 0.5)};
+    });
+    const std::vector<FeatureEdge> ridge = feature_edges(scene.mesh.coordinates, roof, {});
+    EXPECT_EQ(ridge.size(), 2U);
+    int count = 0;
+    for (const FeatureEdge& edge : ridge)
+      for (const EdgeEnd& end : edge.end) count += end.goes_on ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(ends_that_go_on(0.0), 2);
+  EXPECT_EQ(ends_that_go_on(0.01), 0);  // they turn by 0.02
+}
+
 TEST(EdgeRows, PushAlongTheCrossProductOfTheEdges) {
   for (const double angle : {90.0, 45.0, 15.0, 5.0}) {
     Lie lie;
