@@ -13,6 +13,8 @@
 #include "base/errors.hpp"
 #include "base/types.hpp"
 #include "base/units.hpp"
+#include "casefile/case_contact.hpp"
+#include "casefile/located.hpp"
 #include "material/law.hpp"
 #include "math/time_function.hpp"
 #include "mesh/structured_block.hpp"
@@ -20,16 +22,6 @@
 #include "model/options.hpp"
 
 namespace carom {
-
-/// A value and the place where the user wrote it (or where its section begins, when it is a default).
-template <class T>
-struct Located {
-  T value{};
-  Location where;
-
-  const T& operator*() const { return value; }
-  const T* operator->() const { return &value; }
-};
 
 struct CaseMesh {
   Location where;
@@ -133,50 +125,6 @@ struct CaseInitial {
 struct CaseInitialState {
   Location where;
   Located<std::string> from;  ///< results folder of another run; relative to the case file's folder
-};
-
-/// [[contact]]
-struct CaseContact {
-  Location where;
-  Located<std::string> name;
-  enum class Kind : std::uint8_t { interface, plane, sphere, cylinder, box, surface, pair, self, all, stop, tie };
-  Located<Kind> kind{};
-  Located<std::string> group;   ///< cells (interface), faces or nodes (obstacles), slave faces (pair, tie), faces
-                                ///< (self), nodes (stop)
-  Located<std::string> master;  ///< pair, tie: faces of the other body
-  std::vector<Located<std::string>> exclude;  ///< all: groups whose faces take no part
-  std::optional<Located<PairMethod>> method;  ///< pair, self, all: filled on reading
-  std::optional<Located<double>> stiffness;   ///< eps_N: stress per length (per node and stop: force per length)
-  double stiffness_factor = 1.0;              ///< on the stiffness that is chosen where none is given
-  bool per_node = false;                      ///< obstacles: measure = "node" instead of "area"
-  std::optional<double> tangential_stiffness;
-  double friction = 0.0;        ///< Coulomb mu
-  Located<double> restitution;  ///< Newton's coefficient, for impulses
-  Vec3 moment_point{};          ///< about which contact.csv gives the moment
-  /// Empty: with [initial_state], where overlaps such as penalties leave are kept, and others refused.
-  std::optional<InitialPenetration> initial_penetration;
-  Vec3 point{};                  ///< plane, cylinder
-  Located<Vec3> normal;          ///< plane: towards the body; stop: from the stop to the node. Normalised on reading
-  Vec3 centre{};                 ///< sphere
-  Located<Vec3> axis;            ///< cylinder. Normalised on reading
-  double radius = 0.0;           ///< sphere, cylinder
-  bool inside = false;           ///< sphere, cylinder: the body is inside
-  Vec3 lower{};                  ///< box
-  Located<Vec3> upper;           ///< box
-  Located<std::string> surface;  ///< surface: faces of the rigid surface
-  std::optional<Vec3> velocity;  ///< obstacles: imposed, times function; initial with a mass
-  std::optional<Located<std::string>> function;
-  std::optional<double> mass;            ///< obstacles: free rigid body, which turns where it has an inertia
-  std::optional<Located<Vec3>> inertia;  ///< I_xx, I_yy, I_zz about the centre of mass
-  std::optional<Vec3> products_of_inertia, centre_of_mass, angular_velocity;
-  std::optional<double> rigidity;                     ///< of the body that turns (TurningBody)
-  double gap = 0.0;                                   ///< stop
-  double damping = 0.0;                               ///< stop
-  DamperActs damper = DamperActs::compression;        ///< stop
-  TieMethod tie_method = TieMethod::node_to_surface;  ///< tie: `method`
-  double tolerance = 0.05;                            ///< tie: largest distance from the master, in facet sizes
-  std::optional<double> distance;                     ///< tie: instead of the tolerance
-  FarNodes far = FarNodes::refuse;                    ///< tie
 };
 
 struct CaseFunction {

@@ -85,7 +85,9 @@ void check_functions(const Case& given) {
     if (function) check_known(*function, functions, entry_path("load", i, "function"), what);
   }
   for (std::size_t i = 0; i < given.contacts.size(); ++i) {
-    const auto& function = given.contacts[i].function;
+    const CaseObstacle* obstacle = given.contacts[i].obstacle();
+    if (obstacle == nullptr) continue;
+    const auto& function = obstacle->function;
     if (function) check_known(*function, functions, entry_path("contact", i, "function"), what);
   }
 }
@@ -118,39 +120,29 @@ bool is_all_penalty(const Case& given) {
 void check_methods(const Case& given) {
   if (is_all_penalty(given)) return;
   for (std::size_t i = 0; i < given.contacts.size(); ++i) {
-    const CaseContact& contact = given.contacts[i];
-    if (!contact.method || **contact.method != PairMethod::faces) continue;
-    throw CaseError(contact.method->where, entry_path("contact", i, "method"),
+    const CaseSurfaces* surfaces = given.contacts[i].surfaces();
+    if (surfaces == nullptr || !surfaces->method || **surfaces->method != PairMethod::faces) continue;
+    throw CaseError(surfaces->method->where, entry_path("contact", i, "method"),
                     "\"faces\" with an enforcement that is not penalty", "enforcement = \"penalty\" with faces",
                     "Take surface_to_surface or two_pass, or a scheme with penalty in every stage.");
   }
 }
 
-/// What a stop or a restitution cannot do with the enforcement of a stage.
-void check_enforcement(const Case& given, const CaseScheme& scheme) {
+/// What the contacts cannot do with the scheme of a stage.
+void check_scheme(const Case& given, const CaseScheme& scheme) {
   const EnforcementKind enforcement = **scheme.enforcement;
   for (std::size_t i = 0; i < given.contacts.size(); ++i) {
     const CaseContact& contact = given.contacts[i];
-    if (*contact.kind == CaseContact::Kind::stop && enforcement != EnforcementKind::penalty) {
-      throw CaseError(contact.kind.where, entry_path("contact", i, "kind"),
-                      fmt::format("a stop, which is a spring, with enforcement = \"{}\"", name(enforcement)),
-                      "enforcement = \"penalty\" with stops", "Take a plane instead, or a scheme with penalty.");
-    }
-    if (*contact.kind == CaseContact::Kind::tie && **scheme.mass == CaseScheme::Mass::modified) {
-      throw CaseError(
-          contact.kind.where, entry_path("contact", i, "kind"), "a tie, with mass = \"modified\"",
-          "a scheme whose contact nodes keep their mass",
-          "What is tied moves by its inertia, also where it touches something: take another mass, or another "
-          "scheme than modified_mass.");
-    }
-    if (*scheme.kind == SchemeKind::statics && contact.inertia) {
-      throw CaseError(contact.inertia->where, entry_path("contact", i, "inertia"), "a body that turns, with statics",
-                      "a scheme with inertia, or a free body without `inertia`, which does not turn",
-                      "Nothing but contact holds the directions of such a body at rest.");
-    }
-    if (*contact.restitution > 0.0 && enforcement != EnforcementKind::impulse) {
-      throw CaseError(contact.restitution.where, entry_path("contact", i, "restitution"),
-                      fmt::format("{} with enforcement = \"{}\"", *contact.restitution, name(enforcement)),
+    const ContactPlace at{contact, fmt::format("contact[{}]", i)};
+    std::visit(
+        [&](const auto& kind) {
+          if constexpr (requires { kind.check_scheme(scheme, at); }) kind.check_scheme(scheme, at);
+        },
+        contact.of);
+    const CaseContactLaw* law = contact.law();
+    if (law != nullptr && *law->restitution > 0.0 && enforcement != EnforcementKind::impulse) {
+      throw CaseError(law->restitution.where, entry_path("contact", i, "restitution"),
+                      fmt::format("{} with enforcement = \"{}\"", *law->restitution, name(enforcement)),
                       "enforcement = \"impulse\" with a restitution",
                       "Deformable bodies rebound by their own waves; remove restitution, or take moreau_jean, "
                       "nonsmooth_generalized_alpha or central_differences.");
@@ -162,7 +154,7 @@ void check_enforcement(const Case& given, const CaseScheme& scheme) {
 Names places_between_parts(const Case& given) {
   Names places;
   for (const CaseContact& contact : given.contacts) {
-    if (*contact.kind != CaseContact::Kind::all && *contact.kind != CaseContact::Kind::self) continue;
+    if (contact.surfaces() == nullptr || !contact.surfaces()->is_self) continue;
     for (std::size_t second = 0; second < given.parts.size(); ++second) {
       for (std::size_t first = 0; first < second; ++first)
         places.push_back(
@@ -223,21 +215,20 @@ void check_references(const Case& given) {
   check_functions(given);
   check_stages(given);
   check_methods(given);
-  check_enforcement(given, given.scheme);
-  for (const CaseStage& stage : given.stages) check_enforcement(given, stage.scheme);
+  check_scheme(given, given.scheme);
+  for (const CaseStage& stage : given.stages) check_scheme(given, stage.scheme);
   check_checks(given);
 }
 
 void choose_methods(Case& given) {
-  using Kind = CaseContact::Kind;
   const auto is_static = [](const CaseScheme& scheme) { return *scheme.kind == SchemeKind::statics; };
   const bool are_static =
       is_static(given.scheme) &&
       std::all_of(given.stages.begin(), given.stages.end(), [&](const CaseStage& s) { return is_static(s.scheme); });
   const PairMethod method = are_static && is_all_penalty(given) ? PairMethod::faces : PairMethod::two_pass;
   for (CaseContact& contact : given.contacts) {
-    const bool is_pair = *contact.kind == Kind::pair || *contact.kind == Kind::self || *contact.kind == Kind::all;
-    if (is_pair && !contact.method) contact.method = Located<PairMethod>{method, contact.where};
+    CaseSurfaces* surfaces = contact.surfaces();
+    if (surfaces != nullptr && !surfaces->method) surfaces->method = Located<PairMethod>{method, contact.where};
   }
 }
 

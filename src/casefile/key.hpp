@@ -36,6 +36,8 @@ enum class Shape : std::uint8_t {
 struct Bound {
   double value = 0.0;
   enum class Side : std::uint8_t { open, closed } side = Side::open;
+
+  bool operator==(const Bound&) const = default;
 };
 
 /// Allowed numbers; for lists and vectors each entry. All numbers must be finite, whatever the range.
@@ -43,6 +45,7 @@ struct Range {
   std::optional<Bound> low{}, high{};
 
   bool contains(double number) const;
+  bool operator==(const Range&) const = default;
 };
 
 Range range_of(const Interval& interval);
@@ -60,6 +63,8 @@ struct KeyOptions {
   std::vector<std::string> required_for{};  ///< kinds for which an otherwise optional key is required
   std::vector<std::string> aliases{};       ///< other names that people try; only to suggest the key
   std::string default_phrase{};             ///< the default in words, where it is not one value
+
+  bool operator==(const KeyOptions&) const = default;
 };
 
 struct SectionDescription;

@@ -182,11 +182,12 @@ class Lint {
   /// (B. Bhushan, Principles and Applications of Tribology, 2013, chapter 5).
   void check_friction(const CaseContact& contact) {
     constexpr double most = 2.0;
-    if (contact.friction <= most) return;
+    const CaseContactLaw* law = contact.law();
+    if (law == nullptr || law->friction <= most) return;
     say(contact.where,
         fmt::format("contact \"{}\": a friction of {:g} is more than dry surfaces have (2 at most); is it "
                     "an angle in degrees, or in percent?",
-                    *contact.name, contact.friction));
+                    *contact.name, law->friction));
   }
 
   /// The bulk modulus over the shear modulus is 2 (1 + nu) / (3 (1 - 2 nu)).
@@ -221,8 +222,11 @@ class Lint {
       const auto has_it = [&is_it](const CaseSupport& support) {
         return std::any_of(support.motions.begin(), support.motions.end(), is_it);
       };
+      const auto moves_by_it = [&is_it](const CaseContact& contact) {
+        return contact.obstacle() != nullptr && is_it(*contact.obstacle());
+      };
       const bool used = std::any_of(case_.loads.begin(), case_.loads.end(), is_it) ||
-                        std::any_of(case_.contacts.begin(), case_.contacts.end(), is_it) ||
+                        std::any_of(case_.contacts.begin(), case_.contacts.end(), moves_by_it) ||
                         std::any_of(case_.supports.begin(), case_.supports.end(), has_it);
       if (!used) say(f.where, fmt::format("functions.{}: no load, support or contact uses it", toml_key(f.name)));
     }

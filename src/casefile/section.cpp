@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "casefile/write_toml.hpp"
+
 namespace carom {
 
 namespace {
@@ -139,6 +141,16 @@ void check_alternatives(const Node& node, const Alternatives& alternatives, cons
 }
 
 }  // namespace
+
+bool same_but_kinds(const KeyDescription& a, const KeyDescription& b) {
+  KeyOptions of_a = a.options;
+  of_a.kinds = b.options.kinds;
+  const auto initial = [](const KeyDescription& key) {
+    return key.default_value ? toml_value(*key.default_value) : std::string{};
+  };
+  return a.key == b.key && a.shape == b.shape && a.doc == b.doc && of_a == b.options && a.section == b.section &&
+         initial(a) == initial(b);
+}
 
 std::string check_section(const Node& node, const SectionDescription& section, const ReadContext& at) {
   const auto* table = std::get_if<Table>(&node.value);

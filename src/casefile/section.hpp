@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "casefile/key.hpp"
 #include "casefile/values.hpp"
@@ -13,6 +15,9 @@ namespace carom {
 /// Checks that the node is a table with known keys that its kind takes, all required ones and the right alternatives.
 /// Returns the kind (value of the selector, "" without one).
 std::string check_section(const Node& node, const SectionDescription& section, const ReadContext& at);
+
+/// True when two declarations differ at most in the kinds that they are for.
+bool same_but_kinds(const KeyDescription& a, const KeyDescription& b);
 
 /// The entries of a [[list]]; CaseError when the node is no list of tables.
 const List& entries_of(const Node& node, const KeyDescription& key, const ReadContext& at);
@@ -38,13 +43,19 @@ class SectionSchema {
   Finish finish = [](S&, const Node&, const ReadContext&) {};
 
   void add(KeyDescription key, Handlers handlers) {
+    handlers_.push_back({{key.options.kinds, std::move(handlers)}});
     description.keys.push_back(std::move(key));
-    handlers_.push_back(std::move(handlers));
   }
 
-  /// A key whose value is stored in a member.
-  template <class M>
-  void key(const std::string& name, M S::*member, const std::string& doc, KeyOptions options = {}) {
+  /// A kind of the section that has a struct of its own among those of a variant, which holds it from the selector on:
+  /// its keys, taken where the selector says `name`, and its rules, called after those of the section. Keys that
+  /// several kinds declare in the same words are one in the description.
+  template <class Kind, class... Kinds>
+  void kind(const std::string& name, std::variant<Kinds...> S::*member, const SectionSchema<Kind>& keys);
+
+  /// A key whose value is stored in a member, of S or of a base of it.
+  template <class M, class Base>
+  void key(const std::string& name, M Base::*member, const std::string& doc, KeyOptions options = {}) {
     key_by(
         name, [member](auto& s) -> auto& { return s.*member; }, doc, std::move(options));
   }
@@ -73,10 +84,32 @@ class SectionSchema {
   Node write(const S& s, const Node* root) const;
 
  private:
+  template <class>
+  friend class SectionSchema;
+
+  /// What is done about a key in some kinds; empty: in all.
+  struct ForKinds {
+    std::vector<std::string> kinds;
+    Handlers handlers;
+  };
+  struct OwnKind {
+    std::string name;
+    std::function<void(S&)> begin;
+    Finish finish;
+  };
+
+  /// Of a key that the kind takes.
+  const Handlers& handlers_of(std::size_t key, const std::string& kind) const {
+    for (const ForKinds& some : handlers_[key])
+      for (const std::string& name : some.kinds)
+        if (name == kind) return some.handlers;
+    return handlers_[key].front().handlers;
+  }
   KeyDescription describe_section(const std::string& name, Shape shape, const SectionDescription& sub,
                                   KeyOptions options) const;
 
-  std::vector<Handlers> handlers_;  ///< one entry per key of the description
+  std::vector<std::vector<ForKinds>> handlers_;  ///< one entry per key of the description
+  std::vector<OwnKind> own_kinds_;
 };
 
 }  // namespace carom

@@ -126,19 +126,55 @@ void SectionSchema<S>::named_tables(const std::string& name, std::vector<Sub> S:
 }
 
 template <class S>
+template <class Kind, class... Kinds>
+void SectionSchema<S>::kind(const std::string& name, std::variant<Kinds...> S::*member,
+                            const SectionSchema<Kind>& keys) {
+  for (std::size_t i = 0; i < keys.handlers_.size(); ++i) {
+    KeyDescription key = keys.description.keys[i];
+    key.options.kinds = {name};
+    const typename SectionSchema<Kind>::Handlers own = keys.handlers_[i].front().handlers;
+    Handlers handlers;
+    handlers.read = [member, own](S& s, const Node& node, const ReadContext& at) {
+      own.read(std::get<Kind>(s.*member), node, at);
+    };
+    handlers.write = [member, own](const S& s, const Node& root) { return own.write(std::get<Kind>(s.*member), root); };
+    handlers.absent = [member, own](S& s, const ReadContext& at, const Location& where) {
+      own.absent(std::get<Kind>(s.*member), at, where);
+    };
+    std::size_t known = 0;
+    while (known < description.keys.size() && !same_but_kinds(description.keys[known], key)) ++known;
+    if (known == description.keys.size()) {
+      add(std::move(key), std::move(handlers));
+      continue;
+    }
+    description.keys[known].options.kinds.push_back(name);
+    handlers_[known].push_back({{name}, std::move(handlers)});
+  }
+  own_kinds_.push_back({name, [member](S& s) { (s.*member).template emplace<Kind>(); },
+                        [member, finish = keys.finish](S& s, const Node& node, const ReadContext& at) {
+                          finish(std::get<Kind>(s.*member), node, at);
+                        }});
+}
+
+template <class S>
 void SectionSchema<S>::read(S& s, const Node& node, const ReadContext& at) const {
   const std::string kind = check_section(node, description, at);
   const Table& table = std::get<Table>(node.value);
+  for (const OwnKind& own : own_kinds_)
+    if (own.name == kind) own.begin(s);
   for (std::size_t i = 0; i < handlers_.size(); ++i) {
     const KeyDescription& declared = description.keys[i];
     if (!applies(declared, kind)) continue;
+    const Handlers& handlers = handlers_of(i, kind);
     const Node* value = table.find(declared.key);
     if (value != nullptr)
-      handlers_[i].read(s, *value, at.at(declared.key));
+      handlers.read(s, *value, at.at(declared.key));
     else
-      handlers_[i].absent(s, at.at(declared.key), node.where);
+      handlers.absent(s, at.at(declared.key), node.where);
   }
   finish(s, node, at);
+  for (const OwnKind& own : own_kinds_)
+    if (own.name == kind) own.finish(s, node, at);
 }
 
 template <class S>
@@ -147,8 +183,9 @@ Node SectionSchema<S>::write(const S& s, const Node* root) const {
   const Node& whole = root != nullptr ? *root : node;
   for (std::size_t i = 0; i < handlers_.size(); ++i) {
     const KeyDescription& declared = description.keys[i];
-    if (!applies(declared, written_kind(node, whole, description))) continue;
-    std::optional<Node> value = handlers_[i].write(s, whole);
+    const std::string kind = written_kind(node, whole, description);
+    if (!applies(declared, kind)) continue;
+    std::optional<Node> value = handlers_of(i, kind).write(s, whole);
     if (value) std::get<Table>(node.value).members.push_back({declared.key, {}, std::move(*value)});
   }
   return node;

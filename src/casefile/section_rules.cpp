@@ -7,13 +7,12 @@
 
 namespace carom {
 
-namespace {
-
-/// The place of a key that may not be written: its own, or that of the section.
 Location place_of(const Node& section, const std::string& key) {
   const Node* node = find(section, key);
   return node != nullptr ? node->where : section.where;
 }
+
+namespace {
 
 double norm(const Vec3& v) {
   return std::hypot(v[0], v[1], v[2]);
@@ -35,8 +34,6 @@ void check_name(const Located<std::string>& name, const std::string& path) {
   throw CaseError(name.where, path, toml_string(*name), "a name without commas, quotes and control characters");
 }
 
-namespace {
-
 void check_direction(Located<Vec3>& direction, const std::string& path) {
   const double length = norm(*direction);
   if (!(length > 0.0) || !std::isfinite(length)) {
@@ -44,61 +41,6 @@ void check_direction(Located<Vec3>& direction, const std::string& path) {
                     "a direction, such as [0, 0, 1]");
   }
   normalise(direction.value);
-}
-
-}  // namespace
-
-/// What a body that turns needs, and what only it may have.
-static void check_body(const CaseContact& contact, const Node& node, const ReadContext& at) {
-  using Kind = CaseContact::Kind;
-  if (contact.inertia && !contact.mass) {
-    throw CaseError(contact.inertia->where, at.at("inertia").path, "an inertia without a mass",
-                    "the mass of a free body beside its inertia", "Add mass, or remove inertia.");
-  }
-  for (const char* key : {"products_of_inertia", "centre_of_mass", "angular_velocity", "rigidity"}) {
-    const Node* given = find(node, key);
-    if (given == nullptr || contact.inertia) continue;
-    throw CaseError(given->where, at.at(key).path, fmt::format("{} without an inertia", key),
-                    "the inertia of a free body that turns", fmt::format("Add mass and inertia, or remove {}.", key));
-  }
-  const bool has_middle = *contact.kind == Kind::sphere || *contact.kind == Kind::box;
-  if (contact.inertia && !has_middle && !contact.centre_of_mass) {
-    throw CaseError(contact.inertia->where, at.at("inertia").path, "an inertia without a centre of mass",
-                    "a centre_of_mass, which only spheres and boxes have by their shape", "Add centre_of_mass.");
-  }
-}
-
-void check_contact(CaseContact& contact, const Node& node, const ReadContext& at) {
-  using Kind = CaseContact::Kind;
-  if (!contact.initial_penetration && find(at.root, "initial_state") == nullptr)
-    contact.initial_penetration = InitialPenetration::refuse;
-  check_body(contact, node, at);
-  check_name(contact.name, at.at("name").path);
-  if (contact.tangential_stiffness && contact.friction == 0.0) {
-    throw CaseError(place_of(node, "tangential_stiffness"), at.at("tangential_stiffness").path,
-                    fmt::format("{} without friction", *contact.tangential_stiffness),
-                    "friction > 0 beside tangential_stiffness", "Add friction, or remove tangential_stiffness.");
-  }
-  if (contact.stiffness && find(node, "stiffness_factor") != nullptr && contact.stiffness_factor != 1.0) {
-    throw CaseError(place_of(node, "stiffness_factor"), at.at("stiffness_factor").path, "a factor beside a stiffness",
-                    "one of the two", "Remove stiffness to have it chosen.");
-  }
-  if (*contact.kind == Kind::plane || *contact.kind == Kind::stop)
-    check_direction(contact.normal, at.at("normal").path);
-  if (*contact.kind == Kind::cylinder) check_direction(contact.axis, at.at("axis").path);
-  if (contact.function && (!contact.velocity || contact.mass)) {
-    throw CaseError(contact.function->where, at.at("function").path,
-                    contact.mass ? "a function beside a mass" : "a function without a velocity",
-                    "a velocity that is imposed", "Remove function, or give velocity and no mass.");
-  }
-  if (*contact.kind == Kind::box) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      if ((*contact.upper)[c] > contact.lower[c]) continue;
-      throw CaseError(contact.upper.where, at.at("upper").path,
-                      fmt::format("{} against a lower of {}", (*contact.upper)[c], contact.lower[c]),
-                      "larger coordinates than lower, all three");
-    }
-  }
 }
 
 void check_function(CaseFunction& function, const Node& node, const ReadContext& at) {

@@ -8,8 +8,11 @@ namespace carom {
 /// Names become columns of .csv files: no commas, quotes or control characters, and not empty.
 void check_name(const Located<std::string>& name, const std::string& path);
 
-/// Friction needs both mu and a tangential stiffness; the normal is not 0, and is normalised.
-void check_contact(CaseContact& contact, const Node& node, const ReadContext& at);
+/// The place of a key that may not be written: its own, or that of the section.
+Location place_of(const Node& section, const std::string& key);
+
+/// A direction is not 0, and is normalised; a unit vector is left as it is.
+void check_direction(Located<Vec3>& direction, const std::string& path);
 
 /// As many values as times, in increasing order, no time more than twice.
 void check_function(CaseFunction& function, const Node& node, const ReadContext& at);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <concepts>
 #include <utility>
 
 #include "casefile/document.hpp"
@@ -99,20 +100,18 @@ class ModelBuilder {
     return parts_.surface(groups_.outer_facets(group, key), group.where, key);
   }
 
+  static constexpr const char* ends_alone = "Name the nodes of the ends; bars cannot touch with their sides.";
+
   /// The surface of a contact. Bars have none but their ends: what meets the nodes between them would pass.
-  Surface touching_surface(const CaseContact& given, const Located<std::string>& group, const std::string& key) const {
+  Surface touching_surface(const Located<std::string>& group, const std::string& key, const char* remedy) const {
     const Surface touching = surface(group, key);
     const std::vector<Index> nodes = groups_.nodes(group, key);
     const std::vector<Facet>& facets = touching.facets;
     if (facets.empty() || facets[0].size != 1 || nodes.size() <= facets.size()) return touching;
-    const bool is_obstacle = *given.kind != CaseContact::Kind::pair && *given.kind != CaseContact::Kind::self;
     throw CaseError(
         group.where, key,
         fmt::format("{} nodes of \"{}\", of which {} are ends of bars", nodes.size(), *group, facets.size()),
-        "ends of bars alone: only they have an area, and what meets the nodes between them passes",
-        is_obstacle ? "measure = \"node\" (with a stiffness of force per length) takes all nodes; or name the "
-                      "nodes of the ends."
-                    : "Name the nodes of the ends; bars cannot touch with their sides.");
+        "ends of bars alone: only they have an area, and what meets the nodes between them passes", remedy);
   }
 
   /// A force on a node that no part holds would move nothing.
@@ -140,135 +139,141 @@ class ModelBuilder {
   }
 
   void add_contact(const CaseContact& given) {
-    using Kind = CaseContact::Kind;
-    switch (*given.kind) {
-      case Kind::interface:
-        model_.contacts.emplace_back(InterfaceContact{*given.name, interface_cells(given), law(given), initial(given)});
-        break;
-      case Kind::pair:
-      case Kind::self:
-      case Kind::all:
-        add_pair(given);
-        break;
-      case Kind::tie:
-        add_tie(given);
-        break;
-      case Kind::stop:
-        model_.contacts.emplace_back(StopContact{*given.name, groups_.nodes(given.group, "contact.group"),
-                                                 *given.normal, given.gap, **given.stiffness, given.damping,
-                                                 given.damper});
-        break;
-      default:
-        add_obstacle(given);
-    }
+    std::visit([&](const auto& kind) { add(given, kind); }, given.of);
   }
 
-  static ContactLaw law(const CaseContact& given) {
+  void add(const CaseContact& given, const CaseInterface& kind) {
+    model_.contacts.emplace_back(
+        InterfaceContact{*given.name, interface_cells(kind), law(kind.law), initial(kind.law)});
+  }
+
+  void add(const CaseContact& given, const CaseStop& stop) {
+    model_.contacts.emplace_back(StopContact{*given.name, groups_.nodes(stop.group, "contact.group"), *stop.normal,
+                                             stop.gap, stop.stiffness, stop.damping, stop.damper});
+  }
+
+  static ContactLaw law(const CaseStiffness& given) {
     ContactLaw law;
     if (given.stiffness) law.eps_N = **given.stiffness;
-    law.eps_T = given.tangential_stiffness;
     law.stiffness_factor = given.stiffness_factor;
+    return law;
+  }
+  static ContactLaw law(const CaseContactLaw& given) {
+    ContactLaw law = ModelBuilder::law(static_cast<const CaseStiffness&>(given));
+    law.eps_T = given.tangential_stiffness;
     law.mu = given.friction;
     law.restitution = *given.restitution;
     return law;
   }
 
-  static InitialPenetration initial(const CaseContact& given) {
+  static InitialPenetration initial(const CaseContactLaw& given) {
     return given.initial_penetration.value_or(InitialPenetration::prestress);
   }
 
-  void add_tie(const CaseContact& given) {
-    refuse_itself(given, "What is one surface needs no tie.");
+  void add(const CaseContact& given, const CaseTie& kind) {
+    refuse_itself(kind, "What is one surface needs no tie.");
     TieContact tie;
     tie.name = *given.name;
-    tie.slave = surface(given.group, "contact.group");
-    tie.master = surface(given.master, "contact.master");
-    tie.method = given.tie_method;
-    tie.tolerance = given.tolerance;
-    tie.distance = given.distance;
-    tie.far = given.far;
-    tie.law = law(given);
+    tie.slave = surface(kind.group, "contact.group");
+    tie.master = surface(kind.master, "contact.master");
+    tie.method = kind.method;
+    tie.tolerance = kind.tolerance;
+    tie.distance = kind.distance;
+    tie.far = kind.far;
+    tie.law = law(kind);
     model_.contacts.emplace_back(std::move(tie));
   }
 
-  static void refuse_itself(const CaseContact& given, const std::string& remedy) {
+  template <class Kind>
+  static void refuse_itself(const Kind& given, const std::string& remedy) {
     if (*given.group == *given.master)
       throw CaseError(given.master.where, "contact.master",
                       fmt::format("\"{}\", which is the group as well", *given.master), "the faces of another body",
                       remedy);
   }
 
-  void add_pair(const CaseContact& given) {
-    if (*given.kind == CaseContact::Kind::pair) refuse_itself(given, "One surface with itself is kind = \"self\".");
+  static PairContact pair_of(const CaseContact& given, const CaseSurfaces& surfaces) {
     PairContact pair;
     pair.name = *given.name;
-    pair.method = **given.method;
-    pair.law = law(given);
-    pair.initial = initial(given);
-    pair.self = *given.kind != CaseContact::Kind::pair;
-    if (*given.kind == CaseContact::Kind::all) {
-      std::vector<OuterFacet> facets = groups_.exterior(given.exclude, "contact.exclude");
-      std::erase_if(facets, [&](const OuterFacet& outer) { return parts_.part_of(outer.cell) == nullptr; });
-      pair.slave = parts_.surface(facets, given.where, "contact");
-    } else {
-      pair.slave = touching_surface(given, given.group, "contact.group");
-    }
-    pair.master = pair.self ? pair.slave : touching_surface(given, given.master, "contact.master");
+    pair.method = **surfaces.method;
+    pair.law = law(surfaces.law);
+    pair.initial = initial(surfaces.law);
+    pair.self = surfaces.is_self;
+    return pair;
+  }
+
+  void add(const CaseContact& given, const CasePair& kind) {
+    refuse_itself(kind, "One surface with itself is kind = \"self\".");
+    PairContact pair = pair_of(given, kind);
+    pair.slave = touching_surface(kind.group, "contact.group", ends_alone);
+    pair.master = touching_surface(kind.master, "contact.master", ends_alone);
     model_.contacts.emplace_back(std::move(pair));
   }
 
-  RigidShape shape(const CaseContact& given) const {
-    switch (*given.kind) {
-      case CaseContact::Kind::sphere:
-        return Sphere{given.centre, given.radius, given.inside};
-      case CaseContact::Kind::cylinder:
-        return Cylinder{given.point, *given.axis, given.radius, given.inside};
-      case CaseContact::Kind::box:
-        return Box{given.lower, *given.upper};
-      case CaseContact::Kind::surface:
-        return RigidSurface{{groups_.rigid_faces(given.surface, "contact.surface")}};
-      default:
-        return Plane{given.point, *given.normal};
-    }
+  void add(const CaseContact& given, const CaseSelf& kind) {
+    PairContact pair = pair_of(given, kind);
+    pair.master = pair.slave = touching_surface(kind.group, "contact.group", ends_alone);
+    model_.contacts.emplace_back(std::move(pair));
   }
 
-  void add_obstacle(const CaseContact& given) {
+  void add(const CaseContact& given, const CaseAll& kind) {
+    PairContact pair = pair_of(given, kind);
+    std::vector<OuterFacet> facets = groups_.exterior(kind.exclude, "contact.exclude");
+    std::erase_if(facets, [&](const OuterFacet& outer) { return parts_.part_of(outer.cell) == nullptr; });
+    pair.master = pair.slave = parts_.surface(facets, given.where, "contact");
+    model_.contacts.emplace_back(std::move(pair));
+  }
+
+  static RigidShape shape(const CasePlane& given) { return Plane{given.point, *given.normal}; }
+  static RigidShape shape(const CaseSphere& given) { return Sphere{given.centre, given.radius, given.inside}; }
+  static RigidShape shape(const CaseCylinder& given) {
+    return Cylinder{given.point, *given.axis, given.radius, given.inside};
+  }
+  static RigidShape shape(const CaseBox& given) { return Box{given.lower, *given.upper}; }
+  RigidShape shape(const CaseRigidSurface& given) const {
+    return RigidSurface{{groups_.rigid_faces(given.surface, "contact.surface")}};
+  }
+
+  template <std::derived_from<CaseObstacle> Kind>
+  void add(const CaseContact& given, const Kind& kind) {
     ObstacleContact obstacle;
     obstacle.name = *given.name;
-    obstacle.shape = shape(given);
-    obstacle.law = law(given);
-    obstacle.initial = initial(given);
-    if (given.per_node) {
+    obstacle.shape = shape(kind);
+    obstacle.law = law(kind.law);
+    obstacle.initial = initial(kind.law);
+    if (kind.per_node) {
       obstacle.measure = RowMeasure::per_node;
-      obstacle.nodes = groups_.nodes(given.group, "contact.group");
+      obstacle.nodes = groups_.nodes(kind.group, "contact.group");
     } else {
-      obstacle.surface = touching_surface(given, given.group, "contact.group");
+      obstacle.surface = touching_surface(
+          kind.group, "contact.group",
+          "measure = \"node\" (with a stiffness of force per length) takes all nodes; or name the nodes of the ends.");
     }
-    add_carrier(given, obstacle);
+    add_carrier(given, kind, obstacle);
     model_.contacts.emplace_back(std::move(obstacle));
   }
 
   /// A moving obstacle hangs on the nodes that build_mesh has appended for it.
-  void add_carrier(const CaseContact& given, ObstacleContact& obstacle) {
+  void add_carrier(const CaseContact& given, const CaseObstacle& kind, ObstacleContact& obstacle) {
     const std::size_t nodes = carrier_nodes(given);
     if (nodes == 0) return;
     const auto first = static_cast<Index>(mesh_.node_count() - carrier_nodes(case_) + carriers_);
     carriers_ += nodes;
-    if (given.mass) {
+    if (kind.body.mass) {
       add_free_body(given, first, obstacle, model_);
       return;
     }
     obstacle.carrier = first;
     const std::vector<Index> node{first};
-    const Vec3 velocity = *given.velocity;
+    const Vec3 velocity = *kind.velocity;
     model_.initial.push_back({node, {}, {velocity}});
     const std::string label = fmt::format("velocity of contact \"{}\" (line {})", *given.name, given.where.line);
     for (std::size_t c = 0; c < 3; ++c)
       model_.motions.push_back(
-          {label, node, static_cast<int>(c), MotionKind::velocity, function(given.function, velocity[c])});
+          {label, node, static_cast<int>(c), MotionKind::velocity, function(kind.function, velocity[c])});
   }
 
-  std::vector<Index> interface_cells(const CaseContact& given) const {
+  std::vector<Index> interface_cells(const CaseInterface& given) const {
     const std::vector<Index> cells =
         groups_.cells(given.group, "contact.group", std::array{CellType::hexa8}, "HEXA8 cells").cells;
     const auto block = static_cast<Index>(mesh_.block(CellType::hexa8) - mesh_.blocks.data());

@@ -219,7 +219,7 @@ bool has_inertia(const Case& given) {
 
 bool moves_obstacles(const Case& given) {
   return std::any_of(given.contacts.begin(), given.contacts.end(),
-                     [](const CaseContact& contact) { return contact.velocity || contact.mass; });
+                     [](const CaseContact& contact) { return contact.obstacle() && contact.obstacle()->moves(); });
 }
 
 std::string describe(const Case& given, const Case& before, const CheckpointInfo& info, const InitialState& state,

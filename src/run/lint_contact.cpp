@@ -37,7 +37,7 @@ double area_of(const Mesh& mesh, const Facet& facet, const Part& part) {
 double surface_area(const Simulation& s, const CaseContact& contact) {
   const Groups groups(s.mesh());
   const Parts parts(s.given(), s.mesh(), groups);
-  const std::vector<Index> nodes = groups.nodes(contact.group, "contact.group");
+  const std::vector<Index> nodes = groups.nodes(contact.group(), "contact.group");
   const auto is_member = [&](Index n) { return std::binary_search(nodes.begin(), nodes.end(), n); };
   double area = 0.0;
   const auto skin = outer_facets(s.model());
@@ -82,7 +82,7 @@ class ContactLint {
 
   std::vector<std::string> run() {
     for (std::size_t c = 0; c < approaches_.size(); ++c) {
-      if (*given(c).kind == CaseContact::Kind::tie) continue;  // nothing is to meet
+      if (is<CaseTie>(c)) continue;  // nothing is to meet
       where_ = fmt::format("{}: contact \"{}\"", to_string(given(c).where), *given(c).name);
       check_place(c);
       check_sides(c);
@@ -94,6 +94,10 @@ class ContactLint {
 
  private:
   const CaseContact& given(std::size_t c) const { return s_.given().contacts[c]; }
+  template <class Kind>
+  bool is(std::size_t c) const {
+    return std::holds_alternative<Kind>(given(c).of);
+  }
 
   template <class... Values>
   void say(fmt::format_string<Values...> format, Values&&... values) {
@@ -106,13 +110,13 @@ class ContactLint {
     if (shows_its_back(s_, c, state_)) {
       say(": the faces of its rigid surface look away from \"{}\", and what comes from behind passes: turn the faces "
           "round (the order of their nodes)",
-          *given(c).group);
+          *given(c).group());
       return;
     }
     if (faces_away(s_, c, state_)) {
-      const bool is_pair = *given(c).kind == CaseContact::Kind::pair;
-      say(": no face of \"{}\" looks at {}: are these the faces that touch?", *given(c).group,
-          is_pair ? fmt::format("a face of \"{}\"", *given(c).master) : "the obstacle");
+      const auto* pair = std::get_if<CasePair>(&given(c).of);
+      say(": no face of \"{}\" looks at {}: are these the faces that touch?", *given(c).group(),
+          pair != nullptr ? fmt::format("a face of \"{}\"", *pair->master) : "the obstacle");
       return;
     }
     if (is_self(c)) {  // its rows see neither bodies that are farther apart than a facet, nor how a body folds
@@ -168,8 +172,7 @@ class ContactLint {
   void check_step(std::size_t c) {
     const Approach& a = approaches_[c];
     const Stage& stage = s_.first();
-    const bool has_springs =
-        *given(c).kind == CaseContact::Kind::stop || traits(stage.settings().enforcement).adds_stiffness;
+    const bool has_springs = is<CaseStop>(c) || traits(stage.settings().enforcement).adds_stiffness;
     if (!is_explicit(stage.settings().kind) || !has_springs) return;
     const double of_cells = cell_ / waves_.speed;
     const double of_spring = a.frequency_squared > 0.0 ? 2.0 / std::sqrt(a.frequency_squared) : of_cells;
@@ -200,7 +203,7 @@ class ContactLint {
 
   /// Area that the rows of a contact stand for, once, where both sides have rows.
   double area(std::size_t c) const {
-    if (given(c).per_node) return surface_area(s_, given(c));
+    if (given(c).obstacle() != nullptr && given(c).obstacle()->per_node) return surface_area(s_, given(c));
     const auto* pair = std::get_if<PairContact>(&s_.model().contacts[c]);
     const bool has_facets = pair != nullptr && !pair->slave.facets.empty() && pair->slave.facets[0].size > 1;
     const bool is_twice = has_facets && (pair->self || has_both_passes(pair->method));
@@ -231,10 +234,10 @@ class ContactLint {
 
   void check_stiffness(std::size_t c) {
     const Approach& a = approaches_[c];
-    if (*given(c).kind == CaseContact::Kind::stop || a.stiffness <= 0.0 || area(c) <= 0.0) return;
+    if (is<CaseStop>(c) || a.stiffness <= 0.0 || area(c) <= 0.0) return;
     const double per_area = a.stiffness / area(c), penetration = pressure(c) / per_area;
     // What the user chose is held to a hundredth of a cell; what was chosen from the cells to what the verdict allows.
-    const double most = given(c).stiffness ? 0.01 : 0.05;
+    const double most = given(c).springs()->stiffness ? 0.01 : 0.05;
     if (penetration > most * cell_ && !hardens(c)) {
       say(" is soft: impact at {:.4g} will penetrate by about {:.3g} ({:.3g} cells); stiffness {:.3g} instead of "
           "{:.3g} "

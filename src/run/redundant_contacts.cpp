@@ -153,9 +153,9 @@ void refuse_faces_of_parts(const Case& given, const Model& model) {
     for (const Facet& facet : rigid->surface.facets) {
       const auto is_free = [&](Index n) { return moves[static_cast<std::size_t>(n)] != 0; };
       if (!std::all_of(facet.begin(), facet.end(), is_free)) continue;
-      const CaseContact& contact = given.contacts[c];
-      throw CaseError(contact.surface.where, "contact.surface",
-                      fmt::format("faces of a part that can move in \"{}\", such as that of node {}", *contact.surface,
+      const Located<std::string>& surface = *given.contacts[c].own_cells();
+      throw CaseError(surface.where, "contact.surface",
+                      fmt::format("faces of a part that can move in \"{}\", such as that of node {}", *surface,
                                   model.mesh->node_numbers[static_cast<std::size_t>(facet[0])]),
                       "faces that belong to no part, or to one that is held",
                       "A rigid surface stays where it is; contact with a part is kind = \"pair\".");

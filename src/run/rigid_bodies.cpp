@@ -10,21 +10,40 @@ namespace carom {
 
 namespace {
 
-/// Where a body turns about, unless the case says: the middle of its shape.
+/// Where a body turns about, unless the case says: the middle of its shape. The reader asks where there is none.
 Vec3 middle_of(const CaseContact& contact) {
-  if (*contact.kind == CaseContact::Kind::sphere) return contact.centre;
-  return scaled(add(contact.lower, *contact.upper), 0.5);  // a box; the reader asks for all others
+  return std::visit(
+      [](const auto& kind) {
+        if constexpr (requires { kind.middle(); })
+          return kind.middle();
+        else
+          return Vec3{};
+      },
+      contact.of);
+}
+
+/// Where the carrier of an obstacle stands that does not turn.
+Vec3 stand_of(const CaseContact& contact) {
+  return std::visit(
+      [](const auto& kind) {
+        if constexpr (requires { kind.stand(); })
+          return kind.stand();
+        else
+          return Vec3{};
+      },
+      contact.of);
 }
 
 TurningBody body_of(const CaseContact& contact) {
+  const CaseRigidBody& given = contact.obstacle()->body;
   try {
-    TurningBody body = make_turning_body(*contact.mass, contact.centre_of_mass.value_or(middle_of(contact)),
-                                         **contact.inertia, contact.products_of_inertia.value_or(Vec3{}));
+    TurningBody body = make_turning_body(*given.mass, given.centre_of_mass.value_or(middle_of(contact)),
+                                         **given.inertia, given.products_of_inertia.value_or(Vec3{}));
     body.name = *contact.name;
-    body.rigidity = contact.rigidity.value_or(body.rigidity);
+    body.rigidity = given.rigidity.value_or(body.rigidity);
     return body;
   } catch (const std::invalid_argument& e) {
-    throw CaseError(contact.inertia->where, "contact.inertia", e.what(),
+    throw CaseError(given.inertia->where, "contact.inertia", e.what(),
                     "moments about the centre of mass, each smaller than the sum of the two others",
                     "A rod or a disc without thickness has no such body: give it the thickness that it has.");
   }
@@ -33,8 +52,9 @@ TurningBody body_of(const CaseContact& contact) {
 }  // namespace
 
 std::size_t carrier_nodes(const CaseContact& contact) {
-  if (contact.inertia) return 4;
-  return contact.velocity || contact.mass ? 1 : 0;
+  const CaseObstacle* obstacle = contact.obstacle();
+  if (obstacle == nullptr || !obstacle->moves()) return 0;
+  return obstacle->body.inertia ? 4 : 1;
 }
 
 std::size_t carrier_nodes(const Case& given) {
@@ -44,21 +64,22 @@ std::size_t carrier_nodes(const Case& given) {
 
 std::vector<Vec3> carrier_positions(const CaseContact& contact) {
   if (carrier_nodes(contact) == 0) return {};
-  if (!contact.inertia) return {*contact.kind == CaseContact::Kind::sphere ? contact.centre : contact.point};
+  if (!contact.obstacle()->body.inertia) return {stand_of(contact)};
   const TurningBody body = body_of(contact);
   return {corner(body, 0), corner(body, 1), corner(body, 2), corner(body, 3)};
 }
 
 void add_free_body(const CaseContact& contact, Index first, ObstacleContact& obstacle, Model& model) {
-  const Vec3 velocity = contact.velocity.value_or(Vec3{});
-  if (!contact.inertia) {
+  const CaseObstacle& given = *contact.obstacle();
+  const Vec3 velocity = given.velocity.value_or(Vec3{});
+  if (!given.body.inertia) {
     obstacle.carrier = first;
     model.initial.push_back({{first}, {}, {velocity}});
-    model.rigid_bodies.push_back({*contact.name, first, *contact.mass});
+    model.rigid_bodies.push_back({*contact.name, first, *given.body.mass});
     return;
   }
   TurningBody body = body_of(contact);
-  const Vec3 spin = contact.angular_velocity.value_or(Vec3{});
+  const Vec3 spin = given.body.angular_velocity.value_or(Vec3{});
   for (std::size_t a = 0; a < 4; ++a) {
     body.nodes[a] = first + static_cast<Index>(a);
     const Vec3 v = add(velocity, cross(spin, subtract(corner(body, a), body.centre)));

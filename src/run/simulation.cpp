@@ -71,7 +71,13 @@ Model make_model(const Case& given, std::shared_ptr<const Mesh> mesh, std::optio
 /// (PenetrationWatch); stops are springs of any depth.
 bool is_of_penalties(const CaseContact& contact, double depth) {
   constexpr double most = 0.25;
-  return depth <= most || *contact.kind == CaseContact::Kind::stop;
+  return depth <= most || contact.law() == nullptr;
+}
+
+/// What the case says of overlaps at the start; empty: those of its initial state are kept.
+std::optional<InitialPenetration> initial_penetration(const Case& given, const CaseContact& contact) {
+  if (contact.law() != nullptr) return contact.law()->initial_penetration;
+  return given.initial_state ? std::nullopt : std::optional(InitialPenetration::refuse);
 }
 
 ContactGeometry make_contact(const Case& given, const Model& model) {
@@ -156,14 +162,15 @@ void Simulation::settle_initial_penetrations() {
     const std::string what =
         fmt::format("{} rows of \"{}\" that penetrate at the start, the worst by {:.4g} ({:.3g} of a cell): {}{}",
                     count, *contact.name, worst, worst / cell, list, count > 3 ? ", ..." : "");
-    const InitialPenetration wanted = contact.initial_penetration.value_or(
+    const std::optional<InitialPenetration> chosen = initial_penetration(case_, contact);
+    const InitialPenetration wanted = chosen.value_or(
         is_of_penalties(contact, worst / cell) ? InitialPenetration::prestress : InitialPenetration::refuse);
     if (wanted == InitialPenetration::refuse) {
       throw CaseError(
           contact.where, "contact", what,
-          contact.initial_penetration ? "a gap that is open or just closed"
-                                      : "a gap that is open, or an overlap as the contact of the initial state leaves "
-                                        "it: of at most a quarter of a cell",
+          chosen ? "a gap that is open or just closed"
+                 : "a gap that is open, or an overlap as the contact of the initial state leaves "
+                   "it: of at most a quarter of a cell",
           "Is the normal turned the wrong way, or the gap of the wrong sign? If the overlap is meant, choose "
           "initial_penetration = \"offset\" or \"prestress\".");
     }
@@ -182,7 +189,7 @@ void Simulation::refuse_surfaces_from_behind() const {
     throw CaseError(contact.where, "contact",
                     fmt::format("faces of the rigid surface of \"{}\" that look away from \"{}\", which moves towards "
                                 "their back and would pass",
-                                *contact.name, *contact.group),
+                                *contact.name, *contact.group()),
                     "normals that look at what touches: by the right-hand rule, and of lines a quarter turn clockwise "
                     "from the first node to the second",
                     "Turn the faces round (the order of their nodes; in a deck, of whose lines the normal is a quarter "

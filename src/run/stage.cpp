@@ -180,9 +180,9 @@ void Stage::refuse_massless_contact() const {
       if (supports_.is_prescribed(3 * n) && supports_.is_prescribed(3 * n + 1) && supports_.is_prescribed(3 * n + 2))
         continue;
       const CaseContact& contact = context_.given.contacts[static_cast<std::size_t>(rows.source[r])];
-      throw CaseError(contact.group.where, "contact.group",
+      throw CaseError(contact.group().where, "contact.group",
                       fmt::format("node {} of \"{}\", which belongs to no part and is not held in x, y and z",
-                                  context_.mesh.node_numbers[static_cast<std::size_t>(n)], *contact.group),
+                                  context_.mesh.node_numbers[static_cast<std::size_t>(n)], *contact.group()),
                       "nodes with mass, or supports on all three components",
                       "Put the cells in a [[part]], or block the node by a [[support]].");
     }

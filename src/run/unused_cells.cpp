@@ -36,8 +36,7 @@ Marks used_cells(const Case& given, const Mesh& mesh, const Parts& parts) {
     for (const CellRef& cell : found->second) used[at(cell.block)][at(cell.cell)] = 1;
   };
   for (const CaseContact& contact : given.contacts) {
-    if (*contact.kind == CaseContact::Kind::interface) take(*contact.group);
-    if (*contact.kind == CaseContact::Kind::surface) take(*contact.surface);
+    if (const Located<std::string>* cells = contact.own_cells()) take(**cells);
   }
   return used;
 }

@@ -199,12 +199,12 @@ TEST(Casefile, PointMassesAndSprings) {
 TEST(Casefile, ContactsAndFunctions) {
   const Case c = complete();
   ASSERT_EQ(c.contacts.size(), 4U);
-  EXPECT_EQ(*c.contacts[0].normal, (Vec3{0.0, 0.6, 0.8}));  // [0, 3, 4] / 5
-  EXPECT_FALSE(c.contacts[0].per_node);
-  EXPECT_TRUE(c.contacts[1].per_node);
-  EXPECT_EQ(*c.contacts[2].kind, CaseContact::Kind::interface);
-  EXPECT_EQ(c.contacts[3].damping, 0.1);
-  EXPECT_EQ(c.contacts[3].damper, DamperActs::two_sided);
+  EXPECT_EQ(*std::get<CasePlane>(c.contacts[0].of).normal, (Vec3{0.0, 0.6, 0.8}));  // [0, 3, 4] / 5
+  EXPECT_FALSE(c.contacts[0].obstacle()->per_node);
+  EXPECT_TRUE(c.contacts[1].obstacle()->per_node);
+  EXPECT_EQ(*c.contacts[2].kind, "interface");
+  EXPECT_EQ(std::get<CaseStop>(c.contacts[3].of).damping, 0.1);
+  EXPECT_EQ(std::get<CaseStop>(c.contacts[3].of).damper, DamperActs::two_sided);
   ASSERT_EQ(c.functions.size(), 2U);
   const TimeFunction& jump = c.functions[1].function;
   EXPECT_EQ(jump(4.9e-5), 0.0);
@@ -238,7 +238,8 @@ TEST(Casefile, ResolvedCaseReadsBackToItself) {
 TEST(Casefile, ResolvedCaseKeepsEveryValueAndShowsDefaults) {
   const Case again = parse_case(resolved_toml(complete()), "resolved");
   const Case c = complete();
-  EXPECT_EQ(again.contacts[1].normal.value, c.contacts[1].normal.value);  // bits: a unit vector is not scaled again
+  const auto normal = [](const Case& given) { return *std::get<CasePlane>(given.contacts[1].of).normal; };
+  EXPECT_EQ(normal(again), normal(c));  // bits: a unit vector is not scaled again
   EXPECT_EQ(again.functions[1].function.time, c.functions[1].function.time);
   EXPECT_EQ(again.supports[2].motions.size(), c.supports[2].motions.size());
   EXPECT_EQ(again.mesh.blocks[0].face_groups, c.mesh.blocks[0].face_groups);

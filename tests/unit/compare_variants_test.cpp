@@ -162,7 +162,7 @@ TEST_F(CompareVariants, SetTheStiffnessOfEveryContact) {
   options.stiffnesses = {"5", "-5"};
   const std::vector<Variant> all = variants(options);
   ASSERT_EQ(all.size(), 2U);
-  EXPECT_EQ(**read(all[0]).contacts[0].stiffness, 5.0);
+  EXPECT_EQ(**read(all[0]).contacts[0].springs()->stiffness, 5.0);
   EXPECT_TRUE(all[1].refusal.starts_with("contact[0].stiffness: found -5")) << all[1].refusal;
 }
 

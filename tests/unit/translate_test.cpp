@@ -54,10 +54,10 @@ TEST(Translate, TheWholeOfASmallDeck) {
   ASSERT_EQ(made.initial.size(), 1U);
   EXPECT_EQ(*made.initial[0].velocity, (Vec3{0.0, 0.0, -1000.0}));
   ASSERT_EQ(made.contacts.size(), 1U);
-  EXPECT_EQ(*made.contacts[0].group, "FOOT");
-  EXPECT_EQ(*made.contacts[0].master, "FLOOR");
-  EXPECT_EQ(**made.contacts[0].stiffness, 1e6);
-  EXPECT_EQ(made.contacts[0].friction, 0.2);
+  EXPECT_EQ(*made.contacts[0].group(), "FOOT");
+  EXPECT_EQ(*std::get<CasePair>(made.contacts[0].of).master, "FLOOR");
+  EXPECT_EQ(**made.contacts[0].springs()->stiffness, 1e6);
+  EXPECT_EQ(made.contacts[0].law()->friction, 0.2);
   ASSERT_EQ(made.loads.size(), 1U);
   EXPECT_EQ(made.loads[0].vector, (Vec3{5.0, 0.0, 0.0}));
   EXPECT_EQ(**made.loads[0].function, "A");
@@ -128,7 +128,7 @@ TEST(Translate, PlasticityAsATable) {
 
 TEST(Translate, OverlapsOfAbaqusExplicitCountAsTouching) {
   const auto penetration = [](const char* line) {
-    return *case_from(replaced(good_deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3", line)).contacts[0].initial_penetration;
+    return *case_from(replaced(good_deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3", line)).contacts[0].law()->initial_penetration;
   };
   EXPECT_EQ(penetration("*DYNAMIC, EXPLICIT\n, 1e-3"), InitialPenetration::strain_free_offset);
   EXPECT_EQ(penetration("*DYNAMIC, EXPLICIT=1\n1e-7, 1e-3"), InitialPenetration::prestress);
@@ -186,7 +186,7 @@ TEST(Translate, FormulationsOfElementTypes) {
 TEST(Translate, FacesBetweenTheNodesOfASurface) {
   const TranslatedDeck made =
       translated(replaced(good_deck, "*SURFACE, NAME=FOOT\nUPPER, S1", "*SURFACE, NAME=FOOT, TYPE=NODE\nFALLING"));
-  EXPECT_EQ(*case_of(made.tree, "x.inp").contacts[0].group, "FOOT (faces)");
+  EXPECT_EQ(*case_of(made.tree, "x.inp").contacts[0].group(), "FOOT (faces)");
   EXPECT_TRUE(has_note(made, "surface of nodes"));
 }
 
@@ -201,19 +201,19 @@ std::string with_rigid_wall(const std::string& reference) {
 
 TEST(Translate, ARigidSurfaceAtRestIsAnObstacle) {
   const Case made = case_from(with_rigid_wall("*BOUNDARY\n99, ENCASTRE\n"));
-  EXPECT_EQ(*made.contacts[0].kind, CaseContact::Kind::surface);
-  EXPECT_EQ(*made.contacts[0].surface, "FLOOR");
-  EXPECT_FALSE(made.contacts[0].velocity);
+  EXPECT_EQ(*made.contacts[0].kind, "surface");
+  EXPECT_EQ(**made.contacts[0].own_cells(), "FLOOR");
+  EXPECT_FALSE(made.contacts[0].obstacle()->velocity);
   EXPECT_TRUE(made.supports.empty());
 }
 
 TEST(Translate, ADisplacedReferenceNodeMovesItsSurfaceByTheSlope) {
   const Case made = case_from(
       replaced(with_rigid_wall("*BOUNDARY\n99, 1, 2\n"), "*CLOAD", "*BOUNDARY, AMPLITUDE=A\n99, 3, 3, 0.5\n*CLOAD"));
-  EXPECT_EQ(*made.contacts[0].velocity, (Vec3{0.0, 0.0, 500.0}));  // 0.5 in 1e-3
-  ASSERT_TRUE(made.contacts[0].function);
+  EXPECT_EQ(*made.contacts[0].obstacle()->velocity, (Vec3{0.0, 0.0, 500.0}));  // 0.5 in 1e-3
+  ASSERT_TRUE(made.contacts[0].obstacle()->function);
   for (const CaseFunction& function : made.functions) {
-    if (function.name != **made.contacts[0].function) continue;
+    if (function.name != **made.contacts[0].obstacle()->function) continue;
     EXPECT_EQ(function.function(5e-4), 1.0);
     EXPECT_EQ(function.function(2e-3), 0.0);
   }
@@ -222,8 +222,8 @@ TEST(Translate, ADisplacedReferenceNodeMovesItsSurfaceByTheSlope) {
 TEST(Translate, AFreeRigidSurfaceHasTheMassOfItsReferenceNode) {
   const Case made = case_from(replaced(with_rigid_wall("*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n*MASS, ELSET=M\n2.5\n"),
                                        "FALLING, 3, -1000.", "FALLING, 3, -1000.\n99, 3, 20."));
-  EXPECT_EQ(*made.contacts[0].mass, 2.5);
-  EXPECT_EQ(*made.contacts[0].velocity, (Vec3{0.0, 0.0, 20.0}));
+  EXPECT_EQ(*made.contacts[0].obstacle()->body.mass, 2.5);
+  EXPECT_EQ(*made.contacts[0].obstacle()->velocity, (Vec3{0.0, 0.0, 20.0}));
   EXPECT_TRUE(made.point_masses.empty());
   EXPECT_EQ(made.initial.size(), 1U);
 }
@@ -253,20 +253,21 @@ TEST(Translate, SupportsAndContactOfLaterStepsAreRefusedUnlessAccepted) {
 TEST(Translate, Ties) {
   const Case plain = case_from(replaced(good_deck, "*BOUNDARY", "*TIE, NAME=GLUE, ADJUST=NO\nFOOT, FLOOR\n*BOUNDARY"));
   ASSERT_EQ(plain.contacts.size(), 2U);
-  const CaseContact& tie = plain.contacts[0];
-  EXPECT_EQ(*tie.kind, CaseContact::Kind::tie);
-  EXPECT_EQ(*tie.name, "FOOT to FLOOR");
-  EXPECT_EQ(*tie.group, *plain.contacts[1].group);
-  EXPECT_EQ(*tie.master, *plain.contacts[1].master);
-  EXPECT_EQ(tie.tie_method, TieMethod::node_to_surface);
+  EXPECT_EQ(*plain.contacts[0].name, "FOOT to FLOOR");
+  const auto& tie = std::get<CaseTie>(plain.contacts[0].of);
+  const auto& pair = std::get<CasePair>(plain.contacts[1].of);
+  EXPECT_EQ(*tie.group, *pair.group);
+  EXPECT_EQ(*tie.master, *pair.master);
+  EXPECT_EQ(tie.method, TieMethod::node_to_surface);
   EXPECT_EQ(tie.far, FarNodes::refuse);
   EXPECT_FALSE(tie.distance.has_value());
   const Case wide =
       case_from(replaced(good_deck, "*BOUNDARY",
                          "*TIE, NAME=GLUE, POSITION TOLERANCE=0.2, TYPE=SURFACE TO SURFACE\nFOOT, FLOOR\n*BOUNDARY"));
-  EXPECT_EQ(wide.contacts[0].tie_method, TieMethod::surface_to_surface);
-  EXPECT_EQ(wide.contacts[0].far, FarNodes::leave);
-  EXPECT_EQ(wide.contacts[0].distance, 0.2);
+  const auto& spread = std::get<CaseTie>(wide.contacts[0].of);
+  EXPECT_EQ(spread.method, TieMethod::surface_to_surface);
+  EXPECT_EQ(spread.far, FarNodes::leave);
+  EXPECT_EQ(spread.distance, 0.2);
 }
 
 TEST(Translate, NamedSupports) {

@@ -1,0 +1,167 @@
+#include <fmt/format.h>
+
+#include "casefile/case.hpp"
+#include "casefile/contact_keys.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr auto needed = KeyOptions::Need::required;
+
+template <class Kind>
+void add_body(SectionSchema<Kind>& s) {
+  s.key_by("mass", [](auto& kind) -> auto& { return kind.body.mass; },
+           "The obstacle is a free rigid body of this mass, which turns where it has an inertia and else does not. It "
+           "belongs to this one contact.",
+           {.unit = Dimension::mass, .range = greater_than(0.0)});
+  s.key_by(
+      "inertia", [](auto& kind) -> auto& { return kind.body.inertia; },
+      "Moments of inertia [I_xx, I_yy, I_zz] of the free body about its centre of mass, along the axes; each smaller "
+      "than the sum of the two others.",
+      {.unit = Dimension::inertia});
+  s.key_by("products_of_inertia", [](auto& kind) -> auto& { return kind.body.products_of_inertia; },
+           "Entries [I_xy, I_yz, I_zx] of its inertia tensor, which are minus the integrals of the products of the "
+           "coordinates.",
+           {.unit = Dimension::inertia, .default_phrase = "0"});
+  s.key_by("centre_of_mass", [](auto& kind) -> auto& { return kind.body.centre_of_mass; },
+           "Of the free body that turns, at the start.",
+           {.unit = Dimension::length,
+            .aliases = {"center_of_mass"},
+            .default_phrase = "sphere and box: their middle; the other kinds must have one"});
+  s.key_by(
+      "rigidity", [](auto& kind) -> auto& { return kind.body.rigidity; },
+      "Of the free body that turns: frequency at which its axes vibrate about right angles, over the highest of the "
+      "mesh. Its strain, which the verdict limits to 1e-3, falls with the square; above 1 explicit runs pay with their "
+      "step.",
+      {.range = greater_than(0.0), .default_phrase = "0.5"});
+  s.key_by("angular_velocity", [](auto& kind) -> auto& { return kind.body.angular_velocity; },
+           "Of the free body that turns, at the start; radians.",
+           {.unit = Dimension::angular_velocity, .default_phrase = "0"});
+}
+
+/// What a body that turns needs, and what only it may have.
+template <class Kind>
+void check_body(const Kind& given, const Node& node, const ReadContext& at) {
+  const CaseRigidBody& body = given.body;
+  if (body.inertia && !body.mass) {
+    throw CaseError(body.inertia->where, at.at("inertia").path, "an inertia without a mass",
+                    "the mass of a free body beside its inertia", "Add mass, or remove inertia.");
+  }
+  for (const char* key : {"products_of_inertia", "centre_of_mass", "angular_velocity", "rigidity"}) {
+    const Node* written = find(node, key);
+    if (written == nullptr || body.inertia) continue;
+    throw CaseError(written->where, at.at(key).path, fmt::format("{} without an inertia", key),
+                    "the inertia of a free body that turns", fmt::format("Add mass and inertia, or remove {}.", key));
+  }
+  constexpr bool has_middle = requires {
+    given.middle();
+  };
+  if (body.inertia && !has_middle && !body.centre_of_mass) {
+    throw CaseError(body.inertia->where, at.at("inertia").path, "an inertia without a centre of mass",
+                    "a centre_of_mass, which only spheres and boxes have by their shape", "Add centre_of_mass.");
+  }
+}
+
+template <class Kind>
+void check_obstacle(Kind& given, const Node& node, const ReadContext& at) {
+  check_body(given, node, at);
+  check_law(given.law, node, at);
+  if (!given.function || (given.velocity && !given.body.mass)) return;
+  throw CaseError(given.function->where, at.at("function").path,
+                  given.body.mass ? "a function beside a mass" : "a function without a velocity",
+                  "a velocity that is imposed", "Remove function, or give velocity and no mass.");
+}
+
+/// Begins with what all shapes have.
+template <class Kind>
+SectionSchema<Kind> obstacle_keys(const std::string& doc) {
+  SectionSchema<Kind> s(doc);
+  add_group(s, "Group of faces or nodes that may touch.");
+  add_law(s);
+  s.key_by("measure", [](auto& kind) -> auto& { return kind.per_node; },
+           "What the stiffness is counted per: area of the faces, or node.", {.choices = {"area", "node"}});
+  s.key_by(
+      "velocity", [](auto& kind) -> auto& { return kind.velocity; },
+      "The obstacle moves, without turning: imposed velocity times function; with a mass: initial velocity, of the "
+      "centre of mass.",
+      {.unit = Dimension::velocity});
+  s.key_by("function", [](auto& kind) -> auto& { return kind.function; },
+           "NAME of a [functions.NAME] that multiplies the imposed velocity.", {.default_phrase = "constant 1"});
+  add_body(s);
+  s.finish = check_obstacle<Kind>;
+  return s;
+}
+
+template <class Kind>
+void add_round(SectionSchema<Kind>& s) {
+  s.key("radius", &Kind::radius, "Radius.", {.unit = Dimension::length, .range = greater_than(0.0), .need = needed});
+  s.key("inside", &Kind::inside, "The body is inside of the shape.");
+}
+
+}  // namespace
+
+SectionSchema<CasePlane> contact_keys(std::type_identity<CasePlane>) {
+  auto s = obstacle_keys<CasePlane>("a rigid half-space");
+  s.key("point", &CasePlane::point, "A point of the plane.", {.unit = Dimension::length, .need = needed});
+  s.key("normal", &CasePlane::normal, "Direction from the plane to the body; of any length but 0.", {.need = needed});
+  s.finish = [](CasePlane& given, const Node& node, const ReadContext& at) {
+    check_obstacle(given, node, at);
+    check_direction(given.normal, at.at("normal").path);
+  };
+  return s;
+}
+
+SectionSchema<CaseSphere> contact_keys(std::type_identity<CaseSphere>) {
+  auto s = obstacle_keys<CaseSphere>("a rigid sphere");
+  s.key("centre", &CaseSphere::centre, "Centre of the sphere.",
+        {.unit = Dimension::length, .need = needed, .aliases = {"center"}});
+  add_round(s);
+  return s;
+}
+
+SectionSchema<CaseCylinder> contact_keys(std::type_identity<CaseCylinder>) {
+  auto s = obstacle_keys<CaseCylinder>("a rigid cylinder");
+  s.key("point", &CaseCylinder::point, "A point of the axis.", {.unit = Dimension::length, .need = needed});
+  s.key("axis", &CaseCylinder::axis, "Direction of the cylinder, which is endless.", {.need = needed});
+  add_round(s);
+  s.finish = [](CaseCylinder& given, const Node& node, const ReadContext& at) {
+    check_obstacle(given, node, at);
+    check_direction(given.axis, at.at("axis").path);
+  };
+  return s;
+}
+
+SectionSchema<CaseBox> contact_keys(std::type_identity<CaseBox>) {
+  auto s = obstacle_keys<CaseBox>("a rigid box along the axes");
+  s.key("lower", &CaseBox::lower, "Corner of the box with the smallest coordinates.",
+        {.unit = Dimension::length, .need = needed});
+  s.key("upper", &CaseBox::upper, "Corner of the box with the largest coordinates.",
+        {.unit = Dimension::length, .need = needed});
+  s.finish = [](CaseBox& given, const Node& node, const ReadContext& at) {
+    check_obstacle(given, node, at);
+    for (std::size_t c = 0; c < 3; ++c) {
+      if ((*given.upper)[c] > given.lower[c]) continue;
+      throw CaseError(given.upper.where, at.at("upper").path,
+                      fmt::format("{} against a lower of {}", (*given.upper)[c], given.lower[c]),
+                      "larger coordinates than lower, all three");
+    }
+  };
+  return s;
+}
+
+SectionSchema<CaseRigidSurface> contact_keys(std::type_identity<CaseRigidSurface>) {
+  auto s = obstacle_keys<CaseRigidSurface>("a rigid surface of faces of the mesh");
+  s.key("surface", &CaseRigidSurface::surface, "Group of the faces of the rigid surface, which belong to no part.",
+        {.need = needed});
+  return s;
+}
+
+void CaseObstacle::check_scheme(const CaseScheme& scheme, const ContactPlace& at) const {
+  if (*scheme.kind != SchemeKind::statics || !body.inertia) return;
+  throw CaseError(body.inertia->where, at.path + ".inertia", "a body that turns, with statics",
+                  "a scheme with inertia, or a free body without `inertia`, which does not turn",
+                  "Nothing but contact holds the directions of such a body at rest.");
+}
+
+}  // namespace carom

@@ -1,0 +1,47 @@
+#include "casefile/contact_keys.hpp"
+
+namespace carom {
+
+namespace {
+
+template <class Kind>
+void add_method_and_law(SectionSchema<Kind>& s) {
+  s.key_by(
+      "method", [](auto& kind) -> auto& { return kind.method; },
+      "Where the gap is measured: at the nodes of one side, of both, or over the overlaps of the faces. faces, for "
+      "the penalty alone, integrates the penetration from both sides: pressure is exact across meshes that match or "
+      "not, of first and second order, and what lies between nodes is seen. Both sides' nodes (two_pass) sink "
+      "nowhere; surface_to_surface sees the mean gap of a node's faces: pressure is exact across flat meshes, and a "
+      "coarse curved face sinks in by part of its rise.",
+      {.choices = {"node_to_surface", "two_pass", "surface_to_surface", "faces"},
+       .default_phrase = "faces in statics with penalty alone, else two_pass"});
+  add_law(s);
+  s.finish = [](Kind& given, const Node& node, const ReadContext& at) { check_law(given.law, node, at); };
+}
+
+}  // namespace
+
+SectionSchema<CasePair> contact_keys(std::type_identity<CasePair>) {
+  SectionSchema<CasePair> s("two deformable surfaces");
+  add_group(s, "Group of the slave faces.");
+  s.key("master", &CasePair::master, "Group of faces of the other body; the coarser or stiffer one.",
+        {.need = KeyOptions::Need::required});
+  add_method_and_law(s);
+  return s;
+}
+
+SectionSchema<CaseSelf> contact_keys(std::type_identity<CaseSelf>) {
+  SectionSchema<CaseSelf> s("one surface with itself");
+  add_group(s, "Group of the faces.");
+  add_method_and_law(s);
+  return s;
+}
+
+SectionSchema<CaseAll> contact_keys(std::type_identity<CaseAll>) {
+  SectionSchema<CaseAll> s("all exterior surfaces with each other");
+  s.key("exclude", &CaseAll::exclude, "Groups whose faces take no part.");
+  add_method_and_law(s);
+  return s;
+}
+
+}  // namespace carom
