@@ -51,6 +51,17 @@ const Located<std::string>& CaseContact::group() const {
       of);
 }
 
+const Located<std::string>* CaseContact::master() const {
+  return std::visit(
+      [](const auto& given) -> const Located<std::string>* {
+        if constexpr (requires { given.master; })
+          return &given.master;
+        else
+          return nullptr;
+      },
+      of);
+}
+
 const CaseContactLaw* CaseContact::law() const {
   return law_of(*this);
 }

@@ -198,6 +198,8 @@ struct CaseContact {
 
   /// What touches, by name; "" where it has none (all).
   const Located<std::string>& group() const;
+  /// The faces of the other body, by name; null where it has none.
+  const Located<std::string>* master() const;
   /// The law of what touches and lets go; null for kinds without one.
   const CaseContactLaw* law() const;
   CaseContactLaw* law();

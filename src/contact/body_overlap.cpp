@@ -102,10 +102,9 @@ BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
   for (const Overlap& overlap : depths(u)) at_start.push_back(overlap.depth);
   for (const ContactDefinition& definition : model.contacts) {
     obstacle_nodes.emplace_back();
-    if (const auto* obstacle = std::get_if<ObstacleContact>(&definition)) {
+    if (const ContactParts obstacle = parts_of(definition); obstacle.shape != nullptr) {
       std::vector<Index>& nodes = obstacle_nodes.back();
-      nodes = obstacle->nodes;
-      for (const Facet& facet : obstacle->surface.facets) nodes.insert(nodes.end(), facet.begin(), facet.end());
+      nodes = nodes_of(obstacle, *model.mesh);
       add_bars(model, nodes);
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -209,19 +208,19 @@ std::vector<Overlap> BodyOverlap::Impl::depths(std::span<const double> u) {
 /// By node of the contact, in cells; not positive outside.
 std::vector<double> BodyOverlap::Impl::obstacle_depths(std::size_t c, std::span<const double> u) const {
   std::vector<double> depths;
-  const auto* obstacle = std::get_if<ObstacleContact>(&model.contacts[c]);
-  if (obstacle == nullptr) return depths;
+  const ContactParts obstacle = parts_of(model.contacts[c]);
+  if (obstacle.shape == nullptr) return depths;
   std::optional<BodyPlacement> placement;
-  if (obstacle->body >= 0) {
-    const TurningBody& turning = model.turning_bodies[static_cast<std::size_t>(obstacle->body)];
+  if (obstacle.body >= 0) {
+    const TurningBody& turning = model.turning_bodies[static_cast<std::size_t>(obstacle.body)];
     placement.emplace(turning, body_frame(turning, nodal_values(turning, current_positions(*model.mesh, u))));
   }
   const std::vector<Vec3>& X = model.mesh->coordinates;
-  const Index carrier = obstacle->carrier;
+  const Index carrier = obstacle.carrier;
   const Vec3 shift = carrier < 0 ? Vec3{} : subtract(cells.position(carrier), X[carrier]);
   for (const Index n : obstacle_nodes[c]) {
     const Vec3 x = cells.position(n), seen = placement ? placement->reference(x) : subtract(x, shift);
-    depths.push_back(-std::visit(GapOfShape{X, seen, 2.0 * node_length(n)}, obstacle->shape) / node_length(n));
+    depths.push_back(-std::visit(GapOfShape{X, seen, 2.0 * node_length(n)}, *obstacle.shape) / node_length(n));
   }
   return depths;
 }

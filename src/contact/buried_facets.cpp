@@ -24,13 +24,16 @@ Vec3 point_under(const PlacedFacet& facet) {
 
 }  // namespace
 
-std::vector<BuriedFacet> buried_facets(const Model& model, const PairContact& pair, std::span<const double> u) {
+std::vector<BuriedFacet> buried_facets(const Model& model, const ContactDefinition& contact,
+                                       std::span<const double> u) {
+  const ContactParts parts = parts_of(contact);
+  if (parts.other == nullptr || parts.nature != ContactNature::touches) return {};
   const std::vector<Vec3> x = current_positions(*model.mesh, u);
   const PlacedCells cells(model, u);
   const std::vector<Index> body = bodies_of_nodes(model);
   std::vector<BuriedFacet> found;
   std::vector<Index> near;
-  for (const Surface* surface : {&pair.slave, &pair.master}) {
+  for (const Surface* surface : {parts.own, parts.other}) {
     for (const Facet& facet : surface->facets) {
       const Vec3 at = point_under(place(facet, x));
       cells.find(at, near);
@@ -41,7 +44,7 @@ std::vector<BuriedFacet> buried_facets(const Model& model, const PairContact& pa
       });
       if (inside_of != near.end()) found.push_back({facet, at, cells.ref(static_cast<std::size_t>(*inside_of))});
     }
-    if (pair.self) break;
+    if (parts.is_self) break;
   }
   return found;
 }

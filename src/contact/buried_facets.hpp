@@ -21,7 +21,7 @@ struct BuriedFacet {
 /// centre and a thousandth of its size under it, so that surfaces that touch do not count and nodes on the faces of
 /// cells do not matter; it is found in the cell by Newton's method. The rows of a pair look one facet deep; this finds
 /// what lies deeper, at any depth: what bodies look like that begin on the wrong side of each other. Bars have no
-/// inside.
-std::vector<BuriedFacet> buried_facets(const Model& model, const PairContact& pair, std::span<const double> u);
+/// inside; contacts that are no pairs have none.
+std::vector<BuriedFacet> buried_facets(const Model& model, const ContactDefinition& contact, std::span<const double> u);
 
 }  // namespace carom

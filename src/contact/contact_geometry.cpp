@@ -9,12 +9,9 @@
 #include <utility>
 
 #include "contact/admissible.hpp"
-#include "contact/interface_rows.hpp"
-#include "contact/obstacle_rows.hpp"
-#include "contact/pair_rows.hpp"
+#include "contact/contact_kind.hpp"
 #include "contact/response.hpp"
 #include "contact/row_maker.hpp"
-#include "contact/tie_rows.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
@@ -22,58 +19,14 @@ namespace carom {
 
 namespace {
 
-struct MakeRows {
-  const Model& model;
-  std::vector<std::string>& notes;
-  Index source;
-
-  std::unique_ptr<RowMaker> operator()(const InterfaceContact& contact) const {
-    return interface_rows(model, contact, source, notes);
-  }
-  std::unique_ptr<RowMaker> operator()(const ObstacleContact& contact) const {
-    return obstacle_rows(model, contact, source);
-  }
-  std::unique_ptr<RowMaker> operator()(const PairContact& contact) const { return pair_rows(model, contact, source); }
-  std::unique_ptr<RowMaker> operator()(const StopContact& contact) const { return stop_rows(model, contact, source); }
-  std::unique_ptr<RowMaker> operator()(const TieContact& contact) const {
-    return tie_rows(model, contact, source, notes);
-  }
-};
-
 /// Nodes whose positions the rows of a contact ask for.
-struct MovingNodes {
-  const Model& model;
-  std::vector<Index>& nodes;
-
-  void add(const Surface& surface) const {
-    for (const Facet& facet : surface.facets) nodes.insert(nodes.end(), facet.begin(), facet.end());
-  }
-  void operator()(const InterfaceContact& /*contact*/) const {}
-  void operator()(const StopContact& /*contact*/) const {}
-  void operator()(const TieContact& /*contact*/) const {}
-  void operator()(const ObstacleContact& contact) const {
-    nodes.insert(nodes.end(), contact.nodes.begin(), contact.nodes.end());
-    add(contact.surface);
-    if (contact.carrier >= 0) nodes.push_back(contact.carrier);
-    if (contact.body < 0) return;
-    const TurningBody& body = model.turning_bodies[static_cast<std::size_t>(contact.body)];
-    nodes.insert(nodes.end(), body.nodes.begin(), body.nodes.end());
-  }
-  void operator()(const PairContact& contact) const {
-    add(contact.slave);
-    add(contact.master);
-  }
-};
-
-bool takes_offsets(const ContactDefinition& definition) {
-  return std::visit(
-      [](const auto& contact) {
-        if constexpr (!requires { contact.initial; })
-          return false;
-        else
-          return contact.initial == InitialPenetration::strain_free_offset;
-      },
-      definition);
+void add_moving_nodes(const Model& model, const ContactParts& contact, std::vector<Index>& nodes) {
+  const std::vector<Index> own = nodes_of(contact, *model.mesh);
+  nodes.insert(nodes.end(), own.begin(), own.end());
+  if (contact.carrier >= 0) nodes.push_back(contact.carrier);
+  if (contact.body < 0) return;
+  const TurningBody& body = model.turning_bodies[static_cast<std::size_t>(contact.body)];
+  nodes.insert(nodes.end(), body.nodes.begin(), body.nodes.end());
 }
 
 /// Middle of the box around all nodes.
@@ -109,9 +62,7 @@ struct ContactGeometry::Impl {
   bool place(const Vec3& origin, std::span<const double> u_begin, std::span<const double> u);
   /// Where a maker takes positions from: gaps of pairs are differences of positions of nodes, which far from the origin
   /// would be known to the rounding of their coordinates only; obstacles stand where the case says.
-  Vec3 origin_of(std::size_t maker) const {
-    return std::holds_alternative<PairContact>(model.contacts[maker]) ? centre : Vec3{};
-  }
+  Vec3 origin_of(std::size_t maker) const { return parts_of(model.contacts[maker]).other != nullptr ? centre : Vec3{}; }
   std::shared_ptr<ConstraintRows> make(std::span<const double> u_begin, std::span<const double> u,
                                        std::span<const RowHistory> history);
 };
@@ -169,11 +120,12 @@ std::shared_ptr<ConstraintRows> ContactGeometry::Impl::make(std::span<const doub
 ContactGeometry::ContactGeometry(const Model& model) : impl_(std::make_unique<Impl>(model)) {
   Impl& impl = *impl_;
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    impl.makers.push_back(std::visit(MakeRows{model, impl.notes, static_cast<Index>(i)}, model.contacts[i]));
+    const ContactDefinition& contact = model.contacts[i];
+    const ContactParts parts = parts_of(contact);
+    impl.makers.push_back(kind_of(contact).rows(model, contact, static_cast<Index>(i), impl.notes));
     impl.first_slot.push_back(impl.first_slot.back() + static_cast<Index>(impl.makers.back()->slots()));
-    if (std::holds_alternative<TieContact>(model.contacts[i]))
-      impl.makers.back()->append({}, impl.first_slot[i], impl.bonds);
-    if (!impl.makers.back()->is_fixed()) std::visit(MovingNodes{model, impl.nodes}, model.contacts[i]);
+    if (parts.nature == ContactNature::bonds) impl.makers.back()->append({}, impl.first_slot[i], impl.bonds);
+    if (!impl.makers.back()->is_fixed()) add_moving_nodes(model, parts, impl.nodes);
     impl.makers.back()->add_moving_nodes(impl.nodes);
   }
   std::sort(impl.nodes.begin(), impl.nodes.end());
@@ -237,13 +189,13 @@ void ContactGeometry::set_initial(std::span<const double> u) {
   impl_->offset.assign(slots(), 0.0);
   if (impl_->fixed) impl_->fixed = impl_->make({}, {}, {});
   for (const Penetration& p : initial_penetrations(u))
-    impl_->offset[p.slot] = takes_offsets(impl_->model.contacts[p.contact]) ? -p.depth : -p.rounded;
+    impl_->offset[p.slot] =
+        initial_of(impl_->model.contacts[p.contact]) == InitialPenetration::strain_free_offset ? -p.depth : -p.rounded;
   if (impl_->fixed) impl_->fixed = impl_->make({}, {}, {});
 }
 
 std::string ContactGeometry::describe(const ConstraintRows& rows, std::size_t r) const {
-  const std::string& name = std::visit([](const auto& contact) -> const std::string& { return contact.name; },
-                                       impl_->model.contacts[static_cast<std::size_t>(rows.source[r])]);
+  const std::string& name = name_of(impl_->model.contacts[static_cast<std::size_t>(rows.source[r])]);
   const Vec3& x = rows.position[r];
   const Index node = rows.begin[r] < rows.begin[r + 1] ? rows.node[static_cast<std::size_t>(rows.begin[r])] : -1;
   const std::string at = node < 0 ? "" : fmt::format("node {} ", impl_->model.mesh->node_numbers[node]);

@@ -10,7 +10,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contact/contact_kind.hpp"
 #include "math/vec3.hpp"
+#include "mesh/cell_topology.hpp"
 
 namespace carom {
 namespace {
@@ -161,6 +163,43 @@ std::unique_ptr<RowMaker> interface_rows(const Model& model, const InterfaceCont
                                 contact.name, turned));
   }
   return std::make_unique<FixedRows>(std::move(rows));
+}
+
+namespace {
+
+/// The sides are told apart by softness, cell by cell: which face of an interface comes first means nothing.
+StiffnessChoice interface_stiffness(const PartCells& cells, const ContactDefinition& definition) {
+  const auto& contact = std::get<InterfaceContact>(definition);
+  const CellBlock& hexas = *cells.model().mesh->block(CellType::hexa8);
+  Side softer, stiffer;
+  for (const Index cell : contact.cells) {
+    const std::span<const Index> nodes = hexas.nodes(cell);
+    std::vector<Backing> found;
+    for (const CellFace& face : cell_faces(CellType::hexa8)) {
+      Facet facet{{}, 4};
+      for (std::size_t a = 0; a < 4; ++a) facet.node[a] = nodes[static_cast<std::size_t>(face.node[a])];
+      if (const auto backing = cells.behind(facet)) found.push_back(*backing);
+    }
+    std::ranges::sort(found, {}, &Backing::stiffness);
+    if (!found.empty()) softer.add(found.front());
+    if (found.size() > 1) stiffer.add(found.back());
+  }
+  if (!(softer.measure > 0.0)) refuse_choice(contact.name);
+  if (stiffer.measure > 0.0) return {{softer, stiffer}};
+  return {{softer}};
+}
+
+}  // namespace
+
+ContactKind interface_contact_row() {
+  return {.name = "interface",
+          .rows =
+              [](const Model& model, const ContactDefinition& contact, Index source, std::vector<std::string>& notes) {
+                return interface_rows(model, std::get<InterfaceContact>(contact), source, notes);
+              },
+          .stiffness = interface_stiffness,
+          .shared = [](const ContactDefinition& a,
+                       const ContactDefinition& b) { return shared_numbers(parts_of(a).cells, parts_of(b).cells); }};
 }
 
 }  // namespace carom

@@ -6,9 +6,11 @@
 #include <optional>
 #include <utility>
 
+#include "contact/contact_kind.hpp"
 #include "contact/rigid_shapes.hpp"
 #include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
+#include "model/outer_facets.hpp"
 
 namespace carom {
 namespace {
@@ -214,31 +216,6 @@ class RigidSurfaceRows : public RowMaker {
   mutable RowParts parts_;
 };
 
-class StopRows : public RowMaker {
- public:
-  StopRows(const Model& model, const StopContact& contact, Index source)
-      : X_(model.mesh->coordinates), contact_(contact), source_(source) {
-    law_.eps_N = contact.stiffness;
-    law_.damping = contact.damping;
-    law_.damper_acts = contact.damper_acts;
-  }
-  std::size_t slots() const override { return contact_.nodes.size(); }
-  bool is_fixed() const override { return true; }
-  void append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const override {
-    for (const Index n : contact_.nodes) {
-      rows.add_row(contact_.gap, contact_.direction, X_[n], 1.0, law_, source_);
-      rows.add_node(n, 1.0);
-      rows.slot.back() = first_slot++;
-    }
-  }
-
- private:
-  std::span<const Vec3> X_;
-  StopContact contact_;
-  RowLaw law_;
-  Index source_;
-};
-
 /// The maker for each shape.
 struct ShapeRowMaker {
   const ObstacleContact& contact;
@@ -264,8 +241,83 @@ std::unique_ptr<RowMaker> obstacle_rows(const Model& model, const ObstacleContac
   return std::visit(ShapeRowMaker{contact, Touching(model, contact, source)}, contact.shape);
 }
 
-std::unique_ptr<RowMaker> stop_rows(const Model& model, const StopContact& contact, Index source) {
-  return std::make_unique<StopRows>(model, contact, source);
+namespace {
+
+/// Of obstacles that are counted per node: of the facets whose nodes are all listed, or of all that have some.
+StiffnessChoice per_node_stiffness(const PartCells& cells, const ObstacleContact& contact) {
+  std::vector<bool> listed(cells.model().mesh->node_count(), false);
+  for (const Index n : contact.nodes) listed[static_cast<std::size_t>(n)] = true;
+  const auto on_list = [&](Index n) { return listed[static_cast<std::size_t>(n)]; };
+  std::vector<Facet> whole, touched;
+  const auto skin = outer_facets(cells.model());
+  for (const OuterFacet& outer : *skin) {
+    const Facet& facet = outer.facet;
+    if (std::all_of(facet.begin(), facet.end(), on_list)) whole.push_back(facet);
+    if (std::any_of(facet.begin(), facet.end(), on_list)) touched.push_back(facet);
+  }
+  const std::vector<Facet>& facets = whole.empty() ? touched : whole;
+  StiffnessChoice choice{{side_of(cells, facets, contact.name)}};
+  double sum = 0.0;
+  for (const Facet& facet : facets) {
+    const auto backing = cells.behind(facet);
+    if (!backing) continue;
+    const auto shares = static_cast<double>(std::count_if(facet.begin(), facet.end(), on_list));
+    sum += backing->measure * shares / facet.size;
+  }
+  choice.node_measure = sum / static_cast<double>(std::ranges::count(listed, true));
+  return choice;
+}
+
+bool same(const Plane& a, const Plane& b) {
+  const double scale = std::max(norm(a.point), norm(b.point));
+  return is_near(a.normal, b.normal) && std::abs(dot(subtract(a.point, b.point), a.normal)) <= 1e-9 * scale;
+}
+bool same(const Sphere& a, const Sphere& b) {
+  return is_near(a.centre, b.centre) && a.radius == b.radius && a.inside == b.inside;
+}
+bool same(const Cylinder& a, const Cylinder& b) {
+  return is_near(a.point, b.point) && is_near(a.axis, b.axis) && a.radius == b.radius && a.inside == b.inside;
+}
+bool same(const Box& a, const Box& b) {
+  return is_near(a.lower, b.lower) && is_near(a.upper, b.upper);
+}
+bool same(const RigidSurface& a, const RigidSurface& b) {
+  return shared_facets(a.surface, b.surface) > 0;
+}
+
+bool same_shape(const RigidShape& a, const RigidShape& b) {
+  return std::visit(
+      [](const auto& x, const auto& y) {
+        if constexpr (std::is_same_v<decltype(x), decltype(y)>)
+          return same(x, y);
+        else
+          return false;
+      },
+      a, b);
+}
+
+std::size_t shared_with(const ContactDefinition& first, const ContactDefinition& second) {
+  const auto &a = std::get<ObstacleContact>(first), &b = std::get<ObstacleContact>(second);
+  const bool at_rest = a.carrier < 0 && b.carrier < 0 && a.body < 0 && b.body < 0;
+  if (!at_rest || !same_shape(a.shape, b.shape)) return 0;
+  return std::max(shared_numbers(a.nodes, b.nodes), shared_facets(a.surface, b.surface));
+}
+
+}  // namespace
+
+ContactKind obstacle_contact_row() {
+  return {.name = "obstacle",
+          .rows =
+              [](const Model& model, const ContactDefinition& contact, Index source, std::vector<std::string>&) {
+                return obstacle_rows(model, std::get<ObstacleContact>(contact), source);
+              },
+          .stiffness =
+              [](const PartCells& cells, const ContactDefinition& definition) {
+                const auto& contact = std::get<ObstacleContact>(definition);
+                if (contact.measure == RowMeasure::per_node) return per_node_stiffness(cells, contact);
+                return StiffnessChoice{{side_of(cells, contact.surface.facets, contact.name)}};
+              },
+          .shared = shared_with};
 }
 
 }  // namespace carom

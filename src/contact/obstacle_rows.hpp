@@ -1,4 +1,4 @@
-// Rows of rigid obstacles and of discrete stops.
+// Rows of rigid obstacles.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,5 @@ namespace carom {
 /// with the carrier or body) has rows for the nodes within the larger mean facet size of both surfaces, found by a
 /// SurfaceSearch; the nodes' normals come from the contact surface.
 std::unique_ptr<RowMaker> obstacle_rows(const Model& model, const ObstacleContact& contact, Index source);
-
-/// One row per node of a discrete stop, with measure 1, the same at every displacement.
-std::unique_ptr<RowMaker> stop_rows(const Model& model, const StopContact& contact, Index source);
 
 }  // namespace carom

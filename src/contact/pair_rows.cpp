@@ -6,8 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contact/contact_kind.hpp"
 #include "contact/edge_rows.hpp"
 #include "contact/face_rows.hpp"
+#include "contact/facing_facets.hpp"
 #include "contact/half_thickness.hpp"
 #include "contact/mortar_rows.hpp"
 #include "contact/surface_search.hpp"
@@ -239,6 +241,25 @@ std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& conta
   all->add(std::move(of_method));
   all->add(std::move(of_edges));
   return all;
+}
+
+ContactKind pair_contact_row() {
+  return {
+      .name = "pair",
+      .rows = [](const Model& model, const ContactDefinition& contact, Index source,
+                 std::vector<std::string>&) { return pair_rows(model, std::get<PairContact>(contact), source); },
+      .stiffness =
+          [](const PartCells& cells, const ContactDefinition& definition) {
+            const auto& pair = std::get<PairContact>(definition);
+            const FacingFacets facing = facing_facets(cells.model(), pair);
+            return StiffnessChoice{{side_of(cells, facing.slave, pair.name), side_of(cells, facing.master, pair.name)}};
+          },
+      .shared =
+          [](const ContactDefinition& a, const ContactDefinition& b) {
+            const std::size_t both = shared_facets(parts_of(a), parts_of(b));
+            const bool is_one = parts_of(a).is_self && parts_of(b).is_self && both == 1;
+            return is_one ? 0 : both;  // one facet does not touch itself
+          }};
 }
 
 }  // namespace carom

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "contact/box_tree.hpp"
+#include "contact/contact_kind.hpp"
 #include "contact/facet_geometry.hpp"
 #include "contact/facet_projection.hpp"
 #include "contact/mortar_rows.hpp"
@@ -312,6 +313,22 @@ std::unique_ptr<RowMaker> tie_rows(const Model& model, const TieContact& contact
   notes.push_back(fmt::format("contact \"{}\": {} nodes tied{}", contact.name, made.rows.size(),
                               made.far > 0 ? "; left free: " + made.far_ones() : ""));
   return std::make_unique<FixedRows>(std::move(made.rows));
+}
+
+ContactKind tie_contact_row() {
+  return {.name = "tie",
+          .rows =
+              [](const Model& model, const ContactDefinition& contact, Index source, std::vector<std::string>& notes) {
+                return tie_rows(model, std::get<TieContact>(contact), source, notes);
+              },
+          .stiffness =
+              [](const PartCells& cells, const ContactDefinition& definition) {
+                const auto& tie = std::get<TieContact>(definition);
+                return StiffnessChoice{
+                    {side_of(cells, tie.slave.facets, tie.name), side_of(cells, tie.master.facets, tie.name)}};
+              },
+          .shared = [](const ContactDefinition& a,
+                       const ContactDefinition& b) { return shared_facets(parts_of(a), parts_of(b)); }};
 }
 
 }  // namespace carom

@@ -15,10 +15,11 @@
 #include "element/formulation.hpp"
 #include "material/law.hpp"
 #include "math/time_function.hpp"
-#include "mesh/facet.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/skin.hpp"
+#include "model/contact.hpp"
 #include "model/options.hpp"
+#include "model/surface.hpp"
 #include "model/turning_body.hpp"
 
 namespace carom {
@@ -46,14 +47,6 @@ struct Part {
 
   /// True when the forces depend on more than the displacement.
   bool remembers() const { return !material.law->history.empty() || viscosity.is_any(); }
-};
-
-/// Boundary facets of parts, their normals (mesh/facet.hpp) pointing out of the body. The measure of a facet is its
-/// area (solid), its length times thickness (plane) or times 2 pi x (axisymmetric), or `thickness` (the end of a bar).
-struct Surface {
-  std::vector<Facet> facets;
-  Section section = Section::solid;
-  double thickness = 1.0;
 };
 
 /// The component (0, 1, 2) of the nodes follows function(t). Blocked components are velocity 0.
@@ -101,105 +94,6 @@ struct InitialState {
   }
   const Vec3& velocity_of(std::size_t k) const { return velocity.size() == 1 ? velocity[0] : velocity[k]; }
 };
-
-/// The law of one contact. Stiffnesses are stress per length (force per length on rows that are counted per node); an
-/// absent one is chosen from the material and the size of the cells (contact/stiffness.hpp). They serve the penalty and
-/// the augmented Lagrangian; exact enforcements need none.
-struct ContactLaw {
-  std::optional<double> eps_N;    ///< normal
-  std::optional<double> eps_T;    ///< tangential (regularised friction); absent: as eps_N
-  double stiffness_factor = 1.0;  ///< multiplies the chosen stiffness
-  double linear_depth = std::numeric_limits<double>::infinity();  ///< below, the spring of the penalty hardens
-  double mu = 0.0;                                                ///< Coulomb's coefficient
-  double restitution = 0.0;                                       ///< Newton's coefficient e, for impulses
-  bool has_multipliers = false;  ///< some stage enforces it by multipliers or impulses, beside springs or without
-};
-
-/// Contact by HEXA8 cells whose two opposite faces coincide: traction = eps_N x penetration (force per area).
-struct InterfaceContact {
-  std::string name;
-  std::vector<Index> cells;  ///< indices into Mesh::block(hexa8)
-  ContactLaw law;
-  InitialPenetration initial = InitialPenetration::refuse;
-};
-
-/// What a row stands for: the area of its node, or the node itself (stiffness is then force per length).
-enum class RowMeasure : std::uint8_t { per_area, per_node };
-
-/// Rigid shapes in their reference position. Bodies stay outside of them (of a sphere or cylinder with `inside` set,
-/// inside), or on the side of a plane to which the normal points.
-struct Plane {
-  Vec3 point{};
-  Vec3 normal{0.0, 0.0, 1.0};
-};
-struct Sphere {
-  Vec3 centre{};
-  double radius = 0.0;
-  bool inside = false;
-};
-struct Cylinder {  ///< endless
-  Vec3 point{};
-  Vec3 axis{0.0, 0.0, 1.0};
-  double radius = 0.0;
-  bool inside = false;
-};
-struct Box {  ///< axis-aligned
-  Vec3 lower{}, upper{};
-};
-struct RigidSurface {
-  Surface surface;
-};
-using RigidShape = std::variant<Plane, Sphere, Cylinder, Box, RigidSurface>;
-
-/// A rigid obstacle. A moving one hangs on `carrier`, a node of its own whose displacement it follows (imposed by a
-/// PrescribedMotion, or free with the mass of a RigidBody); -1: at rest. One that turns as well hangs on the
-/// TurningBody `body`, an index in Model::turning_bodies; -1: it does not turn.
-struct ObstacleContact {
-  std::string name;
-  RigidShape shape;
-  Index carrier = -1;
-  Index body = -1;
-  RowMeasure measure = RowMeasure::per_area;
-  std::vector<Index> nodes;  ///< nodes that may touch (per_node)
-  Surface surface;           ///< facets that may touch (per_area)
-  ContactLaw law;
-  InitialPenetration initial = InitialPenetration::refuse;
-};
-
-/// Two deformable surfaces, or one with itself (`self`: slave and master are then the same facets).
-struct PairContact {
-  std::string name;
-  Surface slave, master;
-  bool self = false;
-  PairMethod method = PairMethod::two_pass;
-  ContactLaw law;
-  InitialPenetration initial = InitialPenetration::refuse;
-};
-
-/// Discrete stop on nodes: force stiffness x penetration + damping x closing speed, tensile as far as damper_acts says.
-/// The gap of a node is gap + direction . u: the node touches when it has moved by `gap` against `direction`.
-struct StopContact {
-  std::string name;
-  std::vector<Index> nodes;
-  Vec3 direction{};  ///< unit vector from the stop towards the node
-  double gap = 0.0;
-  double stiffness = 0.0;
-  double damping = 0.0;
-  DamperActs damper_acts = DamperActs::compression;
-};
-
-/// Two surfaces that stay together, glued, as far as they are within `tolerance` (in facet sizes) of each other.
-struct TieContact {
-  std::string name;
-  Surface slave, master;
-  TieMethod method = TieMethod::node_to_surface;
-  double tolerance = 0.05;
-  std::optional<double> distance;  ///< takes the place of the tolerance
-  FarNodes far = FarNodes::refuse;
-  ContactLaw law;  ///< its stiffness alone, for schemes that tie by springs
-};
-
-using ContactDefinition = std::variant<InterfaceContact, ObstacleContact, PairContact, StopContact, TieContact>;
 
 /// A rigid body that moves without turning: a node of its own with a mass.
 struct RigidBody {

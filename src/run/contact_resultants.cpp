@@ -13,20 +13,8 @@ namespace carom {
 
 namespace {
 
-const PairContact* self_contact(const Model& model, std::size_t contact) {
-  const auto* pair = std::get_if<PairContact>(&model.contacts[contact]);
-  return pair != nullptr && pair->self ? pair : nullptr;
-}
-
-bool is_ring(const ContactDefinition& contact) {
-  if (const auto* pair = std::get_if<PairContact>(&contact)) return pair->slave.section == Section::axisymmetric;
-  if (const auto* tie = std::get_if<TieContact>(&contact)) return tie->slave.section == Section::axisymmetric;
-  const auto* obstacle = std::get_if<ObstacleContact>(&contact);
-  return obstacle != nullptr && obstacle->surface.section == Section::axisymmetric;
-}
-
-std::string name_of(const ContactDefinition& contact) {
-  return std::visit([](const auto& c) { return c.name; }, contact);
+bool is_ring(const ContactParts& contact) {
+  return contact.own != nullptr && contact.own->section == Section::axisymmetric;
 }
 
 /// The parts of every node, ascending.
@@ -61,19 +49,19 @@ ContactResultants::ContactResultants(const Model& model, std::vector<Vec3> momen
     : mesh_(*model.mesh), moment_points_(std::move(moment_points)) {
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     first_place_.push_back(places_.size());
-    const PairContact* self = self_contact(model, c);
-    if (self == nullptr) {
-      places_.push_back({name_of(model.contacts[c]), c, std::nullopt, is_ring(model.contacts[c])});
+    const ContactParts contact = parts_of(model.contacts[c]);
+    if (!contact.is_self) {
+      places_.push_back({name_of(model.contacts[c]), c, std::nullopt, is_ring(contact)});
       continue;
     }
     if (parts_of_node_.empty()) parts_of_node_ = parts_of_nodes(model);
     std::set<Index> held;
-    for (const Facet& facet : self->slave.facets) held.insert(part_of_side({facet.begin(), facet.end()}));
+    for (const Facet& facet : contact.own->facets) held.insert(part_of_side({facet.begin(), facet.end()}));
     for (auto first = held.begin(); first != held.end(); ++first) {
       for (auto second = std::next(first); second != held.end(); ++second) {
-        places_.push_back(
-            {fmt::format("{}.{}_on_{}", self->name, model.parts[at(*second)].name, model.parts[at(*first)].name), c,
-             std::pair{*first, *second}, is_ring(model.contacts[c])});
+        places_.push_back({fmt::format("{}.{}_on_{}", name_of(model.contacts[c]), model.parts[at(*second)].name,
+                                       model.parts[at(*first)].name),
+                           c, std::pair{*first, *second}, is_ring(contact)});
       }
     }
   }

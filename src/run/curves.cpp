@@ -41,18 +41,13 @@ void EnergyCurves::sample(const StepView& view) {
 
 namespace {
 
-/// The obstacle of a contact; null for other kinds.
-const ObstacleContact* obstacle(const Model& model, std::size_t contact) {
-  return std::get_if<ObstacleContact>(&model.contacts[contact]);
-}
-
 /// Names of what contact.csv says of the motion of a contact's obstacle.
 std::vector<std::string> motion_columns(const Model& model, std::size_t contact) {
-  const ObstacleContact* found = obstacle(model, contact);
-  if (found == nullptr || (found->carrier < 0 && found->body < 0)) return {};
+  const ContactParts found = parts_of(model.contacts[contact]);
+  if (!found.moves()) return {};
   std::vector<std::string> names{"displacement_x", "displacement_y", "displacement_z",
                                  "velocity_x",     "velocity_y",     "velocity_z"};
-  if (found->body >= 0) names.insert(names.end(), {"angular_velocity_x", "angular_velocity_y", "angular_velocity_z"});
+  if (found.body >= 0) names.insert(names.end(), {"angular_velocity_x", "angular_velocity_y", "angular_velocity_z"});
   return names;
 }
 
@@ -108,17 +103,16 @@ void ContactCurves::add_impulses(const StepView& view, const std::vector<Contact
 }
 
 void ContactCurves::add_motion(std::size_t contact, const State& state) {
-  const ObstacleContact* found = obstacle(model_, contact);
-  if (found == nullptr) return;
+  const ContactParts found = parts_of(model_.contacts[contact]);
   const auto append = [&](const Vec3& x) { table_.row.insert(table_.row.end(), x.begin(), x.end()); };
-  if (found->carrier >= 0) {
+  if (found.carrier >= 0) {
     for (const std::vector<double>* x : {&state.q, &state.v}) {
-      const auto first = x->begin() + 3 * static_cast<std::ptrdiff_t>(found->carrier);
+      const auto first = x->begin() + 3 * static_cast<std::ptrdiff_t>(found.carrier);
       table_.row.insert(table_.row.end(), first, first + 3);
     }
   }
-  if (found->body < 0) return;
-  const TurningBody& body = model_.turning_bodies[static_cast<std::size_t>(found->body)];
+  if (found.body < 0) return;
+  const TurningBody& body = model_.turning_bodies[static_cast<std::size_t>(found.body)];
   const BodyFrame displacement = body_frame(body, nodal_values(body, state.q));
   const BodyFrame velocity = body_frame(body, nodal_values(body, state.v));
   BodyFrame position = displacement;

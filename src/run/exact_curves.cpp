@@ -203,10 +203,11 @@ class CurveBuilder {
 
   /// The part that the contact's force acts on: the first of two in self-contact (ResultantPlace).
   int slave_part() const {
-    const auto* pair =
-        simulation_.model().contacts.empty() ? nullptr : std::get_if<PairContact>(&simulation_.model().contacts[0]);
-    if (pair != nullptr && pair->self) return 0;
-    return pair == nullptr || pair->slave.facets.empty() ? 1 : part_of_node(pair->slave.facets[0][0]);
+    if (simulation_.model().contacts.empty()) return 1;
+    const ContactParts contact = parts_of(simulation_.model().contacts[0]);
+    if (contact.is_self) return 0;
+    const bool is_pair = contact.other != nullptr && contact.nature == ContactNature::touches;
+    return !is_pair || contact.own->facets.empty() ? 1 : part_of_node(contact.own->facets[0][0]);
   }
 
   const Simulation& simulation_;

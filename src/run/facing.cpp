@@ -84,18 +84,26 @@ bool look_at_each_other(const Look& a, const Look& b) {
   return dot(a.normal, b.normal) < 0.0 && dot(a.normal, way) > -slack && dot(b.normal, way) < slack;
 }
 
-bool pair_faces_away(const Simulation& s, const PairContact& pair, const State& state) {
-  if (pair.self || pair.slave.facets.empty() || pair.slave.facets[0].size == 1) return false;
-  const std::vector<Look> slave = looks(s, pair.slave.facets, state), master = looks(s, pair.master.facets, state);
+bool is_touching(const ContactParts& contact) {
+  return contact.nature == ContactNature::touches;
+}
+/// Of two deformable surfaces that touch.
+bool is_of_two(const ContactParts& contact) {
+  return contact.other != nullptr && !contact.is_self && is_touching(contact);
+}
+
+bool pair_faces_away(const Simulation& s, const ContactParts& pair, const State& state) {
+  if (pair.is_self || pair.own->facets.empty() || pair.own->facets[0].size == 1) return false;
+  const std::vector<Look> slave = looks(s, pair.own->facets, state), master = looks(s, pair.other->facets, state);
   return std::none_of(slave.begin(), slave.end(), [&](const Look& a) {
     return std::any_of(master.begin(), master.end(), [&](const Look& b) { return look_at_each_other(a, b); });
   });
 }
 
-bool obstacle_faces_away(const Simulation& s, std::size_t c, const ObstacleContact& obstacle, const State& state) {
-  if (obstacle.surface.facets.empty() || obstacle.surface.facets[0].size == 1) return false;
+bool obstacle_faces_away(const Simulation& s, std::size_t c, const Surface& surface, const State& state) {
+  if (surface.facets.empty() || surface.facets[0].size == 1) return false;
   std::map<Index, std::vector<Vec3>> normals;
-  for (const Facet& facet : obstacle.surface.facets) {
+  for (const Facet& facet : surface.facets) {
     const Vec3 normal = look(s, facet, state).normal;
     for (const Index n : facet) normals[n].push_back(normal);
   }
@@ -139,21 +147,21 @@ Box3 box_around(const Simulation& s, std::span<const Facet> facets, const State&
 }  // namespace
 
 std::optional<double> middle_approach(const Simulation& s, std::size_t c, const State& state) {
-  const auto* pair = std::get_if<PairContact>(&s.model().contacts[c]);
-  if (pair == nullptr || pair->self) return std::nullopt;
-  const Motion slave = mean_motion(s, pair->slave.facets, state), master = mean_motion(s, pair->master.facets, state);
+  const ContactParts pair = parts_of(s.model().contacts[c]);
+  if (!is_of_two(pair)) return std::nullopt;
+  const Motion slave = mean_motion(s, pair.own->facets, state), master = mean_motion(s, pair.other->facets, state);
   const Vec3 way = subtract(master.x, slave.x);
   return norm(way) > 0.0 ? std::optional(dot(subtract(slave.v, master.v), way) / norm(way)) : std::nullopt;
 }
 
 bool shows_its_back(const Simulation& s, std::size_t c, const State& state) {
-  const auto* obstacle = std::get_if<ObstacleContact>(&s.model().contacts[c]);
-  const auto* rigid = obstacle == nullptr ? nullptr : std::get_if<RigidSurface>(&obstacle->shape);
-  if (rigid == nullptr || obstacle->surface.facets.empty()) return false;
-  const Vec3 middle = mean_motion(s, obstacle->surface.facets, state).x;
+  const ContactParts obstacle = parts_of(s.model().contacts[c]);
+  const auto* rigid = obstacle.shape == nullptr ? nullptr : std::get_if<RigidSurface>(obstacle.shape);
+  if (rigid == nullptr || obstacle.own == nullptr || obstacle.own->facets.empty()) return false;
+  const Vec3 middle = mean_motion(s, obstacle.own->facets, state).x;
   const auto distance = [&](const Facet& facet) { return norm(subtract(look(s, facet, state).centre, middle)); };
   const auto nearer = [&](const Facet& a, const Facet& b) { return distance(a) < distance(b); };
-  const std::vector<Facet>&own = obstacle->surface.facets, &others = rigid->surface.facets;
+  const std::vector<Facet>&own = obstacle.own->facets, &others = rigid->surface.facets;
   const Facet& nearest = *std::min_element(own.begin(), own.end(), nearer);
   Look here = look(s, nearest, state);
   if (nearest.size == 1) here.normal = outward_of_bar(s, nearest[0], state);
@@ -163,21 +171,20 @@ bool shows_its_back(const Simulation& s, std::size_t c, const State& state) {
 
 bool goes_through_its_back(const Simulation& s, std::size_t c, const State& state) {
   if (!shows_its_back(s, c, state)) return false;
-  const auto& obstacle = std::get<ObstacleContact>(s.model().contacts[c]);
-  const auto& rigid = std::get<RigidSurface>(obstacle.shape);
+  const ContactParts obstacle = parts_of(s.model().contacts[c]);
+  const auto& rigid = std::get<RigidSurface>(*obstacle.shape);
   Vec3 normal{};
   for (const Facet& facet : rigid.surface.facets) normal = add(normal, look(s, facet, state).normal);
-  Vec3 v = mean_motion(s, obstacle.surface.facets, state).v;
+  Vec3 v = mean_motion(s, obstacle.own->facets, state).v;
   if (obstacle.carrier >= 0)
     for (std::size_t i = 0; i < 3; ++i) v[i] -= state.v[3 * at(obstacle.carrier) + i];
   return dot(v, normal) > 0.0;
 }
 
 bool faces_away(const Simulation& s, std::size_t c, const State& state) {
-  const ContactDefinition& contact = s.model().contacts[c];
-  if (const auto* pair = std::get_if<PairContact>(&contact)) return pair_faces_away(s, *pair, state);
-  const auto* obstacle = std::get_if<ObstacleContact>(&contact);
-  return obstacle != nullptr && obstacle_faces_away(s, c, *obstacle, state);
+  const ContactParts contact = parts_of(s.model().contacts[c]);
+  if (contact.other != nullptr) return is_touching(contact) && pair_faces_away(s, contact, state);
+  return contact.shape != nullptr && contact.own != nullptr && obstacle_faces_away(s, c, *contact.own, state);
 }
 
 namespace {
@@ -200,19 +207,20 @@ bool stay_apart(const Box3& a, const Box3& b, const Vec3& v, double end) {
 }  // namespace
 
 bool passes_by(const Simulation& s, std::size_t c, const State& state) {
-  const auto* pair = std::get_if<PairContact>(&s.model().contacts[c]);
-  if (pair == nullptr || pair->self) return false;
-  const Box3 a = box_around(s, pair->slave.facets, state), b = box_around(s, pair->master.facets, state);
-  const Vec3 v = subtract(mean_motion(s, pair->slave.facets, state).v, mean_motion(s, pair->master.facets, state).v);
+  const ContactParts pair = parts_of(s.model().contacts[c]);
+  if (!is_of_two(pair)) return false;
+  const std::vector<Facet>&own = pair.own->facets, &other = pair.other->facets;
+  const Box3 a = box_around(s, own, state), b = box_around(s, other, state);
+  const Vec3 v = subtract(mean_motion(s, own, state).v, mean_motion(s, other, state).v);
   return stay_apart(a, b, v, s.end());
 }
 
 bool all_stay_apart(const Simulation& s, std::size_t c, const State& state) {
-  const auto* pair = std::get_if<PairContact>(&s.model().contacts[c]);
-  if (pair == nullptr || !pair->self) return false;
+  const ContactParts pair = parts_of(s.model().contacts[c]);
+  if (!pair.is_self) return false;
   const std::vector<Index> body_of = bodies_of_nodes(s.model());
   std::map<Index, std::vector<Facet>> skins;
-  for (const Facet& facet : pair->slave.facets) skins[body_of[at(facet[0])]].push_back(facet);
+  for (const Facet& facet : pair.own->facets) skins[body_of[at(facet[0])]].push_back(facet);
   std::vector<std::pair<Box3, Vec3>> bodies;
   for (const auto& [body, facets] : skins)
     bodies.emplace_back(box_around(s, facets, state), mean_motion(s, facets, state).v);

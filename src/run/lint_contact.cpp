@@ -82,7 +82,7 @@ class ContactLint {
 
   std::vector<std::string> run() {
     for (std::size_t c = 0; c < approaches_.size(); ++c) {
-      if (is<CaseTie>(c)) continue;  // nothing is to meet
+      if (parts(c).nature == ContactNature::bonds) continue;  // nothing is to meet
       where_ = fmt::format("{}: contact \"{}\"", to_string(given(c).where), *given(c).name);
       check_place(c);
       check_sides(c);
@@ -94,10 +94,8 @@ class ContactLint {
 
  private:
   const CaseContact& given(std::size_t c) const { return s_.given().contacts[c]; }
-  template <class Kind>
-  bool is(std::size_t c) const {
-    return std::holds_alternative<Kind>(given(c).of);
-  }
+  ContactParts parts(std::size_t c) const { return parts_of(s_.model().contacts[c]); }
+  bool is_spring(std::size_t c) const { return parts(c).nature == ContactNature::springs; }
 
   template <class... Values>
   void say(fmt::format_string<Values...> format, Values&&... values) {
@@ -114,12 +112,12 @@ class ContactLint {
       return;
     }
     if (faces_away(s_, c, state_)) {
-      const auto* pair = std::get_if<CasePair>(&given(c).of);
+      const Located<std::string>* master = given(c).master();
       say(": no face of \"{}\" looks at {}: are these the faces that touch?", *given(c).group(),
-          pair != nullptr ? fmt::format("a face of \"{}\"", *pair->master) : "the obstacle");
+          master != nullptr ? fmt::format("a face of \"{}\"", **master) : "the obstacle");
       return;
     }
-    if (is_self(c)) {  // its rows see neither bodies that are farther apart than a facet, nor how a body folds
+    if (parts(c).is_self) {  // its rows see neither bodies that are farther apart than a facet, nor how a body folds
       const bool is_free = approaches_.size() == 1 && !is_driven(s_);
       if (is_free && all_stay_apart(s_, c, state_))
         say(": no two of its bodies come together before the end, at the velocities that they start with");
@@ -139,11 +137,6 @@ class ContactLint {
     }
   }
 
-  bool is_self(std::size_t c) const {
-    const auto* pair = std::get_if<PairContact>(&s_.model().contacts[c]);
-    return pair != nullptr && pair->self;
-  }
-
   /// Does the flight of free bodies say when the contact closes? Not where it is closed at the start; nor where bodies
   /// are moved at some nodes, whose motion the rest takes over, far enough to close it; nor where what closes is
   /// round-off beside the bodies' speeds and another contact or a motion changes those.
@@ -157,11 +150,11 @@ class ContactLint {
 
   /// Only the nodes of the group are seen: a finer master enters between them.
   void check_sides(std::size_t c) {
-    const auto* pair = std::get_if<PairContact>(&s_.model().contacts[c]);
-    if (pair == nullptr || pair->self || has_both_passes(pair->method)) return;
+    const ContactParts pair = parts(c);
+    if (pair.other == nullptr || pair.is_self || pair.sees_both_sides) return;
     constexpr double coarser = 1.5;
-    const double slave = mean_facet_size(s_.mesh().coordinates, pair->slave.facets);
-    const double master = mean_facet_size(s_.mesh().coordinates, pair->master.facets);
+    const double slave = mean_facet_size(s_.mesh().coordinates, pair.own->facets);
+    const double master = mean_facet_size(s_.mesh().coordinates, pair.other->facets);
     if (slave <= coarser * master) return;
     say(": facets of its group are {:.2g} times as long as those of its master, which enters between its nodes unseen: "
         "exchange group and master, or take method = \"two_pass\"",
@@ -172,7 +165,7 @@ class ContactLint {
   void check_step(std::size_t c) {
     const Approach& a = approaches_[c];
     const Stage& stage = s_.first();
-    const bool has_springs = is<CaseStop>(c) || traits(stage.settings().enforcement).adds_stiffness;
+    const bool has_springs = is_spring(c) || traits(stage.settings().enforcement).adds_stiffness;
     if (!is_explicit(stage.settings().kind) || !has_springs) return;
     const double of_cells = cell_ / waves_.speed;
     const double of_spring = a.frequency_squared > 0.0 ? 2.0 / std::sqrt(a.frequency_squared) : of_cells;
@@ -188,14 +181,14 @@ class ContactLint {
 
   /// What a plane wave presses with when the bodies meet: rho c v, of two bodies in series.
   double pressure(std::size_t c) const {
-    const ContactDefinition& contact = s_.model().contacts[c];
+    const ContactParts contact = parts(c);
     double z = 0.0;
-    if (const auto* pair = std::get_if<PairContact>(&contact)) {
-      const double slave = mean_impedance(pair->slave.facets, impedances_);
-      const double master = mean_impedance(pair->master.facets, impedances_);
+    if (contact.other != nullptr) {
+      const double slave = mean_impedance(contact.own->facets, impedances_);
+      const double master = mean_impedance(contact.other->facets, impedances_);
       z = slave * master / (slave + master);
-    } else if (const auto* obstacle = std::get_if<ObstacleContact>(&contact)) {
-      z = mean_impedance(obstacle->surface.facets, impedances_);
+    } else if (contact.own != nullptr) {
+      z = mean_impedance(contact.own->facets, impedances_);
     }
     if (z == 0.0) z = *std::max_element(impedances_.begin(), impedances_.end());
     return z * approaches_[c].speed;
@@ -204,37 +197,21 @@ class ContactLint {
   /// Area that the rows of a contact stand for, once, where both sides have rows.
   double area(std::size_t c) const {
     if (given(c).obstacle() != nullptr && given(c).obstacle()->per_node) return surface_area(s_, given(c));
-    const auto* pair = std::get_if<PairContact>(&s_.model().contacts[c]);
-    const bool has_facets = pair != nullptr && !pair->slave.facets.empty() && pair->slave.facets[0].size > 1;
-    const bool is_twice = has_facets && (pair->self || has_both_passes(pair->method));
+    const ContactParts contact = parts(c);
+    const bool has_facets = contact.other != nullptr && !contact.own->facets.empty() && contact.own->facets[0].size > 1;
+    const bool is_twice = has_facets && (contact.is_self || contact.sees_both_sides);
     return approaches_[c].measure / (is_twice ? 2.0 : 1.0);
   }
 
   /// eps_N as the case counts it, given or chosen.
-  double stiffness(std::size_t c) const {
-    const auto of = [](const auto& contact) -> double {
-      if constexpr (requires { contact.law; })
-        return contact.law.eps_N.value_or(0.0);
-      else
-        return contact.stiffness;
-    };
-    return std::visit(of, s_.model().contacts[c]);
-  }
+  double stiffness(std::size_t c) const { return law_of(s_.model().contacts[c])->eps_N.value_or(0.0); }
 
   /// Springs that harden keep to the verdict's limits by themselves.
-  bool hardens(std::size_t c) const {
-    const auto of = [](const auto& contact) {
-      if constexpr (requires { contact.law; })
-        return std::isfinite(contact.law.linear_depth);
-      else
-        return false;
-    };
-    return std::visit(of, s_.model().contacts[c]);
-  }
+  bool hardens(std::size_t c) const { return std::isfinite(law_of(s_.model().contacts[c])->linear_depth); }
 
   void check_stiffness(std::size_t c) {
     const Approach& a = approaches_[c];
-    if (is<CaseStop>(c) || a.stiffness <= 0.0 || area(c) <= 0.0) return;
+    if (is_spring(c) || a.stiffness <= 0.0 || area(c) <= 0.0) return;
     const double per_area = a.stiffness / area(c), penetration = pressure(c) / per_area;
     // What the user chose is held to a hundredth of a cell; what was chosen from the cells to what the verdict allows.
     const double most = given(c).springs()->stiffness ? 0.01 : 0.05;

@@ -54,7 +54,7 @@ class Actions {
   bool any() const {
     const Model& model = s_.model();
     const auto loads = [&](const Load& load) { return std::visit([&](const auto& l) { return pushes(l); }, load); };
-    const auto touches = [&](const ContactDefinition& contact) { return std::visit(Facing{*this}, contact); };
+    const auto touches = [&](const ContactDefinition& contact) { return pushes(parts_of(contact)); };
     return std::any_of(model.loads.begin(), model.loads.end(), loads) || is_moved(false) ||
            (flies() && is_moved(true)) || std::any_of(model.contacts.begin(), model.contacts.end(), touches);
   }
@@ -74,21 +74,13 @@ class Actions {
     });
   }
 
-  /// Does a contact push along the thickness: by its facets, or by the normal of its plane or stop?
-  struct Facing {
-    const Actions& of;
-    bool operator()(const InterfaceContact&) const { return false; }
-    bool operator()(const TieContact&) const { return false; }
-    bool operator()(const StopContact& stop) const { return of.thin_.is_along(stop.direction); }
-    bool operator()(const PairContact& pair) const {
-      return of.flies() && (of.faces(pair.slave) || of.faces(pair.master));
-    }
-    bool operator()(const ObstacleContact& obstacle) const {
-      const auto* plane = std::get_if<Plane>(&obstacle.shape);
-      if (plane != nullptr) return of.thin_.is_along(plane->normal);
-      return of.flies() && of.faces(obstacle.surface);
-    }
-  };
+  /// Does a contact push along the thickness: by the normal of its plane or stop, or by its facets?
+  bool pushes(const ContactParts& contact) const {
+    if (contact.nature == ContactNature::bonds) return false;
+    if (contact.direction) return thin_.is_along(*contact.direction);
+    if (contact.own == nullptr || !flies()) return false;
+    return faces(*contact.own) || (contact.other != nullptr && faces(*contact.other));
+  }
 
   /// Is a component along the thickness imposed somewhere: as zero, or as a motion?
   bool is_moved(bool as_zero) const {

@@ -27,18 +27,16 @@ struct MostOfShape {
   double operator()(const RigidSurface& /*rigid*/) const { return infinity; }
 };
 
-struct MostOfContact {
-  double operator()(const InterfaceContact& /*contact*/) const { return -1.0; }
-  double operator()(const StopContact& /*contact*/) const { return -1.0; }
-  double operator()(const TieContact& /*contact*/) const { return -1.0; }
-  double operator()(const PairContact& /*contact*/) const { return infinity; }
-  double operator()(const ObstacleContact& contact) const { return std::visit(MostOfShape{}, contact.shape); }
-};
+/// Negative: not limited.
+double most_of(const ContactParts& contact) {
+  if (contact.shape != nullptr) return std::visit(MostOfShape{}, *contact.shape);
+  return contact.other != nullptr && contact.nature == ContactNature::touches ? infinity : -1.0;
+}
 
 }  // namespace
 
 MotionLimit::MotionLimit(const Model& model) : length_(node_lengths(model)) {
-  for (const ContactDefinition& contact : model.contacts) most_.push_back(std::visit(MostOfContact{}, contact));
+  for (const ContactDefinition& contact : model.contacts) most_.push_back(most_of(parts_of(contact)));
   least_ = share_of_cell * *std::min_element(length_->begin(), length_->end());
   for (const double most : most_)
     if (most >= 0.0) least_ = std::min(least_, most);

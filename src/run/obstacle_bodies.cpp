@@ -88,19 +88,17 @@ std::vector<Vec3> sphere_points(const Sphere& sphere) {
 
 ObstacleBodies::ObstacleBodies(const Simulation& simulation) : model_(simulation.model()) {
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
-    const auto* obstacle = std::get_if<ObstacleContact>(&model_.contacts[c]);
-    if (obstacle == nullptr) continue;
+    const RigidShape* shape = parts_of(model_.contacts[c]).shape;
+    if (shape == nullptr) continue;
     bodies_.push_back({c, points_.size()});
-    add_shape(simulation, obstacle->shape);
+    add_shape(simulation, *shape);
     contact_.resize(cells_.types.size(), static_cast<Index>(c));
   }
 }
 
 bool ObstacleBodies::moves() const {
-  return std::any_of(bodies_.begin(), bodies_.end(), [this](const Body& b) {
-    const auto& obstacle = std::get<ObstacleContact>(model_.contacts[b.contact]);
-    return obstacle.carrier >= 0 || obstacle.body >= 0;
-  });
+  return std::any_of(bodies_.begin(), bodies_.end(),
+                     [this](const Body& b) { return parts_of(model_.contacts[b.contact]).moves(); });
 }
 
 /// Quadrangles between points that stand row after row.
@@ -152,7 +150,7 @@ void ObstacleBodies::add_shape(const Simulation& simulation, const RigidShape& s
 void ObstacleBodies::write(const std::string& path, const State& state) const {
   std::vector<Vec3> displacement(points_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const auto& obstacle = std::get<ObstacleContact>(model_.contacts[bodies_[b].contact]);
+    const ContactParts obstacle = parts_of(model_.contacts[bodies_[b].contact]);
     const std::size_t end = b + 1 < bodies_.size() ? bodies_[b + 1].first : points_.size();
     for (std::size_t p = bodies_[b].first; p < end; ++p) {
       if (obstacle.carrier >= 0) {

@@ -11,33 +11,6 @@ namespace {
 
 constexpr const char* no_contact = ", between which no contact is defined";
 
-/// Which nodes a contact knows.
-struct MarkNodes {
-  const Mesh& mesh;
-  std::vector<bool>& known;
-
-  void add(const Surface& surface) const {
-    for (const Facet& facet : surface.facets)
-      for (const Index n : facet) known[static_cast<std::size_t>(n)] = true;
-  }
-  void operator()(const PairContact& contact) const {
-    add(contact.slave);
-    add(contact.master);
-  }
-  void operator()(const TieContact& contact) const {
-    add(contact.slave);
-    add(contact.master);
-  }
-  void operator()(const InterfaceContact& contact) const {
-    const CellBlock& block = *mesh.block(CellType::hexa8);
-    for (const Index c : contact.cells)
-      for (std::size_t a = 0; a < 8; ++a)
-        known[static_cast<std::size_t>(block.connectivity[8 * static_cast<std::size_t>(c) + a])] = true;
-  }
-  template <class Contact>
-  void operator()(const Contact& /*contact*/) const {}
-};
-
 bool has_one_of(const Model& model, const Part& part, const std::vector<bool>& known) {
   const CellBlock& block = *model.mesh->block(part.type);
   const auto n = static_cast<std::size_t>(node_count(part.type));
@@ -49,8 +22,10 @@ bool has_one_of(const Model& model, const Part& part, const std::vector<bool>& k
 
 bool are_in_contact(const Model& model, const Part& a, const Part& b) {
   return std::any_of(model.contacts.begin(), model.contacts.end(), [&](const ContactDefinition& contact) {
+    const ContactParts parts = parts_of(contact);
+    if (parts.other == nullptr && parts.cells.empty()) return false;  // none between bodies
     std::vector<bool> known(model.mesh->node_count(), false);
-    std::visit(MarkNodes{*model.mesh, known}, contact);
+    for (const Index n : nodes_of(parts, *model.mesh)) known[static_cast<std::size_t>(n)] = true;
     return has_one_of(model, a, known) && has_one_of(model, b, known);
   });
 }

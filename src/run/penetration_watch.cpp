@@ -30,7 +30,10 @@ double PenetrationWatch::Place::limit() const {
 PenetrationWatch::PenetrationWatch(const Model& model)
     : model_(model),
       node_length_(node_lengths(model)),
-      smallest_(*std::min_element(node_length_->begin(), node_length_->end())) {}
+      smallest_(*std::min_element(node_length_->begin(), node_length_->end())) {
+  for (const ContactDefinition& contact : model.contacts)
+    is_spring_.push_back(parts_of(contact).nature == ContactNature::springs ? 1 : 0);
+}
 
 /// The cells of parts at each node.
 void PenetrationWatch::find_cells() {
@@ -71,7 +74,7 @@ void PenetrationWatch::look(const ContactResponse& response, std::span<const dou
   const ConstraintRows& rows = *response.rows;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (response.status[r] == RowStatus::open || is_bond(rows.law[r])) continue;
-    if (std::holds_alternative<StopContact>(model_.contacts[static_cast<std::size_t>(rows.source[r])])) continue;
+    if (is_spring_[static_cast<std::size_t>(rows.source[r])] != 0) continue;
     const auto slot = static_cast<std::size_t>(rows.slot[r]);
     if (slot >= places_.size()) places_.resize(slot + 1);
     Place& place = places_[slot];

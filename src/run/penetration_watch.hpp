@@ -51,6 +51,7 @@ class PenetrationWatch : public Observer {
   const Model& model_;
   std::shared_ptr<const std::vector<double>> node_length_;
   double smallest_;                 ///< of them
+  std::vector<char> is_spring_;     ///< by contact: a spring of its own, which may be of any depth
   std::vector<std::size_t> begin_;  ///< by node, in cells_; made when first needed
   std::vector<std::pair<const Part*, Index>> cells_;
   std::vector<Place> places_;  ///< by slot

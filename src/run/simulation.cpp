@@ -56,7 +56,7 @@ Model make_model(const Case& given, std::shared_ptr<const Mesh> mesh, std::optio
                  std::vector<std::string>& notes) {
   Model model = build_model(given, std::move(mesh));
   for (ContactDefinition& contact : model.contacts)
-    if (auto* pair = std::get_if<PairContact>(&contact)) pair->law.has_multipliers = any_stage(given, has_multipliers);
+    if (ContactLaw* law = law_of(contact)) law->has_multipliers = any_stage(given, has_multipliers);
   taken = take_over(given, model);
   const auto choose = [&](std::vector<std::string> (*choice)(Model&)) {
     const auto more = at_section(contacts_place(given), "contact", [&] { return choice(model); });
@@ -199,14 +199,13 @@ void Simulation::refuse_surfaces_from_behind() const {
 
 /// Facets of a pair inside of another body and too deep for any row: contact would not see them, ever.
 void Simulation::refuse_buried_facets(std::size_t c, const State& state) const {
-  const auto* pair = std::get_if<PairContact>(&model_.contacts[c]);
-  if (pair == nullptr) return;
+  std::vector<BuriedFacet> buried = buried_facets(model_, model_.contacts[c], state.q);
+  if (buried.empty()) return;
   const std::shared_ptr<const ConstraintRows> rows = contact_.rows_at(state.q, state.q);
   std::set<Index> seen;
   for (std::size_t r = 0; r < rows->size(); ++r)
     if (static_cast<std::size_t>(rows->source[r]) == c)
       seen.insert(rows->node.begin() + rows->begin[r], rows->node.begin() + rows->begin[r + 1]);
-  std::vector<BuriedFacet> buried = buried_facets(model_, *pair, state.q);
   std::erase_if(buried, [&](const BuriedFacet& b) {
     return std::any_of(b.facet.begin(), b.facet.end(), [&](Index n) { return seen.contains(n); });
   });

@@ -20,36 +20,6 @@ namespace carom {
 
 namespace {
 
-struct NodeCollector {
-  const Model& model;
-  std::vector<Index>& nodes;
-
-  void add(const Surface& surface) const {
-    for (const Facet& facet : surface.facets) {
-      for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) nodes.push_back(facet[a]);
-    }
-  }
-  void operator()(const InterfaceContact& contact) const {
-    const std::vector<Index>& connectivity = model.mesh->block(CellType::hexa8)->connectivity;
-    for (const Index cell : contact.cells) {
-      const auto first = connectivity.begin() + 8 * static_cast<std::ptrdiff_t>(cell);
-      nodes.insert(nodes.end(), first, first + 8);
-    }
-  }
-  void operator()(const ObstacleContact& contact) const {
-    add(contact.surface);
-    nodes.insert(nodes.end(), contact.nodes.begin(), contact.nodes.end());
-  }
-  void operator()(const PairContact& contact) const {
-    add(contact.slave);
-    add(contact.master);
-  }
-  void operator()(const TieContact& /*contact*/) const {}
-  void operator()(const StopContact& contact) const {
-    nodes.insert(nodes.end(), contact.nodes.begin(), contact.nodes.end());
-  }
-};
-
 /// Neighbours through cells, as the pattern of the consistent mass has them.
 std::span<const Index> neighbours(const CsrMatrix& graph, Index n) {
   const auto begin = static_cast<std::size_t>(graph.row_begin[at(n)]);
@@ -330,7 +300,12 @@ std::vector<std::string> describe(const MassShift& s) {
 
 std::vector<Index> contact_nodes(const Model& model) {
   std::vector<Index> nodes;
-  for (const ContactDefinition& contact : model.contacts) std::visit(NodeCollector{model, nodes}, contact);
+  for (const ContactDefinition& contact : model.contacts) {
+    const ContactParts parts = parts_of(contact);
+    if (parts.nature == ContactNature::bonds) continue;  // they need no mass to be moved
+    const std::vector<Index> own = nodes_of(parts, *model.mesh);
+    nodes.insert(nodes.end(), own.begin(), own.end());
+  }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
