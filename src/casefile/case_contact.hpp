@@ -59,8 +59,9 @@ struct CaseRigidBody {
 struct CaseObstacle {
   Located<std::string> group;  ///< faces or nodes
   CaseContactLaw law;
-  bool per_node = false;         ///< measure = "node" instead of "area"
-  std::optional<Vec3> velocity;  ///< imposed, times function; initial with a mass
+  bool per_node = false;                      ///< measure = "node" instead of "area"
+  std::optional<Located<double>> bar_radius;  ///< of bars that touch with their sides; empty: sqrt(area / pi)
+  std::optional<Vec3> velocity;               ///< imposed, times function; initial with a mass
   std::optional<Located<std::string>> function;
   CaseRigidBody body;
 
@@ -117,6 +118,7 @@ struct CaseRigidSurface : CaseObstacle {
 struct CaseSurfaces {
   bool is_self = false;
   std::optional<Located<PairMethod>> method;  ///< filled on reading
+  std::optional<Located<double>> bar_radius;  ///< of bars that touch with their sides; empty: sqrt(area / pi)
   CaseContactLaw law;
 };
 

@@ -25,6 +25,18 @@ void add_group(SectionSchema<Kind>& s, const std::string& doc) {
 inline const std::vector<std::string> stiffness_aliases{"penalty", "eps_N", "E_n"};
 inline const std::string chosen_stiffness = "from the material and the size of the cells";
 
+/// `bar_radius`
+template <class Kind>
+void add_bar_radius(SectionSchema<Kind>& s) {
+  s.key_by(
+      "bar_radius", [](auto& kind) -> auto& { return kind.bar_radius; },
+      "Of bars that touch with their sides, which are round: those whose nodes are all in the group, unless it names "
+      "their ends alone, which then touch as points.",
+      {.unit = Dimension::length,
+       .range = greater_than(0.0),
+       .default_phrase = "that of a round bar of the section's area"});
+}
+
 /// `stiffness_factor`, of springs at spring(kind).
 template <class Kind, class Springs>
 void add_stiffness_factor(SectionSchema<Kind>& s, const Springs& springs) {

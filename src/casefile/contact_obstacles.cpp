@@ -67,6 +67,11 @@ template <class Kind>
 void check_obstacle(Kind& given, const Node& node, const ReadContext& at) {
   check_body(given, node, at);
   check_law(given.law, node, at);
+  if (given.bar_radius && given.per_node) {
+    throw CaseError(given.bar_radius->where, at.at("bar_radius").path, "a radius of bars with measure = \"node\"",
+                    "measure = \"area\" with bars that touch with their sides",
+                    "Nodes touch as points: remove bar_radius, or measure.");
+  }
   if (!given.function || (given.velocity && !given.body.mass)) return;
   throw CaseError(given.function->where, at.at("function").path,
                   given.body.mass ? "a function beside a mass" : "a function without a velocity",
@@ -81,6 +86,7 @@ SectionSchema<Kind> obstacle_keys(const std::string& doc) {
   add_law(s);
   s.key_by("measure", [](auto& kind) -> auto& { return kind.per_node; },
            "What the stiffness is counted per: area of the faces, or node.", {.choices = {"area", "node"}});
+  add_bar_radius(s);
   s.key_by(
       "velocity", [](auto& kind) -> auto& { return kind.velocity; },
       "The obstacle moves, without turning: imposed velocity times function; with a mass: initial velocity, of the "

@@ -42,6 +42,19 @@ std::size_t shared_facets(const ContactParts& a, const ContactParts& b) {
   return std::max(along, across);
 }
 
+std::size_t shared_bars(std::span<const BarSide> a, std::span<const BarSide> b) {
+  const auto is_same = [](const BarSide& x, const BarSide& y) { return x.node == y.node; };
+  return static_cast<std::size_t>(std::count_if(a.begin(), a.end(), [&](const BarSide& x) {
+    return std::any_of(b.begin(), b.end(), [&](const BarSide& y) { return is_same(x, y); });
+  }));
+}
+
+std::size_t shared_bars(const ContactParts& a, const ContactParts& b) {
+  const std::size_t along = std::min(shared_bars(a.bars, b.bars), shared_bars(a.other_bars, b.other_bars));
+  const std::size_t across = std::min(shared_bars(a.bars, b.other_bars), shared_bars(a.other_bars, b.bars));
+  return std::max(along, across);
+}
+
 std::size_t shared_numbers(std::span<const Index> a, std::span<const Index> b) {
   return static_cast<std::size_t>(
       std::count_if(a.begin(), a.end(), [&](Index n) { return std::find(b.begin(), b.end(), n) != b.end(); }));

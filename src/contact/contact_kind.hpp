@@ -40,6 +40,10 @@ std::size_t shared_places(const ContactDefinition& a, const ContactDefinition& b
 std::size_t shared_facets(const Surface& a, const Surface& b);
 /// Facets that two contacts between deformable surfaces both see, whichever is the group.
 std::size_t shared_facets(const ContactParts& a, const ContactParts& b);
+/// Bars that are in both lists.
+std::size_t shared_bars(std::span<const BarSide> a, std::span<const BarSide> b);
+/// Bars that two contacts between bars both see, whichever are the group.
+std::size_t shared_bars(const ContactParts& a, const ContactParts& b);
 /// Numbers that are in both lists.
 std::size_t shared_numbers(std::span<const Index> a, std::span<const Index> b);
 /// Equal but for rounding.

@@ -1,9 +1,12 @@
 #include "contact/obstacle_rows.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "contact/contact_kind.hpp"
@@ -24,10 +27,30 @@ struct Stand {
   Vec3 seen(const Vec3& x) const { return placement ? placement->reference(x) : subtract(x, shift); }
 };
 
-/// What every obstacle has: its nodes with their measures, law and carrier or body.
+/// What touches: a node, or a point between the two of a bar, of weight `share` at the second one.
+struct TouchingPoint {
+  std::array<Index, 2> node{-1, -1};
+  double share = 0.0;
+  double measure = 0.0;
+  double radius = 0.0;  ///< of the bar around the point
+
+  Vec3 at(std::span<const Vec3> x) const {
+    const Vec3& a = x[static_cast<std::size_t>(node[0])];
+    return share == 0.0 ? a : add(scaled(a, 1.0 - share), scaled(x[static_cast<std::size_t>(node[1])], share));
+  }
+};
+
+/// The points of a bar: those of its nodes, and `count` between them, which follow each other.
+struct TouchingBar {
+  std::array<std::size_t, 2> end{};
+  std::size_t first = 0, count = 0;
+};
+
+/// What every obstacle has: its points with their measures, law and carrier or body.
 struct Touching {
   std::span<const Vec3> X;
-  std::vector<std::pair<Index, double>> nodes;  ///< node and measure, by increasing node
+  std::vector<TouchingPoint> points;  ///< those at nodes by increasing node, then those between the nodes of bars
+  std::vector<TouchingBar> bars;
   ContactLaw law;
   Index carrier, source;
   const TurningBody* body;  ///< null: the obstacle does not turn
@@ -39,13 +62,14 @@ struct Touching {
         source(contact_source),
         body(contact.body < 0 ? nullptr : &model.turning_bodies[static_cast<std::size_t>(contact.body)]) {
     if (contact.measure == RowMeasure::per_node) {
-      for (const Index n : contact.nodes) nodes.emplace_back(n, 1.0);
+      std::vector<Index> nodes = contact.nodes;
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      for (const Index n : nodes) points.push_back({{n, n}, 0.0, 1.0});
     } else {
-      const std::map<Index, double> measures = nodal_measures(X, contact.surface);
-      nodes.assign(measures.begin(), measures.end());
+      for (const auto& [n, measure] : nodal_measures(X, contact.surface)) points.push_back({{n, n}, 0.0, measure});
     }
+    add_bars(contact);
   }
 
   /// Where the obstacle stands for positions x of the nodes.
@@ -54,40 +78,118 @@ struct Touching {
     return {carrier < 0 ? Vec3{} : subtract(x[carrier], X[carrier])};
   }
 
-  /// The row of node i at `position`, its distance being that of stand.seen(position); at.normal is the gradient of
+  /// The row of point i at `position`, its distance being that of stand.seen(position); at.normal is the gradient of
   /// at.gap.
   void add_row(std::size_t i, const SignedDistance& at, const Vec3& position, const Stand& stand,
                ConstraintRows& rows) const {
-    const auto [n, measure] = nodes[i];
     if (stand.placement) {
       add_turning_row(i, at, position, *stand.placement, rows);
       return;
     }
-    rows.add_row(at.gap, normalized(at.normal), position, measure, row_law(law, measure), source);
+    begin_row(i, at.gap, at.normal, position, rows);
     const Vec3 t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
-    rows.add_block(n, {at.normal, t_1, t_2});
+    add_own(i, {at.normal, t_1, t_2}, rows);
     if (carrier < 0) return;
     rows.add_block(carrier, {scaled(at.normal, -1.0), scaled(t_1, -1.0), scaled(t_2, -1.0)});
     rows.behind.back() = 1;
   }
 
  private:
+  void begin_row(std::size_t i, double gap, const Vec3& gradient, const Vec3& position, ConstraintRows& rows) const {
+    const double measure = points[i].measure;
+    rows.add_row(gap - points[i].radius, normalized(gradient), position, measure, row_law(law, measure), source);
+  }
+  void add_own(std::size_t i, const RowBlock& block, ConstraintRows& rows) const {
+    const TouchingPoint& point = points[i];
+    if (point.share == 0.0) {
+      rows.add_block(point.node[0], block);
+      return;
+    }
+    for (std::size_t a = 0; a < 2; ++a) {
+      const double N = a == 0 ? 1.0 - point.share : point.share;
+      rows.add_block(point.node[a], {scaled(block[0], N), scaled(block[1], N), scaled(block[2], N)});
+    }
+  }
+
   /// The gap is a function of the point X of the body that is at x now, and x = sum of N_a(X) x_a holds for every
   /// motion of the nodes that leaves X in place. So d gap = grad . (dx - sum of N_a dx_a) with the gradient by x,
   /// exactly; its length differs from 1 by the strain of the body.
   void add_turning_row(std::size_t i, const SignedDistance& at, const Vec3& position, const BodyPlacement& placement,
                        ConstraintRows& rows) const {
-    const auto [n, measure] = nodes[i];
     const Vec3 gradient = placement.gradient(at.normal);
-    rows.add_row(at.gap, normalized(gradient), position, measure, row_law(law, measure), source);
+    begin_row(i, at.gap, gradient, position, rows);
     const RowBlock block{gradient, rows.tangent_1.back(), rows.tangent_2.back()};
-    rows.add_block(n, block);
+    add_own(i, block, rows);
     const std::array<double, 4> N = placement.weights(position);
     for (std::size_t a = 0; a < 4; ++a)
       rows.add_block(body->nodes[a], {scaled(block[0], -N[a]), scaled(block[1], -N[a]), scaled(block[2], -N[a])});
     rows.behind.back() = 4;
   }
+
+  /// Points at the nodes of the bars, and as many between them as the shape asks for; each has its share of the bars'
+  /// length times their diameter.
+  void add_bars(const ObstacleContact& contact) {
+    struct AtNode {
+      double measure = 0.0, radius = 0.0;
+    };
+    std::map<Index, AtNode> at_node;
+    std::vector<TouchingPoint> between;
+    for (const BarSide& bar : contact.bars) {
+      const double length = norm(subtract(X[bar.node[1]], X[bar.node[0]]));
+      const std::size_t pieces = bar_pieces(contact, length, bar.radius);
+      const double measure = 2.0 * bar.radius * length / static_cast<double>(pieces);
+      for (const Index n : bar.node) {
+        at_node[n].measure += 0.5 * measure;
+        at_node[n].radius = std::max(at_node[n].radius, bar.radius);
+      }
+      bars.push_back({{}, between.size(), pieces - 1});
+      for (std::size_t k = 1; k < pieces; ++k)
+        between.push_back({bar.node, static_cast<double>(k) / static_cast<double>(pieces), measure, bar.radius});
+    }
+    std::map<Index, std::size_t> place;
+    for (const auto& [n, at] : at_node) {
+      place[n] = points.size();
+      points.push_back({{n, n}, 0.0, at.measure, at.radius});
+    }
+    for (std::size_t b = 0; b < bars.size(); ++b) {
+      bars[b].end = {place[contact.bars[b].node[0]], place[contact.bars[b].node[1]]};
+      bars[b].first += points.size();
+    }
+    points.insert(points.end(), between.begin(), between.end());
+  }
+
+  /// In how many pieces a bar is looked at: a point of it is at most half a piece away.
+  std::size_t bar_pieces(const ObstacleContact& contact, double length, double radius) const;
 };
+
+/// What a bar has to be looked at closely for.
+struct BarPieces {
+  std::span<const Vec3> X;
+  double length, radius;
+
+  /// Pieces of an eighth of the curvature's diameter go into a round shape by a 128th of its radius.
+  double round(double of_shape, bool inside) const { return inside ? 1.0 : 4.0 * length / (of_shape + radius); }
+  double operator()(const Plane&) const { return 1.0; }
+  double operator()(const Sphere& sphere) const { return round(sphere.radius, sphere.inside); }
+  double operator()(const Cylinder& cylinder) const { return round(cylinder.radius, cylinder.inside); }
+  double operator()(const Box& box) const {
+    const Vec3 size = subtract(box.upper, box.lower);
+    return std::max(8.0, 4.0 * length / std::min({size[0], size[1], size[2]}));
+  }
+  double operator()(const RigidSurface& rigid) const {
+    return std::max(4.0, 4.0 * length / mean_facet_size(X, rigid.surface.facets));
+  }
+};
+
+std::size_t Touching::bar_pieces(const ObstacleContact& contact, double length, double radius) const {
+  constexpr double most = 64.0;
+  const double pieces = std::ceil(std::visit(BarPieces{X, length, radius}, contact.shape));
+  if (pieces <= most) return static_cast<std::size_t>(pieces);
+  throw std::invalid_argument(
+      fmt::format("contact \"{}\": a bar of length {:.4g} is too long to see so small an obstacle between its nodes; "
+                  "divide the bars (mesh.refine)",
+                  contact.name, length));
+}
 
 /// The distance of x from a shape, and the face it is taken from.
 struct FaceDistance {
@@ -109,14 +211,40 @@ FaceDistance distance(const Shape& shape, const Vec3& x, Index /*behind*/) {
   return {signed_distance(shape, x)};
 }
 
+/// Flags of the points that have rows; empty: all. Multipliers hold a bar at its nodes and at one point between them at
+/// most: that which is deepest below the line between the gaps of the nodes. More rows than that on two nodes would
+/// depend on each other.
+template <class Gap>
+std::vector<char> held_points(const Touching& touching, const Gap& gap) {
+  if (!touching.law.has_multipliers || touching.bars.empty()) return {};
+  std::vector<char> held(touching.points.size(), 1);
+  for (const TouchingBar& bar : touching.bars) {
+    const double at_a = gap(bar.end[0]), at_b = gap(bar.end[1]);
+    constexpr double least = 1e-4;  // of the length: what is straight sags by rounding alone
+    double deepest = least * norm(subtract(touching.X[touching.points[bar.end[1]].node[0]],
+                                           touching.X[touching.points[bar.end[0]].node[0]]));
+    std::size_t chosen = bar.first + bar.count;
+    for (std::size_t i = bar.first; i < bar.first + bar.count; ++i) {
+      held[i] = 0;
+      const double share = touching.points[i].share;
+      const double sag = (1.0 - share) * at_a + share * at_b - gap(i);
+      if (!(sag > deepest)) continue;
+      deepest = sag;
+      chosen = i;
+    }
+    if (chosen < bar.first + bar.count) held[chosen] = 1;
+  }
+  return held;
+}
+
 class PlaneRows : public RowMaker {
  public:
   PlaneRows(Touching touching, const Plane& plane) : touching_(std::move(touching)), plane_(plane) {}
-  std::size_t slots() const override { return touching_.nodes.size(); }
+  std::size_t slots() const override { return touching_.points.size(); }
   bool is_fixed() const override { return true; }
   void append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const override {
     for (std::size_t i = 0; i < slots(); ++i) {
-      const Vec3& X = touching_.X[touching_.nodes[i].first];
+      const Vec3 X = touching_.points[i].at(touching_.X);
       touching_.add_row(i, signed_distance(plane_, X), X, {}, rows);
       rows.slot.back() = first_slot + static_cast<Index>(i);
     }
@@ -132,13 +260,17 @@ template <class Shape>
 class ShapeRows : public RowMaker {
  public:
   ShapeRows(Touching touching, const Shape& shape) : touching_(std::move(touching)), shape_(shape) {}
-  std::size_t slots() const override { return touching_.nodes.size(); }
+  std::size_t slots() const override { return touching_.points.size(); }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
     const Stand stand = touching_.stand(motion.x);
+    const std::vector<char> held = held_points(touching_, [&](std::size_t i) {
+      return signed_distance(shape_, stand.seen(touching_.points[i].at(motion.x))).gap;
+    });
     parts_.append(slots(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
       for (std::size_t i = begin; i < end; ++i) {
-        const Vec3& x = motion.x[touching_.nodes[i].first];
+        if (!held.empty() && held[i] == 0) continue;
+        const Vec3 x = touching_.points[i].at(motion.x);
         const FaceDistance at = distance(shape_, stand.seen(x), motion.behind(first_slot + static_cast<Index>(i)));
         touching_.add_row(i, at.distance, x, stand, made);
         made.facet.back() = at.face;
@@ -153,29 +285,37 @@ class ShapeRows : public RowMaker {
   mutable RowParts parts_;
 };
 
-/// Nodes against the facets of a rigid surface, seen from the surface: points 0 ... n - 1 are the nodes that may touch,
+/// Points against the facets of a rigid surface, seen from the surface: points 0 ... n - 1 are those that may touch,
 /// the rest are the surface's own, which rest there.
 class RigidSurfaceRows : public RowMaker {
  public:
   RigidSurfaceRows(Touching touching, const Surface& own, const Surface& rigid)
       : touching_(std::move(touching)), search_(make_search(own, rigid)) {}
-  std::size_t slots() const override { return touching_.nodes.size(); }
+  std::size_t slots() const override { return touching_.points.size(); }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
     const Stand begin = touching_.stand(motion.x_begin), stand = touching_.stand(motion.x);
     for (std::size_t i = 0; i < slots(); ++i) {
-      const Index n = touching_.nodes[i].first;
-      x_begin_[i] = begin.seen(motion.x_begin[n]);
-      x_[i] = stand.seen(motion.x[n]);
+      x_begin_[i] = begin.seen(touching_.points[i].at(motion.x_begin));
+      x_[i] = stand.seen(touching_.points[i].at(motion.x));
       displacement_[i] = subtract(x_[i], x_begin_[i]);
     }
-    search_.update(x_begin_, x_, displacement_, motion.behind(first_slot, slots()));
+    std::vector<Index> behind = motion.behind(first_slot, slots());
+    for (std::size_t i = 0; i < behind.size(); ++i)
+      if (touching_.points[i].radius > 0.0) behind[i] = -1;  // it penetrates while its middle is in front
+    search_.update(x_begin_, x_, displacement_, std::move(behind));
+    const std::vector<char> held = held_points(touching_, [&](std::size_t i) {
+      SurfaceSearch::Space space;
+      const SurfacePoint* met = search_.find(i, space);
+      return met != nullptr ? met->gap : reach_;
+    });
     parts_.append(slots(), rows, [&](std::size_t from, std::size_t to, ConstraintRows& made) {
       SurfaceSearch::Space space;
       for (std::size_t i = from; i < to; ++i) {
+        if (!held.empty() && held[i] == 0) continue;
         const SurfacePoint* met = search_.find(i, space);
         if (met == nullptr) continue;
-        touching_.add_row(i, {met->gradient, met->gap}, motion.x[touching_.nodes[i].first], stand, made);
+        touching_.add_row(i, {met->gradient, met->gap}, touching_.points[i].at(motion.x), stand, made);
         made.facet.back() = met->facet;
         finish_row(made, motion.u, first_slot + static_cast<Index>(i));
       }
@@ -186,31 +326,38 @@ class RigidSurfaceRows : public RowMaker {
   SurfaceSearch make_search(const Surface& own, const Surface& rigid) {
     std::map<Index, Index> own_point, rigid_point;
     std::vector<Index> points;
-    for (const auto& [n, measure] : touching_.nodes) points.push_back(own_point[n] = add_point(n));
+    double radius = 0.0;
+    for (const TouchingPoint& point : touching_.points) {
+      points.push_back(add_point(point.at(touching_.X)));
+      if (point.share == 0.0) own_point[point.node[0]] = points.back();
+      radius = std::max(radius, point.radius);
+    }
     for (const Facet& facet : rigid.facets)
       for (const Index n : facet)
-        if (!rigid_point.contains(n)) rigid_point[n] = add_point(n);
+        if (!rigid_point.contains(n)) rigid_point[n] = add_point(touching_.X[n]);
     const std::vector<Facet> own_facets = renumbered(own.facets, own_point);
     const std::vector<Facet> facets = renumbered(rigid.facets, rigid_point);
     const double size = mean_facet_size(x_, facets), reach = std::max(size, mean_facet_size(x_, own_facets));
+    reach_ = reach + radius;
     return {points,
             own_facets,
             facets,
-            {reach, 0.5 * size, std::vector<double>(facets.size(), reach), edge_widths(x_, facets)}};
+            {reach_, 0.5 * size, std::vector<double>(facets.size(), reach), edge_widths(x_, facets)}};
   }
   static std::vector<Facet> renumbered(std::vector<Facet> facets, const std::map<Index, Index>& point) {
     for (Facet& facet : facets)
       for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) facet.node[a] = point.at(facet[a]);
     return facets;
   }
-  Index add_point(Index n) {
-    x_.push_back(touching_.X[n]);
-    x_begin_.push_back(touching_.X[n]);
+  Index add_point(const Vec3& x) {
+    x_.push_back(x);
+    x_begin_.push_back(x);
     displacement_.push_back({});
     return static_cast<Index>(x_.size()) - 1;
   }
 
   Touching touching_;
+  double reach_ = 0.0;
   mutable std::vector<Vec3> x_begin_, x_, displacement_;
   mutable SurfaceSearch search_;
   mutable RowParts parts_;
@@ -296,11 +443,12 @@ bool same_shape(const RigidShape& a, const RigidShape& b) {
       a, b);
 }
 
-std::size_t shared_with(const ContactDefinition& first, const ContactDefinition& second) {
+std::size_t shared_obstacles(const ContactDefinition& first, const ContactDefinition& second) {
   const auto &a = std::get<ObstacleContact>(first), &b = std::get<ObstacleContact>(second);
   const bool at_rest = a.carrier < 0 && b.carrier < 0 && a.body < 0 && b.body < 0;
   if (!at_rest || !same_shape(a.shape, b.shape)) return 0;
-  return std::max(shared_numbers(a.nodes, b.nodes), shared_facets(a.surface, b.surface));
+  const std::size_t bars = shared_bars(a.bars, b.bars);
+  return std::max({shared_numbers(a.nodes, b.nodes), shared_facets(a.surface, b.surface), bars});
 }
 
 }  // namespace
@@ -315,9 +463,10 @@ ContactKind obstacle_contact_row() {
               [](const PartCells& cells, const ContactDefinition& definition) {
                 const auto& contact = std::get<ObstacleContact>(definition);
                 if (contact.measure == RowMeasure::per_node) return per_node_stiffness(cells, contact);
+                if (!contact.bars.empty()) return bar_choice(cells.model(), {contact.bars});
                 return StiffnessChoice{{side_of(cells, contact.surface.facets, contact.name)}};
               },
-          .shared = shared_with};
+          .shared = shared_obstacles};
 }
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contact/bar_pair_rows.hpp"
 #include "contact/contact_kind.hpp"
 #include "contact/edge_rows.hpp"
 #include "contact/face_rows.hpp"
@@ -234,6 +235,7 @@ std::unique_ptr<RowMaker> method_rows(const Model& model, const PairContact& con
 }  // namespace
 
 std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& contact, Index source) {
+  if (!contact.slave_bars.empty()) return bar_pair_rows(model, contact, source);
   std::unique_ptr<RowMaker> of_method = method_rows(model, contact, source),
                             of_edges = edge_rows(model, contact, source);
   if (!of_edges) return of_method;
@@ -243,23 +245,29 @@ std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& conta
   return all;
 }
 
+namespace {
+
+StiffnessChoice pair_stiffness(const PartCells& cells, const ContactDefinition& definition) {
+  const auto& pair = std::get<PairContact>(definition);
+  if (!pair.slave_bars.empty()) return bar_choice(cells.model(), {pair.slave_bars, pair.master_bars});
+  const FacingFacets facing = facing_facets(cells.model(), pair);
+  return {{side_of(cells, facing.slave, pair.name), side_of(cells, facing.master, pair.name)}};
+}
+
+std::size_t shared_pairs(const ContactDefinition& first, const ContactDefinition& second) {
+  const ContactParts a = parts_of(first), b = parts_of(second);
+  const std::size_t both = shared_facets(a, b) + shared_bars(a, b);
+  return a.is_self && b.is_self && both == 1 ? 0 : both;  // one facet does not touch itself
+}
+
+}  // namespace
+
 ContactKind pair_contact_row() {
-  return {
-      .name = "pair",
-      .rows = [](const Model& model, const ContactDefinition& contact, Index source,
-                 std::vector<std::string>&) { return pair_rows(model, std::get<PairContact>(contact), source); },
-      .stiffness =
-          [](const PartCells& cells, const ContactDefinition& definition) {
-            const auto& pair = std::get<PairContact>(definition);
-            const FacingFacets facing = facing_facets(cells.model(), pair);
-            return StiffnessChoice{{side_of(cells, facing.slave, pair.name), side_of(cells, facing.master, pair.name)}};
-          },
-      .shared =
-          [](const ContactDefinition& a, const ContactDefinition& b) {
-            const std::size_t both = shared_facets(parts_of(a), parts_of(b));
-            const bool is_one = parts_of(a).is_self && parts_of(b).is_self && both == 1;
-            return is_one ? 0 : both;  // one facet does not touch itself
-          }};
+  return {.name = "pair",
+          .rows = [](const Model& model, const ContactDefinition& contact, Index source,
+                     std::vector<std::string>&) { return pair_rows(model, std::get<PairContact>(contact), source); },
+          .stiffness = pair_stiffness,
+          .shared = shared_pairs};
 }
 
 }  // namespace carom

@@ -40,6 +40,8 @@ class LinearDepth {
     for (const Index cell : parts.cells) least = std::min(least, shortest(mesh_.block(CellType::hexa8)->nodes(cell)));
     for (const Surface* surface : {parts.own, parts.other})
       if (surface != nullptr) least = std::min(least, shortest(*surface));
+    for (const std::span<const BarSide> bars : {parts.bars, parts.other_bars})
+      for (const BarSide& bar : bars) least = std::min(least, shortest(bar.node));
     return share * std::min(least, shortest(parts.nodes));
   }
 
@@ -64,7 +66,7 @@ std::string sentence(const std::string& contact, double stiffness, const Stiffne
     text += fmt::format("{} modulus {:.4g} over cell height {:.4g}", join, side.mean_modulus(), side.mean_height());
     join = " and";
   }
-  if (choice.node_measure != 1.0) text += fmt::format(", times {:.4g} per node", choice.node_measure);
+  if (choice.node_measure != 1.0) text += fmt::format(", times {:.4g} {}", choice.node_measure, choice.per);
   if (factor != 1.0) text += fmt::format(", times the factor {:.4g}", factor);
   return text;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -108,6 +109,24 @@ Side side_of(const PartCells& cells, std::span<const Facet> facets, const std::s
   }
   if (!(side.measure > 0.0)) refuse_choice(contact);
   return side;
+}
+
+StiffnessChoice bar_choice(const Model& model, const std::vector<std::span<const BarSide>>& sides) {
+  StiffnessChoice choice;
+  choice.per = "of the section over the side of the bars";
+  choice.node_measure = std::numeric_limits<double>::infinity();
+  for (const std::span<const BarSide> bars : sides) {
+    Side& side = choice.sides.emplace_back();
+    double sections = 0.0;
+    for (const BarSide& bar : bars) {
+      const Part& part = model.parts[static_cast<std::size_t>(bar.part)];
+      const double length = norm(subtract(model.mesh->coordinates[bar.node[1]], model.mesh->coordinates[bar.node[0]]));
+      side.add({wave_modulus(part), length, 2.0 * bar.radius * length});
+      sections += part.thickness;
+    }
+    choice.node_measure = std::min(choice.node_measure, sections / side.measure);
+  }
+  return choice;
 }
 
 }  // namespace carom

@@ -64,7 +64,8 @@ Side side_of(const PartCells& cells, std::span<const Facet> facets, const std::s
 /// The value of one contact and the sides that it comes from.
 struct StiffnessChoice {
   std::vector<Side> sides;
-  double node_measure = 1.0;  ///< per_node: mean measure of a node
+  double node_measure = 1.0;     ///< what a row's own measure is counted in; per_node: mean measure of a node
+  const char* per = "per node";  ///< of that, in words
 
   double stiffness() const {
     const Side &first = sides.front(), &last = sides.back();
@@ -72,5 +73,8 @@ struct StiffnessChoice {
     return modulus / std::min(first.mean_height(), last.mean_height()) * node_measure;
   }
 };
+
+/// The value of bars that touch with their sides, of one side or two: as stiff as they are along, E A / L a length L.
+StiffnessChoice bar_choice(const Model& model, const std::vector<std::span<const BarSide>>& sides);
 
 }  // namespace carom

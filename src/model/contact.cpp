@@ -5,7 +5,7 @@
 namespace carom {
 
 ContactParts ObstacleContact::parts() const {
-  ContactParts parts{.shape = &shape, .carrier = carrier, .body = body};
+  ContactParts parts{.bars = bars, .shape = &shape, .carrier = carrier, .body = body};
   if (measure == RowMeasure::per_node)
     parts.nodes = nodes;
   else
@@ -62,6 +62,8 @@ std::vector<Index> nodes_of(const ContactParts& contact, const Mesh& mesh) {
     if (surface == nullptr || (surface == contact.other && contact.is_self)) continue;
     for (const Facet& facet : surface->facets) nodes.insert(nodes.end(), facet.begin(), facet.end());
   }
+  for (const std::span<const BarSide> bars : {contact.bars, contact.other_bars})
+    for (const BarSide& bar : bars) nodes.insert(nodes.end(), bar.node.begin(), bar.node.end());
   for (const Index cell : contact.cells) {
     const std::span<const Index> corners = mesh.block(CellType::hexa8)->nodes(cell);
     nodes.insert(nodes.end(), corners.begin(), corners.end());

@@ -67,15 +67,17 @@ enum class ContactNature : std::uint8_t {
 /// What a contact consists of, whatever its kind: how the rest of the program sees it.
 struct ContactParts {
   ContactNature nature = ContactNature::touches;
-  const Surface* own = nullptr;       ///< the facets of its group
-  const Surface* other = nullptr;     ///< the deformable facets that they meet
-  bool is_self = false;               ///< own and other are the same
-  bool sees_both_sides = false;       ///< both sides of a pair have rows of their own, each with half of the stiffness
-  std::span<const Index> nodes{};     ///< of its group where that is no surface
-  std::span<const Index> cells{};     ///< HEXA8 of zero thickness
-  const RigidShape* shape = nullptr;  ///< the rigid obstacle
-  Index carrier = -1, body = -1;      ///< see ObstacleContact
-  std::optional<Vec3> direction{};    ///< the normal that all rows have at the start
+  const Surface* own = nullptr;     ///< the facets of its group
+  const Surface* other = nullptr;   ///< the deformable facets that they meet
+  bool is_self = false;             ///< own and other are the same
+  bool sees_both_sides = false;     ///< both sides of a pair have rows of their own, each with half of the stiffness
+  std::span<const Index> nodes{};   ///< of its group where that is no surface
+  std::span<const Index> cells{};   ///< HEXA8 of zero thickness
+  std::span<const BarSide> bars{};  ///< of its group
+  std::span<const BarSide> other_bars{};  ///< that they meet
+  const RigidShape* shape = nullptr;      ///< the rigid obstacle
+  Index carrier = -1, body = -1;          ///< see ObstacleContact
+  std::optional<Vec3> direction{};        ///< the normal that all rows have at the start
 
   bool moves() const { return carrier >= 0 || body >= 0; }
 };
@@ -99,8 +101,9 @@ struct ObstacleContact {
   Index carrier = -1;
   Index body = -1;
   RowMeasure measure = RowMeasure::per_area;
-  std::vector<Index> nodes;  ///< nodes that may touch (per_node)
-  Surface surface;           ///< facets that may touch (per_area)
+  std::vector<Index> nodes;   ///< nodes that may touch (per_node)
+  Surface surface;            ///< facets that may touch (per_area)
+  std::vector<BarSide> bars;  ///< bars that may touch with their sides (per_area)
   ContactLaw law;
   InitialPenetration initial = InitialPenetration::refuse;
 
@@ -111,13 +114,19 @@ struct ObstacleContact {
 struct PairContact {
   std::string name;
   Surface slave, master;
+  std::vector<BarSide> slave_bars, master_bars;  ///< bars instead of facets
   bool self = false;
   PairMethod method = PairMethod::two_pass;
   ContactLaw law;
   InitialPenetration initial = InitialPenetration::refuse;
 
   ContactParts parts() const {
-    return {.own = &slave, .other = &master, .is_self = self, .sees_both_sides = has_both_passes(method)};
+    return {.own = &slave,
+            .other = &master,
+            .is_self = self,
+            .sees_both_sides = has_both_passes(method),
+            .bars = slave_bars,
+            .other_bars = master_bars};
   }
 };
 

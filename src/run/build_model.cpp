@@ -15,6 +15,7 @@
 #include "run/parts.hpp"
 #include "run/redundant_contacts.hpp"
 #include "run/rigid_bodies.hpp"
+#include "run/touching_bars.hpp"
 #include "run/unused_cells.hpp"
 
 namespace carom {
@@ -100,7 +101,8 @@ class ModelBuilder {
     return parts_.surface(groups_.outer_facets(group, key), group.where, key);
   }
 
-  static constexpr const char* ends_alone = "Name the nodes of the ends; bars cannot touch with their sides.";
+  static constexpr const char* ends_alone =
+      "Bars touch obstacles and bars with their sides, and faces with their ends alone: name the nodes of the ends.";
 
   /// The surface of a contact. Bars have none but their ends: what meets the nodes between them would pass.
   Surface touching_surface(const Located<std::string>& group, const std::string& key, const char* remedy) const {
@@ -202,17 +204,37 @@ class ModelBuilder {
     return pair;
   }
 
+  /// One that the case gives, not the default.
+  static void refuse_method_of_bars(const CaseContact& given, const CaseSurfaces& kind) {
+    if (kind.method->where.line == given.where.line) return;
+    throw CaseError(kind.method->where, "contact.method", "a method, for bars", "faces with a method",
+                    "Bars meet where their axes are closest: remove method.");
+  }
+
   void add(const CaseContact& given, const CasePair& kind) {
     refuse_itself(kind, "One surface with itself is kind = \"self\".");
     PairContact pair = pair_of(given, kind);
-    pair.slave = touching_surface(kind.group, "contact.group", ends_alone);
-    pair.master = touching_surface(kind.master, "contact.master", ends_alone);
+    pair.slave_bars = touching_bars(mesh_, groups_, parts_, kind.group, "contact.group", kind.bar_radius);
+    pair.master_bars = touching_bars(mesh_, groups_, parts_, kind.master, "contact.master", kind.bar_radius);
+    if (pair.slave_bars.empty() || pair.master_bars.empty()) {
+      pair.slave_bars.clear();
+      pair.master_bars.clear();
+      pair.slave = touching_surface(kind.group, "contact.group", ends_alone);
+      pair.master = touching_surface(kind.master, "contact.master", ends_alone);
+    } else {
+      refuse_method_of_bars(given, kind);
+    }
     model_.contacts.emplace_back(std::move(pair));
   }
 
   void add(const CaseContact& given, const CaseSelf& kind) {
     PairContact pair = pair_of(given, kind);
-    pair.master = pair.slave = touching_surface(kind.group, "contact.group", ends_alone);
+    pair.master_bars = pair.slave_bars =
+        touching_bars(mesh_, groups_, parts_, kind.group, "contact.group", kind.bar_radius);
+    if (pair.slave_bars.empty())
+      pair.master = pair.slave = touching_surface(kind.group, "contact.group", ends_alone);
+    else
+      refuse_method_of_bars(given, kind);
     model_.contacts.emplace_back(std::move(pair));
   }
 
@@ -244,7 +266,8 @@ class ModelBuilder {
     if (kind.per_node) {
       obstacle.measure = RowMeasure::per_node;
       obstacle.nodes = groups_.nodes(kind.group, "contact.group");
-    } else {
+    } else if (obstacle.bars = touching_bars(mesh_, groups_, parts_, kind.group, "contact.group", kind.bar_radius);
+               obstacle.bars.empty()) {
       obstacle.surface = touching_surface(
           kind.group, "contact.group",
           "measure = \"node\" (with a stiffness of force per length) takes all nodes; or name the nodes of the ends.");

@@ -56,6 +56,7 @@ ContactResultants::ContactResultants(const Model& model, std::vector<Vec3> momen
     }
     if (parts_of_node_.empty()) parts_of_node_ = parts_of_nodes(model);
     std::set<Index> held;
+    for (const BarSide& bar : contact.bars) held.insert(bar.part);
     for (const Facet& facet : contact.own->facets) held.insert(part_of_side({facet.begin(), facet.end()}));
     for (auto first = held.begin(); first != held.end(); ++first) {
       for (auto second = std::next(first); second != held.end(); ++second) {

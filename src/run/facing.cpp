@@ -89,7 +89,7 @@ bool is_touching(const ContactParts& contact) {
 }
 /// Of two deformable surfaces that touch.
 bool is_of_two(const ContactParts& contact) {
-  return contact.other != nullptr && !contact.is_self && is_touching(contact);
+  return contact.other != nullptr && !contact.other->facets.empty() && !contact.is_self && is_touching(contact);
 }
 
 bool pair_faces_away(const Simulation& s, const ContactParts& pair, const State& state) {

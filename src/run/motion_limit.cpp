@@ -30,6 +30,9 @@ struct MostOfShape {
 /// Negative: not limited.
 double most_of(const ContactParts& contact) {
   if (contact.shape != nullptr) return std::visit(MostOfShape{}, *contact.shape);
+  double radii = infinity;  // bars pass each other at the sum of theirs
+  for (const BarSide& bar : contact.other_bars) radii = std::min(radii, share_of_cell * 2.0 * bar.radius);
+  if (radii < infinity) return radii;
   return contact.other != nullptr && contact.nature == ContactNature::touches ? infinity : -1.0;
 }
 

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "cell_meshes.hpp"
 #include "mesh/structured_block.hpp"
@@ -102,17 +104,38 @@ TEST(Groups, TheFreeEndOfABarIsStillASurface) {
   EXPECT_EQ(std::get<Pressure>(model.loads[0]).surface.facets.size(), 1U);
 }
 
-// Bars touch with their ends: a group of more of their nodes is refused, not taken by its ends alone.
-TEST(Groups, NodesBetweenTheEndsOfBarsAreNoSurfaceOfAContact) {
+// The ends of bars touch as points; whole bars touch obstacles with their sides, and no deformable surface yet.
+TEST(Groups, BarsTouchObstaclesWithTheirSides) {
   const auto plane = [](const std::string& group) {
     return pad_and_bar +
            "[[contact]]\nname = \"c\"\nkind = \"plane\"\nnormal = [1.0, 0.0, 0.0]\npoint = [-9.0, 0.0, "
            "0.0]\ngroup = \"" +
            group + "\"\n";
   };
-  EXPECT_NO_THROW(model_of(plane("FAR_END"), square_with_bar()));
-  EXPECT_NE(message_of(plane("BAR"), square_with_bar()).find("ends of bars alone"), std::string::npos)
-      << message_of(plane("BAR"), square_with_bar());
+  const auto bars = [&](const std::string& group) {
+    const Model model = model_of(plane(group), square_with_bar());
+    return std::get<ObstacleContact>(model.contacts[0]).bars;
+  };
+  EXPECT_TRUE(bars("FAR_END").empty());
+  ASSERT_EQ(bars("BAR").size(), 1U);
+  EXPECT_DOUBLE_EQ(bars("BAR")[0].radius, std::sqrt(1.0 / std::numbers::pi));
+  EXPECT_EQ(bars("BAR\"\nbar_radius = 0.25 # \"").at(0).radius, 0.25);
+  const std::string pair =
+      pad_and_bar + "[[contact]]\nname = \"c\"\nkind = \"pair\"\ngroup = \"BAR\"\nmaster = \"TOP\"\n";
+  EXPECT_NE(message_of(pair, square_with_bar()).find("ends of bars alone"), std::string::npos)
+      << message_of(pair, square_with_bar());
+}
+
+TEST(Groups, ARadiusIsThatOfBarsAlone) {
+  const auto message = [](const std::string& group, const std::string& more) {
+    return message_of(pad_and_bar +
+                          "[[contact]]\nname = \"c\"\nkind = \"plane\"\nnormal = [1.0, 0.0, 0.0]\npoint = [-9.0, "
+                          "0.0, 0.0]\nbar_radius = 0.1\ngroup = \"" +
+                          group + "\"\n" + more,
+                      square_with_bar());
+  };
+  EXPECT_NE(message("TOP", "").find("which holds no bar"), std::string::npos) << message("TOP", "");
+  EXPECT_NE(message("BAR", "measure = \"node\"\n").find("a radius of bars with measure"), std::string::npos);
 }
 
 TEST(Groups, AllCellsOfASectionLeaveBoundariesAndOtherSectionsAlone) {
