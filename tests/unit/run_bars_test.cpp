@@ -12,6 +12,7 @@ namespace {
 using namespace test;
 
 constexpr double drum = 0.5, radius = 0.02;  // of the drum, and of the cable
+constexpr double inset = 2e-8;               // of its nodes, which begin on the drum and not beside it
 constexpr int pieces = 16, hanging = 3;      // bars on half of the drum, and below it on either side
 constexpr double half_kink = 0.5 * std::numbers::pi / pieces;
 
@@ -19,7 +20,7 @@ constexpr double half_kink = 0.5 * std::numbers::pi / pieces;
 class CableMesh {
  public:
   CableMesh() : file_(std::filesystem::temp_directory_path() / fmt::format("carom_cable_{}.msh", getpid())) {
-    const double r = drum + radius, length = 2.0 * r * std::sin(half_kink);
+    const double r = drum + radius - inset, length = 2.0 * r * std::sin(half_kink);
     std::vector<Vec3> x;
     for (int k = hanging; k > 0; --k) x.push_back({-r, 0.0, -k * length});
     for (int k = 0; k <= pieces; ++k) {
@@ -135,7 +136,7 @@ quantities = ["displacement"]
     const double length = 2.0 * (drum + radius) * std::sin(half_kink), stiffness = E * area / length;
     const double sinks = std::string(enforcement) == "penalty" ? press / stiffness : 0.0;
     // Bars stretch by 8e-4, which turns the kinks by as much.
-    EXPECT_NEAR(probes.at("top.displacement_z"), -sinks, 2e-3 * press / stiffness);
+    EXPECT_NEAR(probes.at("top.displacement_z"), inset - sinks, 2e-3 * press / stiffness);
   }
 }
 
@@ -199,6 +200,7 @@ group = "BAR"
 {}
 [time]
 end = 0.1
+step = 2e-5
 [[probe]]
 name = "bar"
 group = "BAR"
@@ -220,7 +222,8 @@ TEST(FallingBar, ReboundsFromAPlateAtItsRadius) {
   ASSERT_LT(first, force.size());
   EXPECT_GE(time[first], (0.5 - radius) / 10.0 * (1.0 - 1e-12));
   EXPECT_LE(time[first - 1], (0.5 - radius) / 10.0);
-  EXPECT_NEAR(probes.at("bar.velocity_z").back(), 10.0, 0.05);  // of the step, which cuts the contact at its ends
+  EXPECT_NEAR(probes.at("bar.velocity_z").back(), 10.0,
+              0.01);  // of contact that begins and ends within steps, a fortieth of its vibration long
 }
 
 // By impulses it stops at the plate; a free plate takes over what it loses, to the last bit but rounding.
@@ -285,9 +288,8 @@ TEST(CrossingBars, KeepMomentumItsMomentAndEnergy) {
   for (const char* contact :
        {"kind = \"pair\"\ngroup = \"HIGH\"\nmaster = \"LOW\"\n", "kind = \"self\"\ngroup = \"all\"\n"}) {
     SCOPED_TRACE(contact);
-    const TemporaryCase one(
-        crossing("[[initial]]\npart = \"high\"\nvelocity = [0.0, 0.0, -5.0]\n", contact,
-                 "[scheme]\nkind = \"central_differences\"\n[time]\nend = 1e-3\n[guards]\nrotation_stop = 90.0\n"));
+    const TemporaryCase one(crossing("[[initial]]\npart = \"high\"\nvelocity = [0.0, 0.0, -5.0]\n", contact,
+                                     "[scheme]\nkind = \"central_differences\"\n[time]\nend = 4e-3\nstep = 4e-6\n"));
     ASSERT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
     const auto energy = read_csv(one.result("energy.csv"));
     const double momentum = -5.0 * 1000.0 * area, kinetic = 12.5 * 1000.0 * area;
@@ -302,7 +304,7 @@ TEST(CrossingBars, KeepMomentumItsMomentAndEnergy) {
     std::size_t first = 0;
     while (first < force.size() && force[first] == 0.0) ++first;
     ASSERT_LT(first, force.size());
-    EXPECT_NEAR(energy.at("time")[first], 0.001 / 5.0, 2e-5);  // a step
+    EXPECT_NEAR(energy.at("time")[first], 0.001 / 5.0, 4e-6 * (1.0 + 1e-9));  // a step
   }
 }
 
