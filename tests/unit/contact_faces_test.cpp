@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "contact/row_maker.hpp"
 #include "contact_rows_fixture.hpp"
 
 namespace carom::contact_faces_test {
