@@ -4,7 +4,7 @@ namespace carom {
 
 SectionSchema<CaseInterface> contact_keys(std::type_identity<CaseInterface>) {
   SectionSchema<CaseInterface> s("cells of zero thickness between two bodies");
-  add_group(s, "Group of the cells.");
+  add_group(s);
   add_law(s);
   s.finish = [](CaseInterface& given, const Node& node, const ReadContext& at) { check_law(given.law, node, at); };
   return s;

@@ -15,9 +15,13 @@ namespace carom {
 CAROM_CASE_CONTACTS(CAROM_DECLARE_CONTACT_KEYS)
 #undef CAROM_DECLARE_CONTACT_KEYS
 
-/// `group`, in the words of the kind.
+/// `group`, in the same words for all, so that it stands before what they have of their own.
 template <class Kind>
-void add_group(SectionSchema<Kind>& s, const std::string& doc) {
+void add_group(SectionSchema<Kind>& s) {
+  const std::string doc =
+      "Group of what touches: of cells (interface), of faces, bars or nodes (obstacles), of slave faces or bars "
+      "(pair), "
+      "of slave faces (tie), of faces or bars (self), of nodes (stop).";
   s.key_by("group", [](auto& kind) -> auto& { return kind.group; }, doc,
            {.need = KeyOptions::Need::required, .aliases = {"slave"}});
 }

@@ -82,7 +82,7 @@ void check_obstacle(Kind& given, const Node& node, const ReadContext& at) {
 template <class Kind>
 SectionSchema<Kind> obstacle_keys(const std::string& doc) {
   SectionSchema<Kind> s(doc);
-  add_group(s, "Group of faces or nodes that may touch.");
+  add_group(s);
   add_law(s);
   s.key_by("measure", [](auto& kind) -> auto& { return kind.per_node; },
            "What the stiffness is counted per: area of the faces, or node.", {.choices = {"area", "node"}});

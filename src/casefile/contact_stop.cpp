@@ -8,7 +8,7 @@ namespace carom {
 SectionSchema<CaseStop> contact_keys(std::type_identity<CaseStop>) {
   constexpr auto needed = KeyOptions::Need::required;
   SectionSchema<CaseStop> s("discrete stops on nodes");
-  add_group(s, "Group of the nodes.");
+  add_group(s);
   s.key("normal", &CaseStop::normal, "Direction from the stop to the node; of any length but 0.", {.need = needed});
   s.key("gap", &CaseStop::gap, "Distance that a node moves before it touches.", {.unit = Dimension::length});
   s.key(

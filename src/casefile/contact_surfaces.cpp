@@ -23,7 +23,7 @@ void add_method_and_law(SectionSchema<Kind>& s) {
 
 SectionSchema<CasePair> contact_keys(std::type_identity<CasePair>) {
   SectionSchema<CasePair> s("two deformable surfaces");
-  add_group(s, "Group of the slave faces, or of bars.");
+  add_group(s);
   s.key("master", &CasePair::master, "Group of faces, or of bars, of the other body; the coarser or stiffer one.",
         {.need = KeyOptions::Need::required});
   add_bar_radius(s);
@@ -33,7 +33,7 @@ SectionSchema<CasePair> contact_keys(std::type_identity<CasePair>) {
 
 SectionSchema<CaseSelf> contact_keys(std::type_identity<CaseSelf>) {
   SectionSchema<CaseSelf> s("one surface with itself");
-  add_group(s, "Group of the faces, or of bars.");
+  add_group(s);
   add_bar_radius(s);
   add_method_and_law(s);
   return s;

@@ -5,7 +5,7 @@ namespace carom {
 
 SectionSchema<CaseTie> contact_keys(std::type_identity<CaseTie>) {
   SectionSchema<CaseTie> s("two surfaces that are glued");
-  add_group(s, "Group of the slave faces.");
+  add_group(s);
   s.key("master", &CaseTie::master, "Group of faces of the other body; the coarser or stiffer one.",
         {.need = KeyOptions::Need::required});
   s.key("stiffness", &CaseTie::stiffness,

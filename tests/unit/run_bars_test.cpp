@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "run_fixture.hpp"
 
@@ -80,6 +81,9 @@ blocked = ["y"]
 [[support]]
 nodes = "HANGING"
 blocked = ["x"]
+[[spring]]
+nodes = "CABLE"
+stiffness = [10.0, 0.0, 10.0]
 [[contact]]
 name = "drum"
 kind = "cylinder"
@@ -96,8 +100,9 @@ value = [0.0, 1.0]
                      mesh.file(), E, area, drum, contact, rest);
 }
 
-// Without friction the tension is the same all along: that of the hanging ends over the cosine of half a kink, since
-// the drum presses on the last node of the half sideways alone. The drum bears both weights.
+// Statics asks for bodies that are stiff without contact: springs of 10 N/m hold the chain, and bear 1e-4 of the
+// weights. Without friction the tension is the same all along: that of the hanging ends over the cosine of half a kink,
+// since the drum presses on the last node of the half sideways alone. The drum bears both weights.
 TEST(CableOverADrum, BearsItsWeightsAtTheSumOfTheRadii) {
   const CableMesh mesh;
   const double weight = 1e3;
@@ -130,7 +135,7 @@ quantities = ["displacement"]
     ASSERT_EQ(one.run(), ExitCode::good) << one.result("summary.json") << one.result("run.log");
     const auto contact = last_row(one.result("contact.csv")), probes = last_row(one.result("probes.csv"));
     const double tension = weight / std::cos(half_kink);
-    EXPECT_NEAR(contact.at("drum.force_z"), 2.0 * weight, 1e-6 * weight);
+    EXPECT_NEAR(contact.at("drum.force_z"), 2.0 * weight, 2e-4 * weight);
     EXPECT_NEAR(contact.at("drum.force_x"), 0.0, 1e-6 * weight);
     const double press = 2.0 * tension * std::sin(half_kink);  // of a node
     const double length = 2.0 * (drum + radius) * std::sin(half_kink), stiffness = E * area / length;
@@ -226,18 +231,20 @@ TEST(FallingBar, ReboundsFromAPlateAtItsRadius) {
               0.01);  // of contact that begins and ends within steps, a fortieth of its vibration long
 }
 
-// By impulses it stops at the plate; a free plate takes over what it loses, to the last bit but rounding.
+// A free plate takes over what the bar loses, but for rounding: as after an elastic impact by springs, and by impulses,
+// which stop the nodes at the plate (all of it is then a loss, which no verdict likes), with the common velocity.
 TEST(FallingBar, GivesItsMomentumToAFreePlate) {
-  for (const char* scheme : {"kind = \"central_differences\"", "kind = \"cd_lagrange\""}) {
+  const double mass = 1000.0 * area, plate = 2.0, common = -10.0 * mass / (mass + plate);
+  // Springs: of contact that begins and ends within steps.
+  for (const auto& [scheme, expected, tolerance] :
+       {std::tuple{"central_differences", 2.0 * common, 1e-3}, {"cd_lagrange", common, 1e-9}}) {
     SCOPED_TRACE(scheme);
-    const TemporaryCase one(
-        falling("kind = \"box\"\nlower = [-1.0, -1.0, -0.1]\nupper = [2.0, 1.0, 0.0]\nmass = 2.0\n", scheme));
-    ASSERT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
+    const TemporaryCase one(falling("kind = \"box\"\nlower = [-1.0, -1.0, -0.1]\nupper = [2.0, 1.0, 0.0]\nmass = 2.0\n",
+                                    fmt::format("kind = \"{}\"", scheme)));
+    EXPECT_LE(one.run(), ExitCode::verdict_failed) << one.result("summary.json");
     const auto momentum = column(one.result("energy.csv"), "momentum_z");
-    const double start = -10.0 * 1000.0 * area;
-    for (const double p : momentum) EXPECT_NEAR(p / start, 1.0, 1e-12);
-    const auto contact = last_row(one.result("contact.csv"));
-    EXPECT_LT(contact.at("plate.velocity_z"), -0.5);
+    for (const double p : momentum) EXPECT_NEAR(p / (-10.0 * mass), 1.0, 1e-12);
+    EXPECT_NEAR(last_row(one.result("contact.csv")).at("plate.velocity_z"), expected, tolerance);
   }
 }
 
@@ -319,6 +326,7 @@ TEST(CrossingBars, RestAtTheSumOfTheirRadii) {
       "\"lagrange\"\n[time]\nend = 1.0\nstep = 0.5\n[[probe]]\nname = \"high\"\ngroup = \"HIGH\"\nquantities = "
       "[\"displacement\"]\n");
   text.replace(text.find("divisions = 3"), 13, "divisions = 1");
+  text.replace(text.find("name = \"bars\"\n"), 14, fmt::format("name = \"bars\"\nbar_radius = {}\n", radius));
   const TemporaryCase one(text);
   ASSERT_EQ(one.run(), ExitCode::good) << one.result("summary.json") << one.result("run.log");
   const auto contact = last_row(one.result("contact.csv")), probes = last_row(one.result("probes.csv"));

@@ -118,7 +118,7 @@ TEST(Groups, BarsTouchObstaclesWithTheirSides) {
   };
   EXPECT_TRUE(bars("FAR_END").empty());
   ASSERT_EQ(bars("BAR").size(), 1U);
-  EXPECT_DOUBLE_EQ(bars("BAR")[0].radius, std::sqrt(1.0 / std::numbers::pi));
+  EXPECT_DOUBLE_EQ(bars("BAR")[0].radius, std::sqrt(0.1 / std::numbers::pi));
   EXPECT_EQ(bars("BAR\"\nbar_radius = 0.25 # \"").at(0).radius, 0.25);
   const std::string pair =
       pad_and_bar + "[[contact]]\nname = \"c\"\nkind = \"pair\"\ngroup = \"BAR\"\nmaster = \"TOP\"\n";
