@@ -108,15 +108,24 @@ void FreeModes::find_modes() {
     body.stiffness = least;
     softest = std::min(softest, least);
     const double of_support = most > 0.0 ? most : 1.0;
-    std::vector<double> T(36, 0.0);
+    std::vector<double> T(36, 0.0), squares(36, 0.0);
     dofs_of(body, [&](std::size_t i) {
       const double support = system_.supports.fixed()[i] ? of_support : 0.0;
       for (std::size_t j = 0; j < 6; ++j)
-        for (std::size_t k = 0; k < 6; ++k) T[6 * j + k] += c[j][i] * (Kc[k][i] + support * c[k][i]);
+        for (std::size_t k = 0; k < 6; ++k) {
+          T[6 * j + k] += c[j][i] * (Kc[k][i] + support * c[k][i]);
+          squares[6 * j + k] += c[j][i] * c[k][i];
+        }
     });
-    // A single node does not turn: its turns are zero vectors, which resist nothing and are no modes.
-    if (body.nodes.size() == 1)
-      for (std::size_t j = 3; j < 6; ++j) T[7 * j] = of_support;
+    // A single node does not turn, and a straight bar not about itself: what moves nothing resists nothing and is no
+    // mode.
+    const SymmetricEigen moved = symmetric_eigen(squares, 6);
+    for (std::size_t m = 0; m < 6; ++m) {
+      if (moved.values[m] > 1e-9 * moved.values.back()) continue;
+      const double* still = moved.vectors.data() + 6 * m;
+      for (std::size_t j = 0; j < 6; ++j)
+        for (std::size_t k = 0; k < 6; ++k) T[6 * j + k] += of_support * still[j] * still[k];
+    }
     const SymmetricEigen eigen = symmetric_eigen(T, 6);
     const double largest = std::max(of_support, eigen.values.back());
     for (std::size_t j = 0; j < 6; ++j) {
