@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "linalg/conjugate_gradients.hpp"
+#include "linalg/gmres.hpp"
+#include "linalg/nested_dissection.hpp"
 #include "math/vec3.hpp"
 
 namespace carom::cone {
@@ -23,21 +25,48 @@ std::vector<std::size_t> positions(const Problem& p, const RowList& set) {
   return position;
 }
 
+/// Which rows of a set know each other, in their order.
+CsrMatrix neighbours(const Problem& p, const RowList& set, const std::vector<std::size_t>& position) {
+  CsrMatrix graph;
+  graph.size = static_cast<Index>(set.size());
+  graph.row_begin.push_back(0);
+  for (const std::size_t i : set) {
+    p.W.each(i, [&](std::size_t j, std::size_t) {
+      if (position[j] != no_row) graph.column.push_back(static_cast<Index>(position[j]));
+    });
+    graph.row_begin.push_back(static_cast<std::int64_t>(graph.column.size()));
+  }
+  graph.value.assign(graph.column.size(), 1.0);
+  return graph;
+}
+
 }  // namespace
+
+bool is_sparse(const Problem& p, const RowList& set) {
+  constexpr std::size_t least = 100;
+  constexpr double most_filled = 0.2;
+  if (set.size() < least) return false;
+  std::size_t blocks = 0;
+  for (const std::size_t i : set) blocks += p.W.end_entry(i) - p.W.first_entry(i);
+  const double rows = static_cast<double>(set.size());
+  return static_cast<double>(blocks) < most_filled * rows * rows;
+}
 
 // Normal forces on the active rows from (W_AA + rho D) r_A = -(b_A - rho D centre_A); zero on the others. False if the
 // system is singular all the same.
 bool ActiveSystem::solve(Problem& p, const std::vector<bool>& active) {
   RowList set;
   std::vector<std::size_t> names;
-  std::vector<double> rhs;
+  std::vector<double> rhs, x;
   for (std::size_t k = 0; k < active.size(); ++k) {
     const std::size_t i = p.rows()[k];
+    if (active[k]) {
+      set.push_back(i);
+      names.push_back(p.W.name(i));
+      rhs.push_back(-p.unit(i) * (p.b[i][0] - p.added(i) * p.centre(i)));
+      x.push_back(p.force(i)[0] / p.unit(i));
+    }
     p.set_force(i, {});
-    if (!active[k]) continue;
-    set.push_back(i);
-    names.push_back(p.W.name(i));
-    rhs.push_back(-p.unit(i) * (p.b[i][0] - p.added(i) * p.centre(i)));
   }
   const std::size_t n = set.size();
   std::vector<double> r(p.W.size(), 0.0);
@@ -49,21 +78,39 @@ bool ActiveSystem::solve(Problem& p, const std::vector<bool>& active) {
     });
   };
   constexpr double round_off = 1e-14;
-  std::vector<double> x(n);
-  if (n > dense_limit) {
-    ConjugateGradients().solve(apply, std::vector<double>(n, 1.0), rhs, x, round_off, 0.0, 2000);
-  } else if (!factors_.solve(names, apply, rhs, x, round_off)) {
+  const bool is_sparse = cone::is_sparse(p, set), is_large = !is_sparse && n > dense_limit;
+  bool is_solved = false;
+  if (is_large || (is_sparse && !resists_)) {
+    constexpr int most_iterations = 300;  // of sparse rows: those of regular W need 20 to 60
+    is_solved =
+        ConjugateGradients()
+            .solve(apply, std::vector<double>(n, 1.0), rhs, x, round_off, 0.0, is_large ? 2000 : most_iterations)
+            .converged;
+    resists_ = !is_solved;
+  }
+  if (!is_solved && !is_large && !factors_.solve(names, apply, rhs, x, round_off)) {
     const std::vector<std::size_t> position = positions(p, set);
-    std::vector<double> A(n * n, 0.0);
-    for (std::size_t row = 0; row < n; ++row) {
-      const std::size_t i = set[row];
-      for (std::size_t k = p.W.begin[i]; k < p.W.begin[i + 1]; ++k) {
-        const std::size_t j = p.W.column[k];
-        if (position[j] == no_row) continue;
-        A[row * n + position[j]] = p.unit(i) * p.unit(j) * (p.normal_entry(k) + (i == j ? p.added(j) : 0.0));
+    const auto entry = [&](std::size_t i, std::size_t j, std::size_t k) {
+      return p.unit(i) * p.unit(j) * (p.normal_entry(k) + (i == j ? p.added(j) : 0.0));
+    };
+    if (is_sparse) {
+      CsrMatrix A = neighbours(p, set, position);
+      A.value.clear();
+      for (const std::size_t i : set) {
+        p.W.each(i, [&](std::size_t j, std::size_t k) {
+          if (position[j] != no_row) A.value.push_back(entry(i, j, k));
+        });
       }
+      if (!factors_.factor(names, A, nested_dissection(A), rhs, x)) return false;
+    } else {
+      std::vector<double> A(n * n, 0.0);
+      for (std::size_t row = 0; row < n; ++row) {
+        p.W.each(set[row], [&](std::size_t j, std::size_t k) {
+          if (position[j] != no_row) A[row * n + position[j]] = entry(set[row], j, k);
+        });
+      }
+      if (!factors_.factor(names, std::move(A), rhs, x)) return false;
     }
-    if (!factors_.factor(names, std::move(A), rhs, x)) return false;
   }
   for (std::size_t row = 0; row < n; ++row) p.set_force(set[row], {p.unit(set[row]) * x[row], 0.0, 0.0});
   return true;
@@ -155,32 +202,117 @@ void apply_newton(const Problem& p, const std::vector<NewtonRow>& closed, const 
   });
 }
 
+/// Block of the Newton system in a row, of the entry k of W, which is of the row j.
+FrameBlock newton_block(const Problem& p, const NewtonRow& row, const NewtonEquations& eq, std::size_t j,
+                        std::size_t k) {
+  const bool is_own = j == row.i;
+  const double d = p.unit(row.i) * p.unit(j);
+  const FrameBlock B = is_own ? p.own_block(j) : p.W.block_at(k);
+  FrameBlock out;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      double value = is_own ? eq.own[3 * a + c] : 0.0;
+      for (std::size_t m = 0; m < 3; ++m) value += eq.through[3 * a + m] * B[3 * m + c];
+      out[3 * a + c] = d * value;
+    }
+  }
+  return out;
+}
+
+/// The closed rows in their order, and where each row of W stands among them.
+struct ClosedSet {
+  explicit ClosedSet(const Problem& p, const std::vector<NewtonRow>& closed) {
+    for (const NewtonRow& row : closed) set.push_back(row.i);
+    position = positions(p, set);
+  }
+  RowList set;
+  std::vector<std::size_t> position;
+};
+
 /// A of the Newton system, row-major.
 std::vector<double> newton_matrix(const Problem& p, const std::vector<NewtonRow>& closed,
                                   const std::vector<NewtonEquations>& equations, std::size_t n) {
   std::vector<double> A(n * n, 0.0);
-  RowList set;
-  for (const NewtonRow& row : closed) set.push_back(row.i);
-  const std::vector<std::size_t> position = positions(p, set);
+  const ClosedSet at(p, closed);
   for (std::size_t r = 0; r < closed.size(); ++r) {
     const NewtonRow& row = closed[r];
-    const NewtonEquations& eq = equations[r];
-    for (std::size_t k = p.W.begin[row.i]; k < p.W.begin[row.i + 1]; ++k) {
-      const std::size_t j = p.W.column[k];
-      if (position[j] == no_row) continue;
-      const NewtonRow& other = closed[position[j]];
-      const double d = p.unit(row.i) * p.unit(j);
-      const FrameBlock B = j == row.i ? p.own_block(j) : p.W.block[k];
-      for (std::size_t a = 0; a < row.count; ++a) {
-        for (std::size_t c = 0; c < other.count; ++c) {
-          double value = j == row.i ? eq.own[3 * a + c] : 0.0;
-          for (std::size_t m = 0; m < 3; ++m) value += eq.through[3 * a + m] * B[3 * m + c];
-          A[(row.first + a) * n + other.first + c] = d * value;
+    p.W.each(row.i, [&](std::size_t j, std::size_t k) {
+      const std::size_t place = at.position[j];
+      if (place == no_row) return;
+      const FrameBlock block = newton_block(p, row, equations[r], j, k);
+      for (std::size_t a = 0; a < row.count; ++a)
+        for (std::size_t c = 0; c < closed[place].count; ++c)
+          A[(row.first + a) * n + closed[place].first + c] = block[3 * a + c];
+    });
+  }
+  return A;
+}
+
+/// The same as a sparse matrix, and the order of elimination: that of the rows.
+CsrMatrix sparse_newton_matrix(const Problem& p, const std::vector<NewtonRow>& closed,
+                               const std::vector<NewtonEquations>& equations, std::vector<Index>& order) {
+  const ClosedSet at(p, closed);
+  for (const Index k : nested_dissection(neighbours(p, at.set, at.position))) {
+    const NewtonRow& row = closed[static_cast<std::size_t>(k)];
+    for (std::size_t a = 0; a < row.count; ++a) order.push_back(static_cast<Index>(row.first + a));
+  }
+  CsrMatrix A;
+  A.size = static_cast<Index>(order.size());
+  A.row_begin.push_back(0);
+  std::vector<std::pair<const NewtonRow*, FrameBlock>> of_row;
+  for (std::size_t r = 0; r < closed.size(); ++r) {
+    of_row.clear();
+    p.W.each(closed[r].i, [&](std::size_t j, std::size_t k) {
+      if (at.position[j] == no_row) return;
+      of_row.emplace_back(&closed[at.position[j]], newton_block(p, closed[r], equations[r], j, k));
+    });
+    for (std::size_t a = 0; a < closed[r].count; ++a) {
+      for (const auto& [other, block] : of_row) {
+        for (std::size_t c = 0; c < other->count; ++c) {
+          A.column.push_back(static_cast<Index>(other->first + c));
+          A.value.push_back(block[3 * a + c]);
         }
       }
+      A.row_begin.push_back(static_cast<std::int64_t>(A.column.size()));
     }
   }
   return A;
+}
+
+/// Inverse of the first `count` rows and columns; the unit matrix where there is none.
+FrameBlock inverse_of(const FrameBlock& A, std::size_t count) {
+  const auto solve = [&](std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
+    return A[3 * i + j] * A[3 * k + l] - A[3 * i + l] * A[3 * k + j];
+  };
+  const FrameBlock unit{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  if (count == 1) return A[0] == 0.0 ? unit : FrameBlock{1.0 / A[0], 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  FrameBlock adjugate;
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t c = 0; c < 3; ++c) adjugate[3 * a + c] = solve((c + 1) % 3, (a + 1) % 3, (c + 2) % 3, (a + 2) % 3);
+  const double determinant = A[0] * adjugate[0] + A[1] * adjugate[3] + A[2] * adjugate[6];
+  if (determinant == 0.0 || !std::isfinite(determinant)) return unit;
+  for (double& entry : adjugate) entry /= determinant;
+  return adjugate;
+}
+
+/// By the diagonal blocks of the closed rows.
+Preconditioner block_jacobi(const Problem& p, const std::vector<NewtonRow>& closed,
+                            const std::vector<NewtonEquations>& equations) {
+  std::vector<FrameBlock> inverse;
+  for (std::size_t r = 0; r < closed.size(); ++r) {
+    const std::size_t i = closed[r].i;
+    const FrameBlock own = newton_block(p, closed[r], equations[r], i, p.W.own_entry(i));
+    inverse.push_back(inverse_of(own, closed[r].count));
+  }
+  return [inverse = std::move(inverse), &closed](std::span<double> v) {
+    for (std::size_t r = 0; r < closed.size(); ++r) {
+      const NewtonRow& row = closed[r];
+      const Vec3 given{v[row.first], row.count > 1 ? v[row.first + 1] : 0.0, row.count > 1 ? v[row.first + 2] : 0.0};
+      for (std::size_t a = 0; a < row.count; ++a)
+        v[row.first + a] =
+            inverse[r][3 * a] * given[0] + inverse[r][3 * a + 1] * given[1] + inverse[r][3 * a + 2] * given[2];
+    }
+  };
 }
 
 }  // namespace
@@ -191,7 +323,9 @@ bool NewtonSystem::step(Problem& p) {
   std::vector<NewtonEquations> equations;
   std::vector<std::size_t> names;
   std::vector<double> rhs;
+  RowList set;
   for (const NewtonRow& row : closed) {
+    set.push_back(row.i);
     equations.push_back(newton_equations(p, row));
     for (std::size_t a = 0; a < row.count; ++a) {
       names.push_back(3 * p.W.name(row.i) + a);
@@ -202,10 +336,23 @@ bool NewtonSystem::step(Problem& p) {
     apply_newton(p, closed, equations, v, y);
   };
   constexpr double accuracy = 1e-6;  // near the solution a step takes so much of the error at least
+  constexpr int most_iterations = 80;
+  const bool is_sparse = cone::is_sparse(p, set), is_large = !is_sparse && rhs.size() > newton_limit;
   std::vector<double> x(rhs.size());
-  if (!factors_.solve(names, apply, rhs, x, accuracy) &&
-      !factors_.factor(names, newton_matrix(p, closed, equations, rhs.size()), rhs, x))
-    return false;
+  bool is_solved = factors_.solve(names, apply, rhs, x, accuracy);
+  if (!is_solved && (is_large || (is_sparse && !resists_))) {
+    is_solved = gmres(apply, block_jacobi(p, closed, equations), rhs, x, accuracy, most_iterations);
+    resists_ = !is_solved;
+  }
+  if (!is_solved && is_large) return false;
+  if (!is_solved && is_sparse) {
+    std::vector<Index> order;
+    const CsrMatrix A = sparse_newton_matrix(p, closed, equations, order);
+    is_solved = factors_.factor(names, A, order, rhs, x);
+  } else if (!is_solved) {
+    is_solved = factors_.factor(names, newton_matrix(p, closed, equations, rhs.size()), rhs, x);
+  }
+  if (!is_solved) return false;
   for (const NewtonRow& row : closed) {
     Vec3 r = p.force(row.i);
     for (std::size_t a = 0; a < row.count; ++a) r[a] += x[row.first + a] * p.unit(row.i);

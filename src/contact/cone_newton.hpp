@@ -8,9 +8,13 @@
 
 namespace carom::cone {
 
-/// Unknowns from which on systems are not factored: active sets are then solved by conjugate gradients, and Newton is
-/// left to the sweeps, of which thousands cost more than some factorisations of 300 MB.
+/// Unknowns from which on systems of rows that all act on each other are not factored: active sets are then solved by
+/// conjugate gradients, Newton's systems by GMRES alone.
 constexpr std::size_t dense_limit = 2000, newton_limit = 6000;
+
+/// True when so few of the rows act on each other directly that their systems are solved by iterations, and where these
+/// do not converge by sparse factors: rows on a lumped mass.
+bool is_sparse(const Problem& p, const RowList& set);
 
 /// The system of some active frictionless rows.
 class ActiveSystem {
@@ -19,6 +23,7 @@ class ActiveSystem {
 
  private:
   ReusedFactors factors_;
+  bool resists_ = false;  ///< conjugate gradients have not converged
 };
 
 /// Frictionless rows, solved exactly by block principal pivoting (Judice and Pires, Comput. Oper. Res. 21, 1994): every
@@ -35,6 +40,7 @@ class NewtonSystem {
 
  private:
   ReusedFactors factors_;
+  bool resists_ = false;  ///< GMRES by diagonal blocks has not converged
 };
 
 /// Semismooth Newton on the natural map from r, each step shortened until the sum of squares falls, at most `most`

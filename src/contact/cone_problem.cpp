@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -38,17 +39,16 @@ Problem::Problem(const Delassus& operator_W, std::span<const Vec3> given, std::s
       sets(sets_of_rows),
       r_(force),
       w_(operator_W.size()),
-      is_full_(operator_W.block.size() == operator_W.size() * operator_W.size()),
+      is_full_(operator_W.entries() == operator_W.size() * operator_W.size()),
       centre_(operator_W.size()) {
   if (std::ranges::all_of(sets, [](const Admissible& set) { return set.components() == 1; })) {
-    normal_.reserve(W.block.size());
-    for (const FrameBlock& block : W.block) normal_.push_back(block[0]);
+    normal_made_.reserve(W.block.size());
+    for (const FrameBlock& block : W.block) normal_made_.push_back(block[0]);
+    normal_ = W.normal.empty() ? normal_made_ : W.normal;
   }
+  assert(!normal_.empty() || W.size() == 0 || W.normal.empty());
   for (std::size_t i = 0; i < W.size(); ++i) {
-    for (std::size_t k = W.begin[i]; k < W.begin[i + 1]; ++k) {
-      if (W.column[k] == i) own_.push_back(W.block[k]);
-    }
-    const FrameBlock& block = own_.back();
+    const FrameBlock& block = own_.emplace_back(W.block_at(W.own_entry(i)));
     const double of_tangents = components(i) > 1 ? std::max(block[4], block[8]) : 0.0;
     unit_.push_back(1.0 / std::sqrt(is_bond(i) ? std::max(block[0], of_tangents) : block[0]));
     tangential_.push_back(of_tangents > 0.0 ? of_tangents : block[0]);
@@ -85,16 +85,17 @@ void Problem::regularise(double strength) {
 /// w += what the forces of the rows do to row i, but for one of them
 void Problem::add_blocks(std::size_t i, std::size_t left_out, const std::vector<Vec3>& force, Vec3& w) const {
   if (!normal_.empty()) {
-    for (std::size_t k = W.begin[i]; k < W.begin[i + 1]; ++k)
-      if (W.column[k] != left_out) w[0] += normal_[k] * force[W.column[k]][0];
+    W.each(i, [&](std::size_t j, std::size_t k) {
+      if (j != left_out) w[0] += normal_[k] * force[j][0];
+    });
     return;
   }
-  for (std::size_t k = W.begin[i]; k < W.begin[i + 1]; ++k) {
-    if (W.column[k] == left_out) continue;
+  W.each(i, [&](std::size_t j, std::size_t k) {
+    if (j == left_out) return;
     const FrameBlock& B = W.block[k];
-    const Vec3& s = force[W.column[k]];
+    const Vec3& s = force[j];
     for (std::size_t a = 0; a < 3; ++a) w[a] += B[3 * a] * s[0] + B[3 * a + 1] * s[1] + B[3 * a + 2] * s[2];
-  }
+  });
 }
 
 Vec3 Problem::sum_of_blocks(std::size_t i, std::size_t left_out) const {
@@ -104,9 +105,12 @@ Vec3 Problem::sum_of_blocks(std::size_t i, std::size_t left_out) const {
 }
 
 double Problem::normal_motion(std::size_t i, std::span<const double> x) const {
-  if (is_full_ && !normal_.empty()) return inner({normal_.data() + W.begin[i], x.size()}, x);
+  if (is_full_ && !normal_.empty()) return inner(normal_.subspan(W.first_entry(i), x.size()), x);
   double sum = 0.0;
-  for (std::size_t k = W.begin[i]; k < W.begin[i + 1]; ++k) sum += normal_entry(k) * x[W.column[k]];
+  if (normal_.empty())
+    W.each(i, [&](std::size_t j, std::size_t k) { sum += W.block[k][0] * x[j]; });
+  else
+    W.each(i, [&](std::size_t j, std::size_t k) { sum += normal_[k] * x[j]; });
   return sum;
 }
 
@@ -242,11 +246,11 @@ std::vector<RowList> coupled_sets(const Delassus& W) {
     RowList set{first};
     seen[first] = true;
     for (std::size_t next = 0; next < set.size(); ++next) {
-      for (std::size_t k = W.begin[set[next]]; k < W.begin[set[next] + 1]; ++k) {
-        if (seen[W.column[k]] || W.block[k] == FrameBlock{}) continue;
-        seen[W.column[k]] = true;
-        set.push_back(W.column[k]);
-      }
+      W.each(set[next], [&](std::size_t j, std::size_t k) {
+        if (seen[j] || W.block_at(k) == FrameBlock{}) return;
+        seen[j] = true;
+        set.push_back(j);
+      });
     }
     std::ranges::sort(set);
     sets.push_back(std::move(set));

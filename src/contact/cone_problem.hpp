@@ -81,7 +81,7 @@ class Problem {
   double strength() const { return rho_; }
   /// Sum of W_ij x_j over the normal entries (one x per row of W).
   double normal_motion(std::size_t i, std::span<const double> x) const;
-  double normal_entry(std::size_t k) const { return normal_.empty() ? W.block[k][0] : normal_[k]; }
+  double normal_entry(std::size_t k) const { return W.normal_at(k); }
   double centre(std::size_t i) const { return centre_[i][0]; }
 
   /// One Gauss-Seidel sweep over the proximal problem, each row solved exactly for the forces of the others; forwards
@@ -105,8 +105,9 @@ class Problem {
   mutable std::vector<Vec3> w_;               ///< W r + b on the rows, unless they are stale
   mutable std::vector<double> normal_force_;  ///< those that w_ belongs to
   mutable bool is_stale_ = true;
-  bool is_full_;                ///< W has all blocks
-  std::vector<double> normal_;  ///< normal entries of all blocks, where there is no friction
+  bool is_full_;                     ///< W has all blocks
+  std::vector<double> normal_made_;  ///< where W has blocks, and no row tangents
+  std::span<const double> normal_;   ///< normal entries of all blocks, where no row has tangents
   std::vector<FrameBlock> own_;
   std::vector<double> compliance_, tangential_, unit_;
   std::vector<Vec3> centre_;

@@ -32,12 +32,9 @@ double largest(std::span<const double> x) {
 
 }  // namespace
 
-// 64 Mi numbers of columns, and 3,800 nodes: 512 MiB each, of which one at most is in use.
+// 64 Mi numbers of columns: 512 MiB.
 ExactPort::ExactPort(const System& system)
-    : system_(system),
-      extent_(system.contact.reach()),
-      compliance_(system.solid.dof_count(), std::size_t{1} << 26),
-      nodes_(3800) {}
+    : system_(system), extent_(system.contact.reach()), compliance_(system.solid.dof_count(), std::size_t{1} << 26) {}
 
 void ExactPort::begin(const StageStart& start) {
   start_ = start;
@@ -118,23 +115,15 @@ bool ExactPort::assemble(EffectiveSolver& solver, const std::shared_ptr<const Co
   std::copy_if(chosen_.begin(), chosen_.end(), std::back_inserter(acting), [&](std::size_t r) { return may_act(r); });
   if (W_.rows == acting) return true;
   for (const std::size_t r : acting) counts.push_back(admitted(rows.law[r]).components());
+  Delassus::admit_dense(acting.size(), std::ranges::any_of(counts, [](std::size_t count) { return count > 1; }));
   LinearSolveReport columns{true};
   const InverseOperator inverse = this->inverse(solver, columns);
   const bool moves = system_.solid.is_linear() && !system_.contact.is_fixed();
   by_nodes_ = moves && nodes_.extend(rows, acting, system_.solid.dof_count(), inverse);
-  W_.block = by_nodes_ ? nodes_.compliance(rows, acting, counts) : compliance_.blocks(acting, counts, inverse);
+  W_ = by_nodes_ ? nodes_.compliance(rows, acting, counts) : compliance_.compliance(acting, counts, inverse);
   linear.iterations += columns.iterations;
-  add_direct_compliance(shared, acting, counts, W_.block);
-  const std::size_t n = acting.size();
-  W_.begin.assign(1, 0);
-  W_.column.clear();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) W_.column.push_back(j);
-    W_.begin.push_back(W_.column.size());
-  }
-  W_.names.clear();
+  add_direct_compliance(shared, acting, counts, W_);
   for (const std::size_t r : acting) W_.names.push_back(static_cast<std::size_t>(rows.slot[r]));
-  W_.rows = std::move(acting);
   if (columns.converged) return true;
   W_ = {};
   compliance_.forget();
@@ -145,8 +134,7 @@ bool ExactPort::assemble(EffectiveSolver& solver, const std::shared_ptr<const Co
 /// For the error of the forces: what each row answers to its own.
 void ExactPort::note_compliances(const ConstraintRows& rows) {
   for (std::size_t i = 0; i < W_.size(); ++i) {
-    const auto of_row = W_.column.begin() + static_cast<std::ptrdiff_t>(W_.begin[i]);
-    const FrameBlock& d = W_.block[static_cast<std::size_t>(std::find(of_row, W_.column.end(), i) - W_.column.begin())];
+    const FrameBlock d = W_.block_at(W_.own_entry(i));
     compliance_of_[static_cast<std::size_t>(rows.slot[W_.rows[i]])] = slope() * std::max({d[0], d[4], d[8]});
   }
 }

@@ -49,7 +49,7 @@ class ExactPort : public ContactPort {
   /// over the slope; nothing here, see JumpPort.
   virtual void add_direct_compliance(const std::shared_ptr<const ConstraintRows>& /*rows*/,
                                      std::span<const std::size_t> /*acting*/, std::span<const std::size_t> /*counts*/,
-                                     std::vector<FrameBlock>& /*W*/) {}
+                                     Delassus& /*W*/) {}
   /// Brings what add_direct_compliance keeps to where the state at the beginning of the stage has it. True when that is
   /// something else.
   virtual bool go_on_directly() { return false; }

@@ -7,15 +7,13 @@
 
 namespace carom {
 
-// 3,800 nodes: 512 MiB.
 JumpPort::JumpPort(const System& system, double ratio, std::shared_ptr<MassSolver> mass,
                    std::shared_ptr<BondedMass> bonds)
     : ImpulsePort(system),
       ratio_(ratio),
       mass_(std::move(mass)),
       bonds_(std::move(bonds)),
-      operator_(bonds_->contact_operator()),
-      nodes_(3800) {
+      operator_(bonds_->contact_operator()) {
   assert(ratio >= 0.0);
   load_.resize(system.solid.dof_count());
   jump_.resize(load_.size());
@@ -53,7 +51,7 @@ Vec3 JumpPort::value(const ConstraintRows& rows, std::size_t r, std::span<const 
 
 void JumpPort::add_direct_compliance(const std::shared_ptr<const ConstraintRows>& rows,
                                      std::span<const std::size_t> all, std::span<const std::size_t> components,
-                                     std::vector<FrameBlock>& W) {
+                                     Delassus& W) {
   if (ratio_ == 0.0) return;
   std::vector<std::size_t> acting, counts, place;  // of the rows that are no bonds
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -64,18 +62,15 @@ void JumpPort::add_direct_compliance(const std::shared_ptr<const ConstraintRows>
   }
   if (acting.empty()) return;
   mass_->factorise();
-  const std::size_t n = acting.size(), dofs = load_.size();
-  const auto add = [&](std::size_t i, std::size_t j, const FrameBlock& direct) {
-    for (std::size_t k = 0; k < direct.size(); ++k) W[place[i] * all.size() + place[j]][k] += ratio_ * direct[k];
-  };
-  if (system_.mass.kind() != MassKind::lumped && nodes_.extend(*rows, acting, dofs, inverse())) {
-    const std::vector<FrameBlock> direct = nodes_.compliance(*rows, acting, counts);
-    for (std::size_t i = 0; i < n * n; ++i) add(i / n, i % n, direct[i]);
-    return;
-  }
-  const Delassus direct = operator_.delassus(*rows, acting);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = direct.begin[i]; k < direct.begin[i + 1]; ++k) add(i, direct.column[k], direct.block[k]);
+  const bool is_by_nodes =
+      system_.mass.kind() != MassKind::lumped && nodes_.extend(*rows, acting, load_.size(), inverse());
+  const Delassus direct = is_by_nodes ? nodes_.compliance(*rows, acting, counts) : operator_.delassus(*rows, acting);
+  for (std::size_t i = 0; i < acting.size(); ++i) {
+    direct.each(i, [&](std::size_t j, std::size_t entry) {
+      FrameBlock more = direct.block_at(entry);
+      for (double& value : more) value *= ratio_;
+      W.add(place[i] * all.size() + place[j], more);
+    });
   }
 }
 

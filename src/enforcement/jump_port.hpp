@@ -26,7 +26,7 @@ class JumpPort final : public ImpulsePort {
   Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const override;
   bool go_on_directly() override;
   void add_direct_compliance(const std::shared_ptr<const ConstraintRows>& rows, std::span<const std::size_t> acting,
-                             std::span<const std::size_t> counts, std::vector<FrameBlock>& W) override;
+                             std::span<const std::size_t> counts, Delassus& W) override;
   void see_forces(const ConstraintRows& rows, std::span<const std::size_t> which, std::span<const Vec3> force) override;
 
  private:

@@ -62,13 +62,14 @@ void NodeCompliance::add(std::span<const Index> missing, std::size_t dof_count, 
 }
 
 // With the lower triangle C' of C, its diagonal halved, W = V + V^T, V = G C' G^T: line by line of C'.
-std::vector<FrameBlock> NodeCompliance::compliance(const ConstraintRows& rows, std::span<const std::size_t> chosen,
-                                                   std::span<const std::size_t> components) const {
+Delassus NodeCompliance::compliance(const ConstraintRows& rows, std::span<const std::size_t> chosen,
+                                    std::span<const std::size_t> components) const {
   struct Entry {
     std::size_t dof;  ///< by place
     std::size_t at;   ///< component of a row
     double g;
   };
+  Delassus W = Delassus::dense(chosen, components);
   const std::size_t n = chosen.size(), dofs = of_dofs_.size();
   std::vector<std::size_t> first(n + 1, 0);
   for (std::size_t i = 0; i < n; ++i) first[i + 1] = first[i] + components[i];
@@ -102,15 +103,16 @@ std::vector<FrameBlock> NodeCompliance::compliance(const ConstraintRows& rows, s
       for (std::size_t j = 0; j < size; ++j) to[j] += entries[k].g * answer[j];
     }
   }
-  std::vector<FrameBlock> W(n * n, FrameBlock{});
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
+      FrameBlock sum{};
       for (std::size_t a = 0; a < components[i]; ++a) {
         for (std::size_t b = 0; b < components[j]; ++b) {
           const std::size_t p = first[i] + a, q = first[j] + b;
-          W[i * n + j][3 * a + b] = V[p * size + q] + V[q * size + p];
+          sum[3 * a + b] = V[p * size + q] + V[q * size + p];
         }
       }
+      W.add(i * n + j, sum);
     }
   }
   return W;

@@ -16,8 +16,12 @@ namespace carom {
 /// first takes part. What has been solved for is kept until forget().
 class NodeCompliance {
  public:
-  /// capacity: how many nodes are taken in; n nodes take 36 n^2 bytes.
-  explicit NodeCompliance(std::size_t capacity) : capacity_(capacity) {}
+  /// How many nodes are taken in, each of 36 n bytes: as much as a dense W may take.
+  static constexpr std::size_t most_nodes = 7700;
+  static_assert(36 * most_nodes * most_nodes <= Delassus::most_bytes);
+
+  /// capacity: of nodes.
+  explicit NodeCompliance(std::size_t capacity = most_nodes) : capacity_(capacity) {}
 
   /// For another operator A.
   void forget();
@@ -28,10 +32,10 @@ class NodeCompliance {
   const Growth& growth() const { return growth_; }
   /// Becomes what this growth has made. True when it was something else.
   bool grow_as(const Growth& growth, std::size_t dof_count, const InverseOperator& inverse);
-  /// Blocks W_ij of the chosen rows, whose nodes have been taken in, row by row (chosen.size()^2 of them). Row
-  /// chosen[i] has components[i] components (1: the normal; 3); the entries of others are zero.
-  std::vector<FrameBlock> compliance(const ConstraintRows& rows, std::span<const std::size_t> chosen,
-                                     std::span<const std::size_t> components) const;
+  /// W of the chosen rows, whose nodes have been taken in, dense. Row chosen[i] has components[i] components (1: the
+  /// normal; 3); the entries of others are zero. Throws TooManyRows.
+  Delassus compliance(const ConstraintRows& rows, std::span<const std::size_t> chosen,
+                      std::span<const std::size_t> components) const;
   /// y += C f on the nodes, for a force that acts on them.
   void add_motion(std::span<const double> f, std::span<double> y) const;
 

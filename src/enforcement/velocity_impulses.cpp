@@ -8,13 +8,11 @@
 
 namespace carom {
 
-// 3,800 nodes: 512 MiB.
 VelocityImpulses::VelocityImpulses(const System& system)
     : system_(system),
       mass_(system),
       bonds_(system, mass_),
       operator_(bonds_.contact_operator()),
-      nodes_(3800),
       push_(system.solid.dof_count()) {
   if (system.mass.kind() == MassKind::lumped) return;
   operator_.delassus = [this, otherwise = operator_.delassus](const ConstraintRows& rows,
@@ -37,16 +35,10 @@ InverseOperator VelocityImpulses::inverse() {
 
 /// From the compliances of the nodes; no rows where there are too many nodes.
 Delassus VelocityImpulses::of_consistent_mass(const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {
-  const std::size_t dofs = push_.size(), n = chosen.size();
-  Delassus W;
-  if (!nodes_.extend(rows, chosen, dofs, inverse())) return W;
+  if (!nodes_.extend(rows, chosen, push_.size(), inverse())) return {};
   std::vector<std::size_t> components;
   for (const std::size_t r : chosen) components.push_back(carom::components(rows.law[r]));
-  W.block = nodes_.compliance(rows, chosen, components);
-  W.rows = chosen;
-  for (std::size_t i = 0; i <= n; ++i) W.begin.push_back(i * n);
-  for (std::size_t i = 0; i < n * n; ++i) W.column.push_back(i % n);
-  return W;
+  return nodes_.compliance(rows, chosen, components);
 }
 
 bool VelocityImpulses::accelerations(const ContactResponse& response, std::span<double> a) {

@@ -1,11 +1,10 @@
 #include "linalg/reused_factors.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "parallel/threads.hpp"
+#include "linalg/gmres.hpp"
 
 namespace carom {
 
@@ -16,76 +15,11 @@ constexpr int most_iterations = 30;
 /// Unknowns below which a factorisation is cheaper than one iteration's overhead.
 constexpr std::size_t least_size = 64;
 
-void add_multiple(std::span<double> y, double factor, std::span<const double> x) {
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] += factor * x[i];
-}
-
-/// GMRES with the preconditioner on the right (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 1986; Saad, Iterative
-/// Methods for Sparse Linear Systems, 2nd ed., algorithm 9.5), from x = 0, given up when the residual does not fall
-/// fast enough for `most` iterations.
-template <class Precondition>
-bool gmres(const LinearOperator& A, const Precondition& precondition, std::span<const double> b, std::span<double> x,
-           double relative, int most) {
-  const std::size_t n = b.size();
-  const double start = std::sqrt(dot(b, b)), enough = relative * start;
-  std::fill(x.begin(), x.end(), 0.0);
-  if (start == 0.0) return true;
-  std::vector<std::vector<double>> basis(1, {b.begin(), b.end()}), column;  // of the Krylov space, and of R
-  for (double& entry : basis[0]) entry /= start;
-  std::vector<double> cosine, sine, g{start}, z(n);
-  double residual = start;
-  for (int k = 0; k < most && residual > enough; ++k) {
-    z = basis.back();
-    precondition(z);
-    std::vector<double> w(n), h;
-    A(z, w);
-    for (const std::vector<double>& v : basis) {
-      h.push_back(dot(v, w));
-      add_multiple(w, -h.back(), v);
-    }
-    const double length = std::sqrt(dot(w, w));
-    for (std::size_t j = 0; j < cosine.size(); ++j) {
-      const double turned = cosine[j] * h[j] + sine[j] * h[j + 1];
-      h[j + 1] = cosine[j] * h[j + 1] - sine[j] * h[j];
-      h[j] = turned;
-    }
-    const double diagonal = std::hypot(h.back(), length);
-    if (!(diagonal > 0.0) || !std::isfinite(diagonal)) return false;
-    cosine.push_back(h.back() / diagonal);
-    sine.push_back(length / diagonal);
-    h.back() = diagonal;
-    g.push_back(-sine.back() * g.back());
-    g[g.size() - 2] *= cosine.back();
-    column.push_back(std::move(h));
-    residual = std::abs(g.back());
-    if (k >= most / 2 && residual > 0.1 * start) return false;  // not a digit: this is another system
-    if (length > 0.0) {
-      for (double& entry : w) entry /= length;
-    }
-    basis.push_back(std::move(w));
-  }
-  if (residual > enough) return false;
-  std::fill(z.begin(), z.end(), 0.0);
-  for (std::size_t k = column.size(); k-- > 0;) {
-    const double y = g[k] / column[k][k];
-    for (std::size_t j = 0; j < k; ++j) g[j] -= y * column[k][j];
-    add_multiple(z, y, basis[k]);
-  }
-  precondition(z);
-  std::copy(z.begin(), z.end(), x.begin());
-  // Rounding: a nearly singular preconditioner makes z far larger than x, and the recurrence does not see what is lost.
-  std::vector<double> Ax(n);
-  A(x, Ax);
-  for (std::size_t i = 0; i < n; ++i) Ax[i] -= b[i];
-  constexpr double margin = 10.0;
-  return std::sqrt(dot(Ax, Ax)) <= margin * enough;
-}
-
 }  // namespace
 
 bool ReusedFactors::solve(std::span<const std::size_t> unknowns, const LinearOperator& A, std::span<const double> b,
                           std::span<double> x, double relative) const {
-  if (!factors_ || unknowns.size() < least_size) return false;
+  if (std::holds_alternative<std::monostate>(factors_) || unknowns.size() < least_size) return false;
   std::vector<std::pair<std::size_t, std::size_t>> common;  // places in b and in the factors
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     const auto known = place_.find(unknowns[i]);
@@ -97,25 +31,42 @@ bool ReusedFactors::solve(std::span<const std::size_t> unknowns, const LinearOpe
   const auto precondition = [&](std::span<double> v) {
     std::fill(known.begin(), known.end(), 0.0);
     for (const auto& [i, k] : common) known[k] = v[i];
-    factors_->solve(known);
+    substitute(known);
     for (const auto& [i, k] : common) v[i] = known[k];
   };
   return gmres(A, precondition, b, x, relative, most_iterations);
 }
 
-bool ReusedFactors::factor(std::span<const std::size_t> unknowns, std::vector<double> a, std::span<const double> b,
-                           std::span<double> x) {
+void ReusedFactors::substitute(std::span<double> b) const {
+  if (const auto* dense = std::get_if<DenseLu>(&factors_)) dense->solve(b);
+  if (const auto* sparse = std::get_if<SparseLu>(&factors_)) sparse->solve(b);
+}
+
+template <class Factors, class... Matrix>
+bool ReusedFactors::make(std::span<const std::size_t> unknowns, std::span<const double> b, std::span<double> x,
+                         Matrix&&... matrix) {
   forget();
   try {
-    factors_.emplace(std::move(a), static_cast<int>(b.size()));
+    factors_.template emplace<Factors>(std::forward<Matrix>(matrix)...);
   } catch (const std::runtime_error&) {
+    forget();
     return false;
   }
   place_.clear();
   for (std::size_t i = 0; i < unknowns.size(); ++i) place_.emplace(unknowns[i], i);
   std::copy(b.begin(), b.end(), x.begin());
-  factors_->solve(x);
+  substitute(x);
   return true;
+}
+
+bool ReusedFactors::factor(std::span<const std::size_t> unknowns, std::vector<double> a, std::span<const double> b,
+                           std::span<double> x) {
+  return make<DenseLu>(unknowns, b, x, std::move(a), static_cast<int>(b.size()));
+}
+
+bool ReusedFactors::factor(std::span<const std::size_t> unknowns, const CsrMatrix& a, const std::vector<Index>& order,
+                           std::span<const double> b, std::span<double> x) {
+  return make<SparseLu>(unknowns, b, x, a, order);
 }
 
 }  // namespace carom

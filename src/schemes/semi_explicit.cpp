@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contact/admissible.hpp"
 #include "enforcement/explicit_contact.hpp"
 #include "enforcement/node_compliance.hpp"
 #include "parallel/threads.hpp"
@@ -110,14 +111,8 @@ struct SemiExplicit::Boundary {
     if (!system.solid.is_linear() || !of_nodes.extend(rows, chosen, of_dof.size(), inverse))
       return make_delassus(rows, std::move(chosen), of_dof.size(), inverse);
     std::vector<std::size_t> components;
-    for (const std::size_t r : chosen) components.push_back(rows.law[r].mu > 0.0 ? 3 : 1);
-    Delassus made;
-    const std::size_t n = chosen.size();
-    made.block = of_nodes.compliance(rows, chosen, components);
-    for (std::size_t i = 0; i <= n; ++i) made.begin.push_back(i * n);
-    for (std::size_t k = 0; k < n * n; ++k) made.column.push_back(k % n);
-    made.rows = std::move(chosen);
-    return made;
+    for (const std::size_t r : chosen) components.push_back(carom::components(rows.law[r]));
+    return of_nodes.compliance(rows, chosen, components);
   }
 
   /// W on the chosen rows. Where rows are fixed it is kept, and grows by a quarter at least, with the rows next to
@@ -165,7 +160,7 @@ struct SemiExplicit::Boundary {
   std::optional<Cholesky> factor;
   Delassus W;
   ContactOperator contact_operator;
-  NodeCompliance of_nodes{3800};  ///< of K_bb; 512 MiB
+  NodeCompliance of_nodes;  ///< of K_bb
 };
 
 /// What the dofs b are brought into equilibrium for.

@@ -31,6 +31,10 @@ struct BondedMass::Impl {
     touched.assign(system.solid.node_count(), false);
     for (const Index n : rows.node) touched[static_cast<std::size_t>(n)] = true;
     if (!is_lumped()) return;
+    bonds_of.resize(touched.size());
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
+        bonds_of[static_cast<std::size_t>(rows.node[k])].push_back(r);
     inverse.resize(moved.size());
     for (std::size_t i = 0; i < inverse.size(); ++i) {
       const double m = system.mass.node_diagonal()[i / 3];
@@ -48,6 +52,9 @@ struct BondedMass::Impl {
   void take_off(Forces& forces) const;
   void give(Forces& forces) const;
   bool invert(std::span<double> b);
+  bool touches(const ConstraintRows& of, std::size_t r) const;
+  std::vector<std::size_t> bonds_at(const ConstraintRows& of, std::size_t r) const;
+  Delassus delassus(const ConstraintRows& of, const std::vector<std::size_t>& chosen);
 
   const System& system;
   MassSolver& mass;
@@ -56,8 +63,9 @@ struct BondedMass::Impl {
   Delassus W;
   std::vector<double> unit;  ///< of each component's force, that makes the diagonal of W 1; 0 where it has none
   std::optional<Cholesky> factor;
-  std::vector<double> inverse;  ///< of a lumped mass
-  std::vector<bool> touched;    ///< nodes of bonds
+  std::vector<double> inverse;                     ///< of a lumped mass
+  std::vector<bool> touched;                       ///< nodes of bonds
+  std::vector<std::vector<std::size_t>> bonds_of;  ///< of each node, where the mass is lumped
   std::vector<double> moved, rhs, scaled_b;
   std::vector<Vec3> parting, force, answer;
 };
@@ -71,28 +79,25 @@ void BondedMass::Impl::factorise() {
   const std::size_t n = 3 * W.size();
   unit.assign(n, 0.0);
   for (std::size_t i = 0; i < W.size(); ++i) {
-    for (std::size_t k = W.begin[i]; k < W.begin[i + 1]; ++k) {
-      if (W.column[k] != i) continue;
-      const FrameBlock& d = W.block[k];
-      const double most = std::max({d[0], d[4], d[8]});
-      for (std::size_t a = 0; a < 3; ++a)
-        if (d[4 * a] > 1e-12 * most) unit[3 * i + a] = 1.0 / std::sqrt(d[4 * a]);
-    }
+    const FrameBlock d = W.block_at(W.own_entry(i));
+    const double most = std::max({d[0], d[4], d[8]});
+    for (std::size_t a = 0; a < 3; ++a)
+      if (d[4 * a] > 1e-12 * most) unit[3 * i + a] = 1.0 / std::sqrt(d[4 * a]);
   }
   CsrMatrix A;
   A.size = static_cast<Index>(n);
   A.row_begin.push_back(0);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = W.begin[i / 3]; k < W.begin[i / 3 + 1]; ++k) {
+    W.each(i / 3, [&](std::size_t of_column, std::size_t entry) {
       for (std::size_t b = 0; b < 3; ++b) {
-        const std::size_t j = 3 * W.column[k] + b;
+        const std::size_t j = 3 * of_column + b;
         const bool is_own = i == j;
-        const double value = unit[i] * unit[j] * W.block[k][3 * (i % 3) + b];
+        const double value = unit[i] * unit[j] * W.block[entry][3 * (i % 3) + b];
         if (value == 0.0 && !is_own) continue;
         A.column.push_back(static_cast<Index>(j));
         A.value.push_back(is_own ? 1.0 + regular : value);
       }
-    }
+    });
     A.row_begin.push_back(static_cast<std::int64_t>(A.column.size()));
   }
   factor.emplace(A);
@@ -209,6 +214,75 @@ bool BondedMass::Impl::invert(std::span<double> b) {
   return true;
 }
 
+/// True when a row has a node of a bond.
+bool BondedMass::Impl::touches(const ConstraintRows& of, std::size_t r) const {
+  return std::any_of(of.node.begin() + of.begin[r], of.node.begin() + of.begin[r + 1],
+                     [&](Index n) { return touched[static_cast<std::size_t>(n)]; });
+}
+
+/// The bonds that share a node with a row.
+std::vector<std::size_t> BondedMass::Impl::bonds_at(const ConstraintRows& of, std::size_t r) const {
+  std::vector<std::size_t> out;
+  for (auto k = static_cast<std::size_t>(of.begin[r]); k < static_cast<std::size_t>(of.begin[r + 1]); ++k) {
+    const std::vector<std::size_t>& more = bonds_of[static_cast<std::size_t>(of.node[k])];
+    out.insert(out.end(), more.begin(), more.end());
+  }
+  std::ranges::sort(out);
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+// G A^-1 G^T of a lumped mass: G M^-1 G^T, as sparse as that is, and what the bonds add between rows that share nodes
+// with them, for each of their components the answer of the bonds to what it does to them.
+Delassus BondedMass::Impl::delassus(const ConstraintRows& of, const std::vector<std::size_t>& chosen) {
+  Delassus own = plain.delassus(of, chosen);
+  std::vector<std::size_t> meeting, rows_meeting;  // rows of W, and of `of`
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (!touches(of, own.rows[i])) continue;
+    meeting.push_back(i);
+    rows_meeting.push_back(own.rows[i]);
+  }
+  if (meeting.empty()) return own;
+  factorise();
+  const std::size_t m = meeting.size();
+  Delassus more = Delassus::dense(rows_meeting, own.normal.empty());
+  std::vector<double> push(moved.size(), 0.0);
+  const auto add_push = [&](const ConstraintRows& from, std::size_t r, const Vec3& s) {
+    from.for_each_share(r, s, [&](Index n, const Vec3& share) {
+      for (std::size_t i = 3 * static_cast<std::size_t>(n), c = 0; c < 3; ++c) push[i + c] += inverse[i + c] * share[c];
+    });
+  };
+  const auto clear_push = [&](const ConstraintRows& from, std::size_t r) {
+    from.for_each_share(
+        r, {}, [&](Index n, const Vec3&) { std::fill_n(push.begin() + 3 * static_cast<std::ptrdiff_t>(n), 3, 0.0); });
+  };
+  for (std::size_t j = 0; j < m; ++j) {
+    const std::size_t row = rows_meeting[j];
+    const std::vector<std::size_t> near = bonds_at(of, row);
+    for (std::size_t c = 0; c < components(of.law[row]); ++c) {
+      Vec3 unit_force{};
+      unit_force[c] = 1.0;
+      add_push(of, row, unit_force);
+      parting.assign(rows.size(), Vec3{});
+      for (const std::size_t r : near) parting[r] = rows.relative(r, push);
+      clear_push(of, row);
+      solve(parting, answer);
+      for (std::size_t r = 0; r < rows.size(); ++r) add_push(rows, r, answer[r]);
+      for (std::size_t i = j; i < m; ++i) {
+        const Vec3 w = of.relative(rows_meeting[i], push);
+        FrameBlock lower{}, upper{};
+        for (std::size_t a = i == j ? c : 0; a < components(of.law[rows_meeting[i]]); ++a)
+          lower[3 * a + c] = upper[3 * c + a] = w[a];
+        if (i == j) upper[4 * c] = 0.0;
+        more.add(i * m + j, lower);
+        more.add(j * m + i, upper);
+      }
+      for (std::size_t r = 0; r < rows.size(); ++r) clear_push(rows, r);
+    }
+  }
+  return sum_of(own, meeting, more);
+}
+
 BondedMass::BondedMass(const System& system, MassSolver& mass) : impl_(std::make_unique<Impl>(system, mass)) {}
 BondedMass::~BondedMass() = default;
 
@@ -236,11 +310,7 @@ ContactOperator BondedMass::contact_operator() {
   ContactOperator out;
   out.inverse = [&impl = *impl_](std::span<double> b) { impl.invert(b); };
   out.delassus = [&impl = *impl_](const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {
-    const bool meets = std::ranges::any_of(chosen, [&](std::size_t r) {
-      return std::any_of(rows.node.begin() + rows.begin[r], rows.node.begin() + rows.begin[r + 1],
-                         [&](Index n) { return impl.touched[static_cast<std::size_t>(n)]; });
-    });
-    if (!meets && impl.is_lumped()) return impl.plain.delassus(rows, chosen);
+    if (impl.is_lumped()) return impl.delassus(rows, chosen);
     const std::size_t n = impl.moved.size();
     const auto solve = [&impl, n](std::span<double> b, int columns) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) impl.invert(b.subspan(k * n, n));

@@ -66,22 +66,22 @@ double RowCompliance::operator()(const RowComponent& a, const RowComponent& b) c
   return S_(i, j);
 }
 
-std::vector<FrameBlock> RowCompliance::blocks(std::span<const std::size_t> rows, std::span<const std::size_t> counts,
-                                              const InverseOperator& inverse) {
+Delassus RowCompliance::compliance(std::span<const std::size_t> rows, std::span<const std::size_t> counts,
+                                   const InverseOperator& inverse) {
+  Delassus W = Delassus::dense(rows, counts);
   std::vector<RowComponent> wanted;
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t c = 0; c < counts[i]; ++c) wanted.push_back({rows[i], c});
   extend(wanted, inverse);
-  std::vector<FrameBlock> out;
-  out.reserve(rows.size() * rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     for (std::size_t j = 0; j < rows.size(); ++j) {
-      FrameBlock& block = out.emplace_back(FrameBlock{});
+      FrameBlock block{};
       for (std::size_t a = 0; a < counts[i]; ++a)
         for (std::size_t b = 0; b < counts[j]; ++b) block[3 * a + b] = (*this)({rows[i], a}, {rows[j], b});
+      W.add(i * rows.size() + j, block);
     }
   }
-  return out;
+  return W;
 }
 
 void RowCompliance::add_columns(std::span<const std::size_t> rows, std::span<const Vec3> force,

@@ -34,10 +34,10 @@ class RowCompliance {
   const Growth& growth() const { return growth_; }
   /// Becomes what this growth has made. True when it was something else.
   bool grow_as(const Growth& growth, const InverseOperator& inverse);
-  /// S of the listed rows, of which row i has counts[i] components, as a dense matrix of blocks by rows; what is not
-  /// there yet is solved for.
-  std::vector<FrameBlock> blocks(std::span<const std::size_t> rows, std::span<const std::size_t> counts,
-                                 const InverseOperator& inverse);
+  /// S of the listed rows, of which row i has counts[i] components, dense; what is not there yet is solved for. Throws
+  /// TooManyRows before that.
+  Delassus compliance(std::span<const std::size_t> rows, std::span<const std::size_t> counts,
+                      const InverseOperator& inverse);
   bool knows(const RowComponent& rc) const { return known_[3 * rc.row + rc.component] >= 0; }
   /// Number of components.
   std::size_t size() const { return components_.size(); }

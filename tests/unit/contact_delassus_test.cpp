@@ -48,10 +48,11 @@ std::vector<std::vector<double>> columns_of(const ConstraintRows& rows, const st
 
 /// The block of W at (i, j), zero where none is stored.
 FrameBlock block_at(const Delassus& W, std::size_t i, std::size_t j) {
-  for (std::size_t k = W.begin[i]; k < W.begin[i + 1]; ++k) {
-    if (W.column[k] == j) return W.block[k];
-  }
-  return {};
+  FrameBlock found{};
+  W.each(i, [&](std::size_t column, std::size_t entry) {
+    if (column == j) found = W.block_at(entry);
+  });
+  return found;
 }
 
 void expect_blocks(const Delassus& W, const std::vector<std::vector<double>>& G,

@@ -44,7 +44,7 @@ void rough_inverse(std::span<double> b, int columns) {
 
 const std::vector<std::size_t> first{3, 1}, second{7, 3, 12}, third{20, 21, 5, 9}, components{3, 3, 3, 3};
 
-std::vector<FrameBlock> compliance_of(const NodeCompliance& nodes, const ConstraintRows& rows) {
+Delassus compliance_of(const NodeCompliance& nodes, const ConstraintRows& rows) {
   return nodes.compliance(rows, second, std::span(components).first(second.size()));
 }
 
@@ -68,8 +68,8 @@ TEST(Growth, OfNodesGivesTheSameBits) {
   EXPECT_EQ(longer.compliance(*rows, third, components), a.compliance(*rows, third, components));
 }
 
-std::vector<FrameBlock> blocks_of(RowCompliance& rows, const std::vector<std::size_t>& chosen) {
-  return rows.blocks(chosen, std::span(components).first(chosen.size()), {rough_inverse});
+Delassus blocks_of(RowCompliance& rows, const std::vector<std::size_t>& chosen) {
+  return rows.compliance(chosen, std::span(components).first(chosen.size()), {rough_inverse});
 }
 
 TEST(Growth, OfRowsGivesTheSameBits) {
@@ -81,7 +81,7 @@ TEST(Growth, OfRowsGivesTheSameBits) {
     for (const auto& set : {first, second}) blocks_of(a, set);
     for (const auto& set : {first, second, third}) blocks_of(longer, set);
     for (const auto& set : {third, second, first}) blocks_of(other, set);
-    const std::vector<FrameBlock> wanted_blocks = blocks_of(a, second);
+    const Delassus wanted_blocks = blocks_of(a, second);
     EXPECT_NE(blocks_of(other, second), wanted_blocks);  // else the test would say nothing
     const Growth wanted = a.growth();
     EXPECT_FALSE(a.grow_as(wanted, {rough_inverse}));
@@ -97,7 +97,7 @@ TEST(Growth, OfRowsGivesTheSameBits) {
       one->add_columns(first, force, y);
       EXPECT_EQ(x, y);
     }
-    const std::vector<FrameBlock> after = blocks_of(a, third);
+    const Delassus after = blocks_of(a, third);
     for (RowCompliance* one : {&made_anew, &longer, &other}) EXPECT_EQ(blocks_of(*one, third), after);
   }
 }
