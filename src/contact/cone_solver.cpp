@@ -37,7 +37,8 @@ struct Best {
 };
 
 /// Frictionless rows: proximal steps around the active set, so that redundant rows have an answer; one or two steps
-/// where W is regular.
+/// where W is regular. Sparse rows come down to the small rho from a large one, each step from the active set of the
+/// last: thousands of redundant ones else change sides one by one.
 int solve_frictionless(Problem& p, double tolerance, double accepted, cone::ActiveSystem& system) {
   std::vector<bool> active;
   for (const std::size_t i : p.rows())
@@ -45,7 +46,8 @@ int solve_frictionless(Problem& p, double tolerance, double accepted, cone::Acti
   Best best;
   best.offer(p);
   constexpr int most_proximal_steps = 60;
-  double rho = 1e-10;
+  constexpr double small = 1e-10;
+  double rho = cone::is_sparse(p, p.rows()) ? 1e-3 : small;
   int steps = 0;
   for (int n = 0; n < most_proximal_steps && best.error > tolerance; ++n) {
     p.regularise(rho);
@@ -53,8 +55,11 @@ int solve_frictionless(Problem& p, double tolerance, double accepted, cone::Acti
     for (const std::size_t i : p.rows()) p.set_force(i, {std::max(0.0, p.force(i)[0]), 0.0, 0.0});
     const double before = best.error;
     best.offer(p);
-    if (best.error > 0.5 * before && before <= accepted) break;
-    if (best.error > 0.1 * before) rho = std::max(least_proximal, 0.1 * rho);
+    if (best.error > 0.5 * before && before <= accepted && rho <= small) break;
+    if (rho > small)
+      rho = std::max(small, 0.1 * rho);
+    else if (best.error > 0.1 * before)
+      rho = std::max(least_proximal, 0.1 * rho);
   }
   p.set_forces(best.force);
   return steps;
