@@ -118,10 +118,12 @@ void continue_drift(Problem& p, const std::vector<Vec3>& from) {
 
 /// Rows with friction, few enough to factor: proximal steps. Where redundant rows contradict each other by a little,
 /// each step adds contradiction / rho to forces that cancel, until one of the rows slips; so rho falls, slowly where
-/// only such forces grow, and rises where Newton finds no way, and after two steps of that kind the next is longer.
+/// only such forces grow, and rises where Newton finds no way (of sparse rows at once to where thousands of redundant
+/// ones find one), and after two steps of that kind the next is longer.
 int approach(Problem& p, double tolerance, double accepted, cone::NewtonSystem& system, Best& best) {
   constexpr int most_proximal_steps = 100;
   best.offer(p);
+  const double least_after_failure = cone::is_sparse(p, p.rows()) ? 1e-3 : 0.0;
   double rho = 1e-6, last = best.error;
   std::vector<Vec3> from;
   int steps = 0;
@@ -130,7 +132,7 @@ int approach(Problem& p, double tolerance, double accepted, cone::NewtonSystem& 
     const bool found = solve_proximal(p, 0.3 * tolerance, system, steps);
     best.offer(p);
     if (!found) {
-      rho = std::min(1.0, 10.0 * rho);
+      rho = std::min(1.0, std::max(least_after_failure, 10.0 * rho));
       from.clear();
       continue;
     }

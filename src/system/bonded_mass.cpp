@@ -92,7 +92,7 @@ void BondedMass::Impl::factorise() {
       for (std::size_t b = 0; b < 3; ++b) {
         const std::size_t j = 3 * of_column + b;
         const bool is_own = i == j;
-        const double value = unit[i] * unit[j] * W.block[entry][3 * (i % 3) + b];
+        const double value = unit[i] * unit[j] * W.block_at(entry)[3 * (i % 3) + b];
         if (value == 0.0 && !is_own) continue;
         A.column.push_back(static_cast<Index>(j));
         A.value.push_back(is_own ? 1.0 + regular : value);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -8,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "linalg/nested_dissection.hpp"
 #include "linalg/reused_factors.hpp"
+#include "linalg_problems.hpp"
 
 namespace {
 
@@ -115,6 +118,43 @@ TEST(ReusedFactors, AreNotThereForASingularMatrix) {
   EXPECT_FALSE(factors.factor(names(0, 100), std::vector<double>(100 * 100, 1.0), b, x));
   const System first(names(0, 100));
   EXPECT_FALSE(factors.solve(first.unknowns, first.function(), b, x, 1e-6));
+}
+
+/// Sparse factors stand where dense ones stood: Laplacians and a little that is not symmetric.
+TEST(ReusedFactors, OfSparseMatricesSolveAsDenseOnesDo) {
+  carom::CsrMatrix A = carom::test::laplacian(6);
+  const auto n = static_cast<std::size_t>(A.size);
+  System dense(names(0, n));
+  std::fill(dense.matrix.begin(), dense.matrix.end(), 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (auto k = static_cast<std::size_t>(A.row_begin[i]); k < static_cast<std::size_t>(A.row_begin[i + 1]); ++k) {
+      const auto j = static_cast<std::size_t>(A.column[k]);
+      if (j > i) A.value[k] *= 0.5;
+      dense.matrix[n * i + j] = A.value[k];
+    }
+  }
+  const std::vector<double> b = random_vector(n);
+  std::vector<double> x(n), wanted(n);
+  ReusedFactors sparse_factors, dense_factors;
+  ASSERT_TRUE(sparse_factors.factor(dense.unknowns, A, carom::nested_dissection(A), b, x));
+  ASSERT_TRUE(dense_factors.factor(dense.unknowns, dense.matrix, b, wanted));
+  // Round-off times the condition number, 20.
+  for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(x[i], wanted[i], 1e-13);
+  System other = dense;
+  for (std::size_t i = 0; i < 5; ++i) other.matrix[n * i + i] *= 2.0;
+  ASSERT_TRUE(sparse_factors.solve(other.unknowns, other.function(), b, x, 1e-12));
+  EXPECT_LE(residual(other, x, b), 1.01e-12);  // GMRES knows its residual to round-off here
+}
+
+TEST(ReusedFactors, AreNotThereForASingularSparseMatrix) {
+  carom::CsrMatrix A = carom::test::laplacian(3);
+  std::fill(A.value.begin(), A.value.end(), 1.0);
+  for (std::size_t k = 0; k < A.value.size(); ++k)
+    if (A.column[k] == 13) A.value[k] = 0.0;  // a column of zeros
+  std::vector<double> b = random_vector(27), x(27);
+  ReusedFactors factors;
+  EXPECT_FALSE(factors.factor(names(0, 27), A, carom::nested_dissection(A), b, x));
+  EXPECT_FALSE(factors.solve(names(0, 27), System(names(0, 27)).function(), b, x, 1e-6));
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 
 #include <string>
 
+#include "contact/admissible.hpp"
 #include "model/compatibility.hpp"
 #include "schemes/scheme_table.hpp"
+#include "system/bonded_mass.hpp"
 #include "tie_fixture.hpp"
 
 namespace carom::schemes_tie_test {
@@ -179,6 +181,37 @@ TEST(TieDrift, DoesNotGrow) {
       march(*scheme, begin, h, 20000, [&](const State& now) { most = std::max(most, parting(p.contact, now.q)); });
   EXPECT_LT(most, 1e-14);
   EXPECT_LT(run.imbalance, 1e-10 * run.ledger.scale());
+}
+
+// What rows beside bonds answer, sparse but for those that share nodes with bonds, is what the operator itself makes of
+// forces on them, one after the other. Masses and rows are of about 1, their sums round at 1e-16.
+TEST(TieCompliance, IsThatOfTheBodiesTogether) {
+  Model model = tied_blocks(0.02);
+  model.contacts.emplace_back(plane_below(model, 0.004, 20.0, {10.0, 0.3}));
+  const Problem p(std::move(model), MassKind::lumped);
+  MassSolver mass(p.system);
+  BondedMass bonds(p.system, mass);
+  const ContactOperator of_bodies = bonds.contact_operator();
+  const auto rows = p.rows();
+  std::vector<std::size_t> chosen;
+  for (std::size_t r = 0; r < rows->size(); ++r)
+    if (!is_bond(rows->law[r])) chosen.push_back(r);
+  const Delassus W = of_bodies.delassus(*rows, chosen);
+  ASSERT_EQ(W.rows, chosen);
+  ASSERT_LT(W.entries(), chosen.size() * chosen.size());  // some share nothing with bonds
+  std::vector<Vec3> force(chosen.size()), answer(chosen.size());
+  for (std::size_t j = 0; j < chosen.size(); ++j) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      force[j][c] = 1.0;
+      W.apply(force, answer);
+      std::vector<double> x(p.solid.dof_count(), 0.0);
+      rows->scatter(chosen[j], force[j], x);
+      of_bodies.inverse(x);
+      for (std::size_t i = 0; i < chosen.size(); ++i)
+        EXPECT_LT(norm(subtract(answer[i], rows->relative(chosen[i], x))), 1e-12 * norm(answer[j]));
+      force[j] = {};
+    }
+  }
 }
 
 // Bonds restrict motions, and so raise no frequency (Rayleigh's quotient): the step of the bodies is stable.
