@@ -63,7 +63,6 @@ kind = "cd_lagrange"
 [time]
 end = {end}
 step = {step}
-fixed = true
 
 [output]
 fields_every = 1000000

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -75,17 +76,19 @@ void resize_entries(Delassus& W, std::size_t count, bool has_tangents) {
 
 }  // namespace
 
+std::size_t Delassus::most_rows(bool has_tangents) {
+  const std::size_t bytes = has_tangents ? sizeof(FrameBlock) : sizeof(double);
+  return static_cast<std::size_t>(std::sqrt(static_cast<double>(most_bytes / bytes)));
+}
+
 void Delassus::admit_dense(std::size_t count, bool has_tangents) {
-  const double bytes = static_cast<double>(count) * static_cast<double>(count) *
-                       static_cast<double>(has_tangents ? sizeof(FrameBlock) : sizeof(double));
-  if (bytes <= static_cast<double>(most_bytes)) return;
+  if (count <= most_rows(has_tangents)) return;
   throw TooManyRows(fmt::format(
-      "{} rows in contact at once, each of which acts on every other through the bodies: that takes {:.2g} GB, more "
-      "than the {:.2g} GB that exact contact may take (16,384 rows without friction, 5,461 with it). Choose "
-      "enforcement "
-      "= \"augmented_lagrangian\" or \"penalty\", or an explicit scheme with a lumped mass (kind = \"cd_lagrange\"), "
-      "where rows act only on those that share nodes with them",
-      count, bytes / 1e9, static_cast<double>(most_bytes) / 1e9));
+      "{} rows in contact at once, each of which acts on every other through the bodies: that is more than the {} that "
+      "exact contact may have there, {:.2g} GB ({} without friction, {} with it). Choose enforcement = \"penalty\", or "
+      "an explicit scheme with a lumped mass (kind = \"cd_lagrange\"), where rows act only on those that share nodes "
+      "with them",
+      count, most_rows(has_tangents), static_cast<double>(most_bytes) / 1e9, most_rows(false), most_rows(true)));
 }
 
 Delassus Delassus::dense(std::vector<std::size_t> rows, bool has_tangents) {

@@ -40,6 +40,8 @@ struct Delassus {
   static Delassus dense(std::vector<std::size_t> rows, bool has_tangents);
   /// The same of the rows with so many components each.
   static Delassus dense(std::span<const std::size_t> rows, std::span<const std::size_t> components);
+  /// How many rows a dense W may have at most.
+  static std::size_t most_rows(bool has_tangents);
   /// Throws TooManyRows where a dense W of so many rows would take too much.
   static void admit_dense(std::size_t count, bool has_tangents);
 

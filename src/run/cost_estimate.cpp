@@ -10,8 +10,10 @@
 #include <fstream>
 #include <map>
 #include <string_view>
+#include <utility>
 
 #include "base/types.hpp"
+#include "contact/delassus.hpp"
 #include "run/recorder.hpp"
 
 namespace carom {
@@ -33,6 +35,35 @@ bool has_factor(const Stage& stage) {
   const double omega_squared = stage.system().solid.largest_frequency_bound();
   const SolverKind kind = chosen_solver(stage.system(), settings.solver, settings.enforcement, ratio, omega_squared);
   return kind == SolverKind::cholesky || kind == SolverKind::ldlt;
+}
+
+/// True where each row of contact acts on every other: its compliance is that of the bodies (exact contact in implicit
+/// steps, nodes without mass) or of a consistent mass (stops that implicit steps give to what touches).
+bool has_dense_rows(const Stage& stage) {
+  const SchemeSettings& settings = stage.settings();
+  if (settings.kind == SchemeKind::modified_mass) return true;
+  if (!is_implicit(stage)) return false;
+  const EnforcementTraits& enforcement = traits(settings.enforcement);
+  const bool stops = enforcement.stops_touches && settings.kind != SchemeKind::statics;
+  return enforcement.is_exact || (stops && stage.system().mass.kind() != MassKind::lumped);
+}
+
+/// What to say where more rows may act at once than a dense compliance may have. Surfaces that meet themselves do so in
+/// places only.
+std::string rows_warning(const Simulation& s) {
+  const std::vector<ContactDefinition>& contacts = s.model().contacts;
+  const bool is_dense = std::ranges::any_of(s.stages(), [](const auto& stage) { return has_dense_rows(*stage); });
+  const bool meets_itself = std::ranges::any_of(contacts, [](const auto& c) { return parts_of(c).is_self; });
+  const bool has_tangents = std::ranges::any_of(contacts, [](const ContactDefinition& c) {
+    return parts_of(c).nature == ContactNature::bonds || (law_of(c) != nullptr && law_of(c)->mu > 0.0);
+  });
+  const std::size_t rows = s.contact().slots(), most = Delassus::most_rows(has_tangents);
+  if (!is_dense || meets_itself || rows <= most) return {};
+  return fmt::format(
+      "up to {} rows may be in contact at once, and exact contact of this scheme goes on with {} at most, since each "
+      "acts on every other: choose enforcement = \"penalty\", or an explicit scheme with a lumped mass "
+      "(kind = \"cd_lagrange\")",
+      rows, most);
 }
 
 /// Of one .vtu file (output/vtu.hpp): coordinates and cells, and the fields with the types that the recorder gives
@@ -171,6 +202,7 @@ std::vector<std::string> cost_warnings(const Simulation& s, const std::string& f
                               about_bytes(memory),
                               is_implicit(s.first()) ? ": explicit schemes and solver = \"cg\" need least" : ""));
   }
+  if (std::string rows = rows_warning(s); !rows.empty()) out.push_back(std::move(rows));
   if (cost.seconds > day) {
     out.push_back(fmt::format("the run will take {} on one core", about_seconds(cost.seconds)));
   }

@@ -33,7 +33,8 @@ double available_disk(const std::string& folder);
 std::string memory_statement(const Simulation& simulation);
 
 /// Runs that need more than what is there, or more than a user expects of a run: 4 GB of files, half of the memory, or
-/// a day. folder: of the results, "" where none are written.
+/// a day; and contacts that may have more rows than a dense compliance (contact/delassus.hpp). folder: of the results,
+/// "" where none are written.
 std::vector<std::string> cost_warnings(const Simulation& simulation, const std::string& folder);
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "run/approach.hpp"
+#include "run/cost_estimate.hpp"
 #include "run/lint.hpp"
 #include "run/recorder.hpp"
 #include "run_fixture.hpp"
@@ -236,6 +237,24 @@ TEST(Lint, SaysWhatIsHardToBelieve) {
   EXPECT_FALSE(is_warned(gravity, "counts twice"));
   EXPECT_TRUE(is_warned(gravity + gravity, "counts twice"));
   EXPECT_FALSE(is_warned(gravity + "[[load]]\ngravity = [0.0, 9.81, 0.0]\n", "counts twice"));
+}
+
+/// 76 x 76 nodes of a foot, 5,776 rows; a dense compliance has 5,461 with friction at most, 16,384 without.
+TEST(Lint, SaysWhereMoreRowsMayTouchThanExactContactTakes) {
+  const auto is_told = [](const std::string& friction, const std::string& scheme) {
+    std::string text = case_of_block(
+        "[[contact]]\nname = \"floor\"\nkind = \"plane\"\npoint = [0.0, 0.0, 0.0]\n"
+        "normal = [0.0, 0.0, 1.0]\ngroup = \"FOOT\"\nfriction = " +
+        friction + "\n[scheme]\nkind = " + scheme + "\n[time]\nend = 1.0\nstep = 0.001\n");
+    text.replace(text.find("[2, 2, 3]"), 9, "[75, 75, 1]");
+    const std::vector<std::string> warnings = cost_warnings(Simulation(parse_case(text, "case.toml")), "");
+    return std::ranges::any_of(warnings,
+                               [](const std::string& w) { return w.find("up to 5776 rows") != std::string::npos; });
+  };
+  EXPECT_TRUE(is_told("0.3", "\"newmark\"\nenforcement = \"lagrange\""));
+  EXPECT_FALSE(is_told("0.0", "\"newmark\"\nenforcement = \"lagrange\""));
+  EXPECT_FALSE(is_told("0.3", "\"newmark\"\nenforcement = \"penalty\""));
+  EXPECT_FALSE(is_told("0.3", "\"cd_lagrange\""));
 }
 
 }  // namespace
