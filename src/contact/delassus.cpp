@@ -77,8 +77,8 @@ void resize_entries(Delassus& W, std::size_t count, bool has_tangents) {
 }  // namespace
 
 std::size_t Delassus::most_rows(bool has_tangents) {
-  const std::size_t bytes = has_tangents ? sizeof(FrameBlock) : sizeof(double);
-  return static_cast<std::size_t>(std::sqrt(static_cast<double>(most_bytes / bytes)));
+  const std::size_t entries = most_bytes / (has_tangents ? sizeof(FrameBlock) : sizeof(double));
+  return static_cast<std::size_t>(std::sqrt(static_cast<double>(entries)));
 }
 
 void Delassus::admit_dense(std::size_t count, bool has_tangents) {
