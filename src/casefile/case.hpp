@@ -106,6 +106,19 @@ struct CaseSpring {
   std::optional<double> axial;  ///< along the line between the two nodes
 };
 
+/// [[equation]]: the sum over the terms of coefficient x displacement is zero; the first term is the dependent one.
+struct CaseEquation {
+  struct Term {
+    Location where;
+    Located<std::string> nodes;
+    Located<std::string> dof;  ///< "x", "y" or "z"
+    Located<double> coefficient;
+  };
+  Location where;
+  std::string name;
+  std::vector<Term> terms;
+};
+
 /// [[initial]]
 struct CaseInitial {
   Location where;
@@ -260,6 +273,7 @@ struct Case {
   std::vector<CaseSupport> supports;
   std::vector<CasePointMass> point_masses;
   std::vector<CaseSpring> springs;
+  std::vector<CaseEquation> equations;
   std::vector<CaseLoad> loads;
   std::optional<CaseInitialState> initial_state;
   std::vector<CaseInitial> initial;

@@ -164,6 +164,7 @@ SectionSchema<Case> root_section() {
   s.tables("part", &Case::parts, part_section(), needed);
   s.tables("point_mass", &Case::point_masses, point_mass_section());
   s.tables("spring", &Case::springs, spring_section());
+  s.tables("equation", &Case::equations, equation_section());
   s.tables("support", &Case::supports, support_section());
   s.tables("load", &Case::loads, load_section());
   s.table("initial_state", &Case::initial_state, initial_state_section());

@@ -25,6 +25,7 @@ SectionSchema<CaseInitial> initial_section();
 SectionSchema<CaseInitial> stage_initial_section();
 SectionSchema<CasePointMass> point_mass_section();
 SectionSchema<CaseSpring> spring_section();
+SectionSchema<CaseEquation> equation_section();
 SectionSchema<CaseContact> contact_section();
 SectionSchema<CaseFunction> function_section();
 SectionSchema<CaseScheme> scheme_section();

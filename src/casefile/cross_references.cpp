@@ -131,6 +131,11 @@ void check_methods(const Case& given) {
 /// What the contacts cannot do with the scheme of a stage.
 void check_scheme(const Case& given, const CaseScheme& scheme) {
   const EnforcementKind enforcement = **scheme.enforcement;
+  if (!given.equations.empty() && **scheme.mass == CaseScheme::Mass::modified)
+    throw CaseError(given.equations.front().where, entry_path("equation", 0, "terms"),
+                    "an equation, with mass = \"modified\"", "a scheme whose nodes keep their mass",
+                    "What an equation couples moves by its inertia: take another mass, or another scheme than "
+                    "modified_mass.");
   for (std::size_t i = 0; i < given.contacts.size(); ++i) {
     const CaseContact& contact = given.contacts[i];
     const ContactPlace at{contact, fmt::format("contact[{}]", i)};

@@ -13,12 +13,12 @@ namespace carom {
 
 /// The forces that a row may bear, as a solver needs to know them: of a cone
 ///   r_n >= 0, |r_T| <= mu r_n (a half-line where mu = 0),
-/// of a bond all of R^3, its motion w being zero then.
+/// of a bond all of R^3, its motion w being zero then. A linear equation is a bond that sees one component only.
 struct Admissible {
   AdmissibleSet set = AdmissibleSet::cone;
   double mu = 0.0;
 
-  bool is_bond() const { return set == AdmissibleSet::bond; }
+  bool is_bond() const { return set != AdmissibleSet::cone; }
   /// How many of (normal, tangent_1, tangent_2) take part.
   std::size_t components() const { return is_bond() || mu > 0.0 ? 3 : 1; }
   /// Bonds never open.
@@ -57,6 +57,10 @@ inline Admissible admissible(const RowLaw& law) {
 }
 inline bool is_bond(const RowLaw& law) {
   return admissible(law).is_bond();
+}
+/// Bonds that springs do not hold, whatever the enforcement (HeldRows).
+inline bool is_equation(const RowLaw& law) {
+  return law.set == AdmissibleSet::equation;
 }
 inline std::size_t components(const RowLaw& law) {
   return admissible(law).components();

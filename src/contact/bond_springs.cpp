@@ -16,7 +16,7 @@ void add_bond_springs(std::span<const double> x, ContactResponse& response) {
   const ConstraintRows& rows = *response.rows;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const RowLaw& law = rows.law[r];
-    if (!is_bond(law)) continue;
+    if (!is_bond(law) || is_equation(law)) continue;
     const Vec3 w = parted(rows, r, x);
     response.force[r] = scaled(w, -law.eps_N);
     response.status[r] = admissible(law).status(response.force[r]);

@@ -15,9 +15,9 @@ namespace carom {
 /// What a row sees of one node: the rows n, t_1, t_2 of the node's 3 x 3 block of G.
 using RowBlock = std::array<Vec3, 3>;
 
-/// The forces that a row may bear (contact/admissible.hpp): those of unilateral contact with Coulomb friction, or any
-/// at all, as a tie does.
-enum class AdmissibleSet : std::uint8_t { cone, bond };
+/// The forces that a row may bear (contact/admissible.hpp): those of unilateral contact with Coulomb friction; any at
+/// all, as a tie does; any at all, and never by springs, as a linear equation does.
+enum class AdmissibleSet : std::uint8_t { cone, bond, equation };
 
 /// The law of one row, times its measure: force per length (eps_N, eps_T), force per velocity (damping). The normal
 /// spring of the penalty is linear down to linear_depth and hardens below: at depth d
@@ -76,7 +76,7 @@ struct ConstraintRows {
   std::vector<double> reach;    ///< largest length that the gap is a difference of
   std::vector<double> measure;  ///< area that the row stands for, or 1 for a row that is a single node
   std::vector<RowLaw> law;
-  std::vector<Index> source;    ///< index in Model::contacts
+  std::vector<Index> source;    ///< index in Model::contacts; of equation k of the model -1 - k
   std::vector<Index> behind;    ///< how many of the row's last nodes belong to the other side: master or obstacle
   std::vector<bool> is_back;    ///< the row's positive side is not the contact's group but the other body (two passes)
   std::vector<double> rounded;  ///< what going round the edges of the other surface has taken from the gap, >= 0

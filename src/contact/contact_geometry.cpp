@@ -10,6 +10,7 @@
 
 #include "contact/admissible.hpp"
 #include "contact/contact_kind.hpp"
+#include "contact/equation_rows.hpp"
 #include "contact/response.hpp"
 #include "contact/row_maker.hpp"
 #include "math/vec3.hpp"
@@ -52,7 +53,7 @@ struct ContactGeometry::Impl {
   std::vector<double> offset;        ///< by slot, <= 0
   std::vector<std::string> notes;
   std::shared_ptr<const ConstraintRows> fixed;  ///< null when some rows are not fixed
-  ConstraintRows bonds;
+  ConstraintRows bonds, equations;
   Vec3 centre{};                               ///< of all nodes; pairs see positions relative to it
   std::vector<Vec3> x_begin, x, displacement;  ///< scratch of rows_at
 
@@ -128,6 +129,13 @@ ContactGeometry::ContactGeometry(const Model& model) : impl_(std::make_unique<Im
     if (!impl.makers.back()->is_fixed()) add_moving_nodes(model, parts, impl.nodes);
     impl.makers.back()->add_moving_nodes(impl.nodes);
   }
+  if (!model.equations.empty()) {
+    const Index first = impl.first_slot.back();
+    impl.makers.push_back(equation_rows(model));
+    impl.first_slot.push_back(first + static_cast<Index>(impl.makers.back()->slots()));
+    impl.makers.back()->append({}, first, impl.bonds);
+    impl.makers.back()->append({}, first, impl.equations);
+  }
   std::sort(impl.nodes.begin(), impl.nodes.end());
   impl.nodes.erase(std::unique(impl.nodes.begin(), impl.nodes.end()), impl.nodes.end());
   impl.offset.assign(slots(), 0.0);
@@ -158,6 +166,9 @@ bool ContactGeometry::is_fixed() const {
 }
 const ConstraintRows& ContactGeometry::bonds() const {
   return impl_->bonds;
+}
+const ConstraintRows& ContactGeometry::equations() const {
+  return impl_->equations;
 }
 std::shared_ptr<const ConstraintRows> ContactGeometry::rows_at(std::span<const double> u_begin,
                                                                std::span<const double> u,
@@ -195,6 +206,7 @@ void ContactGeometry::set_initial(std::span<const double> u) {
 }
 
 std::string ContactGeometry::describe(const ConstraintRows& rows, std::size_t r) const {
+  if (rows.source[r] < 0) return impl_->model.equations[static_cast<std::size_t>(-1 - rows.source[r])].name;
   const std::string& name = name_of(impl_->model.contacts[static_cast<std::size_t>(rows.source[r])]);
   const Vec3& x = rows.position[r];
   const Index node = rows.begin[r] < rows.begin[r + 1] ? rows.node[static_cast<std::size_t>(rows.begin[r])] : -1;

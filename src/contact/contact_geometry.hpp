@@ -26,7 +26,8 @@ struct Penetration {
 /// - obstacles: one row per node with the area it stands for, or 1 per node (obstacle_rows.hpp);
 /// - pairs: see PairMethod and pair_rows.hpp, mortar_rows.hpp;
 /// - stops: one row per node, measure 1;
-/// - ties: one bond per slave node that is tied (tie_rows.hpp).
+/// - ties: one bond per slave node that is tied (tie_rows.hpp);
+/// - after them, linear equations: one bond each (equation_rows.hpp).
 /// Every contact has a fixed number of histories (slots): one per Gauss point of an interface, per node of an obstacle
 /// or a stop, per slave node of a pair (and master node, in two passes). Rows stand in the order of their slots; slots
 /// that are far from touching may have none.
@@ -46,6 +47,8 @@ class ContactGeometry {
   bool is_fixed() const;
   /// The rows that are bonds, which are the same at every displacement; in the order that they have among all rows.
   const ConstraintRows& bonds() const;
+  /// Those of them that are linear equations.
+  const ConstraintRows& equations() const;
   /// Rows at displacement u, when the step began at u_begin (so that what crossed a facet in between is found) with the
   /// history given (so that what was behind a facet stays there; without, nothing was). Where is_fixed, always the same
   /// object. Search lists are kept from call to call, but the rows do not depend on them, nor on the number of threads.

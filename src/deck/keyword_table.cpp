@@ -73,7 +73,9 @@ constexpr std::array<KeywordEntry, 126> kKeywords{{
     {"ENERGY FILE", output, "", "*", "Energies are in energy.csv."},
     {"ENERGY OUTPUT", output, "", "*", "Energies are in energy.csv."},
     {"ENERGY PRINT", output, "", "*", "Energies are in energy.csv."},
-    {"EQUATION", refused, "", "", "The nodes would not be coupled."},
+    {"EQUATION", model, "INPUT", "",
+     "A linear homogeneous equation between displacements; the first term is the dependent one. Sets are matched by the "
+     "places of their nodes."},
     {"EXPANSION", refused, "", "", "There would be no thermal strains."},
     {"FILE FORMAT", output, "", "*", "Results files of the other program."},
     {"FILE OUTPUT", output, "", "*", "Results files of the other program."},

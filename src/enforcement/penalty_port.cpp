@@ -15,7 +15,7 @@
 
 namespace carom {
 
-PenaltyPort::PenaltyPort(const System& system) : system_(system) {
+PenaltyPort::PenaltyPort(const System& system) : system_(system), held_(system) {
   reach_ = 0.01 * smallest_cell(system.solid);
 }
 
@@ -25,6 +25,7 @@ void PenaltyPort::begin(const StageStart& start) {
   force_parts_ = start.force_parts;
   s_ = start.s;
   dv_dx_ = start.r / start.s;
+  held_.begin(start);
   slip_ = start.m == 0.0 ? CountedSlip::whole_step : CountedSlip::after_touch;
 }
 
@@ -32,11 +33,22 @@ void PenaltyPort::respond(std::span<const double> x, std::span<const double> v, 
   penalty_response(system_.contact.rows_at(begin_->q, x, begin_->contact), begin_->q, x, v, begin_->contact, response,
                    slip_);
   add_bond_springs(x, response);
+  held_.respond(x, response);
 }
 
-ContactError PenaltyPort::error(std::span<const double> /*x*/, std::span<const double> /*v*/,
-                                const ContactResponse& /*response*/) const {
-  return {};  // the forces are a function of the state
+double PenaltyPort::work_of(std::span<const double> rounding, std::span<const double> x) const {
+  double moved = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) moved += (x[i] - begin_->q[i]) * (x[i] - begin_->q[i]);
+  return std::sqrt(moved * dot(rounding, rounding));
+}
+
+/// The forces of springs are a function of the state.
+ContactError PenaltyPort::error(std::span<const double> x, std::span<const double> /*v*/,
+                                const ContactResponse& response) const {
+  if (!held_.any()) return {};
+  std::vector<double> rounding(x.size(), 0.0);
+  held_.add_rounding(x, response, rounding);
+  return {0.0, work_of(rounding, x)};
 }
 
 PortSolve PenaltyPort::solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
@@ -45,15 +57,17 @@ PortSolve PenaltyPort::solve(EffectiveSolver& solver, std::span<const double> x,
   const ConstraintRows& rows = *response.rows;
   tangents_.resize(rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    tangents_[r] = is_bond(rows.law[r]) ? bond_tangent(rows.law[r].eps_N)
-                                        : penalty_tangent(rows, r, begin_->q, x, v, begin_->contact, dv_dx_, slip_);
+    tangents_[r] = is_equation(rows.law[r]) ? held_tangent(rows, r)
+                   : is_bond(rows.law[r])
+                       ? bond_tangent(rows.law[r].eps_N)
+                       : penalty_tangent(rows, r, begin_->q, x, v, begin_->contact, dv_dx_, slip_);
     for (double& d : tangents_[r]) d *= s_;
   }
   return solve_with_tangents(solver, x, response, residual, absolute, dy);
 }
 
-bool PenaltyPort::settle(std::span<const double> /*x*/, const ContactResponse& /*response*/) {
-  return true;
+bool PenaltyPort::settle(std::span<const double> x, const ContactResponse& response) {
+  return held_.settle(x, response);
 }
 
 PenaltyPort::ClosedSpring PenaltyPort::closed_spring(const ConstraintRows& rows, std::size_t r,
@@ -210,7 +224,13 @@ void AugmentedLagrangianPort::respond(std::span<const double> x, std::span<const
   response.history.assign(multiplier_.size(), {});
   response.stored = response.slip_work = 0.0;
   tangents_.assign(rows.size(), {});
+  held_.respond(x, response);
   for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (is_equation(rows.law[r])) {
+      tangents_[r] = held_tangent(rows, r);
+      tangents_[r][0] *= s_;
+      continue;
+    }
     const auto slot = static_cast<std::size_t>(rows.slot[r]);
     const Vec3 lambda = rows.to_frame(r, multiplier_[slot]), w = rows.relative(r, x);
     const double factor = stiffening(rows, r), eps_N = factor * rows.law[r].eps_N;
@@ -269,16 +289,15 @@ ContactError AugmentedLagrangianPort::error(std::span<const double> x, std::span
   std::vector<double> rounding(x.size(), 0.0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const bool is_held = is_bond(rows.law[r]);
-    if (response.force[r][0] == 0.0 && !is_held) continue;
+    if (is_equation(rows.law[r]) || (response.force[r][0] == 0.0 && !is_held)) continue;
     const double force = stiffening(rows, r) * rows.law[r].eps_N * rows.gap_rounding(r, x);
     for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < (is_held ? 3U : 1U); ++i)
           rounding[3 * static_cast<std::size_t>(rows.node[k]) + c] += force * std::abs(rows.block[k][i][c]);
   }
-  double moved = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) moved += (x[i] - begin_->q[i]) * (x[i] - begin_->q[i]);
-  return {0.0, std::sqrt(moved * dot(rounding, rounding))};
+  held_.add_rounding(x, response, rounding);
+  return {0.0, work_of(rounding, x)};
 }
 
 /// What an update of the multipliers would change.
@@ -288,6 +307,7 @@ AugmentedLagrangianPort::Update AugmentedLagrangianPort::update(std::span<const 
   Update out;
   std::vector<double> force(x.size(), 0.0), change(x.size(), 0.0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (is_equation(rows.law[r])) continue;
     const Vec3 w = rows.relative(r, x), &now = response.force[r];
     const double gap = rows.gap[r] + w[0];
     const bool is_held = is_bond(rows.law[r]);
@@ -322,7 +342,8 @@ AugmentedLagrangianPort::Update AugmentedLagrangianPort::update(std::span<const 
 }
 
 bool AugmentedLagrangianPort::settle(std::span<const double> x, const ContactResponse& response) {
-  if (update(x, response).is_settled) return true;
+  const bool is_met = held_.settle(x, response);
+  if (update(x, response).is_settled) return is_met;
   take_forces(response);
   return false;
 }

@@ -4,10 +4,12 @@
 #include <vector>
 
 #include "enforcement/contact_port.hpp"
+#include "enforcement/held_rows.hpp"
 
 namespace carom {
 
-/// The penalty (contact/penalty.hpp) with its tangents on the rows of the iterate.
+/// The penalty (contact/penalty.hpp) with its tangents on the rows of the iterate. Linear equations are held exactly
+/// beside it (HeldRows).
 class PenaltyPort : public ContactPort {
  public:
   explicit PenaltyPort(const System& system);
@@ -38,7 +40,15 @@ class PenaltyPort : public ContactPort {
   PortSolve solve_with_tangents(EffectiveSolver& solver, std::span<const double> x, const ContactResponse& response,
                                 std::span<const double> residual, double absolute, std::span<double> dy);
 
+  /// The tangent of row r, an equation.
+  RowTangent held_tangent(const ConstraintRows& rows, std::size_t r) const {
+    return {held_.stiffness(rows, r), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  }
+  /// |x - begin| times the norm of the rounding of forces.
+  double work_of(std::span<const double> rounding, std::span<const double> x) const;
+
   const System& system_;
+  HeldRows held_;
   const State* begin_ = nullptr;
   double s_ = 0.0, dv_dx_ = 0.0;
   CountedSlip slip_ = CountedSlip::after_touch;

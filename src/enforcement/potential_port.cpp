@@ -60,8 +60,13 @@ void PotentialPort::respond(std::span<const double> x, std::span<const double> /
   response.history.assign(begin_->contact.size(), {});
   response.stored = response.slip_work = 0.0;
   tangents_.assign(rows.size(), {});
+  held_.respond(x, response);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const RowLaw& law = rows.law[r];
+    if (is_equation(law)) {
+      tangents_[r] = held_tangent(rows, r);
+      continue;
+    }
     const Vec3 w0 = rows.relative(r, x0), w1 = rows.relative(r, x), dw = subtract(w1, w0);
     const double g0 = rows.gap[r] + w0[0], g1 = rows.gap[r] + w1[0], P1 = std::max(0.0, -g1);
     if (is_bond(law)) {  // linear, so that the mean of its forces is the discrete derivative

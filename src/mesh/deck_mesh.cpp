@@ -262,8 +262,27 @@ class DeckMeshReader {
     for (const auto& [name, nodes] : node_sets_.all()) add_nodes(name, nodes);
     for (const Statement& s : statements_.list) {
       if (const std::string* node = s.keyword->parameter("REF NODE")) add_node(s, *node);
+      if (s.keyword->name == "EQUATION") add_nodes_of_equations(s);
       if (by_number.count(s.keyword->name) == 0) continue;
       for (DeckCursor at(*s.keyword); at.next_line();) add_node(s, at.field());
+    }
+  }
+
+  /// The number of terms on a line of its own; then node, degree of freedom and coefficient of each, four on a line.
+  void add_nodes_of_equations(const Statement& s) {
+    std::int64_t left = 0;
+    for (DeckCursor at(*s.keyword); at.next_line();) {
+      if (left <= 0) {
+        left = at.integer("the number of terms");
+        continue;
+      }
+      for (; left > 0 && !at.at_end(); --left) {
+        const std::string_view node = at.field();
+        if (node.empty()) break;
+        add_node(s, node);
+        at.field();
+        at.field();
+      }
     }
   }
 

@@ -95,6 +95,18 @@ struct InitialState {
   const Vec3& velocity_of(std::size_t k) const { return velocity.size() == 1 ? velocity[0] : velocity[k]; }
 };
 
+/// A linear homogeneous equation between displacements: sum over the terms of coefficient x u_component(node) = 0. The
+/// first term's is the dependent one.
+struct LinearEquation {
+  struct Term {
+    Index node = -1;
+    int component = 0;
+    double coefficient = 0.0;
+  };
+  std::string name;
+  std::vector<Term> terms;
+};
+
 /// A rigid body that moves without turning: a node of its own with a mass.
 struct RigidBody {
   std::string name;
@@ -126,6 +138,7 @@ struct Model {
   std::vector<ContactDefinition> contacts;
   std::vector<PointMass> point_masses;
   std::vector<Spring> springs;
+  std::vector<LinearEquation> equations;
   std::vector<RigidBody> rigid_bodies;
   std::vector<TurningBody> turning_bodies;
   std::shared_ptr<const std::vector<double>> node_lengths;  ///< of model/node_lengths.hpp, once the parts are complete

@@ -77,14 +77,16 @@ void follow(const Simulation& s, const ConstraintRows& rows, const Flight& fligh
   for (int k = 0; k <= intervals; ++k) {
     flight.displace(k, q);
     for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (is_bond(rows.law[r])) continue;
       gap[r] = rows.gap_at(r, q);
       Approach& a = out[static_cast<std::size_t>(rows.source[r])];
-      if (k == 0 || is_bond(rows.law[r]) || gap[r] > 0.0 || gap[r] >= before[r]) continue;
+      if (k == 0 || gap[r] > 0.0 || gap[r] >= before[r]) continue;
       const double share = before[r] > 0.0 ? before[r] / (before[r] - gap[r]) : 0.0;
       a.first_touch = std::min(a.first_touch, dt * (k - 1 + share));
     }
     if (k > 0)
       for (std::size_t r = 0; r < rows.size(); ++r) {
+        if (is_bond(rows.law[r])) continue;
         Approach& a = out[static_cast<std::size_t>(rows.source[r])];
         a.speed = std::max(a.speed, (before[r] - gap[r]) / dt);
       }

@@ -10,6 +10,7 @@
 #include "model/node_lengths.hpp"
 #include "run/attached.hpp"
 #include "run/build_mesh.hpp"
+#include "run/equations.hpp"
 #include "run/groups.hpp"
 #include "run/initial_velocities.hpp"
 #include "run/parts.hpp"
@@ -34,6 +35,7 @@ class ModelBuilder {
     model_.motions = parts_.held();
     add_attached(case_, mesh_, groups_, parts_, static_cast<Index>(given_nodes(case_, mesh_)), model_);
     for (std::size_t i = 0; i < case_.supports.size(); ++i) add_support(case_.supports[i], i);
+    add_equations(case_, mesh_, groups_, parts_, model_);
     for (const CaseLoad& load : case_.loads) add_load(load);
     for (const CaseInitial& initial : case_.initial) add_initial(initial, 0);
     for (std::size_t i = 0; i < case_.stages.size(); ++i)

@@ -101,6 +101,7 @@ std::string check_summary(const Simulation& s) {
                     count_of(static_cast<long long>(point.nodes.size()), "node"), point.mass, unit(Dimension::mass));
   }
   if (!s.model().springs.empty()) text += fmt::format("  springs   {}\n", s.model().springs.size());
+  if (!s.model().equations.empty()) text += fmt::format("  equations {}\n", s.model().equations.size());
   const std::vector<Approach> contacts = approaches(s, state);
   for (std::size_t i = 0; i < contacts.size(); ++i)
     text += fmt::format("  contact   \"{}\": {}\n", *s.given().contacts[i].name, describe(contacts[i], units));

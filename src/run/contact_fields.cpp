@@ -77,6 +77,7 @@ struct SideMeans {
     const ConstraintRows& rows = *response.rows;
     std::vector<double> pressing = weight;
     for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (rows.source[r] < 0) continue;  // an equation
       const auto [begin, end] = entries_of_side(rows, r, is_other);
       for (std::size_t k = begin; k < end; ++k) {
         const double w = (is_other ? -1.0 : 1.0) * dot(rows.block[k][0], rows.normal[r]);

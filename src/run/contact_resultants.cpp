@@ -127,7 +127,7 @@ std::vector<ContactResultant> ContactResultants::of(const ContactResponse& respo
   std::vector<ContactResultant> out(places_.size());
   const ConstraintRows& rows = *response.rows;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (response.status[r] == RowStatus::open) continue;
+    if (response.status[r] == RowStatus::open || rows.source[r] < 0) continue;
     const std::size_t place = first_place_[at(rows.source[r])];
     if (place == first_place_[at(rows.source[r]) + 1]) continue;
     if (places_[place].parts) {

@@ -127,7 +127,7 @@ void ContactCurves::sample(const StepView& view) {
   const std::vector<ContactResultant> resultants = resultants_.of(view.forces.rows, view.state.q);
   std::vector<double> penetration(contacts_, 0.0), closed(contacts_, 0.0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (view.forces.rows.status[r] == RowStatus::open) continue;
+    if (view.forces.rows.status[r] == RowStatus::open || rows.source[r] < 0) continue;
     const auto c = static_cast<std::size_t>(rows.source[r]);
     penetration[c] = std::max(penetration[c], -rows.gap_at(r, view.state.q));
     closed[c] += 1.0;

@@ -47,6 +47,7 @@ MotionLimit::MotionLimit(const Model& model) : length_(node_lengths(model)) {
 
 /// Negative where the row is not limited.
 double MotionLimit::allowed(const ConstraintRows& rows, std::size_t r) const {
+  if (rows.source[r] < 0) return -1.0;  // an equation
   const auto first = static_cast<std::size_t>(rows.begin[r]), last = static_cast<std::size_t>(rows.begin[r + 1]);
   const double length = least_length(*length_, std::span(rows.node).subspan(first, last - first));
   const double most = std::min(most_[static_cast<std::size_t>(rows.source[r])], share_of_cell * length);

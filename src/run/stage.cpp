@@ -179,6 +179,7 @@ void Stage::refuse_massless_contact() const {
       if (has_mass_[static_cast<std::size_t>(n)]) continue;
       if (supports_.is_prescribed(3 * n) && supports_.is_prescribed(3 * n + 1) && supports_.is_prescribed(3 * n + 2))
         continue;
+      if (rows.source[r] < 0) continue;  // add_equations has looked
       const CaseContact& contact = context_.given.contacts[static_cast<std::size_t>(rows.source[r])];
       throw CaseError(contact.group().where, "contact.group",
                       fmt::format("node {} of \"{}\", which belongs to no part and is not held in x, y and z",

@@ -7,11 +7,17 @@
 #include <string>
 
 #include "base/errors.hpp"
+#include "contact/admissible.hpp"
 #include "math/vec3.hpp"
 
 namespace carom {
 
 namespace {
+
+const Location& place_of(const Case& given, const ConstraintRows& bonds, std::size_t r) {
+  return bonds.source[r] < 0 ? given.equations.front().where
+                             : given.contacts[static_cast<std::size_t>(bonds.source[r])].where;
+}
 
 void refuse(const Case& given, const ContactGeometry& contact, std::span<const double> x, const std::string& what,
             const std::string& remedy) {
@@ -22,8 +28,12 @@ void refuse(const Case& given, const ContactGeometry& contact, std::span<const d
   for (std::size_t r = 0; r < bonds.size(); ++r) {
     const double parting = norm(bonds.relative(r, x));
     if (parting <= rounding * largest) continue;
+    if (is_equation(bonds.law[r]))
+      throw CaseError(place_of(given, bonds, r), "equation",
+                      fmt::format("initial {} that break {}, by {:.4g}", what, contact.describe(bonds, r), parting),
+                      "initial values that satisfy the equations, with what is imposed at the start");
     throw CaseError(
-        given.contacts[static_cast<std::size_t>(bonds.source[r])].where, "contact",
+        place_of(given, bonds, r), "contact",
         fmt::format("initial {} that part what is tied, by {:.4g}: {}", what, parting, contact.describe(bonds, r)),
         "initial values that both sides of a tie share", remedy);
   }
@@ -47,13 +57,16 @@ void refuse_floating_ties(const Case& given, const ContactGeometry& contact, Enf
   for (std::size_t r = 0; r < bonds.size(); ++r) {
     const auto begin = bonds.node.begin() + bonds.begin[r], end = bonds.node.begin() + bonds.begin[r + 1];
     const auto can_move = [&](Index n) { return floats[static_cast<std::size_t>(n)]; };
-    const Location& where = given.contacts[static_cast<std::size_t>(bonds.source[r])].where;
+    const Location& where = place_of(given, bonds, r);
+    const bool is_of_equation = is_equation(bonds.law[r]);
+    const char *key = is_of_equation ? "equation" : "contact", *what = is_of_equation ? "an equation" : "a tie";
     if (enforcement == EnforcementKind::lagrange && std::any_of(begin, end, can_move))
-      throw CaseError(where, "contact", "a tie, in statics with enforcement = \"lagrange\", that alone holds a body",
+      throw CaseError(where, key,
+                      fmt::format("{}, in statics with enforcement = \"lagrange\", that alone holds a body", what),
                       "bodies that supports hold, or another enforcement",
                       "Take enforcement = \"penalty\" or \"augmented_lagrangian\".");
     if (!std::all_of(begin, end, can_move)) continue;
-    throw CaseError(where, "contact", "a tie, in statics, between two bodies that no support holds",
+    throw CaseError(where, key, fmt::format("{}, in statics, between bodies that no support holds", what),
                     "one of the two held by supports in all directions",
                     "Give one of them supports, make one mesh of both, or take a scheme with inertia.");
   }

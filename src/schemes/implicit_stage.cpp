@@ -332,7 +332,10 @@ void start_in_equilibrium(const System& system, ImplicitStage& stage, double dt,
   imposed_steps(system.supports, state.t, state.t + dt, state.q, imposed);
   for (const ImposedStep& s : imposed) state.a[s.dof] = s.a_begin;
   MassSolver mass_solver(system);
-  if (!stage.port().is_law()) start_multipliers(system, mass_solver, dt, state);
+  if (!stage.port().is_law())
+    start_multipliers(system, mass_solver, dt, state);
+  else
+    start_equations(system, mass_solver, dt, state);
   start_accelerations(system, mass_solver, state);
 }
 

@@ -60,6 +60,14 @@ void start_multipliers(const System& system, MassSolver& solver, double dt, Stat
   take_history(forces.rows, state.q, state.contact);
 }
 
+void start_equations(const System& system, MassSolver& solver, double dt, State& state) {
+  if (system.contact.equations().size() == 0) return;
+  BondedMass bonds(system, solver, BondedMass::Bonds::equations);
+  if (!bonds.hold({dt, state.q, state.v, state.a}, state.forces).empty())
+    throw std::runtime_error("the equations find no forces at the start");
+  take_history(state.forces.rows, state.q, state.contact);
+}
+
 void start_accelerations(const System& system, MassSolver& solver, State& state) {
   std::vector<double> rhs(state.a.size());
   force_sum(state.forces, rhs);

@@ -18,6 +18,9 @@ void start_with_supports(const System& system, State& state);
 /// start_accelerations is to follow.
 void start_multipliers(const System& system, MassSolver& solver, double dt, State& state);
 
+/// The same for the linear equations alone, beside forces of contact that springs have given.
+void start_equations(const System& system, MassSolver& solver, double dt, State& state);
+
 /// Solves M a = f - F(u) + contact for the free accelerations, the prescribed ones standing in state.a, and completes
 /// the forces. Throws std::runtime_error when the mass matrix cannot be solved.
 void start_accelerations(const System& system, MassSolver& solver, State& state);

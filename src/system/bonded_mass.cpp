@@ -24,7 +24,11 @@ constexpr const char* no_bonds = "the forces of the ties are not finite";
 }  // namespace
 
 struct BondedMass::Impl {
-  Impl(const System& of, MassSolver& with) : system(of), mass(with), rows(of.contact.bonds()) {
+  Impl(const System& of, MassSolver& with, Bonds which)
+      : system(of),
+        mass(with),
+        equations_alone(which == Bonds::equations),
+        rows(equations_alone ? of.contact.equations() : of.contact.bonds()) {
     plain = mass_operator(system, mass);
     if (rows.size() == 0) return;
     moved.assign(system.solid.dof_count(), 0.0);
@@ -56,8 +60,11 @@ struct BondedMass::Impl {
   std::vector<std::size_t> bonds_at(const ConstraintRows& of, std::size_t r) const;
   Delassus delassus(const ConstraintRows& of, const std::vector<std::size_t>& chosen);
 
+  bool holds(const RowLaw& law) const { return equations_alone ? is_equation(law) : is_bond(law); }
+
   const System& system;
   MassSolver& mass;
+  bool equations_alone;
   const ConstraintRows& rows;
   ContactOperator plain;
   Delassus W;
@@ -164,11 +171,11 @@ std::string BondedMass::Impl::answer_forces(std::span<const double> a, Forces& f
   return {};
 }
 
-/// The bonds among the rows of a response stand in the order of bonds().
+/// The bonds among the rows of a response stand in the order of those that are held.
 void BondedMass::Impl::take_off(Forces& forces) const {
   ContactResponse& response = forces.rows;
   for (std::size_t r = 0; r < response.rows->size(); ++r) {
-    if (!is_bond(response.rows->law[r]) || response.status[r] == RowStatus::open) continue;
+    if (!holds(response.rows->law[r]) || response.status[r] == RowStatus::open) continue;
     response.rows->for_each_share(r, scaled(response.force[r], -1.0),
                                   [&](Index node, const Vec3& share) { forces.contact.add(node, share); });
     response.force[r] = {};
@@ -181,7 +188,7 @@ void BondedMass::Impl::give(Forces& forces) const {
   std::size_t k = 0;
   for (std::size_t r = 0; r < response.rows->size(); ++r) {
     const RowLaw& law = response.rows->law[r];
-    if (!is_bond(law)) continue;
+    if (!holds(law)) continue;
     response.force[r] = force[k++];
     response.status[r] = admissible(law).status(response.force[r]);
     response.history[static_cast<std::size_t>(response.rows->slot[r])].multiplier =
@@ -283,7 +290,8 @@ Delassus BondedMass::Impl::delassus(const ConstraintRows& of, const std::vector<
   return sum_of(own, meeting, more);
 }
 
-BondedMass::BondedMass(const System& system, MassSolver& mass) : impl_(std::make_unique<Impl>(system, mass)) {}
+BondedMass::BondedMass(const System& system, MassSolver& mass, Bonds which)
+    : impl_(std::make_unique<Impl>(system, mass, which)) {}
 BondedMass::~BondedMass() = default;
 
 bool BondedMass::any() const {

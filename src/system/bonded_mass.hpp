@@ -1,6 +1,7 @@
 // Bonds that hold exactly in what the mass alone decides: explicit steps, impulses, accelerations at the start.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -26,8 +27,9 @@ struct BondMotion {
 /// motions), so that the stable step stays. Forces are zero on dofs that are fixed on both sides.
 class BondedMass {
  public:
-  /// Refers to the solver.
-  BondedMass(const System& system, MassSolver& mass);
+  enum class Bonds : std::uint8_t { all, equations };
+  /// Refers to the solver. Equations alone are held where springs hold the ties.
+  BondedMass(const System& system, MassSolver& mass, Bonds which = Bonds::all);
   ~BondedMass();
   BondedMass(const BondedMass&) = delete;
 

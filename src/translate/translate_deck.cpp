@@ -104,6 +104,7 @@ TranslatedDeck translate_deck(std::string bytes, const std::string& path, const 
   translate_bodies(t);
   translate_discrete(t);
   translate_actions(t);
+  translate_equations(t);
   translate_contacts(t);
   translate_steps(t);
   translate_probes(t);

@@ -67,6 +67,8 @@ void translate_bodies(Translation& t);
 void translate_actions(Translation& t);
 /// [[contact]].
 void translate_contacts(Translation& t);
+/// [[equation]].
+void translate_equations(Translation& t);
 /// [[initial]], [[point_mass]], [[spring]].
 void translate_discrete(Translation& t);
 /// [[probe]].
