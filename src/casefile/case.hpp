@@ -207,7 +207,8 @@ struct CaseOutput {
                                            {"contact_force", {}},
                                            {"contact_pressure", {}},
                                            {"contact_gap", {}},
-                                           {"contact_status", {}}};
+                                           {"contact_status", {}},
+                                           {"contact_damage", {}}};
   int fields_every = 0;              ///< steps; 0: about 50 times over the run
   int curves_every = 1;              ///< steps between rows of the .csv files
   int checkpoint_every = 0;          ///< steps between checkpoints; 0: by time alone

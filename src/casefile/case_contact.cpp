@@ -21,8 +21,25 @@ auto as(Contact& contact) {
 }
 
 template <class Contact>
+auto surfaces_of(Contact& contact) {
+  using Pointer = std::conditional_t<std::is_const_v<Contact>, const CaseSurfaces*, CaseSurfaces*>;
+  return std::visit(
+      [](auto& given) -> Pointer {
+        if constexpr (std::derived_from<std::remove_cvref_t<decltype(given)>, CaseSurfaces>)
+          return &given;
+        else if constexpr (requires { given.left_over(); })
+          return given.left_over();
+        else
+          return nullptr;
+      },
+      contact.of);
+}
+
+template <class Contact>
 auto law_of(Contact& contact) {
   using Pointer = std::conditional_t<std::is_const_v<Contact>, const CaseContactLaw*, CaseContactLaw*>;
+  const auto surfaces = surfaces_of(contact);
+  if (surfaces != nullptr) return Pointer{&surfaces->law};
   return std::visit(
       [](auto& given) -> Pointer {
         if constexpr (requires { given.law; })
@@ -79,10 +96,10 @@ const CaseObstacle* CaseContact::obstacle() const {
 }
 
 const CaseSurfaces* CaseContact::surfaces() const {
-  return as<CaseSurfaces>(*this);
+  return surfaces_of(*this);
 }
 CaseSurfaces* CaseContact::surfaces() {
-  return as<CaseSurfaces>(*this);
+  return surfaces_of(*this);
 }
 
 const Located<std::string>* CaseContact::own_cells() const {

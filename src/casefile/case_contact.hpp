@@ -10,6 +10,7 @@
 
 #include "base/types.hpp"
 #include "casefile/located.hpp"
+#include "model/cohesive.hpp"
 #include "model/options.hpp"
 
 namespace carom {
@@ -154,12 +155,23 @@ struct CaseStop {
 
 struct CaseTie : CaseStiffness {
   static constexpr std::string_view kind = "tie";
+  CaseTie() { torn.law.initial_penetration = InitialPenetration::strain_free_offset; }
   Located<std::string> group;   ///< slave faces
   Located<std::string> master;  ///< faces of the other body
   TieMethod method = TieMethod::node_to_surface;
   double tolerance = 0.05;         ///< largest distance from the master, in facet sizes
   std::optional<double> distance;  ///< instead of the tolerance
   FarNodes far = FarNodes::refuse;
+  /// Where it tears; those of shear are the normal ones where they are absent.
+  std::optional<Located<double>> normal_strength, shear_strength, normal_energy, shear_energy;
+  CaseSurfaces torn;  ///< what is left of it when it has torn
+
+  bool tears() const { return normal_strength.has_value(); }
+  /// Of one that tears; its stiffness is 0 where it is chosen.
+  CohesiveLaw tearing() const;
+  /// The surfaces that meet where it has torn; null where it never does.
+  const CaseSurfaces* left_over() const { return tears() ? &torn : nullptr; }
+  CaseSurfaces* left_over() { return tears() ? &torn : nullptr; }
 
   void check_scheme(const CaseScheme& scheme, const ContactPlace& at) const;
 };
@@ -209,7 +221,7 @@ struct CaseContact {
   const CaseStiffness* springs() const;
   /// The rigid obstacle; null for other kinds.
   const CaseObstacle* obstacle() const;
-  /// The surfaces that deform; null for other kinds.
+  /// The surfaces that deform and touch, those of a torn tie among them; null for other kinds.
   const CaseSurfaces* surfaces() const;
   CaseSurfaces* surfaces();
   /// Cells of the mesh that are the contact's alone; null where it has none.

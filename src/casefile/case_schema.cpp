@@ -84,11 +84,12 @@ SectionSchema<CaseOutput> output_section() {
   s.key(
       "fields", &CaseOutput::fields,
       "Fields in the .vtu files, beside the numbers of nodes and cells and of the part, which are always there; those "
-      "of contact only where there is one, equivalent_plastic_strain and temperature_rise only where a law knows "
+      "of contact only where there is one, contact_damage (0 intact, 1 torn, -1 elsewhere) only where a tie tears, "
+      "equivalent_plastic_strain and temperature_rise only where a law knows "
       "them.",
       {.choices = {"displacement", "velocity", "acceleration", "stress", "von_mises", "strain", "part",
                    "equivalent_plastic_strain", "temperature_rise", "contact_force", "contact_pressure", "contact_gap",
-                   "contact_status"}});
+                   "contact_status", "contact_damage"}});
   s.key("fields_every", &CaseOutput::fields_every, "Steps between .vtu files; 0: about 50 files over the run.",
         {.range = at_least(0.0)});
   s.key("curves_every", &CaseOutput::curves_every, "Steps between rows of the .csv files.", {.range = at_least(1.0)});

@@ -101,6 +101,31 @@ std::vector<std::string> choose_tie_stiffness(Model& model) {
   return choose(model, stiffer, [](ContactNature nature) { return nature == ContactNature::bonds; });
 }
 
+std::vector<std::string> choose_cohesive_stiffness(Model& model) {
+  constexpr double stiffer = 10.0, steepest = 5.0;
+  std::vector<std::string> notes;
+  std::optional<PartCells> cells;
+  for (CohesiveZone& zone : model.cohesive) {
+    CohesiveLaw& law = zone.law;
+    if (law.stiffness > 0.0) continue;
+    if (!cells) cells.emplace(model);
+    const ContactDefinition& pair = model.contacts[zone.contact];
+    const StiffnessChoice choice = kind_of(pair).stiffness(*cells, pair);
+    const double factor = stiffer * zone.stiffness_factor;
+    law.stiffness = factor * choice.stiffness();
+    notes.push_back(sentence(zone.name, law.stiffness, choice, factor));
+    const double least = steepest * std::max(law.normal_strength * law.normal_strength / law.normal_energy,
+                                             law.shear_strength * law.shear_strength / law.shear_energy);
+    if (law.stiffness >= least) continue;
+    notes.push_back(fmt::format(
+        "contact \"{}\": raised to {:.4g}, or its surfaces would not soften as its energy asks; the cells beside it "
+        "are too large for its strength: finer ones, or a lower strength with the same energy, tear more smoothly",
+        zone.name, least));
+    law.stiffness = least;
+  }
+  return notes;
+}
+
 std::vector<std::string> choose_stiffness(Model& model) {
   return choose(model, 1.0, [](ContactNature nature) { return nature == ContactNature::touches; });
 }

@@ -37,4 +37,9 @@ std::vector<std::string> choose_stiffness(Model& model);
 /// follow them, so that what they give way by is a thousandth of what the cells beside them do.
 std::vector<std::string> choose_tie_stiffness(Model& model);
 
+/// The same for ties that tear: 10 times the stiffness of a pair, so that an intact one gives way by a tenth of what
+/// the cells beside it do; more where softening would else be steeper than a fifth of that:
+///   k >= 5 S^2 / G  for each strength S with its energy G.
+std::vector<std::string> choose_cohesive_stiffness(Model& model);
+
 }  // namespace carom

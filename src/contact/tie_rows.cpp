@@ -200,6 +200,7 @@ class TieMaker {
       return;
     }
     add_bond(means.normal[r], means.position[r], means.measure[r], own, others);
+    rows.facet.back() = foot.facet;
   }
   void note_far(Index slave) {
     const Foot foot = master_.any(X_[static_cast<std::size_t>(slave)]);
@@ -296,8 +297,9 @@ void add_means(const Model& model, const TieContact& contact, Index source, cons
 
 }  // namespace
 
-std::unique_ptr<RowMaker> tie_rows(const Model& model, const TieContact& contact, Index source,
-                                   std::vector<std::string>& notes) {
+namespace {
+
+ConstraintRows bonds_of(const Model& model, const TieContact& contact, Index source, std::vector<std::string>& notes) {
   TieMaker made(model, contact, source);
   const std::map<Index, double> slaves = nodal_measures(model.mesh->coordinates, contact.slave);
   if (contact.method == TieMethod::node_to_surface)
@@ -312,7 +314,31 @@ std::unique_ptr<RowMaker> tie_rows(const Model& model, const TieContact& contact
   }
   notes.push_back(fmt::format("contact \"{}\": {} nodes tied{}", contact.name, made.rows.size(),
                               made.far > 0 ? "; left free: " + made.far_ones() : ""));
-  return std::make_unique<FixedRows>(std::move(made.rows));
+  return std::move(made.rows);
+}
+
+}  // namespace
+
+std::unique_ptr<RowMaker> tie_rows(const Model& model, const TieContact& contact, Index source,
+                                   std::vector<std::string>& notes) {
+  return std::make_unique<FixedRows>(bonds_of(model, contact, source, notes));
+}
+
+std::vector<CohesiveRow> cohesive_rows(const Model& model, const TieContact& contact, std::vector<std::string>& notes) {
+  const ConstraintRows rows = bonds_of(model, contact, 0, notes);
+  std::vector<CohesiveRow> places;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    CohesiveRow& place = places.emplace_back();
+    const auto begin = static_cast<std::size_t>(rows.begin[r]), end = static_cast<std::size_t>(rows.begin[r + 1]);
+    for (std::size_t k = begin; k < end; ++k) {
+      const bool is_master = k >= end - static_cast<std::size_t>(rows.behind[r]);
+      (is_master ? place.master : place.slave).emplace_back(rows.node[k], dot(rows.block[k][0], rows.normal[r]));
+    }
+    place.area = rows.measure[r];
+    place.facet = contact.master.facets[static_cast<std::size_t>(rows.facet[r])];
+    place.normal = rows.normal[r];
+  }
+  return places;
 }
 
 ContactKind tie_contact_row() {

@@ -28,5 +28,8 @@ namespace carom {
 /// nodes are too far away (FarNodes::refuse), and where none is tied.
 std::unique_ptr<RowMaker> tie_rows(const Model& model, const TieContact& contact, Index source,
                                    std::vector<std::string>& notes);
+/// The same as places of a cohesive zone, for a tie that tears; ConstraintRows::facet of mortar rows is that of the
+/// master nearest to their place.
+std::vector<CohesiveRow> cohesive_rows(const Model& model, const TieContact& contact, std::vector<std::string>& notes);
 
 }  // namespace carom

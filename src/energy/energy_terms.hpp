@@ -23,6 +23,7 @@ enum class TermKind : std::uint8_t { stored, spent, dissipated, supplied, scheme
   TERM(hourglass, stored, "what the stabilisation of cells with one point stores")                                    \
   TERM(contact_stored, stored, "sum over closed rows of 1/2 eps_N g^2 + 1/2 eps_T s_e^2")                             \
   TERM(plastic, spent, "integral of the dissipated energy density, a function of the points' history")                \
+  TERM(fracture, spent, "what ties that tear have dissipated, a function of their damage")                            \
   TERM(hourglass_loss, spent, "what the stabilisation of yielding cells with one point has dissipated")               \
   TERM(viscous, spent, "what bulk viscosity and the viscosity of hourglass modes have dissipated")                    \
   TERM(friction, dissipated, "sum over sliding rows of friction force times slip")                                    \

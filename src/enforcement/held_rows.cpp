@@ -11,7 +11,7 @@ namespace carom {
 namespace {
 
 /// What the springs answer more than the rest of the operator.
-constexpr double stiffer = 1e4;
+constexpr double stiffer = 1e3;
 /// What is left of w, over the largest displacement, when an update no longer halves it.
 constexpr double rounding_of_displacements = 1e-10;
 

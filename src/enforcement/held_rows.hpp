@@ -10,9 +10,9 @@ namespace carom {
 
 /// The method of multipliers (Hestenes, J. Optim. Theory Appl. 4, 1969) on the rows of linear equations alone:
 ///   force = lambda - eps w,
-/// eps being 1e4 over what the row answers to its own force by the operator's diagonal, and lambda becoming the force
-/// at every equilibrium until no w is left but rounding: each update takes off all of w but some 1e-4. Nothing is stored
-/// in the springs, and the multipliers do no work.
+/// eps being 1e3 over what the row answers to its own force by the operator's diagonal, and lambda becoming the force
+/// at every equilibrium until no w is left but rounding: each update takes off all of w but some 1e-3. Nothing is
+/// stored in the springs, and the multipliers do no work.
 class HeldRows {
  public:
   explicit HeldRows(const System& system);

@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "math/vec3.hpp"
+#include "base/types.hpp"
 #include "mesh/facet.hpp"
 
 namespace carom {
 
-/// Bilinear law of traction and separation (Camanho and Davila, NASA/TM-2002-211737). Stresses, energies per area, and a
-/// stiffness: stress per distance that the sides part, the same in all directions.
+/// Bilinear law of traction and separation (Camanho and Davila, NASA/TM-2002-211737). Stresses, energies per area, and
+/// a stiffness: stress per distance that the sides part, the same in all directions.
 struct CohesiveLaw {
   double normal_strength = 0.0, shear_strength = 0.0;
   double normal_energy = 0.0, shear_energy = 0.0;
@@ -32,7 +32,9 @@ struct CohesiveZone {
   std::size_t contact = 0;  ///< index in Model::contacts, a PairContact of the same surfaces
   std::string name;
   CohesiveLaw law;
+  double stiffness_factor = 1.0;  ///< on the stiffness that is chosen where the law has none
   std::vector<CohesiveRow> rows;
+  std::vector<std::string> notes;
 };
 
 }  // namespace carom

@@ -17,6 +17,7 @@
 #include "math/time_function.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/skin.hpp"
+#include "model/cohesive.hpp"
 #include "model/contact.hpp"
 #include "model/options.hpp"
 #include "model/surface.hpp"
@@ -139,6 +140,7 @@ struct Model {
   std::vector<PointMass> point_masses;
   std::vector<Spring> springs;
   std::vector<LinearEquation> equations;
+  std::vector<CohesiveZone> cohesive;
   std::vector<RigidBody> rigid_bodies;
   std::vector<TurningBody> turning_bodies;
   std::shared_ptr<const std::vector<double>> node_lengths;  ///< of model/node_lengths.hpp, once the parts are complete

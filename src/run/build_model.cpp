@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <concepts>
+#include <stdexcept>
 #include <utility>
 
 #include "casefile/document.hpp"
+#include "contact/tie_rows.hpp"
 #include "model/node_lengths.hpp"
 #include "run/attached.hpp"
 #include "run/build_mesh.hpp"
@@ -184,8 +186,30 @@ class ModelBuilder {
     tie.tolerance = kind.tolerance;
     tie.distance = kind.distance;
     tie.far = kind.far;
-    tie.law = law(kind);
-    model_.contacts.emplace_back(std::move(tie));
+    tie.law = law(static_cast<const CaseStiffness&>(kind));
+    if (kind.tears())
+      add_tearing(given, kind, tie);
+    else
+      model_.contacts.emplace_back(std::move(tie));
+  }
+
+  /// A cohesive zone in the place of the bonds, and the pair that is left when it has torn.
+  void add_tearing(const CaseContact& given, const CaseTie& kind, const TieContact& tie) {
+    CohesiveZone zone;
+    zone.contact = model_.contacts.size();
+    zone.name = tie.name;
+    zone.law = kind.tearing();
+    zone.stiffness_factor = kind.stiffness_factor;
+    try {
+      zone.rows = cohesive_rows(model_, tie, zone.notes);
+    } catch (const std::invalid_argument& e) {
+      throw CaseError(given.where, "contact", e.what(), "");
+    }
+    model_.cohesive.push_back(std::move(zone));
+    PairContact pair = pair_of(given, kind.torn);
+    pair.slave = tie.slave;
+    pair.master = tie.master;
+    model_.contacts.emplace_back(std::move(pair));
   }
 
   template <class Kind>

@@ -142,4 +142,20 @@ std::vector<ContactResultant> ContactResultants::of(const ContactResponse& respo
   return out;
 }
 
+void ContactResultants::add_cohesive(const CohesiveZones& zones, std::span<const double> u,
+                                     std::span<const double> history, std::vector<ContactResultant>& to) const {
+  zones.for_each_force(u, history, [&](std::size_t contact, const CohesiveRow& row, const Vec3& force) {
+    const std::size_t place = first_place_[contact];
+    ContactResultant& sum = to[place];
+    for (const auto& [node, weight] : row.slave) {
+      const std::size_t n = at(node);
+      Vec3 share = scaled(force, weight);
+      sum.force = carom::add(sum.force, share);
+      Vec3 x = carom::add(mesh_.coordinates[n], {u[3 * n], u[3 * n + 1], u[3 * n + 2]});
+      if (places_[place].is_ring) x[0] = x[2] = share[0] = share[2] = 0.0;
+      sum.moment = carom::add(sum.moment, cross(subtract(x, moment_points_[places_[place].contact]), share));
+    }
+  });
+}
+
 }  // namespace carom

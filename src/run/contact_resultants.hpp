@@ -9,6 +9,7 @@
 
 #include "contact/response.hpp"
 #include "model/model.hpp"
+#include "solid/cohesive_zones.hpp"
 
 namespace carom {
 
@@ -39,6 +40,9 @@ class ContactResultants {
   const std::vector<ResultantPlace>& places() const { return places_; }
   /// One per place, at the displacement u.
   std::vector<ContactResultant> of(const ContactResponse& response, std::span<const double> u) const;
+  /// Adds what ties that tear pass to the body of the group at displacement u, `history` being that of the points.
+  void add_cohesive(const CohesiveZones& zones, std::span<const double> u, std::span<const double> history,
+                    std::vector<ContactResultant>& to) const;
 
  private:
   void add_between_parts(const ContactResponse& response, std::size_t r, std::span<const double> u,

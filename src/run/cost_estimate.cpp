@@ -70,15 +70,16 @@ std::string rows_warning(const Simulation& s) {
 /// them.
 double frame_bytes(const Simulation& s) {
   static const std::map<std::string_view, double> per_node{
-      {"displacement", 24.0},    {"velocity", 24.0},   {"acceleration", 24.0}, {"contact_force", 12.0},
-      {"contact_pressure", 4.0}, {"contact_gap", 4.0}, {"contact_status", 1.0}};
+      {"displacement", 24.0},    {"velocity", 24.0},   {"acceleration", 24.0},  {"contact_force", 12.0},
+      {"contact_pressure", 4.0}, {"contact_gap", 4.0}, {"contact_status", 1.0}, {"contact_damage", 4.0}};
   static const std::map<std::string_view, double> per_cell{{"stress", 24.0}, {"strain", 24.0}, {"von_mises", 4.0}};
   if (s.given().output.fields.empty()) return 0.0;
   double of_node = 28.0, of_cell = 13.0, corners = 0.0;  // with numbers and parts
   for (std::size_t k = 0; k < s.solid().cell_count(); ++k)
     corners += static_cast<double>(s.solid().nodes_of_cell(k).size());
   for (const auto& field : s.given().output.fields) {
-    const bool is_off = field->starts_with("contact_") && s.given().contacts.empty();
+    const bool is_off = (field->starts_with("contact_") && s.given().contacts.empty()) ||
+                        (*field == "contact_damage" && s.solid().cohesive().empty());
     if (const auto found = per_node.find(*field); found != per_node.end() && !is_off) of_node += found->second;
     if (const auto found = per_cell.find(*field); found != per_cell.end()) of_cell += found->second;
     if (!s.solid().cell_history(*field, s.solid().initial_history()).empty()) of_cell += 4.0;

@@ -68,6 +68,7 @@ std::vector<Vec3> moment_points(const Case& given) {
 
 ContactCurves::ContactCurves(const Simulation& simulation)
     : model_(simulation.model()),
+      solid_(simulation.solid()),
       contacts_(simulation.given().contacts.size()),
       resultants_(model_, moment_points(simulation.given())) {
   table_.columns = {"time"};
@@ -124,7 +125,8 @@ void ContactCurves::add_motion(std::size_t contact, const State& state) {
 
 void ContactCurves::sample(const StepView& view) {
   const ConstraintRows& rows = *view.forces.rows.rows;
-  const std::vector<ContactResultant> resultants = resultants_.of(view.forces.rows, view.state.q);
+  std::vector<ContactResultant> resultants = resultants_.of(view.forces.rows, view.state.q);
+  resultants_.add_cohesive(solid_.cohesive(), view.state.q, view.points().history, resultants);
   std::vector<double> penetration(contacts_, 0.0), closed(contacts_, 0.0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (view.forces.rows.status[r] == RowStatus::open || rows.source[r] < 0) continue;

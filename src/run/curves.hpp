@@ -60,6 +60,7 @@ class ContactCurves {
   void add_motion(std::size_t contact, const State& state);
 
   const Model& model_;
+  const Solid& solid_;
   std::size_t contacts_;
   ContactResultants resultants_;
   CurveTable table_;

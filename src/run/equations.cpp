@@ -15,7 +15,6 @@ namespace carom {
 namespace {
 
 constexpr const char* nodes_key = "equation.terms.nodes";
-constexpr const char* axes = "xyz";
 
 using Dof = std::pair<Index, int>;
 
@@ -28,9 +27,9 @@ class Equations {
   }
 
   void add(const CaseEquation& given, std::size_t number) {
-    const std::string name = fmt::format("equation {}", given.name.empty() ? fmt::format("{} (line {})", number + 1,
-                                                                                         given.where.line)
-                                                                           : '"' + given.name + '"');
+    const std::string name =
+        fmt::format("equation {}", given.name.empty() ? fmt::format("{} (line {})", number + 1, given.where.line)
+                                                      : '"' + given.name + '"');
     std::vector<std::vector<Index>> nodes;  // of each term
     for (const CaseEquation::Term& term : given.terms) {
       nodes.push_back(groups_.nodes(term.nodes, nodes_key));
@@ -39,9 +38,8 @@ class Equations {
     }
     for (std::size_t k = 0; k < nodes.front().size(); ++k) {
       LinearEquation equation;
-      equation.name = nodes.front().size() == 1
-                          ? name
-                          : fmt::format("{} at node {}", name, this->number(nodes.front()[k]));
+      equation.name =
+          nodes.front().size() == 1 ? name : fmt::format("{} at node {}", name, this->number(nodes.front()[k]));
       std::set<Dof> seen;
       for (std::size_t t = 0; t < given.terms.size(); ++t) {
         const CaseEquation::Term& term = given.terms[t];
@@ -83,10 +81,10 @@ class Equations {
     if (nodes.size() == 1) return;
     const std::string& name = *given.terms.front().nodes;
     if (nodes.size() != first.size())
-      throw CaseError(term.nodes.where, nodes_key,
-                      fmt::format("{} nodes in \"{}\" against {} in \"{}\"", nodes.size(), *term.nodes, first.size(),
-                                  name),
-                      "one node, or as many as the first term has");
+      throw CaseError(
+          term.nodes.where, nodes_key,
+          fmt::format("{} nodes in \"{}\" against {} in \"{}\"", nodes.size(), *term.nodes, first.size(), name),
+          "one node, or as many as the first term has");
     const Vec3 shift = subtract(middle(nodes), middle(first));
     std::vector<Index> ordered;
     std::set<Index> taken;
@@ -94,11 +92,12 @@ class Equations {
       const Vec3 place = carom::add(X(node), shift);
       const Index other = *std::ranges::min_element(nodes, {}, [&](Index n) { return norm(subtract(X(n), place)); });
       if (!taken.insert(other).second)
-        throw CaseError(term.nodes.where, nodes_key,
-                        fmt::format("node {} of \"{}\", which is the nearest to two nodes of \"{}\" shifted onto it, {} "
-                                    "being one",
-                                    number(other), *term.nodes, name, number(node)),
-                        "groups whose nodes lie alike", "Give each pair an [[equation]] of its own.");
+        throw CaseError(
+            term.nodes.where, nodes_key,
+            fmt::format("node {} of \"{}\", which is the nearest to two nodes of \"{}\" shifted onto it, {} "
+                        "being one",
+                        number(other), *term.nodes, name, number(node)),
+            "groups whose nodes lie alike", "Give each pair an [[equation]] of its own.");
       ordered.push_back(other);
     }
     nodes = std::move(ordered);
@@ -107,7 +106,7 @@ class Equations {
   void refuse_dependent(const CaseEquation& given, const LinearEquation& equation) {
     const LinearEquation::Term& first = equation.terms.front();
     const Dof dof{first.node, first.component};
-    const std::string what = fmt::format("{} of node {}", axes[first.component], number(first.node));
+    const std::string what = fmt::format("{} of node {}", "xyz"[first.component], number(first.node));
     const Location& where = given.terms.front().nodes.where;
     const char* remedy = "Begin the equation with another term.";
     const auto imposed = imposed_.find(dof);
@@ -116,8 +115,7 @@ class Equations {
                       fmt::format("{}, which the first term makes dependent and {} imposes", what, imposed->second),
                       "a first term that is free", remedy);
     if (!dependent_.insert(dof).second)
-      throw CaseError(where, nodes_key,
-                      fmt::format("{}, which is the dependent one of another equation as well", what),
+      throw CaseError(where, nodes_key, fmt::format("{}, which is the dependent one of another equation as well", what),
                       "a displacement of its own to begin with", remedy);
   }
 

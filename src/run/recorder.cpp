@@ -112,6 +112,9 @@ Frame frame_of(const Simulation& s, const StepView& view) {
     if (contact && name == "contact_pressure") frame.points.push_back({name, 1, rounded(contact->pressure)});
     if (contact && name == "contact_gap") frame.points.push_back({name, 1, rounded(contact->gap)});
     if (contact && name == "contact_status") frame.points.push_back({name, 1, contact->status});
+    if (name == "contact_damage" && !s.solid().cohesive().empty())
+      frame.points.push_back(
+          {name, 1, rounded(s.solid().cohesive().nodal_damage(view.points().history, s.mesh().node_count()))});
     if (name == "stress") frame.cells.push_back({name, 6, rounded(need_stress())});
     if (name == "strain") frame.cells.push_back({name, 6, rounded(cell_strain(s.model(), state.q))});
     if (name == "von_mises") frame.cells.push_back({name, 1, von_mises_of(need_stress())});

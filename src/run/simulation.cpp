@@ -15,6 +15,7 @@
 #include "run/build_model.hpp"
 #include "run/facing.hpp"
 #include "run/torn_ties.hpp"
+#include "schemes/imposed_motion.hpp"
 #include "solid/smallest_cell.hpp"
 
 namespace carom {
@@ -57,11 +58,13 @@ Model make_model(const Case& given, std::shared_ptr<const Mesh> mesh, std::optio
   Model model = build_model(given, std::move(mesh));
   for (ContactDefinition& contact : model.contacts)
     if (ContactLaw* law = law_of(contact)) law->has_multipliers = any_stage(given, has_multipliers);
+  for (const CohesiveZone& zone : model.cohesive) notes.insert(notes.end(), zone.notes.begin(), zone.notes.end());
   taken = take_over(given, model);
   const auto choose = [&](std::vector<std::string> (*choice)(Model&)) {
     const auto more = at_section(contacts_place(given), "contact", [&] { return choice(model); });
     notes.insert(notes.end(), more.begin(), more.end());
   };
+  choose(choose_cohesive_stiffness);
   if (any_stage(given, needs_stiffness)) choose(choose_stiffness);
   if (any_stage(given, ties_by_springs)) choose(choose_tie_stiffness);
   return model;
@@ -103,6 +106,13 @@ Simulation::Simulation(Case given)
   refuse_torn_ties(case_, contact_, first.q, first.v);
   const StageContext context{case_, *mesh_, model_, solid_, contact_};
   stages_.push_back(std::make_unique<Stage>(context, case_.scheme, case_.time, 0.0, later_velocities(0)));
+  if (!model_.equations.empty() && stages_[0]->settings().kind != SchemeKind::statics) {
+    std::vector<double> v = first.v;
+    const Supports& supports = stages_[0]->system().supports;
+    for (const PrescribedDof& p : supports.prescribed())
+      v[static_cast<std::size_t>(p.dof)] = imposed_velocity(supports, p, 0.0);
+    refuse_broken_equations(case_, contact_, v);
+  }
   for (const CaseStage& stage : case_.stages) {
     stages_.push_back(std::make_unique<Stage>(context, stage.scheme, stage.time, stages_.back()->end(),
                                               later_velocities(stages_.size())));

@@ -194,6 +194,12 @@ void Stage::refuse_massless_contact() const {
 void Stage::refuse_history() const {
   const SchemeTraits& scheme = traits(settings_.kind);
   if (scheme.takes_history) return;
+  if (!context_.model.cohesive.empty())
+    throw CaseError(scheme_.kind.where, "scheme.kind",
+                    fmt::format("\"{}\" with \"{}\", a tie that tears, and so dissipates", scheme.name,
+                                context_.model.cohesive.front().name),
+                    "a tie without strength with this scheme, whose forces are those of a stored energy",
+                    "Take a scheme of another kind, as \"generalized_alpha\" or \"bathe\", or leave the strength out.");
   for (const Part& part : context_.model.parts) {
     if (!part.remembers()) continue;
     const std::string what = part.viscosity.is_any() ? "the viscosity" : "the law \"" + part.material.law->name + '"';

@@ -19,12 +19,11 @@ const Location& place_of(const Case& given, const ConstraintRows& bonds, std::si
                              : given.contacts[static_cast<std::size_t>(bonds.source[r])].where;
 }
 
-void refuse(const Case& given, const ContactGeometry& contact, std::span<const double> x, const std::string& what,
-            const std::string& remedy) {
+void refuse(const Case& given, const ContactGeometry& contact, const ConstraintRows& bonds, std::span<const double> x,
+            const std::string& what, const std::string& remedy) {
   constexpr double rounding = 1e-9;
   double largest = 0.0;
   for (const double entry : x) largest = std::max(largest, std::abs(entry));
-  const ConstraintRows& bonds = contact.bonds();
   for (std::size_t r = 0; r < bonds.size(); ++r) {
     const double parting = norm(bonds.relative(r, x));
     if (parting <= rounding * largest) continue;
@@ -43,9 +42,14 @@ void refuse(const Case& given, const ContactGeometry& contact, std::span<const d
 
 void refuse_torn_ties(const Case& given, const ContactGeometry& contact, std::span<const double> displacement,
                       std::span<const double> velocity) {
-  refuse(given, contact, displacement, "displacements", "Give the nodes of both parts the same motion.");
-  refuse(given, contact, velocity, "velocities",
+  refuse(given, contact, contact.bonds(), displacement, "displacements",
+         "Give the nodes of both parts the same motion.");
+  refuse(given, contact, contact.bonds(), velocity, "velocities",
          "Give both parts the same velocity. Bodies that come together first and stay so are contact, not a tie.");
+}
+
+void refuse_broken_equations(const Case& given, const ContactGeometry& contact, std::span<const double> velocity) {
+  refuse(given, contact, contact.equations(), velocity, "velocities, those that supports impose among them,", "");
 }
 
 void refuse_floating_ties(const Case& given, const ContactGeometry& contact, EnforcementKind enforcement,

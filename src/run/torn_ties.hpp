@@ -15,6 +15,9 @@ namespace carom {
 void refuse_torn_ties(const Case& given, const ContactGeometry& contact, std::span<const double> displacement,
                       std::span<const double> velocity);
 
+/// The same of linear equations, the velocity being that of the first stage, with what its supports impose.
+void refuse_broken_equations(const Case& given, const ContactGeometry& contact, std::span<const double> velocity);
+
 /// CaseError where a tie joins two bodies that no support holds, which statics does not find the place of; and where a
 /// tie alone is to hold one by multipliers. `free_bodies`: nodes of the bodies that can move (FreeModes), of all
 /// `nodes`.

@@ -53,13 +53,14 @@ bool NonsmoothGeneralizedAlpha::solve_jump(const Forces& forces) {
   return true;
 }
 
-/// Resultant of p / h and of what the supports answer to it.
+/// Resultant of p / h and of what the supports and the bonds answer to it.
 Momentum NonsmoothGeneralizedAlpha::jump_resultant(const State& end) {
   system_.mass.apply(jump_, mean_inertia_);
   const MomentArms arms(system_, end.q);
+  const bool has_bonds = bonds_->any();  // whose forces at the end are not those of the jump alone
   const auto sums = parallel_sums<6>(jump_.size(), [&](std::size_t i, std::array<double, 6>& s) {
-    const bool is_prescribed = system_.supports.is_prescribed(static_cast<Index>(i));
-    add_with_moment(arms.at(i / 3), i % 3, is_prescribed ? mean_inertia_[i] : end.forces.contact[i], s.data());
+    const bool is_answered = has_bonds || system_.supports.is_prescribed(static_cast<Index>(i));
+    add_with_moment(arms.at(i / 3), i % 3, is_answered ? mean_inertia_[i] : end.forces.contact[i], s.data());
   });
   return momentum_from(sums.data());
 }

@@ -30,13 +30,17 @@ NodeCells cells_of_nodes(const SolidCells& solid) {
 
 }  // namespace
 
-CsrMatrix node_graph(const SolidCells& solid, std::span<const Spring> springs) {
+CsrMatrix node_graph(const SolidCells& solid, std::span<const Spring> springs,
+                     std::span<const std::vector<Index>> links) {
   const NodeCells incident = cells_of_nodes(solid);
   std::multimap<Index, Index> tied;
   for (const Spring& spring : springs) {
     tied.emplace(spring.nodes[0], spring.nodes[1]);
     tied.emplace(spring.nodes[1], spring.nodes[0]);
   }
+  for (const std::vector<Index>& nodes : links)
+    for (const Index a : nodes)
+      for (const Index b : nodes) tied.emplace(a, b);
   const std::size_t node_count = solid.mesh->node_count();
   CsrMatrix graph;
   graph.size = static_cast<Index>(node_count);

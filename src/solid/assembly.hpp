@@ -8,8 +8,10 @@
 
 namespace carom {
 
-/// Empty matrix (zero values) whose entries are the pairs of nodes that share a solid cell or a spring.
-CsrMatrix node_graph(const SolidCells& solid, std::span<const Spring> springs = {});
+/// Empty matrix (zero values) whose entries are the pairs of nodes that share a solid cell, a spring or one of
+/// the links.
+CsrMatrix node_graph(const SolidCells& solid, std::span<const Spring> springs = {},
+                     std::span<const std::vector<Index>> links = {});
 
 /// The same graph with 3 x 3 entries per pair of nodes; row 3 n + i is component i of node n.
 CsrMatrix dof_graph(const CsrMatrix& nodes);

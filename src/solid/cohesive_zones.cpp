@@ -50,8 +50,7 @@ Vec3 CohesiveZones::parted(const CohesiveRow& row, std::span<const double> x) {
 Vec3 CohesiveZones::normal(std::size_t r, std::span<const double> u) const {
   const CohesiveRow& row = *rows_[r].row;
   std::array<Vec3, 4> x{};
-  for (int a = 0; a < row.facet.size; ++a)
-    x[at(a)] = add(X_[at(row.facet[at(a)])], value_of(u, row.facet[at(a)]));
+  for (int a = 0; a < row.facet.size; ++a) x[at(a)] = add(X_[at(row.facet[at(a)])], value_of(u, row.facet[at(a)]));
   const Vec3 n = normal_of(x, row.facet.size);
   const double size = norm(n);
   return size > 0.0 ? scaled(n, rows_[r].side / size) : row.normal;
@@ -112,10 +111,7 @@ void CohesiveZones::add_force(std::span<const double> u, const PointStep& step, 
     for_each_weight(row, [&](Index n, double weight) {
       for (std::size_t c = 0; c < 3; ++c) f[3 * at(n) + c] += weight * t[c];
     });
-    if (energies != nullptr) {
-      energies->strain += 0.5 * dot(t, a.w);
-      energies->fracture += a.dissipated * row.area;
-    }
+    if (energies != nullptr) energies->strain += 0.5 * dot(t, a.w);
     if (!end.empty()) end[first_ + 2 * r] = a.damage, end[first_ + 2 * r + 1] = a.dissipated;
   }
 }
@@ -161,7 +157,8 @@ double CohesiveZones::largest_change(std::span<const double> u_0, std::span<cons
   double most = 0.0;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const CohesiveLaw& of = law(r);
-    const double full = std::min(2.0 * of.normal_energy / of.normal_strength, 2.0 * of.shear_energy / of.shear_strength);
+    const double full =
+        std::min(2.0 * of.normal_energy / of.normal_strength, 2.0 * of.shear_energy / of.shear_strength);
     most = std::max(most, norm(subtract(parted(*rows_[r].row, u_1), parted(*rows_[r].row, u_0))) / full);
   }
   return most;
@@ -171,6 +168,12 @@ Vec3 CohesiveZones::force_on_slave(std::size_t r, std::span<const double> u, std
   const std::span<const double> state = own(r, history);
   const double intact = state.empty() ? 1.0 : 1.0 - state[0];
   return scaled(parted(*rows_[r].row, u), -intact * law(r).stiffness * rows_[r].row->area);
+}
+
+double CohesiveZones::dissipated(std::span<const double> history) const {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < rows_.size() && !history.empty(); ++r) sum += own(r, history)[1] * rows_[r].row->area;
+  return sum;
 }
 
 std::vector<double> CohesiveZones::nodal_damage(std::span<const double> history, std::size_t nodes) const {

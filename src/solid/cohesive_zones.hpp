@@ -16,17 +16,18 @@ namespace carom {
 ///   lambda = |w - <-w_n> n|
 /// (pressing apart counts, pressing together does not) by
 ///   d = max(d before, lambda_f (lambda - lambda_0) / (lambda (lambda_f - lambda_0))),
-/// so that |t| falls linearly from the strength at lambda_0 to zero at lambda_f. With the share c = <w_n> / lambda of the
-/// normal, s = w_T / lambda of the shear, strengths S_n, S_s and energies per area G_n, G_s,
+/// so that |t| falls linearly from the strength at lambda_0 to zero at lambda_f. With the share c = <w_n> / lambda of
+/// the normal, s = w_T / lambda of the shear, strengths S_n, S_s and energies per area G_n, G_s,
 ///   lambda_0 = 1 / (k ((c / S_n)^2 + (s / S_s)^2)^1/2)    (quadratic criterion of stress),
 ///   lambda_f = 2 G / (k lambda_0),  1 / G = c^2 / G_n + s^2 / G_s    (linear criterion of energies)
 /// (Camanho and Davila, NASA/TM-2002-211737, eqs. 6 to 21 with the power law's exponent 1). A separation that keeps its
-/// direction dissipates G per area, whatever the steps. Unloading goes straight back to zero. The traction lies along w:
-/// it has neither resultant nor moment. The normal is that of the master's facet where it stands.
+/// direction dissipates G per area, whatever the steps. Unloading goes straight back to zero. The traction lies along
+/// w: it has neither resultant nor moment. The normal is that of the master's facet where it stands.
 ///
 /// What is stored, 1/2 (1 - d) k |w|^2 A, feeds `strain`; what has been dissipated,
-///   A x integral of 1/2 k |w|^2 dd = A x 1/2 k lambda_0 lambda_f / (lambda_f - lambda_0) x lambda_0 x change of lambda,
-/// `fracture`. Two numbers of history per row: d and the energy dissipated.
+///   A x integral of 1/2 k |w|^2 dd = A x 1/2 k lambda_0 lambda_f / (lambda_f - lambda_0) x lambda_0 x change of
+///   lambda,
+/// `fracture`. Two numbers of history per row: d and what has been dissipated per area.
 class CohesiveZones {
  public:
   explicit CohesiveZones(std::vector<CohesiveZone> zones, std::span<const Vec3> coordinates);
@@ -39,6 +40,8 @@ class CohesiveZones {
   /// Adds forces and energies at u; the history at the end goes to `end` unless it is empty.
   void add_force(std::span<const double> u, const PointStep& step, std::span<double> f, SolidEnergies* energies,
                  std::span<double> end) const;
+  /// What all rows have dissipated.
+  double dissipated(std::span<const double> history) const;
   /// Adds the action of the tangent, the symmetric part of it while damage grows.
   void add_tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y,
                           const PointStep& step) const;
@@ -66,9 +69,9 @@ class CohesiveZones {
   };
   /// A row at a displacement.
   struct Answer {
-    Vec3 w{}, opening{};          ///< what the sides part by, and that without pressing
+    Vec3 w{}, opening{};                    ///< what the sides part by, and that without pressing
     double damage = 0.0, dissipated = 0.0;  ///< per area
-    double slope = 0.0;           ///< of the damage in lambda, while it grows; over lambda
+    double slope = 0.0;                     ///< of the damage in lambda, while it grows; over lambda
   };
   struct Mode {
     double lambda = 0.0, start = 0.0, full = 0.0;  ///< lambda, lambda_0, lambda_f

@@ -48,6 +48,7 @@ struct Solid::Impl {
         rigid_bodies(model.rigid_bodies),
         point_masses(model.point_masses),
         springs(model.springs),
+        cohesive(model.cohesive, model.mesh->coordinates),
         volumes(solid.cells.size()),
         lengths(solid.cells.size()),
         turning_bodies(model.turning_bodies, model.turning_bodies.empty() ? 0.0 : largest_frequency()) {
@@ -60,6 +61,7 @@ struct Solid::Impl {
       }
     });
     bound_damping();
+    cohesive.place_history(solid.history_size());
   }
 
   std::vector<Index> nodes_of_loads() const {
@@ -75,14 +77,15 @@ struct Solid::Impl {
     return nodes;
   }
 
-  /// What springs and turning bodies add to the tangent.
-  CsrMatrix tangent_of_ties(std::span<const double> u) const {
+  /// What springs, cohesive zones and turning bodies add to the tangent.
+  CsrMatrix tangent_of_ties(std::span<const double> u, const PointStep& step) const {
     SolidCells no_cells;
     no_cells.mesh = solid.mesh;
-    CsrMatrix graph = node_graph(no_cells, springs.all());
+    CsrMatrix graph = node_graph(no_cells, springs.all(), cohesive.links());
     turning_bodies.add_rows(graph);
     CsrMatrix ties = dof_graph(graph);
     springs.add_tangent(ties);
+    cohesive.add_tangent(u, step, ties);
     turning_bodies.add_tangent(u, ties);
     return ties;
   }
@@ -207,6 +210,7 @@ struct Solid::Impl {
   std::vector<RigidBody> rigid_bodies;
   std::vector<PointMass> point_masses;
   Springs springs;
+  CohesiveZones cohesive;
   std::vector<double> volumes, lengths;
   std::vector<double> bulk_damping, hourglass_damping;  ///< empty without viscosity
   TurningBodies turning_bodies;
@@ -227,7 +231,7 @@ Isa Solid::isa() const {
 }
 bool Solid::is_linear() const {
   const auto& blocks = impl_->solid.blocks;
-  return impl_->turning_bodies.empty() &&
+  return impl_->turning_bodies.empty() && impl_->cohesive.empty() &&
          std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.is_linear; });
 }
 bool Solid::has_hourglass() const {
@@ -236,6 +240,9 @@ bool Solid::has_hourglass() const {
 }
 const std::vector<Spring>& Solid::springs() const {
   return impl_->springs.all();
+}
+const CohesiveZones& Solid::cohesive() const {
+  return impl_->cohesive;
 }
 const std::vector<CellRef>& Solid::cells() const {
   return impl_->solid.cells;
@@ -251,7 +258,7 @@ const std::vector<double>& Solid::cell_lengths() const {
 }
 
 std::size_t Solid::history_size() const {
-  return impl_->solid.history_size();
+  return impl_->solid.history_size() + impl_->cohesive.history_size();
 }
 std::vector<double> Solid::initial_history() const {
   return std::vector<double>(history_size(), 0.0);
@@ -268,6 +275,7 @@ SolidEnergies Solid::evaluate(std::span<const double> u, const PointStep& step, 
   for (const SolidEnergies& energies : partial) total.add(energies);
   impl_->springs.add_force(1.0, u, f);
   impl_->turning_bodies.add_internal_force(u, f);
+  impl_->cohesive.add_force(u, step, f, &total, end);
   total.strain = total.strain + impl_->springs.energy(u) + impl_->turning_bodies.energy(u);
   return total;
 }
@@ -277,6 +285,7 @@ void Solid::internal_force(std::span<const double> u, std::span<double> f, const
     block.kernels.add_internal_force(impl_->batches(chunk, step), block.law(), u.data(), sum, nullptr);
   });
   impl_->springs.add_force(1.0, u, f);
+  impl_->cohesive.add_force(u, step, f, nullptr, {});
   impl_->turning_bodies.add_internal_force(u, f);
 }
 
@@ -305,6 +314,7 @@ void Solid::tangent_action(std::span<const double> u, std::span<const double> x,
     block.kernels.add_tangent_action(impl_->batches(chunk, step), block.law(), u.data(), x.data(), sum);
   });
   impl_->springs.add_force(1.0, x, y);
+  impl_->cohesive.add_tangent_action(u, x, y, step);
   impl_->turning_bodies.add_tangent_action(u, x, y);
 }
 
@@ -319,7 +329,7 @@ void Solid::discrete_gradient_force(std::span<const double> u_0, std::span<const
 }
 
 CsrMatrix Solid::tangent(std::span<const double> u, const PointStep& step) const {
-  CsrMatrix graph = node_graph(impl_->solid, impl_->springs.all());
+  CsrMatrix graph = node_graph(impl_->solid, impl_->springs.all(), impl_->cohesive.links());
   impl_->turning_bodies.add_rows(graph);
   CsrMatrix K = dof_graph(graph);
   impl_->solid.for_each_stiffness(u, step, [&](std::size_t c, const Block&, std::span<const double> cell) {
@@ -333,6 +343,7 @@ CsrMatrix Solid::tangent(std::span<const double> u, const PointStep& step) const
         }
   });
   impl_->springs.add_tangent(K);
+  impl_->cohesive.add_tangent(u, step, K);
   impl_->turning_bodies.add_tangent(u, K);
   return K;
 }
@@ -340,14 +351,14 @@ CsrMatrix Solid::tangent(std::span<const double> u, const PointStep& step) const
 void Solid::project_tangent(std::span<const double> u, const PointStep& step, const Interpolation& P,
                             std::span<const std::uint8_t> fixed, BlockMatrix& coarse, BlockMatrix* fine) const {
   if (fine != nullptr && fine->column.empty()) {
-    CsrMatrix graph = node_graph(impl_->solid, impl_->springs.all());
+    CsrMatrix graph = node_graph(impl_->solid, impl_->springs.all(), impl_->cohesive.links());
     impl_->turning_bodies.add_rows(graph);
     fine->row_begin = std::move(graph.row_begin);
     fine->column = std::move(graph.column);
   }
   project_stiffness(impl_->solid, u, step, P, fixed, coarse, fine);
-  if (impl_->springs.empty() && impl_->turning_bodies.empty()) return;
-  CsrMatrix ties = impl_->tangent_of_ties(u);
+  if (impl_->springs.empty() && impl_->turning_bodies.empty() && impl_->cohesive.empty()) return;
+  CsrMatrix ties = impl_->tangent_of_ties(u, step);
   if (fine != nullptr) {
     const BlockMatrix blocks = by_points(ties);
     for_each_block(blocks, [&](Index n, Index m, const double* block) {
@@ -377,7 +388,9 @@ double Solid::largest_change(std::span<const double> u_0, std::span<const double
     }
     return std::sqrt(most) / impl_->lengths[k];
   };
-  return parallel_max(cells().size(), impl_->turning_bodies.largest_change(u_0, u_1), of_cell);
+  const double of_others =
+      std::max(impl_->turning_bodies.largest_change(u_0, u_1), impl_->cohesive.largest_change(u_0, u_1));
+  return parallel_max(cells().size(), of_others, of_cell);
 }
 
 std::vector<double> Solid::tangent_diagonal(std::span<const double> u, const PointStep& step) const {
@@ -388,6 +401,7 @@ std::vector<double> Solid::tangent_diagonal(std::span<const double> u, const Poi
     for (std::size_t r = 0; r < dofs; ++r) diagonal[3 * at(nodes[r / 3]) + r % 3] += cell[r * (dofs + 1)];
   });
   impl_->springs.add_tangent_diagonal(diagonal);
+  impl_->cohesive.add_tangent_diagonal(u, step, diagonal);
   impl_->turning_bodies.add_tangent_diagonal(u, diagonal);
   return diagonal;
 }

@@ -12,6 +12,7 @@
 #include "linalg/csr_matrix.hpp"
 #include "math/voigt.hpp"
 #include "model/model.hpp"
+#include "solid/cohesive_zones.hpp"
 #include "solid/evaluation.hpp"
 #include "solid/mass.hpp"
 #include "solid/rotation.hpp"
@@ -31,10 +32,11 @@ bool supported(Isa isa);
 /// Bodies of the elements of solid/element_table.hpp. Dof 3 n + c is component c of node n whatever the cells; dof
 /// vectors have 3 x node_count entries. Plane cells have no forces and no stiffness in z, bars none across their axis
 /// but for the initial-stress term of finite strain. Parts whose law measures small strain are so, the others total
-/// Lagrangian. All cells of all parts take part; interface cells of contact do not. Springs and point masses are part
-/// of all sums. Rigid bodies that turn stand among the nodes: their directors' forces, stiffness, energy and mass are
-/// part of all sums here, and make the system nonlinear; the frequency of their directors is TurningBody::rigidity
-/// times the largest bound of the cells'.
+/// Lagrangian. All cells of all parts take part; interface cells of contact do not. Springs, point masses and
+/// ties that tear (cohesive_zones.hpp) are part of all sums, and the latter make the system nonlinear. Rigid bodies
+/// that turn stand among the nodes: their directors' forces, stiffness, energy and mass are part of all sums here, and
+/// make the system nonlinear; the frequency of their directors is TurningBody::rigidity times the largest bound of the
+/// cells'.
 class Solid {
  public:
   explicit Solid(const Model& model, Isa isa = chosen_isa());
@@ -144,6 +146,7 @@ class Solid {
   const std::vector<Index>& loaded_nodes() const;
 
   const std::vector<Spring>& springs() const;
+  const CohesiveZones& cohesive() const;
 
   /// The solid cells; all per-cell results come in this order.
   const std::vector<CellRef>& cells() const;

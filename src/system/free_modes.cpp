@@ -53,6 +53,9 @@ void FreeModes::find_bodies() {
     const auto a = static_cast<std::size_t>(spring.nodes[0]), b = static_cast<std::size_t>(spring.nodes[1]);
     if (is_used[a] && is_used[b]) parent[root(parent, a)] = root(parent, b);  // else it is the ground
   }
+  for (const std::vector<Index>& nodes : solid.cohesive().links())
+    for (const Index n : nodes)
+      parent[root(parent, static_cast<std::size_t>(n))] = root(parent, static_cast<std::size_t>(nodes[0]));
   body_of_.assign(parent.size(), -1);
   for (std::size_t n = 0; n < parent.size(); ++n) {
     if (!is_used[n]) continue;

@@ -12,10 +12,10 @@
 
 namespace carom {
 
-/// The kernel of K on the free dofs. A body is a set of cells joined by nodes or springs (a free rigid body: its node);
-/// its six candidates are the translations and the turns about its centre, each with a largest displacement of 1, and
-/// its modes are the combinations that neither K(0) nor a prescribed dof resists (eigenvalue below 1e-9 of the
-/// largest).
+/// The kernel of K on the free dofs. A body is a set of cells joined by nodes, springs or ties that tear (a free rigid
+/// body: its node); its six candidates are the translations and the turns about its centre, each with a largest
+/// displacement of 1, and its modes are the combinations that neither K(0) nor a prescribed dof resists (eigenvalue
+/// below 1e-9 of the largest).
 class FreeModes {
  public:
   /// Costs six actions of K. Allocates.

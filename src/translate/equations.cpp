@@ -33,13 +33,14 @@ void refuse_other_order(const Translation& t, const DeckCursor& at, const std::s
     const Index nearest =
         *std::ranges::min_element(b, {}, [&](Index n) { return norm(subtract(X[carom::at(n)], place)); });
     if (nearest != b[k])
-      at.fail(fmt::format("the sets {} and {}, whose nodes do not lie alike in the order of their numbers", first, group),
-              "sets that are shifted copies of each other", "Write an equation for each pair of nodes.");
+      at.fail(
+          fmt::format("the sets {} and {}, whose nodes do not lie alike in the order of their numbers", first, group),
+          "sets that are shifted copies of each other", "Write an equation for each pair of nodes.");
   }
 }
 
-/// The number of terms on a line of its own; then node or set, degree of freedom and coefficient of each term, four on a
-/// line (Abaqus, Keywords Guide; CalculiX, *EQUATION).
+/// The number of terms on a line of its own; then node or set, degree of freedom and coefficient of each term, four on
+/// a line (Abaqus, Keywords Guide; CalculiX, *EQUATION).
 void translate_equation(Translation& t, const Statement& s) {
   DeckCursor at(*s.keyword);
   while (at.next_line()) {

@@ -40,10 +40,10 @@ class DeckTest(FolderTest):
     def test_losses_are_accepted_by_name(self):
         deck = pathlib.Path(__file__).resolve().parent.parent / "data/decks/two_bars.inp"
         lossy = pathlib.Path("lossy.inp")
-        lossy.write_text(deck.read_text(encoding="utf-8").replace("*Step", "*EQUATION\n2\n1, 1, 1.0, 2, 1, -1.0\n*Step", 1), encoding="utf-8")
+        lossy.write_text(deck.read_text(encoding="utf-8").replace("*Step", "*COUPLING\n1\n*Step", 1), encoding="utf-8")
         with self.assertRaises(carom.CaseError):
             carom.load(lossy)
-        self.assertTrue(any("EQUATION" in note for note in carom.load(lossy, accept=["*EQUATION"]).check().notes))
+        self.assertTrue(any("COUPLING" in note for note in carom.load(lossy, accept=["*COUPLING"]).check().notes))
 
 
 class BitsTest(FolderTest):

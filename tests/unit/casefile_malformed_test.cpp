@@ -97,7 +97,7 @@ const std::vector<Malformed> malformed{
      "c.toml:9:1: materials.steel.Rho: found an unknown key; expected one of law, E, nu, rho. Did you mean rho?"},
     {"[[contact]]",
      "[[contacts]]",
-     "c.toml:22:3: contacts: found an unknown key; expected one of title, units, mesh, materials, part, point_mass, spring, support, load, initial_state, initial, contact, functions, scheme, time, stage, solver, guards, output, probe, check, exact. Did you mean contact?"},
+     "c.toml:22:3: contacts: found an unknown key; expected one of title, units, mesh, materials, part, point_mass, spring, equation, support, load, initial_state, initial, contact, functions, scheme, time, stage, solver, guards, output, probe, check, exact. Did you mean contact?"},
     {"stiffness = 1e6",
      "stifness = 1e6",
      "c.toml:26:1: contact[0].stifness: found an unknown key; expected one of name, kind, moment_point, group, stiffness, stiffness_factor, tangential_stiffness, friction, restitution, initial_penetration, measure, bar_radius, velocity, function, mass, inertia, products_of_inertia, centre_of_mass, rigidity, angular_velocity, point, normal. Did you mean stiffness?"},

@@ -68,7 +68,7 @@ TEST(Casefile, DefaultsOfAMinimalCase) {
   EXPECT_FALSE(c.time.fixed);
   EXPECT_EQ(c.solver.kind, SolverKind::automatic);
   EXPECT_EQ(c.solver.max_contact_iterations, 50);
-  ASSERT_EQ(c.output.fields.size(), 11U);
+  ASSERT_EQ(c.output.fields.size(), 12U);
   EXPECT_EQ(*c.output.fields[2], "stress");
   EXPECT_EQ(c.output.curves_every, 1);
   EXPECT_FALSE(c.exact.has_value());
@@ -194,6 +194,10 @@ TEST(Casefile, PointMassesAndSprings) {
   EXPECT_EQ(**c.springs[0].stiffness, (Vec3{1e3, 0.0, 2e3}));
   EXPECT_EQ(**c.springs[1].to, "FOOT");
   EXPECT_EQ(c.springs[1].axial, 5e3);
+  ASSERT_EQ(c.equations.size(), 1U);
+  ASSERT_EQ(c.equations[0].terms.size(), 2U);
+  EXPECT_EQ(*c.equations[0].terms[1].dof, "z");
+  EXPECT_EQ(*c.equations[0].terms[1].coefficient, -0.5);
 }
 
 TEST(Casefile, ContactsAndFunctions) {

@@ -233,6 +233,59 @@ TEST(Resume, KeepsWhatPlasticBodiesRemember) {
   }
 }
 
+// Two blocks that part, by a tie that is half torn as the run is stopped, beside an equation.
+TEST(Resume, KeepsWhatTiesAndEquationsRemember) {
+  const std::string blocks = R"(units = "SI"
+[[mesh.block]]
+size = [1.0, 1.0, 1.0]
+divisions = [1, 2, 2]
+groups = { cells = "LEFT", xmax = "LFACE", xmin = "START" }
+[[mesh.block]]
+origin = [1.0, 0.0, 0.0]
+size = [1.0, 1.0, 1.0]
+divisions = [1, 3, 3]
+groups = { cells = "RIGHT", xmin = "RFACE", xmax = "END" }
+points = { CORNER = [2.0, 1.0, 1.0] }
+[materials.any]
+law = "neo_hookean"
+E = 1.0
+nu = 0.3
+rho = 1.0
+[[part]]
+name = "left"
+cells = "LEFT"
+material = "any"
+[[part]]
+name = "right"
+cells = "RIGHT"
+material = "any"
+[[initial]]
+part = "right"
+velocity = [0.02, 0.01, 0.0]
+[[equation]]
+terms = [{ nodes = "START", dof = "x", coefficient = 1.0 }, { nodes = "CORNER", dof = "z", coefficient = -0.3 }]
+[[contact]]
+name = "glue"
+kind = "tie"
+group = "RFACE"
+master = "LFACE"
+normal_strength = 5e-3
+normal_fracture_energy = 5e-5
+friction = 0.3
+)";
+  for (const Pair& pair : {Pair{SchemeKind::newmark, EnforcementKind::penalty},
+                           Pair{SchemeKind::central_differences, EnforcementKind::penalty},
+                           Pair{SchemeKind::moreau_jean, EnforcementKind::impulse}}) {
+    SCOPED_TRACE(testing::PrintToString(pair));
+    const Runs runs(blocks + stepping(pair.scheme, pair.enforcement));
+    const ExitCode code = runs.run("whole");
+    ASSERT_NE(code, ExitCode::run_failed) << read_text(runs.results("whole") / "summary.json");
+    EXPECT_EQ(runs.run_in_pieces("pieces"), code);
+    EXPECT_GT(last_row(read_text(runs.results("pieces") / "energy.csv")).at("fracture"), 0.0);
+    expect_equal_folders(runs.results("whole"), runs.results("pieces"));
+  }
+}
+
 TEST(Resume, GoesOnThroughStages) {
   const Runs runs(pressed("neo_hookean", false, stepping(SchemeKind::statics, EnforcementKind::penalty) + R"([[stage]]
 kind = "cd_lagrange"

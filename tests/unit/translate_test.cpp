@@ -270,6 +270,37 @@ TEST(Translate, Ties) {
   EXPECT_EQ(spread.distance, 0.2);
 }
 
+TEST(Translate, Equations) {
+  const std::string sets = "*NSET, NSET=LEFT\n11, 14\n*NSET, NSET=RIGHT\n12, 13\n";
+  const Case made = case_from(replaced(
+      good_deck, "*BOUNDARY",
+      sets + "*EQUATION\n2\nRIGHT, 1, 1., LEFT, 1, -1.\n5\n15, 2, 1., 16, 2, -0.5, 17, 2, -0.5, 18, 3, 2.,\n11, 1, "
+             "4.\n*BOUNDARY"));
+  ASSERT_EQ(made.equations.size(), 2U);
+  ASSERT_EQ(made.equations[0].terms.size(), 2U);
+  EXPECT_EQ(*made.equations[0].terms[1].nodes, "LEFT");
+  EXPECT_EQ(*made.equations[0].terms[1].dof, "x");
+  EXPECT_EQ(*made.equations[0].terms[1].coefficient, -1.0);
+  ASSERT_EQ(made.equations[1].terms.size(), 5U);
+  EXPECT_EQ(*made.equations[1].terms[3].dof, "z");
+  EXPECT_EQ(*made.equations[1].terms[4].nodes, "11");
+  EXPECT_EQ(*made.equations[1].terms[4].coefficient, 4.0);
+}
+
+TEST(Translate, EquationsThatCannotBeAreRefused) {
+  const auto with = [](const std::string& equation) {
+    return replaced(good_deck, "*BOUNDARY", "*EQUATION\n" + equation + "*BOUNDARY");
+  };
+  for (const char* bad : {"2\n15, 1, 1.\n", "1\n15, 4, 1.\n", "0\n", "2\n15, 1, 1., NOWHERE, 1, 1.\n"})
+    EXPECT_THROW(case_from(with(bad)), CaseError) << bad;
+  // By number 13 belongs to 11, by place 16 does.
+  const std::string sets = "*NSET, NSET=A\n11, 14\n*NSET, NSET=B\n13, 16\n";
+  EXPECT_THROW(case_from(replaced(good_deck, "*BOUNDARY", sets + "*EQUATION\n2\nA, 1, 1., B, 1, 1.\n*BOUNDARY")),
+               CaseError);
+  EXPECT_THROW(case_from(replaced(good_deck, "*CLOAD, AMPLITUDE=A", "*EQUATION\n2\n15, 1, 1., 16, 1, 1.\n*CLOAD")),
+               CaseError);
+}
+
 TEST(Translate, NamedSupports) {
   const Case made = case_from(replaced(good_deck, "BASE, 1, 3", "BASE, YSYMM\nFALLING, 4, 6\n5, PINNED"));
   ASSERT_EQ(made.supports.size(), 4U);
@@ -287,17 +318,17 @@ TEST(Translate, GravityPressureAndMasses) {
 }
 
 TEST(Translate, WhatChangesThePhysicsIsRefusedAllAtOnceUnlessAccepted) {
-  const std::string deck = replaced(good_deck, "*BOUNDARY", "*EQUATION\n1\n*FANCY STUFF\n*BOUNDARY");
+  const std::string deck = replaced(good_deck, "*BOUNDARY", "*COUPLING\n1\n*FANCY STUFF\n*BOUNDARY");
   try {
     translated(deck);
     FAIL();
   } catch (const CaseError& error) {
     const std::string what = error.what();
-    EXPECT_NE(what.find("x.inp:39: *EQUATION"), std::string::npos) << what;
+    EXPECT_NE(what.find("x.inp:39: *COUPLING"), std::string::npos) << what;
     EXPECT_NE(what.find("x.inp:41: *FANCY STUFF: an unknown keyword"), std::string::npos) << what;
-    EXPECT_NE(what.find("--accept \"EQUATION,FANCY STUFF\""), std::string::npos) << what;
+    EXPECT_NE(what.find("--accept \"COUPLING,FANCY STUFF\""), std::string::npos) << what;
   }
-  EXPECT_TRUE(has_note(translated(deck, {"equation", "FancyStuff"}), "*EQUATION: not carried out"));
+  EXPECT_TRUE(has_note(translated(deck, {"coupling", "FancyStuff"}), "*COUPLING: not carried out"));
 }
 
 TEST(Translate, UnknownParametersAreRefusedAndThoseOfOutputNoted) {

@@ -1,0 +1,66 @@
+// [[equation]] of a case: what it makes, what is refused, and runs that go on.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "run_fixture.hpp"
+
+namespace carom::run_equation_test {
+namespace {
+
+using namespace test;
+
+const std::string stepped = R"([scheme]
+kind = "newmark"
+[time]
+end = 1.0
+step = 0.1
+)";
+
+std::string equation(const std::string& terms) {
+  return "[[equation]]\nterms = [" + terms + "]\n";
+}
+std::string term(const std::string& nodes, const std::string& dof, double coefficient) {
+  return "{ nodes = \"" + nodes + "\", dof = \"" + dof + "\", coefficient = " + std::to_string(coefficient) + " }";
+}
+
+// Every node of the head hangs on the one of the foot that lies under it.
+TEST(CaseEquation, OfGroupsPairsNodesByTheirPlaces) {
+  const Case given = parse_case(
+      case_of_block(equation(term("HEAD", "z", 2.0) + ", " + term("FOOT", "z", -1.0)) + stepped), "case.toml");
+  const Simulation s(given);
+  ASSERT_EQ(s.model().equations.size(), 9U);
+  for (const LinearEquation& made : s.model().equations) {
+    ASSERT_EQ(made.terms.size(), 2U);
+    const Vec3 &a = s.mesh().coordinates[static_cast<std::size_t>(made.terms[0].node)],
+               &b = s.mesh().coordinates[static_cast<std::size_t>(made.terms[1].node)];
+    EXPECT_EQ(a[0], b[0]);
+    EXPECT_EQ(a[1], b[1]);
+    EXPECT_EQ(a[2], 3.0);
+    EXPECT_EQ(made.terms[0].component, 2);
+    EXPECT_EQ(made.terms[1].coefficient, -1.0);
+  }
+}
+
+TEST(CaseEquation, ThatCannotBeIsRefused) {
+  const auto what = [](const std::string& text) {
+    return std::string(case_error(case_of_block(text + stepped)).what());
+  };
+  const std::string support = "[[support]]\nnodes = \"HEAD\"\nblocked = [\"z\"]\n";
+  const std::string own = equation(term("HEAD", "z", 1.0) + ", " + term("FOOT", "z", -1.0));
+  EXPECT_NE(what(support + own).find("imposes"), std::string::npos) << what(support + own);
+  EXPECT_NE(what(own + own).find("dependent one of another equation"), std::string::npos);
+  const std::string twice = equation(term("HEAD", "z", 1.0) + ", " + term("HEAD", "z", -1.0));
+  EXPECT_NE(what(twice).find("twice in one equation"), std::string::npos);
+  const std::string uneven = equation(term("HEAD", "z", 1.0) + ", " + term("BODY", "z", -1.0));
+  EXPECT_NE(what(uneven).find("36 nodes in \"BODY\" against 9"), std::string::npos) << what(uneven);
+  const std::string moving = "[[initial]]\nnodes = \"HEAD\"\nvelocity = [0.0, 0.0, 1.0]\n";
+  EXPECT_NE(what(moving + own).find("break equation"), std::string::npos) << what(moving + own);
+  EXPECT_THROW(parse_case(case_of_block(equation(term("HEAD", "z", 0.0)) + stepped), "case.toml"), CaseError);
+  EXPECT_THROW(parse_case(case_of_block(own + "[scheme]\nkind = \"modified_mass\"\n[time]\nend = 1.0\n"), "case.toml"),
+               CaseError);
+}
+
+}  // namespace
+}  // namespace carom::run_equation_test
