@@ -31,7 +31,8 @@ SectionSchema<CaseEquation> equation_section() {
   SectionSchema<CaseEquation> s(
       "A linear homogeneous equation between displacements, exact in every scheme: the sum over the terms of "
       "coefficient times displacement is zero. The displacement of the first term is the dependent one: it must not be "
-      "imposed, nor be the dependent one of another equation. Groups of several nodes stand for as many equations: all "
+      "imposed, nor be the dependent one of another equation, and no equation may follow from others. Groups of "
+      "several nodes stand for as many equations: all "
       "terms have one node or as many as the first, matched by their places about the middle of each group.");
   s.key("name", &CaseEquation::name, "For messages.", {.default_phrase = "its number and line"});
   s.tables("terms", &CaseEquation::terms, term_section(), {.need = Need::required});

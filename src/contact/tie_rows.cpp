@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -295,10 +297,6 @@ void add_means(const Model& model, const TieContact& contact, Index source, cons
   }
 }
 
-}  // namespace
-
-namespace {
-
 ConstraintRows bonds_of(const Model& model, const TieContact& contact, Index source, std::vector<std::string>& notes) {
   TieMaker made(model, contact, source);
   const std::map<Index, double> slaves = nodal_measures(model.mesh->coordinates, contact.slave);
@@ -317,6 +315,21 @@ ConstraintRows bonds_of(const Model& model, const TieContact& contact, Index sou
   return std::move(made.rows);
 }
 
+/// What is one node on both sides never tears.
+void refuse_shared_nodes(const Model& model, const TieContact& contact) {
+  std::set<Index> master;
+  for (const Facet& facet : contact.master.facets) master.insert(facet.begin(), facet.end());
+  std::set<Index> shared;
+  for (const Facet& facet : contact.slave.facets)
+    std::copy_if(facet.begin(), facet.end(), std::inserter(shared, shared.end()),
+                 [&](Index n) { return master.contains(n); });
+  if (shared.empty()) return;
+  throw std::invalid_argument(fmt::format(
+      "contact \"{}\": {} nodes that both surfaces have, such as node {}, which would hold when the tie has "
+      "torn; give each body nodes of its own there",
+      contact.name, shared.size(), model.mesh->node_numbers[static_cast<std::size_t>(*shared.begin())]));
+}
+
 }  // namespace
 
 std::unique_ptr<RowMaker> tie_rows(const Model& model, const TieContact& contact, Index source,
@@ -325,6 +338,7 @@ std::unique_ptr<RowMaker> tie_rows(const Model& model, const TieContact& contact
 }
 
 std::vector<CohesiveRow> cohesive_rows(const Model& model, const TieContact& contact, std::vector<std::string>& notes) {
+  refuse_shared_nodes(model, contact);
   const ConstraintRows rows = bonds_of(model, contact, 0, notes);
   std::vector<CohesiveRow> places;
   for (std::size_t r = 0; r < rows.size(); ++r) {

@@ -106,6 +106,7 @@ struct LinearEquation {
   };
   std::string name;
   std::vector<Term> terms;
+  std::size_t section = 0;  ///< which [[equation]] it comes from
 };
 
 /// A rigid body that moves without turning: a node of its own with a mass.

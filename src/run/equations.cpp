@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -17,6 +18,50 @@ namespace {
 constexpr const char* nodes_key = "equation.terms.nodes";
 
 using Dof = std::pair<Index, int>;
+
+/// Elimination of equations as they come: which of them say nothing that those before do not say.
+class Elimination {
+ public:
+  using Row = std::map<Dof, double>;
+
+  /// Takes the terms of dofs that are free, `first` being the one to be eliminated if it can. False when the equations
+  /// before leave none of them.
+  bool add(Row row, const Dof& first) {
+    constexpr double rounding = 1e-10;
+    double scale = 0.0;
+    std::set<std::size_t> pending;  // equations whose pivots the row has; none brings back the pivot of one before it
+    const auto look_at = [&](const Dof& dof) {
+      const auto found = number_.find(dof);
+      if (found != number_.end()) pending.insert(found->second);
+    };
+    for (const auto& [dof, coefficient] : row) {
+      scale = std::max(scale, std::abs(coefficient));
+      look_at(dof);
+    }
+    while (!pending.empty()) {
+      const auto& [pivot, eliminated] = rows_[*pending.begin()];
+      pending.erase(pending.begin());
+      const double factor = row[pivot] / eliminated.at(pivot);
+      for (const auto& [dof, coefficient] : eliminated) {
+        row[dof] -= factor * coefficient;
+        if (dof != pivot) look_at(dof);
+      }
+      row.erase(pivot);
+    }
+    std::erase_if(row, [&](const auto& term) { return std::abs(term.second) <= rounding * scale; });
+    if (row.empty()) return false;
+    Dof pivot = first;
+    if (!row.contains(first))
+      pivot = std::ranges::max_element(row, {}, [](const auto& term) { return std::abs(term.second); })->first;
+    number_.emplace(pivot, rows_.size());
+    rows_.emplace_back(pivot, std::move(row));
+    return true;
+  }
+
+ private:
+  std::vector<std::pair<Dof, Row>> rows_;  ///< each with its pivot
+  std::map<Dof, std::size_t> number_;      ///< of the row by its pivot
+};
 
 class Equations {
  public:
@@ -38,6 +83,7 @@ class Equations {
     }
     for (std::size_t k = 0; k < nodes.front().size(); ++k) {
       LinearEquation equation;
+      equation.section = number;
       equation.name =
           nodes.front().size() == 1 ? name : fmt::format("{} at node {}", name, this->number(nodes.front()[k]));
       std::set<Dof> seen;
@@ -52,6 +98,7 @@ class Equations {
         equation.terms.push_back({node, component, *term.coefficient});
       }
       refuse_dependent(given, equation);
+      refuse_redundant(given, equation);
       model_.equations.push_back(std::move(equation));
     }
   }
@@ -108,7 +155,10 @@ class Equations {
     const Dof dof{first.node, first.component};
     const std::string what = fmt::format("{} of node {}", "xyz"[first.component], number(first.node));
     const Location& where = given.terms.front().nodes.where;
-    const char* remedy = "Begin the equation with another term.";
+    const auto is_imposed = [&](const LinearEquation::Term& t) { return imposed_.contains({t.node, t.component}); };
+    const char* remedy = std::ranges::all_of(equation.terms, is_imposed)
+                             ? "All that it couples is imposed: remove the equation, or the supports."
+                             : "Begin the equation with another term.";
     const auto imposed = imposed_.find(dof);
     if (imposed != imposed_.end())
       throw CaseError(where, nodes_key,
@@ -116,7 +166,21 @@ class Equations {
                       "a first term that is free", remedy);
     if (!dependent_.insert(dof).second)
       throw CaseError(where, nodes_key, fmt::format("{}, which is the dependent one of another equation as well", what),
-                      "a displacement of its own to begin with", remedy);
+                      "a displacement of its own to begin with",
+                      "Begin the equation with another term, or leave the node out of one of the groups.");
+  }
+
+  /// What follows from others, or contradicts what supports impose by them.
+  void refuse_redundant(const CaseEquation& given, const LinearEquation& equation) {
+    Elimination::Row free;
+    for (const LinearEquation::Term& term : equation.terms)
+      if (!imposed_.contains({term.node, term.component})) free[{term.node, term.component}] = term.coefficient;
+    const LinearEquation::Term& first = equation.terms.front();
+    if (elimination_.add(std::move(free), {first.node, first.component})) return;
+    throw CaseError(given.where, "equation",
+                    fmt::format("{}, all of whose displacements the equations before it and the supports decide about",
+                                equation.name),
+                    "equations none of which follows from the others or contradicts them", "Remove one of them.");
   }
 
   const Mesh& mesh_;
@@ -125,6 +189,7 @@ class Equations {
   Model& model_;
   std::map<Dof, std::string> imposed_;
   std::set<Dof> dependent_;
+  Elimination elimination_;
 };
 
 }  // namespace

@@ -103,20 +103,14 @@ Simulation::Simulation(Case given)
   refuse_surfaces_from_behind();
   settle_initial_penetrations();
   const State first = initial_state();
-  refuse_torn_ties(case_, contact_, first.q, first.v);
+  refuse_torn_ties(case_, model_, contact_, first.q, first.v);
   const StageContext context{case_, *mesh_, model_, solid_, contact_};
   stages_.push_back(std::make_unique<Stage>(context, case_.scheme, case_.time, 0.0, later_velocities(0)));
-  if (!model_.equations.empty() && stages_[0]->settings().kind != SchemeKind::statics) {
-    std::vector<double> v = first.v;
-    const Supports& supports = stages_[0]->system().supports;
-    for (const PrescribedDof& p : supports.prescribed())
-      v[static_cast<std::size_t>(p.dof)] = imposed_velocity(supports, p, 0.0);
-    refuse_broken_equations(case_, contact_, v);
-  }
   for (const CaseStage& stage : case_.stages) {
     stages_.push_back(std::make_unique<Stage>(context, stage.scheme, stage.time, stages_.back()->end(),
                                               later_velocities(stages_.size())));
   }
+  refuse_velocities(first);
   for (const auto& stage : stages_) {
     const std::vector<std::string>& lines = stage->mass_notes().lines;
     notes_.insert(notes_.end(), lines.begin(), lines.end());
@@ -257,10 +251,45 @@ State Simulation::initial_state() const {
   return state;
 }
 
+/// The first stage with inertia; the number of stages where none has.
+std::size_t Simulation::first_with_inertia() const {
+  const auto has_inertia = [](const auto& s) { return s->settings().kind != SchemeKind::statics; };
+  return static_cast<std::size_t>(std::find_if(stages_.begin(), stages_.end(), has_inertia) - stages_.begin());
+}
+
+/// Velocities that break equations, or part what is tied, as a stage begins.
+void Simulation::refuse_velocities(const State& start) const {
+  const std::size_t first = first_with_inertia();
+  std::vector<double> v = start.v;
+  const auto impose = [&](std::size_t stage, const auto& note) {
+    const Supports& supports = stages_[stage]->system().supports;
+    for (const PrescribedDof& p : supports.prescribed()) {
+      v[static_cast<std::size_t>(p.dof)] = imposed_velocity(supports, p, stages_[stage]->begin());
+      note(static_cast<std::size_t>(p.dof));
+    }
+  };
+  if (first < stages_.size()) impose(first, [](std::size_t) {});
+  refuse_broken_equations(case_, model_, contact_, start.q, v);
+  for (std::size_t stage = 1; stage < stages_.size(); ++stage) {
+    std::vector<Velocity> known(v.size(), Velocity::unknown);
+    v.assign(v.size(), 0.0);
+    for (const InitialState& initial : model_.initial) {
+      if (initial.stage != stage || initial.velocity.empty()) continue;
+      for (std::size_t k = 0; k < initial.nodes.size(); ++k) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          const std::size_t i = 3 * static_cast<std::size_t>(initial.nodes[k]) + c;
+          v[i] = initial.velocity_of(k)[c];
+          known[i] = Velocity::given;
+        }
+      }
+    }
+    impose(stage, [&](std::size_t dof) { known[dof] = Velocity::imposed; });
+    refuse_parting_velocities(case_, model_, contact_, stage, v, known);
+  }
+}
+
 bool Simulation::begin_velocities(std::size_t stage, State& state) const {
-  const auto is_dynamic = [](const auto& s) { return s->settings().kind != SchemeKind::statics; };
-  const auto first =
-      static_cast<std::size_t>(std::find_if(stages_.begin(), stages_.end(), is_dynamic) - stages_.begin());
+  const std::size_t first = first_with_inertia();
   bool given = false;
   for (const InitialState& initial : model_.initial) {
     if (initial.velocity.empty() || stage != (initial.stage > 0 ? initial.stage : first)) continue;

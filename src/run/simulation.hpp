@@ -58,6 +58,8 @@ class Simulation {
 
  private:
   std::vector<bool> later_velocities(std::size_t stage) const;
+  std::size_t first_with_inertia() const;
+  void refuse_velocities(const State& start) const;
   void refuse_surfaces_from_behind() const;
   void settle_initial_penetrations();
   void refuse_buried_facets(std::size_t c, const State& state) const;

@@ -136,8 +136,8 @@ Stage::Stage(const StageContext& context, const CaseScheme& scheme, const CaseTi
   if (settings_.kind == SchemeKind::statics) {
     hold_bodies_in_flight(later_velocity);
     if (context.contact.bonds().size() > 0)
-      refuse_floating_ties(context.given, context.contact, settings_.enforcement, FreeModes(system_).free_bodies(),
-                           context.mesh.node_count());
+      refuse_floating_ties(context.given, context.model, context.contact, settings_.enforcement,
+                           FreeModes(system_).free_bodies(), context.mesh.node_count());
   }
   refuse_massless_contact();
   refuse_history();

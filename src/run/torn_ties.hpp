@@ -1,6 +1,7 @@
 // Ties that cannot hold: sides that part as the run begins, bodies in statics that nothing else holds.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -12,16 +13,28 @@ namespace carom {
 
 /// CaseError where an initial displacement or velocity (dof vectors) parts what a tie keeps together: it would have to
 /// be torn back before the first step, by energy that nobody asked for. Rounding apart: 1e-9 of the largest entry.
-void refuse_torn_ties(const Case& given, const ContactGeometry& contact, std::span<const double> displacement,
-                      std::span<const double> velocity);
+void refuse_torn_ties(const Case& given, const Model& model, const ContactGeometry& contact,
+                      std::span<const double> displacement, std::span<const double> velocity);
 
-/// The same of linear equations, the velocity being that of the first stage, with what its supports impose.
-void refuse_broken_equations(const Case& given, const ContactGeometry& contact, std::span<const double> velocity);
+/// The same of linear equations, the velocity being that of the first stage with inertia, with what its supports
+/// impose.
+void refuse_broken_equations(const Case& given, const Model& model, const ContactGeometry& contact,
+                             std::span<const double> displacement, std::span<const double> velocity);
+
+/// What is known of the velocity of a dof as a later stage begins: nothing, what a support imposes, what the stage
+/// gives.
+enum class Velocity : std::uint8_t { unknown, imposed, given };
+
+/// The same of velocities that begin with a later stage; where they are given to some of the nodes of a tie or an
+/// equation they must be given to all.
+void refuse_parting_velocities(const Case& given, const Model& model, const ContactGeometry& contact, std::size_t stage,
+                               std::span<const double> velocity, const std::vector<Velocity>& known);
 
 /// CaseError where a tie joins two bodies that no support holds, which statics does not find the place of; and where a
 /// tie alone is to hold one by multipliers. `free_bodies`: nodes of the bodies that can move (FreeModes), of all
 /// `nodes`.
-void refuse_floating_ties(const Case& given, const ContactGeometry& contact, EnforcementKind enforcement,
-                          const std::vector<std::vector<Index>>& free_bodies, std::size_t nodes);
+void refuse_floating_ties(const Case& given, const Model& model, const ContactGeometry& contact,
+                          EnforcementKind enforcement, const std::vector<std::vector<Index>>& free_bodies,
+                          std::size_t nodes);
 
 }  // namespace carom

@@ -55,6 +55,24 @@ TEST(CaseEquation, ThatCannotBeIsRefused) {
   EXPECT_NE(what(twice).find("twice in one equation"), std::string::npos);
   const std::string uneven = equation(term("HEAD", "z", 1.0) + ", " + term("BODY", "z", -1.0));
   EXPECT_NE(what(uneven).find("36 nodes in \"BODY\" against 9"), std::string::npos) << what(uneven);
+  // All of HEAD is imposed, and nothing is left to begin with.
+  const std::string both = "[[support]]\nnodes = \"FOOT\"\nblocked = [\"z\"]\n" + support;
+  EXPECT_NE(what(both + own).find("All that it couples is imposed"), std::string::npos) << what(both + own);
+  // FOOT follows HEAD, which follows FOOT: once, or, by another factor, so that both are zero.
+  const std::string back = equation(term("FOOT", "z", 1.0) + ", " + term("HEAD", "z", -1.0));
+  EXPECT_NE(what(own + back).find("equations before it"), std::string::npos) << what(own + back);
+  const std::string twofold = equation(term("FOOT", "z", 1.0) + ", " + term("HEAD", "z", -2.0));
+  EXPECT_NO_THROW(Simulation(parse_case(case_of_block(own + twofold + stepped), "case.toml")));
+  const std::string driven = "[[support]]\nnodes = \"FOOT\"\nvelocity = { z = 0.5 }\n" + own;
+  EXPECT_NE(what(driven).find("expected 0.5 there"), std::string::npos) << what(driven);
+  const std::string along = "[[initial]]\nnodes = \"HEAD\"\nvelocity = [0.0, 0.0, 0.5]\n";
+  EXPECT_NO_THROW(Simulation(parse_case(case_of_block(along + driven + stepped), "case.toml")));
+  const std::string later = own + stepped + "[[stage]]\nkind = \"newmark\"\nend = 2.0\nstep = 0.1\n";
+  const auto stage_error = [](const std::string& text) { return std::string(case_error(case_of_block(text)).what()); };
+  const std::string some = later + "[[stage.initial]]\nnodes = \"HEAD\"\nvelocity = [0.0, 0.0, 1.0]\n";
+  EXPECT_NE(stage_error(some).find("some only"), std::string::npos) << stage_error(some);
+  const std::string all = later + "[[stage.initial]]\nnodes = \"all\"\nvelocity = [0.0, 0.0, 1.0]\n";
+  EXPECT_NO_THROW(Simulation(parse_case(case_of_block(all), "case.toml")));
   const std::string moving = "[[initial]]\nnodes = \"HEAD\"\nvelocity = [0.0, 0.0, 1.0]\n";
   EXPECT_NE(what(moving + own).find("break equation"), std::string::npos) << what(moving + own);
   EXPECT_THROW(parse_case(case_of_block(equation(term("HEAD", "z", 0.0)) + stepped), "case.toml"), CaseError);

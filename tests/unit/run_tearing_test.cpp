@@ -59,6 +59,18 @@ TEST(CaseTearing, ThatCannotBeIsRefused) {
             std::string::npos);
 }
 
+// Nodes that both surfaces have would hold for ever.
+TEST(CaseTearing, OfSurfacesThatShareNodesIsRefused) {
+  std::string text = blocks(tears);
+  const auto replace = [&text](const std::string& what, const std::string& by) {
+    text.replace(text.find(what), what.size(), by);
+  };
+  replace("xmin = \"START\"", "ymin = \"SIDE\"");
+  replace("group = \"RFACE\"", "group = \"SIDE\"");
+  const std::string what = case_error(text).what();
+  EXPECT_NE(what.find("3 nodes that both surfaces have"), std::string::npos) << what;
+}
+
 TEST(CaseTearing, IsAZoneAndAPair) {
   const Simulation s(parse_case(blocks(tears + "shear_strength = 0.02\nfriction = 0.25\n"), "case.toml"));
   ASSERT_EQ(s.model().cohesive.size(), 1U);

@@ -132,6 +132,58 @@ TEST_P(Equations, OfAPeriodicCellKeepMomentum) {
   });
 }
 
+// One end of a block is driven at a constant acceleration, and the other follows as twice as far: what is imposed is a
+// coefficient like another.
+TEST_P(Equations, FollowADrivenNode) {
+  with_each_enforcement([](SchemeKind kind, EnforcementKind enforcement) {
+    Model model = one_part(one_block());
+    const std::vector<Index> begin = model.mesh->nodes_of("XMIN");
+    model.motions.push_back({"driven", begin, 0, MotionKind::velocity, {{0.0, 3.0}, {0.0, 0.06}}});
+    block(model, "XMIN", {1, 2});
+    for (const Index n : model.mesh->nodes_of("XMAX"))
+      model.equations.push_back({"end", {{n, 0, 1.0}, {begin.front(), 0, -2.0}}});
+    const Problem p(std::move(model), mass_of(kind));
+    const double h = step_of(p, kind);
+    const History run = march(*scheme_on(p, kind, enforcement, h), p.moving({}), h, static_cast<int>(3.0 / h));
+    ASSERT_TRUE(run.converged) << run.failure;
+    ASSERT_GT(largest(run.state.q), 0.17);
+    EXPECT_LT(largest_value(p.model, run.state.q), 1e-12);
+    EXPECT_LT(run.imbalance, 1e-9 * run.ledger.scale());
+  });
+}
+
+// A block falls on a plane with a face that equations keep plane, so that one of its rows would do: contact and
+// equations at the same nodes.
+TEST_P(Equations, StandBesideContactAtTheirNodes) {
+  if (GetParam().kind == SchemeKind::statics) GTEST_SKIP() << "without inertia";
+  with_each_enforcement([](SchemeKind kind, EnforcementKind enforcement) {
+    Model model = one_part(one_block());
+    const std::vector<Index> foot = model.mesh->nodes_of("ZMIN");
+    for (std::size_t k = 1; k < foot.size(); ++k)
+      model.equations.push_back({"foot", {{foot[k], 2, 1.0}, {foot[0], 2, -1.0}}});
+    model.contacts.emplace_back(plane_below(model, 0.01, 20.0));
+    const Problem p(std::move(model), mass_of(kind));
+    const double h = is_explicit(kind) ? 0.3 * stable_step(p.system).dt : 0.02;
+    double touched = 0.0, deepest = 0.0, broken = 0.0;
+    const auto look = [&](const State& now) {
+      const ContactResponse& response = now.forces.rows;
+      for (std::size_t r = 0; r < response.force.size(); ++r)
+        if (response.rows->source[r] >= 0) touched = std::max(touched, response.force[r][0]);
+      for (const Index n : p.model.mesh->nodes_of("ZMIN"))
+        deepest = std::max(deepest, -0.01 - now.q[3 * static_cast<std::size_t>(n) + 2]);
+      broken = std::max(broken, largest_value(p.model, now.q));
+    };
+    const History run =
+        march(*scheme_on(p, kind, enforcement, h), p.moving({0.0, 0.0, -0.05}), h, static_cast<int>(3.0 / h), look);
+    ASSERT_TRUE(run.converged) << run.failure;
+    EXPECT_GT(touched, 0.0);
+    EXPECT_LT(deepest, 0.005);
+    EXPECT_LT(broken, 1e-12);
+    EXPECT_LT(run.imbalance, 1e-9 * run.ledger.scale());
+    EXPECT_LT(run.linear_momentum_error, 1e-9 * std::sqrt(2.0 * p.mass.total() * run.ledger.scale()));
+  });
+}
+
 INSTANTIATE_TEST_SUITE_P(AllSchemes, Equations, testing::ValuesIn(schemes_with_mass()),
                          [](const auto& of) { return std::string(of.param.name); });
 
