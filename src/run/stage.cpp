@@ -140,6 +140,7 @@ Stage::Stage(const StageContext& context, const CaseScheme& scheme, const CaseTi
                            FreeModes(system_).free_bodies(), context.mesh.node_count());
   }
   refuse_massless_contact();
+  refuse_driven_bonds();
   refuse_history();
   choose_step();
 }
@@ -187,6 +188,29 @@ void Stage::refuse_massless_contact() const {
                       "nodes with mass, or supports on all three components",
                       "Put the cells in a [[part]], or block the node by a [[support]].");
     }
+  }
+}
+
+/// Two schemes do not take what hangs on an imposed motion along: u1 = u0 + h v0 + phi h^2 a0 leads elsewhere than the
+/// motion does, by (phi - 1/2) h times the velocity; and the nonsmooth scheme parts the forces of bonds into those of
+/// the smooth motion and of the jumps, while its supports answer their sum.
+void Stage::refuse_driven_bonds() const {
+  const SchemeTraits& scheme = traits(settings_.kind);
+  if (scheme.kind != SchemeKind::tchamwa_wielgosz && scheme.kind != SchemeKind::nonsmooth_generalized_alpha) return;
+  std::vector<bool> is_driven(context_.solid.dof_count(), false);
+  for (const PrescribedDof& p : supports_.prescribed()) {
+    const std::vector<double>& values = supports_.motions()[p.motion].function.value;
+    is_driven[static_cast<std::size_t>(p.dof)] =
+        std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; });
+  }
+  const ConstraintRows& bonds = context_.contact.bonds();
+  for (std::size_t r = 0; r < bonds.size(); ++r) {
+    if (!any_dof(bonds, r, [&](std::size_t dof) { return is_driven[dof]; })) continue;
+    throw CaseError(scheme_.kind.where, "scheme.kind",
+                    fmt::format("\"{}\" with {}, on which a support imposes a motion", scheme.name,
+                                context_.contact.describe(bonds, r)),
+                    "a scheme that takes what hangs on an imposed motion along with it, or a support that holds",
+                    "Take another scheme, as \"central_differences\" or \"generalized_alpha\".");
   }
 }
 

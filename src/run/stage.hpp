@@ -74,6 +74,7 @@ class Stage {
  private:
   void hold_bodies_in_flight(const std::vector<bool>& later_velocity);
   void refuse_massless_contact() const;
+  void refuse_driven_bonds() const;
   void refuse_history() const;
   void choose_step();
 

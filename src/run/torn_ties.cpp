@@ -32,16 +32,6 @@ bool parts(const ConstraintRows& bonds, std::size_t r, std::span<const double> x
   return norm(bonds.relative(r, x)) > rounding * scale;
 }
 
-/// Does it hold for any dof of the row?
-template <class Holds>
-bool any_dof(const ConstraintRows& bonds, std::size_t r, const Holds& holds) {
-  for (auto k = static_cast<std::size_t>(bonds.begin[r]); k < static_cast<std::size_t>(bonds.begin[r + 1]); ++k)
-    for (std::size_t c = 0; c < 3; ++c)
-      for (const Vec3& line : bonds.block[k])
-        if (line[c] != 0.0 && holds(3 * static_cast<std::size_t>(bonds.node[k]) + c)) return true;
-  return false;
-}
-
 void refuse_ties(const Case& given, const Model& model, const ContactGeometry& contact, std::span<const double> x,
                  const std::string& what, const std::string& remedy) {
   const ConstraintRows& bonds = contact.bonds();

@@ -11,6 +11,16 @@
 
 namespace carom {
 
+/// Does it hold for any dof that the row sees?
+template <class Holds>
+bool any_dof(const ConstraintRows& rows, std::size_t r, const Holds& holds) {
+  for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (const Vec3& line : rows.block[k])
+        if (line[c] != 0.0 && holds(3 * static_cast<std::size_t>(rows.node[k]) + c)) return true;
+  return false;
+}
+
 /// CaseError where an initial displacement or velocity (dof vectors) parts what a tie keeps together: it would have to
 /// be torn back before the first step, by energy that nobody asked for. Rounding apart: 1e-9 of the largest entry.
 void refuse_torn_ties(const Case& given, const Model& model, const ContactGeometry& contact,

@@ -67,6 +67,16 @@ TEST(CaseEquation, ThatCannotBeIsRefused) {
   EXPECT_NE(what(driven).find("expected 0.5 there"), std::string::npos) << what(driven);
   const std::string along = "[[initial]]\nnodes = \"HEAD\"\nvelocity = [0.0, 0.0, 0.5]\n";
   EXPECT_NO_THROW(Simulation(parse_case(case_of_block(along + driven + stepped), "case.toml")));
+  const std::string ramp =
+      "[functions.ramp]\ntime = [0.0, 1.0]\nvalue = [0.0, 1.0]\n[[support]]\nnodes = \"FOOT\"\nvelocity = { z = 0.5, "
+      "function = \"ramp\" }\n" +
+      own;
+  EXPECT_NO_THROW(Simulation(parse_case(case_of_block(ramp + stepped), "case.toml")));
+  for (const std::string kind : {"tchamwa_wielgosz", "nonsmooth_generalized_alpha"}) {
+    const std::string step = kind == "tchamwa_wielgosz" ? "" : "step = 0.1\n";
+    const std::string text = case_of_block(ramp + "[scheme]\nkind = \"" + kind + "\"\n[time]\nend = 1.0\n" + step);
+    EXPECT_NE(std::string(case_error(text).what()).find("imposes a motion"), std::string::npos) << text;
+  }
   const std::string later = own + stepped + "[[stage]]\nkind = \"newmark\"\nend = 2.0\nstep = 0.1\n";
   const auto stage_error = [](const std::string& text) { return std::string(case_error(case_of_block(text)).what()); };
   const std::string some = later + "[[stage.initial]]\nnodes = \"HEAD\"\nvelocity = [0.0, 0.0, 1.0]\n";

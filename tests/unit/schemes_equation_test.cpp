@@ -132,22 +132,32 @@ TEST_P(Equations, OfAPeriodicCellKeepMomentum) {
   });
 }
 
-// One end of a block is driven at a constant acceleration, and the other follows as twice as far: what is imposed is a
-// coefficient like another.
+// One end of a block is driven at a constant acceleration, which then stops, and the other follows as twice as far:
+// what is imposed is a coefficient like another. Explicit schemes see the jump of the acceleration a step late, and
+// take it back at the rate of their ties (both roots at 0.05 of a step): some steps' worth of it.
 TEST_P(Equations, FollowADrivenNode) {
+  if (GetParam().kind == SchemeKind::tchamwa_wielgosz || GetParam().kind == SchemeKind::nonsmooth_generalized_alpha)
+    GTEST_SKIP() << "refused: run/stage.cpp";
   with_each_enforcement([](SchemeKind kind, EnforcementKind enforcement) {
     Model model = one_part(one_block());
     const std::vector<Index> begin = model.mesh->nodes_of("XMIN");
-    model.motions.push_back({"driven", begin, 0, MotionKind::velocity, {{0.0, 3.0}, {0.0, 0.06}}});
+    model.motions.push_back({"driven", begin, 0, MotionKind::velocity, {{0.0, 1.5, 10.0}, {0.0, 0.03, 0.03}}});
     block(model, "XMIN", {1, 2});
     for (const Index n : model.mesh->nodes_of("XMAX"))
       model.equations.push_back({"end", {{n, 0, 1.0}, {begin.front(), 0, -2.0}}});
     const Problem p(std::move(model), mass_of(kind));
     const double h = step_of(p, kind);
-    const History run = march(*scheme_on(p, kind, enforcement, h), p.moving({}), h, static_cast<int>(3.0 / h));
+    double smooth = 0.0, after = 0.0;
+    const auto look = [&](const State& now) {
+      double& most = now.t < 1.5 ? smooth : after;
+      most = std::max(most, largest_value(p.model, now.q));
+    };
+    const History run = march(*scheme_on(p, kind, enforcement, h), p.moving({}), h, static_cast<int>(3.0 / h), look);
     ASSERT_TRUE(run.converged) << run.failure;
-    ASSERT_GT(largest(run.state.q), 0.17);
-    EXPECT_LT(largest_value(p.model, run.state.q), 1e-12);
+    ASSERT_GT(largest(run.state.q), 0.1);
+    EXPECT_LT(smooth, 1e-12);
+    const double jump = 0.02 * h * h;
+    EXPECT_LT(after / jump, is_explicit(kind) ? 8.0 : 1e-9);
     EXPECT_LT(run.imbalance, 1e-9 * run.ledger.scale());
   });
 }
@@ -177,7 +187,7 @@ TEST_P(Equations, StandBesideContactAtTheirNodes) {
         march(*scheme_on(p, kind, enforcement, h), p.moving({0.0, 0.0, -0.05}), h, static_cast<int>(3.0 / h), look);
     ASSERT_TRUE(run.converged) << run.failure;
     EXPECT_GT(touched, 0.0);
-    EXPECT_LT(deepest, 0.005);
+    EXPECT_LT(deepest, 0.0112);  // of a rigid one: v (m / k)^1/2 = 0.05 (2 / 40)^1/2
     EXPECT_LT(broken, 1e-12);
     EXPECT_LT(run.imbalance, 1e-9 * run.ledger.scale());
     EXPECT_LT(run.linear_momentum_error, 1e-9 * std::sqrt(2.0 * p.mass.total() * run.ledger.scale()));
