@@ -74,7 +74,8 @@ constexpr std::array<KeywordEntry, 126> kKeywords{{
     {"ENERGY OUTPUT", output, "", "*", "Energies are in energy.csv."},
     {"ENERGY PRINT", output, "", "*", "Energies are in energy.csv."},
     {"EQUATION", model, "INPUT", "",
-     "A linear homogeneous equation between displacements; the first term is the dependent one. Sets are matched by the "
+     "A linear homogeneous equation between displacements; the first term is the dependent one. Sets are matched by "
+     "the "
      "places of their nodes."},
     {"EXPANSION", refused, "", "", "There would be no thermal strains."},
     {"FILE FORMAT", output, "", "*", "Results files of the other program."},

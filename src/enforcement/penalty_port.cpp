@@ -58,9 +58,8 @@ PortSolve PenaltyPort::solve(EffectiveSolver& solver, std::span<const double> x,
   tangents_.resize(rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
     tangents_[r] = is_equation(rows.law[r]) ? held_tangent(rows, r)
-                   : is_bond(rows.law[r])
-                       ? bond_tangent(rows.law[r].eps_N)
-                       : penalty_tangent(rows, r, begin_->q, x, v, begin_->contact, dv_dx_, slip_);
+                   : is_bond(rows.law[r])   ? bond_tangent(rows.law[r].eps_N)
+                                            : penalty_tangent(rows, r, begin_->q, x, v, begin_->contact, dv_dx_, slip_);
     for (double& d : tangents_[r]) d *= s_;
   }
   return solve_with_tangents(solver, x, response, residual, absolute, dy);
