@@ -17,11 +17,10 @@ SectionSchema<CaseEquation::Term> term_section() {
 void check_equation(CaseEquation& equation, const Node&, const ReadContext& at) {
   if (equation.terms.empty())
     throw CaseError(equation.where, at.at("terms").path, "an equation without terms", "one term at least");
-  for (std::size_t k = 0; k < equation.terms.size(); ++k) {
-    const Located<double>& coefficient = equation.terms[k].coefficient;
-    if (*coefficient == 0.0)
-      throw CaseError(coefficient.where, at.at("terms").path, "the coefficient 0", "another number",
-                      "Leave the term out.");
+  for (const CaseEquation::Term& term : equation.terms) {
+    if (*term.coefficient != 0.0) continue;
+    throw CaseError(term.coefficient.where, at.at("terms").path, "the coefficient 0", "another number",
+                    "Leave the term out.");
   }
 }
 
