@@ -22,8 +22,6 @@
 namespace carom {
 namespace {
 
-constexpr std::size_t most_faces = 6;  ///< of a cell
-
 /// A signed distance from the surface that faces the node within `reach`, infinite where none does.
 double distance_behind(const Surface& surface, std::span<const Vec3> X, const Vec3& x, double reach) {
   Projection nearest;
@@ -73,12 +71,13 @@ struct GapOfShape {
 
 struct BodyOverlap::Impl {
   const Model& model;
-  PlacedCells cells;                                   ///< where they were looked at last
-  std::vector<std::uint8_t> on_skin;                   ///< by cell: which of its faces, a bit each
+  PlacedCells cells;  ///< where they were looked at last
+  std::shared_ptr<const std::vector<OuterFacet>> skin;
   std::shared_ptr<const std::vector<double>> lengths;  ///< node_lengths
   std::vector<Index> skin_nodes;                       ///< increasing
-  std::vector<bool> is_skin;                           ///< by node
+  std::vector<Index> number;                           ///< of a node among them; -1: inside
   std::vector<Index> first_cell, cells_at;             ///< by skin node (position in skin_nodes): rows of its cells
+  std::vector<Index> first_facet, facets_at;           ///< and of its facets
   std::vector<Index> body;                             ///< by node: the same for nodes of one connected body
   std::vector<double> at_start;                        ///< by skin node: depth in cells
   std::vector<std::vector<double>> obstacle_at_start;  ///< by contact and node of it
@@ -86,19 +85,20 @@ struct BodyOverlap::Impl {
 
   Impl(const Model& of, std::span<const double> u);
   void find_skin();
-  void find_cells_at_skin();
+  template <class ForEach>
+  void gather(const ForEach& for_each, std::vector<Index>& first, std::vector<Index>& at) const;
   double node_length(Index n) const { return (*lengths)[static_cast<std::size_t>(n)]; }
   double reference_length(std::size_t cell) const;
   bool may_meet(std::size_t skin_node, Index cell) const;
   double depth(std::size_t skin_node, Index cell, const Vec3& x) const;
+  double depth_under_skin(std::size_t cell, const Vec3& x) const;
   std::vector<Overlap> depths(std::span<const double> u);
   std::vector<double> obstacle_depths(std::size_t c, std::span<const double> u) const;  ///< after depths
 };
 
 BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
-    : model(of), cells(of, {}), lengths(node_lengths(of)), body(bodies_of_nodes(of)) {
+    : model(of), cells(of, {}), skin(outer_facets(of)), lengths(node_lengths(of)), body(bodies_of_nodes(of)) {
   find_skin();
-  find_cells_at_skin();
   for (const Overlap& overlap : depths(u)) at_start.push_back(overlap.depth);
   for (const ContactDefinition& definition : model.contacts) {
     obstacle_nodes.emplace_back();
@@ -114,40 +114,43 @@ BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
   }
 }
 
-/// The faces of cells that the skin of the mesh consists of.
+/// The nodes of the skin of the mesh, their cells and their facets.
 void BodyOverlap::Impl::find_skin() {
-  is_skin.assign(model.mesh->node_count(), false);
-  on_skin.assign(cells.size(), 0);
-  std::vector<std::vector<Index>> number;  // by block and cell
-  for (const CellBlock& block : model.mesh->blocks) number.emplace_back(block.size(), -1);
-  for (std::size_t k = 0; k < cells.size(); ++k) number[cells.ref(k).block][cells.ref(k).cell] = static_cast<Index>(k);
-  const auto skin = outer_facets(model);
-  for (const OuterFacet& outer : *skin) {
-    const Index k = number[outer.cell.block][outer.cell.cell];
-    if (k < 0) continue;
-    on_skin[k] = static_cast<std::uint8_t>(on_skin[k] | 1U << static_cast<unsigned>(outer.face));
-    for (const Index n : outer.facet) is_skin[n] = true;
-  }
-}
-
-void BodyOverlap::Impl::find_cells_at_skin() {
-  std::vector<Index> position(is_skin.size(), -1);
-  for (std::size_t n = 0; n < is_skin.size(); ++n) {
-    if (!is_skin[n]) continue;
-    position[n] = static_cast<Index>(skin_nodes.size());
+  number.assign(model.mesh->node_count(), -1);
+  for (const OuterFacet& outer : *skin)
+    for (const Index n : outer.facet) number[n] = 0;
+  for (std::size_t n = 0; n < number.size(); ++n) {
+    if (number[n] < 0) continue;
+    number[n] = static_cast<Index>(skin_nodes.size());
     skin_nodes.push_back(static_cast<Index>(n));
   }
-  first_cell.assign(skin_nodes.size() + 1, 0);
-  const auto for_each = [&](const auto& visit) {
-    for (std::size_t k = 0; k < cells.size(); ++k)
-      for (const Index n : cells.nodes(k))
-        if (position[n] >= 0) visit(position[n], static_cast<Index>(k));
-  };
-  for_each([&](Index skin_node, Index /*cell*/) { ++first_cell[skin_node + 1]; });
-  std::partial_sum(first_cell.begin(), first_cell.end(), first_cell.begin());
-  cells_at.resize(first_cell.back());
-  std::vector<Index> next = first_cell;
-  for_each([&](Index skin_node, Index k) { cells_at[next[skin_node]++] = k; });
+  gather(
+      [&](const auto& visit) {
+        for (std::size_t k = 0; k < cells.size(); ++k)
+          for (const Index n : cells.nodes(k)) visit(number[n], static_cast<Index>(k));
+      },
+      first_cell, cells_at);
+  gather(
+      [&](const auto& visit) {
+        for (std::size_t f = 0; f < skin->size(); ++f)
+          for (const Index n : (*skin)[f].facet) visit(number[n], static_cast<Index>(f));
+      },
+      first_facet, facets_at);
+}
+
+/// What for_each visits with a skin node, by skin node.
+template <class ForEach>
+void BodyOverlap::Impl::gather(const ForEach& for_each, std::vector<Index>& first, std::vector<Index>& at) const {
+  first.assign(skin_nodes.size() + 1, 0);
+  for_each([&](Index skin_node, Index /*item*/) {
+    if (skin_node >= 0) ++first[skin_node + 1];
+  });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  at.resize(first.back());
+  std::vector<Index> next = first;
+  for_each([&](Index skin_node, Index item) {
+    if (skin_node >= 0) at[next[skin_node]++] = item;
+  });
 }
 
 /// False for cells of the node and their neighbours.
@@ -164,18 +167,30 @@ bool BodyOverlap::Impl::may_meet(std::size_t skin_node, Index cell) const {
 /// In cells; zero outside of the cell.
 double BodyOverlap::Impl::depth(std::size_t skin_node, Index cell, const Vec3& x) const {
   const auto k = static_cast<std::size_t>(cell);
-  const std::optional<CornerValues> N = cells.inside(k, x);
-  if (!N) return 0.0;
-  double share = infinity;
-  for (std::size_t face = 0; face < most_faces; ++face)
-    if ((on_skin[k] >> face & 1U) != 0) share = std::min(share, cells.depth_under(k, face, *N));
-  if (share == infinity) {
-    share = 0.0;
-    const std::span<const Index> nodes = cells.nodes(k);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(corner_count(cells.type(k))); ++a)
-      if (!is_skin[nodes[a]]) share += (*N)[a];
+  if (!cells.inside(k, x)) return 0.0;
+  return depth_under_skin(k, x) / std::min(reference_length(k), node_length(skin_nodes[skin_node]));
+}
+
+/// How far a point of a cell is behind the nearest facet at the cell's nodes; 0 in front of it, where curved faces of
+/// the cell stand back from its corners; the cell's length where there is no facet.
+double BodyOverlap::Impl::depth_under_skin(std::size_t cell, const Vec3& x) const {
+  constexpr double same = 1.0 + 1e-9;
+  double least = infinity, in_front = 0.0;  // sum over the nearest: two at an edge
+  for (const Index n : cells.nodes(cell)) {
+    if (number[n] < 0) continue;
+    for (Index f = first_facet[number[n]]; f < first_facet[number[n] + 1]; ++f) {
+      const Facet& facet = (*skin)[facets_at[f]].facet;
+      PlacedFacet placed{{}, facet.size};
+      for (int a = 0; a < facet.size; ++a) placed.x[static_cast<std::size_t>(a)] = cells.position(facet[a]);
+      const Projection p = project(placed, x);
+      if (p.distance > same * least) continue;
+      if (same * p.distance < least) in_front = 0.0;
+      in_front += p.gap;
+      least = std::min(least, p.distance);
+    }
   }
-  return share * cells.length(k) / std::min(reference_length(k), node_length(skin_nodes[skin_node]));
+  if (least == infinity) return cells.length(cell);
+  return in_front > 0.0 ? 0.0 : least;
 }
 
 double BodyOverlap::Impl::reference_length(std::size_t cell) const {

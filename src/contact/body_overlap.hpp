@@ -31,8 +31,8 @@ void fields(A& archive, Overlap& x) {
 
 /// Looks for nodes of the skins of solids and plane bodies
 /// - inside of cells that are neither their own nor neighbours of those: of other bodies, or of a fold of their own.
-///   The depth is that under the nearest of the cell's skin faces (PlacedCells::depth_under) times the cell's length; a
-///   cell without skin faces counts by the shape functions of its corners that are not on the skin, at most its length;
+///   The depth is that under the nearest of the skin's facets at the cell's nodes, whether they are the cell's own or
+///   not; a cell without nodes on the skin counts with its length;
 /// - inside of rigid obstacles or behind their planes and surfaces, for the nodes that a contact names and all of the
 /// bars that they belong
 ///   to.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <numeric>
 #include <string>
 
@@ -276,8 +277,24 @@ TEST(BodyOverlap, IsTheDepthUnderTheSkinOfAnyCells) {
     EXPECT_LT(depth, 0.24) << name(above) << " on " << name(below);
   }
   const TwoBodies same(CellType::tetra4, CellType::tetra4, 2, 2, 0.0, {0.01, 0.02, 0.0});
-  // Depth over height of the tetrahedra on the face, which is h.
-  EXPECT_NEAR(BodyOverlap(same.model, same.u).deepest(same.lowered(0.05)).depth, 0.1, round_off);
+  // Depth over the cell_length of the tetrahedra, their least height: 0.5 / sqrt(2).
+  EXPECT_NEAR(BodyOverlap(same.model, same.u).deepest(same.lowered(0.05)).depth, 0.1 * std::numbers::sqrt2, round_off);
+}
+
+// A wall of one cell is cut into tetrahedra, some of which have an edge alone on its upper side and a face on another
+// one: a node that is 0.02 below the upper side is 0.02 deep in all of them. Their cell_length is 0.35 at least, and 1
+// at most.
+TEST(BodyOverlap, IsTheWayToTheNearestFaceAndNotToThatOfTheCell) {
+  for (const CellType type : {CellType::tetra4, CellType::tetra10, CellType::pyra5, CellType::penta6}) {
+    for (int i = 0; i <= 8; ++i) {
+      for (int k = 0; k <= 8; ++k) {
+        const TwoBodies bodies(type, type, 1, 1, 0.0, {0.31 + 0.05 * i, 0.32 + 0.05 * k, 0.0});
+        const double depth = BodyOverlap(bodies.model, bodies.u).deepest(bodies.lowered(0.02)).depth;
+        EXPECT_GT(depth, 0.0199) << name(type) << i << k;
+        EXPECT_LT(depth, 0.0572) << name(type) << i << k;
+      }
+    }
+  }
 }
 
 TEST(BuriedFacets, OfAnyCellsAreThoseInside) {
