@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "contact/broad_phase.hpp"
+#include "contact/kept_slots.hpp"
 #include "math/vec3.hpp"
 
 namespace carom {
@@ -179,29 +180,8 @@ class BarPairRows : public RowMaker {
     }
   }
 
-  /// Pairs that were in touch keep their slots; the deepest of the others take those that are left, in their order.
   static Places places_of(const std::vector<Found>& found, const ContactMotion& motion, Index first_slot) {
-    Places places;
-    places.fill(-1);
-    std::vector<std::ptrdiff_t> others;
-    const std::vector<Index> kept = motion.behind(first_slot, slots_per_bar);
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      const auto place = std::ranges::find(kept, found[k].other);
-      if (place != kept.end())
-        places[static_cast<std::size_t>(place - kept.begin())] = static_cast<std::ptrdiff_t>(k);
-      else
-        others.push_back(static_cast<std::ptrdiff_t>(k));
-    }
-    const auto free = static_cast<std::size_t>(std::count(places.begin(), places.end(), -1));
-    if (others.size() > free) {
-      std::ranges::stable_sort(others, {}, [&](std::ptrdiff_t k) { return found[static_cast<std::size_t>(k)].gap; });
-      others.resize(free);
-      std::sort(others.begin(), others.end());
-    }
-    auto next = others.begin();
-    for (std::ptrdiff_t& place : places)
-      if (place < 0 && next != others.end()) place = *next++;
-    return places;
+    return kept_slots<slots_per_bar>(found, motion.behind(first_slot, slots_per_bar), &Found::gap);
   }
 
   void add_row(std::size_t i, const Found& found, const ContactMotion& motion, Index slot, ConstraintRows& rows) const {

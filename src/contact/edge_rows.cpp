@@ -10,6 +10,7 @@
 #include "contact/broad_phase.hpp"
 #include "contact/edge_pair.hpp"
 #include "contact/feature_edges.hpp"
+#include "contact/kept_slots.hpp"
 #include "math/vec3.hpp"
 #include "mesh/skin.hpp"
 
@@ -184,26 +185,10 @@ void EdgeRows::find(Index i, const ContactMotion& motion, std::vector<Found>& fo
 }
 
 EdgeRows::Places EdgeRows::places_of(Index i, const std::vector<Found>& found) const {
-  Places places;
-  places.fill(-1);
-  std::vector<std::ptrdiff_t> others;
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const auto kept = std::ranges::find(behind_of(i), found[k].other, &Behind::second);
-    if (kept != behind_of(i).end())
-      places[kept->place] = static_cast<std::ptrdiff_t>(k);
-    else
-      others.push_back(static_cast<std::ptrdiff_t>(k));
-  }
-  const auto free = static_cast<std::size_t>(std::count(places.begin(), places.end(), -1));
-  if (others.size() > free) {
-    std::ranges::stable_sort(others, {}, [&](std::ptrdiff_t k) { return found[static_cast<std::size_t>(k)].pair.gap; });
-    others.resize(free);
-    std::sort(others.begin(), others.end());
-  }
-  auto next = others.begin();
-  for (std::ptrdiff_t& place : places)
-    if (place < 0 && next != others.end()) place = *next++;
-  return places;
+  std::array<Index, slots_per_segment> kept;
+  kept.fill(-1);
+  for (const Behind& was : behind_of(i)) kept[was.place] = was.second;
+  return kept_slots<slots_per_segment>(found, kept, [](const Found& pair) { return pair.pair.gap; });
 }
 
 void EdgeRows::add_row(Index i, const Found& found, const ContactMotion& motion, Index slot,
