@@ -11,7 +11,7 @@ using enum CellType;
 using enum Section;
 using enum Formulation;
 
-constexpr Element rows[] = {
+constexpr Element all_elements[] = {
     {hexa8, solid, full, CellKind::Hexa8},
     {hexa8, solid, mean_dilatation, CellKind::Hexa8, true},
     {hexa8, solid, one_point, CellKind::Hexa8OnePoint},
@@ -46,11 +46,11 @@ constexpr Element rows[] = {
     {line2, bar, full, CellKind::Bar},
 };
 
-/// The names of the rows that match, each once: "HEXA8, TETRA4 or TETRA10".
+/// The names of the elements that match, each once: "HEXA8, TETRA4 or TETRA10".
 template <class Match, class Name>
 std::string list(const Match& match, const Name& name_of) {
   std::vector<std::string> names;
-  for (const Element& row : rows)
+  for (const Element& row : all_elements)
     if (match(row) && std::find(names.begin(), names.end(), name_of(row)) == names.end())
       names.emplace_back(name_of(row));
   std::string text;
@@ -62,14 +62,14 @@ std::string list(const Match& match, const Name& name_of) {
 }  // namespace
 
 std::span<const Element> elements() {
-  return rows;
+  return all_elements;
 }
 
 const Element* find_element(CellType type, Section section, std::optional<Formulation> formulation) {
-  const auto* row = std::find_if(std::begin(rows), std::end(rows), [&](const Element& e) {
+  const auto* row = std::find_if(std::begin(all_elements), std::end(all_elements), [&](const Element& e) {
     return e.type == type && e.section == section && e.formulation == formulation.value_or(e.formulation);
   });
-  return row == std::end(rows) ? nullptr : row;
+  return row == std::end(all_elements) ? nullptr : row;
 }
 
 std::string_view name(Formulation formulation) {
