@@ -8,7 +8,7 @@
 namespace carom {
 namespace {
 
-constexpr double flat = 0.05;             // b . n below which a facet takes its part of the factor, 2.9 degrees
+constexpr double flat = 0.05;             // w: b . n of a facet that is 2.9 degrees from lying flat
 constexpr double nearly_parallel = 1e-3;  // sin^2 of the angle between the edges
 constexpr double least_factor = 1e-4;     // smaller ones make no row: 1e-8 of the force
 
@@ -35,9 +35,15 @@ struct PairGradient {
   }
 };
 
-/// sqrt(S(u)), and the slope of its logarithm.
+/// S(u), and half the slope of its logarithm.
 struct PairFade {
   double value, slope;
+};
+
+/// How an edge stands to the other body.
+struct EdgeStand {
+  double out = 1.0, flat = 1.0;                 ///< s and t
+  std::array<double, 2> out_slope, flat_slope;  ///< of log s and log t, by z of each facet
 };
 
 namespace {
@@ -49,7 +55,48 @@ void add_to(Vec3& sum, const Vec3& v, double w) {
 PairFade fade(double u) {
   if (u >= 1.0) return {1.0, 0.0};
   if (!(u > 0.0)) return {0.0, 0.0};
-  return {u * std::sqrt(3.0 - 2.0 * u), 1.0 / u - 1.0 / (3.0 - 2.0 * u)};
+  return {u * u * (3.0 - 2.0 * u), 1.0 / u - 1.0 / (3.0 - 2.0 * u)};
+}
+
+EdgeStand stand_of(const std::array<double, 2>& z) {
+  EdgeStand stand;
+  for (std::size_t f = 0; f < 2; ++f) {
+    const PairFade out = fade(z[f] / flat), half = fade((z[f] + flat) / (2.0 * flat));
+    stand.out *= out.value;
+    stand.flat *= half.value;
+    stand.out_slope[f] = 2.0 * out.slope / flat;
+    stand.flat_slope[f] = half.slope / flat;
+  }
+  return stand;
+}
+
+/// F, and its slopes by s and t of both edges.
+struct StandFactor {
+  double value;
+  std::array<double, 2> of_out{}, of_flat{};
+};
+
+StandFactor stand_factor(const std::array<EdgeStand, 2>& stand, PairFactor factor) {
+  const auto& [a, b] = stand;
+  switch (factor) {
+    case PairFactor::held:
+      return {a.out * b.out, {b.out, a.out}, {}};
+    case PairFactor::moves:
+      return {a.out * b.flat + a.flat * b.out - a.out * b.out, {b.flat - b.out, a.flat - a.out}, {b.out, a.out}};
+    case PairFactor::border:
+      break;
+  }
+  return {a.flat * b.flat, {}, {b.flat, a.flat}};
+}
+
+/// Where the closest points of the lines are; c = d_1 x d_2, r = a_1 - a_2.
+std::array<double, 2> closest(const Vec3& r, const std::array<Vec3, 2>& d, const Vec3& c, double cc) {
+  return {-dot(cross(r, d[1]), c) / cc, -dot(cross(r, d[0]), c) / cc};
+}
+
+/// y of an end, for the closest point at a distance `from` from it, as a part of the segment.
+double passed(const EdgeEnd& end, double from) {
+  return ((end.goes_on ? end.width : 0.0) + from) / (2.0 * end.width);
 }
 
 }  // namespace
@@ -70,10 +117,11 @@ class EdgePairing {
  private:
   bool take_angle();
   bool take_end(const std::array<EdgeEnd, 2>& ends, std::size_t edge);
-  bool take_facets();
+  bool take_facets(PairFactor factor);
   void add_factor();
-  bool take(const PairFade& part) {
-    pair_.factor *= part.value;
+  /// Takes a part of f^2.
+  bool take(double part) {
+    pair_.factor *= std::sqrt(std::max(0.0, part));
     return pair_.factor > least_factor;
   }
   /// Adds w times the gradients of s or t, of sin^2, and of b . n.
@@ -102,21 +150,20 @@ bool EdgePairing::take_angle() {
   const double y = sin_squared_ / nearly_parallel;
   if (y >= 1.0) return true;
   angle_slope_ = 0.5 * (1.0 / y - 1.0 / (2.0 - y)) / nearly_parallel;
-  return take({std::sqrt(y * (2.0 - y)), 0.0});
+  return take(y * (2.0 - y));
 }
 
 bool EdgePairing::take_end(const std::array<EdgeEnd, 2>& ends, std::size_t edge) {
   const double at = edge == 0 ? pair_.s : pair_.t;
   for (std::size_t end = 0; end < 2; ++end) {
-    const double width = ends[end].width, from = end == 0 ? at : 1.0 - at;
-    const PairFade part = fade(((ends[end].goes_on ? width : 0.0) + from) / (2.0 * width));
-    if (!take(part)) return false;
-    parameter_slope_[edge] += (end == 0 ? 1.0 : -1.0) * part.slope / (2.0 * width);
+    const PairFade part = fade(passed(ends[end], end == 0 ? at : 1.0 - at));
+    if (!take(part.value)) return false;
+    parameter_slope_[edge] += (end == 0 ? 1.0 : -1.0) * part.slope / (2.0 * ends[end].width);
   }
   return true;
 }
 
-bool EdgePairing::take_facets() {
+bool EdgePairing::take_facets(PairFactor factor) {
   double side = 0.0;
   const Vec3 n = scaled(c_, 1.0 / std::sqrt(cc_));
   for (std::size_t i = 0; i < 2; ++i) {
@@ -132,13 +179,18 @@ bool EdgePairing::take_facets() {
   }
   pair_.normal = scaled(n, side > 0.0 ? 1.0 : -1.0);
   pair_.turning_ = (side > 0.0 ? 1.0 : -1.0) / std::sqrt(cc_);
+  std::array<EdgeStand, 2> stand;
   for (std::size_t i = 0; i < 2; ++i) {
     const double sign = i == 0 ? 1.0 : -1.0;
-    for (std::size_t f = 0; f < 2; ++f) {
-      const PairFade part = fade(sign * dot(b_[i][f], pair_.normal) / flat);
-      if (!take(part)) return false;
-      facet_slope_[i][f] = sign * part.slope / flat;
-    }
+    stand[i] = stand_of({sign * dot(b_[i][0], pair_.normal), sign * dot(b_[i][1], pair_.normal)});
+  }
+  const StandFactor all = stand_factor(stand, factor);
+  if (!take(all.value)) return false;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double scale = (i == 0 ? 0.5 : -0.5) / all.value, of_out = scale * all.of_out[i] * stand[i].out,
+                 of_flat = scale * all.of_flat[i] * stand[i].flat;
+    for (std::size_t f = 0; f < 2; ++f)
+      facet_slope_[i][f] = of_out * stand[i].out_slope[f] + of_flat * stand[i].flat_slope[f];
   }
   return true;
 }
@@ -183,9 +235,10 @@ std::optional<EdgePair> EdgePairing::make(const std::array<EdgeEnd, 2>& ends_1, 
                                           PairFactor factor) {
   pair_.factor = 1.0;
   if (!take_angle()) return std::nullopt;
-  pair_.s = -dot(cross(r_, d_[1]), c_) / cc_;
-  pair_.t = -dot(cross(r_, d_[0]), c_) / cc_;
-  if (!take_end(ends_1, 0) || !take_end(ends_2, 1) || !take_facets()) return std::nullopt;
+  const std::array<double, 2> at = closest(r_, d_, c_, cc_);
+  pair_.s = at[0];
+  pair_.t = at[1];
+  if (!take_end(ends_1, 0) || !take_end(ends_2, 1) || !take_facets(factor)) return std::nullopt;
   pair_.d_1_ = d_[0];
   pair_.d_2_ = d_[1];
   pair_.gap = dot(pair_.normal, r_);
@@ -193,7 +246,7 @@ std::optional<EdgePair> EdgePairing::make(const std::array<EdgeEnd, 2>& ends_1, 
   gradient_.r = scaled(pair_.normal, pair_.factor);
   gradient_.d_1 = scaled(pair_.normal, pair_.factor * pair_.s);
   gradient_.d_2 = scaled(pair_.normal, -pair_.factor * pair_.t);
-  if (factor == PairFactor::moves && pair_.gap < 0.0) add_factor();
+  if (factor != PairFactor::held && pair_.gap < 0.0) add_factor();
   pair_.of_gap = gradient_.shares();
   return pair_;
 }
@@ -210,6 +263,19 @@ std::array<EdgeShares, 2> EdgePair::along(const Vec3& m) const {
 std::optional<EdgePair> edge_pair(const PlacedEdge& first, const std::array<EdgeEnd, 2>& ends_1,
                                   const PlacedEdge& second, const std::array<EdgeEnd, 2>& ends_2, PairFactor factor) {
   return EdgePairing(first, second).make(ends_1, ends_2, factor);
+}
+
+bool may_cross(const std::array<Vec3, 2>& first, const std::array<EdgeEnd, 2>& ends_1,
+               const std::array<Vec3, 2>& second, const std::array<EdgeEnd, 2>& ends_2) {
+  const std::array<Vec3, 2> d{subtract(first[1], first[0]), subtract(second[1], second[0])};
+  const Vec3 c = cross(d[0], d[1]);
+  const double cc = dot(c, c);
+  if (!(cc > 0.0)) return false;
+  const std::array<double, 2> at = closest(subtract(first[0], second[0]), d, c, cc);
+  const auto is_on = [](const std::array<EdgeEnd, 2>& ends, double s) {
+    return passed(ends[0], s) > 0.0 && passed(ends[1], 1.0 - s) > 0.0;
+  };
+  return is_on(ends_1, at[0]) && is_on(ends_2, at[1]);
 }
 
 double EdgePair::line_gap(const PlacedEdge& first, const PlacedEdge& second) const {

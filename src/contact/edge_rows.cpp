@@ -8,19 +8,18 @@
 #include <utility>
 
 #include "contact/broad_phase.hpp"
-#include "contact/edge_pair.hpp"
-#include "contact/feature_edges.hpp"
 #include "contact/kept_slots.hpp"
+#include "contact/meeting_edges.hpp"
 #include "math/vec3.hpp"
-#include "mesh/skin.hpp"
 
 namespace carom {
 namespace {
 
-constexpr std::size_t slots_per_segment = 4;
-// Of the facet size: depths at which a pair may begin that has not come from the front. Where its factor grows from
-// nothing its force does, too; else this depth is what it jumps by.
-constexpr double shallow = 0.002, shallow_from_nothing = 0.05;
+constexpr std::size_t slots_per_segment = 8;
+constexpr double reach_of_springs = 0.25;  // of the facet size
+// Multipliers: least factor of a pair. Of the facet size: depths at which a pair may begin that has not come from the
+// front. Where its factor grows from nothing its force does, too; else this depth is what it jumps by.
+constexpr double least_held = 0.5, shallow = 0.002, shallow_from_nothing = 0.05;
 
 std::vector<Facet> segments_of(const std::vector<FeatureEdge>& edges) {
   std::vector<Facet> segments;
@@ -37,6 +36,11 @@ bool are_neighbours(const FeatureEdge& a, const FeatureEdge& b) {
     for (const Facet& of_b : b.facet)
       if (share_a_node(of_a, of_b)) return true;
   return false;
+}
+
+/// Of a surface with itself two sharp edges are both of the first and of the second: the pair stands once.
+bool stands_elsewhere(const FeatureEdge& first, const FeatureEdge& second) {
+  return is_sharp(second) && second.node <= first.node;
 }
 
 bool touch(const FeatureEdge& a, const FeatureEdge& b) {
@@ -73,25 +77,20 @@ void for_each_share(const FeatureEdge& edge, const EdgeShares& shares, const F& 
   }
 }
 
-constexpr double least_held = 0.5;  // factor of a pair that multipliers may hold
-
 class EdgeRows : public RowMaker {
  public:
-  EdgeRows(std::vector<FeatureEdge> first, std::vector<FeatureEdge> second, bool self, double size,
-           const ContactLaw& law, Index source)
-      : first_(std::move(first)),
-        second_(std::move(second)),
-        self_(self),
-        size_(size),
+  EdgeRows(MeetingEdges edges, const ContactLaw& law, Index source)
+      : edges_(std::move(edges)),
         law_(law),
-        factor_(law.eps_N && !law.has_multipliers ? PairFactor::moves : PairFactor::held),
         source_(source),
-        broad_phase_(segments_of(first_), segments_of(second_), size, 0.5 * size) {}
-  std::size_t slots() const override { return slots_per_segment * first_.size(); }
+        reach_(edges_.size * (is_held() ? 1.0 : reach_of_springs)),
+        broad_phase_(segments_of(edges_.first), segments_of(edges_.second), reach_,
+                     edges_.size * (is_held() ? 0.5 : reach_of_springs)) {}
+  std::size_t slots() const override { return slots_per_segment * edges_.first.size(); }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override;
   void add_moving_nodes(std::vector<Index>& nodes) const override {
-    for (const std::vector<FeatureEdge>* edges : {&first_, &second_})
+    for (const std::vector<FeatureEdge>* edges : {&edges_.first, &edges_.second})
       for (const FeatureEdge& edge : *edges)
         for (const Facet& facet : edge.facet) nodes.insert(nodes.end(), facet.begin(), facet.end());
   }
@@ -113,17 +112,19 @@ class EdgeRows : public RowMaker {
   void find_behind(const ContactMotion& motion, Index first_slot) const;
   std::span<const Behind> behind_of(Index i) const;
   bool was_behind(Index i, Index j) const;
+  PairFactor factor_of(Index i, Index j) const;
   bool counts(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const;
+  bool has_come_from_the_front(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const;
   void find(Index i, const ContactMotion& motion, std::vector<Found>& found) const;
   Places places_of(Index i, const std::vector<Found>& found) const;
   void add_row(Index i, const Found& found, const ContactMotion& motion, Index slot, ConstraintRows& rows) const;
 
-  std::vector<FeatureEdge> first_, second_;
-  bool self_;
-  double size_;
+  bool is_held() const { return edges_.factor == PairFactor::held; }
+
+  MeetingEdges edges_;
   ContactLaw law_;
-  PairFactor factor_;
   Index source_;
+  double reach_;
   mutable BroadPhase broad_phase_;
   mutable RowParts parts_;
   mutable std::vector<Behind> behind_;  ///< by increasing first segment
@@ -149,20 +150,32 @@ std::span<const EdgeRows::Behind> EdgeRows::behind_of(Index i) const {
 /// True when the segments, or neighbours of both along their edges, were behind each other.
 bool EdgeRows::was_behind(Index i, Index j) const {
   const auto is_near = [&](Index of_first, Index of_second) {
-    return touch(first_[of_first], first_[i]) && touch(second_[of_second], second_[j]);
+    return touch(edges_.first[of_first], edges_.first[i]) && touch(edges_.second[of_second], edges_.second[j]);
   };
   return std::any_of(behind_.begin(), behind_.end(), [&](const Behind& was) {
-    return is_near(was.first, was.second) || (self_ && is_near(was.second, was.first));
+    return is_near(was.first, was.second) || (edges_.is_self && is_near(was.second, was.first));
   });
 }
 
+PairFactor EdgeRows::factor_of(Index i, Index j) const {
+  const bool may_be_border = is_sharp(edges_.first[i]) && is_sharp(edges_.second[j]);
+  return edges_.factor == PairFactor::border && !may_be_border ? PairFactor::moves : edges_.factor;
+}
+
 bool EdgeRows::counts(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const {
-  if (pair.gap > size_) return false;
-  if (pair.gap > -shallow * size_ || was_behind(i, j)) return true;
-  if (motion.history.empty() && pair.gap > -size_) return true;
-  const PlacedEdge first = place(first_[i], motion.x_begin), second = place(second_[j], motion.x_begin);
-  if (pair.line_gap(first, second) > -shallow * size_) return true;
-  return pair.gap > -shallow_from_nothing * size_ && !edge_pair(first, first_[i].end, second, second_[j].end, factor_);
+  if (pair.gap > reach_) return false;
+  if (is_held()) return pair.factor >= least_held && has_come_from_the_front(i, j, pair, motion);
+  return pair.gap > -std::min(edges_.depth_1[i], edges_.depth_2[j]);
+}
+
+bool EdgeRows::has_come_from_the_front(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const {
+  const double size = edges_.size;
+  if (pair.gap > -shallow * size || was_behind(i, j)) return true;
+  if (motion.history.empty() && pair.gap > -size) return true;
+  const PlacedEdge first = place(edges_.first[i], motion.x_begin), second = place(edges_.second[j], motion.x_begin);
+  if (pair.line_gap(first, second) > -shallow * size) return true;
+  return pair.gap > -shallow_from_nothing * size &&
+         !edge_pair(first, edges_.first[i].end, second, edges_.second[j].end, edges_.factor);
 }
 
 /// The pairs of segment i that count, by increasing segment of the other side.
@@ -174,13 +187,13 @@ void EdgeRows::find(Index i, const ContactMotion& motion, std::vector<Found>& fo
   if (candidates.empty()) return;
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-  const PlacedEdge placed = place(first_[i], motion.x);
+  const PlacedEdge placed = place(edges_.first[i], motion.x);
   for (const Index j : candidates) {
-    if ((self_ && j <= i) || are_neighbours(first_[i], second_[j])) continue;
-    const auto pair = edge_pair(placed, first_[i].end, place(second_[j], motion.x), second_[j].end, factor_);
-    // Multipliers hold what sticks out: rows of edges that lie nearly flat would depend on those of the faces.
-    const double least = factor_ == PairFactor::held ? least_held : 0.0;
-    if (pair && pair->factor >= least && counts(i, j, *pair, motion)) found.push_back({j, *pair});
+    const FeatureEdge &first = edges_.first[i], &second = edges_.second[j];
+    if (!may_cross(placed.x, first.end, {motion.x[second.node[0]], motion.x[second.node[1]]}, second.end)) continue;
+    if ((edges_.is_self && stands_elsewhere(first, second)) || are_neighbours(first, second)) continue;
+    const auto pair = edge_pair(placed, first.end, place(second, motion.x), second.end, factor_of(i, j));
+    if (pair && counts(i, j, *pair, motion)) found.push_back({j, *pair});
   }
 }
 
@@ -193,7 +206,7 @@ EdgeRows::Places EdgeRows::places_of(Index i, const std::vector<Found>& found) c
 
 void EdgeRows::add_row(Index i, const Found& found, const ContactMotion& motion, Index slot,
                        ConstraintRows& rows) const {
-  const FeatureEdge &first = first_[i], &second = second_[found.other];
+  const FeatureEdge &first = edges_.first[i], &second = edges_.second[found.other];
   const EdgePair& pair = found.pair;
   const double measure = std::min(first.measure, second.measure);
   rows.add_row(pair.factor * pair.gap, pair.normal, pair.point, measure, row_law(law_, measure), source_);
@@ -216,7 +229,7 @@ void EdgeRows::append(const ContactMotion& motion, Index first_slot, ConstraintR
   broad_phase_.update(motion.x_begin, motion.displacement);
   find_behind(motion, first_slot);
   if (broad_phase_.pair_count() == 0 && behind_.empty()) return;
-  parts_.append(first_.size(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
+  parts_.append(edges_.first.size(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
     std::vector<Found> found;
     for (std::size_t i = begin; i < end; ++i) {
       find(static_cast<Index>(i), motion, found);
@@ -237,14 +250,12 @@ bool is_solid(const Surface& surface) {
 
 std::unique_ptr<RowMaker> edge_rows(const Model& model, const PairContact& contact, Index source) {
   if (!is_solid(contact.slave) || !is_solid(contact.master)) return nullptr;
-  const std::span<const Vec3> X = model.mesh->coordinates;
-  std::vector<Facet> beside;
-  if (has_open_edges(contact.slave.facets) || has_open_edges(contact.master.facets)) beside = skin(*model.mesh);
-  std::vector<FeatureEdge> first = feature_edges(X, contact.slave.facets, beside);
-  std::vector<FeatureEdge> second = contact.self ? first : feature_edges(X, contact.master.facets, beside);
-  if (first.empty() || second.empty()) return nullptr;
-  const double size = std::max(mean_facet_size(X, contact.slave.facets), mean_facet_size(X, contact.master.facets));
-  return std::make_unique<EdgeRows>(std::move(first), std::move(second), contact.self, size, contact.law, source);
+  auto all = std::make_unique<MakersInOrder>();
+  for (MeetingEdges& edges : meeting_edges(model, contact)) {
+    const bool is_back = edges.is_back;
+    all->add(std::make_unique<EdgeRows>(std::move(edges), contact.law, source), is_back);
+  }
+  return all->slots() == 0 ? nullptr : std::move(all);
 }
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// Rows of sharp edges against sharp edges.
+// Rows of sharp edges against edges.
 #pragma once
 
 #include <memory>
@@ -7,13 +7,19 @@
 
 namespace carom {
 
-/// One row per pair of segments of sharp edges (feature_edges.hpp) of the two surfaces that cross, with the gap, the
-/// frame and the blocks of edge_pair.hpp; with `self` every pair once, the lower number first. Its measure is the
-/// smaller of both shares of area, its law the contact's own: there is one pass only. The factor moves with the pair
-/// where the contact has springs (ContactLaw::eps_N), and is held where it has none. Segments that share a node, or of
-/// which two facets do, make no pair.
+/// One row per pair of segments of edges (feature_edges.hpp) of the two surfaces that cross, with the gap, the frame
+/// and the blocks of edge_pair.hpp; with `self` every pair once. Its measure is the smaller of both shares of area, its
+/// law the contact's own: there is one pass only. Segments that share a node, or of which two facets do, make no pair.
+/// h is the larger mean facet size of both surfaces.
 ///
-/// With h the larger mean facet size of both surfaces rows are made to a gap of h. Behind each other edges count that
+/// Where the contact has springs alone, sharp edges, which turn by more than 5 degrees, meet all edges of the other
+/// surface: so a ridge is seen by a face that it crosses between two nodes. Two sharp edges meet as borders of faces
+/// where the contact's rows stand at nodes (rows of overlaps see such faces by themselves). Rows are made to a gap of
+/// h / 4, and behind each other to the least of 3 h / 4 and half the thickness of either body.
+///
+/// Where it has multipliers or impulses, sharp edges, of more than 30 degrees, meet those of the other surface where
+/// both stick out: rows of edges that lie nearly flat would depend on those of the faces. Rows are made to a gap of h.
+/// Behind each other edges count that
 /// - are less than h / 500 deep, or were less deep at the beginning of the step: so those count that have come from the
 ///   front, at any speed;
 /// - are less than h / 20 deep and made no pair there, as their factor was zero: it grows from nothing; or
@@ -21,11 +27,11 @@ namespace carom {
 /// What is deep for other reasons, having come in sideways, makes no row until it has been in front.
 /// Where there is no history, as of what stands still at the start, they count to a depth of h.
 ///
-/// Four slots per segment of the first surface (of more pairs the deepest). A pair that was behind at the beginning of
+/// A fixed number of slots per sharp segment (of more pairs the deepest). A pair that was behind at the beginning of
 /// the step keeps its slot; the others follow by increasing segment of the second surface. ConstraintRows::facet is
 /// that segment.
 ///
-/// Null where there are no two sharp edges to meet: in two dimensions, of bars, and of smooth surfaces.
+/// Null where there are no two edges to meet: in two dimensions, of bars, and of smooth surfaces.
 std::unique_ptr<RowMaker> edge_rows(const Model& model, const PairContact& contact, Index source);
 
 }  // namespace carom

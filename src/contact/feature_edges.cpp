@@ -14,9 +14,9 @@
 namespace carom {
 namespace {
 
-constexpr double least_sharp = 0.5 * std::numbers::sqrt3;  // cosine of 30 degrees between the normals
-constexpr double goes_straight = 1.0 - 5e-7;               // cosine of 1e-3 between segments
-constexpr double passing = 0.1;                            // EdgeEnd::width
+constexpr double goes_straight = 1.0 - 5e-7;             // cosine of 1e-3 between segments
+constexpr double passing = 0.1;                          // EdgeEnd::width
+constexpr double warped = 0.5 * std::numbers::pi / 180;  // turn of the halves of a quadrilateral
 
 /// A side of a facet.
 struct FacetSide {
@@ -80,16 +80,32 @@ Vec3 mean_of(const Facet& facet, std::span<const Vec3> X) {
   return scaled(sum, 1.0 / facet.size);
 }
 
-std::optional<FeatureEdge> sharp_edge(std::span<const FacetSide> sides, std::span<const Vec3> X) {
+/// The edge from node a to node b, which the first facet has in this order and the second in the other.
+FeatureEdge edge_between(Index a, Index b, const Facet& first, const Facet& second, std::span<const Vec3> X) {
+  const Vec3 n = normal_of(first, X), m = normal_of(second, X);
+  const bool sticks_out = dot(n, subtract(mean_of(second, X), X[a])) < 0.0;
+  const double turn = std::atan2(norm(cross(n, m)), dot(n, m));
+  const double measure = carom::measure(place(first, X)) / first.size + carom::measure(place(second, X)) / second.size;
+  return {{a, b}, {first, second}, sticks_out ? turn : -turn, measure, {}};
+}
+
+std::optional<FeatureEdge> edge_of(std::span<const FacetSide> sides, std::span<const Vec3> X) {
   if (sides.size() != 2 || sides[0].is_forward == sides[1].is_forward) return std::nullopt;
   if (!sides[0].is_own && !sides[1].is_own) return std::nullopt;
-  const Facet &first = sides[sides[0].is_forward ? 0 : 1].facet, &second = sides[sides[0].is_forward ? 1 : 0].facet;
-  const Vec3 n = normal_of(first, X);
-  if (!(dot(n, normal_of(second, X)) < least_sharp)) return std::nullopt;
-  const Index a = sides[0].low, b = sides[0].high;
-  if (!(dot(n, subtract(mean_of(second, X), X[a])) < 0.0)) return std::nullopt;
-  const double measure = carom::measure(place(first, X)) / first.size + carom::measure(place(second, X)) / second.size;
-  return FeatureEdge{{a, b}, {first, second}, measure, {}};
+  const std::size_t first = sides[0].is_forward ? 0 : 1;
+  return edge_between(sides[0].low, sides[0].high, sides[first].facet, sides[1 - first].facet, X);
+}
+
+/// The diagonal of a quadrilateral that sticks out; nothing where it is flat.
+std::optional<FeatureEdge> diagonal_of(const Facet& facet, std::span<const Vec3> X) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Index a = facet[k], b = facet[k + 1], c = facet[k + 2], d = facet[(k + 3) % 4];
+    if (a == b || b == c || c == d || d == a) return std::nullopt;
+    const Facet ahead{{a, c, d, -1}, 3}, back{{c, a, b, -1}, 3};
+    const FeatureEdge edge = a < c ? edge_between(a, c, ahead, back, X) : edge_between(c, a, back, ahead, X);
+    if (edge.turn > warped) return edge;
+  }
+  return std::nullopt;
 }
 
 /// Direction of edge e away from its end.
@@ -124,11 +140,15 @@ void find_ends(std::vector<FeatureEdge>& edges, std::span<const Vec3> X) {
 }  // namespace
 
 std::vector<FeatureEdge> feature_edges(std::span<const Vec3> X, std::span<const Facet> surface,
-                                       std::span<const Facet> beside) {
+                                       std::span<const Facet> beside, double least_turn) {
   std::vector<FeatureEdge> edges;
-  for_each_edge(sides_by_edge(surface, beside), [&](std::span<const FacetSide> sides) {
-    if (const std::optional<FeatureEdge> edge = sharp_edge(sides, X)) edges.push_back(*edge);
-  });
+  const auto add = [&](const std::optional<FeatureEdge>& edge) {
+    if (edge && edge->turn > least_turn) edges.push_back(*edge);
+  };
+  for_each_edge(sides_by_edge(surface, beside), [&](std::span<const FacetSide> sides) { add(edge_of(sides, X)); });
+  for (const Facet& facet : surface)
+    if (facet.size == 4) add(diagonal_of(facet, X));
+  std::ranges::stable_sort(edges, {}, &FeatureEdge::node);
   find_ends(edges, X);
   return edges;
 }

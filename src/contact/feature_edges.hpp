@@ -1,4 +1,4 @@
-// The sharp convex edges of a surface: what may meet the edges of other bodies before any node meets a facet.
+// The edges of a surface: where sharp ones cross those of other bodies, bodies may meet before any node meets a facet.
 #pragma once
 
 #include <array>
@@ -16,22 +16,23 @@ struct EdgeEnd {
   double width = 0.0;  ///< a tenth of the shorter segment there, as a part of this one
 };
 
-/// A segment of a sharp edge, between two nodes of the mesh.
+/// A segment of an edge, between two nodes of the mesh.
 struct FeatureEdge {
   std::array<Index, 2> node{};
   std::array<Facet, 2> facet{};  ///< the first has its nodes in this order, the second in the other
+  double turn = 0.0;             ///< angle between the outward normals of both, negative in a notch
   double measure = 0.0;          ///< share of area: that of each facet over the number of its nodes
   std::array<EdgeEnd, 2> end{};  ///< at node[0] and node[1]
 };
 
-/// The edges between two facets of three or four nodes whose outward normals differ by more than 30 degrees and that
-/// stick out, by increasing numbers of their nodes. One of the facets at least is of the surface; where that ends, the
-/// other one is looked for in `beside` (the skin of the mesh; facets of the surface may be in it). Edges with a third
-/// facet have no inside and are left out. An edge goes on at a node where exactly one other edge leaves it straight on,
-/// to a thousandth: the line of a segment of a curved edge sticks out of the body beyond the segment's end. X:
-/// reference configuration.
+/// The edges between two facets of three or four nodes that turn by more than `least_turn`, by increasing numbers of
+/// their nodes. One of the facets at least is of the surface; where that ends, the other one is looked for in `beside`
+/// (the skin of the mesh; facets of the surface may be in it). Edges with a third facet have no inside and are left
+/// out. Warped quadrilaterals, whose halves turn by more than half a degree, have an edge along the diagonal that
+/// sticks out. An edge goes on at a node where exactly one other edge leaves it straight on, to a thousandth: the line
+/// of a segment of a curved edge sticks out of the body beyond the segment's end. X: reference configuration.
 std::vector<FeatureEdge> feature_edges(std::span<const Vec3> X, std::span<const Facet> surface,
-                                       std::span<const Facet> beside);
+                                       std::span<const Facet> beside, double least_turn);
 
 /// True when a facet of the surface has an edge that no other one shares.
 bool has_open_edges(std::span<const Facet> surface);

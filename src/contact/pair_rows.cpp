@@ -106,40 +106,6 @@ class NodeRows : public RowMaker {
   mutable RowParts parts_;
 };
 
-/// The rows of several makers, one after the other.
-class MakersInOrder : public RowMaker {
- public:
-  /// is_back: of all its rows, ConstraintRows::is_back.
-  void add(std::unique_ptr<RowMaker> maker, bool is_back = false) { makers_.push_back({std::move(maker), is_back}); }
-  std::size_t slots() const override {
-    std::size_t sum = 0;
-    for (const Entry& entry : makers_) sum += entry.maker->slots();
-    return sum;
-  }
-  bool is_fixed() const override {
-    return std::all_of(makers_.begin(), makers_.end(), [](const Entry& entry) { return entry.maker->is_fixed(); });
-  }
-  void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
-    for (const Entry& entry : makers_) {
-      const std::size_t before = rows.size();
-      entry.maker->append(motion, first_slot, rows);
-      first_slot += static_cast<Index>(entry.maker->slots());
-      if (entry.is_back)
-        std::fill(rows.is_back.begin() + static_cast<std::ptrdiff_t>(before), rows.is_back.end(), true);
-    }
-  }
-  void add_moving_nodes(std::vector<Index>& nodes) const override {
-    for (const Entry& entry : makers_) entry.maker->add_moving_nodes(nodes);
-  }
-
- private:
-  struct Entry {
-    std::unique_ptr<RowMaker> maker;
-    bool is_back;
-  };
-  std::vector<Entry> makers_;
-};
-
 /// Ends of bars against ends of bars.
 class EndRows : public RowMaker {
  public:

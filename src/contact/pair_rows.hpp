@@ -28,7 +28,7 @@ namespace carom {
 ///
 /// surface_to_surface: see mortar_rows.hpp.
 ///
-/// Whatever the method, the sharp edges of solids have rows with each other, in slots after these: see edge_rows.hpp.
+/// Whatever the method, the sharp edges of solids have rows with edges, in slots after these: see edge_rows.hpp.
 ///
 /// Ends of bars against ends of bars: fixed rows. Every end has the nearest master end that points against it, in the
 /// reference configuration; the normal is that end's outward direction there, the measure the area of the section.

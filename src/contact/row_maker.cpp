@@ -43,6 +43,29 @@ void FixedRows::append(const ContactMotion& /*motion*/, Index first_slot, Constr
   append_rows(rows, rows_, first_slot);
 }
 
+std::size_t MakersInOrder::slots() const {
+  std::size_t sum = 0;
+  for (const Entry& entry : makers_) sum += entry.maker->slots();
+  return sum;
+}
+
+bool MakersInOrder::is_fixed() const {
+  return std::all_of(makers_.begin(), makers_.end(), [](const Entry& entry) { return entry.maker->is_fixed(); });
+}
+
+void MakersInOrder::append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const {
+  for (const Entry& entry : makers_) {
+    const std::size_t before = rows.size();
+    entry.maker->append(motion, first_slot, rows);
+    first_slot += static_cast<Index>(entry.maker->slots());
+    if (entry.is_back) std::fill(rows.is_back.begin() + static_cast<std::ptrdiff_t>(before), rows.is_back.end(), true);
+  }
+}
+
+void MakersInOrder::add_moving_nodes(std::vector<Index>& nodes) const {
+  for (const Entry& entry : makers_) entry.maker->add_moving_nodes(nodes);
+}
+
 void RowBlocks::add(Index n, const Vec3& normal, const Vec3& tangent_1, const Vec3& tangent_2) {
   auto entry = std::find_if(entries_.begin(), entries_.end(), [n](const auto& e) { return e.first == n; });
   if (entry == entries_.end()) entry = entries_.insert(entry, {n, {}});

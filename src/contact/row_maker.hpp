@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -57,6 +58,24 @@ class FixedRows : public RowMaker {
 
  private:
   ConstraintRows rows_;
+};
+
+/// The rows of several makers, one after the other.
+class MakersInOrder : public RowMaker {
+ public:
+  /// is_back: of all its rows, ConstraintRows::is_back.
+  void add(std::unique_ptr<RowMaker> maker, bool is_back = false) { makers_.push_back({std::move(maker), is_back}); }
+  std::size_t slots() const override;
+  bool is_fixed() const override;
+  void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override;
+  void add_moving_nodes(std::vector<Index>& nodes) const override;
+
+ private:
+  struct Entry {
+    std::unique_ptr<RowMaker> maker;
+    bool is_back;
+  };
+  std::vector<Entry> makers_;
 };
 
 /// Blocks of one side of a row in the making, one per node, in the order of their first use.

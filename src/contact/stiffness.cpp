@@ -46,7 +46,7 @@ class LinearDepth {
   }
 
  private:
-  static constexpr double share = 0.02;
+  static constexpr double share = 0.0075;
 
   double shortest(std::span<const Index> nodes) const { return least_length(*length_, nodes); }
   double shortest(const Surface& surface) const {

@@ -22,14 +22,14 @@ namespace carom {
 ///   - two sides: eps_N = 2 / (1 / M_1 + 1 / M_2) / min(h_1, h_2), the moduli in series over the finer cell: M / h for
 ///     equal bodies, at most 2 M of the softer side over h however stiff the other one is. The finer mesh tells how
 ///     small the region is that is pressed: the springs give as much as that at most. The stable step keeps 0.79.
-/// In models with parts of finite strain the springs harden (RowLaw) below 2 % of the smallest cell at the contact:
-/// what crushes the cells behind by 10, 50 or 300 % of M sinks in by 4.8, 7.6 or 12.6 % of a cell, not by the same 10,
-/// 50 or 300 %. Explicit steps follow the slope, and pay for it there and then alone; small-strain bodies, which no
-/// such load suits, keep one slope and the step that goes with it. Interfaces have the one or two sides that parts
-/// hold. Times ContactLaw::stiffness_factor. With RowMeasure::per_node also times the mean measure of the nodes on the
-/// skin of the mesh (facets whose nodes are all on the list; where there are none, those with any node on it). An
-/// absent eps_T becomes eps_N where mu > 0, given or chosen: a gap and a slip then cost the same. All is linear in the
-/// modulus and inverse in the length, so no unit system matters. Discrete stops have their own stiffness. Throws
+/// In models with parts of finite strain the springs harden (RowLaw) below 0.75 % of the smallest cell at the
+/// contact: what crushes the cells behind by 10, 50 or 300 % of M sinks in by 2.4, 3.7 or 6.3 % of a cell, not by the
+/// same 10, 50 or 300 %. Explicit steps follow the slope, and pay for it there and then alone; small-strain bodies,
+/// which no such load suits, keep one slope and the step that goes with it. Interfaces have the one or two sides that
+/// parts hold. Times ContactLaw::stiffness_factor. With RowMeasure::per_node also times the mean measure of the nodes
+/// on the skin of the mesh (facets whose nodes are all on the list; where there are none, those with any node on it).
+/// An absent eps_T becomes eps_N where mu > 0, given or chosen: a gap and a slip then cost the same. All is linear in
+/// the modulus and inverse in the length, so no unit system matters. Discrete stops have their own stiffness. Throws
 /// std::invalid_argument naming the contact where no cell of a part is behind it.
 std::vector<std::string> choose_stiffness(Model& model);
 

@@ -1,8 +1,9 @@
-// Sharp edges: which there are, and the rows of edges that cross.
+// Edges: which there are, and the rows of edges that cross.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "contact/edge_rows.hpp"
@@ -16,6 +17,8 @@ using namespace test;
 
 constexpr double round_off = 1e-13;  // positions below 10, some ten operations
 constexpr double degree = std::numbers::pi / 180.0;
+constexpr double sharp = 30.0 * degree;
+constexpr Index slots = 8;  // of a segment
 
 Vec3 turned(const Vec3& x, std::size_t axis, double angle) {
   const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;
@@ -33,6 +36,8 @@ struct Lie {
   double roll_1 = 45.0 * degree, roll_2 = 45.0 * degree;  ///< of the upper (first surface) and the lower bar
   double on_1 = -0.4, on_2 = 0.3;
   bool self = false;
+  bool has_multipliers = false;
+  PairMethod method = PairMethod::two_pass;
 };
 
 /// Two bars of 4 x 1 x 1, of 4 cells along their edges.
@@ -69,6 +74,8 @@ struct Bars {
     contact.law.eps_N = 4.0;
     contact.law.eps_T = 2.0;
     contact.law.mu = 0.3;
+    contact.law.has_multipliers = lie.has_multipliers;
+    contact.method = lie.method;
     scene.finish();
     maker = edge_rows(scene.model, contact, 0);
   }
@@ -115,7 +122,7 @@ struct Bars {
 TEST(FeatureEdges, AreThoseOfABox) {
   Scene scene;
   const std::vector<Facet> box = scene.add_box({0.0, 0.0, 0.0}, {3.0, 3.0, 3.0}, 3);
-  const std::vector<FeatureEdge> edges = feature_edges(scene.mesh.coordinates, box, {});
+  const std::vector<FeatureEdge> edges = feature_edges(scene.mesh.coordinates, box, {}, sharp);
   ASSERT_EQ(edges.size(), 12U * 3U);
   for (const FeatureEdge& edge : edges) {
     EXPECT_NEAR(edge.measure, 0.5, round_off);  // two facets of 1, four nodes each
@@ -132,8 +139,8 @@ TEST(FeatureEdges, AreFoundWhereTheSurfaceEnds) {
   const std::vector<Facet> box = scene.add_box({0.0, 0.0, 0.0}, {2.0, 2.0, 2.0}, 2);
   const std::vector<Facet> bottom(box.begin() + 16, box.begin() + 20);  // the fifth side is that of least z
   EXPECT_TRUE(has_open_edges(bottom));
-  EXPECT_EQ(feature_edges(scene.mesh.coordinates, bottom, box).size(), 8U);
-  EXPECT_TRUE(feature_edges(scene.mesh.coordinates, bottom, {}).empty());
+  EXPECT_EQ(feature_edges(scene.mesh.coordinates, bottom, box, sharp).size(), 8U);
+  EXPECT_TRUE(feature_edges(scene.mesh.coordinates, bottom, {}, sharp).empty());
 }
 
 // A roof of two facets, and the same seen from below: 2 x 14 degrees are smooth, 2 x 16 are sharp; a valley is not.
@@ -147,7 +154,7 @@ TEST(FeatureEdges, AreConvexAndTurnByMoreThan30Degrees) {
             return Vec3{2.0 * s - 1.0, t, -slope * std::abs(2.0 * s - 1.0)};
           },
           triangles);
-      return feature_edges(scene.mesh.coordinates, roof, {}).size();
+      return feature_edges(scene.mesh.coordinates, roof, {}, sharp).size();
     };
     EXPECT_EQ(count(std::tan(14.0 * degree)), 0U);
     EXPECT_EQ(count(std::tan(16.0 * degree)), 1U);
@@ -162,7 +169,7 @@ TEST(FeatureEdges, GoOnWhereTheyAreStraight) {
     const std::vector<Facet> roof = scene.add_patch(2, 2, [&](double s, double t) {
       return Vec3{2.0 * s - 1.0, t, -std::abs(2.0 * s - 1.0) - sag * std::abs(t - 0.5)};
     });
-    const std::vector<FeatureEdge> ridge = feature_edges(scene.mesh.coordinates, roof, {});
+    const std::vector<FeatureEdge> ridge = feature_edges(scene.mesh.coordinates, roof, {}, sharp);
     EXPECT_EQ(ridge.size(), 2U);
     int count = 0;
     for (const FeatureEdge& edge : ridge)
@@ -200,10 +207,12 @@ TEST(EdgeRows, OfASurfaceWithItselfStandOnce) {
   EXPECT_NEAR(rows.law[0].eps_N, 0.5, round_off);
 }
 
-// Flat on flat the four edges of each bar that cross the other's have no rows at all; nor have parallel edges.
+// With multipliers, flat on flat the four edges of each bar that cross the other's have no rows at all; nor has an edge
+// on a face, nor have parallel edges.
 TEST(EdgeRows, AreNoneWhereFacesOrEdgesLieAlongEachOther) {
   for (const double angle : {90.0, 45.0, 20.0}) {
     Lie lie;
+    lie.has_multipliers = true;
     lie.crossing = angle * degree;
     lie.roll_1 = lie.roll_2 = 0.0;
     EXPECT_EQ(Bars(lie).rows().size(), 0U) << angle;
@@ -211,14 +220,46 @@ TEST(EdgeRows, AreNoneWhereFacesOrEdgesLieAlongEachOther) {
     EXPECT_EQ(Bars(lie).rows().size(), 0U) << angle;
   }
   Lie lie;
+  lie.has_multipliers = true;
   lie.crossing = 0.0;
   EXPECT_EQ(Bars(lie).rows().size(), 0U);
 }
 
+// Springs at nodes: where two bars cross flat on flat, 1 x 1 of their faces, no node of one is over the other; the
+// sides of the faces cross at four places, each with f^2 = 1/2 * 1/2. With overlaps the faces see each other.
+TEST(EdgeRows, HoldFacesThatCrossAtTheirSides) {
+  Lie lie;
+  lie.roll_1 = lie.roll_2 = 0.0;
+  const Bars bars(lie);
+  const ConstraintRows rows = bars.rows();
+  ASSERT_EQ(rows.size(), 4U);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    EXPECT_NEAR(rows.gap_at(r, bars.scene.zero()), 0.5 * lie.gap, round_off);
+    EXPECT_NEAR(norm(subtract(rows.normal[r], {0.0, 0.0, 1.0})), 0.0, round_off);
+  }
+  lie.method = PairMethod::faces;
+  EXPECT_EQ(Bars(lie).rows().size(), 0U);
+}
+
+// A ridge across the flat top of the other bar crosses three lines of the mesh there, each with f^2 = 1/4, and both
+// sides of the top, f^2 = 1/2.
+TEST(EdgeRows, HoldRidgesOnFaces) {
+  Lie lie;
+  lie.roll_2 = 0.0;
+  lie.on_1 = 0.0;
+  const Bars bars(lie);
+  const ConstraintRows rows = bars.rows();
+  ASSERT_GE(rows.size(), 2U);
+  double sum = 0.0;  // of f^2
+  for (std::size_t r = 0; r < rows.size(); ++r) sum += std::pow(rows.gap_at(r, bars.scene.zero()) / lie.gap, 2);
+  EXPECT_NEAR(sum, 3.0 * 0.25 + 2.0 * 0.5, round_off);
+}
+
 /// Places where every part of the factor acts: edges that stick out; a facet 2 and 1.4 degrees from lying flat (the
-/// factor fades below 2.9); edges 1 degree from parallel (it fades below 1.8); a crossing beside nodes of both edges.
+/// factor fades below 2.9); edges 1 degree from parallel (it fades below 1.8); a crossing beside nodes of both edges; a
+/// ridge on a face; faces whose sides cross.
 std::vector<Lie> places() {
-  std::vector<Lie> places(5);
+  std::vector<Lie> places(7);
   places[1].roll_1 = 2.0 * degree;
   places[2].roll_2 = 1.4 * degree;
   places[2].crossing = 70.0 * degree;
@@ -226,6 +267,11 @@ std::vector<Lie> places() {
   places[4].on_1 = 0.96;
   places[4].on_2 = -0.03;
   places[4].crossing = 80.0 * degree;
+  places[5].roll_2 = 0.5 * degree;
+  places[5].crossing = 70.0 * degree;
+  places[6].roll_1 = 1.0 * degree;
+  places[6].roll_2 = -0.7 * degree;
+  places[6].crossing = 75.0 * degree;
   return places;
 }
 
@@ -239,10 +285,13 @@ TEST(EdgeRows, HaveTheGradientOfTheirGap) {
     ASSERT_GE(rows.size(), 1U);
     const auto gap = [&](std::size_t r, const std::vector<double>& at) {
       const ConstraintRows there = bars.rows(at);
-      const std::ptrdiff_t k = row_of(there, rows.slot[r]);
-      return k < 0 ? NAN : there.gap_at(static_cast<std::size_t>(k), at);
+      for (std::size_t k = 0; k < there.size(); ++k)
+        if (there.slot[k] / slots == rows.slot[r] / slots && there.facet[k] == rows.facet[r])
+          return there.gap_at(k, at);
+      return std::numeric_limits<double>::quiet_NaN();
     };
     for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (rows.gap_at(r, u) > 0.0) continue;  // there the factor is no part of it
       std::vector<double> gradient = bars.scene.zero();
       rows.scatter(r, {1.0, 0.0, 0.0}, gradient);
       for (const Index n : std::span(rows.node).subspan(static_cast<std::size_t>(rows.begin[r]),
@@ -303,8 +352,9 @@ TEST(EdgeRows, EndWithTheEdgeWithoutAJump) {
 
 // A pair begins when it was in front at the beginning of the step, however far it goes, and not when it comes in deep
 // from the side, or stands there. Less deep than a twentieth of the facets' size, 0.5, it begins from the side.
-TEST(EdgeRows, BeginInFront) {
+TEST(EdgeRows, OfMultipliersBeginInFront) {
   Lie lie;
+  lie.has_multipliers = true;
   lie.gap = 0.01;
   const Bars bars(lie);
   EXPECT_EQ(bars.rows(bars.moved({}), bars.moved({0.0, 0.0, -0.3}), bars.in_front()).size(), 1U);
@@ -319,17 +369,19 @@ TEST(EdgeRows, BeginInFront) {
   EXPECT_EQ(bars.rows(deep, deep).size(), 1U);  // at the start, where nothing is known
 }
 
-TEST(EdgeRows, RememberWhatWasBehind) {
-  const Bars bars(Lie{});
+TEST(EdgeRows, OfMultipliersRememberWhatWasBehind) {
+  Lie lie;
+  lie.has_multipliers = true;
+  const Bars bars(lie);
   std::vector<RowHistory> history = bars.in_front();
   const std::vector<double> deep = bars.moved({0.0, 0.0, -0.3});
   const ConstraintRows before = bars.rows(deep);
   ASSERT_EQ(before.size(), 1U);
-  const Index segment = before.slot[0] / 4;
-  history[static_cast<std::size_t>(4 * segment + 2)].facet = before.facet[0];
+  const Index segment = before.slot[0] / slots;
+  history[static_cast<std::size_t>(slots * segment + 2)].facet = before.facet[0];
   const ConstraintRows after = bars.rows(deep, deep, history);
   ASSERT_EQ(after.size(), 1U);
-  EXPECT_EQ(after.slot[0], 4 * segment + 2);  // it keeps its slot
+  EXPECT_EQ(after.slot[0], slots * segment + 2);  // it keeps its slot
   EXPECT_EQ(after.facet[0], before.facet[0]);
   const std::vector<double> beside = bars.moved({1.0, 0.0, -0.3});  // on the next segment of the lower edge
   const ConstraintRows next = bars.rows(beside, beside, history);
@@ -337,6 +389,16 @@ TEST(EdgeRows, RememberWhatWasBehind) {
   EXPECT_NE(next.facet[0], before.facet[0]);
   const std::vector<double> far = bars.moved({-1.9, 0.0, -0.3});  // two segments on
   EXPECT_EQ(bars.rows(far, far, history).size(), 0U);
+}
+
+// Springs act wherever edges are behind each other, from wherever they have come, to three quarters of the facets'
+// size, 0.53 here.
+TEST(EdgeRows, OfSpringsActToADepthWhateverCameBefore) {
+  const Bars bars(Lie{});
+  const std::vector<double> deep = bars.moved({0.0, 0.0, -0.08}), beyond = bars.moved({0.0, 0.0, -0.3});
+  EXPECT_EQ(bars.rows(deep, deep, bars.in_front()).size(), 1U);
+  EXPECT_EQ(bars.rows(bars.moved({3.0, 0.0, -0.08}), deep, bars.in_front()).size(), 1U);
+  EXPECT_EQ(bars.rows(beyond, beyond).size(), 0U);
 }
 
 }  // namespace

@@ -190,7 +190,7 @@ TEST(MortarRows, LeaveNoForceAndNoMoment) {
       auto u = scene.zero();
       for (double& component : u) component = random(-0.01, 0.01);
       const auto rows = ContactGeometry(scene.model).rows_at(u, u);
-      ASSERT_EQ(rows->size(), 4U * 7U);
+      ASSERT_GE(rows->size(), 4U * 7U);
       for (std::size_t r = 0; r < rows->size(); ++r) {
         const Resultant sum = resultant(scene, *rows, r, random.vector(1.0), u);
         EXPECT_LT(norm(sum.force), round_off);

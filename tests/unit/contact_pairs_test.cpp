@@ -65,8 +65,9 @@ TEST(NodeRows, HaveNormalsThatAreTheGradientOfTheGap) {
     for (const double height : {0.06, -0.05}) {
       const Bumpy bumpy(11, triangles, height);
       const ContactGeometry contact(bumpy.scene.model);
-      EXPECT_EQ(contact.rows_at(bumpy.u, bumpy.u)->size(), 5U * 8U);
-      EXPECT_LT(gradient_error(contact, bumpy.u, step), slope_error) << triangles << height;
+      constexpr Index nodes = 5 * 8;  // rows of edges follow
+      EXPECT_EQ(row_of(*contact.rows_at(bumpy.u, bumpy.u), nodes - 1), nodes - 1);
+      EXPECT_LT(gradient_error(contact, bumpy.u, step, nodes), slope_error) << triangles << height;
     }
   }
 }
@@ -78,7 +79,7 @@ TEST(NodeRows, LeaveNoForceAndNoMoment) {
     for (const double height : {0.07, 0.0, -0.07}) {
       const Bumpy bumpy(17, triangles, height);
       const auto rows = ContactGeometry(bumpy.scene.model).rows_at(bumpy.u, bumpy.u);
-      ASSERT_EQ(rows->size(), 5U * 8U);
+      ASSERT_GE(rows->size(), 5U * 8U);
       for (std::size_t r = 0; r < rows->size(); ++r) {
         const Resultant sum = resultant(bumpy.scene, *rows, r, random.vector(1.0), bumpy.u);
         EXPECT_LT(norm(sum.force), round_off);
@@ -397,9 +398,10 @@ TEST(SelfContact, OfTwoAlignedBoxesKeepsTheNodesOfTheRim) {
       skin.insert(skin.end(), upper.begin(), upper.end());
       scene.finish().contacts.emplace_back(self({skin}));
       const auto rows = ContactGeometry(scene.model).rows_at(scene.zero(), scene.zero());
+      const auto nodes = static_cast<Index>(scene.mesh.coordinates.size());  // rows of edges follow
       std::set<Index> touching;
       for (std::size_t r = 0; r < rows->size(); ++r) {
-        if (std::abs(rows->gap[r]) > 0.1) continue;
+        if (rows->slot[r] >= nodes || std::abs(rows->gap[r]) > 0.1) continue;
         EXPECT_NEAR(rows->gap[r], gap, round_off);
         touching.insert(rows->node[rows->begin[r]]);
       }

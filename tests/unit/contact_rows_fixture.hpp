@@ -114,11 +114,13 @@ inline double gap_of(const ContactGeometry& contact, const std::vector<double>& 
   return r < 0 ? NAN : rows->gap_at(static_cast<std::size_t>(r), u);
 }
 
-/// The normal block of every row against central differences of the gap, by steps h; returns the largest error.
-inline double gradient_error(const ContactGeometry& contact, const std::vector<double>& u, double h) {
+/// The normal block of every row of the first `slots` against central differences of the gap, by steps h; returns the
+/// largest error.
+inline double gradient_error(const ContactGeometry& contact, const std::vector<double>& u, double h,
+                             Index slots = std::numeric_limits<Index>::max()) {
   const auto rows = contact.rows_at(u, u);
   double error = 0.0;
-  for (std::size_t r = 0; r < rows->size(); ++r) {
+  for (std::size_t r = 0; r < rows->size() && rows->slot[r] < slots; ++r) {
     for (Index k = rows->begin[r]; k < rows->begin[r + 1]; ++k) {
       for (std::size_t c = 0; c < 3; ++c) {
         Vec3 d{};

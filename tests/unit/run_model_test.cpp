@@ -96,7 +96,7 @@ TEST(Contact, OfAllLeavesOutWhatIsExcluded) {
         case_of_block("[[contact]]\nname = \"c\"\nkind = \"all\"\n" + exclude + newmark_for_one_second), "case.toml");
     return Simulation(given).contact().slots();
   };
-  const std::size_t of_edges = 4 * 4 * (2 + 2 + 3);  // four per segment; those around what is excluded still stick out
+  const std::size_t of_edges = 8 * 4 * (2 + 2 + 3);  // eight per segment; those around what is excluded still stick out
   EXPECT_EQ(slots(""), 34U + of_edges);
   EXPECT_EQ(slots("exclude = [\"HEAD\"]\n"), 33U + of_edges);
   EXPECT_EQ(slots("exclude = [\"HEAD\", \"FOOT\"]\n"), 32U + of_edges);

@@ -210,7 +210,7 @@ WRONG = {
                          r"\"floor\" is soft"),
     "contact too stiff": (changed("fall", ("group = \"FOOT\"\npoint", "group = \"FOOT\"\nstiffness = 1e15\npoint")),
                           r"times stiffer than a cell"),
-    "bodies fast enough to tunnel": (changed("soft", ("-1.0]", "-100.0]"), ("end = 0.02", "end = 0.004")),
+    "bodies fast enough to tunnel": (changed("soft", ("-1.0]", "-400.0]"), ("end = 0.02", "end = 0.001")),
                                      r"\"touch\" is soft|overlap|penetration|inside out|inverted"),
     "half of the mesh in no part": (changed("pair", ("[[part]]\nname = \"lid\"\ncells = \"LID\"\nmaterial = \"steel\"\n", ""),
                                             ("[[initial]]\npart = \"lid\"\nvelocity = [0.0, 0.0, -2.0]\n", FALL),

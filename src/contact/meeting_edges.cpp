@@ -1,0 +1,115 @@
+#include "contact/meeting_edges.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <numbers>
+#include <span>
+
+#include "contact/half_thickness.hpp"
+#include "contact/row_maker.hpp"
+#include "mesh/skin.hpp"
+#include "model/bodies.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double sharp = 5.0 * degree, no_notch = -5.0 * degree;  // for springs: sharp edges, and what they meet
+constexpr double held = 30.0 * degree;                            // for multipliers
+constexpr double deepest = 0.75;                                  // of the facet size
+
+/// The least half thickness behind the facets of each node, at most `limit`.
+std::map<Index, double> depths_by_node(const Model& model, const std::vector<Facet>& skin, double limit) {
+  const std::vector<double> half = half_thickness(model.mesh->coordinates, skin, bodies_of_nodes(model), 2.0 * limit);
+  std::map<Index, double> depths;
+  for (std::size_t f = 0; f < skin.size(); ++f) {
+    for (const Index n : skin[f]) {
+      const auto [at, is_new] = depths.try_emplace(n, half[f]);
+      if (!is_new) at->second = std::min(at->second, half[f]);
+    }
+  }
+  return depths;
+}
+
+std::vector<FeatureEdge> edges_that(const std::vector<FeatureEdge>& edges, bool are_sharp) {
+  std::vector<FeatureEdge> some;
+  std::ranges::copy_if(edges, std::back_inserter(some),
+                       [&](const FeatureEdge& edge) { return is_sharp(edge) == are_sharp; });
+  return some;
+}
+
+class Meetings {
+ public:
+  Meetings(const Model& model, const PairContact& contact) : model_(model), contact_(contact) {
+    const std::span<const Vec3> X = model.mesh->coordinates;
+    if (has_open_edges(contact.slave.facets) || has_open_edges(contact.master.facets)) beside_ = skin(*model.mesh);
+    size_ = std::max(mean_facet_size(X, contact.slave.facets), mean_facet_size(X, contact.master.facets));
+  }
+  std::vector<MeetingEdges> find() && {
+    if (contact_.law.eps_N && !contact_.law.has_multipliers)
+      find_for_springs();
+    else
+      find_for_multipliers();
+    return std::move(found_);
+  }
+
+ private:
+  std::vector<FeatureEdge> edges_of(const Surface& surface, double least_turn) const {
+    return feature_edges(model_.mesh->coordinates, surface.facets, beside_, least_turn);
+  }
+  void add(PairFactor factor, std::vector<FeatureEdge> first, std::vector<FeatureEdge> second, bool is_back = false) {
+    if (first.empty() || second.empty()) return;
+    found_.push_back({factor, size_, contact_.self, is_back, std::move(first), std::move(second), {}, {}});
+  }
+  void find_for_multipliers() {
+    std::vector<FeatureEdge> first = edges_of(contact_.slave, held);
+    add(PairFactor::held, first, contact_.self ? first : edges_of(contact_.master, held));
+  }
+  void find_for_springs() {
+    const PairFactor factor = contact_.method == PairMethod::faces ? PairFactor::moves : PairFactor::border;
+    const std::vector<FeatureEdge> first = edges_of(contact_.slave, no_notch),
+                                   second = contact_.self ? first : edges_of(contact_.master, no_notch);
+    add(factor, edges_that(first, true), second);
+    if (!contact_.self) add(factor, edges_that(second, true), edges_that(first, false), true);
+    if (!found_.empty()) find_depths();
+  }
+  void find_depths() {
+    const double limit = deepest * size_;
+    const std::map<Index, double> by_node =
+        beside_.empty() ? depths_of_surfaces(limit) : depths_by_node(model_, beside_, limit);
+    const auto depths = [&](const std::vector<FeatureEdge>& edges) {
+      std::vector<double> by_edge;
+      for (const FeatureEdge& edge : edges)
+        by_edge.push_back(std::min(by_node.at(edge.node[0]), by_node.at(edge.node[1])));
+      return by_edge;
+    };
+    for (MeetingEdges& lists : found_) {
+      lists.depth_1 = depths(lists.first);
+      lists.depth_2 = depths(lists.second);
+    }
+  }
+  std::map<Index, double> depths_of_surfaces(double limit) const {
+    std::vector<Facet> facets = contact_.slave.facets;
+    if (!contact_.self) facets.insert(facets.end(), contact_.master.facets.begin(), contact_.master.facets.end());
+    return depths_by_node(model_, facets, limit);
+  }
+
+  const Model& model_;
+  const PairContact& contact_;
+  std::vector<Facet> beside_;  ///< the skin, where a surface ends
+  double size_;
+  std::vector<MeetingEdges> found_;
+};
+
+}  // namespace
+
+bool is_sharp(const FeatureEdge& edge) {
+  return edge.turn > sharp;
+}
+
+std::vector<MeetingEdges> meeting_edges(const Model& model, const PairContact& contact) {
+  return Meetings(model, contact).find();
+}
+
+}  // namespace carom

@@ -1,0 +1,30 @@
+// Which edges of two surfaces make rows with which.
+#pragma once
+
+#include <vector>
+
+#include "contact/edge_pair.hpp"
+#include "contact/feature_edges.hpp"
+#include "model/model.hpp"
+
+namespace carom {
+
+/// Edges of one surface and those of the other that they may make rows with.
+struct MeetingEdges {
+  PairFactor factor;  ///< border: of two sharp edges; `moves` of others
+  double size;        ///< the larger mean facet size of both surfaces
+  bool is_self;       ///< the surfaces are one
+  bool is_back;       ///< `first` is of the contact's second surface
+  std::vector<FeatureEdge> first, second;
+  std::vector<double> depth_1, depth_2;  ///< by edge: how deep springs act behind it
+};
+
+/// True for edges that turn by more than 5 degrees.
+bool is_sharp(const FeatureEdge& edge);
+
+/// See edge_rows.hpp for the rules. With springs alone the sharp edges of the first surface with all of the second,
+/// then the sharp ones of the second with those of the first that are not; else edges of more than 30 degrees with each
+/// other. Lists in which no edges meet are left out.
+std::vector<MeetingEdges> meeting_edges(const Model& model, const PairContact& contact);
+
+}  // namespace carom
