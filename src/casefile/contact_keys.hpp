@@ -70,7 +70,8 @@ void add_law(SectionSchema<Kind>& s) {
   s.key_by("friction", [](auto& kind) -> auto& { return kind.law.friction; }, "Coulomb's coefficient of friction mu.",
            {.range = at_least(0.0), .aliases = {"mu"}});
   s.key_by("restitution", [](auto& kind) -> auto& { return kind.law.restitution; },
-           "Newton's coefficient: separating over approaching speed, for enforcement = \"impulse\".",
+           "Newton's coefficient of the nodes that touch: separating over approaching speed, for enforcement = "
+           "\"impulse\". Not that of their bodies, which rebound by their own waves.",
            {.range = {Bound{0.0, Bound::Side::closed}, Bound{1.0, Bound::Side::closed}}, .aliases = {"e"}});
   s.key_by("initial_penetration", [](auto& kind) -> auto& { return kind.law.initial_penetration; },
            "What to do where bodies overlap at the start: refuse the case, take the overlap as the zero of the gap (no "

@@ -52,7 +52,10 @@ class Lint {
     check_speeds();
     for (const CaseLoad& load : case_.loads) check_gravity(load);
     check_twice();
-    for (const CaseContact& contact : case_.contacts) check_friction(contact);
+    for (const CaseContact& contact : case_.contacts) {
+      check_friction(contact);
+      check_restitution(contact);
+    }
     check_scheme();
     check_use();
     return std::move(lines_);
@@ -188,6 +191,18 @@ class Lint {
         fmt::format("contact \"{}\": a friction of {:g} is more than dry surfaces have (2 at most); is it "
                     "an angle in degrees, or in percent?",
                     *contact.name, law->friction));
+  }
+
+  /// A block of 2 x 2 x 2 cells that falls on a plane with 1 m/s by moreau_jean, E = 1 GPa: with 1 it leaves with
+  /// 0.345 m/s, with 0 with 0.557 m/s.
+  void check_restitution(const CaseContact& contact) {
+    const CaseContactLaw* law = contact.law();
+    if (law == nullptr || *law->restitution == 0.0) return;
+    say(law->restitution.where,
+        fmt::format("contact \"{}\": a restitution of {:g} is that of the nodes that touch, not of their bodies: these "
+                    "rebound by their own waves, more of them without it, and nodes that are thrown back may make "
+                    "energy; leave it out unless single nodes are meant",
+                    *contact.name, *law->restitution));
   }
 
   /// The bulk modulus over the shear modulus is 2 (1 + nu) / (3 (1 - 2 nu)).

@@ -227,6 +227,21 @@ TEST(Lint, SaysThatMasslessNodesOfABodyThatYieldsRunAway) {
   EXPECT_TRUE(is_told("modified_mass", yielding));
 }
 
+// Newton's law of nodes: bodies rebound by their own waves (docs/schemes.md, "Restitution").
+TEST(Lint, SaysThatRestitutionIsNoneOfBodies) {
+  const auto is_told = [](const std::string& restitution) {
+    const Case given =
+        parse_case(case_of_block("[[contact]]\nname = \"floor\"\nkind = \"plane\"\npoint = [0.0, 0.0, -0.1]\n"
+                                 "normal = [0.0, 0.0, 1.0]\ngroup = \"FOOT\"\nrestitution = " +
+                                 restitution + "\n[scheme]\nkind = \"moreau_jean\"\n[time]\nend = 1.0\nstep = 0.1\n"),
+                   "case.toml");
+    const std::vector<std::string> warnings = lint_warnings(Simulation(given));
+    return std::ranges::any_of(warnings, [](const std::string& w) { return w.find("not of their bodies") != w.npos; });
+  };
+  EXPECT_TRUE(is_told("0.5"));
+  EXPECT_FALSE(is_told("0.0"));
+}
+
 TEST(Lint, SaysWhatIsHardToBelieve) {
   const std::string floor =
       "[[contact]]\nname = \"floor\"\nkind = \"plane\"\npoint = [0.0, 0.0, -0.1]\n"
