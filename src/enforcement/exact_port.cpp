@@ -32,9 +32,8 @@ double largest(std::span<const double> x) {
 
 }  // namespace
 
-// 64 Mi numbers of columns: 512 MiB.
 ExactPort::ExactPort(const System& system)
-    : system_(system), extent_(system.contact.reach()), compliance_(system.solid.dof_count(), std::size_t{1} << 26) {}
+    : system_(system), extent_(system.contact.reach()), compliance_(make_port_compliance(system)) {}
 
 void ExactPort::begin(const StageStart& start) {
   start_ = start;
@@ -77,13 +76,7 @@ ContactWork ExactPort::work(const State& begin, const State& end, double end_wei
 }
 
 void ExactPort::leave(StageMemory& memory) const {
-  if (!is_solved_ || !system_.solid.is_linear()) return;
-  if (system_.contact.is_fixed()) {
-    memory.port_rows = compliance_.growth();
-    memory.chosen_rows.assign(chosen_.begin(), chosen_.end());
-  } else {
-    memory.port_nodes = nodes_.growth();
-  }
+  if (is_solved_) compliance_->leave(memory, chosen_);
 }
 
 /// moved_ = z + slope dy; adds to chosen_ the rows that this violates. Returns true when there are such rows.
@@ -117,17 +110,13 @@ bool ExactPort::assemble(EffectiveSolver& solver, const std::shared_ptr<const Co
   for (const std::size_t r : acting) counts.push_back(admitted(rows.law[r]).components());
   Delassus::admit_dense(acting.size(), std::ranges::any_of(counts, [](std::size_t count) { return count > 1; }));
   LinearSolveReport columns{true};
-  const InverseOperator inverse = this->inverse(solver, columns);
-  const bool moves = system_.solid.is_linear() && !system_.contact.is_fixed();
-  by_nodes_ = moves && nodes_.extend(rows, acting, system_.solid.dof_count(), inverse);
-  W_ = by_nodes_ ? nodes_.compliance(rows, acting, counts) : compliance_.compliance(acting, counts, inverse);
+  W_ = compliance_->make(rows, acting, counts, inverse(solver, columns));
   linear.iterations += columns.iterations;
   add_direct_compliance(shared, acting, counts, W_);
   for (const std::size_t r : acting) W_.names.push_back(static_cast<std::size_t>(rows.slot[r]));
   if (columns.converged) return true;
   W_ = {};
-  compliance_.forget();
-  nodes_.forget();
+  compliance_->forget();
   return false;
 }
 
@@ -163,7 +152,8 @@ std::string ExactPort::solve_rows(const ContactResponse& response) {
   const bool has_bonds = std::ranges::any_of(sets, [](const Admissible& set) { return set.is_bond(); });
   const bool is_fixed = system_.contact.is_fixed() && !has_bonds;  // what bonds miss would add up from step to step
   const double wanted = !is_held ? (has_tangents ? 1e-14 : 1e-16) : is_fixed ? accepted : 1e-15;
-  const double enough = by_nodes_ ? looseness_ : 0.0;  // rows that are not followed are solved for once
+  // Rows that are not followed are solved for once.
+  const double enough = compliance_->knows_nodes() ? looseness_ : 0.0;
   const ConeResult result =
       solve_cone(W_, b, sets, force_, std::max(wanted, enough), std::max(accepted, enough), 0.0, &factors_);
   if (result.converged) return {};
@@ -178,25 +168,19 @@ std::string ExactPort::solve_rows(const ContactResponse& response) {
 /// What W was made for last is forgotten where the operator or the rows may have changed. False when the operator
 /// cannot be inverted.
 bool ExactPort::forget_stale(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& rows) {
-  const bool is_linear = system_.solid.is_linear(), is_fixed = system_.contact.is_fixed();
-  const bool is_other = operator_ != solver.operators_made();
-  operator_ = solver.operators_made();
-  if (is_other) nodes_.forget();
-  if (is_other || !is_linear || !is_fixed) forget_rows(rows);
-  compliance_.use(rows);
-  is_chosen_.assign(rows->size(), false);
+  use_rows(solver, rows);
   if (!is_solved_ && go_on_directly()) W_ = {};
-  const bool is_good = is_solved_ || !is_linear || go_on(solver);
+  const bool is_good = is_solved_ || go_on(solver);
   for (const std::size_t r : chosen_) is_chosen_[r] = true;
   return is_good;
 }
 
-/// W is to be made for other rows.
-void ExactPort::forget_rows(const std::shared_ptr<const ConstraintRows>& rows) {
-  compliance_.forget();
-  compliance_.use(rows);
-  chosen_.clear();
-  W_ = {};
+/// W and what has been chosen are forgotten where they are those of another operator or of other rows.
+void ExactPort::use_rows(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& rows) {
+  if (!compliance_->use(rows, solver.operators_made())) {
+    chosen_.clear();
+    W_ = {};
+  }
   is_chosen_.assign(rows->size(), false);
 }
 
@@ -204,16 +188,8 @@ void ExactPort::forget_rows(const std::shared_ptr<const ConstraintRows>& rows) {
 bool ExactPort::go_on(EffectiveSolver& solver) {
   static const StageMemory none;
   const bool is_same = start_.memory->m == start_.m && start_.memory->c == start_.c;
-  const StageMemory& memory = is_same ? *start_.memory : none;
   LinearSolveReport anew{true};  // what is made anew has been counted before
-  const InverseOperator inverse = this->inverse(solver, anew);
-  if (!system_.contact.is_fixed()) {
-    nodes_.grow_as(memory.port_nodes, system_.solid.dof_count(), inverse);
-    return anew.converged;
-  }
-  const std::vector<std::size_t> chosen(memory.chosen_rows.begin(), memory.chosen_rows.end());
-  if (compliance_.grow_as(memory.port_rows, inverse) || chosen != chosen_) W_ = {};
-  chosen_ = chosen;
+  if (compliance_->go_on(is_same ? *start_.memory : none, chosen_, inverse(solver, anew))) W_ = {};
   return anew.converged;
 }
 
@@ -250,7 +226,7 @@ PortSolve ExactPort::solve(EffectiveSolver& solver, std::span<const double> x, s
     looseness_ = rows_follow() ? most_loose : 0.0;
     out.failure = solve_surface(solver, *at, z, residual, absolute, out.linear, dy);
     if (!out.failure.empty()) return out;
-    if (!by_nodes_) break;
+    if (!compliance_->knows_nodes()) break;
     if (rows_follow()) at = follow_rows(solver, *at, z, residual, absolute, out.linear, dy, out.failure);
     if (!out.failure.empty()) return out;
     add_forces(solver, *at, residual, absolute, out.linear, dy);
@@ -284,12 +260,12 @@ std::string ExactPort::solve_surface(EffectiveSolver& solver, const ContactRespo
     if (!assemble(solver, response.rows, linear)) return no_compliance;
     note_compliances(rows);
     move_surface(dy);
-    choose(rows, z, by_nodes_ ? dy : free_);
+    choose(rows, z, compliance_->knows_nodes() ? dy : free_);
     std::string failure = solve_rows(response);
     if (!failure.empty()) return failure;
     for (std::size_t i = 0; i < force_.size(); ++i)
       rows.scatter(W_.rows[i], subtract(force_[i], response.force[W_.rows[i]]), load_);
-    if (by_nodes_)
+    if (compliance_->knows_nodes())
       move_surface(dy);
     else
       add_forces(solver, response, residual, absolute, linear, dy);
@@ -311,8 +287,8 @@ const ContactResponse* ExactPort::follow_rows(EffectiveSolver& solver, const Con
                                               std::string& failure) {
   constexpr int most = 5;
   const ContactResponse* last = &response;
-  base_.assign(z.size(), 0.0);
-  response.add_force(base_);
+  std::vector<double> base(z.size(), 0.0), turn;
+  response.add_force(base);
   double before = infinity;
   for (int n = 0; n < most; ++n) {
     ContactResponse& next = followed_[last == &followed_[0] ? 1 : 0];  // `response` may be one of them
@@ -320,17 +296,17 @@ const ContactResponse* ExactPort::follow_rows(EffectiveSolver& solver, const Con
     parallel_each(z.size(), [&](std::size_t i) { moved_[i] = z[i] + slope() * dy[i]; });
     respond(moved_, {}, next);
     // What the turn of the rows has changed.
-    turn_.assign(z.size(), 0.0);
-    next.add_force(turn_);
+    turn.assign(z.size(), 0.0);
+    next.add_force(turn);
     const std::vector<bool>& fixed = system_.supports.fixed();
-    for (std::size_t i = 0; i < turn_.size(); ++i) turn_[i] = fixed[i] ? 0.0 : turn_[i] - base_[i] - load_[i];
-    const double change = std::sqrt(dot(turn_, turn_));
+    for (std::size_t i = 0; i < turn.size(); ++i) turn[i] = fixed[i] ? 0.0 : turn[i] - base[i] - load_[i];
+    const double change = std::sqrt(dot(turn, turn));
     const bool is_last = change <= absolute || !(change < 0.1 * before) || n + 1 == most;
     if (is_last && looseness_ == 0.0) break;
     looseness_ = is_last ? 0.0 : std::min(most_loose, 1e-3 * change / std::sqrt(dot(load_, load_)));
     before = change;
-    parallel_each(load_.size(), [&](std::size_t i) { load_[i] += turn_[i]; });
-    if (next.rows->node != last->rows->node || next.rows->slot != last->rows->slot) forget_rows(next.rows);
+    parallel_each(load_.size(), [&](std::size_t i) { load_[i] += turn[i]; });
+    if (next.rows->node != last->rows->node || next.rows->slot != last->rows->slot) use_rows(solver, next.rows);
     force_.clear();
     move_surface(dy);
     for (std::size_t r = 0; r < next.status.size(); ++r) {
@@ -339,7 +315,7 @@ const ContactResponse* ExactPort::follow_rows(EffectiveSolver& solver, const Con
     choose(*next.rows, z, dy);
     failure = solve_surface(solver, next, z, residual, absolute, linear, dy);
     last = &next;
-    if (!failure.empty() || !by_nodes_) break;
+    if (!failure.empty() || !compliance_->knows_nodes()) break;
   }
   return last;
 }
@@ -347,7 +323,7 @@ const ContactResponse* ExactPort::follow_rows(EffectiveSolver& solver, const Con
 /// dy = free_, and on the nodes of the contact A^-1 load_ too.
 void ExactPort::move_surface(std::span<double> dy) {
   std::copy(free_.begin(), free_.end(), dy.begin());
-  if (by_nodes_) nodes_.add_motion(load_, dy);
+  if (compliance_->knows_nodes()) compliance_->add_node_motion(load_, dy);
 }
 
 void ExactPort::see_all(const ContactResponse& response) {
@@ -359,17 +335,17 @@ void ExactPort::see_all(const ContactResponse& response) {
 /// dy = free_ + A^-1 load_.
 void ExactPort::add_forces(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> residual,
                            double absolute, LinearSolveReport& linear, std::span<double> dy) {
-  if (!by_nodes_ && compliance_.has_columns()) {
+  if (compliance_->knows_columns()) {
     std::vector<Vec3> change(force_.size());
     for (std::size_t i = 0; i < change.size(); ++i) change[i] = subtract(force_[i], response.force[W_.rows[i]]);
     std::copy(free_.begin(), free_.end(), dy.begin());
-    compliance_.add_columns(W_.rows, change, dy);
+    compliance_->add_columns(W_.rows, change, dy);
     return;
   }
   const std::vector<bool>& fixed = system_.supports.fixed();
-  sum_.resize(load_.size());
-  for (std::size_t i = 0; i < load_.size(); ++i) sum_[i] = fixed[i] ? 0.0 : residual[i] + load_[i];
-  const LinearSolveReport report = solver.solve(sum_, response.rows, {}, absolute, dy);
+  std::vector<double> sum(load_.size());
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = fixed[i] ? 0.0 : residual[i] + load_[i];
+  const LinearSolveReport report = solver.solve(sum, response.rows, {}, absolute, dy);
   linear.converged = linear.converged && report.converged;
   linear.iterations += report.iterations;
 }

@@ -1,24 +1,21 @@
 // Exact contact within implicit stages: multipliers on displacements, impulses on velocities.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "contact/admissible.hpp"
 #include "contact/cone_solver.hpp"
 #include "enforcement/contact_port.hpp"
-#include "enforcement/node_compliance.hpp"
-#include "system/row_compliance.hpp"
+#include "enforcement/port_compliance.hpp"
 
 namespace carom {
 
 /// The forces lambda on the rows that satisfy Signorini's and Coulomb's conditions exactly:
 ///   w = w_free + slope G A^-1 G^T lambda,  (lambda, w) in the cones of solve_cone,
-/// where w_free is what the rows would see without lambda. Rows enter when they would be violated, bonds at once. For
-/// linear bodies what has been solved for is kept for the run: with fixed rows the columns A^-1 G^T, so that an
-/// iteration with contact costs one back-substitution and products with the columns; with moving rows the compliance of
-/// their nodes, so that it costs two. With nonlinear bodies columns are made anew for the rows in question at every
-/// iterate. Multipliers go on from step to step as start values, in State::contact; in which order the compliances have
-/// grown stands in StageMemory.
+/// where w_free is what the rows would see without lambda. Rows enter when they would be violated, bonds at once. How
+/// G A^-1 G^T is come by, and what of it is kept, is a matter of PortCompliance. Multipliers go on from step to step as
+/// start values, in State::contact.
 class ExactPort : public ContactPort {
  public:
   explicit ExactPort(const System& system);
@@ -74,7 +71,7 @@ class ExactPort : public ContactPort {
   bool assemble(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& shared,
                 LinearSolveReport& linear);
   bool take_acting(const ContactResponse& response, std::span<const double> z);
-  void forget_rows(const std::shared_ptr<const ConstraintRows>& rows);
+  void use_rows(EffectiveSolver& solver, const std::shared_ptr<const ConstraintRows>& rows);
   std::string solve_surface(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> z,
                             std::span<const double> residual, double absolute, LinearSolveReport& linear,
                             std::span<double> dy);
@@ -88,11 +85,8 @@ class ExactPort : public ContactPort {
   void add_forces(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> residual,
                   double absolute, LinearSolveReport& linear, std::span<double> dy);
 
-  RowCompliance compliance_;
-  NodeCompliance nodes_;             ///< of linear bodies, where rows move
-  bool by_nodes_ = false;            ///< W_ has been made by nodes_
-  std::size_t operator_ = 0;         ///< EffectiveSolver::operators_made of compliance_
-  std::vector<std::size_t> chosen_;  ///< rows that compliance_ knows
+  std::unique_ptr<PortCompliance> compliance_;
+  std::vector<std::size_t> chosen_;  ///< rows that have taken part, in their order
   std::vector<bool> is_chosen_;
   Delassus W_;               ///< of those that may act
   std::vector<Vec3> force_;  ///< of the rows of W_, in their frames
@@ -101,7 +95,6 @@ class ExactPort : public ContactPort {
   ContactResponse followed_[2];
   std::vector<double> free_, moved_;
   std::vector<double> load_;  ///< what the forces have changed since the response
-  std::vector<double> base_, turn_, sum_;
 };
 
 /// 0 <= g(x) perpendicular to lambda_n >= 0 at the end of the stage, slip over the step in Coulomb's cone.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "enforcement/exact_port.hpp"
+#include "enforcement/node_compliance.hpp"
 #include "system/bonded_mass.hpp"
 #include "system/mass_solver.hpp"
 

@@ -21,6 +21,9 @@ struct RowComponent {
 /// S = G A^-1 G^T for some components of the rows of one ConstraintRows; a component is solved for once.
 class RowCompliance {
  public:
+  /// Of column_entries, where columns are wanted: 512 MiB.
+  static constexpr std::size_t most_column_entries = std::size_t{1} << 26;
+
   /// column_entries: how many numbers of A^-1 G^T may be kept (0: none), where inverses have no halves.
   RowCompliance(std::size_t dof_count, std::size_t column_entries)
       : dof_count_(dof_count), column_entries_(column_entries) {}
