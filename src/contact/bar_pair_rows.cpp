@@ -173,7 +173,7 @@ class BarPairRows : public RowMaker {
       const SegmentPair pair = closest_points(placed(first_[i], x), placed(second_[other], x));
       const double gap = pair.distance - first_[i].radius - second_[other].radius;
       if (gap > size_) continue;
-      if (law_.has_multipliers &&
+      if (law_.hold != RowHold::springs &&
           (is_left(first_[i], i, pair.s, owner_1_) || is_left(second_[other], other, pair.t, owner_2_)))
         continue;
       found.push_back({j, pair, gap});

@@ -81,6 +81,7 @@ StandFactor stand_factor(const std::array<EdgeStand, 2>& stand, PairFactor facto
   switch (factor) {
     case PairFactor::held:
       return {a.out * b.out, {b.out, a.out}, {}};
+    case PairFactor::stopped:
     case PairFactor::moves:
       return {a.out * b.flat + a.flat * b.out - a.out * b.out, {b.flat - b.out, a.flat - a.out}, {b.out, a.out}};
     case PairFactor::border:
@@ -246,7 +247,7 @@ std::optional<EdgePair> EdgePairing::make(const std::array<EdgeEnd, 2>& ends_1, 
   gradient_.r = scaled(pair_.normal, pair_.factor);
   gradient_.d_1 = scaled(pair_.normal, pair_.factor * pair_.s);
   gradient_.d_2 = scaled(pair_.normal, -pair_.factor * pair_.t);
-  if (factor != PairFactor::held && pair_.gap < 0.0) add_factor();
+  if ((factor == PairFactor::moves || factor == PairFactor::border) && pair_.gap < 0.0) add_factor();
   pair_.of_gap = gradient_.shares();
   return pair_;
 }

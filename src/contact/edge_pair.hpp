@@ -25,10 +25,11 @@ struct EdgeShares {
 /// held: for forces that follow from the motion that is allowed. Both edges have to stick out, and the factor is not a
 ///   part of the motion: a pair behind each other would else be allowed to close on by sliding to where the factor is
 ///   smaller, and be thrown out where it is larger.
+/// stopped: for forces that only stop a motion. As `held`, but one of the edges that sticks out is enough.
 /// moves: for a row's force that grows with its gap; the energy that is stored is then a function of the positions. One
 ///   of the edges has to stick out.
 /// border: as `moves`, for two edges at which faces end; neither has to stick out.
-enum class PairFactor : std::uint8_t { held, moves, border };
+enum class PairFactor : std::uint8_t { held, stopped, moves, border };
 
 /// Closest points x_1 = a_1 + s d_1 and x_2 = a_2 + t d_2 of the lines of two segments.
 struct EdgePair {
@@ -60,8 +61,8 @@ struct EdgePair {
 ///   held:   F = s_1 s_2           edges that stick out, 0 with zero slope where a facet lies flat on the other body
 ///                                 (Ferguson et al., "Geometric contact potential", ACM Trans. Graph. 2025, take the
 ///                                 local minima of the distance in this way);
-///   moves:  F = s_1 t_2 + t_1 s_2 - s_1 s_2   one that sticks out, over any edge of the other face: 1 over another
-///   that
+///   stopped, moves: F = s_1 t_2 + t_1 s_2 - s_1 s_2   one that sticks out, over any edge of the other face: 1 over
+///   another that
 ///                                 sticks out, 1/4 over one amid a flat face, 0 flat on flat;
 ///   border: F = t_1 t_2           also where the sides of two faces that lie flat on each other cross, 1/4 there.
 /// Parallel edges, whose closest points are not defined, fade by m(x) = (x / e)(2 - x / e), x = sin^2 of the angle

@@ -16,10 +16,9 @@ namespace carom {
 namespace {
 
 constexpr std::size_t slots_per_segment = 8;
-constexpr double reach_of_springs = 0.25;  // of the facet size
-// Multipliers: least factor of a pair. Of the facet size: depths at which a pair may begin that has not come from the
-// front. Where its factor grows from nothing its force does, too; else this depth is what it jumps by.
-constexpr double least_held = 0.5, shallow = 0.002, shallow_from_nothing = 0.05;
+// Of the facet size: depths at which a pair may begin that has not come from the front. Where its factor grows from
+// nothing its force does, too; else this depth is what it jumps by.
+constexpr double shallow = 0.002, shallow_from_nothing = 0.05;
 
 std::vector<Facet> segments_of(const std::vector<FeatureEdge>& edges) {
   std::vector<Facet> segments;
@@ -83,9 +82,8 @@ class EdgeRows : public RowMaker {
       : edges_(std::move(edges)),
         law_(law),
         source_(source),
-        reach_(edges_.size * (is_held() ? 1.0 : reach_of_springs)),
-        broad_phase_(segments_of(edges_.first), segments_of(edges_.second), reach_,
-                     edges_.size * (is_held() ? 0.5 : reach_of_springs)) {}
+        broad_phase_(segments_of(edges_.first), segments_of(edges_.second), edges_.rule.reach * edges_.size,
+                     edges_.rule.margin * edges_.size) {}
   std::size_t slots() const override { return slots_per_segment * edges_.first.size(); }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override;
@@ -119,12 +117,9 @@ class EdgeRows : public RowMaker {
   Places places_of(Index i, const std::vector<Found>& found) const;
   void add_row(Index i, const Found& found, const ContactMotion& motion, Index slot, ConstraintRows& rows) const;
 
-  bool is_held() const { return edges_.factor == PairFactor::held; }
-
   MeetingEdges edges_;
   ContactLaw law_;
   Index source_;
-  double reach_;
   mutable BroadPhase broad_phase_;
   mutable RowParts parts_;
   mutable std::vector<Behind> behind_;  ///< by increasing first segment
@@ -158,13 +153,15 @@ bool EdgeRows::was_behind(Index i, Index j) const {
 }
 
 PairFactor EdgeRows::factor_of(Index i, Index j) const {
+  const PairFactor factor = edges_.rule.factor;
   const bool may_be_border = is_sharp(edges_.first[i]) && is_sharp(edges_.second[j]);
-  return edges_.factor == PairFactor::border && !may_be_border ? PairFactor::moves : edges_.factor;
+  return factor == PairFactor::border && !may_be_border ? PairFactor::moves : factor;
 }
 
 bool EdgeRows::counts(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const {
-  if (pair.gap > reach_) return false;
-  if (is_held()) return pair.factor >= least_held && has_come_from_the_front(i, j, pair, motion);
+  const EdgeRule& rule = edges_.rule;
+  if (pair.gap > rule.reach * edges_.size || pair.factor < rule.least_factor) return false;
+  if (rule.from_the_front) return has_come_from_the_front(i, j, pair, motion);
   return pair.gap > -std::min(edges_.depth_1[i], edges_.depth_2[j]);
 }
 
@@ -175,7 +172,7 @@ bool EdgeRows::has_come_from_the_front(Index i, Index j, const EdgePair& pair, c
   const PlacedEdge first = place(edges_.first[i], motion.x_begin), second = place(edges_.second[j], motion.x_begin);
   if (pair.line_gap(first, second) > -shallow * size) return true;
   return pair.gap > -shallow_from_nothing * size &&
-         !edge_pair(first, edges_.first[i].end, second, edges_.second[j].end, edges_.factor);
+         !edge_pair(first, edges_.first[i].end, second, edges_.second[j].end, edges_.rule.factor);
 }
 
 /// The pairs of segment i that count, by increasing segment of the other side.

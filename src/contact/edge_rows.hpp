@@ -12,14 +12,17 @@ namespace carom {
 /// law the contact's own: there is one pass only. Segments that share a node, or of which two facets do, make no pair.
 /// h is the larger mean facet size of both surfaces.
 ///
-/// Where the contact has springs alone, sharp edges, which turn by more than 5 degrees, meet all edges of the other
-/// surface: so a ridge is seen by a face that it crosses between two nodes. Two sharp edges meet as borders of faces
-/// where the contact's rows stand at nodes (rows of overlaps see such faces by themselves). Rows are made to a gap of
-/// h / 4, and behind each other to the least of 3 h / 4 and half the thickness of either body.
-///
-/// Where it has multipliers or impulses, sharp edges, of more than 30 degrees, meet those of the other surface where
-/// both stick out: rows of edges that lie nearly flat would depend on those of the faces. Rows are made to a gap of h.
-/// Behind each other edges count that
+/// Sharp edges, which turn by more than 5 degrees, meet all edges of the other surface but notches: so a ridge is seen
+/// by a face that it crosses between two nodes. What counts depends on what holds the rows (see rule_of in
+/// meeting_edges.cpp):
+///   springs      rows to a gap of h / 4, and behind each other to the least of 3 h / 4 and half of either body's
+///                thickness. Two sharp edges meet as borders of faces where the contact's rows stand at nodes (rows of
+///                overlaps see such faces by themselves);
+///   impulses     rows to a gap of h, and to the same depth; the factor is no part of the motion;
+///   increments   the same, of pairs that have come from the front, as what closes a gap throws out what came deep;
+///   multipliers  sharp edges, of more than 30 degrees here, meet those of the other surface where both stick out, and
+///                have come from the front: rows of edges that lie nearly flat would depend on those of the faces.
+/// From the front come those that
 /// - are less than h / 500 deep, or were less deep at the beginning of the step: so those count that have come from the
 ///   front, at any speed;
 /// - are less than h / 20 deep and made no pair there, as their factor was zero: it grows from nothing; or

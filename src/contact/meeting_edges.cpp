@@ -15,9 +15,24 @@ namespace carom {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr double sharp = 5.0 * degree, no_notch = -5.0 * degree;  // for springs: sharp edges, and what they meet
-constexpr double held = 30.0 * degree;                            // for multipliers
+constexpr double sharp = 5.0 * degree, no_notch = -5.0 * degree;  // sharp edges, and what they meet
+constexpr double sharp_for_multipliers = 30.0 * degree;           // both
 constexpr double deepest = 0.75;                                  // of the facet size
+
+EdgeRule rule_of(const PairContact& contact) {
+  switch (contact.law.hold) {
+    case RowHold::springs:
+      if (!contact.law.eps_N) break;
+      return {contact.method == PairMethod::faces ? PairFactor::moves : PairFactor::border, 0.0, false, 0.25, 0.25};
+    case RowHold::impulses:
+      return {PairFactor::stopped, 0.1, false, 1.0, 0.5};
+    case RowHold::increments:
+      return {PairFactor::stopped, 0.1, true, 1.0, 0.5};
+    case RowHold::multipliers:
+      break;
+  }
+  return {PairFactor::held, 0.5, true, 1.0, 0.5};
+}
 
 /// The least half thickness behind the facets of each node, at most `limit`.
 std::map<Index, double> depths_by_node(const Model& model, const std::vector<Facet>& skin, double limit) {
@@ -41,16 +56,17 @@ std::vector<FeatureEdge> edges_that(const std::vector<FeatureEdge>& edges, bool 
 
 class Meetings {
  public:
-  Meetings(const Model& model, const PairContact& contact) : model_(model), contact_(contact) {
+  Meetings(const Model& model, const PairContact& contact) : model_(model), contact_(contact), rule_(rule_of(contact)) {
     const std::span<const Vec3> X = model.mesh->coordinates;
     if (has_open_edges(contact.slave.facets) || has_open_edges(contact.master.facets)) beside_ = skin(*model.mesh);
     size_ = std::max(mean_facet_size(X, contact.slave.facets), mean_facet_size(X, contact.master.facets));
   }
   std::vector<MeetingEdges> find() && {
-    if (contact_.law.eps_N && !contact_.law.has_multipliers)
-      find_for_springs();
+    if (rule_.factor == PairFactor::held)
+      find_sharp();
     else
-      find_for_multipliers();
+      find_all();
+    if (!found_.empty() && !rule_.from_the_front) find_depths();
     return std::move(found_);
   }
 
@@ -58,21 +74,19 @@ class Meetings {
   std::vector<FeatureEdge> edges_of(const Surface& surface, double least_turn) const {
     return feature_edges(model_.mesh->coordinates, surface.facets, beside_, least_turn);
   }
-  void add(PairFactor factor, std::vector<FeatureEdge> first, std::vector<FeatureEdge> second, bool is_back = false) {
+  void add(std::vector<FeatureEdge> first, std::vector<FeatureEdge> second, bool is_back = false) {
     if (first.empty() || second.empty()) return;
-    found_.push_back({factor, size_, contact_.self, is_back, std::move(first), std::move(second), {}, {}});
+    found_.push_back({rule_, size_, contact_.self, is_back, std::move(first), std::move(second), {}, {}});
   }
-  void find_for_multipliers() {
-    std::vector<FeatureEdge> first = edges_of(contact_.slave, held);
-    add(PairFactor::held, first, contact_.self ? first : edges_of(contact_.master, held));
+  void find_sharp() {
+    std::vector<FeatureEdge> first = edges_of(contact_.slave, sharp_for_multipliers);
+    add(first, contact_.self ? first : edges_of(contact_.master, sharp_for_multipliers));
   }
-  void find_for_springs() {
-    const PairFactor factor = contact_.method == PairMethod::faces ? PairFactor::moves : PairFactor::border;
+  void find_all() {
     const std::vector<FeatureEdge> first = edges_of(contact_.slave, no_notch),
                                    second = contact_.self ? first : edges_of(contact_.master, no_notch);
-    add(factor, edges_that(first, true), second);
-    if (!contact_.self) add(factor, edges_that(second, true), edges_that(first, false), true);
-    if (!found_.empty()) find_depths();
+    add(edges_that(first, true), second);
+    if (!contact_.self) add(edges_that(second, true), edges_that(first, false), true);
   }
   void find_depths() {
     const double limit = deepest * size_;
@@ -97,6 +111,7 @@ class Meetings {
 
   const Model& model_;
   const PairContact& contact_;
+  EdgeRule rule_;
   std::vector<Facet> beside_;  ///< the skin, where a surface ends
   double size_;
   std::vector<MeetingEdges> found_;

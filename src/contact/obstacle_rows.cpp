@@ -216,7 +216,7 @@ FaceDistance distance(const Shape& shape, const Vec3& x, Index /*behind*/) {
 /// depend on each other.
 template <class Gap>
 std::vector<char> held_points(const Touching& touching, const Gap& gap) {
-  if (!touching.law.has_multipliers || touching.bars.empty()) return {};
+  if (touching.law.hold == RowHold::springs || touching.bars.empty()) return {};
   std::vector<char> held(touching.points.size(), 1);
   for (const TouchingBar& bar : touching.bars) {
     const double at_a = gap(bar.end[0]), at_b = gap(bar.end[1]);

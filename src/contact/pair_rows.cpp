@@ -72,7 +72,7 @@ class NodeRows : public RowMaker {
                        reach = std::max(size, mean_facet_size(X, slave.facets));
           SearchRange range{reach, 0.5 * size, std::vector<double>(master.facets.size(), reach),
                             edge_widths(X, master.facets)};
-          range.fades = law.eps_N && !law.has_multipliers;
+          range.fades = law.eps_N && law.hold == RowHold::springs;
           if (self) range.depth = half_thickness(X, master.facets, bodies, reach);
           return SurfaceSearch(keys(measures_), slave.facets, master.facets, std::move(range));
         }()) {

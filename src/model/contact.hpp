@@ -16,6 +16,14 @@
 
 namespace carom {
 
+/// What holds the rows of a contact, by what it asks of them.
+enum class RowHold : std::uint8_t {
+  springs,      ///< forces that grow with the gap
+  impulses,     ///< what is closed does not close on
+  increments,   ///< multipliers of explicit steps: the gap of the next step is closed
+  multipliers,  ///< of implicit steps, beside springs or without
+};
+
 /// The law of one contact. Stiffnesses are stress per length (force per length on rows that are counted per node); an
 /// absent one is chosen from the material and the size of the cells (contact/stiffness.hpp). They serve the penalty and
 /// the augmented Lagrangian; exact enforcements need none.
@@ -26,7 +34,7 @@ struct ContactLaw {
   double linear_depth = std::numeric_limits<double>::infinity();  ///< below, the spring of the penalty hardens
   double mu = 0.0;                                                ///< Coulomb's coefficient
   double restitution = 0.0;                                       ///< Newton's coefficient e, for impulses
-  bool has_multipliers = false;  ///< some stage enforces it by multipliers or impulses, beside springs or without
+  RowHold hold = RowHold::springs;                                ///< of the stages that ask most
 };
 
 /// What a row stands for: the area of its node, or the node itself (stiffness is then force per length).

@@ -39,8 +39,16 @@ Location contacts_place(const Case& given) {
 bool needs_stiffness(const CaseScheme& scheme) {
   return traits(**scheme.enforcement).takes_stiffness;
 }
-bool has_multipliers(const CaseScheme& scheme) {
-  return **scheme.enforcement != EnforcementKind::penalty;
+RowHold hold_of(const CaseScheme& scheme) {
+  const EnforcementKind enforcement = **scheme.enforcement;
+  if (enforcement == EnforcementKind::penalty) return RowHold::springs;
+  if (enforcement == EnforcementKind::impulse) return RowHold::impulses;
+  return is_explicit(*scheme.kind) ? RowHold::increments : RowHold::multipliers;
+}
+RowHold hold_of(const Case& given) {
+  RowHold most = hold_of(given.scheme);
+  for (const CaseStage& stage : given.stages) most = std::max(most, hold_of(stage.scheme));
+  return most;
 }
 /// Explicit steps tie exactly.
 bool ties_by_springs(const CaseScheme& scheme) {
@@ -57,7 +65,7 @@ Model make_model(const Case& given, std::shared_ptr<const Mesh> mesh, std::optio
                  std::vector<std::string>& notes) {
   Model model = build_model(given, std::move(mesh));
   for (ContactDefinition& contact : model.contacts)
-    if (ContactLaw* law = law_of(contact)) law->has_multipliers = any_stage(given, has_multipliers);
+    if (ContactLaw* law = law_of(contact)) law->hold = hold_of(given);
   for (const CohesiveZone& zone : model.cohesive) notes.insert(notes.end(), zone.notes.begin(), zone.notes.end());
   taken = take_over(given, model);
   const auto choose = [&](std::vector<std::string> (*choice)(Model&)) {

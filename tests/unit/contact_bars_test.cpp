@@ -29,7 +29,7 @@ struct Chain {
     contact.name = "obstacle";
     contact.shape = shape;
     contact.law.eps_N = 1.0;
-    contact.law.has_multipliers = is_exact;
+    contact.law.hold = is_exact ? RowHold::multipliers : RowHold::springs;
     contact.carrier = carrier;
     for (std::size_t i = 0; i + 1 < node.size(); ++i) contact.bars.push_back({{node[i], node[i + 1]}, radius, 0});
     scene.finish().contacts.emplace_back(contact);
@@ -140,7 +140,7 @@ Model two_chains(Scene& scene, const std::vector<Vec3>& first, const std::vector
   PairContact pair;
   pair.name = "bars";
   pair.law.eps_N = 1.0;
-  pair.law.has_multipliers = is_exact;
+  pair.law.hold = is_exact ? RowHold::multipliers : RowHold::springs;
   pair.self = self;
   const auto bars = [&](const std::vector<Vec3>& points) {
     std::vector<BarSide> made;

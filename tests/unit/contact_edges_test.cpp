@@ -36,7 +36,7 @@ struct Lie {
   double roll_1 = 45.0 * degree, roll_2 = 45.0 * degree;  ///< of the upper (first surface) and the lower bar
   double on_1 = -0.4, on_2 = 0.3;
   bool self = false;
-  bool has_multipliers = false;
+  RowHold hold = RowHold::springs;
   PairMethod method = PairMethod::two_pass;
 };
 
@@ -74,7 +74,7 @@ struct Bars {
     contact.law.eps_N = 4.0;
     contact.law.eps_T = 2.0;
     contact.law.mu = 0.3;
-    contact.law.has_multipliers = lie.has_multipliers;
+    contact.law.hold = lie.hold;
     contact.method = lie.method;
     scene.finish();
     maker = edge_rows(scene.model, contact, 0);
@@ -212,7 +212,7 @@ TEST(EdgeRows, OfASurfaceWithItselfStandOnce) {
 TEST(EdgeRows, AreNoneWhereFacesOrEdgesLieAlongEachOther) {
   for (const double angle : {90.0, 45.0, 20.0}) {
     Lie lie;
-    lie.has_multipliers = true;
+    lie.hold = RowHold::multipliers;
     lie.crossing = angle * degree;
     lie.roll_1 = lie.roll_2 = 0.0;
     EXPECT_EQ(Bars(lie).rows().size(), 0U) << angle;
@@ -220,7 +220,7 @@ TEST(EdgeRows, AreNoneWhereFacesOrEdgesLieAlongEachOther) {
     EXPECT_EQ(Bars(lie).rows().size(), 0U) << angle;
   }
   Lie lie;
-  lie.has_multipliers = true;
+  lie.hold = RowHold::multipliers;
   lie.crossing = 0.0;
   EXPECT_EQ(Bars(lie).rows().size(), 0U);
 }
@@ -354,7 +354,7 @@ TEST(EdgeRows, EndWithTheEdgeWithoutAJump) {
 // from the side, or stands there. Less deep than a twentieth of the facets' size, 0.5, it begins from the side.
 TEST(EdgeRows, OfMultipliersBeginInFront) {
   Lie lie;
-  lie.has_multipliers = true;
+  lie.hold = RowHold::multipliers;
   lie.gap = 0.01;
   const Bars bars(lie);
   EXPECT_EQ(bars.rows(bars.moved({}), bars.moved({0.0, 0.0, -0.3}), bars.in_front()).size(), 1U);
@@ -371,7 +371,7 @@ TEST(EdgeRows, OfMultipliersBeginInFront) {
 
 TEST(EdgeRows, OfMultipliersRememberWhatWasBehind) {
   Lie lie;
-  lie.has_multipliers = true;
+  lie.hold = RowHold::multipliers;
   const Bars bars(lie);
   std::vector<RowHistory> history = bars.in_front();
   const std::vector<double> deep = bars.moved({0.0, 0.0, -0.3});
