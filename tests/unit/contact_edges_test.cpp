@@ -244,15 +244,17 @@ TEST(EdgeRows, HoldFacesThatCrossAtTheirSides) {
 // A ridge across the flat top of the other bar crosses three lines of the mesh there, each with f^2 = 1/4, and both
 // sides of the top, f^2 = 1/2.
 TEST(EdgeRows, HoldRidgesOnFaces) {
-  Lie lie;
-  lie.roll_2 = 0.0;
-  lie.on_1 = 0.0;
-  const Bars bars(lie);
-  const ConstraintRows rows = bars.rows();
-  ASSERT_GE(rows.size(), 2U);
-  double sum = 0.0;  // of f^2
-  for (std::size_t r = 0; r < rows.size(); ++r) sum += std::pow(rows.gap_at(r, bars.scene.zero()) / lie.gap, 2);
-  EXPECT_NEAR(sum, 3.0 * 0.25 + 2.0 * 0.5, round_off);
+  for (const RowHold hold : {RowHold::springs, RowHold::impulses, RowHold::increments}) {
+    Lie lie;
+    lie.hold = hold;
+    lie.roll_2 = 0.0;
+    lie.on_1 = 0.0;
+    const Bars bars(lie);
+    const ConstraintRows rows = bars.rows();
+    double sum = 0.0;  // of f^2
+    for (std::size_t r = 0; r < rows.size(); ++r) sum += std::pow(rows.gap_at(r, bars.scene.zero()) / lie.gap, 2);
+    EXPECT_NEAR(sum, 3.0 * 0.25 + 2.0 * 0.5, round_off);
+  }
 }
 
 /// Places where every part of the factor acts: edges that stick out; a facet 2 and 1.4 degrees from lying flat (the
@@ -391,14 +393,20 @@ TEST(EdgeRows, OfMultipliersRememberWhatWasBehind) {
   EXPECT_EQ(bars.rows(far, far, history).size(), 0U);
 }
 
-// Springs act wherever edges are behind each other, from wherever they have come, to three quarters of the facets'
-// size, 0.53 here.
-TEST(EdgeRows, OfSpringsActToADepthWhateverCameBefore) {
-  const Bars bars(Lie{});
-  const std::vector<double> deep = bars.moved({0.0, 0.0, -0.08}), beyond = bars.moved({0.0, 0.0, -0.3});
-  EXPECT_EQ(bars.rows(deep, deep, bars.in_front()).size(), 1U);
-  EXPECT_EQ(bars.rows(bars.moved({3.0, 0.0, -0.08}), deep, bars.in_front()).size(), 1U);
-  EXPECT_EQ(bars.rows(beyond, beyond).size(), 0U);
+// Springs and impulses act wherever edges are behind each other, from wherever they have come, to half the thickness of
+// a bar: beside its edges, of cells of 0.25, that is a part of what it is 1 wide. Increments ask whence.
+TEST(EdgeRows, ActToADepthWhateverCameBeforeUnlessTheyThrowOut) {
+  for (const RowHold hold : {RowHold::springs, RowHold::impulses, RowHold::increments}) {
+    Lie lie;
+    lie.hold = hold;
+    const Bars bars(lie);
+    const std::vector<double> deep = bars.moved({0.0, 0.0, -0.08}), beyond = bars.moved({0.0, 0.0, -0.3}),
+                              aside = bars.moved({3.0, 0.0, -0.08});
+    const std::size_t expected = hold == RowHold::increments ? 0 : 1;
+    EXPECT_EQ(bars.rows(deep, deep, bars.in_front()).size(), expected);
+    EXPECT_EQ(bars.rows(aside, deep, bars.in_front()).size(), expected);
+    EXPECT_EQ(bars.rows(beyond, beyond, bars.in_front()).size(), 0U);
+  }
 }
 
 }  // namespace
