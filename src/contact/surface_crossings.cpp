@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 #include <tuple>
+#include <utility>
 
-#include "contact/crossing_depth.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
@@ -13,9 +13,22 @@ namespace carom {
 namespace {
 
 constexpr std::size_t piece_grain = 64;
+constexpr double nearly_parallel = 1e-6;  // sin^2 of an angle
 
 bool share_a_node(std::span<const Index> a, std::span<const Index> b) {
   return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
+}
+
+/// How far the way between two piercings is from the line in which the planes that are pierced meet; infinite where
+/// they are parallel, or the way is to that line.
+double to_ridge(const Piercing& one, const Piercing& two) {
+  const double c = dot(one.normal, two.normal), sin_squared = 1.0 - c * c;
+  const Vec3 way = subtract(two.position, one.position), out = cross(way, cross(one.normal, two.normal));
+  if (!(sin_squared > nearly_parallel) || !(dot(out, out) > nearly_parallel * sin_squared * dot(way, way)))
+    return infinity;
+  // The point p - p_1 = w (n_2 - c n_1) of that line, n_2 . (p - p_2) = 0.
+  const double w = dot(two.normal, way) / sin_squared;
+  return std::abs(w * dot(subtract(two.normal, scaled(one.normal, c)), out)) / norm(out);
 }
 
 }  // namespace
@@ -61,7 +74,7 @@ SurfaceCrossing SurfaceCrossings::deepest(std::span<const double> u, Folds folds
   }
   if (of == nullptr) return worst;
   const Index side = skin_.edges[static_cast<std::size_t>(of->edge)].piece[0];
-  worst.position = of->position;
+  worst.position = of->piercing.position;
   worst.edge_cell = skin_.pieces[static_cast<std::size_t>(side)].cell;
   worst.cell = skin_.pieces[static_cast<std::size_t>(of->piece)].cell;
   return worst;
@@ -127,7 +140,28 @@ std::vector<SurfaceCrossings::Found> SurfaceCrossings::find(std::span<const doub
   });
   std::vector<Found> all;
   for (const std::vector<Found>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  join_ways(all);
   return all;
+}
+
+/// An edge that goes into a body once and out of it once is as deep as the least that undoes one of the two ways.
+void SurfaceCrossings::join_ways(std::vector<Found>& all) const {
+  const auto key = [&](const Found* x) {
+    return std::pair(x->edge, skin_.pieces[static_cast<std::size_t>(x->piece)].body);
+  };
+  std::vector<Found*> by_edge;
+  for (Found& found : all) by_edge.push_back(&found);
+  std::ranges::stable_sort(by_edge, {}, key);
+  for (std::size_t begin = 0, end = 0; begin < by_edge.size(); begin = end) {
+    while (end < by_edge.size() && key(by_edge[end]) == key(by_edge[begin])) ++end;
+    if (end != begin + 2) continue;
+    Found &one = *by_edge[begin], &two = *by_edge[begin + 1];
+    if (one.piercing.below == two.piercing.below) continue;
+    const double least =
+        std::min(std::min(one.depth * one.length, two.depth * two.length), to_ridge(one.piercing, two.piercing));
+    one.depth = least / one.length;
+    two.depth = least / two.length;
+  }
 }
 
 /// Edges of one piece that go through another one; each edge is looked at by the first of its pieces.
@@ -147,7 +181,7 @@ void SurfaceCrossings::meet(Index mine, Index other, Folds folds, std::vector<Fo
     double length = std::min(own.length, pierced.length);
     if (edge.piece[1] >= 0) length = std::min(length, skin_.pieces[static_cast<std::size_t>(edge.piece[1])].length);
     const double depth = CrossingDepth(skin_, x_)(*piercing, e, other);
-    if (depth > 0.0) found.push_back({depth / length, e, other, piercing->position});
+    if (depth > 0.0) found.push_back({depth / length, e, other, length, *piercing});
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/box_tree.hpp"
+#include "contact/crossing_depth.hpp"
 #include "contact/skin_pieces.hpp"
 #include "model/model.hpp"
 
@@ -35,9 +36,11 @@ void fields(A& archive, SurfaceCrossing& x) {
 enum class Folds : std::uint8_t { left_out, seen };
 
 /// Looks for edges of skins, and bars, that pierce facets of skins, of another body or of a fold of their own. The
-/// depth is CrossingDepth, over the smallest of the reference lengths of the cells at both. Facets whose cells share
-/// nodes with cells at the edge are neighbours and do not count. What crosses at the start does so on purpose: at its
-/// nodes growth counts. Of bodies whose boxes are apart nothing but nodes is looked at.
+/// depth is CrossingDepth; of an edge that goes into a body once and out once what undoes one of the two ways undoes
+/// the other, so that the least of both counts, and of how far the edge is from where the planes of both sides meet. It
+/// is taken over the smallest of the reference lengths of the cells at both. Facets whose cells share nodes with cells
+/// at the edge are neighbours and do not count. What crosses at the start does so on purpose: at its nodes growth
+/// counts. Of bodies whose boxes are apart nothing but nodes is looked at.
 class SurfaceCrossings {
  public:
   /// u: displacement at the start. The model must outlive the object.
@@ -55,11 +58,13 @@ class SurfaceCrossings {
   struct Found {
     double depth;  ///< in cells
     Index edge, piece;
-    Vec3 position;
+    double length;  ///< of a cell there
+    Piercing piercing;
   };
   bool place(std::span<const double> u);
   void choose(Folds folds);
   std::vector<Found> find(std::span<const double> u, Folds folds);
+  void join_ways(std::vector<Found>& all) const;
   void meet(Index mine, Index other, Folds folds, std::vector<Found>& found) const;
   bool are_neighbours(Index edge, Index piece) const;
   double at_start(const Found& found) const;
