@@ -119,6 +119,7 @@ struct CaseRigidSurface : CaseObstacle {
 struct CaseSurfaces {
   bool is_self = false;
   std::optional<Located<PairMethod>> method;  ///< filled on reading
+  std::optional<Located<bool>> smooth;        ///< empty: where no edge is sharp; filled where nothing can be smooth
   std::optional<Located<double>> bar_radius;  ///< of bars that touch with their sides; empty: sqrt(area / pi)
   CaseContactLaw law;
 };

@@ -15,6 +15,13 @@ void add_method_and_law(SectionSchema<Kind>& s) {
       "coarse curved face sinks in by part of its rise.",
       {.choices = {"node_to_surface", "two_pass", "surface_to_surface", "faces"},
        .default_phrase = "faces in statics with penalty alone, else two_pass"});
+  s.key_by(
+      "smooth", [](auto& kind) -> auto& { return kind.smooth; },
+      "See facets of linear cells that approximate a smooth surface, whose normals turn by less than 30 degrees from "
+      "one to the next, as that surface: the gap is that between the curved surfaces, and is integrated over them. "
+      "For method = \"two_pass\" and the penalty alone. Flat faces stay as they are. By default where no edge within "
+      "the surfaces turns by more, as of balls; beside sharp edges implicit steps may make energy with true.",
+      {.default_phrase = "where no edge is sharp, with method = \"two_pass\" and penalty in every stage"});
   add_law(s);
   s.finish = [](Kind& given, const Node& node, const ReadContext& at) { check_law(given.law, node, at); };
 }

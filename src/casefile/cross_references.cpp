@@ -128,6 +128,21 @@ void check_methods(const Case& given) {
   }
 }
 
+/// Points of a smooth surface press by springs, in the place of nodes from both sides.
+void check_smoothing(const Case& given) {
+  const bool is_penalty = is_all_penalty(given);
+  for (std::size_t i = 0; i < given.contacts.size(); ++i) {
+    const CaseSurfaces* surfaces = given.contacts[i].surfaces();
+    if (surfaces == nullptr || !surfaces->smooth || !**surfaces->smooth) continue;
+    if (is_penalty && (!surfaces->method || smooths(**surfaces->method))) continue;
+    throw CaseError(
+        surfaces->smooth->where, entry_path("contact", i, "smooth"),
+        is_penalty ? "true with a method that is not two_pass" : "true with an enforcement that is not penalty",
+        "smooth = true with method = \"two_pass\" and enforcement = \"penalty\" in every stage",
+        "Remove smooth, or take two_pass with penalty; other contact sees the facets themselves.");
+  }
+}
+
 /// What the contacts cannot do with the scheme of a stage.
 void check_scheme(const Case& given, const CaseScheme& scheme) {
   const EnforcementKind enforcement = **scheme.enforcement;
@@ -220,6 +235,7 @@ void check_references(const Case& given) {
   check_functions(given);
   check_stages(given);
   check_methods(given);
+  check_smoothing(given);
   check_scheme(given, given.scheme);
   for (const CaseStage& stage : given.stages) check_scheme(given, stage.scheme);
   check_checks(given);
@@ -233,7 +249,12 @@ void choose_methods(Case& given) {
   const PairMethod method = are_static && is_all_penalty(given) ? PairMethod::faces : PairMethod::two_pass;
   for (CaseContact& contact : given.contacts) {
     CaseSurfaces* surfaces = contact.surfaces();
-    if (surfaces != nullptr && !surfaces->method) surfaces->method = Located<PairMethod>{method, contact.where};
+    if (surfaces == nullptr) continue;
+    const bool is_smooth = surfaces->smooth && **surfaces->smooth;
+    if (!surfaces->method)
+      surfaces->method = Located<PairMethod>{is_smooth ? PairMethod::two_pass : method, contact.where};
+    if (!surfaces->smooth && !(smooths(**surfaces->method) && is_all_penalty(given)))
+      surfaces->smooth = Located<bool>{false, contact.where};
   }
 }
 

@@ -9,7 +9,8 @@ namespace carom {
 /// checks lie within the run, and that nothing needs an [exact] that is not there. Throws CaseError.
 void check_references(const Case& given);
 
-/// Fills in the methods of pairs that name none: faces in statics by penalty alone, else two_pass.
+/// Fills in the methods of pairs that name none: faces in statics by penalty alone, else two_pass. Also that they
+/// are not smooth, where nothing is said and they cannot be.
 void choose_methods(Case& given);
 
 }  // namespace carom

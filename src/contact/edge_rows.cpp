@@ -39,7 +39,7 @@ bool are_neighbours(const FeatureEdge& a, const FeatureEdge& b) {
 
 /// Of a surface with itself two sharp edges are both of the first and of the second: the pair stands once.
 bool stands_elsewhere(const FeatureEdge& first, const FeatureEdge& second) {
-  return is_sharp(second) && second.node <= first.node;
+  return second.is_sharp && second.node <= first.node;
 }
 
 bool touch(const FeatureEdge& a, const FeatureEdge& b) {
@@ -154,7 +154,7 @@ bool EdgeRows::was_behind(Index i, Index j) const {
 
 PairFactor EdgeRows::factor_of(Index i, Index j) const {
   const PairFactor factor = edges_.rule.factor;
-  const bool may_be_border = is_sharp(edges_.first[i]) && is_sharp(edges_.second[j]);
+  const bool may_be_border = edges_.first[i].is_sharp && edges_.second[j].is_sharp;
   return factor == PairFactor::border && !may_be_border ? PairFactor::moves : factor;
 }
 
@@ -245,10 +245,11 @@ bool is_solid(const Surface& surface) {
 
 }  // namespace
 
-std::unique_ptr<RowMaker> edge_rows(const Model& model, const PairContact& contact, Index source) {
+std::unique_ptr<RowMaker> edge_rows(const Model& model, const PairContact& contact, Index source,
+                                    const SmoothSides* smooth) {
   if (!is_solid(contact.slave) || !is_solid(contact.master)) return nullptr;
   auto all = std::make_unique<MakersInOrder>();
-  for (MeetingEdges& edges : meeting_edges(model, contact)) {
+  for (MeetingEdges& edges : meeting_edges(model, contact, smooth)) {
     const bool is_back = edges.is_back;
     all->add(std::make_unique<EdgeRows>(std::move(edges), contact.law, source), is_back);
   }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "contact/row_maker.hpp"
+#include "contact/smooth_surface.hpp"
 
 namespace carom {
 
@@ -12,8 +13,9 @@ namespace carom {
 /// law the contact's own: there is one pass only. Segments that share a node, or of which two facets do, make no pair.
 /// h is the larger mean facet size of both surfaces.
 ///
-/// Sharp edges, which turn by more than 5 degrees, meet all edges of the other surface but notches: so a ridge is seen
-/// by a face that it crosses between two nodes. What counts depends on what holds the rows (see rule_of in
+/// Sharp edges, which turn by more than 5 degrees and which no surface is smooth across (smooth: of the contact, null
+/// where it is seen as facets), meet all edges of the other surface but notches: so a ridge is seen by a face that it
+/// crosses between two nodes. What counts depends on what holds the rows (see rule_of in
 /// meeting_edges.cpp):
 ///   springs      rows to a gap of h / 4, and behind each other to the least of 3 h / 4 and half of either body's
 ///                thickness. Two sharp edges meet as borders of faces where the contact's rows stand at nodes (rows of
@@ -34,7 +36,8 @@ namespace carom {
 /// the step keeps its slot; the others follow by increasing segment of the second surface. ConstraintRows::facet is
 /// that segment.
 ///
-/// Null where there are no two edges to meet: in two dimensions, of bars, and of smooth surfaces.
-std::unique_ptr<RowMaker> edge_rows(const Model& model, const PairContact& contact, Index source);
+/// Null where there are no two edges to meet: in two dimensions, of bars, and of surfaces without edges.
+std::unique_ptr<RowMaker> edge_rows(const Model& model, const PairContact& contact, Index source,
+                                    const SmoothSides* smooth);
 
 }  // namespace carom

@@ -200,10 +200,10 @@ void FaceOverlaps::add_borders(const Slave& slave, const Work& work, std::size_t
       FacePoint point;
       point.weight = at.length * slave.measure_at(at.slave) * width_at(slave, at.slave);
       point.gap = s * at.gap;
-      point.distance = at.gap;
+      point.rise = at.gap;
       point.master = k;
       point.share = facet_shape(slave.placed.size, at.slave.xi, at.slave.eta).N;
-      point.N = face_shape(own, in_parent(own, slave_.facets[slave.f], at.slave)).N;
+      point.N = point.N_slide = face_shape(own, in_parent(own, slave_.facets[slave.f], at.slave)).N;
       point.N_master = face_shape(other, in_parent(other, master_facet(master.facet), at.master)).N;
       point.along = at.outward;
       point.of_turn = scaled(at.outward, at.gap);
@@ -256,14 +256,14 @@ void FaceOverlaps::add_point(const Slave& slave, double facing, const OverlapPoi
   const Vec3 m = scaled(there.normal, 1.0 / cosine);
   point.weight = at.weight * slave.measure_at(at.slave) * width_at(slave, at.slave);
   point.gap = s * g;
-  point.distance = g;
+  point.rise = g;
   point.master = found.masters.size() - 1;
   point.share = facet_shape(facet.size, at.slave.xi, at.slave.eta).N;
-  point.N = shape.N;
+  point.N = point.N_slide = shape.N;
   point.N_master = other_shape.N;
   point.along = scaled(m, s);
   point.of_turn = add(scaled(m, s * g), scaled(master.normal, of_facing));
-  point.master_turn = of_facing;
+  point.of_master_turn = scaled(slave.normal(), of_facing);
   found.least_gap = std::min(found.least_gap, point.gap);
   found.points.push_back(point);
 }

@@ -12,19 +12,22 @@
 
 namespace carom {
 
-/// One point of an overlap: its gap g~ = s g and what the gap's gradient is made of, see face_rows.hpp. The gradient is
+/// One point of a slave facet: its gap, and what the gap's gradient is made of, see face_rows.hpp. The gradient is
 ///   - along N_b(x_s): -along,   along N_c(x_m): along,
 /// and with the turning of the facets' normals
-///   slave corner b: n_s (turn_b . of_turn),   master corner c: n_m (turn_c . n_s) master_turn.
+///   slave corner b: n_s (turn_b . of_turn),   master corner c: n_m (turn_c . of_master_turn).
+/// Tangentially the point where both sides touch each other moves with the slave by N_slide_b and - rise turn_b n_s,
+/// and with the master by N_c and - master_rise turn_c n_m.
 struct FacePoint {
   double weight = 0.0;            ///< reference measure
-  double gap = 0.0;               ///< s g
-  double distance = 0.0;          ///< g, from x_s along n_s to x_m
+  double bulge = 0.0;             ///< how far the surfaces stand out of their facets there
+  double gap = 0.0;               ///< of overlaps s g
+  double rise = 0.0;              ///< of overlaps g, from x_s along n_s to x_m
+  double master_rise = 0.0;       ///< of overlaps 0
   std::size_t master = 0;         ///< number in FacetPoints::masters
   std::array<double, 4> share{};  ///< N^ of the slave facet's corners
-  std::array<double, 9> N{}, N_master{};
-  Vec3 along{}, of_turn{};
-  double master_turn = 0.0;
+  std::array<double, 9> N{}, N_master{}, N_slide{};
+  Vec3 along{}, of_turn{}, of_master_turn{};
   Vec3 position{};  ///< x_s
 };
 
@@ -45,22 +48,35 @@ struct FacetPoints {
   std::vector<FacePoint> points, border;
 };
 
+/// Where the points of a slave surface come from.
+class FacePointFinder {
+ public:
+  virtual ~FacePointFinder() = default;
+  /// Brings the candidates up to date; behind: by slave facet, the facets that its corners were behind at x_begin, -1
+  /// for none.
+  virtual void update(const ContactMotion& motion, std::vector<std::array<Index, 4>> behind) = 0;
+  /// The points of slave facet f at motion.x. May be called from many threads.
+  virtual void find(std::size_t f, const ContactMotion& motion, FacetPoints& found) const = 0;
+
+  virtual double size() const = 0;  ///< the larger mean facet size
+  virtual const ParentFace& slave_face(std::size_t f) const = 0;
+  virtual const ParentFace& master_face(Index g) const = 0;
+  virtual const Facet& master_facet(Index g) const = 0;
+};
+
 /// Two surfaces whose facets are laid over each other.
-class FaceOverlaps {
+class FaceOverlaps : public FacePointFinder {
  public:
   /// `self`: see PairContact; thin parts are then looked into half as deep as they are thick.
   FaceOverlaps(const Model& model, const Surface& slave, const Surface& master, bool self);
 
-  /// Brings the candidates up to date; behind: by slave facet, the facets that its corners were behind at x_begin, -1
-  /// for none.
-  void update(const ContactMotion& motion, std::vector<std::array<Index, 4>> behind);
-  /// The points of slave facet f at motion.x. May be called from many threads.
-  void find(std::size_t f, const ContactMotion& motion, FacetPoints& found) const;
+  void update(const ContactMotion& motion, std::vector<std::array<Index, 4>> behind) override;
+  void find(std::size_t f, const ContactMotion& motion, FacetPoints& found) const override;
 
-  double size() const { return size_; }  ///< the larger mean facet size
-  const ParentFace& slave_face(std::size_t f) const { return slave_faces_[f]; }
-  const ParentFace& master_face(Index g) const { return master_faces_[static_cast<std::size_t>(g)]; }
-  const Facet& master_facet(Index g) const { return broad_phase_.targets()[static_cast<std::size_t>(g)]; }
+  double size() const override { return size_; }
+  const ParentFace& slave_face(std::size_t f) const override { return slave_faces_[f]; }
+  const ParentFace& master_face(Index g) const override { return master_faces_[static_cast<std::size_t>(g)]; }
+  const Facet& master_facet(Index g) const override { return broad_phase_.targets()[static_cast<std::size_t>(g)]; }
 
  private:
   struct Slave;

@@ -21,8 +21,8 @@ struct CornerOf {
 
 class FaceRows : public RowMaker {
  public:
-  FaceRows(const Model& model, const Surface& slave, const Surface& master, bool self, const ContactLaw& law,
-           Index source);
+  FaceRows(std::span<const Vec3> X, const Surface& slave, std::unique_ptr<FacePointFinder> finder,
+           const FaceNodes& has_row, const ContactLaw& law, Index source);
   std::size_t slots() const override { return nodes_.size(); }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override;
@@ -37,6 +37,7 @@ class FaceRows : public RowMaker {
   struct Sums {
     double area = 0.0, force = 0.0, energy = 0.0;  ///< sum of w N^ times 1, f(<- s g>) and e(<- s g>)
     double depth = 0.0;                            ///< d_A; 0: open
+    double of_facets = 0.0;                        ///< the energy if the surfaces did not bulge out of the facets
     double least_gap = INFINITY;
     Index master = -1;  ///< facet of the deepest point
 
@@ -62,27 +63,29 @@ class FaceRows : public RowMaker {
   RowLaw unit_;  ///< the spring e(d), f(d) of a unit of area, over eps_N
   Index source_;
   std::vector<Node> nodes_;
-  mutable FaceOverlaps overlaps_;
+  std::unique_ptr<FacePointFinder> finder_;
   mutable RowParts parts_;
   mutable std::vector<FacetPoints> points_;  ///< by slave facet
 };
 
-FaceRows::FaceRows(const Model& model, const Surface& slave, const Surface& master, bool self, const ContactLaw& law,
-                   Index source)
+FaceRows::FaceRows(std::span<const Vec3> X, const Surface& slave, std::unique_ptr<FacePointFinder> finder,
+                   const FaceNodes& has_row, const ContactLaw& law, Index source)
     : slave_(slave),
       law_(law),
       unit_{.eps_N = 1.0, .linear_depth = law.linear_depth},
       source_(source),
-      overlaps_(model, slave, master, self),
+      finder_(std::move(finder)),
       points_(slave.facets.size()) {
   std::map<Index, std::size_t> number;
-  for (const auto& [n, measure] : nodal_measures(model.mesh->coordinates, slave_)) {
+  for (const auto& [n, measure] : nodal_measures(X, slave_)) {
+    if (has_row && !has_row(n)) continue;
     number[n] = nodes_.size();
     nodes_.push_back({n, measure, {}});
   }
   for (std::size_t f = 0; f < slave_.facets.size(); ++f)
     for (std::size_t a = 0; a < static_cast<std::size_t>(slave_.facets[f].size); ++a)
-      nodes_[number.at(slave_.facets[f][a])].corners.push_back({f, a});
+      if (const auto at = number.find(slave_.facets[f][a]); at != number.end())
+        nodes_[at->second].corners.push_back({f, a});
 }
 
 void FaceRows::append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const {
@@ -90,10 +93,10 @@ void FaceRows::append(const ContactMotion& motion, Index first_slot, ConstraintR
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     for (const CornerOf& at : nodes_[i].corners)
       behind[at.facet][at.corner] = motion.behind(first_slot + static_cast<Index>(i));
-  overlaps_.update(motion, std::move(behind));
+  finder_->update(motion, std::move(behind));
   constexpr std::size_t grain = 16;  // facets per task: some hundred microseconds of work
   parallel_for(points_.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) overlaps_.find(f, motion, points_[f]);
+    for (std::size_t f = begin; f < end; ++f) finder_->find(f, motion, points_[f]);
   });
   parts_.append(nodes_.size(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
     for (std::size_t i = begin; i < end; ++i) add_row(nodes_[i], first_slot + static_cast<Index>(i), motion, made);
@@ -103,6 +106,7 @@ void FaceRows::append(const ContactMotion& motion, Index first_slot, ConstraintR
 /// The depth at which a spring of this law has the energy `energy`: Newton's method from above, where the energy is
 /// convex.
 double depth_of_energy(const RowLaw& law, double energy) {
+  if (!(energy > 0.0)) return 0.0;
   double d = std::sqrt(2.0 * energy / law.eps_N);
   for (int i = 0; i < 60; ++i) {
     const double step = (law.spring_energy(d) - energy) / law.spring_force(d);
@@ -121,12 +125,13 @@ FaceRows::Sums FaceRows::sums_of(const Node& node) const {
       sums.area += w;
       sums.force += w * unit_.spring_force(depth);
       sums.energy += w * unit_.spring_energy(depth);
+      sums.of_facets += w * unit_.spring_energy(std::max(0.0, depth - q.bulge));
       if (q.gap >= sums.least_gap) continue;
       sums.least_gap = q.gap;
       sums.master = points_[at.facet].masters[q.master].facet;
     }
   }
-  if (sums.least_gap < -round_off * overlaps_.size()) sums.depth = depth_of_energy(unit_, sums.energy / node.measure);
+  if (sums.least_gap < -round_off * finder_->size()) sums.depth = depth_of_energy(unit_, sums.energy / node.measure);
   return sums;
 }
 
@@ -150,7 +155,7 @@ void FaceRows::for_each_weight(const Node& node, const Sums& sums, const Use& us
 
 void FaceRows::add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const {
   const Sums sums = sums_of(node);
-  if (!(sums.area > least_share * node.measure) || sums.least_gap > overlaps_.size()) return;
+  if (!(sums.area > least_share * node.measure) || sums.least_gap > finder_->size()) return;
   Vec3 along{}, position{};
   double weight = 0.0;
   for_each_weight(node, sums, [&](std::size_t /*f*/, const FacetPoints& /*facet*/, const FacePoint& q, double w) {
@@ -164,9 +169,13 @@ void FaceRows::add_row(const Node& node, Index slot, const ContactMotion& motion
   const double measure = sums.is_closed() ? node.measure : std::min(sums.area, node.measure);
   const double gap = sums.is_closed() ? -sums.depth : sums.least_gap;
   RowLaw law = row_law(law_, measure);
-  if (sums.is_closed()) law.mu *= std::min(1.0, sums.force / (node.measure * unit_.spring_force(sums.depth)));
+  if (sums.is_closed())
+    law.mu *=
+        std::min(std::max(1.0, sums.area / node.measure), sums.force / (node.measure * unit_.spring_force(sums.depth)));
   rows.add_row(gap, scaled(along, 1.0 / length), scaled(position, 1.0 / weight), measure, law, source_);
   rows.facet.back() = sums.master;
+  if (sums.is_closed() && sums.of_facets < sums.energy)
+    rows.rounded.back() = sums.depth - depth_of_energy(unit_, sums.of_facets / node.measure);
   add_blocks(node, sums, rows);
   finish_row(rows, motion.u, slot);
 }
@@ -198,10 +207,10 @@ void FaceRows::add_blocks(const Node& node, const Sums& sums, ConstraintRows& ro
 
 /// What one point adds: w times the gradient of its gap, and `mean` times its tangential motion.
 void FaceRows::add_point(std::size_t f, const FacePoint& q, double w, double mean, Blocks& blocks) const {
-  const ParentFace &face = overlaps_.slave_face(f), &other = overlaps_.master_face(points_[f].masters[q.master].facet);
+  const ParentFace &face = finder_->slave_face(f), &other = finder_->master_face(points_[f].masters[q.master].facet);
   const Vec3 &t_1 = blocks.tangent_1, &t_2 = blocks.tangent_2;
   for (std::size_t b = 0; b < static_cast<std::size_t>(face.size); ++b) {
-    const double at = mean * q.N[b];
+    const double at = mean * q.N_slide[b];
     blocks.own.add(face.node[b], scaled(q.along, -w * q.N[b]), scaled(t_1, at), scaled(t_2, at));
   }
   for (std::size_t c = 0; c < static_cast<std::size_t>(other.size); ++c) {
@@ -217,14 +226,15 @@ void FaceRows::add_turning(std::size_t f, const FacePoint& q, double w, double m
   const Vec3 &t_1 = blocks.tangent_1, &t_2 = blocks.tangent_2;
   for (std::size_t b = 0; b < static_cast<std::size_t>(corners.size); ++b) {
     const auto turned = [&](const Vec3& v, double s) { return scaled(facet.normal, s * dot(v, facet.turn[b])); };
-    blocks.own.add(corners[b], turned(q.of_turn, w), turned(t_1, -mean * q.distance), turned(t_2, -mean * q.distance));
+    blocks.own.add(corners[b], turned(q.of_turn, w), turned(t_1, -mean * q.rise), turned(t_2, -mean * q.rise));
   }
-  if (q.master_turn == 0.0) return;
+  if (q.of_master_turn == Vec3{} && q.master_rise == 0.0) return;
   const FacetPoints::Master& master = facet.masters[q.master];
-  const Facet& far = overlaps_.master_facet(master.facet);
+  const Facet& far = finder_->master_facet(master.facet);
   for (std::size_t c = 0; c < static_cast<std::size_t>(far.size); ++c) {
-    const double at = w * q.master_turn * dot(master.turn[c], facet.normal);
-    blocks.others.add(far[c], scaled(master.normal, at), {}, {});
+    const auto turned = [&](const Vec3& v, double s) { return scaled(master.normal, s * dot(v, master.turn[c])); };
+    blocks.others.add(far[c], turned(q.of_master_turn, w), turned(t_1, mean * q.master_rise),
+                      turned(t_2, mean * q.master_rise));
   }
 }
 
@@ -232,7 +242,14 @@ void FaceRows::add_turning(std::size_t f, const FacePoint& q, double w, double m
 
 std::unique_ptr<RowMaker> face_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
                                     const ContactLaw& law, Index source) {
-  return std::make_unique<FaceRows>(model, slave, master, self, law, source);
+  return face_rows(model.mesh->coordinates, slave, std::make_unique<FaceOverlaps>(model, slave, master, self), {}, law,
+                   source);
+}
+
+std::unique_ptr<RowMaker> face_rows(std::span<const Vec3> X, const Surface& slave,
+                                    std::unique_ptr<FacePointFinder> finder, const FaceNodes& has_row,
+                                    const ContactLaw& law, Index source) {
+  return std::make_unique<FaceRows>(X, slave, std::move(finder), has_row, law, source);
 }
 
 }  // namespace carom

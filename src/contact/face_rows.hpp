@@ -1,8 +1,11 @@
 // Rows of the faces of a pair: penetration integrated over the overlaps of facets.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <span>
 
+#include "contact/face_points.hpp"
 #include "contact/row_maker.hpp"
 
 namespace carom {
@@ -35,6 +38,14 @@ namespace carom {
 /// which is part of the gradient (the transport theorem), so that the force is that of the potential there, too. law:
 /// that of one pass. (Segments: Puso and Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004.)
 std::unique_ptr<RowMaker> face_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
+                                    const ContactLaw& law, Index source);
+
+/// Which nodes have rows; empty: all.
+using FaceNodes = std::function<bool(Index)>;
+
+/// The same at the points that are found by another way.
+std::unique_ptr<RowMaker> face_rows(std::span<const Vec3> X, const Surface& slave,
+                                    std::unique_ptr<FacePointFinder> finder, const FaceNodes& has_row,
                                     const ContactLaw& law, Index source);
 
 }  // namespace carom

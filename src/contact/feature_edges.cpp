@@ -86,7 +86,7 @@ FeatureEdge edge_between(Index a, Index b, const Facet& first, const Facet& seco
   const bool sticks_out = dot(n, subtract(mean_of(second, X), X[a])) < 0.0;
   const double turn = std::atan2(norm(cross(n, m)), dot(n, m));
   const double measure = carom::measure(place(first, X)) / first.size + carom::measure(place(second, X)) / second.size;
-  return {{a, b}, {first, second}, sticks_out ? turn : -turn, measure, {}};
+  return {{a, b}, {first, second}, sticks_out ? turn : -turn, measure, {}, false};
 }
 
 std::optional<FeatureEdge> edge_of(std::span<const FacetSide> sides, std::span<const Vec3> X) {

@@ -23,6 +23,7 @@ struct FeatureEdge {
   double turn = 0.0;             ///< angle between the outward normals of both, negative in a notch
   double measure = 0.0;          ///< share of area: that of each facet over the number of its nodes
   std::array<EdgeEnd, 2> end{};  ///< at node[0] and node[1]
+  bool is_sharp = false;         ///< see meeting_edges.hpp; feature_edges leaves it false
 };
 
 /// The edges between two facets of three or four nodes that turn by more than `least_turn`, by increasing numbers of

@@ -50,13 +50,14 @@ std::map<Index, double> depths_by_node(const Model& model, const std::vector<Fac
 std::vector<FeatureEdge> edges_that(const std::vector<FeatureEdge>& edges, bool are_sharp) {
   std::vector<FeatureEdge> some;
   std::ranges::copy_if(edges, std::back_inserter(some),
-                       [&](const FeatureEdge& edge) { return is_sharp(edge) == are_sharp; });
+                       [&](const FeatureEdge& edge) { return edge.is_sharp == are_sharp; });
   return some;
 }
 
 class Meetings {
  public:
-  Meetings(const Model& model, const PairContact& contact) : model_(model), contact_(contact), rule_(rule_of(contact)) {
+  Meetings(const Model& model, const PairContact& contact, const SmoothSides* smooth)
+      : model_(model), contact_(contact), smooth_(smooth), rule_(rule_of(contact)) {
     const std::span<const Vec3> X = model.mesh->coordinates;
     if (has_open_edges(contact.slave.facets) || has_open_edges(contact.master.facets)) beside_ = skin(*model.mesh);
     size_ = std::max(mean_facet_size(X, contact.slave.facets), mean_facet_size(X, contact.master.facets));
@@ -71,8 +72,17 @@ class Meetings {
   }
 
  private:
+  /// Those that the surface is smooth across are not sharp.
   std::vector<FeatureEdge> edges_of(const Surface& surface, double least_turn) const {
-    return feature_edges(model_.mesh->coordinates, surface.facets, beside_, least_turn);
+    std::vector<FeatureEdge> edges = feature_edges(model_.mesh->coordinates, surface.facets, beside_, least_turn);
+    const SmoothSurface* smooth = smooth_of(surface);
+    for (FeatureEdge& edge : edges)
+      edge.is_sharp = edge.turn > sharp && (smooth == nullptr || !smooth->is_smooth_across(edge.node));
+    return edges;
+  }
+  const SmoothSurface* smooth_of(const Surface& surface) const {
+    if (smooth_ == nullptr) return nullptr;
+    return (&surface == &contact_.slave ? smooth_->of_slave : smooth_->of_master).get();
   }
   void add(std::vector<FeatureEdge> first, std::vector<FeatureEdge> second, bool is_back = false) {
     if (first.empty() || second.empty()) return;
@@ -111,6 +121,7 @@ class Meetings {
 
   const Model& model_;
   const PairContact& contact_;
+  const SmoothSides* smooth_;
   EdgeRule rule_;
   std::vector<Facet> beside_;  ///< the skin, where a surface ends
   double size_;
@@ -119,12 +130,8 @@ class Meetings {
 
 }  // namespace
 
-bool is_sharp(const FeatureEdge& edge) {
-  return edge.turn > sharp;
-}
-
-std::vector<MeetingEdges> meeting_edges(const Model& model, const PairContact& contact) {
-  return Meetings(model, contact).find();
+std::vector<MeetingEdges> meeting_edges(const Model& model, const PairContact& contact, const SmoothSides* smooth) {
+  return Meetings(model, contact, smooth).find();
 }
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 
 #include "contact/edge_pair.hpp"
 #include "contact/feature_edges.hpp"
+#include "contact/smooth_surface.hpp"
 #include "model/model.hpp"
 
 namespace carom {
@@ -27,12 +28,10 @@ struct MeetingEdges {
   std::vector<double> depth_1, depth_2;  ///< by edge, half the thickness behind it; where rule.from_the_front none
 };
 
-/// True for edges that turn by more than 5 degrees.
-bool is_sharp(const FeatureEdge& edge);
-
 /// See edge_rows.hpp for the rules. With multipliers of implicit steps edges of more than 30 degrees with each other;
 /// else the sharp edges of the first surface with all of the second, then the sharp ones of the second with those of
-/// the first that are not. Lists in which no edges meet are left out.
-std::vector<MeetingEdges> meeting_edges(const Model& model, const PairContact& contact);
+/// the first that are not. Lists in which no edges meet are left out. smooth: of the contact, null where it is seen as
+/// facets.
+std::vector<MeetingEdges> meeting_edges(const Model& model, const PairContact& contact, const SmoothSides* smooth);
 
 }  // namespace carom

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -11,8 +13,10 @@
 #include "contact/edge_rows.hpp"
 #include "contact/face_rows.hpp"
 #include "contact/facing_facets.hpp"
+#include "contact/feature_edges.hpp"
 #include "contact/half_thickness.hpp"
 #include "contact/mortar_rows.hpp"
+#include "contact/smooth_points.hpp"
 #include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
 #include "model/bodies.hpp"
@@ -64,10 +68,11 @@ void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, std::
 /// The nodes of one surface against the facets of another.
 class NodeRows : public RowMaker {
  public:
-  /// self: the two surfaces are one; bodies: by node, see half_thickness, needed for `self` alone.
+  /// self: the two surfaces are one; bodies: by node, see half_thickness, needed for `self` alone. sides: where they
+  /// are smooth, else null.
   NodeRows(std::span<const Vec3> X, const Surface& slave, const Surface& master, bool self,
-           const std::vector<Index>& bodies, const ContactLaw& law, Index source)
-      : measures_(nodal_measures(X, slave)), law_(law), source_(source), search_([&] {
+           const std::vector<Index>& bodies, const ContactLaw& law, Index source, const SmoothSides* sides)
+      : measures_(unsmoothed_measures(X, slave, sides)), law_(law), source_(source), search_([&] {
           const double size = mean_facet_size(X, master.facets),
                        reach = std::max(size, mean_facet_size(X, slave.facets));
           SearchRange range{reach, 0.5 * size, std::vector<double>(master.facets.size(), reach),
@@ -77,6 +82,9 @@ class NodeRows : public RowMaker {
           return SurfaceSearch(keys(measures_), slave.facets, master.facets, std::move(range));
         }()) {
     for (const auto& [n, measure] : measures_) measure_.push_back(measure);
+    if (sides == nullptr) return;
+    for (const auto& [n, measure] : measures_) is_inner_.push_back(sides->of_slave->is_inner_node(n));
+    has_points_ = covered_shares(master.facets, *sides->of_master);
   }
   std::size_t slots() const override { return measure_.size(); }
   bool is_fixed() const override { return false; }
@@ -86,7 +94,7 @@ class NodeRows : public RowMaker {
       SurfaceSearch::Space space;
       for (std::size_t i = begin; i < end; ++i) {
         const SurfacePoint* met = search_.find(i, space);
-        if (met == nullptr) continue;
+        if (met == nullptr || leaves_to_points(i, met->facet)) continue;
         const Index n = search_.nodes()[i];
         made.add_row(met->gap, direction(met->gradient), motion.x[n], measure_[i], row_law(law_, measure_[i]), source_);
         made.facet.back() = met->facet;
@@ -98,8 +106,22 @@ class NodeRows : public RowMaker {
   }
 
  private:
+  static std::map<Index, double> unsmoothed_measures(std::span<const Vec3> X, const Surface& slave,
+                                                     const SmoothSides* sides) {
+    std::map<Index, double> measures = nodal_measures(X, slave);
+    if (sides != nullptr)
+      std::erase_if(measures, [&](const auto& m) { return sides->of_slave->is_smooth_node(m.first); });
+    return measures;
+  }
+  /// True where the points of a smooth master meet the flat face that the node is inside of.
+  bool leaves_to_points(std::size_t i, Index facet) const {
+    return !has_points_.empty() && is_inner_[i] && has_points_[static_cast<std::size_t>(facet)] == 1.0;
+  }
+
   std::map<Index, double> measures_;
   std::vector<double> measure_;
+  std::vector<bool> is_inner_;      ///< by slot; empty where nothing is smooth
+  std::vector<double> has_points_;  ///< by master facet: the share of it that SmoothPoints stand for
   ContactLaw law_;
   Index source_;
   mutable SurfaceSearch search_;
@@ -174,8 +196,47 @@ TangentDual tangent_dual(const Vec3& a_1, const Vec3& a_2, const Vec3& n) {
 
 namespace {
 
+bool has_sharp_edges(const Model& model, const Surface& surface) {
+  constexpr double sharp = std::numbers::pi / 6.0;
+  return !feature_edges(model.mesh->coordinates, surface.facets, {}, sharp).empty();
+}
+
+/// Null where the contact is to be seen as facets, or is flat.
+std::optional<SmoothSides> smooth_sides(const Model& model, const PairContact& contact) {
+  if (contact.smooth == Smoothing::none || !smooths(contact.method) || contact.law.hold != RowHold::springs ||
+      !contact.law.eps_N)
+    return std::nullopt;
+  if (is_points(contact.slave) || is_points(contact.master)) return std::nullopt;
+  if (contact.smooth == Smoothing::round &&
+      (has_sharp_edges(model, contact.slave) || has_sharp_edges(model, contact.master)))
+    return std::nullopt;
+  const std::vector<Facet> beside = skin(*model.mesh);
+  const auto of = [&](const Surface& surface) {
+    return std::make_shared<const SmoothSurface>(*model.mesh, surface.facets, beside);
+  };
+  SmoothSides sides{contact.slave, contact.master, of(contact.slave), nullptr, contact.self};
+  sides.of_master = contact.self ? sides.of_slave : of(contact.master);
+  if (!sides.of_slave->has_curved() && !sides.of_master->has_curved()) return std::nullopt;
+  return sides;
+}
+
+SmoothSides turned(const SmoothSides& sides) {
+  return {sides.master, sides.slave, sides.of_master, sides.of_slave, sides.self};
+}
+
+/// Rows of the nodes amid curved facets. Their springs harden at half of the depth, since a pole presses on a part of
+/// the area alone that the spring of a node stands for.
+std::unique_ptr<RowMaker> smooth_rows(const Model& model, const SmoothSides& sides, ContactLaw law, Index source) {
+  const std::shared_ptr<const SmoothSurface> surface = sides.of_slave;
+  law.linear_depth *= 0.5;
+  return face_rows(
+      model.mesh->coordinates, sides.slave, std::make_unique<SmoothPoints>(model, sides),
+      [surface](Index n) { return surface->is_smooth_node(n); }, law, source);
+}
+
 /// What the method makes: rows of nodes or of overlaps with facets.
-std::unique_ptr<RowMaker> method_rows(const Model& model, const PairContact& contact, Index source) {
+std::unique_ptr<RowMaker> method_rows(const Model& model, const PairContact& contact, Index source,
+                                      const std::optional<SmoothSides>& smooth) {
   const bool has_points = is_points(contact.slave), both_points = has_points && is_points(contact.master);
   if (!has_points && is_points(contact.master)) {
     throw std::invalid_argument("contact \"" + contact.name +
@@ -185,16 +246,25 @@ std::unique_ptr<RowMaker> method_rows(const Model& model, const PairContact& con
   const ContactLaw law = both_ways ? with_half_stiffness(contact.law) : contact.law;
   if (both_points) return std::make_unique<EndRows>(model, contact.slave, contact.master, law, source);
   if (contact.method == PairMethod::surface_to_surface && !has_points) return mortar_rows(model, contact, law, source);
-  const auto one_way = [&](const Surface& slave, const Surface& master) -> std::unique_ptr<RowMaker> {
+  const auto one_way = [&](const Surface& slave, const Surface& master,
+                           const SmoothSides* seen) -> std::unique_ptr<RowMaker> {
     if (contact.method == PairMethod::faces && !has_points)
       return face_rows(model, slave, master, contact.self, law, source);
     const std::vector<Index> bodies = contact.self ? bodies_of_nodes(model) : std::vector<Index>{};
-    return std::make_unique<NodeRows>(model.mesh->coordinates, slave, master, contact.self, bodies, law, source);
+    const std::span<const Vec3> X = model.mesh->coordinates;
+    auto of_nodes = std::make_unique<NodeRows>(X, slave, master, contact.self, bodies, law, source, seen);
+    if (seen == nullptr || !seen->of_slave->has_curved()) return of_nodes;
+    auto all = std::make_unique<MakersInOrder>();
+    all->add(std::move(of_nodes));
+    all->add(smooth_rows(model, *seen, law, source));
+    return all;
   };
-  if (!both_ways || contact.self) return one_way(contact.slave, contact.master);
+  const SmoothSides* const sides = smooth ? &*smooth : nullptr;
+  if (!both_ways || contact.self) return one_way(contact.slave, contact.master, sides);
+  const std::optional<SmoothSides> back = smooth ? std::optional(turned(*smooth)) : std::nullopt;
   auto both = std::make_unique<MakersInOrder>();
-  both->add(one_way(contact.slave, contact.master));
-  both->add(one_way(contact.master, contact.slave), true);
+  both->add(one_way(contact.slave, contact.master, sides));
+  both->add(one_way(contact.master, contact.slave, back ? &*back : nullptr), true);
   return both;
 }
 
@@ -202,8 +272,9 @@ std::unique_ptr<RowMaker> method_rows(const Model& model, const PairContact& con
 
 std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& contact, Index source) {
   if (!contact.slave_bars.empty()) return bar_pair_rows(model, contact, source);
-  std::unique_ptr<RowMaker> of_method = method_rows(model, contact, source),
-                            of_edges = edge_rows(model, contact, source);
+  const std::optional<SmoothSides> smooth = smooth_sides(model, contact);
+  std::unique_ptr<RowMaker> of_method = method_rows(model, contact, source, smooth),
+                            of_edges = edge_rows(model, contact, source, smooth ? &*smooth : nullptr);
   if (!of_edges) return of_method;
   auto all = std::make_unique<MakersInOrder>();
   all->add(std::move(of_method));

@@ -125,6 +125,7 @@ struct PairContact {
   std::vector<BarSide> slave_bars, master_bars;  ///< bars instead of facets
   bool self = false;
   PairMethod method = PairMethod::two_pass;
+  Smoothing smooth = Smoothing::none;  ///< with smooths(method) and springs alone
   ContactLaw law;
   InitialPenetration initial = InitialPenetration::refuse;
 

@@ -41,6 +41,18 @@ constexpr bool has_both_passes(PairMethod method) {
   return method == PairMethod::two_pass || method == PairMethod::faces;
 }
 
+/// Which facets that approximate a smooth surface are seen as that.
+enum class Smoothing : std::uint8_t {
+  none,
+  round,  ///< of contacts in whose surfaces no edge is sharp
+  all,    ///< beside sharp edges, too
+};
+
+/// True when facets that approximate a smooth surface can be seen as that.
+constexpr bool smooths(PairMethod method) {
+  return method == PairMethod::two_pass;
+}
+
 /// How the rows of a tie are made: each slave node at its closest point of the master, or means over the overlaps of
 /// the facets (mortar).
 enum class TieMethod : std::uint8_t { node_to_surface, surface_to_surface };

@@ -224,6 +224,7 @@ class ModelBuilder {
     PairContact pair;
     pair.name = *given.name;
     pair.method = **surfaces.method;
+    pair.smooth = !surfaces.smooth ? Smoothing::round : **surfaces.smooth ? Smoothing::all : Smoothing::none;
     pair.law = law(surfaces.law);
     pair.initial = initial(surfaces.law);
     pair.self = surfaces.is_self;

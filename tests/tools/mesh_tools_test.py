@@ -114,6 +114,15 @@ class Taylor(unittest.TestCase):
             self.assertAlmostEqual(highest_below, 0.0, delta=1e-10)
             self.assertAlmostEqual(lowest_above, {"crossed.msh": 1e-5, "rolling.msh": 2e-4}[name], delta=1e-10)
 
+    def test_balls_are_those_of_the_case(self):
+        self.make("make_ball_meshes.py")
+        self.assertIn("0 cells turned", self.summary("balls.msh"))
+        in_cases = (TOOLS.parent / "cases" / "balls" / "balls.msh").read_text(encoding="ascii").split()
+        made = (self.folder / "balls.msh").read_text(encoding="ascii").split()
+        self.assertEqual(len(made), len(in_cases))
+        for a, b in zip(made, in_cases):
+            self.assertTrue(a == b or abs(float(a) - float(b)) < 1e-12)  # written to twelve digits of centimetres
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -77,7 +77,7 @@ struct Bars {
     contact.law.hold = lie.hold;
     contact.method = lie.method;
     scene.finish();
-    maker = edge_rows(scene.model, contact, 0);
+    maker = edge_rows(scene.model, contact, 0, nullptr);
   }
   std::vector<Vec3> at(const std::vector<double>& u) const {
     std::vector<Vec3> x = scene.mesh.coordinates;
