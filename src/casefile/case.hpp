@@ -147,12 +147,16 @@ struct CaseFunction {
   TimeFunction function;
 };
 
+/// Of the augmented Lagrangian: largest penetration, relative to the smallest cell.
+inline constexpr double default_penetration = 1e-3;
+
 /// [scheme], and the same keys of a [[stage]].
 struct CaseScheme {
   Location where;
   Located<SchemeKind> kind;
   SchemeParameters parameters;                          ///< those of the kind, filled on reading
-  std::optional<Located<EnforcementKind>> enforcement;  ///< filled on reading: the scheme's default
+  std::optional<Located<EnforcementKind>> enforcement;  ///< filled on reading
+  bool is_enforcement_chosen = false;                   ///< the case says none
   std::optional<double> penetration;  ///< augmented_lagrangian: largest penetration, relative to the smallest cell
   enum class Mass : std::uint8_t { consistent, lumped, modified };
   std::optional<Located<Mass>> mass;  ///< filled on reading: the scheme's default

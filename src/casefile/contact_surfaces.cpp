@@ -10,11 +10,14 @@ void add_method_and_law(SectionSchema<Kind>& s) {
       "method", [](auto& kind) -> auto& { return kind.method; },
       "Where the gap is measured: at the nodes of one side, of both, or over the overlaps of the faces. faces, for "
       "the penalty alone, integrates the penetration from both sides: pressure is exact across meshes that match or "
-      "not, of first and second order, and what lies between nodes is seen. Both sides' nodes (two_pass) sink "
+      "not, of first and second order, and what lies between nodes is seen; pairs in statics by the augmented "
+      "Lagrangian have it from the side of group. Both sides' nodes (two_pass) sink "
       "nowhere; surface_to_surface sees the mean gap of a node's faces: pressure is exact across flat meshes, and a "
       "coarse curved face sinks in by part of its rise.",
       {.choices = {"node_to_surface", "two_pass", "surface_to_surface", "faces"},
-       .default_phrase = "faces in statics with penalty alone, else two_pass"});
+       .default_phrase =
+           "faces in statics with penalty alone, and of pairs in statics with augmented_lagrangian alone, "
+           "where self and all take surface_to_surface; else two_pass"});
   s.key_by(
       "smooth", [](auto& kind) -> auto& { return kind.smooth; },
       "See facets of linear cells that approximate a smooth surface, whose normals turn by less than 30 degrees from "

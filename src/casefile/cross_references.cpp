@@ -116,14 +116,29 @@ bool is_all_penalty(const Case& given) {
                                                  [&](const CaseStage& s) { return is_penalty(s.scheme); });
 }
 
-/// The depth of a row of `faces` is a mean square, whose gradient is lost where it is zero: no multiplier can hold it.
+/// True when all stages are statics with this enforcement.
+bool are_statics_by(EnforcementKind enforcement, const Case& given) {
+  const auto is_one = [enforcement](const CaseScheme& scheme) {
+    return *scheme.kind == SchemeKind::statics && **scheme.enforcement == enforcement;
+  };
+  return is_one(given.scheme) &&
+         std::all_of(given.stages.begin(), given.stages.end(), [&](const CaseStage& s) { return is_one(s.scheme); });
+}
+
+/// The depth of a row of `faces` is a mean square, whose gradient is lost where it is zero: multipliers alone cannot
+/// hold it. Shifted springs can, from one side: no stage of another enforcement goes on from their shifts, and both
+/// sides of one surface would push each other's up.
 void check_methods(const Case& given) {
   if (is_all_penalty(given)) return;
+  const bool is_augmented = are_statics_by(EnforcementKind::augmented_lagrangian, given);
   for (std::size_t i = 0; i < given.contacts.size(); ++i) {
     const CaseSurfaces* surfaces = given.contacts[i].surfaces();
     if (surfaces == nullptr || !surfaces->method || **surfaces->method != PairMethod::faces) continue;
+    if (is_augmented && !surfaces->is_self) continue;
     throw CaseError(surfaces->method->where, entry_path("contact", i, "method"),
-                    "\"faces\" with an enforcement that is not penalty", "enforcement = \"penalty\" with faces",
+                    is_augmented ? "\"faces\" of a surface that touches itself, with multipliers"
+                                 : "\"faces\" with an enforcement that is not penalty",
+                    "enforcement = \"penalty\" with faces, or a pair in statics by \"augmented_lagrangian\" alone",
                     "Take surface_to_surface or two_pass, or a scheme with penalty in every stage.");
   }
 }
@@ -241,18 +256,47 @@ void check_references(const Case& given) {
   check_checks(given);
 }
 
+void choose_enforcement(Case& given) {
+  const auto is_open = [](const CaseScheme& scheme) {
+    return *scheme.kind == SchemeKind::statics && scheme.is_enforcement_chosen;
+  };
+  const auto needs_springs = [](const CaseContact& contact) {
+    const CaseSurfaces* surfaces = contact.surfaces();
+    return contact.springs() == nullptr || contact.springs()->stiffness.has_value() ||
+           (surfaces != nullptr && surfaces->smooth && **surfaces->smooth);
+  };
+  if (given.contacts.empty() || std::any_of(given.contacts.begin(), given.contacts.end(), needs_springs)) return;
+  if (!is_open(given.scheme) ||
+      !std::all_of(given.stages.begin(), given.stages.end(), [&](const CaseStage& s) { return is_open(s.scheme); }))
+    return;
+  const auto choose = [](CaseScheme& scheme) {
+    scheme.enforcement->value = EnforcementKind::augmented_lagrangian;
+    scheme.penetration = default_penetration;
+  };
+  choose(given.scheme);
+  for (CaseStage& stage : given.stages) choose(stage.scheme);
+}
+
+namespace {
+
+/// What a contact gets that names no method and is not to be smooth.
+PairMethod usual_method(const Case& given, const CaseSurfaces& surfaces) {
+  if (are_statics_by(EnforcementKind::penalty, given)) return PairMethod::faces;
+  if (!are_statics_by(EnforcementKind::augmented_lagrangian, given)) return PairMethod::two_pass;
+  return surfaces.is_self ? PairMethod::surface_to_surface : PairMethod::faces;
+}
+
+}  // namespace
+
 void choose_methods(Case& given) {
-  const auto is_static = [](const CaseScheme& scheme) { return *scheme.kind == SchemeKind::statics; };
-  const bool are_static =
-      is_static(given.scheme) &&
-      std::all_of(given.stages.begin(), given.stages.end(), [&](const CaseStage& s) { return is_static(s.scheme); });
-  const PairMethod method = are_static && is_all_penalty(given) ? PairMethod::faces : PairMethod::two_pass;
   for (CaseContact& contact : given.contacts) {
     CaseSurfaces* surfaces = contact.surfaces();
     if (surfaces == nullptr) continue;
     const bool is_smooth = surfaces->smooth && **surfaces->smooth;
-    if (!surfaces->method)
-      surfaces->method = Located<PairMethod>{is_smooth ? PairMethod::two_pass : method, contact.where};
+    if (!surfaces->method) {
+      const PairMethod method = is_smooth ? PairMethod::two_pass : usual_method(given, *surfaces);
+      surfaces->method = Located<PairMethod>{method, contact.where};
+    }
     if (!surfaces->smooth && !(smooths(**surfaces->method) && is_all_penalty(given)))
       surfaces->smooth = Located<bool>{false, contact.where};
   }

@@ -9,8 +9,13 @@ namespace carom {
 /// checks lie within the run, and that nothing needs an [exact] that is not there. Throws CaseError.
 void check_references(const Case& given);
 
-/// Fills in the methods of pairs that name none: faces in statics by penalty alone, else two_pass. Also that they
-/// are not smooth, where nothing is said and they cannot be.
+/// Where all stages are statics that name no enforcement, chooses the augmented Lagrangian: springs alone would take a
+/// part of the motion. Contacts that give their stiffness or are to be smooth, and stops, keep springs.
+void choose_enforcement(Case& given);
+
+/// Fills in the methods of pairs that name none: faces in statics by penalty alone, and of two surfaces by the
+/// augmented Lagrangian alone (self and all then have surface_to_surface), else two_pass. Also that they are not
+/// smooth, where nothing is said and they cannot be.
 void choose_methods(Case& given);
 
 }  // namespace carom

@@ -75,6 +75,7 @@ Case case_of(const Node& root, const std::string& name) {
   Case result;
   result.file = name;
   case_schema().read(result, root, {root, message_units(root), "", case_schema().description});
+  choose_enforcement(result);
   check_references(result);
   choose_methods(result);
   return result;

@@ -96,7 +96,8 @@ void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
            "How contact is enforced; the table of the manual says which scheme takes which. plain: multipliers as "
            "published, which throw back what lagrange stops.",
            {.choices = Names(enforcement_names.begin(), enforcement_names.end()),
-            .default_phrase = "the first that the scheme takes"});
+            .default_phrase = "the first that the scheme takes; where all stages are statics and no contact gives its "
+                              "stiffness or is a stop, augmented_lagrangian"});
   for (const SchemeNumber& number : scheme_numbers) add_number(s, scheme_of, number);
   const auto augmented = [](const SchemeTraits& t) { return takes(t.kind, EnforcementKind::augmented_lagrangian); };
   s.key_by("penetration", [scheme_of](auto& section) -> auto& { return scheme_of(section).penetration; },
@@ -215,13 +216,17 @@ void check_alpha(const CaseScheme& scheme, const Node& node, const ReadContext& 
 }
 
 void finish_scheme(CaseScheme& scheme, const Node& node, const ReadContext& at) {
-  if (!scheme.enforcement)
-    scheme.enforcement = Located<EnforcementKind>{default_enforcement(*scheme.kind), scheme.where};
+  const Node* penetration = find(node, "penetration");
+  if (!scheme.enforcement) {
+    const bool is_augmented = *scheme.kind == SchemeKind::statics && penetration != nullptr;
+    scheme.is_enforcement_chosen = !is_augmented;
+    scheme.enforcement = Located<EnforcementKind>{
+        is_augmented ? EnforcementKind::augmented_lagrangian : default_enforcement(*scheme.kind), scheme.where};
+  }
   if (!takes(*scheme.kind, **scheme.enforcement)) refuse_enforcement(scheme, at);
   check_alias(scheme, node, at);
-  const Node* penetration = find(node, "penetration");
   const bool is_augmented = **scheme.enforcement == EnforcementKind::augmented_lagrangian;
-  if (is_augmented && !scheme.penetration) scheme.penetration = 1e-3;
+  if (is_augmented && !scheme.penetration) scheme.penetration = default_penetration;
   if (penetration != nullptr && !is_augmented) {
     throw CaseError(penetration->where, at.at("penetration").path, "a key of the augmented Lagrangian",
                     "it only beside enforcement = \"augmented_lagrangian\"", "Remove it.");

@@ -39,6 +39,25 @@ struct Polygon {
   }
 };
 
+/// The polygon without corners that stand out of the side between their neighbours by round-off alone: sides that lie
+/// on each other cross somewhere, and the points of a rule would move with that.
+Polygon without_flat_corners(Polygon polygon) {
+  constexpr double flat = 1e-9;  // of the area
+  const double least = flat * polygon.area();
+  for (std::size_t i = 0; i < polygon.size && polygon.size > 3;) {
+    const Point& before = polygon.corner[(i + polygon.size - 1) % polygon.size];
+    const Point& after = polygon.corner[(i + 1) % polygon.size];
+    if (area_of(before, polygon.corner[i], after) > least) {
+      ++i;
+      continue;
+    }
+    for (std::size_t k = i + 1; k < polygon.size; ++k) polygon.corner[k - 1] = polygon.corner[k];
+    --polygon.size;
+    if (i > 0) --i;
+  }
+  return polygon;
+}
+
 /// The part of the polygon on the left of the line from a to b.
 Polygon clip(const Polygon& polygon, const Point& a, const Point& b) {
   Polygon kept;
@@ -212,9 +231,10 @@ void Clipping::add(const Polygon& polygon) {
   extent.least_gap = std::min(extent.least_gap, least);
   extent.area += polygon.area();
   const Polygon part = rule.only_behind && is_divided ? part_behind(polygon, gap) : polygon;
-  if (!rule.only_behind)
+  const bool is_curved = slave.size == 4 || master.size == 4;  // what is integrated may be no polynomial
+  if (!rule.only_behind && !is_curved)
     add_polygon(part);
-  else if (rule.is_high || ((slave.size == 4 || master.size == 4) && least < 0.0))
+  else if (rule.is_high || (is_curved && least < 0.0))
     add_star(part);
   else
     add_moment_points(part);
@@ -256,11 +276,20 @@ void Clipping::add_polygon(const Polygon& polygon) const {
     add_triangle(polygon.corner[0], polygon.corner[i - 1], polygon.corner[i]);
 }
 
-/// Triangles from the mean of the corners: whatever mirrors the polygon mirrors its points.
+/// Triangles from the centroid: whatever mirrors the polygon mirrors its points, and a corner that comes in beside
+/// another one, as a motion by round-off makes them on sides that lie on each other, moves none of them.
 void Clipping::add_star(const Polygon& polygon) const {
+  const Point& o = polygon.corner[0];
   Point middle{};
-  for (std::size_t i = 0; i < polygon.size; ++i)
-    for (std::size_t k = 0; k < 2; ++k) middle[k] += polygon.corner[i][k] / static_cast<double>(polygon.size);
+  double total = 0.0;
+  for (std::size_t i = 2; i < polygon.size; ++i) {
+    const Point &p = polygon.corner[i - 1], &q = polygon.corner[i];
+    const double a = area_of(o, p, q);
+    total += a;
+    for (std::size_t k = 0; k < 2; ++k) middle[k] += a / 3.0 * (p[k] + q[k] - 2.0 * o[k]);
+  }
+  if (!(total > 0.0)) return;
+  for (std::size_t k = 0; k < 2; ++k) middle[k] = o[k] + middle[k] / total;
   for (std::size_t i = 0; i < polygon.size; ++i) {
     const Point &a = polygon.corner[i], &b = polygon.corner[i + 1 < polygon.size ? i + 1 : 0];
     if (rule.is_high) {
@@ -339,7 +368,7 @@ OverlapExtent add_overlap(const PlacedFacet& slave, const PlacedFacet& master, c
   for (std::size_t i = 0; i < of_slave.count; ++i) {
     for (std::size_t j = 0; j < of_master.count; ++j) {
       const Polygon common = clip(of_slave.part[i], of_master.part[j]);
-      if (common.area() > least) overlap.add(common);
+      if (common.area() > least) overlap.add(without_flat_corners(common));
     }
   }
   return overlap.extent;

@@ -44,6 +44,8 @@ void ConstraintRows::clear() {
   is_back.clear();
   rounded.clear();
   facet.clear();
+  shift.clear();
+  covered.clear();
   slot.clear();
 }
 
@@ -64,6 +66,8 @@ void ConstraintRows::add_row(double row_gap, const Vec3& row_normal, const Vec3&
   is_back.push_back(false);
   rounded.push_back(0.0);
   facet.push_back(0);
+  shift.push_back(0.0);
+  covered.push_back(0.0);
 }
 
 void ConstraintRows::add_node(Index n, double w) {

@@ -81,6 +81,8 @@ struct ConstraintRows {
   std::vector<bool> is_back;    ///< the row's positive side is not the contact's group but the other body (two passes)
   std::vector<double> rounded;  ///< what going round the edges of the other surface has taken from the gap, >= 0
   std::vector<Index> facet;     ///< what the row meets: facet of the other surface, face of a box, 0 where there is one
+  std::vector<double> shift;    ///< rows of faces of the augmented Lagrangian: multiplier over eps_N (face_rows.hpp)
+  std::vector<double> covered;  ///< of those: share of the measure that overlaps cover; 0: no such row
   std::vector<Index> slot;      ///< entry of State::contact; at most one row per slot
 
   std::size_t size() const { return gap.size(); }
@@ -155,6 +157,8 @@ void fields(A& archive, ConstraintRows& x) {
   archive("is_back", x.is_back);
   archive("rounded", x.rounded);
   archive("facet", x.facet);
+  archive("shift", x.shift);
+  archive("covered", x.covered);
   archive("slot", x.slot);
 }
 

@@ -176,6 +176,12 @@ std::shared_ptr<const ConstraintRows> ContactGeometry::rows_at(std::span<const d
   return impl_->fixed ? impl_->fixed : impl_->make(u_begin, u, history);
 }
 
+ConstraintRows ContactGeometry::stiffness_rows() const {
+  ConstraintRows rows;
+  for (const auto& maker : impl_->makers) maker->append_stiffness(rows);
+  return rows;
+}
+
 std::vector<Penetration> ContactGeometry::initial_penetrations(std::span<const double> u) const {
   const auto rows = rows_at(u, u);
   std::vector<Penetration> found;

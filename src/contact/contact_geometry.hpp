@@ -57,6 +57,9 @@ class ContactGeometry {
   std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> u_begin, std::span<const double> u,
                                                 std::span<const RowHistory> history = {}) const;
 
+  /// Rows of what stands against motion beside the rows that rows_at gave last (RowMaker::append_stiffness).
+  ConstraintRows stiffness_rows() const;
+
   /// What penetrates at displacement u, worst first; offsets of set_initial count as they stand.
   std::vector<Penetration> initial_penetrations(std::span<const double> u) const;
   /// Histories of a run that begins at displacement u: what is behind a facet there is taken to have been.

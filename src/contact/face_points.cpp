@@ -76,10 +76,11 @@ struct FaceOverlaps::Work {
   std::vector<OverlapPoint> points;
 };
 
-FaceOverlaps::FaceOverlaps(const Model& model, const Surface& slave, const Surface& master, bool self)
+FaceOverlaps::FaceOverlaps(const Model& model, const Surface& slave, const Surface& master, bool self, bool is_whole)
     : X_(model.mesh->coordinates),
       slave_(slave),
       size_(std::max(mean_facet_size(X_, slave.facets), mean_facet_size(X_, master.facets))),
+      is_whole_(is_whole),
       depth_(self ? half_thickness(X_, master.facets, bodies_of_nodes(model), size_)
                   : std::vector<double>(master.facets.size(), size_)),
       slave_faces_(parent_faces(*model.mesh, slave.facets)),
@@ -122,7 +123,7 @@ void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
   if (facing <= least_facing_of_faces) return;
   const bool is_high = !slave_faces_[slave.f].is_linear || !master_face(g).is_linear;
   const std::size_t before = work.points.size();
-  const OverlapExtent extent = add_overlap(slave.placed, master, {is_high, true}, work.points);
+  const OverlapExtent extent = add_overlap(slave.placed, master, {is_high || is_whole_, !is_whole_}, work.points);
   if (work.points.size() == before) return;
   // Without a history, at the start, all counts that is not the far side of a thin part.
   const double most = motion.history.empty() ? depth_[static_cast<std::size_t>(g)] : sideways_depth * size_;
@@ -132,7 +133,7 @@ void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
   const bool is_wide = extent.area >= -0.1 * extent.least_gap * length;
   const auto was_in_front = [&] {
     return is_in_front(place(slave_.facets[slave.f], motion.x_begin), place(master_facet(g), motion.x_begin),
-                       work.points[before]);
+                       work.points[before], size_);
   };
   if (extent.least_gap > face_look * size_ ||
       (is_deep && !(is_wide && was_behind(slave, g, motion)) && !was_in_front())) {
@@ -165,7 +166,7 @@ void FaceOverlaps::find(std::size_t f, const ContactMotion& motion, FacetPoints&
     for (std::size_t q = master.begin; q < master.end; ++q)
       if (work.points[q].weight > 0.0) add_point(slave, work.met[k].facing, work.points[q], motion, found);
   }
-  if (!(found.least_gap < 0.0)) return;
+  if (is_whole_ || !(found.least_gap < 0.0)) return;
   for (std::size_t k = 0; k < work.masters.size(); ++k) add_borders(slave, work, k, motion, found);
 }
 

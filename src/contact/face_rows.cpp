@@ -1,9 +1,12 @@
 #include "contact/face_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "contact/face_points.hpp"
 #include "math/vec3.hpp"
@@ -26,6 +29,7 @@ class FaceRows : public RowMaker {
   std::size_t slots() const override { return nodes_.size(); }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override;
+  void append_stiffness(ConstraintRows& rows) const override;
 
  private:
   struct Node {
@@ -35,13 +39,15 @@ class FaceRows : public RowMaker {
   };
   /// What the points about a node amount to.
   struct Sums {
-    double area = 0.0, force = 0.0, energy = 0.0;  ///< sum of w N^ times 1, f(<- s g>) and e(<- s g>)
+    double area = 0.0, force = 0.0, energy = 0.0;  ///< sum of w N^ times 1, f(<S - s g>) and e(<S - s g>)
+    double shift = 0.0;                            ///< S; 0 but for the augmented Lagrangian
     double depth = 0.0;                            ///< d_A; 0: open
     double of_facets = 0.0;                        ///< the energy if the surfaces did not bulge out of the facets
     double least_gap = INFINITY;
     Index master = -1;  ///< facet of the deepest point
 
     bool is_closed() const { return depth > 0.0; }
+    double depth_of(double gap) const { return std::max(0.0, shift - gap); }
   };
 
   /// Blocks of a row in the making.
@@ -50,29 +56,33 @@ class FaceRows : public RowMaker {
     RowBlocks own, others;
   };
 
-  Sums sums_of(const Node& node) const;
+  Sums sums_of(const Node& node, double shift) const;
   void add_point(std::size_t f, const FacePoint& q, double w, double mean, Blocks& blocks) const;
   void add_turning(std::size_t f, const FacePoint& q, double w, double mean, Blocks& blocks) const;
   template <class Use>
   void for_each_weight(const Node& node, const Sums& sums, const Use& use) const;
-  void add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const;
+  void add_row(const Node& node, double shift, Index slot, const ContactMotion& motion, ConstraintRows& rows) const;
+  void add_stiffness(const Node& node, double shift, ConstraintRows& rows) const;
   void add_blocks(const Node& node, const Sums& sums, ConstraintRows& rows) const;
 
   Surface slave_;
   ContactLaw law_;
+  bool is_augmented_;
   RowLaw unit_;  ///< the spring e(d), f(d) of a unit of area, over eps_N
   Index source_;
   std::vector<Node> nodes_;
   std::unique_ptr<FacePointFinder> finder_;
   mutable RowParts parts_;
   mutable std::vector<FacetPoints> points_;  ///< by slave facet
+  mutable std::vector<double> shift_;        ///< by node
 };
 
 FaceRows::FaceRows(std::span<const Vec3> X, const Surface& slave, std::unique_ptr<FacePointFinder> finder,
                    const FaceNodes& has_row, const ContactLaw& law, Index source)
     : slave_(slave),
       law_(law),
-      unit_{.eps_N = 1.0, .linear_depth = law.linear_depth},
+      is_augmented_(law.hold == RowHold::multipliers),
+      unit_{.eps_N = 1.0, .linear_depth = is_augmented_ ? INFINITY : law.linear_depth},
       source_(source),
       finder_(std::move(finder)),
       points_(slave.facets.size()) {
@@ -98,8 +108,18 @@ void FaceRows::append(const ContactMotion& motion, Index first_slot, ConstraintR
   parallel_for(points_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) finder_->find(f, motion, points_[f]);
   });
+  shift_.assign(nodes_.size(), 0.0);
+  for (std::size_t i = 0; is_augmented_ && i < nodes_.size(); ++i)
+    shift_[i] = motion.shift(first_slot + static_cast<Index>(i));
   parts_.append(nodes_.size(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
-    for (std::size_t i = begin; i < end; ++i) add_row(nodes_[i], first_slot + static_cast<Index>(i), motion, made);
+    for (std::size_t i = begin; i < end; ++i)
+      add_row(nodes_[i], shift_[i], first_slot + static_cast<Index>(i), motion, made);
+  });
+}
+
+void FaceRows::append_stiffness(ConstraintRows& rows) const {
+  parts_.append(nodes_.size(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
+    for (std::size_t i = begin; i < end; ++i) add_stiffness(nodes_[i], shift_[i], made);
   });
 }
 
@@ -116,11 +136,12 @@ double depth_of_energy(const RowLaw& law, double energy) {
   return d;
 }
 
-FaceRows::Sums FaceRows::sums_of(const Node& node) const {
+FaceRows::Sums FaceRows::sums_of(const Node& node, double shift) const {
   Sums sums;
+  sums.shift = shift;
   for (const CornerOf& at : node.corners) {
     for (const FacePoint& q : points_[at.facet].points) {
-      const double w = q.weight * q.share[at.corner], depth = std::max(0.0, -q.gap);
+      const double w = q.weight * q.share[at.corner], depth = sums.depth_of(q.gap);
       if (!(w > 0.0)) continue;
       sums.area += w;
       sums.force += w * unit_.spring_force(depth);
@@ -131,7 +152,8 @@ FaceRows::Sums FaceRows::sums_of(const Node& node) const {
       sums.master = points_[at.facet].masters[q.master].facet;
     }
   }
-  if (sums.least_gap < -round_off * finder_->size()) sums.depth = depth_of_energy(unit_, sums.energy / node.measure);
+  if (sums.least_gap < shift - round_off * finder_->size())
+    sums.depth = depth_of_energy(unit_, sums.energy / node.measure);
   return sums;
 }
 
@@ -146,15 +168,16 @@ void FaceRows::for_each_weight(const Node& node, const Sums& sums, const Use& us
       if (!(w > 0.0)) continue;
       if (!sums.is_closed()) {
         use(at.facet, facet, q, w / sums.area);
-      } else if (q.gap < 0.0) {
-        use(at.facet, facet, q, w * unit_.spring_force(-q.gap) / whole);
+      } else if (const double depth = sums.depth_of(q.gap); depth > 0.0) {
+        use(at.facet, facet, q, w * unit_.spring_force(depth) / whole);
       }
     }
   }
 }
 
-void FaceRows::add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const {
-  const Sums sums = sums_of(node);
+void FaceRows::add_row(const Node& node, double shift, Index slot, const ContactMotion& motion,
+                       ConstraintRows& rows) const {
+  const Sums sums = sums_of(node, shift);
   if (!(sums.area > least_share * node.measure) || sums.least_gap > finder_->size()) return;
   Vec3 along{}, position{};
   double weight = 0.0;
@@ -167,13 +190,17 @@ void FaceRows::add_row(const Node& node, Index slot, const ContactMotion& motion
   if (!(length > 1e-6 * weight)) return;
   // Where nothing penetrates the row stands for what is covered.
   const double measure = sums.is_closed() ? node.measure : std::min(sums.area, node.measure);
-  const double gap = sums.is_closed() ? -sums.depth : sums.least_gap;
+  const double gap = sums.is_closed() ? sums.shift - sums.depth : sums.least_gap;
   RowLaw law = row_law(law_, measure);
   if (sums.is_closed())
     law.mu *=
         std::min(std::max(1.0, sums.area / node.measure), sums.force / (node.measure * unit_.spring_force(sums.depth)));
   rows.add_row(gap, scaled(along, 1.0 / length), scaled(position, 1.0 / weight), measure, law, source_);
   rows.facet.back() = sums.master;
+  if (is_augmented_) {
+    rows.shift.back() = sums.shift;
+    rows.covered.back() = std::min(1.0, sums.area / node.measure);
+  }
   if (sums.is_closed() && sums.of_facets < sums.energy)
     rows.rounded.back() = sums.depth - depth_of_energy(unit_, sums.of_facets / node.measure);
   add_blocks(node, sums, rows);
@@ -238,12 +265,74 @@ void FaceRows::add_turning(std::size_t f, const FacePoint& q, double w, double m
   }
 }
 
+/// Takes what the functions before have of each one from it, in the product sum_q k_q a_q b_q, and makes its square 1;
+/// one of which less than 1e-6 is left becomes empty.
+void make_orthonormal(std::span<const double> k, std::span<std::vector<double>> functions) {
+  constexpr double least = 1e-6;
+  const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0.0;
+    for (std::size_t q = 0; q < k.size(); ++q) sum += k[q] * a[q] * b[q];
+    return sum;
+  };
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    std::vector<double>& own = functions[i];
+    const double before = product(own, own);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (functions[j].empty()) continue;
+      const double share = product(own, functions[j]);
+      for (std::size_t q = 0; q < k.size(); ++q) own[q] -= share * functions[j][q];
+    }
+    const double square = product(own, own);
+    if (square > least * before) {
+      for (double& value : own) value /= std::sqrt(square);
+    } else {
+      own.clear();
+    }
+  }
+}
+
+/// The springs of the points stand against all that moves them, with eps_N sum_q k_q grad g_q grad g_q^T, k = w N^
+/// f'(d). The row has the part of phi = f / f' (along its gap's gradient). Here are those of phi = 1, x, y and z,
+/// orthonormal in the k: rows sum_q k_q phi_q grad g_q.
+void FaceRows::add_stiffness(const Node& node, double shift, ConstraintRows& rows) const {
+  const Sums sums = sums_of(node, shift);
+  if (!sums.is_closed() || !(sums.area > least_share * node.measure)) return;
+  std::vector<std::pair<std::size_t, const FacePoint*>> points;  // and their slave facets
+  std::vector<double> k;
+  std::array<std::vector<double>, 5> phi;
+  for (const CornerOf& at : node.corners) {
+    for (const FacePoint& q : points_[at.facet].points) {
+      const double depth = sums.depth_of(q.gap), slope = unit_.spring_slope(depth);
+      const double weight = q.weight * q.share[at.corner] * slope;
+      if (!(depth > 0.0 && weight > 0.0)) continue;
+      points.emplace_back(at.facet, &q);
+      k.push_back(weight);
+      const Vec3 x = subtract(q.position, points.front().second->position);
+      const std::array<double, 5> value{unit_.spring_force(depth) / slope, 1.0, x[0], x[1], x[2]};
+      for (std::size_t i = 0; i < phi.size(); ++i) phi[i].push_back(value[i]);
+    }
+  }
+  make_orthonormal(k, phi);
+  for (std::size_t i = 1; i < phi.size(); ++i) {
+    if (phi[i].empty()) continue;
+    Blocks blocks{{}, {}, {}, {}};
+    for (std::size_t q = 0; q < points.size(); ++q) {
+      add_point(points[q].first, *points[q].second, k[q] * phi[i][q], 0.0, blocks);
+      add_turning(points[q].first, *points[q].second, k[q] * phi[i][q], 0.0, blocks);
+    }
+    rows.add_row(0.0, {1.0, 0.0, 0.0}, points.front().second->position, 1.0, row_law(law_, 1.0), source_);
+    blocks.own.append_to(rows);
+    blocks.others.append_to(rows);
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<RowMaker> face_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
                                     const ContactLaw& law, Index source) {
-  return face_rows(model.mesh->coordinates, slave, std::make_unique<FaceOverlaps>(model, slave, master, self), {}, law,
-                   source);
+  return face_rows(model.mesh->coordinates, slave,
+                   std::make_unique<FaceOverlaps>(model, slave, master, self, law.hold == RowHold::multipliers), {},
+                   law, source);
 }
 
 std::unique_ptr<RowMaker> face_rows(std::span<const Vec3> X, const Surface& slave,

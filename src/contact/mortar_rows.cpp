@@ -159,7 +159,7 @@ bool MortarRows::add_points(std::size_t f, Index g, const OverlapColumn& slave, 
   const bool is_deep = nearest->gap < -depth_[g];
   const auto was_in_front = [&] {
     return is_in_front(place(slave_.facets[f], motion.x_begin), place(broad_phase_.targets()[g], motion.x_begin),
-                       *nearest);
+                       *nearest, size_);
   };
   if (nearest->gap <= look * size_ && (!is_deep || was_behind_[f] || was_in_front())) return true;
   points.resize(before);

@@ -57,10 +57,11 @@ void hide_layers(const OverlapColumn& column, std::span<const ColumnMaster> mast
   }
 }
 
-bool is_in_front(const PlacedFacet& slave, const PlacedFacet& master, const OverlapPoint& point) {
+bool is_in_front(const PlacedFacet& slave, const PlacedFacet& master, const OverlapPoint& point, double size) {
+  constexpr double round_off = 1e-9;  // bodies that touch each other at the start are in front of each other
   const Vec3 way = subtract(facet_position(master, point.master.xi, point.master.eta),
                             facet_position(slave, point.slave.xi, point.slave.eta));
-  return dot(way, facet_frame(slave, point.slave.xi, point.slave.eta).normal) >= 0.0;
+  return dot(way, facet_frame(slave, point.slave.xi, point.slave.eta).normal) >= -round_off * size;
 }
 
 }  // namespace carom

@@ -40,7 +40,8 @@ struct ColumnMaster {
 /// Sets the weight of every point to zero that has another master nearer along the normal.
 void hide_layers(const OverlapColumn& column, std::span<const ColumnMaster> masters, std::vector<OverlapPoint>& points);
 
-/// True when the master's point lies on the slave's outer side, the facets being given where they stood.
-bool is_in_front(const PlacedFacet& slave, const PlacedFacet& master, const OverlapPoint& point);
+/// True when the master's point lies on the slave's outer side, or by no more than rounding behind it, the facets being
+/// given where they stood. size: of the facets.
+bool is_in_front(const PlacedFacet& slave, const PlacedFacet& master, const OverlapPoint& point, double size);
 
 }  // namespace carom

@@ -242,7 +242,9 @@ std::unique_ptr<RowMaker> method_rows(const Model& model, const PairContact& con
     throw std::invalid_argument("contact \"" + contact.name +
                                 "\": the ends of bars cannot be the master of facets; exchange group and master");
   }
-  const bool both_ways = contact.self || (has_both_passes(contact.method) && !has_points);
+  // Shifts of both passes over the same overlaps would push each other up without end.
+  const bool is_shifted = contact.method == PairMethod::faces && contact.law.hold == RowHold::multipliers;
+  const bool both_ways = contact.self || (has_both_passes(contact.method) && !has_points && !is_shifted);
   const ContactLaw law = both_ways ? with_half_stiffness(contact.law) : contact.law;
   if (both_points) return std::make_unique<EndRows>(model, contact.slave, contact.master, law, source);
   if (contact.method == PairMethod::surface_to_surface && !has_points) return mortar_rows(model, contact, law, source);

@@ -49,10 +49,6 @@ ParentFace linear_face(const Facet& facet) {
   return face;
 }
 
-bool is_quadratic(CellType type) {
-  return node_count(type) > corner_count(type);
-}
-
 /// Enters the pieces of one face of a cell that are wanted.
 void enter_pieces(const CellFace& face, std::span<const Index> cell, std::map<FacetKey, ParentFace>& wanted) {
   const std::array<ParentPoint, 9> points = node_points(face.type);
@@ -107,10 +103,11 @@ std::vector<ParentFace> parent_faces(const Mesh& mesh, std::span<const Facet> fa
   std::vector<ParentFace> faces;
   for (const Facet& facet : facets) faces.push_back(linear_face(facet));
   std::map<FacetKey, ParentFace> wanted;
-  if (std::any_of(mesh.blocks.begin(), mesh.blocks.end(), [](const CellBlock& b) { return is_quadratic(b.type); }))
+  if (std::any_of(mesh.blocks.begin(), mesh.blocks.end(),
+                  [](const CellBlock& b) { return has_quadratic_faces(b.type); }))
     for (const Facet& facet : facets) wanted[key_of(facet)];
   for (const CellBlock& block : mesh.blocks) {
-    if (!is_quadratic(block.type) || wanted.empty()) continue;
+    if (!has_quadratic_faces(block.type) || wanted.empty()) continue;
     for (Index c = 0; c < static_cast<Index>(block.size()); ++c)
       for (const CellFace& face : cell_faces(block.type)) enter_pieces(face, block.nodes(c), wanted);
   }

@@ -62,6 +62,10 @@ void MakersInOrder::append(const ContactMotion& motion, Index first_slot, Constr
   }
 }
 
+void MakersInOrder::append_stiffness(ConstraintRows& rows) const {
+  for (const Entry& entry : makers_) entry.maker->append_stiffness(rows);
+}
+
 void MakersInOrder::add_moving_nodes(std::vector<Index>& nodes) const {
   for (const Entry& entry : makers_) entry.maker->add_moving_nodes(nodes);
 }
@@ -109,9 +113,9 @@ void finish_row(ConstraintRows& rows, std::span<const double> u, Index slot) {
 }
 
 void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_slot) {
-  const Index shift = rows.begin.back();
+  const Index first = rows.begin.back();
   for (std::size_t r = 0; r < from.size(); ++r) {
-    rows.begin.push_back(from.begin[r + 1] + shift);
+    rows.begin.push_back(from.begin[r + 1] + first);
     rows.slot.push_back(from.slot[r] + first_slot);
   }
   append_all(rows.node, from.node);
@@ -129,6 +133,8 @@ void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_s
   append_all(rows.source, from.source);
   append_all(rows.behind, from.behind);
   append_all(rows.facet, from.facet);
+  append_all(rows.shift, from.shift);
+  append_all(rows.covered, from.covered);
 }
 
 }  // namespace carom

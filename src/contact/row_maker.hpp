@@ -24,7 +24,9 @@ struct ContactMotion {
 
   /// What the slot was behind at x_begin, -1 when it was in front.
   Index behind(Index slot) const { return history.empty() ? -1 : history[static_cast<std::size_t>(slot)].facet; }
-  /// The same of `count` slots from the first on.
+  /// The slot's ConstraintRows::shift.
+  double shift(Index slot) const { return history.empty() ? 0.0 : history[static_cast<std::size_t>(slot)].shift; }
+  /// What `count` slots were behind, from the first on.
   std::vector<Index> behind(Index first_slot, std::size_t count) const {
     std::vector<Index> facets(history.empty() ? 0 : count);
     for (std::size_t i = 0; i < facets.size(); ++i) facets[i] = behind(first_slot + static_cast<Index>(i));
@@ -44,6 +46,9 @@ class RowMaker {
   /// Appends the rows at motion.x, in the order of their slots, which count from first_slot. The stored gap is the
   /// exact one at motion.x less (G u)_n.
   virtual void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const = 0;
+  /// Appends rows of what stands against the bodies beside the rows of the last append, whose gaps are rows' means:
+  /// springs eps_N without a force, for tangents alone.
+  virtual void append_stiffness(ConstraintRows& /*rows*/) const {}
   /// Appends the nodes whose positions append asks for, besides those of the contact's own facets.
   virtual void add_moving_nodes(std::vector<Index>& /*nodes*/) const {}
 };
@@ -68,6 +73,7 @@ class MakersInOrder : public RowMaker {
   std::size_t slots() const override;
   bool is_fixed() const override;
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override;
+  void append_stiffness(ConstraintRows& rows) const override;
   void add_moving_nodes(std::vector<Index>& nodes) const override;
 
  private:

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contact/bond_springs.hpp"
+#include "contact/row_maker.hpp"
 #include "enforcement/contact_work.hpp"
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
@@ -120,11 +121,23 @@ std::string PenaltyPort::hold_bodies(const ContactResponse& response, std::span<
   }
 }
 
+LinearSolveReport PenaltyPort::solve_with_stiffness(EffectiveSolver& solver, const ContactResponse& response,
+                                                    std::span<const double> b, double absolute,
+                                                    std::span<double> x) const {
+  const ConstraintRows beside = system_.contact.stiffness_rows();
+  if (beside.size() == 0) return solver.solve(b, response.rows, tangents_, absolute, x);
+  const auto rows = std::make_shared<ConstraintRows>(*response.rows);
+  append_rows(*rows, beside);
+  std::vector<RowTangent> tangents = tangents_;
+  for (const RowLaw& law : beside.law) tangents.push_back({s_ * law.eps_N, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  return solver.solve(b, rows, tangents, absolute, x);
+}
+
 PortSolve PenaltyPort::solve_with_tangents(EffectiveSolver& solver, std::span<const double> x,
                                            const ContactResponse& response, std::span<const double> residual,
                                            double absolute, std::span<double> dy) {
   if (free_ == nullptr || free_->empty()) {
-    return {solver.solve(residual, response.rows, tangents_, absolute, dy), {}};
+    return {solve_with_stiffness(solver, response, residual, absolute, dy), {}};
   }
   load_.assign(residual.begin(), residual.end());
   std::string failure = hold_bodies(response, x, residual);
@@ -133,7 +146,7 @@ PortSolve PenaltyPort::solve_with_tangents(EffectiveSolver& solver, std::span<co
   for (std::size_t i = 0; i < load_.size(); ++i) {
     if (fixed[i]) load_[i] = 0.0;
   }
-  PortSolve out{solver.solve(load_, response.rows, tangents_, absolute, dy), {}};
+  PortSolve out{solve_with_stiffness(solver, response, load_, absolute, dy), {}};
   release_held(solver, response, x, out.linear, dy);
   return out;
 }
@@ -149,7 +162,7 @@ void PenaltyPort::release_held(EffectiveSolver& solver, const ContactResponse& r
   std::vector<double> Z(d * n), unit(n, 0.0), matrix(d * d, 0.0), c(d, 0.0);
   for (std::size_t k = 0; k < d; ++k) {
     unit[pins[k].dof] = 1.0;
-    const LinearSolveReport one = solver.solve(unit, response.rows, tangents_, 0.0, std::span(Z).subspan(k * n, n));
+    const LinearSolveReport one = solve_with_stiffness(solver, response, unit, 0.0, std::span(Z).subspan(k * n, n));
     unit[pins[k].dof] = 0.0;
     linear.converged = linear.converged && one.converged;
     linear.iterations += one.iterations;
@@ -194,12 +207,34 @@ void AugmentedLagrangianPort::begin(const StageStart& start) {
   PenaltyPort::begin(start);
   m_ = start.m;
   c_ = start.c;
-  multiplier_.resize(begin_->contact.size());
-  for (std::size_t i = 0; i < multiplier_.size(); ++i) multiplier_[i] = begin_->contact[i].multiplier;
+  contact_ = begin_->contact;
+}
+
+/// True of rows of faces, whose multiplier is a shift.
+static bool is_shifted(const ConstraintRows& rows, std::size_t r) {
+  return rows.covered[r] > 0.0;
+}
+
+/// The normal force of a row over its multiplier, where the gap is closed.
+static double bearing(const ConstraintRows& rows, std::size_t r) {
+  return is_shifted(rows, r) ? std::sqrt(rows.covered[r]) : 1.0;
+}
+
+/// The shift that a row of faces would have next.
+static double next_shift(const ConstraintRows& rows, std::size_t r, double gap) {
+  return std::max(0.0, rows.shift[r] - gap) / bearing(rows, r);
+}
+
+/// lambda of row r, in its frame.
+Vec3 AugmentedLagrangianPort::multiplier(const ConstraintRows& rows, std::size_t r) const {
+  Vec3 lambda = rows.to_frame(r, contact_[static_cast<std::size_t>(rows.slot[r])].multiplier);
+  if (is_shifted(rows, r)) lambda[0] = rows.law[r].eps_N * rows.shift[r];
+  return lambda;
 }
 
 /// Factor on the springs of row r: eps_N W is about 10 at least, with W = s G diag(m M + c K)^-1 G^T.
 double AugmentedLagrangianPort::stiffening(const ConstraintRows& rows, std::size_t r) const {
+  if (is_shifted(rows, r)) return 1.0;
   double compliance = 0.0;
   for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
     const auto n = static_cast<std::size_t>(rows.node[k]);
@@ -215,12 +250,12 @@ double AugmentedLagrangianPort::stiffening(const ConstraintRows& rows, std::size
 
 void AugmentedLagrangianPort::respond(std::span<const double> x, std::span<const double> /*v*/,
                                       ContactResponse& response) {
-  response.rows = system_.contact.rows_at(begin_->q, x, begin_->contact);
+  response.rows = system_.contact.rows_at(begin_->q, x, contact_);
   const ConstraintRows& rows = *response.rows;
   response.force.assign(rows.size(), {});
   response.damper.assign(rows.size(), 0.0);
   response.status.assign(rows.size(), RowStatus::open);
-  response.history.assign(multiplier_.size(), {});
+  response.history.assign(contact_.size(), {});
   response.stored = response.slip_work = 0.0;
   tangents_.assign(rows.size(), {});
   held_.respond(x, response);
@@ -231,7 +266,7 @@ void AugmentedLagrangianPort::respond(std::span<const double> x, std::span<const
       continue;
     }
     const auto slot = static_cast<std::size_t>(rows.slot[r]);
-    const Vec3 lambda = rows.to_frame(r, multiplier_[slot]), w = rows.relative(r, x);
+    const Vec3 lambda = multiplier(rows, r), w = rows.relative(r, x);
     const double factor = stiffening(rows, r), eps_N = factor * rows.law[r].eps_N;
     const double eps_T = factor * rows.law[r].eps_T;
     Vec3& force = response.force[r];
@@ -244,19 +279,19 @@ void AugmentedLagrangianPort::respond(std::span<const double> x, std::span<const
       continue;
     }
     force[0] = std::max(0.0, lambda[0] - eps_N * (rows.gap[r] + w[0]));
-    // Friction keeps its limit until the multipliers change, on rows that open as well: its force must not jump.
-    const double limit = rows.law[r].mu * std::max(0.0, lambda[0]);
-    if (force[0] == 0.0 && limit == 0.0) continue;
-    if (force[0] > 0.0) D[0] = s_ * eps_N;
+    if (force[0] == 0.0) continue;
+    D[0] = s_ * eps_N;
     response.status[r] = RowStatus::stick;
     if (rows.law[r].mu > 0.0) {
       const Vec3 w_begin = rows.relative(r, begin_->q);
       const std::array<double, 2> trial{lambda[1] - eps_T * (w[1] - w_begin[1]),
                                         lambda[2] - eps_T * (w[2] - w_begin[2])};
+      const double limit = rows.law[r].mu * force[0];
       const double size = std::hypot(trial[0], trial[1]), keep = size > limit ? limit / size : 1.0;
       if (keep < 1.0) response.status[r] = RowStatus::slip;
       for (std::size_t i = 0; i < 2; ++i) {
         force[i + 1] = keep * trial[i];
+        if (keep < 1.0) D[3 * (i + 1)] = s_ * rows.law[r].mu * eps_N * trial[i] / size;
         for (std::size_t j = 0; j < 2; ++j) {
           const double along = keep < 1.0 ? trial[i] * trial[j] / (size * size) : 0.0;
           D[3 * (i + 1) + j + 1] = s_ * keep * eps_T * ((i == j ? 1.0 : 0.0) - along);
@@ -264,6 +299,7 @@ void AugmentedLagrangianPort::respond(std::span<const double> x, std::span<const
       }
     }
     response.history[slot].multiplier = rows.to_space(r, force);
+    if (is_shifted(rows, r)) response.history[slot].shift = next_shift(rows, r, rows.gap[r] + w[0]);
   }
 }
 
@@ -277,7 +313,7 @@ PenaltyPort::ClosedSpring AugmentedLagrangianPort::closed_spring(const Constrain
                                                                  std::span<const double> x) const {
   const double factor = stiffening(rows, r), eps_N = factor * rows.law[r].eps_N;
   const double eps_T = rows.law[r].mu > 0.0 ? factor * rows.law[r].eps_T : 0.0;
-  const Vec3 lambda = rows.to_frame(r, multiplier_[static_cast<std::size_t>(rows.slot[r])]);
+  const Vec3 lambda = multiplier(rows, r);
   return {{s_ * eps_N, 0.0, 0.0, 0.0, s_ * eps_T, 0.0, 0.0, 0.0, s_ * eps_T}, lambda[0] - eps_N * rows.gap_at(r, x)};
 }
 
@@ -308,17 +344,18 @@ AugmentedLagrangianPort::Update AugmentedLagrangianPort::update(std::span<const 
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (is_equation(rows.law[r])) continue;
     const Vec3 w = rows.relative(r, x), &now = response.force[r];
-    const double gap = rows.gap[r] + w[0];
+    const double gap =
+        is_shifted(rows, r) ? rows.shift[r] - next_shift(rows, r, rows.gap[r] + w[0]) : rows.gap[r] + w[0];
     const bool is_held = is_bond(rows.law[r]);
     const double miss = is_held ? norm(parted(rows, r, x)) : std::abs(gap);
     rows.scatter(r, now, force);
-    if (miss > rows.gap_rounding(r, x))
-      rows.scatter(r, subtract(now, rows.to_frame(r, multiplier_[static_cast<std::size_t>(rows.slot[r])])), change);
+    Vec3 before = multiplier(rows, r);
+    before[0] *= bearing(rows, r);
+    if (miss > rows.gap_rounding(r, x)) rows.scatter(r, subtract(now, before), change);
     if (is_held) {
       out.violation = std::max(out.violation, miss);
       continue;
     }
-    if (now[0] == 0.0 && response.status[r] != RowStatus::open) out.violation = std::numeric_limits<double>::infinity();
     out.violation = std::max(out.violation, now[0] > 0.0 ? std::abs(gap) : -gap);
     if (response.status[r] != RowStatus::stick || rows.law[r].mu == 0.0) continue;
     const Vec3 w_begin = rows.relative(r, begin_->q);
@@ -355,7 +392,10 @@ bool AugmentedLagrangianPort::renew(std::span<const double> x, const ContactResp
 }
 
 void AugmentedLagrangianPort::take_forces(const ContactResponse& response) {
-  for (std::size_t i = 0; i < multiplier_.size(); ++i) multiplier_[i] = response.history[i].multiplier;
+  for (std::size_t i = 0; i < contact_.size(); ++i) {
+    contact_[i].multiplier = response.history[i].multiplier;
+    contact_[i].shift = response.history[i].shift;
+  }
 }
 
 ContactWork AugmentedLagrangianPort::work(const State& begin, const State& end, double end_weight) const {

@@ -40,6 +40,10 @@ class PenaltyPort : public ContactPort {
   PortSolve solve_with_tangents(EffectiveSolver& solver, std::span<const double> x, const ContactResponse& response,
                                 std::span<const double> residual, double absolute, std::span<double> dy);
 
+  /// Solves with tangents_, and with what stands against motion beside the rows.
+  LinearSolveReport solve_with_stiffness(EffectiveSolver& solver, const ContactResponse& response,
+                                         std::span<const double> b, double absolute, std::span<double> x) const;
+
   /// The tangent of row r, an equation.
   RowTangent held_tangent(const ConstraintRows& rows, std::size_t r) const {
     return {held_.stiffness(rows, r), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
@@ -68,13 +72,14 @@ class PenaltyPort : public ContactPort {
 };
 
 /// Uzawa's iteration around it (Wriggers, Computational Contact Mechanics, 2nd ed., section 6.3.2):
-///   p = <lambda_n - eps_N g>,  t = lambda_t - eps_T slip, returned to |t| <= mu lambda_n,
-/// the slip being that of the step; the multipliers become the forces wherever the residual is small against the
-/// change, and at equilibrium, until no row penetrates, no pressed row is open, and no sticking row slips by more than
-/// the given length, and the nodes' accelerations (displacements, without inertia) change no more. Rows of nearly
-/// dependent constraints share their forces at will: these alone never settle. The springs are a means only: they store
-/// nothing, friction is exact in the limit, and where inertia would make an iteration gain little, they are stiffened
-/// to ten times what the body's own diagonal answers. Dampers have no part in it.
+///   p = <lambda_n - eps_N g>,  t = lambda_t - eps_T slip, returned to |t| <= mu p,
+/// the slip being that of the step (rows of faces: face_rows.hpp); the multipliers become the forces wherever the
+/// residual is small against the change, and at equilibrium, until no row penetrates, no pressed row is open, and no
+/// sticking row slips by more than the given length, and the nodes' accelerations (displacements, without inertia)
+/// change no more. Rows of nearly dependent constraints share their forces at will: these alone never settle. The
+/// springs are a means only: they store nothing, friction is exact in the limit, and where inertia would make an
+/// iteration gain little, they are stiffened to ten times what the body's own diagonal answers. Dampers have no part in
+/// it.
 class AugmentedLagrangianPort final : public PenaltyPort {
  public:
   AugmentedLagrangianPort(const System& system, double penetration);
@@ -101,11 +106,12 @@ class AugmentedLagrangianPort final : public PenaltyPort {
   void take_forces(const ContactResponse& response);
   ClosedSpring closed_spring(const ConstraintRows& rows, std::size_t r, std::span<const double> x) const override;
   double stiffening(const ConstraintRows& rows, std::size_t r) const;
+  Vec3 multiplier(const ConstraintRows& rows, std::size_t r) const;
 
   double penetration_;
-  double m_ = 1.0, c_ = 0.0;      ///< of the operator
-  std::vector<double> diagonal_;  ///< of K
-  std::vector<Vec3> multiplier_;  ///< per slot, a vector of space
+  double m_ = 1.0, c_ = 0.0;         ///< of the operator
+  std::vector<double> diagonal_;     ///< of K
+  std::vector<RowHistory> contact_;  ///< of the beginning, but for multipliers and shifts
 };
 
 }  // namespace carom

@@ -136,6 +136,9 @@ std::span<const CellFace> cell_faces(CellType type) {
 std::span<const FacePiece> face_pieces(CellType type) {
   return shape(type).pieces;
 }
+bool has_quadratic_faces(CellType type) {
+  return node_count(type) > corner_count(type) && type != CellType::tetra10;
+}
 VtkCellType vtk_cell_type(CellType type) {
   const bool is_wedge = type == CellType::penta6 || type == CellType::penta15;
   return {shape(type).vtk, is_wedge ? mirrored_order(type) : std::span<const LocalNode>{}};

@@ -64,6 +64,10 @@ struct FacePiece {
 /// those of the quadratic face have zero or negative ones at the corners, which no contact force can have.
 std::span<const FacePiece> face_pieces(CellType type);
 
+/// True of cells whose shape functions are of second order on their faces. TETRA10, a composite of linear tetrahedra,
+/// is linear on every piece.
+bool has_quadratic_faces(CellType type);
+
 /// VTK's number of the type (VTK file formats, "VTK cell types") and its node order: entry i is our local index of
 /// VTK's node i; empty where the orders are the same. They are but for pentahedra: the base of VTK's wedge looks
 /// outward.

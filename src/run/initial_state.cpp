@@ -222,6 +222,10 @@ bool moves_obstacles(const Case& given) {
                      [](const CaseContact& contact) { return contact.obstacle() && contact.obstacle()->moves(); });
 }
 
+bool is_penalty(const CaseScheme& scheme) {
+  return **scheme.enforcement == EnforcementKind::penalty;
+}
+
 std::string describe(const Case& given, const Case& before, const CheckpointInfo& info, const InitialState& state,
                      const EnergyTerms& energies) {
   const auto unit = [&](Dimension d) { return unit_name(d, given.units); };
@@ -238,6 +242,11 @@ std::string describe(const Case& given, const Case& before, const CheckpointInfo
   if (info.time < end * (1.0 - 1e-9)) text += fmt::format("; that run has not come to its end, t = {:.6g}", end);
   if (moves_obstacles(given) || moves_obstacles(before))
     text += "; obstacles that move begin where this case puts them, not where they were there";
+  const CaseScheme& last = before.stages.empty() ? before.scheme : before.stages.back().scheme;
+  if (!before.contacts.empty() && !is_penalty(last) && is_penalty(given.scheme))
+    text +=
+        "; its contacts were held by multipliers, and the springs of this case begin without their "
+        "forces: give that case enforcement = \"penalty\", or make it the first stage of this one";
   return text;
 }
 

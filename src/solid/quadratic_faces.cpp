@@ -78,9 +78,7 @@ Positions integrate_edge(const Positions& x, Section section, double thickness) 
 }  // namespace
 
 std::vector<QuadraticFace> take_quadratic_faces(const Mesh& mesh, std::vector<Facet>& facets) {
-  const auto is_quadratic = [](CellType type) {
-    return node_count(type) > corner_count(type) && dimension(type) > 1 && type != CellType::tetra10;
-  };
+  const auto is_quadratic = [](CellType type) { return has_quadratic_faces(type) && dimension(type) > 1; };
   if (std::none_of(mesh.blocks.begin(), mesh.blocks.end(), [&](const CellBlock& b) { return is_quadratic(b.type); }))
     return {};
   std::set<std::array<Index, 4>> wanted, taken;

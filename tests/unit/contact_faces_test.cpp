@@ -203,6 +203,76 @@ TEST(FaceRows, UniformDepthGivesConsistentForces) {
   }
 }
 
+// A square of quadrilaterals that are no parallelograms lies with its sides on those of another one. A motion by
+// round-off makes the sides cross at any place; the integrals of the shape functions may not follow that.
+TEST(FaceRows, DoNotJumpWhereSidesLieOnEachOther) {
+  const auto turned = [](double s, double t) {
+    const double angle = 6.4 * s * (1.0 - s) * t * (1.0 - t), u = s - 0.5, v = t - 0.5;
+    return Vec3{0.5 + u * std::cos(angle) - v * std::sin(angle), 0.5 + u * std::sin(angle) + v * std::cos(angle),
+                -0.01};
+  };
+  Scene scene;
+  const std::vector<Facet> upper = scene.add_patch(
+                               3, 3, [&](double s, double t) { return turned(t, s); }, false),
+                           lower = scene.add_patch(
+                               2, 2,
+                               [](double s, double t) {
+                                 return Vec3{s, t, 0.0};
+                               },
+                               false);
+  PairContact contact = faces(upper, lower);
+  scene.finish().contacts.emplace_back(contact);
+  const ContactGeometry geometry(scene.model);
+  const std::vector<double> at_rest = forces(geometry, scene.zero());
+  Random random(5);
+  for (int i = 0; i < 5; ++i) {
+    const std::vector<double> f = forces(geometry, shaken(scene, random, 1e-13));
+    double change = 0.0;
+    for (std::size_t k = 0; k < f.size(); ++k) change = std::max(change, std::abs(f[k] - at_rest[k]));
+    EXPECT_LT(change, 1e-10 * largest(at_rest));  // 1e-13 of the depth 0.01; 1e-5 where points jump
+  }
+}
+
+// The upper square tips about its middle: the depths about a node change linearly, which weights 1, x, y and z hold, so
+// that rows and stiffness rows together give the change of the forces, but for the turning of the facets, which is by
+// the depth over the size; the rows alone do not.
+TEST(FaceRows, TangentsKnowHowAFaceTips) {
+  for (const bool triangles : {true, false}) {
+    const Two two(3, 4, 0.001, 1.0, 3.0, triangles, 0.0);
+    const ContactGeometry contact(two.scene.model);
+    const std::vector<double> u = two.scene.zero();
+    std::vector<double> v = u;
+    for (const Facet& facet : two.upper)
+      for (const Index n : facet)
+        v[3 * static_cast<std::size_t>(n) + 2] = two.scene.mesh.coordinates[static_cast<std::size_t>(n)][0];
+    constexpr double h = 1e-7;
+    std::vector<double> moved = u, product(u.size(), 0.0);
+    for (std::size_t i = 0; i < u.size(); ++i) moved[i] += h * v[i];
+    const std::vector<double> before = forces(contact, u), after = forces(contact, moved);
+    const auto error = [&] {
+      double most = 0.0, size = 0.0;
+      for (std::size_t i = 2; i < u.size(); i += 3) {
+        const double exact = (after[i] - before[i]) / h;
+        most = std::max(most, std::abs(product[i] - exact));
+        size = std::max(size, std::abs(exact));
+      }
+      return most / size;
+    };
+    const auto rows = contact.rows_at(u, u);
+    const ConstraintRows beside = contact.stiffness_rows();
+    const auto add = [&](const ConstraintRows& made) {
+      for (std::size_t r = 0; r < made.size(); ++r) {
+        if (&made == rows.get() && made.gap_at(r, u) >= 0.0) continue;
+        made.scatter(r, {-made.law[r].eps_N * made.relative(r, v)[0], 0.0, 0.0}, product);
+      }
+    };
+    add(*rows);
+    EXPECT_GT(error(), 0.05) << triangles;
+    add(beside);
+    EXPECT_LT(error(), 0.01) << triangles;
+  }
+}
+
 // What was met at the step's beginning may be met deep, but its far side may not: a box of one cell under pressure.
 TEST(FaceRows, DoNotTakeTheFarSideOfABodyForItsFront) {
   Scene scene;
