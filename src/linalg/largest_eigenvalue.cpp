@@ -112,22 +112,25 @@ std::vector<double> start_vector(const Pencil& pencil, std::size_t n) {
 
 }  // namespace
 
-EigenvalueEstimate largest_eigenvalue(const Pencil& pencil, std::size_t n, double tolerance, int max_iterations) {
+EigenvalueEstimate largest_eigenvalue(const Pencil& pencil, std::size_t n, double tolerance, int max_iterations,
+                                      int least_iterations) {
   EigenvalueEstimate estimate;
   if (n == 0) return estimate;
   Lanczos lanczos(pencil, start_vector(pencil, n));
   while (!lanczos.is_finished() && estimate.iterations < max_iterations) {
     estimate = lanczos.iterate();
-    if (estimate.upper - estimate.value <= tolerance * std::abs(estimate.value)) break;
+    const bool is_near = estimate.upper - estimate.value <= tolerance * std::abs(estimate.value);
+    if (is_near && estimate.iterations >= least_iterations) break;
   }
   return estimate;
 }
 
-EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, std::size_t n, double tolerance, int max_iterations) {
+EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, std::size_t n, double tolerance, int max_iterations,
+                                      int least_iterations) {
   const LinearOperator identity = [](std::span<const double> x, std::span<double> y) {
     std::copy(x.begin(), x.end(), y.begin());
   };
-  return largest_eigenvalue({A, identity, identity}, n, tolerance, max_iterations);
+  return largest_eigenvalue({A, identity, identity}, n, tolerance, max_iterations, least_iterations);
 }
 
 }  // namespace carom
