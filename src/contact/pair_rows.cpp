@@ -76,7 +76,7 @@ class NodeRows : public RowMaker {
           const double size = mean_facet_size(X, master.facets),
                        reach = std::max(size, mean_facet_size(X, slave.facets));
           SearchRange range{reach, 0.5 * size, std::vector<double>(master.facets.size(), reach),
-                            edge_widths(X, master.facets)};
+                            edge_widths(X, master.facets), self ? bodies : std::vector<Index>{}};
           range.fades = law.eps_N && law.hold == RowHold::springs;
           if (self) range.depth = half_thickness(X, master.facets, bodies, reach);
           return SurfaceSearch(keys(measures_), slave.facets, master.facets, std::move(range));
@@ -115,7 +115,7 @@ class NodeRows : public RowMaker {
   }
   /// True where the points of a smooth master meet the flat face that the node is inside of.
   bool leaves_to_points(std::size_t i, Index facet) const {
-    return !has_points_.empty() && is_inner_[i] && has_points_[static_cast<std::size_t>(facet)] == 1.0;
+    return facet >= 0 && !has_points_.empty() && is_inner_[i] && has_points_[static_cast<std::size_t>(facet)] == 1.0;
   }
 
   std::map<Index, double> measures_;

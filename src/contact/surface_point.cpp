@@ -10,6 +10,17 @@ FacetFoot foot_at(Index f, const Projection& p, const Vec3& normal, double gap) 
   return {f, 1.0, p.xi, p.eta, p.N, p.a_1, p.a_2, p.normal, normal, gap, {}, {}, p.N};
 }
 
+bool fade_unlike(FacetFoot& foot, double b, const FacetFoot& nearest) {
+  const double z = foot.gap - nearest.gap, rest = 1.0 - z * z / (b * b);
+  if (!(rest > 0.0)) return false;
+  const double share = rest * rest;
+  foot.unlike_slope = -4.0 * z * rest / (b * b) * foot.weight;
+  foot.weight *= share;
+  foot.gradient = scaled(foot.gradient, share);
+  foot.at_closest = scaled(foot.at_closest, share);
+  return true;
+}
+
 void take_mean(SurfacePoint& met) {
   double sum = 0.0;
   for (const FacetFoot& foot : met.feet) sum += foot.weight;
@@ -19,12 +30,17 @@ void take_mean(SurfacePoint& met) {
     foot.weight /= sum;
     met.gap += foot.weight * foot.gap;
   }
+  double of_nearest = 0.0;  // slope of the mean in the nearest facet's gap, by the weights of the others
   for (FacetFoot& foot : met.feet) {
-    const double share = (foot.gap - met.gap) / sum;
+    const double share = (foot.gap - met.gap) / sum, of_gap = share * foot.unlike_slope;
+    of_nearest -= of_gap;
     foot.at_closest = scaled(foot.at_closest, share);
-    foot.gradient = add(scaled(foot.gradient, share), scaled(foot.normal, foot.weight));
+    foot.gradient = add(scaled(foot.gradient, share), scaled(foot.normal, foot.weight + of_gap));
     met.gradient = add(met.gradient, add(foot.gradient, foot.at_closest));
   }
+  const Vec3 rest = scaled(met.feet.front().normal, of_nearest);
+  met.feet.front().gradient = add(met.feet.front().gradient, rest);
+  met.gradient = add(met.gradient, rest);
 }
 
 void take_only(Index f, const Projection& p, const SignedDistance& at, SurfacePoint& met) {

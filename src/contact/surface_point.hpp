@@ -11,7 +11,11 @@ namespace carom {
 /// A foot at the facet's closest point, alone.
 FacetFoot foot_at(Index f, const Projection& p, const Vec3& normal, double gap);
 
-/// Makes the point the mean over its feet, whose gradients are those of their weights.
+/// Multiplies the weight of a foot by (1 - z^2 / b^2)^2, z = g - g_0 the difference of its gap to that of the nearest
+/// facet; false where nothing is left. `gradient` and `at_closest` are those of the weight without the change of z.
+bool fade_unlike(FacetFoot& foot, double b, const FacetFoot& nearest);
+
+/// Makes the point the mean over its feet, the nearest first, whose gradients are those of their weights.
 void take_mean(SurfacePoint& met);
 
 /// Makes the point one of facet f alone.

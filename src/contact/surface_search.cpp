@@ -11,12 +11,14 @@
 namespace carom {
 namespace {
 
-constexpr double rim_slack = 0.1;    // of the facet's size: continuation beyond a rim
-constexpr double side_slack = 0.02;  // of the facet's size: how far sides that do not count are moved out
-constexpr double smooth = 0.5;       // product of the normals of facets that pass a node on to each other
-constexpr double tie = 1e-12;        // relative: the same point seen from two facets
-constexpr double settled = 1e-9;     // step in parent coordinates after which, shrinking as its square, none is left
-constexpr double tiny = 1e-6;        // of the reach: below, the direction to a corner is round-off
+constexpr double rim_slack = 0.1;          // of the facet's size: continuation beyond a rim
+constexpr double side_slack = 0.02;        // of the facet's size: how far sides that do not count are moved out
+constexpr double no_longer_opposed = 0.5;  // product of the normals of a node and of a facet that it was behind
+constexpr double smooth = 0.5;             // product of the normals of facets that pass a node on to each other
+constexpr double alike_share = 0.25;       // of the width: how unlike gaps of facets that share a node may be
+constexpr double tie = 1e-12;              // relative: the same point seen from two facets
+constexpr double settled = 1e-9;  // step in parent coordinates after which, shrinking as its square, none is left
+constexpr double tiny = 1e-6;     // of the reach: below, the direction to a corner is round-off
 
 double squared_distance(const Bounds& box, const Vec3& x) {
   double sum = 0.0;
@@ -43,6 +45,14 @@ double size_of(const PlacedFacet& facet) {
 
 bool contains(const Facet& facet, Index node) {
   return std::find(facet.begin(), facet.end(), node) != facet.end();
+}
+
+/// How far sides are moved out, as a part: not at all where they nearly count, whole from 66 degrees on. So a side
+/// whose node turns away from it or to it stays where it is.
+double aside(double product) {
+  constexpr double whole = 0.4;
+  const double u = std::clamp((product - opposed) / (whole - opposed), 0.0, 1.0);
+  return u * u * (3.0 - 2.0 * u);
 }
 
 /// Foot of the perpendicular from x on the facet continued beyond its edges, by Newton's method from a near point.
@@ -79,6 +89,7 @@ struct SurfaceSearch::Query {
   Vec3 normal;                           ///< its averaged normal, or zero
   std::span<const Index> candidates;     ///< facets
   std::span<const double> box_distance;  ///< squared, of their boxes
+  Index behind = -1;                     ///< the facet that it was behind at x_begin
   bool is_behind = false;                ///< it is known to be behind the surface, however deep
   bool was_behind = false;               ///< at x_begin, of a facet that counts
 };
@@ -216,8 +227,25 @@ Vec3 SurfaceSearch::node_normal(std::size_t q) const {
 bool SurfaceSearch::counts(const Query& query, Index f) const {
   const std::vector<Index>& excluded = excluded_[query.q];
   if (!excluded.empty() && std::binary_search(excluded.begin(), excluded.end(), f)) return false;
-  const bool has_normal = dot(query.normal, query.normal) > 0.0;
-  return !has_normal || dot(query.normal, facet_normal(f)) < opposed;
+  if (!(dot(query.normal, query.normal) > 0.0)) return true;
+  const double product = dot(query.normal, facet_normal(f));
+  return product < opposed || (product < no_longer_opposed && stays_behind(query, f));
+}
+
+/// True of the facet that the node was behind, and of those that it passes on to from there.
+bool SurfaceSearch::stays_behind(const Query& query, Index f) const {
+  return query.behind >= 0 && (f == query.behind || dot(facet_normal(f), facet_normal(query.behind)) > smooth);
+}
+
+/// True behind a facet deeper than what touches it can be. What is deep behind a facet of its own body, and has not
+/// come through its front, is the body's other side, however thin the body has become.
+bool SurfaceSearch::is_too_deep(const Query& query, Index f, double gap) const {
+  if (query.is_behind) return false;
+  if (gap < -range_.depth[f]) return true;
+  if (query.was_behind || range_.body.empty()) return false;
+  const Index node = nodes_[query.q];
+  if (range_.body[node] != range_.body[facets()[f][0]]) return false;
+  return gap < -side_slack * size_of(placed(f)) && project(place(facets()[f], x_begin_), x_begin_[node]).gap < 0.0;
 }
 
 /// True when no other facet that counts goes on beyond the edge where p lies, or beyond an edge at the vertex where p
@@ -264,7 +292,7 @@ bool SurfaceSearch::goes_on(Index f, const Projection& p) const {
 /// Where the node is behind or before the neighbours of f that face away from it; nothing where f has none, and for a
 /// node that has come through f or was in front of it at x_begin.
 std::optional<SurfaceSearch::SidePoint> SurfaceSearch::side_at(const Query& query, Index f) const {
-  if (query.was_behind || dot(query.normal, query.normal) == 0.0) return std::nullopt;
+  if (stays_behind(query, f) || dot(query.normal, query.normal) == 0.0) return std::nullopt;
   if (project(place(facets()[f], x_begin_), x_begin_[nodes_[query.q]]).gap >= 0.0) return std::nullopt;
   const std::vector<Index>& excluded = excluded_[query.q];
   SidePoint side;
@@ -281,7 +309,7 @@ std::optional<SurfaceSearch::SidePoint> SurfaceSearch::side_at(const Query& quer
   side.at = p.site == ProjectionSite::interior
                 ? SignedDistance{p.normal, p.gap}
                 : signed_distance(p, query.x, pseudonormal(side.facet, p), tiny * range_.reach);
-  side.slack = side_slack / rim_slack * rim_width(f);
+  side.slack = side_slack / rim_slack * rim_width(f) * aside(dot(query.normal, facet_normal(side.facet)));
   side.at.gap -= side.slack;
   return side;
 }
@@ -297,7 +325,7 @@ void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
   // On a common edge or corner the facet is taken that the point is seen from best.
   const bool is_tied = best.facet >= 0 && std::abs(p.distance - best.distance) <= tie * best.distance;
   if (is_tied ? std::abs(p.gap) <= std::abs(best.projection.gap) : !(p.distance < best.distance)) return;
-  if (!query.is_behind && p.gap < -range_.depth[f]) return;
+  if (p.gap < 0.0 && is_too_deep(query, f, p.gap)) return;
   bool is_continued = false;
   std::optional<Rim> rim;
   const bool is_beyond = p.site != ProjectionSite::interior && ends_at(query, f, p);
@@ -311,7 +339,7 @@ void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
     const std::optional<SidePoint> side = p.gap < 0.0 ? side_at(query, f) : std::nullopt;
     if (side && side->at.gap >= 0.0 && goes_on(f, p)) return;
     if (is_continued) {
-      if (range_.fades && p.gap < 0.0 && !side) rim = Rim{p.point, p.N, width};
+      if (range_.fades && p.gap < 0.0 && (query.was_behind || !side)) rim = Rim{p.point, p.N, width};
       p.xi = at.xi;
       p.eta = at.eta;
       p.N = shape.N;
@@ -422,23 +450,22 @@ SurfaceSearch::Best SurfaceSearch::followed(const Query& query, Index from) cons
   return best;
 }
 
-/// At what distance from facet f a node has no foot on it, its least distance from the surface given. Where the nearest
-/// facet is turned by 60 degrees, f still has a weight at (1 + tan 60) least + 2 width. Far rows, which nobody touches,
-/// need no such care.
-double SurfaceSearch::farthest_foot(Index f, double least) const {
-  const double width = range_.width[f];
-  return least + 2.0 * (width + std::min(least, width));
+/// Distances of a node from facet f and from its plane, from which both weights are made, are apart by `alike` at most.
+double SurfaceSearch::alike(Index f) const {
+  return alike_share * range_.width[f];
 }
 
-/// The node's foot on facet f with its weight, not yet divided by the sum; nothing where the facet takes no part.
-std::optional<FacetFoot> SurfaceSearch::foot_beside(const Query& query, Index f, const Best& best) const {
-  const double width = range_.width[f], most = farthest_foot(f, best.distance);
-  const PlacedFacet facet = placed(f);
-  const bool is_known = f == best.facet && !best.is_continued;
-  const Projection p = is_known ? best.projection : project(facet, query.x);
-  if (p.distance >= most || (!query.is_behind && p.gap < -range_.depth[f])) return std::nullopt;
+/// At what distance from facet f a node has no foot on it, its least distance from the surface given.
+double SurfaceSearch::farthest_foot(Index f, double least) const {
+  return least + range_.width[f] + alike(f);
+}
+
+/// The node's foot on the plane of facet f, its weight that of how far it lies beyond the facet's edges.
+FacetFoot SurfaceSearch::foot_on(const Query& query, Index f, const Projection& p) const {
   FacetFoot out = foot_at(f, p, p.normal, p.gap);
   if (p.site == ProjectionSite::interior) return out;
+  const double width = range_.width[f];
+  const PlacedFacet facet = placed(f);
   const ParentPoint at = foot(facet, query.x, {p.xi, p.eta});
   const FacetShape shape = facet_shape(facet.size, at.xi, at.eta);
   const FacetFrame frame = facet_frame(facet, shape);
@@ -449,8 +476,8 @@ std::optional<FacetFoot> SurfaceSearch::foot_beside(const Query& query, Index f,
   out.a_2 = frame.a_2;
   out.normal = out.facet_normal = frame.normal;
   out.gap = dot(subtract(query.x, frame.position), frame.normal);
-  const double inside = 1.0 - std::max(0.0, p.distance * p.distance - out.gap * out.gap) / (width * width);
-  if (!(inside > 0.0) || norm(subtract(frame.position, p.point)) > 2.0 * width) return std::nullopt;
+  const double rest = 1.0 - std::max(0.0, p.distance * p.distance - out.gap * out.gap) / (width * width);
+  const double inside = norm(subtract(frame.position, p.point)) > 2.0 * width ? 0.0 : std::max(0.0, rest);
   out.weight = inside * inside;
   const double slope = -4.0 * inside / (width * width);  // of the weight in (d_f^2 - g_f^2) / 2
   out.at_closest = scaled(subtract(query.x, p.point), slope);
@@ -468,12 +495,21 @@ void SurfaceSearch::feet_around(const Query& query, const Best& best, std::vecto
     const auto& around = facets_at_[facets()[best.facet][static_cast<std::size_t>(best.projection.feature)]];
     if (!std::all_of(around.begin(), around.end(), [&](Index f) { return !counts(query, f) || agrees(f); })) return;
   }
+  const auto projected = [&](Index f) { return project(placed(f), query.x); };
+  feet.push_back(foot_on(query, best.facet, best.is_continued ? projected(best.facet) : best.projection));
+  double sum = feet.front().weight;
   for (std::size_t i = 0; i < query.candidates.size(); ++i) {
     const Index f = query.candidates[i];
     const double most = farthest_foot(f, best.distance);
-    if (query.box_distance[i] >= most * most || !agrees(f) || !counts(query, f)) continue;
-    if (const std::optional<FacetFoot> one = foot_beside(query, f, best)) feet.push_back(*one);
+    if (f == best.facet || query.box_distance[i] >= most * most || !agrees(f) || !counts(query, f)) continue;
+    const Projection p = projected(f);
+    if (p.distance >= most || (p.gap < 0.0 && is_too_deep(query, f, p.gap))) continue;
+    FacetFoot one = foot_on(query, f, p);
+    if (!(one.weight > 0.0) || !fade_unlike(one, alike(f), feet.front())) continue;
+    sum += one.weight;
+    feet.push_back(one);
   }
+  if (!(sum > 0.0)) feet.clear();
 }
 
 /// What the closest point found amounts to; false: nothing.
@@ -485,12 +521,14 @@ bool SurfaceSearch::met(const Query& query, const Best& best, SurfacePoint& poin
     at = signed_distance(p, query.x, pseudonormal(best.facet, p), tiny * range_.reach);
   // Beside a rim a node is behind some of the facets there and in front of others, and touches none of them.
   if (best.is_beside && at.gap < 0.0) return false;
-  if (!query.is_behind && at.gap < -range_.depth[best.facet]) return false;
+  if (at.gap < 0.0 && is_too_deep(query, best.facet, at.gap)) return false;
   double outside = 0.0;  // by how much the gap is below that of the body as it is
-  if (const std::optional<SidePoint> side = at.gap < 0.0 ? side_at(query, best.facet) : std::nullopt) {
+  const bool is_from_side = at.gap < 0.0 && !query.was_behind;
+  if (const std::optional<SidePoint> side = is_from_side ? side_at(query, best.facet) : std::nullopt) {
     if (side->at.gap >= 0.0) return false;
     if (side->at.gap > at.gap) {
       take_only(side->facet, side->projection, side->at, point);
+      point.facet = -1;  // it has come through the front of none
       point.rounded = std::min(-side->at.gap, side->slack);
       return true;
     }
@@ -519,7 +557,9 @@ const SurfacePoint* SurfaceSearch::find(std::size_t q, Space& space) const {
   for (std::size_t i = 0; i < candidates.size(); ++i)
     space.box_distance[i] = squared_distance(bounds_[candidates[i]], x);
   Query query{q, x, node_normal(q), candidates, space.box_distance};
+  query.behind = behind;
   query.was_behind = behind >= 0 && counts(query, behind);
+  if (!query.was_behind) query.behind = -1;
   const bool is_found = met(query, closest(query), space.found);
   if (is_found && space.found.gap < 0.0) return &space.found;
   if (query.was_behind) {

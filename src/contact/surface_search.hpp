@@ -24,6 +24,7 @@ struct FacetFoot {
   Vec3 gradient{};                    ///< of the node's gap: along x, and times -N_a along x_a
   Vec3 at_closest{};                  ///< the same with N_closest
   std::array<double, 4> N_closest{};  ///< at the facet's closest point
+  double unlike_slope = 0.0;          ///< of the weight, not yet divided by the sum, in the difference of the gaps
 };
 
 /// What a node meets: one facet, or beside edges several, whose weights add up to 1. gap = sum_f weight_f gap_f; its
@@ -46,6 +47,7 @@ struct SearchRange {
   double margin = 0.0;        ///< of the lists that are kept (BroadPhase)
   std::vector<double> depth;  ///< of each facet: largest distance behind it that counts
   std::vector<double> width;  ///< of each facet: how far it acts beyond its edges (none: where it is nearest only)
+  std::vector<Index> body{};  ///< by node, where nodes may touch their own body; else empty
   bool fades = true;  ///< gaps fade beyond the end of the surface, as the potential of springs has to; multipliers,
                       ///< whose rows would depend on each other there, keep them whole
 };
@@ -63,9 +65,11 @@ std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<con
 /// corners of closed surfaces (Baerentzen and Aanaes, IEEE Trans. Vis. Comput. Graphics 11(3), 2005).
 ///
 /// Beside an edge the node meets every facet f there that counts and is turned by at most 60 degrees: with g_f the
-/// distance from f continued beyond its edges, d_f that from f itself and b_f SearchRange::width, the weights are
-/// (1 - (d_f^2 - g_f^2) / b_f^2)^2 over their sum. So gap and gradient pass from facet to facet without a jump, alike
-/// from all sides and whatever the order of the facets.
+/// distance from f continued beyond its edges, d_f that from f itself, g that from the nearest facet continued, b_f
+/// SearchRange::width and c_f a quarter of it, the weights are (1 - (d_f^2 - g_f^2) / b_f^2)^2 (1 - (g_f - g)^2 /
+/// c_f^2)^2 over their sum. So gap and gradient pass from facet to facet without a jump, alike from all sides and
+/// whatever the order of the facets; and a facet far behind which the node is, as beside a sharp edge, does not make it
+/// deep.
 ///
 /// Where the surface goes on with facets that do not count, a node that was behind the facet's plane at x_begin without
 /// having been behind the surface is no deeper than it is behind those and s_0, a fiftieth of the facet's size: where
@@ -118,6 +122,8 @@ class SurfaceSearch {
   }
   Vec3 node_normal(std::size_t q) const;
   bool counts(const Query& query, Index f) const;
+  bool stays_behind(const Query& query, Index f) const;
+  bool is_too_deep(const Query& query, Index f, double gap) const;
   bool ends_at(const Query& query, Index f, const Projection& p) const;
   bool goes_on_nearer(const Query& query, Index f, const Projection& p) const;
   void consider(const Query& query, Index f, Best& best) const;
@@ -130,7 +136,8 @@ class SurfaceSearch {
   double rim_width(Index f) const;
   std::optional<SidePoint> side_at(const Query& query, Index f) const;
   double farthest_foot(Index f, double least) const;
-  std::optional<FacetFoot> foot_beside(const Query& query, Index f, const Best& best) const;
+  double alike(Index f) const;
+  FacetFoot foot_on(const Query& query, Index f, const Projection& p) const;
   void feet_around(const Query& query, const Best& best, std::vector<FacetFoot>& feet) const;
 
   std::vector<Index> nodes_;

@@ -1,7 +1,9 @@
 // What was behind a surface stays behind it; bodies that overlap.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "contact/body_overlap.hpp"
 #include "contact/response.hpp"
@@ -85,6 +87,89 @@ TEST(SideMemory, KeepsANodeHoweverDeepItGoes) {
   for (int i = 1; i <= 6; ++i) EXPECT_NEAR(path.gaps[static_cast<std::size_t>(i - 1)], 0.1 - 0.5 * i, round_off) << i;
   EXPECT_NEAR(path.gaps.back(), 0.3, round_off);  // in front again, and free
   EXPECT_NEAR(path.normal[2], 1.0, round_off);
+}
+
+/// A triangle at the corner `at` that looks along n, a unit vector normal to y; its other corners lie against y and
+/// on the side that n x y points away from.
+std::array<Vec3, 3> facing(const Vec3& at, const Vec3& n) {
+  const Vec3 y{0, 1, 0};
+  return {at, subtract(at, y), subtract(at, cross(n, y))};
+}
+
+/// Slot 0: the first corner of a triangle before a box. Goes step by step, with the history of the last one.
+class CornerAtABox {
+ public:
+  CornerAtABox(const Vec3& size, const std::array<Vec3, 3>& triangle) {
+    Facet facet{{-1, -1, -1, -1}, 3};
+    for (std::size_t a = 0; a < 3; ++a) facet.node[a] = scene_.add_node(triangle[a]);
+    PairContact contact;
+    contact.slave.facets = {facet};
+    contact.master.facets = scene_.add_box({0, 0, 0}, size, 2);
+    contact.method = PairMethod::node_to_surface;
+    contact.law.eps_N = 1.0;
+    scene_.finish().contacts.emplace_back(contact);
+    geometry_.emplace(scene_.model);
+    u_ = scene_.zero();
+    history_.resize(geometry_->slots());
+  }
+  /// Gap there; not a number where there is no row.
+  double gap_at(const std::array<Vec3, 3>& triangle) {
+    std::vector<double> next = scene_.zero();
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t c = 0; c < 3; ++c) next[3 * a + c] = triangle[a][c] - scene_.mesh.coordinates[a][c];
+    const auto rows = geometry_->rows_at(u_, next, history_);
+    const auto r = row_of(*rows, 0);
+    ContactResponse response;
+    response.rows = rows;
+    response.history.resize(geometry_->slots());
+    take_history(response, next, history_);
+    u_ = next;
+    return r < 0 ? NAN : rows->gap_at(static_cast<std::size_t>(r), next);
+  }
+
+ private:
+  Scene scene_;
+  std::optional<ContactGeometry> geometry_;
+  std::vector<double> u_;
+  std::vector<RowHistory> history_;
+};
+
+/// Looks at the face x = 1 of a box from the side, and by `down` on its top.
+Vec3 sideways(double down) {
+  return {-std::sqrt(1.0 - down * down), 0.0, -down};
+}
+
+// A corner 0.01 under the top of a box and 0.05 behind its side, whose normal turns away from the top: it has come
+// through the top and stays behind it, and does not jump to the side as soon as the normals are no longer opposed.
+TEST(SideMemory, KeepsANodeBehindItsFacetAsTheNormalsTurn) {
+  const Vec3 at{0.95, 0.4, 0.99};
+  CornerAtABox corner({1, 1, 1}, facing(at, sideways(0.3)));
+  for (double down = 0.3; down > -0.4; down -= 0.05)
+    EXPECT_NEAR(corner.gap_at(facing(at, sideways(down))), -0.01, round_off) << down;
+}
+
+// A corner just above the top and 0.05 behind the side: as soon as the top does not count any more it would be behind
+// the side, or behind the top moved out by a fiftieth of a facet, 0.01.
+TEST(SideMemory, LeavesANodeInFrontOfAFacetThatNoLongerCounts) {
+  const Vec3 at{0.95, 0.4, 1.0001};
+  CornerAtABox corner({1, 1, 1}, facing(at, sideways(0.11)));
+  for (double down = 0.11; down > 0.085; down -= 0.002)
+    EXPECT_FALSE(corner.gap_at(facing(at, sideways(down))) < 0.0) << down;
+}
+
+// A corner comes through the top of a slab near its end and leaves over the end, on which it does not look. Beyond it
+// the corner is still behind the plane of the slab's side, whose facets are longer and therefore continued farther; but
+// it is outside of the slab.
+TEST(SideMemory, LosesANodeThatLeavesOverTheEnd) {
+  const Vec3 n{0.0, -std::sqrt(0.5), -std::sqrt(0.5)};
+  const auto there = [&](double x) {
+    const Vec3 at{x, 0.17, 0.99};
+    return std::array<Vec3, 3>{at, add(at, {0.5, 0, 0}), add(at, scaled(cross({1, 0, 0}, n), -0.5))};
+  };
+  CornerAtABox corner({1, 0.2, 1}, there(0.97));
+  EXPECT_NEAR(corner.gap_at(there(0.97)), -0.01, round_off);
+  EXPECT_NEAR(corner.gap_at(there(0.99)), -0.01, round_off);
+  for (const double x : {1.01, 1.025, 1.03, 1.04}) EXPECT_FALSE(corner.gap_at(there(x)) < -0.01) << x;
 }
 
 /// Two cubes of n^3 cells and edge 1, the second one above the first, lowered by `overlap`.
