@@ -47,14 +47,6 @@ bool contains(const Facet& facet, Index node) {
   return std::find(facet.begin(), facet.end(), node) != facet.end();
 }
 
-/// How far sides are moved out, as a part: not at all where they nearly count, whole from 66 degrees on. So a side
-/// whose node turns away from it or to it stays where it is.
-double aside(double product) {
-  constexpr double whole = 0.4;
-  const double u = std::clamp((product - opposed) / (whole - opposed), 0.0, 1.0);
-  return u * u * (3.0 - 2.0 * u);
-}
-
 /// Foot of the perpendicular from x on the facet continued beyond its edges, by Newton's method from a near point.
 ParentPoint foot(const PlacedFacet& facet, const Vec3& x, ParentPoint at) {
   Vec3 twist{};  // d2x / (dxi deta)
@@ -309,7 +301,7 @@ std::optional<SurfaceSearch::SidePoint> SurfaceSearch::side_at(const Query& quer
   side.at = p.site == ProjectionSite::interior
                 ? SignedDistance{p.normal, p.gap}
                 : signed_distance(p, query.x, pseudonormal(side.facet, p), tiny * range_.reach);
-  side.slack = side_slack / rim_slack * rim_width(f) * aside(dot(query.normal, facet_normal(side.facet)));
+  if (behind_.empty()) side.slack = side_slack / rim_slack * rim_width(f);
   side.at.gap -= side.slack;
   return side;
 }

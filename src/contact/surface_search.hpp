@@ -72,10 +72,10 @@ std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<con
 /// deep.
 ///
 /// Where the surface goes on with facets that do not count, a node that was behind the facet's plane at x_begin without
-/// having been behind the surface is no deeper than it is behind those and s_0, a fiftieth of the facet's size: where
-/// that is the way out, the row pushes it out sideways, as if it were behind a body whose sides are moved out by s_0.
-/// So a node that enters sideways begins at the surface, nodes on the common rim of two aligned bodies are not lost,
-/// and those that have come through the front stay with it.
+/// having been behind the surface is no deeper than it is behind those: where that is the way out, the row pushes it
+/// out sideways, its facet -1. So a node that enters sideways begins at the surface, and those that have come through
+/// the front stay with it. Where nobody knows what was behind, as at the start, the sides are taken as moved out by a
+/// fiftieth of the facet's size: nodes on the common rim of two aligned bodies are not lost.
 ///
 /// Where the surface ends, or the node has come through the front, it touches nothing behind it and beside it; but the
 /// facets are continued by a tenth of their size (SearchRange::width), on which a gap below zero fades: it is
