@@ -13,9 +13,9 @@ rests; each further one is turned so that an edge, a corner or a face of it poin
 body that is there (edges on edges and corners on faces preferred), put at a small gap and thrown along that direction.
 Types of cells come by turns, and so do schemes, an implicit one after each explicit one (but modified_mass, which wants
 bodies of many layers); drawn are laws (those of small strains up to 1.5e-3 of the wave's speed, St. Venant and Kirchhoff's
-up to 1e-2, as their strains and rotations allow; no plasticity by energy_momentum, which refuses it), stiffnesses 1 : 1
-to 1 : 100, cells, speeds (1e-4 to 1e-1 of the bar wave's in the softest body), units, friction (half) and place (the
-origin, or 100 m from it).
+up to 1e-2, as their strains and rotations allow; needles and bars, which turn about their axes soon, have none of small
+strains; no plasticity by energy_momentum, which refuses it), stiffnesses 1 : 1 to 1 : 100, cells, speeds (1e-4 to 1e-1
+of the bar wave's in the softest body), units, friction (half) and place (the origin, or 100 m from it).
 The deck says [[contact]] kind = "all" and the scheme, and nothing else: method, enforcement, stiffnesses, tolerances and
 masses are the defaults. Implicit steps last half as long as a wave of the slowest body needs through the finest cell,
 but are at most 600 (linear) or 150. All end some travels of waves after the touch.
@@ -70,6 +70,8 @@ SCHEMES = (("central_differences", "cd_lagrange", "central_differences", "cd_lag
             "nonsmooth_generalized_alpha"))
 NU = 0.3
 ROUND = {"ball", "tube", "sector"}
+SLENDER = {"needle", "bar"}
+FINITE = {"linear_elastic": "st_venant_kirchhoff", "j2_small_strain": "j2"}  # for laws of small strains
 
 
 class Variant:
@@ -120,6 +122,8 @@ class Variant:
             self.bodies.append(body)
             self.shapes.append(shape)
             self.types.append(kind)
+        self.laws_of = [FINITE.get(law, law) if shape in SLENDER else law
+                        for law, shape in zip(self.laws_of, self.shapes)]
 
     def assemble(self, draw):
         """The first body rests; each other one is placed before one of those that are there and flies at them."""
