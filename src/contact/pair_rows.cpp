@@ -78,6 +78,7 @@ class NodeRows : public RowMaker {
           SearchRange range{reach, 0.5 * size, std::vector<double>(master.facets.size(), reach),
                             edge_widths(X, master.facets), self ? bodies : std::vector<Index>{}};
           range.fades = law.eps_N && law.hold == RowHold::springs;
+          range.moves_sides_out = !range.fades;
           if (self) range.depth = half_thickness(X, master.facets, bodies, reach);
           return SurfaceSearch(keys(measures_), slave.facets, master.facets, std::move(range));
         }()) {

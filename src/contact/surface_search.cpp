@@ -301,7 +301,7 @@ std::optional<SurfaceSearch::SidePoint> SurfaceSearch::side_at(const Query& quer
   side.at = p.site == ProjectionSite::interior
                 ? SignedDistance{p.normal, p.gap}
                 : signed_distance(p, query.x, pseudonormal(side.facet, p), tiny * range_.reach);
-  if (behind_.empty()) side.slack = side_slack / rim_slack * rim_width(f);
+  if (range_.moves_sides_out || behind_.empty()) side.slack = side_slack / rim_slack * rim_width(f);
   side.at.gap -= side.slack;
   return side;
 }

@@ -43,11 +43,12 @@ inline constexpr double opposed = -0.1;
 
 /// How far a search looks, as lengths.
 struct SearchRange {
-  double reach = 0.0;         ///< largest distance of a point that counts
-  double margin = 0.0;        ///< of the lists that are kept (BroadPhase)
-  std::vector<double> depth;  ///< of each facet: largest distance behind it that counts
-  std::vector<double> width;  ///< of each facet: how far it acts beyond its edges (none: where it is nearest only)
-  std::vector<Index> body{};  ///< by node, where nodes may touch their own body; else empty
+  double reach = 0.0;           ///< largest distance of a point that counts
+  double margin = 0.0;          ///< of the lists that are kept (BroadPhase)
+  std::vector<double> depth;    ///< of each facet: largest distance behind it that counts
+  std::vector<double> width;    ///< of each facet: how far it acts beyond its edges (none: where it is nearest only)
+  std::vector<Index> body{};    ///< by node, where nodes may touch their own body; else empty
+  bool moves_sides_out = true;  ///< sides that do not count, always; else where nobody knows what was behind alone
   bool fades = true;  ///< gaps fade beyond the end of the surface, as the potential of springs has to; multipliers,
                       ///< whose rows would depend on each other there, keep them whole
 };
@@ -74,8 +75,9 @@ std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<con
 /// Where the surface goes on with facets that do not count, a node that was behind the facet's plane at x_begin without
 /// having been behind the surface is no deeper than it is behind those: where that is the way out, the row pushes it
 /// out sideways, its facet -1. So a node that enters sideways begins at the surface, and those that have come through
-/// the front stay with it. Where nobody knows what was behind, as at the start, the sides are taken as moved out by a
-/// fiftieth of the facet's size: nodes on the common rim of two aligned bodies are not lost.
+/// the front stay with it. The sides may be taken as moved out by a fiftieth of the facet's size: nodes on the common
+/// rim of two aligned bodies are not lost, which needs it where rows hold them with a gap of zero, and at the start.
+/// With springs a node that a facet ceases to count for would be deep at once.
 ///
 /// Where the surface ends, or the node has come through the front, it touches nothing behind it and beside it; but the
 /// facets are continued by a tenth of their size (SearchRange::width), on which a gap below zero fades: it is
