@@ -540,10 +540,40 @@ bool SurfaceSearch::met(const Query& query, const Best& best, SurfacePoint& poin
   return true;
 }
 
+/// The candidates, those of one body after those of another.
+std::span<const Index> SurfaceSearch::by_body(std::span<const Index> candidates, Space& space) const {
+  const auto body = [this](Index f) { return body_of(f); };
+  if (std::ranges::is_sorted(candidates, {}, body)) return candidates;
+  space.candidates.assign(candidates.begin(), candidates.end());
+  std::ranges::stable_sort(space.candidates, {}, body);
+  return space.candidates;
+}
+
+/// What the query meets of each body, the least gap of all in space.found; false: nothing.
+bool SurfaceSearch::find_nearest(const Query& query, Space& space) const {
+  bool is_found = false;
+  for (std::size_t begin = 0, end = 0; begin < query.candidates.size(); begin = end) {
+    const Index body = body_of(query.candidates[begin]);
+    while (end < query.candidates.size() && body_of(query.candidates[end]) == body) ++end;
+    Query one = query;
+    one.candidates = query.candidates.subspan(begin, end - begin);
+    one.box_distance = query.box_distance.subspan(begin, end - begin);
+    if (query.was_behind && body_of(query.behind) != body) {
+      one.was_behind = false;
+      one.behind = -1;
+    }
+    if (!met(one, closest(one), is_found ? space.other : space.found)) continue;
+    if (is_found && space.other.gap < space.found.gap) std::swap(space.found, space.other);
+    is_found = true;
+  }
+  return is_found;
+}
+
 const SurfacePoint* SurfaceSearch::find(std::size_t q, Space& space) const {
   const Index behind = behind_.empty() ? -1 : behind_[q];
-  const std::span<const Index> candidates = broad_phase_.targets_of(q);
-  if (behind < 0 && candidates.empty()) return nullptr;
+  const std::span<const Index> near = broad_phase_.targets_of(q);
+  if (behind < 0 && near.empty()) return nullptr;
+  const std::span<const Index> candidates = by_body(near, space);
   const Vec3& x = x_[nodes_[q]];
   space.box_distance.resize(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i)
@@ -552,7 +582,7 @@ const SurfacePoint* SurfaceSearch::find(std::size_t q, Space& space) const {
   query.behind = behind;
   query.was_behind = behind >= 0 && counts(query, behind);
   if (!query.was_behind) query.behind = -1;
-  const bool is_found = met(query, closest(query), space.found);
+  const bool is_found = find_nearest(query, space);
   if (is_found && space.found.gap < 0.0) return &space.found;
   if (query.was_behind) {
     query.is_behind = true;

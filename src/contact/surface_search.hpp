@@ -60,10 +60,12 @@ std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<con
 ///
 /// Of the facets within `reach` those count that do not contain the node and are not neighbours of facets that do, and
 /// whose normal (at the centre) opposes the node's own averaged normal, n_s . n_m < `opposed`, where the node has one.
-/// The closest point over those is taken. Behind a facet it counts to the facet's depth: so nodes are not taken to
-/// touch the far side of their own thin plate. On an edge or corner the sign of the gap is that of the pseudonormal
-/// (sum of the normals of the facets there, at corners weighted by their angles), which is right at all edges and
-/// corners of closed surfaces (Baerentzen and Aanaes, IEEE Trans. Vis. Comput. Graphics 11(3), 2005).
+/// The closest point over those is taken, of several bodies (SearchRange::body) the one with the least gap: a node that
+/// is in one body is not held off by another one that is nearer in front of it. Behind a facet it counts to the facet's
+/// depth: so nodes are not taken to touch the far side of their own thin plate. On an edge or corner the sign of the
+/// gap is that of the pseudonormal (sum of the normals of the facets there, at corners weighted by their angles), which
+/// is right at all edges and corners of closed surfaces (Baerentzen and Aanaes, IEEE Trans. Vis. Comput. Graphics
+/// 11(3), 2005).
 ///
 /// Beside an edge the node meets every facet f there that counts and is turned by at most 60 degrees: with g_f the
 /// distance from f continued beyond its edges, d_f that from f itself, g that from the nearest facet continued, b_f
@@ -102,6 +104,7 @@ class SurfaceSearch {
   /// Memory of one thread for its calls of find.
   struct Space {
     SurfacePoint found, other;
+    std::vector<Index> candidates;
     std::vector<double> box_distance;
   };
   /// What nodes[q] meets, or null; it stands in the space until the next call. May be called from many threads.
@@ -129,6 +132,9 @@ class SurfaceSearch {
   bool ends_at(const Query& query, Index f, const Projection& p) const;
   bool goes_on_nearer(const Query& query, Index f, const Projection& p) const;
   void consider(const Query& query, Index f, Best& best) const;
+  Index body_of(Index f) const { return range_.body.empty() ? 0 : range_.body[facets()[f][0]]; }
+  std::span<const Index> by_body(std::span<const Index> candidates, Space& space) const;
+  bool find_nearest(const Query& query, Space& space) const;
   Best closest(const Query& query) const;
   Vec3 pseudonormal(Index f, const Projection& p) const;
   std::optional<Index> crossed_facet(const Query& query) const;

@@ -1,6 +1,7 @@
 // What was behind a surface stays behind it; bodies that overlap.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "contact/body_overlap.hpp"
 #include "contact/response.hpp"
 #include "contact_rows_fixture.hpp"
+#include "mesh/skin.hpp"
 #include "mesh/structured_block.hpp"
 
 namespace carom::contact_memory_test {
@@ -205,6 +207,54 @@ struct Cubes {
     return lowered;
   }
 };
+
+/// Blocks of one cell each, every one a part, and the contact of all with all.
+Model blocks_that_touch(const std::vector<StructuredBlock>& blocks) {
+  Model model;
+  const auto mesh = std::make_shared<const Mesh>(make_structured_blocks(blocks));
+  for (const StructuredBlock& block : blocks) {
+    Part part;
+    part.name = block.cells_group;
+    for (const CellRef& cell : mesh->cell_groups.at(block.cells_group)) part.cells.push_back(cell.cell);
+    part.material = LinearElastic{};
+    model.parts.push_back(part);
+  }
+  model.mesh = mesh;
+  PairContact all;
+  all.self = true;
+  all.slave.facets = all.master.facets = skin(*mesh);
+  all.law.eps_N = 1.0;
+  model.contacts.emplace_back(all);
+  return model;
+}
+
+// A corner of a block is 0.03 deep in a second one, and 0.02 in front of a third: it is in the second.
+TEST(SideMemory, SeesTheBodyThatANodeIsInBeforeOneThatIsNearer) {
+  StructuredBlock lower, upper, beside;
+  lower.size = {1, 1, 1};
+  upper.size = {0.4, 0.4, 0.4};
+  upper.origin = {0.3, 0.3, 0.97};
+  beside.size = {0.5, 0.8, 0.5};
+  beside.origin = {0.72, 0.1, 0.9};
+  lower.cells_group = "LOWER";
+  upper.cells_group = "UPPER";
+  beside.cells_group = "BESIDE";
+  const Model model = blocks_that_touch({lower, upper, beside});
+  const ContactGeometry contact(model);
+  const std::vector<double> rest(3 * model.mesh->node_count(), 0.0);
+  const auto rows = contact.rows_at(rest, rest);
+  const std::vector<Index> corners = model.mesh->nodes_of("UPPER");
+  int found = 0;
+  for (std::size_t r = 0; r < rows->size(); ++r) {
+    const Index n = rows->node[static_cast<std::size_t>(rows->begin[r])];
+    const Vec3& x = model.mesh->coordinates[static_cast<std::size_t>(n)];
+    const bool is_of_nodes = rows->slot[r] < static_cast<Index>(model.mesh->node_count());
+    if (!is_of_nodes || !std::ranges::count(corners, n) || x[0] < 0.69 || x[2] > 1.0) continue;
+    EXPECT_NEAR(rows->gap_at(r, rest), -0.03, round_off);
+    ++found;
+  }
+  EXPECT_EQ(found, 2);
+}
 
 TEST(BodyOverlap, IsTheDepthUnderTheSkinInCells) {
   const Cubes cubes(4);
