@@ -167,4 +167,23 @@ std::optional<RayHit> intersect(const PlacedFacet& facet, const Vec3& start, con
   return intersect_quad(facet, start, direction, slack);
 }
 
+ParentPoint perpendicular_foot(const PlacedFacet& facet, const Vec3& x, ParentPoint at) {
+  constexpr double settled = 1e-9;  // step after which, shrinking as its square, none is left
+  Vec3 twist{};                     // d2x / (dxi deta)
+  if (facet.size == 4) twist = scaled(subtract(add(facet.x[0], facet.x[2]), add(facet.x[1], facet.x[3])), 0.25);
+  for (int i = 0; i < 20; ++i) {
+    const FacetFrame frame = facet_tangents(facet, facet_shape(facet.size, at.xi, at.eta));
+    const Vec3 r = subtract(x, frame.position);
+    const double a11 = dot(frame.a_1, frame.a_1), a22 = dot(frame.a_2, frame.a_2);
+    const double a12 = dot(frame.a_1, frame.a_2) - dot(r, twist);
+    const double b1 = dot(frame.a_1, r), b2 = dot(frame.a_2, r), det = a11 * a22 - a12 * a12;
+    if (!(det > 0.0)) break;
+    const double dxi = (a22 * b1 - a12 * b2) / det, deta = (a11 * b2 - a12 * b1) / det;
+    at.xi += dxi;
+    if (facet.size > 2) at.eta += deta;
+    if (std::abs(dxi) + std::abs(deta) < settled) break;
+  }
+  return at;
+}
+
 }  // namespace carom

@@ -52,6 +52,9 @@ SignedDistance signed_distance(const Projection& closest, const Vec3& x, const V
 /// own normal where the sum is zero.
 Vec3 averaged_normal(const Projection& projection, const Facet& facet, std::span<const Vec3> normals);
 
+/// Foot of the perpendicular from x on the facet continued beyond its edges, by Newton's method from a near point.
+ParentPoint perpendicular_foot(const PlacedFacet& facet, const Vec3& x, ParentPoint at);
+
 /// Where a line meets a facet.
 struct RayHit {
   double xi = 0.0, eta = 0.0;

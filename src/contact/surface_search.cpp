@@ -17,8 +17,7 @@ constexpr double no_longer_opposed = 0.5;  // product of the normals of a node a
 constexpr double smooth = 0.5;             // product of the normals of facets that pass a node on to each other
 constexpr double alike_share = 0.25;       // of the width: how unlike gaps of facets that share a node may be
 constexpr double tie = 1e-12;              // relative: the same point seen from two facets
-constexpr double settled = 1e-9;  // step in parent coordinates after which, shrinking as its square, none is left
-constexpr double tiny = 1e-6;     // of the reach: below, the direction to a corner is round-off
+constexpr double tiny = 1e-6;              // of the reach: below, the direction to a corner is round-off
 
 double squared_distance(const Bounds& box, const Vec3& x) {
   double sum = 0.0;
@@ -45,25 +44,6 @@ double size_of(const PlacedFacet& facet) {
 
 bool contains(const Facet& facet, Index node) {
   return std::find(facet.begin(), facet.end(), node) != facet.end();
-}
-
-/// Foot of the perpendicular from x on the facet continued beyond its edges, by Newton's method from a near point.
-ParentPoint foot(const PlacedFacet& facet, const Vec3& x, ParentPoint at) {
-  Vec3 twist{};  // d2x / (dxi deta)
-  if (facet.size == 4) twist = scaled(subtract(add(facet.x[0], facet.x[2]), add(facet.x[1], facet.x[3])), 0.25);
-  for (int i = 0; i < 20; ++i) {
-    const FacetFrame frame = facet_tangents(facet, facet_shape(facet.size, at.xi, at.eta));
-    const Vec3 r = subtract(x, frame.position);
-    const double a11 = dot(frame.a_1, frame.a_1), a22 = dot(frame.a_2, frame.a_2);
-    const double a12 = dot(frame.a_1, frame.a_2) - dot(r, twist);
-    const double b1 = dot(frame.a_1, r), b2 = dot(frame.a_2, r), det = a11 * a22 - a12 * a12;
-    if (!(det > 0.0)) break;
-    const double dxi = (a22 * b1 - a12 * b2) / det, deta = (a11 * b2 - a12 * b1) / det;
-    at.xi += dxi;
-    if (facet.size > 2) at.eta += deta;
-    if (std::abs(dxi) + std::abs(deta) < settled) break;
-  }
-  return at;
 }
 
 }  // namespace
@@ -322,7 +302,7 @@ void SurfaceSearch::consider(const Query& query, Index f, Best& best) const {
   std::optional<Rim> rim;
   const bool is_beyond = p.site != ProjectionSite::interior && ends_at(query, f, p);
   if (is_beyond) {
-    const ParentPoint at = foot(facet, query.x, {p.xi, p.eta});
+    const ParentPoint at = perpendicular_foot(facet, query.x, {p.xi, p.eta});
     const FacetShape shape = facet_shape(facet.size, at.xi, at.eta);
     const FacetFrame frame = facet_frame(facet, shape);
     const double width = rim_width(f);
@@ -458,7 +438,7 @@ FacetFoot SurfaceSearch::foot_on(const Query& query, Index f, const Projection& 
   if (p.site == ProjectionSite::interior) return out;
   const double width = range_.width[f];
   const PlacedFacet facet = placed(f);
-  const ParentPoint at = foot(facet, query.x, {p.xi, p.eta});
+  const ParentPoint at = perpendicular_foot(facet, query.x, {p.xi, p.eta});
   const FacetShape shape = facet_shape(facet.size, at.xi, at.eta);
   const FacetFrame frame = facet_frame(facet, shape);
   out.xi = at.xi;

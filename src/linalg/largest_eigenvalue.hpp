@@ -21,8 +21,8 @@ struct Pencil {
 
 /// Largest eigenvalue of the symmetric positive semi-definite operator A of size n, by Lanczos iteration (Golub and Van
 /// Loan, Matrix Computations, 4th ed., section 10.1) from a fixed pseudo-random start vector, until the residual bound
-/// |beta_k s_k| is below `tolerance` times the value, not before least_iterations, or max_iterations is reached. Same bits
-/// for any thread count.
+/// |beta_k s_k| is below `tolerance` times the value, not before least_iterations, or max_iterations is reached. Same
+/// bits for any thread count.
 EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, std::size_t n, double tolerance = 1e-3,
                                       int max_iterations = 300, int least_iterations = 1);
 

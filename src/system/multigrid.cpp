@@ -164,9 +164,9 @@ void Multigrid::make_first_grid() {
   for (const DofSpring& spring : springs_) add(spring.dof / 3, spring.dof % 3, spring.stiffness);
 }
 
-/// By Lanczos iterations on D^-1/2 A D^-1/2, where all bodies have the same share of the start vector, however stiff they
-/// are: the residual bound makes up for what the value lacks. The bound is of an eigenvalue that is near, not of the
-/// largest: where nearly all are alike, as in bodies whose mass prevails, the first iterations see those alone.
+/// By Lanczos iterations on D^-1/2 A D^-1/2, where all bodies have the same share of the start vector, however stiff
+/// they are: the residual bound makes up for what the value lacks. The bound is of an eigenvalue that is near, not of
+/// the largest: where nearly all are alike, as in bodies whose mass prevails, the first iterations see those alone.
 void Multigrid::make_top(std::size_t l) {
   Level& level = levels_[l];
   const std::size_t n = level.diagonal.size();

@@ -165,9 +165,9 @@ Model unlike_bodies() {
 }
 
 // The largest eigenvalue of D^-1 A, to which smoothing is tuned, is then one of the small body, whichever of mass and
-// stiffness prevails in the other: a Lanczos iteration that sees the other alone ends at 1 at once. The mass of the cycle
-// is lumped, of which that of trilinear cells is 1/27 to 1: sqrt(27) / 2 ln(2 / 1e-8) = 50 iterations where it prevails,
-// and two for the residual's norm in place of the error's.
+// stiffness prevails in the other: a Lanczos iteration that sees the other alone ends at 1 at once. The mass of the
+// cycle is lumped, of which that of trilinear cells is 1/27 to 1: sqrt(27) / 2 ln(2 / 1e-8) = 50 iterations where it
+// prevails, and two for the residual's norm in place of the error's.
 TEST(Multigrid, SmoothsTheStiffestBody) {
   const Problem p(unlike_bodies());
   for (double courant = 1e-3; courant < 100.0; courant *= 2.0)
