@@ -20,8 +20,9 @@ struct OverlapPoint {
 /// at its centre, and returns their number. Which side the master shows is not looked at: that is the caller's choice,
 /// as is the largest gap. Both facets are projected on the plane through the slave's centre with normal n_0 and clipped
 /// against each other (Sutherland and Hodgman, Comm. ACM 17, 1974; contact: Puso and Laursen, Comput. Methods Appl.
-/// Mech. Engrg. 193, 2004, section 5). The overlap is divided into triangles from one corner with the rule of 7
-/// points and degree 5 (Radon 1948; Strang and Fix 1973) on each; on segments 3 Gauss points. weight = dA |a_1 x a_2| /
+/// Mech. Engrg. 193, 2004, section 5). The overlap is divided into triangles, from its centroid where
+/// one of the facets is a quadrilateral and else from one corner, with the rule of 7 points and degree 5 (Radon 1948;
+/// Strang and Fix 1973) on each; on segments 3 Gauss points. weight = dA |a_1 x a_2| /
 /// (n_0 . a_1 x a_2), the true area on a warped slave, too. On flat facets whose parametrisation is affine N_a N_b is
 /// integrated exactly. A facet that is not convex when projected is split into two triangles. Overlaps below 1e-12 of
 /// the smaller facet's area are dropped. Both facets: segments, or triangles and quadrilaterals.
@@ -30,14 +31,14 @@ int add_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector
 /// Which points stand for an overlap.
 struct OverlapRule {
   /// True: 7 points a triangle, as above. False, where one of the facets is a quadrilateral and the overlap is behind:
-  /// 3 points, degree 2, in each triangle from the polygon's middle, so that what mirrors it mirrors them. Else three
+  /// 3 points, degree 2, in each triangle from the polygon's centroid, so that what mirrors it mirrors them. Else three
   /// points a polygon, c + sqrt(2) L (cos t, sin t) at t = 90, 210 and 330 degrees, c being its centroid and L L^T = S
   /// its second moments over its area: degree 2 exactly, whatever its corners, and always inside (Kannan, Lovasz and
   /// Simonovits, Discrete Comput. Geom. 13, 1995: a convex body holds sqrt(1 + 2 / n) times the ball of its second
   /// moments).
   bool is_high = true;
   /// Overlaps that the gap 0 divides have points where it is negative alone. The triangles of the rule of 7 points then
-  /// are those from the polygon's middle, too.
+  /// are those from the polygon's centroid, too.
   bool only_behind = false;
 };
 

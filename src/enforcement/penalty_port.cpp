@@ -121,23 +121,22 @@ std::string PenaltyPort::hold_bodies(const ContactResponse& response, std::span<
   }
 }
 
-LinearSolveReport PenaltyPort::solve_with_stiffness(EffectiveSolver& solver, const ContactResponse& response,
-                                                    std::span<const double> b, double absolute,
-                                                    std::span<double> x) const {
+PenaltyPort::Stiffness PenaltyPort::stiffness_of(const ContactResponse& response) const {
   const ConstraintRows beside = system_.contact.stiffness_rows();
-  if (beside.size() == 0) return solver.solve(b, response.rows, tangents_, absolute, x);
+  if (beside.size() == 0) return {response.rows, tangents_};
   const auto rows = std::make_shared<ConstraintRows>(*response.rows);
   append_rows(*rows, beside);
-  std::vector<RowTangent> tangents = tangents_;
-  for (const RowLaw& law : beside.law) tangents.push_back({s_ * law.eps_N, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
-  return solver.solve(b, rows, tangents, absolute, x);
+  Stiffness out{rows, tangents_};
+  for (const RowLaw& law : beside.law) out.tangents.push_back({s_ * law.eps_N, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  return out;
 }
 
 PortSolve PenaltyPort::solve_with_tangents(EffectiveSolver& solver, std::span<const double> x,
                                            const ContactResponse& response, std::span<const double> residual,
                                            double absolute, std::span<double> dy) {
   if (free_ == nullptr || free_->empty()) {
-    return {solve_with_stiffness(solver, response, residual, absolute, dy), {}};
+    const Stiffness stiffness = stiffness_of(response);
+    return {solver.solve(residual, stiffness.rows, stiffness.tangents, absolute, dy), {}};
   }
   load_.assign(residual.begin(), residual.end());
   std::string failure = hold_bodies(response, x, residual);
@@ -146,15 +145,16 @@ PortSolve PenaltyPort::solve_with_tangents(EffectiveSolver& solver, std::span<co
   for (std::size_t i = 0; i < load_.size(); ++i) {
     if (fixed[i]) load_[i] = 0.0;
   }
-  PortSolve out{solve_with_stiffness(solver, response, load_, absolute, dy), {}};
-  release_held(solver, response, x, out.linear, dy);
+  const Stiffness stiffness = stiffness_of(response);  // after hold_bodies, which closes rows
+  PortSolve out{solver.solve(load_, stiffness.rows, stiffness.tangents, absolute, dy), {}};
+  release_held(solver, stiffness, x, response, out.linear, dy);
   return out;
 }
 
 /// dy becomes (A - P N P^T)^-1 of the load, N = FreeModes::needless and P the pins, from A^-1 of it (Woodbury):
 ///   dy + Z (1 - N P^T Z)^-1 N P^T dy,  Z = A^-1 P.
-void PenaltyPort::release_held(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> x,
-                               LinearSolveReport& linear, std::span<double> dy) {
+void PenaltyPort::release_held(EffectiveSolver& solver, const Stiffness& stiffness, std::span<const double> x,
+                               const ContactResponse& response, LinearSolveReport& linear, std::span<double> dy) {
   const std::vector<double> N = free_->needless(*response.rows, tangents_, x);
   if (N.empty()) return;
   const std::vector<DofSpring> pins = free_->pins();
@@ -162,7 +162,8 @@ void PenaltyPort::release_held(EffectiveSolver& solver, const ContactResponse& r
   std::vector<double> Z(d * n), unit(n, 0.0), matrix(d * d, 0.0), c(d, 0.0);
   for (std::size_t k = 0; k < d; ++k) {
     unit[pins[k].dof] = 1.0;
-    const LinearSolveReport one = solve_with_stiffness(solver, response, unit, 0.0, std::span(Z).subspan(k * n, n));
+    const LinearSolveReport one =
+        solver.solve(unit, stiffness.rows, stiffness.tangents, 0.0, std::span(Z).subspan(k * n, n));
     unit[pins[k].dof] = 0.0;
     linear.converged = linear.converged && one.converged;
     linear.iterations += one.iterations;

@@ -1,6 +1,7 @@
 // Contact springs within implicit stages: penalty and augmented Lagrangian.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "enforcement/contact_port.hpp"
@@ -40,9 +41,12 @@ class PenaltyPort : public ContactPort {
   PortSolve solve_with_tangents(EffectiveSolver& solver, std::span<const double> x, const ContactResponse& response,
                                 std::span<const double> residual, double absolute, std::span<double> dy);
 
-  /// Solves with tangents_, and with what stands against motion beside the rows.
-  LinearSolveReport solve_with_stiffness(EffectiveSolver& solver, const ContactResponse& response,
-                                         std::span<const double> b, double absolute, std::span<double> x) const;
+  /// Rows and tangents_, and with them what stands against motion beside the rows.
+  struct Stiffness {
+    std::shared_ptr<const ConstraintRows> rows;
+    std::vector<RowTangent> tangents;
+  };
+  Stiffness stiffness_of(const ContactResponse& response) const;
 
   /// The tangent of row r, an equation.
   RowTangent held_tangent(const ConstraintRows& rows, std::size_t r) const {
@@ -61,8 +65,8 @@ class PenaltyPort : public ContactPort {
  private:
   std::string hold_bodies(const ContactResponse& response, std::span<const double> x, std::span<const double> residual);
   bool close_reached(const ConstraintRows& rows, std::span<const double> x, std::span<const double> motion);
-  void release_held(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> x,
-                    LinearSolveReport& linear, std::span<double> dy);
+  void release_held(EffectiveSolver& solver, const Stiffness& stiffness, std::span<const double> x,
+                    const ContactResponse& response, LinearSolveReport& linear, std::span<double> dy);
   bool stick_sliding(const ContactResponse& response, std::span<const double> x);
 
   const FreeModes* free_ = nullptr;
