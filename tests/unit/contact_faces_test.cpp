@@ -45,28 +45,6 @@ struct Two {
   }
 };
 
-std::vector<double> shaken(const Scene& scene, Random& random, double size) {
-  std::vector<double> u = scene.zero();
-  for (double& x : u) x = random(-size, size);
-  return u;
-}
-
-/// Sum of the springs' energies at u.
-double energy(const ContactGeometry& contact, const std::vector<double>& u) {
-  const auto rows = contact.rows_at(u, u);
-  double sum = 0.0;
-  for (std::size_t r = 0; r < rows->size(); ++r) sum += rows->law[r].spring_energy(std::max(0.0, -rows->gap_at(r, u)));
-  return sum;
-}
-
-std::vector<double> forces(const ContactGeometry& contact, const std::vector<double>& u) {
-  const auto rows = contact.rows_at(u, u);
-  std::vector<double> f(u.size(), 0.0);
-  for (std::size_t r = 0; r < rows->size(); ++r)
-    rows->scatter(r, {rows->law[r].spring_force(std::max(0.0, -rows->gap_at(r, u))), 0.0, 0.0}, f);
-  return f;
-}
-
 double largest(const std::vector<double>& x) {
   return std::accumulate(x.begin(), x.end(), 0.0, [](double m, double v) { return std::max(m, std::abs(v)); });
 }

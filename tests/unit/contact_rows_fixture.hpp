@@ -101,6 +101,30 @@ inline std::vector<double> with_displacement(std::vector<double> u, Index n, con
   return u;
 }
 
+/// Random displacements up to `size`.
+inline std::vector<double> shaken(const Scene& scene, Random& random, double size) {
+  std::vector<double> u = scene.zero();
+  for (double& x : u) x = random(-size, size);
+  return u;
+}
+
+/// Sum of the springs' energies at u.
+inline double energy(const ContactGeometry& contact, const std::vector<double>& u) {
+  const auto rows = contact.rows_at(u, u);
+  double sum = 0.0;
+  for (std::size_t r = 0; r < rows->size(); ++r) sum += rows->law[r].spring_energy(std::max(0.0, -rows->gap_at(r, u)));
+  return sum;
+}
+
+/// Forces of the springs at u, by dof.
+inline std::vector<double> forces(const ContactGeometry& contact, const std::vector<double>& u) {
+  const auto rows = contact.rows_at(u, u);
+  std::vector<double> f(u.size(), 0.0);
+  for (std::size_t r = 0; r < rows->size(); ++r)
+    rows->scatter(r, {rows->law[r].spring_force(std::max(0.0, -rows->gap_at(r, u))), 0.0, 0.0}, f);
+  return f;
+}
+
 /// Number of the row of a slot, or -1.
 inline std::ptrdiff_t row_of(const ConstraintRows& rows, Index slot) {
   const auto found = std::find(rows.slot.begin(), rows.slot.end(), slot);

@@ -172,27 +172,6 @@ TEST(SmoothSurface, IsTheDefaultWhereNoEdgeIsSharp) {
   }
 }
 
-double energy(const ContactGeometry& contact, const std::vector<double>& u) {
-  const auto rows = contact.rows_at(u, u);
-  double sum = 0.0;
-  for (std::size_t r = 0; r < rows->size(); ++r) sum += rows->law[r].spring_energy(std::max(0.0, -rows->gap_at(r, u)));
-  return sum;
-}
-
-std::vector<double> forces(const ContactGeometry& contact, const std::vector<double>& u) {
-  const auto rows = contact.rows_at(u, u);
-  std::vector<double> f(u.size(), 0.0);
-  for (std::size_t r = 0; r < rows->size(); ++r)
-    rows->scatter(r, {rows->law[r].spring_force(std::max(0.0, -rows->gap_at(r, u))), 0.0, 0.0}, f);
-  return f;
-}
-
-std::vector<double> shaken(const Scene& scene, Random& random, double size) {
-  std::vector<double> u = scene.zero();
-  for (double& x : u) x = random(-size, size);
-  return u;
-}
-
 // The energy is a sum over points with a gradient that is continuous but where a foot passes from one facet to the
 // next: patches are smooth across edges to order 3 alone, and shaken ones have the bulges of their reference. Steps of
 // 1e-6 see such a passage in one of some hundred components; a mean that is a hundredth of a per cent off is none of

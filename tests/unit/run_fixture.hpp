@@ -49,6 +49,13 @@ inline CaseError case_error(const std::string& text) {
   return {{}, "", "", ""};
 }
 
+/// The text with its first `from` turned into `to`, which it must have.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
 inline std::string read_text(const std::filesystem::path& path) {
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();

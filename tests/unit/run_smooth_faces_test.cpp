@@ -10,12 +10,6 @@ namespace {
 
 using namespace test;
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 /// cases/balls/oblique without its checks, `contact` added to its contact.
 std::string oblique(const std::string& contact) {
   const std::string folder = std::string(CAROM_SOURCE_DIR) + "/cases/balls/";

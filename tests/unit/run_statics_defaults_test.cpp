@@ -56,12 +56,6 @@ master = "T0"
          "[scheme]\nkind = \"statics\"\n" + scheme + "[time]\nend = 1.0\nstep = 1.0\n";
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 /// Greatest von Mises stress at the end.
 double greatest_stress(const TemporaryCase& given) {
   return nlohmann::json::parse(given.result("summary.json"))["stress"]["value"];

@@ -11,12 +11,6 @@ namespace {
 
 using namespace test;
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 struct Result {
   double force, stress;
 };
