@@ -50,15 +50,9 @@ class FaceRows : public RowMaker {
     double depth_of(double gap) const { return std::max(0.0, shift - gap); }
   };
 
-  /// Blocks of a row in the making.
-  struct Blocks {
-    Vec3 tangent_1, tangent_2;
-    RowBlocks own, others;
-  };
+  class Blocks;
 
   Sums sums_of(const Node& node, double shift) const;
-  void add_point(std::size_t f, const FacePoint& q, double w, double mean, Blocks& blocks) const;
-  void add_turning(std::size_t f, const FacePoint& q, double w, double mean, Blocks& blocks) const;
   template <class Use>
   void for_each_weight(const Node& node, const Sums& sums, const Use& use) const;
   void add_row(const Node& node, double shift, Index slot, const ContactMotion& motion, ConstraintRows& rows) const;
@@ -76,6 +70,104 @@ class FaceRows : public RowMaker {
   mutable std::vector<FacetPoints> points_;  ///< by slave facet
   mutable std::vector<double> shift_;        ///< by node
 };
+
+/// Blocks of a row in the making: the sum of those of its points. Points that follow each other on one facet under one
+/// master are summed first, since the nodes and normals of all of them are the same.
+class FaceRows::Blocks {
+ public:
+  Blocks(const FaceRows& rows, const Vec3& tangent_1, const Vec3& tangent_2)
+      : rows_(rows), tangent_1_(tangent_1), tangent_2_(tangent_2) {}
+
+  /// The block of this node stands first.
+  void begin_with(Index node) { own_.add(node, {}, {}, {}); }
+  /// w times the gradient of the point's gap, and `mean` times its tangential motion.
+  void add(std::size_t facet, const FacePoint& q, double w, double mean);
+  /// What the turning of both normals adds to that.
+  void add_turning(const FacePoint& q, double w, double mean);
+  /// Gives them to the last row, and returns how many are those of the other surface.
+  Index append_to(ConstraintRows& rows);
+
+ private:
+  /// Sums over points: of what moves a node (along the normal, and the weight of its way along the tangents), and of
+  /// what turns a facet.
+  struct Moved {
+    std::array<Vec3, 9> normal{};
+    std::array<double, 9> slide{};
+    Vec3 of_turn{};
+    double rise = 0.0;
+
+    void add(const Vec3& along, double mean, std::span<const double> N, std::span<const double> N_slide);
+  };
+
+  void close();
+  void give(const ParentFace& face, const Facet& corners, const Vec3& normal, const std::array<Vec3, 4>& turn,
+            const Moved& moved, RowBlocks& blocks) const;
+
+  const FaceRows& rows_;
+  Vec3 tangent_1_, tangent_2_;
+  std::size_t facet_ = 0, master_ = 0;
+  bool is_open_ = false;  ///< some points are summed that no block has yet
+  Moved slave_, other_;
+  RowBlocks own_, others_;
+};
+
+void FaceRows::Blocks::Moved::add(const Vec3& along, double mean, std::span<const double> N,
+                                  std::span<const double> N_slide) {
+  for (std::size_t b = 0; b < N.size(); ++b) {
+    normal[b] = carom::add(normal[b], scaled(along, N[b]));
+    slide[b] += mean * N_slide[b];
+  }
+}
+
+void FaceRows::Blocks::add(std::size_t facet, const FacePoint& q, double w, double mean) {
+  if (is_open_ && (facet != facet_ || q.master != master_)) close();
+  is_open_ = true;
+  facet_ = facet;
+  master_ = q.master;
+  const auto size = static_cast<std::size_t>(rows_.finder_->slave_face(facet).size);
+  const Index g = rows_.points_[facet].masters[q.master].facet;
+  const auto others = static_cast<std::size_t>(rows_.finder_->master_face(g).size);
+  const std::span<const double> N_master(q.N_master.data(), others);
+  slave_.add(scaled(q.along, -w), mean, {q.N.data(), size}, {q.N_slide.data(), size});
+  other_.add(scaled(q.along, w), -mean, N_master, N_master);
+}
+
+void FaceRows::Blocks::add_turning(const FacePoint& q, double w, double mean) {
+  slave_.of_turn = carom::add(slave_.of_turn, scaled(q.of_turn, w));
+  slave_.rise -= mean * q.rise;
+  other_.of_turn = carom::add(other_.of_turn, scaled(q.of_master_turn, w));
+  other_.rise += mean * q.master_rise;
+}
+
+void FaceRows::Blocks::close() {
+  const FacetPoints& facet = rows_.points_[facet_];
+  const FacetPoints::Master& master = facet.masters[master_];
+  const FacePointFinder& finder = *rows_.finder_;
+  give(finder.slave_face(facet_), rows_.slave_.facets[facet_], facet.normal, facet.turn, slave_, own_);
+  give(finder.master_face(master.facet), finder.master_facet(master.facet), master.normal, master.turn, other_,
+       others_);
+  slave_ = other_ = {};
+  is_open_ = false;
+}
+
+void FaceRows::Blocks::give(const ParentFace& face, const Facet& corners, const Vec3& normal,
+                            const std::array<Vec3, 4>& turn, const Moved& moved, RowBlocks& blocks) const {
+  for (std::size_t b = 0; b < static_cast<std::size_t>(face.size); ++b)
+    blocks.add(face.node[b], moved.normal[b], scaled(tangent_1_, moved.slide[b]), scaled(tangent_2_, moved.slide[b]));
+  if (moved.of_turn == Vec3{} && moved.rise == 0.0) return;
+  for (std::size_t b = 0; b < static_cast<std::size_t>(corners.size); ++b) {
+    const auto turned = [&](const Vec3& v) { return scaled(normal, dot(v, turn[b])); };
+    blocks.add(corners[b], turned(moved.of_turn), turned(scaled(tangent_1_, moved.rise)),
+               turned(scaled(tangent_2_, moved.rise)));
+  }
+}
+
+Index FaceRows::Blocks::append_to(ConstraintRows& rows) {
+  if (is_open_) close();
+  own_.append_to(rows);
+  others_.append_to(rows);
+  return static_cast<Index>(others_.size());
+}
 
 FaceRows::FaceRows(std::span<const Vec3> X, const Surface& slave, std::unique_ptr<FacePointFinder> finder,
                    const FaceNodes& has_row, const ContactLaw& law, Index source)
@@ -213,11 +305,11 @@ void FaceRows::add_row(const Node& node, double shift, Index slot, const Contact
 void FaceRows::add_blocks(const Node& node, const Sums& sums, ConstraintRows& rows) const {
   double total = 0.0;
   for_each_weight(node, sums, [&](std::size_t, const FacetPoints&, const FacePoint&, double w) { total += w; });
-  Blocks blocks{rows.tangent_1.back(), rows.tangent_2.back(), {}, {}};
-  blocks.own.add(node.node, {}, {}, {});  // first of all
+  Blocks blocks(*this, rows.tangent_1.back(), rows.tangent_2.back());
+  blocks.begin_with(node.node);
   const auto add = [&](std::size_t f, const FacePoint& q, double w, double mean) {
-    add_point(f, q, w, mean, blocks);
-    if (sums.is_closed()) add_turning(f, q, w, mean, blocks);
+    blocks.add(f, q, w, mean);
+    if (sums.is_closed()) blocks.add_turning(q, w, mean);
   };
   for_each_weight(node, sums,
                   [&](std::size_t f, const FacetPoints&, const FacePoint& q, double w) { add(f, q, w, w / total); });
@@ -227,42 +319,7 @@ void FaceRows::add_blocks(const Node& node, const Sums& sums, ConstraintRows& ro
       for (const FacePoint& q : points_[at.facet].border)
         add(at.facet, q, -q.weight * unit_.spring_energy(-q.gap) * q.share[at.corner] / whole, 0.0);
   }
-  blocks.own.append_to(rows);
-  blocks.others.append_to(rows);
-  rows.behind.back() = static_cast<Index>(blocks.others.size());
-}
-
-/// What one point adds: w times the gradient of its gap, and `mean` times its tangential motion.
-void FaceRows::add_point(std::size_t f, const FacePoint& q, double w, double mean, Blocks& blocks) const {
-  const ParentFace &face = finder_->slave_face(f), &other = finder_->master_face(points_[f].masters[q.master].facet);
-  const Vec3 &t_1 = blocks.tangent_1, &t_2 = blocks.tangent_2;
-  for (std::size_t b = 0; b < static_cast<std::size_t>(face.size); ++b) {
-    const double at = mean * q.N_slide[b];
-    blocks.own.add(face.node[b], scaled(q.along, -w * q.N[b]), scaled(t_1, at), scaled(t_2, at));
-  }
-  for (std::size_t c = 0; c < static_cast<std::size_t>(other.size); ++c) {
-    const double at = -mean * q.N_master[c];
-    blocks.others.add(other.node[c], scaled(q.along, w * q.N_master[c]), scaled(t_1, at), scaled(t_2, at));
-  }
-}
-
-/// What the turning of the facets' normals adds.
-void FaceRows::add_turning(std::size_t f, const FacePoint& q, double w, double mean, Blocks& blocks) const {
-  const FacetPoints& facet = points_[f];
-  const Facet& corners = slave_.facets[f];
-  const Vec3 &t_1 = blocks.tangent_1, &t_2 = blocks.tangent_2;
-  for (std::size_t b = 0; b < static_cast<std::size_t>(corners.size); ++b) {
-    const auto turned = [&](const Vec3& v, double s) { return scaled(facet.normal, s * dot(v, facet.turn[b])); };
-    blocks.own.add(corners[b], turned(q.of_turn, w), turned(t_1, -mean * q.rise), turned(t_2, -mean * q.rise));
-  }
-  if (q.of_master_turn == Vec3{} && q.master_rise == 0.0) return;
-  const FacetPoints::Master& master = facet.masters[q.master];
-  const Facet& far = finder_->master_facet(master.facet);
-  for (std::size_t c = 0; c < static_cast<std::size_t>(far.size); ++c) {
-    const auto turned = [&](const Vec3& v, double s) { return scaled(master.normal, s * dot(v, master.turn[c])); };
-    blocks.others.add(far[c], turned(q.of_master_turn, w), turned(t_1, mean * q.master_rise),
-                      turned(t_2, mean * q.master_rise));
-  }
+  rows.behind.back() = blocks.append_to(rows);
 }
 
 /// Takes what the functions before have of each one from it, in the product sum_q k_q a_q b_q, and makes its square 1;
@@ -315,14 +372,13 @@ void FaceRows::add_stiffness(const Node& node, double shift, ConstraintRows& row
   make_orthonormal(k, phi);
   for (std::size_t i = 1; i < phi.size(); ++i) {
     if (phi[i].empty()) continue;
-    Blocks blocks{{}, {}, {}, {}};
+    Blocks blocks(*this, {}, {});
     for (std::size_t q = 0; q < points.size(); ++q) {
-      add_point(points[q].first, *points[q].second, k[q] * phi[i][q], 0.0, blocks);
-      add_turning(points[q].first, *points[q].second, k[q] * phi[i][q], 0.0, blocks);
+      blocks.add(points[q].first, *points[q].second, k[q] * phi[i][q], 0.0);
+      blocks.add_turning(*points[q].second, k[q] * phi[i][q], 0.0);
     }
     rows.add_row(0.0, {1.0, 0.0, 0.0}, points.front().second->position, 1.0, row_law(law_, 1.0), source_);
-    blocks.own.append_to(rows);
-    blocks.others.append_to(rows);
+    blocks.append_to(rows);
   }
 }
 
