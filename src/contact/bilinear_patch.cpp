@@ -229,6 +229,12 @@ int points_over(const BilinearPatch& patch, double s, double t, std::array<Paren
   // 0 = A + B eta in the x-y plane with A = m - (s, t) + p xi, B = q + c xi; so A x B = 0, a quadratic in xi.
   const auto area = [](const Vec3& u, const Vec3& v) { return u[0] * v[1] - u[1] * v[0]; };
   const Vec3 a = subtract(patch.m, {s, t, 0.0});
+  if (patch.c[0] == 0.0 && patch.c[1] == 0.0) {
+    const double det = area(patch.p, patch.q);
+    if (det == 0.0) return 0;
+    points[0] = {-area(a, patch.q) / det, -area(patch.p, a) / det};
+    return std::abs(points[0].xi) < 2.0 && std::abs(points[0].eta) < 2.0 ? 1 : 0;
+  }
   const double k_0 = area(a, patch.q), k_1 = area(a, patch.c) + area(patch.p, patch.q), k_2 = area(patch.p, patch.c);
   const double discriminant = k_1 * k_1 - 4.0 * k_2 * k_0;
   if (!(discriminant >= 0.0)) return 0;

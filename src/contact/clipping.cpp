@@ -9,6 +9,8 @@
 #include <span>
 
 #include "contact/bilinear_patch.hpp"
+#include "contact/facet_projection.hpp"
+#include "contact/polygon.hpp"
 #include "math/gauss_legendre.hpp"
 #include "math/vec3.hpp"
 
@@ -17,146 +19,18 @@ namespace {
 
 constexpr double negligible = 1e-12;  // part of the smaller facet's area
 
-using Point = std::array<double, 2>;
-
-double area_of(const Point& a, const Point& b, const Point& c) {
-  return 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
-}
-
-/// Convex polygon, counter-clockwise. Clipping a quadrilateral by four lines makes at most 8 corners; the rest is for
-/// corners that are doubled by round-off, of which any beyond the last place bound no area.
-struct Polygon {
-  std::array<Point, 16> corner{};
-  std::size_t size = 0;
-
-  void push(const Point& p) {
-    if (size < corner.size()) corner[size++] = p;
-  }
-  double area() const {
-    double sum = 0.0;
-    for (std::size_t i = 2; i < size; ++i) sum += area_of(corner[0], corner[i - 1], corner[i]);
-    return sum;
-  }
-};
-
-/// The polygon without corners that stand out of the side between their neighbours by round-off alone: sides that lie
-/// on each other cross somewhere, and the points of a rule would move with that.
-Polygon without_flat_corners(Polygon polygon) {
-  constexpr double flat = 1e-9;  // of the area
-  const double least = flat * polygon.area();
-  for (std::size_t i = 0; i < polygon.size && polygon.size > 3;) {
-    const Point& before = polygon.corner[(i + polygon.size - 1) % polygon.size];
-    const Point& after = polygon.corner[(i + 1) % polygon.size];
-    if (area_of(before, polygon.corner[i], after) > least) {
-      ++i;
-      continue;
-    }
-    for (std::size_t k = i + 1; k < polygon.size; ++k) polygon.corner[k - 1] = polygon.corner[k];
-    --polygon.size;
-    if (i > 0) --i;
-  }
-  return polygon;
-}
-
-/// The part of the polygon on the left of the line from a to b.
-Polygon clip(const Polygon& polygon, const Point& a, const Point& b) {
-  Polygon kept;
-  for (std::size_t i = 0; i < polygon.size; ++i) {
-    const Point& p = polygon.corner[i];
-    const Point& q = polygon.corner[i + 1 < polygon.size ? i + 1 : 0];
-    const double side_p = area_of(a, b, p), side_q = area_of(a, b, q);
-    if (side_p >= 0.0) kept.push(p);
-    if ((side_p > 0.0 && side_q < 0.0) || (side_p < 0.0 && side_q > 0.0)) {
-      const double s = side_p / (side_p - side_q);
-      kept.push({p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1])});
-    }
-  }
-  return kept;
-}
-
-Polygon clip(Polygon polygon, const Polygon& window) {
-  for (std::size_t i = 0; i < window.size && polygon.size > 2; ++i)
-    polygon = clip(polygon, window.corner[i], window.corner[i + 1 < window.size ? i + 1 : 0]);
-  return polygon;
-}
-
-/// The plane of the slave: axes at its centre, z along its normal there.
-struct SlavePlane {
-  Vec3 origin, normal, e_1, e_2;
-
-  explicit SlavePlane(const PlacedFacet& slave) {
-    const ParentPoint centre = facet_centre(slave.size);
-    const FacetFrame frame = facet_frame(slave, centre.xi, centre.eta);
-    origin = frame.position;
-    normal = frame.normal;
-    e_1 = normalized(frame.a_1);
-    e_2 = cross(normal, e_1);
-  }
-  /// The facet in the plane's axes.
-  PlacedFacet seen(const PlacedFacet& facet) const {
-    PlacedFacet local{{}, facet.size};
-    for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) {
-      const Vec3 r = subtract(facet.x[a], origin);
-      local.x[a] = {dot(r, e_1), dot(r, e_2), dot(r, normal)};
-    }
-    return local;
-  }
-};
-
-/// The shadow in the plane of a facet, given in the plane's axes, as one or two convex polygons.
-struct Shadow {
-  std::array<Polygon, 2> part;
-  std::size_t count = 0;
-
-  explicit Shadow(const PlacedFacet& facet);
-
- private:
-  void add_part(std::array<std::size_t, 4> corners, std::size_t size);
-  std::array<Point, 4> p_{};
-  double sign_ = 1.0;
-};
-
-Shadow::Shadow(const PlacedFacet& facet) {
-  const auto size = static_cast<std::size_t>(facet.size);
-  for (std::size_t a = 0; a < size; ++a) p_[a] = {facet.x[a][0], facet.x[a][1]};
-  double total = area_of(p_[0], p_[1], p_[2]);
-  if (size == 4) total += area_of(p_[0], p_[2], p_[3]);
-  sign_ = total < 0.0 ? -1.0 : 1.0;
-  if (size == 3) {
-    add_part({0, 1, 2}, 3);
-    return;
-  }
-  std::size_t reflex = 4;
-  for (std::size_t a = 0; a < 4; ++a)
-    if (sign_ * area_of(p_[(a + 3) % 4], p_[a], p_[(a + 1) % 4]) < -negligible * std::abs(total)) reflex = a;
-  if (reflex == 4) {
-    add_part({0, 1, 2, 3}, 4);
-  } else {
-    add_part({reflex, (reflex + 1) % 4, (reflex + 2) % 4}, 3);
-    add_part({reflex, (reflex + 2) % 4, (reflex + 3) % 4}, 3);
-  }
-}
-
-/// Counter-clockwise; parts that are turned over against the whole (a facet folded in the projection) are left out.
-void Shadow::add_part(std::array<std::size_t, 4> corners, std::size_t size) {
-  if (sign_ < 0.0) std::reverse(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(size));
-  Polygon polygon;
-  for (std::size_t i = 0; i < size; ++i) polygon.push(p_[corners[i]]);
-  if (polygon.area() > 0.0) part[count++] = polygon;
-}
-
 /// A facet in the plane's axes.
 struct SeenFacet {
   BilinearPatch patch;
   int size;
 
   /// Point of the facet over a point of its shadow, moved by round-off into the facet.
-  std::optional<ParentPoint> over(const Point& p) const;
+  std::optional<ParentPoint> over(const PlanePoint& p) const;
   /// Its height there; that of the plane through its middle where round-off has no point.
-  double height(const Point& p) const;
+  double height(const PlanePoint& p) const;
 };
 
-double SeenFacet::height(const Point& p) const {
+double SeenFacet::height(const PlanePoint& p) const {
   if (size == 4) {
     if (const std::optional<ParentPoint> at = over(p)) return patch.at(at->xi, at->eta)[2];
   }
@@ -164,7 +38,7 @@ double SeenFacet::height(const Point& p) const {
   return patch.m[2] - (n[0] * (p[0] - patch.m[0]) + n[1] * (p[1] - patch.m[1])) / n[2];
 }
 
-std::optional<ParentPoint> SeenFacet::over(const Point& p) const {
+std::optional<ParentPoint> SeenFacet::over(const PlanePoint& p) const {
   constexpr double slack = 1e-6;  // p lies in the shadow: only the round-off of slender shadows is to be allowed
   const double low = size == 4 ? -1.0 : 0.0;
   std::array<ParentPoint, 2> points;
@@ -209,10 +83,10 @@ struct Clipping {
   void add(const Polygon& polygon);
 
  private:
-  double gap_over(const Point& p) const { return master.height(p) - slave.height(p); }
+  double gap_over(const PlanePoint& p) const { return master.height(p) - slave.height(p); }
   Polygon part_behind(const Polygon& polygon, std::span<const double> gap) const;
-  void add_point(const Point& p, double area) const;
-  void add_triangle(const Point& a, const Point& b, const Point& c) const;
+  void add_point(const PlanePoint& p, double area) const;
+  void add_triangle(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) const;
   void add_polygon(const Polygon& polygon) const;
   void add_star(const Polygon& polygon) const;
   void add_moment_points(const Polygon& polygon) const;
@@ -245,7 +119,7 @@ Polygon Clipping::part_behind(const Polygon& polygon, std::span<const double> ga
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size; ++i) {
     const std::size_t next = i + 1 < polygon.size ? i + 1 : 0;
-    const Point &p = polygon.corner[i], &q = polygon.corner[next];
+    const PlanePoint &p = polygon.corner[i], &q = polygon.corner[next];
     if (gap[i] <= 0.0) kept.push(p);
     if ((gap[i] > 0.0 && gap[next] < 0.0) || (gap[i] < 0.0 && gap[next] > 0.0)) {
       const double s = gap[i] / (gap[i] - gap[next]);
@@ -255,7 +129,7 @@ Polygon Clipping::part_behind(const Polygon& polygon, std::span<const double> ga
   return kept;
 }
 
-void Clipping::add_point(const Point& p, double area) const {
+void Clipping::add_point(const PlanePoint& p, double area) const {
   const std::optional<ParentPoint> on_slave = slave.over(p), on_master = master.over(p);
   if (!on_slave || !on_master) return;
   const Vec3 n = cross(slave.patch.tangent_1(on_slave->eta), slave.patch.tangent_2(on_slave->xi));
@@ -263,7 +137,7 @@ void Clipping::add_point(const Point& p, double area) const {
   if (n[2] > 0.0) points.push_back({*on_slave, *on_master, area * std::sqrt(dot(n, n)) / n[2], gap});
 }
 
-void Clipping::add_triangle(const Point& a, const Point& b, const Point& c) const {
+void Clipping::add_triangle(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) const {
   static const std::array<TrianglePoint, 7> of_triangle = radon_rule();
   const double area = area_of(a, b, c);
   if (!(area > 0.0)) return;
@@ -279,11 +153,11 @@ void Clipping::add_polygon(const Polygon& polygon) const {
 /// Triangles from the centroid: whatever mirrors the polygon mirrors its points, and a corner that comes in beside
 /// another one, as a motion by round-off makes them on sides that lie on each other, moves none of them.
 void Clipping::add_star(const Polygon& polygon) const {
-  const Point& o = polygon.corner[0];
-  Point middle{};
+  const PlanePoint& o = polygon.corner[0];
+  PlanePoint middle{};
   double total = 0.0;
   for (std::size_t i = 2; i < polygon.size; ++i) {
-    const Point &p = polygon.corner[i - 1], &q = polygon.corner[i];
+    const PlanePoint &p = polygon.corner[i - 1], &q = polygon.corner[i];
     const double a = area_of(o, p, q);
     total += a;
     for (std::size_t k = 0; k < 2; ++k) middle[k] += a / 3.0 * (p[k] + q[k] - 2.0 * o[k]);
@@ -291,16 +165,16 @@ void Clipping::add_star(const Polygon& polygon) const {
   if (!(total > 0.0)) return;
   for (std::size_t k = 0; k < 2; ++k) middle[k] = o[k] + middle[k] / total;
   for (std::size_t i = 0; i < polygon.size; ++i) {
-    const Point &a = polygon.corner[i], &b = polygon.corner[i + 1 < polygon.size ? i + 1 : 0];
+    const PlanePoint &a = polygon.corner[i], &b = polygon.corner[i + 1 < polygon.size ? i + 1 : 0];
     if (rule.is_high) {
       add_triangle(middle, a, b);
       continue;
     }
     const double area = area_of(middle, a, b);
     if (!(area > 0.0)) continue;
-    const Point* corner[3] = {&middle, &a, &b};
-    for (const Point* near : corner) {  // 2/3 towards each corner: degree 2 (Strang and Fix 1973)
-      Point p{};
+    const PlanePoint* corner[3] = {&middle, &a, &b};
+    for (const PlanePoint* near : corner) {  // 2/3 towards each corner: degree 2 (Strang and Fix 1973)
+      PlanePoint p{};
       for (std::size_t k = 0; k < 2; ++k) p[k] = (middle[k] + a[k] + b[k] + 3.0 * (*near)[k]) / 6.0;
       add_point(p, area / 3.0);
     }
@@ -309,9 +183,9 @@ void Clipping::add_star(const Polygon& polygon) const {
 
 void Clipping::add_moment_points(const Polygon& polygon) const {
   double area = 0.0, first[2]{}, xx = 0.0, xy = 0.0, yy = 0.0;
-  const Point& o = polygon.corner[0];
+  const PlanePoint& o = polygon.corner[0];
   for (std::size_t i = 2; i < polygon.size; ++i) {
-    const Point &p = polygon.corner[i - 1], &q = polygon.corner[i];
+    const PlanePoint &p = polygon.corner[i - 1], &q = polygon.corner[i];
     const double a = area_of(o, p, q), px = p[0] - o[0], py = p[1] - o[1], qx = q[0] - o[0], qy = q[1] - o[1];
     area += a;
     first[0] += a / 3.0 * (px + qx);
@@ -331,13 +205,12 @@ void Clipping::add_moment_points(const Polygon& polygon) const {
     add_point({o[0] + cx + l_11 * s[k], o[1] + cy + l_21 * s[k] + l_22 * t[k]}, area / 3.0);
 }
 
-OverlapExtent add_segment_overlap(const PlacedFacet& slave, const PlacedFacet& master, bool only_behind,
+OverlapExtent add_segment_overlap(const OverlapColumn& slave, const PlacedFacet& seen, bool only_behind,
                                   std::vector<OverlapPoint>& points) {
   static const std::vector<QuadraturePoint> rule = gauss_legendre(3);
-  const PlacedFacet seen = SlavePlane(slave).seen(master);
-  const double half = 0.5 * measure(slave), start = seen.x[0][0], end = seen.x[1][0];
+  const double half = 0.5 * slave.measure(), start = seen.x[0][0], end = seen.x[1][0];
   double low = std::max(-half, std::min(start, end)), high = std::min(half, std::max(start, end));
-  if (!(high - low > negligible * std::min(2.0 * half, measure(master)))) return {};
+  if (!(high - low > negligible * std::min(2.0 * half, measure(seen)))) return {};
   const double slope = (seen.x[1][2] - seen.x[0][2]) / (end - start);
   const double gap_low = seen.x[0][2] + slope * (low - start), gap_high = seen.x[0][2] + slope * (high - start);
   const OverlapExtent extent{high - low, std::min(gap_low, gap_high)};
@@ -356,60 +229,25 @@ OverlapExtent add_segment_overlap(const PlacedFacet& slave, const PlacedFacet& m
 
 }  // namespace
 
-OverlapExtent add_overlap(const PlacedFacet& slave, const PlacedFacet& master, const OverlapRule& rule,
+OverlapExtent add_overlap(const OverlapColumn& slave, const PlacedFacet& seen_master, const OverlapRule& rule,
                           std::vector<OverlapPoint>& points) {
-  assert((slave.size == 2) == (master.size == 2) && slave.size > 1 && master.size > 1);
-  if (slave.size == 2) return add_segment_overlap(slave, master, rule.only_behind, points);
-  const SlavePlane plane(slave);
-  const PlacedFacet seen_slave = plane.seen(slave), seen_master = plane.seen(master);
-  const Shadow of_slave(seen_slave), of_master(seen_master);
-  Clipping overlap{{BilinearPatch(seen_slave), slave.size}, {BilinearPatch(seen_master), master.size}, rule, points};
-  const double least = negligible * std::min(measure(slave), measure(master));
-  for (std::size_t i = 0; i < of_slave.count; ++i) {
+  const PlacedFacet& seen_slave = slave.seen();
+  assert((seen_slave.size == 2) == (seen_master.size == 2) && seen_slave.size > 1 && seen_master.size > 1);
+  if (seen_slave.size == 2) return add_segment_overlap(slave, seen_master, rule.only_behind, points);
+  const Shadow of_master(seen_master);
+  Clipping overlap{
+      {BilinearPatch(seen_slave), seen_slave.size}, {BilinearPatch(seen_master), seen_master.size}, rule, points};
+  const double least = negligible * std::min(slave.measure(), measure(seen_master));
+  for (std::size_t i = 0; i < slave.shadow().count; ++i) {
     for (std::size_t j = 0; j < of_master.count; ++j) {
-      const Polygon common = clip(of_slave.part[i], of_master.part[j]);
+      const Polygon common = clip(slave.shadow().part[i], of_master.part[j]);
       if (common.area() > least) overlap.add(without_flat_corners(common));
     }
   }
   return overlap.extent;
 }
 
-int add_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector<OverlapPoint>& points) {
-  const std::size_t before = points.size();
-  add_overlap(slave, master, OverlapRule{}, points);
-  return static_cast<int>(points.size() - before);
-}
-
 namespace {
-
-/// The stretch [low, high] of a segment from a (0) to b (1) inside of a convex polygon, away from its sides by more
-/// than round-off; empty where low >= high.
-struct Stretch {
-  double low = 0.0, high = 1.0;
-
-  /// Keeps the part where the value, linear from `at_a` to `at_b`, is positive.
-  void keep_positive(double at_a, double at_b) {
-    if (at_a <= 0.0 && at_b <= 0.0) high = low;
-    if (at_a <= 0.0 && at_b > 0.0) low = std::max(low, at_a / (at_a - at_b));
-    if (at_a > 0.0 && at_b <= 0.0) high = std::min(high, at_a / (at_a - at_b));
-  }
-};
-
-/// A border that runs along a side counts when it lies a thousandth of the polygon inside: bodies of one width would
-/// else be pushed by what round-off makes of their common border, on one side and not on the other.
-Stretch inside(const Point& a, const Point& b, const Polygon& polygon) {
-  constexpr double inset = 1e-9, of_parallels = 1e-3, parallel = 0.01;  // of the polygon's area; sine of the angle
-  Stretch stretch;
-  for (std::size_t i = 0; i < polygon.size; ++i) {
-    const Point &p = polygon.corner[i], &q = polygon.corner[i + 1 < polygon.size ? i + 1 : 0];
-    const double at_a = area_of(p, q, a), at_b = area_of(p, q, b);
-    const double side = std::hypot(q[0] - p[0], q[1] - p[1]), way = std::hypot(b[0] - a[0], b[1] - a[1]);
-    const bool is_along = 2.0 * std::abs(at_b - at_a) < parallel * side * way;
-    const double least = (is_along ? of_parallels : inset) * polygon.area();
-    stretch.keep_positive(at_a - least, at_b - least);
-  }
-  return stretch;
-}
 
 ParentPoint on_edge(int size, std::size_t edge, double s) {
   static constexpr ParentPoint triangle[3] = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
@@ -420,55 +258,71 @@ ParentPoint on_edge(int size, std::size_t edge, double s) {
   return {p.xi + s * (q.xi - p.xi), p.eta + s * (q.eta - p.eta)};
 }
 
-void add_end(const PlacedFacet& slave, const SlavePlane& plane, const PlacedFacet& master, std::size_t end,
-             std::vector<BorderPoint>& points) {
+void add_end(const OverlapColumn& slave, const PlacedFacet& seen, std::size_t end, std::vector<BorderPoint>& points) {
   constexpr double inside_by = 1.0 - 2e-3;  // as along the sides of polygons
-  const PlacedFacet seen = plane.seen(master);
-  const double half = 0.5 * measure(slave), at = seen.x[end][0], gap = seen.x[end][2];
+  const double half = 0.5 * slave.measure(), at = seen.x[end][0], gap = seen.x[end][2];
   if (!(std::abs(at) < inside_by * half) || !(gap < 0.0)) return;
   const double sign = at > seen.x[1 - end][0] ? 1.0 : -1.0;
-  points.push_back({{at / half, 0.0}, {end == 0 ? -1.0 : 1.0, 0.0}, 1.0, gap, scaled(plane.e_1, sign)});
+  points.push_back({{at / half, 0.0}, {end == 0 ? -1.0 : 1.0, 0.0}, 1.0, gap, scaled(slave.axis_1(), sign)});
 }
 
 }  // namespace
 
-void add_border(const PlacedFacet& slave, const PlacedFacet& master, std::size_t edge,
+void add_border(const OverlapColumn& slave, const PlacedFacet& seen, std::size_t edge,
                 std::vector<BorderPoint>& points) {
   static const std::vector<QuadraturePoint> rule = gauss_legendre(3);
-  const SlavePlane plane(slave);
-  if (slave.size == 2) {
-    add_end(slave, plane, master, edge, points);
+  if (seen.size == 2) {
+    add_end(slave, seen, edge, points);
     return;
   }
-  const PlacedFacet seen_slave = plane.seen(slave), seen = plane.seen(master);
-  const SeenFacet over_slave{BilinearPatch(seen_slave), slave.size};
-  const auto next = (edge + 1) % static_cast<std::size_t>(master.size);
-  const Point a{seen.x[edge][0], seen.x[edge][1]}, b{seen.x[next][0], seen.x[next][1]};
-  Point middle{};
+  const SeenFacet over_slave{BilinearPatch(slave.seen()), slave.seen().size};
+  const auto next = (edge + 1) % static_cast<std::size_t>(seen.size);
+  const PlanePoint a{seen.x[edge][0], seen.x[edge][1]}, b{seen.x[next][0], seen.x[next][1]};
+  PlanePoint middle{};
   for (std::size_t c = 0; c < static_cast<std::size_t>(seen.size); ++c)
     for (std::size_t k = 0; k < 2; ++k) middle[k] += seen.x[c][k] / seen.size;
   const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
   if (!(length > 0.0)) return;
   const double side = area_of(a, b, middle) > 0.0 ? 1.0 : -1.0;  // the master lies on the left: outward is the right
-  const Vec3 outward =
-      add(scaled(plane.e_1, side * (b[1] - a[1]) / length), scaled(plane.e_2, -side * (b[0] - a[0]) / length));
+  const Vec3 outward = add(scaled(slave.axis_1(), side * (b[1] - a[1]) / length),
+                           scaled(slave.axis_2(), -side * (b[0] - a[0]) / length));
   const double gap_a = seen.x[edge][2] - over_slave.height(a), gap_b = seen.x[next][2] - over_slave.height(b);
-  const Shadow shadow(seen_slave);
-  for (std::size_t i = 0; i < shadow.count; ++i) {
-    Stretch stretch = inside(a, b, shadow.part[i]);
+  for (std::size_t i = 0; i < slave.shadow().count; ++i) {
+    Stretch stretch = inside(a, b, slave.shadow().part[i]);
     stretch.keep_positive(-gap_a, -gap_b);
     if (!(stretch.high > stretch.low)) continue;
     for (const QuadraturePoint& point : rule) {
       const double s = 0.5 * (stretch.low + stretch.high) + 0.5 * (stretch.high - stretch.low) * point.x;
-      const Point p{a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])};
+      const PlanePoint p{a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])};
       const std::optional<ParentPoint> on_slave = over_slave.over(p);
       if (!on_slave) continue;
       const double gap = seen.x[edge][2] + s * (seen.x[next][2] - seen.x[edge][2]) - over_slave.height(p);
       if (gap < 0.0)
-        points.push_back({*on_slave, on_edge(master.size, edge, s),
+        points.push_back({*on_slave, on_edge(seen.size, edge, s),
                           0.5 * point.weight * (stretch.high - stretch.low) * length, gap, outward});
     }
   }
+}
+
+void hide_layers(const OverlapColumn& column, std::span<const ColumnMaster> masters,
+                 std::vector<OverlapPoint>& points) {
+  for (const ColumnMaster& own : masters) {
+    for (std::size_t q = own.begin; q < own.end; ++q) {
+      const Vec3 x = facet_position(column.placed(), points[q].slave.xi, points[q].slave.eta);
+      for (const ColumnMaster& other : masters) {
+        if (other.facet == own.facet) continue;
+        const std::optional<RayHit> hit = intersect(other.placed, x, column.normal());
+        if (hit && std::abs(hit->distance) < std::abs(points[q].gap)) points[q].weight = 0.0;
+      }
+    }
+  }
+}
+
+bool is_in_front(const PlacedFacet& slave, const PlacedFacet& master, const OverlapPoint& point, double size) {
+  constexpr double round_off = 1e-9;  // bodies that touch each other at the start are in front of each other
+  const Vec3 way = subtract(facet_position(master, point.master.xi, point.master.eta),
+                            facet_position(slave, point.slave.xi, point.slave.eta));
+  return dot(way, facet_frame(slave, point.slave.xi, point.slave.eta).normal) >= -round_off * size;
 }
 
 }  // namespace carom

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "base/types.hpp"
 #include "contact/facet_geometry.hpp"
+#include "contact/overlap_column.hpp"
 
 namespace carom {
 
@@ -15,18 +17,6 @@ struct OverlapPoint {
   double weight = 0.0;        ///< area (length for segments) of the slave that the point stands for
   double gap = 0.0;           ///< (x_master - x_slave) . n_0: positive when the master lies on the slave's outer side
 };
-
-/// Appends the quadrature points of the part of the slave that lies under the master, seen along the slave's normal n_0
-/// at its centre, and returns their number. Which side the master shows is not looked at: that is the caller's choice,
-/// as is the largest gap. Both facets are projected on the plane through the slave's centre with normal n_0 and clipped
-/// against each other (Sutherland and Hodgman, Comm. ACM 17, 1974; contact: Puso and Laursen, Comput. Methods Appl.
-/// Mech. Engrg. 193, 2004, section 5). The overlap is divided into triangles, from its centroid where
-/// one of the facets is a quadrilateral and else from one corner, with the rule of 7 points and degree 5 (Radon 1948;
-/// Strang and Fix 1973) on each; on segments 3 Gauss points. weight = dA |a_1 x a_2| /
-/// (n_0 . a_1 x a_2), the true area on a warped slave, too. On flat facets whose parametrisation is affine N_a N_b is
-/// integrated exactly. A facet that is not convex when projected is split into two triangles. Overlaps below 1e-12 of
-/// the smaller facet's area are dropped. Both facets: segments, or triangles and quadrilaterals.
-int add_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector<OverlapPoint>& points);
 
 /// Which points stand for an overlap.
 struct OverlapRule {
@@ -47,7 +37,18 @@ struct OverlapExtent {
   double area = 0.0;
   double least_gap = std::numeric_limits<double>::infinity();  ///< at the polygon's corners
 };
-OverlapExtent add_overlap(const PlacedFacet& slave, const PlacedFacet& master, const OverlapRule& rule,
+
+/// Appends the quadrature points of the part of the slave that lies under a master, seen along the slave's normal n_0
+/// at its centre; the master is given in the axes of the slave's column. Which side the master shows is not looked at:
+/// that is the caller's choice, as is the largest gap. The shadows of both facets in the plane through the slave's
+/// centre with normal n_0 are clipped against each other (polygon.hpp; contact: Puso and Laursen, Comput. Methods Appl.
+/// Mech. Engrg. 193, 2004, section 5). The overlap is divided into triangles, from its centroid where
+/// one of the facets is a quadrilateral and else from one corner, with the rule of 7 points and degree 5 (Radon 1948;
+/// Strang and Fix 1973) on each; on segments 3 Gauss points. weight = dA |a_1 x a_2| /
+/// (n_0 . a_1 x a_2), the true area on a warped slave, too. On flat facets whose parametrisation is affine N_a N_b is
+/// integrated exactly. Overlaps below 1e-12 of the smaller facet's area are dropped. Both facets: segments, or
+/// triangles and quadrilaterals.
+OverlapExtent add_overlap(const OverlapColumn& slave, const PlacedFacet& seen_master, const OverlapRule& rule,
                           std::vector<OverlapPoint>& points);
 
 /// A point of the master's border over the slave.
@@ -61,7 +62,21 @@ struct BorderPoint {
 /// Appends points of edge `edge` of the master (from its node `edge` to the next; of a segment that node) where it lies
 /// over the inside of the slave, by more than round-off, and behind it: 3 Gauss points. An overlap grows by what this
 /// border moves outward.
-void add_border(const PlacedFacet& slave, const PlacedFacet& master, std::size_t edge,
+void add_border(const OverlapColumn& slave, const PlacedFacet& seen_master, std::size_t edge,
                 std::vector<BorderPoint>& points);
+
+/// A master facet that lies in a column, and the range of its points in a list.
+struct ColumnMaster {
+  Index facet;
+  PlacedFacet placed, seen;  ///< seen: in the axes of the column
+  std::size_t begin, end;
+};
+
+/// Sets the weight of every point to zero that has another master nearer along the normal.
+void hide_layers(const OverlapColumn& column, std::span<const ColumnMaster> masters, std::vector<OverlapPoint>& points);
+
+/// True when the master's point lies on the slave's outer side, or by no more than rounding behind it, the facets being
+/// given where they stood. size: of the facets.
+bool is_in_front(const PlacedFacet& slave, const PlacedFacet& master, const OverlapPoint& point, double size);
 
 }  // namespace carom

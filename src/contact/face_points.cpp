@@ -26,6 +26,15 @@ double facing_factor(double c) {
   return t * t * (3.0 - 2.0 * t);
 }
 
+double radius_about(const Vec3& centre, const PlacedFacet& facet) {
+  double most = 0.0;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) {
+    const Vec3 r = subtract(facet.x[a], centre);
+    most = std::max(most, dot(r, r));
+  }
+  return std::sqrt(most);
+}
+
 /// Facets beside each edge (segment: end) of a facet, -1 where there is none.
 std::vector<std::array<Index, 4>> facets_beside(std::span<const Facet> facets) {
   std::map<std::array<Index, 2>, std::vector<std::pair<std::size_t, std::size_t>>> at;
@@ -51,22 +60,35 @@ std::vector<std::array<Index, 4>> facets_beside(std::span<const Facet> facets) {
 struct FaceOverlaps::Slave : OverlapColumn {
   std::size_t f;
   PlacedFacet reference;
+  double radius = 0.0;  ///< of a ball about its centre that holds it
 
   Slave(std::size_t number, const PlacedFacet& now, const PlacedFacet& before)
-      : OverlapColumn(now), f(number), reference(before) {}
-  /// Reference measure over the current one.
-  double measure_at(const ParentPoint& at) const {
-    const FacetShape shape = facet_shape(placed.size, at.xi, at.eta);
-    const double now = facet_frame(placed, shape).jacobian;
-    return now > 0.0 ? facet_frame(reference, shape).jacobian / now : 0.0;
+      : OverlapColumn(now),
+        f(number),
+        reference(before),
+        radius(radius_about(frame().position, now)),
+        quotient_(now.size == 4 ? 0.0 : quotient_at(facet_centre(now.size))) {}
+  /// Reference measure over the current one; the same everywhere but on quadrilaterals.
+  double measure_at(const ParentPoint& at) const { return placed().size == 4 ? quotient_at(at) : quotient_; }
+
+ private:
+  double quotient_at(const ParentPoint& at) const {
+    const FacetShape shape = facet_shape(placed().size, at.xi, at.eta);
+    const auto jacobian = [&](const PlacedFacet& facet) {
+      const FacetFrame tangents = facet_tangents(facet, shape);
+      return norm(cross(tangents.a_1, tangents.a_2));
+    };
+    const double now = jacobian(placed());
+    return now > 0.0 ? jacobian(reference) / now : 0.0;
   }
+
+  double quotient_;
 };
 
 /// How a master facet in the column faces the slave.
 struct FaceOverlaps::Met {
-  FacetFrame frame;  ///< at its centre
-  double facing;     ///< c
-  double area;       ///< of the overlap
+  double facing;  ///< c
+  double area;    ///< of the overlap
 };
 
 /// The overlaps of a column in the making.
@@ -91,16 +113,18 @@ FaceOverlaps::FaceOverlaps(const Model& model, const Surface& slave, const Surfa
 void FaceOverlaps::update(const ContactMotion& motion, std::vector<std::array<Index, 4>> behind) {
   broad_phase_.update(motion.x_begin, motion.displacement);
   behind_ = std::move(behind);
+  looks_.resize(broad_phase_.pair_count() > 0 ? master_faces_.size() : 0);
+  parallel_each(looks_.size(), [&](std::size_t g) {
+    const PlacedFacet facet = place(master_facet(static_cast<Index>(g)), motion.x);
+    const ParentPoint centre = facet_centre(facet.size);
+    const FacetFrame frame = facet_frame(facet, centre.xi, centre.eta);
+    looks_[g] = {frame.position, frame.normal, radius_about(frame.position, facet)};
+  });
 }
 
 /// True when a corner of the slave facet was behind this facet or one beside it that goes on with it, and that faced
 /// the slave: what is deep under it has gone in there, and is not the far side of a thin part.
-bool FaceOverlaps::was_behind(const Slave& slave, Index g, const ContactMotion& motion) const {
-  const auto normal = [&](Index f) {
-    const PlacedFacet facet = place(master_facet(f), motion.x);
-    const ParentPoint centre = facet_centre(facet.size);
-    return facet_frame(facet, centre.xi, centre.eta).normal;
-  };
+bool FaceOverlaps::was_behind(const Slave& slave, Index g) const {
   const Facet& facet = master_facet(g);
   return std::any_of(behind_[slave.f].begin(), behind_[slave.f].end(), [&](Index met) {
     if (met < 0 || met == g) return met == g;
@@ -108,40 +132,42 @@ bool FaceOverlaps::was_behind(const Slave& slave, Index g, const ContactMotion& 
     const bool is_beside = std::any_of(
         other.begin(), other.end(), [&](Index n) { return std::find(facet.begin(), facet.end(), n) != facet.end(); });
     if (!is_beside) return false;
-    const Vec3 n = normal(met);
-    return dot(n, normal(g)) > going_on && -dot(n, slave.normal()) > least_facing_of_faces;
+    const Vec3& n = looks_[static_cast<std::size_t>(met)].normal;
+    return dot(n, looks_[static_cast<std::size_t>(g)].normal) > going_on &&
+           -dot(n, slave.normal()) > least_facing_of_faces;
   });
 }
 
 /// Enters master g and appends its points, if it counts.
 void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& motion, Work& work) const {
-  const PlacedFacet master = place(master_facet(g), motion.x);
-  if (!slave.may_overlap(master, face_look * size_)) return;
-  const ParentPoint centre = facet_centre(master.size);
-  const FacetFrame frame = facet_frame(master, centre.xi, centre.eta);
-  const double facing = -dot(frame.normal, slave.normal());
+  const Look& look = looks_[static_cast<std::size_t>(g)];
+  const double facing = -dot(look.normal, slave.normal());
   if (facing <= least_facing_of_faces) return;
+  const Vec3 away = subtract(look.centre, slave.frame().position);
+  const double height = dot(away, slave.normal()), reach = slave.radius + look.radius;
+  if (dot(away, away) - height * height > reach * reach || height > face_look * size_ + reach) return;
+  const PlacedFacet master = place(master_facet(g), motion.x), seen = slave.seen(master);
+  if (!slave.may_overlap(seen, face_look * size_)) return;
   const bool is_high = !slave_faces_[slave.f].is_linear || !master_face(g).is_linear;
   const std::size_t before = work.points.size();
-  const OverlapExtent extent = add_overlap(slave.placed, master, {is_high || is_whole_, !is_whole_}, work.points);
+  const OverlapExtent extent = add_overlap(slave, seen, {is_high || is_whole_, !is_whole_}, work.points);
   if (work.points.size() == before) return;
   // Without a history, at the start, all counts that is not the far side of a thin part.
   const double most = motion.history.empty() ? depth_[static_cast<std::size_t>(g)] : sideways_depth * size_;
   const bool is_deep = extent.least_gap < -most;
   // A sliver ten times as deep as wide belongs to what passes by the border of the other facet.
-  const double length = slave.placed.size == 2 ? 1.0 : std::sqrt(measure(slave.placed));
+  const double length = slave.placed().size == 2 ? 1.0 : std::sqrt(slave.measure());
   const bool is_wide = extent.area >= -0.1 * extent.least_gap * length;
   const auto was_in_front = [&] {
     return is_in_front(place(slave_.facets[slave.f], motion.x_begin), place(master_facet(g), motion.x_begin),
                        work.points[before], size_);
   };
-  if (extent.least_gap > face_look * size_ ||
-      (is_deep && !(is_wide && was_behind(slave, g, motion)) && !was_in_front())) {
+  if (extent.least_gap > face_look * size_ || (is_deep && !(is_wide && was_behind(slave, g)) && !was_in_front())) {
     work.points.resize(before);
     return;
   }
-  work.masters.push_back({g, master, before, work.points.size()});
-  work.met.push_back({frame, facing, extent.area});
+  work.masters.push_back({g, master, seen, before, work.points.size()});
+  work.met.push_back({facing, extent.area});
 }
 
 void FaceOverlaps::find(std::size_t f, const ContactMotion& motion, FacetPoints& found) const {
@@ -156,54 +182,53 @@ void FaceOverlaps::find(std::size_t f, const ContactMotion& motion, FacetPoints&
   for (const Index g : candidates) add_master(slave, g, motion, work);
   double covered = 0.0;
   for (const Met& met : work.met) covered += met.area;
-  if (covered > measure(slave.placed) * (1.0 + 1e-6)) hide_layers(slave, work.masters, work.points);
+  if (covered > slave.measure() * (1.0 + 1e-6)) hide_layers(slave, work.masters, work.points);
   found.normal = slave.normal();
-  found.turn = turn_of_normal(slave.placed, slave.frame);
+  found.turn = turn_of_normal(slave.placed(), slave.frame());
   for (std::size_t k = 0; k < work.masters.size(); ++k) {
     const ColumnMaster& master = work.masters[k];
-    const FacetFrame& frame = work.met[k].frame;
+    const ParentPoint centre = facet_centre(master.placed.size);
+    const FacetFrame frame = facet_frame(master.placed, centre.xi, centre.eta);
     found.masters.push_back({master.facet, frame.normal, turn_of_normal(master.placed, frame)});
     for (std::size_t q = master.begin; q < master.end; ++q)
-      if (work.points[q].weight > 0.0) add_point(slave, work.met[k].facing, work.points[q], motion, found);
+      if (work.points[q].weight > 0.0)
+        add_point(slave, master.placed, work.met[k].facing, work.points[q], motion, found);
   }
   if (is_whole_ || !(found.least_gap < 0.0)) return;
-  for (std::size_t k = 0; k < work.masters.size(); ++k) add_borders(slave, work, k, motion, found);
+  for (std::size_t k = 0; k < work.masters.size(); ++k) add_borders(slave, work, k, found);
 }
 
 /// Reference thickness of the slave at a point: 1 in three dimensions.
 double FaceOverlaps::width_at(const Slave& slave, const ParentPoint& at) const {
-  if (slave.placed.size > 2) return 1.0;
+  if (slave.placed().size > 2) return 1.0;
   if (slave_.section != Section::axisymmetric) return slave_.thickness;
   return 2.0 * std::numbers::pi * facet_position(slave.reference, at.xi, at.eta)[0];
 }
 
 /// True when the master's surface does not go on beyond an edge with a facet that is turned by little: there the parts
 /// of both facets cancel.
-bool FaceOverlaps::ends_at(Index master, const Vec3& normal, std::size_t edge, const ContactMotion& motion) const {
+bool FaceOverlaps::ends_at(Index master, std::size_t edge) const {
   const Index next = beside_[static_cast<std::size_t>(master)][edge];
-  if (next < 0) return true;
-  const PlacedFacet facet = place(master_facet(next), motion.x);
-  const ParentPoint centre = facet_centre(facet.size);
-  return dot(facet_frame(facet, centre.xi, centre.eta).normal, normal) < smooth_edge;
+  const auto normal = [&](Index g) { return looks_[static_cast<std::size_t>(g)].normal; };
+  return next < 0 || dot(normal(next), normal(master)) < smooth_edge;
 }
 
-void FaceOverlaps::add_borders(const Slave& slave, const Work& work, std::size_t k, const ContactMotion& motion,
-                               FacetPoints& found) const {
+void FaceOverlaps::add_borders(const Slave& slave, const Work& work, std::size_t k, FacetPoints& found) const {
   const ColumnMaster& master = work.masters[k];
   const ParentFace &own = slave_faces_[slave.f], &other = master_face(master.facet);
   const double s = facing_factor(work.met[k].facing);
   std::vector<BorderPoint> border;
   for (std::size_t edge = 0; edge < static_cast<std::size_t>(master.placed.size); ++edge) {
-    if (!ends_at(master.facet, work.met[k].frame.normal, edge, motion)) continue;
+    if (!ends_at(master.facet, edge)) continue;
     border.clear();
-    add_border(slave.placed, master.placed, edge, border);
+    add_border(slave, master.seen, edge, border);
     for (const BorderPoint& at : border) {
       FacePoint point;
       point.weight = at.length * slave.measure_at(at.slave) * width_at(slave, at.slave);
       point.gap = s * at.gap;
       point.rise = at.gap;
       point.master = k;
-      point.share = facet_shape(slave.placed.size, at.slave.xi, at.slave.eta).N;
+      point.share = facet_shape(slave.placed().size, at.slave.xi, at.slave.eta).N;
       point.N = point.N_slide = face_shape(own, in_parent(own, slave_.facets[slave.f], at.slave)).N;
       point.N_master = face_shape(other, in_parent(other, master_facet(master.facet), at.master)).N;
       point.along = at.outward;
@@ -235,33 +260,47 @@ ParentPoint on_line(const ParentFace& face, std::span<const Vec3> x_nodes, const
 
 }  // namespace
 
-/// A point of the last master found.
-void FaceOverlaps::add_point(const Slave& slave, double facing, const OverlapPoint& at, const ContactMotion& motion,
-                             FacetPoints& found) const {
+/// A point of the last master found, which is at placed_master.
+void FaceOverlaps::add_point(const Slave& slave, const PlacedFacet& placed_master, double facing,
+                             const OverlapPoint& at, const ContactMotion& motion, FacetPoints& found) const {
   const FacetPoints::Master& master = found.masters.back();
   const ParentFace &own = slave_faces_[slave.f], &other = master_face(master.facet);
   const Facet& facet = slave_.facets[slave.f];
-  const FaceShape shape = face_shape(own, in_parent(own, facet, at.slave));
+  const FacetShape facet_N = facet_shape(facet.size, at.slave.xi, at.slave.eta);
   FacePoint point;
-  point.position = face_frame(own, shape, motion.x).position;
-  ParentPoint on_other = in_parent(other, master_facet(master.facet), at.master);
-  if (!own.is_linear || !other.is_linear) on_other = on_line(other, motion.x, point.position, slave.normal(), on_other);
-  const FaceShape other_shape = face_shape(other, on_other);
-  const FacetFrame there = face_frame(other, other_shape, motion.x);
-  const double cosine = dot(there.normal, slave.normal());
+  point.share = facet_N.N;
+  Vec3 other_normal;
+  double g = at.gap;
+  if (own.is_linear && other.is_linear) {
+    const FacetShape other_N = facet_shape(placed_master.size, at.master.xi, at.master.eta);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) {
+      point.N[a] = facet_N.N[a];
+      point.position = add(point.position, scaled(slave.placed().x[a], facet_N.N[a]));
+    }
+    std::copy(other_N.N.begin(), other_N.N.end(), point.N_master.begin());
+    other_normal = placed_master.size == 4 ? facet_frame(placed_master, other_N).normal : master.normal;
+  } else {
+    const FaceShape shape = face_shape(own, in_parent(own, facet, at.slave));
+    point.N = shape.N;
+    point.position = face_frame(own, shape, motion.x).position;
+    const ParentPoint near = in_parent(other, master_facet(master.facet), at.master);
+    const FaceShape other_shape = face_shape(other, on_line(other, motion.x, point.position, slave.normal(), near));
+    const FacetFrame there = face_frame(other, other_shape, motion.x);
+    point.N_master = other_shape.N;
+    other_normal = there.normal;
+    g = dot(subtract(there.position, point.position), slave.normal());
+  }
+  point.N_slide = point.N;
+  const double cosine = dot(other_normal, slave.normal());
   if (!(cosine < -0.5 * least_facing_of_faces)) return;
-  const double g = dot(subtract(there.position, point.position), slave.normal());
   const double t = (facing - least_facing_of_faces) / (1.0 - least_facing_of_faces);
   const double s = facing_factor(facing);
   const double of_facing = g * 6.0 * t * (1.0 - t) / (1.0 - least_facing_of_faces);  // dg~ / dc
-  const Vec3 m = scaled(there.normal, 1.0 / cosine);
+  const Vec3 m = scaled(other_normal, 1.0 / cosine);
   point.weight = at.weight * slave.measure_at(at.slave) * width_at(slave, at.slave);
   point.gap = s * g;
   point.rise = g;
   point.master = found.masters.size() - 1;
-  point.share = facet_shape(facet.size, at.slave.xi, at.slave.eta).N;
-  point.N = point.N_slide = shape.N;
-  point.N_master = other_shape.N;
   point.along = scaled(m, s);
   point.of_turn = add(scaled(m, s * g), scaled(master.normal, of_facing));
   point.of_master_turn = scaled(slave.normal(), of_facing);

@@ -82,15 +82,19 @@ class FaceOverlaps : public FacePointFinder {
  private:
   struct Slave;
   struct Met;
+  /// A master facet at motion.x: its middle, its normal there, and a ball about the middle that holds it.
+  struct Look {
+    Vec3 centre{}, normal{};
+    double radius = 0.0;
+  };
   struct Work;
   void add_master(const Slave& slave, Index g, const ContactMotion& motion, Work& work) const;
-  bool was_behind(const Slave& slave, Index g, const ContactMotion& motion) const;
-  void add_borders(const Slave& slave, const Work& work, std::size_t k, const ContactMotion& motion,
-                   FacetPoints& found) const;
+  bool was_behind(const Slave& slave, Index g) const;
+  void add_borders(const Slave& slave, const Work& work, std::size_t k, FacetPoints& found) const;
   double width_at(const Slave& slave, const ParentPoint& at) const;
-  bool ends_at(Index master, const Vec3& normal, std::size_t edge, const ContactMotion& motion) const;
-  void add_point(const Slave& slave, double facing, const OverlapPoint& at, const ContactMotion& motion,
-                 FacetPoints& found) const;
+  bool ends_at(Index master, std::size_t edge) const;
+  void add_point(const Slave& slave, const PlacedFacet& placed_master, double facing, const OverlapPoint& at,
+                 const ContactMotion& motion, FacetPoints& found) const;
 
   std::span<const Vec3> X_;
   Surface slave_;
@@ -101,6 +105,7 @@ class FaceOverlaps : public FacePointFinder {
   std::vector<std::array<Index, 4>> beside_;  ///< by master facet and edge (segment: end): the facet there, -1: none
   BroadPhase broad_phase_;
   std::vector<std::array<Index, 4>> behind_;
+  std::vector<Look> looks_;  ///< of the master facets
 };
 
 }  // namespace carom

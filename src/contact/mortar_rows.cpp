@@ -148,12 +148,13 @@ void MortarRows::append(const ContactMotion& motion, Index first_slot, Constrain
 /// Appends the points of the overlap with master g, if it counts.
 bool MortarRows::add_points(std::size_t f, Index g, const OverlapColumn& slave, const ContactMotion& motion,
                             std::vector<OverlapPoint>& points) const {
-  const PlacedFacet master = place(broad_phase_.targets()[g], motion.x);
-  if (!slave.may_overlap(master, look * size_)) return false;
+  const PlacedFacet master = place(broad_phase_.targets()[g], motion.x), seen = slave.seen(master);
+  if (!slave.may_overlap(seen, look * size_)) return false;
   const ParentPoint centre = facet_centre(master.size);
   if (dot(facet_frame(master, centre.xi, centre.eta).normal, slave.normal()) >= least_facing) return false;
   const std::size_t before = points.size();
-  if (add_overlap(slave.placed, master, points) == 0) return false;
+  add_overlap(slave, seen, {}, points);
+  if (points.size() == before) return false;
   const auto nearest = std::min_element(points.begin() + static_cast<std::ptrdiff_t>(before), points.end(),
                                         [](const OverlapPoint& a, const OverlapPoint& b) { return a.gap < b.gap; });
   const bool is_deep = nearest->gap < -depth_[g];
@@ -176,18 +177,18 @@ void MortarRows::integrate(std::size_t f, const ContactMotion& motion, FacetSums
   for (const Index g : candidates) {
     const std::size_t begin = points.size();
     if (add_points(f, g, slave, motion, points))
-      overlaps.push_back({g, place(broad_phase_.targets()[g], motion.x), begin, points.size()});
+      overlaps.push_back({g, place(broad_phase_.targets()[g], motion.x), {}, begin, points.size()});
   }
   if (points.empty()) return;
   double covered = 0.0;
   for (const OverlapPoint& point : points) covered += point.weight;
-  const double area = measure(slave.placed);
+  const double area = slave.measure();
   if (covered > area * (1.0 + 1e-6)) hide_layers(slave, overlaps, points);
   const PlacedFacet reference = place(slave_.facets[f], X_);
   const double stretch = measure(reference) / area, width = reference.size == 2 ? slave_.thickness : 1.0;
   const bool is_ring = slave_.section == Section::axisymmetric;
   sums.normal = slave.normal();
-  sums.turn = turn_of_normal(slave.placed, slave.frame);
+  sums.turn = turn_of_normal(slave.placed(), slave.frame());
   for (const ColumnMaster& overlap : overlaps) {
     sums.masters.push_back({overlap.facet});
     for (std::size_t q = overlap.begin; q < overlap.end; ++q) {

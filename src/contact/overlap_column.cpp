@@ -1,13 +1,20 @@
 #include "contact/overlap_column.hpp"
 
 #include <cmath>
-#include <optional>
 
-#include "contact/facet_projection.hpp"
 #include "contact/pair_rows.hpp"
 #include "math/vec3.hpp"
 
 namespace carom {
+namespace {
+
+Bounds extent_of(const PlacedFacet& facet) {
+  Bounds bounds;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) bounds.include(facet.x[a]);
+  return bounds;
+}
+
+}  // namespace
 
 std::array<Vec3, 4> turn_of_normal(const PlacedFacet& facet, const FacetFrame& at_centre) {
   const ParentPoint centre = facet_centre(facet.size);
@@ -19,49 +26,30 @@ std::array<Vec3, 4> turn_of_normal(const PlacedFacet& facet, const FacetFrame& a
   return turn;
 }
 
-OverlapColumn::OverlapColumn(const PlacedFacet& facet) : placed(facet) {
+OverlapColumn::OverlapColumn(const PlacedFacet& facet) : placed_(facet), measure_(carom::measure(facet)) {
   const ParentPoint centre = facet_centre(facet.size);
-  frame = facet_frame(facet, centre.xi, centre.eta);
-  axis_1 = normalized(frame.a_1);
-  axis_2 = cross(frame.normal, axis_1);
-  extent = extent_of(facet);
+  frame_ = facet_frame(facet, centre.xi, centre.eta);
+  axis_1_ = normalized(frame_.a_1);
+  axis_2_ = cross(frame_.normal, axis_1_);
+  seen_ = seen(facet);
+  extent_ = extent_of(seen_);
+  if (facet.size > 2) shadow_ = Shadow(seen_);
 }
 
-Bounds OverlapColumn::extent_of(const PlacedFacet& facet) const {
-  Bounds bounds;
+PlacedFacet OverlapColumn::seen(const PlacedFacet& facet) const {
+  PlacedFacet local{{}, facet.size};
   for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) {
-    const Vec3 r = subtract(facet.x[a], frame.position);
-    bounds.include(Vec3{dot(r, axis_1), dot(r, axis_2), dot(r, frame.normal)});
+    const Vec3 r = subtract(facet.x[a], frame_.position);
+    local.x[a] = {dot(r, axis_1_), dot(r, axis_2_), dot(r, frame_.normal)};
   }
-  return bounds;
+  return local;
 }
 
-bool OverlapColumn::may_overlap(const PlacedFacet& other, double reach) const {
-  Bounds column = extent;
+bool OverlapColumn::may_overlap(const PlacedFacet& seen_facet, double reach) const {
+  Bounds column = extent_;
   column.low[2] = -INFINITY;
   column.high[2] += reach;
-  return column.overlaps(extent_of(other));
-}
-
-void hide_layers(const OverlapColumn& column, std::span<const ColumnMaster> masters,
-                 std::vector<OverlapPoint>& points) {
-  for (const ColumnMaster& own : masters) {
-    for (std::size_t q = own.begin; q < own.end; ++q) {
-      const Vec3 x = facet_position(column.placed, points[q].slave.xi, points[q].slave.eta);
-      for (const ColumnMaster& other : masters) {
-        if (other.facet == own.facet) continue;
-        const std::optional<RayHit> hit = intersect(other.placed, x, column.normal());
-        if (hit && std::abs(hit->distance) < std::abs(points[q].gap)) points[q].weight = 0.0;
-      }
-    }
-  }
-}
-
-bool is_in_front(const PlacedFacet& slave, const PlacedFacet& master, const OverlapPoint& point, double size) {
-  constexpr double round_off = 1e-9;  // bodies that touch each other at the start are in front of each other
-  const Vec3 way = subtract(facet_position(master, point.master.xi, point.master.eta),
-                            facet_position(slave, point.slave.xi, point.slave.eta));
-  return dot(way, facet_frame(slave, point.slave.xi, point.slave.eta).normal) >= -round_off * size;
+  return column.overlaps(extent_of(seen_facet));
 }
 
 }  // namespace carom

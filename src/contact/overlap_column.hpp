@@ -2,11 +2,10 @@
 #pragma once
 
 #include <array>
-#include <span>
-#include <vector>
 
 #include "contact/box_tree.hpp"
-#include "contact/clipping.hpp"
+#include "contact/facet_geometry.hpp"
+#include "contact/polygon.hpp"
 
 namespace carom {
 
@@ -14,34 +13,35 @@ namespace carom {
 /// dn = - sum over b of turn_b (n . du_b)   (1 / length).
 std::array<Vec3, 4> turn_of_normal(const PlacedFacet& facet, const FacetFrame& at_centre);
 
-/// A slave facet at its current position, and its extent along its plane's axes and normal at the centre.
-struct OverlapColumn {
-  PlacedFacet placed;
-  FacetFrame frame;  ///< at the centre
-  Vec3 axis_1, axis_2;
-  Bounds extent;
-
+/// A slave facet at its current position, and all that is seen in the axes of its plane: origin at its centre, x and y
+/// in the plane, z along its normal there.
+class OverlapColumn {
+ public:
   explicit OverlapColumn(const PlacedFacet& facet);
-  const Vec3& normal() const { return frame.normal; }
-  /// False when the other facet lies nowhere over or under this one, or farther outward than `reach` (length).
-  bool may_overlap(const PlacedFacet& other, double reach) const;
+
+  const PlacedFacet& placed() const { return placed_; }
+  const FacetFrame& frame() const { return frame_; }  ///< at the centre
+  const Vec3& normal() const { return frame_.normal; }
+  const Vec3& axis_1() const { return axis_1_; }
+  const Vec3& axis_2() const { return axis_2_; }
+  double measure() const { return measure_; }        ///< area, or length
+  const PlacedFacet& seen() const { return seen_; }  ///< itself in these axes
+  const Shadow& shadow() const { return shadow_; }   ///< empty for segments
+
+  /// Another facet in these axes.
+  PlacedFacet seen(const PlacedFacet& facet) const;
+  /// False when a facet, given in these axes, lies nowhere over or under this one, or farther outward than `reach`
+  /// (length).
+  bool may_overlap(const PlacedFacet& seen_facet, double reach) const;
 
  private:
-  Bounds extent_of(const PlacedFacet& facet) const;
+  PlacedFacet placed_;
+  FacetFrame frame_;
+  Vec3 axis_1_, axis_2_;
+  PlacedFacet seen_;
+  Bounds extent_;
+  Shadow shadow_;
+  double measure_;
 };
-
-/// A master facet that lies in a column, and the range of its points in a list.
-struct ColumnMaster {
-  Index facet;
-  PlacedFacet placed;
-  std::size_t begin, end;
-};
-
-/// Sets the weight of every point to zero that has another master nearer along the normal.
-void hide_layers(const OverlapColumn& column, std::span<const ColumnMaster> masters, std::vector<OverlapPoint>& points);
-
-/// True when the master's point lies on the slave's outer side, or by no more than rounding behind it, the facets being
-/// given where they stood. size: of the facets.
-bool is_in_front(const PlacedFacet& slave, const PlacedFacet& master, const OverlapPoint& point, double size);
 
 }  // namespace carom

@@ -16,6 +16,14 @@ namespace {
 constexpr double round_off =
     1e-13;  // sums of some thousand weights below 1, 2^-53 each, relative to an area of order 1
 
+/// With 7 points a triangle; returns their number.
+int add_overlap(const PlacedFacet& slave, const PlacedFacet& master, std::vector<OverlapPoint>& points) {
+  const std::size_t before = points.size();
+  const OverlapColumn column(slave);
+  carom::add_overlap(column, column.seen(master), {}, points);
+  return static_cast<int>(points.size() - before);
+}
+
 class Random {
  public:
   explicit Random(unsigned seed) : generator_(seed) {}
