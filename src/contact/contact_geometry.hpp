@@ -24,7 +24,7 @@ struct Penetration {
 /// Makes the rows of all contacts of a model:
 /// - interface cells: four rows per cell (interface_rows.hpp);
 /// - obstacles: one row per node with the area it stands for, or 1 per node (obstacle_rows.hpp);
-/// - pairs: see PairMethod and pair_rows.hpp, mortar_rows.hpp;
+/// - pairs: see PairMethod and pair_rows.hpp, face_rows.hpp;
 /// - stops: one row per node, measure 1;
 /// - ties: one bond per slave node that is tied (tie_rows.hpp);
 /// - after them, linear equations: one bond each (equation_rows.hpp).

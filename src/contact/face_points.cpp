@@ -16,9 +16,10 @@ namespace {
 
 constexpr double face_look = 1.5;              // of the facet size: overlaps within count
 constexpr double least_facing_of_faces = 0.2;  // c_0
-constexpr double going_on = 0.5;               // product of the normals of facets that go on with each other
-constexpr double smooth_edge = 0.9;            // the same, of those whose parts at their common edge cancel
-constexpr double sideways_depth = 0.02;        // of the facet size: deeper, a facet has to come in from the front
+constexpr double least_facing_of_means = 0.5;
+constexpr double going_on = 0.5;         // product of the normals of facets that go on with each other
+constexpr double smooth_edge = 0.9;      // the same, of those whose parts at their common edge cancel
+constexpr double sideways_depth = 0.02;  // of the facet size: deeper, a facet has to come in from the front
 
 /// s as a function of c.
 double facing_factor(double c) {
@@ -98,11 +99,11 @@ struct FaceOverlaps::Work {
   std::vector<OverlapPoint> points;
 };
 
-FaceOverlaps::FaceOverlaps(const Model& model, const Surface& slave, const Surface& master, bool self, bool is_whole)
+FaceOverlaps::FaceOverlaps(const Model& model, const Surface& slave, const Surface& master, bool self, OverlapUse use)
     : X_(model.mesh->coordinates),
       slave_(slave),
       size_(std::max(mean_facet_size(X_, slave.facets), mean_facet_size(X_, master.facets))),
-      is_whole_(is_whole),
+      use_(use),
       depth_(self ? half_thickness(X_, master.facets, bodies_of_nodes(model), size_)
                   : std::vector<double>(master.facets.size(), size_)),
       slave_faces_(parent_faces(*model.mesh, slave.facets)),
@@ -142,18 +143,20 @@ bool FaceOverlaps::was_behind(const Slave& slave, Index g) const {
 void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& motion, Work& work) const {
   const Look& look = looks_[static_cast<std::size_t>(g)];
   const double facing = -dot(look.normal, slave.normal());
-  if (facing <= least_facing_of_faces) return;
+  if (facing <= (use_ == OverlapUse::means ? least_facing_of_means : least_facing_of_faces)) return;
   const Vec3 away = subtract(look.centre, slave.frame().position);
   const double height = dot(away, slave.normal()), reach = slave.radius + look.radius;
   if (dot(away, away) - height * height > reach * reach || height > face_look * size_ + reach) return;
   const PlacedFacet master = place(master_facet(g), motion.x), seen = slave.seen(master);
   if (!slave.may_overlap(seen, face_look * size_)) return;
+  const bool is_whole = use_ != OverlapUse::springs;
   const bool is_high = !slave_faces_[slave.f].is_linear || !master_face(g).is_linear;
   const std::size_t before = work.points.size();
-  const OverlapExtent extent = add_overlap(slave, seen, {is_high || is_whole_, !is_whole_}, work.points);
+  const OverlapExtent extent = add_overlap(slave, seen, {is_high || is_whole, !is_whole}, work.points);
   if (work.points.size() == before) return;
   // Without a history, at the start, all counts that is not the far side of a thin part.
-  const double most = motion.history.empty() ? depth_[static_cast<std::size_t>(g)] : sideways_depth * size_;
+  const bool is_lenient = motion.history.empty() || use_ == OverlapUse::means;
+  const double most = is_lenient ? depth_[static_cast<std::size_t>(g)] : sideways_depth * size_;
   const bool is_deep = extent.least_gap < -most;
   // A sliver ten times as deep as wide belongs to what passes by the border of the other facet.
   const double length = slave.placed().size == 2 ? 1.0 : std::sqrt(slave.measure());
@@ -194,7 +197,7 @@ void FaceOverlaps::find(std::size_t f, const ContactMotion& motion, FacetPoints&
       if (work.points[q].weight > 0.0)
         add_point(slave, master.placed, work.met[k].facing, work.points[q], motion, found);
   }
-  if (is_whole_ || !(found.least_gap < 0.0)) return;
+  if (use_ != OverlapUse::springs || !(found.least_gap < 0.0)) return;
   for (std::size_t k = 0; k < work.masters.size(); ++k) add_borders(slave, work, k, found);
 }
 
@@ -292,9 +295,10 @@ void FaceOverlaps::add_point(const Slave& slave, const PlacedFacet& placed_maste
   }
   point.N_slide = point.N;
   const double cosine = dot(other_normal, slave.normal());
-  if (!(cosine < -0.5 * least_facing_of_faces)) return;
-  const double t = (facing - least_facing_of_faces) / (1.0 - least_facing_of_faces);
-  const double s = facing_factor(facing);
+  const bool is_mean = use_ == OverlapUse::means;
+  if (!(cosine < (is_mean ? -least_facing_of_means : -0.5 * least_facing_of_faces))) return;
+  const double t = is_mean ? 1.0 : (facing - least_facing_of_faces) / (1.0 - least_facing_of_faces);
+  const double s = is_mean ? 1.0 : facing_factor(facing);
   const double of_facing = g * 6.0 * t * (1.0 - t) / (1.0 - least_facing_of_faces);  // dg~ / dc
   const Vec3 m = scaled(other_normal, 1.0 / cosine);
   point.weight = at.weight * slave.measure_at(at.slave) * width_at(slave, at.slave);

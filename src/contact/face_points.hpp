@@ -64,12 +64,18 @@ class FacePointFinder {
   virtual const Facet& master_facet(Index g) const = 0;
 };
 
+/// What the points of overlaps are for.
+enum class OverlapUse {
+  springs,  ///< the energy of what is behind: points there alone, and those of borders
+  shifted,  ///< the same of springs that press where they are open, too: points everywhere, no borders
+  means,    ///< mean gaps: points everywhere, of facets that face each other within 60 degrees; s = 1
+};
+
 /// Two surfaces whose facets are laid over each other.
 class FaceOverlaps : public FacePointFinder {
  public:
-  /// `self`: see PairContact; thin parts are then looked into half as deep as they are thick. Overlaps that are
-  /// `is_whole` have points where they are open, too, and no borders.
-  FaceOverlaps(const Model& model, const Surface& slave, const Surface& master, bool self, bool is_whole);
+  /// `self`: see PairContact; thin parts are then looked into half as deep as they are thick.
+  FaceOverlaps(const Model& model, const Surface& slave, const Surface& master, bool self, OverlapUse use);
 
   void update(const ContactMotion& motion, std::vector<std::array<Index, 4>> behind) override;
   void find(std::size_t f, const ContactMotion& motion, FacetPoints& found) const override;
@@ -99,7 +105,7 @@ class FaceOverlaps : public FacePointFinder {
   std::span<const Vec3> X_;
   Surface slave_;
   double size_;
-  bool is_whole_;
+  OverlapUse use_;
   std::vector<double> depth_;  ///< by master facet: how far behind it overlaps count
   std::vector<ParentFace> slave_faces_, master_faces_;
   std::vector<std::array<Index, 4>> beside_;  ///< by master facet and edge (segment: end): the facet there, -1: none

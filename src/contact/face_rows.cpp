@@ -25,7 +25,7 @@ struct CornerOf {
 class FaceRows : public RowMaker {
  public:
   FaceRows(std::span<const Vec3> X, const Surface& slave, std::unique_ptr<FacePointFinder> finder,
-           const FaceNodes& has_row, const ContactLaw& law, Index source);
+           const FaceNodes& has_row, const ContactLaw& law, OverlapUse use, Index source);
   std::size_t slots() const override { return nodes_.size(); }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override;
@@ -39,15 +39,15 @@ class FaceRows : public RowMaker {
   };
   /// What the points about a node amount to.
   struct Sums {
-    double area = 0.0, force = 0.0, energy = 0.0;  ///< sum of w N^ times 1, f(<S - s g>) and e(<S - s g>)
-    double shift = 0.0;                            ///< S; 0 but for the augmented Lagrangian
-    double depth = 0.0;                            ///< d_A; 0: open
-    double of_facets = 0.0;                        ///< the energy if the surfaces did not bulge out of the facets
+    double area = 0.0, gap = 0.0, force = 0.0, energy = 0.0;  ///< sum of w N^ times 1, s g, f(<S - s g>), e(<S - s g>)
+    double shift = 0.0;                                       ///< S; 0 but for the augmented Lagrangian
+    double depth = 0.0;                                       ///< d_A; 0: open
+    double of_facets = 0.0;  ///< the energy if the surfaces did not bulge out of the facets
     double least_gap = INFINITY;
     Index master = -1;  ///< facet of the deepest point
 
     bool is_closed() const { return depth > 0.0; }
-    double depth_of(double gap) const { return std::max(0.0, shift - gap); }
+    double depth_of(double g) const { return std::max(0.0, shift - g); }
   };
 
   class Blocks;
@@ -61,7 +61,7 @@ class FaceRows : public RowMaker {
 
   Surface slave_;
   ContactLaw law_;
-  bool is_augmented_;
+  bool is_augmented_, is_mean_;
   RowLaw unit_;  ///< the spring e(d), f(d) of a unit of area, over eps_N
   Index source_;
   std::vector<Node> nodes_;
@@ -170,10 +170,11 @@ Index FaceRows::Blocks::append_to(ConstraintRows& rows) {
 }
 
 FaceRows::FaceRows(std::span<const Vec3> X, const Surface& slave, std::unique_ptr<FacePointFinder> finder,
-                   const FaceNodes& has_row, const ContactLaw& law, Index source)
+                   const FaceNodes& has_row, const ContactLaw& law, OverlapUse use, Index source)
     : slave_(slave),
       law_(law),
-      is_augmented_(law.hold == RowHold::multipliers),
+      is_augmented_(use == OverlapUse::shifted),
+      is_mean_(use == OverlapUse::means),
       unit_{.eps_N = 1.0, .linear_depth = is_augmented_ ? INFINITY : law.linear_depth},
       source_(source),
       finder_(std::move(finder)),
@@ -236,6 +237,7 @@ FaceRows::Sums FaceRows::sums_of(const Node& node, double shift) const {
       const double w = q.weight * q.share[at.corner], depth = sums.depth_of(q.gap);
       if (!(w > 0.0)) continue;
       sums.area += w;
+      sums.gap += w * q.gap;
       sums.force += w * unit_.spring_force(depth);
       sums.energy += w * unit_.spring_energy(depth);
       sums.of_facets += w * unit_.spring_energy(std::max(0.0, depth - q.bulge));
@@ -244,7 +246,7 @@ FaceRows::Sums FaceRows::sums_of(const Node& node, double shift) const {
       sums.master = points_[at.facet].masters[q.master].facet;
     }
   }
-  if (sums.least_gap < shift - round_off * finder_->size())
+  if (!is_mean_ && sums.least_gap < shift - round_off * finder_->size())
     sums.depth = depth_of_energy(unit_, sums.energy / node.measure);
   return sums;
 }
@@ -282,12 +284,13 @@ void FaceRows::add_row(const Node& node, double shift, Index slot, const Contact
   if (!(length > 1e-6 * weight)) return;
   // Where nothing penetrates the row stands for what is covered.
   const double measure = sums.is_closed() ? node.measure : std::min(sums.area, node.measure);
-  const double gap = sums.is_closed() ? sums.shift - sums.depth : sums.least_gap;
+  const double gap = sums.is_closed() ? sums.shift - sums.depth : is_mean_ ? sums.gap / sums.area : sums.least_gap;
   RowLaw law = row_law(law_, measure);
   if (sums.is_closed())
     law.mu *=
         std::min(std::max(1.0, sums.area / node.measure), sums.force / (node.measure * unit_.spring_force(sums.depth)));
-  rows.add_row(gap, scaled(along, 1.0 / length), scaled(position, 1.0 / weight), measure, law, source_);
+  const Vec3 at = is_mean_ ? motion.x[node.node] : scaled(position, 1.0 / weight);
+  rows.add_row(gap, scaled(along, 1.0 / length), at, measure, law, source_);
   rows.facet.back() = sums.master;
   if (is_augmented_) {
     rows.shift.back() = sums.shift;
@@ -309,7 +312,7 @@ void FaceRows::add_blocks(const Node& node, const Sums& sums, ConstraintRows& ro
   blocks.begin_with(node.node);
   const auto add = [&](std::size_t f, const FacePoint& q, double w, double mean) {
     blocks.add(f, q, w, mean);
-    if (sums.is_closed()) blocks.add_turning(q, w, mean);
+    if (sums.is_closed() || is_mean_) blocks.add_turning(q, w, mean);
   };
   for_each_weight(node, sums,
                   [&](std::size_t f, const FacetPoints&, const FacePoint& q, double w) { add(f, q, w, w / total); });
@@ -382,19 +385,30 @@ void FaceRows::add_stiffness(const Node& node, double shift, ConstraintRows& row
   }
 }
 
+std::unique_ptr<RowMaker> rows_over(const Model& model, const Surface& slave, const Surface& master, bool self,
+                                    const ContactLaw& law, OverlapUse use, Index source) {
+  return std::make_unique<FaceRows>(model.mesh->coordinates, slave,
+                                    std::make_unique<FaceOverlaps>(model, slave, master, self, use), FaceNodes{}, law,
+                                    use, source);
+}
+
 }  // namespace
 
 std::unique_ptr<RowMaker> face_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
                                     const ContactLaw& law, Index source) {
-  return face_rows(model.mesh->coordinates, slave,
-                   std::make_unique<FaceOverlaps>(model, slave, master, self, law.hold == RowHold::multipliers), {},
-                   law, source);
+  const bool is_shifted = law.hold == RowHold::multipliers;
+  return rows_over(model, slave, master, self, law, is_shifted ? OverlapUse::shifted : OverlapUse::springs, source);
 }
 
 std::unique_ptr<RowMaker> face_rows(std::span<const Vec3> X, const Surface& slave,
                                     std::unique_ptr<FacePointFinder> finder, const FaceNodes& has_row,
                                     const ContactLaw& law, Index source) {
-  return std::make_unique<FaceRows>(X, slave, std::move(finder), has_row, law, source);
+  return std::make_unique<FaceRows>(X, slave, std::move(finder), has_row, law, OverlapUse::springs, source);
+}
+
+std::unique_ptr<RowMaker> mean_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
+                                    const ContactLaw& law, Index source) {
+  return rows_over(model, slave, master, self, law, OverlapUse::means, source);
 }
 
 }  // namespace carom

@@ -15,7 +15,6 @@
 #include "contact/facing_facets.hpp"
 #include "contact/feature_edges.hpp"
 #include "contact/half_thickness.hpp"
-#include "contact/mortar_rows.hpp"
 #include "contact/smooth_points.hpp"
 #include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
@@ -248,7 +247,8 @@ std::unique_ptr<RowMaker> method_rows(const Model& model, const PairContact& con
   const bool both_ways = contact.self || (has_both_passes(contact.method) && !has_points && !is_shifted);
   const ContactLaw law = both_ways ? with_half_stiffness(contact.law) : contact.law;
   if (both_points) return std::make_unique<EndRows>(model, contact.slave, contact.master, law, source);
-  if (contact.method == PairMethod::surface_to_surface && !has_points) return mortar_rows(model, contact, law, source);
+  if (contact.method == PairMethod::surface_to_surface && !has_points)
+    return mean_rows(model, contact.slave, contact.master, contact.self, law, source);
   const auto one_way = [&](const Surface& slave, const Surface& master,
                            const SmoothSides* seen) -> std::unique_ptr<RowMaker> {
     if (contact.method == PairMethod::faces && !has_points)

@@ -26,7 +26,7 @@ namespace carom {
 /// two_pass: the same in both directions, slots of the master nodes after those of the slave nodes. Here and with
 /// `self`, where both sides' nodes are slaves, every row has half of the law's stiffness.
 ///
-/// surface_to_surface: see mortar_rows.hpp.
+/// surface_to_surface: see mean_rows in face_rows.hpp.
 ///
 /// Whatever the method, the sharp edges of solids have rows with edges, in slots after these: see edge_rows.hpp.
 ///

@@ -14,9 +14,9 @@
 
 #include "contact/box_tree.hpp"
 #include "contact/contact_kind.hpp"
+#include "contact/face_rows.hpp"
 #include "contact/facet_geometry.hpp"
 #include "contact/facet_projection.hpp"
-#include "contact/mortar_rows.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
 
@@ -182,7 +182,7 @@ class TieMaker {
     if (!foot || !tie(slave, share, *foot)) note_far(slave);
   }
 
-  /// Row r of mortar_rows, whose first node it belongs to, as a bond.
+  /// Row r of mean_rows, whose first node it belongs to, as a bond.
   void add_mean(const ConstraintRows& means, std::size_t r) {
     const auto begin = static_cast<std::size_t>(means.begin[r]), end = static_cast<std::size_t>(means.begin[r + 1]);
     const std::size_t split = end - static_cast<std::size_t>(means.behind[r]);
@@ -279,15 +279,11 @@ class TieMaker {
 /// By the rows of the same surfaces in contact, where they stand.
 void add_means(const Model& model, const TieContact& contact, Index source, const std::map<Index, double>& slaves,
                TieMaker& made) {
-  PairContact pair;
-  pair.name = contact.name;
-  pair.slave = contact.slave;
-  pair.master = contact.master;
   const std::vector<Vec3>& X = model.mesh->coordinates;
   const std::vector<Vec3> at_rest(X.size());
   const std::vector<double> zero(3 * X.size(), 0.0);
   ConstraintRows means;
-  mortar_rows(model, pair, {}, source)->append({X, X, at_rest, zero}, 0, means);
+  mean_rows(model, contact.slave, contact.master, false, {}, source)->append({X, X, at_rest, zero}, 0, means);
   std::size_t r = 0;
   for (const auto& [node, share] : slaves) {
     if (r < means.size() && means.node[static_cast<std::size_t>(means.begin[r])] == node)

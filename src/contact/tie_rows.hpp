@@ -18,7 +18,7 @@ namespace carom {
 /// turn. Nodes that belong to the facet need no row. The normal of a row is that of the facet, its measure the node's
 /// share of the slave surface.
 ///
-/// surface_to_surface: the rows of mortar_rows instead, made in the reference configuration: w of row A is the mean
+/// surface_to_surface: the rows of mean_rows instead, made in the reference configuration: w of row A is the mean
 /// over the overlaps, with the weight N_A, of what the sides part by,
 ///   w = sum over b of S_b u_b - sum over a of W_a u_a,  both sums of weights 1,
 /// made up in the same way for what the surfaces are apart. Uniform tractions pass exactly. Nodes are too far away of
