@@ -8,16 +8,14 @@ template <class Kind>
 void add_method_and_law(SectionSchema<Kind>& s) {
   s.key_by(
       "method", [](auto& kind) -> auto& { return kind.method; },
-      "Where the gap is measured: at the nodes of one side, of both, or over the overlaps of the faces. faces, for "
-      "the penalty alone, integrates the penetration from both sides: pressure is exact across meshes that match or "
-      "not, of first and second order, and what lies between nodes is seen; pairs in statics by the augmented "
-      "Lagrangian have it from the side of group. Both sides' nodes (two_pass) sink "
-      "nowhere; surface_to_surface sees the mean gap of a node's faces: pressure is exact across flat meshes, and a "
-      "coarse curved face sinks in by part of its rise.",
+      "Where the gap is measured: at the nodes of one side, of both, or over the overlaps of the faces. With faces "
+      "pressure is exact across meshes that match or not, of first and second order, and what lies between nodes is "
+      "seen: springs integrate the penetration from both sides, the other enforcements hold mean gaps over the finer "
+      "side, and nodes of both sides that have sunk in by a hundredth of a face. Both sides' nodes (two_pass) sink "
+      "nowhere; surface_to_surface has the mean gaps of the group's side alone: a coarse curved face sinks in by part "
+      "of its rise.",
       {.choices = {"node_to_surface", "two_pass", "surface_to_surface", "faces"},
-       .default_phrase =
-           "faces in statics with penalty alone, and of pairs in statics with augmented_lagrangian alone, "
-           "where self and all take surface_to_surface; else two_pass"});
+       .default_phrase = "faces where all stages are statics; else two_pass"});
   s.key_by(
       "smooth", [](auto& kind) -> auto& { return kind.smooth; },
       "See facets of linear cells that approximate a smooth surface, whose normals turn by less than 30 degrees from "

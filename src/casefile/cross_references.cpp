@@ -109,38 +109,15 @@ void check_stages(const Case& given) {
   }
 }
 
+template <class Is>
+bool are_all_schemes(const Case& given, const Is& is) {
+  return is(given.scheme) &&
+         std::all_of(given.stages.begin(), given.stages.end(), [&](const CaseStage& s) { return is(s.scheme); });
+}
+
 /// True when all stages enforce contact by springs alone.
 bool is_all_penalty(const Case& given) {
-  const auto is_penalty = [](const CaseScheme& scheme) { return **scheme.enforcement == EnforcementKind::penalty; };
-  return is_penalty(given.scheme) && std::all_of(given.stages.begin(), given.stages.end(),
-                                                 [&](const CaseStage& s) { return is_penalty(s.scheme); });
-}
-
-/// True when all stages are statics with this enforcement.
-bool are_statics_by(EnforcementKind enforcement, const Case& given) {
-  const auto is_one = [enforcement](const CaseScheme& scheme) {
-    return *scheme.kind == SchemeKind::statics && **scheme.enforcement == enforcement;
-  };
-  return is_one(given.scheme) &&
-         std::all_of(given.stages.begin(), given.stages.end(), [&](const CaseStage& s) { return is_one(s.scheme); });
-}
-
-/// The depth of a row of `faces` is a mean square, whose gradient is lost where it is zero: multipliers alone cannot
-/// hold it. Shifted springs can, from one side: no stage of another enforcement goes on from their shifts, and both
-/// sides of one surface would push each other's up.
-void check_methods(const Case& given) {
-  if (is_all_penalty(given)) return;
-  const bool is_augmented = are_statics_by(EnforcementKind::augmented_lagrangian, given);
-  for (std::size_t i = 0; i < given.contacts.size(); ++i) {
-    const CaseSurfaces* surfaces = given.contacts[i].surfaces();
-    if (surfaces == nullptr || !surfaces->method || **surfaces->method != PairMethod::faces) continue;
-    if (is_augmented && !surfaces->is_self) continue;
-    throw CaseError(surfaces->method->where, entry_path("contact", i, "method"),
-                    is_augmented ? "\"faces\" of a surface that touches itself, with multipliers"
-                                 : "\"faces\" with an enforcement that is not penalty",
-                    "enforcement = \"penalty\" with faces, or a pair in statics by \"augmented_lagrangian\" alone",
-                    "Take surface_to_surface or two_pass, or a scheme with penalty in every stage.");
-  }
+  return are_all_schemes(given, [](const CaseScheme& s) { return **s.enforcement == EnforcementKind::penalty; });
 }
 
 /// Points of a smooth surface press by springs, in the place of nodes from both sides.
@@ -249,7 +226,6 @@ void check_references(const Case& given) {
   check_initial_state(given);
   check_functions(given);
   check_stages(given);
-  check_methods(given);
   check_smoothing(given);
   check_scheme(given, given.scheme);
   for (const CaseStage& stage : given.stages) check_scheme(given, stage.scheme);
@@ -266,9 +242,7 @@ void choose_enforcement(Case& given) {
            (surfaces != nullptr && surfaces->smooth && **surfaces->smooth);
   };
   if (given.contacts.empty() || std::any_of(given.contacts.begin(), given.contacts.end(), needs_springs)) return;
-  if (!is_open(given.scheme) ||
-      !std::all_of(given.stages.begin(), given.stages.end(), [&](const CaseStage& s) { return is_open(s.scheme); }))
-    return;
+  if (!are_all_schemes(given, is_open)) return;
   const auto choose = [](CaseScheme& scheme) {
     scheme.enforcement->value = EnforcementKind::augmented_lagrangian;
     scheme.penetration = default_penetration;
@@ -280,10 +254,9 @@ void choose_enforcement(Case& given) {
 namespace {
 
 /// What a contact gets that names no method and is not to be smooth.
-PairMethod usual_method(const Case& given, const CaseSurfaces& surfaces) {
-  if (are_statics_by(EnforcementKind::penalty, given)) return PairMethod::faces;
-  if (!are_statics_by(EnforcementKind::augmented_lagrangian, given)) return PairMethod::two_pass;
-  return surfaces.is_self ? PairMethod::surface_to_surface : PairMethod::faces;
+PairMethod usual_method(const Case& given) {
+  const bool are_statics = are_all_schemes(given, [](const CaseScheme& s) { return *s.kind == SchemeKind::statics; });
+  return are_statics ? PairMethod::faces : PairMethod::two_pass;
 }
 
 }  // namespace
@@ -294,7 +267,7 @@ void choose_methods(Case& given) {
     if (surfaces == nullptr) continue;
     const bool is_smooth = surfaces->smooth && **surfaces->smooth;
     if (!surfaces->method) {
-      const PairMethod method = is_smooth ? PairMethod::two_pass : usual_method(given, *surfaces);
+      const PairMethod method = is_smooth ? PairMethod::two_pass : usual_method(given);
       surfaces->method = Located<PairMethod>{method, contact.where};
     }
     if (!surfaces->smooth && !(smooths(**surfaces->method) && is_all_penalty(given)))

@@ -42,10 +42,9 @@ void ConstraintRows::clear() {
   source.clear();
   behind.clear();
   is_back.clear();
+  allowed.clear();
   rounded.clear();
   facet.clear();
-  shift.clear();
-  covered.clear();
   slot.clear();
 }
 
@@ -64,10 +63,9 @@ void ConstraintRows::add_row(double row_gap, const Vec3& row_normal, const Vec3&
   source.push_back(row_source);
   behind.push_back(0);
   is_back.push_back(false);
+  allowed.push_back(0.0);
   rounded.push_back(0.0);
   facet.push_back(0);
-  shift.push_back(0.0);
-  covered.push_back(0.0);
 }
 
 void ConstraintRows::add_node(Index n, double w) {

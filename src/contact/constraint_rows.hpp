@@ -79,10 +79,9 @@ struct ConstraintRows {
   std::vector<Index> source;    ///< index in Model::contacts; of equation k of the model -1 - k
   std::vector<Index> behind;    ///< how many of the row's last nodes belong to the other side: master or obstacle
   std::vector<bool> is_back;    ///< the row's positive side is not the contact's group but the other body (two passes)
+  std::vector<double> allowed;  ///< added to the gap of rows that guard what means do not see; else 0
   std::vector<double> rounded;  ///< what going round the edges of the other surface has taken from the gap, >= 0
   std::vector<Index> facet;     ///< what the row meets: facet of the other surface, face of a box, 0 where there is one
-  std::vector<double> shift;    ///< rows of faces of the augmented Lagrangian: multiplier over eps_N (face_rows.hpp)
-  std::vector<double> covered;  ///< of those: share of the measure that overlaps cover; 0: no such row
   std::vector<Index> slot;      ///< entry of State::contact; at most one row per slot
 
   std::size_t size() const { return gap.size(); }
@@ -155,10 +154,9 @@ void fields(A& archive, ConstraintRows& x) {
   archive("source", x.source);
   archive("behind", x.behind);
   archive("is_back", x.is_back);
+  archive("allowed", x.allowed);
   archive("rounded", x.rounded);
   archive("facet", x.facet);
-  archive("shift", x.shift);
-  archive("covered", x.covered);
   archive("slot", x.slot);
 }
 

@@ -149,14 +149,13 @@ void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
   if (dot(away, away) - height * height > reach * reach || height > face_look * size_ + reach) return;
   const PlacedFacet master = place(master_facet(g), motion.x), seen = slave.seen(master);
   if (!slave.may_overlap(seen, face_look * size_)) return;
-  const bool is_whole = use_ != OverlapUse::springs;
+  const bool are_means = use_ == OverlapUse::means;
   const bool is_high = !slave_faces_[slave.f].is_linear || !master_face(g).is_linear;
   const std::size_t before = work.points.size();
-  const OverlapExtent extent = add_overlap(slave, seen, {is_high || is_whole, !is_whole}, work.points);
+  const OverlapExtent extent = add_overlap(slave, seen, {is_high || are_means, !are_means}, work.points);
   if (work.points.size() == before) return;
   // Without a history, at the start, all counts that is not the far side of a thin part.
-  const bool is_lenient = motion.history.empty() || use_ == OverlapUse::means;
-  const double most = is_lenient ? depth_[static_cast<std::size_t>(g)] : sideways_depth * size_;
+  const double most = motion.history.empty() ? depth_[static_cast<std::size_t>(g)] : sideways_depth * size_;
   const bool is_deep = extent.least_gap < -most;
   // A sliver ten times as deep as wide belongs to what passes by the border of the other facet.
   const double length = slave.placed().size == 2 ? 1.0 : std::sqrt(slave.measure());

@@ -67,7 +67,6 @@ class FacePointFinder {
 /// What the points of overlaps are for.
 enum class OverlapUse {
   springs,  ///< the energy of what is behind: points there alone, and those of borders
-  shifted,  ///< the same of springs that press where they are open, too: points everywhere, no borders
   means,    ///< mean gaps: points everywhere, of facets that face each other within 60 degrees; s = 1
 };
 

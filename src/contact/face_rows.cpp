@@ -40,35 +40,32 @@ class FaceRows : public RowMaker {
   /// What the points about a node amount to.
   struct Sums {
     double area = 0.0, gap = 0.0, force = 0.0, energy = 0.0;  ///< sum of w N^ times 1, s g, f(<S - s g>), e(<S - s g>)
-    double shift = 0.0;                                       ///< S; 0 but for the augmented Lagrangian
     double depth = 0.0;                                       ///< d_A; 0: open
     double of_facets = 0.0;  ///< the energy if the surfaces did not bulge out of the facets
     double least_gap = INFINITY;
     Index master = -1;  ///< facet of the deepest point
 
     bool is_closed() const { return depth > 0.0; }
-    double depth_of(double g) const { return std::max(0.0, shift - g); }
   };
 
   class Blocks;
 
-  Sums sums_of(const Node& node, double shift) const;
+  Sums sums_of(const Node& node) const;
   template <class Use>
   void for_each_weight(const Node& node, const Sums& sums, const Use& use) const;
-  void add_row(const Node& node, double shift, Index slot, const ContactMotion& motion, ConstraintRows& rows) const;
-  void add_stiffness(const Node& node, double shift, ConstraintRows& rows) const;
+  void add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const;
+  void add_stiffness(const Node& node, ConstraintRows& rows) const;
   void add_blocks(const Node& node, const Sums& sums, ConstraintRows& rows) const;
 
   Surface slave_;
   ContactLaw law_;
-  bool is_augmented_, is_mean_;
+  bool is_mean_;
   RowLaw unit_;  ///< the spring e(d), f(d) of a unit of area, over eps_N
   Index source_;
   std::vector<Node> nodes_;
   std::unique_ptr<FacePointFinder> finder_;
   mutable RowParts parts_;
   mutable std::vector<FacetPoints> points_;  ///< by slave facet
-  mutable std::vector<double> shift_;        ///< by node
 };
 
 /// Blocks of a row in the making: the sum of those of its points. Points that follow each other on one facet under one
@@ -173,9 +170,8 @@ FaceRows::FaceRows(std::span<const Vec3> X, const Surface& slave, std::unique_pt
                    const FaceNodes& has_row, const ContactLaw& law, OverlapUse use, Index source)
     : slave_(slave),
       law_(law),
-      is_augmented_(use == OverlapUse::shifted),
       is_mean_(use == OverlapUse::means),
-      unit_{.eps_N = 1.0, .linear_depth = is_augmented_ ? INFINITY : law.linear_depth},
+      unit_{.eps_N = 1.0, .linear_depth = law.linear_depth},
       source_(source),
       finder_(std::move(finder)),
       points_(slave.facets.size()) {
@@ -201,18 +197,14 @@ void FaceRows::append(const ContactMotion& motion, Index first_slot, ConstraintR
   parallel_for(points_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) finder_->find(f, motion, points_[f]);
   });
-  shift_.assign(nodes_.size(), 0.0);
-  for (std::size_t i = 0; is_augmented_ && i < nodes_.size(); ++i)
-    shift_[i] = motion.shift(first_slot + static_cast<Index>(i));
   parts_.append(nodes_.size(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
-    for (std::size_t i = begin; i < end; ++i)
-      add_row(nodes_[i], shift_[i], first_slot + static_cast<Index>(i), motion, made);
+    for (std::size_t i = begin; i < end; ++i) add_row(nodes_[i], first_slot + static_cast<Index>(i), motion, made);
   });
 }
 
 void FaceRows::append_stiffness(ConstraintRows& rows) const {
   parts_.append(nodes_.size(), rows, [&](std::size_t begin, std::size_t end, ConstraintRows& made) {
-    for (std::size_t i = begin; i < end; ++i) add_stiffness(nodes_[i], shift_[i], made);
+    for (std::size_t i = begin; i < end; ++i) add_stiffness(nodes_[i], made);
   });
 }
 
@@ -229,12 +221,11 @@ double depth_of_energy(const RowLaw& law, double energy) {
   return d;
 }
 
-FaceRows::Sums FaceRows::sums_of(const Node& node, double shift) const {
+FaceRows::Sums FaceRows::sums_of(const Node& node) const {
   Sums sums;
-  sums.shift = shift;
   for (const CornerOf& at : node.corners) {
     for (const FacePoint& q : points_[at.facet].points) {
-      const double w = q.weight * q.share[at.corner], depth = sums.depth_of(q.gap);
+      const double w = q.weight * q.share[at.corner], depth = std::max(0.0, -q.gap);
       if (!(w > 0.0)) continue;
       sums.area += w;
       sums.gap += w * q.gap;
@@ -246,7 +237,7 @@ FaceRows::Sums FaceRows::sums_of(const Node& node, double shift) const {
       sums.master = points_[at.facet].masters[q.master].facet;
     }
   }
-  if (!is_mean_ && sums.least_gap < shift - round_off * finder_->size())
+  if (!is_mean_ && sums.least_gap < -round_off * finder_->size())
     sums.depth = depth_of_energy(unit_, sums.energy / node.measure);
   return sums;
 }
@@ -262,16 +253,15 @@ void FaceRows::for_each_weight(const Node& node, const Sums& sums, const Use& us
       if (!(w > 0.0)) continue;
       if (!sums.is_closed()) {
         use(at.facet, facet, q, w / sums.area);
-      } else if (const double depth = sums.depth_of(q.gap); depth > 0.0) {
+      } else if (const double depth = std::max(0.0, -q.gap); depth > 0.0) {
         use(at.facet, facet, q, w * unit_.spring_force(depth) / whole);
       }
     }
   }
 }
 
-void FaceRows::add_row(const Node& node, double shift, Index slot, const ContactMotion& motion,
-                       ConstraintRows& rows) const {
-  const Sums sums = sums_of(node, shift);
+void FaceRows::add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const {
+  const Sums sums = sums_of(node);
   if (!(sums.area > least_share * node.measure) || sums.least_gap > finder_->size()) return;
   Vec3 along{}, position{};
   double weight = 0.0;
@@ -284,7 +274,7 @@ void FaceRows::add_row(const Node& node, double shift, Index slot, const Contact
   if (!(length > 1e-6 * weight)) return;
   // Where nothing penetrates the row stands for what is covered.
   const double measure = sums.is_closed() ? node.measure : std::min(sums.area, node.measure);
-  const double gap = sums.is_closed() ? sums.shift - sums.depth : is_mean_ ? sums.gap / sums.area : sums.least_gap;
+  const double gap = sums.is_closed() ? -sums.depth : is_mean_ ? sums.gap / sums.area : sums.least_gap;
   RowLaw law = row_law(law_, measure);
   if (sums.is_closed())
     law.mu *=
@@ -292,10 +282,6 @@ void FaceRows::add_row(const Node& node, double shift, Index slot, const Contact
   const Vec3 at = is_mean_ ? motion.x[node.node] : scaled(position, 1.0 / weight);
   rows.add_row(gap, scaled(along, 1.0 / length), at, measure, law, source_);
   rows.facet.back() = sums.master;
-  if (is_augmented_) {
-    rows.shift.back() = sums.shift;
-    rows.covered.back() = std::min(1.0, sums.area / node.measure);
-  }
   if (sums.is_closed() && sums.of_facets < sums.energy)
     rows.rounded.back() = sums.depth - depth_of_energy(unit_, sums.of_facets / node.measure);
   add_blocks(node, sums, rows);
@@ -354,15 +340,15 @@ void make_orthonormal(std::span<const double> k, std::span<std::vector<double>> 
 /// The springs of the points stand against all that moves them, with eps_N sum_q k_q grad g_q grad g_q^T, k = w N^
 /// f'(d). The row has the part of phi = f / f' (along its gap's gradient). Here are those of phi = 1, x, y and z,
 /// orthonormal in the k: rows sum_q k_q phi_q grad g_q.
-void FaceRows::add_stiffness(const Node& node, double shift, ConstraintRows& rows) const {
-  const Sums sums = sums_of(node, shift);
+void FaceRows::add_stiffness(const Node& node, ConstraintRows& rows) const {
+  const Sums sums = sums_of(node);
   if (!sums.is_closed() || !(sums.area > least_share * node.measure)) return;
   std::vector<std::pair<std::size_t, const FacePoint*>> points;  // and their slave facets
   std::vector<double> k;
   std::array<std::vector<double>, 5> phi;
   for (const CornerOf& at : node.corners) {
     for (const FacePoint& q : points_[at.facet].points) {
-      const double depth = sums.depth_of(q.gap), slope = unit_.spring_slope(depth);
+      const double depth = std::max(0.0, -q.gap), slope = unit_.spring_slope(depth);
       const double weight = q.weight * q.share[at.corner] * slope;
       if (!(depth > 0.0 && weight > 0.0)) continue;
       points.emplace_back(at.facet, &q);
@@ -396,8 +382,7 @@ std::unique_ptr<RowMaker> rows_over(const Model& model, const Surface& slave, co
 
 std::unique_ptr<RowMaker> face_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
                                     const ContactLaw& law, Index source) {
-  const bool is_shifted = law.hold == RowHold::multipliers;
-  return rows_over(model, slave, master, self, law, is_shifted ? OverlapUse::shifted : OverlapUse::springs, source);
+  return rows_over(model, slave, master, self, law, OverlapUse::springs, source);
 }
 
 std::unique_ptr<RowMaker> face_rows(std::span<const Vec3> X, const Surface& slave,

@@ -27,12 +27,7 @@ namespace carom {
 /// there. Force and moment of every row are in balance. The limit of friction is mu times sum_q w_q N^_A eps f(<- s g>)
 /// (RowLaw::mu is smaller than the contact's by the quotient of that and eps D_A f(d_A)), and it acts at the points of
 /// the pressure.
-/// The augmented Lagrangian shifts the springs: with a row's multiplier over eps_N D_A, S_A (RowHistory::shift), the
-/// depth is that of <S_A - s_q g_q> without hardening and the gap S_A - d_A, so that eps_N D_A (S_A - gap) is the
-/// force. Where a part P of D_A presses alone, d_A is sqrt(P / D_A) times the mean over P, which the next S_A is:
-/// uniform pressure over any overlaps then has the gap 0 everywhere. There the overlaps have points where they are
-/// open, too, and their ends move nothing: it is no energy. Where nothing penetrates, a row within reach is open by the
-/// least of s g, over the area that is covered.
+/// Where nothing penetrates, a row within reach is open by the least of s g, over the area that is covered.
 ///
 /// The springs of the points stand against more than the row's own direction: append_stiffness has the parts of the
 /// weights 1, x, y and z about each node, orthogonal to that.

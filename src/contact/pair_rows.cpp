@@ -234,41 +234,123 @@ std::unique_ptr<RowMaker> smooth_rows(const Model& model, const SmoothSides& sid
       [surface](Index n) { return surface->is_smooth_node(n); }, law, source);
 }
 
-/// What the method makes: rows of nodes or of overlaps with facets.
-std::unique_ptr<RowMaker> method_rows(const Model& model, const PairContact& contact, Index source,
-                                      const std::optional<SmoothSides>& smooth) {
-  const bool has_points = is_points(contact.slave), both_points = has_points && is_points(contact.master);
-  if (!has_points && is_points(contact.master)) {
-    throw std::invalid_argument("contact \"" + contact.name +
+/// The rows of a maker with gaps that are larger by a distance.
+class RowsWithAllowance : public RowMaker {
+ public:
+  RowsWithAllowance(std::unique_ptr<RowMaker> rows, double allowance) : rows_(std::move(rows)), allowance_(allowance) {}
+  std::size_t slots() const override { return rows_->slots(); }
+  bool is_fixed() const override { return rows_->is_fixed(); }
+  void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
+    const std::size_t first = rows.size();
+    rows_->append(motion, first_slot, rows);
+    for (std::size_t r = first; r < rows.size(); ++r) {
+      rows.gap[r] += allowance_;
+      rows.allowed[r] = allowance_;
+    }
+  }
+  void append_stiffness(ConstraintRows& rows) const override { rows_->append_stiffness(rows); }
+  void add_moving_nodes(std::vector<Index>& nodes) const override { rows_->add_moving_nodes(nodes); }
+
+ private:
+  std::unique_ptr<RowMaker> rows_;
+  double allowance_;
+};
+
+/// The rows of one pair by its method.
+class MethodRows {
+ public:
+  MethodRows(const Model& model, const PairContact& contact, Index source, const SmoothSides* smooth)
+      : model_(model), contact_(contact), source_(source), smooth_(smooth) {}
+
+  std::unique_ptr<RowMaker> make() const;
+
+ private:
+  std::unique_ptr<RowMaker> of_nodes(const Surface& slave, const Surface& master, const ContactLaw& law,
+                                     const SmoothSides* seen) const;
+  std::unique_ptr<RowMaker> of_faces() const;
+  std::unique_ptr<RowMaker> of_means_and_guards() const;
+  /// One way, or both ways with half of the stiffness each: make(slave, master, law, is_back).
+  template <class Make>
+  std::unique_ptr<RowMaker> both_ways(const Make& make) const;
+
+  const Model& model_;
+  const PairContact& contact_;
+  Index source_;
+  const SmoothSides* smooth_;
+};
+
+template <class Make>
+std::unique_ptr<RowMaker> MethodRows::both_ways(const Make& make) const {
+  const ContactLaw half = with_half_stiffness(contact_.law);
+  if (contact_.self) return make(contact_.slave, contact_.master, half, false);
+  auto both = std::make_unique<MakersInOrder>();
+  both->add(make(contact_.slave, contact_.master, half, false));
+  both->add(make(contact_.master, contact_.slave, half, true), true);
+  return both;
+}
+
+std::unique_ptr<RowMaker> MethodRows::of_nodes(const Surface& slave, const Surface& master, const ContactLaw& law,
+                                               const SmoothSides* seen) const {
+  const std::vector<Index> bodies = contact_.self ? bodies_of_nodes(model_) : std::vector<Index>{};
+  auto rows =
+      std::make_unique<NodeRows>(model_.mesh->coordinates, slave, master, contact_.self, bodies, law, source_, seen);
+  if (seen == nullptr || !seen->of_slave->has_curved()) return rows;
+  auto all = std::make_unique<MakersInOrder>();
+  all->add(std::move(rows));
+  all->add(smooth_rows(model_, *seen, law, source_));
+  return all;
+}
+
+std::unique_ptr<RowMaker> MethodRows::of_faces() const {
+  return both_ways([this](const Surface& slave, const Surface& master, const ContactLaw& law, bool /*is_back*/) {
+    return face_rows(model_, slave, master, contact_.self, law, source_);
+  });
+}
+
+/// Means over the finer side, which carry the pressure, and nodes of both sides, which see what means do not: the pole
+/// of a ball amid a coarse facet. They have an allowance, so that flat faces touch by their means alone.
+std::unique_ptr<RowMaker> MethodRows::of_means_and_guards() const {
+  constexpr double allowed = 0.01;  // of the facet size
+  const std::span<const Vec3> X = model_.mesh->coordinates;
+  const double own = mean_facet_size(X, contact_.slave.facets), other = mean_facet_size(X, contact_.master.facets);
+  const bool is_finer = own <= other;
+  const Surface &fine = is_finer ? contact_.slave : contact_.master,
+                &coarse = is_finer ? contact_.master : contact_.slave;
+  const ContactLaw law = contact_.self ? with_half_stiffness(contact_.law) : contact_.law;
+  auto all = std::make_unique<MakersInOrder>();
+  all->add(mean_rows(model_, fine, coarse, contact_.self, law, source_), !is_finer);
+  all->add(std::make_unique<RowsWithAllowance>(
+      both_ways([this](const Surface& slave, const Surface& master, const ContactLaw& half, bool /*is_back*/) {
+        return of_nodes(slave, master, half, nullptr);
+      }),
+      allowed * std::min(own, other)));
+  return all;
+}
+
+std::unique_ptr<RowMaker> MethodRows::make() const {
+  const Surface &slave = contact_.slave, &master = contact_.master;
+  const bool has_points = is_points(slave), both_points = has_points && is_points(master);
+  if (!has_points && is_points(master)) {
+    throw std::invalid_argument("contact \"" + contact_.name +
                                 "\": the ends of bars cannot be the master of facets; exchange group and master");
   }
-  // Shifts of both passes over the same overlaps would push each other up without end.
-  const bool is_shifted = contact.method == PairMethod::faces && contact.law.hold == RowHold::multipliers;
-  const bool both_ways = contact.self || (has_both_passes(contact.method) && !has_points && !is_shifted);
-  const ContactLaw law = both_ways ? with_half_stiffness(contact.law) : contact.law;
-  if (both_points) return std::make_unique<EndRows>(model, contact.slave, contact.master, law, source);
-  if (contact.method == PairMethod::surface_to_surface && !has_points)
-    return mean_rows(model, contact.slave, contact.master, contact.self, law, source);
-  const auto one_way = [&](const Surface& slave, const Surface& master,
-                           const SmoothSides* seen) -> std::unique_ptr<RowMaker> {
-    if (contact.method == PairMethod::faces && !has_points)
-      return face_rows(model, slave, master, contact.self, law, source);
-    const std::vector<Index> bodies = contact.self ? bodies_of_nodes(model) : std::vector<Index>{};
-    const std::span<const Vec3> X = model.mesh->coordinates;
-    auto of_nodes = std::make_unique<NodeRows>(X, slave, master, contact.self, bodies, law, source, seen);
-    if (seen == nullptr || !seen->of_slave->has_curved()) return of_nodes;
-    auto all = std::make_unique<MakersInOrder>();
-    all->add(std::move(of_nodes));
-    all->add(smooth_rows(model, *seen, law, source));
-    return all;
-  };
-  const SmoothSides* const sides = smooth ? &*smooth : nullptr;
-  if (!both_ways || contact.self) return one_way(contact.slave, contact.master, sides);
-  const std::optional<SmoothSides> back = smooth ? std::optional(turned(*smooth)) : std::nullopt;
-  auto both = std::make_unique<MakersInOrder>();
-  both->add(one_way(contact.slave, contact.master, sides));
-  both->add(one_way(contact.master, contact.slave, back ? &*back : nullptr), true);
-  return both;
+  const ContactLaw one_way = contact_.self ? with_half_stiffness(contact_.law) : contact_.law;
+  if (both_points) return std::make_unique<EndRows>(model_, slave, master, one_way, source_);
+  if (has_points) return of_nodes(slave, master, one_way, nullptr);
+  switch (contact_.method) {
+    case PairMethod::surface_to_surface:
+      return mean_rows(model_, slave, master, contact_.self, one_way, source_);
+    case PairMethod::faces:
+      return contact_.law.hold == RowHold::springs ? of_faces() : of_means_and_guards();
+    case PairMethod::node_to_surface:
+      return of_nodes(slave, master, one_way, smooth_);
+    case PairMethod::two_pass:
+      break;
+  }
+  const std::optional<SmoothSides> back = smooth_ != nullptr ? std::optional(turned(*smooth_)) : std::nullopt;
+  return both_ways([&](const Surface& own, const Surface& other, const ContactLaw& half, bool is_back) {
+    return of_nodes(own, other, half, !is_back ? smooth_ : back ? &*back : nullptr);
+  });
 }
 
 }  // namespace
@@ -276,8 +358,9 @@ std::unique_ptr<RowMaker> method_rows(const Model& model, const PairContact& con
 std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& contact, Index source) {
   if (!contact.slave_bars.empty()) return bar_pair_rows(model, contact, source);
   const std::optional<SmoothSides> smooth = smooth_sides(model, contact);
-  std::unique_ptr<RowMaker> of_method = method_rows(model, contact, source, smooth),
-                            of_edges = edge_rows(model, contact, source, smooth ? &*smooth : nullptr);
+  const SmoothSides* const sides = smooth ? &*smooth : nullptr;
+  std::unique_ptr<RowMaker> of_method = MethodRows(model, contact, source, sides).make(),
+                            of_edges = edge_rows(model, contact, source, sides);
   if (!of_edges) return of_method;
   auto all = std::make_unique<MakersInOrder>();
   all->add(std::move(of_method));

@@ -7,10 +7,9 @@ namespace carom {
 
 /// History of one contact slot, as vectors of space, so that they outlive the row's frame.
 struct RowHistory {
-  Vec3 slip{};         ///< elastic tangential slip of regularised friction (length)
-  Vec3 multiplier{};   ///< force on the positive side (augmented Lagrangian; start value of exact enforcements)
-  double shift = 0.0;  ///< of rows of faces, see ConstraintRows::shift (length)
-  Index facet = -1;    ///< what the row was behind (ConstraintRows::facet); -1: in front, or out of reach
+  Vec3 slip{};        ///< elastic tangential slip of regularised friction (length)
+  Vec3 multiplier{};  ///< force on the positive side (augmented Lagrangian; start value of exact enforcements)
+  Index facet = -1;   ///< what the row was behind (ConstraintRows::facet); -1: in front, or out of reach
   friend bool operator==(const RowHistory&, const RowHistory&) = default;
 };
 
@@ -18,7 +17,6 @@ template <class A>
 void fields(A& archive, RowHistory& x) {
   archive("slip", x.slip);
   archive("multiplier", x.multiplier);
-  archive("shift", x.shift);
   archive("facet", x.facet);
 }
 

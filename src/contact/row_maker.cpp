@@ -122,6 +122,7 @@ void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_s
   append_all(rows.block, from.block);
   append_all(rows.gap, from.gap);
   append_all(rows.is_back, from.is_back);
+  append_all(rows.allowed, from.allowed);
   append_all(rows.rounded, from.rounded);
   append_all(rows.normal, from.normal);
   append_all(rows.tangent_1, from.tangent_1);
@@ -133,8 +134,6 @@ void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_s
   append_all(rows.source, from.source);
   append_all(rows.behind, from.behind);
   append_all(rows.facet, from.facet);
-  append_all(rows.shift, from.shift);
-  append_all(rows.covered, from.covered);
 }
 
 }  // namespace carom

@@ -24,8 +24,6 @@ struct ContactMotion {
 
   /// What the slot was behind at x_begin, -1 when it was in front.
   Index behind(Index slot) const { return history.empty() ? -1 : history[static_cast<std::size_t>(slot)].facet; }
-  /// The slot's ConstraintRows::shift.
-  double shift(Index slot) const { return history.empty() ? 0.0 : history[static_cast<std::size_t>(slot)].shift; }
   /// What `count` slots were behind, from the first on.
   std::vector<Index> behind(Index first_slot, std::size_t count) const {
     std::vector<Index> facets(history.empty() ? 0 : count);

@@ -109,13 +109,14 @@ class AugmentedLagrangianPort final : public PenaltyPort {
   Update update(std::span<const double> x, const ContactResponse& response) const;
   void take_forces(const ContactResponse& response);
   ClosedSpring closed_spring(const ConstraintRows& rows, std::size_t r, std::span<const double> x) const override;
+  bool is_static() const { return m_ == 0.0; }
   double stiffening(const ConstraintRows& rows, std::size_t r) const;
   Vec3 multiplier(const ConstraintRows& rows, std::size_t r) const;
 
   double penetration_;
   double m_ = 1.0, c_ = 0.0;         ///< of the operator
   std::vector<double> diagonal_;     ///< of K
-  std::vector<RowHistory> contact_;  ///< of the beginning, but for multipliers and shifts
+  std::vector<RowHistory> contact_;  ///< of the beginning, but for multipliers
 };
 
 }  // namespace carom

@@ -108,8 +108,12 @@ std::vector<Approach> approaches(const Simulation& s, const State& state) {
     a.gap = std::min(a.gap, gap);
     a.speed = std::max(a.speed, closing);
     if (closing > 0.0) a.first_touch = std::min(a.first_touch, std::max(gap, 0.0) / closing);
-    a.stiffness += rows.law[r].eps_N;
-    a.measure += rows.measure[r];
+    if (rows.allowed[r] > 0.0) {
+      a.has_guards = true;
+    } else {
+      a.stiffness += rows.law[r].eps_N;
+      a.measure += rows.measure[r];
+    }
     const auto node = static_cast<std::size_t>(rows.node[static_cast<std::size_t>(rows.begin[r])]);
     if (!(masses[node] > 0.0)) continue;
     a.frequency_squared = std::max(a.frequency_squared, rows.law[r].eps_N / masses[node]);

@@ -13,7 +13,8 @@ struct Approach {
   double gap = std::numeric_limits<double>::infinity();          ///< smallest
   double speed = 0.0;                                            ///< largest closing speed
   double first_touch = std::numeric_limits<double>::infinity();  ///< earliest time at which a row closes
-  double stiffness = 0.0, measure = 0.0;                         ///< sums over the rows
+  double stiffness = 0.0, measure = 0.0;                         ///< sums over the rows that are no guards
+  bool has_guards = false;                                       ///< nodes beside means (face_rows.hpp)
   double frequency_squared = 0.0, rate = 0.0;                    ///< largest stiffness and damping of a row over the
                                                                  ///< mass of its first node
 };

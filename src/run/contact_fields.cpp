@@ -24,16 +24,18 @@ Entries entries_of_side(const ConstraintRows& rows, std::size_t r, bool is_other
 
 /// Nodes with a row of their own in a contact of two passes by multipliers. What each pass carries there is one of many
 /// answers (the rows depend on each other), but the force on a node is unique: it balances the cells. So it makes the
-/// pressure. Springs, which store energy, have no such nodes: the force of each row follows from its own gap.
+/// pressure. Where nodes are guards, means have the pressure. Springs, which store energy, have no such nodes: the
+/// force of each row follows from its own gap.
 class TwoPassNodes {
  public:
   explicit TwoPassNodes(const ContactResponse& response) : response_(response) {
     const ConstraintRows& rows = *response.rows;
     if (response.stored > 0.0) return;
     std::set<Index> sources;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (std::size_t r = 0; r < rows.size(); ++r)
       if (rows.is_back[r]) sources.insert(rows.source[r]);
-    }
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      if (rows.allowed[r] > 0.0) sources.erase(rows.source[r]);
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const auto [begin, end] = entries_of_side(rows, r, false);
       if (end - begin == 1 && sources.contains(rows.source[r]))
@@ -67,7 +69,7 @@ class TwoPassNodes {
 };
 
 /// Means over the rows that see a node from one side, by their weights along the normal; pressures without the nodes of
-/// two passes.
+/// two passes. What guards press comes on top.
 struct SideMeans {
   std::vector<double> pressure, gap, weight;
   std::vector<std::uint8_t> status;
@@ -75,7 +77,7 @@ struct SideMeans {
   SideMeans(const ContactResponse& response, const TwoPassNodes& two_pass, std::span<const double> u, bool is_other)
       : pressure(u.size() / 3, 0.0), gap(pressure), weight(pressure), status(weight.size(), 0) {
     const ConstraintRows& rows = *response.rows;
-    std::vector<double> pressing = weight;
+    std::vector<double> pressing = weight, guarded = weight;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       if (rows.source[r] < 0) continue;  // an equation
       const auto [begin, end] = entries_of_side(rows, r, is_other);
@@ -83,9 +85,13 @@ struct SideMeans {
         const double w = (is_other ? -1.0 : 1.0) * dot(rows.block[k][0], rows.normal[r]);
         if (w <= 0.0) continue;
         const auto n = static_cast<std::size_t>(rows.node[k]);
+        status[n] = std::max(status[n], static_cast<std::uint8_t>(1 + static_cast<int>(response.status[r])));
+        if (rows.allowed[r] > 0.0) {
+          guarded[n] += w * response.force[r][0] / rows.measure[r];
+          continue;
+        }
         weight[n] += w;
         gap[n] += w * rows.gap_at(r, u);
-        status[n] = std::max(status[n], static_cast<std::uint8_t>(1 + static_cast<int>(response.status[r])));
         if (two_pass.has(r, rows.node[k])) continue;
         pressing[n] += w;
         pressure[n] += w * response.force[r][0] / rows.measure[r];
@@ -93,6 +99,7 @@ struct SideMeans {
     }
     for (std::size_t n = 0; n < weight.size(); ++n) {
       if (pressing[n] > 0.0) pressure[n] /= pressing[n];
+      pressure[n] += guarded[n];
       if (weight[n] > 0.0) gap[n] /= weight[n];
     }
   }

@@ -199,7 +199,8 @@ class ContactLint {
     if (given(c).obstacle() != nullptr && given(c).obstacle()->per_node) return surface_area(s_, given(c));
     const ContactParts contact = parts(c);
     const bool has_facets = contact.other != nullptr && !contact.own->facets.empty() && contact.own->facets[0].size > 1;
-    const bool is_twice = has_facets && (contact.is_self || contact.sees_both_sides);
+    const bool has_both = contact.sees_both_sides && !approaches_[c].has_guards;
+    const bool is_twice = has_facets && (contact.is_self || has_both);
     return approaches_[c].measure / (is_twice ? 2.0 : 1.0);
   }
 

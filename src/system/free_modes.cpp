@@ -296,10 +296,13 @@ std::vector<double> FreeModes::stiffness_of_rows(const ConstraintRows& rows, con
 std::vector<double> FreeModes::unheld(const ConstraintRows& rows, const std::vector<RowTangent>& D,
                                       std::span<const double> u, std::span<const double> force,
                                       std::span<const double> magnitude) const {
+  std::vector<double> T = stiffness_of_rows(rows, D, u);
+  double most = 0.0;
+  for (std::size_t k = 0; k < size_; ++k) most = std::max(most, T[k * size_ + k]);
   std::vector<double> load(size_, 0.0), parts(size_, 0.0), e(size_);
   for (const Body& body : bodies_) {
     for (std::size_t k = 0; k < body.modes.size(); ++k) {
-      e[body.first + k] = 1e-12 * body.stiffness;
+      e[body.first + k] = std::max(1e-12 * body.stiffness, 1e-14 * most);
       for (const Index n : body.nodes) {
         const Vec3 v = combine(body, body.modes[k], n, u);
         const std::size_t dof = 3 * static_cast<std::size_t>(n);
@@ -308,7 +311,6 @@ std::vector<double> FreeModes::unheld(const ConstraintRows& rows, const std::vec
       }
     }
   }
-  std::vector<double> T = stiffness_of_rows(rows, D, u);
   for (std::size_t k = 0; k < size_; ++k) T[k * size_ + k] += e[k];
   std::vector<double> rho = load;
   DenseLu(std::move(T), static_cast<int>(size_)).solve(rho);

@@ -39,8 +39,9 @@ class FreeModes {
   double inertia_for_turns(std::span<const double> u, const PointStep& step) const;
 
   /// What of a force no tangent of the rows resists: coefficients rho of the modes, with (T + e) alpha = R^T f,
-  /// rho = e alpha, T = R^T G^T D G R and e 1e-12 of the stiffness of pins(). Coefficients below 1e-8 of what the parts
-  /// of the force in `magnitude` could do, whatever their direction, are zero: rounding.
+  /// rho = e alpha, T = R^T G^T D G R and e 1e-12 of the stiffness of pins(), or 1e-14 of the largest of T.
+  /// Coefficients below 1e-8 of what the parts of the force in `magnitude` could do, whatever their direction, are
+  /// zero: rounding.
   std::vector<double> unheld(const ConstraintRows& rows, const std::vector<RowTangent>& D, std::span<const double> u,
                              std::span<const double> force, std::span<const double> magnitude) const;
   /// The part of the springs of pins() that rows with these tangents make needless, as a matrix N over the pins: the

@@ -268,5 +268,32 @@ TEST(FaceRows, DoNotTakeTheFarSideOfABodyForItsFront) {
   EXPECT_NEAR(energy(contact, u), 0.5 * 100.0 * 0.1 * 0.1, 1e-12);  // eps A d^2 / 2: half of it from each side
 }
 
+// What multipliers hold: means over the finer side, which see no ridge amid a coarse facet, and nodes of both sides
+// with an allowance of a hundredth of the facet size, which do.
+TEST(FaceRows, OfMultipliersAreMeansAndGuards) {
+  Scene scene;
+  const auto coarse = scene.add_patch(2, 2, [](double s, double t) { return Vec3{s, t, 0.0}; });
+  const auto fine = scene.add_patch(4, 4, [](double s, double t) {
+    return Vec3{t, s, 0.2 * std::abs(s - 0.5)};
+  });  // a ridge down
+  PairContact contact = faces(coarse, fine);
+  contact.law.eps_N.reset();
+  contact.law.hold = RowHold::multipliers;
+  scene.finish().contacts.emplace_back(contact);
+  const auto u = scene.zero();
+  const auto rows = ContactGeometry(scene.model).rows_at(u, u);
+  std::size_t means = 0, on_ridge = 0;
+  for (std::size_t r = 0; r < rows->size(); ++r) {
+    if (rows->allowed[r] == 0.0) {
+      if (rows->facet[r] >= 0) ++means;
+      continue;
+    }
+    EXPECT_NEAR(rows->allowed[r], 0.01 * 0.25 * std::pow(1.04, 0.25), 1e-12);  // the mean root of an area
+    if (rows->is_back[r] && std::abs(rows->gap_at(r, u) - rows->allowed[r]) < 1e-9) ++on_ridge;
+  }
+  EXPECT_EQ(means, 25U);    // nodes of the finer side, which is the second
+  EXPECT_EQ(on_ridge, 5U);  // its nodes that touch
+}
+
 }  // namespace
 }  // namespace carom::contact_faces_test
