@@ -1,5 +1,9 @@
 #include "enforcement/contact_work.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "contact/admissible.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
@@ -30,8 +34,54 @@ ContactWork multiplier_work(const State& begin, const State& end, double end_wei
   return out;
 }
 
+namespace {
+
+/// Friction of a row that slides.
+struct Sliding {
+  Index slot;
+  double friction;  ///< mu p
+};
+
+/// By increasing slot.
+std::vector<Sliding> sliding_rows(const ContactResponse& response) {
+  std::vector<Sliding> out;
+  for (std::size_t r = 0; r < response.status.size(); ++r)
+    if (response.status[r] == RowStatus::slip)
+      out.push_back({response.rows->slot[r], std::hypot(response.force[r][1], response.force[r][2])});
+  std::ranges::sort(out, {}, &Sliding::slot);
+  return out;
+}
+
+/// How far row r has slipped without its springs in a step that it was closed in from the beginning.
+double slipped(const State& begin, const State& end, std::size_t r) {
+  const ConstraintRows& rows = *end.forces.rows.rows;
+  const auto slot = static_cast<std::size_t>(rows.slot[r]);
+  const Vec3 stretched = subtract(end.forces.rows.history[slot].slip, begin.contact[slot].slip);
+  const Vec3 w = subtract(subtract(rows.relative(r, end.q), rows.relative(r, begin.q)), rows.to_frame(r, stretched));
+  return std::hypot(w[1], w[2]);
+}
+
+/// What the mean of the friction at both ends of the step does more on the slip than that at its end, of rows that
+/// slide at both.
+double work_of_changes(const State& begin, const State& end) {
+  const ContactResponse& response = end.forces.rows;
+  const std::vector<Sliding> before = sliding_rows(begin.forces.rows);
+  double work = 0.0;
+  for (std::size_t r = 0; !before.empty() && r < response.status.size(); ++r) {
+    if (response.status[r] != RowStatus::slip) continue;
+    const Index slot = response.rows->slot[r];
+    const auto was = std::ranges::lower_bound(before, slot, {}, &Sliding::slot);
+    if (was == before.end() || was->slot != slot) continue;
+    const double friction = std::hypot(response.force[r][1], response.force[r][2]);
+    work += 0.5 * (was->friction - friction) * slipped(begin, end, r);
+  }
+  return work;
+}
+
+}  // namespace
+
 ContactWork spring_work(const State& begin, const State& end) {
-  ContactWork out{.friction = end.forces.rows.slip_work};
+  ContactWork out{.friction = end.forces.rows.slip_work + work_of_changes(begin, end)};
   for (const Forces* forces : {&begin.forces, &end.forces}) {
     const ConstraintRows& rows = *forces->rows.rows;
     for (std::size_t r = 0; r < rows.size(); ++r) {
