@@ -15,6 +15,7 @@ constexpr double rim_slack = 0.1;          // of the facet's size: continuation 
 constexpr double side_slack = 0.02;        // of the facet's size: how far sides that do not count are moved out
 constexpr double no_longer_opposed = 0.5;  // product of the normals of a node and of a facet that it was behind
 constexpr double smooth = 0.5;             // product of the normals of facets that pass a node on to each other
+constexpr double pointed = 0.5;            // product of the normals of a tip and of the sides that it points between
 constexpr double alike_share = 0.25;       // of the width: how unlike gaps of facets that share a node may be
 constexpr double tie = 1e-12;              // relative: the same point seen from two facets
 constexpr double tiny = 1e-6;              // of the reach: below, the direction to a corner is round-off
@@ -462,7 +463,11 @@ void SurfaceSearch::feet_around(const Query& query, const Best& best, std::vecto
   feet.clear();
   if (range_.width.empty() || facets()[best.facet].size == 1 || best.is_beside) return;
   const Vec3 normal = facet_normal(best.facet);
-  const auto agrees = [&](Index f) { return dot(facet_normal(f), normal) > smooth; };
+  const auto is_beside_tip = [&](Index f) {
+    return facets()[f].size == 2 && dot(facet_normal(f), query.normal) < -pointed;
+  };
+  const bool is_tip = best.projection.site == ProjectionSite::interior && is_beside_tip(best.facet);
+  const auto agrees = [&](Index f) { return dot(facet_normal(f), normal) > smooth || (is_tip && is_beside_tip(f)); };
   if (best.projection.site != ProjectionSite::interior && !best.is_continued) {
     const auto& around = facets_at_[facets()[best.facet][static_cast<std::size_t>(best.projection.feature)]];
     if (!std::all_of(around.begin(), around.end(), [&](Index f) { return !counts(query, f) || agrees(f); })) return;

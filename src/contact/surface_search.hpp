@@ -72,7 +72,9 @@ std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<con
 /// SearchRange::width and c_f a quarter of it, the weights are (1 - (d_f^2 - g_f^2) / b_f^2)^2 (1 - (g_f - g)^2 /
 /// c_f^2)^2 over their sum. So gap and gradient pass from facet to facet without a jump, alike from all sides and
 /// whatever the order of the facets; and a facet far behind which the node is, as beside a sharp edge, does not make it
-/// deep.
+/// deep. In the plane a node that points between the two sides of a corner, however sharp, meets both in the same way:
+/// corners that meet symmetrically push each other back along the axis of symmetry. (In space edges do that:
+/// edge_rows.hpp.)
 ///
 /// Where the surface goes on with facets that do not count, a node that was behind the facet's plane at x_begin without
 /// having been behind the surface is no deeper than it is behind those: where that is the way out, the row pushes it
