@@ -21,11 +21,12 @@ test:    ## the same set-up, then all tests through ctest
 	@tools/build release all
 	@ctest --preset release -j "$$(nproc)"
 
-verify: build ## long verification cases, resumable, writes docs/verification.md; then 300 impacts and 600 of random shapes with defaults, a soak, decks of CalculiX, data races
+verify: build ## long verification cases, resumable, writes docs/verification.md; then 300 impacts, 600 of random shapes, edges and curves with defaults, a soak, decks of CalculiX, data races
 	@tools/verify
 	@/usr/bin/python3 tests/verification/impact_trial.py build/release/carom --jobs "$$(nproc)"
 	@tools/setup python
 	@/usr/bin/python3 tests/verification/shape_trial.py build/release/carom --jobs "$$(nproc)"
+	@/usr/bin/python3 tests/verification/edges_and_curves.py build/release/carom
 	@/usr/bin/python3 tools/soak.py build/release/carom
 	@tools/setup verify
 	@/usr/bin/python3 tests/verification/calculix_decks.py build/release/carom
