@@ -177,7 +177,7 @@ def boxes_over_a_bin(count, end, draw):
 
 
 def bin_of_boxes(judge, small):
-    count, end = (8, 0.1) if small else (30, 0.7)
+    count, end = (8, 0.1) if small else (30, 0.9)
     scene = boxes_over_a_bin(count, end, random.Random(1))
     record = judge.run("bin", scene, "central_differences")
     mass = np.concatenate([b.mass for b in scene.bodies])
