@@ -22,6 +22,7 @@ struct StageStart {
   const FreeModes* free = nullptr;        ///< see StageEquation
   std::span<const double> x_predicted{};  ///< where impulses decide which rows are closed
   std::span<const double> force_parts{};  ///< magnitudes of the forces whose sum the residual is, of the last iterate
+  double dt = 0.0;                        ///< length of the stage
 };
 
 /// What contact still violates at a trial state, as energy, and how much of that is rounding.

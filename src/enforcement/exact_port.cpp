@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "enforcement/contact_work.hpp"
+#include "enforcement/stopped_rows.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 
@@ -398,10 +399,15 @@ void ProjectionPort::begin(const StageStart& start) {
 void ImpulsePort::begin(const StageStart& start) {
   ExactPort::begin(start);
   rows_ = system_.contact.rows_at(start.begin->q, start.x_predicted, start.begin->contact);
-  is_closed_.resize(rows_->size());
+  may_act_.resize(rows_->size());
+  approach_.assign(rows_->size(), 0.0);
   for (std::size_t r = 0; r < rows_->size(); ++r) {
-    is_closed_[r] = is_bond(rows_->law[r]) || rows_->is_closed(r, start.x_predicted);
-    if (!is_closed_[r]) multiplier_[static_cast<std::size_t>(rows_->slot[r])] = {};
+    may_act_[r] = is_bond(rows_->law[r]) || rows_->is_closed(r, start.x_predicted);
+    if (!may_act_[r] && is_stopped_before(system_.contact, rows_->law[r])) {
+      may_act_[r] = true;
+      approach_[r] = rows_->gap_at(r, start.x_predicted) / start.dt;
+    }
+    if (!may_act_[r]) multiplier_[static_cast<std::size_t>(rows_->slot[r])] = {};
   }
 }
 
@@ -417,7 +423,7 @@ std::shared_ptr<const ConstraintRows> ImpulsePort::rows_at(std::span<const doubl
 Vec3 ImpulsePort::value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const {
   Vec3 w = rows.relative(r, z);
   if (is_bond(rows.law[r])) return w;
-  w[0] += rows.law[r].restitution * std::min(0.0, rows.relative(r, start_.begin->v)[0]);
+  w[0] += approach_[r] + rows.law[r].restitution * std::min(0.0, rows.relative(r, start_.begin->v)[0]);
   return w;
 }
 

@@ -129,7 +129,7 @@ class ProjectionPort final : public MultiplierPort {
 
 /// On rows with g(x_predicted) <= 0, with U = G v: 0 <= U_n + e min(0, U_n at the beginning) perpendicular to
 /// lambda_n >= 0 (Newton's restitution), U_t in Coulomb's cone (Jean, Comput. Methods Appl. Mech. Eng. 177, 1999). The
-/// rows are those made at x_predicted.
+/// rows are those made at x_predicted. Open rows that move: see stopped_rows.hpp.
 class ImpulsePort : public ExactPort {
  public:
   using ExactPort::ExactPort;
@@ -142,11 +142,12 @@ class ImpulsePort : public ExactPort {
   double slope() const override { return start_.r; }
   std::span<const double> seen(std::span<const double> /*x*/, std::span<const double> v) const override { return v; }
   Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const override;
-  bool may_act(std::size_t r) const override { return is_closed_[r]; }
+  bool may_act(std::size_t r) const override { return may_act_[r]; }
 
  private:
   std::shared_ptr<const ConstraintRows> rows_;
-  std::vector<bool> is_closed_;
+  std::vector<bool> may_act_;
+  std::vector<double> approach_;  ///< by row, the speed at which it may close
 };
 
 }  // namespace carom

@@ -42,7 +42,7 @@ std::unique_ptr<ExplicitContact> penalty_contact(const System& system);
 /// U = G v_next and e Newton's coefficient of restitution,
 ///   0 <= U_n + e min(0, (G v)_n)  perpendicular to  r_n >= 0,   U_t in Coulomb's cone with r_t,
 /// where r / weight is the contact force. Symplectic between impacts. Rows that have closed stay where they are: a
-/// penetration of at most one step's motion is not pushed out.
+/// penetration of at most one step's motion is not pushed out; where rows move it is not made (stopped_rows.hpp).
 std::unique_ptr<ExplicitContact> impulse_contact(const System& system);
 
 /// Forward-increment Lagrange multipliers (Carpenter, Taylor and Katona, Int. J. Numer. Methods Eng. 32, 1991):

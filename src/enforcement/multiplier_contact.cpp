@@ -6,6 +6,7 @@
 #include "contact/closing_rows.hpp"
 #include "enforcement/contact_work.hpp"
 #include "enforcement/explicit_contact.hpp"
+#include "enforcement/stopped_rows.hpp"
 #include "parallel/threads.hpp"
 #include "system/bonded_mass.hpp"
 #include "system/mass_solver.hpp"
@@ -19,16 +20,22 @@ struct Bias {
   double value = 0.0, round_off = 0.0;
 };
 /// Nothing when the row takes no part.
-using RowBias = std::optional<Bias> (*)(const ConstraintRows& rows, std::size_t r, const ExplicitPoint& at);
+using RowBias = std::optional<Bias> (*)(const ContactGeometry& contact, const ConstraintRows& rows, std::size_t r,
+                                        const ExplicitPoint& at);
 
-std::optional<Bias> impulse_bias(const ConstraintRows& rows, std::size_t r, const ExplicitPoint& at) {
-  if (!rows.is_closed(r, at.u)) return std::nullopt;
-  const double e = rows.law[r].restitution;
-  return Bias{e == 0.0 ? 0.0 : e * std::min(0.0, rows.relative(r, at.v)[0]), 0.0};
+std::optional<Bias> increment_bias(const ContactGeometry& /*contact*/, const ConstraintRows& rows, std::size_t r,
+                                   const ExplicitPoint& at) {
+  return Bias{rows.gap_at(r, at.u) / at.h, rows.gap_rounding(r, at.u) / at.h};
 }
 
-std::optional<Bias> increment_bias(const ConstraintRows& rows, std::size_t r, const ExplicitPoint& at) {
-  return Bias{rows.gap_at(r, at.u) / at.h, rows.gap_rounding(r, at.u) / at.h};
+std::optional<Bias> impulse_bias(const ContactGeometry& contact, const ConstraintRows& rows, std::size_t r,
+                                 const ExplicitPoint& at) {
+  if (!rows.is_closed(r, at.u)) {
+    if (!is_stopped_before(contact, rows.law[r])) return std::nullopt;
+    return increment_bias(contact, rows, r, at);
+  }
+  const double e = rows.law[r].restitution;
+  return Bias{e == 0.0 ? 0.0 : e * std::min(0.0, rows.relative(r, at.v)[0]), 0.0};
 }
 
 /// Multipliers that keep v_next on the right side of every row: w = (G v_next + bias) / weight, A = M.
@@ -48,7 +55,7 @@ class MultiplierContact final : public ExplicitContact {
     closing_.clear();
     for (std::size_t r = 0; r < rows.size(); ++r) {
       if (is_bond(rows.law[r])) continue;
-      if (const auto bias = bias_(rows, r, at)) closing_.push_back({r, {bias->value, 0.0, 0.0}, bias->round_off});
+      if (const auto bias = bias_(system_.contact, rows, r, at)) closing_.push_back({r, {bias->value, 0.0, 0.0}, bias->round_off});
     }
     if (closing_.empty()) return {};
     if (!free_velocity(at, forces)) return MassSolver::failure;

@@ -178,7 +178,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
   forces.inertia.resize(n);
   end.q.resize(n);
   end.v.resize(n);
-  port_->begin({&begin, &memory, eq.s, eq.r, eq.m, stiffness_share(eq), eq.free, eq.x_predicted, force_parts_});
+  port_->begin({&begin, &memory, eq.s, eq.r, eq.m, stiffness_share(eq), eq.free, eq.x_predicted, force_parts_, eq.dt});
   solver_->begin(memory);
   is_improved_ = false;
   StageReport report;
