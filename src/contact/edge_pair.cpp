@@ -80,6 +80,7 @@ StandFactor stand_factor(const std::array<EdgeStand, 2>& stand, PairFactor facto
   const auto& [a, b] = stand;
   switch (factor) {
     case PairFactor::held:
+    case PairFactor::fold:
       return {a.out * b.out, {b.out, a.out}, {}};
     case PairFactor::stopped:
     case PairFactor::moves:
@@ -247,7 +248,8 @@ std::optional<EdgePair> EdgePairing::make(const std::array<EdgeEnd, 2>& ends_1, 
   gradient_.r = scaled(pair_.normal, pair_.factor);
   gradient_.d_1 = scaled(pair_.normal, pair_.factor * pair_.s);
   gradient_.d_2 = scaled(pair_.normal, -pair_.factor * pair_.t);
-  if ((factor == PairFactor::moves || factor == PairFactor::border) && pair_.gap < 0.0) add_factor();
+  const bool is_held = factor == PairFactor::held || factor == PairFactor::stopped;
+  if (!is_held && pair_.gap < 0.0) add_factor();
   pair_.of_gap = gradient_.shares();
   return pair_;
 }

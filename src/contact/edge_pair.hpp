@@ -29,7 +29,8 @@ struct EdgeShares {
 /// moves: for a row's force that grows with its gap; the energy that is stored is then a function of the positions. One
 ///   of the edges has to stick out.
 /// border: as `moves`, for two edges at which faces end; neither has to stick out.
-enum class PairFactor : std::uint8_t { held, stopped, moves, border };
+/// fold: as `moves`, for a diagonal of a facet that is flat unless it bends; both have to stick out.
+enum class PairFactor : std::uint8_t { held, stopped, moves, border, fold };
 
 /// Closest points x_1 = a_1 + s d_1 and x_2 = a_2 + t d_2 of the lines of two segments.
 struct EdgePair {
@@ -58,7 +59,8 @@ struct EdgePair {
 /// -b . n for those of the second. An edge sticks out by s_i = prod of S(z / w) over its two facets, w = 0.05, and lies
 /// at least flat by t_i = prod of S((z + w) / 2 w): 1/4 amid a flat face, 1/2 at the border of a face that lies flat on
 /// the other body.
-///   held:   F = s_1 s_2           edges that stick out, 0 with zero slope where a facet lies flat on the other body
+///   held, fold:
+///           F = s_1 s_2           edges that stick out, 0 with zero slope where a facet lies flat on the other body
 ///                                 (Ferguson et al., "Geometric contact potential", ACM Trans. Graph. 2025, take the
 ///                                 local minima of the distance in this way);
 ///   stopped, moves: F = s_1 t_2 + t_1 s_2 - s_1 s_2   one that sticks out, over any edge of the other face: 1 over
@@ -69,7 +71,7 @@ struct EdgePair {
 /// between them, below e = 1e-3, 1.8 degrees (Li et al., "Incremental potential contact", ACM Trans. Graph. 39, 2020).
 /// y takes a pair from one segment to the next where the edge goes on,
 /// within a tenth of the segment to both sides of the node, so that their factors' squares add up to 1 on a straight
-/// edge, and to nothing within two tenths before an end.
+/// edge, and to nothing within a tenth before an end.
 std::optional<EdgePair> edge_pair(const PlacedEdge& first, const std::array<EdgeEnd, 2>& ends_1,
                                   const PlacedEdge& second, const std::array<EdgeEnd, 2>& ends_2, PairFactor factor);
 

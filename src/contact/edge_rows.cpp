@@ -154,6 +154,7 @@ bool EdgeRows::was_behind(Index i, Index j) const {
 
 PairFactor EdgeRows::factor_of(Index i, Index j) const {
   const PairFactor factor = edges_.rule.factor;
+  if (edges_.second[j].is_fold) return factor == PairFactor::stopped ? PairFactor::held : PairFactor::fold;
   const bool may_be_border = edges_.first[i].is_sharp && edges_.second[j].is_sharp;
   return factor == PairFactor::border && !may_be_border ? PairFactor::moves : factor;
 }
@@ -172,7 +173,7 @@ bool EdgeRows::has_come_from_the_front(Index i, Index j, const EdgePair& pair, c
   const PlacedEdge first = place(edges_.first[i], motion.x_begin), second = place(edges_.second[j], motion.x_begin);
   if (pair.line_gap(first, second) > -shallow * size) return true;
   return pair.gap > -shallow_from_nothing * size &&
-         !edge_pair(first, edges_.first[i].end, second, edges_.second[j].end, edges_.rule.factor);
+         !edge_pair(first, edges_.first[i].end, second, edges_.second[j].end, factor_of(i, j));
 }
 
 /// The pairs of segment i that count, by increasing segment of the other side.

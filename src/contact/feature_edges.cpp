@@ -15,7 +15,7 @@ namespace carom {
 namespace {
 
 constexpr double goes_straight = 1.0 - 5e-7;             // cosine of 1e-3 between segments
-constexpr double passing = 0.1;                          // EdgeEnd::width
+constexpr double passing = 0.1, ending = 0.05;           // EdgeEnd::width
 constexpr double warped = 0.5 * std::numbers::pi / 180;  // turn of the halves of a quadrilateral
 
 /// A side of a facet.
@@ -86,7 +86,7 @@ FeatureEdge edge_between(Index a, Index b, const Facet& first, const Facet& seco
   const bool sticks_out = dot(n, subtract(mean_of(second, X), X[a])) < 0.0;
   const double turn = std::atan2(norm(cross(n, m)), dot(n, m));
   const double measure = carom::measure(place(first, X)) / first.size + carom::measure(place(second, X)) / second.size;
-  return {{a, b}, {first, second}, sticks_out ? turn : -turn, measure, {}, false};
+  return {{a, b}, {first, second}, sticks_out ? turn : -turn, measure, {}, false, false};
 }
 
 std::optional<FeatureEdge> edge_of(std::span<const FacetSide> sides, std::span<const Vec3> X) {
@@ -96,13 +96,22 @@ std::optional<FeatureEdge> edge_of(std::span<const FacetSide> sides, std::span<c
   return edge_between(sides[0].low, sides[0].high, sides[first].facet, sides[1 - first].facet, X);
 }
 
+/// The diagonal from a corner of a quadrilateral.
+FeatureEdge diagonal(const Facet& facet, std::size_t corner, std::span<const Vec3> X) {
+  const Index a = facet[corner], b = facet[corner + 1], c = facet[corner + 2], d = facet[(corner + 3) % 4];
+  const Facet ahead{{a, c, d, -1}, 3}, back{{c, a, b, -1}, 3};
+  return a < c ? edge_between(a, c, ahead, back, X) : edge_between(c, a, back, ahead, X);
+}
+
+bool has_diagonals(const Facet& facet) {
+  return facet.size == 4 && facet[0] != facet[1] && facet[1] != facet[2] && facet[2] != facet[3] &&
+         facet[3] != facet[0];
+}
+
 /// The diagonal of a quadrilateral that sticks out; nothing where it is flat.
 std::optional<FeatureEdge> diagonal_of(const Facet& facet, std::span<const Vec3> X) {
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Index a = facet[k], b = facet[k + 1], c = facet[k + 2], d = facet[(k + 3) % 4];
-    if (a == b || b == c || c == d || d == a) return std::nullopt;
-    const Facet ahead{{a, c, d, -1}, 3}, back{{c, a, b, -1}, 3};
-    const FeatureEdge edge = a < c ? edge_between(a, c, ahead, back, X) : edge_between(c, a, back, ahead, X);
+  for (std::size_t corner = 0; corner < 2 && has_diagonals(facet); ++corner) {
+    const FeatureEdge edge = diagonal(facet, corner, X);
     if (edge.turn > warped) return edge;
   }
   return std::nullopt;
@@ -132,7 +141,7 @@ void find_ends(std::vector<FeatureEdge>& edges, std::span<const Vec3> X) {
         shorter = std::min(shorter, length_of(edges[other], X));
       }
       edges[e].end[end].goes_on = found == 1;
-      edges[e].end[end].width = passing * (found == 1 ? shorter / length_of(edges[e], X) : 1.0);
+      edges[e].end[end].width = found == 1 ? passing * shorter / length_of(edges[e], X) : ending;
     }
   }
 }
@@ -150,6 +159,20 @@ std::vector<FeatureEdge> feature_edges(std::span<const Vec3> X, std::span<const 
     if (facet.size == 4) add(diagonal_of(facet, X));
   std::ranges::stable_sort(edges, {}, &FeatureEdge::node);
   find_ends(edges, X);
+  return edges;
+}
+
+std::vector<FeatureEdge> fold_edges(std::span<const Vec3> X, std::span<const Facet> surface) {
+  std::vector<FeatureEdge> edges;
+  for (const Facet& facet : surface) {
+    if (!has_diagonals(facet) || diagonal_of(facet, X)) continue;
+    for (std::size_t corner = 0; corner < 2; ++corner) {
+      edges.push_back(diagonal(facet, corner, X));
+      edges.back().end = {EdgeEnd{false, ending}, EdgeEnd{false, ending}};
+      edges.back().is_fold = true;
+    }
+  }
+  std::ranges::stable_sort(edges, {}, &FeatureEdge::node);
   return edges;
 }
 

@@ -13,7 +13,7 @@ namespace carom {
 /// Where a segment of an edge ends: at a corner, or where the edge goes on.
 struct EdgeEnd {
   bool goes_on = false;
-  double width = 0.0;  ///< a tenth of the shorter segment there, as a part of this one
+  double width = 0.0;  ///< a tenth of the shorter segment there, as a part of this one; a twentieth of this at a corner
 };
 
 /// A segment of an edge, between two nodes of the mesh.
@@ -24,6 +24,7 @@ struct FeatureEdge {
   double measure = 0.0;          ///< share of area: that of each facet over the number of its nodes
   std::array<EdgeEnd, 2> end{};  ///< at node[0] and node[1]
   bool is_sharp = false;         ///< see meeting_edges.hpp; feature_edges leaves it false
+  bool is_fold = false;          ///< a diagonal along which a flat facet may bend
 };
 
 /// The edges between two facets of three or four nodes that turn by more than `least_turn`, by increasing numbers of
@@ -34,6 +35,10 @@ struct FeatureEdge {
 /// of a segment of a curved edge sticks out of the body beyond the segment's end. X: reference configuration.
 std::vector<FeatureEdge> feature_edges(std::span<const Vec3> X, std::span<const Facet> surface,
                                        std::span<const Facet> beside, double least_turn);
+
+/// Both diagonals of the quadrilaterals that are flat, by increasing numbers of their nodes: where these bend, one of
+/// them sticks out.
+std::vector<FeatureEdge> fold_edges(std::span<const Vec3> X, std::span<const Facet> surface);
 
 /// True when a facet of the surface has an edge that no other one shares.
 bool has_open_edges(std::span<const Facet> surface);

@@ -92,9 +92,14 @@ class Meetings {
     std::vector<FeatureEdge> first = edges_of(contact_.slave, sharp_for_multipliers);
     add(first, contact_.self ? first : edges_of(contact_.master, sharp_for_multipliers));
   }
+  std::vector<FeatureEdge> edges_and_folds_of(const Surface& surface) const {
+    std::vector<FeatureEdge> edges = edges_of(surface, no_notch);
+    std::ranges::copy(fold_edges(model_.mesh->coordinates, surface.facets), std::back_inserter(edges));
+    return edges;
+  }
   void find_all() {
-    const std::vector<FeatureEdge> first = edges_of(contact_.slave, no_notch),
-                                   second = contact_.self ? first : edges_of(contact_.master, no_notch);
+    const std::vector<FeatureEdge> first = edges_and_folds_of(contact_.slave),
+                                   second = contact_.self ? first : edges_and_folds_of(contact_.master);
     add(edges_that(first, true), second);
     if (!contact_.self) add(edges_that(second, true), edges_that(first, false), true);
   }

@@ -55,7 +55,8 @@ class MultiplierContact final : public ExplicitContact {
     closing_.clear();
     for (std::size_t r = 0; r < rows.size(); ++r) {
       if (is_bond(rows.law[r])) continue;
-      if (const auto bias = bias_(system_.contact, rows, r, at)) closing_.push_back({r, {bias->value, 0.0, 0.0}, bias->round_off});
+      if (const auto bias = bias_(system_.contact, rows, r, at))
+        closing_.push_back({r, {bias->value, 0.0, 0.0}, bias->round_off});
     }
     if (closing_.empty()) return {};
     if (!free_velocity(at, forces)) return MassSolver::failure;

@@ -139,11 +139,24 @@ struct Way {
 
 constexpr int steps = 4;
 
+/// Which edges make rows depends on what holds them; as a case's model has it (run/simulation.cpp).
+void set_hold(const SchemeSettings& settings, Model& model) {
+  for (ContactDefinition& definition : model.contacts) {
+    auto* pair = std::get_if<PairContact>(&definition);
+    if (pair == nullptr || settings.enforcement == EnforcementKind::penalty) continue;
+    if (settings.enforcement == EnforcementKind::impulse)
+      pair->law.hold = RowHold::impulses;
+    else
+      pair->law.hold = is_explicit(settings.kind) ? RowHold::increments : RowHold::multipliers;
+  }
+}
+
 /// Purity of one combination.
 class Purity {
  public:
   Purity(const Scene& scene, const Body& body, const SchemeSettings& settings)
       : model_(scene.model(body)), settings_(settings) {
+    set_hold(settings, model_);
     const Bench bench = make_bench(model_, settings.kind);
     const StableStep stable = stable_step(bench.system());
     omega_max_squared_ = stable.omega_max_squared_free;
