@@ -71,7 +71,7 @@ struct EdgePair {
 /// between them, below e = 1e-3, 1.8 degrees (Li et al., "Incremental potential contact", ACM Trans. Graph. 39, 2020).
 /// y takes a pair from one segment to the next where the edge goes on,
 /// within a tenth of the segment to both sides of the node, so that their factors' squares add up to 1 on a straight
-/// edge, and to nothing within a tenth before an end.
+/// edge, and to nothing within a twenty-fifth before an end.
 std::optional<EdgePair> edge_pair(const PlacedEdge& first, const std::array<EdgeEnd, 2>& ends_1,
                                   const PlacedEdge& second, const std::array<EdgeEnd, 2>& ends_2, PairFactor factor);
 

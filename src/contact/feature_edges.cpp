@@ -15,7 +15,7 @@ namespace carom {
 namespace {
 
 constexpr double goes_straight = 1.0 - 5e-7;             // cosine of 1e-3 between segments
-constexpr double passing = 0.1, ending = 0.05;           // EdgeEnd::width
+constexpr double passing = 0.1, ending = 0.02;           // EdgeEnd::width
 constexpr double warped = 0.5 * std::numbers::pi / 180;  // turn of the halves of a quadrilateral
 
 /// A side of a facet.

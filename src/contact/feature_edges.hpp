@@ -13,7 +13,7 @@ namespace carom {
 /// Where a segment of an edge ends: at a corner, or where the edge goes on.
 struct EdgeEnd {
   bool goes_on = false;
-  double width = 0.0;  ///< a tenth of the shorter segment there, as a part of this one; a twentieth of this at a corner
+  double width = 0.0;  ///< a tenth of the shorter segment there, as a part of this one; a fiftieth of this at a corner
 };
 
 /// A segment of an edge, between two nodes of the mesh.
