@@ -56,9 +56,9 @@ std::unique_ptr<RowMaker> face_rows(std::span<const Vec3> X, const Surface& slav
 /// degrees, open or not (s = 1), and with D_A = sum_q w N^_A the row has the measure D_A, the gap sum_q w N^_A g_q /
 /// D_A and its complete gradient at held weights. Uniform multipliers per area give the consistent nodal forces of both
 /// sides, of first and second order, since the N^_A add up to 1: the flat patch test holds between any meshes. Less
-/// than 1e-9 of a node's measure has no row. Behind a master facet overlaps count to half_thickness (`self`) or the
-/// facet size, deeper as above. (Puso and Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004, sections 3 to 5;
-/// lumped to one row per node by D_A.) law: that of the contact, halved with `self`.
+/// than 1e-9 of a node's measure has no row. Which overlaps behind a master facet count is as above. (Puso and Laursen,
+/// Comput. Methods Appl. Mech. Engrg. 193, 2004, sections 3 to 5; lumped to one row per node by D_A.) law: that of the
+/// contact, halved with `self`.
 std::unique_ptr<RowMaker> mean_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
                                     const ContactLaw& law, Index source);
 

@@ -310,7 +310,7 @@ std::unique_ptr<RowMaker> MethodRows::of_faces() const {
 /// Means over the finer side, which carry the pressure, and nodes of both sides, which see what means do not: the pole
 /// of a ball amid a coarse facet. They have an allowance, so that flat faces touch by their means alone.
 std::unique_ptr<RowMaker> MethodRows::of_means_and_guards() const {
-  constexpr double allowed = 0.01;  // of the facet size
+  constexpr double allowed = 0.01;  // of the facet size: above what means leave on flat faces, below what a user sees
   const std::span<const Vec3> X = model_.mesh->coordinates;
   const double own = mean_facet_size(X, contact_.slave.facets), other = mean_facet_size(X, contact_.master.facets);
   const bool is_finer = own <= other;
