@@ -251,25 +251,11 @@ void choose_enforcement(Case& given) {
   for (CaseStage& stage : given.stages) choose(stage.scheme);
 }
 
-namespace {
-
-/// What a contact gets that names no method and is not to be smooth.
-PairMethod usual_method(const Case& given) {
-  const bool are_statics = are_all_schemes(given, [](const CaseScheme& s) { return *s.kind == SchemeKind::statics; });
-  return are_statics ? PairMethod::faces : PairMethod::two_pass;
-}
-
-}  // namespace
-
 void choose_methods(Case& given) {
   for (CaseContact& contact : given.contacts) {
     CaseSurfaces* surfaces = contact.surfaces();
     if (surfaces == nullptr) continue;
-    const bool is_smooth = surfaces->smooth && **surfaces->smooth;
-    if (!surfaces->method) {
-      const PairMethod method = is_smooth ? PairMethod::two_pass : usual_method(given);
-      surfaces->method = Located<PairMethod>{method, contact.where};
-    }
+    if (!surfaces->method) surfaces->method = Located<PairMethod>{PairMethod::faces, contact.where};
     if (!surfaces->smooth && !(smooths(**surfaces->method) && is_all_penalty(given)))
       surfaces->smooth = Located<bool>{false, contact.where};
   }

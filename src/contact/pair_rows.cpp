@@ -341,6 +341,7 @@ std::unique_ptr<RowMaker> MethodRows::make() const {
     case PairMethod::surface_to_surface:
       return mean_rows(model_, slave, master, contact_.self, one_way, source_);
     case PairMethod::faces:
+      if (smooth_ != nullptr) break;
       return contact_.law.hold == RowHold::springs ? of_faces() : of_means_and_guards();
     case PairMethod::node_to_surface:
       return of_nodes(slave, master, one_way, smooth_);

@@ -51,7 +51,7 @@ enum class Smoothing : std::uint8_t {
 
 /// True when facets that approximate a smooth surface can be seen as that.
 constexpr bool smooths(PairMethod method) {
-  return method == PairMethod::two_pass;
+  return has_both_passes(method);
 }
 
 /// How the rows of a tie are made: each slave node at its closest point of the master, or means over the overlaps of
