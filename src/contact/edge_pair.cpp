@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/fade.hpp"
 #include "math/vec3.hpp"
 
 namespace carom {
@@ -35,11 +36,6 @@ struct PairGradient {
   }
 };
 
-/// S(u), and half the slope of its logarithm.
-struct PairFade {
-  double value, slope;
-};
-
 /// How an edge stands to the other body.
 struct EdgeStand {
   double out = 1.0, flat = 1.0;                 ///< s and t
@@ -52,16 +48,10 @@ void add_to(Vec3& sum, const Vec3& v, double w) {
   sum = add(sum, scaled(v, w));
 }
 
-PairFade fade(double u) {
-  if (u >= 1.0) return {1.0, 0.0};
-  if (!(u > 0.0)) return {0.0, 0.0};
-  return {u * u * (3.0 - 2.0 * u), 1.0 / u - 1.0 / (3.0 - 2.0 * u)};
-}
-
 EdgeStand stand_of(const std::array<double, 2>& z) {
   EdgeStand stand;
   for (std::size_t f = 0; f < 2; ++f) {
-    const PairFade out = fade(z[f] / flat), half = fade((z[f] + flat) / (2.0 * flat));
+    const Fade out = fade(z[f] / flat), half = fade((z[f] + flat) / (2.0 * flat));
     stand.out *= out.value;
     stand.flat *= half.value;
     stand.out_slope[f] = 2.0 * out.slope / flat;
@@ -158,7 +148,7 @@ bool EdgePairing::take_angle() {
 bool EdgePairing::take_end(const std::array<EdgeEnd, 2>& ends, std::size_t edge) {
   const double at = edge == 0 ? pair_.s : pair_.t;
   for (std::size_t end = 0; end < 2; ++end) {
-    const PairFade part = fade(passed(ends[end], end == 0 ? at : 1.0 - at));
+    const Fade part = fade(passed(ends[end], end == 0 ? at : 1.0 - at));
     if (!take(part.value)) return false;
     parameter_slope_[edge] += (end == 0 ? 1.0 : -1.0) * part.slope / (2.0 * ends[end].width);
   }

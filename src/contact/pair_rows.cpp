@@ -15,6 +15,7 @@
 #include "contact/facing_facets.hpp"
 #include "contact/feature_edges.hpp"
 #include "contact/half_thickness.hpp"
+#include "contact/sharp_nodes.hpp"
 #include "contact/smooth_points.hpp"
 #include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
@@ -42,36 +43,56 @@ std::vector<Index> keys(const std::map<Index, double>& map) {
   return out;
 }
 
-/// Adds what the last row sees of one facet to its master nodes.
-void add_foot(ConstraintRows& rows, const FacetFoot& foot, const Facet& facet) {
+/// Adds what the last row sees of one facet to its master nodes, times a factor, and what the row's gap changes by as
+/// the facet's normal does.
+void add_foot(ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, double factor, const Vec3& of_normal) {
   const FacetShape shape = facet_shape(facet.size, foot.xi, foot.eta);
   const Vec3 n = foot.normal, t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
   TangentDual dual;
   if (std::abs(dot(foot.facet_normal, n)) >= least_cosine) dual = tangent_dual(foot.a_1, foot.a_2, n);
+  const bool turns = of_normal != Vec3{};
+  const TangentDual of_facet = turns ? tangent_dual(foot.a_1, foot.a_2, foot.facet_normal) : TangentDual{};
   for (std::size_t a = 0; a < static_cast<std::size_t>(facet.size); ++a) {
-    const double w = -foot.weight * foot.N[a];
+    const double w = -factor * foot.weight * foot.N[a];
     const Vec3 tilt = scaled(add(scaled(dual.dual_1, shape.dN_dxi[a]), scaled(dual.dual_2, shape.dN_deta[a])),
-                             foot.weight * foot.gap);
-    rows.add_behind(facet[a],
-                    {add(scaled(foot.gradient, -foot.N[a]), scaled(foot.at_closest, -foot.N_closest[a])),
-                     add(scaled(t_1, w), scaled(n, dot(t_1, tilt))), add(scaled(t_2, w), scaled(n, dot(t_2, tilt)))});
+                             factor * foot.weight * foot.gap);
+    Vec3 of_gap = scaled(add(scaled(foot.gradient, foot.N[a]), scaled(foot.at_closest, foot.N_closest[a])), -factor);
+    if (turns) {
+      const double turn =
+          dot(of_normal, of_facet.dual_1) * shape.dN_dxi[a] + dot(of_normal, of_facet.dual_2) * shape.dN_deta[a];
+      of_gap = subtract(of_gap, scaled(foot.facet_normal, turn));
+    }
+    rows.add_behind(facet[a], {of_gap, add(scaled(t_1, w), scaled(n, dot(t_1, tilt))),
+                               add(scaled(t_2, w), scaled(n, dot(t_2, tilt)))});
   }
 }
 
-/// Adds the nodes of the last row.
-void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, std::span<const Facet> facets) {
-  rows.add_block(slave, {met.gradient, rows.tangent_1.back(), rows.tangent_2.back()});
-  for (const FacetFoot& foot : met.feet) add_foot(rows, foot, facets[foot.facet]);
+/// Adds the nodes of the last row, whose gap is that of the point times the node's factor. An open row's factor is
+/// held.
+void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, const NodeStand& stand,
+               std::span<const Facet> facets) {
+  const double f = stand.factor, deep = std::min(met.gap, 0.0);
+  RowBlocks own;
+  own.add(slave, add(scaled(met.gradient, f), scaled(stand.of_node, deep)), scaled(rows.tangent_1.back(), f),
+          scaled(rows.tangent_2.back(), f));
+  if (deep < 0.0)
+    for (const auto& [n, slope] : stand.of_others) own.add(n, scaled(slope, deep), {}, {});
+  own.append_to(rows);
+  for (std::size_t k = 0; k < met.feet.size(); ++k) {
+    const FacetFoot& foot = met.feet[k];
+    add_foot(rows, foot, facets[foot.facet], f, stand.of_normals.empty() ? Vec3{} : scaled(stand.of_normals[k], deep));
+  }
 }
 
 /// The nodes of one surface against the facets of another.
 class NodeRows : public RowMaker {
  public:
   /// self: the two surfaces are one; bodies: by node, see half_thickness, needed for `self` alone. sides: where they
-  /// are smooth, else null.
+  /// are smooth, else null. sharp: the nodes that have rows, by how they stick out; null: all, wholly.
   NodeRows(std::span<const Vec3> X, const Surface& slave, const Surface& master, bool self,
-           const std::vector<Index>& bodies, const ContactLaw& law, Index source, const SmoothSides* sides)
-      : measures_(unsmoothed_measures(X, slave, sides)), law_(law), source_(source), search_([&] {
+           const std::vector<Index>& bodies, const ContactLaw& law, Index source, const SmoothSides* sides,
+           std::unique_ptr<const SharpNodes> sharp = nullptr)
+      : sharp_(std::move(sharp)), measures_(measures_of(X, slave, sides)), law_(law), source_(source), search_([&] {
           const double size = mean_facet_size(X, master.facets),
                        reach = std::max(size, mean_facet_size(X, slave.facets));
           SearchRange range{reach, 0.5 * size, std::vector<double>(master.facets.size(), reach),
@@ -96,19 +117,22 @@ class NodeRows : public RowMaker {
         const SurfacePoint* met = search_.find(i, space);
         if (met == nullptr || leaves_to_points(i, met->facet)) continue;
         const Index n = search_.nodes()[i];
-        made.add_row(met->gap, direction(met->gradient), motion.x[n], measure_[i], row_law(law_, measure_[i]), source_);
+        const NodeStand stand = sharp_ ? sharp_->stand(n, *met, motion.x) : NodeStand{};
+        if (stand.factor == 0.0) continue;
+        made.add_row(stand.factor * met->gap, direction(met->gradient), motion.x[n], measure_[i],
+                     row_law(law_, measure_[i]), source_);
         made.facet.back() = met->facet;
         made.rounded.back() = met->rounded;
-        add_nodes(made, n, *met, search_.facets());
+        add_nodes(made, n, *met, stand, search_.facets());
         finish_row(made, motion.u, first_slot + static_cast<Index>(i));
       }
     });
   }
 
  private:
-  static std::map<Index, double> unsmoothed_measures(std::span<const Vec3> X, const Surface& slave,
-                                                     const SmoothSides* sides) {
+  std::map<Index, double> measures_of(std::span<const Vec3> X, const Surface& slave, const SmoothSides* sides) const {
     std::map<Index, double> measures = nodal_measures(X, slave);
+    if (sharp_) std::erase_if(measures, [&](const auto& m) { return !sharp_->has(m.first); });
     if (sides != nullptr)
       std::erase_if(measures, [&](const auto& m) { return sides->of_slave->is_smooth_node(m.first); });
     return measures;
@@ -118,6 +142,7 @@ class NodeRows : public RowMaker {
     return facet >= 0 && !has_points_.empty() && is_inner_[i] && has_points_[static_cast<std::size_t>(facet)] == 1.0;
   }
 
+  std::unique_ptr<const SharpNodes> sharp_;
   std::map<Index, double> measures_;
   std::vector<double> measure_;
   std::vector<bool> is_inner_;      ///< by slot; empty where nothing is smooth
@@ -267,8 +292,10 @@ class MethodRows {
  private:
   std::unique_ptr<RowMaker> of_nodes(const Surface& slave, const Surface& master, const ContactLaw& law,
                                      const SmoothSides* seen) const;
-  std::unique_ptr<RowMaker> of_faces() const;
+  std::unique_ptr<RowMaker> of_faces_and_corners() const;
   std::unique_ptr<RowMaker> of_means_and_guards() const;
+  /// Of each node, where nodes may touch their own body; else empty.
+  std::vector<Index> bodies() const { return contact_.self ? bodies_of_nodes(model_) : std::vector<Index>{}; }
   /// One way, or both ways with half of the stiffness each: make(slave, master, law, is_back).
   template <class Make>
   std::unique_ptr<RowMaker> both_ways(const Make& make) const;
@@ -291,9 +318,8 @@ std::unique_ptr<RowMaker> MethodRows::both_ways(const Make& make) const {
 
 std::unique_ptr<RowMaker> MethodRows::of_nodes(const Surface& slave, const Surface& master, const ContactLaw& law,
                                                const SmoothSides* seen) const {
-  const std::vector<Index> bodies = contact_.self ? bodies_of_nodes(model_) : std::vector<Index>{};
   auto rows =
-      std::make_unique<NodeRows>(model_.mesh->coordinates, slave, master, contact_.self, bodies, law, source_, seen);
+      std::make_unique<NodeRows>(model_.mesh->coordinates, slave, master, contact_.self, bodies(), law, source_, seen);
   if (seen == nullptr || !seen->of_slave->has_curved()) return rows;
   auto all = std::make_unique<MakersInOrder>();
   all->add(std::move(rows));
@@ -301,9 +327,13 @@ std::unique_ptr<RowMaker> MethodRows::of_nodes(const Surface& slave, const Surfa
   return all;
 }
 
-std::unique_ptr<RowMaker> MethodRows::of_faces() const {
+std::unique_ptr<RowMaker> MethodRows::of_faces_and_corners() const {
   return both_ways([this](const Surface& slave, const Surface& master, const ContactLaw& law, bool /*is_back*/) {
-    return face_rows(model_, slave, master, contact_.self, law, source_);
+    auto all = std::make_unique<MakersInOrder>();
+    all->add(face_rows(model_, slave, master, contact_.self, law, source_));
+    all->add(std::make_unique<NodeRows>(model_.mesh->coordinates, slave, master, contact_.self, bodies(), law, source_,
+                                        nullptr, std::make_unique<const SharpNodes>(*model_.mesh, slave.facets)));
+    return all;
   });
 }
 
@@ -342,7 +372,7 @@ std::unique_ptr<RowMaker> MethodRows::make() const {
       return mean_rows(model_, slave, master, contact_.self, one_way, source_);
     case PairMethod::faces:
       if (smooth_ != nullptr) break;
-      return contact_.law.hold == RowHold::springs ? of_faces() : of_means_and_guards();
+      return contact_.law.hold == RowHold::springs ? of_faces_and_corners() : of_means_and_guards();
     case PairMethod::node_to_surface:
       return of_nodes(slave, master, one_way, smooth_);
     case PairMethod::two_pass:

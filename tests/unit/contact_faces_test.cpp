@@ -115,19 +115,20 @@ TEST(FaceRows, ForcesAreTheGradientOfTheirEnergyInAPlaneAndOfRings) {
   }
 }
 
-/// Two boxes askew, the edge of one in the face of the other, as skins of one contact.
+/// Two boxes askew, the edge of one in the face of the other, or where they lean far its corner, as skins of one
+/// contact; it is `dip` deep.
 struct AskewBoxes {
   Scene scene;
-  AskewBoxes() {
+  explicit AskewBoxes(double a = 0.07, double b = 0.05, double dip = 0.0906) {
     std::vector<Facet> all = scene.add_box({0, 0, 0}, {10, 10, 10}, 2);
     const std::size_t first = scene.mesh.coordinates.size();
     const std::vector<Facet> more = scene.add_box({3, 2, 0}, {15, 11, 10}, 3);
     all.insert(all.end(), more.begin(), more.end());
-    const double a = 0.07, b = 0.05;
+    const double height = 10.0 - dip - 2.0 * std::sin(b) - 3.0 * std::sin(a) * std::cos(b);
     for (std::size_t n = first; n < scene.mesh.coordinates.size(); ++n) {
       Vec3& x = scene.mesh.coordinates[n];
       x = {x[0] * std::cos(a) - x[2] * std::sin(a), x[1], x[0] * std::sin(a) + x[2] * std::cos(a)};
-      x = {x[0], x[1] * std::cos(b) - x[2] * std::sin(b), 9.6 + x[1] * std::sin(b) + x[2] * std::cos(b)};
+      x = {x[0], x[1] * std::cos(b) - x[2] * std::sin(b), height + x[1] * std::sin(b) + x[2] * std::cos(b)};
     }
     PairContact contact = faces(all, all);
     contact.self = true;
@@ -144,6 +145,18 @@ TEST(FaceRows, ForcesAreTheGradientOfTheirEnergyWhereAnEdgeDips) {
   EXPECT_GT(energy(contact, boxes.scene.zero()), 0.0);
   EXPECT_LT(force_error(contact, boxes.scene.zero()), 1e-3);
   EXPECT_LT(force_error(contact, shaken(boxes.scene, random, 0.01)), 5e-3);
+}
+
+// A corner has a row of its own, and where a facet leans by less than 20 degrees a part of it.
+TEST(FaceRows, ForcesAreTheGradientOfTheirEnergyWhereACornerDips) {
+  Random random(5);
+  for (const auto& [a, b] : {std::pair{0.6, 0.5}, std::pair{0.15, 0.2}}) {
+    const AskewBoxes boxes(a, b, 0.3);
+    const std::vector<double> u = shaken(boxes.scene, random, 0.01);
+    const ContactGeometry contact(boxes.scene.model);
+    EXPECT_GT(energy(contact, u), 0.0);
+    EXPECT_LT(force_error(contact, u), 5e-3);
+  }
 }
 
 TEST(FaceRows, HaveNeitherForceNorMoment) {
