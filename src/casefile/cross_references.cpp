@@ -129,8 +129,8 @@ void check_smoothing(const Case& given) {
     if (is_penalty && (!surfaces->method || smooths(**surfaces->method))) continue;
     throw CaseError(
         surfaces->smooth->where, entry_path("contact", i, "smooth"),
-        is_penalty ? "true with a method that is not two_pass" : "true with an enforcement that is not penalty",
-        "smooth = true with method = \"two_pass\" and enforcement = \"penalty\" in every stage",
+        is_penalty ? "true with a method that has no rows of both sides" : "true with an enforcement that is not penalty",
+        "smooth = true with method = \"two_pass\" or \"faces\", and enforcement = \"penalty\" in every stage",
         "Remove smooth, or take two_pass with penalty; other contact sees the facets themselves.");
   }
 }
@@ -255,7 +255,11 @@ void choose_methods(Case& given) {
   for (CaseContact& contact : given.contacts) {
     CaseSurfaces* surfaces = contact.surfaces();
     if (surfaces == nullptr) continue;
-    if (!surfaces->method) surfaces->method = Located<PairMethod>{PairMethod::faces, contact.where};
+    const bool is_smooth = surfaces->smooth && **surfaces->smooth;
+    if (!surfaces->method) {
+      const PairMethod method = is_smooth ? PairMethod::two_pass : PairMethod::faces;
+      surfaces->method = Located<PairMethod>{method, contact.where};
+    }
     if (!surfaces->smooth && !(smooths(**surfaces->method) && is_all_penalty(given)))
       surfaces->smooth = Located<bool>{false, contact.where};
   }

@@ -13,8 +13,8 @@ void check_references(const Case& given);
 /// part of the motion. Contacts that give their stiffness or are to be smooth, and stops, keep springs.
 void choose_enforcement(Case& given);
 
-/// Fills in the methods of pairs that name none: faces where all stages are statics, else two_pass. Also that they are
-/// not smooth, where nothing is said and they cannot be.
+/// Fills in the methods of pairs that name none: faces, or two_pass where they are to be smooth. Also that they are not
+/// smooth, where nothing is said and they cannot be.
 void choose_methods(Case& given);
 
 }  // namespace carom

@@ -371,7 +371,6 @@ std::unique_ptr<RowMaker> MethodRows::make() const {
     case PairMethod::surface_to_surface:
       return mean_rows(model_, slave, master, contact_.self, one_way, source_);
     case PairMethod::faces:
-      if (smooth_ != nullptr) break;
       return contact_.law.hold == RowHold::springs ? of_faces_and_corners() : of_means_and_guards();
     case PairMethod::node_to_surface:
       return of_nodes(slave, master, one_way, smooth_);
@@ -389,6 +388,11 @@ std::unique_ptr<RowMaker> MethodRows::make() const {
 std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& contact, Index source) {
   if (!contact.slave_bars.empty()) return bar_pair_rows(model, contact, source);
   const std::optional<SmoothSides> smooth = smooth_sides(model, contact);
+  if (smooth && contact.method == PairMethod::faces) {  // the rows of curved facets stand in the place of nodes
+    PairContact by_nodes = contact;
+    by_nodes.method = PairMethod::two_pass;
+    return pair_rows(model, by_nodes, source);
+  }
   const SmoothSides* const sides = smooth ? &*smooth : nullptr;
   std::unique_ptr<RowMaker> of_method = MethodRows(model, contact, source, sides).make(),
                             of_edges = edge_rows(model, contact, source, sides);

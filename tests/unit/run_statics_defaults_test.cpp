@@ -251,7 +251,7 @@ end = 2.0
 step = 1e-3
 )");
   EXPECT_EQ(staged.enforcement, EnforcementKind::penalty);
-  EXPECT_EQ(staged.method, PairMethod::two_pass);
+  EXPECT_EQ(staged.method, PairMethod::faces);
 }
 
 }  // namespace
