@@ -97,6 +97,7 @@ struct FaceOverlaps::Work {
   std::vector<ColumnMaster> masters;
   std::vector<Met> met;  ///< of each of them
   std::vector<OverlapPoint> points;
+  std::vector<Index> slivers;  ///< masters with an overlap that is ten times as deep as wide, and left out
 };
 
 FaceOverlaps::FaceOverlaps(const Model& model, const Surface& slave, const Surface& master, bool self, OverlapUse use)
@@ -139,6 +140,15 @@ bool FaceOverlaps::was_behind(const Slave& slave, Index g) const {
   });
 }
 
+/// True where a facet beside an edge of g, turned by little, is among the masters.
+bool FaceOverlaps::goes_on(Index g, const Work& work) const {
+  const std::array<Index, 4>& beside = beside_[static_cast<std::size_t>(g)];
+  return std::any_of(work.masters.begin(), work.masters.end(), [&](const ColumnMaster& master) {
+    const auto edge = std::find(beside.begin(), beside.end(), master.facet);
+    return edge != beside.end() && !ends_at(g, static_cast<std::size_t>(edge - beside.begin()));
+  });
+}
+
 /// Enters master g and appends its points, if it counts.
 void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& motion, Work& work) const {
   const Look& look = looks_[static_cast<std::size_t>(g)];
@@ -154,18 +164,21 @@ void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
   const std::size_t before = work.points.size();
   const OverlapExtent extent = add_overlap(slave, seen, {is_high || are_means, !are_means}, work.points);
   if (work.points.size() == before) return;
-  // Without a history, at the start, all counts that is not the far side of a thin part.
-  const double most = motion.history.empty() ? depth_[static_cast<std::size_t>(g)] : sideways_depth * size_;
-  const bool is_deep = extent.least_gap < -most;
-  // A sliver ten times as deep as wide belongs to what passes by the border of the other facet.
+  const bool is_deep = extent.least_gap < -sideways_depth * size_;
+  // A sliver ten times as deep as wide belongs to what passes by the border of the other facet, unless that goes on.
   const double length = slave.placed().size == 2 ? 1.0 : std::sqrt(slave.measure());
-  const bool is_wide = extent.area >= -0.1 * extent.least_gap * length;
+  const bool is_wide = extent.area >= -0.1 * extent.least_gap * length || goes_on(g, work);
+  // Without a history, at the start, all that is wide counts, but the far side of a thin part.
+  const auto has_been_behind = [&] {
+    return motion.history.empty() ? extent.least_gap >= -depth_[static_cast<std::size_t>(g)] : was_behind(slave, g);
+  };
   const auto was_in_front = [&] {
     return is_in_front(place(slave_.facets[slave.f], motion.x_begin), place(master_facet(g), motion.x_begin),
                        work.points[before], size_);
   };
-  if (extent.least_gap > face_look * size_ || (is_deep && !(is_wide && was_behind(slave, g)) && !was_in_front())) {
+  if (extent.least_gap > face_look * size_ || (is_deep && !(is_wide && has_been_behind()) && !was_in_front())) {
     work.points.resize(before);
+    if (!is_wide) work.slivers.push_back(g);
     return;
   }
   work.masters.push_back({g, master, seen, before, work.points.size()});
@@ -182,6 +195,7 @@ void FaceOverlaps::find(std::size_t f, const ContactMotion& motion, FacetPoints&
   const Slave slave(f, place(slave_.facets[f], motion.x), place(slave_.facets[f], X_));
   Work work;
   for (const Index g : candidates) add_master(slave, g, motion, work);
+  for (const Index g : std::exchange(work.slivers, {})) add_master(slave, g, motion, work);
   double covered = 0.0;
   for (const Met& met : work.met) covered += met.area;
   if (covered > slave.measure() * (1.0 + 1e-6)) hide_layers(slave, work.masters, work.points);
@@ -243,19 +257,22 @@ void FaceOverlaps::add_borders(const Slave& slave, const Work& work, std::size_t
 namespace {
 
 /// A point of a face where the line from x along n meets it, from a near point on: Newton's method in the plane normal
-/// to n.
+/// to n. The near point where the line passes by the face, whose shape functions say nothing out there.
 ParentPoint on_line(const ParentFace& face, std::span<const Vec3> x_nodes, const Vec3& x, const Vec3& n,
-                    ParentPoint at) {
+                    const ParentPoint& near) {
+  constexpr double beyond = 0.25;  // of the parent square: linear pieces are less far from their faces
   const bool is_segment = dimension(face.type) == 1;
+  ParentPoint at = near;
   for (int i = 0; i < 4; ++i) {
     const FacetFrame frame = face_frame(face, face_shape(face, at), x_nodes);
     const Vec3 away = subtract(x, frame.position), r = subtract(away, scaled(n, dot(away, n)));
     const Vec3 p = subtract(frame.a_1, scaled(n, dot(frame.a_1, n)));
     const Vec3 q = subtract(frame.a_2, scaled(n, dot(frame.a_2, n)));
     const double pp = dot(p, p), qq = dot(q, q), pq = is_segment ? 0.0 : dot(p, q), det = pp * qq - pq * pq;
-    if (!(det > 0.0)) break;
+    if (!(det > 0.0)) return near;
     at.xi += (qq * dot(p, r) - pq * dot(q, r)) / det;
     if (!is_segment) at.eta += (pp * dot(q, r) - pq * dot(p, r)) / det;
+    if (!(std::abs(at.xi - near.xi) < beyond && std::abs(at.eta - near.eta) < beyond)) return near;
   }
   return at;
 }

@@ -95,6 +95,7 @@ class FaceOverlaps : public FacePointFinder {
   struct Work;
   void add_master(const Slave& slave, Index g, const ContactMotion& motion, Work& work) const;
   bool was_behind(const Slave& slave, Index g) const;
+  bool goes_on(Index g, const Work& work) const;
   void add_borders(const Slave& slave, const Work& work, std::size_t k, FacetPoints& found) const;
   double width_at(const Slave& slave, const ParentPoint& at) const;
   bool ends_at(Index master, std::size_t edge) const;

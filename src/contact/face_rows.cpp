@@ -16,6 +16,9 @@ namespace {
 
 constexpr double round_off = 1e-12;   // of the facet size: faces that lie on each other are seen whole
 constexpr double least_share = 1e-9;  // of a node's measure: less is round-off of an edge
+// A mean over less of a node's measure that is deeper, of the facet size, is the depth beside a border of a sliver that
+// comes in from the side: what is deep there the guards see.
+constexpr double sliver = 0.02, deep_sliver = 0.01;
 
 /// Points of one slave facet as one of its corners sees them.
 struct CornerOf {
@@ -263,6 +266,7 @@ void FaceRows::for_each_weight(const Node& node, const Sums& sums, const Use& us
 void FaceRows::add_row(const Node& node, Index slot, const ContactMotion& motion, ConstraintRows& rows) const {
   const Sums sums = sums_of(node);
   if (!(sums.area > least_share * node.measure) || sums.least_gap > finder_->size()) return;
+  if (is_mean_ && sums.area < sliver * node.measure && sums.gap < -deep_sliver * finder_->size() * sums.area) return;
   Vec3 along{}, position{};
   double weight = 0.0;
   for_each_weight(node, sums, [&](std::size_t /*f*/, const FacetPoints& /*facet*/, const FacePoint& q, double w) {

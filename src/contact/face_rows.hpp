@@ -35,7 +35,8 @@ namespace carom {
 /// What comes under a facet from the side, deeper than 0.02 facet sizes, does not count there: it is the faces at the
 /// side that meet. An overlap that deep counts if it was in front at the beginning of the step, or if a corner of the
 /// slave facet was then behind the same facet or one that goes on with it, unless it is ten times as deep as it is
-/// wide. Without a history, at the start, all counts that is no far side of a thin part (half_thickness). Ends of
+/// wide. Without a history, at the start, all that is so wide counts, but the far side of a thin part (half_thickness).
+/// Ends of
 /// overlaps at borders of the other surface, where the
 /// depth is not zero, move with that: the integral changes by w e(-g~) times the way of the border over the slave,
 /// which is part of the gradient (the transport theorem), so that the force is that of the potential there, too. law:
@@ -56,9 +57,10 @@ std::unique_ptr<RowMaker> face_rows(std::span<const Vec3> X, const Surface& slav
 /// degrees, open or not (s = 1), and with D_A = sum_q w N^_A the row has the measure D_A, the gap sum_q w N^_A g_q /
 /// D_A and its complete gradient at held weights. Uniform multipliers per area give the consistent nodal forces of both
 /// sides, of first and second order, since the N^_A add up to 1: the flat patch test holds between any meshes. Less
-/// than 1e-9 of a node's measure has no row. Which overlaps behind a master facet count is as above. (Puso and Laursen,
-/// Comput. Methods Appl. Mech. Engrg. 193, 2004, sections 3 to 5; lumped to one row per node by D_A.) law: that of the
-/// contact, halved with `self`.
+/// than 1e-9 of a node's measure has no row, nor has less than a fiftieth that is deeper than a hundredth of the facet
+/// size: the depth of a sliver beside a border, which comes in from the side. Which overlaps behind a master facet
+/// count is as above. (Puso and Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004, sections 3 to 5; lumped to one
+/// row per node by D_A.) law: that of the contact, halved with `self`.
 std::unique_ptr<RowMaker> mean_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
                                     const ContactLaw& law, Index source);
 

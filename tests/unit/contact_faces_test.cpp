@@ -1,9 +1,11 @@
 // Rows of faces: forces as gradients of their energy, balance, uniform pressure, far sides of thin bodies.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "cell_meshes.hpp"
 #include "contact/row_maker.hpp"
 #include "contact_rows_fixture.hpp"
 
@@ -306,6 +308,86 @@ TEST(FaceRows, OfMultipliersAreMeansAndGuards) {
   }
   EXPECT_EQ(means, 25U);    // nodes of the finer side, which is the second
   EXPECT_EQ(on_ridge, 5U);  // its nodes that touch
+}
+
+/// A facet looking down over one that looks up, `depth` inside of it, which it overlaps over a width.
+double overlap_energy(double width, double depth) {
+  Scene scene;
+  const auto lower = scene.add_patch(1, 1, [](double s, double t) { return Vec3{s, t, 0.0}; });
+  const auto upper = scene.add_patch(1, 1, [=](double s, double t) { return Vec3{1.0 - width + t, s, -depth}; });
+  scene.finish().contacts.emplace_back(faces(upper, lower));
+  return energy(ContactGeometry(scene.model), scene.zero());
+}
+
+// What is ten times as deep as wide is something that passes by, at the start as later.
+TEST(FaceRows, DoNotSeeDeepSliversAtTheStart) {
+  EXPECT_EQ(overlap_energy(0.005, 0.1), 0.0);
+  EXPECT_NEAR(overlap_energy(0.5, 0.1), 0.5 * 0.5 * 0.01, 1e-12);       // eps A d^2 / 2
+  EXPECT_NEAR(overlap_energy(0.005, 0.01), 0.5 * 0.005 * 1e-4, 1e-16);  // as shallow as what may come in from the side
+}
+
+// The mean over a sliver is no depth of its node, which others say.
+TEST(FaceRows, OfMultipliersHaveNoMeansOfDeepSlivers) {
+  const auto count = [](double width, double depth) {
+    Scene scene;
+    const auto lower = scene.add_patch(1, 1, [](double s, double t) { return Vec3{s, t, 0.0}; });
+    const auto upper = scene.add_patch(1, 1, [=](double s, double t) { return Vec3{1.0 - width + t, s, -depth}; });
+    PairContact contact = faces(upper, lower);
+    contact.law.eps_N.reset();
+    contact.law.hold = RowHold::multipliers;
+    scene.finish().contacts.emplace_back(contact);
+    const auto u = scene.zero();
+    const auto rows = ContactGeometry(scene.model).rows_at(u, u);
+    return std::count(rows->allowed.begin(), rows->allowed.end(), 0.0);
+  };
+  EXPECT_EQ(count(0.004, 0.015), 0);  // the two nodes over the sliver have 0.8 % of their share there, the others less
+  EXPECT_EQ(count(0.004, 0.005), 4);
+  EXPECT_EQ(count(0.5, 0.015), 4);
+}
+
+/// Two cubes of one HEXA20 each, 1 wide, the nodes moved at random; the second stands askew on the first.
+struct CrookedCubes {
+  Scene scene;
+
+  explicit CrookedCubes(unsigned seed) {
+    Random random(seed);
+    CellFiller filler;
+    const double a = random(-0.7, 0.7), b = random(-0.7, 0.7);
+    for (const double height : {0.0, 0.9}) {
+      std::vector<Index> corners;
+      for (const auto& [x, y, z] :
+           {Vec3{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}) {
+        const Vec3 turned{x * std::cos(a) - z * std::sin(a), y, x * std::sin(a) + z * std::cos(a)};
+        const Vec3 twice{turned[0], turned[1] * std::cos(b) - turned[2] * std::sin(b),
+                         turned[1] * std::sin(b) + turned[2] * std::cos(b)};
+        corners.push_back(static_cast<Index>(filler.mesh.coordinates.size()));
+        filler.mesh.coordinates.push_back(add(height > 0.0 ? twice : Vec3{x, y, z}, {0.0, 0.0, height}));
+        filler.mesh.node_numbers.push_back(corners.back() + 1);
+      }
+      filler.add_cell(CellType::hexa20, corners);
+    }
+    for (Vec3& x : filler.mesh.coordinates) x = add(x, random.vector(0.2));
+    scene.mesh = filler.mesh;
+    std::vector<Facet> first, second;
+    const auto of_first = std::span(filler.mesh.blocks.front().connectivity).first(20);
+    for (const Facet& facet : skin(scene.mesh))
+      (std::find(of_first.begin(), of_first.end(), facet[0]) != of_first.end() ? first : second).push_back(facet);
+    PairContact contact = faces(second, first);
+    contact.law.eps_N.reset();
+    contact.law.hold = RowHold::multipliers;
+    scene.finish().contacts.emplace_back(contact);
+  }
+};
+
+// A line that passes by a curved face meets what its shape functions say out there, lengths away; the cubes are 0.5
+// inside of each other at most.
+TEST(FaceRows, OfSecondOrderStayNearTheFaces) {
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const CrookedCubes cubes(seed);
+    const auto u = cubes.scene.zero();
+    const auto rows = ContactGeometry(cubes.scene.model).rows_at(u, u);
+    for (std::size_t r = 0; r < rows->size(); ++r) EXPECT_GT(rows->gap_at(r, u), -0.8) << seed;
+  }
 }
 
 }  // namespace
