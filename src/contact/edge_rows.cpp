@@ -42,8 +42,17 @@ bool stands_elsewhere(const FeatureEdge& first, const FeatureEdge& second) {
   return second.is_sharp && second.node <= first.node;
 }
 
-bool touch(const FeatureEdge& a, const FeatureEdge& b) {
-  return std::find_first_of(a.node.begin(), a.node.end(), b.node.begin(), b.node.end()) != a.node.end();
+/// True of an edge and itself, and of edges that share a node at which they turn by less than 60 degrees.
+bool go_on(const FeatureEdge& a, const FeatureEdge& b, std::span<const Vec3> x) {
+  if (a.node == b.node) return true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t j = 0; j < 2; ++j) {
+      if (a.node[i] != b.node[j]) continue;
+      const Vec3 arrives = subtract(x[a.node[i]], x[a.node[1 - i]]), leaves = subtract(x[b.node[1 - j]], x[b.node[j]]);
+      return dot(arrives, leaves) > 0.5 * norm(arrives) * norm(leaves);
+    }
+  }
+  return false;
 }
 
 /// Mean of the nodes of a facet of the edge that are not on it.
@@ -109,9 +118,10 @@ class EdgeRows : public RowMaker {
 
   void find_behind(const ContactMotion& motion, Index first_slot) const;
   std::span<const Behind> behind_of(Index i) const;
-  bool was_behind(Index i, Index j) const;
+  bool was_behind(Index i, Index j, std::span<const Vec3> x) const;
   PairFactor factor_of(Index i, Index j) const;
   bool counts(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const;
+  double depth_at_start(Index i, Index j) const;
   bool has_come_from_the_front(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const;
   void find(Index i, const ContactMotion& motion, std::vector<Found>& found) const;
   Places places_of(Index i, const std::vector<Found>& found) const;
@@ -142,10 +152,11 @@ std::span<const EdgeRows::Behind> EdgeRows::behind_of(Index i) const {
   return {begin, end};
 }
 
-/// True when the segments, or neighbours of both along their edges, were behind each other.
-bool EdgeRows::was_behind(Index i, Index j) const {
+/// True when the segments, or those that go on with them, were behind each other. Not others at a corner: what those
+/// meet from the front says nothing of this one.
+bool EdgeRows::was_behind(Index i, Index j, std::span<const Vec3> x) const {
   const auto is_near = [&](Index of_first, Index of_second) {
-    return touch(edges_.first[of_first], edges_.first[i]) && touch(edges_.second[of_second], edges_.second[j]);
+    return go_on(edges_.first[of_first], edges_.first[i], x) && go_on(edges_.second[of_second], edges_.second[j], x);
   };
   return std::any_of(behind_.begin(), behind_.end(), [&](const Behind& was) {
     return is_near(was.first, was.second) || (edges_.is_self && is_near(was.second, was.first));
@@ -166,10 +177,15 @@ bool EdgeRows::counts(Index i, Index j, const EdgePair& pair, const ContactMotio
   return pair.gap > -std::min(edges_.depth_1[i], edges_.depth_2[j]);
 }
 
+/// Where one edge alone sticks out, what is deeper than that may be the far side of either body.
+double EdgeRows::depth_at_start(Index i, Index j) const {
+  return edges_.rule.factor == PairFactor::held ? edges_.size : std::min(edges_.depth_1[i], edges_.depth_2[j]);
+}
+
 bool EdgeRows::has_come_from_the_front(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const {
   const double size = edges_.size;
-  if (pair.gap > -shallow * size || was_behind(i, j)) return true;
-  if (motion.history.empty() && pair.gap > -size) return true;
+  if (pair.gap > -shallow * size || was_behind(i, j, motion.x)) return true;
+  if (motion.history.empty() && pair.gap > -depth_at_start(i, j)) return true;
   const PlacedEdge first = place(edges_.first[i], motion.x_begin), second = place(edges_.second[j], motion.x_begin);
   if (pair.line_gap(first, second) > -shallow * size) return true;
   return pair.gap > -shallow_from_nothing * size &&

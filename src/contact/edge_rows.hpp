@@ -31,9 +31,10 @@ namespace carom {
 /// - are less than h / 500 deep, or were less deep at the beginning of the step: so those count that have come from the
 ///   front, at any speed;
 /// - are less than h / 20 deep and made no pair there, as their factor was zero: it grows from nothing; or
-/// - were behind each other there, or segments next to them were.
+/// - were behind each other there, or segments were that go on with them along their edges (not round a corner).
 /// What is deep for other reasons, having come in sideways, makes no row until it has been in front.
-/// Where there is no history, as of what stands still at the start, they count to a depth of h.
+/// Where there is no history, as of what stands still at the start, they count to a depth of h; where one edge alone
+/// sticks out, to half of either body's thickness.
 ///
 /// A fixed number of slots per sharp segment (of more pairs the deepest). A pair that was behind at the beginning of
 /// the step keeps its slot; the others follow by increasing segment of the second surface. ConstraintRows::facet is

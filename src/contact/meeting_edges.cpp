@@ -70,7 +70,7 @@ class Meetings {
       find_sharp();
     else
       find_all();
-    if (!found_.empty() && !rule_.from_the_front) find_depths();
+    if (!found_.empty() && rule_.factor != PairFactor::held) find_depths();
     return std::move(found_);
   }
 

@@ -25,7 +25,7 @@ struct MeetingEdges {
   bool is_self;  ///< the surfaces are one
   bool is_back;  ///< `first` is of the contact's second surface
   std::vector<FeatureEdge> first, second;
-  std::vector<double> depth_1, depth_2;  ///< by edge, half the thickness behind it; where rule.from_the_front none
+  std::vector<double> depth_1, depth_2;  ///< by edge, half the thickness behind it; of PairFactor::held none
 };
 
 /// See edge_rows.hpp for the rules. With multipliers of implicit steps edges of more than 30 degrees with each other;

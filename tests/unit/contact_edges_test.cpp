@@ -441,6 +441,30 @@ TEST(EdgeRows, OfMultipliersRememberWhatWasBehind) {
   EXPECT_EQ(bars.rows(far, far, history).size(), 0U);
 }
 
+// Edges that were behind each other at a corner of a bar say nothing of another edge that ends there.
+TEST(EdgeRows, OfMultipliersDoNotRememberRoundACorner) {
+  Lie lie;
+  lie.hold = RowHold::multipliers;
+  lie.on_1 = -1.6;  // on the last segment of the upper bar
+  const Bars bars(lie);
+  const std::vector<double> deep = bars.moved({0.0, 0.0, -0.3});
+  const ConstraintRows before = bars.rows(deep);
+  ASSERT_EQ(before.size(), 1U);
+  const std::vector<FeatureEdge> edges = feature_edges(bars.scene.mesh.coordinates, bars.upper, {}, sharp);
+  const FeatureEdge& met = edges[static_cast<std::size_t>(before.slot[0] / slots)];
+  int along = 0, round_corner = 0;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const bool is_beside = std::find_first_of(edges[k].node.begin(), edges[k].node.end(), met.node.begin(),
+                                              met.node.end()) != edges[k].node.end();
+    if (!is_beside || edges[k].node == met.node) continue;
+    std::vector<RowHistory> history = bars.in_front();
+    history[static_cast<std::size_t>(slots) * k].facet = before.facet[0];
+    (bars.rows(deep, deep, history).size() == 0 ? round_corner : along) += 1;
+  }
+  EXPECT_EQ(along, 1);
+  EXPECT_EQ(round_corner, 2);
+}
+
 // Springs and impulses act wherever edges are behind each other, from wherever they have come, to half the thickness of
 // a bar: beside its edges, of cells of 0.25, that is a part of what it is 1 wide. Increments ask whence.
 TEST(EdgeRows, ActToADepthWhateverCameBeforeUnlessTheyThrowOut) {
@@ -454,6 +478,8 @@ TEST(EdgeRows, ActToADepthWhateverCameBeforeUnlessTheyThrowOut) {
     EXPECT_EQ(bars.rows(deep, deep, bars.in_front()).size(), expected);
     EXPECT_EQ(bars.rows(aside, deep, bars.in_front()).size(), expected);
     EXPECT_EQ(bars.rows(beyond, beyond, bars.in_front()).size(), 0U);
+    EXPECT_EQ(bars.rows(deep, deep).size(), 1U);  // at the start, where nothing is known
+    EXPECT_EQ(bars.rows(beyond, beyond).size(), 0U);
   }
 }
 
