@@ -21,7 +21,8 @@ void add_method_and_law(SectionSchema<Kind>& s) {
       "smooth", [](auto& kind) -> auto& { return kind.smooth; },
       "See facets of linear cells that approximate a smooth surface, whose normals turn by less than 30 degrees from "
       "one to the next, as that surface: the gap is that between the curved surfaces, and is integrated over them. "
-      "For the methods faces and two_pass, and the penalty alone. Flat faces stay as they are. By default where no edge within "
+      "For the methods faces and two_pass, and the penalty alone. Flat faces stay as they are. By default where no "
+      "edge within "
       "the surfaces turns by more, as of balls; beside sharp edges implicit steps may make energy with true.",
       {.default_phrase = "where no edge is sharp, with method = \"faces\" or \"two_pass\" and penalty in every stage"});
   add_law(s);

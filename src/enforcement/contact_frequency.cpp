@@ -54,6 +54,17 @@ Vec3 inverse_mass_of(const System& system, Index node) {
   return {(fixed & 1U) == 0 ? inverse : 0.0, (fixed & 2U) == 0 ? inverse : 0.0, (fixed & 4U) == 0 ? inverse : 0.0};
 }
 
+/// The part of a row's slope that its energy has. The energy of a face is a sum of squares over its points; the gap,
+/// its root, has a gradient that grows without bound as a face comes in from the side that is deep at once, by as much
+/// as the gap itself is small.
+double part_of_slope(const ConstraintRows& rows, std::size_t r) {
+  constexpr double most = 4.0;  // of the gradient at a node: rows of nodes and edges have 1, more where they fade
+  double largest = 0.0;
+  for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k)
+    largest = std::max(largest, dot(rows.block[k][0], rows.block[k][0]));
+  return largest > most * most ? most * most / largest : 1.0;
+}
+
 /// |A| of every row at each of its nodes.
 std::vector<double> sizes(const System& system, const ConstraintRows& rows, std::span<const double> u) {
   std::vector<double> size(rows.node.size());
@@ -64,7 +75,8 @@ std::vector<double> sizes(const System& system, const ConstraintRows& rows, std:
       const bool is_open = gap > 0.0;
       const RowLaw& law = rows.law[r];
       if (is_bond(law)) continue;  // held by BondedMass, without springs
-      const RootSlopes roots = roots_of({law.spring_slope(std::max(0.0, -gap)), law.eps_T, law.eps_T});
+      const RootSlopes roots =
+          roots_of({part_of_slope(rows, r) * law.spring_slope(std::max(0.0, -gap)), law.eps_T, law.eps_T});
       for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
         const Vec3 inverse_mass = inverse_mass_of(system, rows.node[k]);
         size[k] = is_open ? size_of(without_turn(rows, r, rows.block[k]), roots, inverse_mass)

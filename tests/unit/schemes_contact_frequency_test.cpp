@@ -112,6 +112,25 @@ TEST(ContactFrequency, IsNotRaisedByFrictionOfOpenRows) {
   }
 }
 
+// The gap of a face that has just come in from the side, deep at once, is the root of an energy that grows with the way
+// itself: its gradient is without bound, the stiffness is not. A gradient of 4 counts whole, and more of it as that.
+TEST(ContactFrequency, IsBoundedWhereAGapBeginsAsARoot) {
+  const Problem p(two_blocks({}), MassKind::lumped);
+  const Index node = 0;
+  const auto bound_of = [&](double gradient) {
+    ConstraintRows rows;
+    RowLaw law;
+    law.eps_N = 8.0;
+    rows.add_row(-1e-9, {0, 0, 1}, {}, 1.0, law, 0);
+    rows.add_node(node, gradient);
+    return contact_frequency_bound(p.system, rows, std::vector<double>(p.solid.dof_count(), 0.0));
+  };
+  const double of_one = 8.0 / p.mass.node_diagonal()[node];
+  EXPECT_NEAR(bound_of(1.0), of_one, 1e-12 * of_one);
+  EXPECT_NEAR(bound_of(4.0), 16.0 * of_one, 1e-11 * of_one);
+  EXPECT_NEAR(bound_of(1e5), 16.0 * of_one, 1e-11 * of_one);
+}
+
 // Elastic bodies of every shape, deformed at random, crushed to half their height and stretched: the frequency
 // followed is not below that of the tangent there by more than what a run keeps from its stable step (safety 0.9), and
 // not twice it.
