@@ -2,6 +2,8 @@
 
 #include <concepts>
 
+#include "math/vec3.hpp"
+
 namespace carom {
 
 namespace {
@@ -54,6 +56,12 @@ auto law_of(Contact& contact) {
 
 Vec3 CaseBox::middle() const {
   return {0.5 * (lower[0] + (*upper)[0]), 0.5 * (lower[1] + (*upper)[1]), 0.5 * (lower[2] + (*upper)[2])};
+}
+
+std::optional<Vec3> CaseCylinder::middle_about(const Vec3& direction) const {
+  constexpr double parallel = 1e-9;  // of the sine of the angle: the rounding of what was written with ten digits
+  const bool is_own = norm(cross(direction, *axis)) <= parallel * norm(direction) * norm(*axis);
+  return is_own ? std::optional(point) : std::nullopt;
 }
 
 const Located<std::string>& CaseContact::group() const {

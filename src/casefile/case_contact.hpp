@@ -47,26 +47,30 @@ struct CaseInterface {
   const Located<std::string>& own_cells() const { return group; }
 };
 
-/// A rigid body that moves freely, and turns where it has an inertia.
+/// A rigid body that moves freely, and turns where it has an inertia; or, without a mass, one that is led to turn.
 struct CaseRigidBody {
   std::optional<double> mass;
   std::optional<Located<Vec3>> inertia;  ///< I_xx, I_yy, I_zz about the centre of mass
-  std::optional<Vec3> products_of_inertia, centre_of_mass, angular_velocity;
+  std::optional<Vec3> products_of_inertia, centre_of_mass;
+  std::optional<Located<Vec3>> angular_velocity;  ///< imposed; at the start with a mass
+  std::optional<Vec3> centre_of_rotation;         ///< of one that is led; filled on reading
   std::optional<double> rigidity;  ///< of the body that turns (TurningBody)
 };
 
-/// What rigid obstacles of all shapes have. `middle`, where a shape has it, is that of the shape; `stand` a point of
-/// it.
+/// What rigid obstacles of all shapes have. `middle`, where a shape has it, is that of the shape, `middle_about` that for
+/// an axis of rotation; `stand` a point of it.
 struct CaseObstacle {
   Located<std::string> group;  ///< faces or nodes
   CaseContactLaw law;
   bool per_node = false;                      ///< measure = "node" instead of "area"
   std::optional<Located<double>> bar_radius;  ///< of bars that touch with their sides; empty: sqrt(area / pi)
   std::optional<Vec3> velocity;               ///< imposed, times function; initial with a mass
-  std::optional<Located<std::string>> function;
+  std::optional<Located<std::string>> function;          ///< of all that is imposed
+  std::optional<Located<std::string>> angular_function;  ///< of the rotation, instead
   CaseRigidBody body;
 
-  bool moves() const { return velocity || body.mass; }
+  bool moves() const { return velocity || body.mass || turns(); }
+  bool turns() const { return body.inertia || (body.angular_velocity && !body.mass); }
   void check_scheme(const CaseScheme& scheme, const ContactPlace& at) const;
 };
 
@@ -96,6 +100,8 @@ struct CaseCylinder : CaseObstacle {
   bool inside = false;  ///< the body is inside
 
   Vec3 stand() const { return point; }
+  /// Where it turns about itself.
+  std::optional<Vec3> middle_about(const Vec3& direction) const;
 };
 
 struct CaseBox : CaseObstacle {
@@ -208,7 +214,7 @@ struct CaseContact {
   Location where;
   Located<std::string> name;
   Located<std::string> kind;
-  Vec3 moment_point{};  ///< about which contact.csv gives the moment
+  std::optional<Vec3> moment_point;  ///< about which contact.csv gives the moment
   CaseContactKind of;
 
   /// What touches, by name; "" where it has none (all).

@@ -2,6 +2,7 @@
 
 #include "casefile/case.hpp"
 #include "casefile/contact_keys.hpp"
+#include "math/vec3.hpp"
 
 namespace carom {
 
@@ -36,24 +37,39 @@ void add_body(SectionSchema<Kind>& s) {
       "step.",
       {.range = greater_than(0.0), .default_phrase = "0.5"});
   s.key_by("angular_velocity", [](auto& kind) -> auto& { return kind.body.angular_velocity; },
-           "Of the free body that turns, at the start; radians.",
+           "The obstacle turns, by this many radians per time about an axis of this direction through its "
+           "centre_of_rotation: imposed, times function; of a free body with an inertia: at the start.",
            {.unit = Dimension::angular_velocity, .default_phrase = "0"});
+  s.key_by(
+      "centre_of_rotation", [](auto& kind) -> auto& { return kind.body.centre_of_rotation; },
+      "A point of the axis of the imposed rotation, at the start; it travels with the imposed velocity.",
+      {.unit = Dimension::length,
+       .aliases = {"center_of_rotation"},
+       .default_phrase = "sphere and box: their middle; a cylinder that turns about its own axis: its point; the others "
+                         "must have one"});
 }
 
 /// What a body that turns needs, and what only it may have.
 template <class Kind>
-void check_body(const Kind& given, const Node& node, const ReadContext& at) {
-  const CaseRigidBody& body = given.body;
+void check_body(Kind& given, const Node& node, const ReadContext& at) {
+  CaseRigidBody& body = given.body;
   if (body.inertia && !body.mass) {
     throw CaseError(body.inertia->where, at.at("inertia").path, "an inertia without a mass",
                     "the mass of a free body beside its inertia", "Add mass, or remove inertia.");
   }
-  for (const char* key : {"products_of_inertia", "centre_of_mass", "angular_velocity", "rigidity"}) {
+  for (const char* key : {"products_of_inertia", "centre_of_mass", "rigidity"}) {
     const Node* written = find(node, key);
     if (written == nullptr || body.inertia) continue;
     throw CaseError(written->where, at.at(key).path, fmt::format("{} without an inertia", key),
-                    "the inertia of a free body that turns", fmt::format("Add mass and inertia, or remove {}.", key));
+                    "the inertia of a free body that turns",
+                    fmt::format("Add mass and inertia, or remove {}{}.", key,
+                                given.turns() ? "; an imposed rotation has a centre_of_rotation" : ""));
   }
+  if (body.angular_velocity && body.mass && !body.inertia)
+    throw CaseError(body.angular_velocity->where, at.at("angular_velocity").path,
+                    "an angular velocity beside a mass without an inertia",
+                    "the inertia of a free body that turns, or no mass",
+                    "Add inertia, or remove mass: the rotation is then imposed.");
   constexpr bool has_middle = requires {
     given.middle();
   };
@@ -63,19 +79,60 @@ void check_body(const Kind& given, const Node& node, const ReadContext& at) {
   }
 }
 
+/// What an imposed rotation needs, and what only it may have. Fills its centre.
+template <class Kind>
+void check_rotation(Kind& given, const Node& node, const ReadContext& at) {
+  CaseRigidBody& body = given.body;
+  const bool is_led = body.angular_velocity && !body.mass;
+  for (const char* key : {"centre_of_rotation", "angular_function"}) {
+    const Node* written = find(node, key);
+    if (written == nullptr || is_led) continue;
+    if (body.mass)
+      throw CaseError(written->where, at.at(key).path, fmt::format("{} of a free body", key),
+                      "an obstacle without a mass, whose rotation is imposed",
+                      fmt::format("A free body turns about its centre_of_mass as forces make it: remove {}, or mass.", key));
+    throw CaseError(written->where, at.at(key).path, fmt::format("{} without an angular_velocity", key),
+                    "an angular_velocity that is imposed", fmt::format("Add angular_velocity, or remove {}.", key));
+  }
+  if (!is_led) return;
+  const Vec3& omega = **body.angular_velocity;
+  const Location& where = body.angular_velocity->where;
+  const std::string path = at.at("angular_velocity").path;
+  if (norm(omega) == 0.0)
+    throw CaseError(where, path, "[0, 0, 0], which is no rotation", "a direction and a rate, as [0, 0, 10]",
+                    "Remove angular_velocity where the obstacle does not turn.");
+  if (body.centre_of_rotation) return;
+  if constexpr (requires { given.middle(); })
+    body.centre_of_rotation = given.middle();
+  else if constexpr (requires { given.middle_about(omega); })
+    body.centre_of_rotation = given.middle_about(omega);
+  if (body.centre_of_rotation) return;
+  throw CaseError(where, path, "a rotation without a centre",
+                  "a centre_of_rotation, which only spheres, boxes and cylinders that turn about their own axis have by "
+                  "their shape",
+                  "Add centre_of_rotation, a point of the axis that it turns about.");
+}
+
 template <class Kind>
 void check_obstacle(Kind& given, const Node& node, const ReadContext& at) {
   check_body(given, node, at);
+  check_rotation(given, node, at);
   check_law(given.law, node, at);
   if (given.bar_radius && given.per_node) {
     throw CaseError(given.bar_radius->where, at.at("bar_radius").path, "a radius of bars with measure = \"node\"",
                     "measure = \"area\" with bars that touch with their sides",
                     "Nodes touch as points: remove bar_radius, or measure.");
   }
-  if (!given.function || (given.velocity && !given.body.mass)) return;
+  const bool has_own = given.angular_function.has_value();
+  const bool is_used = given.velocity || (given.body.angular_velocity && !has_own);
+  if (!given.function || (is_used && !given.body.mass)) return;
   throw CaseError(given.function->where, at.at("function").path,
-                  given.body.mass ? "a function beside a mass" : "a function without a velocity",
-                  "a velocity that is imposed", "Remove function, or give velocity and no mass.");
+                  given.body.mass ? "a function beside a mass"
+                  : has_own       ? "a function beside an angular_function, without a velocity"
+                                  : "a function without a velocity",
+                  "a velocity that is imposed",
+                  has_own ? "Remove one of the two functions, or give velocity."
+                          : "Remove function, or give velocity or angular_velocity and no mass.");
 }
 
 /// Begins with what all shapes have.
@@ -89,12 +146,15 @@ SectionSchema<Kind> obstacle_keys(const std::string& doc) {
   add_bar_radius(s);
   s.key_by(
       "velocity", [](auto& kind) -> auto& { return kind.velocity; },
-      "The obstacle moves, without turning: imposed velocity times function; with a mass: initial velocity, of the "
-      "centre of mass.",
+      "The obstacle moves: imposed velocity times function; with a mass: initial velocity, of the centre of mass.",
       {.unit = Dimension::velocity});
   s.key_by("function", [](auto& kind) -> auto& { return kind.function; },
-           "NAME of a [functions.NAME] that multiplies the imposed velocity.", {.default_phrase = "constant 1"});
+           "NAME of a [functions.NAME] that multiplies what is imposed, velocity and angular velocity.",
+           {.default_phrase = "constant 1"});
   add_body(s);
+  s.key_by("angular_function", [](auto& kind) -> auto& { return kind.angular_function; },
+           "NAME of a [functions.NAME] that multiplies the imposed angular velocity instead.",
+           {.default_phrase = "function"});
   s.finish = check_obstacle<Kind>;
   return s;
 }

@@ -87,8 +87,9 @@ void check_functions(const Case& given) {
   for (std::size_t i = 0; i < given.contacts.size(); ++i) {
     const CaseObstacle* obstacle = given.contacts[i].obstacle();
     if (obstacle == nullptr) continue;
-    const auto& function = obstacle->function;
+    const auto &function = obstacle->function, &turns = obstacle->angular_function;
     if (function) check_known(*function, functions, entry_path("contact", i, "function"), what);
+    if (turns) check_known(*turns, functions, entry_path("contact", i, "angular_function"), what);
   }
 }
 

@@ -237,8 +237,10 @@ class Lint {
       const auto has_it = [&is_it](const CaseSupport& support) {
         return std::any_of(support.motions.begin(), support.motions.end(), is_it);
       };
-      const auto moves_by_it = [&is_it](const CaseContact& contact) {
-        return contact.obstacle() != nullptr && is_it(*contact.obstacle());
+      const auto moves_by_it = [&is_it, &f](const CaseContact& contact) {
+        const CaseObstacle* obstacle = contact.obstacle();
+        if (obstacle == nullptr) return false;
+        return is_it(*obstacle) || (obstacle->angular_function && **obstacle->angular_function == f.name);
       };
       const bool used = std::any_of(case_.loads.begin(), case_.loads.end(), is_it) ||
                         std::any_of(case_.contacts.begin(), case_.contacts.end(), moves_by_it) ||

@@ -37,7 +37,8 @@ SectionSchema<CaseContact> contact_section() {
   s.key("kind", &CaseContact::kind, "What touches; decides which of the other keys are taken.",
         {.choices = names, .need = Need::required});
   s.key("moment_point", &CaseContact::moment_point, "Point about which contact.csv gives the moment of the contact.",
-        {.unit = Dimension::length});
+        {.unit = Dimension::length,
+         .default_phrase = "the origin; of an obstacle with an imposed rotation its centre, which travels with it"});
 #define CAROM_ADD_CONTACT(Kind) add_kind<Kind>(s);
   CAROM_CASE_CONTACTS(CAROM_ADD_CONTACT)
 #undef CAROM_ADD_CONTACT

@@ -226,10 +226,7 @@ std::vector<double> BodyOverlap::Impl::obstacle_depths(std::size_t c, std::span<
   const ContactParts obstacle = parts_of(model.contacts[c]);
   if (obstacle.shape == nullptr) return depths;
   std::optional<BodyPlacement> placement;
-  if (obstacle.body >= 0) {
-    const TurningBody& turning = model.turning_bodies[static_cast<std::size_t>(obstacle.body)];
-    placement.emplace(turning, body_frame(turning, nodal_values(turning, current_positions(*model.mesh, u))));
-  }
+  if (obstacle.body >= 0) placement = place_body(model.turning_bodies[static_cast<std::size_t>(obstacle.body)], u);
   const std::vector<Vec3>& X = model.mesh->coordinates;
   const Index carrier = obstacle.carrier;
   const Vec3 shift = carrier < 0 ? Vec3{} : subtract(cells.position(carrier), X[carrier]);

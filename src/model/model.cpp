@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "math/vec3.hpp"
+
 namespace carom {
 
 const Part* Model::part_of(const CellRef& cell) const {
@@ -11,6 +13,12 @@ const Part* Model::part_of(const CellRef& cell) const {
   };
   const auto found = std::find_if(parts.begin(), parts.end(), has_it);
   return found == parts.end() ? nullptr : &*found;
+}
+
+RotatedPoint rotated_point(const ImposedRotation& rotation, const Vec3& X) {
+  const Vec3 r = subtract(X, rotation.centre);
+  const Vec3 outward = subtract(r, scaled(rotation.axis, dot(rotation.axis, r)));
+  return {outward, cross(rotation.axis, outward)};
 }
 
 }  // namespace carom

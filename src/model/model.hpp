@@ -50,13 +50,29 @@ struct Part {
   bool remembers() const { return !material.law->history.empty() || viscosity.is_any(); }
 };
 
+/// A rotation about an axis of fixed direction that travels: its angle is the integral of a rate, the way of the centre
+/// the integral of a velocity.
+struct ImposedRotation {
+  Vec3 centre{};  ///< a point of the axis at the start
+  Vec3 axis{};    ///< of length 1
+  TimeFunction travel{{0.0}, {0.0}};  ///< velocity of the centre, of the component of the motion
+};
+
+/// What a rotation by the angle a does to the point X beside the way of its centre: (cos a - 1) cosine + sin a sine.
+struct RotatedPoint {
+  Vec3 cosine{};  ///< from the axis to X
+  Vec3 sine{};    ///< axis x cosine
+};
+RotatedPoint rotated_point(const ImposedRotation& rotation, const Vec3& X);
+
 /// The component (0, 1, 2) of the nodes follows function(t). Blocked components are velocity 0.
 struct PrescribedMotion {
   std::string name;
   std::vector<Index> nodes;
   int component = 0;
   MotionKind kind = MotionKind::displacement;
-  TimeFunction function{{0.0}, {0.0}};
+  TimeFunction function{{0.0}, {0.0}};   ///< of a rotation: its rate, radian per time
+  std::optional<ImposedRotation> rotation{};    ///< of MotionKind::rotation
 };
 
 /// The same force vector on each node of the list, times factor(t).

@@ -19,10 +19,10 @@ constexpr int free_directions(Section section) {
 }
 
 /// What is imposed on one component of a group of nodes.
-enum class MotionKind : std::uint8_t { displacement, velocity, acceleration };
+enum class MotionKind : std::uint8_t { displacement, velocity, acceleration, rotation };
 
 constexpr const char* name(MotionKind kind) {
-  return std::array{"displacement", "velocity", "acceleration"}[static_cast<std::size_t>(kind)];
+  return std::array{"displacement", "velocity", "acceleration", "rotation"}[static_cast<std::size_t>(kind)];
 }
 
 /// Who solves the linear systems of implicit steps.

@@ -32,6 +32,21 @@ TurningBody make_turning_body(double mass, const Vec3& centre, const Vec3& inert
   return body;
 }
 
+TurningBody make_led_body(const Vec3& centre, const Vec3& axis, double size) {
+  const Vec3 other = std::abs(axis[0]) < 0.5 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 1.0, 0.0};
+  TurningBody body;
+  body.centre = centre;
+  body.axes[0] = normalized(cross(axis, other));
+  body.axes[1] = cross(axis, body.axes[0]);
+  body.axes[2] = axis;
+  body.radii.fill(size / std::sqrt(3.0));
+  return body;
+}
+
+bool any_free(std::span<const TurningBody> bodies) {
+  return std::any_of(bodies.begin(), bodies.end(), [](const TurningBody& body) { return !body.is_led(); });
+}
+
 Vec3 corner(const TurningBody& body, std::size_t a) {
   Vec3 x = body.centre;
   for (std::size_t i = 0; i < 3; ++i) x = add(x, scaled(body.axes[i], corner_signs[a][i] * body.radii[i]));
@@ -83,35 +98,40 @@ BodyPlacement::BodyPlacement(const TurningBody& body, const BodyFrame& frame) : 
   const auto& d = frame.directors;
   const double volume = dot(d[0], cross(d[1], d[2]));
   for (std::size_t i = 0; i < 3; ++i) duals_[i] = scaled(cross(d[(i + 1) % 3], d[(i + 2) % 3]), 1.0 / volume);
-}
-
-/// X_i
-Vec3 BodyPlacement::components(const Vec3& x) const {
-  const Vec3 r = subtract(x, centre_);
-  return {dot(duals_[0], r), dot(duals_[1], r), dot(duals_[2], r)};
+  seen_ = duals_;
+  if (!body.is_led()) return;
+  for (std::size_t i = 0; i < 3; ++i) seen_[i] = normalized(d[i]);
 }
 
 Vec3 BodyPlacement::reference(const Vec3& x) const {
-  const Vec3 X = components(x);
+  const Vec3 r = subtract(x, centre_);
   Vec3 at = body_->centre;
-  for (std::size_t i = 0; i < 3; ++i) at = add(at, scaled(body_->axes[i], X[i]));
+  for (std::size_t i = 0; i < 3; ++i) at = add(at, scaled(body_->axes[i], dot(seen_[i], r)));
   return at;
 }
 
 Vec3 BodyPlacement::gradient(const Vec3& g) const {
   Vec3 out{};
-  for (std::size_t i = 0; i < 3; ++i) out = add(out, scaled(duals_[i], dot(body_->axes[i], g)));
+  for (std::size_t i = 0; i < 3; ++i) out = add(out, scaled(seen_[i], dot(body_->axes[i], g)));
   return out;
 }
 
 std::array<double, 4> BodyPlacement::weights(const Vec3& x) const {
-  const Vec3 X = components(x);
+  const Vec3 r = subtract(x, centre_);
+  const Vec3 X{dot(duals_[0], r), dot(duals_[1], r), dot(duals_[2], r)};
   std::array<double, 4> N{};
   for (std::size_t a = 0; a < 4; ++a) {
     N[a] = 0.25;
     for (std::size_t i = 0; i < 3; ++i) N[a] += 0.25 * corner_signs[a][i] * X[i] / body_->radii[i];
   }
   return N;
+}
+
+BodyPlacement place_body(const TurningBody& body, std::span<const double> u) {
+  BodyFrame frame = body_frame(body, nodal_values(body, u));
+  frame.centre = add(frame.centre, body.centre);
+  for (std::size_t i = 0; i < 3; ++i) frame.directors[i] = add(frame.directors[i], body.axes[i]);
+  return {body, frame};
 }
 
 }  // namespace carom

@@ -24,12 +24,14 @@ namespace carom {
 struct TurningBody {
   std::string name;
   std::array<Index, 4> nodes{-1, -1, -1, -1};
-  double mass = 0.0;
-  Vec3 centre{};                    ///< of mass, in the reference configuration
+  double mass = 0.0;                ///< 0: the nodes are led, by a motion that is imposed on them
+  Vec3 centre{};                    ///< of mass or of rotation, in the reference configuration
   std::array<Vec3, 3> axes{};       ///< e_i, orthonormal and right-handed
   Vec3 radii{};                     ///< r_i > 0, length
   double rigidity = 0.5;            ///< frequency of the directors' vibration over the largest of the mesh
   std::optional<double> frequency;  ///< radian per time, instead of what rigidity makes
+
+  bool is_led() const { return mass == 0.0; }
 };
 
 /// s_ai
@@ -40,6 +42,13 @@ inline constexpr std::array<Vec3, 4> corner_signs{{{1, 1, 1}, {1, -1, -1}, {-1, 
 /// principal moments when a moment is not below the sum of the two others by 1e-6 of the largest Euler moment: bodies
 /// without thickness (rods, discs) have no tetrahedron.
 TurningBody make_turning_body(double mass, const Vec3& centre, const Vec3& inertia, const Vec3& products);
+
+/// A body without mass that is led to turn about `axis` (of length 1), which is one of its own axes; its nodes stand at the
+/// distance size > 0 from the centre.
+TurningBody make_led_body(const Vec3& centre, const Vec3& axis, double size);
+
+/// Is there a body that forces move?
+bool any_free(std::span<const TurningBody> bodies);
 
 /// Reference position of node a.
 Vec3 corner(const TurningBody& body, std::size_t a);
@@ -62,7 +71,8 @@ Vec3 angular_velocity(const BodyFrame& position, const BodyFrame& velocity);
 /// Largest |d_i . d_j - delta_ij| / 2: the strain of the body, which rigid ones do not have.
 double body_strain(const BodyFrame& position);
 
-/// The body where its nodes stand.
+/// The body where its nodes stand. Half way between the ends of a step, where some schemes look, the nodes of a body that
+/// turns are nearer to its axis than before and after; a led body, whose motion is known, is seen in its own size there.
 class BodyPlacement {
  public:
   BodyPlacement(const TurningBody& body, const BodyFrame& frame);
@@ -75,11 +85,13 @@ class BodyPlacement {
   std::array<double, 4> weights(const Vec3& x) const;
 
  private:
-  Vec3 components(const Vec3& x) const;
-
   const TurningBody* body_;
   Vec3 centre_;
   std::array<Vec3, 3> duals_;  ///< d^i with d^i . d_j = delta_ij
+  std::array<Vec3, 3> seen_;   ///< the same of the body as it is seen
 };
+
+/// The body at displacements u of the nodes.
+BodyPlacement place_body(const TurningBody& body, std::span<const double> u);
 
 }  // namespace carom

@@ -18,8 +18,10 @@ class Flight {
     const std::vector<PrescribedMotion>& motions = s.model().motions;
     for (const PrescribedMotion& motion : motions) {
       const TimeFunction& f = motion.function;
-      if (std::all_of(f.value.begin(), f.value.end(), [](double v) { return v == 0.0; })) continue;
-      moved_.push_back({&motion, path_of(motion)});
+      const bool is_zero = std::all_of(f.value.begin(), f.value.end(), [](double v) { return v == 0.0; });
+      if (is_zero && !motion.rotation) continue;
+      moved_.push_back({&motion, path_of(motion), {}});
+      if (motion.rotation) moved_.back().angle = integrals(f);
     }
   }
   /// Does every node keep its initial velocity?
@@ -33,6 +35,7 @@ class Flight {
       for (const Index n : moved.motion->nodes) {
         const std::size_t i = 3 * static_cast<std::size_t>(n) + static_cast<std::size_t>(moved.motion->component);
         q[i] = state_.q[i] + moved.path[static_cast<std::size_t>(k)];
+        if (moved.motion->rotation) q[i] += moved.angle[static_cast<std::size_t>(k)] * tangent(*moved.motion, n);
       }
   }
 
@@ -40,9 +43,23 @@ class Flight {
   struct Moved {
     const PrescribedMotion* motion;
     std::vector<double> path;  ///< displacement since the start
+    std::vector<double> angle;  ///< of a rotation
   };
 
+  /// Rows are straight, and what turns leaves along the tangent: a roller stays where it is.
+  double tangent(const PrescribedMotion& motion, Index n) const {
+    const Vec3& X = s_.mesh().coordinates[static_cast<std::size_t>(n)];
+    return rotated_point(*motion.rotation, X).sine[static_cast<std::size_t>(motion.component)];
+  }
+
+  std::vector<double> integrals(const TimeFunction& f) const {
+    std::vector<double> values;
+    for (int k = 0; k <= intervals; ++k) values.push_back(f.integral(0.0, s_.end() * k / intervals));
+    return values;
+  }
+
   std::vector<double> path_of(const PrescribedMotion& motion) const {
+    if (motion.rotation) return integrals(motion.rotation->travel);
     const double dt = s_.end() / intervals;
     const std::size_t node = motion.nodes.empty() ? 0 : static_cast<std::size_t>(motion.nodes[0]);
     const double start = state_.v[3 * node + static_cast<std::size_t>(motion.component)];
@@ -54,6 +71,7 @@ class Flight {
           path.push_back(motion.function(t) - motion.function(0.0));
           break;
         case MotionKind::velocity:
+        case MotionKind::rotation:
           path.push_back(motion.function.integral(0.0, t));
           break;
         case MotionKind::acceleration:

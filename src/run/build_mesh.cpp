@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "casefile/document.hpp"
+#include "math/vec3.hpp"
 #include "mesh/linear_cells.hpp"
 #include "mesh/read_mesh.hpp"
 #include "mesh/split_cells.hpp"
@@ -37,6 +38,16 @@ Mesh bodies(const Case& given) {
   return make_structured_blocks(given.mesh.blocks);
 }
 
+/// Of the box around all nodes.
+double half_diagonal(const Mesh& mesh) {
+  Vec3 size{};
+  for (std::size_t c = 0; c < 3 && !mesh.coordinates.empty(); ++c) {
+    const auto [least, most] = std::ranges::minmax(mesh.coordinates, {}, [c](const Vec3& X) { return X[c]; });
+    size[c] = most[c] - least[c];
+  }
+  return 0.5 * norm(size);
+}
+
 }  // namespace
 
 Mesh build_mesh(const Case& given) {
@@ -52,7 +63,8 @@ Mesh build_mesh(const Case& given) {
     }
   };
   append(ground_positions(given, mesh));
-  for (const CaseContact& contact : given.contacts) append(carrier_positions(contact));
+  const double size = half_diagonal(mesh);
+  for (const CaseContact& contact : given.contacts) append(carrier_positions(contact, size));
   return mesh;
 }
 

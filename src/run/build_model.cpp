@@ -9,6 +9,7 @@
 
 #include "casefile/document.hpp"
 #include "contact/tie_rows.hpp"
+#include "math/vec3.hpp"
 #include "model/node_lengths.hpp"
 #include "run/attached.hpp"
 #include "run/build_mesh.hpp"
@@ -309,18 +310,48 @@ class ModelBuilder {
     if (nodes == 0) return;
     const auto first = static_cast<Index>(mesh_.node_count() - carrier_nodes(case_) + carriers_);
     carriers_ += nodes;
-    if (kind.body.mass) {
-      add_free_body(given, first, obstacle, model_);
-      return;
-    }
-    obstacle.carrier = first;
-    const std::vector<Index> node{first};
-    const Vec3 velocity = *kind.velocity;
-    model_.initial.push_back({node, {}, {velocity}});
+    add_body(given, first, obstacle, model_);
+    if (kind.body.mass) return;
+    const Vec3 velocity = kind.velocity.value_or(Vec3{});
     const std::string label = fmt::format("velocity of contact \"{}\" (line {})", *given.name, given.where.line);
-    for (std::size_t c = 0; c < 3; ++c)
-      model_.motions.push_back(
-          {label, node, static_cast<int>(c), MotionKind::velocity, function(kind.function, velocity[c])});
+    for (std::size_t c = 0; c < 3; ++c) {
+      const TimeFunction travel = function(kind.function, velocity[c]);
+      PrescribedMotion motion{label, {first}, static_cast<int>(c), MotionKind::velocity, travel};
+      if (kind.turns()) turn(kind, obstacle, travel, motion);
+      model_.motions.push_back(std::move(motion));
+    }
+  }
+
+  /// A motion of an obstacle that is led, which turns beside its travel.
+  void turn(const CaseObstacle& kind, const ObstacleContact& obstacle, const TimeFunction& travel,
+            PrescribedMotion& motion) const {
+    const TurningBody& body = model_.turning_bodies[static_cast<std::size_t>(obstacle.body)];
+    refuse_turning_out_of_plane(obstacle, *kind.body.angular_velocity);
+    motion.nodes.assign(body.nodes.begin(), body.nodes.end());
+    motion.kind = MotionKind::rotation;
+    motion.function = function(kind.angular_function ? kind.angular_function : kind.function,
+                               norm(**kind.body.angular_velocity));
+    motion.rotation = ImposedRotation{body.centre, body.axes[2], travel};
+  }
+
+  /// Plane cells move in their plane alone, and axisymmetric ones around no angle.
+  void refuse_turning_out_of_plane(const ObstacleContact& obstacle, const Located<Vec3>& omega) const {
+    const std::vector<Index> nodes = nodes_of(obstacle.parts(), mesh_);
+    for (const Part& part : model_.parts) {
+      if (dimension(part.type) != 2) continue;
+      const bool is_ring = part.section == Section::axisymmetric;
+      if (!is_ring && (*omega)[0] == 0.0 && (*omega)[1] == 0.0) continue;
+      const std::vector<Index> of_part = parts_.nodes_of(part);
+      const auto is_member = [&](Index n) { return std::binary_search(of_part.begin(), of_part.end(), n); };
+      if (std::none_of(nodes.begin(), nodes.end(), is_member)) continue;
+      throw CaseError(omega.where, "contact.angular_velocity",
+                      fmt::format("[{:g}, {:g}, {:g}] beside \"{}\", which is {}", (*omega)[0], (*omega)[1], (*omega)[2],
+                                  part.name, name(part.section)),
+                      is_ring ? "an obstacle that does not turn" : "a rotation about z, [0, 0, w]",
+                      is_ring ? "What turns about the axis rubs around it, where the cells have no displacement, and what "
+                                "turns otherwise is no ring: model it in three dimensions."
+                              : "Plane cells have no displacement along z.");
+    }
   }
 
   std::vector<Index> interface_cells(const CaseInterface& given) const {

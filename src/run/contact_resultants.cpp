@@ -45,8 +45,8 @@ Sides sides(const ConstraintRows& rows, std::size_t r) {
 
 }  // namespace
 
-ContactResultants::ContactResultants(const Model& model, std::vector<Vec3> moment_points)
-    : mesh_(*model.mesh), moment_points_(std::move(moment_points)) {
+ContactResultants::ContactResultants(const Model& model, std::vector<std::optional<Vec3>> moment_points)
+    : model_(model), mesh_(*model.mesh), moment_points_(std::move(moment_points)) {
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     first_place_.push_back(places_.size());
     const ContactParts contact = parts_of(model.contacts[c]);
@@ -92,6 +92,14 @@ std::size_t ContactResultants::place_of(std::size_t contact, std::pair<Index, In
   return place;
 }
 
+Vec3 ContactResultants::moment_point(std::size_t contact, std::span<const double> u) const {
+  if (moment_points_[contact]) return *moment_points_[contact];
+  const Index body = parts_of(model_.contacts[contact]).body;
+  if (body < 0 || !model_.turning_bodies[at(body)].is_led()) return {};
+  const TurningBody& led = model_.turning_bodies[at(body)];
+  return carom::add(led.centre, body_frame(led, nodal_values(led, u)).centre);
+}
+
 /// Adds sign times the force of the row on the node of an entry.
 void ContactResultants::add(const ContactResponse& response, std::size_t r, std::size_t entry, double sign,
                             std::size_t place, std::span<const double> u, ContactResultant& sum) const {
@@ -103,7 +111,7 @@ void ContactResultants::add(const ContactResponse& response, std::size_t r, std:
   Vec3 x = carom::add(mesh_.coordinates[n], {u[3 * n], u[3 * n + 1], u[3 * n + 2]});
   sum.force = carom::add(sum.force, force);
   if (places_[place].is_ring) x[0] = x[2] = force[0] = force[2] = 0.0;
-  sum.moment = carom::add(sum.moment, cross(subtract(x, moment_points_[places_[place].contact]), force));
+  sum.moment = carom::add(sum.moment, cross(subtract(x, moment_point(places_[place].contact, u)), force));
 }
 
 /// A row of a surface in self-contact: its forces on the nodes of the other side, by their parts.
@@ -153,7 +161,7 @@ void ContactResultants::add_cohesive(const CohesiveZones& zones, std::span<const
       sum.force = carom::add(sum.force, share);
       Vec3 x = carom::add(mesh_.coordinates[n], {u[3 * n], u[3 * n + 1], u[3 * n + 2]});
       if (places_[place].is_ring) x[0] = x[2] = share[0] = share[2] = 0.0;
-      sum.moment = carom::add(sum.moment, cross(subtract(x, moment_points_[places_[place].contact]), share));
+      sum.moment = carom::add(sum.moment, cross(subtract(x, moment_point(contact, u)), share));
     }
   });
 }

@@ -33,8 +33,9 @@ struct ResultantPlace {
 /// whose vectors cancel, and the moment is that of the axial force on the axis.
 class ContactResultants {
  public:
-  /// moment_points: one per contact.
-  ContactResultants(const Model& model, std::vector<Vec3> moment_points);
+  /// moment_points: one per contact. Where there is none, moments are about the centre of an obstacle that is led to turn,
+  /// wherever it is, and else about the origin.
+  ContactResultants(const Model& model, std::vector<std::optional<Vec3>> moment_points);
 
   /// Those of one contact follow each other, in the order of the contacts.
   const std::vector<ResultantPlace>& places() const { return places_; }
@@ -53,8 +54,11 @@ class ContactResultants {
   Index part_of_side(std::span<const Index> nodes) const;
   Index part_of_node(Index node, Index preferred) const;
 
+  Vec3 moment_point(std::size_t contact, std::span<const double> u) const;
+
+  const Model& model_;
   const Mesh& mesh_;
-  std::vector<Vec3> moment_points_;
+  std::vector<std::optional<Vec3>> moment_points_;
   std::vector<std::vector<Index>> parts_of_node_;  ///< ascending; of all nodes, empty without self-contact
   std::vector<ResultantPlace> places_;
   std::vector<std::size_t> first_place_;  ///< of each contact, and the number of all

@@ -58,8 +58,8 @@ namespace {
 constexpr std::array resultant_columns{"force_x",   "force_y",  "force_z",  "impulse_x", "impulse_y",
                                        "impulse_z", "moment_x", "moment_y", "moment_z"};
 
-std::vector<Vec3> moment_points(const Case& given) {
-  std::vector<Vec3> points;
+std::vector<std::optional<Vec3>> moment_points(const Case& given) {
+  std::vector<std::optional<Vec3>> points;
   for (const CaseContact& contact : given.contacts) points.push_back(contact.moment_point);
   return points;
 }

@@ -172,7 +172,7 @@ class CurveBuilder {
 
   /// Of the only resultant, where there is one.
   void add_force(const Value& value) {
-    const ContactResultants resultants(simulation_.model(), std::vector<Vec3>(given_.contacts.size()));
+    const ContactResultants resultants(simulation_.model(), std::vector<std::optional<Vec3>>(given_.contacts.size()));
     if (resultants.places().size() == 1)
       columns_.push_back({fmt::format("{}.force_{}", resultants.places()[0].name, letter_), value});
   }

@@ -175,9 +175,15 @@ bool goes_through_its_back(const Simulation& s, std::size_t c, const State& stat
   const auto& rigid = std::get<RigidSurface>(*obstacle.shape);
   Vec3 normal{};
   for (const Facet& facet : rigid.surface.facets) normal = add(normal, look(s, facet, state).normal);
-  Vec3 v = mean_motion(s, obstacle.own->facets, state).v;
-  if (obstacle.carrier >= 0)
-    for (std::size_t i = 0; i < 3; ++i) v[i] -= state.v[3 * at(obstacle.carrier) + i];
+  const Motion own = mean_motion(s, obstacle.own->facets, state);
+  Vec3 v = own.v;
+  if (obstacle.carrier >= 0) v = subtract(v, vector_at(state.v, at(obstacle.carrier)));
+  if (obstacle.body >= 0) {
+    const TurningBody& body = s.model().turning_bodies[at(obstacle.body)];
+    const std::array<Vec3, 4> nodal = nodal_values(body, state.v);
+    const std::array<double, 4> N = place_body(body, state.q).weights(own.x);
+    for (std::size_t a = 0; a < 4; ++a) v = subtract(v, scaled(nodal[a], N[a]));
+  }
   return dot(v, normal) > 0.0;
 }
 

@@ -95,6 +95,10 @@ class ContactLint {
  private:
   const CaseContact& given(std::size_t c) const { return s_.given().contacts[c]; }
   ContactParts parts(std::size_t c) const { return parts_of(s_.model().contacts[c]); }
+  bool is_led_to_turn(std::size_t c) const {
+    const Index body = parts(c).body;
+    return body >= 0 && s_.model().turning_bodies[static_cast<std::size_t>(body)].is_led();
+  }
   bool is_spring(std::size_t c) const { return parts(c).nature == ContactNature::springs; }
 
   template <class... Values>
@@ -111,6 +115,7 @@ class ContactLint {
           *given(c).group());
       return;
     }
+    if (is_led_to_turn(c)) return;  // where it looks and goes at the start says little of where it comes to
     if (faces_away(s_, c, state_)) {
       const Located<std::string>* master = given(c).master();
       say(": no face of \"{}\" looks at {}: are these the faces that touch?", *given(c).group(),

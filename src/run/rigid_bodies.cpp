@@ -34,8 +34,14 @@ Vec3 stand_of(const CaseContact& contact) {
       contact.of);
 }
 
-TurningBody body_of(const CaseContact& contact) {
+/// `size` of one that is led.
+TurningBody body_of(const CaseContact& contact, double size) {
   const CaseRigidBody& given = contact.obstacle()->body;
+  if (!given.mass) {
+    TurningBody body = make_led_body(*given.centre_of_rotation, normalized(**given.angular_velocity), size);
+    body.name = *contact.name;
+    return body;
+  }
   try {
     TurningBody body = make_turning_body(*given.mass, given.centre_of_mass.value_or(middle_of(contact)),
                                          **given.inertia, given.products_of_inertia.value_or(Vec3{}));
@@ -54,7 +60,7 @@ TurningBody body_of(const CaseContact& contact) {
 std::size_t carrier_nodes(const CaseContact& contact) {
   const CaseObstacle* obstacle = contact.obstacle();
   if (obstacle == nullptr || !obstacle->moves()) return 0;
-  return obstacle->body.inertia ? 4 : 1;
+  return obstacle->turns() ? 4 : 1;
 }
 
 std::size_t carrier_nodes(const Case& given) {
@@ -62,24 +68,25 @@ std::size_t carrier_nodes(const Case& given) {
                          [](std::size_t sum, const CaseContact& contact) { return sum + carrier_nodes(contact); });
 }
 
-std::vector<Vec3> carrier_positions(const CaseContact& contact) {
+std::vector<Vec3> carrier_positions(const CaseContact& contact, double size) {
   if (carrier_nodes(contact) == 0) return {};
-  if (!contact.obstacle()->body.inertia) return {stand_of(contact)};
-  const TurningBody body = body_of(contact);
+  if (!contact.obstacle()->turns()) return {stand_of(contact)};
+  const TurningBody body = body_of(contact, size);
   return {corner(body, 0), corner(body, 1), corner(body, 2), corner(body, 3)};
 }
 
-void add_free_body(const CaseContact& contact, Index first, ObstacleContact& obstacle, Model& model) {
+void add_body(const CaseContact& contact, Index first, ObstacleContact& obstacle, Model& model) {
   const CaseObstacle& given = *contact.obstacle();
   const Vec3 velocity = given.velocity.value_or(Vec3{});
-  if (!given.body.inertia) {
+  if (!given.turns()) {
     obstacle.carrier = first;
     model.initial.push_back({{first}, {}, {velocity}});
-    model.rigid_bodies.push_back({*contact.name, first, *given.body.mass});
+    if (given.body.mass) model.rigid_bodies.push_back({*contact.name, first, *given.body.mass});
     return;
   }
-  TurningBody body = body_of(contact);
-  const Vec3 spin = given.body.angular_velocity.value_or(Vec3{});
+  const Vec3 spin = given.body.angular_velocity ? **given.body.angular_velocity : Vec3{};
+  const Vec3& X = model.mesh->coordinates[static_cast<std::size_t>(first)];
+  TurningBody body = body_of(contact, norm(subtract(X, given.body.centre_of_rotation.value_or(Vec3{}))));
   for (std::size_t a = 0; a < 4; ++a) {
     body.nodes[a] = first + static_cast<Index>(a);
     const Vec3 v = add(velocity, cross(spin, subtract(corner(body, a), body.centre)));

@@ -10,16 +10,17 @@
 
 namespace carom {
 
-/// Nodes that hold an obstacle: none at rest, one where it moves without turning, four of a body that turns. build_mesh
+/// Nodes that hold an obstacle: none at rest, one where it moves without turning, four where it turns. build_mesh
 /// appends them after all others, in the order of the contacts.
 std::size_t carrier_nodes(const CaseContact& contact);
 std::size_t carrier_nodes(const Case& given);
 
-/// Reference positions of the nodes of one obstacle. Throws CaseError for an inertia that no body has.
-std::vector<Vec3> carrier_positions(const CaseContact& contact);
+/// Reference positions of the nodes of one obstacle; those of one that is led to turn stand at the distance `size` from its
+/// centre. Throws CaseError for an inertia that no body has.
+std::vector<Vec3> carrier_positions(const CaseContact& contact, double size);
 
 /// Appends to the model what holds the obstacle, whose first node is given: initial velocities, and a RigidBody or a
-/// TurningBody where it is free.
-void add_free_body(const CaseContact& contact, Index first, ObstacleContact& obstacle, Model& model);
+/// TurningBody where it is free or turns. What leads it is left to the caller.
+void add_body(const CaseContact& contact, Index first, ObstacleContact& obstacle, Model& model);
 
 }  // namespace carom

@@ -229,7 +229,7 @@ void Run::fill_in(Summary& summary) const {
   summary.checks = watched_->recorder.checks();
   summary.verdict.push_back(watched_->penetration.item());
   summary.verdict.push_back(watched_->overlap.item());
-  if (!simulation_.model().turning_bodies.empty()) summary.verdict.push_back(body_strain_item(march().body_strain()));
+  if (any_free(simulation_.model().turning_bodies)) summary.verdict.push_back(body_strain_item(march().body_strain()));
 }
 
 Summary Run::finish() {

@@ -15,8 +15,10 @@ struct MotionOverStep {
   double way = 0.0;       ///< integral of the velocity, without that at the beginning where the acceleration is imposed
   double v_begin = 0.0;   ///< beside PrescribedDof::start_velocity
   double v = 0.0;         ///< the same at the end
-  double position = 0.0;  ///< where the displacement is imposed
+  double position = 0.0;  ///< where the displacement is imposed, and of the centre of a rotation
   double a_begin = 0.0;
+  double angle_begin = 0.0, angle = 0.0, turned = 0.0;                    ///< of a rotation; at the end less at the beginning
+  double rate_begin = 0.0, rate = 0.0, rate_change = 0.0;  ///< of the angle; its second derivative at the beginning
 };
 
 MotionOverStep over_step(const Supports::Motion& motion, double begin, double end) {
@@ -33,19 +35,49 @@ MotionOverStep over_step(const Supports::Motion& motion, double begin, double en
     case MotionKind::acceleration:
       out = {f.second_integral(begin, end), f.integral(0.0, begin), f.integral(0.0, end), 0.0, f(begin)};
       break;
+    case MotionKind::rotation: {
+      const TimeFunction& centre = motion.travel;
+      out = {centre.integral(begin, end), centre(begin), centre(end), centre.integral(0.0, end),
+             centre.derivative(begin)};
+      out.angle_begin = f.integral(0.0, begin);
+      out.turned = f.integral(begin, end);
+      out.angle = f.integral(0.0, end);
+      out.rate_begin = f(begin);
+      out.rate = f(end);
+      out.rate_change = f.derivative(begin);
+      break;
+    }
   }
   return out;
+}
+
+/// Adds the rotation of the point to the way of its centre: (cos a - 1) p + sin a q, whose derivatives by the angle are
+/// -sin a p + cos a q and -(cos a p + sin a q). Position by the angle since the start of the run, so that nothing adds up.
+void add_rotation(const MotionOverStep& m, const PrescribedDof& point, double h, ImposedStep& step) {
+  const double p = point.cosine, q = point.sine;
+  const auto slope = [&](double angle) { return q * std::cos(angle) - p * std::sin(angle); };
+  const double half = std::sin(0.5 * m.angle);
+  step.u = m.position + std::sin(m.angle) * q - 2.0 * half * half * p;
+  step.mean_velocity = (m.way + 2.0 * std::sin(0.5 * m.turned) * slope(0.5 * (m.angle_begin + m.angle))) / h;
+  step.v_begin += m.rate_begin * slope(m.angle_begin);
+  step.v += m.rate * slope(m.angle);
+  step.a_begin += m.rate_change * slope(m.angle_begin) -
+                  m.rate_begin * m.rate_begin * (p * std::cos(m.angle_begin) + q * std::sin(m.angle_begin));
 }
 
 }  // namespace
 
 double imposed_velocity(const Supports& supports, const PrescribedDof& p, double t) {
-  const auto& [kind, f] = supports.motions()[p.motion];
+  const auto& [kind, f, travel] = supports.motions()[p.motion];
   switch (kind) {
     case MotionKind::displacement:
       return f.derivative(t);
     case MotionKind::velocity:
       return f(t);
+    case MotionKind::rotation: {
+      const double angle = f.integral(0.0, t);
+      return travel(t) + f(t) * (p.sine * std::cos(angle) - p.cosine * std::sin(angle));
+    }
     case MotionKind::acceleration:
       break;
   }
@@ -63,6 +95,11 @@ void imposed_steps(const Supports& supports, double begin, double end, std::span
     const auto i = static_cast<std::size_t>(p.dof);
     ImposedStep step{i, 0.0, p.start_velocity + m.v, p.start_velocity + m.v_begin, 0.0, m.a_begin};
     const MotionKind kind = supports.motions()[p.motion].kind;
+    if (kind == MotionKind::rotation) {
+      add_rotation(m, p, h, step);
+      steps.push_back(step);
+      continue;
+    }
     const double way = kind == MotionKind::displacement ? m.position - u[i]
                        : kind == MotionKind::velocity   ? m.way
                                                         : m.way + h * step.v_begin;
@@ -75,7 +112,9 @@ void imposed_steps(const Supports& supports, double begin, double end, std::span
 bool StepStart::set(std::span<const double> a, double h, std::span<const ImposedStep> steps, const Wanted& wanted) {
   is_changed_ = false;
   a_ = a;
+  const std::vector<double>& masses = system_.mass.node_diagonal();
   for (const ImposedStep& s : steps) {
+    if (masses[s.dof / 3] == 0.0) continue;  // as of what holds an obstacle: nobody feels its acceleration
     const double change = wanted(s) - a[s.dof];
     // Velocities are known to a relative 1e-16, and accelerations are their differences.
     const double noise = 16.0 * std::numeric_limits<double>::epsilon() *

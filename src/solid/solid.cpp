@@ -51,7 +51,7 @@ struct Solid::Impl {
         cohesive(model.cohesive, model.mesh->coordinates),
         volumes(solid.cells.size()),
         lengths(solid.cells.size()),
-        turning_bodies(model.turning_bodies, model.turning_bodies.empty() ? 0.0 : largest_frequency()) {
+        turning_bodies(model.turning_bodies, any_free(model.turning_bodies) ? largest_frequency() : 0.0) {
     solid.for_each_batch({}, [&](std::size_t first, const Block& block, const CellBatches& batch) {
       const BatchGradients at_rest(batch);
       for (Index l = 0; l < batch.cells; ++l) {

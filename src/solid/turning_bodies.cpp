@@ -13,6 +13,7 @@ namespace carom {
 
 TurningBodies::TurningBodies(std::vector<TurningBody> bodies, double frequency) {
   for (TurningBody& data : bodies) {
+    if (data.is_led()) continue;
     const double omega = data.frequency.value_or(data.rigidity * frequency);
     if (!(omega > 0.0))
       throw std::invalid_argument(fmt::format("rigid body \"{}\": no deformable cell sets its rigidity", data.name));

@@ -40,9 +40,19 @@ Supports::Supports(const Model& model, const std::vector<bool>& has_mass) {
   for (std::size_t n = 0; n < has_mass.size(); ++n) {
     for (std::size_t c = 0; c < 3; ++c) fixed_[3 * n + c] = !has_mass[n];
   }
-  for (const PrescribedMotion& motion : model.motions) motions_.push_back({motion.kind, motion.function});
+  for (const PrescribedMotion& motion : model.motions) {
+    motions_.push_back({motion.kind, motion.function});
+    if (motion.rotation) motions_.back().travel = motion.rotation->travel;
+  }
   for (const auto& [dof, motion] : owner) {
     prescribed_.push_back({dof, static_cast<std::size_t>(motion - model.motions.data())});
+    if (motion->rotation) {
+      const auto c = static_cast<std::size_t>(motion->component);
+      const RotatedPoint point =
+          rotated_point(*motion->rotation, model.mesh->coordinates[static_cast<std::size_t>(dof / 3)]);
+      prescribed_.back().cosine = point.cosine[c];
+      prescribed_.back().sine = point.sine[c];
+    }
     fixed_[static_cast<std::size_t>(dof)] = prescribed_flag_[static_cast<std::size_t>(dof)] = true;
   }
   fixed_components_.assign(has_mass.size(), 0);

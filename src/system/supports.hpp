@@ -13,6 +13,7 @@ struct PrescribedDof {
   Index dof = 0;
   std::size_t motion = 0;       ///< index in Supports::motions
   double start_velocity = 0.0;  ///< at t = 0, where the acceleration is imposed
+  double cosine = 0.0, sine = 0.0;  ///< of a rotation (RotatedPoint)
 };
 
 /// All dofs that do not follow M a = force: prescribed ones, and those of nodes that carry no mass.
@@ -22,6 +23,7 @@ class Supports {
   struct Motion {
     MotionKind kind = MotionKind::displacement;
     TimeFunction function;
+    TimeFunction travel{};  ///< of a rotation: velocity of its centre
   };
 
   /// has_mass: one flag per node. Throws std::invalid_argument when two supports impose different motions on one dof,

@@ -206,6 +206,27 @@ TEST_P(EveryPair, GoesOnFromEveryStepOnAPlane) {
   expect_same_in_pieces(pressed("linear_elastic", true, stepping(GetParam().scheme, GetParam().enforcement)));
 }
 
+/// The same on a roller that turns faster and faster, while its axis goes down a little.
+std::string pressed_on_roller(const std::string& law, const std::string& rest) {
+  return replaced(pressed(law, true, rest),
+                  "kind = \"plane\"\npoint = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]",
+                  R"(kind = "cylinder"
+point = [0.5, 0.0, -20.0]
+axis = [0.0, 1.0, 0.0]
+radius = 20.0
+velocity = [0.0, 0.0, -0.01]
+angular_velocity = [0.0, 0.05, 0.0]
+angular_function = "faster")") +
+         R"([functions.faster]
+time = [0.0, 1.0, 4.0]
+value = [0.0, 0.3, 1.0]
+)";
+}
+
+TEST_P(EveryPair, GoesOnFromEveryStepOnARoller) {
+  expect_same_in_pieces(pressed_on_roller("linear_elastic", stepping(GetParam().scheme, GetParam().enforcement)));
+}
+
 TEST_P(EveryPair, GoesOnFromEveryStepBetweenFiniteBodies) {
   expect_same_in_pieces(pressed("neo_hookean", false, stepping(GetParam().scheme, GetParam().enforcement)));
 }

@@ -52,7 +52,7 @@ class ContactState:
     impulse: NDArray[np.float64] | None = None
     """Its integral over time."""
     moment: NDArray[np.float64] | None = None
-    """Moment about the contact's moment_point."""
+    """Moment about the contact's moment_point, or else about the centre of an obstacle with an imposed rotation."""
     penetration: float | None = None
     """Largest penetration of closed rows."""
     closed: int | None = None
