@@ -29,6 +29,7 @@ PICTURES = (
     ("spinning_blocks/oblique_two_pass", "speed", 0.12),
     ("spinning_blocks/free_block", "speed", 0.7),
     ("rigid_bodies/block_on_free_box", "speed", 0.7),
+    ("roller/strip", "speed", 0.14),
     ("torsion_bar/large_twist", "speed", 0.5),
     ("friction/deformable_bathe", "speed", 0.5),
     ("patch_test/surface_to_surface_penalty", "stress zz", 1.0),

@@ -54,18 +54,18 @@ struct CaseRigidBody {
   std::optional<Vec3> products_of_inertia, centre_of_mass;
   std::optional<Located<Vec3>> angular_velocity;  ///< imposed; at the start with a mass
   std::optional<Vec3> centre_of_rotation;         ///< of one that is led; filled on reading
-  std::optional<double> rigidity;  ///< of the body that turns (TurningBody)
+  std::optional<double> rigidity;                 ///< of the body that turns (TurningBody)
 };
 
-/// What rigid obstacles of all shapes have. `middle`, where a shape has it, is that of the shape, `middle_about` that for
-/// an axis of rotation; `stand` a point of it.
+/// What rigid obstacles of all shapes have. `middle`, where a shape has it, is that of the shape, `middle_about` that
+/// for an axis of rotation; `stand` a point of it.
 struct CaseObstacle {
   Located<std::string> group;  ///< faces or nodes
   CaseContactLaw law;
-  bool per_node = false;                      ///< measure = "node" instead of "area"
-  std::optional<Located<double>> bar_radius;  ///< of bars that touch with their sides; empty: sqrt(area / pi)
-  std::optional<Vec3> velocity;               ///< imposed, times function; initial with a mass
-  std::optional<Located<std::string>> function;          ///< of all that is imposed
+  bool per_node = false;                         ///< measure = "node" instead of "area"
+  std::optional<Located<double>> bar_radius;     ///< of bars that touch with their sides; empty: sqrt(area / pi)
+  std::optional<Vec3> velocity;                  ///< imposed, times function; initial with a mass
+  std::optional<Located<std::string>> function;  ///< of all that is imposed
   std::optional<Located<std::string>> angular_function;  ///< of the rotation, instead
   CaseRigidBody body;
 

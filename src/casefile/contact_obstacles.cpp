@@ -40,13 +40,13 @@ void add_body(SectionSchema<Kind>& s) {
            "The obstacle turns, by this many radians per time about an axis of this direction through its "
            "centre_of_rotation: imposed, times function; of a free body with an inertia: at the start.",
            {.unit = Dimension::angular_velocity, .default_phrase = "0"});
-  s.key_by(
-      "centre_of_rotation", [](auto& kind) -> auto& { return kind.body.centre_of_rotation; },
-      "A point of the axis of the imposed rotation, at the start; it travels with the imposed velocity.",
-      {.unit = Dimension::length,
-       .aliases = {"center_of_rotation"},
-       .default_phrase = "sphere and box: their middle; a cylinder that turns about its own axis: its point; the others "
-                         "must have one"});
+  s.key_by("centre_of_rotation", [](auto& kind) -> auto& { return kind.body.centre_of_rotation; },
+           "A point of the axis of the imposed rotation, at the start; it travels with the imposed velocity.",
+           {.unit = Dimension::length,
+            .aliases = {"center_of_rotation"},
+            .default_phrase =
+                "sphere and box: their middle; a cylinder that turns about its own axis: its point; the others "
+                "must have one"});
 }
 
 /// What a body that turns needs, and what only it may have.
@@ -88,9 +88,10 @@ void check_rotation(Kind& given, const Node& node, const ReadContext& at) {
     const Node* written = find(node, key);
     if (written == nullptr || is_led) continue;
     if (body.mass)
-      throw CaseError(written->where, at.at(key).path, fmt::format("{} of a free body", key),
-                      "an obstacle without a mass, whose rotation is imposed",
-                      fmt::format("A free body turns about its centre_of_mass as forces make it: remove {}, or mass.", key));
+      throw CaseError(
+          written->where, at.at(key).path, fmt::format("{} of a free body", key),
+          "an obstacle without a mass, whose rotation is imposed",
+          fmt::format("A free body turns about its centre_of_mass as forces make it: remove {}, or mass.", key));
     throw CaseError(written->where, at.at(key).path, fmt::format("{} without an angular_velocity", key),
                     "an angular_velocity that is imposed", fmt::format("Add angular_velocity, or remove {}.", key));
   }
@@ -107,10 +108,11 @@ void check_rotation(Kind& given, const Node& node, const ReadContext& at) {
   else if constexpr (requires { given.middle_about(omega); })
     body.centre_of_rotation = given.middle_about(omega);
   if (body.centre_of_rotation) return;
-  throw CaseError(where, path, "a rotation without a centre",
-                  "a centre_of_rotation, which only spheres, boxes and cylinders that turn about their own axis have by "
-                  "their shape",
-                  "Add centre_of_rotation, a point of the axis that it turns about.");
+  throw CaseError(
+      where, path, "a rotation without a centre",
+      "a centre_of_rotation, which only spheres, boxes and cylinders that turn about their own axis have by "
+      "their shape",
+      "Add centre_of_rotation, a point of the axis that it turns about.");
 }
 
 template <class Kind>
@@ -144,10 +146,9 @@ SectionSchema<Kind> obstacle_keys(const std::string& doc) {
   s.key_by("measure", [](auto& kind) -> auto& { return kind.per_node; },
            "What the stiffness is counted per: area of the faces, or node.", {.choices = {"area", "node"}});
   add_bar_radius(s);
-  s.key_by(
-      "velocity", [](auto& kind) -> auto& { return kind.velocity; },
-      "The obstacle moves: imposed velocity times function; with a mass: initial velocity, of the centre of mass.",
-      {.unit = Dimension::velocity});
+  s.key_by("velocity", [](auto& kind) -> auto& { return kind.velocity; },
+           "The obstacle moves: imposed velocity times function; with a mass: initial velocity, of the centre of mass.",
+           {.unit = Dimension::velocity});
   s.key_by("function", [](auto& kind) -> auto& { return kind.function; },
            "NAME of a [functions.NAME] that multiplies what is imposed, velocity and angular velocity.",
            {.default_phrase = "constant 1"});

@@ -53,8 +53,8 @@ struct Part {
 /// A rotation about an axis of fixed direction that travels: its angle is the integral of a rate, the way of the centre
 /// the integral of a velocity.
 struct ImposedRotation {
-  Vec3 centre{};  ///< a point of the axis at the start
-  Vec3 axis{};    ///< of length 1
+  Vec3 centre{};                      ///< a point of the axis at the start
+  Vec3 axis{};                        ///< of length 1
   TimeFunction travel{{0.0}, {0.0}};  ///< velocity of the centre, of the component of the motion
 };
 
@@ -71,8 +71,8 @@ struct PrescribedMotion {
   std::vector<Index> nodes;
   int component = 0;
   MotionKind kind = MotionKind::displacement;
-  TimeFunction function{{0.0}, {0.0}};   ///< of a rotation: its rate, radian per time
-  std::optional<ImposedRotation> rotation{};    ///< of MotionKind::rotation
+  TimeFunction function{{0.0}, {0.0}};        ///< of a rotation: its rate, radian per time
+  std::optional<ImposedRotation> rotation{};  ///< of MotionKind::rotation
 };
 
 /// The same force vector on each node of the list, times factor(t).

@@ -43,8 +43,8 @@ inline constexpr std::array<Vec3, 4> corner_signs{{{1, 1, 1}, {1, -1, -1}, {-1, 
 /// without thickness (rods, discs) have no tetrahedron.
 TurningBody make_turning_body(double mass, const Vec3& centre, const Vec3& inertia, const Vec3& products);
 
-/// A body without mass that is led to turn about `axis` (of length 1), which is one of its own axes; its nodes stand at the
-/// distance size > 0 from the centre.
+/// A body without mass that is led to turn about `axis` (of length 1), which is one of its own axes; its nodes stand at
+/// the distance size > 0 from the centre.
 TurningBody make_led_body(const Vec3& centre, const Vec3& axis, double size);
 
 /// Is there a body that forces move?
@@ -71,8 +71,9 @@ Vec3 angular_velocity(const BodyFrame& position, const BodyFrame& velocity);
 /// Largest |d_i . d_j - delta_ij| / 2: the strain of the body, which rigid ones do not have.
 double body_strain(const BodyFrame& position);
 
-/// The body where its nodes stand. Half way between the ends of a step, where some schemes look, the nodes of a body that
-/// turns are nearer to its axis than before and after; a led body, whose motion is known, is seen in its own size there.
+/// The body where its nodes stand. Half way between the ends of a step, where some schemes look, the nodes of a body
+/// that turns are nearer to its axis than before and after; a led body, whose motion is known, is seen in its own size
+/// there.
 class BodyPlacement {
  public:
   BodyPlacement(const TurningBody& body, const BodyFrame& frame);

@@ -42,7 +42,7 @@ class Flight {
  private:
   struct Moved {
     const PrescribedMotion* motion;
-    std::vector<double> path;  ///< displacement since the start
+    std::vector<double> path;   ///< displacement since the start
     std::vector<double> angle;  ///< of a rotation
   };
 

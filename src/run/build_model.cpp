@@ -329,8 +329,8 @@ class ModelBuilder {
     refuse_turning_out_of_plane(obstacle, *kind.body.angular_velocity);
     motion.nodes.assign(body.nodes.begin(), body.nodes.end());
     motion.kind = MotionKind::rotation;
-    motion.function = function(kind.angular_function ? kind.angular_function : kind.function,
-                               norm(**kind.body.angular_velocity));
+    motion.function =
+        function(kind.angular_function ? kind.angular_function : kind.function, norm(**kind.body.angular_velocity));
     motion.rotation = ImposedRotation{body.centre, body.axes[2], travel};
   }
 
@@ -345,12 +345,13 @@ class ModelBuilder {
       const auto is_member = [&](Index n) { return std::binary_search(of_part.begin(), of_part.end(), n); };
       if (std::none_of(nodes.begin(), nodes.end(), is_member)) continue;
       throw CaseError(omega.where, "contact.angular_velocity",
-                      fmt::format("[{:g}, {:g}, {:g}] beside \"{}\", which is {}", (*omega)[0], (*omega)[1], (*omega)[2],
-                                  part.name, name(part.section)),
+                      fmt::format("[{:g}, {:g}, {:g}] beside \"{}\", which is {}", (*omega)[0], (*omega)[1],
+                                  (*omega)[2], part.name, name(part.section)),
                       is_ring ? "an obstacle that does not turn" : "a rotation about z, [0, 0, w]",
-                      is_ring ? "What turns about the axis rubs around it, where the cells have no displacement, and what "
-                                "turns otherwise is no ring: model it in three dimensions."
-                              : "Plane cells have no displacement along z.");
+                      is_ring
+                          ? "What turns about the axis rubs around it, where the cells have no displacement, and what "
+                            "turns otherwise is no ring: model it in three dimensions."
+                          : "Plane cells have no displacement along z.");
     }
   }
 

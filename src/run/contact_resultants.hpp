@@ -33,8 +33,8 @@ struct ResultantPlace {
 /// whose vectors cancel, and the moment is that of the axial force on the axis.
 class ContactResultants {
  public:
-  /// moment_points: one per contact. Where there is none, moments are about the centre of an obstacle that is led to turn,
-  /// wherever it is, and else about the origin.
+  /// moment_points: one per contact. Where there is none, moments are about the centre of an obstacle that is led to
+  /// turn, wherever it is, and else about the origin.
   ContactResultants(const Model& model, std::vector<std::optional<Vec3>> moment_points);
 
   /// Those of one contact follow each other, in the order of the contacts.

@@ -87,6 +87,7 @@ class ContactLint {
       check_place(c);
       check_sides(c);
       check_step(c);
+      if (is_led_to_turn(c)) check_turning(c);
       check_stiffness(c);
     }
     return std::move(out_);
@@ -104,6 +105,33 @@ class ContactLint {
   template <class... Values>
   void say(fmt::format_string<Values...> format, Values&&... values) {
     out_.push_back(where_ + fmt::format(format, std::forward<Values>(values)...));
+  }
+
+  /// Does the shape stay where it is while it turns?
+  static bool is_round(const RigidShape& shape, const TurningBody& body) {
+    const auto is_near = [](const Vec3& way, double size) { return norm(way) <= touching * size; };
+    if (const auto* sphere = std::get_if<Sphere>(&shape))
+      return is_near(subtract(sphere->centre, body.centre), sphere->radius);
+    const auto* cylinder = std::get_if<Cylinder>(&shape);
+    return cylinder != nullptr && is_near(cross(cylinder->axis, body.axes[2]), 1.0) &&
+           is_near(cross(cylinder->axis, subtract(cylinder->point, body.centre)), cylinder->radius);
+  }
+
+  void check_turning(std::size_t c) {
+    const TurningBody& body = s_.model().turning_bodies[static_cast<std::size_t>(parts(c).body)];
+    if (is_round(*parts(c).shape, body) && law_of(s_.model().contacts[c])->mu == 0.0)
+      say(": a round body that turns about itself moves nothing without friction: is the friction forgotten?");
+    double rate = 0.0;
+    for (const PrescribedMotion& motion : s_.model().motions)
+      if (motion.rotation && motion.nodes[0] == body.nodes[0])
+        for (const double value : motion.function.value) rate = std::max(rate, std::abs(value));
+    constexpr double large = 0.2;  // of a radian: the chord is shorter than the arc by 0.2 %
+    const double angle = rate * s_.dt();
+    if (angle > large)
+      say(": a step turns it by {:.2g} radians, and bodies feel it at the ends of steps alone: lower time.step to "
+          "about "
+          "{:.2g}",
+          angle, s_.dt() * 0.1 / angle);
   }
 
   /// Will the surfaces meet at all?

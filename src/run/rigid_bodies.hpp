@@ -15,8 +15,8 @@ namespace carom {
 std::size_t carrier_nodes(const CaseContact& contact);
 std::size_t carrier_nodes(const Case& given);
 
-/// Reference positions of the nodes of one obstacle; those of one that is led to turn stand at the distance `size` from its
-/// centre. Throws CaseError for an inertia that no body has.
+/// Reference positions of the nodes of one obstacle; those of one that is led to turn stand at the distance `size` from
+/// its centre. Throws CaseError for an inertia that no body has.
 std::vector<Vec3> carrier_positions(const CaseContact& contact, double size);
 
 /// Appends to the model what holds the obstacle, whose first node is given: initial velocities, and a RigidBody or a

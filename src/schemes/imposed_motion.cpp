@@ -17,7 +17,7 @@ struct MotionOverStep {
   double v = 0.0;         ///< the same at the end
   double position = 0.0;  ///< where the displacement is imposed, and of the centre of a rotation
   double a_begin = 0.0;
-  double angle_begin = 0.0, angle = 0.0, turned = 0.0;                    ///< of a rotation; at the end less at the beginning
+  double angle_begin = 0.0, angle = 0.0, turned = 0.0;     ///< of a rotation; at the end less at the beginning
   double rate_begin = 0.0, rate = 0.0, rate_change = 0.0;  ///< of the angle; its second derivative at the beginning
 };
 
@@ -52,7 +52,8 @@ MotionOverStep over_step(const Supports::Motion& motion, double begin, double en
 }
 
 /// Adds the rotation of the point to the way of its centre: (cos a - 1) p + sin a q, whose derivatives by the angle are
-/// -sin a p + cos a q and -(cos a p + sin a q). Position by the angle since the start of the run, so that nothing adds up.
+/// -sin a p + cos a q and -(cos a p + sin a q). Position by the angle since the start of the run, so that nothing adds
+/// up.
 void add_rotation(const MotionOverStep& m, const PrescribedDof& point, double h, ImposedStep& step) {
   const double p = point.cosine, q = point.sine;
   const auto slope = [&](double angle) { return q * std::cos(angle) - p * std::sin(angle); };

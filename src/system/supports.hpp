@@ -11,8 +11,8 @@ namespace carom {
 /// One dof whose motion is imposed.
 struct PrescribedDof {
   Index dof = 0;
-  std::size_t motion = 0;       ///< index in Supports::motions
-  double start_velocity = 0.0;  ///< at t = 0, where the acceleration is imposed
+  std::size_t motion = 0;           ///< index in Supports::motions
+  double start_velocity = 0.0;      ///< at t = 0, where the acceleration is imposed
   double cosine = 0.0, sine = 0.0;  ///< of a rotation (RotatedPoint)
 };
 

@@ -208,8 +208,7 @@ TEST_P(EveryPair, GoesOnFromEveryStepOnAPlane) {
 
 /// The same on a roller that turns faster and faster, while its axis goes down a little.
 std::string pressed_on_roller(const std::string& law, const std::string& rest) {
-  return replaced(pressed(law, true, rest),
-                  "kind = \"plane\"\npoint = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]",
+  return replaced(pressed(law, true, rest), "kind = \"plane\"\npoint = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]",
                   R"(kind = "cylinder"
 point = [0.5, 0.0, -20.0]
 axis = [0.0, 1.0, 0.0]

@@ -13,6 +13,7 @@
 
 #include "math/vec3.hpp"
 #include "model/compatibility.hpp"
+#include "run/lint_contact.hpp"
 #include "run_fixture.hpp"
 #include "schemes_fixture.hpp"
 
@@ -76,10 +77,10 @@ double at_time(const std::vector<double>& time, const std::vector<double>& value
   return values[i - 1] + share * (values[i] - values[i - 1]);
 }
 
-// Coulomb: mu g t until the block goes with the surface. Then friction has done m v^2 on the side of the roller, of which
-// half is the block's; the torque is mu m g R. The slope by which the top has moved, x / R = 2e-5, is below what the step leaves
-// within which the block begins to stick: mu m g x 0.1 m/s x 1e-4 s of work, 3e-3 of it. Springs along the surface hold
-// it then, on which it rings on by mu m g / sqrt(2 k m) = 3e-3 m/s.
+// Coulomb: mu g t until the block goes with the surface. Then friction has done m v^2 on the side of the roller, of
+// which half is the block's; the torque is mu m g R. The slope by which the top has moved, x / R = 2e-5, is below what
+// the step leaves within which the block begins to stick: mu m g x 0.1 m/s x 1e-4 s of work, 3e-3 of it. Springs along
+// the surface hold it then, on which it rings on by mu m g / sqrt(2 k m) = 3e-3 m/s.
 void expect_dragged(const TemporaryCase& run, double tolerance) {
   ASSERT_EQ(run.run(), ExitCode::good) << run.result("summary.json");
   const Columns contact = read_csv(run.result("contact.csv")), probe = read_csv(run.result("probes.csv"));
@@ -111,9 +112,16 @@ TEST(TurnedObstacles, DragBlocksByFriction) {
 /// A bar of 2 kg along z stands before a paddle that turns about z at 1 radian per second, half a metre from the axis.
 struct Hit {
   double speed = 0.0;       ///< of the bar, along y
-  double work_error = 0.0;  ///< relative: work of the paddle less rate x angular momentum
+  double work_error = 0.0;  ///< relative: work of the paddle less rate x integral of its torque
   double imbalance = 0.0;   ///< of the ledger, relative
 };
+
+/// By the trapezoidal rule.
+double integral(const std::vector<double>& time, const std::vector<double>& values) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < time.size(); ++i) sum += 0.5 * (time[i] - time[i - 1]) * (values[i - 1] + values[i]);
+  return sum;
+}
 
 Hit hit_by_paddle(const std::string& scheme, double step, double end) {
   const TemporaryCase run(fmt::format(R"(units = "SI"
@@ -160,25 +168,26 @@ quantities = ["velocity"]
                                       scheme, step, end));
   EXPECT_EQ(run.run(), ExitCode::good) << run.result("summary.json");
   const auto energy = last_row(run.result("energy.csv"));
+  const Columns contact = read_csv(run.result("contact.csv"));
   const double work = energy.at("support_work");
   return {last_row(run.result("probes.csv")).at("block.velocity_y"),
-          std::abs(work - energy.at("angular_momentum_z")) / work, std::abs(energy.at("imbalance")) / work};
+          std::abs(work - integral(contact.at("time"), contact.at("paddle.moment_z"))) / work,
+          std::abs(energy.at("imbalance")) / work};
 }
 
-// What is hit without friction by a body that nothing stops leaves at twice its speed, 2 omega r, while it does not turn:
-// springs hold for pi sqrt(m / k) = 3e-3, by which the paddle turns on. It works by its rate times the angular momentum that it
-// gives; both are sums over steps, which differ to the second order as long as contact lasts.
+// What is hit without friction by a body that nothing stops leaves at twice its speed, 2 omega r, while it does not
+// turn: springs hold for pi sqrt(m / k) = 3e-3, by which the paddle turns on. It works by its rate times its torque;
+// both are sums over steps, which differ to the second order.
 TEST(TurnedObstacles, HitAtTwiceTheSpeedOfTheirSurface) {
-  for (const std::string scheme :
-       {"kind = \"central_differences\"", "kind = \"newmark\"\nenforcement = \"penalty\"",
+  for (const std::string scheme : {"kind = \"central_differences\"", "kind = \"newmark\"\nenforcement = \"penalty\"",
                                    "kind = \"energy_momentum\""}) {
     const Hit whole = hit_by_paddle(scheme, 5e-5, 0.02);
     EXPECT_NEAR(whole.speed, 1.0, 3e-3) << scheme;
-    EXPECT_LT(whole.work_error, 1e-4) << scheme;
+    EXPECT_LT(whole.work_error, 1e-6) << scheme;
     EXPECT_LT(whole.imbalance, 1e-12) << scheme;
+    if (scheme == "kind = \"energy_momentum\"") continue;  // its forces are means over steps
     const Hit coarse = hit_by_paddle(scheme, 1e-4, 2e-3), fine = hit_by_paddle(scheme, 5e-5, 2e-3);
-    fmt::print("{}: {} {} {} | {} {}\n", scheme, whole.speed, whole.work_error, whole.imbalance, coarse.work_error, fine.work_error);
-    EXPECT_LT(fine.work_error, std::max(1e-12, 0.3 * coarse.work_error)) << scheme;
+    EXPECT_NEAR(coarse.work_error / fine.work_error, 4.0, 0.4) << scheme;
   }
 }
 
@@ -217,34 +226,114 @@ centre_of_rotation = [0.0, 0.0, 0.0]
 angular_velocity = [0.0, 0.0, 6.283185307179586]
 )";
 
-// After one turn everything is where it was, and presses as it did, to what the equations are solved to.
-TEST(TurnedObstacles, AreBackAfterAWholeTurn) {
+Columns pressed_by_square(const std::string& time) {
   const TemporaryCase run(square_against_plate + R"([scheme]
 kind = "statics"
 enforcement = "penalty"
 [guards]
 rotation_stop = 90.0
-[time]
-step = 0.015625
-end = 2.0
 [output]
 fields = []
+)" + time);
+  EXPECT_NE(run.run(), ExitCode::run_failed) << run.result("summary.json");
+  return read_csv(run.result("contact.csv"));
+}
+
+// After one turn everything is where it was, and presses as it did, to what the equations are solved to; and a stage
+// goes on from the angle at which the one before has ended.
+TEST(TurnedObstacles, AreBackAfterAWholeTurn) {
+  const Columns contact = pressed_by_square("[time]\nstep = 0.015625\nend = 2.0\n");
+  const Columns in_stages = pressed_by_square(R"([time]
+step = 0.015625
+end = 1.1875
+[[stage]]
+kind = "statics"
+enforcement = "penalty"
+step = 0.015625
+end = 2.0
 )");
-  ASSERT_EQ(run.run(), ExitCode::good) << run.result("summary.json");
-  const Columns contact = read_csv(run.result("contact.csv"));
   ASSERT_EQ(contact.at("time").size(), 129U);
+  ASSERT_EQ(in_stages.at("time").size(), 129U);
   const std::vector<double>& force = contact.at("rod.force_y");
   const double largest = *std::max_element(force.begin(), force.end());
   EXPECT_GT(largest, 1e3);
-  for (std::size_t i = 0; i + 64 < force.size(); ++i) {
-    for (const char* name : {"rod.force_x", "rod.force_y", "rod.moment_z"}) {
-      const std::vector<double>& values = contact.at(name);
-      EXPECT_NEAR(values[i], values[i + 64], 1e-9 * largest) << name << " at " << contact.at("time")[i];
+  for (const char* name : {"rod.force_x", "rod.force_y", "rod.moment_z"}) {
+    const std::vector<double>& values = contact.at(name);
+    for (std::size_t i = 0; i < force.size(); ++i) {
+      if (i + 64 < force.size()) {
+        EXPECT_NEAR(values[i], values[i + 64], 1e-9 * largest) << name << ", row " << i;
+      }
+      EXPECT_NEAR(values[i], in_stages.at(name)[i], 1e-9 * largest) << name << ", row " << i;
     }
   }
 }
 
-/// A block of rubber is pressed on a roller that drags it and whose axis sinks a little. `turns`: else its surface does not.
+/// A roller beside a plate of plane cells, turning about the given direction.
+std::string beside_plate(const std::string& section, const std::string& rate) {
+  return fmt::format(R"(units = "SI"
+[[mesh.block]]
+kind = "quad"
+origin = [0.0, 0.0, 0.0]
+size = [1.0, 1.0]
+divisions = [2, 2]
+groups = {{ cells = "PLATE", ymin = "FOOT" }}
+[materials.soft]
+law = "linear_elastic"
+E = 2.0e9
+nu = 0.3
+rho = 1500.0
+[[part]]
+name = "plate"
+cells = "PLATE"
+material = "soft"
+section = "{}"
+[[contact]]
+name = "roller"
+kind = "sphere"
+group = "FOOT"
+centre = [0.0, -2.0, 0.0]
+radius = 1.9
+angular_velocity = {}
+[scheme]
+kind = "central_differences"
+[time]
+end = 1e-3
+)",
+                     section, rate);
+}
+
+TEST(TurnedObstacles, AreDoubtedWhereTheyMoveNothingOrTurnTooFarInAStep) {
+  const std::string text =
+      replaced(beside_plate("plane_strain", "[0.0, 0.0, 3000.0]"), "kind = \"central_differences\"\n[time]",
+               "kind = \"newmark\"\n[time]\nstep = 1e-4");
+  const Simulation simulation(parse_case(text, "case.toml"));
+  const std::vector<std::string> warnings = contact_warnings(simulation);
+  const auto has = [&](const std::string& wanted) {
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [&](const std::string& said) { return said.find(wanted) != std::string::npos; });
+  };
+  EXPECT_TRUE(has("a round body that turns about itself moves nothing without friction"));
+  EXPECT_TRUE(has("a step turns it by 0.3 radians"));
+}
+
+TEST(TurnedObstacles, TurnInThePlaneOfPlaneCells) {
+  const Simulation about_z(parse_case(beside_plate("plane_strain", "[0.0, 0.0, 3.0]"), "case.toml"));
+  EXPECT_EQ(about_z.model().turning_bodies.size(), 1U);
+  const CaseError out_of_plane = case_error(beside_plate("plane_stress", "[0.0, 2.0, 3.0]"));
+  EXPECT_EQ(
+      std::string(out_of_plane.what()),
+      "case.toml:24:20: contact.angular_velocity: found [0, 2, 3] beside \"plate\", which is plane_stress; expected a "
+      "rotation about z, [0, 0, w]. Plane cells have no displacement along z.");
+  const CaseError ring = case_error(beside_plate("axisymmetric", "[0.0, 3.0, 0.0]"));
+  EXPECT_NE(std::string(ring.what())
+                .find("case.toml:24:20: contact.angular_velocity: found [0, 3, 0] beside \"plate\", which "
+                      "is axisymmetric; expected an obstacle that does not turn."),
+            std::string::npos)
+      << ring.what();
+}
+
+/// A block of rubber is pressed on a roller that drags it and whose axis sinks a little. `turns`: else its surface does
+/// not.
 std::string pressed_on_roller(const SchemeTraits& scheme, std::size_t enforcement, bool turns) {
   return fmt::format(R"(units = "SI"
 [[mesh.block]]
@@ -413,14 +502,15 @@ std::string disc(int rings) {
   for (int j = 0; j < 6 * rings; ++j)
     cells += fmt::format("{} 1 2 2 2 {} {}\n", ++count, at(rings, j), at(rings, j + 1));
   const int total = first.back() + 6 * rings - 1;
-  return fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"BALL\"\n1 2 \"RIM\"\n$EndPhysicalNames\n"
-                     "$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n",
-                     total, nodes, count, cells);
+  return fmt::format(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"BALL\"\n1 2 \"RIM\"\n$EndPhysicalNames\n"
+      "$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n",
+      total, nodes, count, cells);
 }
 
-// Two rollers that turn alike let what is between them spin in place, at -R / r times their rate: -3 x 20. A body that spins
-// has twice its kinetic energy over its angular momentum as rate. Pressed by a hundredth of its radius, it rolls on less than
-// its radius, and it rings about that rate by some per cent, which the mean over 60 ms leaves a tenth of.
+// Two rollers that turn alike let what is between them spin in place, at -R / r times their rate: -3 x 20. A body that
+// spins has twice its kinetic energy over its angular momentum as rate. Pressed by a hundredth of its radius, it rolls
+// on less than its radius, and it rings about that rate by some per cent, which the mean over 60 ms leaves a tenth of.
 TEST(TurnedObstacles, SpinABallBetweenTwoRollers) {
   const std::filesystem::path mesh =
       std::filesystem::temp_directory_path() / fmt::format("carom_disc_{}.msh", ::getpid());
