@@ -20,7 +20,7 @@ namespace carom {
 enum class RowHold : std::uint8_t {
   springs,      ///< forces that grow with the gap
   impulses,     ///< what is closed does not close on
-  increments,   ///< multipliers of explicit steps and predictors: the gap of the next step is closed
+  increments,   ///< multipliers of explicit steps: the gap of the next step is closed
   multipliers,  ///< of implicit steps, beside springs or without
 };
 

@@ -43,9 +43,7 @@ RowHold hold_of(const CaseScheme& scheme) {
   const EnforcementKind enforcement = **scheme.enforcement;
   if (enforcement == EnforcementKind::penalty) return RowHold::springs;
   if (enforcement == EnforcementKind::impulse) return RowHold::impulses;
-  // The projection of the contact-stabilised predictor closes gaps as explicit multipliers do.
-  const bool closes_gaps = is_explicit(*scheme.kind) || *scheme.kind == SchemeKind::contact_stabilized_newmark;
-  return closes_gaps ? RowHold::increments : RowHold::multipliers;
+  return is_explicit(*scheme.kind) ? RowHold::increments : RowHold::multipliers;
 }
 RowHold hold_of(const Case& given) {
   RowHold most = hold_of(given.scheme);

@@ -108,21 +108,6 @@ TEST(Contact, OfAllLeavesOutWhatIsExcluded) {
             "contact.exclude");
 }
 
-// Its projection closes gaps as explicit multipliers do; those of other implicit steps meet fewer edges.
-TEST(Contact, OfTheContactStabilisedNewmarkHoldsIncrements) {
-  const auto hold = [](const std::string& scheme, const std::string& enforcement) {
-    const Case given =
-        parse_case(case_of_block("[[contact]]\nname = \"c\"\nkind = \"all\"\n[scheme]\nkind = \"" + scheme +
-                                 "\"\nenforcement = \"" + enforcement + "\"\n[time]\nend = 1.0\nstep = 0.1\n"),
-                   "case.toml");
-    const Simulation simulation(given);
-    return std::get<PairContact>(simulation.model().contacts.front()).law.hold;
-  };
-  EXPECT_EQ(hold("contact_stabilized_newmark", "lagrange"), RowHold::increments);
-  EXPECT_EQ(hold("newmark", "lagrange"), RowHold::multipliers);
-  EXPECT_EQ(hold("newmark", "penalty"), RowHold::springs);
-}
-
 TEST(Contact, MayTouchAtTheStart) {
   const Case given = parse_case(case_of_block(plane("FOOT", 0.0) + newmark_for_one_second), "case.toml");
   const Simulation simulation(given);
