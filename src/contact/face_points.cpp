@@ -165,9 +165,10 @@ void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
   const OverlapExtent extent = add_overlap(slave, seen, {is_high || are_means, !are_means}, work.points);
   if (work.points.size() == before) return;
   const bool is_deep = extent.least_gap < -sideways_depth * size_;
-  // A sliver ten times as deep as wide belongs to what passes by the border of the other facet, unless that goes on.
+  // A sliver ten times as deep as wide belongs to what passes by the border of the other facet; at the start not where
+  // that goes on.
   const double length = slave.placed().size == 2 ? 1.0 : std::sqrt(slave.measure());
-  const bool is_wide = extent.area >= -0.1 * extent.least_gap * length || goes_on(g, work);
+  const bool is_wide = extent.area >= -0.1 * extent.least_gap * length || (motion.history.empty() && goes_on(g, work));
   // Without a history, at the start, all that is wide counts, but the far side of a thin part.
   const auto has_been_behind = [&] {
     return motion.history.empty() ? extent.least_gap >= -depth_[static_cast<std::size_t>(g)] : was_behind(slave, g);

@@ -35,8 +35,8 @@ namespace carom {
 /// What comes under a facet from the side, deeper than 0.02 facet sizes, does not count there: it is the faces at the
 /// side that meet. An overlap that deep counts if it was in front at the beginning of the step, or if a corner of the
 /// slave facet was then behind the same facet or one that goes on with it, unless it is ten times as deep as it is
-/// wide. Without a history, at the start, all that is so wide counts, but the far side of a thin part (half_thickness).
-/// Ends of
+/// wide. Without a history, at the start, all that is so wide counts, and slivers where the master goes on beside them,
+/// but not the far side of a thin part (half_thickness). Ends of
 /// overlaps at borders of the other surface, where the
 /// depth is not zero, move with that: the integral changes by w e(-g~) times the way of the border over the slave,
 /// which is part of the gradient (the transport theorem), so that the force is that of the potential there, too. law:
