@@ -130,7 +130,8 @@ void check_smoothing(const Case& given) {
     if (is_penalty && (!surfaces->method || smooths(**surfaces->method))) continue;
     throw CaseError(
         surfaces->smooth->where, entry_path("contact", i, "smooth"),
-        is_penalty ? "true with a method that has no rows of both sides" : "true with an enforcement that is not penalty",
+        is_penalty ? "true with a method that has no rows of both sides"
+                   : "true with an enforcement that is not penalty",
         "smooth = true with method = \"two_pass\" or \"faces\", and enforcement = \"penalty\" in every stage",
         "Remove smooth, or take two_pass with penalty; other contact sees the facets themselves.");
   }
