@@ -47,12 +47,7 @@ std::vector<FacetSide> sides_by_edge(std::span<const Facet> surface, std::span<c
   std::vector<FacetSide> sides;
   add_sides(surface, true, sides);
   if (!beside.empty()) {
-    std::set<std::array<Index, 4>> own;
-    for (const Facet& facet : surface) own.insert(sorted_nodes(facet));
-    std::vector<Facet> others;
-    std::copy_if(beside.begin(), beside.end(), std::back_inserter(others),
-                 [&](const Facet& facet) { return !own.contains(sorted_nodes(facet)); });
-    add_sides(others, false, sides);
+    add_sides(facets_beside(surface, beside), false, sides);
   }
   std::stable_sort(sides.begin(), sides.end(), [](const FacetSide& a, const FacetSide& b) {
     return std::tie(a.low, a.high) < std::tie(b.low, b.high);
@@ -147,6 +142,15 @@ void find_ends(std::vector<FeatureEdge>& edges, std::span<const Vec3> X) {
 }
 
 }  // namespace
+
+std::vector<Facet> facets_beside(std::span<const Facet> surface, std::span<const Facet> skin) {
+  std::set<std::array<Index, 4>> own;
+  for (const Facet& facet : surface) own.insert(sorted_nodes(facet));
+  std::vector<Facet> others;
+  std::copy_if(skin.begin(), skin.end(), std::back_inserter(others),
+               [&](const Facet& facet) { return !own.contains(sorted_nodes(facet)); });
+  return others;
+}
 
 std::vector<FeatureEdge> feature_edges(std::span<const Vec3> X, std::span<const Facet> surface,
                                        std::span<const Facet> beside, double least_turn) {

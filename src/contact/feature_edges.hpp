@@ -27,6 +27,9 @@ struct FeatureEdge {
   bool is_fold = false;          ///< a diagonal along which a flat facet may bend
 };
 
+/// Those of `skin` that are not of the surface.
+std::vector<Facet> facets_beside(std::span<const Facet> surface, std::span<const Facet> skin);
+
 /// The edges between two facets of three or four nodes that turn by more than `least_turn`, by increasing numbers of
 /// their nodes. One of the facets at least is of the surface; where that ends, the other one is looked for in `beside`
 /// (the skin of the mesh; facets of the surface may be in it). Edges with a third facet have no inside and are left

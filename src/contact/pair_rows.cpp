@@ -72,12 +72,13 @@ void add_foot(ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, d
 void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, const NodeStand& stand,
                std::span<const Facet> facets) {
   const double f = stand.factor, deep = std::min(met.gap, 0.0);
-  RowBlocks own;
-  own.add(slave, add(scaled(met.gradient, f), scaled(stand.of_node, deep)), scaled(rows.tangent_1.back(), f),
-          scaled(rows.tangent_2.back(), f));
-  if (deep < 0.0)
-    for (const auto& [n, slope] : stand.of_others) own.add(n, scaled(slope, deep), {}, {});
-  own.append_to(rows);
+  rows.add_block(slave, {add(scaled(met.gradient, f), scaled(stand.of_node, deep)), scaled(rows.tangent_1.back(), f),
+                         scaled(rows.tangent_2.back(), f)});
+  if (deep < 0.0 && !stand.of_others.empty()) {
+    RowBlocks others;
+    for (const auto& [n, slope] : stand.of_others) others.add(n, scaled(slope, deep), {}, {});
+    others.append_to(rows);
+  }
   for (std::size_t k = 0; k < met.feet.size(); ++k) {
     const FacetFoot& foot = met.feet[k];
     add_foot(rows, foot, facets[foot.facet], f, stand.of_normals.empty() ? Vec3{} : scaled(stand.of_normals[k], deep));

@@ -26,7 +26,8 @@ namespace carom {
 /// two_pass: the same in both directions, slots of the master nodes after those of the slave nodes. Here and with
 /// `self`, where both sides' nodes are slaves, every row has half of the law's stiffness.
 ///
-/// surface_to_surface: see mean_rows in face_rows.hpp.
+/// surface_to_surface: see mean_rows in face_rows.hpp. faces: face_rows there and nodes of sharp edges, in both
+/// directions (springs; sharp_nodes.hpp); mean_rows and nodes of both sides with an allowance (other enforcements).
 ///
 /// Whatever the method, the sharp edges of solids have rows with edges, in slots after these: see edge_rows.hpp.
 ///

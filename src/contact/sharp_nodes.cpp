@@ -1,10 +1,8 @@
 #include "contact/sharp_nodes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "contact/fade.hpp"
 #include "contact/feature_edges.hpp"
@@ -44,34 +42,21 @@ Corner corner_of(const Facet& facet, Index n, std::span<const Vec3> x) {
   return corner;
 }
 
-/// The facets of a surface, and those of the mesh's skin that are beside it.
-std::vector<Facet> with_skin(const Mesh& mesh, std::span<const Facet> surface) {
-  const auto sorted = [](const Facet& facet) {
-    std::array<Index, 4> nodes = facet.node;
-    std::sort(nodes.begin(), nodes.end());
-    return nodes;
-  };
-  std::vector<Facet> all(surface.begin(), surface.end());
-  std::set<std::array<Index, 4>> own;
-  for (const Facet& facet : surface) own.insert(sorted(facet));
-  for (const Facet& facet : skin(mesh))
-    if (!own.contains(sorted(facet))) all.push_back(facet);
-  return all;
-}
-
 }  // namespace
 
 SharpNodes::SharpNodes(const Mesh& mesh, std::span<const Facet> surface) {
-  const std::vector<Facet> all = with_skin(mesh, surface);
-  for (const FeatureEdge& edge : feature_edges(mesh.coordinates, surface, all, sharp_turn))
+  const std::vector<Facet> beside = facets_beside(surface, skin(mesh));
+  for (const FeatureEdge& edge : feature_edges(mesh.coordinates, surface, beside, sharp_turn))
     for (const Index n : edge.node) facets_.try_emplace(n);
   for (const Facet& facet : surface)  // in the plane an edge is a node, and which of them are sharp is found below
     if (facet.size == 2)
       for (const Index n : facet) facets_.try_emplace(n);
-  for (const Facet& facet : all) {
-    for (const Index n : facet) {
-      const auto at = facets_.find(n);
-      if (at != facets_.end()) at->second.push_back(facet);
+  for (const std::span<const Facet> facets : {surface, std::span<const Facet>(beside)}) {
+    for (const Facet& facet : facets) {
+      for (const Index n : facet) {
+        const auto at = facets_.find(n);
+        if (at != facets_.end()) at->second.push_back(facet);
+      }
     }
   }
   const auto normal_of = [&](Index n, const Facet& facet) { return corner_of(facet, n, mesh.coordinates).normal; };
@@ -84,7 +69,6 @@ SharpNodes::SharpNodes(const Mesh& mesh, std::span<const Facet> surface) {
 
 NodeStand SharpNodes::stand(Index n, const SurfacePoint& met, std::span<const Vec3> x) const {
   NodeStand stand;
-  stand.of_normals.resize(met.feet.size());
   Vec3 normal{};
   for (const FacetFoot& foot : met.feet) normal = add(normal, scaled(foot.facet_normal, foot.weight));
   double squared = 1.0;
@@ -95,6 +79,7 @@ NodeStand SharpNodes::stand(Index n, const SurfacePoint& met, std::span<const Ve
     squared *= part.value;
     if (!(squared > least_factor * least_factor)) return NodeStand::nothing();
     if (part.slope == 0.0) continue;
+    stand.of_normals.resize(met.feet.size());
     const double slope = part.slope / lies_flat;  // of log f, until the end
     const Vec3 v = scaled(subtract(normal, scaled(corner.normal, dot(normal, corner.normal))), slope / corner.size);
     const Vec3 of_next = cross(corner.to_previous, v), of_previous = cross(v, corner.to_next);

@@ -33,8 +33,9 @@ enum class InitialPenetration : std::uint8_t { refuse, strain_free_offset, prest
 
 /// How the rows of a pair of deformable surfaces are made: one row per slave node at its closest point on the master
 /// surface; the same with the roles exchanged as well; or one row per slave node, averaged over its facets' overlaps
-/// with the master surface (mortar); or the penetration integrated over the overlaps, from both sides (springs), and
-/// mean gaps over the finer side with nodes of both sides as guards (what multipliers and impulses hold).
+/// with the master surface (mortar); or the penetration integrated over the overlaps, from both sides, beside nodes
+/// of sharp edges (springs), and mean gaps over the finer side with nodes of both sides as guards (what multipliers and
+/// impulses hold).
 enum class PairMethod : std::uint8_t { node_to_surface, two_pass, surface_to_surface, faces };
 
 /// True when both sides of a pair have rows of their own, each with half of the stiffness.

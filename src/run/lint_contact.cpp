@@ -129,8 +129,7 @@ class ContactLint {
     const double angle = rate * s_.dt();
     if (angle > large)
       say(": a step turns it by {:.2g} radians, and bodies feel it at the ends of steps alone: lower time.step to "
-          "about "
-          "{:.2g}",
+          "about {:.2g}",
           angle, s_.dt() * 0.1 / angle);
   }
 
