@@ -77,9 +77,10 @@ void follow_amplitude(Points& points, const Action& action, const DeckStep& step
   const double shift = action.amplitude->is_total ? 0.0 : step.start;
   const Points& of = action.amplitude->points;
   begin_step(points, step, before, action.value * value_at(of, step.start - shift));
+  const double begun = points.back().first;
   for (const auto& [time, value] : of) {
     const double t = time + shift;
-    if (t > points.back().first && t <= step.finish()) add_point(points, t, action.value * value);
+    if (t > begun && t <= step.finish()) add_point(points, t, action.value * value);
   }
   add_point(points, step.finish(), action.value * value_at(of, step.finish() - shift));
 }

@@ -354,6 +354,8 @@ TEST(Translate, HistoriesOfStepsWithAndWithoutRamps) {
   EXPECT_EQ(history({{1, 2.0, &amplitude}}, steps), (Points{{1.0, 0.0}, {1.5, 2.0}, {2.0, 0.0}, {3.0, 0.0}}));
   Amplitude total{nullptr, {{0.0, 0.0}, {4.0, 8.0}}, true};  // goes on where nothing is said
   EXPECT_EQ(history({{0, 1.0, &total}}, steps), (Points{{0.0, 0.0}, {1.0, 2.0}, {3.0, 6.0}}));
+  const Amplitude jump{nullptr, {{0.0, 1.0}, {0.5, 1.0}, {0.5, 0.0}, {3.0, 0.0}}, false};
+  EXPECT_EQ(history({{0, 2.0, &jump}}, {first}), (Points{{0.0, 2.0}, {0.5, 2.0}, {0.5, 0.0}, {1.0, 0.0}}));
   amplitude.is_total = true;  // its second half lies in the first step
   EXPECT_EQ(history({{1, 2.0, &amplitude}}, steps), (Points{{1.0, 0.0}, {3.0, 0.0}}));
 }
