@@ -14,7 +14,7 @@ constexpr std::array<LocalNode, 27> kHexa27{0,  1,  2,  3,  4,  5,  6,  7,  8,  
                                             14, 15, 16, 17, 18, 19, 26, 24, 23, 25, 21, 22, 20};
 constexpr std::array<LocalNode, 3> kMiddleSecond{0, 2, 1};
 
-const std::array<DeckElementType, 64> kTypes{
+const std::array<DeckElementType, 65> kTypes{
     {{"C3D4", Kind::cell, CellType::tetra4, 4, {}, "solid", "", ""},
      {"C3D5", Kind::cell, CellType::pyra5, 5, {}, "solid", "", ""},
      {"C3D6", Kind::cell, CellType::penta6, 6, {}, "solid", "", ""},
@@ -133,6 +133,7 @@ const std::array<DeckElementType, 64> kTypes{
      {"B32", Kind::cell, CellType::line3, 3, kMiddleSecond, "", "", ""},
      {"B32R", Kind::cell, CellType::line3, 3, kMiddleSecond, "", "", ""},
      {"MASS", Kind::mass, CellType::point1, 1, {}, "", "", ""},
+     {"ROTARYI", Kind::inertia, CellType::point1, 1, {}, "", "", ""},
      {"SPRINGA", Kind::spring, CellType::line2, 2, {}, "", "", ""},
      {"SPRING1", Kind::ground_spring, CellType::point1, 1, {}, "", "", ""}}};
 

@@ -14,6 +14,7 @@ struct DeckElementType {
   enum class Kind : std::uint8_t {
     cell,
     mass,          ///< a point mass at its node
+    inertia,       ///< a rotary inertia at its node
     spring,        ///< between two nodes, along the line between them
     ground_spring  ///< from a node to the ground
   };

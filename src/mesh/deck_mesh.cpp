@@ -223,7 +223,8 @@ class DeckMeshReader {
     return *elements;
   }
 
-  /// Of each ELSET: its cells, those of each type where it has several; nodes of point masses; ends of springs.
+  /// Of each ELSET: its cells, those of each type where it has several; nodes of point masses and rotary inertias;
+  /// ends of springs.
   void make_element_groups() {
     for (const auto& [name, members] : element_sets_.all()) {
       std::map<const DeckElementType*, std::vector<CellRef>> cells;
@@ -245,9 +246,11 @@ class DeckMeshReader {
   }
 
   void group_discrete(const std::string& set, const DeckElement& element, Index number) {
-    if (element.type->kind == DeckElementType::Kind::mass) {
-      names_.masses[set] = set;
-      mesh_.node_groups[set].push_back(element.node[0]);
+    const bool is_mass = element.type->kind == DeckElementType::Kind::mass;
+    if (is_mass || element.type->kind == DeckElementType::Kind::inertia) {
+      (is_mass ? names_.masses : names_.inertias)[set] = set;
+      std::vector<Index>& nodes = mesh_.node_groups[set];
+      if (std::find(nodes.begin(), nodes.end(), element.node[0]) == nodes.end()) nodes.push_back(element.node[0]);
       return;
     }
     const std::string from = fmt::format("SPRING {}, from", number + 1), to = fmt::format("SPRING {}, to", number + 1);
@@ -295,7 +298,7 @@ class DeckMeshReader {
 
   void add_nodes(const std::string& name, const std::vector<Index>& nodes) {
     const auto cells = mesh_.cell_groups.find(name);
-    const bool has_masses = names_.masses.count(name) != 0;
+    const bool has_masses = names_.masses.count(name) + names_.inertias.count(name) != 0;
     std::string group = name;
     if (has_masses || (cells != mesh_.cell_groups.end() && !are_nodes_of(nodes, cells->second))) group += " (nodes)";
     names_.node_sets[name] = group;

@@ -34,6 +34,7 @@ struct DeckNames {
   std::map<std::string, std::string> node_sets;  ///< also nodes that loads and supports name by their number, "5"
   std::map<std::string, std::vector<Cells>> element_sets;
   std::map<std::string, std::string> masses;           ///< ELSET of point masses: the group of their nodes
+  std::map<std::string, std::string> inertias;         ///< of rotary inertias likewise
   std::map<std::string, std::vector<Spring>> springs;  ///< ELSET of springs
   std::map<std::string, Surface> surfaces;
   std::map<std::string, std::string> loaded_faces;  ///< "EALL P3", "17 P3": the group of these faces

@@ -21,7 +21,7 @@ namespace carom {
 struct DeckElement {
   const DeckElementType* type = nullptr;
   CellRef cell;                 ///< of a cell
-  std::array<Index, 2> node{};  ///< of a point mass or spring
+  std::array<Index, 2> node{};  ///< of a point mass, rotary inertia or spring
   std::int64_t number = 0;      ///< as written
 };
 

@@ -22,12 +22,13 @@ const std::array<const char*, 3> kAxisNames{"x", "y", "z"};
 /// One thing that acts: a component of a support or force, a pressure, gravity.
 struct Acting {
   std::string keyword, group;
-  std::string what;  ///< "displacement", "velocity", "acceleration", "force", "pressure", "gravity"
-  int component = 0;
-  Vec3 direction{};  ///< of gravity
+  std::string what;   ///< "displacement", "velocity", "acceleration", "force", "pressure", "gravity"
+  int component = 0;  ///< 3 to 5: about the axes
+  Vec3 direction{};   ///< of gravity
   Location where;
   std::vector<Action> actions;
   const DeckKeyword* source = nullptr;  ///< the first keyword that says it
+  RigidBody* body = nullptr;            ///< the one whose reference node is imposed
 };
 
 /// The cells that gravity of one size is given to in a step, line by line.
@@ -98,6 +99,7 @@ class Actions {
       if (!rests) at.fail(fmt::format("{} where {} is imposed", wanted.what, found->what), "one kind of motion");
       found->what = wanted.what;
     }
+    if (found->body != nullptr && value != 0.0) found->where = wanted.where;
     if (!found->actions.empty() && found->actions.back().step == step) found->actions.pop_back();
     found->actions.push_back({step, value, amplitude_, false});
   }
@@ -110,7 +112,7 @@ class Actions {
     if (what != "DISPLACEMENT" && what != "VELOCITY" && what != "ACCELERATION")
       s.keyword->fail("TYPE=" + what, "DISPLACEMENT, VELOCITY or ACCELERATION");
     const std::string first = upper_case(at.field());
-    for (const int dof : named_components(at, first)) impose(at, group, dof, "DISPLACEMENT", step, 0.0);
+    for (const int dof : named_components(at, first)) impose(at, group, dof, "DISPLACEMENT", step, 0.0, true);
     if (!as_integer(first)) return;
     const auto from = static_cast<int>(*as_integer(first));
     const std::string_view end = at.field();
@@ -123,7 +125,7 @@ class Actions {
               "The nodes would jump there when the first step begins.");
     if (from < 1 || to < from || to > 6)
       at.fail(fmt::format("degrees of freedom {} to {}", from, to), "1 to 3, or 1 to 6 with those of turning");
-    for (int dof = from; dof <= to; ++dof) impose(at, group, dof, what, step, value);
+    for (int dof = from; dof <= to; ++dof) impose(at, group, dof, what, step, value, false);
   }
 
   static int component(const DeckCursor& at, std::string_view text) {
@@ -132,12 +134,17 @@ class Actions {
     return static_cast<int>(*number);
   }
 
-  /// Of ENCASTRE and the like; those of turning mean nothing to solids.
+  /// Of ENCASTRE and the like.
   static std::vector<int> named_components(const DeckCursor& at, const std::string& name) {
     if (as_integer(name)) return {};
-    static const std::map<std::string, std::vector<int>> names{
-        {"ENCASTRE", {1, 2, 3}}, {"PINNED", {1, 2, 3}}, {"XSYMM", {1}},     {"YSYMM", {2}},
-        {"ZSYMM", {3}},          {"XASYMM", {2, 3}},    {"YASYMM", {1, 3}}, {"ZASYMM", {1, 2}}};
+    static const std::map<std::string, std::vector<int>> names{{"ENCASTRE", {1, 2, 3, 4, 5, 6}},
+                                                               {"PINNED", {1, 2, 3}},
+                                                               {"XSYMM", {1, 5, 6}},
+                                                               {"YSYMM", {2, 4, 6}},
+                                                               {"ZSYMM", {3, 4, 5}},
+                                                               {"XASYMM", {2, 3, 4}},
+                                                               {"YASYMM", {1, 3, 5}},
+                                                               {"ZASYMM", {1, 2, 6}}};
     const auto found = names.find(name);
     if (found == names.end())
       at.fail(fmt::format("\"{}\"", name), "a degree of freedom, ENCASTRE, PINNED, XSYMM or the like");
@@ -145,15 +152,22 @@ class Actions {
   }
 
   void impose(const DeckCursor& at, const std::string& group, int dof, const std::string& what, std::size_t step,
-              double value) {
-    if (dof > 3) {
-      if (value != 0.0) at.fail(fmt::format("a turn of degree of freedom {}", dof), "1, 2 or 3", "Nodes do not turn.");
-      t_.findings.note(at.where(), fmt::format("degree of freedom {}: nodes do not turn", dof));
-      return;
-    }
+              double value, bool is_named) {
     static const std::map<std::string, std::string> keys{
         {"DISPLACEMENT", "displacement"}, {"VELOCITY", "velocity"}, {"ACCELERATION", "acceleration"}};
-    act(at, {"BOUNDARY", group, keys.at(what), dof - 1, {}, at.where(), {}}, step, value);
+    Acting wanted{"BOUNDARY", group, keys.at(what), dof - 1, {}, at.where(), {}, nullptr, nullptr};
+    const std::vector<RigidBody*> bodies = referred_to(t_, group);
+    for (RigidBody* body : bodies) {
+      wanted.group = body->node;
+      wanted.body = body;
+      act(at, wanted, step, value);
+    }
+    if (!bodies.empty()) return;
+    if (dof <= 3) return act(at, wanted, step, value);
+    if (value != 0.0)
+      at.fail(fmt::format("a turn of degree of freedom {}", dof), "1, 2 or 3",
+              "Nodes do not turn, but for those that a *RIGID BODY refers to.");
+    if (!is_named) t_.findings.note(at.where(), fmt::format("degree of freedom {}: nodes do not turn", dof));
   }
 
   void force(DeckCursor& at, const Statement& s, std::size_t step) {
@@ -250,8 +264,7 @@ class Actions {
     if (is_support && acting.actions.front().step > 0)
       t_.findings.refuse(*acting.source, acting.where, "a support that begins with a later step",
                          "Carom's supports hold for the whole run.");
-    if (is_support)
-      if (RigidBody* body = referred_to(t_, acting.group)) return move_rigid(*body, acting, points);
+    if (acting.body != nullptr) return move_rigid(*acting.body, acting, points);
     if (size == 0.0 && !is_support) return t_.findings.note(acting.where, "a load of 0: left out");
     std::string function;
     const bool is_constant = std::all_of(points.begin(), points.end(), [&](const auto& p) { return p.second == size; });
@@ -265,41 +278,52 @@ class Actions {
   /// A rigid surface is moved by its velocity: that of a displacement is the slope of its polygon.
   void move_rigid(RigidBody& body, const Acting& acting, Points points) {
     if (acting.what == "acceleration")
-      body.keyword->fail("an imposed acceleration of the reference node", "its velocity or displacement");
-    if (acting.what == "displacement") points = slopes(*body.keyword, points);
+      fail_at(acting, "an imposed acceleration of the reference node of a rigid body", "its velocity or displacement");
+    if (acting.what == "displacement") points = slopes(acting, points);
     double size = 0.0;
     for (const auto& [time, value] : points)
       if (std::abs(value) > std::abs(size)) size = value;
     const bool is_constant = std::all_of(points.begin(), points.end(), [&](const auto& p) { return p.second == size; });
     body.motion.at(static_cast<std::size_t>(acting.component)) =
-        RigidBody::Motion{size, is_constant || size == 0.0 ? "" : function_of(acting, points, size)};
+        RigidBody::Motion{size, is_constant || size == 0.0 ? "" : function_of(acting, points, size), acting.where};
   }
 
-  static Points slopes(const DeckKeyword& keyword, const Points& points) {
+  [[noreturn]] static void fail_at(const Acting& acting, const std::string& found, const std::string& expected) {
+    throw CaseError(acting.where, "*" + acting.keyword, found, expected);
+  }
+
+  static Points slopes(const Acting& acting, const Points& points) {
     Points result;
     for (std::size_t i = 1; i < points.size(); ++i) {
       const double dt = points[i].first - points[i - 1].first, du = points[i].second - points[i - 1].second;
       if (dt == 0.0) {
-        if (du != 0.0) keyword.fail("a displacement of the reference node that jumps", "one that grows");
+        if (du != 0.0) fail_at(acting, "a displacement of the reference node that jumps", "one that grows");
         continue;
       }
       result.emplace_back(points[i - 1].first, du / dt);
       result.emplace_back(points[i].first, du / dt);
     }
     const bool starts_elsewhere = !points.empty() && points.front().second != 0.0;
-    if (starts_elsewhere) keyword.fail("a displacement of the reference node that jumps", "one that grows from 0");
+    if (starts_elsewhere) fail_at(acting, "a displacement of the reference node that jumps", "one that grows from 0");
     if (!result.empty()) result.emplace_back(points.back().first, 0.0);  // stays where it is
     return result;
+  }
+
+  /// Up to round-off: multiples of one amplitude are one function.
+  static bool are_equal(const std::vector<double>& a, const std::vector<double>& b) {
+    constexpr double round_off = 1e-12;  // of slopes up to 1, between points of a table
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](double x, double y) { return std::abs(x - y) < round_off; });
   }
 
   std::string function_of(const Acting& acting, const Points& points, double size) {
     std::vector<double> times, values;
     for (const auto& [time, value] : points) {
       times.push_back(time);
-      values.push_back(value / size);
+      values.push_back(value / size + 0.0);  // no -0
     }
     for (const auto& [name, known] : functions_)
-      if (known.first == times && known.second == values) return name;
+      if (known.first == times && are_equal(known.second, values)) return name;
     const Amplitude* amplitude = acting.actions.front().amplitude;
     std::string name = amplitude != nullptr ? amplitude->keyword->required("NAME") : "steps";
     for (int k = 2; functions_.count(name) != 0; ++k)

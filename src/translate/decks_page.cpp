@@ -70,8 +70,18 @@ SURFACE`. `HARD` contact has the stiffness that Carom chooses. Overlaps at the s
 count as touching with `ADJUST=0`, and in decks of Abaqus' explicit program, which takes them away. Of a surface of nodes the faces between them touch, a group `NAME (faces)`; one that makes no face is
 refused.
 
-A `*RIGID BODY` of faces (R3D3, R3D4) is an obstacle: its reference node is held or moved along all three axes by
-`*BOUNDARY`, or is free along all of them and has a `*MASS`. It does not turn. Behind its last imposed displacement it stays.
+A `*RIGID BODY` of faces (R3D3, R3D4, in the plane R2D2, around an axis RAX2) is an obstacle.
+- Its reference node is held or moved along all axes by `*BOUNDARY`, with `TYPE=DISPLACEMENT` or `VELOCITY`. Degrees of
+  freedom 4 to 6, in the plane 6, turn it about the node, through finite angles, by one amplitude for all: the axis keeps its
+  direction and travels with the node. About what is not imposed it does not turn. Behind its last imposed displacement
+  or turn it stays.
+- Or the node is free along all axes and has a `*MASS`, at which the centre of mass is. With a `*ROTARY INERTIA` it turns
+  freely, in the plane by I33; without, or where `*BOUNDARY` holds all of its turns, it does not.
+  `*INITIAL CONDITIONS` may give its velocity and angular velocity (degrees of freedom 4 to 6, or `ROTATING VELOCITY`).
+
+What is neither is refused: a node that is free along or about some of the axes only, or held in its place and, with a
+`*ROTARY INERTIA`, free to turn.
+
 It is met from the side of its normal: by the right-hand rule, of R2D2 and RAX2 a quarter turn counter-clockwise from
 the first node to the second; `SNEG` names the other side. What would pass from behind is refused.
 
@@ -131,7 +141,9 @@ std::string elements() {
       "|\n|---|---|---|---|---|\n";
   for (const DeckElementType& type : deck_element_types()) {
     const bool is_cell = type.kind == DeckElementType::Kind::cell;
-    const char* discrete = type.kind == DeckElementType::Kind::mass ? "point mass" : "spring";
+    const char* discrete = type.kind == DeckElementType::Kind::mass      ? "point mass"
+                           : type.kind == DeckElementType::Kind::inertia ? "rotary inertia"
+                                                                         : "spring";
     text +=
         fmt::format("| `{}` | {} | {} | {} | {} |\n", type.name, is_cell ? name(type.type) : std::string_view(discrete),
                     type.section, type.formulation, type.remark);

@@ -1,4 +1,4 @@
-// *INITIAL CONDITIONS, *MASS and *SPRING.
+// *INITIAL CONDITIONS, *MASS, *ROTARY INERTIA and *SPRING.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,15 @@ void read_velocities(Translation& t, const Statement& s, std::vector<GroupVeloci
     const std::string group = t.node_group(at, s, target);
     const std::int64_t dof = at.integer("the degree of freedom");
     const double value = at.real("the velocity");
-    if (dof < 1 || dof > 3) at.fail(fmt::format("degree of freedom {}", dof), "1, 2 or 3");
+    const std::vector<RigidBody*> bodies = referred_to(t, group);
+    if (dof < 1 || dof > (bodies.empty() ? 3 : 6))
+      at.fail(fmt::format("degree of freedom {}", dof), bodies.empty() ? "1, 2 or 3" : "1 to 6");
+    for (RigidBody* body : bodies) {
+      std::optional<Vec3>& of = dof > 3 ? body->initial_rotation : body->initial_velocity;
+      if (!of) of = Vec3{};
+      (*of)[carom::at((dof - 1) % 3)] = value;
+    }
+    if (!bodies.empty()) continue;
     auto found = std::find_if(all.begin(), all.end(), [&](const GroupVelocity& v) { return v.group == group; });
     if (found == all.end()) found = all.insert(all.end(), {group, {}, {}, at.where()});
     found->velocity[carom::at(dof - 1)] = value;
@@ -53,13 +61,20 @@ void refuse_mixed(const Translation& t, const std::vector<GroupVelocity>& all) {
     }
 }
 
+/// The bodies of the reference nodes of a node set, or of a set of cells.
+std::vector<RigidBody*> rigid_of(Translation& t, const std::string& nodes, const std::string& cells) {
+  if (cells.empty()) return referred_to(t, nodes);
+  RigidBody* const body = body_of_cells(t, cells);
+  return body == nullptr ? std::vector<RigidBody*>{} : std::vector<RigidBody*>{body};
+}
+
 /// Node or cell set, angular velocity, velocity; then two points of the axis.
 void translate_rotation(Translation& t, const Statement& s) {
   for (DeckCursor at(*s.keyword); at.next_line();) {
     const std::string target(at.field());
     const std::string cells = key_of(t.mesh.names.element_sets, t.scope(s), target);
     TableMaker initial(at.where());
-    initial.text("nodes", cells.empty() ? t.node_group(at, s, target) : cells);
+    const std::string group = cells.empty() ? t.node_group(at, s, target) : cells;
     const double speed = at.real("the angular velocity");
     Vec3 velocity{}, a{}, b{};
     for (double& c : velocity) c = at.real_or(0.0, "a velocity");
@@ -68,8 +83,14 @@ void translate_rotation(Translation& t, const Statement& s) {
     for (double& c : b) c = at.real_or(0.0, "a coordinate");
     const Vec3 axis = subtract(b, a);
     if (norm(axis) == 0.0) at.fail("an axis from a point to itself", "two points");
-    initial.vector("velocity", velocity).vector("angular_velocity", scaled(normalized(axis), speed));
-    initial.vector("centre", a);
+    const Vec3 omega = scaled(normalized(axis), speed);
+    const std::vector<RigidBody*> bodies = rigid_of(t, group, cells);
+    for (RigidBody* body : bodies) {
+      body->initial_velocity = add(velocity, cross(omega, subtract(body->centre, a)));
+      body->initial_rotation = omega;
+    }
+    if (!bodies.empty()) continue;
+    initial.text("nodes", group).vector("velocity", velocity).vector("angular_velocity", omega).vector("centre", a);
     t.append("initial", initial.node());
   }
 }
@@ -88,10 +109,6 @@ void translate_initial(Translation& t) {
   }
   refuse_mixed(t, all);
   for (const GroupVelocity& v : all) {
-    if (RigidBody* body = referred_to(t, v.group)) {
-      body->initial_velocity = v.velocity;
-      continue;
-    }
     TableMaker initial(v.where);
     t.append("initial", initial.text("nodes", v.group).vector("velocity", v.velocity).node());
   }
@@ -103,13 +120,33 @@ void translate_mass(Translation& t, const Statement& s) {
   DeckCursor at(*s.keyword);
   if (!at.next_line()) s.keyword->fail("no data", "the mass");
   const double value = at.real("the mass");
-  if (RigidBody* body = referred_to(t, t.mesh.names.masses.at(key))) {
-    body->mass = value;
-    return;
-  }
+  const std::vector<RigidBody*> bodies = referred_to(t, t.mesh.names.masses.at(key));
+  for (RigidBody* body : bodies) body->mass = value;
+  if (!bodies.empty()) return;
   TableMaker mass(s.keyword->where);
   mass.text("nodes", t.mesh.names.masses.at(key)).number("mass", value);
   t.append("point_mass", mass.node());
+}
+
+void translate_inertia(Translation& t, const Statement& s) {
+  const DeckKeyword& keyword = *s.keyword;
+  const std::string set = keyword.required("ELSET"), key = key_of(t.mesh.names.inertias, t.scope(s), set);
+  if (key.empty()) keyword.fail("ELSET=" + set, "a set of elements of TYPE=ROTARYI");
+  DeckCursor at(keyword);
+  if (!at.next_line()) keyword.fail("no data", "I11, I22, I33, I12, I13, I23");
+  RigidBody::Inertia inertia{&keyword, {}, {}};
+  for (double& moment : inertia.moments) moment = at.real_or(0.0, "a moment of inertia");
+  const double xy = at.real_or(0.0, "I12"), xz = at.real_or(0.0, "I13"), yz = at.real_or(0.0, "I23");
+  inertia.products = {xy, yz, xz};
+  at.end_line("I11, I22, I33, I12, I13, I23");
+  if (t.scope(s).placement.turn)
+    at.fail("an inertia in an instance that is turned", "one in an instance that is shifted alone",
+            "Its axes turn with the instance: give the inertia in the assembly, about its axes.");
+  const std::vector<RigidBody*> bodies = referred_to(t, t.mesh.names.inertias.at(key));
+  for (RigidBody* body : bodies) body->inertia = inertia;
+  if (bodies.empty())
+    t.findings.refuse(keyword, keyword.where, "an inertia of nodes that no *RIGID BODY refers to",
+                      "It would be left out.");
 }
 
 void translate_spring(Translation& t, const Statement& s) {
@@ -143,6 +180,7 @@ void translate_spring(Translation& t, const Statement& s) {
 void translate_discrete(Translation& t) {
   for (const Statement& s : t.statements.list) {
     if (s.keyword->name == "MASS") translate_mass(t, s);
+    if (s.keyword->name == "ROTARY INERTIA") translate_inertia(t, s);
     if (s.keyword->name == "SPRING") translate_spring(t, s);
   }
   translate_initial(t);

@@ -22,15 +22,159 @@ RigidBody read_rigid_body(const Translation& t, const Statement& s) {
   if (nodes.size() != 1) keyword.fail("REF NODE=" + node, "the number of a node, or a set of one");
   RigidBody body;
   body.keyword = &keyword;
+  body.node = group;
   body.reference = nodes.front();
+  body.centre = t.mesh.mesh.coordinates[at(body.reference)];
   for (const DeckNames::Cells& each : t.mesh.names.element_sets.at(cells)) {
     if (!each.type->section.empty())
       keyword.fail(fmt::format("{}, elements of type {}", set, each.type->name), "R3D3, R3D4, or other faces",
                    "Carom's rigid bodies are surfaces; bodies made of cells deform.");
     const std::vector<CellRef>& refs = t.mesh.mesh.cell_groups.at(each.group);
     body.cells.insert(refs.begin(), refs.end());
+    if (each.type->name == "RAX2") body.space = RigidBody::Space::ring;
+    if (each.type->name == "R2D2") body.space = RigidBody::Space::plane;
   }
   return body;
+}
+
+/// The components of a body's motion in its space.
+struct Components {
+  std::vector<std::size_t> along, about;
+};
+
+Components components_of(RigidBody::Space space) {
+  switch (space) {
+    case RigidBody::Space::plane:
+      return {{0, 1}, {5}};
+    case RigidBody::Space::ring:
+      return {{1}, {}};
+    case RigidBody::Space::solid:
+      break;
+  }
+  return {{0, 1, 2}, {3, 4, 5}};
+}
+
+std::size_t count_imposed(const RigidBody& body, const std::vector<std::size_t>& components) {
+  return at(
+      std::count_if(components.begin(), components.end(), [&](std::size_t c) { return body.motion[c].has_value(); }));
+}
+
+[[noreturn]] void fail_at(const RigidBody::Motion& motion, const std::string& found, const std::string& expected,
+                          const std::string& suggestion) {
+  throw CaseError(motion.where, "*BOUNDARY", found, expected, suggestion);
+}
+
+/// In the plane and around an axis there are no other motions.
+void refuse_leaving_space(const RigidBody& body, const Components& components) {
+  for (std::size_t c = 0; c < body.motion.size(); ++c) {
+    const std::vector<std::size_t>& own = c < 3 ? components.along : components.about;
+    if (!body.motion[c] || body.motion[c]->velocity == 0.0 || std::find(own.begin(), own.end(), c) != own.end())
+      continue;
+    const bool is_ring = body.space == RigidBody::Space::ring;
+    fail_at(*body.motion[c],
+            fmt::format("a motion of degree of freedom {} of a rigid body {}", c + 1,
+                        is_ring ? "around an axis" : "in the plane"),
+            is_ring ? "2 alone" : "1, 2 or 6",
+            is_ring ? "What moves otherwise is no ring: model it in three dimensions."
+                    : "Plane cells have no displacement along z.");
+  }
+}
+
+/// A motion that is imposed: its vector times the function.
+struct Imposed {
+  Vec3 vector{};
+  std::string function;  ///< "" constant 1
+  Location where;
+};
+
+/// From the components `first` to first + 2, which have one function where they are not 0.
+Imposed imposed(const RigidBody& body, std::size_t first) {
+  Imposed all;
+  const RigidBody::Motion* before = nullptr;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto& own = body.motion[first + c];
+    if (!own || own->velocity == 0.0) continue;
+    if (before != nullptr && own->function != before->function)
+      fail_at(*own, first == 0 ? "a motion with an amplitude for each axis" : "a turn with an amplitude for each axis",
+              "one amplitude for all",
+              first == 0 ? "Carom's obstacles move along a straight line."
+                         : "Carom's obstacles turn about an axis of fixed direction.");
+    before = &*own;
+    all.vector[c] = own->velocity;
+    all.function = own->function;
+    all.where = own->where;
+  }
+  return all;
+}
+
+/// The name of a function that is 1 at all times.
+std::string constant_function(Translation& t, const Location& where) {
+  const std::string name = "constant";
+  const Node* functions = t.root.find("functions");
+  if (functions == nullptr || find(*functions, name) == nullptr) {
+    TableMaker table(where);
+    table.add("time", numbers_node({0.0, 1.0}, where)).add("value", numbers_node({1.0, 1.0}, where));
+    t.define("functions", name, table.node());
+  }
+  return name;
+}
+
+void add_led_body(Translation& t, const RigidBody& body, const Components& components, TableMaker& contact) {
+  const Imposed travel = imposed(body, 0), turn = imposed(body, 3);
+  if (travel.vector != Vec3{}) {
+    contact.vector("velocity", travel.vector);
+    if (!travel.function.empty()) contact.text("function", travel.function);
+  }
+  const std::size_t held = count_imposed(body, components.about);
+  if (body.inertia && held < components.about.size())
+    t.findings.refuse(*body.inertia->keyword, body.keyword->where,
+                      "a rigid body that is held in its place and not in its turns",
+                      "It would turn only as *BOUNDARY says.");
+  if (turn.vector == Vec3{}) return t.findings.note(body.keyword->where, "the rigid body does not turn");
+  contact.add("angular_velocity", vector_node(turn.vector, turn.where));
+  contact.add("centre_of_rotation", vector_node(body.centre, turn.where));
+  // Without a function of its own the rotation would have that of the travel.
+  if (!turn.function.empty())
+    contact.add("angular_function", text_node(turn.function, turn.where));
+  else if (!travel.function.empty())
+    contact.add("angular_function", text_node(constant_function(t, turn.where), turn.where));
+  if (held < components.about.size())
+    t.findings.note(body.keyword->where, "the rigid body turns only as *BOUNDARY says");
+}
+
+/// In the plane nothing feels the moments about x and y.
+Vec3 moments_of(const RigidBody& body) {
+  const Vec3& given = body.inertia->moments;
+  return body.space == RigidBody::Space::plane ? Vec3{given[2], given[2], given[2]} : given;
+}
+
+void add_free_body(Translation& t, RigidBody& body, const Components& components, TableMaker& contact) {
+  const DeckKeyword& keyword = *body.keyword;
+  if (++body.contacts > 1)
+    keyword.fail("a free rigid body in several contacts", "one contact", "A free body belongs to one contact.");
+  const Imposed turn = imposed(body, 3);
+  if (turn.vector != Vec3{})
+    throw CaseError(turn.where, "*BOUNDARY", "a turn that is imposed on a rigid body that moves freely",
+                    "a body that is held or moved along all axes, or turns freely too",
+                    "Impose its degrees of freedom 1 to 3, or give it a *ROTARY INERTIA.");
+  contact.number("mass", *body.mass);
+  if (body.initial_velocity) contact.vector("velocity", *body.initial_velocity);
+  const std::size_t held = count_imposed(body, components.about), all = components.about.size();
+  if (body.inertia && held > 0 && held < all)
+    keyword.fail(fmt::format("a free rigid body that is held about {} of 3 axes", held), "about all, or none",
+                 "Carom's free bodies turn about every axis or do not turn.");
+  if (!body.inertia || held == all) {
+    if (body.initial_rotation)
+      keyword.fail("an angular velocity of a rigid body that does not turn",
+                   "a *ROTARY INERTIA of its reference node, which *BOUNDARY does not hold");
+    return t.findings.note(keyword.where, "the rigid body does not turn");
+  }
+  const Location& where = body.inertia->keyword->where;
+  contact.add("inertia", vector_node(moments_of(body), where));
+  if (body.space == RigidBody::Space::solid && body.inertia->products != Vec3{})
+    contact.add("products_of_inertia", vector_node(body.inertia->products, where));
+  contact.add("centre_of_mass", vector_node(body.centre, where));
+  if (body.initial_rotation) contact.vector("angular_velocity", *body.initial_rotation);
 }
 
 }  // namespace
@@ -42,13 +186,16 @@ std::vector<RigidBody> rigid_bodies_of(const Translation& t) {
   return bodies;
 }
 
-RigidBody* referred_to(Translation& t, const std::string& node_group) {
-  if (t.rigid_bodies.empty()) return nullptr;
-  const std::vector<Index> nodes = t.mesh.mesh.nodes_of(node_group);
-  const auto found = std::find_if(t.rigid_bodies.begin(), t.rigid_bodies.end(), [&](const RigidBody& body) {
-    return nodes.size() == 1 && nodes.front() == body.reference;
-  });
-  return found == t.rigid_bodies.end() ? nullptr : &*found;
+std::vector<RigidBody*> referred_to(Translation& t, const std::string& node_group) {
+  if (t.rigid_bodies.empty()) return {};
+  std::vector<RigidBody*> bodies;
+  for (const Index node : t.mesh.mesh.nodes_of(node_group)) {
+    const auto found = std::find_if(t.rigid_bodies.begin(), t.rigid_bodies.end(),
+                                    [&](const RigidBody& body) { return body.reference == node; });
+    if (found == t.rigid_bodies.end()) return {};
+    bodies.push_back(&*found);
+  }
+  return bodies;
 }
 
 RigidBody* body_of_cells(Translation& t, const std::string& cell_group) {
@@ -62,33 +209,13 @@ RigidBody* body_of_cells(Translation& t, const std::string& cell_group) {
 }
 
 void add_rigid_motion(Translation& t, RigidBody& body, TableMaker& contact) {
-  const DeckKeyword& keyword = *body.keyword;
-  const auto imposed =
-      std::count_if(body.motion.begin(), body.motion.end(), [](const auto& m) { return m.has_value(); });
-  t.findings.note(keyword.where, "the rigid body does not turn");
-  if (imposed == 0 && body.mass) {
-    if (++body.contacts > 1)
-      keyword.fail("a free rigid body in several contacts", "one contact", "A free body belongs to one contact.");
-    contact.number("mass", *body.mass);
-    if (body.initial_velocity) contact.vector("velocity", *body.initial_velocity);
-    return;
-  }
-  if (imposed < 3)
-    keyword.fail(fmt::format("a reference node that is held along {} of 3 axes", imposed),
-                 "all three imposed, or none and a *MASS", "Say with *BOUNDARY what its reference node does.");
-  Vec3 velocity{};
-  std::string function;
-  for (std::size_t c = 0; c < 3; ++c) {
-    velocity[c] = body.motion[c]->velocity;
-    if (velocity[c] == 0.0) continue;
-    const std::string& own = body.motion[c]->function;
-    if (!function.empty() && own != function)
-      keyword.fail("a motion with an amplitude for each axis", "one amplitude for all");
-    function = own;
-  }
-  if (velocity == Vec3{}) return;
-  contact.vector("velocity", velocity);
-  if (!function.empty()) contact.text("function", function);
+  const Components components = components_of(body.space);
+  refuse_leaving_space(body, components);
+  const std::size_t held = count_imposed(body, components.along), all = components.along.size();
+  if (held == all) return add_led_body(t, body, components, contact);
+  if (held == 0 && body.mass) return add_free_body(t, body, components, contact);
+  body.keyword->fail(fmt::format("a reference node that is held along {} of {} axes", held, all),
+                     "all of them imposed, or none and a *MASS", "Say with *BOUNDARY what its reference node does.");
 }
 
 }  // namespace carom

@@ -130,7 +130,8 @@ const std::vector<Spoiled> spoiled_decks{
     {"boundary_name", "BASE, 1, 3", "BASE, FIXED",
      ":40: *BOUNDARY: found \"FIXED\"; expected a degree of freedom, ENCASTRE, PINNED, XSYMM or the like"},
     {"boundary_turn", "*CLOAD", "*BOUNDARY\nBASE, 4, 4, 0.1\n*CLOAD",
-     ":56: *BOUNDARY: found a turn of degree of freedom 4; expected 1, 2 or 3. Nodes do not turn."},
+     ":56: *BOUNDARY: found a turn of degree of freedom 4; expected 1, 2 or 3. Nodes do not turn, but for "
+     "those that a *RIGID BODY refers to."},
     {"boundary_value_before_steps", "BASE, 1, 3", "BASE, 1, 3, 0.1",
      ":40: *BOUNDARY: found the displacement 0.1 before the first step; expected one with an AMPLITUDE. The nodes "
      "would "
