@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "contact/contact_kind.hpp"
+#include "contact/pair_rows.hpp"
 #include "contact/rigid_shapes.hpp"
 #include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
@@ -25,6 +26,8 @@ struct Stand {
 
   /// The position x as the obstacle in its reference position sees it.
   Vec3 seen(const Vec3& x) const { return placement ? placement->reference(x) : subtract(x, shift); }
+  /// Where the point X of the obstacle in its reference position is.
+  Vec3 placed(const Vec3& X) const { return placement ? placement->position(X) : add(X, shift); }
 };
 
 /// What touches: a node, or a point between the two of a bar, of weight `share` at the second one.
@@ -363,8 +366,88 @@ class RigidSurfaceRows : public RowMaker {
   mutable RowParts parts_;
 };
 
+/// The rows of a pair whose other side is a rigid surface, on the nodes that this hangs on.
+class RigidPairRows : public RowMaker {
+ public:
+  RigidPairRows(Touching touching, const Mesh& mesh, const Surface& own, const Surface& rigid,
+                std::unique_ptr<RowMaker> pair)
+      : touching_(std::move(touching)), pair_(std::move(pair)), x_begin_(mesh.coordinates), is_rigid_(x_begin_.size()) {
+    x_ = x_begin_;
+    displacement_.resize(x_.size());
+    add_nodes(rigid, rigid_nodes_);
+    for (const Index n : rigid_nodes_) is_rigid_[n] = true;
+    pair_->add_moving_nodes(own_nodes_);
+    add_nodes(own, own_nodes_);
+    std::erase_if(own_nodes_, [&](Index n) { return is_rigid_[n]; });
+  }
+  std::size_t slots() const override { return pair_->slots(); }
+  bool is_fixed() const override { return false; }
+  void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
+    const Stand begin = touching_.stand(motion.x_begin), now = touching_.stand(motion.x);
+    for (const Index n : own_nodes_) place(n, motion.x_begin[n], motion.x[n]);
+    for (const Index n : rigid_nodes_) place(n, begin.placed(touching_.X[n]), now.placed(touching_.X[n]));
+    ContactMotion seen = motion;
+    seen.x_begin = x_begin_;
+    seen.x = x_;
+    seen.displacement = displacement_;
+    of_pair_.clear();
+    pair_->append(seen, first_slot, of_pair_);
+    for (std::size_t r = 0; r < of_pair_.size(); ++r) add_row(r, motion.u, now, rows);
+  }
+  void add_moving_nodes(std::vector<Index>& nodes) const override {
+    nodes.insert(nodes.end(), own_nodes_.begin(), own_nodes_.end());
+  }
+
+ private:
+  static void add_nodes(const Surface& surface, std::vector<Index>& nodes) {
+    for (const Facet& facet : surface.facets) nodes.insert(nodes.end(), facet.begin(), facet.end());
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
+  void place(Index n, const Vec3& begin, const Vec3& now) const {
+    x_begin_[n] = begin;
+    x_[n] = now;
+    displacement_[n] = subtract(now, begin);
+  }
+  /// The same row, whose rigid nodes follow the obstacle.
+  void add_row(std::size_t r, std::span<const double> u, const Stand& stand, ConstraintRows& rows) const {
+    const ConstraintRows& of = of_pair_;
+    rows.add_row(of.gap_at(r, u), of.normal[r], of.position[r], of.measure[r], of.law[r], of.source[r]);
+    rows.is_back.back() = of.is_back[r];
+    rows.allowed.back() = of.allowed[r];
+    rows.rounded.back() = of.rounded[r];
+    rows.facet.back() = of.facet[r];
+    const auto end = static_cast<std::size_t>(of.begin[r + 1]);
+    const std::size_t behind = end - static_cast<std::size_t>(of.behind[r]);
+    std::array<RowBlocks, 2> sides;
+    for (auto k = static_cast<std::size_t>(of.begin[r]); k < end; ++k)
+      add_block(of.node[k], of.block[k], stand, sides[k < behind ? 0 : 1]);
+    for (const RowBlocks& side : sides) side.append_to(rows);
+    rows.behind.back() = static_cast<Index>(sides[1].size());
+    finish_row(rows, u, of.slot[r]);
+  }
+  void add_block(Index n, const RowBlock& block, const Stand& stand, RowBlocks& to) const {
+    if (!is_rigid_[n]) return to.add(n, block[0], block[1], block[2]);
+    if (stand.placement) {
+      const std::array<double, 4> N = stand.placement->weights(x_[n]);
+      for (std::size_t a = 0; a < 4; ++a)
+        to.add(touching_.body->nodes[a], scaled(block[0], N[a]), scaled(block[1], N[a]), scaled(block[2], N[a]));
+    } else if (touching_.carrier >= 0) {
+      to.add(touching_.carrier, block[0], block[1], block[2]);
+    }
+  }
+
+  Touching touching_;
+  std::unique_ptr<RowMaker> pair_;
+  std::vector<Index> own_nodes_, rigid_nodes_;
+  mutable std::vector<Vec3> x_begin_, x_, displacement_;  ///< of all nodes
+  std::vector<char> is_rigid_;
+  mutable ConstraintRows of_pair_;
+};
+
 /// The maker for each shape.
 struct ShapeRowMaker {
+  const Model& model;
   const ObstacleContact& contact;
   Touching touching;
 
@@ -374,18 +457,29 @@ struct ShapeRowMaker {
   }
   std::unique_ptr<RowMaker> operator()(const RigidSurface& rigid) {
     const bool has_normals = contact.measure == RowMeasure::per_area;
+    if (has_normals && contact.bars.empty() && contact.law.hold == RowHold::springs && contact.law.eps_N)
+      return std::make_unique<RigidPairRows>(touching, *model.mesh, contact.surface, rigid.surface, pair(rigid));
     return std::make_unique<RigidSurfaceRows>(touching, has_normals ? contact.surface : Surface{}, rigid.surface);
   }
   template <class Shape>
   std::unique_ptr<RowMaker> operator()(const Shape& shape) {
     return std::make_unique<ShapeRows<Shape>>(touching, shape);
   }
+  std::unique_ptr<RowMaker> pair(const RigidSurface& rigid) const {
+    PairContact pair;
+    pair.name = contact.name;
+    pair.slave = pair.master = contact.surface;
+    pair.master.facets = rigid.surface.facets;
+    pair.method = PairMethod::faces;
+    pair.law = contact.law;
+    return rigid_pair_rows(model, pair, touching.source);
+  }
 };
 
 }  // namespace
 
 std::unique_ptr<RowMaker> obstacle_rows(const Model& model, const ObstacleContact& contact, Index source) {
-  return std::visit(ShapeRowMaker{contact, Touching(model, contact, source)}, contact.shape);
+  return std::visit(ShapeRowMaker{model, contact, Touching(model, contact, source)}, contact.shape);
 }
 
 namespace {

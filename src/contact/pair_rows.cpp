@@ -89,10 +89,11 @@ void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, const
 class NodeRows : public RowMaker {
  public:
   /// self: the two surfaces are one; bodies: by node, see half_thickness, needed for `self` alone. sides: where they
-  /// are smooth, else null. sharp: the nodes that have rows, by how they stick out; null: all, wholly.
+  /// are smooth, else null. sharp: the nodes that have rows, by how they stick out; null: all, wholly. most: that a
+  /// node stands for.
   NodeRows(std::span<const Vec3> X, const Surface& slave, const Surface& master, bool self,
            const std::vector<Index>& bodies, const ContactLaw& law, Index source, const SmoothSides* sides,
-           std::unique_ptr<const SharpNodes> sharp = nullptr)
+           std::unique_ptr<const SharpNodes> sharp = nullptr, double most = std::numeric_limits<double>::infinity())
       : sharp_(std::move(sharp)), measures_(measures_of(X, slave, sides)), law_(law), source_(source), search_([&] {
           const double size = mean_facet_size(X, master.facets),
                        reach = std::max(size, mean_facet_size(X, slave.facets));
@@ -103,7 +104,7 @@ class NodeRows : public RowMaker {
           if (self) range.depth = half_thickness(X, master.facets, bodies, reach);
           return SurfaceSearch(keys(measures_), slave.facets, master.facets, std::move(range));
         }()) {
-    for (const auto& [n, measure] : measures_) measure_.push_back(measure);
+    for (const auto& [n, measure] : measures_) measure_.push_back(std::min(measure, most));
     if (sides == nullptr) return;
     for (const auto& [n, measure] : measures_) is_inner_.push_back(sides->of_slave->is_inner_node(n));
     has_points_ = covered_shares(master.facets, *sides->of_master);
@@ -285,8 +286,9 @@ class RowsWithAllowance : public RowMaker {
 /// The rows of one pair by its method.
 class MethodRows {
  public:
-  MethodRows(const Model& model, const PairContact& contact, Index source, const SmoothSides* smooth)
-      : model_(model), contact_(contact), source_(source), smooth_(smooth) {}
+  MethodRows(const Model& model, const PairContact& contact, Index source, const SmoothSides* smooth,
+             double most_behind = std::numeric_limits<double>::infinity())
+      : model_(model), contact_(contact), source_(source), smooth_(smooth), most_behind_(most_behind) {}
 
   std::unique_ptr<RowMaker> make() const;
 
@@ -305,6 +307,7 @@ class MethodRows {
   const PairContact& contact_;
   Index source_;
   const SmoothSides* smooth_;
+  double most_behind_;  ///< measure of a corner of the master
 };
 
 template <class Make>
@@ -329,11 +332,12 @@ std::unique_ptr<RowMaker> MethodRows::of_nodes(const Surface& slave, const Surfa
 }
 
 std::unique_ptr<RowMaker> MethodRows::of_faces_and_corners() const {
-  return both_ways([this](const Surface& slave, const Surface& master, const ContactLaw& law, bool /*is_back*/) {
+  return both_ways([this](const Surface& slave, const Surface& master, const ContactLaw& law, bool is_back) {
     auto all = std::make_unique<MakersInOrder>();
     all->add(face_rows(model_, slave, master, contact_.self, law, source_));
     all->add(std::make_unique<NodeRows>(model_.mesh->coordinates, slave, master, contact_.self, bodies(), law, source_,
-                                        nullptr, std::make_unique<const SharpNodes>(*model_.mesh, slave.facets)));
+                                        nullptr, std::make_unique<const SharpNodes>(*model_.mesh, slave.facets),
+                                        is_back ? most_behind_ : std::numeric_limits<double>::infinity()));
     return all;
   });
 }
@@ -401,6 +405,15 @@ std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& conta
   auto all = std::make_unique<MakersInOrder>();
   all->add(std::move(of_method));
   all->add(std::move(of_edges));
+  return all;
+}
+
+std::unique_ptr<RowMaker> rigid_pair_rows(const Model& model, const PairContact& contact, Index source) {
+  double area = 0.0;
+  for (const auto& [n, measure] : nodal_measures(model.mesh->coordinates, contact.slave)) area += measure;
+  auto all = std::make_unique<MakersInOrder>();
+  all->add(MethodRows(model, contact, source, nullptr, area / static_cast<double>(contact.slave.facets.size())).make());
+  if (auto of_edges = edge_rows(model, contact, source, nullptr)) all->add(std::move(of_edges));
   return all;
 }
 

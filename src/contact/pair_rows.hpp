@@ -37,6 +37,10 @@ namespace carom {
 /// Throws std::invalid_argument naming the contact when the master consists of the ends of bars and the slave does not.
 std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& contact, Index source);
 
+/// The rows of `faces` against a master of faces without cells, which may be of any size: its corners stand for no more
+/// than a facet of the slave.
+std::unique_ptr<RowMaker> rigid_pair_rows(const Model& model, const PairContact& contact, Index source);
+
 /// Coefficients beta^alpha = t . dual_alpha of t = beta^1 a_1 + beta^2 a_2 + gamma n, for tangents a_alpha of a facet
 /// and a direction n out of its plane: dual_1 = a_2 x n / V, dual_2 = n x a_1 / V, V = n . a_1 x a_2.
 struct TangentDual {

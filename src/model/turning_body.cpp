@@ -99,8 +99,9 @@ BodyPlacement::BodyPlacement(const TurningBody& body, const BodyFrame& frame) : 
   const double volume = dot(d[0], cross(d[1], d[2]));
   for (std::size_t i = 0; i < 3; ++i) duals_[i] = scaled(cross(d[(i + 1) % 3], d[(i + 2) % 3]), 1.0 / volume);
   seen_ = duals_;
+  basis_ = d;
   if (!body.is_led()) return;
-  for (std::size_t i = 0; i < 3; ++i) seen_[i] = normalized(d[i]);
+  for (std::size_t i = 0; i < 3; ++i) basis_[i] = seen_[i] = normalized(d[i]);
 }
 
 Vec3 BodyPlacement::reference(const Vec3& x) const {
@@ -108,6 +109,13 @@ Vec3 BodyPlacement::reference(const Vec3& x) const {
   Vec3 at = body_->centre;
   for (std::size_t i = 0; i < 3; ++i) at = add(at, scaled(body_->axes[i], dot(seen_[i], r)));
   return at;
+}
+
+Vec3 BodyPlacement::position(const Vec3& X) const {
+  const Vec3 R = subtract(X, body_->centre);
+  Vec3 x = centre_;
+  for (std::size_t i = 0; i < 3; ++i) x = add(x, scaled(basis_[i], dot(body_->axes[i], R)));
+  return x;
 }
 
 Vec3 BodyPlacement::gradient(const Vec3& g) const {

@@ -78,8 +78,9 @@ class BodyPlacement {
  public:
   BodyPlacement(const TurningBody& body, const BodyFrame& frame);
 
-  /// Where the material point that is at x now was in the reference configuration.
+  /// Where the material point that is at x now was in the reference configuration, and back.
   Vec3 reference(const Vec3& x) const;
+  Vec3 position(const Vec3& X) const;
   /// Gradient by x of a function of reference(x) whose gradient there is given: F^-T g.
   Vec3 gradient(const Vec3& g) const;
   /// N_a of the material point that is at x; their sum is 1 and the sum of N_a x_a is x.
@@ -90,6 +91,7 @@ class BodyPlacement {
   Vec3 centre_;
   std::array<Vec3, 3> duals_;  ///< d^i with d^i . d_j = delta_ij
   std::array<Vec3, 3> seen_;   ///< the same of the body as it is seen
+  std::array<Vec3, 3> basis_;  ///< the directors of the body as it is seen
 };
 
 /// The body at displacements u of the nodes.
