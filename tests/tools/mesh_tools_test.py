@@ -123,6 +123,23 @@ class Taylor(unittest.TestCase):
         for a, b in zip(made, in_cases):
             self.assertTrue(a == b or abs(float(a) - float(b)) < 1e-12)  # written to twelve digits of centimetres
 
+    def test_gears_are_those_of_the_case(self):
+        self.make("make_gear_meshes.py")
+        self.assertIn("0 cells turned", self.summary("involute.msh"))
+        nodes, cells = read(self.folder / "involute.msh")
+        in_cases, cells_in_cases = read(TOOLS.parent / "cases" / "gears" / "involute.msh")
+        self.assertEqual(cells, cells_in_cases)
+        for n, x in nodes.items():
+            self.assertLess(math.dist(x, in_cases[n]), 1e-12)  # written to twelve digits
+        # A tooth takes half of the pitch on the pitch circle, less the backlash: the chord between the involutes there,
+        # which lie between nodes 1.25 mm apart, whose sag is below h^2 / 8 rho = 10 um.
+        driver = sorted({n for group, _, members in cells if group == "DRIVER" for n in members})
+        x = [(nodes[n][0] + 0.105, nodes[n][1]) for n in driver]
+        upper = [(math.hypot(*p), math.atan2(p[1], p[0])) for p in x if 0.0 < math.atan2(p[1], p[0]) < math.pi / 18]
+        upper.sort()
+        (r, a), (s, b) = next((p, q) for p, q in zip(upper, upper[1:]) if p[0] <= 0.045 < q[0])
+        self.assertAlmostEqual((a + (b - a) * (0.045 - r) / (s - r)) * 0.045, math.pi / 4 * 5e-3, delta=10e-6)
+
 
 if __name__ == "__main__":
     unittest.main()
