@@ -15,7 +15,7 @@ namespace carom {
 /// Spheres, cylinders and boxes have rows for all nodes. A rigid surface (its nodes do not move, except all together
 /// with the carrier or body) has rows for the nodes within the larger mean facet size of both surfaces, found by a
 /// SurfaceSearch; the nodes' normals come from the contact surface. Where springs hold it on the contact surface's
-/// area, it has the rows of a pair by `faces` (pair_rows.hpp) instead, whose rigid nodes are points of the carrier or
+/// area, it has rigid_pair_rows (pair_rows.hpp) instead, whose rigid nodes are points of the carrier or
 /// body: so its own corners and edges, and faces between the nodes of the body, are met.
 std::unique_ptr<RowMaker> obstacle_rows(const Model& model, const ObstacleContact& contact, Index source);
 

@@ -286,9 +286,8 @@ class RowsWithAllowance : public RowMaker {
 /// The rows of one pair by its method.
 class MethodRows {
  public:
-  MethodRows(const Model& model, const PairContact& contact, Index source, const SmoothSides* smooth,
-             double most_behind = std::numeric_limits<double>::infinity())
-      : model_(model), contact_(contact), source_(source), smooth_(smooth), most_behind_(most_behind) {}
+  MethodRows(const Model& model, const PairContact& contact, Index source, const SmoothSides* smooth)
+      : model_(model), contact_(contact), source_(source), smooth_(smooth) {}
 
   std::unique_ptr<RowMaker> make() const;
 
@@ -307,7 +306,6 @@ class MethodRows {
   const PairContact& contact_;
   Index source_;
   const SmoothSides* smooth_;
-  double most_behind_;  ///< measure of a corner of the master
 };
 
 template <class Make>
@@ -332,12 +330,11 @@ std::unique_ptr<RowMaker> MethodRows::of_nodes(const Surface& slave, const Surfa
 }
 
 std::unique_ptr<RowMaker> MethodRows::of_faces_and_corners() const {
-  return both_ways([this](const Surface& slave, const Surface& master, const ContactLaw& law, bool is_back) {
+  return both_ways([this](const Surface& slave, const Surface& master, const ContactLaw& law, bool /*is_back*/) {
     auto all = std::make_unique<MakersInOrder>();
     all->add(face_rows(model_, slave, master, contact_.self, law, source_));
     all->add(std::make_unique<NodeRows>(model_.mesh->coordinates, slave, master, contact_.self, bodies(), law, source_,
-                                        nullptr, std::make_unique<const SharpNodes>(*model_.mesh, slave.facets),
-                                        is_back ? most_behind_ : std::numeric_limits<double>::infinity()));
+                                        nullptr, std::make_unique<const SharpNodes>(*model_.mesh, slave.facets)));
     return all;
   });
 }
@@ -409,10 +406,18 @@ std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& conta
 }
 
 std::unique_ptr<RowMaker> rigid_pair_rows(const Model& model, const PairContact& contact, Index source) {
+  const std::span<const Vec3> X = model.mesh->coordinates;
   double area = 0.0;
-  for (const auto& [n, measure] : nodal_measures(model.mesh->coordinates, contact.slave)) area += measure;
+  for (const auto& [n, measure] : nodal_measures(X, contact.slave)) area += measure;
+  const double most = area / static_cast<double>(contact.slave.facets.size());
+  const auto corners = [&](const Surface& of, const Surface& against) {
+    return std::make_unique<NodeRows>(X, of, against, false, std::vector<Index>{}, contact.law, source, nullptr,
+                                      std::make_unique<const SharpNodes>(*model.mesh, of.facets), most);
+  };
   auto all = std::make_unique<MakersInOrder>();
-  all->add(MethodRows(model, contact, source, nullptr, area / static_cast<double>(contact.slave.facets.size())).make());
+  all->add(face_rows(model, contact.slave, contact.master, false, contact.law, source));
+  all->add(corners(contact.slave, contact.master));
+  all->add(corners(contact.master, contact.slave), true);
   if (auto of_edges = edge_rows(model, contact, source, nullptr)) all->add(std::move(of_edges));
   return all;
 }

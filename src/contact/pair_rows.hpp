@@ -37,8 +37,9 @@ namespace carom {
 /// Throws std::invalid_argument naming the contact when the master consists of the ends of bars and the slave does not.
 std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& contact, Index source);
 
-/// The rows of `faces` against a master of faces without cells, which may be of any size: its corners stand for no more
-/// than a facet of the slave.
+/// Rows by springs against a rigid master, whose faces have no cells and may be of any size: those of `faces` one way,
+/// from the slave alone, which sees all of the overlaps, and whole; nodes of sharp edges of both sides, which stand for
+/// no more than a facet of the slave; and edges with edges.
 std::unique_ptr<RowMaker> rigid_pair_rows(const Model& model, const PairContact& contact, Index source);
 
 /// Coefficients beta^alpha = t . dual_alpha of t = beta^1 a_1 + beta^2 a_2 + gamma n, for tangents a_alpha of a facet

@@ -72,5 +72,69 @@ TEST(RigidSurfaces, StopFacesThatTheyMeetBetweenNodes) {
   }
 }
 
+/// A block of 3 x 2 cells that is pressed with 1e6 on a rigid floor ten times as wide, of one face and of seven.
+std::string on_floor(int faces) {
+  return fmt::format(R"(units = "SI"
+[mesh]
+unused = "ignore"
+[[mesh.block]]
+kind = "quad"
+origin = [0.0, 0.0, 0.0]
+size = [1.0, 1.0]
+divisions = [3, 2]
+groups = {{ cells = "BLOCK", ymin = "FOOT", ymax = "HEAD", xmin = "LEFT" }}
+[[mesh.block]]
+kind = "quad"
+origin = [-4.0, -1.0, 0.0]
+size = [10.0, 1.0]
+divisions = [{}, 1]
+groups = {{ cells = "FLOOR", ymax = "TOP", xmin = "TOP", xmax = "TOP" }}
+[materials.stuff]
+law = "linear_elastic"
+E = 1.0e9
+nu = 0.3
+rho = 1000.0
+[[part]]
+name = "block"
+cells = "BLOCK"
+material = "stuff"
+section = "plane_strain"
+[[support]]
+nodes = "LEFT"
+blocked = ["x"]
+[[load]]
+group = "HEAD"
+pressure = 1.0e6
+[[contact]]
+name = "floor"
+kind = "surface"
+group = "FOOT"
+surface = "TOP"
+stiffness = 1.0e9
+[scheme]
+kind = "statics"
+enforcement = "penalty"
+[time]
+step = 1.0
+end = 1.0
+[output]
+fields = []
+)",
+                     faces);
+}
+
+// Springs of 1e9 per area under a uniform pressure of 1e6 are pressed by 1e-3, wherever the faces of the floor end. The
+// equations are solved to 1e-8 of their forces.
+TEST(RigidSurfaces, CarryAUniformPressure) {
+  for (const int faces : {1, 7}) {
+    const TemporaryCase run(on_floor(faces));
+    EXPECT_EQ(run.run(), ExitCode::good) << run.result("summary.json");
+    const auto contact = last_row(run.result("contact.csv"));
+    EXPECT_NEAR(contact.at("floor.force_y"), 1e6, 0.1) << faces;
+    EXPECT_NEAR(contact.at("floor.penetration"), 1e-3, 1e-10) << faces;
+    EXPECT_EQ(contact.at("floor.closed"), 4.0) << faces;
+  }
+}
+
 }  // namespace
 }  // namespace carom::run_rigid_surfaces_test
