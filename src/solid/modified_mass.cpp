@@ -151,8 +151,14 @@ class PatchSpread {
     const double kept = depth_[at(n)] > 0 ? carried_[at(n)] / depth_[at(n)] : 0.0, rest = carried_[at(n)] - kept;
     after[at(n)] += kept;
     double weight = 0.0;
-    each_next(n, [&](Index, double M) { weight += M; });
-    each_next(n, [&](Index m, double M) { carried_[at(m)] += rest * (M / weight); });
+    int count = 0;
+    each_next(n, [&](Index, double M) {
+      weight += std::abs(M);
+      ++count;
+    });
+    each_next(n, [&](Index m, double M) {
+      carried_[at(m)] += rest * (weight > 0.0 ? std::abs(M) / weight : 1.0 / count);
+    });
   }
 
   const CsrMatrix& graph_;
