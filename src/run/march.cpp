@@ -196,6 +196,16 @@ double March::load_impulse() const {
   return norm(sum) * dt_;
 }
 
+/// What a step's energies are compared with: those of the run, and what the bodies have as a moving obstacle sees them.
+/// Where it comes to bodies at rest that is all there is, and the step is to be the same as where they come to it.
+double March::step_scale() const {
+  double scale = monitor_->scale();
+  for (const ContactDefinition& contact : s_.model().contacts)
+    if (const Index n = parts_of(contact).carrier; n >= 0)
+      scale = std::max(scale, monitor_->kinetic_seen_at(vector_at(state_.v, static_cast<std::size_t>(n))));
+  return scale;
+}
+
 /// A step to next_ that holds; nothing when there is none, and message_ says why.
 std::optional<StepReport> March::make_step() {
   steps_->limit_motion(state_, *state_.forces.rows.rows, step_ + 1);
@@ -210,8 +220,7 @@ std::optional<StepReport> March::make_step() {
       report.failure = "the energy is not finite";
     }
     if (report.converged) {
-      const EnergyGuard::Books books{report.books.energy.quadrature, report.books.energy.algorithmic,
-                                     monitor_->scale()};
+      const EnergyGuard::Books books{report.books.energy.quadrature, report.books.energy.algorithmic, step_scale()};
       if (!steps_->is_to_be_repeated(state_, next_, books, step_ + 1)) {
         dt_ = dt;
         steps_->accept(books);

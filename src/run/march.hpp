@@ -83,6 +83,7 @@ class March {
   void book(const StepReport& report);
   void note_solver();
   double load_impulse() const;
+  double step_scale() const;
   void show();
 
   const Simulation& s_;

@@ -24,6 +24,7 @@ void RunMonitor::update(double load_impulse) {
     static_.quadrature += total.quadrature - before_.quadrature;
     static_.algorithmic += total.algorithmic - before_.algorithmic;
     static_.impact += total.impact - before_.impact;
+    contact_work_ = std::max(contact_work_, std::abs(static_.impact));
   }
   (stage_.is_explicit ? explicit_loss_ : implicit_loss_) += total.algorithmic - before_.algorithmic;
   before_ = total;
@@ -51,7 +52,11 @@ void RunMonitor::update(double load_impulse) {
 }
 
 double RunMonitor::scale() const {
-  return std::max(ledger_.scale(), bodies_.rest_energy);
+  return std::max({ledger_.scale(), bodies_.rest_energy, contact_work_});
+}
+
+double RunMonitor::kinetic_seen_at(const Vec3& v) const {
+  return ledger_.now().kinetic - dot(v, ledger_.momentum().linear) + 0.5 * bodies_.mass * dot(v, v);
 }
 
 /// The totals without what static stages have booked for the path of their loads and contacts.
@@ -67,7 +72,8 @@ double RunMonitor::growth() const {
   const double most = stage_.reversible * scale();
   // Where a load or a motion jumps, the work that supplies the energy comes with the step after it.
   const bool is_lent = stage_.reversible > 0.0 && std::min(lent_, lent_before_) <= most;
-  return ledger_.growth() + static_.quadrature + static_.algorithmic - (is_lent ? std::max(0.0, lent_) : 0.0);
+  const double path = static_.quadrature + static_.algorithmic + static_.impact;
+  return ledger_.growth() + path - (is_lent ? std::max(0.0, lent_) : 0.0);
 }
 
 std::string RunMonitor::alarm(double growth_limit) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "energy/ledger.hpp"
+#include "math/vec3.hpp"
 #include "output/summary.hpp"
 
 namespace carom {
@@ -56,8 +57,11 @@ class RunMonitor {
   /// Imbalance now, relative to the energy scale.
   double relative_imbalance() const;
 
-  /// What energies are compared with: the larger of initial and supplied energy, at least the rest energy.
+  /// What energies are compared with: the larger of initial and supplied energy, at least the rest energy and the work
+  /// that contact has done in static stages, as where it pushes bodies apart that began in each other.
   double scale() const;
+  /// The kinetic energy as one sees it who moves at the velocity v: T - v . p + 1/2 m v^2.
+  double kinetic_seen_at(const Vec3& v) const;
 
  private:
   template <class A>
@@ -78,6 +82,7 @@ class RunMonitor {
     archive("stage", x.stage_);
     archive("before", x.before_);
     archive("static", x.static_);
+    archive("contact_work", x.contact_work_);
     archive("lent", x.lent_);
     archive("lent_before", x.lent_before_);
     archive("imbalance", x.imbalance_);
@@ -100,6 +105,7 @@ class RunMonitor {
   Bodies bodies_;
   StageKind stage_;
   EnergyTerms before_{}, static_{};  ///< totals at the last update, and how much of them static stages have booked
+  double contact_work_ = 0.0;        ///< largest that exact contact has done or taken in static stages
   double lent_ = 0.0, lent_before_ = 0.0;  ///< energy lent by the scheme, after this step and the one before
   double imbalance_ = 0.0, quadrature_ = 0.0, algorithmic_ = 0.0, gained_ = 0.0;  ///< largest so far, energies
   double implicit_loss_ = 0.0, explicit_loss_ = 0.0;  ///< algorithmic of implicit and static stages, of explicit ones

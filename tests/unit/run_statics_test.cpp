@@ -93,6 +93,55 @@ TEST(Statics, SolvesForRowsThatTurnUnderPressure) {
   EXPECT_NEAR(force, last_row(fine.result("contact.csv"))["roll.force_z"], 1e-9 * std::abs(force));
 }
 
+// Bars of length 1 between walls, longer than their room by 0.01: multipliers push them apart in one step, and the energy
+// of the fit is all there is. E d / (2 L) A, as Hooke has it.
+TEST(Statics, PressFitsByMultipliersAreNoEnergyMade) {
+  const TemporaryCase given(R"(units = "SI"
+[[mesh.block]]
+size = [1.0, 1.0, 1.0]
+divisions = [2, 2, 2]
+groups = { cells = "LOWER", zmin = "FOOT", zmax = "MASTER" }
+[[mesh.block]]
+origin = [0.0, 0.0, 0.99]
+size = [1.0, 1.0, 1.0]
+divisions = [2, 2, 2]
+groups = { cells = "UPPER", zmin = "SLAVE", zmax = "HEAD" }
+[materials.soft]
+law = "linear_elastic"
+E = 2.0
+nu = 0.0
+rho = 1.5
+[[part]]
+name = "lower"
+cells = "LOWER"
+material = "soft"
+[[part]]
+name = "upper"
+cells = "UPPER"
+material = "soft"
+[[support]]
+nodes = "FOOT"
+blocked = ["x", "y", "z"]
+[[support]]
+nodes = "HEAD"
+blocked = ["x", "y", "z"]
+[[contact]]
+name = "fit"
+kind = "pair"
+group = "SLAVE"
+master = "MASTER"
+initial_penetration = "prestress"
+[scheme]
+kind = "statics"
+enforcement = "lagrange"
+[time]
+end = 1.0
+step = 1.0
+)");
+  EXPECT_EQ(given.run(), ExitCode::good) << given.result("summary.json");
+  EXPECT_NEAR(last_row(given.result("contact.csv"))["fit.force_z"], 0.01, 1e-10);
+}
+
 // Two iterations do not find the equilibrium of the first step.
 TEST(Statics, SaysWhatHelpsWhereItFindsNoEquilibrium) {
   const TemporaryCase given(indentation("step = 0.05\nfixed = true\n[solver]\nmax_contact_iterations = 2\n"));

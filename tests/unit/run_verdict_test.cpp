@@ -91,6 +91,23 @@ TEST(Verdict, LeavesOutThePathOfStaticStages) {
   EXPECT_FALSE(item(monitor.items({}), "algorithmic dissipation").pass);
 }
 
+// Multipliers that push bodies apart which began in each other: their work is all the energy that there is.
+TEST(Verdict, KnowsTheWorkOfContactInStaticStages) {
+  EnergyLedger ledger({}, {}, 1.0);
+  RunMonitor monitor(ledger, {.mass = 1.0, .rest_energy = 1e-9}, {.reversible = 1.0, .is_static = true});
+  LedgerIncrement fit = with(&EnergyTerms::strain, 2.0);
+  fit.energy.impact = -2.0 + 1e-11;
+  ledger.add(fit, {});
+  monitor.update();
+  EXPECT_EQ(monitor.alarm(0.05), "");
+  EXPECT_TRUE(item(monitor.items({}), "energy balance").pass);
+  EXPECT_NEAR(monitor.scale(), 2.0, 1e-10);
+  monitor.begin_stage({.reversible = 1.0, .is_static = false});
+  ledger.add(fit, {});  // what contact gives in dynamics is made
+  monitor.update();
+  EXPECT_NE(monitor.alarm(0.05), "");
+}
+
 // 1 of energy at the start. Gains are judged apart from losses: 0.6 % is too much, whatever dissipates beside it.
 TEST(Verdict, JudgesGainsApartFromLosses) {
   const auto gained = [](std::initializer_list<LedgerIncrement> steps, const RunMonitor::StageKind& stage,
