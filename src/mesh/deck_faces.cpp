@@ -89,6 +89,20 @@ std::vector<CellRef> DeckFaces::between(const std::vector<Index>& nodes, std::in
   return faces;
 }
 
+bool DeckFaces::bars_alone_between(const std::vector<Index>& nodes) const {
+  std::vector<char> is_given(mesh_.node_count(), 0);
+  for (const Index n : nodes) is_given[at(n)] = 1;
+  bool has_bars = false;
+  for (const DeckElement& element : elements_) {
+    if (element.type->kind != DeckElementType::Kind::cell || element.type->section.empty()) continue;
+    const std::span<const Index> own = mesh_.blocks[at(element.cell.block)].nodes(element.cell.cell);
+    const bool is_between = std::all_of(own.begin(), own.end(), [&](Index n) { return is_given[at(n)] != 0; });
+    if (is_between && element.type->section != "bar") return false;
+    has_bars = has_bars || is_between;
+  }
+  return has_bars;
+}
+
 void DeckFaces::append(const std::vector<Index>& elements, const std::string& label, const DeckCursor& at,
                        std::vector<CellRef>& to, std::int64_t& last) {
   const bool is_side = label == "SPOS" || label == "SNEG";

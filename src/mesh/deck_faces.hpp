@@ -28,6 +28,8 @@ class DeckFaces {
               std::vector<CellRef>& to, std::int64_t& last);
   /// The faces on the outside of the mesh all of whose nodes are given.
   std::vector<CellRef> between(const std::vector<Index>& nodes, std::int64_t& last);
+  /// True when bars have all their nodes among these, and no other cells have.
+  bool bars_alone_between(const std::vector<Index>& nodes) const;
 
  private:
   CellRef face(const CellRef& cell, std::size_t number, std::int64_t& last);

@@ -352,6 +352,8 @@ class DeckMeshReader {
         continue;
       }
       mesh_.node_groups[surface.group] = surface_nodes_[name];
+      // Bars touch with their sides, which are no faces.
+      if (faces_.bars_alone_between(surface_nodes_[name])) continue;
       const std::vector<CellRef> faces = faces_.between(surface_nodes_[name], next_number_);
       surface.faces = faces.empty() ? "" : name + " (faces)";
       if (!faces.empty()) mesh_.cell_groups[surface.faces] = faces;

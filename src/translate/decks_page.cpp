@@ -67,8 +67,8 @@ CalculiX; Abaqus integrates a rate, which differs at large elastic strains.
 
 The first surface of a pair is the slave. Both sides are searched unless `TYPE` says `NODE TO SURFACE` or `SURFACE TO
 SURFACE`. `HARD` contact has the stiffness that Carom chooses. Overlaps at the start push, as in CalculiX; they
-count as touching with `ADJUST=0`, and in decks of Abaqus' explicit program, which takes them away. Of a surface of nodes the faces between them touch, a group `NAME (faces)`; one that makes no face is
-refused.
+count as touching with `ADJUST=0`, and in decks of Abaqus' explicit program, which takes them away. Of a surface of nodes the faces between them touch, a group `NAME (faces)`, or the sides of bars where they alone
+are between them; one that makes neither is refused.
 
 A `*RIGID BODY` of faces (R3D3, R3D4, in the plane R2D2, around an axis RAX2) is an obstacle.
 - Its reference node is held or moved along all axes by `*BOUNDARY`, with `TYPE=DISPLACEMENT` or `VELOCITY`. Degrees of
