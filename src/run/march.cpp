@@ -172,7 +172,7 @@ void March::book_switch(const GivenMotion& given) {
     jump.impulse.angular[c] = now.angular[c] - ledger_->momentum().angular[c] - given.momentum.angular[c];
   }
   ledger_->add(jump, now);
-  monitor_->begin_stage(kind_of(stage()));
+  monitor_->begin_stage(kind_of(stage()), -jump.energy.contact_stored);
   log_.push_back(fmt::format("stage: at t = {:.6g} from step {} on: {}; stored energy jumps by {:.3g}", state_.t, step_,
                              stage().name(), jump.energy.mechanical()));
 }

@@ -51,6 +51,15 @@ void RunMonitor::update(double load_impulse) {
                              linear_scale_ * ledger_.reach()});
 }
 
+void RunMonitor::begin_stage(const StageKind& stage, double springs) {
+  if (stage_.is_static) {
+    static_.algorithmic += springs;
+    implicit_loss_ += springs;
+    before_.algorithmic += springs;
+  }
+  stage_ = stage;
+}
+
 double RunMonitor::scale() const {
   return std::max({ledger_.scale(), bodies_.rest_energy, contact_work_});
 }

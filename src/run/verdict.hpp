@@ -35,8 +35,9 @@ class RunMonitor {
   RunMonitor(const EnergyLedger& ledger, const Bodies& bodies, const StageKind& stage)
       : ledger_(ledger), bodies_(bodies), stage_(stage) {}
 
-  /// Another scheme goes on.
-  void begin_stage(const StageKind& stage) { stage_ = stage; }
+  /// Another scheme goes on. springs: what a static stage has stored in springs of contact that the next stage does not
+  /// have, which is another part of the path.
+  void begin_stage(const StageKind& stage, double springs = 0.0);
 
   /// One step; load_impulse: magnitude of what the loads alone gave, which supports and contact may cancel.
   void update(double load_impulse = 0.0);

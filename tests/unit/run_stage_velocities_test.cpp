@@ -123,6 +123,37 @@ step = 0.02
   }
 }
 
+// Springs of statics that impulses do not have are gone with it. The block stays, pushed by less than friction holds.
+TEST(StageVelocities, StayNoneWhereSpringsOfStaticsEnd) {
+  const TemporaryCase one(case_of_block(R"(
+[[load]]
+gravity = [0.004, 0.0, -0.01]
+function = "ramp"
+[functions.ramp]
+time = [0.0, 1.0]
+value = [0.0, 1.0]
+[[contact]]
+name = "floor"
+kind = "plane"
+group = "FOOT"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+friction = 0.5
+[scheme]
+kind = "statics"
+[time]
+end = 1.0
+step = 0.1
+[[stage]]
+kind = "cd_lagrange"
+end = 2.0
+)"));
+  EXPECT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
+  EXPECT_GT(column(one.result("energy.csv"), "contact_stored").at(10), 1e-6);
+  EXPECT_LT(at_end(one.result("energy.csv"), "kinetic"), 1e-20);
+  EXPECT_NEAR(at_end(one.result("contact.csv"), "floor.force_z"), 0.18, 1e-9);
+}
+
 TEST(StageVelocities, AreNoneInStatics) {
   const std::string text = preload(R"(
 [[stage]]
