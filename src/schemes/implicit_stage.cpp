@@ -183,6 +183,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
   is_improved_ = false;
   StageReport report;
   std::vector<RowStatus> before;
+  double first = 0.0;  // norm of the residual that the iteration begins with
   const Residual none{.work = infinity, .unbooked = infinity};
   Residual last = none, earlier = none;
   const bool is_exact =
@@ -196,6 +197,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
       report.failure = "the forces are not finite";
       return report;
     }
+    if (newton == 0) first = error.norm;
     const double wanted = std::max(work_tolerance, eq.share * error.supplied);
     const double tolerance = std::max(wanted, error.round_off);
     const bool is_found = is_equilibrium(eq, error, wanted, last, earlier);
@@ -214,8 +216,11 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
       return report;
     }
     // Rows that move leave their motion out of the tangent, and turns may have inertia; a new set of acting rows is
-    // another equation.
-    if (newton == 0 || before != forces.rows.status) mixing_.forget();
+    // another equation. Far from equilibrium points yield and let go from one iterate to the next, each time with
+    // another tangent: the last differences say nothing then, and Newton's method comes near by itself.
+    constexpr double near = 0.01;
+    const bool is_far = system_.solid.history_size() > 0 && error.norm > near * first;
+    if (newton == 0 || before != forces.rows.status || is_far) mixing_.forget();
     earlier = last;
     last = newton == 0 ? none : error;  // before the first solve, the work is of a displacement that is a guess
     // Each solve is asked for a hundredth of what is left: less would feed its own error to the mixing.

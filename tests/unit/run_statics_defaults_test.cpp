@@ -254,5 +254,76 @@ step = 1e-3
   EXPECT_EQ(staged.method, PairMethod::faces);
 }
 
+/// A block of 60 x 60 x 50 mm pressed by 4 MPa that yields from 3 MPa on, all of it at once, with 1 % of the stiffness.
+std::string yielding_block(const std::string& rest) {
+  return R"(units = "SI"
+[[mesh.block]]
+origin = [0.02, 0.02, 0.05]
+size = [0.06, 0.06, 0.05]
+divisions = [2, 2, 2]
+groups = { cells = "B", zmin = "B0", zmax = "B1" }
+[materials.s]
+law = "j2"
+E = 2.0e9
+nu = 0.3
+rho = 2000.0
+yield_stress = 3.0e6
+hardening_modulus = 2.0e7
+[[part]]
+name = "b"
+cells = "B"
+material = "s"
+[functions.ramp]
+time = [0.0, 1.0]
+value = [0.0, 1.0]
+[[load]]
+pressure = 4.0e6
+group = "B1"
+function = "ramp"
+[scheme]
+kind = "statics"
+[time]
+end = 1.0
+step = 0.1
+[[probe]]
+name = "top"
+group = "B1"
+quantities = ["displacement"]
+)" + rest;
+}
+
+// Where contact moves, differences of iterates whose points had begun to yield since led the next ones astray: no
+// equilibrium at 3 MPa, however short the step. On a wider block that friction holds it to it sinks in as one with a
+// foot that is held does, and by no more than the wider one would yield, elastic, to the whole pressure: p h / E.
+TEST(StaticsByDefault, FindsTheEquilibriumOfABlockThatYieldsAllAtOnce) {
+  const TemporaryCase held(yielding_block("[[support]]\nnodes = \"B0\"\nblocked = [\"x\", \"y\", \"z\"]\n"));
+  const TemporaryCase given(yielding_block(R"([[mesh.block]]
+size = [0.1, 0.1, 0.05]
+divisions = [3, 3, 2]
+groups = { cells = "A", zmin = "A0", zmax = "A1" }
+[[part]]
+name = "a"
+cells = "A"
+material = "s"
+[[support]]
+nodes = "A0"
+blocked = ["x", "y", "z"]
+[[contact]]
+name = "c"
+kind = "pair"
+group = "B0"
+master = "A1"
+friction = 0.4
+)"));
+  ASSERT_EQ(held.run(), ExitCode::good) << held.result("summary.json");
+  ASSERT_EQ(given.run(), ExitCode::good) << given.result("summary.json");
+  const std::string probes = given.result("probes.csv");
+  EXPECT_EQ(column(probes, "time").size(), 11U);  // no step was cut
+  const double alone = last_row(held.result("probes.csv")).at("top.displacement_z");
+  const double sunk = last_row(probes).at("top.displacement_z");
+  EXPECT_LT(sunk, alone);
+  EXPECT_GT(sunk, alone - 4.0e6 * 0.05 / 2.0e9);
+}
+
 }  // namespace
 }  // namespace carom::run_statics_defaults_test
