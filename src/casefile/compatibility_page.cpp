@@ -10,7 +10,7 @@ std::string compatibility_markdown() {
       "# Which scheme takes which contact\n\n"
       "Made from `src/model/compatibility.hpp`, from which the error messages and the tests come as well. `[scheme]\n"
       "enforcement` names the column; without it a case gets the first that its scheme takes, but the augmented\n"
-      "Lagrangian where all stages are statics and no contact gives its stiffness or is a stop.\n\n| scheme |";
+      "Lagrangian where no stage takes springs and no contact gives its stiffness or is a stop.\n\n| scheme |";
   std::string line = "|---|";
   for (const std::string_view enforcement : enforcement_names) {
     text += fmt::format(" `{}` |", enforcement);

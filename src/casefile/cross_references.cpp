@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "casefile/document.hpp"
 
@@ -244,8 +245,12 @@ void choose_enforcement(Case& given) {
            (surfaces != nullptr && surfaces->smooth && **surfaces->smooth);
   };
   if (given.contacts.empty() || std::any_of(given.contacts.begin(), given.contacts.end(), needs_springs)) return;
-  if (!are_all_schemes(given, is_open)) return;
-  const auto choose = [](CaseScheme& scheme) {
+  const auto has_springs = [&](const CaseScheme& scheme) {
+    return !is_open(scheme) && **scheme.enforcement == EnforcementKind::penalty;
+  };
+  if (!are_all_schemes(given, std::not_fn(has_springs))) return;
+  const auto choose = [&](CaseScheme& scheme) {
+    if (!is_open(scheme)) return;
     scheme.enforcement->value = EnforcementKind::augmented_lagrangian;
     scheme.penetration = default_penetration;
   };

@@ -141,6 +141,7 @@ normal = [0.0, 0.0, 1.0]
 friction = 0.5
 [scheme]
 kind = "statics"
+enforcement = "penalty"
 [time]
 end = 1.0
 step = 0.1

@@ -252,6 +252,8 @@ step = 1e-3
 )");
   EXPECT_EQ(staged.enforcement, EnforcementKind::penalty);
   EXPECT_EQ(staged.method, PairMethod::faces);
+  const std::string impulses = "[[stage]]\nkind = \"cd_lagrange\"\nend = 2.0\n";
+  EXPECT_EQ(chosen(cubes(2, 2, "") + impulses).enforcement, EnforcementKind::augmented_lagrangian);
 }
 
 /// A block of 60 x 60 x 50 mm pressed by 4 MPa that yields from 3 MPa on, all of it at once, with 1 % of the stiffness.
