@@ -96,8 +96,9 @@ void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
            "How contact is enforced; the table of the manual says which scheme takes which. plain: multipliers as "
            "published, which throw back what lagrange stops.",
            {.choices = Names(enforcement_names.begin(), enforcement_names.end()),
-            .default_phrase = "the first that the scheme takes; of statics, where no stage takes springs and no contact gives "
-                              "its stiffness or is a stop, augmented_lagrangian"});
+            .default_phrase =
+                "the first that the scheme takes; of statics, where no stage takes springs and no contact gives "
+                "its stiffness or is a stop, augmented_lagrangian"});
   for (const SchemeNumber& number : scheme_numbers) add_number(s, scheme_of, number);
   const auto augmented = [](const SchemeTraits& t) { return takes(t.kind, EnforcementKind::augmented_lagrangian); };
   s.key_by("penetration", [scheme_of](auto& section) -> auto& { return scheme_of(section).penetration; },

@@ -156,9 +156,8 @@ class PatchSpread {
       weight += std::abs(M);
       ++count;
     });
-    each_next(n, [&](Index m, double M) {
-      carried_[at(m)] += rest * (weight > 0.0 ? std::abs(M) / weight : 1.0 / count);
-    });
+    each_next(
+        n, [&](Index m, double M) { carried_[at(m)] += rest * (weight > 0.0 ? std::abs(M) / weight : 1.0 / count); });
   }
 
   const CsrMatrix& graph_;

@@ -14,8 +14,10 @@ namespace carom {
 /// Hueber and Wohlmuth, Int. J. Numer. Methods Eng. 73, 2008).
 enum class MassSpread : std::uint8_t {
   /// In equal parts to each of the next layers of nodes, from each node to its neighbours in the next layer in
-  /// proportion to the size of the consistent mass M_nm between them (on regular meshes: to those below in proportion to
-  /// their own mass; in equal parts where there is none between them, as in TETRA10 of parts). The layer of a node is its distance from the contact nodes in cells. Contact nodes that are neighbours form
+  /// proportion to the size of the consistent mass M_nm between them (on regular meshes: to those below in proportion
+  /// to
+  /// their own mass; in equal parts where there is none between them, as in TETRA10 of parts). The layer of a node is
+  /// its distance from the contact nodes in cells. Contact nodes that are neighbours form
   /// a patch, which keeps its mass to its own layers; those of them that are not beside the first layer pass theirs on
   /// to those that are.
   layers,

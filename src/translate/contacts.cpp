@@ -82,7 +82,8 @@ std::string faces_of(Translation& t, const Statement& s, const DeckCursor& at, c
     at.fail(name + ", a surface of nodes that make no face", "nodes with all those of a face, or TYPE=ELEMENT",
             "Carom's contact needs the faces of both sides.");
   if (surface.kind == DeckNames::SurfaceKind::nodes)
-    t.findings.note(at.where(), name + " is a surface of nodes: the faces between them touch, or bars with their sides");
+    t.findings.note(at.where(),
+                    name + " is a surface of nodes: the faces between them touch, or bars with their sides");
   return surface.faces;
 }
 

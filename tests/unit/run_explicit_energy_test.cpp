@@ -193,9 +193,9 @@ TEST(EnergyGuard, ShortensTheStepsForGoodWhereEnergyIsMade) {
   EXPECT_NEAR(guard.share(), 0.5, 1e-15);
 }
 
-// A steel block falls on a plane at 2 m/s, or the plane rises to the block, or each comes half of the way: the same impact.
-// Bodies at rest have no energy that steps at the touch could be compared with, and the steps became a quarter as long
-// for good.
+// A steel block falls on a plane at 2 m/s, or the plane rises to the block, or each comes half of the way: the same
+// impact. Bodies at rest have no energy that steps at the touch could be compared with, and the steps became a quarter
+// as long for good.
 TEST(EnergyGuard, TakesTheSameStepsWhoeverMoves) {
   const auto impact = [](double of_block, double of_plane) {
     const TemporaryCase given(fmt::format(R"(units = "SI"

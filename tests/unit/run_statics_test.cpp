@@ -93,8 +93,8 @@ TEST(Statics, SolvesForRowsThatTurnUnderPressure) {
   EXPECT_NEAR(force, last_row(fine.result("contact.csv"))["roll.force_z"], 1e-9 * std::abs(force));
 }
 
-// Bars of length 1 between walls, longer than their room by 0.01: multipliers push them apart in one step, and the energy
-// of the fit is all there is. E d / (2 L) A, as Hooke has it.
+// Bars of length 1 between walls, longer than their room by 0.01: multipliers push them apart in one step, and the
+// energy of the fit is all there is. E d / (2 L) A, as Hooke has it.
 TEST(Statics, PressFitsByMultipliersAreNoEnergyMade) {
   const TemporaryCase given(R"(units = "SI"
 [[mesh.block]]

@@ -192,9 +192,10 @@ TEST(Translate, FacesBetweenTheNodesOfASurface) {
 
 // A cable's ends are faces, too: they alone would touch, and what is between them would fall through.
 TEST(Translate, BarsBetweenTheNodesOfASurfaceTouchWithTheirSides) {
-  const std::string truss = replaced(replaced(good_deck, "*ELEMENT, TYPE=C3D8, ELSET=UPPER\n2,11,12,13,14,15,16,17,18\n",
-                                              "*ELEMENT, TYPE=T3D2, ELSET=UPPER\n2,11,12\n3,12,13\n"),
-                                     "ELSET=UPPER, MATERIAL=STEEL\n", "ELSET=UPPER, MATERIAL=STEEL\n0.1\n");
+  const std::string truss =
+      replaced(replaced(good_deck, "*ELEMENT, TYPE=C3D8, ELSET=UPPER\n2,11,12,13,14,15,16,17,18\n",
+                        "*ELEMENT, TYPE=T3D2, ELSET=UPPER\n2,11,12\n3,12,13\n"),
+               "ELSET=UPPER, MATERIAL=STEEL\n", "ELSET=UPPER, MATERIAL=STEEL\n0.1\n");
   const auto group = [&](const std::string& nodes) {
     return *case_from(replaced(truss, "*SURFACE, NAME=FOOT\nUPPER, S1", "*SURFACE, NAME=FOOT, TYPE=NODE\n" + nodes))
                 .contacts[0]
