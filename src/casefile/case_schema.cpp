@@ -33,13 +33,17 @@ SectionSchema<CasePart> part_section() {
       "formulation", &CasePart::formulation,
       "How the cells take the deformation: \"full\": at all their points; \"mean_dilatation\": with the volume change "
       "of the cell's mean (B-bar, F-bar), for nearly incompressible and yielding bodies; \"one_point\": at one point, "
-      "with a stiffness against hourglass modes. Which cells have which: docs/cells.md. Absent: mean_dilatation of "
-      "TETRA10, and of HEXA8 and QUAD4 whose law yields; full of the others.",
-      {.choices = {"full", "mean_dilatation", "one_point"}});
-  s.key("hourglass", &CasePart::hourglass,
-        "Coefficient of the stiffness against hourglass modes of one_point cells: 1 is about the elastic stiffness of "
-        "full integration. Absent: 0.05.",
-        {.range = greater_than(0.0)});
+      "with a stiffness against hourglass modes; \"stabilised\": at one point, with that of enhanced strains, which "
+      "neither bending nor constant volume locks. Which cells have which: docs/cells.md. Absent: stabilised of HEXA8 "
+      "and "
+      "QUAD4, mean_dilatation of TETRA10, full of the others.",
+      {.choices = {"full", "mean_dilatation", "one_point", "stabilised"}});
+  s.key(
+      "hourglass", &CasePart::hourglass,
+      "Coefficient of the stiffness against hourglass modes of one_point and stabilised cells: 1 is about the elastic "
+      "stiffness of full integration, or that of enhanced strains. Absent: 0.05 of one_point cells, 1 of stabilised "
+      "ones.",
+      {.range = greater_than(0.0)});
   s.key(
       "hourglass_viscosity", &CasePart::hourglass_viscosity,
       "Coefficient of a viscous resistance to the rates of hourglass modes of one_point cells, beside the stiffness: 1 "

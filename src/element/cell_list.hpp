@@ -4,25 +4,28 @@
 #include <iterator>
 
 /// X(cell), one line each: CellKind::<cell> and the class <cell>Cell (element/cells.hpp).
-#define CAROM_CELLS(X)  \
-  X(Hexa8)              \
-  X(Hexa8OnePoint)      \
-  X(Hexa20)             \
-  X(Hexa27)             \
-  X(Penta6)             \
-  X(Pyra5)              \
-  X(Tetra4)             \
-  X(CompositeTetra)     \
-  X(Quad4Plane)         \
-  X(Quad4PlaneOnePoint) \
-  X(Quad4Ring)          \
-  X(Quad4RingOnePoint)  \
-  X(Quad8Plane)         \
-  X(Quad8Ring)          \
-  X(Tria3Plane)         \
-  X(Tria3Ring)          \
-  X(Tria6Plane)         \
-  X(Tria6Ring)          \
+#define CAROM_CELLS(X)    \
+  X(Hexa8)                \
+  X(Hexa8OnePoint)        \
+  X(Hexa8Stabilised)      \
+  X(Hexa20)               \
+  X(Hexa27)               \
+  X(Penta6)               \
+  X(Pyra5)                \
+  X(Tetra4)               \
+  X(CompositeTetra)       \
+  X(Quad4Plane)           \
+  X(Quad4PlaneOnePoint)   \
+  X(Quad4PlaneStabilised) \
+  X(Quad4Ring)            \
+  X(Quad4RingOnePoint)    \
+  X(Quad4RingStabilised)  \
+  X(Quad8Plane)           \
+  X(Quad8Ring)            \
+  X(Tria3Plane)           \
+  X(Tria3Ring)            \
+  X(Tria6Plane)           \
+  X(Tria6Ring)            \
   X(Bar)
 
 namespace carom {

@@ -266,6 +266,7 @@ struct MeanGradientCell : DenseGradients<Full::nodes, 1, Full::dimension, Full::
   using Shape = typename Full::Shape;
   static constexpr Frame frame = Full::frame;
   static constexpr int nodes = Full::nodes, dimension = Full::dimension, points = 1;
+  static constexpr int modes = Shape::modes, directions = dimension;
   static constexpr bool is_ring = frame == Frame::axisymmetric;
   using Base = DenseGradients<nodes, 1, dimension, is_ring>;
 

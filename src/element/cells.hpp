@@ -15,14 +15,17 @@
 #include "element/shapes/tetra4.hpp"
 #include "element/shapes/tria3.hpp"
 #include "element/shapes/tria6.hpp"
+#include "element/stabilised.hpp"
 
 namespace carom {
 
 using Tetra4Cell = Isoparametric<Tetra4, Frame::solid>;
 using Quad4PlaneCell = Isoparametric<Quad4, Frame::plane>;
 using Quad4PlaneOnePointCell = MeanGradientCell<Quad4PlaneCell>;
+using Quad4PlaneStabilisedCell = Quad4Stabilised<Quad4PlaneOnePointCell>;
 using Quad4RingCell = Isoparametric<Quad4, Frame::axisymmetric>;
 using Quad4RingOnePointCell = MeanGradientCell<Quad4RingCell>;
+using Quad4RingStabilisedCell = Quad4Stabilised<Quad4RingOnePointCell>;
 using Tria3PlaneCell = Isoparametric<Tria3, Frame::plane>;
 using Tria3RingCell = Isoparametric<Tria3, Frame::axisymmetric>;
 using Penta6Cell = Isoparametric<Penta6, Frame::solid>;

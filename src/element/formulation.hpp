@@ -5,7 +5,8 @@ namespace carom {
 
 /// full: the points of the shape as they are. mean_dilatation: with the volume change of the cell's mean (B-bar,
 /// F-bar), against locking of nearly incompressible materials. one_point: one point of mean gradients and a stiffness
-/// of the hourglass modes, which flows where the law does (solid/hourglass_flow.hpp).
-enum class Formulation : unsigned char { full, mean_dilatation, one_point };
+/// of the hourglass modes, which flows where the law does (solid/hourglass_flow.hpp). stabilised: one point, and the
+/// modes as enhanced assumed strains leave them, in one flow with the point (element/stabilised.hpp).
+enum class Formulation : unsigned char { full, mean_dilatation, one_point, stabilised };
 
 }  // namespace carom

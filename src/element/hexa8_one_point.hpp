@@ -14,6 +14,7 @@ struct Hexa8OnePointCell {
   using Shape = Hexa8;
   static constexpr Frame frame = Frame::solid;
   static constexpr int nodes = 8, dimension = 3, points = 1;
+  static constexpr int modes = Hexa8::modes, directions = 3;
 
   template <class Real>
   struct Geometry {

@@ -49,7 +49,7 @@ static inline double next_lateral(LateralSearch& search, double x, double stress
 /// stays so.
 template <class Real>
 static void complete_strain(const LateralLaw& law, double* strain, const double* history, double dt,
-                            bool is_over = false) {
+                            const double* mode_square, bool is_over = false) {
   constexpr int n = lanes<Real>;
   double x[n];
   if (law.lateral_strain != nullptr) {
@@ -64,6 +64,7 @@ static void complete_strain(const LateralLaw& law, double* strain, const double*
   // Strains below -1/2 turn the body inside out (Green-Lagrange) or crush it; beyond 1e3 nothing is left of it.
   LateralSearch search[n];
   double unit[6 * n] = {}, stress[6 * n], slope[6 * n];
+  const double at_rest[n] = {};
   for (int l = 0; l < n; ++l) {
     search[l] = {law.least_strain, 1e3, 1e3};
     x[l] = history == nullptr ? 0.0 : history[law.history * n + l];
@@ -77,8 +78,10 @@ static void complete_strain(const LateralLaw& law, double* strain, const double*
   bool all_found = false;
   for (int i = 0; i < most && !all_found; ++i) {
     fill_lateral<n>(law, x, strain);
-    law.kernels.update(law.parameters, {1, strain, stress, nullptr, dt, history});
-    law.kernels.tangent(law.parameters, {1, strain, unit, slope, dt, history});
+    PointBatch point{1, strain, stress, nullptr, dt, history};
+    point.mode_square = mode_square;
+    law.kernels.update(law.parameters, point);
+    law.kernels.tangent(law.parameters, {1, strain, unit, slope, dt, history, mode_square, at_rest});
     all_found = true;
     for (int l = 0; l < n; ++l) {
       if (search[l].is_found) continue;
@@ -96,6 +99,12 @@ static void complete_strain(const LateralLaw& law, double* strain, const double*
   fill_lateral<n>(law, x, strain);
 }
 
+/// A place in an array that may be null.
+template <class Number>
+static Number* at(Number* array, int offset) {
+  return array == nullptr ? nullptr : array + offset;
+}
+
 /// parameters: const LateralLaw*. History: that of the law in three dimensions, then the lateral strain where it has to
 /// be iterated for.
 template <class Real>
@@ -103,16 +112,16 @@ static void lateral_update(const void* parameters, const PointBatch& batch) {
   const auto& law = *static_cast<const LateralLaw*>(parameters);
   constexpr int n = lanes<Real>;
   const int H = law.total_history * n;
-  const auto at = [](auto* array, int offset) { return array == nullptr ? nullptr : array + offset; };
   for (int p = 0; p < batch.points; ++p) {
     double* strain = batch.strain + 6 * p * n;
     const double* history = at(batch.history, H * p);
     double* new_history = at(batch.new_history, H * p);
-    complete_strain<Real>(law, strain, history, batch.dt, batch.is_over);
+    complete_strain<Real>(law, strain, history, batch.dt, at(batch.mode_square, p * n), batch.is_over);
     double* stress = batch.stress + 6 * p * n;
-    law.kernels.update(law.parameters, {1, strain, stress, at(batch.energy, p * n), batch.dt, history, new_history,
-                                        at(batch.dissipation, p * n), at(batch.wave_modulus, p * n),
-                                        at(batch.yield_stress, p * n), batch.is_over});
+    law.kernels.update(law.parameters,
+                       {1, strain, stress, at(batch.energy, p * n), batch.dt, history, new_history,
+                        at(batch.dissipation, p * n), at(batch.wave_modulus, p * n), at(batch.yield_stress, p * n),
+                        at(batch.mode_square, p * n), at(batch.share, p * n), batch.is_over});
     fill_lateral<n>(law, 0.0, stress);
     for (int l = 0; l < n; ++l) {
       if (new_history != nullptr && law.total_history > law.history)
@@ -133,15 +142,22 @@ static void lateral_tangent(const void* parameters, const TangentBatch& batch) {
       change[c] = batch.strain_change[6 * p * n + c];
     }
     const double* history = batch.history == nullptr ? nullptr : batch.history + law.total_history * n * p;
-    complete_strain<Real>(law, strain, history, batch.dt);
+    const double* mode_square = at(batch.mode_square, p * n);
+    complete_strain<Real>(law, strain, history, batch.dt, mode_square);
     fill_lateral<n>(law, 0.0, change);
     fill_lateral<n>(law, 1.0, unit);
     double* result = batch.stress_change + 6 * p * n;
-    law.kernels.tangent(law.parameters, {1, strain, change, result, batch.dt, history});
-    law.kernels.tangent(law.parameters, {1, strain, unit, by_lateral, batch.dt, history});
+    const double at_rest[n] = {};
+    double along[n];
+    double* of_both = at(batch.along, p * n);
+    law.kernels.tangent(law.parameters, {1, strain, change, result, batch.dt, history, mode_square,
+                                         at(batch.half_change, p * n), at(batch.share, p * n), of_both});
+    law.kernels.tangent(law.parameters, {1, strain, unit, by_lateral, batch.dt, history, mode_square, at_rest,
+                                         at(batch.share, p * n), of_both == nullptr ? nullptr : along});
     for (int l = 0; l < n; ++l) {
       const double ratio = result[2 * n + l] / by_lateral[2 * n + l];
       for (int c = 0; c < 6; ++c) result[c * n + l] -= ratio * by_lateral[c * n + l];
+      if (of_both != nullptr) of_both[l] -= ratio * along[l];
     }
     fill_lateral<n>(law, 0.0, result);
   }

@@ -127,7 +127,9 @@ static void finite_plastic_update(const void* parameters, const PointBatch& batc
     make_deviator(eps);
     const Real square = norm_square(eps), trial = G * square_root(Real(6.0 * square));
     const RadialReturn<Real> at_end =
-        radial_return(law, trial, history == nullptr ? nullptr : history + 6 * n, batch.dt, batch.is_over);
+        radial_return(law, with_modes(trial, batch.mode_square, p), history == nullptr ? nullptr : history + 6 * n,
+                      batch.dt, batch.is_over);
+    if (batch.share != nullptr) store(batch.share + p * n, at_end.share);
     const Real pressure_part = K * trace, modulus = 2.0 * G * at_end.share;
     for (int c = 0; c < 6; ++c) tau[c] = c < 3 ? pressure_part + modulus * eps[c] : modulus * eps[c];
     sandwich_lower(stretch.inverse, tau, S);
@@ -191,8 +193,9 @@ static void finite_plastic_tangent(const void* parameters, const TangentBatch& b
     const Real eps_trace = eps[0] + eps[1] + eps[2];
     make_deviator(eps);
     const Real square = eps[0] * eps[0] + eps[1] * eps[1] + eps[2] * eps[2];
-    const RadialReturn<Real> at_end = radial_return(law, Real(G * square_root(Real(6.0 * square))),
-                                                    history == nullptr ? nullptr : history + 6 * n, batch.dt);
+    const RadialReturn<Real> at_end =
+        radial_return(law, with_modes(Real(G * square_root(Real(6.0 * square))), batch.mode_square, p),
+                      history == nullptr ? nullptr : history + 6 * n, batch.dt);
     for (int c = 0; c < 6; ++c) dE[c] = (c < 3 ? 1.0 : 0.5) * load<Real>(batch.strain_change + (6 * p + c) * n);
     for (int c = 0; c < 6; ++c) {  // L^-1 dE L^-T
       const int i = voigt_row[c], j = voigt_column[c];
@@ -203,7 +206,7 @@ static void finite_plastic_tangent(const void* parameters, const TangentBatch& b
     }
     turned(N, spatial, d);
     const Real trace = d[0] + d[1] + d[2], modulus = 2.0 * G * at_end.share;
-    const Real along = along_trial(at_end, Real(eps[0] * d[0] + eps[1] * d[1] + eps[2] * d[2]), square);
+    const Real along = along_trial(law, at_end, Real(eps[0] * d[0] + eps[1] * d[1] + eps[2] * d[2]), square, batch, p);
     Real tau[3];
     for (int i = 0; i < 3; ++i) tau[i] = K * eps_trace + modulus * eps[i];
     for (int i = 0; i < 3; ++i)

@@ -56,6 +56,15 @@ template <class Real>
   return result;
 }
 
+/// The equivalent trial stress of a point together with its cell's hourglass modes: what the modes store in addition
+/// counts as the deviator does, so that both return radially in one flow, the closest point in the norm of the stored
+/// energy.
+template <class Real>
+[[gnu::always_inline]] static inline Real with_modes(const Real& trial, const double* mode_square, int p) {
+  if (mode_square == nullptr) return trial;
+  return square_root(Real(trial * trial + load<Real>(mode_square + p * lanes<Real>)));
+}
+
 /// Writes the variables and the plastic work that follows from them.
 template <class Real>
 [[gnu::always_inline]] static inline void store_variables(const PlasticLaw& law, const RadialReturn<Real>& at_end,
@@ -132,7 +141,9 @@ static void small_plastic_update(const void* parameters, const PointBatch& batch
     const double* history = batch.history == nullptr ? nullptr : batch.history + H * p;
     const SmallTrial<Real> trial = small_trial<Real>(law, batch.strain + 6 * p * n, history);
     const RadialReturn<Real> at_end =
-        radial_return(law, trial.stress, history == nullptr ? nullptr : history + 6 * n, batch.dt, batch.is_over);
+        radial_return(law, with_modes(trial.stress, batch.mode_square, p),
+                      history == nullptr ? nullptr : history + 6 * n, batch.dt, batch.is_over);
+    if (batch.share != nullptr) store(batch.share + p * n, at_end.share);
     const Real pressure_part = K * trial.trace, modulus = 2.0 * G * at_end.share;
     double* stress = batch.stress + 6 * p * n;
     for (int c = 0; c < 3; ++c) store(stress + c * n, Real(pressure_part + modulus * trial.deviator[c]));
@@ -159,12 +170,24 @@ static void small_plastic_update(const void* parameters, const PointBatch& batch
 
 /// Changes of the deviatoric stress with those of a trial deviator d of Voigt or principal components, as the tensor's:
 /// 2 G [share (change) + (slope - share) m (m : change)], m the direction of d; m : change = product, of weights w.
-/// The consistent tangent of the radial return (Simo and Hughes, box 3.2).
+/// The consistent tangent of the radial return (Simo and Hughes, box 3.2). The modes' part of d is that of their trial
+/// forces; its square is mode_square / 6 G^2.
 template <class Real>
-[[gnu::always_inline]] static inline Real along_trial(const RadialReturn<Real>& at_end, const Real& product,
-                                                      const Real& square) {
+[[gnu::always_inline]] static inline Real along_trial(const PlasticLaw& law, const RadialReturn<Real>& at_end,
+                                                      Real product, Real square, const TangentBatch& batch, int p) {
+  constexpr int n = lanes<Real>;
+  if (batch.mode_square != nullptr) {
+    const double scale = 1.0 / (6.0 * law.lame.G * law.lame.G);
+    square += scale * load<Real>(batch.mode_square + p * n);
+    product += scale * load<Real>(batch.half_change + p * n);
+  }
   const Real zero = Real{}, one = zero + 1.0;
-  return square > 0.0 ? (at_end.slope - at_end.share) * product / (square > 0.0 ? square : one) : zero;
+  const Real along = square > 0.0 ? (at_end.slope - at_end.share) * product / (square > 0.0 ? square : one) : zero;
+  if (batch.share != nullptr) {
+    store(batch.share + p * n, at_end.share);
+    store(batch.along + p * n, along);
+  }
+  return along;
 }
 
 template <class Real>
@@ -176,8 +199,8 @@ static void small_plastic_tangent(const void* parameters, const TangentBatch& ba
   for (int p = 0; p < batch.points; ++p) {
     const double* history = batch.history == nullptr ? nullptr : batch.history + H * p;
     const SmallTrial<Real> trial = small_trial<Real>(law, batch.strain + 6 * p * n, history);
-    const RadialReturn<Real> at_end =
-        radial_return(law, trial.stress, history == nullptr ? nullptr : history + 6 * n, batch.dt);
+    const RadialReturn<Real> at_end = radial_return(law, with_modes(trial.stress, batch.mode_square, p),
+                                                    history == nullptr ? nullptr : history + 6 * n, batch.dt);
     Real d[6], square = Real{}, product = Real{};
     for (int c = 0; c < 6; ++c) d[c] = (c < 3 ? 1.0 : 0.5) * load<Real>(batch.strain_change + (6 * p + c) * n);
     const Real trace = d[0] + d[1] + d[2];
@@ -186,7 +209,7 @@ static void small_plastic_tangent(const void* parameters, const TangentBatch& ba
       square += weight * trial.deviator[c] * trial.deviator[c];
       product += weight * trial.deviator[c] * d[c];
     }
-    const Real along = along_trial(at_end, product, square);
+    const Real along = along_trial(law, at_end, product, square, batch, p);
     for (int c = 0; c < 6; ++c) {
       const Real deviator = c < 3 ? d[c] - trace * (1.0 / 3.0) : d[c];
       const Real change = 2.0 * G * (at_end.share * deviator + along * trial.deviator[c]);

@@ -23,6 +23,10 @@ struct PointBatch {
                                    ///< rho per reference volume; zero lateral stress makes them slower still
   double* yield_stress = nullptr;  ///< equivalent stress of slow flow at the beginning of the step; only laws that
                                    ///< yield fill it
+  /// Cells whose hourglass modes flow with their point, of laws that yield: the square by which these raise the
+  /// equivalent trial stress, and the share of the trial deviator that is left, which is the modes' too.
+  const double* mode_square = nullptr;
+  double* share = nullptr;
   /// The history is that at the end of the step already: nothing flows any more, and the stress is the step's.
   bool is_over = false;
 };
@@ -36,6 +40,12 @@ struct TangentBatch {
   double* stress_change = nullptr;
   double dt = 0.0;
   const double* history = nullptr;
+  /// As in PointBatch, and half the change of it. What comes back: the changes of the modes' forces are `share` times
+  /// those of the trial ones and `along` times the trial ones.
+  const double* mode_square = nullptr;
+  const double* half_change = nullptr;
+  double* share = nullptr;
+  double* along = nullptr;
 };
 
 /// The update and the tangent of one law for one lane count; parameters points to what that law expects. They do not

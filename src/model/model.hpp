@@ -43,7 +43,8 @@ struct Part {
   Section section = Section::solid;
   double thickness = 1.0;  ///< plane cells: their thickness; bars: the area of the section; else unused
   std::optional<Formulation> formulation{};  ///< empty: the first that the element table has
-  double hourglass = 0.05;                   ///< coefficient of the hourglass stiffness of one-point cells
+  std::optional<double> hourglass{};  ///< coefficient of the hourglass stiffness; empty: 1 of stabilised cells, whose
+                                      ///< stiffness is the whole one, 0.05 of one-point cells
   Viscosity viscosity{};
 
   /// True when the forces depend on more than the displacement.

@@ -208,6 +208,10 @@ std::string volume_warning(const Part& part, int cells, double ratio) {
       part.name, nu, cells, cells == 1 ? "" : "s", ratio);
 }
 
+bool is_fully_integrated(const Part& part) {
+  return find_element(part.type, part.section, part.formulation)->formulation == Formulation::full;
+}
+
 /// Too few freedoms a cell to move at constant volume: one strain per cell, where the body yields or is nearly
 /// incompressible; full integration of the other linear cells, where it yields.
 bool locks_at_constant_volume(const Part& part) {
@@ -216,8 +220,7 @@ bool locks_at_constant_volume(const Part& part) {
   const bool yields = !part.material.law->history.empty();
   if (part.type == CellType::tetra4 || part.type == CellType::tria3)
     return yields || part.material.at_rest().nu > incompressible;
-  return yields && node_count(part.type) == corner_count(part.type) &&
-         find_element(part.type, part.section, part.formulation)->formulation == Formulation::full;
+  return yields && node_count(part.type) == corner_count(part.type) && is_fully_integrated(part);
 }
 
 std::string constant_volume_warning(const Part& part) {
@@ -229,8 +232,8 @@ std::string constant_volume_warning(const Part& part) {
       part.name, name(part.type), is_simplex ? "have one strain each and" : "in full integration",
       part.material.law->history.empty() ? "near nu = 0.5" : "in plastic flow",
       dimension(part.type) == 3
-          ? "TETRA10 (Gmsh: Mesh.ElementOrder = 2) or HEXA8 with formulation = \"mean_dilatation\""
-          : "QUAD4 with formulation = \"mean_dilatation\"");
+          ? "TETRA10 (Gmsh: Mesh.ElementOrder = 2) or HEXA8 without a formulation"
+          : "QUAD4 without a formulation");
 }
 
 }  // namespace
@@ -259,7 +262,7 @@ std::vector<std::string> locking_warnings(const Simulation& s) {
     const CellRef& cell = s.solid().cells()[k];
     const std::size_t p = at(part_of[at(cell.block)][at(cell.cell)]);
     const Part& part = s.model().parts[p];
-    if (part.section == Section::bar || part.formulation.value_or(Formulation::full) != Formulation::full) continue;
+    if (part.section == Section::bar || !is_fully_integrated(part)) continue;
     Findings& found = all[p];
     const double volume = s.solid().cell_volumes()[k];
     found.volume += volume;

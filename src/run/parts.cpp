@@ -34,8 +34,7 @@ std::optional<CellType> wanted_type(const CasePart& wanted, Section section) {
                   fmt::format("\"{}\" with section = \"{}\"", **wanted.type, name(section)), names(types));
 }
 
-/// Takes the formulation that the case names, if the element table has it for the cells of the part; without one linear
-/// cells that yield take the mean dilatation.
+/// Takes the formulation that the case names, if the element table has it for the cells of the part.
 void choose_formulation(const CasePart& wanted, Part& part) {
   if (wanted.formulation) {
     const Element* element = nullptr;
@@ -48,23 +47,25 @@ void choose_formulation(const CasePart& wanted, Part& part) {
                                   carom::name(part.type), name(part.section)),
                       formulations_of(part.type, part.section));
     part.formulation = element->formulation;
-  } else if (!part.material.law->history.empty() && node_count(part.type) == corner_count(part.type) &&
-             find_element(part.type, part.section, Formulation::mean_dilatation) != nullptr) {
-    part.formulation = Formulation::mean_dilatation;  // full integration locks in plastic flow
   }
 }
 
 /// Takes the coefficients of stabilisation and viscosity.
 void choose_coefficients(const CasePart& wanted, Part& part) {
-  const auto of_modes = [&](const std::optional<Located<double>>& given, const char* key, double& value) {
+  const Formulation of_part = find_element(part.type, part.section, part.formulation)->formulation;
+  const bool has_one_point = of_part == Formulation::one_point, is_stabilised = of_part == Formulation::stabilised;
+  const auto of_modes = [&](const std::optional<Located<double>>& given, const char* key, bool is_taken,
+                            const char* expected, auto& value) {
     if (!given) return;
-    if (part.formulation != Formulation::one_point)
-      throw CaseError(given->where, key, "cells without hourglass modes", "formulation = \"one_point\"",
+    if (!is_taken)
+      throw CaseError(given->where, key, fmt::format("formulation \"{}\"", carom::name(of_part)), expected,
                       "leave it out");
     value = **given;
   };
-  of_modes(wanted.hourglass, "part.hourglass", part.hourglass);
-  of_modes(wanted.hourglass_viscosity, "part.hourglass_viscosity", part.viscosity.hourglass);
+  of_modes(wanted.hourglass, "part.hourglass", has_one_point || is_stabilised,
+           "formulation = \"one_point\" or \"stabilised\"", part.hourglass);
+  of_modes(wanted.hourglass_viscosity, "part.hourglass_viscosity", has_one_point, "formulation = \"one_point\"",
+           part.viscosity.hourglass);
   part.viscosity.linear = wanted.linear_bulk_viscosity;
   part.viscosity.quadratic = wanted.quadratic_bulk_viscosity;
 }

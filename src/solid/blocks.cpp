@@ -119,6 +119,13 @@ std::vector<double> batch_lengths(const Mesh& mesh, const std::vector<CellRef>& 
   return lengths;
 }
 
+/// Those of stabilised cells. Under plane stress they bend as a beam does, else as a plate.
+ModeModuli mode_moduli(const Part& part, double coefficient) {
+  const IsotropicElastic at_rest = part.material.at_rest();
+  const double E = coefficient * at_rest.E, nu = at_rest.nu;
+  return {E / (2.0 * (1.0 + nu)), E, part.section == Section::plane_stress ? E : E / (1.0 - nu * nu), nu};
+}
+
 /// The stages of a part: its element chooses the cell and whether dilatation is averaged, its law the kinematics.
 BatchStages stages_of(const Part& part, const Element& element, bool small_strain, const KernelTable& table) {
   BatchStages stages{table.lanes, &table.cells[static_cast<std::size_t>(element.kind)],
@@ -126,8 +133,10 @@ BatchStages stages_of(const Part& part, const Element& element, bool small_strai
   if (element.has_mean_dilatation)
     stages.dilatation = small_strain ? &table.small_dilatation : &table.finite_dilatation;
   const IsotropicElastic at_rest = part.material.at_rest();
-  stages.hourglass = part.hourglass * at_rest.E / (2.0 * (1.0 + at_rest.nu));
-  stages.hourglass_coefficient = part.hourglass;
+  const double hourglass = part.hourglass.value_or(element.formulation == Formulation::stabilised ? 1.0 : 0.05);
+  stages.hourglass = hourglass * at_rest.E / (2.0 * (1.0 + at_rest.nu));
+  stages.hourglass_coefficient = hourglass;
+  stages.moduli = mode_moduli(part, hourglass);
   if (part.material.law->heating_share != nullptr)
     stages.heating_share = part.material.law->heating_share(part.material);
   stages.viscosity = part.viscosity;

@@ -4,6 +4,7 @@
 #include "base/types.hpp"
 #include "element/cell_integrals.hpp"
 #include "solid/batch_values.hpp"
+#include "solid/stabilisation_stages.hpp"
 #include "solid/stages.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
@@ -34,10 +35,7 @@ static void prepare_cells(const double* x, const Index* offset, double thickness
 /// Cells that have hourglass modes.
 template <class Cell>
 concept HasModes = requires {
-  Cell::Shape::modes;
-}
-&&requires(typename Cell::template Geometry<double> g) {
-  g.stiffness;
+  Cell::modes;
 };
 
 template <class Real, class Cell>
@@ -74,7 +72,7 @@ template <class Real, class Cell>
 static void elastic_modes(const double* geometry, double modulus, const double* q, double* Q, double* energy) {
   const Real k = modulus * load<Real>(hourglass_stiffness<Real, Cell>(geometry));
   Real twice{};
-  for (int c = 0; c < Cell::Shape::modes * Cell::dimension; ++c) {
+  for (int c = 0; c < Cell::modes * Cell::directions; ++c) {
     const Real of_mode = load<Real>(q + c * lanes<Real>), force = k * of_mode;
     twice += force * of_mode;
     store(Q + c * lanes<Real>, force);
@@ -95,10 +93,14 @@ static constexpr CellStages cell_stages() {
                     cell_gradients<Real, Cell>,
                     add_cell_forces<Real, Cell>};
   if constexpr (HasModes<Cell>) {
-    stages.modes = Cell::Shape::modes;
-    stages.directions = Cell::dimension;
-    stages.stiffness = hourglass_stiffness<Real, Cell>;
-    stages.elastic_modes = elastic_modes<Real, Cell>;
+    stages.modes = Cell::modes;
+    stages.directions = Cell::directions;
+    if constexpr (IsStabilised<Cell>) {
+      stages.stabilisation = stabilisation::stages<Real, Cell>();
+    } else {
+      stages.stiffness = hourglass_stiffness<Real, Cell>;
+      stages.elastic_modes = elastic_modes<Real, Cell>;
+    }
   }
   return stages;
 }

@@ -12,6 +12,7 @@ using enum Section;
 using enum Formulation;
 
 constexpr Element all_elements[] = {
+    {hexa8, solid, stabilised, CellKind::Hexa8Stabilised},
     {hexa8, solid, full, CellKind::Hexa8},
     {hexa8, solid, mean_dilatation, CellKind::Hexa8, true},
     {hexa8, solid, one_point, CellKind::Hexa8OnePoint},
@@ -22,11 +23,14 @@ constexpr Element all_elements[] = {
     {pyra5, solid, full, CellKind::Pyra5},
     {hexa20, solid, full, CellKind::Hexa20},
     {hexa27, solid, full, CellKind::Hexa27},
+    {quad4, plane_strain, stabilised, CellKind::Quad4PlaneStabilised},
     {quad4, plane_strain, full, CellKind::Quad4Plane},
     {quad4, plane_strain, mean_dilatation, CellKind::Quad4Plane, true},
     {quad4, plane_strain, one_point, CellKind::Quad4PlaneOnePoint},
+    {quad4, plane_stress, stabilised, CellKind::Quad4PlaneStabilised},
     {quad4, plane_stress, full, CellKind::Quad4Plane},
     {quad4, plane_stress, one_point, CellKind::Quad4PlaneOnePoint},
+    {quad4, axisymmetric, stabilised, CellKind::Quad4RingStabilised},
     {quad4, axisymmetric, full, CellKind::Quad4Ring},
     {quad4, axisymmetric, mean_dilatation, CellKind::Quad4Ring, true},
     {quad4, axisymmetric, one_point, CellKind::Quad4RingOnePoint},
@@ -73,7 +77,7 @@ const Element* find_element(CellType type, Section section, std::optional<Formul
 }
 
 std::string_view name(Formulation formulation) {
-  constexpr std::array<std::string_view, 3> names{"full", "mean_dilatation", "one_point"};
+  constexpr std::array<std::string_view, 4> names{"full", "mean_dilatation", "one_point", "stabilised"};
   return names[static_cast<std::size_t>(formulation)];
 }
 

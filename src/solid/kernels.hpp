@@ -26,6 +26,7 @@ struct BatchStages {
   const DilatationStages* dilatation = nullptr;
   const BulkStages* bulk = nullptr;
   double hourglass = 0.0;  ///< coefficient x modulus of the hourglass stiffness
+  ModeModuli moduli{};     ///< of stabilised cells
   /// Of hourglass modes that yield or are viscous (solid/hourglass_flow.hpp): the coefficient, and the numbers that a
   /// cell remembers of them, behind the history of its points. 0: they are elastic.
   double hourglass_coefficient = 0.0;

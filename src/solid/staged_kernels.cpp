@@ -20,6 +20,17 @@ struct Bulk {
   alignas(64) double slope[most_lanes], lost[most_lanes];      ///< dq/dV, and dissipated since the start
 };
 
+/// The modes of stabilised cells of one batch, or their changes.
+struct StabilisedModes {
+  alignas(64) double z[most_hourglass * most_lanes];  ///< as they enter the strain
+  alignas(64) double T[most_hourglass * most_lanes];  ///< of an elastic step, per volume
+  alignas(64) double S[6 * most_lanes];               ///< what they add to the stress of the point then
+  alignas(64) double energy[most_lanes];              ///< per volume
+  alignas(64) double square[most_lanes];              ///< PointBatch::mode_square
+  alignas(64) double share[most_lanes], along[most_lanes];
+  alignas(64) double elastic[most_mode_strains * most_lanes];
+};
+
 /// Buffers of the points of one batch.
 struct Buffers {
   alignas(64) double geometry[most_geometry * most_lanes];
@@ -31,8 +42,9 @@ struct Buffers {
   alignas(64) double dissipation[most_points * most_lanes];
   alignas(64) double P[9 * most_points * most_lanes];
   alignas(64) double yield_stress[most_points * most_lanes];
-  alignas(64) double q[most_hourglass * most_lanes], Q[most_hourglass * most_lanes];  ///< elastic modes and forces
+  alignas(64) double q[most_hourglass * most_lanes], Q[most_hourglass * most_lanes];  ///< modes and their forces
   Bulk bulk;
+  StabilisedModes modes;
 };
 
 /// The hourglass modes of one batch, or their changes, [c lanes + l] of most_hourglass or 9 numbers c.
@@ -70,8 +82,14 @@ class Batch {
     const int numbers = points() * cells_.history_variables + stages_.cell_history();
     return history == nullptr ? nullptr : history + static_cast<std::ptrdiff_t>(first_) * numbers;
   }
-  bool modes_remember() const { return stages_.hourglass_history > 0; }
+  bool is_stabilised() const { return stages_.cell->stabilisation.trial != nullptr; }
+  /// Of cells whose modes have a flow or a viscosity of their own (solid/hourglass_flow.hpp).
+  bool modes_remember() const { return stages_.hourglass_history > 0 && !is_stabilised(); }
   bool modes_yield() const { return modes_remember() && cells_.history_variables > 0; }
+  /// Of cells whose modes flow with the point.
+  bool modes_flow() const { return is_stabilised() && cells_.history_variables > 0; }
+  /// F and E of the point; null of small strain.
+  const double* finite(const double* values) const { return stages_.points->is_finite ? values : nullptr; }
   double weight(int p, int l) const { return b_.geometry[p * lanes() + l]; }
 
   /// F, the strain E and the hourglass modes of u.
@@ -94,6 +112,10 @@ class Batch {
     batch.dissipation = dissipation;
     batch.is_over = cells_.is_over;
     if (modes_yield()) batch.yield_stress = b_.yield_stress;
+    if (modes_flow() && !cells_.is_over) {  // else all is elastic
+      batch.mode_square = b_.modes.square;
+      batch.share = b_.modes.share;
+    }
     law_.update(law_.parameters, batch);
   }
   /// All up to the stress that works with the strain E.
@@ -101,9 +123,11 @@ class Batch {
     kinematics(u, b_.gradient, b_.strain);
     if (stages_.bulk != nullptr) return_bulk();
     to_law(b_.strain);
+    if (is_stabilised()) try_modes();
     const bool dissipates = with_energies && cells_.history_variables > 0;
     constitutive(b_.strain, b_.stress, with_energies ? b_.energy : nullptr, dissipates ? b_.dissipation : nullptr,
                  true);
+    if (modes_flow() && cells_.new_history != nullptr) flow_modes();
   }
   /// Adds the forces of the stress P and of the hourglass modes.
   void scatter(const double* Q, double* f) const { stages_.cell->add_forces(b_.geometry, b_.P, Q, offset_, count_, f); }
@@ -127,6 +151,11 @@ class Batch {
     return sum;
   }
   void return_bulk() const;
+  void try_modes() const;
+  void try_forces() const;
+  void flow_modes() const;
+  void add_mode_energy(const double* F, const double* E, const double* q, double* z, double* W) const;
+  double push_modes() const;
   void return_modes(Modes& modes) const;
   void change_modes(const double* dH, const Modes& modes, Modes& change) const;
   /// Adds the forces of hourglass modes that yield to the stress of the point and to f.
@@ -139,6 +168,7 @@ class Batch {
   void complete_stress() const {
     from_law(b_.strain, b_.stress);
     if (stages_.bulk != nullptr) stages_.bulk->add_scaled(points(), b_.bulk.pressure, b_.bulk.g, b_.stress);
+    if (is_stabilised()) add_modes(b_.modes.S, b_.modes.share, 6, b_.stress);
   }
 
   void add_internal_force(const double* u, double* f, SolidEnergies* energies) const {
@@ -156,7 +186,7 @@ class Batch {
         viscous += modes.viscous[l];
       }
     } else {
-      hourglass = elastic_modes();
+      hourglass = is_stabilised() ? push_modes() : elastic_modes();
       scatter(b_.Q, f);
     }
     if (energies == nullptr) return;
@@ -180,18 +210,51 @@ class Batch {
     alignas(64) double dE[6 * most_points * most_lanes], dS[6 * most_points * most_lanes];
     alignas(64) double viscous[6 * most_points * most_lanes];
     Modes modes, change;
+    StabilisedModes stabilised;
+    const ModeStages& stabilisation = stages_.cell->stabilisation;
+    alignas(64) double q[most_hourglass * most_lanes];
     if (modes_remember()) return_modes(modes);
+    std::copy_n(b_.q, hourglass_numbers() * lanes(), q);
     stages_.cell->gradients(b_.geometry, x, offset_, b_.P, modes_remember() ? change.q : b_.q);
     stages_.points->strain_change(points(), frame(), b_.gradient, b_.P, dE);
     if (stages_.bulk != nullptr) change_bulk(dE, viscous);
     const DilatationStages* dilatation = stages_.dilatation;
     if (dilatation != nullptr) dilatation->strain_change(points(), b_.geometry, b_.memory, b_.strain, dE);
-    law_.tangent(law_.parameters, {points(), b_.strain, dE, dS, cells_.dt, of_batch(cells_.history)});
+    TangentBatch batch{points(), b_.strain, dE, dS, cells_.dt, of_batch(cells_.history)};
+    if (is_stabilised()) {
+      stabilisation.pull_change(finite(b_.gradient), b_.P, q, b_.q, stabilised.z);
+      stabilisation.change(b_.geometry, stages_.moduli, finite(b_.strain), finite(dE), b_.modes.z, stabilised.z,
+                           plastic(), stabilised.energy, stabilised.T, stabilised.S);
+      for (int l = 0; l < lanes(); ++l) stabilised.square[l] = 3.0 * stages_.modulus * stabilised.energy[l];
+      if (modes_flow()) {
+        batch.mode_square = b_.modes.square;
+        batch.half_change = stabilised.square;
+        batch.share = b_.modes.share;
+        batch.along = stabilised.along;
+      } else {
+        std::fill_n(stabilised.along, lanes(), 0.0);
+      }
+    }
+    law_.tangent(law_.parameters, batch);
     if (dilatation != nullptr) dilatation->stress_change(points(), b_.geometry, b_.memory, b_.strain, dE, dS);
     if (stages_.bulk != nullptr)
       for (int c = 0; c < 6 * points() * lanes(); ++c) dS[c] += viscous[c];
     if (modes_remember()) change_modes(b_.P, modes, change);
+    alignas(64) double dH[9 * most_lanes];
+    if (is_stabilised()) {
+      std::copy_n(b_.P, 9 * lanes(), dH);
+      add_modes(stabilised.S, b_.modes.share, 6, dS);
+      add_modes(b_.modes.S, stabilised.along, 6, dS);
+    }
     stages_.points->stress_change(points(), frame(), b_.gradient, b_.P, b_.stress, dS, b_.P);
+    if (is_stabilised()) {
+      alignas(64) double T[most_hourglass * most_lanes] = {}, dT[most_hourglass * most_lanes] = {};
+      add_modes(b_.modes.T, b_.modes.share, hourglass_numbers(), T);
+      add_modes(stabilised.T, b_.modes.share, hourglass_numbers(), dT);
+      add_modes(b_.modes.T, stabilised.along, hourglass_numbers(), dT);
+      stabilisation.push_change(b_.geometry, finite(b_.gradient), dH, q, b_.q, T, dT, b_.Q, b_.P);
+      return scatter(b_.Q, y);
+    }
     if (modes_remember()) {
       scatter_with(change, y);
       return;
@@ -235,6 +298,20 @@ class Batch {
   }
 
  private:
+  /// values_c += factor of_modes_c of each lane; what changes the stress is nothing of small strain, whose metric does
+  /// not change.
+  void add_modes(const double* of_modes, const double* factor, int size, double* values) const {
+    if (size == 6 && !stages_.points->is_finite) return;
+    for (int c = 0; c < size; ++c)
+      for (int l = 0; l < lanes(); ++l) values[c * lanes() + l] += factor[l] * of_modes[c * lanes() + l];
+  }
+  const double* plastic() const { return modes_flow() ? plastic_modes(cells_.history) : nullptr; }
+  /// The plastic strains of stabilised modes in a history, behind that of the point.
+  template <class Number>
+  Number* plastic_modes(Number* history) const {
+    return history == nullptr ? nullptr
+                              : of_batch(history) + static_cast<std::ptrdiff_t>(cells_.history_variables) * lanes();
+  }
   std::ptrdiff_t at(int p, int c, int l) const { return static_cast<std::ptrdiff_t>(6 * p + c) * lanes() + l; }
   void change_bulk(const double* dE, double* dS) const;
   void correct_points(const double* E_0, const double* E_1, const double* W_0, const double* W_1) const;
@@ -292,6 +369,51 @@ void Batch::change_bulk(const double* dE, double* dS) const {
   std::fill_n(dS, 6 * points() * lanes(), 0.0);
   stages_.bulk->add_scaled(points(), dq, bulk.g, dS);
   stages_.bulk->add_scaled(points(), bulk.pressure, dg, dS);
+}
+
+/// The modes of stabilised cells as they would be without flow in this step. What they store per volume, w / 6, counts
+/// in the equivalent trial stress as the energy q^2 / 6 G of the deviator does: by 6 G times it.
+void Batch::try_modes() const {
+  stages_.cell->stabilisation.pull(finite(b_.gradient), b_.q, b_.modes.z);
+  std::fill_n(b_.modes.share, lanes(), 1.0);
+  try_forces();
+}
+
+/// The plastic mode strains at the end: they grow by what the law has not left of the elastic ones.
+void Batch::flow_modes() const {
+  const double* before = plastic();
+  double* after = plastic_modes(cells_.new_history);
+  for (int c = 0; c < stages_.cell->stabilisation.strains * lanes(); ++c)
+    after[c] = (before == nullptr ? 0.0 : before[c]) + (1.0 - b_.modes.share[c % lanes()]) * b_.modes.elastic[c];
+}
+
+/// Of modes z and the strain of the point.
+void Batch::try_forces() const {
+  StabilisedModes& modes = b_.modes;
+  stages_.cell->stabilisation.trial(b_.geometry, stages_.moduli, finite(b_.strain), modes.z, plastic(), modes.energy,
+                                    modes.T, modes.S, modes.elastic);
+  for (int l = 0; l < lanes(); ++l) modes.square[l] = 6.0 * stages_.modulus * modes.energy[l];
+}
+
+/// z of q, and W += its energy per volume at E.
+void Batch::add_mode_energy(const double* F, const double* E, const double* q, double* z, double* W) const {
+  StabilisedModes& modes = b_.modes;
+  const ModeStages& stabilisation = stages_.cell->stabilisation;
+  stabilisation.pull(finite(F), q, z);
+  stabilisation.trial(b_.geometry, stages_.moduli, finite(E), z, nullptr, modes.energy, modes.T, modes.S,
+                      modes.elastic);
+  for (int l = 0; l < lanes(); ++l) W[l] += modes.energy[l];
+}
+
+/// After `evaluate`: the forces Q of stabilised modes, and what they add to P; returns what the cells store in them.
+double Batch::push_modes() const {
+  const StabilisedModes& modes = b_.modes;
+  alignas(64) double T[most_hourglass * most_lanes] = {};
+  add_modes(modes.T, modes.share, hourglass_numbers(), T);
+  stages_.cell->stabilisation.push(b_.geometry, finite(b_.gradient), b_.q, T, b_.Q, b_.P);
+  double sum = 0.0;
+  for (int l = 0; l < count_; ++l) sum += weight(0, l) * modes.share[l] * modes.share[l] * modes.energy[l];
+  return sum;
 }
 
 /// After `evaluate`: the modes at the end of the step, and what is remembered of them. Their forces are F T on the
@@ -391,6 +513,8 @@ void Batch::change_modes(const double* dH, const Modes& modes, Modes& change) co
 /// P = F_mid S with F_mid the mean of both F and S the discrete gradient of the energy by E between E_0 and E_1
 /// (material/discrete_gradient.hpp). Under mean dilatation the energy is a function of the strains of all points of the
 /// cell, and so is its discrete gradient: S_p += [W_1 - W_0 - sum_q w_q S_q : dE_q] / (sum_q w_q |dE_q|^2) dE_p.
+/// Stabilised modes z = F^T q add to W, and change by F_mid^T dq + dF^T q_mid, so that T at the middle works with both;
+/// what is missing is made up for along E as well, since at a given E the energy is quadratic in z.
 void Batch::add_discrete_gradient_force(const double* u_0, const double* u_1, double* f) const {
   constexpr int size = most_points * most_lanes;
   alignas(64) double E_0[6 * size], E_1[6 * size], F_1[9 * size], seen[6 * size], W_0[size], W_1[size];
@@ -404,11 +528,23 @@ void Batch::add_discrete_gradient_force(const double* u_0, const double* u_1, do
     to_law(seen);
     constitutive(seen, b_.stress, W, nullptr, false);
   }
+  alignas(64) double z_0[most_hourglass * most_lanes], z_1[most_hourglass * most_lanes];
+  if (is_stabilised()) {
+    add_mode_energy(b_.gradient, E_0, q_0, z_0, W_0);
+    add_mode_energy(F_1, E_1, b_.q, z_1, W_1);
+  }
   for (int c = 0; c < 6 * values; ++c) b_.strain[c] = 0.5 * (E_0[c] + E_1[c]);
   for (int c = 0; c < 9 * values; ++c) b_.gradient[c] = 0.5 * (b_.gradient[c] + F_1[c]);
   to_law(b_.strain);
   constitutive(b_.strain, b_.stress, nullptr, nullptr, false);
   from_law(b_.strain, b_.stress);
+  if (is_stabilised()) {
+    for (int c = 0; c < hourglass_numbers() * lanes(); ++c) b_.modes.z[c] = 0.5 * (z_0[c] + z_1[c]);
+    std::fill_n(b_.modes.share, lanes(), 1.0);
+    try_forces();
+    for (int c = 0; c < hourglass_numbers() * lanes(); ++c) W_1[c % lanes()] -= b_.modes.T[c] * (z_1[c] - z_0[c]);
+    add_modes(b_.modes.S, b_.modes.share, 6, b_.stress);
+  }
   if (stages_.points->is_finite) {
     if (stages_.dilatation == nullptr)
       correct_points(E_0, E_1, W_0, W_1);
@@ -417,7 +553,10 @@ void Batch::add_discrete_gradient_force(const double* u_0, const double* u_1, do
   }
   stages_.points->stress(points(), frame(), b_.gradient, b_.stress, b_.P);
   for (int c = 0; c < hourglass_numbers() * lanes(); ++c) b_.q[c] = 0.5 * (b_.q[c] + q_0[c]);
-  elastic_modes();
+  if (is_stabilised())
+    push_modes();
+  else
+    elastic_modes();
   scatter(b_.Q, f);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/types.hpp"
+#include "element/mode_moduli.hpp"
 
 namespace carom {
 
@@ -11,6 +12,30 @@ inline constexpr int most_points = 27, most_geometry = most_points * 11 + 1;
 
 /// Numbers of all hourglass modes of a cell at most: 4 modes, 3 directions.
 inline constexpr int most_hourglass = 12;
+/// Mode strains of a stabilised cell at most.
+inline constexpr int most_mode_strains = 15;
+
+/// What the hourglass modes of stabilised cells (element/stabilised.hpp) go through. Modes q and forces T and Q are
+/// laid out as CellStages says, F, E and dH are those of the cell's point (F and E null: small strain, C = 1),
+/// `plastic` are the plastic mode strains, [k lanes + l], or null. The modes that enter the strain are z = F^T q.
+struct ModeStages {
+  int strains = 0;  ///< of the modes
+  void (*pull)(const double* F, const double* q, double* z) = nullptr;
+  /// The energy per volume, its derivatives T by z and S by E, and the elastic mode strains.
+  void (*trial)(const double* geometry, const ModeModuli& moduli, const double* E, const double* z,
+                const double* plastic, double* energy, double* T, double* S, double* elastic) = nullptr;
+  /// The forces of the modes Q = V F T, and P += q T^T.
+  void (*push)(const double* geometry, const double* F, const double* q, const double* T, double* Q,
+               double* P) = nullptr;
+  /// dz = F^T dq + dH^T q
+  void (*pull_change)(const double* F, const double* dH, const double* q, const double* dq, double* dz) = nullptr;
+  /// The changes of what `trial` gives, but for the strains.
+  void (*change)(const double* geometry, const ModeModuli& moduli, const double* E, const double* dE, const double* z,
+                 const double* dz, const double* plastic, double* energy, double* T, double* S) = nullptr;
+  /// The changes of what `push` gives; P += them.
+  void (*push_change)(const double* geometry, const double* F, const double* dH, const double* q, const double* dq,
+                      const double* T, const double* dT, double* Q, double* P) = nullptr;
+};
 
 /// The stages of one kind of cell over one number type. They work on buffers in structure of arrays: `geometry`, whose
 /// first numbers are the weights [p lanes], and gradients and stresses [(9 p + 3 i + j) lanes].
@@ -32,6 +57,7 @@ struct CellStages {
   const double* (*stiffness)(const double* geometry) = nullptr;  ///< theirs, of coefficient x modulus = 1 [lane]
   /// Q = k q and the energy q.Q / 2 [lane] of elastic modes, k = modulus x stiffness.
   void (*elastic_modes)(const double* geometry, double modulus, const double* q, double* Q, double* energy) = nullptr;
+  ModeStages stabilisation{};  ///< of cells that are stabilised, for which the two above are not
 };
 
 /// Kinematics over one number type. The frame is F at rest, one matrix; null: 1. A gradient buffer holds H on the way

@@ -32,10 +32,12 @@ rho = 7800.0
 name = "one"
 cells = "ONE"
 material = "steel"
+formulation = "full"
 [[part]]
 name = "two"
 cells = "TWO"
 material = "steel"
+formulation = "full"
 [[initial]]
 part = "one"
 velocity = [0.0, 0.0, 1.0]

@@ -36,6 +36,7 @@ rho = 1000.0
 name = "beam"
 cells = "BEAM"
 material = "m"
+formulation = "full"
 section = "{4}"
 [[support]]
 nodes = "ROOT"
@@ -123,6 +124,7 @@ rho = 1000.0
 name = "body"
 cells = "BODY"
 material = "m"
+formulation = "full"
 [scheme]
 kind = "newmark"
 [time]

@@ -167,7 +167,7 @@ curves_every = 2
 
 std::string stepping(SchemeKind scheme, EnforcementKind enforcement) {
   std::string text = fmt::format("[scheme]\nkind = \"{}\"\nenforcement = \"{}\"\n[time]\nend = {}\n",
-                                 traits(scheme).name, name(enforcement), is_explicit(scheme) ? 3.0 : 1.6);
+                                 traits(scheme).name, name(enforcement), is_explicit(scheme) ? 3.0 : 1.2);
   if (!is_explicit(scheme)) text += "step = 0.2\n";
   return text;
 }

@@ -28,7 +28,7 @@ material = "steel"
 nodes = "XMIN"
 blocked = ["x", "y", "z"]
 [[load]]
-force = [0.0, 0.0, -1e-3]
+force = [0.0, 0.0, -1e-4]
 group = "XMAX"
 [scheme]
 kind = "statics"

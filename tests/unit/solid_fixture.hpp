@@ -46,6 +46,12 @@ inline Model one_part(Mesh mesh, const Material& material = unit_material) {
   return model;
 }
 
+/// The same bodies, their cells integrated at all points.
+inline Model fully_integrated(Model model) {
+  for (Part& part : model.parts) part.formulation = Formulation::full;
+  return model;
+}
+
 /// Uniform numbers in [-1, 1].
 inline std::vector<double> random_vector(std::size_t n, unsigned seed) {
   std::mt19937 generator(seed);

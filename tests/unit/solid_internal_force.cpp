@@ -31,7 +31,7 @@ TEST_P(EveryIsa, KernelsEqualTheReferenceToRoundOff) {
 
 // The reference kernel itself against the textbook formula, written here without sum factorisation.
 TEST(Solid, ReferenceEqualsDirectQuadrature) {
-  const Model model = one_part(block_mesh({2, 2, 2}, 0.2));
+  const Model model = fully_integrated(one_part(block_mesh({2, 2, 2}, 0.2)));
   const Mesh& mesh = *model.mesh;
   const Solid solid(model, Isa::reference);
   const auto u = random_vector(solid.dof_count(), 3);
@@ -98,7 +98,7 @@ TEST_P(EveryIsa, RigidMotionsGiveNoForce) {
 }
 
 TEST_P(EveryIsa, ForcesBalanceAndEnergyIsHalfTheirWork) {
-  const Model model = one_part(block_mesh({3, 3, 3}, 0.2));
+  const Model model = fully_integrated(one_part(block_mesh({3, 3, 3}, 0.2)));
   const Solid solid(model, GetParam());
   const auto u = random_vector(solid.dof_count(), 4);
   const auto f = internal_force(solid, u);

@@ -50,7 +50,7 @@ KernelTable fused_kernels() {
 // Packs of 2, 4 and 8 lanes, lowered to whatever this test is compiled for, so that the 8-lane source is exercised on
 // processors without AVX-512 too. 27 cells leave 1, 3 and 3 lanes of the last batch in use.
 TEST(SolidKernels, EveryLaneCountEqualsTheReference) {
-  const Model model = one_part(block_mesh({3, 3, 3}, 0.2));
+  const Model model = fully_integrated(one_part(block_mesh({3, 3, 3}, 0.2)));
   const auto u = random_vector(3 * model.mesh->node_count(), 1);
   const Answer expected = run(kernels_reference(), model, u);
   ASSERT_GT(largest(expected.force), 1.0);
@@ -70,7 +70,7 @@ TEST(SolidKernels, ParallelepipedsEqualTheSumOverPoints) {
     Mesh mesh = block_mesh({3, 3, 3}, 0.0);
     for (Vec3& x : mesh.coordinates) x = {x[0] + 0.3 * x[1], 0.8 * x[1] - 0.2 * x[2], 1.5 * x[2] + 0.4 * x[0]};
     mesh.coordinates[0][0] -= off;
-    const Model model = one_part(std::move(mesh));
+    const Model model = fully_integrated(one_part(std::move(mesh)));
     const auto u = random_vector(3 * model.mesh->node_count(), 1);
     KernelTable staged = kernels_reference();
     staged.hexa8_small = staged_kernels;
@@ -86,7 +86,7 @@ TEST(SolidKernels, ParallelepipedsEqualTheSumOverPoints) {
 
 TEST(SolidKernels, EveryBatchSizeIsFilledUpCorrectly) {
   for (const int cells : {1, 2, 3, 4, 5, 7, 8, 9}) {
-    const Model model = one_part(block_mesh({cells, 1, 1}, 0.0));
+    const Model model = fully_integrated(one_part(block_mesh({cells, 1, 1}, 0.0)));
     const auto u = random_vector(3 * model.mesh->node_count(), 2);
     EXPECT_LT(largest_difference(run(fused_kernels<Pack8>(), model, u).force, run(kernels_reference(), model, u).force),
               1e-12)
@@ -138,10 +138,12 @@ std::set<Index> nodes_of(const SolidCells& solid, const Chunk& chunk) {
 }
 
 TEST(SolidChunks, OfOneColourShareNoNodeAndCoverAllCells) {
-  Model model = one_part(block_mesh({8, 8, 80}, 0.0));  // two parts: 5120 cells, 10 chunks of 512
+  Model model = fully_integrated(one_part(block_mesh({8, 8, 80}, 0.0)));  // two parts: 5120 cells, 10 chunks of 512
   Part& body = model.parts[0];
-  model.parts.push_back(
-      {.name = "end", .cells = {body.cells.begin() + 3000, body.cells.end()}, .material = unit_material});
+  model.parts.push_back({.name = "end",
+                         .cells = {body.cells.begin() + 3000, body.cells.end()},
+                         .material = unit_material,
+                         .formulation = Formulation::full});
   model.parts[0].cells.resize(3000);
   const SolidCells solid = make_solid_cells(model, fused_kernels<Pack4>());
   std::size_t cells = 0;
@@ -160,7 +162,8 @@ TEST(SolidChunks, OfOneColourShareNoNodeAndCoverAllCells) {
 // them hardly more than the chunks would take without colours.
 TEST(SolidChunks, KeepSixtyFourThreadsBusy) {
   for (const std::array<Index, 3>& divisions : {std::array<Index, 3>{64, 64, 64}, {16, 16, 1600}, {4, 200, 300}}) {
-    const SolidCells solid = make_solid_cells(one_part(block_mesh(divisions, 0.0)), fused_kernels<Pack4>());
+    const SolidCells solid =
+        make_solid_cells(fully_integrated(one_part(block_mesh(divisions, 0.0))), fused_kernels<Pack4>());
     std::size_t rounds = 0;
     for (std::size_t k = 0; k + 1 < solid.colour_begin.size(); ++k)
       rounds += (solid.colour_begin[k + 1] - solid.colour_begin[k] + 63) / 64;
