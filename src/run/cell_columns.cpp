@@ -67,6 +67,11 @@ double CellColumns::length(std::size_t k, int axis) const {
   return norm(subtract(middle(side + 1), middle(side)));
 }
 
+Vec3 CellColumns::direction(std::size_t k, int axis) const {
+  const Side side = 6 * k + 2 * at(axis);
+  return normalized(subtract(middle(side + 1), middle(side)));
+}
+
 void CellColumns::walk(Side start) {
   CellColumn column{0, 0.0, {}, facet(start), {}};
   Side side = start, opposite = start ^ 1U;

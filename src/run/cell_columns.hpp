@@ -33,8 +33,10 @@ class CellColumns {
   }
   /// 3 for HEXA8, 2 for QUAD4, 0 for all others, which have no columns.
   int dimension(std::size_t k) const;
-  /// Length of cell k along an axis: between the middles of its two faces there.
+  /// Length of cell k along an axis, between the middles of its two faces there, and the unit vector from one to the
+  /// other.
   double length(std::size_t k, int axis) const;
+  Vec3 direction(std::size_t k, int axis) const;
 
  private:
   using Side = std::size_t;  ///< 6 k + side of cell k

@@ -112,35 +112,42 @@ std::vector<std::array<bool, 3>> held_components(const Simulation& s) {
   return held;
 }
 
-/// One cell's place in a thin part: its bending and how much too stiff that is.
+/// One cell's place in a thin part, and how much too stiff its bending is.
 struct Thin {
-  Vec3 direction{};
-  BentLayer layer;
+  Vec3 direction{};               ///< along the thickness
+  int cells = 1;                  ///< through it
+  double length_to_height = 1.0;  ///< of the cell along the bending, to the thickness
   double ratio = 1.0;
 };
+
+/// How far a ratio is from 1, either way.
+double excess(double ratio) {
+  return std::abs(std::log(ratio));
+}
 
 class Examiner {
  public:
   explicit Examiner(const Simulation& s) : s_(s), columns_(s.mesh(), s.solid()), held_(held_components(s)) {}
 
-  /// The thinnest way through a cell, if it is thin.
-  std::optional<Thin> thin(std::size_t k, const Part& part) const {
+  /// The ways through a cell that are thin: one of a plate, two of a rod.
+  std::vector<Thin> thin(std::size_t k, const Part& part) const {
     constexpr double slender = 5.0;
-    int thickness = 0;
-    for (int axis = 1; axis < columns_.dimension(k); ++axis)
-      if (columns_.column(k, axis).length < columns_.column(k, thickness).length) thickness = axis;
-    const CellColumn& through = columns_.column(k, thickness);
-    double length = 0.0;
-    int spans = 0;
-    for (int axis = 0; axis < columns_.dimension(k); ++axis) {
-      if (columns_.column(k, axis).length < slender * through.length) continue;
-      length = std::max(length, columns_.length(k, axis));
-      ++spans;
+    std::vector<Thin> found;
+    for (int across = 0; across < columns_.dimension(k); ++across) {
+      const CellColumn& through = columns_.column(k, across);
+      std::vector<int> spans;
+      for (int axis = 0; axis < columns_.dimension(k); ++axis)
+        if (columns_.column(k, axis).length >= slender * through.length) spans.push_back(axis);
+      if (spans.empty() || is_held(through)) continue;
+      const bool is_plate =
+          spans.size() == 2 || part.section == Section::plane_strain || part.section == Section::axisymmetric;
+      Thin& way = found.emplace_back(Thin{through.direction, through.cells, 0.0, 1.0});
+      for (const int axis : spans) {
+        way.length_to_height = std::max(way.length_to_height, columns_.length(k, axis) / through.length);
+        const double n = through.cells, ratio = 1.0 + (quotient(k, part, across, axis, is_plate) - 1.0) / (n * n);
+        if (excess(ratio) > excess(way.ratio)) way.ratio = ratio;
+      }
     }
-    if (spans == 0 || is_held(through)) return std::nullopt;
-    Thin found{through.direction, {through.cells, length / through.length, part.material.at_rest().nu}, 1.0};
-    const bool is_plate = spans == 2 || part.section == Section::plane_strain || part.section == Section::axisymmetric;
-    found.ratio = is_plate ? plate_stiffness_ratio(found.layer) : strip_stiffness_ratio(found.layer);
     return found;
   }
 
@@ -155,6 +162,37 @@ class Examiner {
   }
 
  private:
+  /// R of cell k (locking.hpp), bent along one axis, thin along another.
+  double quotient(std::size_t k, const Part& part, int thin_axis, int long_axis, bool is_plate) const {
+    const IsotropicElastic at_rest = part.material.at_rest();
+    const double nu = at_rest.nu, across = is_plate ? nu / (1.0 - nu) : nu;
+    const double modulus = is_plate ? at_rest.E / (1.0 - nu * nu) : at_rest.E;
+    const std::span<const Index> nodes = s_.solid().nodes_of_cell(k);
+    const Vec3 t = columns_.direction(k, thin_axis), along = columns_.direction(k, long_axis);
+    const Vec3 a = normalized(subtract(along, scaled(t, dot(along, t)))), w = cross(t, a);
+    Vec3 centre{};
+    for (const Index n : nodes)
+      centre = add(centre, scaled(s_.mesh().coordinates[at(n)], 1.0 / static_cast<double>(nodes.size())));
+    std::vector<double> height;
+    for (const Index n : nodes) height.push_back(dot(subtract(s_.mesh().coordinates[at(n)], centre), t));
+    // The width of a strip contracts by c y, as its cells want it.
+    const auto energy = [&](double c) {
+      std::vector<Vec3> u;
+      for (const Index n : nodes) {
+        const Vec3 place = subtract(s_.mesh().coordinates[at(n)], centre);
+        const double x = dot(place, a), y = dot(place, t), z = is_plate ? 0.0 : dot(place, w);
+        const double deflection = 0.5 * (x * x + across * y * y - c * z * z);
+        u.push_back(add(add(scaled(a, -x * y), scaled(t, deflection)), scaled(w, c * y * z)));
+      }
+      return s_.solid().energy_at_rest(k, u);
+    };
+    double least = energy(0.0);
+    if (!is_plate) {
+      const double up = energy(1.0), down = energy(-1.0), slope = 0.5 * (up - down), bend = 0.5 * (up + down) - least;
+      if (bend > 0.0) least -= 0.25 * slope * slope / bend;
+    }
+    return 2.0 * least / (modulus * s_.solid().square_integral(k, height));
+  }
   /// A plane of symmetry at one end keeps a column from bending.
   bool is_held(const CellColumn& column) const {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -172,30 +210,54 @@ class Examiner {
   std::vector<std::array<bool, 3>> held_;
 };
 
+/// The thin ways through a part that lie nearest to one axis.
+struct Way {
+  Thinness thinness;
+  double volume = 0.0;
+  double ratio_sum = 0.0;  ///< times volume
+  Thin example;            ///< the worst
+};
+
 /// What is known of one part after a look at all of its cells.
 struct Findings {
-  Thinness thinness;
-  double volume = 0.0, thin_volume = 0.0;
-  double ratio_sum = 0.0;  ///< over thin cells, times volume
-  Thin example;            ///< the stiffest
+  double volume = 0.0;
+  std::array<Way, 3> ways;  ///< along x, y and z
   int fewest = std::numeric_limits<int>::max();
 };
 
-/// Cells through the thickness that leave a tenth of too much stiffness to the strain across it.
-int enough_cells(double nu) {
-  const double excess = plate_stiffness_ratio({1, 0.0, nu}) - 1.0;
-  return std::max(1, static_cast<int>(std::ceil(std::sqrt(excess / 0.1))));
+/// How a part bends: the means over the ways along which something acts, where these hold most of it.
+struct Bending {
+  double ratio = 1.0;
+  Thin example;
+};
+std::optional<Bending> bending(const Simulation& s, const Findings& found) {
+  double volume = 0.0, sum = 0.0;
+  Bending out;
+  for (const Way& way : found.ways) {
+    if (way.volume == 0.0 || !Actions(s, way.thinness).any()) continue;
+    volume += way.volume;
+    sum += way.ratio_sum;
+    if (excess(way.example.ratio) >= excess(out.example.ratio)) out.example = way.example;
+  }
+  if (!(volume > 0.5 * found.volume)) return std::nullopt;
+  out.ratio = sum / volume;
+  return out;
 }
 
-std::string bending_warning(const Part& part, const Findings& found, double ratio) {
-  const BentLayer& layer = found.example.layer;
+std::string bending_warning(const Part& part, const Bending& bent) {
+  const Thin& example = bent.example;
+  const double ratio = bent.ratio;
+  const Formulation formulation = find_element(part.type, part.section, part.formulation)->formulation;
+  const bool is_stiff = ratio > 1.0;
   return fmt::format(
-      "part \"{}\" will lock where it bends: about {:.2g} times too stiff (deflections come out at {:.2g} %), with {} "
-      "cell{} through its thickness that {} up to {:.2g} times as long as it is thick, nu = {:g}. Fully integrated "
-      "cells "
-      "want a length of at most half of the thickness, and {} cell{} through it",
-      part.name, ratio, 100.0 / ratio, layer.cells, layer.cells == 1 ? "" : "s", layer.cells == 1 ? "is" : "are",
-      layer.length_to_height, layer.nu, enough_cells(layer.nu), enough_cells(layer.nu) == 1 ? "" : "s");
+      "part \"{}\" {}: about {:.2g} times too {} (deflections come out at {:.3g} %), with {} cell{} of formulation "
+      "\"{}\" through its thickness, up to {:.2g} times as long as it is thick, nu = {:g}. {}",
+      part.name, is_stiff ? "will lock where it bends" : "bends too easily", is_stiff ? ratio : 1.0 / ratio,
+      is_stiff ? "stiff" : "soft", 100.0 / ratio, example.cells, example.cells == 1 ? "" : "s", name(formulation),
+      example.length_to_height, part.material.at_rest().nu,
+      formulation == Formulation::stabilised
+          ? "Its cells are distorted across the bending, or hourglass is not 1: take straighter ones, or more"
+          : "Leave the formulation out: stabilised cells bend as the body does");
 }
 
 std::string volume_warning(const Part& part, int cells, double ratio) {
@@ -203,8 +265,8 @@ std::string volume_warning(const Part& part, int cells, double ratio) {
   return fmt::format(
       "part \"{}\": nu = {:g} is nearly incompressible, and fully integrated cells lock where shape changes at "
       "constant "
-      "volume: with {} cell{} across, bending and bulging may come out up to {:.2g} times too stiff. Take more cells, "
-      "or nu = 0.49 and less where the compressibility does not matter",
+      "volume: with {} cell{} across, bending and bulging may come out up to {:.2g} times too stiff. Leave the "
+      "formulation out, or take nu = 0.49 and less where the compressibility does not matter",
       part.name, nu, cells, cells == 1 ? "" : "s", ratio);
 }
 
@@ -231,24 +293,12 @@ std::string constant_volume_warning(const Part& part) {
       "too stiff",
       part.name, name(part.type), is_simplex ? "have one strain each and" : "in full integration",
       part.material.law->history.empty() ? "near nu = 0.5" : "in plastic flow",
-      dimension(part.type) == 3
-          ? "TETRA10 (Gmsh: Mesh.ElementOrder = 2) or HEXA8 without a formulation"
-          : "QUAD4 without a formulation");
+      dimension(part.type) == 3 ? "TETRA10 (Gmsh: Mesh.ElementOrder = 2) or HEXA8 without a formulation"
+                                : "QUAD4 without a formulation");
 }
 
-}  // namespace
-
-double plate_stiffness_ratio(const BentLayer& layer) {
-  const double n = layer.cells, nu = layer.nu, a = layer.length_to_height;
-  return 1.0 + ((1.0 - nu) * (1.0 - nu) / (1.0 - 2.0 * nu) - 1.0) / (n * n) + 0.5 * (1.0 - nu) * a * a;
-}
-
-double strip_stiffness_ratio(const BentLayer& layer) {
-  const double n = layer.cells, nu = layer.nu, a = layer.length_to_height;
-  return 1.0 + (1.0 / (1.0 - nu * nu) - 1.0) / (n * n) + a * a / (2.0 * (1.0 + nu));
-}
-
-std::vector<std::string> locking_warnings(const Simulation& s) {
+/// What is found of every part.
+std::vector<Findings> examine(const Simulation& s) {
   const Examiner examiner(s);
   std::vector<Findings> all(s.model().parts.size());
   std::vector<std::vector<Index>> part_of(s.mesh().blocks.size());
@@ -262,32 +312,56 @@ std::vector<std::string> locking_warnings(const Simulation& s) {
     const CellRef& cell = s.solid().cells()[k];
     const std::size_t p = at(part_of[at(cell.block)][at(cell.cell)]);
     const Part& part = s.model().parts[p];
-    if (part.section == Section::bar || !is_fully_integrated(part)) continue;
+    if (part.section == Section::bar) continue;
     Findings& found = all[p];
     const double volume = s.solid().cell_volumes()[k];
     found.volume += volume;
     if (part.section != Section::plane_stress) found.fewest = std::min(found.fewest, examiner.fewest_across(k));
-    const std::optional<Thin> thin = examiner.thin(k, part);
-    if (!thin) continue;
-    found.thin_volume += volume;
-    found.ratio_sum += volume * thin->ratio;
-    found.thinness.add(thin->direction, volume);
-    if (thin->ratio > found.example.ratio) found.example = *thin;
+    for (const Thin& thin : examiner.thin(k, part)) {
+      std::size_t along = 0;
+      for (std::size_t c = 1; c < 3; ++c)
+        if (std::abs(thin.direction[c]) > std::abs(thin.direction[along])) along = c;
+      Way& way = found.ways[along];
+      way.volume += volume;
+      way.ratio_sum += volume * thin.ratio;
+      way.thinness.add(thin.direction, volume);
+      if (excess(thin.ratio) >= excess(way.example.ratio)) way.example = thin;
+    }
   }
+  return all;
+}
+
+}  // namespace
+
+double volume_stiffness_ratio(int cells, double nu) {
+  const double n = cells;
+  return 1.0 + ((1.0 - nu) * (1.0 - nu) / (1.0 - 2.0 * nu) - 1.0) / (n * n);
+}
+
+std::vector<std::optional<double>> bending_stiffness_ratios(const Simulation& simulation) {
+  std::vector<std::optional<double>> out;
+  for (const Findings& found : examine(simulation)) {
+    const std::optional<Bending> bent = bending(simulation, found);
+    out.push_back(bent ? std::optional(bent->ratio) : std::nullopt);
+  }
+  return out;
+}
+
+std::vector<std::string> locking_warnings(const Simulation& s) {
+  const std::vector<Findings> all = examine(s);
   std::vector<std::string> out;
   for (std::size_t p = 0; p < all.size(); ++p) {
-    constexpr double bent_too_stiff = 1.1, bulged_too_stiff = 1.5;
+    constexpr double bulged_too_stiff = 1.5;
     const Part& part = s.model().parts[p];
     if (locks_at_constant_volume(part)) out.push_back(constant_volume_warning(part));
     const Findings& found = all[p];
-    const double ratio = found.thin_volume > 0.0 ? found.ratio_sum / found.thin_volume : 1.0;
-    const bool is_bent = found.thin_volume > 0.5 * found.volume && Actions(s, found.thinness).any();
-    if (is_bent && ratio > bent_too_stiff) {
-      out.push_back(bending_warning(part, found, ratio));
+    const std::optional<Bending> bent = bending(s, found);
+    if (bent && excess(bent->ratio) > std::log(1.1)) {
+      out.push_back(bending_warning(part, *bent));
       continue;
     }
-    if (found.fewest == std::numeric_limits<int>::max()) continue;
-    const double bulging = plate_stiffness_ratio({found.fewest, 0.0, part.material.at_rest().nu});
+    if (found.fewest == std::numeric_limits<int>::max() || !is_fully_integrated(part)) continue;
+    const double bulging = volume_stiffness_ratio(found.fewest, part.material.at_rest().nu);
     if (bulging > bulged_too_stiff) out.push_back(volume_warning(part, found.fewest, bulging));
   }
   return out;

@@ -28,31 +28,63 @@ CellMass cell_mass(CellKind kind) {
   return table[static_cast<std::size_t>(kind)];
 }
 
+namespace {
+
+/// The cells of a batch apart from each other: node a of lane l is node a lanes + l of vectors of their own.
+struct CellsApart {
+  std::vector<Index> offset;
+  std::vector<double> x, at;
+  CellBatches batch;
+
+  CellsApart(const CellBatches& together, const double* u) : batch(together) {
+    const auto nodes = static_cast<std::size_t>(together.stages->cell->nodes);
+    const auto lanes = static_cast<std::size_t>(together.stages->lanes);
+    offset.resize(nodes * lanes);
+    x.resize(3 * offset.size());
+    at.assign(x.size(), 0.0);
+    for (std::size_t k = 0; k < offset.size(); ++k) {
+      offset[k] = static_cast<Index>(3 * k);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t global = static_cast<std::size_t>(together.offset[k]) + i;
+        x[3 * k + i] = together.x[global];
+        if (u != nullptr) at[3 * k + i] = u[global];
+      }
+    }
+    batch.x = x.data();
+    batch.offset = offset.data();
+    batch.cells = static_cast<Index>(lanes);
+    batch.new_history = nullptr;
+  }
+};
+
+}  // namespace
+
+double stiffness_product(const CellBatches& batch, const CellKernels& kernels, const BatchLaw& law, Index lane,
+                         std::span<const Vec3> u) {
+  const CellsApart apart(batch, nullptr);
+  const auto lanes = static_cast<std::size_t>(batch.stages->lanes);
+  std::vector<double> along(apart.x.size(), 0.0), force(apart.x.size(), 0.0);
+  const auto place = [&](std::size_t a, std::size_t i) { return 3 * (a * lanes + static_cast<std::size_t>(lane)) + i; };
+  for (std::size_t a = 0; a < u.size(); ++a)
+    for (std::size_t i = 0; i < 3; ++i) along[place(a, i)] = u[a][i];
+  kernels.add_tangent_action(apart.batch, law, apart.at.data(), along.data(), force.data());
+  double sum = 0.0;
+  for (std::size_t a = 0; a < u.size(); ++a)
+    for (std::size_t i = 0; i < 3; ++i) sum += u[a][i] * force[place(a, i)];
+  return sum;
+}
+
 void batch_stiffness(const CellBatches& batch, const CellKernels& kernels, const BatchLaw& law, bool is_symmetric,
                      const double* u, std::vector<double>& K) {
   const auto nodes = static_cast<std::size_t>(batch.stages->cell->nodes);
   const auto lanes = static_cast<std::size_t>(batch.stages->lanes);
   const std::size_t dofs = 3 * nodes, values = dofs * lanes;
-  // the cells apart from each other: node a of lane l is node a lanes + l of vectors of their own
-  std::vector<Index> offset(nodes * lanes);
-  std::vector<double> x(values), at(values, 0.0), unit(values, 0.0), column(values);
-  for (std::size_t k = 0; k < offset.size(); ++k) {
-    offset[k] = static_cast<Index>(3 * k);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t global = static_cast<std::size_t>(batch.offset[k]) + i;
-      x[3 * k + i] = batch.x[global];
-      if (u != nullptr) at[3 * k + i] = u[global];
-    }
-  }
-  CellBatches apart = batch;
-  apart.x = x.data();
-  apart.offset = offset.data();
-  apart.cells = static_cast<Index>(lanes);
-  apart.new_history = nullptr;
+  const CellsApart apart(batch, u);
+  std::vector<double> unit(values, 0.0), column(values);
   K.resize(lanes * dofs * dofs);
   if (kernels.stiffness != nullptr) {
     std::vector<double> packed(K.size());
-    kernels.stiffness(apart, law, at.data(), packed.data());
+    kernels.stiffness(apart.batch, law, apart.at.data(), packed.data());
     for (std::size_t r = 0; r < dofs; ++r)
       for (std::size_t s = r; s < dofs; ++s)
         for (std::size_t l = 0; l < lanes; ++l) {
@@ -67,7 +99,7 @@ void batch_stiffness(const CellBatches& batch, const CellKernels& kernels, const
     };
     set_unit(1.0);
     std::fill(column.begin(), column.end(), 0.0);
-    kernels.add_tangent_action(apart, law, at.data(), unit.data(), column.data());
+    kernels.add_tangent_action(apart.batch, law, apart.at.data(), unit.data(), column.data());
     set_unit(0.0);
     for (std::size_t l = 0; l < lanes; ++l)
       for (std::size_t r = 0; r < dofs; ++r)

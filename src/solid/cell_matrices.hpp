@@ -29,4 +29,8 @@ CellMass cell_mass(CellKind kind);
 void batch_stiffness(const CellBatches& batch, const CellKernels& kernels, const BatchLaw& law, bool is_symmetric,
                      const double* u, std::vector<double>& K);
 
+/// u.K_e u at rest of the cell in one lane of the batch.
+double stiffness_product(const CellBatches& batch, const CellKernels& kernels, const BatchLaw& law, Index lane,
+                         std::span<const Vec3> u);
+
 }  // namespace carom

@@ -110,6 +110,11 @@ struct Solid::Impl {
     return Mass(std::move(m));
   }
   const Block& block(const Chunk& chunk) const { return solid.blocks[at(chunk.block)]; }
+  /// The block of cell k.
+  const Block& block_of(std::size_t k) const {
+    const auto after = [k](const Block& block) { return at(block.first) + at(block.cells) > k; };
+    return *std::find_if(solid.blocks.begin(), solid.blocks.end(), after);
+  }
   CellBatches batches(const Chunk& chunk, const PointStep& step = {}, std::span<double> end = {}) const {
     return solid.batches(block(chunk), chunk.first, chunk.cells, step, end);
   }
@@ -404,6 +409,22 @@ std::vector<double> Solid::tangent_diagonal(std::span<const double> u, const Poi
   impl_->cohesive.add_tangent_diagonal(u, step, diagonal);
   impl_->turning_bodies.add_tangent_diagonal(u, diagonal);
   return diagonal;
+}
+
+double Solid::energy_at_rest(std::size_t k, std::span<const Vec3> u) const {
+  const Block& block = impl_->block_of(k);
+  const Index cell = static_cast<Index>(k) - block.first, lanes = block.stages.lanes;
+  const CellBatches batch = impl_->solid.batches(block, cell / lanes * lanes, 1);
+  return 0.5 * stiffness_product(batch, block.kernels, block.law(), cell % lanes, u);
+}
+
+double Solid::square_integral(std::size_t k, std::span<const double> f) const {
+  const Block& block = impl_->block_of(k);
+  const NodeMatrix M = block.mass(impl_->solid.coordinates_of(k), block.thickness, 1.0);
+  double sum = 0.0;
+  for (std::size_t a = 0; a < f.size(); ++a)
+    for (std::size_t b = 0; b < f.size(); ++b) sum += M[f.size() * a + b] * f[a] * f[b];
+  return sum;
 }
 
 double Solid::strain_energy(std::span<const double> u) const {

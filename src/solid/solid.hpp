@@ -101,6 +101,10 @@ class Solid {
   double largest_change(std::span<const double> u_0, std::span<const double> u_1) const;
   /// Diagonal of K(u).
   std::vector<double> tangent_diagonal(std::span<const double> u, const PointStep& step = {}) const;
+  /// u.K_e u / 2 of cell k of cells() at rest, u the displacements of its nodes; and the integral of f^2 over its
+  /// reference volume, f the values at its nodes.
+  double energy_at_rest(std::size_t k, std::span<const Vec3> u) const;
+  double square_integral(std::size_t k, std::span<const double> f) const;
   /// The strain energy of `evaluate` for points at rest before; allocates.
   double strain_energy(std::span<const double> u) const;
 

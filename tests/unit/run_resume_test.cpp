@@ -167,7 +167,7 @@ curves_every = 2
 
 std::string stepping(SchemeKind scheme, EnforcementKind enforcement) {
   std::string text = fmt::format("[scheme]\nkind = \"{}\"\nenforcement = \"{}\"\n[time]\nend = {}\n",
-                                 traits(scheme).name, name(enforcement), is_explicit(scheme) ? 3.0 : 1.2);
+                                 traits(scheme).name, name(enforcement), is_explicit(scheme) ? 3.0 : 1.6);
   if (!is_explicit(scheme)) text += "step = 0.2\n";
   return text;
 }
@@ -227,7 +227,10 @@ TEST_P(EveryPair, GoesOnFromEveryStepOnARoller) {
 }
 
 TEST_P(EveryPair, GoesOnFromEveryStepBetweenFiniteBodies) {
-  expect_same_in_pieces(pressed("neo_hookean", false, stepping(GetParam().scheme, GetParam().enforcement)));
+  std::string text = pressed("neo_hookean", false, stepping(GetParam().scheme, GetParam().enforcement));
+  const std::string fast = "z = -0.1";  // statics with multipliers finds no equilibrium beyond a height of 0.94
+  text.replace(text.find(fast), fast.size(), "z = -0.08");
+  expect_same_in_pieces(text);
 }
 
 INSTANTIATE_TEST_SUITE_P(Resume, EveryPair, testing::ValuesIn(allowed_pairs()), [](const auto& one) {

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "linalg/dense.hpp"
+#include "math/vec3.hpp"
 #include "solid_bodies.hpp"
 
 namespace carom::test::solid_stabilised_test {
@@ -76,13 +78,15 @@ double product(const std::array<double, 6>& a, const std::array<double, 6>& b, c
 /// make it least.
 double enhanced_energy(const Bilinear& u, const LinearElastic& law) {
   // edges dX/dxi = skew / 2
-  double inverse[3][3];
-  double g[3][3], cofactor[3][3];
+  Vec3 g[3];
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = 0; i < 3; ++i) g[k][i] = 0.5 * skew[i][k];
-  const double det = invert(g, cofactor);
-  for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t j = 0; j < 3; ++j) inverse[k][j] = cofactor[k][j] / det;
+  double inverse[3][3];
+  const double det = carom::dot(g[0], cross(g[1], g[2]));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 row = cross(g[(k + 1) % 3], g[(k + 2) % 3]);
+    for (std::size_t j = 0; j < 3; ++j) inverse[k][j] = row[j] / det;
+  }
   constexpr int fields = 9;
   constexpr std::size_t place[fields][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 1}, {1, 2}, {1, 2}, {2, 0}, {2, 0}};
   constexpr std::size_t factor[fields] = {0, 1, 2, 0, 1, 1, 2, 2, 0};
@@ -197,9 +201,9 @@ double plastic_moment(int n) {
 // for the point and its modes: 1.075, 1.133 and 1.045 of it with 1, 2 and 4 cells, to the digits of an integration of
 // the same rule along the path, written apart.
 TEST(Stabilised, CarriesThePlasticMomentOfAStrip) {
-  EXPECT_NEAR(plastic_moment(1), 1.075, 2e-3);
-  EXPECT_NEAR(plastic_moment(2), 1.133, 2e-3);
-  EXPECT_NEAR(plastic_moment(4), 1.045, 2e-3);
+  EXPECT_NEAR(plastic_moment(1), 1.075, 3e-3);
+  EXPECT_NEAR(plastic_moment(2), 1.133, 3e-3);
+  EXPECT_NEAR(plastic_moment(4), 1.045, 3e-3);
 }
 
 /// A square of a neo-Hookean body in plane strain, pressed to a height with free sides: the smallest stiffness of its
@@ -243,10 +247,9 @@ TEST(Stabilised, StaysStableInCompression) {
     }
 }
 
-/// Deflection of a clamped circular plate, radius over thickness 20, under a pressure on it, over Kirchhoff's
-/// p R^4 / (64 D) with what shear adds, 4 / (5 (1 - nu)) (h / R)^2 of it (Timoshenko and Woinowsky-Krieger, Theory of
-/// Plates and Shells, sections 16 and 20, of a plate held at its middle plane). Cells of linear displacement take their
-/// own load at their nodes.
+/// Deflection of a clamped circular plate, radius over thickness 20, under a pressure on it, over p R^4 / (64 D) + p
+/// R^2 / (4 k G h), k = 5 / 6: Kirchhoff's and what shear adds (Timoshenko and Woinowsky-Krieger, Theory of Plates and
+/// Shells, sections 16 and 20).
 double plate_deflection(int n, double nu) {
   constexpr double R = 20.0;
   Mesh mesh = with_cells(quad_mesh(n, 1, 0.0, 0.0), CellType::quad4);
@@ -275,16 +278,17 @@ double plate_deflection(int n, double nu) {
   for (std::size_t k = 0; k < mesh.node_count(); ++k)
     if (mesh.coordinates[k][0] < 1e-9) w = -u[3 * k + 1];
   const double D = 1.0 / (12.0 * (1.0 - nu * nu));
-  return w / (R * R * R * R / (64.0 * D));
+  const double shear = R * R / (4.0 * 5.0 / 6.0 * 0.5 / (1.0 + nu));
+  return w / (R * R * R * R / (64.0 * D) + shear);
 }
 
 // One ring of cells through the thickness. Fully integrated ones reach 0.24 to 0.70 of it, mean dilatation 0.3 to 1.5.
-// A linear cell has a straight middle line: 5 cells take the curvature to some percent, of second order.
+// What is left is the error of straight middle lines, of second order.
 TEST(Stabilised, BendsAPlateOfRings) {
   for (const double nu : {0.3, 0.4999}) {
-    EXPECT_NEAR(plate_deflection(5, nu), 1.0, 0.04) << nu;
-    EXPECT_NEAR(plate_deflection(10, nu), 1.0, 0.015) << nu;
-    EXPECT_NEAR(plate_deflection(20, nu), 1.0, 0.015) << nu;
+    EXPECT_NEAR(plate_deflection(5, nu), 1.0, 0.03) << nu;
+    EXPECT_NEAR(plate_deflection(10, nu), 1.0, 0.03 / 4.0) << nu;
+    EXPECT_NEAR(plate_deflection(20, nu), 1.0, 0.03 / 16.0) << nu;
   }
 }
 

@@ -203,6 +203,8 @@ def changed(name, *changes):
 
 
 UNITS = 'units = "SI"'
+FULL = ('section = "plane_strain"', 'section = "plane_strain"\nformulation = "full"')
+ONE_POINT = ('section = "plane_strain"', 'section = "plane_strain"\nformulation = "one_point"')
 
 # name: case, what must be said
 WRONG = {
@@ -216,8 +218,11 @@ WRONG = {
                                             ("[[initial]]\npart = \"lid\"\nvelocity = [0.0, 0.0, -2.0]\n", FALL),
                                             (PAIR, FLOOR)),
                                     r"cells that nothing takes: 8 HEXA8 in \"LID\""),
-    "one cell through a bent plate": (changed("strip", ("divisions = [80, 4]", "divisions = [10, 1]")), r"will lock where it bends"),
-    "nearly incompressible": (changed("strip", ("nu = 0.3", "nu = 0.4995")), r"lock"),
+    "one cell through a bent plate": (changed("strip", ("divisions = [80, 4]", "divisions = [10, 1]"), FULL),
+                                      r"will lock where it bends"),
+    "one soft point through it": (changed("strip", ("divisions = [80, 4]", "divisions = [80, 1]"), ONE_POINT),
+                                  r"bends too easily"),
+    "nearly incompressible": (changed("strip", ("nu = 0.3", "nu = 0.4995"), FULL), r"lock"),
     "incompressible but for rounding": (changed("fall", ("nu = 0.3", "nu = 0.499999")), r"nu = 0.499999 makes the bulk modulus"),
     "implicit step across all cells": (changed("fall", ("central_differences", "newmark"), ("end = 2e-4", "end = 1e-2\nstep = 1e-3")),
                                        r"Courant number"),
