@@ -87,8 +87,7 @@ TEST(Multigrid, IterationsDoNotGrowWithTheMesh) {
   for (const double distortion : {0.0, 0.2})
     for (const int n : {4, 8, 14}) {
       const Problem free(bar(n, distortion)), held(clamped(bar(n, distortion)));
-      EXPECT_LE(solve(free, SolverKind::multigrid, 1.0, ratio_at(18.0)).iterations, 10)
-          << n << ", " << distortion;
+      EXPECT_LE(solve(free, SolverKind::multigrid, 1.0, ratio_at(18.0)).iterations, 10) << n << ", " << distortion;
       EXPECT_LE(solve(free, SolverKind::multigrid, 1.0, ratio_at(1000.0)).iterations, 16) << n << ", " << distortion;
       EXPECT_LE(solve(held, SolverKind::multigrid, 0.0, 1.0).iterations, 16) << n << ", " << distortion;
     }
