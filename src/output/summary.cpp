@@ -243,6 +243,7 @@ Json to_json(const Summary& s) {
   json["verdict"] = list(s.verdict);
   json["checks"] = list(s.checks);
   json["warnings"] = s.warnings;
+  json["doubts"] = s.doubts;
   json["notes"] = s.notes;
   return json;
 }
@@ -271,6 +272,7 @@ Summary summary_from(const Json& json) {
   s.verdict = list_from(json.at("verdict"), verdict_item_from);
   s.checks = list_from(json.at("checks"), check_from);
   s.warnings = json.at("warnings").get<std::vector<std::string>>();
+  s.doubts = json.at("doubts").get<std::vector<std::string>>();
   s.notes = json.at("notes").get<std::vector<std::string>>();
   return s;
 }
@@ -279,6 +281,11 @@ Summary summary_from(const Json& json) {
 
 std::string_view to_string(Outcome outcome) {
   return kOutcomes.at(static_cast<std::size_t>(outcome));
+}
+
+std::string_view verdict_words(const Summary& summary) {
+  const bool is_in_doubt = summary.outcome == Outcome::good && !summary.doubts.empty();
+  return is_in_doubt ? "good, with doubts" : to_string(summary.outcome);
 }
 
 std::string summary_text(const Summary& summary) {

@@ -151,10 +151,14 @@ struct Summary {
   std::vector<ProbeSummary> probes;
   std::vector<VerdictItem> verdict;
   std::vector<std::string> warnings;  ///< what is doubtful about the case, as `check` says it, and about the run
+  std::vector<std::string> doubts;    ///< of warnings: why numbers may be wrong though all passed, in a few words each
   std::vector<std::string> notes;     ///< what was chosen or mended
   Outcome outcome = Outcome::error;
   std::string message;  ///< one sentence for the banner; the error's text when there is one
 };
+
+/// "good", "good, with doubts", "failed", "stopped" or "error".
+std::string_view verdict_words(const Summary& summary);
 
 /// As JSON; NaN and infinities become null.
 std::string summary_text(const Summary& summary);

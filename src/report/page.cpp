@@ -28,6 +28,8 @@ Banner banner_of(const std::optional<Summary>& summary) {
   }
   switch (summary->outcome) {
     case Outcome::good:
+      if (!summary->doubts.empty())
+        return {"doubtful", "Good, with doubts", "The books close, but a warning says why numbers may be wrong."};
       if (summary->checks.empty())
         return {"unchecked", "Good, no checks", "The books close; nothing was compared with a reference."};
       return {"good", "Good", "All checks and all items of the verdict passed."};

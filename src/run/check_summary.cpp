@@ -13,6 +13,7 @@
 #include "run/build_mesh.hpp"
 #include "run/cost_estimate.hpp"
 #include "run/lint.hpp"
+#include "run/locking.hpp"
 #include "run/recorder.hpp"
 #include "run/waves.hpp"
 #include "solid/smallest_cell.hpp"
@@ -131,6 +132,7 @@ Examination examine(const Simulation& simulation, const std::string& folder) {
   Examination out{check_summary(simulation), simulation.notes(), lint_warnings(simulation)};
   const std::vector<std::string>& places = tables.probes.notes();
   out.notes.insert(out.notes.end(), places.begin(), places.end());
+  for (Doubt& doubt : locking_doubts(simulation)) out.warnings.push_back(std::move(doubt.warning));
   for (std::string& warning : cost_warnings(simulation, folder)) out.warnings.push_back(std::move(warning));
   return out;
 }

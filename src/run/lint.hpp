@@ -9,8 +9,8 @@
 namespace carom {
 
 /// Doubtful things: contacts (lint_contact.hpp), a step that skips waves, schemes outside their unconditional
-/// stability, multipliers that make energy, filters that will not be applied, cells that lock (locking.hpp),
-/// plausibility of units.
+/// stability, multipliers that make energy, filters that will not be applied, plausibility of units. Cells that lock
+/// are doubts of their own (locking.hpp).
 std::vector<std::string> lint_warnings(const Simulation& simulation);
 
 /// Why the scheme of a stage makes energy on plain multipliers (touch_rebound), and what to choose instead; "" where

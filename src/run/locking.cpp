@@ -347,22 +347,28 @@ std::vector<std::optional<double>> bending_stiffness_ratios(const Simulation& si
   return out;
 }
 
-std::vector<std::string> locking_warnings(const Simulation& s) {
+std::vector<Doubt> locking_doubts(const Simulation& s) {
   const std::vector<Findings> all = examine(s);
-  std::vector<std::string> out;
+  std::vector<Doubt> out;
   for (std::size_t p = 0; p < all.size(); ++p) {
     constexpr double bulged_too_stiff = 1.5;
     const Part& part = s.model().parts[p];
-    if (locks_at_constant_volume(part)) out.push_back(constant_volume_warning(part));
+    if (locks_at_constant_volume(part))
+      out.push_back({fmt::format("part \"{}\" locks at constant volume", part.name), constant_volume_warning(part)});
     const Findings& found = all[p];
     const std::optional<Bending> bent = bending(s, found);
     if (bent && excess(bent->ratio) > std::log(1.1)) {
-      out.push_back(bending_warning(part, *bent));
+      const bool is_stiff = bent->ratio > 1.0;
+      out.push_back({fmt::format("part \"{}\" bends about {:.2g} times too {}", part.name,
+                                 is_stiff ? bent->ratio : 1.0 / bent->ratio, is_stiff ? "stiffly" : "easily"),
+                     bending_warning(part, *bent)});
       continue;
     }
     if (found.fewest == std::numeric_limits<int>::max() || !is_fully_integrated(part)) continue;
     const double bulging = volume_stiffness_ratio(found.fewest, part.material.at_rest().nu);
-    if (bulging > bulged_too_stiff) out.push_back(volume_warning(part, found.fewest, bulging));
+    if (bulging > bulged_too_stiff)
+      out.push_back({fmt::format("part \"{}\" locks at constant volume", part.name),
+                     volume_warning(part, found.fewest, bulging)});
   }
   return out;
 }

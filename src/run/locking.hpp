@@ -9,6 +9,11 @@
 
 namespace carom {
 
+/// Why results may be wrong though the books close: in a few words, and as a warning that says what helps.
+struct Doubt {
+  std::string brief, warning;
+};
+
 /// Stiffness of the thin parts of the bodies over the exact one where they bend; empty of parts that are not thin, that
 /// nothing bends, or whose cells (other than HEXA8 and QUAD4) have no columns. A cell is bent as the layer would be,
 ///   u_a = -x y,  u_t = x^2 / 2 + nu' y^2 / 2   along the layer and across it, from the cell's centre,
@@ -31,6 +36,6 @@ double volume_stiffness_ratio(int cells, double nu);
 /// that are not held along their length by a plane of symmetry, and along which something acts (loads, motions,
 /// velocities, contact). For fully integrated parts near nu = 0.5 whose fewest cells across make shape changes at
 /// constant volume more than 50 % too stiff. And for cells that have too few freedoms to keep their volume.
-std::vector<std::string> locking_warnings(const Simulation& simulation);
+std::vector<Doubt> locking_doubts(const Simulation& simulation);
 
 }  // namespace carom

@@ -24,6 +24,7 @@
 #include "run/cost_estimate.hpp"
 #include "run/initial_state.hpp"
 #include "run/lint.hpp"
+#include "run/locking.hpp"
 #include "run/summarize.hpp"
 
 namespace carom {
@@ -123,6 +124,10 @@ void Run::keep_rows() {
 void Run::begin() {
   watched_->case_file = simulation_.given().file;
   watched_->warnings = lint_warnings(simulation_);
+  for (Doubt& doubt : locking_doubts(simulation_)) {
+    watched_->doubts.push_back(std::move(doubt.brief));
+    watched_->warnings.push_back(std::move(doubt.warning));
+  }
   for (std::string& warning : cost_warnings(simulation_, folder_)) watched_->warnings.push_back(std::move(warning));
   watched_->notes = reading_notes_;
   watched_->notes.insert(watched_->notes.end(), simulation_.notes().begin(), simulation_.notes().end());
@@ -236,6 +241,7 @@ Summary Run::finish() {
   Summary summary = summary_of(simulation_);
   summary.case_info.file = watched_->case_file;
   summary.warnings = watched_->warnings;
+  summary.doubts = watched_->doubts;
   summary.notes = watched_->notes;
   summary.outcome = outcome_;
   summary.message = message_;

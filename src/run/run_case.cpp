@@ -52,7 +52,7 @@ void print_verdict(const Summary& summary, const std::string& folder) {
           check.time, check.value, check.reference, check.difference, check.source);
     }
   }
-  say("{}: {}\n", to_string(summary.outcome), summary.message);
+  say("{}: {}\n", verdict_words(summary), summary.message);
   say("{} step{} in {:.3g} s; results in {}, open {}/report.html\n", summary.scheme.steps,
       summary.scheme.steps == 1 ? "" : "s", summary.cost.wall_seconds, folder, folder);
 }
@@ -83,7 +83,7 @@ ExitCode conduct(Run& run, ShownProgress& progress, const RunOptions& options, c
     say_lines("warning", run.watched().rotation.warnings());
   }
   const Summary summary = run.finish();
-  const bool is_good = summary.outcome == Outcome::good;
+  const bool is_good = summary.outcome == Outcome::good && summary.doubts.empty();
   if (quiet && !is_good) say_lines("warning", summary.warnings);
   if (!quiet || !is_good) print_verdict(summary, options.folder);
   if (summary.outcome == Outcome::stopped) say("carom resume {} goes on from there\n", options.folder);

@@ -1,6 +1,7 @@
 #include "run/summarize.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -125,6 +126,7 @@ void judge(Summary& summary) {
                                            : fmt::format("{} of {} checks and {}",
                                                          summary.checks.size() - static_cast<std::size_t>(checks),
                                                          summary.checks.size(), verdict);
+  if (!summary.doubts.empty()) summary.message += fmt::format("; in doubt: {}", fmt::join(summary.doubts, ", "));
 }
 
 }  // namespace carom

@@ -38,6 +38,7 @@ struct WatchedMarch {
     archive("rotation", x.rotation);
     archive("case_file", x.case_file);
     archive("warnings", x.warnings);
+    archive("doubts", x.doubts);
     archive("notes", x.notes);
   }
 
@@ -48,6 +49,7 @@ struct WatchedMarch {
   RotationWatch rotation;
   std::string case_file;                     ///< as the user named it
   std::vector<std::string> warnings, notes;  ///< of the case, before the first step
+  std::vector<std::string> doubts;           ///< Summary::doubts
 };
 
 }  // namespace carom

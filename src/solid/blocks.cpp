@@ -275,6 +275,34 @@ std::size_t SolidCells::history_size() const {
   return blocks.empty() ? 0 : blocks.back().history_first + blocks.back().history_size();
 }
 
+bool SolidCells::are_linear() const {
+  return std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.is_linear; });
+}
+bool SolidCells::have_modes() const {
+  return std::any_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.stages.cell->modes > 0; });
+}
+
+const Block& SolidCells::block_of(std::size_t position) const {
+  const auto holds = [&](const Block& block) { return at(block.first) + at(block.cells) > position; };
+  return *std::find_if(blocks.begin(), blocks.end(), holds);
+}
+
+double SolidCells::energy_at_rest(std::size_t position, std::span<const Vec3> u) const {
+  const Block& block = block_of(position);
+  const Index cell = static_cast<Index>(position) - block.first, lanes = block.stages.lanes;
+  const CellBatches batch = batches(block, cell / lanes * lanes, 1);
+  return 0.5 * stiffness_product(batch, block.kernels, block.law(), cell % lanes, u);
+}
+
+double SolidCells::square_integral(std::size_t position, std::span<const double> f) const {
+  const Block& block = block_of(position);
+  const NodeMatrix M = block.mass(coordinates_of(position), block.thickness, 1.0);
+  double sum = 0.0;
+  for (std::size_t a = 0; a < f.size(); ++a)
+    for (std::size_t b = 0; b < f.size(); ++b) sum += M[f.size() * a + b] * f[a] * f[b];
+  return sum;
+}
+
 SolidCells make_solid_cells(const Model& model, const KernelTable& table) {
   const Mesh& mesh = *model.mesh;
   Owners owners;

@@ -103,6 +103,13 @@ struct SolidCells {
   std::vector<double> repeated_history(const Block& block, Index cell, const PointStep& step) const;
   /// Numbers of history of all points.
   std::size_t history_size() const;
+  /// Solid::energy_at_rest and square_integral.
+  double energy_at_rest(std::size_t position, std::span<const Vec3> u) const;
+  double square_integral(std::size_t position, std::span<const double> f) const;
+  const Block& block_of(std::size_t position) const;
+  bool are_linear() const;
+  /// Hourglass modes.
+  bool have_modes() const;
 
   /// Calls body(chunk) for all chunks; those of one colour at the same time, colours one after the other.
   template <class Body>

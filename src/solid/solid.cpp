@@ -51,7 +51,7 @@ struct Solid::Impl {
         cohesive(model.cohesive, model.mesh->coordinates),
         volumes(solid.cells.size()),
         lengths(solid.cells.size()),
-        turning_bodies(model.turning_bodies, any_free(model.turning_bodies) ? largest_frequency() : 0.0) {
+        turning_bodies(model.turning_bodies, any_free(model.turning_bodies) ? std::sqrt(largest_bound()) : 0.0) {
     solid.for_each_batch({}, [&](std::size_t first, const Block& block, const CellBatches& batch) {
       const BatchGradients at_rest(batch);
       for (Index l = 0; l < batch.cells; ++l) {
@@ -110,11 +110,6 @@ struct Solid::Impl {
     return Mass(std::move(m));
   }
   const Block& block(const Chunk& chunk) const { return solid.blocks[at(chunk.block)]; }
-  /// The block of cell k.
-  const Block& block_of(std::size_t k) const {
-    const auto after = [k](const Block& block) { return at(block.first) + at(block.cells) > k; };
-    return *std::find_if(solid.blocks.begin(), solid.blocks.end(), after);
-  }
   CellBatches batches(const Chunk& chunk, const PointStep& step = {}, std::span<double> end = {}) const {
     return solid.batches(block(chunk), chunk.first, chunk.cells, step, end);
   }
@@ -193,9 +188,9 @@ struct Solid::Impl {
         bound({.hourglass = block.stages.viscosity.hourglass}, hourglass_damping);
     });
   }
-  double largest_frequency() const {
+  double largest_bound() const {
     const std::vector<double> bounds = frequency_bounds();
-    return std::sqrt(parallel_max(bounds.size(), 0.0, [&](std::size_t k) { return bounds[k]; }));
+    return parallel_max(bounds.size(), 0.0, [&](std::size_t k) { return bounds[k]; });
   }
 
   /// Overwrites f with the sum over the chunks of add(chunk, block, f), colour by colour.
@@ -235,13 +230,10 @@ Isa Solid::isa() const {
   return impl_->isa;
 }
 bool Solid::is_linear() const {
-  const auto& blocks = impl_->solid.blocks;
-  return impl_->turning_bodies.empty() && impl_->cohesive.empty() &&
-         std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.is_linear; });
+  return impl_->turning_bodies.empty() && impl_->cohesive.empty() && impl_->solid.are_linear();
 }
 bool Solid::has_hourglass() const {
-  const auto& blocks = impl_->solid.blocks;
-  return std::any_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.stages.cell->modes > 0; });
+  return impl_->solid.have_modes();
 }
 const std::vector<Spring>& Solid::springs() const {
   return impl_->springs.all();
@@ -412,21 +404,11 @@ std::vector<double> Solid::tangent_diagonal(std::span<const double> u, const Poi
 }
 
 double Solid::energy_at_rest(std::size_t k, std::span<const Vec3> u) const {
-  const Block& block = impl_->block_of(k);
-  const Index cell = static_cast<Index>(k) - block.first, lanes = block.stages.lanes;
-  const CellBatches batch = impl_->solid.batches(block, cell / lanes * lanes, 1);
-  return 0.5 * stiffness_product(batch, block.kernels, block.law(), cell % lanes, u);
+  return impl_->solid.energy_at_rest(k, u);
 }
-
 double Solid::square_integral(std::size_t k, std::span<const double> f) const {
-  const Block& block = impl_->block_of(k);
-  const NodeMatrix M = block.mass(impl_->solid.coordinates_of(k), block.thickness, 1.0);
-  double sum = 0.0;
-  for (std::size_t a = 0; a < f.size(); ++a)
-    for (std::size_t b = 0; b < f.size(); ++b) sum += M[f.size() * a + b] * f[a] * f[b];
-  return sum;
+  return impl_->solid.square_integral(k, f);
 }
-
 double Solid::strain_energy(std::span<const double> u) const {
   std::vector<double> f(dof_count());
   return evaluate(u, {}, f, {}).strain;
@@ -435,7 +417,6 @@ double Solid::strain_energy(std::span<const double> u) const {
 double Solid::body_strain(std::span<const double> u) const {
   return impl_->turning_bodies.largest_strain(u);
 }
-
 void Solid::add_body_force_scale(std::span<double> f) const {
   impl_->turning_bodies.add_force_scale(f);
 }
@@ -503,8 +484,7 @@ std::vector<double> Solid::cell_frequency_bounds() const {
 }
 
 double Solid::largest_frequency_bound() const {
-  const std::vector<double> bounds = impl_->frequency_bounds();
-  return parallel_max(bounds.size(), 0.0, [&](std::size_t k) { return bounds[k]; });
+  return impl_->largest_bound();
 }
 
 void Solid::frequency_growth(std::span<const double> u, const PointStep& step, std::span<double> growth) const {
@@ -581,7 +561,7 @@ std::pair<double, std::size_t> Solid::largest_stress(std::span<const double> u, 
                                                      double (*measure)(const Voigt& stress)) const {
   using Largest = std::pair<double, std::size_t>;
   const auto is_less = [](const Largest& a, const Largest& b) {
-    return a.first < b.first || (a.first == b.first && a.second > b.second);
+    return a.first != b.first ? a.first < b.first : a.second > b.second;
   };
   std::vector<Largest> of_chunk(impl_->solid.chunks.size(), {-1.0, 0});
   parallel_for(of_chunk.size(), 1, [&](std::size_t c, std::size_t) {
@@ -601,8 +581,7 @@ std::vector<double> Solid::cell_history(std::string_view variable, std::span<con
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), variable) - names.begin());
   };
   const auto has_it = [&](const Block& block) { return position(block) < block.law_row->history.size(); };
-  const std::vector<Block>& blocks = impl_->solid.blocks;
-  if (std::none_of(blocks.begin(), blocks.end(), has_it)) return {};
+  if (std::none_of(impl_->solid.blocks.begin(), impl_->solid.blocks.end(), has_it)) return {};
   std::vector<double> means(cell_count());
   impl_->solid.for_each_batch({0.0, history}, [&](std::size_t first, const Block& block, const CellBatches& batch) {
     if (!has_it(block)) return;

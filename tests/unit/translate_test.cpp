@@ -591,10 +591,9 @@ TEST(Translate, HistoriesOfStepsWithAndWithoutRamps) {
 
 TEST(Translate, ThePageInTheRepositoryIsCurrent) {
   std::ifstream file(std::string(CAROM_SOURCE_DIR) + "/docs/decks.md");
-  const std::string committed{std::istreambuf_iterator<char>(file), {}};
-  const std::string written = testing::TempDir() + "decks.md";
-  if (committed != decks_markdown()) std::ofstream(written) << decks_markdown();
-  EXPECT_TRUE(committed == decks_markdown()) << "copy " << written << " to docs/decks.md";
+  const std::string committed{std::istreambuf_iterator<char>(file), {}}, current = decks_markdown();
+  if (committed != current) std::ofstream(testing::TempDir() + "decks.md") << current;
+  EXPECT_TRUE(committed == current) << "copy " << testing::TempDir() << "decks.md to docs/decks.md";
 }
 
 }  // namespace
