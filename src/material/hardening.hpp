@@ -21,6 +21,9 @@ class Hardening {
   double slope(double alpha) const;
   /// Integral of sigma_y from 0 to alpha.
   double work(double alpha) const;
+  /// sigma_y = yield_stress + modulus alpha, and nothing else.
+  bool is_linear() const { return curve_.empty() && !(saturation_ > 0.0); }
+  double modulus() const { return modulus_; }
   /// The root x of trial - three_G x = sigma_y(alpha + x); trial > sigma_y(alpha).
   double increment(double trial, double three_G, double alpha) const;
 

@@ -34,6 +34,8 @@ std::shared_ptr<const void> prepare_j2(const Material& material) {
   PlasticLaw law;
   Hardening hardening(material);
   law.elastic_limit = hardening.stress(0.0);
+  law.is_linear = hardening.is_linear();
+  law.hardening = hardening.modulus();
   law.flow = flow_j2;
   law.yield_stress = yield_stress_j2;
   law.plastic_work = work_j2;

@@ -17,6 +17,9 @@ struct PlasticLaw {
   LameParameters lame;
   double elastic_limit = 0.0;  ///< equivalent stress below which nothing yields, whatever went before
   int variables = 1;           ///< at most 3
+  /// The yield stress is elastic_limit + hardening alpha: the three functions below are not asked.
+  bool is_linear = false;
+  double hardening = 0.0;
   const void* parameters = nullptr;
   /// Radial return of the equivalent stress `trial` > 0 to the yield surface: trial - 3 G (change of alpha) is the
   /// yield stress at the end of the step of length dt. Changes the variables; false, and nothing changed, when nothing

@@ -21,6 +21,19 @@ struct RadialReturn {
   Real variables[most_plastic_variables];
 };
 
+/// The return of linear hardening, in closed form for all lanes (Simo and Hughes, Computational Inelasticity, box 3.1).
+template <class Real>
+[[gnu::always_inline]] static inline void linear_return(const PlasticLaw& law, const Real& trial,
+                                                        RadialReturn<Real>& result) {
+  const double three_G = 3.0 * law.lame.G, both = three_G + law.hardening;
+  const Real excess = trial - (law.elastic_limit + law.hardening * result.variables[0]);
+  const Real zero = Real{}, one = zero + 1.0;
+  const Real increment = excess > 0.0 ? excess * (1.0 / both) : zero;
+  result.share = excess > 0.0 ? 1.0 - three_G * increment / trial : one;
+  result.slope = excess > 0.0 ? zero + law.hardening / both : one;
+  result.variables[0] += increment;
+}
+
 /// trial: equivalent trial stress, which is that of the end once the step is over (PointBatch::is_over).
 template <class Real>
 [[gnu::always_inline]] static inline RadialReturn<Real> radial_return(const PlasticLaw& law, const Real& trial,
@@ -30,9 +43,13 @@ template <class Real>
   const int count = law.variables;
   RadialReturn<Real> result{Real{} + 1.0, Real{} + 1.0, {}};
   for (int v = 0; v < count; ++v) result.variables[v] = variables == nullptr ? Real{} : load<Real>(variables + v * n);
+  if (is_over) return result;
+  if (law.is_linear) {
+    linear_return(law, trial, result);
+    return result;
+  }
   double stress[n], share[n], slope[n], values[most_plastic_variables * n] = {};
   store(stress, trial);
-  if (is_over) return result;
   bool may_yield = false;
   for (int l = 0; l < n; ++l) may_yield = may_yield || stress[l] > law.elastic_limit;
   if (!may_yield) return result;
@@ -73,6 +90,11 @@ template <class Real>
   if (variables != nullptr)
     for (int v = 0; v < law.variables; ++v) store(variables + v * n, at_end.variables[v]);
   if (dissipation == nullptr) return;
+  if (law.is_linear) {
+    const Real alpha = at_end.variables[0];
+    store(dissipation, Real((law.elastic_limit + 0.5 * law.hardening * alpha) * alpha));
+    return;
+  }
   double values[most_plastic_variables * n] = {};
   for (int v = 0; v < law.variables; ++v) store(values + v * n, at_end.variables[v]);
   for (int l = 0; l < n; ++l) {
@@ -85,6 +107,9 @@ template <class Real>
 /// Writes the yield stress of the beginning of the step.
 template <int n>
 static void store_yield_stress(const PlasticLaw& law, const double* variables, double* yield_stress) {
+  for (int l = 0; law.is_linear && l < n; ++l)
+    yield_stress[l] = law.elastic_limit + (variables == nullptr ? 0.0 : law.hardening * variables[l]);
+  if (law.is_linear) return;
   for (int l = 0; l < n; ++l) {
     double own[most_plastic_variables] = {};
     for (int v = 0; v < law.variables && variables != nullptr; ++v) own[v] = variables[v * n + l];

@@ -14,14 +14,6 @@ void Batch::try_modes() const {
   try_forces();
 }
 
-/// The plastic mode strains at the end: they grow by what the law has not left of the elastic ones.
-void Batch::flow_modes() const {
-  const double* before = plastic();
-  double* after = plastic_modes(cells_.new_history);
-  for (int c = 0; c < stages_.cell->stabilisation.strains * lanes(); ++c)
-    after[c] = (before == nullptr ? 0.0 : before[c]) + (1.0 - b_.modes.share[c % lanes()]) * b_.modes.elastic[c];
-}
-
 /// Of modes z and the strain of the point.
 void Batch::try_forces() const {
   StabilisedModes& modes = b_.modes;
@@ -43,9 +35,7 @@ void Batch::add_mode_energy(const double* F, const double* E, const double* q, d
 /// After `evaluate`: the forces Q of stabilised modes, and what they add to P; returns what the cells store in them.
 double Batch::push_modes() const {
   const StabilisedModes& modes = b_.modes;
-  alignas(64) double T[most_hourglass * most_lanes] = {};
-  add_modes(modes.T, modes.share, hourglass_numbers(), T);
-  stages_.cell->stabilisation.push(b_.geometry, finite(b_.gradient), b_.q, T, b_.Q, b_.P);
+  stages_.cell->stabilisation.push(b_.geometry, finite(b_.gradient), b_.q, modes.T, modes.share, b_.Q, b_.P);
   double sum = 0.0;
   for (int l = 0; l < count_; ++l) sum += weight(0, l) * modes.share[l] * modes.share[l] * modes.energy[l];
   return sum;

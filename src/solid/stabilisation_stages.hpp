@@ -130,12 +130,16 @@ static void change(const double* geometry, const ModeModuli& moduli, const doubl
 }
 
 template <class Real, class Cell>
-static void push(const double* geometry, const double* F, const double* q, const double* T, double* Q, double* P) {
+static void push(const double* geometry, const double* F, const double* q, const double* T, const double* share,
+                 double* Q, double* P) {
   Real f[3][3], of_mode[Cell::modes][3], force[Cell::modes][3], spatial[Cell::modes][3] = {}, stress[3][3];
   load_frame(F, f);
   load_modes<Real, Cell>(q, of_mode);
   load_modes<Real, Cell>(T, force);
   const Real volume = load<Real>(geometry);
+  if (share != nullptr)
+    for (int m = 0; m < Cell::modes; ++m)
+      for (int i = 0; i < 3; ++i) force[m][i] *= load<Real>(share);
   for (int m = 0; m < Cell::modes; ++m) {
     add_product(f, force[m], spatial[m]);
     for (int i = 0; i < 3; ++i) spatial[m][i] *= volume;
@@ -164,7 +168,7 @@ static void pull_change(const double* F, const double* dH, const double* q, cons
 template <class Real, class Cell>
 static void push_change(const double* geometry, const double* F, const double* dH, const double* q, const double* dq,
                         const double* T, const double* dT, double* Q, double* P) {
-  push<Real, Cell>(geometry, F, q, dT, Q, P);
+  push<Real, Cell>(geometry, F, q, dT, nullptr, Q, P);
   if (F == nullptr) return;
   Real h[3][3], of_mode[Cell::modes][3], force[Cell::modes][3], spatial[Cell::modes][3], stress[3][3];
   load_point(dH, 0, h);
@@ -186,10 +190,20 @@ static void push_change(const double* geometry, const double* F, const double* d
 }
 
 template <class Real, class Cell>
+static void flow(const double* plastic, const double* elastic, const double* share, double* after) {
+  constexpr int n = lanes<Real>;
+  const Real lost = 1.0 - load<Real>(share);
+  for (int k = 0; k < Cell::strains; ++k) {
+    const Real before = plastic == nullptr ? Real{} : load<Real>(plastic + k * n);
+    store(after + k * n, Real(before + lost * load<Real>(elastic + k * n)));
+  }
+}
+
+template <class Real, class Cell>
 static constexpr ModeStages stages() {
   static_assert(Cell::strains <= most_mode_strains);
-  return {Cell::strains,           pull<Real, Cell>,   trial<Real, Cell>,      push<Real, Cell>,
-          pull_change<Real, Cell>, change<Real, Cell>, push_change<Real, Cell>};
+  return {Cell::strains,    pull<Real, Cell>,        trial<Real, Cell>,  push<Real, Cell>,
+          flow<Real, Cell>, pull_change<Real, Cell>, change<Real, Cell>, push_change<Real, Cell>};
 }
 
 }  // namespace stabilisation

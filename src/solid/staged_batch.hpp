@@ -126,7 +126,8 @@ class Batch {
     const bool dissipates = with_energies && cells_.history_variables > 0;
     constitutive(b_.strain, b_.stress, with_energies ? b_.energy : nullptr, dissipates ? b_.dissipation : nullptr,
                  true);
-    if (modes_flow() && cells_.new_history != nullptr) flow_modes();
+    if (modes_flow() && cells_.new_history != nullptr)
+      stages_.cell->stabilisation.flow(plastic(), b_.modes.elastic, b_.modes.share, plastic_modes(cells_.new_history));
   }
   /// Adds the forces of the stress P and of the hourglass modes.
   void scatter(const double* Q, double* f) const { stages_.cell->add_forces(b_.geometry, b_.P, Q, offset_, count_, f); }
@@ -152,7 +153,6 @@ class Batch {
   void return_bulk() const;
   void try_modes() const;
   void try_forces() const;
-  void flow_modes() const;
   void add_mode_energy(const double* F, const double* E, const double* q, double* z, double* W) const;
   double push_modes() const;
   void return_modes(Modes& modes) const;

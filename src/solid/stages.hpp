@@ -24,9 +24,11 @@ struct ModeStages {
   /// The energy per volume, its derivatives T by z and S by E, and the elastic mode strains.
   void (*trial)(const double* geometry, const ModeModuli& moduli, const double* E, const double* z,
                 const double* plastic, double* energy, double* T, double* S, double* elastic) = nullptr;
-  /// The forces of the modes Q = V F T, and P += q T^T.
-  void (*push)(const double* geometry, const double* F, const double* q, const double* T, double* Q,
-               double* P) = nullptr;
+  /// The forces of the modes Q = V F (share T), and P += q (share T)^T; share null: 1.
+  void (*push)(const double* geometry, const double* F, const double* q, const double* T, const double* share,
+               double* Q, double* P) = nullptr;
+  /// The plastic mode strains at the end: they grow by what the law has not left of the elastic ones.
+  void (*flow)(const double* plastic, const double* elastic, const double* share, double* after) = nullptr;
   /// dz = F^T dq + dH^T q
   void (*pull_change)(const double* F, const double* dH, const double* q, const double* dq, double* dz) = nullptr;
   /// The changes of what `trial` gives, but for the strains.
