@@ -3,10 +3,11 @@
 
 namespace carom {
 
-/// full: the points of the shape as they are. mean_dilatation: with the volume change of the cell's mean (B-bar,
-/// F-bar), against locking of nearly incompressible materials. one_point: one point of mean gradients and a stiffness
-/// of the hourglass modes, which flows where the law does (solid/hourglass_flow.hpp). stabilised: one point, and the
-/// modes as enhanced assumed strains leave them, in one flow with the point (element/stabilised.hpp).
+/// full: the points of the shape as they are. mean_dilatation: with a volume change that is the cell's mean, or linear
+/// in cells of second order (B-bar, F-bar), against locking of nearly incompressible materials. one_point: one point of
+/// mean gradients and a stiffness of the hourglass modes, which flows where the law does (solid/hourglass_flow.hpp).
+/// stabilised: one point, and the modes as enhanced assumed strains leave them, in one flow with the point
+/// (element/stabilised.hpp).
 enum class Formulation : unsigned char { full, mean_dilatation, one_point, stabilised };
 
 }  // namespace carom

@@ -130,8 +130,9 @@ ModeModuli mode_moduli(const Part& part, double coefficient) {
 BatchStages stages_of(const Part& part, const Element& element, bool small_strain, const KernelTable& table) {
   BatchStages stages{table.lanes, &table.cells[static_cast<std::size_t>(element.kind)],
                      small_strain ? &table.small : &table.finite};
-  if (element.has_mean_dilatation)
-    stages.dilatation = small_strain ? &table.small_dilatation : &table.finite_dilatation;
+  if (element.dilatation)
+    stages.dilatation = (small_strain ? table.small_dilatation : table.finite_dilatation) +
+                        static_cast<std::size_t>(*element.dilatation);
   const IsotropicElastic at_rest = part.material.at_rest();
   const double hourglass = part.hourglass.value_or(element.formulation == Formulation::stabilised ? 1.0 : 0.05);
   stages.hourglass = hourglass * at_rest.E / (2.0 * (1.0 + at_rest.nu));
@@ -151,8 +152,8 @@ BatchStages stages_of(const Part& part, const Element& element, bool small_strai
 
 /// Elastic HEXA8 integrated fully have kernels of their own.
 CellKernels kernels_of(const Element& element, const Block& block, const KernelTable& table) {
-  const bool is_fused = element.kind == CellKind::Hexa8 && !element.has_mean_dilatation &&
-                        block.history_per_cell() == 0 && block.is_linear == block.small_strain;
+  const bool is_fused = element.kind == CellKind::Hexa8 && !element.dilatation && block.history_per_cell() == 0 &&
+                        block.is_linear == block.small_strain;
   if (!is_fused) return staged_kernels;
   return block.small_strain ? table.hexa8_small : table.hexa8_finite;
 }

@@ -9,6 +9,7 @@
 #include "element/cell_list.hpp"
 #include "element/formulation.hpp"
 #include "model/model.hpp"
+#include "solid/stages.hpp"
 
 namespace carom {
 
@@ -18,11 +19,10 @@ struct Element {
   Section section{};
   Formulation formulation{};
   CellKind kind{};
-  bool has_mean_dilatation = false;
+  std::optional<VolumeField> dilatation{};  ///< of cells under mean dilatation
 };
 
-/// All rows. The first of a type and section is the one that parts without a formulation get (linear cells of laws that
-/// yield: that with mean dilatation, run/parts.cpp).
+/// All rows. The first of a type and section is the one that parts without a formulation get.
 std::span<const Element> elements();
 
 /// The row; nullptr where there is none.

@@ -90,7 +90,7 @@ struct KernelTable {
   CellKernels hexa8_small, hexa8_finite;  ///< of HEXA8 with full integration and elastic laws, fused
   CellStages cells[cell_kinds];           ///< in the order of CellKind
   PointStages small, finite;
-  DilatationStages small_dilatation, finite_dilatation;
+  DilatationStages small_dilatation[volume_fields], finite_dilatation[volume_fields];  ///< in the order of VolumeField
   BulkStages small_bulk, finite_bulk;
   LawTable laws;
   void (*power_bound)(int n, double* A, double* work, double* bound) = nullptr;  ///< solid/power_bound.hpp

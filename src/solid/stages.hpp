@@ -82,7 +82,12 @@ struct PointStages {
 };
 
 /// Numbers of a point that mean dilatation remembers within a sweep.
-inline constexpr int dilatation_memory = 22;
+inline constexpr int dilatation_memory = 24;
+
+/// What cells under mean dilatation know of their volume: its mean, or a linear function of the parent coordinates of a
+/// square or a cube of three points a direction (solid/mean_dilatation.hpp).
+enum class VolumeField : unsigned char { mean, linear_square, linear_cube };
+inline constexpr int volume_fields = 3;
 
 /// What stands between the kinematics and the law: strains on their way to the law, stresses on their way back. The
 /// energy of a cell is the integral of W(E_bar), and what comes back is its derivative by E. `memory` has
