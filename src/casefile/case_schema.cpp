@@ -29,15 +29,16 @@ SectionSchema<CasePart> part_section() {
         {.unit = Dimension::length, .range = greater_than(0.0), .kinds = {"plane_strain", "plane_stress"}});
   s.key("area", &CasePart::area, "Area of the section of the bars.",
         {.unit = Dimension::area, .range = greater_than(0.0), .kinds = {"bar"}, .need = Need::required});
-  s.key("formulation", &CasePart::formulation,
-        "How the cells take the deformation: \"full\": at all their points; \"mean_dilatation\": with a volume change "
-        "that is the cell's mean, or linear in QUAD8, HEXA20 and HEXA27 (B-bar, F-bar), for nearly incompressible and "
-        "yielding bodies; \"one_point\": at one point, "
-        "with a stiffness against hourglass modes; \"stabilised\": at one point, with that of enhanced strains, which "
-        "neither bending nor constant volume locks. Which cells have which: docs/cells.md. Absent: stabilised of HEXA8 "
-        "and "
-        "QUAD4, mean_dilatation of TETRA10, full of the others.",
-        {.choices = {"full", "mean_dilatation", "one_point", "stabilised"}});
+  s.key(
+      "formulation", &CasePart::formulation,
+      "How the cells take the deformation: \"full\": at all their points; \"mean_dilatation\": with a volume change "
+      "that is the cell's mean, or linear in QUAD8, HEXA20 and HEXA27 (B-bar, F-bar), for nearly incompressible and "
+      "yielding bodies; \"one_point\": at one point, with a stiffness against hourglass modes; \"stabilised\": at one "
+      "point, with that of enhanced strains, which neither bending nor constant volume locks; \"reduced\": at two "
+      "points a direction, of QUAD8 and HEXA20. Which cells have which: docs/cells.md. Absent: stabilised of HEXA8 "
+      "and QUAD4, mean_dilatation of TETRA10, and of QUAD8, HEXA20 and HEXA27 that yield or have nu > 0.4, full of the "
+      "others.",
+      {.choices = {"full", "mean_dilatation", "one_point", "stabilised", "reduced"}});
   s.key(
       "hourglass", &CasePart::hourglass,
       "Coefficient of the stiffness against hourglass modes of one_point and stabilised cells: 1 is about the elastic "

@@ -9,6 +9,7 @@
   X(Hexa8OnePoint)        \
   X(Hexa8Stabilised)      \
   X(Hexa20)               \
+  X(Hexa20Reduced)        \
   X(Hexa27)               \
   X(Penta6)               \
   X(Pyra5)                \
@@ -21,7 +22,9 @@
   X(Quad4RingOnePoint)    \
   X(Quad4RingStabilised)  \
   X(Quad8Plane)           \
+  X(Quad8PlaneReduced)    \
   X(Quad8Ring)            \
+  X(Quad8RingReduced)     \
   X(Tria3Plane)           \
   X(Tria3Ring)            \
   X(Tria6Plane)           \

@@ -31,9 +31,12 @@ using Tria3RingCell = Isoparametric<Tria3, Frame::axisymmetric>;
 using Penta6Cell = Isoparametric<Penta6, Frame::solid>;
 using Pyra5Cell = Isoparametric<Pyra5, Frame::solid>;
 using Hexa20Cell = Isoparametric<Hexa20, Frame::solid>;
+using Hexa20ReducedCell = Isoparametric<ReducedHexa20, Frame::solid>;
 using Hexa27Cell = Isoparametric<Hexa27, Frame::solid>;
 using Quad8PlaneCell = Isoparametric<Quad8, Frame::plane>;
+using Quad8PlaneReducedCell = Isoparametric<ReducedQuad8, Frame::plane>;
 using Quad8RingCell = Isoparametric<Quad8, Frame::axisymmetric>;
+using Quad8RingReducedCell = Isoparametric<ReducedQuad8, Frame::axisymmetric>;
 using Tria6PlaneCell = Isoparametric<Tria6, Frame::plane>;
 using Tria6RingCell = Isoparametric<Tria6OfRing, Frame::axisymmetric>;
 

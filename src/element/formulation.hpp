@@ -7,7 +7,8 @@ namespace carom {
 /// in cells of second order (B-bar, F-bar), against locking of nearly incompressible materials. one_point: one point of
 /// mean gradients and a stiffness of the hourglass modes, which flows where the law does (solid/hourglass_flow.hpp).
 /// stabilised: one point, and the modes as enhanced assumed strains leave them, in one flow with the point
-/// (element/stabilised.hpp).
-enum class Formulation : unsigned char { full, mean_dilatation, one_point, stabilised };
+/// (element/stabilised.hpp). reduced: two points a direction of cells of second order, which leave
+/// some modes of a single cell without a stiffness.
+enum class Formulation : unsigned char { full, mean_dilatation, one_point, stabilised, reduced };
 
 }  // namespace carom

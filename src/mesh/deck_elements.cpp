@@ -17,6 +17,8 @@ constexpr std::array<LocalNode, 3> kMiddleSecond{0, 2, 1};
 constexpr const char* kStabilised =
     "stabilised, so that it locks less than theirs; formulation = \"full\" integrates as CalculiX does";
 
+constexpr const char* kVolume = "with mean dilatation where it yields or nu > 0.4; formulation = \"full\" has none";
+
 const std::array<DeckElementType, 65> kTypes{
     {{"C3D4", Kind::cell, CellType::tetra4, 4, {}, "solid", "", ""},
      {"C3D5", Kind::cell, CellType::pyra5, 5, {}, "solid", "", ""},
@@ -41,9 +43,9 @@ const std::array<DeckElementType, 65> kTypes{
       "",
       "not the modified element of Abaqus, but one with mean dilatation"},
      {"C3D15", Kind::cell, CellType::penta15, 15, {}, "solid", "", ""},
-     {"C3D20", Kind::cell, CellType::hexa20, 20, {}, "solid", "", ""},
-     {"C3D20R", Kind::cell, CellType::hexa20, 20, {}, "solid", "", "fully integrated here"},
-     {"C3D27", Kind::cell, CellType::hexa27, 27, kHexa27, "solid", "", ""},
+     {"C3D20", Kind::cell, CellType::hexa20, 20, {}, "solid", "", kVolume},
+     {"C3D20R", Kind::cell, CellType::hexa20, 20, {}, "solid", "reduced", ""},
+     {"C3D27", Kind::cell, CellType::hexa27, 27, kHexa27, "solid", "", kVolume},
      {"CPE3", Kind::cell, CellType::tria3, 3, {}, "plane_strain", "", ""},
      {"CPE4", Kind::cell, CellType::quad4, 4, {}, "plane_strain", "", kStabilised},
      {"CPE4R",
@@ -63,8 +65,8 @@ const std::array<DeckElementType, 65> kTypes{
       "",
       "with enhanced strains in closed form (stabilised)"},
      {"CPE6", Kind::cell, CellType::tria6, 6, {}, "plane_strain", "", ""},
-     {"CPE8", Kind::cell, CellType::quad8, 8, {}, "plane_strain", "", ""},
-     {"CPE8R", Kind::cell, CellType::quad8, 8, {}, "plane_strain", "", "fully integrated here"},
+     {"CPE8", Kind::cell, CellType::quad8, 8, {}, "plane_strain", "", kVolume},
+     {"CPE8R", Kind::cell, CellType::quad8, 8, {}, "plane_strain", "reduced", ""},
      {"CPS3", Kind::cell, CellType::tria3, 3, {}, "plane_stress", "", ""},
      {"CPS4", Kind::cell, CellType::quad4, 4, {}, "plane_stress", "", kStabilised},
      {"CPS4R",
@@ -85,7 +87,7 @@ const std::array<DeckElementType, 65> kTypes{
       "with enhanced strains in closed form (stabilised)"},
      {"CPS6", Kind::cell, CellType::tria6, 6, {}, "plane_stress", "", ""},
      {"CPS8", Kind::cell, CellType::quad8, 8, {}, "plane_stress", "", ""},
-     {"CPS8R", Kind::cell, CellType::quad8, 8, {}, "plane_stress", "", "fully integrated here"},
+     {"CPS8R", Kind::cell, CellType::quad8, 8, {}, "plane_stress", "reduced", ""},
      {"CAX3", Kind::cell, CellType::tria3, 3, {}, "axisymmetric", "", ""},
      {"CAX4", Kind::cell, CellType::quad4, 4, {}, "axisymmetric", "", kStabilised},
      {"CAX4R",
@@ -97,8 +99,8 @@ const std::array<DeckElementType, 65> kTypes{
       "one_point",
       "one point with Carom's own hourglass control"},
      {"CAX6", Kind::cell, CellType::tria6, 6, {}, "axisymmetric", "", ""},
-     {"CAX8", Kind::cell, CellType::quad8, 8, {}, "axisymmetric", "", ""},
-     {"CAX8R", Kind::cell, CellType::quad8, 8, {}, "axisymmetric", "", "fully integrated here"},
+     {"CAX8", Kind::cell, CellType::quad8, 8, {}, "axisymmetric", "", kVolume},
+     {"CAX8R", Kind::cell, CellType::quad8, 8, {}, "axisymmetric", "reduced", ""},
      {"T2D2", Kind::cell, CellType::line2, 2, {}, "bar", "", ""},
      {"T3D2", Kind::cell, CellType::line2, 2, {}, "bar", "", ""},
      {"S3", Kind::cell, CellType::tria3, 3, {}, "", "", ""},

@@ -12,16 +12,16 @@ namespace carom {
 
 namespace {
 
-/// Sides of a cell: 2 axis and 2 axis + 1 lie opposite to each other. Of a QUAD4 its edges, -1 for none.
+/// Corners of the sides of a cell: 2 axis and 2 axis + 1 lie opposite to each other. In the plane edges, -1 for none.
 constexpr int none = -1;
-constexpr std::array<std::array<int, 4>, 6> hexa8_sides{
+constexpr std::array<std::array<int, 4>, 6> hexa_sides{
     {{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}}};
-constexpr std::array<std::array<int, 4>, 6> quad4_sides{{{0, 3, none, none},
-                                                         {1, 2, none, none},
-                                                         {0, 1, none, none},
-                                                         {3, 2, none, none},
-                                                         {none, none, none, none},
-                                                         {none, none, none, none}}};
+constexpr std::array<std::array<int, 4>, 6> quad_sides{{{0, 3, none, none},
+                                                        {1, 2, none, none},
+                                                        {0, 1, none, none},
+                                                        {3, 2, none, none},
+                                                        {none, none, none, none},
+                                                        {none, none, none, none}}};
 
 }  // namespace
 
@@ -42,15 +42,24 @@ CellColumns::CellColumns(const Mesh& mesh, const Solid& solid)
 }
 
 int CellColumns::dimension(std::size_t k) const {
-  const CellType type = mesh_.blocks[at(cells_[k].block)].type;
-  return type == CellType::hexa8 ? 3 : (type == CellType::quad4 ? 2 : 0);
+  switch (mesh_.blocks[at(cells_[k].block)].type) {
+    case CellType::hexa8:
+    case CellType::hexa20:
+    case CellType::hexa27:
+      return 3;
+    case CellType::quad4:
+    case CellType::quad8:
+      return 2;
+    default:
+      return 0;
+  }
 }
 
 Facet CellColumns::facet(Side side) const {
   const CellRef& cell = cells_[side / 6];
   const std::span<const Index> nodes = mesh_.blocks[at(cell.block)].nodes(cell.cell);
   Facet facet;
-  for (const int local : (dimension(side / 6) == 3 ? hexa8_sides : quad4_sides)[side % 6])
+  for (const int local : (dimension(side / 6) == 3 ? hexa_sides : quad_sides)[side % 6])
     if (local != none) facet.node[at(facet.size++)] = nodes[at(local)];
   return facet;
 }

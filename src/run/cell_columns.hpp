@@ -12,7 +12,7 @@
 
 namespace carom {
 
-/// Cells in a row from skin to skin, passed through opposite faces (edges of QUAD4).
+/// Cells in a row from skin to skin, passed through opposite faces (edges in the plane).
 struct CellColumn {
   int cells = 0;
   double length = std::numeric_limits<double>::infinity();  ///< along the middles of the faces
@@ -20,7 +20,8 @@ struct CellColumn {
   Facet first, last;                                        ///< its faces on the skin, unordered in their sense
 };
 
-/// The columns of the solid's HEXA8 (three through each cell) and QUAD4 (two). Parts that share nodes are one body.
+/// The columns of the solid's hexahedra (three through each cell) and quadrilaterals (two). Parts that share nodes are
+/// one body.
 class CellColumns {
  public:
   CellColumns(const Mesh& mesh, const Solid& solid);
@@ -31,7 +32,7 @@ class CellColumns {
     const Index c = of_cell_[k][static_cast<std::size_t>(axis)];
     return c < 0 ? endless_ : columns_[static_cast<std::size_t>(c)];
   }
-  /// 3 for HEXA8, 2 for QUAD4, 0 for all others, which have no columns.
+  /// 3 for hexahedra, 2 for quadrilaterals, 0 for all others, which have no columns.
   int dimension(std::size_t k) const;
   /// Length of cell k along an axis, between the middles of its two faces there, and the unit vector from one to the
   /// other.

@@ -11,6 +11,7 @@
 #include "casefile/plausibility.hpp"
 #include "output/cfc_filter.hpp"
 #include "run/lint_contact.hpp"
+#include "run/lone_cells.hpp"
 #include "run/waves.hpp"
 #include "schemes/scheme_table.hpp"
 #include "solid/smallest_cell.hpp"
@@ -117,6 +118,7 @@ std::vector<std::string> lint_warnings(const Simulation& s) {
   lint_moved_mass(s, out);
   lint_massless_flow(s, out);
   lint_filters(s, out);
+  for (std::string& warning : lone_cell_warnings(s)) out.push_back(std::move(warning));
   return out;
 }
 

@@ -312,7 +312,7 @@ std::vector<Findings> examine(const Simulation& s) {
     const CellRef& cell = s.solid().cells()[k];
     const std::size_t p = at(part_of[at(cell.block)][at(cell.cell)]);
     const Part& part = s.model().parts[p];
-    if (part.section == Section::bar) continue;
+    if (part.section == Section::bar || node_count(part.type) != corner_count(part.type)) continue;
     Findings& found = all[p];
     const double volume = s.solid().cell_volumes()[k];
     found.volume += volume;

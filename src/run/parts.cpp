@@ -34,6 +34,15 @@ std::optional<CellType> wanted_type(const CasePart& wanted, Section section) {
                   fmt::format("\"{}\" with section = \"{}\"", **wanted.type, name(section)), names(types));
 }
 
+/// Cells of second order lock a little where volume is kept: those with a linear function for their volume take it
+/// there (docs/cells.md).
+bool takes_linear_volume(const Part& part) {
+  constexpr double incompressible = 0.4;
+  const Element* element = find_element(part.type, part.section, Formulation::mean_dilatation);
+  const bool keeps_volume = !part.material.law->history.empty() || part.material.at_rest().nu > incompressible;
+  return keeps_volume && element != nullptr && *element->dilatation != VolumeField::mean;
+}
+
 /// Takes the formulation that the case names, if the element table has it for the cells of the part.
 void choose_formulation(const CasePart& wanted, Part& part) {
   if (wanted.formulation) {
@@ -47,6 +56,8 @@ void choose_formulation(const CasePart& wanted, Part& part) {
                                   carom::name(part.type), name(part.section)),
                       formulations_of(part.type, part.section));
     part.formulation = element->formulation;
+  } else if (takes_linear_volume(part)) {
+    part.formulation = Formulation::mean_dilatation;
   }
 }
 

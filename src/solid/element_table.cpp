@@ -24,6 +24,7 @@ constexpr Element all_elements[] = {
     {pyra5, solid, full, CellKind::Pyra5},
     {hexa20, solid, full, CellKind::Hexa20},
     {hexa20, solid, mean_dilatation, CellKind::Hexa20, linear_cube},
+    {hexa20, solid, reduced, CellKind::Hexa20Reduced},
     {hexa27, solid, full, CellKind::Hexa27},
     {hexa27, solid, mean_dilatation, CellKind::Hexa27, linear_cube},
     {quad4, plane_strain, stabilised, CellKind::Quad4PlaneStabilised},
@@ -42,9 +43,12 @@ constexpr Element all_elements[] = {
     {tria3, axisymmetric, full, CellKind::Tria3Ring},
     {quad8, plane_strain, full, CellKind::Quad8Plane},
     {quad8, plane_strain, mean_dilatation, CellKind::Quad8Plane, linear_square},
+    {quad8, plane_strain, reduced, CellKind::Quad8PlaneReduced},
     {quad8, plane_stress, full, CellKind::Quad8Plane},
+    {quad8, plane_stress, reduced, CellKind::Quad8PlaneReduced},
     {quad8, axisymmetric, full, CellKind::Quad8Ring},
     {quad8, axisymmetric, mean_dilatation, CellKind::Quad8Ring, linear_square},
+    {quad8, axisymmetric, reduced, CellKind::Quad8RingReduced},
     {tria6, plane_strain, full, CellKind::Tria6Plane},
     {tria6, plane_strain, mean_dilatation, CellKind::Tria6Plane, mean},
     {tria6, plane_stress, full, CellKind::Tria6Plane},
@@ -80,7 +84,7 @@ const Element* find_element(CellType type, Section section, std::optional<Formul
 }
 
 std::string_view name(Formulation formulation) {
-  constexpr std::array<std::string_view, 4> names{"full", "mean_dilatation", "one_point", "stabilised"};
+  constexpr std::array<std::string_view, 5> names{"full", "mean_dilatation", "one_point", "stabilised", "reduced"};
   return names[static_cast<std::size_t>(formulation)];
 }
 

@@ -22,7 +22,8 @@ struct Element {
   std::optional<VolumeField> dilatation{};  ///< of cells under mean dilatation
 };
 
-/// All rows. The first of a type and section is the one that parts without a formulation get.
+/// All rows. The first of a type and section is the one that parts without a formulation get (cells of second order
+/// that keep their volume: that with a linear volume, run/parts.cpp).
 std::span<const Element> elements();
 
 /// The row; nullptr where there is none.

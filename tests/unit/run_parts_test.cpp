@@ -1,11 +1,17 @@
 // Parts of plane cells and bars: what is held, what surfaces are, what is refused.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "cell_meshes.hpp"
+#include "mesh/deck_elements.hpp"
+#include "mesh/write_gmsh.hpp"
 #include "run/build_mesh.hpp"
 #include "run/build_model.hpp"
+#include "run/parts.hpp"
 #include "run_fixture.hpp"
+#include "solid/element_table.hpp"
 
 namespace carom::run_parts_test {
 namespace {
@@ -156,6 +162,50 @@ TEST(Parts, EveryMessage) {
   EXPECT_NE(message_of(text_of(strip + bar + bar_part + "[[load]]\npressure = 1.0\ngroup = \"HEAD\"\n"))
                 .find("found the boundary of cell 5 (QUAD4), which belongs to no part; expected faces, edges or ends"),
             std::string::npos);
+}
+
+/// The formulation of a part of cells of second order that names none.
+std::optional<Formulation> chosen(CellType type, const char* section, const std::string& material) {
+  StructuredBlock block;
+  block.kind = dimension(type) == 3 ? StructuredBlock::Kind::hexa : StructuredBlock::Kind::quad;
+  block.size = {1.0, 1.0, 1.0};
+  const std::string path = testing::TempDir() + "second_order.msh";
+  std::ofstream(path) << gmsh_text(with_cells(make_structured_blocks({block}), type));
+  const Case given =
+      parse_case(fmt::format("units = \"SI\"\n[mesh]\nfile = \"{}\"\n[materials.m]\nE = 1.0e9\nrho = 1.0e3\n{}\n"
+                             "[[part]]\nname = \"a\"\ncells = \"BLOCK\"\nmaterial = \"m\"\nsection = \"{}\"\n"
+                             "[scheme]\nkind = \"newmark\"\n[time]\nend = 1.0\nstep = 0.1\n",
+                             path, material, section),
+                 "case.toml");
+  return Simulation(given).model().parts[0].formulation;
+}
+
+TEST(Parts, CellsOfSecondOrderThatKeepTheirVolumeTakeMeanDilatation) {
+  const std::string steel = "law = \"linear_elastic\"\nnu = 0.3", rubber = "law = \"neo_hookean\"\nnu = 0.49",
+                    metal = "law = \"j2\"\nnu = 0.3\nyield_stress = 1.0e6";
+  for (const auto& [type, section] : {std::pair{CellType::quad8, "plane_strain"},
+                                      {CellType::quad8, "axisymmetric"},
+                                      {CellType::hexa20, "solid"},
+                                      {CellType::hexa27, "solid"}}) {
+    EXPECT_EQ(chosen(type, section, steel), std::nullopt);
+    EXPECT_EQ(chosen(type, section, rubber), Formulation::mean_dilatation);
+    EXPECT_EQ(chosen(type, section, metal), Formulation::mean_dilatation);
+  }
+  EXPECT_EQ(chosen(CellType::quad8, "plane_stress", metal), std::nullopt);  // thickness takes up the volume
+  EXPECT_EQ(chosen(CellType::tria6, "plane_strain", metal), std::nullopt);  // has one mean alone
+}
+
+TEST(Parts, EveryFormulationOfADeckElementIsOneOfItsCells) {
+  int reduced = 0;
+  for (const DeckElementType& type : deck_element_types()) {
+    if (type.formulation.empty()) continue;
+    const auto rows = elements();
+    EXPECT_TRUE(std::any_of(rows.begin(), rows.end(), [&](const Element& row) {
+      return row.type == type.type && name(row.section) == type.section && name(row.formulation) == type.formulation;
+    })) << type.name;
+    if (type.formulation == "reduced") ++reduced;
+  }
+  EXPECT_EQ(reduced, 4) << "C3D20R, CPE8R, CPS8R and CAX8R";
 }
 
 }  // namespace

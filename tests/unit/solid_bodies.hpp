@@ -114,9 +114,9 @@ inline Mesh one_cell(CellType type) {
   return mesh_of(type, std::move(x), std::move(nodes));
 }
 
-/// Two hexahedra, or four quadrilaterals, in cells of a type.
+/// Four hexahedra, or four quadrilaterals, in cells of a type.
 inline Mesh few_cells(CellType type) {
-  return with_cells(dimension(type) == 3 ? block_mesh({2, 1, 1}, 0.0) : quad_mesh(2, 2, 0.15), type);
+  return with_cells(dimension(type) == 3 ? block_mesh({2, 2, 1}, 0.0) : quad_mesh(2, 2, 0.15), type);
 }
 
 /// One element with one law, as a test parameter.
@@ -128,7 +128,7 @@ struct Body {
 
 inline std::string name_of(const Body& body) {
   static const char* const sections[] = {"Solid", "PlaneStrain", "PlaneStress", "Axisymmetric", "Bar"};
-  static const char* const formulations[] = {"", "MeanDilatation", "OnePoint", "Stabilised"};
+  static const char* const formulations[] = {"", "MeanDilatation", "OnePoint", "Stabilised", "Reduced"};
   static const char* const laws[] = {"LinearElastic", "StVenantKirchhoff", "NeoHookean", "J2SmallStrain", "J2"};
   return sections[static_cast<std::size_t>(body.section)] + std::string(name(body.element.type)) +
          formulations[static_cast<std::size_t>(body.element.formulation)] + laws[index_of(*body.material.law)];

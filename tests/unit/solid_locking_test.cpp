@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Solid, EveryLockingElement, testing::ValuesIn(elements(
 TEST_P(EveryLockingElement, LocksOnlyWhereTheVolumeIsKeptAtEveryPoint) {
   const Element& element = GetParam();
   if (element.section != Section::solid && element.section != Section::plane_strain) return;
-  if (element.formulation == Formulation::full) {
+  if (element.formulation == Formulation::full || element.formulation == Formulation::reduced) {
     if (node_count(element.type) == corner_count(element.type)) {
       EXPECT_GT(tube_energy(element, 4), 1.5);
     }
@@ -189,6 +189,40 @@ TEST(CooksMembrane, CellsOfSecondOrderNeitherLockNorSoften) {
       before = u;
     }
   }
+}
+
+// Reduced integration: two points a direction ask less of the volume. Near nu = 0.5 it comes more slowly.
+TEST(CooksMembrane, ReducedIntegrationComesToTheSame) {
+  const auto at = [](Formulation formulation, int n, double nu) {
+    return cook_corner(*find_element(CellType::quad8, Section::plane_strain, formulation), n, nu);
+  };
+  for (const auto& [nu, coarse, middle] : {std::tuple{1.0 / 3.0, 0.02, 0.006}, {0.4999, 0.09, 0.04}}) {
+    const double fine = at(Formulation::mean_dilatation, 16, nu);
+    EXPECT_NEAR(at(Formulation::reduced, 4, nu), fine, coarse * fine);
+    EXPECT_NEAR(at(Formulation::reduced, 8, nu), fine, middle * fine);
+    EXPECT_GT(at(Formulation::reduced, 4, nu), at(Formulation::full, 4, nu));
+  }
+}
+
+/// Modes without a stiffness of n x m x k cubes (n x m squares) beside the rigid ones.
+std::size_t free_modes(CellType type, std::array<int, 3> cells) {
+  const bool is_solid = dimension(type) == 3;
+  const Mesh mesh = with_cells(is_solid ? block_mesh(cells, 0.0) : quad_mesh(cells[0], cells[1], 0.0), type);
+  const Section section = is_solid ? Section::solid : Section::plane_strain;
+  const Solid solid(body(mesh, *find_element(type, section, Formulation::reduced), unit_material));
+  const auto values = eigenvalues(dense(solid.tangent(std::vector<double>(solid.dof_count(), 0.0))));
+  const auto zeros = std::count_if(values.begin(), values.end(), [](double v) { return std::abs(v) < 1e-11; });
+  return static_cast<std::size_t>(zeros) - (is_solid ? 6 : 3 + mesh.node_count());  // z of the plane
+}
+
+// A HEXA20 has 60 freedoms, 6 rigid motions and 6 strains at 8 points: 6 modes are free. A QUAD8 has 16, 3 and 12: one
+// is free. Side by side they have none, but one column of HEXA20 keeps some.
+TEST(ReducedIntegration, LeavesModesToSingleCellsAndColumns) {
+  EXPECT_EQ(free_modes(CellType::quad8, {1, 1, 0}), 1U);
+  EXPECT_EQ(free_modes(CellType::quad8, {2, 1, 0}), 0U);
+  EXPECT_EQ(free_modes(CellType::hexa20, {1, 1, 1}), 6U);
+  EXPECT_EQ(free_modes(CellType::hexa20, {3, 1, 1}), 4U);
+  EXPECT_EQ(free_modes(CellType::hexa20, {2, 2, 1}), 0U);
 }
 
 /// A square or cube of edges 2 about the origin, one cell.

@@ -32,4 +32,9 @@ struct Hexa20 {
   static consteval auto mass_rule() { return cube_rule<3>(); }
 };
 
+/// The same with two points a direction for the stiffness.
+struct ReducedHexa20 : Hexa20 {
+  static consteval auto stiffness_rule() { return cube_rule<2>(); }
+};
+
 }  // namespace carom

@@ -28,4 +28,9 @@ struct Quad8 {
   static consteval auto mass_rule() { return square_rule<3>(); }
 };
 
+/// The same with two points a direction for the stiffness.
+struct ReducedQuad8 : Quad8 {
+  static consteval auto stiffness_rule() { return square_rule<2>(); }
+};
+
 }  // namespace carom
