@@ -15,6 +15,7 @@
 #include "run/body_scales.hpp"
 #include "run/build_mesh.hpp"
 #include "run/failure_text.hpp"
+#include "run/folded_cells.hpp"
 #include "run/inside_out.hpp"
 #include "run/lint.hpp"
 
@@ -266,7 +267,12 @@ void March::step() {
     if (!steps_->control().at_end()) steps_->follow_stable_step(state_, step_);
     return;
   }
-  message_ = fmt::format("stopped after step {}, t = {:.6g}: {}; {}", step_, state_.t, alarm_, worst_place(s_, state_));
+  message_ = fmt::format("stopped after step {}, t = {:.6g}: {}; ", step_, state_.t, alarm_);
+  if (const FlattestCorner corner = flattest_corner(s_, state_.q); corner.is_folded()) {
+    message_ += describe_fold(s_, corner, state_.q);
+    return;
+  }
+  message_ += worst_place(s_, state_);
   const std::string remedy = s_.given().contacts.empty() ? "" : touch_remedy(stage());
   message_ += ". " + (remedy.empty() ? energy_remedy(stage()) : remedy);
 }

@@ -242,12 +242,13 @@ Summary Run::finish() {
   summary.case_info.file = watched_->case_file;
   summary.warnings = watched_->warnings;
   summary.doubts = watched_->doubts;
+  if (!watched_->folds.warnings().empty()) summary.doubts.emplace_back("a cell has folded");
   summary.notes = watched_->notes;
   summary.outcome = outcome_;
   summary.message = message_;
   summary.notes.insert(summary.notes.end(), march().log().begin(), march().log().end());
-  const std::vector<std::string>& turned = watched_->rotation.warnings();
-  summary.warnings.insert(summary.warnings.end(), turned.begin(), turned.end());
+  for (const auto* seen : {&watched_->rotation.warnings(), &watched_->folds.warnings()})
+    summary.warnings.insert(summary.warnings.end(), seen->begin(), seen->end());
   watched_->recorder.close();
   fill_in(summary);
   summary.cost = {seconds_since(begin_),

@@ -81,6 +81,7 @@ ExitCode conduct(Run& run, ShownProgress& progress, const RunOptions& options, c
   if (!quiet) {
     for (const std::string& line : run.march().log()) say("{}\n", line);
     say_lines("warning", run.watched().rotation.warnings());
+    say_lines("warning", run.watched().folds.warnings());
   }
   const Summary summary = run.finish();
   const bool is_good = summary.outcome == Outcome::good && summary.doubts.empty();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "run/fold_watch.hpp"
 #include "run/march.hpp"
 #include "run/overlap_watch.hpp"
 #include "run/penetration_watch.hpp"
@@ -20,11 +21,13 @@ struct WatchedMarch {
         recorder(simulation, folder),
         penetration(simulation.model()),
         overlap(simulation, march.state()),
-        rotation(simulation) {
+        rotation(simulation),
+        folds(simulation) {
     march.add(recorder);
     march.add(penetration);
     march.add(overlap);
     march.add(rotation);
+    march.add(folds);
   }
   WatchedMarch(const WatchedMarch&) = delete;
   WatchedMarch& operator=(const WatchedMarch&) = delete;
@@ -36,6 +39,7 @@ struct WatchedMarch {
     archive("penetration", x.penetration);
     archive("overlap", x.overlap);
     archive("rotation", x.rotation);
+    archive("folds", x.folds);
     archive("case_file", x.case_file);
     archive("warnings", x.warnings);
     archive("doubts", x.doubts);
@@ -47,6 +51,7 @@ struct WatchedMarch {
   PenetrationWatch penetration;
   OverlapWatch overlap;
   RotationWatch rotation;
+  FoldWatch folds;
   std::string case_file;                     ///< as the user named it
   std::vector<std::string> warnings, notes;  ///< of the case, before the first step
   std::vector<std::string> doubts;           ///< Summary::doubts

@@ -1,0 +1,39 @@
+// Cells that fold while their points see nothing of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/folded_cells.hpp"
+#include "run/observer.hpp"
+
+namespace carom {
+
+/// Looks for a cell with a corner whose volume is not positive, of any formulation and law: every step of an implicit
+/// stage; explicit ones every 200 steps, or as soon as the flattest corner might fold at twice the rate at which it has
+/// been flattened. Looks no more once it has found one.
+class FoldWatch : public Observer {
+ public:
+  explicit FoldWatch(const Simulation& simulation) : simulation_(simulation) {}
+
+  void see(const StepView& view) override;
+  /// One, once a cell has folded.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  template <class A>
+  friend void fields(A& archive, FoldWatch& x) {
+    archive("share", x.share_);
+    archive("rate", x.rate_);
+    archive("looked", x.looked_);
+    archive("next", x.next_);
+    archive("warnings", x.warnings_);
+  }
+
+  const Simulation& simulation_;
+  double share_ = 1.0, rate_ = 0.0;  ///< of the flattest corner at the last look; what it lost per step before it
+  long long looked_ = 0, next_ = 1;  ///< steps
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace carom

@@ -1,0 +1,25 @@
+// Cells that have folded at a corner.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "run/simulation.hpp"
+
+namespace carom {
+
+/// The cell whose volume at one of its corners has become the least share of that at rest.
+struct FlattestCorner {
+  Index cell = -1;  ///< position in Solid::cells(); -1: nothing has become smaller
+  double share = 1.0;
+  bool is_folded() const { return share <= 0.0; }
+};
+
+/// Of all cells but bars at displacement u. Those of second order are judged by their corners, as meshes are that are
+/// read; of equal shares the first counts.
+FlattestCorner flattest_corner(const Simulation& simulation, std::span<const double> u);
+
+/// "cell 12 of part \"rubber\" at (0.1, 0, 2) has folded: ..." and what helps a cell of its formulation.
+std::string describe_fold(const Simulation& simulation, const FlattestCorner& corner, std::span<const double> u);
+
+}  // namespace carom
