@@ -38,7 +38,7 @@ std::string ExplicitContact::evaluate(const System& system, const State& begin, 
 
 void ExplicitContact::start(const System& system, double dt, double weight, State& state) {
   const std::vector<double> points = state.points;
-  evaluate_bodies(system, {dt, points}, state);
+  evaluate_bodies(system, start_step(dt, points), state);
   const std::string failure = respond({dt, weight, state.q, state.q, state.v, state.a, state.contact}, state.forces);
   if (!failure.empty()) throw std::runtime_error("at the start: " + failure);
 }

@@ -331,7 +331,7 @@ void impose_on_stage(const StageEquation& eq, std::span<double> y) {
 void start_in_equilibrium(const System& system, ImplicitStage& stage, double dt, State& state, std::size_t place) {
   start_with_supports(system, state);
   const std::vector<double> points = state.points;
-  evaluate_bodies(system, {dt, points}, state);
+  evaluate_bodies(system, start_step(dt, points), state);
   stage.start(state, place);
   std::vector<ImposedStep> imposed;
   imposed_steps(system.supports, state.t, state.t + dt, state.q, imposed);

@@ -9,8 +9,12 @@ namespace carom {
 /// The modes of stabilised cells as they would be without flow in this step. What they store per volume, w / 6, counts
 /// in the equivalent trial stress as the energy q^2 / 6 G of the deviator does: by 6 G times it.
 void Batch::try_modes() const {
-  stages_.cell->stabilisation.pull(finite(b_.gradient), b_.q, b_.modes.z);
+  const ModeStages& stabilisation = stages_.cell->stabilisation;
+  stabilisation.pull(finite(b_.gradient), b_.q, b_.modes.z);
   std::fill_n(b_.modes.share, lanes(), 1.0);
+  if (modes_flow())
+    stabilisation.begin(finite(b_.strain), b_.modes.z, plastic_modes(cells_.history), cells_.is_over, b_.modes.plastic,
+                        b_.modes.share);
   try_forces();
 }
 
@@ -18,7 +22,7 @@ void Batch::try_modes() const {
 void Batch::try_forces() const {
   StabilisedModes& modes = b_.modes;
   stages_.cell->stabilisation.trial(b_.geometry, stages_.moduli, finite(b_.strain), modes.z, plastic(), modes.energy,
-                                    modes.T, modes.S, modes.elastic);
+                                    modes.T, modes.S);
   for (int l = 0; l < lanes(); ++l) modes.square[l] = 6.0 * stages_.modulus * modes.energy[l];
 }
 
@@ -27,8 +31,7 @@ void Batch::add_mode_energy(const double* F, const double* E, const double* q, d
   StabilisedModes& modes = b_.modes;
   const ModeStages& stabilisation = stages_.cell->stabilisation;
   stabilisation.pull(finite(F), q, z);
-  stabilisation.trial(b_.geometry, stages_.moduli, finite(E), z, nullptr, modes.energy, modes.T, modes.S,
-                      modes.elastic);
+  stabilisation.trial(b_.geometry, stages_.moduli, finite(E), z, nullptr, modes.energy, modes.T, modes.S);
   for (int l = 0; l < lanes(); ++l) W[l] += modes.energy[l];
 }
 

@@ -7,11 +7,10 @@
 
 namespace carom {
 
-/// What a cell remembers of its modes: stabilised ones their plastic strains; others their plastic parts and the energy
+/// What a cell remembers of its modes: their plastic parts and the energy
 /// that these have dissipated; of viscous modes how far they are deformed, their viscous forces, and what viscosity has
 /// dissipated.
 inline int hourglass_history(const CellStages& cell, bool is_viscous) {
-  if (cell.stabilisation.strains > 0) return cell.stabilisation.strains;
   const int size = cell.modes * cell.directions;
   return size == 0 ? 0 : size + 1 + (is_viscous ? 2 * size + 1 : 0);
 }

@@ -72,22 +72,20 @@ static void pull(const double* F, const double* q, double* z) {
 template <class Number, class Real, class Cell>
 [[gnu::always_inline]] static inline void forces(const double* geometry, const ModeModuli& moduli, const double* E,
                                                  const double* dE, const double* z, const double* dz,
-                                                 const double* plastic, double* energy, double* T, double* S,
-                                                 double* elastic) {
+                                                 const double* plastic, double* energy, double* T, double* S) {
   constexpr Number* kind = nullptr;
-  constexpr int n = lanes<Real>;
   const auto& of_cell = *reinterpret_cast<const typename Cell::template Geometry<Real>*>(geometry);
-  Real p[Cell::strains], value[Cell::modes][3], change[Cell::modes][3];
-  for (int k = 0; k < Cell::strains; ++k) p[k] = plastic == nullptr ? Real{} : load<Real>(plastic + k * n);
+  Real p[Cell::modes][3], value[Cell::modes][3], change[Cell::modes][3];
+  load_modes<Real, Cell>(plastic, p);
   load_modes<Real, Cell>(z, value);
   load_modes<Real, Cell>(dz, change);
-  Number of_mode[Cell::modes][3], C[6], a[3][3] = {};
+  Number elastic[Cell::modes][3], C[6], a[3][3] = {};
   for (int m = 0; m < Cell::modes; ++m)
-    for (int i = 0; i < 3; ++i) of_mode[m][i] = number(value[m][i], change[m][i], kind);
+    for (int i = 0; i < 3; ++i) elastic[m][i] = number(value[m][i], change[m][i], kind);
   for (int c = 0; c < 6; ++c) {  // C = 1 + 2 E; the metric of small strain is that at rest
     const double unit = c < 3 ? 1.0 : 0.0, times = c < 3 ? 2.0 : 1.0;
-    C[c] = number(E == nullptr ? Real(Real{} + unit) : Real(unit + times * load<Real>(E + c * n)),
-                  dE == nullptr ? Real{} : Real(times * load<Real>(dE + c * n)), kind);
+    C[c] = number(E == nullptr ? Real(Real{} + unit) : Real(unit + times * load<Real>(E + c * lanes<Real>)),
+                  dE == nullptr ? Real{} : Real(times * load<Real>(dE + c * lanes<Real>)), kind);
   }
   const Real(&G)[3][3] = of_cell.half_edge;
   constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
@@ -97,15 +95,17 @@ template <class Number, class Real, class Cell>
       along[r] = G[i][0] * C[voigt[r][0]] + G[i][1] * C[voigt[r][1]] + G[i][2] * C[voigt[r][2]];
     for (int j = 0; j <= i; ++j) a[i][j] = a[j][i] = G[j][0] * along[0] + G[j][1] * along[1] + G[j][2] * along[2];
   }
-  ModeForces<Number, Cell::modes, Cell::strains> out;
-  Cell::forces(moduli, G, a, of_mode, p, out);
+  if (plastic != nullptr)
+    for (int m = 0; m < Cell::modes; ++m)
+      for (int r = 0; r < 3; ++r)
+        elastic[m][r] -= p[m][0] * C[voigt[r][0]] + p[m][1] * C[voigt[r][1]] + p[m][2] * C[voigt[r][2]];
+  ModeForces<Number, Cell::modes> out;
+  Cell::forces(moduli, G, a, elastic, out);
   store<Real>(energy, last(out.energy));
   Real force[Cell::modes][3];
   for (int m = 0; m < Cell::modes; ++m)
     for (int i = 0; i < 3; ++i) force[m][i] = last(out.T[m][i]);
   store_modes<Real, Cell>(T, force);
-  for (int k = 0; k < Cell::strains && elastic != nullptr; ++k) store<Real>(elastic + k * n, last(out.elastic[k]));
-  if (E == nullptr) return;
   Real M[3][3], MG[3][3] = {};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) M[i][j] = last(out.metric[i][j]);
@@ -113,20 +113,23 @@ template <class Number, class Real, class Cell>
     for (int c = 0; c < 3; ++c) MG[i][c] = M[i][0] * G[0][c] + M[i][1] * G[1][c] + M[i][2] * G[2][c];
   for (int c = 0; c < 6; ++c) {  // S = 2 dW/dC
     const int r = c % 3, s = c < 3 ? r : (r + 1) % 3;
-    store(S + c * n, Real(2.0 * (G[0][r] * MG[0][s] + G[1][r] * MG[1][s] + G[2][r] * MG[2][s])));
+    Real sum = 2.0 * (G[0][r] * MG[0][s] + G[1][r] * MG[1][s] + G[2][r] * MG[2][s]);
+    if (plastic != nullptr)
+      for (int m = 0; m < Cell::modes; ++m) sum -= force[m][r] * p[m][s] + force[m][s] * p[m][r];
+    store(S + c * lanes<Real>, sum);
   }
 }
 
 template <class Real, class Cell>
 static void trial(const double* geometry, const ModeModuli& moduli, const double* E, const double* z,
-                  const double* plastic, double* energy, double* T, double* S, double* elastic) {
-  forces<Real, Real, Cell>(geometry, moduli, E, nullptr, z, nullptr, plastic, energy, T, S, elastic);
+                  const double* plastic, double* energy, double* T, double* S) {
+  forces<Real, Real, Cell>(geometry, moduli, E, nullptr, z, nullptr, plastic, energy, T, S);
 }
 
 template <class Real, class Cell>
 static void change(const double* geometry, const ModeModuli& moduli, const double* E, const double* dE, const double* z,
                    const double* dz, const double* plastic, double* energy, double* T, double* S) {
-  forces<Directional<Real>, Real, Cell>(geometry, moduli, E, dE, z, dz, plastic, energy, T, S, nullptr);
+  forces<Directional<Real>, Real, Cell>(geometry, moduli, E, dE, z, dz, plastic, energy, T, S);
 }
 
 template <class Real, class Cell>
@@ -189,21 +192,63 @@ static void push_change(const double* geometry, const double* F, const double* d
   store_point(P, 0, stress);
 }
 
+/// C^-1 z of every mode.
 template <class Real, class Cell>
-static void flow(const double* plastic, const double* elastic, const double* share, double* after) {
-  constexpr int n = lanes<Real>;
-  const Real lost = 1.0 - load<Real>(share);
-  for (int k = 0; k < Cell::strains; ++k) {
-    const Real before = plastic == nullptr ? Real{} : load<Real>(plastic + k * n);
-    store(after + k * n, Real(before + lost * load<Real>(elastic + k * n)));
+[[gnu::always_inline]] static inline void material_modes(const double* E, const double* z,
+                                                         Real (&out)[Cell::modes][3]) {
+  Real value[Cell::modes][3], C[3][3], cofactor[3][3];
+  load_modes<Real, Cell>(z, value);
+  constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const Real one = Real{} + (i == j ? 1.0 : 0.0);
+      C[i][j] = E == nullptr ? one : Real(one + (i == j ? 2.0 : 1.0) * load<Real>(E + voigt[i][j] * lanes<Real>));
+    }
+  const Real inverse = 1.0 / invert(C, cofactor);
+  for (int m = 0; m < Cell::modes; ++m) {
+    for (int i = 0; i < 3; ++i) out[m][i] = Real{};
+    add_product(cofactor, value[m], out[m]);
+    for (int i = 0; i < 3; ++i) out[m][i] *= inverse;
   }
+}
+
+/// From q_p at the end, q_p + (1 - share) (C^-1 z - q_p), back to q_p. Where nothing is left of the elastic modes
+/// nothing is known of q_p, and nothing depends on it.
+template <class Real, class Cell>
+static void begin(const double* E, const double* z, const double* history, bool is_over, double* plastic,
+                  double* share) {
+  Real p[Cell::modes][3], material[Cell::modes][3];
+  load_modes<Real, Cell>(history, p);
+  const Real one = Real{} + 1.0;
+  if (is_over && history != nullptr) {
+    const Real lost = load<Real>(history + Cell::modes * Cell::directions * lanes<Real>), left = one - lost;
+    const Real inverse = 1.0 / (left > 0.0 ? left : one);
+    material_modes<Real, Cell>(E, z, material);
+    for (int m = 0; m < Cell::modes; ++m)
+      for (int i = 0; i < 3; ++i) p[m][i] = inverse * (p[m][i] - lost * material[m][i]);
+    store(share, left);
+  } else {
+    store(share, one);
+  }
+  store_modes<Real, Cell>(plastic, p);
+}
+
+template <class Real, class Cell>
+static void flow(const double* E, const double* z, const double* plastic, const double* share, double* history) {
+  Real p[Cell::modes][3], material[Cell::modes][3];
+  load_modes<Real, Cell>(plastic, p);
+  material_modes<Real, Cell>(E, z, material);
+  const Real lost = 1.0 - load<Real>(share);
+  for (int m = 0; m < Cell::modes; ++m)
+    for (int i = 0; i < 3; ++i) p[m][i] += lost * (material[m][i] - p[m][i]);
+  store_modes<Real, Cell>(history, p);
+  store(history + Cell::modes * Cell::directions * lanes<Real>, lost);
 }
 
 template <class Real, class Cell>
 static constexpr ModeStages stages() {
-  static_assert(Cell::strains <= most_mode_strains);
-  return {Cell::strains,    pull<Real, Cell>,        trial<Real, Cell>,  push<Real, Cell>,
-          flow<Real, Cell>, pull_change<Real, Cell>, change<Real, Cell>, push_change<Real, Cell>};
+  return {pull<Real, Cell>,   trial<Real, Cell>,       push<Real, Cell>,  pull_change<Real, Cell>,
+          change<Real, Cell>, push_change<Real, Cell>, begin<Real, Cell>, flow<Real, Cell>};
 }
 
 }  // namespace stabilisation

@@ -27,7 +27,7 @@ struct StabilisedModes {
   alignas(64) double energy[most_lanes];              ///< per volume
   alignas(64) double square[most_lanes];              ///< PointBatch::mode_square
   alignas(64) double share[most_lanes], along[most_lanes];
-  alignas(64) double elastic[most_mode_strains * most_lanes];
+  alignas(64) double plastic[most_hourglass * most_lanes];  ///< q_p at the beginning of the step
 };
 
 /// Buffers of the points of one batch.
@@ -127,7 +127,8 @@ class Batch {
     constitutive(b_.strain, b_.stress, with_energies ? b_.energy : nullptr, dissipates ? b_.dissipation : nullptr,
                  true);
     if (modes_flow() && cells_.new_history != nullptr)
-      stages_.cell->stabilisation.flow(plastic(), b_.modes.elastic, b_.modes.share, plastic_modes(cells_.new_history));
+      stages_.cell->stabilisation.flow(finite(b_.strain), b_.modes.z, b_.modes.plastic, b_.modes.share,
+                                       plastic_modes(cells_.new_history));
   }
   /// Adds the forces of the stress P and of the hourglass modes.
   void scatter(const double* Q, double* f) const { stages_.cell->add_forces(b_.geometry, b_.P, Q, offset_, count_, f); }
@@ -304,8 +305,8 @@ class Batch {
     for (int c = 0; c < size; ++c)
       for (int l = 0; l < lanes(); ++l) values[c * lanes() + l] += factor[l] * of_modes[c * lanes() + l];
   }
-  const double* plastic() const { return modes_flow() ? plastic_modes(cells_.history) : nullptr; }
-  /// The plastic strains of stabilised modes in a history, behind that of the point.
+  const double* plastic() const { return modes_flow() ? b_.modes.plastic : nullptr; }
+  /// What stabilised modes remember, behind the history of the point.
   template <class Number>
   Number* plastic_modes(Number* history) const {
     return history == nullptr ? nullptr

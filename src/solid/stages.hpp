@@ -12,31 +12,32 @@ inline constexpr int most_points = 27, most_geometry = most_points * 11 + 1;
 
 /// Numbers of all hourglass modes of a cell at most: 4 modes, 3 directions.
 inline constexpr int most_hourglass = 12;
-/// Mode strains of a stabilised cell at most.
-inline constexpr int most_mode_strains = 15;
 
 /// What the hourglass modes of stabilised cells (element/stabilised.hpp) go through. Modes q and forces T and Q are
 /// laid out as CellStages says, F, E and dH are those of the cell's point (F and E null: small strain, C = 1),
-/// `plastic` are the plastic mode strains, [k lanes + l], or null. The modes that enter the strain are z = F^T q.
+/// `plastic` is q_p, or null. The modes that enter the strain are z = F^T q, of which z - C q_p is elastic.
 struct ModeStages {
-  int strains = 0;  ///< of the modes
   void (*pull)(const double* F, const double* q, double* z) = nullptr;
-  /// The energy per volume, its derivatives T by z and S by E, and the elastic mode strains.
+  /// The energy per volume, its derivatives T by z and S by E.
   void (*trial)(const double* geometry, const ModeModuli& moduli, const double* E, const double* z,
-                const double* plastic, double* energy, double* T, double* S, double* elastic) = nullptr;
+                const double* plastic, double* energy, double* T, double* S) = nullptr;
   /// The forces of the modes Q = V F (share T), and P += q (share T)^T; share null: 1.
   void (*push)(const double* geometry, const double* F, const double* q, const double* T, const double* share,
                double* Q, double* P) = nullptr;
-  /// The plastic mode strains at the end: they grow by what the law has not left of the elastic ones.
-  void (*flow)(const double* plastic, const double* elastic, const double* share, double* after) = nullptr;
   /// dz = F^T dq + dH^T q
   void (*pull_change)(const double* F, const double* dH, const double* q, const double* dq, double* dz) = nullptr;
-  /// The changes of what `trial` gives, but for the strains.
+  /// The changes of what `trial` gives.
   void (*change)(const double* geometry, const ModeModuli& moduli, const double* E, const double* dE, const double* z,
                  const double* dz, const double* plastic, double* energy, double* T, double* S) = nullptr;
   /// The changes of what `push` gives; P += them.
   void (*push_change)(const double* geometry, const double* F, const double* dH, const double* q, const double* dq,
                       const double* T, const double* dT, double* Q, double* P) = nullptr;
+  /// What a cell remembers of modes that flow with its point: q_p, and 1 - share of the last step. At the beginning of
+  /// a step that is q_p; once it is over, what q_p was at its beginning, and its share.
+  void (*begin)(const double* E, const double* z, const double* history, bool is_over, double* plastic,
+                double* share) = nullptr;
+  /// The same at the end: q_p += (1 - share) (C^-1 z - q_p), of modes that keep the elastic `share`.
+  void (*flow)(const double* E, const double* z, const double* plastic, const double* share, double* history) = nullptr;
 };
 
 /// The stages of one kind of cell over one number type. They work on buffers in structure of arrays: `geometry`, whose

@@ -25,6 +25,11 @@ void evaluate_solid(const System& system, const PointStep& step, State& end) {
   forces.stored.fracture = system.solid.cohesive().dissipated(end.points);
 }
 
+PointStep start_step(double dt, std::span<const double> points) {
+  const bool have_flowed = std::any_of(points.begin(), points.end(), [](double value) { return value != 0.0; });
+  return {.dt = dt, .history = points, .is_over = have_flowed};
+}
+
 void evaluate_bodies(const System& system, const PointStep& step, State& end) {
   evaluate_solid(system, step, end);
   evaluate_loads(system, end.t, end.forces);

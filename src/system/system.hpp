@@ -23,6 +23,10 @@ struct System {
   const Supports& supports;
 };
 
+/// What the forces of a state before the first step ask for: points that remember something have ended a step there
+/// already, and nothing flows any more.
+PointStep start_step(double dt, std::span<const double> points);
+
 /// The bodies at the end of a step of length dt from the points' history at its beginning, at displacement end.q: their
 /// internal forces, and, but for linear bodies, what they store and have dissipated, and the points' history.
 void evaluate_solid(const System& system, const PointStep& step, State& end);
