@@ -67,10 +67,12 @@ void choose_coefficients(const CasePart& wanted, Part& part) {
   const bool has_one_point = of_part == Formulation::one_point, is_stabilised = of_part == Formulation::stabilised;
   const auto of_modes = [&](const std::optional<Located<double>>& given, const char* key, bool is_taken,
                             const char* expected, auto& value) {
-    if (!given) return;
+    if (!given || **given == 0.0) return;
     if (!is_taken)
-      throw CaseError(given->where, key, fmt::format("formulation \"{}\"", carom::name(of_part)), expected,
-                      "leave it out");
+      throw CaseError(given->where, key,
+                      fmt::format("formulation \"{}\"{}", carom::name(of_part),
+                                  wanted.formulation ? "" : ", which these cells have without the key"),
+                      expected, fmt::format("leave out {} or give the part that formulation", key));
     value = **given;
   };
   of_modes(wanted.hourglass, "part.hourglass", has_one_point || is_stabilised,

@@ -140,6 +140,19 @@ TEST(RigidSurface, OfFacesOfAPartThatMovesIsRefused) {
   EXPECT_NO_THROW(Simulation{given});
 }
 
+// Keys for hourglass modes belong to cells that have them, and no viscosity is none, whatever the cells.
+TEST(Hourglass, KeysOfOtherCellsAreRefused) {
+  const CaseError stabilised = case_error(case_of_block("hourglass_viscosity = 0.1\n" + newmark));
+  EXPECT_NE(
+      std::string(stabilised.what()).find("found formulation \"stabilised\", which these cells have without the key"),
+      std::string::npos)
+      << stabilised.what();
+  const CaseError full = case_error(case_of_block("formulation = \"full\"\nhourglass = 0.1\n" + newmark));
+  EXPECT_NE(std::string(full.what()).find("expected formulation = \"one_point\" or \"stabilised\""), std::string::npos)
+      << full.what();
+  EXPECT_NO_THROW(Simulation(parse_case(case_of_block("hourglass_viscosity = 0.0\n" + newmark), "case.toml")));
+}
+
 TEST(CellTypes, WithoutAnElementAreRefusedWithARemedy) {
   const auto message = [](int gmsh_type, const std::string& nodes, const std::string& cell) -> std::string {
     const std::string file = testing::TempDir() + "other_cells.msh";
