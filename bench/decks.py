@@ -256,6 +256,10 @@ def bars():
     hexa = lambda title, **keys: Bar(title, "HEXA8", 16, 320, **keys)
     plane = lambda title, cell, section, **keys: Bar(title, cell, 128, 640, section=section, **keys)
     return [
+        hexa("HEXA8 stabilised, elastic", formulation="stabilised"),
+        hexa("HEXA8 stabilised, neo-Hookean", formulation="stabilised", law="neo_hookean"),
+        hexa("HEXA8 stabilised, J2 small strain", formulation="stabilised", law="j2_small_strain"),
+        hexa("HEXA8 stabilised, J2", formulation="stabilised", law="j2"),
         hexa("HEXA8 full, elastic", formulation="full"),
         hexa("HEXA8 full, St. Venant-Kirchhoff", formulation="full", law="st_venant_kirchhoff"),
         hexa("HEXA8 full, neo-Hookean", formulation="full", law="neo_hookean"),
@@ -274,9 +278,10 @@ def bars():
         Bar("PYRA5, elastic", "PYRA5", 10, 80),
         Bar("HEXA20, elastic", "HEXA20", 8, 80),
         Bar("HEXA27, elastic", "HEXA27", 8, 80),
-        plane("QUAD4 plane strain, elastic", "QUAD4", "plane_strain"),
+        plane("QUAD4 plane strain, stabilised", "QUAD4", "plane_strain", formulation="stabilised"),
+        plane("QUAD4 plane strain, full", "QUAD4", "plane_strain", formulation="full"),
         plane("QUAD4 plane strain, one point", "QUAD4", "plane_strain", formulation="one_point"),
-        plane("QUAD4 plane stress, elastic", "QUAD4", "plane_stress"),
+        plane("QUAD4 plane stress, full", "QUAD4", "plane_stress", formulation="full"),
         plane("QUAD4 axisymmetric, J2", "QUAD4", "axisymmetric", formulation="mean_dilatation", law="j2"),
         plane("TRIA3 plane strain, elastic", "TRIA3", "plane_strain"),
         plane("TRIA6 plane strain, elastic", "TRIA6", "plane_strain"),

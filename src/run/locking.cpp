@@ -301,31 +301,26 @@ std::string constant_volume_warning(const Part& part) {
 std::vector<Findings> examine(const Simulation& s) {
   const Examiner examiner(s);
   std::vector<Findings> all(s.model().parts.size());
-  std::vector<std::vector<Index>> part_of(s.mesh().blocks.size());
-  for (std::size_t b = 0; b < part_of.size(); ++b) part_of[b].assign(s.mesh().blocks[b].size(), -1);
+  std::size_t k = 0;  // the solid has the cells part after part
   for (std::size_t p = 0; p < all.size(); ++p) {
     const Part& part = s.model().parts[p];
-    const auto block = static_cast<std::size_t>(s.mesh().block(part.type) - s.mesh().blocks.data());
-    for (const Index cell : part.cells) part_of[block][at(cell)] = static_cast<Index>(p);
-  }
-  for (std::size_t k = 0; k < s.solid().cell_count(); ++k) {
-    const CellRef& cell = s.solid().cells()[k];
-    const std::size_t p = at(part_of[at(cell.block)][at(cell.cell)]);
-    const Part& part = s.model().parts[p];
-    if (part.section == Section::bar || node_count(part.type) != corner_count(part.type)) continue;
     Findings& found = all[p];
-    const double volume = s.solid().cell_volumes()[k];
-    found.volume += volume;
-    if (part.section != Section::plane_stress) found.fewest = std::min(found.fewest, examiner.fewest_across(k));
-    for (const Thin& thin : examiner.thin(k, part)) {
-      std::size_t along = 0;
-      for (std::size_t c = 1; c < 3; ++c)
-        if (std::abs(thin.direction[c]) > std::abs(thin.direction[along])) along = c;
-      Way& way = found.ways[along];
-      way.volume += volume;
-      way.ratio_sum += volume * thin.ratio;
-      way.thinness.add(thin.direction, volume);
-      if (excess(thin.ratio) >= excess(way.example.ratio)) way.example = thin;
+    const bool has_columns = part.section != Section::bar && node_count(part.type) == corner_count(part.type);
+    for (const std::size_t end = k + part.cells.size(); k < end; ++k) {
+      if (!has_columns) continue;
+      const double volume = s.solid().cell_volumes()[k];
+      found.volume += volume;
+      if (part.section != Section::plane_stress) found.fewest = std::min(found.fewest, examiner.fewest_across(k));
+      for (const Thin& thin : examiner.thin(k, part)) {
+        std::size_t along = 0;
+        for (std::size_t c = 1; c < 3; ++c)
+          if (std::abs(thin.direction[c]) > std::abs(thin.direction[along])) along = c;
+        Way& way = found.ways[along];
+        way.volume += volume;
+        way.ratio_sum += volume * thin.ratio;
+        way.thinness.add(thin.direction, volume);
+        if (excess(thin.ratio) >= excess(way.example.ratio)) way.example = thin;
+      }
     }
   }
   return all;

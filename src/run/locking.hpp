@@ -23,8 +23,8 @@ struct Doubt {
 /// of n cells through the thickness, E' = E / (1 - nu^2) of a plate, E of a strip. On boxes of full integration that is
 /// the parasitic shear (1 - nu) / 2 (a / H)^2 of a cell of length a in a plate of thickness H, and a term of nu (R. D.
 /// Cook, D. S. Malkus, M. E. Plesha, R. J. Witt, Concepts and Applications of Finite Element Analysis, 4th ed., 2002,
-/// section 3.6). Means over the thin cells, of rods over the ways along
-/// which something acts; of plates the worse of both directions.
+/// section 3.6). Means over the thin cells, of rods over the ways along which something acts; of plates the worse of
+/// both directions.
 std::vector<std::optional<double>> bending_stiffness_ratios(const Simulation& simulation);
 
 /// Stiffness of a layer of n fully integrated cells over the exact one from what keeps its volume alone:

@@ -7,9 +7,9 @@
 
 namespace carom {
 
-/// What a cell remembers of its modes: their plastic parts and the energy
-/// that these have dissipated; of viscous modes how far they are deformed, their viscous forces, and what viscosity has
-/// dissipated.
+/// Numbers that a cell remembers of its modes: their plastic parts and the energy that these have dissipated, of
+/// stabilised cells 1 - share instead of it (ModeStages::begin); of viscous modes how far they are deformed, their
+/// viscous forces, and what viscosity has dissipated.
 inline int hourglass_history(const CellStages& cell, bool is_viscous) {
   const int size = cell.modes * cell.directions;
   return size == 0 ? 0 : size + 1 + (is_viscous ? 2 * size + 1 : 0);

@@ -228,7 +228,7 @@ TEST_P(EveryPair, GoesOnFromEveryStepOnARoller) {
 
 TEST_P(EveryPair, GoesOnFromEveryStepBetweenFiniteBodies) {
   std::string text = pressed("neo_hookean", false, stepping(GetParam().scheme, GetParam().enforcement));
-  const std::string fast = "z = -0.1";  // statics with multipliers finds no equilibrium beyond a height of 0.94
+  const std::string fast = "z = -0.1";  // statics with multipliers finds no equilibrium below 0.94 of the height
   text.replace(text.find(fast), fast.size(), "z = -0.08");
   expect_same_in_pieces(text);
 }

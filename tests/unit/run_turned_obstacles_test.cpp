@@ -405,7 +405,8 @@ TEST(TurnedObstacles, AreInTheBooksOfEverySchemeAndEnforcement) {
       SCOPED_TRACE(fmt::format("{} {}", scheme.name, name(static_cast<EnforcementKind>(e))));
       const Books turned = books_of(pressed_on_roller(scheme, e, true));
       const Books plain = books_of(pressed_on_roller(scheme, e, false));
-      constexpr double round_off = 2e-14;  // where steps are not iterated: of energies and momenta near 0.1
+      constexpr double round_off =
+          2e-14;  // where steps are not iterated: 2000 roundings of energies and momenta near 0.1
       EXPECT_LT(turned.imbalance, std::max(round_off, 10.0 * plain.imbalance));
       EXPECT_LT(turned.momentum, std::max(round_off, 10.0 * plain.momentum));
       EXPECT_LT(turned.angular_momentum, std::max(round_off, 10.0 * plain.angular_momentum));
