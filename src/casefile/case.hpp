@@ -60,6 +60,7 @@ struct CasePart {
   std::optional<Located<std::string>> formulation;     ///< absent: the element's first
   std::optional<Located<double>> hourglass;            ///< one_point
   std::optional<Located<double>> hourglass_viscosity;  ///< one_point
+  std::optional<Located<double>> distortion_control;
   double linear_bulk_viscosity = 0.0, quadratic_bulk_viscosity = 0.0;
 };
 

@@ -51,6 +51,14 @@ SectionSchema<CasePart> part_section() {
       "is about the damping of full integration with the whole elastic stiffness times the time of a wave through the "
       "cell. Absent: 0.",
       {.range = at_least(0.0)});
+  s.key(
+      "distortion_control", &CasePart::distortion_control,
+      "Keeps cells of any formulation from folding: where the volume between the edges of a corner is below this share "
+      "of that at rest, the corner resists, with a pressure that is the wave modulus of the law at half of it and "
+      "grows "
+      "to 19 times that where the corner is flat (customary: 0.1). Energy: `distortion`. For laws of finite strain. "
+      "Absent: nothing resists.",
+      {.range = between_open(0.0, 1.0)});
   s.key("linear_bulk_viscosity", &CasePart::linear_bulk_viscosity,
         "Coefficient of a viscous pressure against all changes of volume, the share of critical damping of the fastest "
         "wave of a cell: it quietens what rings from cell to cell (customary: 0.06).",

@@ -22,7 +22,10 @@ std::string compatibility_markdown() {
     for (const bool taken : scheme.takes) text += taken ? " yes |" : " - |";
     text += is_explicit(scheme.kind) ? " explicit |\n" : " implicit |\n";
   }
-  text += "\nNames of the literature, which a case may give as its `kind`:\n\n";
+  text += "\nElastic parts alone, without viscosity, distortion_control and ties that tear:";
+  for (const SchemeTraits& scheme : scheme_table)
+    if (!scheme.takes_history) text += fmt::format(" `{}`", scheme.name);
+  text += ".\n\nNames of the literature, which a case may give as its `kind`:\n\n";
   for (const SchemeAlias& alias : scheme_aliases)
     text += fmt::format("- `{}`: `{}` with `enforcement = \"{}\"`.\n", alias.name, traits(alias.kind).name,
                         name(alias.enforcement));

@@ -131,12 +131,13 @@ constexpr std::array<KeywordEntry, 126> kKeywords{{
      "A surface of faces that moves and turns with its reference node, or is free where that has a *MASS. It is met by "
      "*CONTACT PAIR, as the second surface."},
     {"ROTARY INERTIA", model, "ELSET", "", "Of the reference node of a free rigid body, which turns by it."},
-    {"SECTION CONTROLS", solver, "", "*",
-     "Hourglass control of the other program; Carom's own holds (part.hourglass)."},
+    {"SECTION CONTROLS", model, "NAME,DISTORTION CONTROL,LENGTH RATIO", "*",
+     "DISTORTION CONTROL=YES: distortion_control of the parts that name it, LENGTH RATIO or 0.1. Hourglass control is "
+     "Carom's own (part.hourglass)."},
     {"SECTION PRINT", output, "", "*", "Results over sections."},
     {"SELECT CYCLIC SYMMETRY MODES", refused, "", "", "The step is left out."},
     {"SHELL SECTION", refused, "", "", "Carom has no shells."},
-    {"SOLID SECTION", model, "ELSET,MATERIAL", "ORIENTATION,CONTROLS",
+    {"SOLID SECTION", model, "ELSET,MATERIAL,CONTROLS", "ORIENTATION",
      "A part; the thickness of plane cells, the area of bars."},
     {"SPECIFIC HEAT", model, "", "", "specific_heat of Johnson and Cook's law."},
     {"SPRING", model, "ELSET", "", "SPRINGA: between two nodes; SPRING1: to the ground along x, y or z. Linear ones."},

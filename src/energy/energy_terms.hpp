@@ -21,6 +21,7 @@ enum class TermKind : std::uint8_t { stored, spent, dissipated, supplied, scheme
   TERM(kinetic, stored, "1/2 v.M v")                                                                                  \
   TERM(strain, stored, "integral of the stored energy density, and what springs store")                               \
   TERM(hourglass, stored, "what the stabilisation of cells with one point stores")                                    \
+  TERM(distortion, stored, "what the corners of cells with distortion control store")                                 \
   TERM(contact_stored, stored, "sum over closed rows of 1/2 eps_N g^2 + 1/2 eps_T s_e^2")                             \
   TERM(plastic, spent, "integral of the dissipated energy density, a function of the points' history")                \
   TERM(fracture, spent, "what ties that tear have dissipated, a function of their damage")                            \

@@ -79,7 +79,7 @@ struct SchemeTraits {
   std::string_view why_not;
   AngularMomentum angular_momentum = AngularMomentum::to_its_order;
   double gains = 0.005;       ///< energy that it may make, over what there is, without a trend (docs/schemes.md)
-  bool takes_history = true;  ///< bodies whose points remember, and so dissipate
+  bool takes_history = true;  ///< bodies whose points remember, and so dissipate; distortion control
 };
 
 namespace detail {

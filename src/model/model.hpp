@@ -46,6 +46,7 @@ struct Part {
   std::optional<double> hourglass{};  ///< coefficient of the hourglass stiffness; empty: 1 of stabilised cells, whose
                                       ///< stiffness is the whole one, 0.05 of one-point cells
   Viscosity viscosity{};
+  double distortion_control = 0.0;  ///< share of its volume below which a corner resists (solid/distortion_control.hpp)
 
   /// True when the forces depend on more than the displacement.
   bool remembers() const { return !material.law->history.empty() || viscosity.is_any(); }

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 #include <vector>
 
 #include "base/types.hpp"
 #include "math/vec3.hpp"
-#include "mesh/cell_topology.hpp"
+#include "mesh/corner_shapes.hpp"
 #include "parallel/threads.hpp"
 #include "solid/element_table.hpp"
 
@@ -16,42 +15,22 @@ namespace carom {
 
 namespace {
 
-/// Corners of one cell, at rest and displaced.
+/// The nodes of one cell, at rest and displaced.
 class Corners {
  public:
   Corners(const Mesh& mesh, std::span<const double> u, std::span<const Index> nodes)
       : mesh_(mesh), u_(u), nodes_(nodes) {}
 
   Vec3 rest(std::size_t a) const { return mesh_.coordinates[at(nodes_[a])]; }
-  Vec3 now(std::size_t a) const {
-    const std::size_t d = 3 * at(nodes_[a]);
-    return add(rest(a), {u_[d], u_[d + 1], u_[d + 2]});
-  }
-  /// The volume at a corner between its edges to three others over that at rest; 1 where it is flat at rest.
-  double share(const CornerFrame& f) const {
-    const auto edge = [&f](const auto& x, LocalNode to) { return subtract(x(to), x(f.corner)); };
-    const auto volume = [&](const auto& x) { return dot(cross(edge(x, f.a), edge(x, f.b)), edge(x, f.c)); };
-    const auto before = [this](std::size_t a) { return rest(a); };
-    const double size = norm(edge(before, f.a)) * norm(edge(before, f.b)) * norm(edge(before, f.c));
-    return ratio(volume([this](std::size_t a) { return now(a); }), volume(before), size);
-  }
-  /// The area at a corner of a plane cell over that at rest.
-  double share(std::size_t corner, std::size_t corners) const {
-    const auto next = (corner + 1) % corners, last = (corner + corners - 1) % corners;
-    const auto area = [&](const auto& x) {
-      return cross(subtract(x(next), x(corner)), subtract(x(last), x(corner)))[2];
-    };
-    const auto before = [this](std::size_t a) { return rest(a); };
-    const double size = norm(subtract(rest(next), rest(corner))) * norm(subtract(rest(last), rest(corner)));
-    return ratio(area([this](std::size_t a) { return now(a); }), area(before), size);
+  Vec3 now(std::size_t a) const { return add(rest(a), vector_at(u_, at(nodes_[a]))); }
+  /// The volume at a corner over that at rest; 1 where it is flat at rest.
+  double share(const CornerFrame& frame) const {
+    const CornerEdges before(frame, [this](std::size_t a) { return rest(a); });
+    const CornerEdges after(frame, [this](std::size_t a) { return now(a); });
+    return before.has_volume() ? after.volume() / before.volume() : 1.0;
   }
 
  private:
-  static double ratio(double now, double rest, double size) {
-    constexpr double flat = 1e-10;  // as meshes are read (mesh/orientation.cpp)
-    return rest > flat * size ? now / rest : 1.0;
-  }
-
   const Mesh& mesh_;
   std::span<const double> u_;
   std::span<const Index> nodes_;
@@ -60,31 +39,33 @@ class Corners {
 /// The least share of a cell's corners.
 double least_share(const Corners& of_cell, CellType type) {
   double least = 1.0;
-  if (dimension(type) == 3)
-    for (const CornerFrame& frame : corner_frames(type)) least = std::min(least, of_cell.share(frame));
-  if (dimension(type) == 2) {
-    const auto corners = static_cast<std::size_t>(corner_count(type));
-    for (std::size_t corner = 0; corner < corners; ++corner) least = std::min(least, of_cell.share(corner, corners));
-  }
+  for (const CornerFrame& frame : cell_corners(type)) least = std::min(least, of_cell.share(frame));
   return least;
 }
 
-std::string_view advice(const Part& part) {
+/// What helps a cell that folds.
+std::string advice(const Part& part) {
+  const Law& law = *part.material.law;
+  if (law.measure == Measure::small_strain)
+    return fmt::format("Its law is one of small strain, for which such a cell means nothing: take law = {}",
+                       law.when_turning);
+  std::string text = part.distortion_control > 0.0 ? "A larger distortion_control acts earlier"
+                                                   : "distortion_control = 0.1 keeps corners from folding";
   switch (find_element(part.type, part.section, part.formulation)->formulation) {
     case Formulation::one_point:
-      return "One point sees its mean volume alone, and its hourglass modes are soft: leave the formulation out, or "
-             "raise hourglass";
-    case Formulation::stabilised:
-      return "One point sees its mean volume alone: cells that are finer there, or longer in the direction that is "
-             "crushed, keep their shape; formulation = \"full\" stops at such a cell";
+      text += ", or leave the formulation out: hourglass modes of one point are soft";
+      break;
     case Formulation::reduced:
-      return "Its points do not see its corners: formulation = \"mean_dilatation\" has more of them";
+      text += "; formulation = \"mean_dilatation\" has more points, which see more of it";
+      break;
+    case Formulation::stabilised:
     case Formulation::full:
     case Formulation::mean_dilatation:
       break;
   }
-  return "Cells that are finer there, or longer in the direction that is crushed, or a contact that spreads the load, "
-         "keep their shape";
+  return text +
+         ". Cells that are finer there, or longer in the direction that is crushed, or a contact that spreads the "
+         "load, keep their shape by themselves";
 }
 
 }  // namespace

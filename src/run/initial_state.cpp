@@ -233,7 +233,7 @@ std::string describe(const Case& given, const Case& before, const CheckpointInfo
       "initial state: that of {} at t = {:.6g}, step {}; displacements up to {:.4g} {}, strain energy {:.4g} {}, "
       "dissipated {:.4g} {}",
       toml_string(*given.initial_state->from), info.time, info.step, largest(state.displacement),
-      unit(Dimension::length), energies.strain + energies.hourglass, unit(Dimension::energy),
+      unit(Dimension::length), energies.strain + energies.hourglass + energies.distortion, unit(Dimension::energy),
       energies.sum(TermKind::spent), unit(Dimension::energy));
   const double speed = largest(state.velocity);
   if (speed > 0.0) text += fmt::format(", velocities up to {:.4g} {}", speed, unit(Dimension::velocity));

@@ -207,6 +207,14 @@ double March::step_scale() const {
   return scale;
 }
 
+/// Why a step has failed: the cell that has turned inside out on the way, or that has folded.
+std::string March::with_cell(const std::string& failure) const {
+  if (std::string inverted = inside_out(s_, next_.q); !inverted.empty()) return inverted;
+  if (next_.q.size() != s_.solid().dof_count()) return failure;
+  const FlattestCorner corner = flattest_corner(s_, next_.q);
+  return corner.is_folded() ? failure + "; on the way " + describe_fold(s_, corner, next_.q) : failure;
+}
+
 /// A step to next_ that holds; nothing when there is none, and message_ says why.
 std::optional<StepReport> March::make_step() {
   steps_->limit_motion(state_, *state_.forces.rows.rows, step_ + 1);
@@ -230,7 +238,7 @@ std::optional<StepReport> March::make_step() {
       continue;
     }
     if (steps_->shorten(state_, step_ + 1)) continue;
-    if (const std::string inverted = inside_out(s_, next_.q); !inverted.empty()) report.failure = inverted;
+    report.failure = with_cell(report.failure);
     message_ = fmt::format("step {} from t = {:.6g} failed: {}{}", step_ + 1, state_.t, report.failure,
                            stage().time().fixed ? "; the case fixes the step, so it was not halved" : "");
     return std::nullopt;

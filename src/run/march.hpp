@@ -79,6 +79,7 @@ class March {
   void begin_books();
   GivenMotion given_motion(const std::vector<double>& v_before) const;
   void book_switch(const GivenMotion& given);
+  std::string with_cell(const std::string& failure) const;
   std::optional<StepReport> make_step();
   void book(const StepReport& report);
   void note_solver();

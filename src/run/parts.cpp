@@ -83,6 +83,21 @@ void choose_coefficients(const CasePart& wanted, Part& part) {
   part.viscosity.quadratic = wanted.quadratic_bulk_viscosity;
 }
 
+/// Corners resist in the direction in which they stand, where small strain knows the one at rest alone.
+void choose_distortion_control(const CasePart& wanted, Part& part) {
+  if (!wanted.distortion_control) return;
+  const auto refuse = [&](const std::string& found, const std::string& expected, const std::string& mend) {
+    throw CaseError(wanted.distortion_control->where, "part.distortion_control", found, expected, mend);
+  };
+  if (part.section == Section::bar)
+    refuse("section = \"bar\"", "cells with corners", "Leave it out: bars cannot fold.");
+  const Law& law = *part.material.law;
+  if (law.measure == Measure::small_strain)
+    refuse(fmt::format("law = \"{}\" of small strain, which a cell that nearly folds means nothing to", law.name),
+           fmt::format("law = {}", law.when_turning), "Take that law, or leave distortion_control out.");
+  part.distortion_control = **wanted.distortion_control;
+}
+
 std::string describe(const Part& part) {
   if (part.section == Section::solid || part.section == Section::axisymmetric)
     return fmt::format("\"{}\" ({})", part.name, name(part.section));
@@ -123,6 +138,7 @@ void Parts::add(const Case& given, const CasePart& wanted, const Groups& groups)
   part.cells = std::move(found.cells);
   choose_formulation(wanted, part);
   choose_coefficients(wanted, part);
+  choose_distortion_control(wanted, part);
   const auto block = static_cast<std::size_t>(mesh_.block(part.type) - mesh_.blocks.data());
   for (const Index cell : part.cells) {
     Index& owner = part_of_cell_[block][at(cell)];

@@ -225,6 +225,12 @@ void Stage::refuse_history() const {
                     "a tie without strength with this scheme, whose forces are those of a stored energy",
                     "Take a scheme of another kind, as \"generalized_alpha\" or \"bathe\", or leave the strength out.");
   for (const Part& part : context_.model.parts) {
+    if (part.distortion_control > 0.0)
+      throw CaseError(scheme_.kind.where, "scheme.kind",
+                      fmt::format("\"{}\" with distortion_control of the part \"{}\"", scheme.name, part.name),
+                      "parts without distortion_control with this scheme, which has no force between two places of a "
+                      "corner",
+                      "Take a scheme of another kind, as \"generalized_alpha\" or \"bathe\", or leave it out.");
     if (!part.remembers()) continue;
     const std::string what = part.viscosity.is_any() ? "the viscosity" : "the law \"" + part.material.law->name + '"';
     throw CaseError(

@@ -130,18 +130,20 @@ double StepGuard::longest(std::span<const double> u, double wanted) {
   return share() * advised_;
 }
 
-/// False when springs or viscosity act at the end that need a step at least 2^(1/8) shorter than the one that met them,
-/// which is the length of the next ones then.
+/// False when springs, viscosity or distortion control act at the end that need a step at least 2^(1/8) shorter than
+/// the one that met them, which is the length of the next ones then.
 bool StepGuard::fits(const State& end) {
   const Forces& forces = end.forces;
   rows_ = forces.rows.rows;
+  const bool resists = forces.stored.distortion > 0.0;
+  if (resists) watch_->follow_bodies(end.q, end.points);
   const bool is_damped = watch_->follow_damping(end.points);
   const double dt = control_.dt(), least = dt * std::exp2(-1.0 / 8.0);
   const double longest = this->longest(end.q, dt);
   bool springs_act = false;
   for (std::size_t r = 0; r < forces.rows.status.size(); ++r)
     springs_act = springs_act || (forces.rows.status[r] != RowStatus::open && !is_bond(rows_->law[r]));
-  if ((!springs_act && !is_damped) || longest >= least || !control_.limit(longest)) return true;
+  if ((!springs_act && !is_damped && !resists) || longest >= least || !control_.limit(longest)) return true;
   return control_.dt() >= dt;
 }
 

@@ -32,8 +32,9 @@ LedgerIncrement books_of_works(const State& begin, const State& end, const StepW
   energy.impact = contact.impact;
   energy.external_work = works.external;
   energy.support_work = works.support;
-  energy.quadrature = works.internal - energy.strain - energy.hourglass - energy.sum(TermKind::spent) - contact.total -
-                      energy.contact_stored - contact.friction - contact.damping - contact.impact;
+  energy.quadrature = works.internal - energy.strain - energy.hourglass - energy.distortion -
+                      energy.sum(TermKind::spent) - contact.total - energy.contact_stored - contact.friction -
+                      contact.damping - contact.impact;
   step.aster.ENER_CIN = energy.kinetic;
   step.aster.ENER_TOT = works.internal;
   step.aster.TRAV_EXT = works.external + works.support;

@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/types.hpp"
+#include "math/vec3.hpp"
 #include "mesh/cell_size.hpp"
 #include "model/wave_modulus.hpp"
 #include "solid/colouring.hpp"
@@ -190,7 +191,9 @@ Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>&
   block.wave_modulus = part.material.at_rest().p_wave_modulus();
   block.law_row = part.material.law;
   block.small_strain = part.material.law->measure == Measure::small_strain;
-  block.is_linear = block.small_strain && part.material.law->is_linear && !part.viscosity.is_any();
+  block.distortion_limit = part.distortion_control;
+  block.is_linear =
+      block.small_strain && part.material.law->is_linear && !part.viscosity.is_any() && part.distortion_control == 0.0;
   block.is_symmetric = part.material.law->has_symmetric_tangent;
   block.mass = cell_mass(element.kind);
   block.stages = stages_of(part, element, block.small_strain, table);
@@ -243,6 +246,13 @@ CellNodes SolidCells::coordinates_of(std::size_t position) const {
   return positions(*mesh, nodes_of(position));
 }
 
+CellNodes SolidCells::coordinates_of(std::size_t position, std::span<const double> u) const {
+  CellNodes x = coordinates_of(position);
+  const auto nodes = nodes_of(position);
+  for (std::size_t a = 0; a < nodes.size(); ++a) x[a] = add(x[a], vector_at(u, at(nodes[a])));
+  return x;
+}
+
 CellBatches SolidCells::batches(const Block& block, Index first, Index count, const PointStep& step,
                                 std::span<double> end) const {
   CellBatches view;
@@ -261,6 +271,61 @@ CellBatches SolidCells::batches(const Block& block, Index first, Index count, co
   if (!step.history.empty()) view.history = step.history.data() + begin;
   if (!end.empty()) view.new_history = end.data() + begin;
   return view;
+}
+
+void SolidCells::stiffness(const Block& block, Index first, const CellBatches& batch, std::span<const double> u,
+                           std::vector<double>& K) const {
+  batch_stiffness(batch, block.kernels, block.law(), block.is_symmetric, u.empty() ? nullptr : u.data(), K);
+  if (block.distortion.empty() || u.empty()) return;
+  const std::size_t size = 9 * block.nodes() * block.nodes();
+  for (std::size_t l = 0; l < at(batch.cells); ++l)
+    block.distortion.add_stiffness(at(first) + l, u, std::span<double>(K).subspan(size * l, size));
+}
+
+bool SolidCells::control_distortion(std::span<const double> volumes) {
+  bool is_any = false;
+  for (Block& block : blocks) {
+    if (block.distortion_limit == 0.0) continue;
+    is_any = true;
+    std::vector<Index> nodes;
+    for (Index c = block.first; c < block.first + block.cells; ++c) {
+      const auto of_cell = nodes_of(at(c));
+      nodes.insert(nodes.end(), of_cell.begin(), of_cell.end());
+    }
+    block.distortion =
+        DistortionControl(mesh, block.type, std::move(nodes), volumes.subspan(at(block.first), at(block.cells)),
+                          block.distortion_limit, block.wave_modulus);
+  }
+  return is_any;
+}
+
+double SolidCells::add_distortion_force(const Chunk& chunk, std::span<const double> u, std::span<double> f) const {
+  const DistortionControl& distortion = blocks[at(chunk.block)].distortion;
+  double energy = 0.0;
+  if (distortion.empty()) return energy;
+  for (Index c = chunk.first; c < chunk.first + chunk.cells; ++c) energy += distortion.add_force(at(c), u, f);
+  return energy;
+}
+
+void SolidCells::add_distortion_action(const Chunk& chunk, std::span<const double> u, std::span<const double> x,
+                                       std::span<double> y) const {
+  const DistortionControl& distortion = blocks[at(chunk.block)].distortion;
+  if (distortion.empty()) return;
+  for (Index c = chunk.first; c < chunk.first + chunk.cells; ++c) distortion.add_tangent_action(at(c), u, x, y);
+}
+
+void SolidCells::add_distortion_growth(const Chunk& chunk, std::span<const double> u,
+                                       std::span<const double> bounds_at_rest, std::span<double> own) const {
+  const Block& block = blocks[at(chunk.block)];
+  if (block.distortion.empty()) return;
+  for (Index first = 0; first < chunk.cells; first += block.stages.lanes) {
+    const Index count = std::min<Index>(block.stages.lanes, chunk.cells - first);
+    block.for_each_lumped_mass(
+        batches(block, chunk.first + first, count), [&](std::size_t l, std::span<const double> mass) {
+          const std::size_t k = at(first) + l, cell = at(chunk.first) + k;
+          own[k] += block.distortion.frequency_bound(cell, u, mass) / bounds_at_rest[at(block.first) + cell];
+        });
+  }
 }
 
 std::vector<double> SolidCells::repeated_history(const Block& block, Index cell, const PointStep& step) const {

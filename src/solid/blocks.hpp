@@ -11,6 +11,7 @@
 #include "model/model.hpp"
 #include "parallel/threads.hpp"
 #include "solid/cell_matrices.hpp"
+#include "solid/distortion_control.hpp"
 #include "solid/kernels.hpp"
 
 namespace carom {
@@ -32,6 +33,8 @@ struct Block {
   CellKernels kernels;
   PreparedLaw prepared_law;
   std::vector<Index> offset;
+  double distortion_limit = 0.0;  ///< 0: no distortion control
+  DistortionControl distortion;   ///< SolidCells::control_distortion
   std::vector<double> length;     ///< of its cells, filled up as the batches; only with viscosity
   std::size_t history_first = 0;  ///< where the block's history begins among the points of all blocks
 
@@ -83,22 +86,37 @@ struct SolidCells {
   std::span<const Index> nodes_of(std::size_t position) const;
   /// Reference coordinates of its nodes.
   CellNodes coordinates_of(std::size_t position) const;
+  /// And where they are at u.
+  CellNodes coordinates_of(std::size_t position, std::span<const double> u) const;
   /// Entries of a dof vector at its nodes.
   /// The kernels' view of `count` cells of a block from its cell `first` on, which must be a multiple of the lanes.
   /// The history at the end of the step goes to `end` unless it is empty.
   CellBatches batches(const Block& block, Index first, Index count, const PointStep& step = {},
                       std::span<double> end = {}) const;
+  /// batch_stiffness, and that of corners that resist, of a batch of the block that begins with its cell `first`. `u`
+  /// empty: at rest.
+  void stiffness(const Block& block, Index first, const CellBatches& batch, std::span<const double> u,
+                 std::vector<double>& K) const;
   /// Calls body(cell position, block, its stiffness matrix at u) for all cells, in the order of for_each_chunk.
   template <class Body>
   void for_each_stiffness(std::span<const double> u, const PointStep& step, const Body& body) const {
     for_each_batch(step, [&](std::size_t first, const Block& block, const CellBatches& batch) {
       std::vector<double> K;
-      batch_stiffness(batch, block.kernels, block.law(), block.is_symmetric, u.empty() ? nullptr : u.data(), K);
+      stiffness(block, static_cast<Index>(first) - block.first, batch, u, K);
       const std::size_t size = 9 * block.nodes() * block.nodes();
       for (std::size_t l = 0; l < static_cast<std::size_t>(batch.cells); ++l)
         body(first + l, block, std::span<const double>(K).subspan(size * l, size));
     });
   }
+  /// Makes the distortion control of the blocks that have a limit, by the reference volumes of all cells; false where
+  /// none has. A chunk's forces (their energy is returned) and tangent action are added as those of its kernels; its
+  /// growth is what the corners have of omega^2 over that at rest, own[k] being of its cell k.
+  bool control_distortion(std::span<const double> volumes);
+  double add_distortion_force(const Chunk& chunk, std::span<const double> u, std::span<double> f) const;
+  void add_distortion_action(const Chunk& chunk, std::span<const double> u, std::span<const double> x,
+                             std::span<double> y) const;
+  void add_distortion_growth(const Chunk& chunk, std::span<const double> u, std::span<const double> bounds_at_rest,
+                             std::span<double> own) const;
   /// The history of one cell of a block, a position in it, in every lane of a batch. Empty where there is none.
   std::vector<double> repeated_history(const Block& block, Index cell, const PointStep& step) const;
   /// Numbers of history of all points.

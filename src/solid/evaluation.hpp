@@ -16,12 +16,13 @@ struct PointStep {
   bool is_static = false;
 };
 
-/// Integrals over the bodies of what is stored (strain, hourglass), of what their points and hourglass modes have
-/// dissipated since the start (plastic, hourglass_loss, viscous), and what of it is heat. Functions of displacement and
-/// history: the ledger's terms of these names, or their increments. Aligned to lines of the cache,
+/// Integrals over the bodies of what is stored (strain, hourglass, distortion), of what their points and hourglass
+/// modes have dissipated since the start (plastic, hourglass_loss, viscous), and what of it is heat. Functions of
+/// displacement and history: the ledger's terms of these names, or their increments. Aligned to lines of the cache,
 /// since threads sum them side by side.
 struct alignas(64) SolidEnergies {
   double strain = 0.0, plastic = 0.0, hourglass = 0.0, hourglass_loss = 0.0, viscous = 0.0, heat = 0.0;
+  double distortion = 0.0;
 
   void add(const SolidEnergies& other) {
     strain += other.strain;
@@ -30,6 +31,7 @@ struct alignas(64) SolidEnergies {
     hourglass_loss += other.hourglass_loss;
     viscous += other.viscous;
     heat += other.heat;
+    distortion += other.distortion;
   }
 };
 

@@ -126,8 +126,7 @@ void project_stiffness(const SolidCells& solid, std::span<const double> u, const
     slice.parts.resize(at(std::max<Index>(0, end - begin)));
     for (Index first = begin; first < end; first += lanes) {
       const Index count = std::min(lanes, end - first), cell = chunk.first + first;
-      batch_stiffness(solid.batches(block, cell, count, step), block.kernels, block.law(), block.is_symmetric,
-                      u.empty() ? nullptr : u.data(), slice.K);
+      solid.stiffness(block, cell, solid.batches(block, cell, count, step), u, slice.K);
       const std::size_t size = 9 * block.nodes() * block.nodes();
       for (std::size_t l = 0; l < at(count); ++l) {
         const auto K = std::span<const double>(slice.K).subspan(size * l, size);

@@ -61,6 +61,7 @@ struct Solid::Impl {
       }
     });
     bound_damping();
+    if (solid.control_distortion(volumes)) bounds_at_rest = frequency_bounds();
     cohesive.place_history(solid.history_size());
   }
 
@@ -212,6 +213,7 @@ struct Solid::Impl {
   Springs springs;
   CohesiveZones cohesive;
   std::vector<double> volumes, lengths;
+  std::vector<double> bounds_at_rest;                   ///< frequency_bounds(), for distortion control
   std::vector<double> bulk_damping, hourglass_damping;  ///< empty without viscosity
   TurningBodies turning_bodies;
 };
@@ -267,6 +269,7 @@ SolidEnergies Solid::evaluate(std::span<const double> u, const PointStep& step, 
   impl_->sum_over_chunks(f, [&](const Chunk& chunk, const Block& block, double* sum) {
     SolidEnergies& energies = partial[at(&chunk - impl_->solid.chunks.data())];
     block.kernels.add_internal_force(impl_->batches(chunk, step, end), block.law(), u.data(), sum, &energies);
+    energies.distortion = impl_->solid.add_distortion_force(chunk, u, f);
   });
   SolidEnergies total;
   for (const SolidEnergies& energies : partial) total.add(energies);
@@ -280,6 +283,7 @@ SolidEnergies Solid::evaluate(std::span<const double> u, const PointStep& step, 
 void Solid::internal_force(std::span<const double> u, std::span<double> f, const PointStep& step) const {
   impl_->sum_over_chunks(f, [&](const Chunk& chunk, const Block& block, double* sum) {
     block.kernels.add_internal_force(impl_->batches(chunk, step), block.law(), u.data(), sum, nullptr);
+    impl_->solid.add_distortion_force(chunk, u, f);
   });
   impl_->springs.add_force(1.0, u, f);
   impl_->cohesive.add_force(u, step, f, nullptr, {});
@@ -290,8 +294,7 @@ void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const 
                                   const PointStep& step) const {
   std::array<Index, most_nodes * most_lanes> offset{};  // one batch, filled up with one cell
   for (const Index cell : cells) {
-    const Block& block = *std::find_if(impl_->solid.blocks.begin(), impl_->solid.blocks.end(),
-                                       [&](const Block& b) { return cell < b.first + b.cells; });
+    const Block& block = impl_->solid.block_of(at(cell));
     const auto nodes = impl_->solid.nodes_of(at(cell));
     for (std::size_t a = 0; a < nodes.size(); ++a)
       std::fill_n(offset.begin() + static_cast<std::ptrdiff_t>(a * block.lanes()), block.lanes(), 3 * nodes[a]);
@@ -302,6 +305,7 @@ void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const 
     const std::vector<double> length(block.length.empty() ? 0 : block.lanes(), impl_->lengths[at(cell)]);
     if (!length.empty()) batch.length = length.data();
     block.kernels.add_internal_force(batch, block.law(), u.data(), f.data(), nullptr);
+    if (!block.distortion.empty()) block.distortion.add_force(at(cell - block.first), u, f);
   }
 }
 
@@ -309,6 +313,7 @@ void Solid::tangent_action(std::span<const double> u, std::span<const double> x,
                            const PointStep& step) const {
   impl_->sum_over_chunks(y, [&](const Chunk& chunk, const Block& block, double* sum) {
     block.kernels.add_tangent_action(impl_->batches(chunk, step), block.law(), u.data(), x.data(), sum);
+    impl_->solid.add_distortion_action(chunk, u, x, y);
   });
   impl_->springs.add_force(1.0, x, y);
   impl_->cohesive.add_tangent_action(u, x, y, step);
@@ -492,21 +497,16 @@ void Solid::frequency_growth(std::span<const double> u, const PointStep& step, s
     const Chunk& chunk = impl_->solid.chunks[c];
     const Block& block = impl_->block(chunk);
     const std::span<double> own = growth.subspan(at(block.first + chunk.first), at(chunk.cells));
-    if (block.small_strain) {
-      std::fill(own.begin(), own.end(), 1.0);
-      return;
-    }
+    if (block.small_strain) return std::fill(own.begin(), own.end(), 1.0);
     wave_modulus(impl_->batches(chunk, step), block.law(), u.data(), own.data());
     for (std::size_t k = 0; k < own.size(); ++k) {
       const std::size_t cell = at(block.first + chunk.first) + k;
-      CellNodes x = impl_->solid.coordinates_of(cell);
-      const auto nodes = impl_->solid.nodes_of(cell);
-      for (std::size_t a = 0; a < nodes.size(); ++a)
-        for (std::size_t i = 0; i < 3; ++i) x[a][i] += u[3 * at(nodes[a]) + i];
+      const CellNodes x = impl_->solid.coordinates_of(cell, u);
       const double shortening =
-          impl_->lengths[cell] / cell_length(block.type, std::span<const Vec3>(x).first(nodes.size()));
+          impl_->lengths[cell] / cell_length(block.type, std::span<const Vec3>(x).first(block.nodes()));
       own[k] *= shortening * shortening / block.wave_modulus;
     }
+    impl_->solid.add_distortion_growth(chunk, u, impl_->bounds_at_rest, own);
   });
 }
 

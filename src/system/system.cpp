@@ -22,6 +22,7 @@ void evaluate_solid(const System& system, const PointStep& step, State& end) {
   forces.stored.hourglass_loss = energies.hourglass_loss;
   forces.stored.viscous = energies.viscous;
   forces.stored.heat = energies.heat;
+  forces.stored.distortion = energies.distortion;
   forces.stored.fracture = system.solid.cohesive().dissipated(end.points);
 }
 

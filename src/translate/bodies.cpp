@@ -211,12 +211,33 @@ std::array<double, 2> bulk_viscosity(const Translation& t) {
   return {0.06, 1.2};
 }
 
+/// Where the *SECTION CONTROLS that a section names keeps its cells from folding: the share that they keep.
+std::optional<double> distortion_control(Translation& t, const DeckKeyword& section) {
+  const std::string* name = section.parameter("CONTROLS");
+  if (name == nullptr) return std::nullopt;
+  std::optional<double> share;
+  for (const Statement& s : t.statements.list) {
+    const DeckKeyword& controls = *s.keyword;
+    if (controls.name != "SECTION CONTROLS" || upper_case(controls.required("NAME")) != upper_case(*name)) continue;
+    const std::string* wanted = controls.parameter("DISTORTION CONTROL");
+    if (wanted == nullptr || upper_case(*wanted) == "NO") continue;
+    const std::string* ratio = controls.parameter("LENGTH RATIO");
+    constexpr double without_ratio = 0.1;
+    share = ratio == nullptr ? without_ratio : as_real(*ratio);
+    if (!share) controls.fail("LENGTH RATIO=" + *ratio, "a number between 0 and 1");
+  }
+  if (!share || t.is_finite()) return share;
+  t.findings.note(section.where, "DISTORTION CONTROL changes nothing at small strain");
+  return std::nullopt;
+}
+
 void translate_section(Translation& t, const Statement& s, const std::array<double, 2>& viscosity) {
   const DeckKeyword& keyword = *s.keyword;
   const std::string set = keyword.required("ELSET"), material = keyword.required("MATERIAL");
   const std::string key = key_of(t.mesh.names.element_sets, t.scope(s), set);
   if (key.empty()) keyword.fail("ELSET=" + set, "the name of a set of cells");
   DeckCursor at(keyword);
+  const std::optional<double> keeps = distortion_control(t, keyword);
   const double size = at.next_line() ? at.real_or(0.0, "thickness or area") : 0.0;
   for (const DeckNames::Cells& cells : t.mesh.names.element_sets.at(key)) {
     const DeckElementType& type = *cells.type;
@@ -232,6 +253,7 @@ void translate_section(Translation& t, const Statement& s, const std::array<doub
       part.number("area", size);
     }
     if (!type.formulation.empty()) part.text("formulation", std::string(type.formulation));
+    if (keeps) part.number("distortion_control", *keeps);
     if (viscosity[0] != 0.0) part.number("linear_bulk_viscosity", viscosity[0]);
     if (viscosity[1] != 0.0) part.number("quadratic_bulk_viscosity", viscosity[1]);
     if (!type.remark.empty()) t.findings.note(keyword.where, fmt::format("{}: {}", type.name, type.remark));

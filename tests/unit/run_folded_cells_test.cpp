@@ -95,5 +95,88 @@ TEST(FoldedCells, ARunNamesTheFirstWithWhatHelpsItsFormulation) {
   EXPECT_EQ(bending.result("summary.json").find("has folded"), std::string::npos);
 }
 
+TEST(FoldedCells, DistortionControlThatNeverActsChangesNoBit) {
+  const TemporaryCase plain(squares("", 0.3)), controlled(squares("distortion_control = 0.1", 0.3));
+  plain.run();
+  controlled.run();
+  EXPECT_EQ(plain.result("energy.csv"), controlled.result("energy.csv"));
+}
+
+/// A cube between plates that hold it, of n x n x n cells, pressed together at a speed.
+struct Crush {
+  int n = 4;
+  double nu = 0.499, speed = 0.5;
+  const char* scheme = "kind = \"statics\"\n[time]\nend = 1.0\nstep = 0.02";
+
+  std::string text(const std::string& part) const {
+    return fmt::format(R"(units = "SI"
+[[mesh.block]]
+size = [1.0, 1.0, 1.0]
+divisions = [{0}, {0}, {0}]
+groups = {{ cells = "BODY", zmin = "LOW", zmax = "HIGH" }}
+[materials.m]
+law = "neo_hookean"
+E = 1.0e6
+nu = {1}
+rho = 1000.0
+[[part]]
+name = "block"
+cells = "BODY"
+material = "m"
+{3}
+[[support]]
+nodes = "LOW"
+blocked = ["x", "y", "z"]
+[[support]]
+nodes = "HIGH"
+blocked = ["x", "y"]
+displacement = {{ z = -{2}, function = "ramp" }}
+[functions.ramp]
+time = [0.0, 1.0]
+value = [0.0, 1.0]
+[scheme]
+{4}
+)",
+                       n, nu, speed, part, scheme);
+  }
+};
+
+/// That cells of the block fold, but not with distortion control, which stores little and leaves the books closed.
+void expect_kept(const Crush& crush, const std::string& part) {
+  SCOPED_TRACE(part + crush.scheme);
+  const TemporaryCase folding(crush.text(part));
+  folding.run();
+  EXPECT_NE(folding.result("summary.json").find("has folded"), std::string::npos);
+  const TemporaryCase kept(crush.text(part + "distortion_control = 0.1"));
+  kept.run();
+  EXPECT_NE(kept.result("summary.json").find("\"outcome\": \"good\""), std::string::npos);
+  const auto energies = last_row(kept.result("energy.csv"));
+  EXPECT_GT(energies.at("distortion"), 0.0);
+  EXPECT_LT(energies.at("distortion"), 0.03 * energies.at("strain")) << "at the rim alone";
+}
+
+TEST(FoldedCells, DistortionControlKeepsThemFromFolding) {
+  expect_kept({}, "");
+  expect_kept({.nu = 0.3, .speed = 0.8}, "");
+  const char* explicit_steps = "kind = \"central_differences\"\n[time]\nend = 0.1";
+  for (const char* formulation : {"one_point", "mean_dilatation"})
+    expect_kept({3, 0.3, 7.5, explicit_steps}, fmt::format("formulation = \"{}\"\n", formulation));
+}
+
+TEST(FoldedCells, DistortionControlIsRefusedWhereItCannotAct) {
+  const auto refusal = [](const std::string& text) { return std::string(case_error(text).what()); };
+  const std::string controlled = case_of_block(
+      "distortion_control = 0.1\n[scheme]\nkind = \"newmark\"\n"
+      "[time]\nend = 1.0\nstep = 1.0\n");
+  EXPECT_NE(refusal(controlled).find("linear_elastic\" of small strain"), std::string::npos) << refusal(controlled);
+  const std::string finite = replaced(controlled, "linear_elastic", "neo_hookean");
+  const Simulation accepted(parse_case(finite, "c"));
+  const std::string conserving = replaced(finite, "newmark", "energy_momentum");
+  EXPECT_NE(refusal(conserving).find("\"energy_momentum\" with distortion_control of the part \"body\""),
+            std::string::npos)
+      << refusal(conserving);
+  EXPECT_THROW(parse_case(replaced(finite, "distortion_control = 0.1", "distortion_control = 1.0"), "c"), CaseError);
+}
+
 }  // namespace
 }  // namespace carom::run_folded_cells_test
