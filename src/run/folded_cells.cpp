@@ -43,10 +43,20 @@ double least_share(const Corners& of_cell, CellType type) {
   return least;
 }
 
+bool is_small_strain(const Part& part) {
+  return part.material.law->measure == Measure::small_strain;
+}
+/// Of each of Solid::cells(), which are those of one part after the other.
+std::vector<char> are_small_strain(const Model& model) {
+  std::vector<char> are;
+  for (const Part& part : model.parts) are.insert(are.end(), part.cells.size(), is_small_strain(part) ? 1 : 0);
+  return are;
+}
+
 /// What helps a cell that folds.
 std::string advice(const Part& part) {
   const Law& law = *part.material.law;
-  if (law.measure == Measure::small_strain)
+  if (is_small_strain(part))
     return fmt::format("Its law is one of small strain, for which such a cell means nothing: take law = {}",
                        law.when_turning);
   std::string text = part.distortion_control > 0.0 ? "A larger distortion_control acts earlier"
@@ -73,6 +83,7 @@ std::string advice(const Part& part) {
 FlattestCorner flattest_corner(const Simulation& simulation, std::span<const double> u) {
   const Solid& solid = simulation.solid();
   const Mesh& mesh = simulation.mesh();
+  const std::vector<char> is_small = are_small_strain(simulation.model());
   constexpr std::size_t grain = 1024;
   std::vector<FlattestCorner> of_task((solid.cell_count() + grain - 1) / grain);
   parallel_for(of_task.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -80,12 +91,20 @@ FlattestCorner flattest_corner(const Simulation& simulation, std::span<const dou
       for (std::size_t k = grain * task; k < std::min(grain * (task + 1), solid.cell_count()); ++k) {
         const CellType type = mesh.blocks[at(solid.cells()[k].block)].type;
         const double share = least_share(Corners(mesh, u, solid.nodes_of_cell(k)), type);
-        if (share < of_task[task].share) of_task[task] = {static_cast<Index>(k), share};
+        FlattestCorner& least = of_task[task];
+        if (share < least.small_strain && is_small[k] != 0) least.small_strain = share;
+        if (share >= least.share) continue;
+        least.cell = static_cast<Index>(k);
+        least.share = share;
       }
   });
   FlattestCorner least;
-  for (const FlattestCorner& found : of_task)
+  double small_strain = 1.0;
+  for (const FlattestCorner& found : of_task) {
+    small_strain = std::min(small_strain, found.small_strain);
     if (found.share < least.share) least = found;
+  }
+  least.small_strain = small_strain;
   return least;
 }
 

@@ -12,6 +12,7 @@ namespace carom {
 struct FlattestCorner {
   Index cell = -1;  ///< position in Solid::cells(); -1: nothing has become smaller
   double share = 1.0;
+  double small_strain = 1.0;  ///< the least share among cells of small strain
   bool is_folded() const { return share <= 0.0; }
 };
 

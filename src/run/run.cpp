@@ -234,6 +234,7 @@ void Run::fill_in(Summary& summary) const {
   summary.checks = watched_->recorder.checks();
   summary.verdict.push_back(watched_->penetration.item());
   summary.verdict.push_back(watched_->overlap.item());
+  if (const std::optional<VerdictItem> item = watched_->folds.item()) summary.verdict.push_back(*item);
   if (any_free(simulation_.model().turning_bodies)) summary.verdict.push_back(body_strain_item(march().body_strain()));
 }
 

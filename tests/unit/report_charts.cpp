@@ -135,11 +135,12 @@ TEST(Charts, TheMechanicalEnergyIsDrawnWithItsTerms) {
                                     {"kinetic", {8, 4}},
                                     {"strain", {0, 3}},
                                     {"hourglass", {0, 0.25}},
+                                    {"distortion", {0, 0.125}},
                                     {"contact_stored", {0, 0.5}}});
   const auto charts = make_charts({.energy = energy}, kUnits);
-  ASSERT_EQ(charts.at(0).curves.size(), 5U);
-  EXPECT_EQ(charts[0].curves[4].name, "total: kinetic + strain + hourglass + contact stored");
-  EXPECT_EQ(charts[0].curves[4].values, (std::vector{8.0, 7.75}));
+  ASSERT_EQ(charts.at(0).curves.size(), 6U);
+  EXPECT_EQ(charts[0].curves[5].name, "total: kinetic + strain + hourglass + distortion + contact stored");
+  EXPECT_EQ(charts[0].curves[5].values, (std::vector{8.0, 7.875}));
 }
 
 TEST(Charts, CountsHaveWholeTicks) {

@@ -95,6 +95,26 @@ TEST(FoldedCells, ARunNamesTheFirstWithWhatHelpsItsFormulation) {
   EXPECT_EQ(bending.result("summary.json").find("has folded"), std::string::npos);
 }
 
+// A law of small strain goes on with whatever its cells have become: that is not good, neither with a fold nor with
+// half of a corner's volume gone.
+TEST(FoldedCells, OfSmallStrainFailTheVerdict) {
+  const auto pushed = [](double way) {
+    std::string text = replaced(squares("", way), "neo_hookean", "linear_elastic");
+    text =
+        replaced(text, "energy_growth = 1e9", "energy_growth = 1e9\nrotation_warning = 300.0\nrotation_stop = 400.0");
+    const TemporaryCase run(text);
+    run.run();
+    return run.result("summary.json");
+  };
+  for (const double way : {0.7, 1.2}) {
+    const std::string summary = pushed(way);
+    EXPECT_NE(summary.find("\"outcome\": \"failed\""), std::string::npos) << summary;
+    EXPECT_NE(summary.find("(not small strain)"), std::string::npos) << summary;
+    EXPECT_EQ(summary.find("a cell has folded") == std::string::npos, way < 1.0);
+  }
+  EXPECT_NE(pushed(0.1).find("\"outcome\": \"good\""), std::string::npos);
+}
+
 TEST(FoldedCells, DistortionControlThatNeverActsChangesNoBit) {
   const TemporaryCase plain(squares("", 0.3)), controlled(squares("distortion_control = 0.1", 0.3));
   plain.run();

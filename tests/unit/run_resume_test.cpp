@@ -256,6 +256,18 @@ TEST(Resume, KeepsWhatPlasticBodiesRemember) {
   }
 }
 
+// Corners resist from 0.99 of their volume on, so that explicit steps become shorter on the way.
+TEST(Resume, KeepsTheStepsOfDistortionControl) {
+  const Runs runs(
+      replaced(pressed("neo_hookean", false, stepping(SchemeKind::central_differences, EnforcementKind::penalty)),
+               "cells = \"BODY\"\n", "cells = \"BODY\"\ndistortion_control = 0.99\n"));
+  const ExitCode code = runs.run("whole");
+  ASSERT_NE(code, ExitCode::run_failed) << read_text(runs.results("whole") / "summary.json");
+  EXPECT_EQ(runs.run_in_pieces("pieces"), code);
+  EXPECT_GT(last_row(read_text(runs.results("pieces") / "energy.csv")).at("distortion"), 0.0);
+  expect_equal_folders(runs.results("whole"), runs.results("pieces"));
+}
+
 // Two blocks that part, by a tie that is half torn as the run is stopped, beside an equation.
 TEST(Resume, KeepsWhatTiesAndEquationsRemember) {
   const std::string blocks = R"(units = "SI"

@@ -5,6 +5,7 @@
 
 #include "linalg/dense.hpp"
 #include "mesh/cell_topology.hpp"
+#include "parallel/threads.hpp"
 #include "solid/distortion_control.hpp"
 #include "solid_bodies.hpp"
 
@@ -234,6 +235,23 @@ TEST(Distortion, IsPartOfAllSumsOfTheSolid) {
     EXPECT_NEAR(slope([&](double h) { return internal_force(controlled, along(h))[i]; }, 1e-4), action[i], 1e-8 * size);
     EXPECT_NEAR(diagonal[i], K[i][i], 1e-12 * size);
   }
+}
+
+TEST(Distortion, SameBitsForAnyNumberOfThreads) {
+  Model model = one_part(block_mesh({16, 16, 16}, 0.2), NeoHookean{unit_material});  // 4096 cells: 8 chunks
+  model.parts[0].distortion_control = 0.9;
+  const Solid solid(model);
+  std::vector<double> u = random_vector(solid.dof_count(), 5), f(u.size()), g(u.size());
+  for (double& entry : u) entry *= 0.1;
+  set_threads(1);
+  const double energy = solid.evaluate(u, {}, f, {}).distortion;
+  EXPECT_GT(energy, 0.0);
+  for (const int threads : {2, 4}) {
+    set_threads(threads);
+    EXPECT_EQ(solid.evaluate(u, {}, g, {}).distortion, energy) << threads;
+    EXPECT_EQ(g, f) << threads;
+  }
+  set_threads(0);
 }
 
 TEST(Distortion, ShortensTheStableStepWhereItActsAndIsNotThereElsewhere) {
