@@ -35,16 +35,15 @@ SectionSchema<CasePart> part_section() {
       "that is the cell's mean, or linear in QUAD8, HEXA20 and HEXA27 (B-bar, F-bar), for nearly incompressible and "
       "yielding bodies; \"one_point\": at one point, with a stiffness against hourglass modes; \"stabilised\": at one "
       "point, with that of enhanced strains, which neither bending nor constant volume locks; \"reduced\": at two "
-      "points a direction, of QUAD8 and HEXA20. Which cells have which: docs/cells.md. Absent: stabilised of HEXA8 "
-      "and QUAD4, mean_dilatation of TETRA10, and of QUAD8, HEXA20 and HEXA27 that yield or have nu > 0.4, full of the "
-      "others.",
-      {.choices = {"full", "mean_dilatation", "one_point", "stabilised", "reduced"}});
-  s.key(
-      "hourglass", &CasePart::hourglass,
-      "Coefficient of the stiffness against hourglass modes of one_point and stabilised cells: 1 is about the elastic "
-      "stiffness of full integration, or that of enhanced strains. Absent: 0.05 of one_point cells, 1 of stabilised "
-      "ones.",
-      {.range = greater_than(0.0)});
+      "points a direction, of QUAD8 and HEXA20; \"nodal\": at the nodes, of TETRA4 and TRIA3. Which cells have which: "
+      "docs/cells.md. Absent: stabilised of HEXA8 and QUAD4, mean_dilatation of TETRA10; where the law yields or nu > "
+      "0.4 mean_dilatation of QUAD8, HEXA20 and HEXA27, nodal of TETRA4 and TRIA3; full of the others.",
+      {.choices = {"full", "mean_dilatation", "one_point", "stabilised", "reduced", "nodal"}});
+  s.key("hourglass", &CasePart::hourglass,
+        "Coefficient of the stiffness against hourglass modes of one_point, stabilised and nodal cells: 1 is about the "
+        "elastic stiffness of full integration, or that of enhanced strains. Absent: 0.05 of one_point cells, 1 of "
+        "stabilised and 0.25 of nodal ones.",
+        {.range = greater_than(0.0)});
   s.key(
       "hourglass_viscosity", &CasePart::hourglass_viscosity,
       "Coefficient of a viscous resistance to the rates of hourglass modes of one_point cells, beside the stiffness: 1 "

@@ -25,6 +25,10 @@ template <class Real>
   return {a.value - b.value, a.change - b.change};
 }
 template <class Real>
+[[gnu::always_inline]] static inline Directional<Real> operator-(const Directional<Real>& a) {
+  return {-a.value, -a.change};
+}
+template <class Real>
 [[gnu::always_inline]] static inline Directional<Real> operator*(const Directional<Real>& a,
                                                                  const Directional<Real>& b) {
   return {a.value * b.value, a.change * b.value + a.value * b.change};

@@ -17,10 +17,14 @@ constexpr std::array<LocalNode, 3> kMiddleSecond{0, 2, 1};
 constexpr const char* kStabilised =
     "stabilised, so that it locks less than theirs; formulation = \"full\" integrates as CalculiX does";
 
+constexpr const char* kNodal =
+    "at its nodes where it yields or nu > 0.4, so that it locks less than theirs; formulation = \"full\" integrates as "
+    "CalculiX does";
+
 constexpr const char* kVolume = "with mean dilatation where it yields or nu > 0.4; formulation = \"full\" has none";
 
 const std::array<DeckElementType, 65> kTypes{
-    {{"C3D4", Kind::cell, CellType::tetra4, 4, {}, "solid", "", ""},
+    {{"C3D4", Kind::cell, CellType::tetra4, 4, {}, "solid", "", kNodal},
      {"C3D5", Kind::cell, CellType::pyra5, 5, {}, "solid", "", ""},
      {"C3D6", Kind::cell, CellType::penta6, 6, {}, "solid", "", ""},
      {"C3D8", Kind::cell, CellType::hexa8, 8, {}, "solid", "", kStabilised},
@@ -46,7 +50,7 @@ const std::array<DeckElementType, 65> kTypes{
      {"C3D20", Kind::cell, CellType::hexa20, 20, {}, "solid", "", kVolume},
      {"C3D20R", Kind::cell, CellType::hexa20, 20, {}, "solid", "reduced", ""},
      {"C3D27", Kind::cell, CellType::hexa27, 27, kHexa27, "solid", "", kVolume},
-     {"CPE3", Kind::cell, CellType::tria3, 3, {}, "plane_strain", "", ""},
+     {"CPE3", Kind::cell, CellType::tria3, 3, {}, "plane_strain", "", kNodal},
      {"CPE4", Kind::cell, CellType::quad4, 4, {}, "plane_strain", "", kStabilised},
      {"CPE4R",
       Kind::cell,
@@ -88,7 +92,7 @@ const std::array<DeckElementType, 65> kTypes{
      {"CPS6", Kind::cell, CellType::tria6, 6, {}, "plane_stress", "", ""},
      {"CPS8", Kind::cell, CellType::quad8, 8, {}, "plane_stress", "", ""},
      {"CPS8R", Kind::cell, CellType::quad8, 8, {}, "plane_stress", "reduced", ""},
-     {"CAX3", Kind::cell, CellType::tria3, 3, {}, "axisymmetric", "", ""},
+     {"CAX3", Kind::cell, CellType::tria3, 3, {}, "axisymmetric", "", kNodal},
      {"CAX4", Kind::cell, CellType::quad4, 4, {}, "axisymmetric", "", kStabilised},
      {"CAX4R",
       Kind::cell,

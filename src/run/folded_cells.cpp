@@ -69,6 +69,7 @@ std::string advice(const Part& part) {
       text += "; formulation = \"mean_dilatation\" has more points, which see more of it";
       break;
     case Formulation::stabilised:
+    case Formulation::nodal:
     case Formulation::full:
     case Formulation::mean_dilatation:
       break;

@@ -281,7 +281,7 @@ bool locks_at_constant_volume(const Part& part) {
   if (part.section == Section::plane_stress || part.section == Section::bar) return false;
   const bool yields = !part.material.law->history.empty();
   if (part.type == CellType::tetra4 || part.type == CellType::tria3)
-    return yields || part.material.at_rest().nu > incompressible;
+    return is_fully_integrated(part) && (yields || part.material.at_rest().nu > incompressible);
   return yields && node_count(part.type) == corner_count(part.type) && is_fully_integrated(part);
 }
 

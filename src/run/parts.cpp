@@ -12,6 +12,7 @@
 #include "mesh/orientation.hpp"
 #include "run/offered_cells.hpp"
 #include "solid/element_table.hpp"
+#include "solid/node_patches.hpp"
 
 namespace carom {
 
@@ -34,17 +35,28 @@ std::optional<CellType> wanted_type(const CasePart& wanted, Section section) {
                   fmt::format("\"{}\" with section = \"{}\"", **wanted.type, name(section)), names(types));
 }
 
+/// Where the body yields or is nearly incompressible.
+bool keeps_volume(const Part& part) {
+  constexpr double incompressible = 0.4;
+  return !part.material.law->history.empty() || part.material.at_rest().nu > incompressible;
+}
+
 /// Cells of second order lock a little where volume is kept: those with a linear function for their volume take it
 /// there (docs/cells.md).
 bool takes_linear_volume(const Part& part) {
-  constexpr double incompressible = 0.4;
   const Element* element = find_element(part.type, part.section, Formulation::mean_dilatation);
-  const bool keeps_volume = !part.material.law->history.empty() || part.material.at_rest().nu > incompressible;
-  return keeps_volume && element != nullptr && *element->dilatation != VolumeField::mean;
+  return keeps_volume(part) && element != nullptr && *element->dilatation != VolumeField::mean;
+}
+
+/// Cells of one strain each have too few freedoms to keep their volume, their nodes have enough (docs/cells.md).
+bool takes_nodes(const Part& part, const Mesh& mesh) {
+  return keeps_volume(part) && part.section != Section::plane_stress &&
+         find_element(part.type, part.section, Formulation::nodal) != nullptr &&
+         largest_valence(mesh, part.type, part.cells).is_within_patch();
 }
 
 /// Takes the formulation that the case names, if the element table has it for the cells of the part.
-void choose_formulation(const CasePart& wanted, Part& part) {
+void choose_formulation(const CasePart& wanted, const Mesh& mesh, Part& part) {
   if (wanted.formulation) {
     const Element* element = nullptr;
     for (const Element& row : elements())
@@ -58,13 +70,16 @@ void choose_formulation(const CasePart& wanted, Part& part) {
     part.formulation = element->formulation;
   } else if (takes_linear_volume(part)) {
     part.formulation = Formulation::mean_dilatation;
+  } else if (takes_nodes(part, mesh)) {
+    part.formulation = Formulation::nodal;
   }
 }
 
 /// Takes the coefficients of stabilisation and viscosity.
 void choose_coefficients(const CasePart& wanted, Part& part) {
   const Formulation of_part = find_element(part.type, part.section, part.formulation)->formulation;
-  const bool has_one_point = of_part == Formulation::one_point, is_stabilised = of_part == Formulation::stabilised;
+  const bool has_one_point = of_part == Formulation::one_point,
+             is_stabilised = of_part == Formulation::stabilised || of_part == Formulation::nodal;
   const auto of_modes = [&](const std::optional<Located<double>>& given, const char* key, bool is_taken,
                             const char* expected, auto& value) {
     if (!given || **given == 0.0) return;
@@ -76,7 +91,7 @@ void choose_coefficients(const CasePart& wanted, Part& part) {
     value = **given;
   };
   of_modes(wanted.hourglass, "part.hourglass", has_one_point || is_stabilised,
-           "formulation = \"one_point\" or \"stabilised\"", part.hourglass);
+           "formulation = \"one_point\", \"stabilised\" or \"nodal\"", part.hourglass);
   of_modes(wanted.hourglass_viscosity, "part.hourglass_viscosity", has_one_point, "formulation = \"one_point\"",
            part.viscosity.hourglass);
   part.viscosity.linear = wanted.linear_bulk_viscosity;
@@ -136,7 +151,7 @@ void Parts::add(const Case& given, const CasePart& wanted, const Groups& groups)
                    wanted_type(wanted, part.section));
   part.type = found.type;
   part.cells = std::move(found.cells);
-  choose_formulation(wanted, part);
+  choose_formulation(wanted, mesh_, part);
   choose_coefficients(wanted, part);
   choose_distortion_control(wanted, part);
   const auto block = static_cast<std::size_t>(mesh_.block(part.type) - mesh_.blocks.data());

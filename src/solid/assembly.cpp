@@ -18,21 +18,22 @@ struct NodeCells {
 NodeCells cells_of_nodes(const SolidCells& solid) {
   const std::size_t node_count = solid.mesh->node_count();
   NodeCells result{std::vector<std::size_t>(node_count + 1, 0), {}};
-  for (std::size_t c = 0; c < solid.cells.size(); ++c)
+  for (std::size_t c = 0; c < solid.size(); ++c)
     for (const Index n : solid.nodes_of(c)) ++result.begin[at(n) + 1];
   for (std::size_t n = 0; n < node_count; ++n) result.begin[n + 1] += result.begin[n];
   result.cells.resize(result.begin.back());
   std::vector<std::size_t> next(result.begin.begin(), result.begin.end() - 1);
-  for (std::size_t c = 0; c < solid.cells.size(); ++c)
+  for (std::size_t c = 0; c < solid.size(); ++c)
     for (const Index n : solid.nodes_of(c)) result.cells[next[at(n)]++] = c;
   return result;
 }
 
 }  // namespace
 
-CsrMatrix node_graph(const SolidCells& solid, std::span<const Spring> springs,
+CsrMatrix node_graph(std::span<const SolidCells* const> solids, std::span<const Spring> springs,
                      std::span<const std::vector<Index>> links) {
-  const NodeCells incident = cells_of_nodes(solid);
+  std::vector<NodeCells> incident;
+  for (const SolidCells* solid : solids) incident.push_back(cells_of_nodes(*solid));
   std::multimap<Index, Index> tied;
   for (const Spring& spring : springs) {
     tied.emplace(spring.nodes[0], spring.nodes[1]);
@@ -41,15 +42,16 @@ CsrMatrix node_graph(const SolidCells& solid, std::span<const Spring> springs,
   for (const std::vector<Index>& nodes : links)
     for (const Index a : nodes)
       for (const Index b : nodes) tied.emplace(a, b);
-  const std::size_t node_count = solid.mesh->node_count();
+  const std::size_t node_count = solids[0]->mesh->node_count();
   CsrMatrix graph;
   graph.size = static_cast<Index>(node_count);
   graph.row_begin.assign(1, 0);
   std::vector<Index> row;
   for (std::size_t n = 0; n < node_count; ++n) {
     row.clear();
-    for (std::size_t k = incident.begin[n]; k < incident.begin[n + 1]; ++k)
-      for (const Index m : solid.nodes_of(incident.cells[k])) row.push_back(m);
+    for (std::size_t s = 0; s < solids.size(); ++s)
+      for (std::size_t k = incident[s].begin[n]; k < incident[s].begin[n + 1]; ++k)
+        for (const Index m : solids[s]->nodes_of(incident[s].cells[k])) row.push_back(m);
     const auto [first, last] = tied.equal_range(static_cast<Index>(n));
     for (auto tie = first; tie != last; ++tie) row.insert(row.end(), {tie->first, tie->second});
     std::sort(row.begin(), row.end());

@@ -10,7 +10,7 @@ namespace carom {
 
 /// Empty matrix (zero values) whose entries are the pairs of nodes that share a solid cell, a spring or one of
 /// the links.
-CsrMatrix node_graph(const SolidCells& solid, std::span<const Spring> springs = {},
+CsrMatrix node_graph(std::span<const SolidCells* const> solids, std::span<const Spring> springs = {},
                      std::span<const std::vector<Index>> links = {});
 
 /// The same graph with 3 x 3 entries per pair of nodes; row 3 n + i is component i of node n.

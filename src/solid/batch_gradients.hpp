@@ -20,6 +20,9 @@ class BatchGradients {
   double volume(int l) const;
   /// H_ij = du_i/dX_j in the cell's directions; the deformation gradient is frame + H.
   void gradient(int p, int l, double H[3][3]) const;
+  /// Of cells of one point in finite strain, the square of the least stretch: that by which waves of a given speed in
+  /// the reference gain on it.
+  double least_stretch_squared(int l) const;
   /// Its means over the reference volume, H[(3 i + j) lanes + l].
   void means(double* H) const;
   /// F at rest: 1, or (axis, 0, 0) of bars.

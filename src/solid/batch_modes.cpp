@@ -10,11 +10,11 @@ namespace carom {
 /// in the equivalent trial stress as the energy q^2 / 6 G of the deviator does: by 6 G times it.
 void Batch::try_modes() const {
   const ModeStages& stabilisation = stages_.cell->stabilisation;
-  stabilisation.pull(finite(b_.gradient), b_.q, b_.modes.z);
+  stabilisation.pull(b_.geometry, finite(b_.gradient), b_.q, b_.modes.z);
   std::fill_n(b_.modes.share, lanes(), 1.0);
   if (modes_flow())
-    stabilisation.begin(finite(b_.strain), b_.modes.z, plastic_modes(cells_.history), cells_.is_over, b_.modes.plastic,
-                        b_.modes.share);
+    stabilisation.begin(b_.geometry, finite(b_.strain), b_.modes.z, plastic_modes(cells_.history), cells_.is_over,
+                        b_.modes.plastic, b_.modes.share);
   try_forces();
 }
 
@@ -30,7 +30,7 @@ void Batch::try_forces() const {
 void Batch::add_mode_energy(const double* F, const double* E, const double* q, double* z, double* W) const {
   StabilisedModes& modes = b_.modes;
   const ModeStages& stabilisation = stages_.cell->stabilisation;
-  stabilisation.pull(finite(F), q, z);
+  stabilisation.pull(b_.geometry, finite(F), q, z);
   stabilisation.trial(b_.geometry, stages_.moduli, finite(E), z, nullptr, modes.energy, modes.T, modes.S);
   for (int l = 0; l < lanes(); ++l) W[l] += modes.energy[l];
 }

@@ -127,15 +127,20 @@ ModeModuli mode_moduli(const Part& part, double coefficient) {
   return {E / (2.0 * (1.0 + nu)), E, part.section == Section::plane_stress ? E : E / (1.0 - nu * nu), nu};
 }
 
-/// The stages of a part: its element chooses the cell and whether dilatation is averaged, its law the kinematics.
-BatchStages stages_of(const Part& part, const Element& element, bool small_strain, const KernelTable& table) {
-  BatchStages stages{table.lanes, &table.cells[static_cast<std::size_t>(element.kind)],
-                     small_strain ? &table.small : &table.finite};
+double default_hourglass(Formulation formulation) {
+  if (formulation == Formulation::stabilised) return 1.0;
+  return formulation == Formulation::nodal ? 0.25 : 0.05;
+}
+
+/// The stages of a part: its element chooses whether dilatation is averaged, its law the kinematics.
+BatchStages stages_of(const Part& part, const Element& element, const CellStages& cell, bool small_strain,
+                      const KernelTable& table) {
+  BatchStages stages{table.lanes, &cell, small_strain ? &table.small : &table.finite};
   if (element.dilatation)
     stages.dilatation = (small_strain ? table.small_dilatation : table.finite_dilatation) +
                         static_cast<std::size_t>(*element.dilatation);
   const IsotropicElastic at_rest = part.material.at_rest();
-  const double hourglass = part.hourglass.value_or(element.formulation == Formulation::stabilised ? 1.0 : 0.05);
+  const double hourglass = part.hourglass.value_or(default_hourglass(element.formulation));
   stages.hourglass = hourglass * at_rest.E / (2.0 * (1.0 + at_rest.nu));
   stages.hourglass_coefficient = hourglass;
   stages.moduli = mode_moduli(part, hourglass);
@@ -181,27 +186,19 @@ void check_shapes(const Mesh& mesh, const Part& part, const std::vector<CellRef>
 }
 
 Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>& cells, const KernelTable& table) {
-  const Element& element = *element_of(part);
-  Block block;
+  Block block = block_of(part, nullptr, table);
   block.cells = static_cast<Index>(cells.size());
-  block.type = part.type;
-  block.thickness = part.thickness;
-  block.is_ring = part.section == Section::axisymmetric;
-  block.rho = part.material.rho;
-  block.wave_modulus = part.material.at_rest().p_wave_modulus();
-  block.law_row = part.material.law;
-  block.small_strain = part.material.law->measure == Measure::small_strain;
-  block.distortion_limit = part.distortion_control;
-  block.is_linear =
-      block.small_strain && part.material.law->is_linear && !part.viscosity.is_any() && part.distortion_control == 0.0;
-  block.is_symmetric = part.material.law->has_symmetric_tangent;
-  block.mass = cell_mass(element.kind);
-  block.stages = stages_of(part, element, block.small_strain, table);
-  block.prepared_law = prepare(part.material, free_directions(part.section), table.laws);
-  block.kernels = kernels_of(element, block, table);
+  block.mass = cell_mass(element_of(part)->kind);
   block.offset = batch_offsets(mesh, cells, block.nodes(), table.lanes);
   check_shapes(mesh, part, cells, block);
   if (part.viscosity.is_any()) block.length = batch_lengths(mesh, cells, part.type, block.lanes());
+  if (element_of(part)->formulation == Formulation::nodal) {  // integrated by its patches
+    block.kernels = {};
+    block.prepared_law = {};
+    block.stages.bulk = nullptr;
+    block.stages.hourglass_history = 0;
+    block.length.clear();
+  }
   return block;
 }
 
@@ -213,10 +210,35 @@ Index chunk_size(std::size_t cells) {
   return std::max(smallest, (size + multiple - 1) / multiple * multiple);
 }
 
+}  // namespace
+
+Block block_of(const Part& part, std::shared_ptr<const CellStages> cell_stages, const KernelTable& table) {
+  const Element& element = *element_of(part);
+  Block block;
+  block.type = part.type;
+  block.thickness = part.thickness;
+  block.is_ring = part.section == Section::axisymmetric;
+  block.rho = part.material.rho;
+  block.wave_modulus = part.material.at_rest().p_wave_modulus();
+  block.law_row = part.material.law;
+  block.small_strain = part.material.law->measure == Measure::small_strain;
+  block.distortion_limit = part.distortion_control;
+  block.is_linear =
+      block.small_strain && part.material.law->is_linear && !part.viscosity.is_any() && part.distortion_control == 0.0;
+  block.is_symmetric = part.material.law->has_symmetric_tangent;
+  block.cell_stages = std::move(cell_stages);
+  const CellStages* own = block.cell_stages.get();
+  if (own == nullptr) own = &table.cells[static_cast<std::size_t>(element.kind)];
+  block.stages = stages_of(part, element, *own, block.small_strain, table);
+  block.prepared_law = prepare(part.material, free_directions(part.section), table.laws);
+  block.kernels = kernels_of(element, block, table);
+  return block;
+}
+
 void cut_and_colour(SolidCells& solid) {
   std::vector<Chunk> chunks;
   std::vector<std::vector<Index>> chunk_nodes;
-  const Index size = chunk_size(solid.cells.size());
+  const Index size = chunk_size(solid.size());
   for (std::size_t b = 0; b < solid.blocks.size(); ++b) {
     const Block& block = solid.blocks[b];
     for (Index first = 0; first < block.cells; first += size) {
@@ -236,9 +258,10 @@ void cut_and_colour(SolidCells& solid) {
   }
 }
 
-}  // namespace
-
 std::span<const Index> SolidCells::nodes_of(std::size_t position) const {
+  if (!node_begin.empty())
+    return std::span<const Index>(node_list).subspan(node_begin[position],
+                                                     node_begin[position + 1] - node_begin[position]);
   return connectivity_of(*mesh, cells[position]);
 }
 
@@ -258,7 +281,7 @@ CellBatches SolidCells::batches(const Block& block, Index first, Index count, co
   CellBatches view;
   view.stages = &block.stages;
   view.x = mesh->coordinates.front().data();
-  view.offset = block.offset.data() + block.nodes() * at(first);
+  view.offset = block.offset.data() + block.places() * at(first);
   view.cells = count;
   view.thickness = block.thickness;
   view.dt = step.dt;
@@ -275,9 +298,12 @@ CellBatches SolidCells::batches(const Block& block, Index first, Index count, co
 
 void SolidCells::stiffness(const Block& block, Index first, const CellBatches& batch, std::span<const double> u,
                            std::vector<double>& K) const {
-  batch_stiffness(batch, block.kernels, block.law(), block.is_symmetric, u.empty() ? nullptr : u.data(), K);
-  if (block.distortion.empty() || u.empty()) return;
   const std::size_t size = 9 * block.nodes() * block.nodes();
+  if (block.is_nodal())
+    K.assign(size * block.lanes(), 0.0);
+  else
+    batch_stiffness(batch, block.kernels, block.law(), block.is_symmetric, u.empty() ? nullptr : u.data(), K);
+  if (block.distortion.empty() || u.empty()) return;
   for (std::size_t l = 0; l < at(batch.cells); ++l)
     block.distortion.add_stiffness(at(first) + l, u, std::span<double>(K).subspan(size * l, size));
 }
@@ -338,7 +364,9 @@ std::vector<double> SolidCells::repeated_history(const Block& block, Index cell,
 }
 
 std::size_t SolidCells::history_size() const {
-  return blocks.empty() ? 0 : blocks.back().history_first + blocks.back().history_size();
+  std::size_t size = 0;
+  for (const Block& block : blocks) size += block.history_size();
+  return size;
 }
 
 bool SolidCells::are_linear() const {
@@ -375,11 +403,13 @@ SolidCells make_solid_cells(const Model& model, const KernelTable& table) {
   for (const CellBlock& block : mesh.blocks) owners.emplace_back(block.size(), -1);
   SolidCells solid;
   solid.mesh = model.mesh;
+  solid.power_bound = table.power_bound;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const std::vector<CellRef> cells = cells_of(mesh, model.parts, p, owners);
     if (cells.empty()) continue;
     const std::size_t history_first = solid.history_size();
     solid.blocks.push_back(make_block(mesh, model.parts[p], cells, table));
+    solid.blocks.back().part = p;
     solid.blocks.back().history_first = history_first;
     solid.blocks.back().first = static_cast<Index>(solid.cells.size());
     solid.cells.insert(solid.cells.end(), cells.begin(), cells.end());

@@ -19,6 +19,7 @@ namespace carom {
 /// The cells of one part, laid out for the kernels (CellBatches).
 struct Block {
   Index first = 0;  ///< position of its first cell in SolidCells::cells
+  std::size_t part = 0;
   Index cells = 0;
   CellType type{};
   double thickness = 1.0, rho = 0.0;
@@ -29,8 +30,9 @@ struct Block {
   bool is_symmetric = true;   ///< the tangent of its law
   const Law* law_row = nullptr;
   CellMass mass = nullptr;
+  std::shared_ptr<const CellStages> cell_stages;  ///< of patches, which stages.cell is then
   BatchStages stages;
-  CellKernels kernels;
+  CellKernels kernels;  ///< none of the cells of nodal parts, whose patches are integrated (solid/node_patches.hpp)
   PreparedLaw prepared_law;
   std::vector<Index> offset;
   double distortion_limit = 0.0;  ///< 0: no distortion control
@@ -40,6 +42,9 @@ struct Block {
 
   std::size_t nodes() const { return static_cast<std::size_t>(stages.cell->nodes); }
   std::size_t lanes() const { return static_cast<std::size_t>(stages.lanes); }
+  std::size_t places() const { return static_cast<std::size_t>(stages.cell->places()); }
+  bool is_nodal() const { return kernels.add_internal_force == nullptr; }
+  bool has_no_stiffness() const { return is_nodal() && distortion.empty(); }
   BatchLaw law() const { return prepared_law.batch(); }
   /// Numbers of history of one lane, those of the cell included: batches, filled up, follow each other as
   /// PointBatch::history.
@@ -57,14 +62,14 @@ struct Block {
   void for_each_lumped_mass(const CellBatches& batch, const Body& body) const {
     std::array<double, most_nodes * most_lanes> m;
     std::array<double, most_nodes> of_cell;
-    stages.cell->lumped_mass(batch.x, batch.offset, thickness, rho, m.data());
+    stages.cell->lumped_mass(*stages.cell, batch.x, batch.offset, thickness, rho, m.data());
     for (std::size_t l = 0; l < static_cast<std::size_t>(batch.cells); ++l) {
       for (std::size_t a = 0; a < nodes(); ++a) of_cell[a] = m[a * lanes() + l];
       body(l, std::span<const double>(of_cell).first(nodes()));
     }
   }
   /// Numbers of history of the block.
-  std::size_t history_size() const { return history_per_cell() * offset.size() / nodes(); }
+  std::size_t history_size() const { return history_per_cell() * offset.size() / places(); }
 };
 
 /// Consecutive cells of one block, whole batches but for the block's last.
@@ -77,18 +82,21 @@ struct Chunk {
 /// All solid cells. Chunk bounds and colours depend on the mesh alone, never on the number of threads.
 struct SolidCells {
   std::shared_ptr<const Mesh> mesh;
-  std::vector<CellRef> cells;
+  std::vector<CellRef> cells;  ///< none of patches, which have their nodes here, filled up as the batches:
+  std::vector<std::size_t> node_begin;
+  std::vector<Index> node_list;
   std::vector<Block> blocks;              ///< one per part that has cells
   std::vector<Chunk> chunks;              ///< sorted by colour
   std::vector<std::size_t> colour_begin;  ///< colours + 1 entries into chunks
+  decltype(KernelTable::power_bound) power_bound = nullptr;
 
+  std::size_t size() const { return blocks.empty() ? 0 : at(blocks.back().first) + at(blocks.back().cells); }
   /// Nodes of the cell at a position in `cells`.
   std::span<const Index> nodes_of(std::size_t position) const;
   /// Reference coordinates of its nodes.
   CellNodes coordinates_of(std::size_t position) const;
   /// And where they are at u.
   CellNodes coordinates_of(std::size_t position, std::span<const double> u) const;
-  /// Entries of a dof vector at its nodes.
   /// The kernels' view of `count` cells of a block from its cell `first` on, which must be a multiple of the lanes.
   /// The history at the end of the step goes to `end` unless it is empty.
   CellBatches batches(const Block& block, Index first, Index count, const PointStep& step = {},
@@ -97,10 +105,15 @@ struct SolidCells {
   /// empty: at rest.
   void stiffness(const Block& block, Index first, const CellBatches& batch, std::span<const double> u,
                  std::vector<double>& K) const;
+  /// Of a chunk.
+  CellBatches batches(const Chunk& chunk, const PointStep& step = {}, std::span<double> end = {}) const {
+    return batches(blocks[at(chunk.block)], chunk.first, chunk.cells, step, end);
+  }
   /// Calls body(cell position, block, its stiffness matrix at u) for all cells, in the order of for_each_chunk.
   template <class Body>
   void for_each_stiffness(std::span<const double> u, const PointStep& step, const Body& body) const {
     for_each_batch(step, [&](std::size_t first, const Block& block, const CellBatches& batch) {
+      if (block.has_no_stiffness()) return;
       std::vector<double> K;
       stiffness(block, static_cast<Index>(first) - block.first, batch, u, K);
       const std::size_t size = 9 * block.nodes() * block.nodes();
@@ -169,6 +182,11 @@ struct SolidCells {
     });
   }
 };
+
+/// The block of a part, without cells: its stages are those given, or of its element.
+Block block_of(const Part& part, std::shared_ptr<const CellStages> stages, const KernelTable& table);
+/// Fills in chunks and colours, by the blocks.
+void cut_and_colour(SolidCells& solid);
 
 /// Lays the parts out in batches by the lanes of `table`. Throws CaseError when a part names a cell that its block does
 /// not have, when a cell is in two parts, when there is no element of its cell type, section and formulation, or when a

@@ -39,10 +39,10 @@ struct CellsApart {
   CellsApart(const CellBatches& together, const double* u) : batch(together) {
     const auto nodes = static_cast<std::size_t>(together.stages->cell->nodes);
     const auto lanes = static_cast<std::size_t>(together.stages->lanes);
-    offset.resize(nodes * lanes);
-    x.resize(3 * offset.size());
+    offset.assign(together.offset, together.offset + static_cast<std::size_t>(together.stages->cell->places()) * lanes);
+    x.resize(3 * nodes * lanes);
     at.assign(x.size(), 0.0);
-    for (std::size_t k = 0; k < offset.size(); ++k) {
+    for (std::size_t k = 0; k < nodes * lanes; ++k) {
       offset[k] = static_cast<Index>(3 * k);
       for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t global = static_cast<std::size_t>(together.offset[k]) + i;

@@ -18,7 +18,8 @@ static void cell_jacobians(const double* x, const Index* offset, double* smalles
 }
 
 template <class Real, class Cell>
-static void cell_masses(const double* x, const Index* offset, double thickness, double density, double* m) {
+static void cell_masses(const CellStages&, const double* x, const Index* offset, double thickness, double density,
+                        double* m) {
   Real x_cell[3][Cell::nodes], m_cell[Cell::nodes];
   gather(x, offset, x_cell);
   lumped_mass<Cell>(x_cell, thickness, density, m_cell);
@@ -26,7 +27,7 @@ static void cell_masses(const double* x, const Index* offset, double thickness, 
 }
 
 template <class Real, class Cell>
-static void prepare_cells(const double* x, const Index* offset, double thickness, double* geometry) {
+static void prepare_cells(const CellStages&, const double* x, const Index* offset, double thickness, double* geometry) {
   Real x_cell[3][Cell::nodes];
   gather(x, offset, x_cell);
   Cell::prepare(x_cell, thickness, *reinterpret_cast<typename Cell::template Geometry<Real>*>(geometry));
@@ -84,14 +85,15 @@ template <class Real, class Cell>
 static constexpr CellStages cell_stages() {
   using Geometry = typename Cell::template Geometry<Real>;
   static_assert(sizeof(Geometry) <= most_geometry * sizeof(Real) && Cell::points <= most_points);
-  CellStages stages{Cell::nodes,
-                    Cell::points,
-                    Cell::frame == Frame::bar ? Cell::points * lanes<Real> : 0,
-                    cell_jacobians<Real, Cell>,
-                    cell_masses<Real, Cell>,
-                    prepare_cells<Real, Cell>,
-                    cell_gradients<Real, Cell>,
-                    add_cell_forces<Real, Cell>};
+  CellStages stages;
+  stages.nodes = Cell::nodes;
+  stages.points = Cell::points;
+  stages.frame_offset = Cell::frame == Frame::bar ? Cell::points * lanes<Real> : 0;
+  stages.smallest_jacobian = cell_jacobians<Real, Cell>;
+  stages.lumped_mass = cell_masses<Real, Cell>;
+  stages.prepare = prepare_cells<Real, Cell>;
+  stages.gradients = cell_gradients<Real, Cell>;
+  stages.add_forces = add_cell_forces<Real, Cell>;
   if constexpr (HasModes<Cell>) {
     stages.modes = Cell::modes;
     stages.directions = Cell::directions;

@@ -45,7 +45,7 @@ Shape shape_of(const CellNodes& x, std::size_t nodes) {
 CongruentCells congruent_cells(const SolidCells& solid, const Block& block, Index first, Index count) {
   CongruentCells cells;
   cells.of.resize(at(count));
-  if (block.is_ring) {
+  if (block.is_ring || block.cell_stages != nullptr) {
     cells.first.resize(at(count));
     std::iota(cells.first.begin(), cells.first.end(), std::size_t{0});
     cells.of = cells.first;

@@ -18,6 +18,7 @@ constexpr Element all_elements[] = {
     {hexa8, solid, mean_dilatation, CellKind::Hexa8, mean},
     {hexa8, solid, one_point, CellKind::Hexa8OnePoint},
     {tetra4, solid, full, CellKind::Tetra4},
+    {tetra4, solid, nodal, CellKind::Tetra4},
     {tetra10, solid, mean_dilatation, CellKind::CompositeTetra, mean},
     {tetra10, solid, full, CellKind::CompositeTetra},
     {penta6, solid, full, CellKind::Penta6},
@@ -39,8 +40,11 @@ constexpr Element all_elements[] = {
     {quad4, axisymmetric, mean_dilatation, CellKind::Quad4Ring, mean},
     {quad4, axisymmetric, one_point, CellKind::Quad4RingOnePoint},
     {tria3, plane_strain, full, CellKind::Tria3Plane},
+    {tria3, plane_strain, nodal, CellKind::Tria3Plane},
     {tria3, plane_stress, full, CellKind::Tria3Plane},
+    {tria3, plane_stress, nodal, CellKind::Tria3Plane},
     {tria3, axisymmetric, full, CellKind::Tria3Ring},
+    {tria3, axisymmetric, nodal, CellKind::Tria3Ring},
     {quad8, plane_strain, full, CellKind::Quad8Plane},
     {quad8, plane_strain, mean_dilatation, CellKind::Quad8Plane, linear_square},
     {quad8, plane_strain, reduced, CellKind::Quad8PlaneReduced},
@@ -84,7 +88,8 @@ const Element* find_element(CellType type, Section section, std::optional<Formul
 }
 
 std::string_view name(Formulation formulation) {
-  constexpr std::array<std::string_view, 5> names{"full", "mean_dilatation", "one_point", "stabilised", "reduced"};
+  constexpr std::array<std::string_view, 6> names{"full",       "mean_dilatation", "one_point",
+                                                  "stabilised", "reduced",         "nodal"};
   return names[static_cast<std::size_t>(formulation)];
 }
 

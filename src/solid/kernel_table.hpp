@@ -9,6 +9,7 @@
 #include "solid/hexa8_small.hpp"
 #include "solid/kernels.hpp"
 #include "solid/mean_dilatation.hpp"
+#include "solid/patch_stages.hpp"
 #include "solid/point_stages.hpp"
 #include "solid/power_bound.hpp"
 
@@ -22,6 +23,8 @@ static constexpr KernelTable make_kernels() {
           hexa8_small::kernels<Real>(),
           hexa8_finite::kernels<Real>(),
           {CAROM_CELLS(CAROM_CELL_STAGES)},
+          {PatchStages<Real, Tetra4Cell>::stages(), PatchStages<Real, Tria3PlaneCell>::stages(),
+           PatchStages<Real, Tria3RingCell>::stages()},
           small_stages::stages<Real>(),
           finite_stages::stages<Real>(),
           {small_dilatation::stages<Real, MeanVolume>(), small_dilatation::stages<Real, LinearVolume<2>>(),

@@ -84,11 +84,16 @@ extern const CellKernels staged_kernels;
 /// modulus[cell] = largest PointBatch::wave_modulus of its points.
 void wave_modulus(const CellBatches& cells, const BatchLaw& law, const double* u, double* modulus);
 
+/// f += the part of the forces of a batch filled up with one patch that comes from its cells that are wanted.
+void add_internal_force_of_parts(const CellBatches& cells, const BatchLaw& law, const double* u,
+                                 const unsigned char* wanted, double* f);
+
 /// What is compiled for one instruction set.
 struct KernelTable {
   int lanes = 1;
   CellKernels hexa8_small, hexa8_finite;  ///< of HEXA8 with full integration and elastic laws, fused
   CellStages cells[cell_kinds];           ///< in the order of CellKind
+  CellStages patches[3];                  ///< of nodes, by frame: TETRA4, TRIA3 in the plane and of rings
   PointStages small, finite;
   DilatationStages small_dilatation[volume_fields], finite_dilatation[volume_fields];  ///< in the order of VolumeField
   BulkStages small_bulk, finite_bulk;

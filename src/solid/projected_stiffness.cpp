@@ -94,13 +94,14 @@ void add_to_fine(std::span<const double> K, std::span<const Index> nodes, BlockM
     }
 }
 
-BlockMatrix coarse_graph(const SolidCells& solid, const Interpolation& P) {
+BlockMatrix coarse_graph(std::span<const SolidCells* const> solids, const Interpolation& P) {
   PointGraph graph(P.coarse_points());
   std::vector<Index> points;
-  for (std::size_t k = 0; k < solid.cells.size(); ++k) {
-    find_points(solid.nodes_of(k), P, points);
-    graph.couple(points);
-  }
+  for (const SolidCells* solid : solids)
+    for (std::size_t k = 0; k < solid->size(); ++k) {
+      find_points(solid->nodes_of(k), P, points);
+      graph.couple(points);
+    }
   return graph.matrix();
 }
 
@@ -109,19 +110,19 @@ BlockMatrix coarse_graph(const SolidCells& solid, const Interpolation& P) {
 // Chunks of a colour share no nodes, so that they add to the fine matrix at the same time; coarse points they may
 // share, so that their parts are added one after the other. A few of them at a time, slice by slice: parts take
 // kilobytes.
-void project_stiffness(const SolidCells& solid, std::span<const double> u, const PointStep& step,
+void project_stiffness(std::span<const SolidCells* const> solids, std::span<const double> u, const PointStep& step,
                        const Interpolation& P, std::span<const std::uint8_t> fixed, BlockMatrix& coarse,
                        BlockMatrix* fine) {
   constexpr std::size_t chunks_at_once = 16;
   constexpr Index cells_at_once = 64;  // whole batches
-  if (coarse.column.empty()) coarse = coarse_graph(solid, P);
+  if (coarse.column.empty()) coarse = coarse_graph(solids, P);
   coarse.value.assign(9 * coarse.column.size(), 0.0);
   coarse.single.clear();
   if (fine != nullptr) fine->single.assign(9 * fine->column.size(), 0.0F);
   std::vector<Slice> slices(chunks_at_once);
-  const auto take = [&](const Chunk& chunk, Index begin, Slice& slice) {
+  const auto take = [&](const SolidCells& solid, const Chunk& chunk, Index begin, Slice& slice) {
     const Block& block = solid.blocks[at(chunk.block)];
-    const Index end = std::min(chunk.cells, begin + cells_at_once);
+    const Index end = block.has_no_stiffness() ? begin : std::min(chunk.cells, begin + cells_at_once);
     const auto lanes = static_cast<Index>(block.lanes());
     slice.parts.resize(at(std::max<Index>(0, end - begin)));
     for (Index first = begin; first < end; first += lanes) {
@@ -136,17 +137,19 @@ void project_stiffness(const SolidCells& solid, std::span<const double> u, const
       }
     }
   };
-  for (std::size_t colour = 0; colour + 1 < solid.colour_begin.size(); ++colour)
-    for (std::size_t c = solid.colour_begin[colour]; c < solid.colour_begin[colour + 1]; c += chunks_at_once) {
-      const std::size_t count = std::min(chunks_at_once, solid.colour_begin[colour + 1] - c);
-      Index longest = 0;
-      for (std::size_t k = 0; k < count; ++k) longest = std::max(longest, solid.chunks[c + k].cells);
-      for (Index begin = 0; begin < longest; begin += cells_at_once) {
-        parallel_for(count, 1, [&](std::size_t k, std::size_t) { take(solid.chunks[c + k], begin, slices[k]); });
-        for (std::size_t k = 0; k < count; ++k)
-          for (const CellPart& part : slices[k].parts) add_to_coarse(part, coarse);
+  for (const SolidCells* solid : solids)
+    for (std::size_t colour = 0; colour + 1 < solid->colour_begin.size(); ++colour)
+      for (std::size_t c = solid->colour_begin[colour]; c < solid->colour_begin[colour + 1]; c += chunks_at_once) {
+        const std::size_t count = std::min(chunks_at_once, solid->colour_begin[colour + 1] - c);
+        Index longest = 0;
+        for (std::size_t k = 0; k < count; ++k) longest = std::max(longest, solid->chunks[c + k].cells);
+        for (Index begin = 0; begin < longest; begin += cells_at_once) {
+          parallel_for(count, 1,
+                       [&](std::size_t k, std::size_t) { take(*solid, solid->chunks[c + k], begin, slices[k]); });
+          for (std::size_t k = 0; k < count; ++k)
+            for (const CellPart& part : slices[k].parts) add_to_coarse(part, coarse);
+        }
       }
-    }
 }
 
 }  // namespace carom

@@ -11,7 +11,7 @@ namespace carom {
 ///   fine   = K in single precision, all components in it; null: not wanted, else it has the graph of the nodes.
 /// coarse: empty, or of an earlier call, whose graph it keeps. `u` empty: at rest. Threaded, the same bits for any
 /// thread count.
-void project_stiffness(const SolidCells& solid, std::span<const double> u, const PointStep& step,
+void project_stiffness(std::span<const SolidCells* const> solids, std::span<const double> u, const PointStep& step,
                        const Interpolation& P, std::span<const std::uint8_t> fixed, BlockMatrix& coarse,
                        BlockMatrix* fine);
 

@@ -60,7 +60,7 @@ template <class Real>
 }
 
 template <class Real, class Cell>
-static void pull(const double* F, const double* q, double* z) {
+static void pull(const double*, const double* F, const double* q, double* z) {
   Real of_mode[Cell::modes][3], pulled[Cell::modes][3] = {}, f[3][3];
   load_modes<Real, Cell>(q, of_mode);
   load_frame(F, f);
@@ -157,8 +157,9 @@ static void push(const double* geometry, const double* F, const double* q, const
 }
 
 template <class Real, class Cell>
-static void pull_change(const double* F, const double* dH, const double* q, const double* dq, double* dz) {
-  pull<Real, Cell>(F, dq, dz);
+static void pull_change(const double* geometry, const double* F, const double* dH, const double* q, const double* dq,
+                        double* dz) {
+  pull<Real, Cell>(geometry, F, dq, dz);
   if (F == nullptr) return;
   Real h[3][3], of_mode[Cell::modes][3], pulled[Cell::modes][3];
   load_point(dH, 0, h);
@@ -215,7 +216,7 @@ template <class Real, class Cell>
 /// From q_p at the end, q_p + (1 - share) (C^-1 z - q_p), back to q_p. Where nothing is left of the elastic modes
 /// nothing is known of q_p, and nothing depends on it.
 template <class Real, class Cell>
-static void begin(const double* E, const double* z, const double* history, bool is_over, double* plastic,
+static void begin(const double*, const double* E, const double* z, const double* history, bool is_over, double* plastic,
                   double* share) {
   Real p[Cell::modes][3], material[Cell::modes][3];
   load_modes<Real, Cell>(history, p);
@@ -234,7 +235,8 @@ static void begin(const double* E, const double* z, const double* history, bool 
 }
 
 template <class Real, class Cell>
-static void flow(const double* E, const double* z, const double* plastic, const double* share, double* history) {
+static void flow(const double*, const double* E, const double* z, const double* plastic, const double* share,
+                 double* history) {
   Real p[Cell::modes][3], material[Cell::modes][3];
   load_modes<Real, Cell>(plastic, p);
   material_modes<Real, Cell>(E, z, material);

@@ -21,13 +21,13 @@ struct Bulk {
 
 /// The modes of stabilised cells of one batch, or their changes.
 struct StabilisedModes {
-  alignas(64) double z[most_hourglass * most_lanes];  ///< as they enter the strain
-  alignas(64) double T[most_hourglass * most_lanes];  ///< of an elastic step, per volume
-  alignas(64) double S[6 * most_lanes];               ///< what they add to the stress of the point then
-  alignas(64) double energy[most_lanes];              ///< per volume
-  alignas(64) double square[most_lanes];              ///< PointBatch::mode_square
+  alignas(64) double z[most_stabilised * most_lanes];  ///< as they enter the strain
+  alignas(64) double T[most_stabilised * most_lanes];  ///< of an elastic step, per volume
+  alignas(64) double S[6 * most_lanes];                ///< what they add to the stress of the point then
+  alignas(64) double energy[most_lanes];               ///< per volume
+  alignas(64) double square[most_lanes];               ///< PointBatch::mode_square
   alignas(64) double share[most_lanes], along[most_lanes];
-  alignas(64) double plastic[most_hourglass * most_lanes];  ///< q_p at the beginning of the step
+  alignas(64) double plastic[most_stabilised * most_lanes];  ///< q_p at the beginning of the step
 };
 
 /// Buffers of the points of one batch.
@@ -41,7 +41,7 @@ struct Buffers {
   alignas(64) double dissipation[most_points * most_lanes];
   alignas(64) double P[9 * most_points * most_lanes];
   alignas(64) double yield_stress[most_points * most_lanes];
-  alignas(64) double q[most_hourglass * most_lanes], Q[most_hourglass * most_lanes];  ///< modes and their forces
+  alignas(64) double q[most_stabilised * most_lanes], Q[most_stabilised * most_lanes];  ///< modes and their forces
   Bulk bulk;
   StabilisedModes modes;
 };
@@ -65,9 +65,9 @@ class Batch {
   /// Goes to the batch that begins with a cell.
   void place(Index first) {
     first_ = first;
-    offset_ = cells_.offset + static_cast<std::ptrdiff_t>(first) * stages_.cell->nodes;
+    offset_ = cells_.offset + static_cast<std::ptrdiff_t>(first) * stages_.cell->places();
     count_ = static_cast<int>(std::min<Index>(stages_.lanes, cells_.cells - first));
-    stages_.cell->prepare(cells_.x, offset_, cells_.thickness, b_.geometry);
+    stages_.cell->prepare(*stages_.cell, cells_.x, offset_, cells_.thickness, b_.geometry);
   }
   int points() const { return stages_.cell->points; }
   int lanes() const { return stages_.lanes; }
@@ -127,7 +127,7 @@ class Batch {
     constitutive(b_.strain, b_.stress, with_energies ? b_.energy : nullptr, dissipates ? b_.dissipation : nullptr,
                  true);
     if (modes_flow() && cells_.new_history != nullptr)
-      stages_.cell->stabilisation.flow(finite(b_.strain), b_.modes.z, b_.modes.plastic, b_.modes.share,
+      stages_.cell->stabilisation.flow(b_.geometry, finite(b_.strain), b_.modes.z, b_.modes.plastic, b_.modes.share,
                                        plastic_modes(cells_.new_history));
   }
   /// Adds the forces of the stress P and of the hourglass modes.
@@ -212,7 +212,7 @@ class Batch {
     Modes modes, change;
     StabilisedModes stabilised;
     const ModeStages& stabilisation = stages_.cell->stabilisation;
-    alignas(64) double q[most_hourglass * most_lanes];
+    alignas(64) double q[most_stabilised * most_lanes];
     if (modes_remember()) return_modes(modes);
     std::copy_n(b_.q, hourglass_numbers() * lanes(), q);
     stages_.cell->gradients(b_.geometry, x, offset_, b_.P, modes_remember() ? change.q : b_.q);
@@ -222,7 +222,7 @@ class Batch {
     if (dilatation != nullptr) dilatation->strain_change(points(), b_.geometry, b_.memory, b_.strain, dE);
     TangentBatch batch{points(), b_.strain, dE, dS, cells_.dt, of_batch(cells_.history)};
     if (is_stabilised()) {
-      stabilisation.pull_change(finite(b_.gradient), b_.P, q, b_.q, stabilised.z);
+      stabilisation.pull_change(b_.geometry, finite(b_.gradient), b_.P, q, b_.q, stabilised.z);
       stabilisation.change(b_.geometry, stages_.moduli, finite(b_.strain), finite(dE), b_.modes.z, stabilised.z,
                            plastic(), stabilised.energy, stabilised.T, stabilised.S);
       for (int l = 0; l < lanes(); ++l) stabilised.square[l] = 3.0 * stages_.modulus * stabilised.energy[l];
@@ -248,7 +248,9 @@ class Batch {
     }
     stages_.points->stress_change(points(), frame(), b_.gradient, b_.P, b_.stress, dS, b_.P);
     if (is_stabilised()) {
-      alignas(64) double T[most_hourglass * most_lanes] = {}, dT[most_hourglass * most_lanes] = {};
+      alignas(64) double T[most_stabilised * most_lanes], dT[most_stabilised * most_lanes];
+      std::fill_n(T, hourglass_numbers() * lanes(), 0.0);
+      std::fill_n(dT, hourglass_numbers() * lanes(), 0.0);
       add_modes(b_.modes.T, b_.modes.share, hourglass_numbers(), T);
       add_modes(stabilised.T, b_.modes.share, hourglass_numbers(), dT);
       add_modes(b_.modes.T, stabilised.along, hourglass_numbers(), dT);
@@ -264,6 +266,7 @@ class Batch {
   }
 
   void add_discrete_gradient_force(const double* u_0, const double* u_1, double* f) const;
+  void add_internal_force_of_parts(const double* u, const unsigned char* wanted, double* f) const;
 
   /// The largest of the points of each cell of the batch.
   void wave_modulus(const double* u, double* largest) const {

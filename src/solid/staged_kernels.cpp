@@ -63,7 +63,7 @@ void Batch::add_discrete_gradient_force(const double* u_0, const double* u_1, do
   alignas(64) double E_0[6 * size], E_1[6 * size], F_1[9 * size], seen[6 * size], W_0[size], W_1[size];
   const int values = points() * lanes();
   kinematics(u_0, b_.gradient, E_0);
-  alignas(64) double q_0[most_hourglass * most_lanes];
+  alignas(64) double q_0[most_stabilised * most_lanes];
   std::copy_n(b_.q, hourglass_numbers() * lanes(), q_0);
   kinematics(u_1, F_1, E_1);
   for (const auto& [E, W] : {std::pair{E_0, W_0}, std::pair{E_1, W_1}}) {
@@ -71,7 +71,7 @@ void Batch::add_discrete_gradient_force(const double* u_0, const double* u_1, do
     to_law(seen);
     constitutive(seen, b_.stress, W, nullptr, false);
   }
-  alignas(64) double z_0[most_hourglass * most_lanes], z_1[most_hourglass * most_lanes];
+  alignas(64) double z_0[most_stabilised * most_lanes], z_1[most_stabilised * most_lanes];
   if (is_stabilised()) {
     add_mode_energy(b_.gradient, E_0, q_0, z_0, W_0);
     add_mode_energy(F_1, E_1, b_.q, z_1, W_1);
@@ -100,6 +100,23 @@ void Batch::add_discrete_gradient_force(const double* u_0, const double* u_1, do
     push_modes();
   else
     elastic_modes();
+  scatter(b_.Q, f);
+}
+
+/// Of the parts of a patch: the stress that its point has with all modes acts on the gradients of the wanted cells, the
+/// modes' forces are those of the wanted cells.
+void Batch::add_internal_force_of_parts(const double* u, const unsigned char* wanted, double* f) const {
+  const ModeStages& stabilisation = stages_.cell->stabilisation;
+  evaluate(u, false);
+  complete_stress();
+  stages_.points->stress(points(), frame(), b_.gradient, b_.stress, b_.P);
+  push_modes();
+  stabilisation.relative(b_.geometry, -1.0, b_.Q, b_.P);
+  stabilisation.keep_cells(b_.geometry, wanted);
+  try_forces();
+  alignas(64) double unused[9 * most_lanes] = {};
+  stabilisation.push(b_.geometry, finite(b_.gradient), b_.q, b_.modes.T, b_.modes.share, b_.Q, unused);
+  stabilisation.relative(b_.geometry, 1.0, b_.Q, b_.P);
   scatter(b_.Q, f);
 }
 
@@ -179,6 +196,11 @@ void wave_modulus(const CellBatches& cells, const BatchLaw& law, const double* u
     batch.wave_modulus(u, modulus);
     modulus += batch.count();
   });
+}
+
+void add_internal_force_of_parts(const CellBatches& cells, const BatchLaw& law, const double* u,
+                                 const unsigned char* wanted, double* f) {
+  for_each_batch(cells, law, [&](const Batch& batch) { batch.add_internal_force_of_parts(u, wanted, f); });
 }
 
 const CellKernels staged_kernels{add_internal_force, add_tangent_action, nullptr, add_discrete_gradient_force,

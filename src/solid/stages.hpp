@@ -8,16 +8,19 @@
 namespace carom {
 
 /// Points of a cell, and numbers of its geometry per lane, at most.
-inline constexpr int most_points = 27, most_geometry = most_points * 11 + 1;
+inline constexpr int most_points = 27, most_geometry = 2600;
 
-/// Numbers of all hourglass modes of a cell at most: 4 modes, 3 directions.
-inline constexpr int most_hourglass = 12;
+/// Neighbours and cells of a node's patch at most (solid/node_patches.hpp).
+inline constexpr int most_neighbours = 95, most_patch_cells = 192;
+
+/// Numbers of all hourglass modes of a cell at most, 4 modes and 3 directions; of those that are stabilised.
+inline constexpr int most_hourglass = 12, most_stabilised = 3 * most_neighbours;
 
 /// What the hourglass modes of stabilised cells (element/stabilised.hpp) go through. Modes q and forces T and Q are
 /// laid out as CellStages says, F, E and dH are those of the cell's point (F and E null: small strain, C = 1),
 /// `plastic` is q_p, or null. The modes that enter the strain are z = F^T q, of which z - C q_p is elastic.
 struct ModeStages {
-  void (*pull)(const double* F, const double* q, double* z) = nullptr;
+  void (*pull)(const double* geometry, const double* F, const double* q, double* z) = nullptr;
   /// The energy per volume, its derivatives T by z and S by E.
   void (*trial)(const double* geometry, const ModeModuli& moduli, const double* E, const double* z,
                 const double* plastic, double* energy, double* T, double* S) = nullptr;
@@ -25,7 +28,8 @@ struct ModeStages {
   void (*push)(const double* geometry, const double* F, const double* q, const double* T, const double* share,
                double* Q, double* P) = nullptr;
   /// dz = F^T dq + dH^T q
-  void (*pull_change)(const double* F, const double* dH, const double* q, const double* dq, double* dz) = nullptr;
+  void (*pull_change)(const double* geometry, const double* F, const double* dH, const double* q, const double* dq,
+                      double* dz) = nullptr;
   /// The changes of what `trial` gives.
   void (*change)(const double* geometry, const ModeModuli& moduli, const double* E, const double* dE, const double* z,
                  const double* dz, const double* plastic, double* energy, double* T, double* S) = nullptr;
@@ -34,22 +38,30 @@ struct ModeStages {
                       const double* T, const double* dT, double* Q, double* P) = nullptr;
   /// What a cell remembers of modes that flow with its point: q_p, and 1 - share of the last step. At the beginning of
   /// a step that is q_p; once it is over, what q_p was at its beginning, and its share.
-  void (*begin)(const double* E, const double* z, const double* history, bool is_over, double* plastic,
-                double* share) = nullptr;
+  void (*begin)(const double* geometry, const double* E, const double* z, const double* history, bool is_over,
+                double* plastic, double* share) = nullptr;
   /// The same at the end: q_p += (1 - share) (C^-1 z - q_p), of modes that keep the elastic `share`.
-  void (*flow)(const double* E, const double* z, const double* plastic, const double* share, double* history) = nullptr;
+  void (*flow)(const double* geometry, const double* E, const double* z, const double* plastic, const double* share,
+               double* history) = nullptr;
+  /// Of patches. Leaves of the cells of a patch, in every lane, those that are wanted: what comes after is their part.
+  void (*keep_cells)(double* geometry, const unsigned char* wanted) = nullptr;
+  /// P += factor / V sum_b Q_b (x) X_b: what the forces of the modes add to the stress, since q_b = u_b - H X_b.
+  void (*relative)(const double* geometry, double factor, const double* Q, double* P) = nullptr;
 };
 
 /// The stages of one kind of cell over one number type. They work on buffers in structure of arrays: `geometry`, whose
 /// first numbers are the weights [p lanes], and gradients and stresses [(9 p + 3 i + j) lanes].
 struct CellStages {
   int nodes = 0, points = 0;
+  int corners = 0;       ///< of patches: places of corners of their cells, which stand behind the nodes' offsets
   int frame_offset = 0;  ///< of bars: where F at rest stands in the geometry; 0: it is 1
   /// The smallest Jacobian determinant at the points of the stiffness [lane].
   void (*smallest_jacobian)(const double* x, const Index* offset, double* smallest) = nullptr;
   /// Lumped masses of the nodes [a lanes] (element/cell_integrals.hpp).
-  void (*lumped_mass)(const double* x, const Index* offset, double thickness, double density, double* m) = nullptr;
-  void (*prepare)(const double* x, const Index* offset, double thickness, double* geometry) = nullptr;
+  void (*lumped_mass)(const CellStages& own, const double* x, const Index* offset, double thickness, double density,
+                      double* m) = nullptr;
+  void (*prepare)(const CellStages& own, const double* x, const Index* offset, double thickness,
+                  double* geometry) = nullptr;
   /// And of cells with hourglass modes how far these are deformed, q[(directions m + i) lanes] = gamma_ma u_ia.
   void (*gradients)(const double* geometry, const double* u, const Index* offset, double* gradient,
                     double* q) = nullptr;
@@ -61,6 +73,9 @@ struct CellStages {
   /// Q = k q and the energy q.Q / 2 [lane] of elastic modes, k = modulus x stiffness.
   void (*elastic_modes)(const double* geometry, double modulus, const double* q, double* Q, double* energy) = nullptr;
   ModeStages stabilisation{};  ///< of cells that are stabilised, for which the two above are not
+
+  /// Numbers of a cell's connectivity.
+  int places() const { return nodes + corners; }
 };
 
 /// Kinematics over one number type. The frame is F at rest, one matrix; null: 1. A gradient buffer holds H on the way

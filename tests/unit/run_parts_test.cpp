@@ -195,6 +195,18 @@ TEST(Parts, CellsOfSecondOrderThatKeepTheirVolumeTakeMeanDilatation) {
   EXPECT_EQ(chosen(CellType::tria6, "plane_strain", metal), std::nullopt);  // has one mean alone
 }
 
+TEST(Parts, LinearTetrahedraAndTrianglesThatKeepTheirVolumeAreIntegratedAtTheirNodes) {
+  const std::string steel = "law = \"linear_elastic\"\nnu = 0.3", rubber = "law = \"neo_hookean\"\nnu = 0.49",
+                    metal = "law = \"j2\"\nnu = 0.3\nyield_stress = 1.0e6";
+  for (const auto& [type, section] :
+       {std::pair{CellType::tria3, "plane_strain"}, {CellType::tria3, "axisymmetric"}, {CellType::tetra4, "solid"}}) {
+    EXPECT_EQ(chosen(type, section, steel), std::nullopt);
+    EXPECT_EQ(chosen(type, section, rubber), Formulation::nodal);
+    EXPECT_EQ(chosen(type, section, metal), Formulation::nodal);
+  }
+  EXPECT_EQ(chosen(CellType::tria3, "plane_stress", metal), std::nullopt);  // thickness takes up the volume
+}
+
 TEST(Parts, EveryFormulationOfADeckElementIsOneOfItsCells) {
   int reduced = 0;
   for (const DeckElementType& type : deck_element_types()) {

@@ -128,7 +128,7 @@ struct Body {
 
 inline std::string name_of(const Body& body) {
   static const char* const sections[] = {"Solid", "PlaneStrain", "PlaneStress", "Axisymmetric", "Bar"};
-  static const char* const formulations[] = {"", "MeanDilatation", "OnePoint", "Stabilised", "Reduced"};
+  static const char* const formulations[] = {"", "MeanDilatation", "OnePoint", "Stabilised", "Reduced", "Nodal"};
   static const char* const laws[] = {"LinearElastic", "StVenantKirchhoff", "NeoHookean", "J2SmallStrain", "J2"};
   return sections[static_cast<std::size_t>(body.section)] + std::string(name(body.element.type)) +
          formulations[static_cast<std::size_t>(body.element.formulation)] + laws[index_of(*body.material.law)];

@@ -72,8 +72,9 @@ TEST_P(EveryLockingElement, LocksOnlyWhereTheVolumeIsKeptAtEveryPoint) {
     return;  // those of second order are between the two
   }
   const double coarse = tube_energy(element, 4), fine = tube_energy(element, 8);
-  EXPECT_NEAR(coarse, 1.0, 0.06);
-  EXPECT_NEAR(fine, 1.0, 0.016) << "coarse: " << coarse;
+  const double shape = element.formulation == Formulation::nodal ? 1.3 : 1.0;  // triangles: half of a cell's freedoms
+  EXPECT_NEAR(coarse, 1.0, 0.06 * shape);
+  EXPECT_NEAR(fine, 1.0, 0.016 * shape) << "coarse: " << coarse;
 }
 
 /// Vertical displacement of a place (48, y) of the right edge of Cook's membrane with n x n cells: a panel (0,0),
@@ -151,6 +152,19 @@ TEST(CooksMembrane, NearlyIncompressibleOnesLockOrComeTogether) {
 }
 
 constexpr double corner = 60.0;
+
+// Nodal triangles come to the value of fine meshes of other cells, 8.04 near nu = 0.5 for E = 2.40565 and 22.5 for 1/3,
+// from below; 16 x 16 pairs of tetrahedra in a slab are 7 and 2 % off in a program of its own for these patches.
+// Triangles integrated one by one reach less than a third near nu = 0.5.
+TEST(CooksMembrane, NodalTrianglesNeitherLockNorSoften) {
+  const auto at = [](Formulation formulation, int n, double nu) {
+    return cook_displacement(*find_element(CellType::tria3, Section::plane_strain, formulation), n, nu, corner);
+  };
+  constexpr double due = 8.04 * 2.40565;
+  EXPECT_NEAR(at(Formulation::nodal, 8, 0.4999), due, 0.2 * due);
+  EXPECT_NEAR(at(Formulation::nodal, 16, 0.4999), due, 0.08 * due);
+  EXPECT_NEAR(at(Formulation::nodal, 16, 1.0 / 3.0), 22.5, 0.03 * 22.5);
+}
 
 // QUAD8 with a linear function for the volume of a cell comes to the value of fine meshes of other cells from below, as
 // quickly near nu = 0.5 as far from it. The finest here: QUAD8 of 16 x 16 cells. With one mean for a cell, which leaves

@@ -1,0 +1,163 @@
+// What a Solid is made of, for the files that define it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "mesh/cell_size.hpp"
+#include "solid/assembly.hpp"
+#include "solid/batch_gradients.hpp"
+#include "solid/frequency_bounds.hpp"
+#include "solid/loads.hpp"
+#include "solid/node_patches.hpp"
+#include "solid/solid.hpp"
+#include "solid/springs.hpp"
+#include "solid/turning_bodies.hpp"
+
+namespace carom {
+
+/// The kernels of an instruction set.
+const KernelTable& kernels(Isa isa);
+
+struct Solid::Impl {
+  Impl(const Model& model, Isa wanted)
+      : isa(wanted),
+        solid(make_solid_cells(model, kernels(wanted))),
+        patches(make_node_patches(model, solid, kernels(wanted))),
+        loads(make_loads(model)),
+        gravity(gravity_loads(model)),
+        loaded_nodes(nodes_of_loads()),
+        rigid_bodies(model.rigid_bodies),
+        point_masses(model.point_masses),
+        springs(model.springs),
+        cohesive(model.cohesive, model.mesh->coordinates),
+        damping(damping_bounds(solid)),
+        patch_damping(damping_bounds(patches.cells)),
+        volumes(solid.cells.size()),
+        lengths(solid.cells.size()),
+        turning_bodies(model.turning_bodies, any_free(model.turning_bodies) ? std::sqrt(largest_bound()) : 0.0) {
+    solid.for_each_batch({}, [&](std::size_t first, const Block& block, const CellBatches& batch) {
+      const BatchGradients at_rest(batch);
+      for (Index l = 0; l < batch.cells; ++l) {
+        const std::size_t c = first + at(l);
+        volumes[c] = at_rest.volume(static_cast<int>(l));
+        lengths[c] = cell_length(block.type, solid.coordinates_of(c));
+      }
+    });
+    if (solid.control_distortion(volumes)) bounds_at_rest = cell_frequency_bounds();
+    cohesive.place_history(points_history_size());
+  }
+
+  std::vector<Index> nodes_of_loads() const {
+    std::vector<Index> nodes;
+    if (!gravity.empty()) {
+      nodes.resize(solid.mesh->node_count());
+      std::iota(nodes.begin(), nodes.end(), Index{0});
+      return nodes;
+    }
+    for (const LoadVector& load : loads) nodes.insert(nodes.end(), load.nodes.begin(), load.nodes.end());
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+  }
+
+  /// What springs, cohesive zones and turning bodies add to the tangent.
+  CsrMatrix tangent_of_ties(std::span<const double> u, const PointStep& step) const {
+    SolidCells no_cells;
+    no_cells.mesh = solid.mesh;
+    CsrMatrix graph = node_graph(std::array<const SolidCells*, 1>{&no_cells}, springs.all(), cohesive.links());
+    turning_bodies.add_rows(graph);
+    CsrMatrix ties = dof_graph(graph);
+    springs.add_tangent(ties);
+    cohesive.add_tangent(u, step, ties);
+    turning_bodies.add_tangent(u, ties);
+    return ties;
+  }
+
+  /// Calls add(node, mass) for the masses of points and rigid bodies.
+  template <class Add>
+  void for_each_body_mass(const Add& add) const {
+    for (const PointMass& point : point_masses)
+      for (const Index node : point.nodes) add(node, point.mass);
+    for (const RigidBody& body : rigid_bodies) add(body.node, body.mass);
+    for (const auto& [node, mass] : turning_bodies.masses()) add(node, mass);
+  }
+  /// Lumped mass, that of cell c times factor(c).
+  template <class Factor>
+  Mass lumped_mass(const Factor& factor) const {
+    std::vector<double> m(solid.mesh->node_count(), 0.0);
+    solid.for_each_lumped_mass([&](std::size_t c, const Block&, std::span<const double> of_cell) {
+      const auto nodes = solid.nodes_of(c);
+      for (std::size_t a = 0; a < nodes.size(); ++a) m[at(nodes[a])] += factor(c) * of_cell[a];
+    });
+    for_each_body_mass([&](Index node, double mass) { m[at(node)] += mass; });
+    return Mass(std::move(m));
+  }
+  std::size_t points_history_size() const { return solid.history_size() + patches.cells.history_size(); }
+  const Block& block(const Chunk& chunk) const { return solid.blocks[at(chunk.block)]; }
+  /// Calls body(nodes, stiffness matrix at u) for all that is integrated, in the order of for_each_chunk.
+  template <class Body>
+  void for_each_stiffness(std::span<const double> u, const PointStep& step, const Body& body) const {
+    for (const SolidCells* cells : {&solid, &patches.cells})
+      cells->for_each_stiffness(
+          u, step, [&](std::size_t c, const Block&, std::span<const double> K) { body(cells->nodes_of(c), K); });
+  }
+  CsrMatrix graph() const {
+    return node_graph(std::array<const SolidCells*, 2>{&solid, &patches.cells}, springs.all(), cohesive.links());
+  }
+
+  /// Of cells that patches are integrated for, the largest of a value of these.
+  void largest_of_patches(std::span<const double> of_patch, std::span<double> of_cell) const {
+    for (std::size_t k = 0; k < of_cell.size(); ++k)
+      for (const Index patch : patches.of(k)) of_cell[k] = std::max(of_cell[k], of_patch[at(patch)]);
+  }
+  /// Adds to the values of a cell the means over its patches, if it has any.
+  void add_mean_of_patches(std::size_t cell, std::size_t components, std::span<const double> of_patch,
+                           double* of_cell) const {
+    const std::span<const Index> own = patches.of(cell);
+    for (const Index patch : own)
+      for (std::size_t c = 0; c < components; ++c)
+        of_cell[c] += of_patch[at(patch) * components + c] / static_cast<double>(own.size());
+  }
+  std::vector<double> cell_frequency_bounds() const {
+    std::vector<double> bounds = frequency_bounds(solid);
+    largest_of_patches(frequency_bounds(patches.cells), bounds);
+    return bounds;
+  }
+  double largest_bound() const {
+    const std::vector<double> bounds = cell_frequency_bounds();
+    return parallel_max(bounds.size(), 0.0, [&](std::size_t k) { return bounds[k]; });
+  }
+
+  /// Overwrites f with the sum over all that is integrated of add(cells of a chunk, block, f), colour by colour.
+  template <class Add>
+  void sum_over_chunks(std::span<double> f, const Add& add) const {
+    constexpr std::size_t zeros_per_task = 1 << 15;
+    parallel_for(f.size(), zeros_per_task,
+                 [&](std::size_t first, std::size_t last) { std::fill(f.data() + first, f.data() + last, 0.0); });
+    for (const SolidCells* cells : {&solid, &patches.cells})
+      cells->for_each_chunk([&](const Chunk& chunk) {
+        add(*cells, at(&chunk - cells->chunks.data()), cells->blocks[at(chunk.block)], f.data());
+      });
+  }
+
+  Isa isa;
+  SolidCells solid;
+  NodePatches patches;
+  std::vector<LoadVector> loads;
+  std::vector<Gravity> gravity;
+  std::vector<Index> loaded_nodes;
+  std::vector<RigidBody> rigid_bodies;
+  std::vector<PointMass> point_masses;
+  Springs springs;
+  CohesiveZones cohesive;
+  DampingBounds damping, patch_damping;
+  std::vector<double> volumes, lengths;
+  std::vector<double> bounds_at_rest;  ///< cell_frequency_bounds(), for distortion control
+  TurningBodies turning_bodies;
+};
+
+}  // namespace carom
