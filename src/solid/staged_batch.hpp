@@ -68,6 +68,17 @@ class Batch {
     offset_ = cells_.offset + static_cast<std::ptrdiff_t>(first) * stages_.cell->places();
     count_ = static_cast<int>(std::min<Index>(stages_.lanes, cells_.cells - first));
     stages_.cell->prepare(*stages_.cell, cells_.x, offset_, cells_.thickness, b_.geometry);
+    if (first + stages_.lanes >= cells_.cells) return;
+    fetch_next(cells_.history);
+    fetch_next(cells_.new_history);
+  }
+  /// Asks for the history of the next batch: without it the first of its stages to touch it waits for the memory, and
+  /// stores to the new one hold up all that follow. Inlined, since GCC drops calls that do nothing but ask.
+  [[gnu::always_inline]] void fetch_next(const double* history) const {
+    if (history == nullptr) return;
+    const std::ptrdiff_t size = history_numbers() * stages_.lanes;
+    constexpr std::ptrdiff_t line = 8;
+    for (std::ptrdiff_t k = 0; k < size; k += line) __builtin_prefetch(of_batch(history) + size + k);
   }
   int points() const { return stages_.cell->points; }
   int lanes() const { return stages_.lanes; }
@@ -78,9 +89,10 @@ class Batch {
   /// Where the batch stands in a history.
   template <class Number>
   Number* of_batch(Number* history) const {
-    const int numbers = points() * cells_.history_variables + stages_.cell_history();
-    return history == nullptr ? nullptr : history + static_cast<std::ptrdiff_t>(first_) * numbers;
+    return history == nullptr ? nullptr : history + first_ * history_numbers();
   }
+  /// Of a cell.
+  std::ptrdiff_t history_numbers() const { return points() * cells_.history_variables + stages_.cell_history(); }
   bool is_stabilised() const { return stages_.cell->stabilisation.trial != nullptr; }
   /// Of cells whose modes have a flow or a viscosity of their own (solid/hourglass_flow.hpp).
   bool modes_remember() const { return stages_.hourglass_history > 0 && !is_stabilised(); }
