@@ -4,6 +4,7 @@
 #include "base/types.hpp"
 #include "element/cell_integrals.hpp"
 #include "solid/batch_values.hpp"
+#include "solid/hourglass_flow.hpp"
 #include "solid/stabilisation_stages.hpp"
 #include "solid/stages.hpp"
 
@@ -102,6 +103,8 @@ static constexpr CellStages cell_stages() {
     } else {
       stages.stiffness = hourglass_stiffness<Real, Cell>;
       stages.elastic_modes = elastic_modes<Real, Cell>;
+      stages.flow = hourglass_flow::stages<Real, Cell>();
+      stages.stabilisation = stabilisation::places<Real, Cell>();
     }
   }
   return stages;

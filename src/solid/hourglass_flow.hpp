@@ -1,10 +1,12 @@
-// Hourglass modes of one-point cells of materials that yield, or that are viscous.
+// Hourglass modes of one-point cells of materials that yield, or that are viscous, over a number type.
 #pragma once
 
-#include <cmath>
+#include <limits>
 
+#include "math/pack.hpp"
 #include "solid/stages.hpp"
 
+// Internal linkage throughout: see math/pack.hpp.
 namespace carom {
 
 /// Numbers that a cell remembers of its modes: their plastic parts and the energy that these have dissipated, of
@@ -25,66 +27,137 @@ inline int hourglass_history(const CellStages& cell, bool is_viscous) {
 ///
 /// Viscous modes have the force viscosity G kappa (l / c) dq/dt besides, l the cell's length and c the speed of waves
 /// at rest, with the rate of the step (viscous control: Flanagan and Belytschko, Int. J. Numer. Methods Eng. 17, 1981).
+template <class Real, int size>
 struct HourglassReturn {
-  double force[most_hourglass];     ///< T, work-conjugate to q
-  double returned[most_hourglass];  ///< the part of it that is not viscous
-  double plastic[most_hourglass];   ///< q_p at the end
-  double share = 1.0;               ///< |returned| over that of an elastic step
-  double damper = 0.0;              ///< viscous force over the step's change of q
-  double stored = 0.0, lost = 0.0;  ///< energy at the end, and dissipated in the step
+  Real force[size];                  ///< that works with q
+  Real returned[size];               ///< the part of it that is not viscous
+  Real plastic[size];                ///< q_p at the end
+  Real share = Real{} + 1.0;         ///< |returned| over that of an elastic step
+  Real damper{};                     ///< viscous force over the step's change of q
+  Real stored{}, lost{}, viscous{};  ///< energy at the end, and dissipated: in the step, by viscosity since the start
 
-  /// `plastic_before` and `q`: `size` numbers, `stride` apart.
-  void go(int size, int stride, const double* q, const double* plastic_before, double stiffness, double limit) {
-    double square = 0.0;
-    share = 1.0;
-    damper = 0.0;
+  /// `before`: q_p; null: 0.
+  [[gnu::always_inline]] inline void go(const Real q[size], const double* before, const Real& stiffness,
+                                        const Real& limit) {
+    const Real zero{}, one = zero + 1.0;
+    Real square{};
     for (int c = 0; c < size; ++c) {
-      plastic[c] = plastic_before == nullptr ? 0.0 : plastic_before[c * stride];
-      force[c] = stiffness * (q[c * stride] - plastic[c]);
+      plastic[c] = before == nullptr ? zero : load<Real>(before + c * lanes<Real>);
+      force[c] = stiffness * (q[c] - plastic[c]);
       square += force[c] * force[c];
     }
-    if (square > limit * limit) share = limit / std::sqrt(square);
-    const double compliance = stiffness > 0.0 ? 1.0 / stiffness : 0.0;
+    const Real root = square_root(square), compliance = 1.0 / (stiffness > 0.0 ? stiffness : one);
+    share = root > limit ? limit / (root > limit ? root : one) : one;
+    const Real of_plastic = stiffness > 0.0 ? (1.0 - share) * compliance : zero;
     for (int c = 0; c < size; ++c) {
-      plastic[c] += (1.0 - share) * force[c] * compliance;
+      plastic[c] += of_plastic * force[c];
       returned[c] = force[c] *= share;
     }
-    stored = 0.5 * share * share * square * compliance;
-    lost = share * (1.0 - share) * square * compliance;
+    stored = stiffness > 0.0 ? 0.5 * share * share * square * compliance : zero;
+    lost = share * of_plastic * square;
   }
 
-  /// Adds the viscous force of the change from what is remembered in `before` (null: rest): damper (q - q_0); returns
-  /// the energy dissipated since the start, by the trapezoidal rule. `before` has the modes, their viscous forces and
-  /// that energy.
-  double damp(int size, int stride, const double* q, const double* before, double damper_of_step) {
+  /// Adds the viscous force damper (q - q_0) of the change from what is remembered in `before` (null: rest), the modes,
+  /// their viscous forces and the energy dissipated since the start, by the trapezoidal rule.
+  [[gnu::always_inline]] inline void damp(const Real q[size], const double* before, const Real& damper_of_step) {
+    constexpr int n = lanes<Real>;
     damper = damper_of_step;
-    double work = 0.0;
+    viscous = before == nullptr ? Real{} : load<Real>(before + 2 * size * n);
     for (int c = 0; c < size; ++c) {
-      const double change = q[c * stride] - (before == nullptr ? 0.0 : before[c * stride]);
-      const double force_before = before == nullptr ? 0.0 : before[(size + c) * stride];
-      force[c] += damper * change;
-      work += 0.5 * (force_before + damper * change) * change;
+      const Real change = before == nullptr ? q[c] : q[c] - load<Real>(before + c * n), added = damper * change;
+      const Real force_before = before == nullptr ? Real{} : load<Real>(before + (size + c) * n);
+      force[c] += added;
+      viscous += 0.5 * (force_before + added) * change;
     }
-    return work + (before == nullptr ? 0.0 : before[2 * size * stride]);
   }
   /// The step is over: adds the viscous force that it ended with.
-  void hold(int size, int stride, const double* before) {
-    for (int c = 0; c < size; ++c) force[c] += before[(size + c) * stride];
-  }
-  double viscous_force(int c) const { return force[c] - returned[c]; }
-
-  /// dT of dq: k share (dq - n (n . dq)) where the modes yield, n the direction of what is returned, and damper dq. dT
-  /// may stand where dq does.
-  void change(int size, int stride, double stiffness, const double* dq, double* dT) const {
-    double square = 0.0, product = 0.0;
-    for (int c = 0; c < size; ++c) {
-      square += returned[c] * returned[c];
-      product += returned[c] * dq[c * stride];
-    }
-    const double along = share < 1.0 && square > 0.0 ? product / square : 0.0;  // molten metal has no force
-    for (int c = 0; c < size; ++c)
-      dT[c * stride] = (stiffness * share + damper) * dq[c * stride] - stiffness * share * along * returned[c];
+  [[gnu::always_inline]] inline void hold(const double* before) {
+    for (int c = 0; c < size; ++c) force[c] += load<Real>(before + (size + c) * lanes<Real>);
   }
 };
+
+/// The change of forces of dq: k share (dq - n (n . dq)) where the modes yield, n the direction of what is returned,
+/// and damper dq.
+template <class Real, int size>
+[[gnu::always_inline]] static inline void change_returned(const Real returned[size], const Real& stiffness,
+                                                          const Real& share, const Real& damper, const Real dq[size],
+                                                          Real change[size]) {
+  const Real zero{}, one = zero + 1.0;
+  Real square{}, product{};
+  for (int c = 0; c < size; ++c) {
+    square += returned[c] * returned[c];
+    product += returned[c] * dq[c];
+  }
+  const Real yields = share < 1.0 ? square : zero;  // molten metal has no force
+  const Real along = yields > 0.0 ? product / (yields > 0.0 ? yields : one) : zero;
+  for (int c = 0; c < size; ++c)
+    change[c] = (stiffness * share + damper) * dq[c] - stiffness * share * along * returned[c];
+}
+
+namespace hourglass_flow {
+
+template <class Real, int size>
+[[gnu::always_inline]] static inline void load_all(const double* values, Real (&out)[size]) {
+  for (int c = 0; c < size; ++c) out[c] = load<Real>(values + c * lanes<Real>);
+}
+template <class Real, int size>
+[[gnu::always_inline]] static inline void store_all(double* values, const Real& factor, const Real (&in)[size]) {
+  for (int c = 0; c < size; ++c) store(values + c * lanes<Real>, Real(factor * in[c]));
+}
+
+template <class Real, class Cell>
+static void give(const double* geometry, const ModeFlow& flow, const double* z, const double* yield_stress,
+                 const double* length, const double* before, double* after, ModeReturn& out) {
+  constexpr int n = lanes<Real>, size = Cell::modes * Cell::directions;
+  const auto& of_cell = *reinterpret_cast<const typename Cell::template Geometry<Real>*>(geometry);
+  const Real one = Real{} + 1.0, volume = of_cell.weight[0], kappa = of_cell.stiffness;
+  Real limit = Real{} + std::numeric_limits<double>::infinity();
+  if (yield_stress != nullptr && !flow.is_over)
+    limit = flow.coefficient * square_root(Real((1.0 / 3.0) * kappa * volume)) * load<Real>(yield_stress);
+  const Real stiffness = flow.coefficient * flow.modulus * kappa;
+  const double* rest = before == nullptr ? nullptr : before + (size + 1) * n;
+  Real q[size];
+  load_all(z, q);
+  HourglassReturn<Real, size> modes;
+  modes.go(q, before, stiffness, limit);
+  if (before != nullptr) modes.lost += load<Real>(before + size * n);
+  if (flow.is_viscous && flow.is_over && rest != nullptr)
+    modes.hold(rest);
+  else if (flow.is_viscous)
+    modes.damp(q, rest, Real(flow.viscosity * kappa * load<Real>(length)));
+  store_all(out.T, Real(1.0 / volume), modes.force);
+  store_all(out.returned, one, modes.returned);
+  store(out.stiffness, stiffness);
+  store(out.share, modes.share);
+  store(out.damper, modes.damper);
+  store(out.stored, modes.stored);
+  store(out.lost, modes.lost);
+  store(out.viscous, modes.viscous);
+  if (after == nullptr) return;
+  store_all(after, one, modes.plastic);
+  store(after + size * n, modes.lost);
+  if (!flow.is_viscous) return;
+  store_all(after + (size + 1) * n, one, q);
+  for (int c = 0; c < size; ++c) store(after + (2 * size + 1 + c) * n, Real(modes.force[c] - modes.returned[c]));
+  store(after + (3 * size + 1) * n, modes.viscous);
+}
+
+template <class Real, class Cell>
+static void change(const double* geometry, const ModeReturn& modes, const double* dz, double* dT) {
+  constexpr int size = Cell::modes * Cell::directions;
+  Real returned[size], dq[size], of_forces[size];
+  load_all(modes.returned, returned);
+  load_all(dz, dq);
+  change_returned<Real, size>(returned, load<Real>(modes.stiffness), load<Real>(modes.share), load<Real>(modes.damper),
+                              dq, of_forces);
+  store_all(dT, Real(1.0 / load<Real>(geometry)), of_forces);
+}
+
+template <class Real, class Cell>
+static constexpr ModeFlowStages stages() {
+  return {give<Real, Cell>, change<Real, Cell>};
+}
+
+}  // namespace hourglass_flow
 
 }  // namespace carom

@@ -14,9 +14,6 @@
 
 namespace carom {
 
-/// Cells of a batch at most.
-inline constexpr int most_lanes = 8;
-
 /// What a batch goes through, of one number type: the cell, the kinematics, and mean dilatation and bulk viscosity
 /// unless null.
 struct BatchStages {

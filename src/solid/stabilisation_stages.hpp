@@ -247,6 +247,15 @@ static void flow(const double*, const double* E, const double* z, const double* 
   store(history + Cell::modes * Cell::directions * lanes<Real>, lost);
 }
 
+/// Of modes that are not stabilised.
+template <class Real, class Cell>
+static constexpr ModeStages places() {
+  return {.pull = pull<Real, Cell>,
+          .push = push<Real, Cell>,
+          .pull_change = pull_change<Real, Cell>,
+          .push_change = push_change<Real, Cell>};
+}
+
 template <class Real, class Cell>
 static constexpr ModeStages stages() {
   return {pull<Real, Cell>,   trial<Real, Cell>,       push<Real, Cell>,  pull_change<Real, Cell>,

@@ -6,7 +6,6 @@
 
 #include "base/types.hpp"
 #include "solid/bulk_viscosity.hpp"
-#include "solid/hourglass_flow.hpp"
 #include "solid/kernels.hpp"
 
 namespace carom {
@@ -44,16 +43,6 @@ struct Buffers {
   alignas(64) double q[most_stabilised * most_lanes], Q[most_stabilised * most_lanes];  ///< modes and their forces
   Bulk bulk;
   StabilisedModes modes;
-};
-
-/// The hourglass modes of one batch, or their changes, [c lanes + l] of most_hourglass or 9 numbers c.
-struct Modes {
-  alignas(64) double q[most_hourglass * most_lanes];       ///< gamma_a u_a
-  alignas(64) double pulled[most_hourglass * most_lanes];  ///< F^T q of finite strain, else q
-  alignas(64) double force[most_hourglass * most_lanes];   ///< that works with q
-  alignas(64) double P[9 * most_lanes];                    ///< what they add to the stress of the point
-  double stiffness[most_lanes], stored[most_lanes], lost[most_lanes], viscous[most_lanes];
-  HourglassReturn of_lane[most_lanes];
 };
 
 /// One batch on its way through the stages.
@@ -168,13 +157,7 @@ class Batch {
   void try_forces() const;
   void add_mode_energy(const double* F, const double* E, const double* q, double* z, double* W) const;
   double push_modes() const;
-  void return_modes(Modes& modes) const;
-  void change_modes(const double* dH, const Modes& modes, Modes& change) const;
-  /// Adds the forces of hourglass modes that yield to the stress of the point and to f.
-  void scatter_with(const Modes& modes, double* f) const {
-    for (int c = 0; c < 9 * lanes(); ++c) b_.P[c] += modes.P[c];
-    scatter(modes.force, f);
-  }
+  void return_modes(ModeReturn& modes) const;
 
   /// The stress that works with E, from what the law has answered.
   void complete_stress() const {
@@ -189,9 +172,9 @@ class Batch {
     stages_.points->stress(points(), frame(), b_.gradient, b_.stress, b_.P);
     double hourglass = 0.0, loss = 0.0, viscous = 0.0;
     if (modes_remember()) {
-      Modes modes;
+      ModeReturn modes;
       return_modes(modes);
-      scatter_with(modes, f);
+      stages_.cell->stabilisation.push(b_.geometry, finite(b_.gradient), b_.q, modes.T, nullptr, b_.Q, b_.P);
       for (int l = 0; l < count_; ++l) {
         hourglass += modes.stored[l];
         loss += modes.lost[l];
@@ -199,8 +182,8 @@ class Batch {
       }
     } else {
       hourglass = is_stabilised() ? push_modes() : elastic_modes();
-      scatter(b_.Q, f);
     }
+    scatter(b_.Q, f);
     if (energies == nullptr) return;
     if (stages_.bulk != nullptr)
       for (int l = 0; l < count_; ++l) viscous += b_.bulk.lost[l];
@@ -221,13 +204,13 @@ class Batch {
     complete_stress();
     alignas(64) double dE[6 * most_points * most_lanes], dS[6 * most_points * most_lanes];
     alignas(64) double viscous[6 * most_points * most_lanes];
-    Modes modes, change;
+    ModeReturn modes;
     StabilisedModes stabilised;
     const ModeStages& stabilisation = stages_.cell->stabilisation;
     alignas(64) double q[most_stabilised * most_lanes];
     if (modes_remember()) return_modes(modes);
     std::copy_n(b_.q, hourglass_numbers() * lanes(), q);
-    stages_.cell->gradients(b_.geometry, x, offset_, b_.P, modes_remember() ? change.q : b_.q);
+    stages_.cell->gradients(b_.geometry, x, offset_, b_.P, b_.q);
     stages_.points->strain_change(points(), frame(), b_.gradient, b_.P, dE);
     if (stages_.bulk != nullptr) change_bulk(dE, viscous);
     const DilatationStages* dilatation = stages_.dilatation;
@@ -251,10 +234,13 @@ class Batch {
     if (dilatation != nullptr) dilatation->stress_change(points(), b_.geometry, b_.memory, b_.strain, dE, dS);
     if (stages_.bulk != nullptr)
       for (int c = 0; c < 6 * points() * lanes(); ++c) dS[c] += viscous[c];
-    if (modes_remember()) change_modes(b_.P, modes, change);
     alignas(64) double dH[9 * most_lanes];
+    if (is_stabilised() || modes_remember()) std::copy_n(b_.P, 9 * lanes(), dH);
+    if (modes_remember()) {
+      stabilisation.pull_change(finite(b_.gradient), dH, q, b_.q, stabilised.z);
+      stages_.cell->flow.change(b_.geometry, modes, stabilised.z, stabilised.T);
+    }
     if (is_stabilised()) {
-      std::copy_n(b_.P, 9 * lanes(), dH);
       add_modes(stabilised.S, b_.modes.share, 6, dS);
       add_modes(b_.modes.S, stabilised.along, 6, dS);
     }
@@ -269,11 +255,10 @@ class Batch {
       stabilisation.push_change(b_.geometry, finite(b_.gradient), dH, q, b_.q, T, dT, b_.Q, b_.P);
       return scatter(b_.Q, y);
     }
-    if (modes_remember()) {
-      scatter_with(change, y);
-      return;
-    }
-    elastic_modes();
+    if (modes_remember())
+      stabilisation.push_change(b_.geometry, finite(b_.gradient), dH, q, b_.q, modes.T, stabilised.T, b_.Q, b_.P);
+    else
+      elastic_modes();
     scatter(b_.Q, y);
   }
 
@@ -321,7 +306,7 @@ class Batch {
       for (int l = 0; l < lanes(); ++l) values[c * lanes() + l] += factor[l] * of_modes[c * lanes() + l];
   }
   const double* plastic() const { return modes_flow() ? b_.modes.plastic : nullptr; }
-  /// What stabilised modes remember, behind the history of the point.
+  /// What modes remember, behind the history of the point.
   template <class Number>
   Number* plastic_modes(Number* history) const {
     return history == nullptr ? nullptr

@@ -16,9 +16,37 @@ inline constexpr int most_neighbours = 95, most_patch_cells = 192;
 /// Numbers of all hourglass modes of a cell at most, 4 modes and 3 directions; of those that are stabilised.
 inline constexpr int most_hourglass = 12, most_stabilised = 3 * most_neighbours;
 
-/// What the hourglass modes of stabilised cells (element/stabilised.hpp) go through. Modes q and forces T and Q are
-/// laid out as CellStages says, F, E and dH are those of the cell's point (F and E null: small strain, C = 1),
-/// `plastic` is q_p, or null. The modes that enter the strain are z = F^T q, of which z - C q_p is elastic.
+/// Cells of a batch at most.
+inline constexpr int most_lanes = 8;
+
+/// Of modes that yield or are viscous by themselves (solid/hourglass_flow.hpp), in one step.
+struct ModeFlow {
+  double coefficient = 0.0, modulus = 0.0;
+  bool is_viscous = false;
+  double viscosity = 0.0;  ///< viscous force over the rate, kappa and the cell's length, over the length of the step
+  bool is_over = false;    ///< PointBatch::is_over
+};
+
+/// What becomes of them, per lane; T is the force per volume.
+struct ModeReturn {
+  alignas(64) double T[most_hourglass * most_lanes], returned[most_hourglass * most_lanes];
+  alignas(64) double stiffness[most_lanes], share[most_lanes], damper[most_lanes];
+  alignas(64) double stored[most_lanes], lost[most_lanes], viscous[most_lanes];
+};
+
+struct ModeFlowStages {
+  /// Of modes z; yield_stress null: they are elastic. `length` of the cells is asked for by viscous modes alone;
+  /// `before` and `after` are what is remembered of the modes, or null.
+  void (*give)(const double* geometry, const ModeFlow& flow, const double* z, const double* yield_stress,
+               const double* length, const double* before, double* after, ModeReturn& out) = nullptr;
+  /// dT of dz
+  void (*change)(const double* geometry, const ModeReturn& modes, const double* dz, double* dT) = nullptr;
+};
+
+/// What hourglass modes that flow go through; all but the modes' shape and place is of stabilised cells alone
+/// (element/stabilised.hpp). Modes q and forces T and Q are laid out as CellStages says, F, E and dH are those of the
+/// cell's point (F and E null: small strain, C = 1), `plastic` is q_p, or null. The modes that enter the strain are
+/// z = F^T q, of which z - C q_p is elastic.
 struct ModeStages {
   void (*pull)(const double* geometry, const double* F, const double* q, double* z) = nullptr;
   /// The energy per volume, its derivatives T by z and S by E.
@@ -72,7 +100,8 @@ struct CellStages {
   const double* (*stiffness)(const double* geometry) = nullptr;  ///< theirs, of coefficient x modulus = 1 [lane]
   /// Q = k q and the energy q.Q / 2 [lane] of elastic modes, k = modulus x stiffness.
   void (*elastic_modes)(const double* geometry, double modulus, const double* q, double* Q, double* energy) = nullptr;
-  ModeStages stabilisation{};  ///< of cells that are stabilised, for which the two above are not
+  ModeFlowStages flow{};
+  ModeStages stabilisation{};  ///< of cells that are stabilised, for which the three above are not, all of it
 
   /// Numbers of a cell's connectivity.
   int places() const { return nodes + corners; }

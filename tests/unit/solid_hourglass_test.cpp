@@ -114,10 +114,10 @@ TEST_P(YieldingHourglass, StepTurnedAboutZHasTheTurnedForcesAndTheSameEnergies) 
 TEST(HourglassReturn, OfNoStrengthIsNothing) {
   const double q[3] = {0.1, -0.2, 0.3};
   for (const double stiffness : {0.0, 5.0}) {
-    HourglassReturn modes;
-    modes.go(3, 1, q, nullptr, stiffness, 0.0);
+    HourglassReturn<double, 3> modes;
+    modes.go(q, nullptr, stiffness, 0.0);
     double dT[3];
-    modes.change(3, 1, stiffness, q, dT);
+    change_returned<double, 3>(modes.returned, stiffness, modes.share, modes.damper, q, dT);
     EXPECT_EQ(modes.stored, 0.0);
     EXPECT_EQ(modes.lost, 0.0);
     for (const std::size_t c : {0U, 1U, 2U}) {
