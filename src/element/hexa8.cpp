@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "element/quad4.hpp"
+#include "element/hexa8_length.hpp"
 #include "math/vec3.hpp"
 
 namespace carom::hexa8 {
@@ -59,7 +59,7 @@ PhysicalGradient physical_gradient(const std::array<Vec3, 8>& x, const Vec3& xi)
   for (std::size_t a = 0; a < 8; ++a)
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t i = 0; i < 3; ++i) g[k][i] += dN[a][k] * x[a][i];
-  const std::array<Vec3, 3> cofactor{cross(g[1], g[2]), cross(g[2], g[0]), cross(g[0], g[1])};
+  const std::array<Vec3, 3> cofactor{carom::cross(g[1], g[2]), carom::cross(g[2], g[0]), carom::cross(g[0], g[1])};
   PhysicalGradient result;
   result.det_J = dot(g[0], cofactor[0]);
   for (std::size_t a = 0; a < 8; ++a)
@@ -79,22 +79,26 @@ Volume volume(const std::array<Vec3, 8>& x) {
   return result;
 }
 
+namespace {
+
+template <std::size_t nodes>
+void by_component(const std::array<Vec3, nodes>& x, double (&out)[3][nodes]) {
+  for (std::size_t a = 0; a < nodes; ++a)
+    for (std::size_t i = 0; i < 3; ++i) out[i][a] = x[a][i];
+}
+
+}  // namespace
+
 double exact_volume(const std::array<Vec3, 8>& x) {
-  const auto d = [&x](std::size_t a, std::size_t b) { return subtract(x[a], x[b]); };
-  const auto triple = [](const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); };
-  return (triple(add(d(3, 1), d(7, 2)), d(6, 3), d(2, 0)) + triple(add(d(4, 3), d(5, 7)), d(6, 4), d(7, 0)) +
-          triple(add(d(1, 4), d(2, 5)), d(6, 1), d(5, 0))) /
-         12.0;
+  double corner[3][8];
+  by_component(x, corner);
+  return hexa8_volume(corner);
 }
 
 double length(const std::array<Vec3, 8>& x) {
-  double largest = 0.0;
-  for (const auto& face : faces) {
-    std::array<Vec3, 4> corner{};
-    for (std::size_t a = 0; a < 4; ++a) corner[a] = x[static_cast<std::size_t>(face[a])];
-    largest = std::max(largest, quad4::area(corner));
-  }
-  return exact_volume(x) / largest;
+  double corner[3][8];
+  by_component(x, corner);
+  return hexa8_length(corner);
 }
 
 }  // namespace carom::hexa8

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "math/vec3.hpp"
+#include "element/hexa8_length.hpp"
 
 namespace carom::quad4 {
 namespace {
@@ -55,23 +55,10 @@ PlaneGradient plane_gradient(const std::array<Vec3, 4>& x, double xi, double eta
 }
 
 double area(const std::array<Vec3, 4>& x) {
-  // x = c + xi a + eta b + xi eta d, and dx/dxi x dx/deta = a x b + xi a x d + eta d x b
-  Vec3 a, b, d;
-  for (std::size_t i = 0; i < 3; ++i) {
-    a[i] = 0.25 * (x[1][i] - x[0][i] + x[2][i] - x[3][i]);
-    b[i] = 0.25 * (x[3][i] - x[0][i] + x[2][i] - x[1][i]);
-    d[i] = 0.25 * (x[0][i] - x[1][i] + x[2][i] - x[3][i]);
-  }
-  constexpr double g = 0.57735026918962576451;  // 1 / sqrt(3)
-  const Vec3 middle = cross(a, b), along_xi = scaled(cross(a, d), g), along_eta = scaled(cross(d, b), g);
-  const auto length = [](const Vec3& n) { return std::sqrt(dot(n, n)); };
-  // d of a parallelogram is round-off, and what it would add of the second order in it.
-  constexpr double round_off = 1e-10;
-  if (dot(d, d) <= round_off * round_off * (dot(a, a) + dot(b, b))) return 4.0 * length(middle);
-  double sum = 0.0;
-  for (const Vec3& normal : {add(middle, along_xi), subtract(middle, along_xi)})
-    sum += length(add(normal, along_eta)) + length(subtract(normal, along_eta));
-  return sum;
+  double corner[3][4];
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t i = 0; i < 3; ++i) corner[i][a] = x[a][i];
+  return bilinear_area(corner);
 }
 
 }  // namespace carom::quad4

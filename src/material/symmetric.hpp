@@ -44,16 +44,6 @@ template <class Real>
   principal(full, value, N);
 }
 
-/// Is a lane of square above the limit, or no number?
-template <class Real>
-[[gnu::always_inline]] static inline bool any_above(const Real& square, double limit) {
-  double lane[lanes<Real>];
-  store(lane, square);
-  bool above = false;
-  for (int l = 0; l < lanes<Real>; ++l) above = above || !(lane[l] <= limit);
-  return above;
-}
-
 /// By principal values, which takes longer; for lanes that the series do not reach.
 template <class Real>
 [[gnu::noinline]] static void logarithm_by_values(const Real B[6], Real log[6]) {

@@ -40,4 +40,14 @@ template <class Real>
   return load<Real>(lane);
 }
 
+/// Is a lane of r above the limit, or no number?
+template <class Real>
+[[gnu::always_inline]] static inline bool any_above(const Real& r, double limit) {
+  double lane[lanes<Real>];
+  store(lane, r);
+  bool above = false;
+  for (int l = 0; l < lanes<Real>; ++l) above = above || !(lane[l] <= limit);
+  return above;
+}
+
 }  // namespace carom

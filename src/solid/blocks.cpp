@@ -363,6 +363,25 @@ std::vector<double> SolidCells::repeated_history(const Block& block, Index cell,
   return history;
 }
 
+void SolidCells::lengths(const Block& block, Index first, std::span<const double> u, std::span<double> length) const {
+  const CellStages& stages = *block.stages.cell;
+  const std::size_t begin = at(block.first + first), n = stages.lengths == nullptr ? 1 : block.lanes();
+  for (std::size_t k = 0; k < length.size(); k += n) {
+    double of_batch[most_lanes];
+    if (stages.lengths != nullptr) {
+      stages.lengths(mesh->coordinates.front().data(), u.data(), block.offset.data() + block.nodes() * (at(first) + k),
+                     of_batch);
+    } else {
+      CellNodes x = coordinates_of(begin + k);
+      const auto nodes = nodes_of(begin + k);
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        for (std::size_t i = 0; i < 3; ++i) x[a][i] += u[3 * at(nodes[a]) + i];
+      of_batch[0] = cell_length(block.type, std::span<const Vec3>(x).first(nodes.size()));
+    }
+    std::copy_n(of_batch, std::min(n, length.size() - k), length.data() + k);
+  }
+}
+
 std::size_t SolidCells::history_size() const {
   std::size_t size = 0;
   for (const Block& block : blocks) size += block.history_size();

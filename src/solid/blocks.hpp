@@ -130,6 +130,8 @@ struct SolidCells {
                              std::span<double> y) const;
   void add_distortion_growth(const Chunk& chunk, std::span<const double> u, std::span<const double> bounds_at_rest,
                              std::span<double> own) const;
+  /// Lengths (mesh/cell_size.hpp) of cells of a block, displaced by u; `first` begins a batch.
+  void lengths(const Block& block, Index first, std::span<const double> u, std::span<double> length) const;
   /// The history of one cell of a block, a position in it, in every lane of a batch. Empty where there is none.
   std::vector<double> repeated_history(const Block& block, Index cell, const PointStep& step) const;
   /// Numbers of history of all points.

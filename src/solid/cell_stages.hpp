@@ -1,8 +1,11 @@
 // The stages of a batch of cells that know the shape, over a number type.
 #pragma once
 
+#include <type_traits>
+
 #include "base/types.hpp"
 #include "element/cell_integrals.hpp"
+#include "element/hexa8_length.hpp"
 #include "solid/batch_values.hpp"
 #include "solid/hourglass_flow.hpp"
 #include "solid/stabilisation_stages.hpp"
@@ -16,6 +19,19 @@ static void cell_jacobians(const double* x, const Index* offset, double* smalles
   Real x_cell[3][Cell::nodes];
   gather(x, offset, x_cell);
   store(smallest, smallest_jacobian<Cell>(x_cell));
+}
+
+template <class Cell>
+concept IsHexa8 = std::is_same_v<typename Cell::Shape, Hexa8>;
+
+template <class Real>
+static void hexa8_lengths(const double* x, const double* u, const Index* offset, double* length) {
+  Real corner[3][8], displacement[3][8];
+  gather(x, offset, corner);
+  gather(u, offset, displacement);
+  for (int i = 0; i < 3; ++i)
+    for (int a = 0; a < 8; ++a) corner[i][a] += displacement[i][a];
+  store(length, hexa8_length(corner));
 }
 
 template <class Real, class Cell>
@@ -95,6 +111,7 @@ static constexpr CellStages cell_stages() {
   stages.prepare = prepare_cells<Real, Cell>;
   stages.gradients = cell_gradients<Real, Cell>;
   stages.add_forces = add_cell_forces<Real, Cell>;
+  if constexpr (IsHexa8<Cell>) stages.lengths = hexa8_lengths<Real>;
   if constexpr (HasModes<Cell>) {
     stages.modes = Cell::modes;
     stages.directions = Cell::directions;

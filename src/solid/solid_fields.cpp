@@ -49,11 +49,10 @@ void Solid::frequency_growth(std::span<const double> u, const PointStep& step, s
       return impl_->solid.add_distortion_growth(chunk, u, impl_->bounds_at_rest, own);
     }
     wave_modulus(impl_->solid.batches(chunk, step), block.law(), u.data(), own.data());
+    std::vector<double> length(own.size());
+    impl_->solid.lengths(block, chunk.first, u, length);
     for (std::size_t k = 0; k < own.size(); ++k) {
-      const std::size_t cell = at(block.first + chunk.first) + k;
-      const CellNodes x = impl_->solid.coordinates_of(cell, u);
-      const double shortening =
-          impl_->lengths[cell] / cell_length(block.type, std::span<const Vec3>(x).first(block.nodes()));
+      const double shortening = impl_->lengths[at(block.first + chunk.first) + k] / length[k];
       own[k] *= shortening * shortening / block.wave_modulus;
     }
     impl_->solid.add_distortion_growth(chunk, u, impl_->bounds_at_rest, own);

@@ -96,6 +96,8 @@ struct CellStages {
   /// Adds to the nodes of the first `count` cells; of hourglass modes the forces Q, laid out as q.
   void (*add_forces)(const double* geometry, const double* stress, const double* Q, const Index* offset, int count,
                      double* f) = nullptr;
+  /// Lengths (cell_length) of the cells displaced by u [lane]; null: one by one.
+  void (*lengths)(const double* x, const double* u, const Index* offset, double* length) = nullptr;
   int modes = 0, directions = 0;                                 ///< hourglass modes; 0: the cell has none
   const double* (*stiffness)(const double* geometry) = nullptr;  ///< theirs, of coefficient x modulus = 1 [lane]
   /// Q = k q and the energy q.Q / 2 [lane] of elastic modes, k = modulus x stiffness.
