@@ -44,8 +44,8 @@ template <class Real>
 /// 1997).
 template <class Real>
 [[gnu::always_inline]] static inline Real hexa8_volume(const Real x[3][8]) {
-  constexpr int rows[3][4][2] = {{{3, 1}, {7, 2}, {6, 3}, {2, 0}}, {{4, 3}, {5, 7}, {6, 4}, {7, 0}},
-                                 {{1, 4}, {2, 5}, {6, 1}, {5, 0}}};
+  constexpr int rows[3][4][2] = {
+      {{3, 1}, {7, 2}, {6, 3}, {2, 0}}, {{4, 3}, {5, 7}, {6, 4}, {7, 0}}, {{1, 4}, {2, 5}, {6, 1}, {5, 0}}};
   Real sum{};
   for (const auto& row : rows) {
     Real along[3], second[3], third[3], normal[3];

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <utility>
 
 namespace carom {
 
@@ -11,62 +13,26 @@ Hardening::Hardening(const Material& material)
     : yield_(material.value("yield_stress")),
       modulus_(material.value("hardening_modulus")),
       saturation_(material.value("saturation_stress") > 0.0 ? material.value("saturation_stress") - yield_ : 0.0),
-      rate_(material.value("saturation_rate")),
-      curve_(material.curve) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < curve_.size(); ++i) {
-    if (i > 0) sum += 0.5 * (curve_[i][0] - curve_[i - 1][0]) * (curve_[i][1] + curve_[i - 1][1]);
-    work_.push_back(sum);
+      rate_(material.value("saturation_rate")) {
+  const auto& curve = material.curve;
+  if (curve.empty()) return;
+  std::vector<Point> points;
+  double work = 0.0;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (i > 0) work += 0.5 * (curve[i][0] - curve[i - 1][0]) * (curve[i][1] + curve[i - 1][1]);
+    const bool is_last = i + 1 == curve.size();
+    const double slope = is_last ? 0.0 : (curve[i + 1][1] - curve[i][1]) / (curve[i + 1][0] - curve[i][0]);
+    points.push_back({curve[i][0], curve[i][1], slope, work});
   }
+  size_ = std::ssize(points);
+  owner_ = std::make_shared<const std::vector<Point>>(std::move(points));
+  points_ = owner_->data();
 }
 
-/// The last point of the curve that is not right of alpha.
-std::size_t Hardening::segment(double alpha) const {
-  const auto after = std::upper_bound(curve_.begin(), curve_.end(), alpha,
-                                      [](double value, const auto& point) { return value < point[0]; });
-  return static_cast<std::size_t>(std::max(after - curve_.begin(), std::ptrdiff_t{1}) - 1);
-}
-
-double Hardening::slope(double alpha) const {
-  if (curve_.empty()) return saturation_ > 0.0 ? modulus_ + saturation_ * rate_ * std::exp(-rate_ * alpha) : modulus_;
-  const std::size_t i = segment(alpha);
-  if (i + 1 == curve_.size()) return 0.0;
-  return (curve_[i + 1][1] - curve_[i][1]) / (curve_[i + 1][0] - curve_[i][0]);
-}
-
-double Hardening::stress(double alpha) const {
-  const double linear = yield_ + modulus_ * alpha;
-  if (curve_.empty()) return saturation_ > 0.0 ? linear - saturation_ * std::expm1(-rate_ * alpha) : linear;
-  const std::size_t i = segment(alpha);
-  return curve_[i][1] + slope(alpha) * (alpha - curve_[i][0]);
-}
-
-double Hardening::work(double alpha) const {
-  if (!curve_.empty()) {
-    const std::size_t i = segment(alpha);
-    return work_[i] + 0.5 * (curve_[i][1] + stress(alpha)) * (alpha - curve_[i][0]);
-  }
-  const double linear = (yield_ + 0.5 * modulus_ * alpha) * alpha;
-  return saturation_ > 0.0 ? linear + saturation_ * (alpha + std::expm1(-rate_ * alpha) / rate_) : linear;
-}
-
-double Hardening::increment(double trial, double three_G, double alpha) const {
-  if (!curve_.empty()) {  // the segment on which the return ends: the curve rises, the stress falls
-    std::size_t i = segment(alpha);
-    while (i + 1 < curve_.size() && trial - three_G * (curve_[i + 1][0] - alpha) > curve_[i + 1][1]) ++i;
-    const double H = slope(curve_[i][0]);
-    return (trial - curve_[i][1] - H * (alpha - curve_[i][0])) / (three_G + H);
-  }
-  // The excess of the stress is convex and falls: Newton's method approaches the root from the left. Without
-  // saturation the first step meets it.
-  double x = 0.0;
-  constexpr int most = 50;
-  for (int i = 0; i < most; ++i) {
-    const double step = (trial - three_G * x - stress(alpha + x)) / (three_G + slope(alpha + x));
-    x += step;
-    if (!(step > 1e-16 * x) || !(saturation_ > 0.0)) break;
-  }
-  return x;
+const Hardening::Point* Hardening::first_segment(double alpha) const {
+  const Point* after = std::upper_bound(points_, points_ + size_, alpha,
+                                        [](double value, const Point& point) { return value < point.alpha; });
+  return std::max(after - 1, points_);
 }
 
 std::vector<LawParameter> hardening_parameters() {

@@ -7,39 +7,9 @@ namespace carom {
 
 namespace {
 
-const Hardening& hardening_of(const PlasticLaw& law) {
-  return *static_cast<const Hardening*>(law.parameters);
-}
-
-bool flow_j2(const PlasticLaw& law, double trial, double, double* variables, PlasticFlow& flow) {
-  const Hardening& hardening = hardening_of(law);
-  double& alpha = variables[0];
-  if (!(trial > hardening.stress(alpha))) return false;
-  const double three_G = 3.0 * law.lame.G, increment = hardening.increment(trial, three_G, alpha);
-  alpha += increment;
-  flow.stress = trial - three_G * increment;
-  flow.slope = hardening.slope(alpha);
-  return true;
-}
-
-double yield_stress_j2(const PlasticLaw& law, const double* variables) {
-  return hardening_of(law).stress(variables[0]);
-}
-
-double work_j2(const PlasticLaw& law, const double* variables) {
-  return hardening_of(law).work(variables[0]);
-}
-
 std::shared_ptr<const void> prepare_j2(const Material& material) {
-  PlasticLaw law;
-  Hardening hardening(material);
-  law.elastic_limit = hardening.stress(0.0);
-  law.is_linear = hardening.is_linear();
-  law.hardening = hardening.modulus();
-  law.flow = flow_j2;
-  law.yield_stress = yield_stress_j2;
-  law.plastic_work = work_j2;
-  return prepare_plastic(material, law, std::move(hardening));
+  const Hardening hardening(material);
+  return prepare_plastic(material, hardening.elastic_limit(), hardening);
 }
 
 const char* const hardening_text =

@@ -1,7 +1,6 @@
-#include <fmt/format.h>
+#include "material/johnson_cook.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <fmt/format.h>
 
 #include "material/isotropic_parameters.hpp"
 #include "material/law_list.hpp"
@@ -11,68 +10,6 @@ namespace carom {
 
 namespace {
 
-/// The yield stress at the end of a step, and its slope over the change of alpha.
-struct YieldPoint {
-  double stress = 0.0, slope = 0.0;
-};
-
-struct JohnsonCook {
-  double A = 0.0, B = 0.0, n = 0.0, C = 0.0, m = 0.0, reference_rate = 0.0;
-  double reference_temperature = 0.0, melting_temperature = 0.0, initial_temperature = 0.0;
-  double heating = 0.0;  ///< temperature per plastic work, taylor_quinney / (rho specific_heat)
-
-  double strain_factor(double alpha) const { return A + B * std::pow(alpha, n); }
-
-  /// 1 - theta^m
-  double softening(double plastic_work) const {
-    const double range = melting_temperature - reference_temperature;
-    const double T = (initial_temperature + heating * plastic_work - reference_temperature) / range;
-    return 1.0 - std::pow(std::clamp(T, 0.0, 1.0), m);
-  }
-
-  /// After a change x > 0 of alpha in the time dt (0: at rest), without what softens.
-  YieldPoint at(double alpha, double x, double dt) const {
-    const double strain = strain_factor(alpha + x), strain_slope = B * n * std::pow(alpha + x, n - 1.0);
-    if (!(dt > 0.0) || x <= reference_rate * dt) return {strain, strain_slope};
-    const double rate = 1.0 + C * std::log(x / (reference_rate * dt));
-    return {strain * rate, strain_slope * rate + strain * C / x};
-  }
-};
-
-/// The root x in (0, trial / 3 G] of trial - 3 G x = yield stress at x and the temperature of the beginning of the
-/// step, by Newton's method where it stays between what is known to be on both sides, else by halving.
-bool flow_johnson_cook(const PlasticLaw& law, double trial, double dt, double* variables, PlasticFlow& flow) {
-  const auto& jc = *static_cast<const JohnsonCook*>(law.parameters);
-  const double alpha = variables[0], three_G = 3.0 * law.lame.G, softening = jc.softening(variables[1]);
-  if (!(trial > softening * jc.strain_factor(alpha))) return false;
-  double low = 0.0, high = trial / three_G, x = 0.5 * high;
-  constexpr int most = 200;
-  for (int i = 0; i < most; ++i) {
-    const YieldPoint y = jc.at(alpha, x, dt);
-    const double excess = trial - three_G * x - softening * y.stress;
-    (excess > 0.0 ? low : high) = x;
-    const double change = excess / (three_G + softening * y.slope), newton = x + change;
-    const bool is_found = std::abs(change) <= 1e-15 * x || std::abs(excess) <= 4e-16 * trial;  // the excess' round-off
-    x = is_found || (newton > low && newton < high) ? newton : 0.5 * (low + high);
-    if (is_found) break;
-  }
-  flow.stress = std::max(trial - three_G * x, 0.0);  // of molten metal not a round-off below
-  flow.slope = softening * jc.at(alpha, x, dt).slope;
-  variables[0] = alpha + x;
-  variables[1] += flow.stress * x;
-  variables[2] = jc.heating * variables[1];
-  return true;
-}
-
-double yield_stress_johnson_cook(const PlasticLaw& law, const double* variables) {
-  const auto& jc = *static_cast<const JohnsonCook*>(law.parameters);
-  return jc.softening(variables[1]) * jc.strain_factor(variables[0]);
-}
-
-double work_johnson_cook(const PlasticLaw&, const double* variables) {
-  return variables[1];
-}
-
 std::shared_ptr<const void> prepare_johnson_cook(const Material& material) {
   const auto value = [&material](const char* key) { return material.value(key); };
   JohnsonCook jc{value("A"), value("B"), value("n"), value("C"), value("m"), value("reference_rate")};
@@ -80,12 +17,7 @@ std::shared_ptr<const void> prepare_johnson_cook(const Material& material) {
   jc.melting_temperature = value("melting_temperature");
   jc.initial_temperature = value("initial_temperature");
   jc.heating = value("taylor_quinney") / (material.rho * value("specific_heat"));
-  PlasticLaw law;
-  law.variables = 3;
-  law.flow = flow_johnson_cook;
-  law.yield_stress = yield_stress_johnson_cook;
-  law.plastic_work = work_johnson_cook;
-  return prepare_plastic(material, law, jc);
+  return prepare_plastic(material, 0.0, jc);
 }
 
 std::optional<LawProblem> check_johnson_cook(const Material& material) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "material/isotropic_elastic.hpp"
-#include "material/logarithm.hpp"
+#include "math/elementary.hpp"
 #include "material/point_batch.hpp"
 #include "math/pack.hpp"
 

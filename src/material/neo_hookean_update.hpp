@@ -3,7 +3,7 @@
 
 #include "material/isotropic_elastic.hpp"
 #include "material/linear_elastic_update.hpp"
-#include "material/logarithm.hpp"
+#include "math/elementary.hpp"
 #include "material/point_batch.hpp"
 #include "math/pack.hpp"
 

@@ -1,6 +1,7 @@
 // Von Mises plasticity at finite strain over a number type: multiplicative, with logarithmic elastic strains.
 #pragma once
 
+#include "material/johnson_cook.hpp"
 #include "material/plastic_update.hpp"
 #include "material/symmetric.hpp"
 
@@ -109,13 +110,13 @@ template <class Real>
 /// the exponential map, so that plastic deformation keeps the volume (Simo, Comput. Methods Appl. Mech. Eng. 99, 1992;
 /// de Souza Neto, Peric and Owen, Computational Methods for Plasticity, box 14.3). rho c^2 along a principal direction
 /// of elastic steps is lambda + 2 G - tau_i. History: Cp^-1 - 1 (6, the tensor's components), then the law's variables.
-/// parameters: const PlasticLaw*.
-template <class Real>
+/// parameters: const PlasticLaw<Yield>*.
+template <class Real, class Yield>
 static void finite_plastic_update(const void* parameters, const PointBatch& batch) {
-  const auto& law = *static_cast<const PlasticLaw*>(parameters);
+  const auto& law = *static_cast<const PlasticLaw<Yield>*>(parameters);
   const double G = law.lame.G, K = law.lame.lambda + 2.0 / 3.0 * G;
   constexpr int n = lanes<Real>;
-  const int H = (6 + law.variables) * n;
+  const int H = (6 + Yield::variables) * n;
   for (int p = 0; p < batch.points; ++p) {
     const double* history = batch.history == nullptr ? nullptr : batch.history + H * p;
     double* new_history = batch.new_history == nullptr ? nullptr : batch.new_history + H * p;
@@ -126,9 +127,10 @@ static void finite_plastic_update(const void* parameters, const PointBatch& batc
     const Real trace = eps[0] + eps[1] + eps[2];
     make_deviator(eps);
     const Real square = norm_square(eps), trial = G * square_root(Real(6.0 * square));
+    double* yield_stress = batch.yield_stress == nullptr ? nullptr : batch.yield_stress + p * n;
     const RadialReturn<Real> at_end =
         radial_return(law, with_modes(trial, batch.mode_square, p), history == nullptr ? nullptr : history + 6 * n,
-                      batch.dt, batch.is_over);
+                      batch.dt, batch.is_over, yield_stress);
     if (batch.share != nullptr) store(batch.share + p * n, at_end.share);
     const Real pressure_part = K * trace, modulus = 2.0 * G * at_end.share;
     for (int c = 0; c < 6; ++c) tau[c] = c < 3 ? pressure_part + modulus * eps[c] : modulus * eps[c];
@@ -139,8 +141,6 @@ static void finite_plastic_update(const void* parameters, const PointBatch& batc
     if (new_history != nullptr) store_plastic_deformation(stretch, excess, eps, at_end.share, history, new_history);
     store_variables(law, at_end, new_history == nullptr ? nullptr : new_history + 6 * n,
                     batch.dissipation == nullptr ? nullptr : batch.dissipation + p * n);
-    if (batch.yield_stress != nullptr)
-      store_yield_stress<n>(law, history == nullptr ? nullptr : history + 6 * n, batch.yield_stress + p * n);
     if (batch.wave_modulus != nullptr) {
       // -tau_i is at most -K tr + 2/3 of the equivalent stress
       const Real compression = 2.0 / 3.0 * at_end.share * trial - pressure_part, zero = Real{};
@@ -174,13 +174,13 @@ template <class Real>
 
 /// dS = F^-1 (d tau - d tau - tau d) F^-T, d = F^-T dE F^-1, in the principal directions of b: d eps_ii = d_ii, and
 /// across, d tau_ij = (tau_i - tau_j) / (b_i - b_j) (b_i + b_j) d_ij, where tau_i - tau_j = 2 G share (eps_i - eps_j).
-/// Exact for the update above, and symmetric. parameters: const PlasticLaw*.
-template <class Real>
+/// Exact for the update above, and symmetric. parameters: const PlasticLaw<Yield>*.
+template <class Real, class Yield>
 static void finite_plastic_tangent(const void* parameters, const TangentBatch& batch) {
-  const auto& law = *static_cast<const PlasticLaw*>(parameters);
+  const auto& law = *static_cast<const PlasticLaw<Yield>*>(parameters);
   const double G = law.lame.G, K = law.lame.lambda + 2.0 / 3.0 * G;
   constexpr int n = lanes<Real>;
-  const int H = (6 + law.variables) * n;
+  const int H = (6 + Yield::variables) * n;
   for (int p = 0; p < batch.points; ++p) {
     const double* history = batch.history == nullptr ? nullptr : batch.history + H * p;
     Real excess[6], value[3], N[3][3], eps[3], rest, dE[6], spatial[6], d[6], change[6], S[6];
@@ -206,7 +206,7 @@ static void finite_plastic_tangent(const void* parameters, const TangentBatch& b
     }
     turned(N, spatial, d);
     const Real trace = d[0] + d[1] + d[2], modulus = 2.0 * G * at_end.share;
-    const Real along = along_trial(law, at_end, Real(eps[0] * d[0] + eps[1] * d[1] + eps[2] * d[2]), square, batch, p);
+    const Real along = along_trial(G, at_end, Real(eps[0] * d[0] + eps[1] * d[1] + eps[2] * d[2]), square, batch, p);
     Real tau[3];
     for (int i = 0; i < 3; ++i) tau[i] = K * eps_trace + modulus * eps[i];
     for (int i = 0; i < 3; ++i)
@@ -226,11 +226,11 @@ static void finite_plastic_tangent(const void* parameters, const TangentBatch& b
 
 template <class Real>
 static constexpr LawKernels j2_kernels() {
-  return {finite_plastic_update<Real>, finite_plastic_tangent<Real>};
+  return {finite_plastic_update<Real, Hardening>, finite_plastic_tangent<Real, Hardening>};
 }
 template <class Real>
 static constexpr LawKernels johnson_cook_kernels() {
-  return j2_kernels<Real>();
+  return {finite_plastic_update<Real, JohnsonCook>, finite_plastic_tangent<Real, JohnsonCook>};
 }
 
 }  // namespace carom

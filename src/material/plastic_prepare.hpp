@@ -9,17 +9,11 @@
 
 namespace carom {
 
-/// A PlasticLaw whose parameters are a Yield.
+/// The PlasticLaw of a material.
 template <class Yield>
-std::shared_ptr<const void> prepare_plastic(const Material& material, PlasticLaw law, Yield yield) {
-  struct Owner {
-    PlasticLaw law;
-    Yield yield;
-  };
-  const auto owner = std::make_shared<Owner>(Owner{law, std::move(yield)});
-  owner->law.lame = material.at_rest().lame();
-  owner->law.parameters = &owner->yield;
-  return {owner, &owner->law};
+std::shared_ptr<const void> prepare_plastic(const Material& material, double elastic_limit, Yield yield) {
+  return std::make_shared<PlasticLaw<Yield>>(
+      PlasticLaw<Yield>{material.at_rest().lame(), elastic_limit, std::move(yield)});
 }
 
 }  // namespace carom

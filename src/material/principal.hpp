@@ -1,7 +1,7 @@
 // Eigenvalues and eigenvectors of symmetric 3 x 3 matrices over a number type.
 #pragma once
 
-#include "material/logarithm.hpp"
+#include "math/elementary.hpp"
 #include "math/pack.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.

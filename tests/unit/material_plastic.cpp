@@ -5,6 +5,7 @@
 #include <random>
 
 #include "material/hardening.hpp"
+#include "material/johnson_cook.hpp"
 #include "material_points.hpp"
 
 namespace carom::test::material_plastic_test {
@@ -300,7 +301,7 @@ TEST(PlasticSmall, NoStressLeavesTheYieldSurface) {
     for (int i = 0; i < 2000; ++i) {
       strain = path.next(strain, 0.01);
       const Answer answer = law.update(strain, history);
-      const double surface = hardening.stress(answer.history[6]), stress = equivalent(answer.stress);
+      const double surface = hardening.begin(&answer.history[6]).stress, stress = equivalent(answer.stress);
       if (answer.history[6] > history[6])
         ASSERT_NEAR(stress, surface, 1e-12);
       else
@@ -398,26 +399,72 @@ TEST(Plastic, LanesAreAsPlainDouble) {
     }
 }
 
+/// The radial return of the equivalent stress `trial`.
+template <class Yield>
+RadialReturn<double> returned(const Yield& law, double trial, double dt, const double (&own)[most_plastic_variables]) {
+  RadialReturn<double> at_end{1.0, 1.0, {own[0], own[1], own[2]}};
+  law.flow(law.begin(own), 3 * G, trial, dt, at_end);
+  const double change = at_end.variables[0] - own[0];  // it has the rounding of alpha
+  EXPECT_NEAR(at_end.share * trial, trial - 3 * G * change, 0x1p-51 * (trial + 3 * G * at_end.variables[0]));
+  return at_end;
+}
+
 // The equation of the radial return, and the work as the integral of the stress by Simpson's rule on every piece.
 TEST(Hardening, ReturnAndWorkFollowTheCurve) {
   for (const Material& material : {plastic("j2"), plastic("j2", 0.0), voce("j2"), tabulated("j2")}) {
     const Hardening hardening(material);
+    const auto stress = [&](double alpha) { return hardening.begin(&alpha).stress; };
+    EXPECT_EQ(stress(0.0), hardening.elastic_limit());
     for (const double alpha : {0.0, 0.003, 0.01, 0.3, 0.9}) {
       for (const double beyond : {1e-9, 0.1, 3.0, 200.0}) {
-        const double trial = hardening.stress(alpha) + beyond, x = hardening.increment(trial, 3 * G, alpha);
-        EXPECT_GT(x, 0.0);
-        EXPECT_NEAR(trial - 3 * G * x, hardening.stress(alpha + x), 1e-14 * trial);
+        const double trial = stress(alpha) + beyond;
+        const RadialReturn<double> at_end = returned(hardening, trial, 0.0, {alpha});
+        EXPECT_GT(at_end.variables[0], alpha);
+        EXPECT_NEAR(at_end.share * trial, stress(at_end.variables[0]), 1e-14 * trial);
       }
+      EXPECT_EQ(returned(hardening, 0.9 * stress(alpha), 0.0, {alpha}).variables[0], alpha);
       double sum = 0.0;
       const int pieces = 900;  // corners of the polygon are among their ends
       for (int i = 0; i < pieces; ++i) {
         const double h = alpha / pieces, a = i * h;
-        sum += h / 6 * (hardening.stress(a) + 4 * hardening.stress(a + h / 2) + hardening.stress(a + h));
+        sum += h / 6 * (stress(a) + 4 * stress(a + h / 2) + stress(a + h));
       }
-      EXPECT_NEAR(hardening.work(alpha), sum, 1e-6 * (1e-6 + sum));
+      EXPECT_NEAR(hardening.plastic_work(&alpha), sum, 1e-6 * (1e-6 + sum));
     }
   }
-  EXPECT_EQ(Hardening(tabulated("j2")).stress(7.0), 2.0);
+  const double far = 7.0;
+  EXPECT_EQ(Hardening(tabulated("j2")).begin(&far).stress, 2.0);
+}
+
+// The equation of the radial return with hardening, rate and softening, from anywhere: small and large steps, slow and
+// fast, across the kink at the reference rate, cold, hot and molten, against long doubles.
+TEST(JohnsonCook, ReturnMeetsTheYieldStress) {
+  std::mt19937 generator(3);
+  const auto exponent = [&](double low, double high) {
+    return std::pow(10.0, std::uniform_real_distribution<double>(low, high)(generator));
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const double B = i % 7 == 0 ? 0.0 : exponent(-2.0, 1.0), n = exponent(-1.5, 0.3), m = exponent(-0.5, 0.5);
+    const JohnsonCook jc{yield, B, n, i % 5 == 0 ? 0.0 : exponent(-3.0, 0.0), m, 1.0, 300.0, 400.0, 310.0, 10.0};
+    const double alpha = i % 3 == 0 ? 0.0 : exponent(-12.0, 0.5), work = i % 2 == 0 ? 0.0 : exponent(-2.0, 1.2);
+    const double own[3] = {alpha, work, 0.0}, begin = jc.begin(own).stress;
+    const double trial = begin + exponent(-9.0, 2.0), dt = i % 11 == 0 ? 0.0 : exponent(-12.0, 1.0);
+    const RadialReturn<double> at_end = returned(jc, trial, dt, own);
+    const long double end = at_end.variables[0],
+                      change = (1 - at_end.share) * static_cast<long double>(trial) / (3 * G);
+    const long double theta = std::clamp((10.0L + 10.0L * work) / 100.0L, 0.0L, 1.0L);
+    const long double rate = dt > 0.0 ? std::max(1.0L, change / dt) : 1.0L;
+    const long double strain = yield + B * std::pow(end, static_cast<long double>(n));
+    const long double slow = (1 - std::pow(theta, static_cast<long double>(m))) * strain;
+    // Round-off of the powers, of 1 - theta^m near melting, and of 1 - share where little flows, which the logarithm
+    // of the rate sees.
+    const double of_change = 0x1p-52 * trial / (3 * G);
+    const double tolerance = 0x1p-52 * (10 * trial + 4 * static_cast<double>(strain)) +
+                             of_change * jc.C * static_cast<double>(slow) / (of_change + static_cast<double>(change));
+    ASSERT_NEAR(at_end.share * trial, static_cast<double>(slow * (1 + jc.C * std::log(rate))), tolerance) << i;
+    EXPECT_NEAR(at_end.variables[1] - work, static_cast<double>(at_end.share * trial * change),
+                0x1p-50 * (trial * trial / (3 * G) + work));
+  }
 }
 
 // At a constant rate and without heating the yield stress is (A + B alpha^n)(1 + C ln(rate / rate_0)): a step of shear
