@@ -2,8 +2,8 @@
 #pragma once
 
 #include "material/isotropic_elastic.hpp"
-#include "math/elementary.hpp"
 #include "material/point_batch.hpp"
+#include "math/elementary.hpp"
 #include "math/pack.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.

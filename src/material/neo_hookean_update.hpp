@@ -3,8 +3,8 @@
 
 #include "material/isotropic_elastic.hpp"
 #include "material/linear_elastic_update.hpp"
-#include "math/elementary.hpp"
 #include "material/point_batch.hpp"
+#include "math/elementary.hpp"
 #include "math/pack.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.

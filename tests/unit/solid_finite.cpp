@@ -2,6 +2,7 @@
 // yielded before where it matters.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "math/gauss_legendre.hpp"
@@ -67,7 +68,8 @@ TEST_P(EveryFiniteBody, AssembledTangentItsDiagonalAndItsActionAgree) {
   std::vector<double> assembled(x.size()), action(x.size()), Ky(x.size());
   K.apply(x, assembled);
   solid_.tangent_action(u, x, action, step());
-  EXPECT_LT(largest_difference(assembled, action), round_off);
+  // quadratic rings have forces of up to 900, not below 10
+  EXPECT_LT(largest_difference(assembled, action), round_off * std::max(1.0, 0.01 * largest(action)));
   EXPECT_LT(largest_difference(K.diagonal(), solid_.tangent_diagonal(u, step())), round_off);
   const auto y = random_vector(u.size(), 5);
   K.apply(y, Ky);
