@@ -13,6 +13,7 @@
 #include "mesh/cell_topology.hpp"
 #include "run/cell_columns.hpp"
 #include "solid/element_table.hpp"
+#include "solid/node_patches.hpp"
 
 namespace carom {
 
@@ -285,16 +286,26 @@ bool locks_at_constant_volume(const Part& part) {
   return yields && node_count(part.type) == corner_count(part.type) && is_fully_integrated(part);
 }
 
-std::string constant_volume_warning(const Part& part) {
-  const bool is_simplex = part.type == CellType::tetra4 || part.type == CellType::tria3;
+/// What helps tetrahedra and triangles of one strain each.
+std::string remedy_of_simplex(const Part& part, const Mesh& mesh) {
+  const Valence valence = largest_valence(mesh, part.type, part.cells);
+  if (valence.is_within_patch()) return "leave the formulation out: nodal cells do not";
   return fmt::format(
-      "part \"{}\": {} cells {} lock where shape changes at constant volume, as it does {}: take {}, or results will "
-      "be "
+      "mesh the part without the fan about node {}, which has {} neighbours and {} cells where nodal cells "
+      "have at most {} and {}",
+      mesh.node_numbers[at(valence.node)], valence.neighbours, valence.cells, most_neighbours, most_patch_cells);
+}
+
+std::string constant_volume_warning(const Part& part, const Mesh& mesh) {
+  const bool is_simplex = part.type == CellType::tetra4 || part.type == CellType::tria3;
+  const char* other =
+      dimension(part.type) == 3 ? "take HEXA8 without a formulation or TETRA10" : "take QUAD4 without a formulation";
+  return fmt::format(
+      "part \"{}\": {} cells {} lock where shape changes at constant volume, as it does {}: {}, or results will be "
       "too stiff",
       part.name, name(part.type), is_simplex ? "have one strain each and" : "in full integration",
       part.material.law->history.empty() ? "near nu = 0.5" : "in plastic flow",
-      dimension(part.type) == 3 ? "TETRA10 (Gmsh: Mesh.ElementOrder = 2) or HEXA8 without a formulation"
-                                : "QUAD4 without a formulation");
+      is_simplex ? remedy_of_simplex(part, mesh) : other);
 }
 
 /// What is found of every part.
@@ -349,7 +360,8 @@ std::vector<Doubt> locking_doubts(const Simulation& s) {
     constexpr double bulged_too_stiff = 1.5;
     const Part& part = s.model().parts[p];
     if (locks_at_constant_volume(part))
-      out.push_back({fmt::format("part \"{}\" locks at constant volume", part.name), constant_volume_warning(part)});
+      out.push_back(
+          {fmt::format("part \"{}\" locks at constant volume", part.name), constant_volume_warning(part, s.mesh())});
     const Findings& found = all[p];
     const std::optional<Bending> bent = bending(s, found);
     if (bent && excess(bent->ratio) > std::log(1.1)) {

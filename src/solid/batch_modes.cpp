@@ -50,7 +50,7 @@ void Batch::return_modes(ModeReturn& modes) const {
   ModeFlow flow{stages_.hourglass_coefficient, stages_.modulus, viscosity.hourglass > 0.0, 0.0, cells_.is_over};
   if (flow.is_viscous && cells_.viscous_dt > 0.0)
     flow.viscosity = viscosity.hourglass * stages_.modulus / (stages_.wave_speed * cells_.viscous_dt);
-  stages_.cell->stabilisation.pull(finite(b_.gradient), b_.q, b_.modes.z);
+  stages_.cell->stabilisation.pull(b_.geometry, finite(b_.gradient), b_.q, b_.modes.z);
   stages_.cell->flow.give(b_.geometry, flow, b_.modes.z, modes_yield() ? b_.yield_stress : nullptr,
                           flow.is_viscous ? cells_.length + first_ : nullptr, plastic_modes(cells_.history),
                           plastic_modes(cells_.new_history), modes);

@@ -129,7 +129,7 @@ NodePatches make_node_patches(const Model& model, const SolidCells& solid, const
     const std::vector<Patch> patches = patches_of(solid.mesh->node_count(), at(nodal.first), at(nodal.cells),
                                                   [&](std::size_t k) { return solid.nodes_of(k); });
     for (const Patch& patch : patches)
-      if (const Valence own{patch.neighbours.size(), patch.cells.size()}; !own.is_within_patch())
+      if (const Valence own{patch.node, patch.neighbours.size(), patch.cells.size()}; !own.is_within_patch())
         throw CaseError(Location{solid.mesh->report.source}, "parts." + part.name,
                         fmt::format("node {} with {} neighbours and {} cells", solid.mesh->node_numbers[at(patch.node)],
                                     own.neighbours, own.cells),
@@ -178,8 +178,9 @@ Valence largest_valence(const Mesh& mesh, CellType type, std::span<const Index> 
   const CellBlock& block = *mesh.block(type);
   for (const Patch& patch :
        patches_of(mesh.node_count(), 0, cells.size(), [&](std::size_t k) { return block.nodes(cells[k]); })) {
-    largest.neighbours = std::max(largest.neighbours, patch.neighbours.size());
-    largest.cells = std::max(largest.cells, patch.cells.size());
+    const Valence own{patch.node, patch.neighbours.size(), patch.cells.size()};
+    if (!own.is_within_patch()) return own;
+    if (own.neighbours > largest.neighbours) largest = own;
   }
   return largest;
 }

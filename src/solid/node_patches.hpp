@@ -32,11 +32,13 @@ struct NodePatches {
 /// many neighbours or cells about it.
 NodePatches make_node_patches(const Model& model, const SolidCells& solid, const KernelTable& table);
 
-/// The most neighbours that a node has in some cells, and the most cells.
+/// The neighbours of a node in some cells, and the cells about it.
 struct Valence {
+  Index node = -1;
   std::size_t neighbours = 0, cells = 0;
   bool is_within_patch() const { return neighbours <= most_neighbours && cells <= most_patch_cells; }
 };
+/// Of the first node that a patch has no place for, else of one with the most neighbours.
 Valence largest_valence(const Mesh& mesh, CellType type, std::span<const Index> cells);
 
 }  // namespace carom

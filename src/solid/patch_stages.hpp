@@ -92,8 +92,10 @@ struct PatchStages {
     const Real part = 1.0 / volume;
     for (int e = 0; e < cells; ++e) {
       geometry.share[e] *= part;
-      if constexpr (is_ring)
-        geometry.hoop_of_cell[e] = 1.0 / (3.0 * radius(middle[0], geometry, geometry.corner + d * e * n));
+      if constexpr (is_ring) {
+        const Real hoop = 1.0 / (3.0 * radius(middle[0], geometry, geometry.corner + d * e * n));
+        geometry.hoop_of_cell[e] = geometry.share[e] > 0.0 ? hoop : Real{};  // what fills up may lie on the axis
+      }
     }
     add_gradients(geometry);
   }

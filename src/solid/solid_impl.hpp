@@ -1,10 +1,13 @@
 // What a Solid is made of, for the files that define it.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include "mesh/cell_size.hpp"
@@ -125,6 +128,12 @@ struct Solid::Impl {
   std::vector<double> cell_frequency_bounds() const {
     std::vector<double> bounds = frequency_bounds(solid);
     largest_of_patches(frequency_bounds(patches.cells), bounds);
+    for (std::size_t k = 0; k < bounds.size(); ++k)
+      if (!std::isfinite(bounds[k]))
+        throw std::runtime_error(
+            fmt::format("the stiffness of cell {} at rest is not a number: its size and the numbers "
+                        "of its material are too far apart",
+                        solid.mesh->blocks[at(solid.cells[k].block)].file_numbers[at(solid.cells[k].cell)]));
     return bounds;
   }
   double largest_bound() const {

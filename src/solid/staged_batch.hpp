@@ -237,7 +237,7 @@ class Batch {
     alignas(64) double dH[9 * most_lanes];
     if (is_stabilised() || modes_remember()) std::copy_n(b_.P, 9 * lanes(), dH);
     if (modes_remember()) {
-      stabilisation.pull_change(finite(b_.gradient), dH, q, b_.q, stabilised.z);
+      stabilisation.pull_change(b_.geometry, finite(b_.gradient), dH, q, b_.q, stabilised.z);
       stages_.cell->flow.change(b_.geometry, modes, stabilised.z, stabilised.T);
     }
     if (is_stabilised()) {

@@ -180,6 +180,24 @@ TEST(Nodal, OnlyRigidMotionsAreFree) {
   }
 }
 
+// Nodes on the axis have patches that are filled up as all others are; those of a free mesh stand in no order.
+TEST(Nodal, RingsWithNodesOnTheAxisHaveForces) {
+  const Mesh mesh =
+      mesh_of(CellType::tria3, {{0, 0, 0}, {0, 2, 0}, {0, 1, 0}, {1, 0, 0}, {1, 2, 0}, {0.6, 1, 0}, {1, 1, 0}},
+              {0, 3, 5, 0, 5, 2, 2, 5, 1, 5, 4, 1, 3, 6, 5, 5, 6, 4});
+  const Solid solid(body(mesh, nodal(kinds[3]), unit_material));
+  std::vector<double> u(solid.dof_count()), f(u.size());
+  for (std::size_t n = 0; n < solid.node_count(); ++n) {
+    u[3 * n] = 0.01 * mesh.coordinates[n][0];
+    u[3 * n + 1] = 0.02 * mesh.coordinates[n][1];
+  }
+  const SolidEnergies energies = solid.evaluate(u, {}, f, {});
+  const double volume = 2.0 * std::numbers::pi, lambda = unit_material.lame_lambda();
+  EXPECT_NEAR(energies.strain, volume * (0.5 * lambda * 0.04 * 0.04 + unit_material.shear_modulus() * 6e-4),
+              1e-12 * energies.strain);
+  EXPECT_NEAR(energies.hourglass, 0.0, 1e-15 * energies.strain);
+}
+
 // A fan of more cells than a patch holds is refused with the node.
 TEST(Nodal, NodesWithTooManyNeighboursAreNamed) {
   std::vector<Vec3> x{{0.0, 0.0, 0.0}};
