@@ -12,6 +12,7 @@
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
 #include "run/cell_columns.hpp"
+#include "run/simplex_layers.hpp"
 #include "solid/element_table.hpp"
 #include "solid/node_patches.hpp"
 
@@ -224,6 +225,17 @@ struct Findings {
   double volume = 0.0;
   std::array<Way, 3> ways;  ///< along x, y and z
   int fewest = std::numeric_limits<int>::max();
+
+  void add(const Thin& thin, double of_volume) {
+    std::size_t along = 0;
+    for (std::size_t c = 1; c < 3; ++c)
+      if (std::abs(thin.direction[c]) > std::abs(thin.direction[along])) along = c;
+    Way& way = ways[along];
+    way.volume += of_volume;
+    way.ratio_sum += of_volume * thin.ratio;
+    way.thinness.add(thin.direction, of_volume);
+    if (excess(thin.ratio) >= excess(way.example.ratio)) way.example = thin;
+  }
 };
 
 /// How a part bends: the means over the ways along which something acts, where these hold most of it.
@@ -245,6 +257,18 @@ std::optional<Bending> bending(const Simulation& s, const Findings& found) {
   return out;
 }
 
+bool is_nodal(const Part& part) {
+  return find_element(part.type, part.section, part.formulation)->formulation == Formulation::nodal;
+}
+
+std::string_view bending_remedy(const Part& part) {
+  if (is_nodal(part)) return "Take two or more cells through the thickness, HEXA8, or TETRA10";
+  if (part.type == CellType::tetra4) return "Take formulation = \"nodal\", HEXA8, or TETRA10";
+  if (find_element(part.type, part.section, part.formulation)->formulation == Formulation::stabilised)
+    return "Its cells are distorted across the bending, or hourglass is not 1: take straighter ones, or more";
+  return "Leave the formulation out: stabilised cells bend as the body does";
+}
+
 std::string bending_warning(const Part& part, const Bending& bent) {
   const Thin& example = bent.example;
   const double ratio = bent.ratio;
@@ -255,10 +279,7 @@ std::string bending_warning(const Part& part, const Bending& bent) {
       "\"{}\" through its thickness, up to {:.2g} times as long as it is thick, nu = {:g}. {}",
       part.name, is_stiff ? "will lock where it bends" : "bends too easily", is_stiff ? ratio : 1.0 / ratio,
       is_stiff ? "stiff" : "soft", 100.0 / ratio, example.cells, example.cells == 1 ? "" : "s", name(formulation),
-      example.length_to_height, part.material.at_rest().nu,
-      formulation == Formulation::stabilised
-          ? "Its cells are distorted across the bending, or hourglass is not 1: take straighter ones, or more"
-          : "Leave the formulation out: stabilised cells bend as the body does");
+      example.length_to_height, part.material.at_rest().nu, bending_remedy(part));
 }
 
 std::string volume_warning(const Part& part, int cells, double ratio) {
@@ -311,6 +332,7 @@ std::string constant_volume_warning(const Part& part, const Mesh& mesh) {
 /// What is found of every part.
 std::vector<Findings> examine(const Simulation& s) {
   const Examiner examiner(s);
+  const std::vector<std::vector<SimplexLayer>> simplex = simplex_layers(s.model(), held_components(s));
   std::vector<Findings> all(s.model().parts.size());
   std::size_t k = 0;  // the solid has the cells part after part
   for (std::size_t p = 0; p < all.size(); ++p) {
@@ -322,16 +344,12 @@ std::vector<Findings> examine(const Simulation& s) {
       const double volume = s.solid().cell_volumes()[k];
       found.volume += volume;
       if (part.section != Section::plane_stress) found.fewest = std::min(found.fewest, examiner.fewest_across(k));
-      for (const Thin& thin : examiner.thin(k, part)) {
-        std::size_t along = 0;
-        for (std::size_t c = 1; c < 3; ++c)
-          if (std::abs(thin.direction[c]) > std::abs(thin.direction[along])) along = c;
-        Way& way = found.ways[along];
-        way.volume += volume;
-        way.ratio_sum += volume * thin.ratio;
-        way.thinness.add(thin.direction, volume);
-        if (excess(thin.ratio) >= excess(way.example.ratio)) way.example = thin;
-      }
+      for (const Thin& thin : examiner.thin(k, part)) found.add(thin, volume);
+    }
+    for (const SimplexLayer& layer : simplex[p]) {
+      const double edge = layer.edge_to_thickness;
+      const int cells = std::max(1, static_cast<int>(std::lround(1.0 / edge)));
+      found.add({layer.direction, cells, edge, simplex_bending_ratio(edge, is_nodal(part))}, layer.volume);
     }
   }
   return all;

@@ -148,7 +148,7 @@ TEST(Hourglass, KeysOfOtherCellsAreRefused) {
       std::string::npos)
       << stabilised.what();
   const CaseError full = case_error(case_of_block("formulation = \"full\"\nhourglass = 0.1\n" + newmark));
-  EXPECT_NE(std::string(full.what()).find("expected formulation = \"one_point\" or \"stabilised\""), std::string::npos)
+  EXPECT_NE(std::string(full.what()).find("expected formulation = \"one_point\", \"stabilised\" or \"nodal\""), std::string::npos)
       << full.what();
   EXPECT_NO_THROW(Simulation(parse_case(case_of_block("hourglass_viscosity = 0.0\n" + newmark), "case.toml")));
 }
