@@ -16,12 +16,21 @@ std::string to_string(const Location& where) {
 
 namespace {
 
+/// A text that somebody gave, as long as it may stand in a message.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t longest = 500, kept = 200;
+  if (text.size() <= longest) return text;
+  std::size_t end = kept;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // within a character of UTF-8
+  return fmt::format("{} ... ({} characters)", text.substr(0, end), text.size());
+}
+
 std::string case_message(const Location& where, const std::string& key, const std::string& found,
                          const std::string& expected, const std::string& suggestion) {
   std::string text = to_string(where);
   if (!text.empty()) text += ": ";
-  if (!key.empty()) text += key + ": ";
-  text += "found " + found;
+  if (!key.empty()) text += shortened(key) + ": ";
+  text += "found " + shortened(found);
   if (!expected.empty()) text += "; expected " + expected;
   if (!suggestion.empty()) text += ". " + suggestion;
   return text;

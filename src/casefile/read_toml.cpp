@@ -1,5 +1,6 @@
 #include "casefile/read_toml.hpp"
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -60,10 +61,27 @@ class Converter {
   std::string file_;
 };
 
+/// Refuses keys of more parts than any table has levels: they are read by recursion.
+void check_keys(std::string_view text, const std::string& name) {
+  constexpr std::ptrdiff_t most = 256;
+  int line = 0;
+  while (!text.empty()) {
+    ++line;
+    const std::string_view row = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.size(), row.size() + 1));
+    const std::string_view key = row.substr(0, row.find_first_of("=#\"'"));
+    const std::ptrdiff_t dots = std::count(key.begin(), key.end(), '.');
+    if (dots >= most)
+      throw CaseError(Location{name, line, 1}, "", fmt::format("a key of {} parts", dots + 1),
+                      fmt::format("at most {}", most), "Keys of a case have two or three parts, as materials.steel.E.");
+  }
+}
+
 }  // namespace
 
 Node read_toml(std::string_view text, const std::string& name) {
   const Converter converter(name);
+  check_keys(text, name);
   try {
     Node root = converter.node(toml::parse(text, name));
     root.where = {name, 1, 1};

@@ -539,6 +539,16 @@ TEST(CasefileMalformed, DeepNestingIsAnError) {
   EXPECT_NE(message_of("title = " + std::string(100000, '[')).find("syntax error"), std::string::npos);
 }
 
+// Keys are read by recursion, and nobody's terminal has room for what somebody pasted.
+TEST(CasefileMalformed, LongKeysAndTextsAreErrorsOfABearableLength) {
+  std::string key = "a";
+  for (int k = 0; k < 50000; ++k) key += ".a";
+  EXPECT_EQ(message_of("title = \"t\"\n" + key + " = 1\n"),
+            "c.toml:2:1: found a key of 50001 parts; expected at most 256. Keys of a case have two or three parts, as "
+            "materials.steel.E.");
+  EXPECT_LT(message_of("units = \"" + std::string(400000, 'm') + "\"\n").size(), 1000U);
+}
+
 TEST(Encoding, OtherThanUtf8IsNamed) {
   const auto message = [](const std::string& bytes) -> std::string {
     const std::string path = testing::TempDir() + "encoding.toml";
