@@ -143,6 +143,7 @@ Stage::Stage(const StageContext& context, const CaseScheme& scheme, const CaseTi
   refuse_driven_bonds();
   refuse_history();
   choose_step();
+  refuse_loads_without_hold();
 }
 
 /// Without inertia nothing keeps a body in the air. Its weight alone is a load only where it rests on something.
@@ -188,6 +189,25 @@ void Stage::refuse_massless_contact() const {
                       "nodes with mass, or supports on all three components",
                       "Put the cells in a [[part]], or block the node by a [[support]].");
     }
+  }
+}
+
+/// Statics without contact, whose loads push a body where nothing holds it: no step can be made. Contact may close on
+/// the way, so that it is asked at every step.
+void Stage::refuse_loads_without_hold() const {
+  if (settings_.kind != SchemeKind::statics || !context_.model.contacts.empty()) return;
+  const FreeModes free(system_);
+  if (free.empty()) return;
+  std::vector<double> f(context_.solid.dof_count());
+  const std::vector<double> zero(f.size(), 0.0);
+  for (const double t : {begin_ + dt_, end()}) {
+    context_.solid.external_force(t, mass_, f);
+    const std::vector<double> motion = free.unheld({}, {}, zero, f, f);
+    if (std::all_of(motion.begin(), motion.end(), [](double m) { return m == 0.0; })) continue;
+    throw CaseError(
+        scheme_.where, "scheme.kind",
+        "statics, where no support and no contact holds " + free.describe(motion) + ", where the loads push it",
+        "bodies that supports hold against their loads", "Add a [[support]], or take a scheme that lets the body fly.");
   }
 }
 

@@ -76,6 +76,7 @@ class Stage {
   void refuse_massless_contact() const;
   void refuse_driven_bonds() const;
   void refuse_history() const;
+  void refuse_loads_without_hold() const;
   void choose_step();
 
   const StageContext context_;

@@ -148,9 +148,21 @@ TEST(Hourglass, KeysOfOtherCellsAreRefused) {
       std::string::npos)
       << stabilised.what();
   const CaseError full = case_error(case_of_block("formulation = \"full\"\nhourglass = 0.1\n" + newmark));
-  EXPECT_NE(std::string(full.what()).find("expected formulation = \"one_point\", \"stabilised\" or \"nodal\""), std::string::npos)
+  EXPECT_NE(std::string(full.what()).find("expected formulation = \"one_point\", \"stabilised\" or \"nodal\""),
+            std::string::npos)
       << full.what();
   EXPECT_NO_THROW(Simulation(parse_case(case_of_block("hourglass_viscosity = 0.0\n" + newmark), "case.toml")));
+}
+
+// `check` said that such a case was ready to run.
+TEST(Statics, LoadsThatNothingHoldsAreRefusedBeforeTheRun) {
+  const std::string pushed =
+                        "[scheme]\nkind = \"statics\"\n[time]\nend = 1.0\nstep = 0.5\n[[load]]\ngroup = \"HEAD\"\n"
+                        "pressure = 1.0\n",
+                    held = "[[support]]\nnodes = \"FOOT\"\nblocked = [\"z\"]\n";
+  EXPECT_NE(std::string(case_error(case_of_block(pushed)).what()).find("no support and no contact holds the body"),
+            std::string::npos);
+  EXPECT_NO_THROW(Simulation(parse_case(case_of_block(pushed + held), "case.toml")));
 }
 
 TEST(CellTypes, WithoutAnElementAreRefusedWithARemedy) {
