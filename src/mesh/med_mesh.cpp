@@ -22,7 +22,7 @@ struct MedType {
   CellType type;
 };
 
-constexpr std::array<MedType, 16> kMedTypes{{{"PO1", CellType::point1},
+constexpr std::array<MedType, 17> kMedTypes{{{"PO1", CellType::point1},
                                              {"SE2", CellType::line2},
                                              {"SE3", CellType::line3},
                                              {"TR3", CellType::tria3},
@@ -37,7 +37,12 @@ constexpr std::array<MedType, 16> kMedTypes{{{"PO1", CellType::point1},
                                              {"PE6", CellType::penta6},
                                              {"P15", CellType::penta15},
                                              {"HE8", CellType::hexa8},
-                                             {"H20", CellType::hexa20}}};
+                                             {"H20", CellType::hexa20},
+                                             {"H27", CellType::hexa27}}};
+
+/// Faces of HEXA27 by their corners in MED: 1234, 1265, 2376, 3487, 1584, 5678; here -x, +x, -y, +y, -z, +z of the same
+/// corners.
+constexpr std::array<std::size_t, 6> kHexa27Faces{24, 22, 21, 23, 20, 25};
 
 using Families = std::map<std::int64_t, std::vector<std::string>>;
 
@@ -217,7 +222,7 @@ class MedReader {
           std::find_if(kMedTypes.begin(), kMedTypes.end(), [&](const MedType& t) { return t.code == code; });
       if (type == kMedTypes.end())
         fail(path + "/" + code, "cell type " + code,
-             "PO1, SE2, SE3, TR3, TR6, QU4, QU8, QU9, TE4, T10, PY5, P13, PE6, P15, HE8 or H20",
+             "PO1, SE2, SE3, TR3, TR6, QU4, QU8, QU9, TE4, T10, PY5, P13, PE6, P15, HE8, H20 or H27",
              "Mesh with cells of these types.");
       read_block(path + "/" + code, type->type, next_number);
     }
@@ -233,14 +238,13 @@ class MedReader {
            fmt::format("{} for each of at most 2147483647 cells", per_cell));
     const auto* numbers = per_entity(path + "/NUM", count);
     const auto* family = per_entity(path + "/FAM", count);
-    const auto mirror = dimension(type) == 3 ? mirrored_order(type) : std::span<const LocalNode>{};
     CellBlock block{type, {}, {}};
     block.connectivity.reserve(nodes.size());
     for (std::size_t cell = 0; cell < count; ++cell) {
       block.file_numbers.push_back(numbers != nullptr ? (*numbers)[cell] : next_number);
       ++next_number;
       for (std::size_t i = 0; i < per_cell; ++i) {
-        const std::int64_t node = nodes[(mirror.empty() ? i : mirror[i]) * count + cell];
+        const std::int64_t node = nodes[med_position(type, i) * count + cell];
         if (node < 1 || node > static_cast<std::int64_t>(mesh_.node_count()))
           fail(path + "/NOD", fmt::format("node {} in cell {}", node, block.file_numbers[cell]),
                fmt::format("1 to {}", mesh_.node_count()), "The file is damaged; write it again.");
@@ -261,6 +265,12 @@ class MedReader {
 };
 
 }  // namespace
+
+std::size_t med_position(CellType type, std::size_t i) {
+  if (dimension(type) < 3) return i;
+  const std::size_t mirrored = static_cast<std::size_t>(mirrored_order(type)[i]);
+  return type == CellType::hexa27 && mirrored >= 20 && mirrored < 26 ? kHexa27Faces[mirrored - 20] : mirrored;
+}
 
 std::string_view med_code(CellType type) {
   const auto* const found =

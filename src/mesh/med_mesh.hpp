@@ -9,7 +9,7 @@
 
 namespace carom {
 
-/// The one mesh of a MED 2.2 to 4 file: nodes, cells of the types of CellType except HEXA27, families of nodes and
+/// The one mesh of a MED 2.2 to 4 file: nodes, cells of the types of CellType, families of nodes and
 /// cells (each names the groups it belongs to). MED orients its solids the other way round than Gmsh; they are brought
 /// to our order (mirrored_order), so that a cell written as MED's manual asks comes out with a positive Jacobian.
 /// With several computing steps the first is read; MED 2 has none. Throws CaseError with the path inside the file.
@@ -17,5 +17,8 @@ Mesh med_mesh(const Hdf5Tree& tree, const std::string& source);
 
 /// MED's name of a type of cells, "HE8"; "" where it has none.
 std::string_view med_code(CellType type);
+
+/// Where MED has node i of a cell, both counted from 0.
+std::size_t med_position(CellType type, std::size_t i);
 
 }  // namespace carom

@@ -174,12 +174,11 @@ void write_block(MedFile& file, const std::string& cells, const Mesh& mesh, std:
                     "cells that MED has", "Write the mesh as .msh or .vtu.");
   const std::string own = fmt::format("{}/{}", cells, code);
   const std::size_t count = block.size();
-  const auto mirror = dimension(block.type) == 3 ? mirrored_order(block.type) : std::span<const LocalNode>{};
   std::vector<std::int64_t> nodes(block.connectivity.size());
   for (std::size_t c = 0; c < count; ++c) {
     const std::span<const Index> given = block.nodes(static_cast<Index>(c));
     for (std::size_t i = 0; i < given.size(); ++i)
-      nodes[(mirror.empty() ? i : mirror[i]) * count + c] = std::int64_t{given[i]} + 1;
+      nodes[med_position(block.type, i) * count + c] = std::int64_t{given[i]} + 1;
   }
   const auto place = [b](const CellRef& cell) { return at(cell.block) == b ? at(cell.cell) : ~std::size_t{0}; };
   std::vector<std::int64_t> family;

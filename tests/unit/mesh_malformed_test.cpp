@@ -334,7 +334,7 @@ TEST(MeshMalformed, MedTreesNameThePath) {
   EXPECT_EQ(message_of_tree([](Hdf5Tree& t) { t.groups.insert(kStep + "/MAI/POG"); }),
             "bad.med: " + kStep +
                 "/MAI/POG: found cell type POG; expected PO1, SE2, SE3, TR3, TR6, QU4, QU8, QU9, TE4, "
-                "T10, PY5, P13, PE6, P15, HE8 or H20. Mesh with cells of these types.");
+                "T10, PY5, P13, PE6, P15, HE8, H20 or H27. Mesh with cells of these types.");
 }
 
 TEST(MeshMalformed, HdfFilesThatAreDamaged) {

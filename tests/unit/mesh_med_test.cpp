@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <csignal>
+#include <numeric>
 
 #include "base/errors.hpp"
 #include "mesh/cell_topology.hpp"
@@ -100,6 +101,87 @@ TEST(MeshMed, ReadsFilesOfOlderVersions) {
   EXPECT_EQ(mesh.cell_groups.at("BODY").size(), 1u);
   EXPECT_EQ(mesh.cell_groups.at("SKIN").size(), 2u);
   EXPECT_EQ(mesh.nodes_of("TOP").size(), 4u);
+}
+
+/// A cube of 27 nodes as MED numbers them: corners of the bottom clockwise from above, then of the top; middles of the
+/// edges of the bottom, of the top and upright; faces 1234, 1265, 2376, 3487, 1584, 5678; centre.
+Hdf5Tree hexa27_of_med() {
+  constexpr int corners[8][3] = {{-1, -1, -1}, {-1, 1, -1}, {1, 1, -1}, {1, -1, -1},
+                                 {-1, -1, 1},  {-1, 1, 1},  {1, 1, 1},  {1, -1, 1}};
+  const std::vector<std::vector<int>> means = {{0, 1},
+                                               {1, 2},
+                                               {2, 3},
+                                               {3, 0},
+                                               {4, 5},
+                                               {5, 6},
+                                               {6, 7},
+                                               {7, 4},
+                                               {0, 4},
+                                               {1, 5},
+                                               {2, 6},
+                                               {3, 7},
+                                               {0, 1, 2, 3},
+                                               {0, 1, 5, 4},
+                                               {1, 2, 6, 5},
+                                               {2, 3, 7, 6},
+                                               {0, 4, 7, 3},
+                                               {4, 5, 6, 7},
+                                               {0, 1, 2, 3, 4, 5, 6, 7}};
+  std::vector<double> x(3 * 27);  // all x, all y, all z
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t a = 0; a < 8; ++a) x[27 * c + a] = corners[a][c];
+    for (std::size_t k = 0; k < means.size(); ++k) {
+      double sum = 0.0;
+      for (const int a : means[k]) sum += corners[a][c];
+      x[27 * c + 8 + k] = sum / static_cast<double>(means[k].size());
+    }
+  }
+  std::vector<std::int64_t> nodes(27);
+  std::iota(nodes.begin(), nodes.end(), std::int64_t{1});
+  Hdf5Tree tree;
+  tree.groups = {"/INFOS_GENERALES", "/ENS_MAA",           "/ENS_MAA/m",    "/ENS_MAA/m/FAS",
+                 "/ENS_MAA/m/MAI",   "/ENS_MAA/m/MAI/H27", "/ENS_MAA/m/NOE"};
+  tree.attributes = {{"/INFOS_GENERALES@MAJ", 2},
+                     {"/INFOS_GENERALES@MIN", 3},
+                     {"/ENS_MAA/m@TYP", 0},
+                     {"/ENS_MAA/m@DIM", 3},
+                     {"/ENS_MAA/m@ESP", 3}};
+  tree.data_sets = {{"/ENS_MAA/m/NOE/COO", {{81}, x}}, {"/ENS_MAA/m/MAI/H27/NOD", {{27}, nodes}}};
+  return tree;
+}
+
+// Every node is the mean of its corners here as there: faces -x, +x, -y, +y, -z, +z (element/shapes/hexa27.hpp).
+TEST(MeshMed, ReadsHexa27) {
+  const Mesh mesh = med_mesh(hexa27_of_med(), "cube.med");
+  const CellBlock& block = *mesh.block(CellType::hexa27);
+  ASSERT_EQ(block.size(), 1U);
+  EXPECT_NEAR(test::hexa_volume(mesh, block, 0), 8.0, 1e-12);
+  const std::vector<std::vector<std::size_t>> means = {{0, 1},
+                                                       {1, 2},
+                                                       {2, 3},
+                                                       {3, 0},
+                                                       {4, 5},
+                                                       {5, 6},
+                                                       {6, 7},
+                                                       {7, 4},
+                                                       {0, 4},
+                                                       {1, 5},
+                                                       {2, 6},
+                                                       {3, 7},
+                                                       {0, 3, 7, 4},
+                                                       {1, 2, 6, 5},
+                                                       {0, 1, 5, 4},
+                                                       {3, 2, 6, 7},
+                                                       {0, 1, 2, 3},
+                                                       {4, 5, 6, 7},
+                                                       {0, 1, 2, 3, 4, 5, 6, 7}};
+  const auto x = [&](std::size_t a) { return mesh.coordinates[static_cast<std::size_t>(block.connectivity[a])]; };
+  for (std::size_t k = 0; k < means.size(); ++k)
+    for (std::size_t c = 0; c < 3; ++c) {
+      double sum = 0.0;
+      for (const std::size_t a : means[k]) sum += x(a)[c];
+      EXPECT_NEAR(x(8 + k)[c], sum / static_cast<double>(means[k].size()), 1e-15) << k;
+    }
 }
 
 /// Two bars in the plane; before 2.3.2 the families stood side by side.
