@@ -79,6 +79,25 @@ std::string describe(const Stage& stage, const Simulation& s) {
                                              wave.speed * stage.dt() / smallest_cell(s.solid()), wave.speed));
 }
 
+std::string step_text(double step) {
+  return std::isfinite(step) ? fmt::format("{:.4g}", step) : "of any length";
+}
+
+/// What bounds the step on account of cells that supports strain.
+std::string describe_driven(const Stage& stage, const Simulation& s) {
+  const DrivenCells& driven = stage.driven();
+  if (driven.count == 0) return {};
+  const CellRef& cell = s.solid().cells()[static_cast<std::size_t>(driven.first)];
+  const CellBlock& block = s.mesh().blocks[static_cast<std::size_t>(cell.block)];
+  return fmt::format(
+      "  driven    {} strained by supports alone, as cell {}: free, the stable step would be {}; for {:g} % of strain "
+      "a "
+      "step {}\n",
+      count_of(driven.count, "cell"), block.file_numbers[static_cast<std::size_t>(cell.cell)],
+      step_text(stable_step_of(stability_limit(stage.settings()), driven.omega_max_squared)),
+      100.0 * most_imposed_strain, step_text(driven.dt_strain));
+}
+
 }  // namespace
 
 std::string check_summary(const Simulation& s) {
@@ -108,11 +127,12 @@ std::string check_summary(const Simulation& s) {
     text += fmt::format("  contact   \"{}\": {}\n", *s.given().contacts[i].name, describe(contacts[i], units));
   for (const auto& stage : s.stages()) text += describe(*stage, s);
   const StableStep stable = s.stable();
-  text += fmt::format(
-      "  stable    explicit step {:.4g} with contact, {:.4g} without; element estimate (lumped mass) {:.4g}\n",
-      stable.dt, stable.dt_free, 2.0 / std::sqrt(s.solid().largest_frequency_bound()));
+  text += fmt::format("  stable    explicit step {} with contact, {} without; element estimate (lumped mass) {}\n",
+                      step_text(stable.dt), step_text(stable.dt_free),
+                      step_text(stable_step_of(2.0, s.solid().largest_frequency_bound())));
   if (std::isfinite(stable.dt_closing))
     text += fmt::format("  closing   contact springs that open and close need {:.4g}\n", stable.dt_closing);
+  for (const auto& stage : s.stages()) text += describe_driven(*stage, s);
   const CostEstimate cost = estimate_cost(s);
   return text + fmt::format("  cost      {} on one core, {} of memory, {} on disk ({})\n", about_seconds(cost.seconds),
                             about_bytes(cost.memory_bytes), about_bytes(cost.disk_bytes),

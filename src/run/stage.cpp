@@ -261,6 +261,15 @@ void Stage::refuse_history() const {
   }
 }
 
+/// The step that the program chooses; a hundredth of the stage where nothing vibrates.
+double Stage::chosen_step(const StableStep& stable) const {
+  double step = time_.safety * stable.advised();
+  if (driven_.count > 0)
+    step = std::min({step, driven_.dt_strain,
+                     time_.safety * stable_step_of(stability_limit(settings_), driven_.omega_max_squared)});
+  return std::isfinite(step) ? step : 0.01 * (end() - begin_);
+}
+
 void Stage::choose_step() {
   const double length = end() - begin_;
   const bool explicit_steps = is_explicit(settings_.kind);
@@ -268,7 +277,8 @@ void Stage::choose_step() {
   if (explicit_steps) {
     const StableStep stable = contact_step(rest_, stability_limit(settings_), settings_.enforcement);
     stable_dt = stable.dt;
-    wanted = time_.step ? **time_.step : time_.safety * stable.advised();
+    driven_ = driven_cells(system_, begin_, end());
+    wanted = time_.step ? **time_.step : chosen_step(stable);
     if (wanted > stable.dt) {
       throw CaseError(time_.step->where, "time.step", fmt::format("{:.6g}", wanted),
                       fmt::format("at most the stable step {:.6g} (contact included; {:.6g} without)", stable.dt,

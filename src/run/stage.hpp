@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "casefile/case.hpp"
+#include "schemes/driven_cells.hpp"
 #include "schemes/scheme_table.hpp"
 #include "schemes/stable_step.hpp"
 #include "system/supports.hpp"
@@ -53,6 +54,8 @@ class Stage {
   double reversible_energy() const { return reversible_energy_; }
 
   std::unique_ptr<Scheme> make_scheme() const;
+  /// The cells of an explicit stage that supports strain, which bound the step that it chooses.
+  const DrivenCells& driven() const { return driven_; }
   /// The stable step of the stage's scheme on its system at the start.
   StableStep stable() const;
   /// That of another scheme and enforcement on the same system.
@@ -77,6 +80,7 @@ class Stage {
   void refuse_driven_bonds() const;
   void refuse_history() const;
   void refuse_loads_without_hold() const;
+  double chosen_step(const StableStep& stable) const;
   void choose_step();
 
   const StageContext context_;
@@ -90,6 +94,7 @@ class Stage {
   Supports supports_;
   System system_;
   RestFrequencies rest_;
+  DrivenCells driven_;
   double dt_ = 0.0;
   long long steps_ = 0;
   double reversible_energy_ = 0.0;

@@ -55,7 +55,7 @@ void StepControl::refine(double longest) {
 }
 
 bool StepControl::limit(double longest) {
-  const double eighths = -8.0 * std::log2(std::max(longest / dt_, 1e-300));
+  const double eighths = -8.0 * std::log2(std::clamp(longest / dt_, 1e-300, 1.0));
   int wanted = std::max(0, static_cast<int>(std::ceil(eighths - 1e-9)));
   if (wanted < eighths_) wanted = std::max(wanted, eighths_ - 1);
   if (wanted > 8 * levels) return false;

@@ -8,6 +8,7 @@
 #include "enforcement/contact_frequency.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
+#include "schemes/driven_cells.hpp"
 #include "system/mass_solver.hpp"
 
 namespace carom {
@@ -80,25 +81,16 @@ double largest_damping_ratio(const System& system, const ConstraintRows& rows) {
   return d;
 }
 
+/// Infinite where nothing vibrates: viscosity then acts in cells that supports lead.
 double step_of(double limit, double omega_squared, double damping_ratio) {
+  if (omega_squared == 0.0) return std::numeric_limits<double>::infinity();
   const double d = damping_ratio;
-  return 0.5 * limit * (std::sqrt(d * d + 4.0 * omega_squared) - d) / omega_squared;
+  return 2.0 * limit / (std::sqrt(d * d + 4.0 * omega_squared) + d);
 }
 
-/// Bounds of the cells' omega^2 at rest over the largest of them, with the scheme's mass: that of a node over the
-/// lumped one is the same in all cells there (mass scaling). Nodes without mass follow the others.
+/// Bounds of the cells' omega^2 at rest over the largest of them.
 std::vector<double> relative_bounds(const System& system) {
-  std::vector<double> bounds = system.solid.cell_frequency_bounds();
-  const std::vector<double> lumped = system.solid.mass(MassKind::lumped).node_diagonal();
-  const std::vector<double>& own = system.mass.node_diagonal();
-  for (std::size_t k = 0; k < bounds.size(); ++k) {
-    double lightest = 0.0;
-    for (const Index node : system.solid.nodes_of_cell(k)) {
-      const auto n = static_cast<std::size_t>(node);
-      if (own[n] > 0.0) lightest = std::max(lightest, lumped[n] / own[n]);
-    }
-    bounds[k] *= lightest;
-  }
+  std::vector<double> bounds = cell_bounds(system);
   const double largest = *std::max_element(bounds.begin(), bounds.end());
   for (double& bound : bounds) bound = largest > 0.0 ? bound / largest : 0.0;
   return bounds;
@@ -133,6 +125,10 @@ double RestFrequencies::closed() const {
   const auto rows = system_.contact.rows_at(zero, zero);
   closed_ = largest(std::make_shared<const ConstraintRows>(as_they_close(*rows, zero)));
   return *closed_;
+}
+
+double stable_step_of(double limit, double omega_squared) {
+  return step_of(limit, omega_squared, 0.0);
 }
 
 StableStep contact_step(const RestFrequencies& rest, double limit, EnforcementKind enforcement) {
@@ -176,12 +172,13 @@ StableStepWatch::StableStepWatch(const RestFrequencies& rest, double limit, Enfo
 }
 
 bool StableStepWatch::follow_damping(std::span<const double> points) {
-  damping_ = system_.solid.largest_damping(points) * std::sqrt(std::max(1.0, omega_squared_ / at_rest_));
+  const double growth = at_rest_ > 0.0 ? omega_squared_ / at_rest_ : 1.0;
+  damping_ = system_.solid.largest_damping(points) * std::sqrt(std::max(1.0, growth));
   return damping_ > 0.0;
 }
 
 double StableStepWatch::follow_bodies(std::span<const double> u, std::span<const double> points) {
-  if (cells_.empty()) return 0.0;
+  if (cells_.empty() || at_rest_ == 0.0) return 0.0;
   std::vector<double> growth(cells_.size());
   system_.solid.frequency_growth(u, {0.0, points, true}, growth);
   const double before = omega_squared_;

@@ -17,11 +17,12 @@ namespace carom {
 ///
 /// dt: the stable step of the linear system, L / omega_max of M^-1 (K + contact stiffness with every row closed), with
 /// the lagged dampers of stops those of central differences scaled by L / 2:
-///   h = L/2 (sqrt(d^2 + 4 omega^2) - d) / omega^2,  d = max damping / mass
+///   h = 2 L / (sqrt(d^2 + 4 omega^2) + d),  d = max damping / mass
 /// (the roots of z^2 - (2 - omega^2 h^2 - d h) z + 1 - d h stay in the unit circle); artificial viscosity, whose rates
 /// are those of the middle of the step, adds to d. Only the penalty adds stiffness:
 /// exact enforcements fix what they hold, which lowers no frequency bound. Nodes without mass are held: with the
 /// modified mass they follow statically, which is softer, so that the step is one for the condensed system as well.
+/// Infinite where nothing vibrates, as in bodies all of whose nodes are led by supports (driven_cells.hpp).
 ///
 /// dt_closing: the longest step at which springs that open and close make no energy to speak of, closing_limit L / 2
 /// over the frequency of the springs on the masses alone (contact_frequency_bound). A spring that pushes for the whole
@@ -56,6 +57,9 @@ class RestFrequencies {
   const System& system_;
   mutable std::optional<double> free_, closed_;
 };
+
+/// The stable step of an omega^2 alone: L / omega.
+double stable_step_of(double limit, double omega_squared);
 
 /// At rest, in the reference position.
 StableStep stable_step(const RestFrequencies& rest, double limit, EnforcementKind enforcement);
