@@ -64,6 +64,9 @@ struct LedgerIncrement {
   EnergyTerms energy;
   AsterTerms aster;
   Momentum impulse;  ///< of external, contact and support forces, in the scheme's weights
+  /// Of the free dofs: the impulse of their forces by the trapezoidal rule less the change of their momentum. Who moves
+  /// at the velocity w sees algorithmic - w . lag.
+  Vec3 lag{};
 };
 
 /// The running totals of a run.

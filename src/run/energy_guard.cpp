@@ -32,6 +32,16 @@ bool is_unstable(const EnergyGuard::Books& books) {
 
 void EnergyGuard::shorten() {
   share_ = std::max(least_share, share_ * std::sqrt(0.5));
+  if (has_grown_) wait_ *= 2;
+  has_grown_ = false;
+  quiet_ = 0;
+}
+
+void EnergyGuard::grow() {
+  if (share_ == 1.0 || ++quiet_ < wait_) return;
+  share_ = std::min(1.0, share_ * std::sqrt(std::sqrt(2.0)));
+  has_grown_ = true;
+  quiet_ = 0;
 }
 
 std::optional<double> EnergyGuard::cut(const State& begin, const State& end, const ContactResponse& response,
@@ -66,7 +76,10 @@ void EnergyGuard::accept(const Books& books) {
   cuts_ = 0;
   shortened_ = false;
   net_ -= books.quadrature;
-  if (net_ <= allowed_ + in_all * books.scale) return;
+  if (net_ <= allowed_ + in_all * books.scale) {
+    grow();
+    return;
+  }
   allowed_ = net_;
   shorten();
 }

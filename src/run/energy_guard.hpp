@@ -17,8 +17,10 @@ namespace carom {
 ///     of that, at least a sixteenth of it: large blocks of few cells thus touch and leave at the end of a step;
 ///   - a step that gains more than 2e-3 otherwise, or is lent more than 1e-2 by the scheme (ledger: algorithmic), which
 ///     the scheme does not take back when the step changes, or whose energy is not finite, by halves; the steps after
-///     it are shorter by 2^(-1/2) for good;
+///     it are shorter by 2^(-1/2);
 ///   - when the gains of all steps exceed the losses by another 5e-4 of the scale, the steps after it are likewise.
+/// After a hundred steps that hold, steps grow again by 2^(1/4); after twice as many, where they have grown too far
+/// before, so that a run gains by this no more than 5e-4 times the binary logarithm of its steps.
 class EnergyGuard {
  public:
   /// Entries of the ledger for a step, and what energies are compared with.
@@ -32,6 +34,8 @@ class EnergyGuard {
   bool gains_too_much(const Books& books);
   /// The step counts.
   void accept(const Books& books);
+  /// True when the present step has been cut since it made energy, not where contact closes or opens.
+  bool has_made_energy() const { return shortened_; }
   /// What the usual step is multiplied by.
   double share() const { return share_; }
 
@@ -41,17 +45,23 @@ class EnergyGuard {
     archive("net", x.net_);
     archive("allowed", x.allowed_);
     archive("share", x.share_);
+    archive("quiet", x.quiet_);
+    archive("wait", x.wait_);
+    archive("has_grown", x.has_grown_);
     archive("cuts", x.cuts_);
     archive("shortened", x.shortened_);
   }
 
   void shorten();
+  void grow();
 
   double net_ = 0.0;      ///< gains less losses
   double allowed_ = 0.0;  ///< net_ that shortens the steps, less what the scale allows
   double share_ = 1.0;
-  int cuts_ = 0;            ///< of the present step
-  bool shortened_ = false;  ///< in the present step
+  long long quiet_ = 0, wait_ = 100;  ///< steps since the share has changed, and until it grows
+  bool has_grown_ = false;            ///< since it fell last
+  int cuts_ = 0;                      ///< of the present step
+  bool shortened_ = false;            ///< in the present step
 };
 
 }  // namespace carom

@@ -9,24 +9,24 @@
 
 namespace carom {
 
-std::string worst_place(const Simulation& s, const State& state) {
+std::string worst_place(const System& s, const State& state) {
   std::size_t worst = 0;
   double fastest = -1.0;
-  for (std::size_t n = 0; n < s.mesh().node_count(); ++n) {
+  for (std::size_t n = 0; n < s.mesh.node_count(); ++n) {
     const double speed = norm({state.v[3 * n], state.v[3 * n + 1], state.v[3 * n + 2]});
     if (speed <= fastest) continue;
     worst = n;
     fastest = speed;
     if (!std::isfinite(speed)) break;
   }
-  const Vec3& x = s.mesh().coordinates[worst];
-  std::string text = fmt::format("worst node {} at ({:.4g}, {:.4g}, {:.4g}), speed {:.4g}",
-                                 s.mesh().node_numbers[worst], x[0], x[1], x[2], fastest);
-  for (std::size_t k = 0; k < s.solid().cell_count(); ++k) {
-    const auto nodes = s.solid().nodes_of_cell(k);
+  const Vec3& x = s.mesh.coordinates[worst];
+  std::string text = fmt::format("worst node {} at ({:.4g}, {:.4g}, {:.4g}), speed {:.4g}", s.mesh.node_numbers[worst],
+                                 x[0], x[1], x[2], fastest);
+  for (std::size_t k = 0; k < s.solid.cell_count(); ++k) {
+    const auto nodes = s.solid.nodes_of_cell(k);
     if (std::find(nodes.begin(), nodes.end(), static_cast<Index>(worst)) == nodes.end()) continue;
-    const CellRef cell = s.solid().cells()[k];
-    const CellBlock& block = s.mesh().blocks[static_cast<std::size_t>(cell.block)];
+    const CellRef cell = s.solid.cells()[k];
+    const CellBlock& block = s.mesh.blocks[static_cast<std::size_t>(cell.block)];
     return text + fmt::format(", in cell {}", block.file_numbers[static_cast<std::size_t>(cell.cell)]);
   }
   return text;

@@ -45,11 +45,13 @@ void March::keep(Archive& archive) {
   if (!is_started()) {
     scheme_ = stage().make_scheme();
     steps_.emplace(stage());
+    step_scale_.emplace(s_.model(), stage(), rest_energy(s_.solid(), reach(s_.mesh())));
     ledger_.emplace(EnergyTerms{}, Momentum{}, 0.0);
     monitor_.emplace(*ledger_, RunMonitor::Bodies{}, kind_of(stage()));
   }
   archive("state", state_);
   archive("steps", *steps_);
+  archive("step_scale", *step_scale_);
   archive("ledger", *ledger_);
   archive("monitor", *monitor_);
   archive("end", end_);
@@ -131,6 +133,7 @@ March::GivenMotion March::given_motion(const std::vector<double>& v_before) cons
 /// Makes the stage's scheme and lets it take the state over.
 void March::begin_stage() {
   scheme_ = stage().make_scheme();
+  if (steps_) log_ = log();
   steps_.emplace(stage());
   const bool was_static = stage_number_ > 0 && s_.stages()[stage_number_ - 1]->settings().kind == SchemeKind::statics;
   const std::vector<double> v_before = state_.v;
@@ -140,6 +143,7 @@ void March::begin_stage() {
   } catch (const std::runtime_error& e) {
     throw RunError(static_cast<int>(step_), state_.t, e.what());
   }
+  step_scale_.emplace(s_.model(), stage(), rest_energy(s_.solid(), reach(s_.mesh())));
   steps_->begin_at(state_, step_);
   solver_ = scheme_->solver_name(state_);
   if (ledger_) {
@@ -197,14 +201,11 @@ double March::load_impulse() const {
   return norm(sum) * dt_;
 }
 
-/// What a step's energies are compared with: those of the run, and what the bodies have as a moving obstacle sees them.
-/// Where it comes to bodies at rest that is all there is, and the step is to be the same as where they come to it.
-double March::step_scale() const {
-  double scale = monitor_->scale();
-  for (const ContactDefinition& contact : s_.model().contacts)
-    if (const Index n = parts_of(contact).carrier; n >= 0)
-      scale = std::max(scale, monitor_->kinetic_seen_at(vector_at(state_.v, static_cast<std::size_t>(n))));
-  return scale;
+std::vector<std::string> March::log() const {
+  std::vector<std::string> lines = log_;
+  if (!steps_) return lines;
+  for (std::string& line : steps_->notes()) lines.push_back(std::move(line));
+  return lines;
 }
 
 /// Why a step has failed: the cell that has turned inside out on the way, or that has folded.
@@ -217,6 +218,7 @@ std::string March::with_cell(const std::string& failure) const {
 
 /// A step to next_ that holds; nothing when there is none, and message_ says why.
 std::optional<StepReport> March::make_step() {
+  step_scale_->follow(state_);
   steps_->limit_motion(state_, *state_.forces.rows.rows, step_ + 1);
   for (;;) {
     const double dt = steps_->control().dt();
@@ -229,10 +231,11 @@ std::optional<StepReport> March::make_step() {
       report.failure = "the energy is not finite";
     }
     if (report.converged) {
-      const EnergyGuard::Books books{report.books.energy.quadrature, report.books.energy.algorithmic, step_scale()};
+      const EnergyGuard::Books books{report.books.energy.quadrature, step_scale_->algorithmic(report.books),
+                                     step_scale_->of_step_to(next_)};
       if (!steps_->is_to_be_repeated(state_, next_, books, step_ + 1)) {
         dt_ = dt;
-        steps_->accept(books);
+        steps_->accept(state_, books, step_ + 1);
         return report;
       }
       continue;
@@ -280,7 +283,7 @@ void March::step() {
     message_ += describe_fold(s_, corner, state_.q);
     return;
   }
-  message_ += worst_place(s_, state_);
+  message_ += worst_place(stage().system(), state_);
   const std::string remedy = s_.given().contacts.empty() ? "" : touch_remedy(stage());
   message_ += ". " + (remedy.empty() ? energy_remedy(stage()) : remedy);
 }

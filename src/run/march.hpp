@@ -10,6 +10,7 @@
 #include "run/observer.hpp"
 #include "run/simulation.hpp"
 #include "run/step_guard.hpp"
+#include "run/step_scale.hpp"
 
 namespace carom {
 
@@ -60,8 +61,8 @@ class March {
   double dt_largest() const { return dt_largest_; }
   /// Largest strain so far of the rigid bodies that turn.
   double body_strain() const { return body_strain_; }
-  /// Changes of scheme and solver on the way.
-  const std::vector<std::string>& log() const { return log_; }
+  /// Changes of scheme and solver on the way, and why steps were cut or kept short.
+  std::vector<std::string> log() const;
 
  private:
   template <class A>
@@ -84,13 +85,13 @@ class March {
   void book(const StepReport& report);
   void note_solver();
   double load_impulse() const;
-  double step_scale() const;
   void show();
 
   const Simulation& s_;
   std::vector<Observer*> observers_;
   std::unique_ptr<Scheme> scheme_;
   std::optional<StepGuard> steps_;
+  std::optional<StepScale> step_scale_;
   State state_, next_;
   std::optional<EnergyLedger> ledger_;
   std::optional<RunMonitor> monitor_;

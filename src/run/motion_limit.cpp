@@ -62,7 +62,7 @@ void MotionLimit::judge(const ConstraintRows& rows, std::size_t r, double before
   const double most = allowed(rows, r);
   if (most < 0.0 || depth <= most) return;
   const double fraction = (std::max(0.0, before) + 0.5 * most) / (before - after);
-  if (!worst || fraction < worst->fraction) worst = {fraction, share_of_cell * depth / most, rows.source[r]};
+  if (!worst || fraction < worst->fraction) worst = {fraction, share_of_cell * depth / most, rows.source[r], r};
 }
 
 std::optional<MotionLimit::Overrun> MotionLimit::foreseen(const State& begin, const ConstraintRows& rows,

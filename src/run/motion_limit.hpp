@@ -26,6 +26,7 @@ class MotionLimit {
     double fraction = 1.0;  ///< of the step: where the row is half as deep as is allowed
     double depth = 0.0;     ///< how far it is carried, in cells
     Index contact = -1;     ///< index in Model::contacts
+    std::size_t row = 0;
   };
   /// The row for which a step of length h from `begin`, whose rows are given, has to be cut most at the velocity of the
   /// beginning, if any.

@@ -247,7 +247,7 @@ Summary Run::finish() {
   summary.notes = watched_->notes;
   summary.outcome = outcome_;
   summary.message = message_;
-  summary.notes.insert(summary.notes.end(), march().log().begin(), march().log().end());
+  for (std::string& line : march().log()) summary.notes.push_back(std::move(line));
   for (const auto* seen : {&watched_->rotation.warnings(), &watched_->folds.warnings()})
     summary.warnings.insert(summary.warnings.end(), seen->begin(), seen->end());
   watched_->recorder.close();

@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "contact/admissible.hpp"
 #include "run/contact_event.hpp"
+#include "run/failure_text.hpp"
 
 namespace carom {
 
@@ -31,6 +32,39 @@ const std::string& contact_name(const Model& model, Index contact) {
                     model.contacts[static_cast<std::size_t>(contact)]);
 }
 
+/// "contact "floor" at node 12"
+std::string row_place(const System& system, const Model& model, const ConstraintRows& rows, std::size_t r) {
+  const auto node = static_cast<std::size_t>(rows.node[static_cast<std::size_t>(rows.begin[r])]);
+  const Vec3& x = system.mesh.coordinates[node];
+  const std::string at =
+      fmt::format("at node {} ({:.4g}, {:.4g}, {:.4g})", system.mesh.node_numbers[node], x[0], x[1], x[2]);
+  if (rows.source[r] < 0) return at;
+  return fmt::format("contact \"{}\" {}", contact_name(model, rows.source[r]), at);
+}
+
+/// The row whose change misplaces most energy; rows.size() where none changes.
+std::size_t worst_change(const ConstraintRows& rows, const State& begin, const State& end) {
+  std::size_t worst = rows.size();
+  double most = 0.0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const double change = -rows.law[r].eps_N * rows.gap_at(r, begin.q) * rows.gap_at(r, end.q);
+    if (is_bond(rows.law[r]) || change <= most) continue;
+    most = change;
+    worst = r;
+  }
+  return worst;
+}
+
+std::string cell_place(const System& system, Index cell) {
+  const CellRef& ref = system.solid.cells()[static_cast<std::size_t>(cell)];
+  const CellBlock& block = system.mesh.blocks[static_cast<std::size_t>(ref.block)];
+  const Vec3& x =
+      system.mesh
+          .coordinates[static_cast<std::size_t>(system.solid.nodes_of_cell(static_cast<std::size_t>(cell)).front())];
+  return fmt::format("cell {} at ({:.4g}, {:.4g}, {:.4g})", block.file_numbers[static_cast<std::size_t>(ref.cell)],
+                     x[0], x[1], x[2]);
+}
+
 }  // namespace
 
 StepGuard::StepGuard(const Stage& stage)
@@ -40,7 +74,9 @@ StepGuard::StepGuard(const Stage& stage)
   if (stage.settings().kind != SchemeKind::statics && stage.system().contact.slots() > 0)
     motion_.emplace(stage.model());
   if (stage.stable_step_changes()) watch_.emplace(stage.watch_stable_step());
-  if (traits(stage.settings().enforcement).adds_stiffness && may_shorten(stage)) energy_.emplace();
+  // Linear bodies without contact make no energy at a stable step; what it lends them is much where they vibrate fast.
+  const bool may_gain = stage.system().contact.slots() > 0 || !stage.system().solid.is_linear();
+  if (may_gain && traits(stage.settings().enforcement).adds_stiffness && may_shorten(stage)) energy_.emplace();
 }
 
 bool StepGuard::prolong(double end) {
@@ -51,37 +87,75 @@ bool StepGuard::prolong(double end) {
 }
 
 bool StepGuard::shorten(const State& now, long long step) {
-  if (!is_explicit(stage_.settings().kind)) return control_.halve();
   constexpr int most_failures = 6;
-  if (failures_ == most_failures) return false;
-  is_restless_ = true;
-  if (++failures_ == 1) follow_stable_step(now, step);
-  return control_.cut(0.5);
+  bool is_shorter = false;
+  if (!is_explicit(stage_.settings().kind)) {
+    is_shorter = control_.halve();
+  } else if (failures_ < most_failures) {
+    is_restless_ = true;
+    if (++failures_ == 1) follow_stable_step(now, step);
+    is_shorter = control_.cut(0.5);
+  }
+  if (is_shorter) note(ShortStep::fails, now.t, step, "");
+  return is_shorter;
+}
+
+void StepGuard::note(ShortStep reason, double t, long long step, std::string place) {
+  notes_.add(reason, {step, t, control_.dt()}, std::move(place));
+}
+
+/// Little is not worth a line: it comes with every deformation.
+void StepGuard::note_stable_step(double t, long long step) {
+  constexpr double worth = 0.8;
+  if (control_.dt() > worth * stage_.dt()) return;
+  const bool is_cell = is_short_for_bodies_ && watch_->worst_cell() >= 0;
+  note(ShortStep::stiffens, t, step, is_cell ? cell_place(stage_.system(), watch_->worst_cell()) : "");
+}
+
+std::vector<std::string> StepGuard::notes() const {
+  return notes_.lines(stage_.dt(), energy_remedy(stage_));
 }
 
 void StepGuard::limit_motion(const State& now, const ConstraintRows& rows, long long step) {
-  if (motion_) cut_motion(motion_->foreseen(now, rows, control_.dt()), now.t, step);
+  if (motion_) cut_motion(motion_->foreseen(now, rows, control_.dt()), rows, now.t, step);
 }
 
 bool StepGuard::is_to_be_repeated(const State& begin, const State& end, const EnergyGuard::Books& books,
                                   long long step) {
   constexpr int most_cuts = 8;
-  if (watch_ && !fits(end)) return true;
-  if (energy_ && is_explicit(stage_.settings().kind)) {
-    const std::optional<double> fraction = energy_->cut(begin, end, end.forces.rows, books);
-    if (fraction && control_.cut(*fraction)) return true;
-  } else if (energy_ && energy_->gains_too_much(books) && control_.halve()) {
-    return true;
-  }
+  if (watch_ && !fits(begin, end, step)) return true;
+  if (energy_ && makes_energy(begin, end, books, step)) return true;
   if (cuts_ == most_cuts) return false;
-  const bool is_cut = motion_ && cut_motion(motion_->overrun(begin, end, end.forces.rows), end.t, step);
-  if (!is_cut && !ends_late(begin, end)) return false;
+  const bool is_cut =
+      motion_ && cut_motion(motion_->overrun(begin, end, end.forces.rows), *end.forces.rows.rows, begin.t, step);
+  if (!is_cut && !ends_late(begin, end, step)) return false;
   ++cuts_;
   return true;
 }
 
+/// Cuts a step that makes energy or misplaces it.
+bool StepGuard::makes_energy(const State& begin, const State& end, const EnergyGuard::Books& books, long long step) {
+  if (!is_explicit(stage_.settings().kind)) {
+    if (!energy_->gains_too_much(books) || !control_.halve()) return false;
+    note(ShortStep::makes_energy, begin.t, step, "");
+    return true;
+  }
+  const std::optional<double> fraction = energy_->cut(begin, end, end.forces.rows, books);
+  if (!fraction || !control_.cut(*fraction)) return false;
+  const ConstraintRows& rows = *end.forces.rows.rows;
+  if (energy_->has_made_energy()) {
+    note(ShortStep::makes_energy, begin.t, step, worst_place(stage_.system(), end));
+  } else {
+    const std::size_t worst = worst_change(rows, begin, end);
+    note(ShortStep::misplaces, begin.t, step,
+         worst < rows.size() ? row_place(stage_.system(), stage_.model(), rows, worst) : "");
+  }
+  return true;
+}
+
 /// Cuts a step that carries contact too far; false where it does not, or is the shortest.
-bool StepGuard::cut_motion(const std::optional<MotionLimit::Overrun>& overrun, double t, long long step) {
+bool StepGuard::cut_motion(const std::optional<MotionLimit::Overrun>& overrun, const ConstraintRows& rows, double t,
+                           long long step) {
   if (!overrun) return false;
   if (stage_.time().fixed) {
     throw RunError(
@@ -91,23 +165,28 @@ bool StepGuard::cut_motion(const std::optional<MotionLimit::Overrun>& overrun, d
                     "fixed = true to have such steps cut",
                     contact_name(stage_.model(), overrun->contact), overrun->depth, overrun->fraction * control_.dt()));
   }
-  return control_.cut(overrun->fraction);
+  if (!control_.cut(overrun->fraction)) return false;
+  note(ShortStep::carries_too_far, t, step, row_place(stage_.system(), stage_.model(), rows, overrun->row));
+  return true;
 }
 
 /// Cuts a step in which contact closes long before the end.
-bool StepGuard::ends_late(const State& begin, const State& end) {
+bool StepGuard::ends_late(const State& begin, const State& end, long long step) {
   if (event_tolerance_ == 0.0) return false;
   const std::optional<double> fraction = contact_event(begin, end, end.forces.rows, event_tolerance_);
   if (!fraction || !control_.cut(*fraction)) return false;
+  note(ShortStep::ends_at_touch, begin.t, step, "");
   is_at_event_ = true;
   return true;
 }
 
-void StepGuard::accept(const EnergyGuard::Books& books) {
+void StepGuard::accept(const State& begin, const EnergyGuard::Books& books, long long step) {
   control_.accept();
   if (energy_) {
+    const double share = energy_->share();
     energy_->accept(books);
-    if (!watch_ && energy_->share() < 1.0) control_.limit(energy_->share() * stage_.dt());
+    if (!watch_) control_.limit(energy_->share() * stage_.dt());
+    if (energy_->share() < share) note(ShortStep::makes_energy, begin.t, step, "");
   }
   if (is_at_event_) control_.refine(event_tolerance_);
   is_at_event_ = false;
@@ -127,12 +206,13 @@ double StepGuard::longest(std::span<const double> u, double wanted) {
   static const ConstraintRows none;
   const StableStep steps = watch_->with(rows_ ? *rows_ : none, u, wanted / share());
   advised_ = stage_.time().step ? steps.dt : steps.advised();
+  is_short_for_bodies_ = steps.dt_free < 1.01 * advised_;
   return share() * advised_;
 }
 
 /// False when springs, viscosity or distortion control act at the end that need a step at least 2^(1/8) shorter than
 /// the one that met them, which is the length of the next ones then.
-bool StepGuard::fits(const State& end) {
+bool StepGuard::fits(const State& begin, const State& end, long long step) {
   const Forces& forces = end.forces;
   rows_ = forces.rows.rows;
   const bool resists = forces.stored.distortion > 0.0;
@@ -144,7 +224,9 @@ bool StepGuard::fits(const State& end) {
   for (std::size_t r = 0; r < forces.rows.status.size(); ++r)
     springs_act = springs_act || (forces.rows.status[r] != RowStatus::open && !is_bond(rows_->law[r]));
   if ((!springs_act && !is_damped && !resists) || longest >= least || !control_.limit(longest)) return true;
-  return control_.dt() >= dt;
+  if (control_.dt() >= dt) return true;
+  note_stable_step(begin.t, step);
+  return false;
 }
 
 void StepGuard::begin_at(const State& now, long long step) {
@@ -162,7 +244,11 @@ void StepGuard::follow_stable_step(const State& now, long long step) {
   if (!is_due && share() * advised_ >= control_.dt()) return;
   const double longest = this->longest(now.q);
   if (!is_due && longest >= control_.dt()) return;
-  if (control_.limit(longest)) return;
+  const double before = control_.dt();
+  if (control_.limit(longest)) {
+    if (control_.dt() < before) note_stable_step(now.t, step);
+    return;
+  }
   throw RunError(static_cast<int>(step), now.t,
                  fmt::format("the stable step has fallen to {:.3g}, {:.3g} of what it was at the start", longest,
                              longest / stage_.dt()));

@@ -10,6 +10,7 @@
 #include "run/motion_limit.hpp"
 #include "run/stage.hpp"
 #include "run/step_control.hpp"
+#include "run/step_notes.hpp"
 
 namespace carom {
 
@@ -39,8 +40,10 @@ class StepGuard {
   /// True when the converged step from `begin` to `end`, number `step`, has to be made again, its length having been
   /// changed. Throws RunError where contact moves too far in a step that the case fixes.
   bool is_to_be_repeated(const State& begin, const State& end, const EnergyGuard::Books& books, long long step);
-  /// The step counts.
-  void accept(const EnergyGuard::Books& books);
+  /// The step from `begin`, number `step`, counts.
+  void accept(const State& begin, const EnergyGuard::Books& books, long long step);
+  /// Why steps were cut or kept short, for the log.
+  std::vector<std::string> notes() const;
   /// Looks at the stable step of bodies that are deformed where the stage begins: its usual step is that of the mesh.
   /// Throws as follow_stable_step.
   void begin_at(const State& now, long long step);
@@ -60,11 +63,16 @@ class StepGuard {
     archive("is_at_event", x.is_at_event_);
     archive("cuts", x.cuts_);
     archive("failures", x.failures_);
+    archive("notes", x.notes_);
   }
 
-  bool cut_motion(const std::optional<MotionLimit::Overrun>& overrun, double t, long long step);
-  bool ends_late(const State& begin, const State& end);
-  bool fits(const State& end);
+  bool cut_motion(const std::optional<MotionLimit::Overrun>& overrun, const ConstraintRows& rows, double t,
+                  long long step);
+  bool ends_late(const State& begin, const State& end, long long step);
+  bool makes_energy(const State& begin, const State& end, const EnergyGuard::Books& books, long long step);
+  bool fits(const State& begin, const State& end, long long step);
+  void note(ShortStep reason, double t, long long step, std::string place);
+  void note_stable_step(double t, long long step);
   double share() const;
   double longest(std::span<const double> u, double wanted = std::numeric_limits<double>::infinity());
 
@@ -79,6 +87,8 @@ class StepGuard {
   double event_tolerance_ = 0.0;                ///< time; 0: contact events do not cut the step
   bool is_at_event_ = false;                    ///< the present step has been cut to end at a touch
   int cuts_ = 0, failures_ = 0;                 ///< of the present step
+  bool is_short_for_bodies_ = false;            ///< no springs of contact bound advised_
+  StepNotes notes_;
 };
 
 }  // namespace carom

@@ -64,10 +64,6 @@ double RunMonitor::scale() const {
   return std::max({ledger_.scale(), bodies_.rest_energy, contact_work_});
 }
 
-double RunMonitor::kinetic_seen_at(const Vec3& v) const {
-  return ledger_.now().kinetic - dot(v, ledger_.momentum().linear) + 0.5 * bodies_.mass * dot(v, v);
-}
-
 /// The totals without what static stages have booked for the path of their loads and contacts.
 EnergyTerms RunMonitor::dynamic() const {
   EnergyTerms terms = ledger_.now();

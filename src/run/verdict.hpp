@@ -61,8 +61,6 @@ class RunMonitor {
   /// What energies are compared with: the larger of initial and supplied energy, at least the rest energy and the work
   /// that contact has done in static stages, as where it pushes bodies apart that began in each other.
   double scale() const;
-  /// The kinetic energy as one sees it who moves at the velocity v: T - v . p + 1/2 m v^2.
-  double kinetic_seen_at(const Vec3& v) const;
 
  private:
   template <class A>

@@ -160,11 +160,14 @@ LedgerIncrement explicit_books(const System& system, const State& begin, const B
   const std::span<const double> inertia = end.forces.inertia;
   std::vector<double> MA(A.size());
   system.mass.apply(A, MA);
-  step.energy.algorithmic = parallel_sum(A.size(), [&](std::size_t i) {
-    if (system.supports.is_prescribed(static_cast<Index>(i))) return 0.0;
-    const double du = end.q[i] - begin.q[i];
-    return du * (0.5 * (b0.inertia[i] + inertia[i]) - MA[i]) - h * h * (0.5 * A[i] - B[i]) * MA[i];
+  const auto sums = parallel_sums<4>(A.size(), [&](std::size_t i, std::array<double, 4>& s) {
+    if (system.supports.is_prescribed(static_cast<Index>(i))) return;
+    const double du = end.q[i] - begin.q[i], missed = 0.5 * (b0.inertia[i] + inertia[i]) - MA[i];
+    s[i % 3] += h * missed;
+    s[3] += du * missed - h * h * (0.5 * A[i] - B[i]) * MA[i];
   });
+  step.energy.algorithmic = sums[3];
+  step.lag = {sums[0], sums[1], sums[2]};
   step.impulse = {};
   return step;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/books.hpp"
 #include "schemes/explicit_books.hpp"
@@ -129,6 +130,7 @@ LedgerIncrement NohBathe::books(const State& begin, const StepRequest& request, 
   second.impulse = combine(1.0, second.impulse, rest * (0.5 + q1_), middle);
   sum.energy += second.energy;
   sum.aster += second.aster;
+  sum.lag = add(sum.lag, second.lag);
   sum.impulse = combine(1.0, sum.impulse, 1.0, second.impulse);
   return sum;
 }

@@ -182,7 +182,10 @@ double StableStepWatch::follow_bodies(std::span<const double> u, std::span<const
   std::vector<double> growth(cells_.size());
   system_.solid.frequency_growth(u, {0.0, points, true}, growth);
   const double before = omega_squared_;
-  omega_squared_ = at_rest_ * parallel_max(cells_.size(), 0.0, [&](std::size_t k) { return cells_[k] * growth[k]; });
+  parallel_each(cells_.size(), [&](std::size_t k) { growth[k] *= cells_[k]; });
+  const double largest = parallel_max(cells_.size(), 0.0, [&](std::size_t k) { return growth[k]; });
+  worst_cell_ = static_cast<Index>(std::find(growth.begin(), growth.end(), largest) - growth.begin());
+  omega_squared_ = at_rest_ * largest;
   return 0.5 * std::abs(omega_squared_ / before - 1.0);
 }
 

@@ -82,6 +82,8 @@ class StableStepWatch {
   /// Takes the damping of artificial viscosity from the rates that the points remember of a step, times the growth of
   /// the bodies' omega: both go with 1 / l. One pass over cells with viscosity; false where there are none.
   bool follow_damping(std::span<const double> points);
+  /// The cell, a position in Solid::cells(), that has the highest frequency since follow_bodies; -1: not known.
+  Index worst_cell() const { return worst_cell_; }
   /// The steps with these rows, those of displacement u, every one of them closed: a few passes over the rows, only as
   /// many as show that `wanted` may be advised where that is so.
   StableStep with(const ConstraintRows& rows, std::span<const double> u,
@@ -92,14 +94,16 @@ class StableStepWatch {
   friend void fields(A& archive, StableStepWatch& x) {
     archive("omega_squared", x.omega_squared_);
     archive("damping", x.damping_);
+    archive("worst_cell", x.worst_cell_);
   }
 
   const System& system_;
   double limit_;
   EnforcementKind enforcement_;
-  double omega_squared_;       ///< of the bodies
-  double damping_;             ///< of their viscosity, over mass
-  double at_rest_ = 0.0;       ///< omega_squared_ at rest
+  double omega_squared_;  ///< of the bodies
+  double damping_;        ///< of their viscosity, over mass
+  double at_rest_ = 0.0;  ///< omega_squared_ at rest
+  Index worst_cell_ = -1;
   std::vector<double> cells_;  ///< where it changes: bounds of the cells' over the largest, at rest
 };
 

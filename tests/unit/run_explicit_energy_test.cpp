@@ -179,7 +179,7 @@ TEST(EnergyGuard, EndsStepsAtTheTouchThatMisplaceEnergy) {
   EXPECT_EQ(guard.share(), 1.0);
 }
 
-TEST(EnergyGuard, ShortensTheStepsForGoodWhereEnergyIsMade) {
+TEST(EnergyGuard, ShortensTheStepsWhereEnergyIsMade) {
   const OneRow open(1.0, 1.0);
   EnergyGuard guard;
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -189,8 +189,30 @@ TEST(EnergyGuard, ShortensTheStepsForGoodWhereEnergyIsMade) {
   guard.accept({0.0, 0.0, 1.0});
   for (int i = 0; i < 6; ++i) guard.accept({-1e-4, 0.0, 1.0});  // 6e-4 > 5e-4 gained
   EXPECT_NEAR(guard.share(), 0.5, 1e-15);
-  for (int i = 0; i < 100; ++i) guard.accept({i % 2 == 0 ? -4e-4 : 4e-4, 0.0, 1.0});  // comes and goes
+  for (int i = 0; i < 98; ++i) guard.accept({i % 2 == 0 ? -4e-4 : 4e-4, 0.0, 1.0});  // comes and goes
   EXPECT_NEAR(guard.share(), 0.5, 1e-15);
+}
+
+// After a hundred steps that hold they grow by 2^(1/4); where that was too far, after twice as many the next time.
+TEST(EnergyGuard, LetsStepsGrowAgain) {
+  EnergyGuard guard;
+  const auto steps_until = [&guard](double share) {
+    int steps = 0;
+    while (guard.share() < share - 1e-12 && steps < 1000) {
+      guard.accept({0.0, 0.0, 1.0});
+      ++steps;
+    }
+    return steps;
+  };
+  guard.accept({-6e-4, 0.0, 1.0});
+  EXPECT_NEAR(guard.share(), std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(steps_until(std::exp2(-0.25)), 100);
+  EXPECT_EQ(steps_until(1.0), 100);
+  guard.accept({-6e-4, 0.0, 1.0});
+  EXPECT_EQ(steps_until(std::exp2(-0.25)), 200);
+  guard.accept({-6e-4, 0.0, 1.0});
+  EXPECT_NEAR(guard.share(), std::exp2(-0.75), 1e-15);
+  EXPECT_EQ(steps_until(std::exp2(-0.5)), 400);
 }
 
 // A steel block falls on a plane at 2 m/s, or the plane rises to the block, or each comes half of the way: the same
