@@ -23,8 +23,10 @@ namespace carom {
 
 namespace {
 
-RunMonitor::StageKind kind_of(const Stage& stage) {
-  return {stage.reversible_energy(), stage.settings().kind == SchemeKind::statics, is_explicit(stage.settings().kind)};
+RunMonitor::StageKind kind_of(const Stage& stage, const State& begin) {
+  const bool is_static = stage.settings().kind == SchemeKind::statics;
+  const double of_accelerations = is_static ? 0.0 : 0.125 * stage.dt() * stage.dt() * begin.forces.inertia_power;
+  return {stage.reversible_energy(), is_static, is_explicit(stage.settings().kind), of_accelerations};
 }
 
 }  // namespace
@@ -47,7 +49,7 @@ void March::keep(Archive& archive) {
     steps_.emplace(stage());
     step_scale_.emplace(s_.model(), stage(), rest_energy(s_.solid(), reach(s_.mesh())));
     ledger_.emplace(EnergyTerms{}, Momentum{}, 0.0);
-    monitor_.emplace(*ledger_, RunMonitor::Bodies{}, kind_of(stage()));
+    monitor_.emplace(*ledger_, RunMonitor::Bodies{}, kind_of(stage(), state_));
   }
   archive("state", state_);
   archive("steps", *steps_);
@@ -159,7 +161,7 @@ void March::begin_books() {
   monitor_.emplace(*ledger_,
                    RunMonitor::Bodies{std::accumulate(masses.begin(), masses.end(), 0.0),
                                       rest_energy(s_.solid(), reach(s_.mesh())), momenta_of(s_.model())},
-                   kind_of(stage()));
+                   kind_of(stage(), state_));
 }
 
 /// Another scheme may have another mass, and starts from accelerations of its own: what the stored energies jump by is
@@ -177,7 +179,7 @@ void March::book_switch(const GivenMotion& given) {
     jump.impulse.angular[c] = now.angular[c] - ledger_->momentum().angular[c] - given.momentum.angular[c];
   }
   ledger_->add(jump, now);
-  monitor_->begin_stage(kind_of(stage()), -jump.energy.contact_stored);
+  monitor_->begin_stage(kind_of(stage(), state_), -jump.energy.contact_stored);
   log_.push_back(fmt::format("stage: at t = {:.6g} from step {} on: {}; stored energy jumps by {:.3g}", state_.t, step_,
                              stage().name(), jump.energy.mechanical()));
 }
@@ -255,7 +257,7 @@ void March::book(const StepReport& report) {
   dt_smallest_ = step_ == 1 ? dt_ : std::min(dt_smallest_, dt_);
   dt_largest_ = std::max(dt_largest_, dt_);
   ledger_->add(report.books, state_.forces.total_momentum);
-  monitor_->update(load_impulse());
+  monitor_->update(load_impulse(), report.rounding);
   body_strain_ = std::max(body_strain_, s_.solid().body_strain(state_.q));
   alarm_ = monitor_->alarm(s_.given().guards.energy_growth);
 }

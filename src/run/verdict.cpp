@@ -12,13 +12,16 @@ namespace carom {
 
 namespace {
 
+constexpr double balance_limit = 1e-10;
+
 double ratio(double error, double scale) {
   return scale > 0.0 ? error / scale : 0.0;
 }
 
 }  // namespace
 
-void RunMonitor::update(double load_impulse) {
+void RunMonitor::update(double load_impulse, double rounding) {
+  rounding_ += rounding;
   const EnergyTerms total = ledger_.now();
   if (stage_.is_static) {
     static_.quadrature += total.quadrature - before_.quadrature;
@@ -61,7 +64,7 @@ void RunMonitor::begin_stage(const StageKind& stage, double springs) {
 }
 
 double RunMonitor::scale() const {
-  return std::max({ledger_.scale(), bodies_.rest_energy, contact_work_});
+  return std::max({ledger_.scale(), bodies_.rest_energy, contact_work_, rounding_ / balance_limit});
 }
 
 /// The totals without what static stages have booked for the path of their loads and contacts.
@@ -74,7 +77,7 @@ EnergyTerms RunMonitor::dynamic() const {
 }
 
 double RunMonitor::growth() const {
-  const double most = stage_.reversible * scale();
+  const double most = stage_.reversible * (scale() + stage_.of_accelerations);
   // Where a load or a motion jumps, the work that supplies the energy comes with the step after it.
   const bool is_lent = stage_.reversible > 0.0 && std::min(lent_, lent_before_) <= most;
   const double path = static_.quadrature + static_.algorithmic + static_.impact;
@@ -118,7 +121,7 @@ std::vector<VerdictItem> RunMonitor::items(const Limits& limits) const {
     return VerdictItem{name, value, limit, value <= limit, explanation};
   };
   return {
-      item("energy balance", ratio(imbalance_, scale), 1e-10,
+      item("energy balance", ratio(imbalance_, scale), balance_limit,
            "largest imbalance of powers over the run, relative to the larger of initial and supplied energy: forces, "
            "solves and formulas agree"),
       item("quadrature", ratio(quadrature_, scale), 0.05,

@@ -21,11 +21,14 @@ class RunMonitor {
     double rest_energy = 0.0;  ///< energies below cannot be told from rounding: the least scale of all energies
     Momenta momenta = Momenta::all;
   };
-  /// One stage: Stage::reversible_energy(), whether it has no inertia, whether its steps are explicit.
+  /// One stage: Stage::reversible_energy(), whether it has no inertia, whether its steps are explicit, and h^2 / 8 a.Ma at
+  /// its beginning: what schemes keep beside T + V, and may turn into it. Loads that are put on at once leave it far above
+  /// what they have done after a step or two.
   struct StageKind {
     double reversible = 1.0;
     bool is_static = false;
     bool is_explicit = false;
+    double of_accelerations = 0.0;
   };
   /// Limits of the items that depend on the schemes of the run.
   struct Limits {
@@ -39,8 +42,9 @@ class RunMonitor {
   /// have, which is another part of the path.
   void begin_stage(const StageKind& stage, double springs = 0.0);
 
-  /// One step; load_impulse: magnitude of what the loads alone gave, which supports and contact may cancel.
-  void update(double load_impulse = 0.0);
+  /// One step; load_impulse: magnitude of what the loads alone gave, which supports and contact may cancel; rounding:
+  /// energy of its books that is rounding.
+  void update(double load_impulse = 0.0, double rounding = 0.0);
 
   /// Why the run must stop now: mechanical energy grown by more than growth_limit of the larger of initial and supplied
   /// energy, or the balance of powers off by more than 5 % of it; "" while all is well. Growth that the scheme lends
@@ -58,8 +62,9 @@ class RunMonitor {
   /// Imbalance now, relative to the energy scale.
   double relative_imbalance() const;
 
-  /// What energies are compared with: the larger of initial and supplied energy, at least the rest energy and the work
-  /// that contact has done in static stages, as where it pushes bodies apart that began in each other.
+  /// What energies are compared with: the larger of initial and supplied energy, at least the rest energy, what the
+  /// rounding of all steps is the energy balance's limit of, as where statics carry bodies on that nothing loads yet,
+  /// and the work that contact has done in static stages, as where it pushes bodies apart that began in each other.
   double scale() const;
 
  private:
@@ -74,6 +79,7 @@ class RunMonitor {
     archive("reversible", x.reversible);
     archive("is_static", x.is_static);
     archive("is_explicit", x.is_explicit);
+    archive("of_accelerations", x.of_accelerations);
   }
   template <class A>
   friend void fields(A& archive, RunMonitor& x) {
@@ -95,6 +101,7 @@ class RunMonitor {
     archive("linear_scale", x.linear_scale_);
     archive("angular_scale", x.angular_scale_);
     archive("load_impulse", x.load_impulse_);
+    archive("rounding", x.rounding_);
   }
 
   double growth() const;
@@ -111,6 +118,7 @@ class RunMonitor {
   double linear_error_ = 0.0, angular_error_ = 0.0;   ///< largest so far, momenta
   double linear_scale_ = 0.0, angular_scale_ = 0.0;   ///< largest momentum or impulse so far
   double load_impulse_ = 0.0;                         ///< sum of the magnitudes
+  double rounding_ = 0.0;                             ///< of the steps
 };
 
 }  // namespace carom

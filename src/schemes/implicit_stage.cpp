@@ -201,7 +201,10 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
     const double wanted = std::max(work_tolerance, eq.share * error.supplied);
     const double tolerance = std::max(wanted, error.round_off);
     const bool is_found = is_equilibrium(eq, error, wanted, last, earlier);
-    if (is_found && port_->settle(end.q, forces.rows)) break;
+    if (is_found && port_->settle(end.q, forces.rows)) {
+      if (error.work > wanted) report.rounding = std::min(error.work, error.round_off);
+      break;
+    }
     if (is_found || port_->renew(end.q, forces.rows, error.norm)) {
       if (++outer > max_iterations_) {
         report.failure = fmt::format("the contact forces do not settle in {} updates of the multipliers", outer - 1);

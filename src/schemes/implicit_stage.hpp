@@ -34,6 +34,7 @@ struct StageReport {
   bool converged = false;
   int iterations = 0, linear_iterations = 0;
   std::string failure;
+  double rounding = 0.0;  ///< energy that the residual may leave unbooked, where that is rounding
 };
 
 /// The internal force of a stage when it is not F(x): value() fills the internal forces of `end` at end.q, and what

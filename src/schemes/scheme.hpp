@@ -21,6 +21,7 @@ struct StepReport {
   int linear_iterations = 0;  ///< conjugate-gradient iterations, all Newton iterations together
   std::string failure;        ///< why it did not converge; names the rows that cycle
   LedgerIncrement books;
+  double rounding = 0.0;  ///< energy of the books that is rounding: of statics
 };
 
 /// One step of a scheme. start() makes velocities and accelerations consistent with the supports and the forces at

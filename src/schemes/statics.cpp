@@ -49,6 +49,7 @@ StepReport Statics::step(const State& begin, const StepRequest& request, State& 
   StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
+  report.rounding = solved.rounding;
   std::fill(end.a.begin(), end.a.end(), 0.0);
   complete_forces(system_, end);
   const StepWeights weights{.inertia = 1.0, .force = 1.0, .contact = 1.0};

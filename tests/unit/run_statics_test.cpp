@@ -1,5 +1,9 @@
 // Statics: what it solves to.
+#include <fmt/format.h>
+
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "run_fixture.hpp"
 
@@ -140,6 +144,59 @@ step = 1.0
 )");
   EXPECT_EQ(given.run(), ExitCode::good) << given.result("summary.json");
   EXPECT_NEAR(last_row(given.result("contact.csv"))["fit.force_z"], 0.01, 1e-10);
+}
+
+// The upper of three blocks with gaps of 0.05 comes down by 0.3 in four steps: after the first it carries the middle
+// one on, which nothing loads yet, and all energy is what rounding leaves.
+TEST(Statics, CarryBodiesOnBeforeAnythingIsLoaded) {
+  std::string text = "units = \"mm-t-s\"\n[materials.m]\nlaw = \"linear_elastic\"\nE = 2e5\nnu = 0.3\nrho = 7.8e-9\n";
+  const std::vector<std::string> names{"A", "B", "C"};
+  const std::vector<double> bottom{-50.0, 0.05, 40.1};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format(R"([[mesh.block]]
+kind = "quad"
+origin = [0.0, {1}]
+size = [40.0, {2}]
+divisions = [{3}, 4]
+groups = {{ cells = "{0}", ymin = "{0}B", ymax = "{0}T", xmin = "{0}X" }}
+[[part]]
+name = "{0}"
+cells = "{0}"
+material = "m"
+section = "plane_strain"
+[[support]]
+nodes = "{0}X"
+symmetry = "x"
+)",
+                        names[i], bottom[i], i == 0 ? 50.0 : 40.0, 4 + i % 2);
+  text += R"([[support]]
+nodes = "AB"
+blocked = ["x", "y"]
+[[support]]
+nodes = "CT"
+displacement = { y = -0.3, function = "ramp" }
+[functions.ramp]
+time = [0.0, 1.0]
+value = [0.0, 1.0]
+[[contact]]
+name = "BA"
+kind = "pair"
+group = "BB"
+master = "AT"
+[[contact]]
+name = "CB"
+kind = "pair"
+group = "CB"
+master = "BT"
+[scheme]
+kind = "statics"
+enforcement = "penalty"
+[time]
+end = 1.0
+step = 0.25
+)";
+  const TemporaryCase given(text);
+  EXPECT_EQ(given.run(), ExitCode::good) << given.result("summary.json");
 }
 
 // Two iterations do not find the equilibrium of the first step.
