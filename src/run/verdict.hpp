@@ -21,9 +21,9 @@ class RunMonitor {
     double rest_energy = 0.0;  ///< energies below cannot be told from rounding: the least scale of all energies
     Momenta momenta = Momenta::all;
   };
-  /// One stage: Stage::reversible_energy(), whether it has no inertia, whether its steps are explicit, and h^2 / 8 a.Ma at
-  /// its beginning: what schemes keep beside T + V, and may turn into it. Loads that are put on at once leave it far above
-  /// what they have done after a step or two.
+  /// One stage: Stage::reversible_energy(), whether it has no inertia, whether its steps are explicit, and h^2 / 8 a.Ma
+  /// at its beginning: what schemes keep beside T + V, and may turn into it. Loads that are put on at once leave it far
+  /// above what they have done after a step or two.
   struct StageKind {
     double reversible = 1.0;
     bool is_static = false;
