@@ -242,7 +242,7 @@ std::optional<StepReport> March::make_step() {
       }
       continue;
     }
-    if (steps_->shorten(state_, step_ + 1)) continue;
+    if (steps_->shorten(state_, step_ + 1, report.failure)) continue;
     report.failure = with_cell(report.failure);
     message_ = fmt::format("step {} from t = {:.6g} failed: {}{}", step_ + 1, state_.t, report.failure,
                            stage().time().fixed ? "; the case fixes the step, so it was not halved" : "");

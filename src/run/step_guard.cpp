@@ -86,7 +86,7 @@ bool StepGuard::prolong(double end) {
   return true;
 }
 
-bool StepGuard::shorten(const State& now, long long step) {
+bool StepGuard::shorten(const State& now, long long step, const std::string& failure) {
   constexpr int most_failures = 6;
   bool is_shorter = false;
   if (!is_explicit(stage_.settings().kind)) {
@@ -96,7 +96,7 @@ bool StepGuard::shorten(const State& now, long long step) {
     if (++failures_ == 1) follow_stable_step(now, step);
     is_shorter = control_.cut(0.5);
   }
-  if (is_shorter) note(ShortStep::fails, now.t, step, "");
+  if (is_shorter) note(ShortStep::fails, now.t, step, failure);
   return is_shorter;
 }
 

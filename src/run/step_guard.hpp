@@ -31,9 +31,9 @@ class StepGuard {
   const StepControl& control() const { return control_; }
   /// Moves the end of the stage; false where the case fixes the step and none ends there.
   bool prolong(double end);
-  /// Shortens the step from `now`, number `step`, that has failed; false when it may not be shorter. Explicit steps are
-  /// halved a few times, once the stable step has been looked at.
-  bool shorten(const State& now, long long step);
+  /// Shortens the step from `now`, number `step`, that has failed for the given reason; false when it may not be
+  /// shorter. Explicit steps are halved a few times, once the stable step has been looked at.
+  bool shorten(const State& now, long long step, const std::string& failure);
   /// Shortens the step from `now`, number `step`, to what contact may close within it; `rows` are those of `now`.
   /// Throws RunError where the case fixes it.
   void limit_motion(const State& now, const ConstraintRows& rows, long long step);

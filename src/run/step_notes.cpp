@@ -21,7 +21,7 @@ constexpr std::array<Words, static_cast<std::size_t>(ShortStep::count)> words{{
     {"they made energy, or the scheme lent them much", nullptr},
     {"the stable step had fallen: cells that are flattened or stiffen, or springs of contact",
      "mass_scaling_step, distortion_control, larger cells or a lower contact.stiffness make longer steps"},
-    {"they failed", "Lower time.step, or look at the place"},
+    {"they failed", "Where that is often, lower time.step (explicit: time.safety)"},
 }};
 
 }  // namespace
