@@ -214,8 +214,8 @@ end = 1.0
   EXPECT_FALSE(locks(bar("law = \"j2\"\nnu = 0.3\nyield_stress = 1.0")));
 }
 
-/// A plate 20 x 5 x 1 of cubes cut into six tetrahedra each, n through its thickness, clamped at one end and pushed across
-/// at the other by 1e-4; E = 1000, nu = 0.
+/// A plate 20 x 5 x 1 of cubes cut into six tetrahedra each, n through its thickness, clamped at one end and pushed
+/// across at the other by 1e-4; E = 1000, nu = 0.
 std::string tetrahedra(int n, const std::string& formulation) {
   StructuredBlock block;
   block.size = {20.0, 5.0, 1.0};
@@ -258,8 +258,8 @@ fields = []
                      path, formulation, -1e-4 / ((5 * n + 1) * (n + 1)));
 }
 
-// Tetrahedra have no columns: how stiff a plate of them is is read off a curve that was fitted to other meshes, and comes
-// out within a third.
+// Tetrahedra have no columns: how stiff a plate of them is is read off a curve that was fitted to other meshes, and
+// comes out within a third.
 TEST(Locking, ThinPlatesOfTetrahedraAreEstimated) {
   for (const auto& [n, formulation] : {std::pair{1, "full"}, {2, "full"}, {1, "nodal"}}) {
     const std::string text = tetrahedra(n, formulation);
