@@ -146,16 +146,16 @@ step = 1.0
   EXPECT_NEAR(last_row(given.result("contact.csv"))["fit.force_z"], 0.01, 1e-10);
 }
 
-// The upper of three blocks with gaps of 0.05 comes down by 0.3 in four steps: after the first it carries the middle
-// one on, which nothing loads yet, and all energy is what rounding leaves.
+// The uppermost of four blocks with gaps of 0.05 comes down by 0.5 in four steps: after the first it carries two on,
+// which nothing loads yet, and all energy is what rounding leaves.
 TEST(Statics, CarryBodiesOnBeforeAnythingIsLoaded) {
   std::string text = "units = \"mm-t-s\"\n[materials.m]\nlaw = \"linear_elastic\"\nE = 2e5\nnu = 0.3\nrho = 7.8e-9\n";
-  const std::vector<std::string> names{"A", "B", "C"};
-  const std::vector<double> bottom{-50.0, 0.05, 40.1};
+  const std::vector<std::string> names{"A", "B", "C", "D"};
+  const std::vector<double> bottom{-50.0, 0.05, 40.099999999999994, 80.14999999999999};
   for (std::size_t i = 0; i < names.size(); ++i)
     text += fmt::format(R"([[mesh.block]]
 kind = "quad"
-origin = [0.0, {1}]
+origin = [0.0, {1}, 0.0]
 size = [40.0, {2}]
 divisions = [{3}, 4]
 groups = {{ cells = "{0}", ymin = "{0}B", ymax = "{0}T", xmin = "{0}X" }}
@@ -173,8 +173,8 @@ symmetry = "x"
 nodes = "AB"
 blocked = ["x", "y"]
 [[support]]
-nodes = "CT"
-displacement = { y = -0.3, function = "ramp" }
+nodes = "DT"
+displacement = { y = -0.5, function = "ramp" }
 [functions.ramp]
 time = [0.0, 1.0]
 value = [0.0, 1.0]
@@ -188,6 +188,11 @@ name = "CB"
 kind = "pair"
 group = "CB"
 master = "BT"
+[[contact]]
+name = "DC"
+kind = "pair"
+group = "DB"
+master = "CT"
 [scheme]
 kind = "statics"
 enforcement = "penalty"
