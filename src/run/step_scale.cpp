@@ -17,6 +17,9 @@ StepScale::StepScale(const Model& model, const Stage& stage, double least) : lea
     const auto dof = static_cast<std::size_t>(p.dof);
     if (system.mass.node_diagonal()[dof / 3] > 0.0) held_.push_back(dof);
   }
+  std::array<bool, 3> is_held{};
+  for (const std::size_t dof : held_) is_held[dof % 3] = true;
+  is_free_ = !(is_held[0] && is_held[1] && is_held[2]);
   std::vector<double> along_x(system.solid.dof_count(), 0.0), momentum(along_x.size());
   for (std::size_t i = 0; i < along_x.size(); i += 3) along_x[i] = 1.0;
   system.mass.apply(along_x, momentum);
@@ -42,7 +45,7 @@ double StepScale::seen(const State& state) const {
   const Vec3& p = state.forces.total_momentum.linear;
   const auto kinetic_at = [&](const Vec3& w) { return energy.kinetic - dot(w, p) + 0.5 * mass_ * dot(w, w); };
   const Vec3 of_bodies = scaled(p, mass_ > 0.0 ? 1.0 / mass_ : 0.0);
-  double kinetic = kinetic_at(of_supports(state));
+  double kinetic = (is_free_ ? 2.0 : 1.0) * kinetic_at(of_supports(state));
   for (const Obstacle& obstacle : obstacles_) {
     Vec3 w = obstacle.carrier < 0 ? Vec3{} : vector_at(state.v, static_cast<std::size_t>(obstacle.carrier));
     if (const std::optional<Vec3>& n = obstacle.normal) w = add(of_bodies, scaled(*n, dot(*n, subtract(w, of_bodies))));

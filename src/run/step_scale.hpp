@@ -10,9 +10,10 @@
 namespace carom {
 
 /// The largest mechanical energy so far, as those see it that bodies may meet: the kinetic energy in the frame of
-/// their supports (along an axis that nothing is held along, in that of their centre of mass), or of an obstacle (of a
-/// plane along its normal). So a velocity that all have in common changes no step, and where an obstacle comes to
-/// bodies at rest the steps are those of bodies that come to it.
+/// their supports (along an axis that nothing is held along, in that of their centre of mass, doubled: one of two equal
+/// bodies sees the other come with that), or of an obstacle (of a plane along its normal). So a velocity that all have
+/// in common changes no step, and where an obstacle comes to bodies at rest the steps are those of bodies that come to
+/// it.
 class StepScale {
  public:
   /// least: what no energy can be told from rounding below.
@@ -40,6 +41,7 @@ class StepScale {
   };
   std::vector<Obstacle> obstacles_;  ///< of obstacles; -1: one at rest
   std::vector<std::size_t> held_;    ///< dofs with mass that supports lead
+  bool is_free_ = false;             ///< nothing is held along some axis
   double mass_ = 0.0;                ///< of all bodies
   double least_, largest_ = 0.0;
   Vec3 frame_{};  ///< velocity of the supports at the state that was followed
