@@ -372,11 +372,8 @@ void SolidCells::lengths(const Block& block, Index first, std::span<const double
       stages.lengths(mesh->coordinates.front().data(), u.data(), block.offset.data() + block.nodes() * (at(first) + k),
                      of_batch);
     } else {
-      CellNodes x = coordinates_of(begin + k);
-      const auto nodes = nodes_of(begin + k);
-      for (std::size_t a = 0; a < nodes.size(); ++a)
-        for (std::size_t i = 0; i < 3; ++i) x[a][i] += u[3 * at(nodes[a]) + i];
-      of_batch[0] = cell_length(block.type, std::span<const Vec3>(x).first(nodes.size()));
+      const CellNodes x = coordinates_of(begin + k, u);
+      of_batch[0] = cell_length(block.type, std::span<const Vec3>(x).first(block.nodes()));
     }
     std::copy_n(of_batch, std::min(n, length.size() - k), length.data() + k);
   }

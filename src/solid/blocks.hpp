@@ -18,8 +18,8 @@ namespace carom {
 
 /// The cells of one part, laid out for the kernels (CellBatches).
 struct Block {
-  Index first = 0;  ///< position of its first cell in SolidCells::cells
-  std::size_t part = 0;
+  Index first = 0;       ///< position of its first cell in SolidCells::cells
+  std::size_t part = 0;  ///< of the model
   Index cells = 0;
   CellType type{};
   double thickness = 1.0, rho = 0.0;

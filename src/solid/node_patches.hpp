@@ -15,7 +15,7 @@ struct NodePatches {
   SolidCells cells;                ///< the patches, in blocks of about equal numbers of neighbours
   std::vector<std::size_t> begin;  ///< of each solid cell into `of_cell`; empty without patches
   std::vector<Index> of_cell;      ///< positions of the patches of its nodes; cells integrated by themselves have none
-  std::vector<std::size_t> part_begin;
+  std::vector<std::size_t> part_begin;  ///< of each patch into `parts`
   std::vector<Index> parts;  ///< the cells of each patch, in the order of its corners, positions among the solid cells
 
   bool empty() const { return begin.empty(); }

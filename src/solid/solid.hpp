@@ -75,7 +75,8 @@ class Solid {
                          std::span<double> end) const;
   /// The force of `evaluate` alone. Does not allocate.
   void internal_force(std::span<const double> u, std::span<double> f, const PointStep& step = {}) const;
-  /// Adds to f the internal force of the listed solid cells alone (positions in cells()); for section forces.
+  /// Adds to f the internal force of the listed solid cells alone (positions in cells()), of nodal ones their part of
+  /// it.
   void add_internal_force_of(std::span<const Index> cells, std::span<const double> u, std::span<double> f,
                              const PointStep& step = {}) const;
   /// y = K(u) x, the derivative of F at u in the direction x; overwrites y. As internal_force.
@@ -101,8 +102,8 @@ class Solid {
   double largest_change(std::span<const double> u_0, std::span<const double> u_1) const;
   /// Diagonal of K(u).
   std::vector<double> tangent_diagonal(std::span<const double> u, const PointStep& step = {}) const;
-  /// u.K_e u / 2 of cell k of cells() at rest, u the displacements of its nodes; and the integral of f^2 over its
-  /// reference volume, f the values at its nodes.
+  /// u.K_e u / 2 of cell k of cells() at rest, u the displacements of its nodes (not of nodal parts, whose cells have
+  /// no K_e); and the integral of f^2 over its reference volume, f the values at its nodes.
   double energy_at_rest(std::size_t k, std::span<const Vec3> u) const;
   double square_integral(std::size_t k, std::span<const double> f) const;
   /// The strain energy of `evaluate` for points at rest before; allocates.
@@ -157,7 +158,7 @@ class Solid {
   /// Nodes of cell k of cells().
   std::span<const Index> nodes_of_cell(std::size_t k) const;
   /// Mean over the reference volume of the Cauchy stress of each solid cell: xx, yy, zz, xy, yz, zx. zz is the hoop
-  /// stress of axisymmetric cells; bars give the tensor of their axial stress.
+  /// stress of axisymmetric cells; bars give the tensor of their axial stress, nodal cells the mean of their patches.
   std::vector<std::array<double, 6>> cell_stress(std::span<const double> u, const PointStep& step = {}) const;
   /// The largest measure of these stresses and its cell, the first of several.
   std::pair<double, std::size_t> largest_stress(std::span<const double> u, const PointStep& step,

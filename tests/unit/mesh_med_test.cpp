@@ -103,36 +103,29 @@ TEST(MeshMed, ReadsFilesOfOlderVersions) {
   EXPECT_EQ(mesh.nodes_of("TOP").size(), 4u);
 }
 
+/// The corners that nodes 8 to 26 of a HEXA27 are the means of: edges of the bottom, of the top, upright ones; the
+/// faces; all.
+using Corners = std::vector<std::vector<std::size_t>>;
+Corners corners_of(const Corners& faces) {
+  Corners means = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  means.insert(means.end(), faces.begin(), faces.end());
+  means.push_back({0, 1, 2, 3, 4, 5, 6, 7});
+  return means;
+}
+
 /// A cube of 27 nodes as MED numbers them: corners of the bottom clockwise from above, then of the top; middles of the
 /// edges of the bottom, of the top and upright; faces 1234, 1265, 2376, 3487, 1584, 5678; centre.
 Hdf5Tree hexa27_of_med() {
   constexpr int corners[8][3] = {{-1, -1, -1}, {-1, 1, -1}, {1, 1, -1}, {1, -1, -1},
                                  {-1, -1, 1},  {-1, 1, 1},  {1, 1, 1},  {1, -1, 1}};
-  const std::vector<std::vector<int>> means = {{0, 1},
-                                               {1, 2},
-                                               {2, 3},
-                                               {3, 0},
-                                               {4, 5},
-                                               {5, 6},
-                                               {6, 7},
-                                               {7, 4},
-                                               {0, 4},
-                                               {1, 5},
-                                               {2, 6},
-                                               {3, 7},
-                                               {0, 1, 2, 3},
-                                               {0, 1, 5, 4},
-                                               {1, 2, 6, 5},
-                                               {2, 3, 7, 6},
-                                               {0, 4, 7, 3},
-                                               {4, 5, 6, 7},
-                                               {0, 1, 2, 3, 4, 5, 6, 7}};
+  const Corners means =
+      corners_of({{0, 1, 2, 3}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {0, 4, 7, 3}, {4, 5, 6, 7}});
   std::vector<double> x(3 * 27);  // all x, all y, all z
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t a = 0; a < 8; ++a) x[27 * c + a] = corners[a][c];
     for (std::size_t k = 0; k < means.size(); ++k) {
       double sum = 0.0;
-      for (const int a : means[k]) sum += corners[a][c];
+      for (const std::size_t a : means[k]) sum += corners[a][c];
       x[27 * c + 8 + k] = sum / static_cast<double>(means[k].size());
     }
   }
@@ -156,25 +149,8 @@ TEST(MeshMed, ReadsHexa27) {
   const CellBlock& block = *mesh.block(CellType::hexa27);
   ASSERT_EQ(block.size(), 1U);
   EXPECT_NEAR(test::hexa_volume(mesh, block, 0), 8.0, 1e-12);
-  const std::vector<std::vector<std::size_t>> means = {{0, 1},
-                                                       {1, 2},
-                                                       {2, 3},
-                                                       {3, 0},
-                                                       {4, 5},
-                                                       {5, 6},
-                                                       {6, 7},
-                                                       {7, 4},
-                                                       {0, 4},
-                                                       {1, 5},
-                                                       {2, 6},
-                                                       {3, 7},
-                                                       {0, 3, 7, 4},
-                                                       {1, 2, 6, 5},
-                                                       {0, 1, 5, 4},
-                                                       {3, 2, 6, 7},
-                                                       {0, 1, 2, 3},
-                                                       {4, 5, 6, 7},
-                                                       {0, 1, 2, 3, 4, 5, 6, 7}};
+  const Corners means =
+      corners_of({{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}});
   const auto x = [&](std::size_t a) { return mesh.coordinates[static_cast<std::size_t>(block.connectivity[a])]; };
   for (std::size_t k = 0; k < means.size(); ++k)
     for (std::size_t c = 0; c < 3; ++c) {
