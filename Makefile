@@ -1,6 +1,6 @@
 # The commands of the project; `make help` lists them. The work itself is done by CMake presets and the scripts of tools/.
 .DEFAULT_GOAL := help
-.PHONY: help demo build python test verify bench gallery book package format lint clean
+.PHONY: help demo build python test verify bench gallery book docs package format lint clean
 
 help:    ## this list
 	@awk -F ':.*## ' '/^[a-z]+: .*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -21,11 +21,13 @@ test:    ## the same set-up, then all tests through ctest
 	@tools/build release all
 	@ctest --preset release -j "$$(nproc)"
 
-verify: build ## long verification cases, resumable, writes docs/verification.md; then 300 impacts, 600 of random shapes, edges and curves with defaults, a soak, decks of CalculiX, data races
+verify: build ## long verification cases, resumable, writes docs/verification.md; then 300 impacts, 600 of random shapes, 60 towers, 100 impacts seen otherwise, edges and curves with defaults, a soak, decks of CalculiX, data races
 	@tools/verify
 	@/usr/bin/python3 tests/verification/impact_trial.py build/release/carom --jobs "$$(nproc)"
 	@tools/setup python
 	@/usr/bin/python3 tests/verification/shape_trial.py build/release/carom --jobs "$$(nproc)"
+	@/usr/bin/python3 tests/verification/tower_trial.py build/release/carom --jobs "$$(nproc)"
+	@/usr/bin/python3 tests/verification/galilean_trial.py build/release/carom
 	@/usr/bin/python3 tests/verification/edges_and_curves.py build/release/carom
 	@/usr/bin/python3 tools/soak.py build/release/carom
 	@tools/setup verify
@@ -45,6 +47,12 @@ book: build ## runs every case, leaves the verification book, out/book/verificat
 	@tools/setup test book
 	@/usr/bin/python3 tools/book.py build/release/carom
 
+docs:    ## writes the pages of docs/ that follow from tables of the code: case format, laws, schemes and enforcements, decks
+	@tools/setup build python test
+	@tools/build release casefile_tests
+	@tools/build release translate_tests
+	@tools/docs.py build/release/tests/casefile_tests build/release/tests/translate_tests
+
 package: ## the Debian packages, build/release/*.deb: the program and its Python module, looked at by lintian
 	@tools/setup build python package
 	@tools/package
@@ -53,7 +61,7 @@ format:  ## rewrite all sources as .clang-format says
 	@tools/setup ci
 	@tools/sources | xargs clang-format-14 -i
 
-lint:    ## formatting, layers, sizes, words, links, clang-tidy
+lint:    ## formatting, layers, sizes, words, links, names in pages, clang-tidy
 	@tools/setup build python test ci
 	@tools/lint
 

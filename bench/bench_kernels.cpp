@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "build/build_mesh.hpp"
+#include "build/build_model.hpp"
 #include "casefile/read_case.hpp"
 #include "flops.hpp"
 #include "parallel/threads.hpp"
-#include "run/build_mesh.hpp"
-#include "run/build_model.hpp"
 #include "solid/smallest_cell.hpp"
 #include "solid/solid.hpp"
 

@@ -118,7 +118,8 @@ class Bar:
         return "_".join(word for word in (*words, "moved" if self.moved else "") if word)
 
     def cells(self):
-        pieces = {"TETRA4": 6, "TETRA10": 6, "PENTA6": 2, "PYRA5": 6, "TRIA3": 2, "TRIA6": 2}.get(self.cell, 1)
+        pieces = {"TETRA4": 6, "TETRA10": 6, "PENTA6": 2, "PENTA15": 2, "PYRA5": 6, "PYRA13": 6, "TRIA3": 2,
+                  "TRIA6": 2}.get(self.cell, 1)
         power = {"solid": 2, "bar": 0}.get(self.section, 1)
         return pieces * self.across**power * self.along
 
@@ -225,10 +226,10 @@ def add_solid(mesh, cell, hexa, is_foot):
     triangles = gmsh.triangles(quad)
     if cell in ("TETRA4", "TETRA10"):
         cells = gmsh.tetrahedra(hexa)
-    elif cell == "PENTA6":
+    elif cell in ("PENTA6", "PENTA15"):
         cells = [[hexa[a] for a in (0, 1, 2, 4, 5, 6)], [hexa[a] for a in (0, 2, 3, 4, 6, 7)]]
         triangles = [(quad[0], quad[1], quad[2]), (quad[0], quad[2], quad[3])]
-    elif cell == "PYRA5":
+    elif cell in ("PYRA5", "PYRA13"):
         top = mesh.between(*hexa)
         faces = ((0, 1, 2, 3), (7, 6, 5, 4), (4, 5, 1, 0), (5, 6, 2, 1), (6, 7, 3, 2), (7, 4, 0, 3))
         cells = [[hexa[a] for a in face] + [top] for face in faces]
@@ -238,8 +239,9 @@ def add_solid(mesh, cell, hexa, is_foot):
         mesh.add(getattr(gmsh, cell), "BAR", corners)
     if not is_foot:
         return
-    face = {"TETRA4": "TRIA3", "PENTA6": "TRIA3", "TETRA10": "TRIA6", "HEXA20": "QUAD8", "HEXA27": "QUAD9"}
-    for corners in triangles if cell in ("TETRA4", "TETRA10", "PENTA6") else [quad]:
+    face = {"TETRA4": "TRIA3", "PENTA6": "TRIA3", "TETRA10": "TRIA6", "PENTA15": "TRIA6", "PYRA13": "QUAD8",
+            "HEXA20": "QUAD8", "HEXA27": "QUAD9"}
+    for corners in triangles if cell in ("TETRA4", "TETRA10", "PENTA6", "PENTA15") else [quad]:
         mesh.add(getattr(gmsh, face.get(cell, "QUAD4")), "FOOT", corners)
 
 
@@ -276,6 +278,8 @@ def bars():
         Bar("TETRA10 mean dilatation, J2", "TETRA10", 8, 40, formulation="mean_dilatation", law="j2"),
         Bar("PENTA6, elastic", "PENTA6", 12, 160),
         Bar("PYRA5, elastic", "PYRA5", 10, 80),
+        Bar("PENTA15, elastic", "PENTA15", 8, 60),
+        Bar("PYRA13, elastic", "PYRA13", 6, 40),
         Bar("HEXA20, elastic", "HEXA20", 8, 80),
         Bar("HEXA27, elastic", "HEXA27", 8, 80),
         plane("QUAD4 plane strain, stabilised", "QUAD4", "plane_strain", formulation="stabilised"),

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Checks that includes in src/ point down only.
+"""Checks that includes in src/ point down only, and that the files of a folder do not include each other in circles.
 
 Usage: check_layers.py [ROOT]. Reads the tables of ROOT/docs/layers.md (level of each folder; folders that may use a
 library's header), the #include lines of ROOT/src and the DEPENDS lists of its CMakeLists.txt files. Prints each
@@ -59,6 +59,43 @@ def check_file(path, folder, levels, confined, links):
                 yield number, f"<{header}> belongs behind {' or '.join(folders)}, not in {folder}"
 
 
+def included_files(directory):
+    """{file of a folder: the files of it that its header or source includes}, named without their ends.
+
+    What stands in x_impl.hpp is of x.
+    """
+    graph = {}
+    for path in sorted(directory.rglob("*.[ch]pp*")):
+        name = path.name.split(".")[0].removesuffix("_impl")
+        found = graph.setdefault(name, set())
+        for line in path.read_text().splitlines():
+            match = INCLUDE.match(line)
+            if match and match[1] and match[1].startswith(directory.name + "/"):
+                found.add(match[1].split("/")[-1].split(".")[0].removesuffix("_impl"))
+        found.discard(name)
+    return graph
+
+
+def circle(graph):
+    """Names that include each other one after the other, the first again at the end; empty where there are none."""
+    done, path = set(), []
+
+    def walk(name):
+        if name in path:
+            return path[path.index(name) :] + [name]
+        if name in done:
+            return []
+        path.append(name)
+        for other in sorted(graph.get(name, ())):
+            if found := walk(other):
+                return found
+        path.pop()
+        done.add(name)
+        return []
+
+    return next((found for name in sorted(graph) if (found := walk(name))), [])
+
+
 def check(root):
     """All offences below root/src as lines of text."""
     levels, confined = read_tables(root / "docs/layers.md")
@@ -73,6 +110,8 @@ def check(root):
         for link in sorted(links & levels.keys()):
             if levels[link] >= levels[directory.name] and link != directory.name:
                 lines.append(f"src/{directory.name}/CMakeLists.txt: links {link}, which is not below it")
+        if names := circle(included_files(directory)):
+            lines.append(f"src/{directory.name}: files include each other in a circle: {' -> '.join(names)}")
         for path in sorted(directory.rglob("*.[ch]pp*")):
             for number, message in check_file(path, directory.name, levels, confined, links):
                 lines.append(f"{path.relative_to(root)}:{number}: {message}")
@@ -82,7 +121,7 @@ def check(root):
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
     lines = check(root)
-    print("\n".join(lines) if lines else "layers: includes point down")
+    print("\n".join(lines) if lines else "layers: includes point down, and no files include each other in a circle")
     return 1 if lines else 0
 
 

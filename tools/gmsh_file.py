@@ -1,9 +1,9 @@
 """Meshes for cases in Gmsh's formats 2.2 and 4.1, as text: nodes, cells by corners, named groups."""
 
 POINT, LINE2, TRIA3, QUAD4, TETRA4, HEXA8, PENTA6, PYRA5 = 15, 1, 2, 3, 4, 5, 6, 7
-LINE3, TRIA6, QUAD8, QUAD9, TETRA10, HEXA20, HEXA27 = 8, 9, 16, 10, 11, 17, 12
+LINE3, TRIA6, QUAD8, QUAD9, TETRA10, HEXA20, HEXA27, PENTA15, PYRA13 = 8, 9, 16, 10, 11, 17, 12, 18, 19
 DIMENSION = {POINT: 0, LINE2: 1, LINE3: 1, TRIA3: 2, QUAD4: 2, TRIA6: 2, QUAD8: 2, QUAD9: 2,
-             TETRA4: 3, HEXA8: 3, PENTA6: 3, PYRA5: 3, TETRA10: 3, HEXA20: 3, HEXA27: 3}
+             TETRA4: 3, HEXA8: 3, PENTA6: 3, PYRA5: 3, TETRA10: 3, HEXA20: 3, HEXA27: 3, PENTA15: 3, PYRA13: 3}
 CORNERS = {TRIA6: 3, TETRA10: 4}
 QUAD_EDGES = [(0, 1), (1, 2), (2, 3), (3, 0)]
 HEXA_EDGES = [(0, 1), (0, 3), (0, 4), (1, 2), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 7), (5, 6), (6, 7)]
@@ -11,7 +11,9 @@ HEXA_FACES = [(0, 3, 2, 1), (0, 1, 5, 4), (0, 4, 7, 3), (1, 2, 6, 5), (2, 3, 7, 
 # The corners between which the other nodes lie, in Gmsh's order
 MIDDLES = {LINE3: [(0, 1)], TRIA6: [(0, 1), (1, 2), (2, 0)], QUAD8: QUAD_EDGES, QUAD9: [*QUAD_EDGES, (0, 1, 2, 3)],
            TETRA10: [(0, 1), (1, 2), (2, 0), (0, 3), (2, 3), (1, 3)], HEXA20: HEXA_EDGES,
-           HEXA27: [*HEXA_EDGES, *HEXA_FACES, (0, 1, 2, 3, 4, 5, 6, 7)]}
+           HEXA27: [*HEXA_EDGES, *HEXA_FACES, (0, 1, 2, 3, 4, 5, 6, 7)],
+           PENTA15: [(0, 1), (0, 2), (0, 3), (1, 2), (1, 4), (2, 5), (3, 4), (3, 5), (4, 5)],
+           PYRA13: [(0, 1), (0, 3), (0, 4), (1, 2), (1, 4), (2, 3), (2, 4), (3, 4)]}
 
 
 def tetrahedra(hexa):

@@ -19,26 +19,27 @@
 #include <thread>
 #include <vector>
 
+#include "advise/check_summary.hpp"
+#include "advise/cost_estimate.hpp"
 #include "apps/report_commands.hpp"
+#include "base/amounts.hpp"
 #include "base/errors.hpp"
 #include "base/terminal_text.hpp"
 #include "base/version.hpp"
+#include "build/read_whole.hpp"
+#include "build/simulation.hpp"
 #include "casefile/read_case.hpp"
 #include "casefile/schema.hpp"
 #include "compare/compare_cases.hpp"
+#include "driver/material_page.hpp"
 #include "linalg/process_environment.hpp"
 #include "mesh/mesh_summary.hpp"
 #include "mesh/read_mesh.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/mesh_file.hpp"
 #include "parallel/threads.hpp"
-#include "run/check_summary.hpp"
-#include "run/cost_estimate.hpp"
-#include "run/material_page.hpp"
 #include "run/run_case.hpp"
-#include "run/simulation.hpp"
 #include "translate/convert_deck.hpp"
-#include "translate/translate_deck.hpp"
 
 namespace {
 
@@ -129,7 +130,7 @@ ExitCode resume(const Arguments& arguments) {
 
 ExitCode check(const Arguments& arguments) {
   carom::set_threads(arguments.threads);
-  const carom::ReadCase read = carom::read_case_or_deck(arguments.case_file, arguments.accepted);
+  const carom::ReadCase read = carom::read_whole(arguments.case_file, arguments.accepted);
   const carom::Simulation simulation(read.given);
   carom::Examination found = carom::examine(simulation, results_folder(arguments, ""));
   found.notes.insert(found.notes.begin(), read.notes.begin(), read.notes.end());
@@ -154,6 +155,7 @@ ExitCode convert(const Arguments& arguments) {
   const std::string output = arguments.output.empty()
                                  ? std::filesystem::path(arguments.case_file).stem().string() + ".toml"
                                  : arguments.output;
+  carom::read_whole(arguments.case_file, arguments.accepted);  // all that a run would refuse
   const carom::ConvertedDeck converted = carom::convert_deck(arguments.case_file, output, arguments.accepted);
   for (const std::string& note : converted.notes) show("note: {}\n", note);
   show("{} and {} written\n", converted.case_file, converted.mesh_file);
@@ -312,8 +314,17 @@ void keep_freed_memory() {
 
 }  // namespace
 
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)(int, char**,
+                                                                             char**) = carom::limit_blas_threads;
+
 int main(int argc, char** argv) {
   carom::prepare_process_environment(argv);
+  if (!carom::reserve_blas_memory()) {
+    fmt::print(stderr,
+               "error: the limit of the address space (ulimit -v) leaves less than the 160 MB that linear algebra "
+               "begins with: raise it to 500 MB or more\n");
+    return static_cast<int>(ExitCode::run_failed);
+  }
   keep_freed_memory();
   CLI::App app{"Impact dynamics of deformable solids."};
   app.set_version_flag("--version", fmt::format("carom {} ({})", carom::version(), carom::compiler()));

@@ -8,7 +8,7 @@ namespace carom {
 namespace {
 
 constexpr std::size_t slices = 16;
-/// [k][byte]: what the byte leaves behind k more bytes.
+/// [k][byte]: what the byte leaves after k more bytes.
 using Tables = std::array<std::array<std::uint64_t, 256>, slices>;
 
 constexpr Tables make_tables() {

@@ -36,6 +36,15 @@ std::string case_message(const Location& where, const std::string& key, const st
   return text;
 }
 
+/// A line for each error, and how many there are.
+std::string joined(const std::vector<CaseError>& all) {
+  constexpr std::size_t most = 50;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, all.size()); ++i) text += fmt::format("{}\n", all[i].what());
+  if (all.size() > most) text += fmt::format("and {} more\n", all.size() - most);
+  return text + fmt::format("{} errors", all.size());
+}
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
   std::vector<std::size_t> row(b.size() + 1);
@@ -61,6 +70,36 @@ CaseError::CaseError(Location where, std::string key, std::string found, std::st
       found_(std::move(found)),
       expected_(std::move(expected)),
       suggestion_(std::move(suggestion)) {}
+
+CaseError::CaseError(std::vector<CaseError> all)
+    : std::runtime_error(joined(all)),
+      where_(all.front().where_),
+      key_(all.front().key_),
+      found_(all.front().found_),
+      expected_(all.front().expected_),
+      suggestion_(all.front().suggestion_),
+      all_(std::make_shared<const std::vector<CaseError>>(std::move(all))) {}
+
+const std::vector<CaseError>& CaseError::all() const {
+  static const std::vector<CaseError> none;
+  return all_ == nullptr ? none : *all_;
+}
+
+void CaseErrors::add(const CaseError& error) {
+  for (const CaseError& each : error.all()) add(each);
+  const auto is_same = [&](const CaseError& other) { return std::string_view(other.what()) == error.what(); };
+  if (!error.all().empty() || std::any_of(errors_.begin(), errors_.end(), is_same)) return;
+  const auto is_behind = [&](const CaseError& other) {
+    return other.where().file == error.where().file && other.where().line > error.where().line;
+  };
+  errors_.insert(std::find_if(errors_.begin(), errors_.end(), is_behind), error);
+}
+
+void CaseErrors::check() const {
+  if (errors_.empty()) return;
+  if (errors_.size() == 1) throw CaseError(errors_.front());
+  throw CaseError(errors_);
+}
 
 RunError::RunError(int step, double time, const std::string& message)
     : std::runtime_error(fmt::format("step {}, t = {:.6g}: {}", step, time, message)), step_(step), time_(time) {}

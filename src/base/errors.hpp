@@ -1,6 +1,7 @@
 // The three kinds of error: CaseError before the run, RunError during it, assert for a bug.
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -24,16 +25,47 @@ class CaseError : public std::runtime_error {
   /// key: dotted path such as `materials.steel.E`, or the section of a mesh file; may be empty.
   /// found, expected, suggestion: short phrases; suggestion says how to mend it and may be empty.
   CaseError(Location where, std::string key, std::string found, std::string expected, std::string suggestion = {});
+  /// Several in one: the message has a line for each and their number, the parts are those of the first.
+  explicit CaseError(std::vector<CaseError> all);
 
   const Location& where() const { return where_; }
   const std::string& key() const { return key_; }
   const std::string& found() const { return found_; }
   const std::string& expected() const { return expected_; }
   const std::string& suggestion() const { return suggestion_; }
+  /// Of several in one, each of them; else empty.
+  const std::vector<CaseError>& all() const;
 
  private:
   Location where_;
   std::string key_, found_, expected_, suggestion_;
+  std::shared_ptr<const std::vector<CaseError>> all_;
+};
+
+/// Errors that are found one after the other, to be thrown together.
+class CaseErrors {
+ public:
+  /// True when `work` throws no CaseError; one that it throws is kept.
+  template <class Work>
+  bool attempt(const Work& work) {
+    try {
+      work();
+      return true;
+    } catch (const CaseError& error) {
+      add(error);
+      return false;
+    }
+  }
+  /// Each message once, in the order of the lines of a file.
+  void add(const CaseError& error);
+  std::size_t size() const { return errors_.size(); }
+  bool empty() const { return errors_.empty(); }
+  const std::vector<CaseError>& all() const { return errors_; }
+  /// Throws what was found.
+  void check() const;
+
+ private:
+  std::vector<CaseError> errors_;
 };
 
 /// The run failed after it had started (exit code 3); what was computed is kept.

@@ -15,7 +15,7 @@ struct DimensionRow {
 };
 
 /// In the order of Dimension.
-constexpr std::array<DimensionRow, 19> dimension_rows{{
+constexpr std::array<DimensionRow, 23> dimension_rows{{
     {"", 0, 0, 0, {"", "", ""}},
     {"length", 1, 0, 0, {"m", "mm", "mm"}},
     {"area", 2, 0, 0, {"m2", "mm2", "mm2"}},
@@ -35,6 +35,10 @@ constexpr std::array<DimensionRow, 19> dimension_rows{{
     {"rate", 0, 0, -1, {"1/s", "1/s", "1/ms"}},
     {"temperature", 0, 0, 0, {"K", "K", "K"}},
     {"specific heat", 2, 0, -2, {"J/(kg K)", "mJ/(t K)", "J/(kg K)"}},
+    {"impulse", 1, 1, -1, {"N s", "N s", "kN ms"}},
+    {"moment", 2, 1, -2, {"N m", "N mm", "kN mm"}},
+    {"momentum", 1, 1, -1, {"kg m/s", "t mm/s", "kg mm/ms"}},
+    {"angular momentum", 2, 1, -1, {"kg m2/s", "t mm2/s", "kg mm2/ms"}},
 }};
 
 struct SystemRow {

@@ -31,7 +31,11 @@ enum class Dimension : std::uint8_t {
   angular_velocity,
   rate,  ///< of strain
   temperature,
-  specific_heat  ///< energy per mass and temperature
+  specific_heat,  ///< energy per mass and temperature
+  impulse,
+  moment,
+  momentum,
+  angular_momentum
 };
 
 /// All dimensions that have units.
@@ -52,7 +56,11 @@ inline constexpr std::array dimensions{Dimension::length,
                                        Dimension::angular_velocity,
                                        Dimension::rate,
                                        Dimension::temperature,
-                                       Dimension::specific_heat};
+                                       Dimension::specific_heat,
+                                       Dimension::impulse,
+                                       Dimension::moment,
+                                       Dimension::momentum,
+                                       Dimension::angular_momentum};
 
 /// "SI", "mm-t-s", "mm-kg-ms": the values of the key `units`.
 std::string_view name(UnitSystem system);

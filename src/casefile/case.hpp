@@ -39,12 +39,22 @@ struct CaseMesh {
 struct CaseMaterial {
   std::string name;
   Location where;
-  Located<std::string> law;  ///< the name of a row of the table of laws
+  Located<std::string> law;       ///< the name of a row of the table of laws, or of the library
+  Located<std::string> library;   ///< "": none; relative to the case file's folder
+  Located<std::string> checksum;  ///< of the library's file; in case files it may be left out
+  const Law* loaded = nullptr;    ///< the law of the library
   Located<double> rho;
   std::map<std::string, Located<double>> values;  ///< of the parameters of the law, by their keys
   Located<std::vector<std::array<double, 2>>> curve;
+  std::vector<double> rates;
 
   const Located<double>& value(const std::string& key) const { return values.at(key); }
+  /// Of a value, or of the law where it has none of this name.
+  const Location& place_of(const std::string& key) const {
+    return values.contains(key) ? values.at(key).where : law.where;
+  }
+  /// The row of its law; nullptr where that could not be read.
+  const Law* row() const { return loaded != nullptr ? loaded : find_law(*law); }
   Material made() const;
 };
 
@@ -107,6 +117,27 @@ struct CaseSpring {
   std::optional<double> axial;  ///< along the line between the two nodes
 };
 
+/// [[erosion]]: the cells of a part go when one of these is reached.
+struct CaseErosion {
+  Location where;
+  Located<std::string> part;
+  std::optional<double> plastic_strain, distortion, time;
+};
+
+/// [[rigid_body]]: the cells of parts, and nodes of others, that move as one.
+struct CaseRigidPart {
+  Location where;
+  Located<std::string> name;
+  std::vector<Located<std::string>> parts;
+  std::optional<Located<std::string>> nodes;   ///< of other parts, joined to the body
+  std::optional<Located<std::string>> points;  ///< nodes of no part, which go along
+  // Of the cells, where it is not given.
+  std::optional<double> mass;
+  std::optional<Located<Vec3>> inertia, centre_of_mass;
+  std::optional<Vec3> products_of_inertia;
+  std::optional<double> rigidity;
+};
+
 /// [[equation]]: the sum over the terms of coefficient x displacement is zero; the first term is the dependent one.
 struct CaseEquation {
   struct Term {
@@ -161,6 +192,7 @@ struct CaseScheme {
   std::optional<double> penetration;  ///< augmented_lagrangian: largest penetration, relative to the smallest cell
   enum class Mass : std::uint8_t { consistent, lumped, modified };
   std::optional<Located<Mass>> mass;  ///< filled on reading: the scheme's default
+  bool is_mass_chosen = false;        ///< the case says none
   enum class Redistribution : std::uint8_t { layers, least_squares };
   std::optional<Redistribution> redistribution;      ///< modified mass; filled on reading
   std::optional<int> layers;                         ///< modified mass over layers: their number; filled on reading
@@ -198,38 +230,32 @@ struct CaseGuards {
   double rotation_stop = 5.0;     ///< degrees
 };
 
+/// Those of output/quantities.hpp that are written by default.
+std::vector<Located<std::string>> default_fields();
+
 struct CaseOutput {
   Location where;
-  /// Of displacement, velocity, acceleration, stress, von_mises, strain, part, history variables of laws
-  /// (history_fields), and those of contact.
-  std::vector<Located<std::string>> fields{{"displacement", {}},
-                                           {"velocity", {}},
-                                           {"stress", {}},
-                                           {"von_mises", {}},
-                                           {"strain", {}},
-                                           {"part", {}},
-                                           {"equivalent_plastic_strain", {}},
-                                           {"contact_force", {}},
-                                           {"contact_pressure", {}},
-                                           {"contact_gap", {}},
-                                           {"contact_status", {}},
-                                           {"contact_damage", {}}};
-  int fields_every = 0;              ///< steps; 0: about 50 times over the run
-  int curves_every = 1;              ///< steps between rows of the .csv files
-  int checkpoint_every = 0;          ///< steps between checkpoints; 0: by time alone
-  double checkpoint_minutes = 10.0;  ///< between checkpoints; 0: by steps alone
+  std::vector<Located<std::string>> fields = default_fields();  ///< quantities, and variables that laws remember
+  int fields_every = 0;  ///< steps; 0: about 50 times over the run, fewer times where that takes much disk
+  enum class Format : std::uint8_t { xdmf, vtu };  ///< rows of frame_formats() (output/frame_format.hpp)
+  Format format = Format::xdmf;
+  enum class Precision : std::uint8_t { in_single, in_double };
+  Precision precision = Precision::in_single;  ///< of the values of fields
+  int curves_every = 1;                        ///< steps between rows of the .csv files
+  int checkpoint_every = 0;                    ///< steps between checkpoints; 0: by time alone
+  double checkpoint_minutes = 10.0;            ///< between checkpoints; 0: by steps alone
 };
 
-/// [[probe]]: exactly one of node, point, group.
+/// [[probe]]: exactly one of node, point, group, part.
 struct CaseProbe {
   Location where;
   Located<std::string> name;
   std::optional<Located<std::int64_t>> node;     ///< file number
   std::optional<Located<Vec3>> point;            ///< nearest node
   std::optional<double> within;                  ///< largest distance from point to node; default: the cell at the node
-  std::optional<Located<std::string>> group;     ///< mean over its nodes; for `stress` the cells that touch them;
-                                                 ///< for `section_force` the cells that touch them on the side `side`
-  std::vector<Located<std::string>> quantities;  ///< displacement, velocity, acceleration, stress, section_force
+  std::optional<Located<std::string>> group;     ///< mean over its nodes; of cells over those that touch them
+  std::optional<Located<std::string>> part;      ///< sums over it
+  std::vector<Located<std::string>> quantities;  ///< of output/quantities.hpp, and variables that laws remember
   std::optional<Vec3> side;                      ///< section_force: direction to the cells whose forces are summed
   std::optional<double> cfc;                     ///< SAE J211 channel frequency class
 };
@@ -280,6 +306,8 @@ struct Case {
   std::vector<CasePointMass> point_masses;
   std::vector<CaseSpring> springs;
   std::vector<CaseEquation> equations;
+  std::vector<CaseErosion> erosion;
+  std::vector<CaseRigidPart> rigid_parts;
   std::vector<CaseLoad> loads;
   std::optional<CaseInitialState> initial_state;
   std::vector<CaseInitial> initial;

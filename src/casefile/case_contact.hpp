@@ -215,6 +215,7 @@ struct CaseContact {
   Located<std::string> name;
   Located<std::string> kind;
   std::optional<Vec3> moment_point;  ///< about which contact.csv gives the moment
+  std::optional<double> cfc;         ///< SAE J211 channel frequency class of its forces and moments
   CaseContactKind of;
 
   /// What touches, by name; "" where it has none (all).

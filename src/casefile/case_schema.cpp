@@ -1,6 +1,7 @@
 #include "casefile/case_schema.hpp"
 
 #include "casefile/section_rules.hpp"
+#include "output/quantities.hpp"
 
 namespace carom {
 
@@ -22,9 +23,9 @@ SectionSchema<CasePart> part_section() {
         "radius); LINE2 are bars.",
         {.choices = {"solid", "plane_strain", "plane_stress", "axisymmetric", "bar"}});
   s.key("type", &CasePart::type,
-        "Which of the cells of the group are meant, where it has several types: one [[part]] for each of them.",
-        {.choices = {"HEXA8", "HEXA20", "HEXA27", "TETRA4", "TETRA10", "PENTA6", "PYRA5", "QUAD4", "QUAD8", "TRIA3",
-                     "TRIA6", "LINE2"}});
+        "Which of the cells of the group are meant, where it has several types. Absent: all that the section takes.",
+        {.choices = {"HEXA8", "HEXA20", "HEXA27", "TETRA4", "TETRA10", "PENTA6", "PENTA15", "PYRA5", "PYRA13", "QUAD4",
+                     "QUAD8", "TRIA3", "TRIA6", "LINE2"}});
   s.key("thickness", &CasePart::thickness, "Thickness of plane cells.",
         {.unit = Dimension::length, .range = greater_than(0.0), .kinds = {"plane_strain", "plane_stress"}});
   s.key("area", &CasePart::area, "Area of the section of the bars.",
@@ -32,12 +33,15 @@ SectionSchema<CasePart> part_section() {
   s.key(
       "formulation", &CasePart::formulation,
       "How the cells take the deformation: \"full\": at all their points; \"mean_dilatation\": with a volume change "
-      "that is the cell's mean, or linear in QUAD8, HEXA20 and HEXA27 (B-bar, F-bar), for nearly incompressible and "
+      "that is the cell's mean, or linear in QUAD8, HEXA20, HEXA27, PENTA15 and PYRA13 (B-bar, F-bar), for nearly "
+      "incompressible and "
       "yielding bodies; \"one_point\": at one point, with a stiffness against hourglass modes; \"stabilised\": at one "
       "point, with that of enhanced strains, which neither bending nor constant volume locks; \"reduced\": at two "
       "points a direction, of QUAD8 and HEXA20; \"nodal\": at the nodes, of TETRA4 and TRIA3. Which cells have which: "
       "docs/cells.md. Absent: stabilised of HEXA8 and QUAD4, mean_dilatation of TETRA10; where the law yields or nu > "
-      "0.4 mean_dilatation of QUAD8, HEXA20 and HEXA27, nodal of TETRA4 and TRIA3; full of the others.",
+      "0.4 mean_dilatation of QUAD8, HEXA20, HEXA27, PENTA15 and PYRA13, nodal of TETRA4 and TRIA3; full of the "
+      "others. Where the part "
+      "has cells of several types, those that have not the one that is given keep their own, and the log says so.",
       {.choices = {"full", "mean_dilatation", "one_point", "stabilised", "reduced", "nodal"}});
   s.key("hourglass", &CasePart::hourglass,
         "Coefficient of the stiffness against hourglass modes of one_point, stabilised and nodal cells: 1 is about the "
@@ -91,19 +95,32 @@ SectionSchema<CaseGuards> guards_section() {
   return s;
 }
 
+constexpr const char* remembered = "a variable that points remember (docs/material_laws.md, or of a library's law)";
+
+std::vector<std::string> names_where(bool (*is_wanted)(const Quantity&)) {
+  std::vector<std::string> names;
+  for (const Quantity& q : quantities())
+    if (is_wanted(q)) names.emplace_back(q.name);
+  return names;
+}
+
 SectionSchema<CaseOutput> output_section() {
   SectionSchema<CaseOutput> s("What is written to the results folder, and how often.");
-  s.key(
-      "fields", &CaseOutput::fields,
-      "Fields in the .vtu files, beside the numbers of nodes and cells and of the part, which are always there; those "
-      "of contact only where there is one, contact_damage (0 intact, 1 torn, -1 elsewhere) only where a tie tears, "
-      "equivalent_plastic_strain and temperature_rise only where a law knows "
-      "them.",
-      {.choices = {"displacement", "velocity", "acceleration", "stress", "von_mises", "strain", "part",
-                   "equivalent_plastic_strain", "temperature_rise", "contact_force", "contact_pressure", "contact_gap",
-                   "contact_status", "contact_damage"}});
-  s.key("fields_every", &CaseOutput::fields_every, "Steps between .vtu files; 0: about 50 files over the run.",
+  s.key("fields", &CaseOutput::fields,
+        "Fields in the frames (docs/quantities.md), beside the numbers of nodes and cells and of the part, which are "
+        "always there; those of contact only where there is one, contact_damage only where a tie tears, what laws "
+        "remember only where one does.",
+        {.choices = names_where(is_field), .others = remembered});
+  s.key("fields_every", &CaseOutput::fields_every,
+        "Steps between frames of fields; 0: about 50 frames over the run, fewer where 50 might take more than 2 GB.",
         {.range = at_least(0.0)});
+  s.key(
+      "format", &CaseOutput::format,
+      "Of the frames. xdmf: HDF5 files, deflated, with the mesh in a file of its own, and fields.xdmf for ParaView and "
+      "meshio; vtu: files of VTK, each with the mesh, not compressed, and fields.pvd.",
+      {.choices = {"xdmf", "vtu"}});
+  s.key("precision", &CaseOutput::precision, "Of the values of fields: about 7 digits, or 16.",
+        {.choices = {"single", "double"}});
   s.key("curves_every", &CaseOutput::curves_every, "Steps between rows of the .csv files.", {.range = at_least(1.0)});
   s.key("checkpoint_every", &CaseOutput::checkpoint_every,
         "Steps between checkpoints, from which `carom resume` goes on; 0: by time alone.", {.range = at_least(0.0)});
@@ -122,14 +139,17 @@ SectionSchema<CaseProbe> probe_section() {
   s.key("point", &CaseProbe::point, "The node of a part nearest to this point.", {.unit = Dimension::length});
   s.key("within", &CaseProbe::within, "Largest distance from the point to its node.",
         {.unit = Dimension::length, .range = at_least(0.0), .default_phrase = "the size of a cell at the node"});
-  s.key("group", &CaseProbe::group, "Group: mean over its nodes; stress: over the cells that touch them.");
-  s.key("quantities", &CaseProbe::quantities, "What to record.",
-        {.choices = {"displacement", "velocity", "acceleration", "stress", "section_force"}, .need = Need::required});
+  s.key("group", &CaseProbe::group, "Group: mean over its nodes; of cells: over those that touch them.");
+  s.key("part", &CaseProbe::part, "Part: sums over it.");
+  s.key("quantities", &CaseProbe::quantities,
+        "What to record (docs/quantities.md). Where part is given: some of mass, momentum, kinetic_energy, "
+        "strain_energy.",
+        {.choices = names_where(is_probed), .others = remembered, .need = Need::required});
   s.key("side", &CaseProbe::side,
         "For section_force: direction from the section to the cells whose forces are summed.");
   s.key("cfc", &CaseProbe::cfc, "Low-pass filter of the curves: SAE J211 channel frequency class.",
         {.range = greater_than(0.0)});
-  s.description.alternatives = {{Alternatives::Count::exactly_one, {"node", "point", "group"}}};
+  s.description.alternatives = {{Alternatives::Count::exactly_one, {"node", "point", "group", "part"}}};
   s.finish = check_probe;
   return s;
 }
@@ -177,7 +197,9 @@ SectionSchema<Case> root_section() {
   s.tables("part", &Case::parts, part_section(), needed);
   s.tables("point_mass", &Case::point_masses, point_mass_section());
   s.tables("spring", &Case::springs, spring_section());
+  s.tables("rigid_body", &Case::rigid_parts, rigid_body_section());
   s.tables("equation", &Case::equations, equation_section());
+  s.tables("erosion", &Case::erosion, erosion_section());
   s.tables("support", &Case::supports, support_section());
   s.tables("load", &Case::loads, load_section());
   s.table("initial_state", &Case::initial_state, initial_state_section());
@@ -197,6 +219,13 @@ SectionSchema<Case> root_section() {
 }
 
 }  // namespace
+
+std::vector<Located<std::string>> default_fields() {
+  std::vector<Located<std::string>> fields;
+  for (const Quantity& q : quantities())
+    if (is_field(q) && q.written == Quantity::Written::by_default) fields.push_back({std::string(q.name), {}});
+  return fields;
+}
 
 const SectionSchema<Case>& case_schema() {
   static const SectionSchema<Case> schema = root_section();

@@ -24,6 +24,8 @@ SectionSchema<CaseInitialState> initial_state_section();
 SectionSchema<CaseInitial> initial_section();
 SectionSchema<CaseInitial> stage_initial_section();
 SectionSchema<CasePointMass> point_mass_section();
+SectionSchema<CaseErosion> erosion_section();
+SectionSchema<CaseRigidPart> rigid_body_section();
 SectionSchema<CaseSpring> spring_section();
 SectionSchema<CaseEquation> equation_section();
 SectionSchema<CaseContact> contact_section();

@@ -19,7 +19,7 @@ std::string compatibility_markdown() {
   text += " |\n" + line + "---|\n";
   for (const SchemeTraits& scheme : scheme_table) {
     text += fmt::format("| `{}` |", scheme.name);
-    for (const bool taken : scheme.takes) text += taken ? " yes |" : " - |";
+    for (const bool taken : scheme.takes.all()) text += taken ? " yes |" : " - |";
     text += is_explicit(scheme.kind) ? " explicit |\n" : " implicit |\n";
   }
   text += "\nElastic parts alone, without viscosity, distortion_control and ties that tear:";

@@ -225,7 +225,7 @@ SectionSchema<CaseRigidSurface> contact_keys(std::type_identity<CaseRigidSurface
 }
 
 void CaseObstacle::check_scheme(const CaseScheme& scheme, const ContactPlace& at) const {
-  if (*scheme.kind != SchemeKind::statics || !body.inertia) return;
+  if (has_inertia(*scheme.kind) || !body.inertia) return;
   throw CaseError(body.inertia->where, at.path + ".inertia", "a body that turns, with statics",
                   "a scheme with inertia, or a free body without `inertia`, which does not turn",
                   "Nothing but contact holds the directions of such a body at rest.");

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "casefile/document.hpp"
+#include "output/quantities.hpp"
 
 namespace carom {
 
@@ -17,15 +18,18 @@ std::string entry_path(const char* section, std::size_t i, const char* key) {
   return fmt::format("{}[{}].{}", section, i, key);
 }
 
-/// CaseError unless `name` is one of `names`; `what` says what they are, e.g. "the name of a [materials.NAME]".
-void check_known(const Located<std::string>& name, const Names& names, const std::string& path,
-                 const std::string& what) {
+/// An error unless `name` is one of `names`; `what` says what they are, e.g. "the name of a [materials.NAME]".
+void check_known(const Located<std::string>& name, const Names& names, const std::string& path, const std::string& what,
+                 CaseErrors& errors) {
   if (std::find(names.begin(), names.end(), *name) != names.end()) return;
+  // What could not be read is empty, and an error already.
+  const bool is_partial = name->empty() || names.empty() || std::find(names.begin(), names.end(), "") != names.end();
+  if (is_partial && !errors.empty()) return;
   const std::string known = names.empty() ? "there is none" : fmt::format("{}", fmt::join(names, ", "));
   const std::string near = nearest(*name, names);
-  throw CaseError(name.where, path, fmt::format("the unknown name {}", toml_string(*name)),
-                  fmt::format("{} ({})", what, known),
-                  near.empty() ? "" : fmt::format("Did you mean {}?", toml_string(near)));
+  errors.add(CaseError(name.where, path, fmt::format("the unknown name {}", toml_string(*name)),
+                       fmt::format("{} ({})", what, known),
+                       near.empty() ? "" : fmt::format("Did you mean {}?", toml_string(near))));
 }
 
 struct NamedPlace {
@@ -33,14 +37,15 @@ struct NamedPlace {
   std::string path;
 };
 
-void check_unique(const std::vector<NamedPlace>& names) {
+void check_unique(const std::vector<NamedPlace>& names, CaseErrors& errors) {
   for (std::size_t i = 0; i < names.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (*names[i].name != *names[j].name) continue;
-      throw CaseError(names[i].name.where, names[i].path,
-                      fmt::format("the name {} a second time", toml_string(*names[i].name)), "a name of its own",
-                      fmt::format("The first is {} at line {}.", names[j].path, names[j].name.where.line));
-    }
+    const std::string& name = *names[i].name;
+    const auto first =
+        std::find_if(names.begin(), names.end(), [&](const NamedPlace& other) { return *other.name == name; });
+    if (first == names.begin() + static_cast<std::ptrdiff_t>(i) || (name.empty() && !errors.empty())) continue;
+    errors.add(CaseError(names[i].name.where, names[i].path,
+                         fmt::format("the name {} a second time", toml_string(name)), "a name of its own",
+                         fmt::format("The first is {} at line {}.", first->path, first->name.where.line)));
   }
 }
 
@@ -50,14 +55,17 @@ void add_places(const std::vector<Section>& sections, const char* path, std::vec
 }
 
 /// A check names probes and contacts alike, so they share their names.
-void check_unique_names(const Case& given) {
+void check_unique_names(const Case& given, CaseErrors& errors) {
   std::vector<NamedPlace> parts;
   add_places(given.parts, "part", parts);
-  check_unique(parts);
+  check_unique(parts, errors);
+  std::vector<NamedPlace> rigid;
+  add_places(given.rigid_parts, "rigid_body", rigid);
+  check_unique(rigid, errors);
   std::vector<NamedPlace> places;
   add_places(given.contacts, "contact", places);
   add_places(given.probes, "probe", places);
-  check_unique(places);
+  check_unique(places, errors);
 }
 
 template <class Sections>
@@ -72,25 +80,25 @@ Names names_of(const Sections& sections) {
   return names;
 }
 
-void check_functions(const Case& given) {
+void check_functions(const Case& given, CaseErrors& errors) {
   const Names functions = names_of(given.functions);
   const std::string what = "the name of a [functions.NAME]";
   for (std::size_t i = 0; i < given.supports.size(); ++i) {
     for (const CaseSupport::Motion& motion : given.supports[i].motions) {
       if (!motion.function) continue;
-      check_known(*motion.function, functions, entry_path("support", i, name(motion.kind)) + ".function", what);
+      check_known(*motion.function, functions, entry_path("support", i, name(motion.kind)) + ".function", what, errors);
     }
   }
   for (std::size_t i = 0; i < given.loads.size(); ++i) {
     const auto& function = given.loads[i].function;
-    if (function) check_known(*function, functions, entry_path("load", i, "function"), what);
+    if (function) check_known(*function, functions, entry_path("load", i, "function"), what, errors);
   }
   for (std::size_t i = 0; i < given.contacts.size(); ++i) {
     const CaseObstacle* obstacle = given.contacts[i].obstacle();
     if (obstacle == nullptr) continue;
     const auto &function = obstacle->function, &turns = obstacle->angular_function;
-    if (function) check_known(*function, functions, entry_path("contact", i, "function"), what);
-    if (turns) check_known(*turns, functions, entry_path("contact", i, "angular_function"), what);
+    if (function) check_known(*function, functions, entry_path("contact", i, "function"), what, errors);
+    if (turns) check_known(*turns, functions, entry_path("contact", i, "angular_function"), what, errors);
   }
 }
 
@@ -179,22 +187,48 @@ Names places_between_parts(const Case& given) {
   return places;
 }
 
-void check_checks(const Case& given) {
+void check_places(const Case& given, CaseErrors& errors) {
   Names places = names_of(given.probes);
   for (const Names& more : {names_of(given.contacts), places_between_parts(given)})
     places.insert(places.end(), more.begin(), more.end());
-  for (std::size_t i = 0; i < given.checks.size(); ++i) {
-    const CaseCheck& check = given.checks[i];
-    if (check.place)
-      check_known(*check.place, places, entry_path("check", i, "place"), "the name of a [[probe]] or [[contact]]");
-    if (check.time && **check.time > end_of_run(given)) {
-      throw CaseError(check.time->where, entry_path("check", i, "time"), fmt::format("{}", **check.time),
-                      fmt::format("a time of at most {}, the end of the run", end_of_run(given)));
+  for (std::size_t i = 0; i < given.checks.size(); ++i)
+    if (const auto& place = given.checks[i].place)
+      check_known(*place, places, entry_path("check", i, "place"), "the name of a [[probe]] or [[contact]]", errors);
+}
+
+/// Those of the table, and the variables that the laws of the case remember.
+void check_quantities(const Case& given, const Names& parts, CaseErrors& errors) {
+  Names fields, probed;
+  for (const Quantity& q : quantities()) {
+    if (is_field(q)) fields.emplace_back(q.name);
+    if (is_probed(q)) probed.emplace_back(q.name);
+  }
+  for (const CaseMaterial& material : given.materials)
+    for (Names* names : {&fields, &probed}) {
+      if (const Law* law = material.row()) names->insert(names->end(), law->history.begin(), law->history.end());
+      if (material.row() == nullptr && !errors.empty()) names->emplace_back();  // what it remembers is not known
     }
-    if (check.exact && !given.exact) {
-      throw CaseError(check.where, entry_path("check", i, "reference"), "\"exact\" without a section [exact]",
-                      "a section [exact] that says which solution", "Add [exact], or give value instead of reference.");
-    }
+  for (std::size_t i = 0; i < given.output.fields.size(); ++i)
+    check_known(given.output.fields[i], fields, fmt::format("output.fields[{}]", i),
+                "a field, or a variable that points remember", errors);
+  for (std::size_t i = 0; i < given.probes.size(); ++i) {
+    const CaseProbe& probe = given.probes[i];
+    for (std::size_t k = 0; k < probe.quantities.size(); ++k)
+      check_known(probe.quantities[k], probed, fmt::format("{}[{}]", entry_path("probe", i, "quantities"), k),
+                  "a quantity, or a variable that points remember", errors);
+    if (probe.part) check_known(*probe.part, parts, entry_path("probe", i, "part"), "the name of a [[part]]", errors);
+  }
+}
+
+void check_check(const Case& given, std::size_t i) {
+  const CaseCheck& check = given.checks[i];
+  if (check.time && **check.time > end_of_run(given)) {
+    throw CaseError(check.time->where, entry_path("check", i, "time"), fmt::format("{}", **check.time),
+                    fmt::format("a time of at most {}, the end of the run", end_of_run(given)));
+  }
+  if (check.exact && !given.exact) {
+    throw CaseError(check.where, entry_path("check", i, "reference"), "\"exact\" without a section [exact]",
+                    "a section [exact] that says which solution", "Add [exact], or give value instead of reference.");
   }
 }
 
@@ -210,34 +244,44 @@ void check_initial_state(const Case& given) {
 
 }  // namespace
 
-void check_references(const Case& given) {
-  check_unique_names(given);
+void check_names(const Case& given, CaseErrors& errors) {
+  check_unique_names(given, errors);
   const Names materials = names_of(given.materials);
   for (std::size_t i = 0; i < given.parts.size(); ++i) {
-    check_known(given.parts[i].material, materials, entry_path("part", i, "material"),
-                "the name of a [materials.NAME]");
+    check_known(given.parts[i].material, materials, entry_path("part", i, "material"), "the name of a [materials.NAME]",
+                errors);
   }
   const Names parts = names_of(given.parts);
-  const auto check_initial = [&parts](const std::vector<CaseInitial>& list, const std::string& path) {
+  const auto check_initial = [&](const std::vector<CaseInitial>& list, const std::string& path) {
     for (std::size_t i = 0; i < list.size(); ++i)
       if (list[i].part)
-        check_known(*list[i].part, parts, entry_path(path.c_str(), i, "part"), "the name of a [[part]]");
+        check_known(*list[i].part, parts, entry_path(path.c_str(), i, "part"), "the name of a [[part]]", errors);
   };
+  for (std::size_t i = 0; i < given.erosion.size(); ++i)
+    check_known(given.erosion[i].part, parts, entry_path("erosion", i, "part"), "the name of a [[part]]", errors);
+  check_quantities(given, parts, errors);
+  for (std::size_t i = 0; i < given.rigid_parts.size(); ++i)
+    for (const Located<std::string>& part : given.rigid_parts[i].parts)
+      check_known(part, parts, entry_path("rigid_body", i, "parts"), "names of [[part]]s", errors);
   check_initial(given.initial, "initial");
   for (std::size_t i = 0; i < given.stages.size(); ++i)
     check_initial(given.stages[i].initial, entry_path("stage", i, "initial"));
-  check_initial_state(given);
-  check_functions(given);
-  check_stages(given);
-  check_smoothing(given);
-  check_scheme(given, given.scheme);
-  for (const CaseStage& stage : given.stages) check_scheme(given, stage.scheme);
-  check_checks(given);
+  check_functions(given, errors);
+  check_places(given, errors);
+}
+
+void check_references(const Case& given, CaseErrors& errors) {
+  errors.attempt([&] { check_initial_state(given); });
+  errors.attempt([&] { check_stages(given); });
+  errors.attempt([&] { check_smoothing(given); });
+  errors.attempt([&] { check_scheme(given, given.scheme); });
+  for (const CaseStage& stage : given.stages) errors.attempt([&] { check_scheme(given, stage.scheme); });
+  for (std::size_t i = 0; i < given.checks.size(); ++i) errors.attempt([&] { check_check(given, i); });
 }
 
 void choose_enforcement(Case& given) {
   const auto is_open = [](const CaseScheme& scheme) {
-    return *scheme.kind == SchemeKind::statics && scheme.is_enforcement_chosen;
+    return !has_inertia(*scheme.kind) && scheme.is_enforcement_chosen;
   };
   const auto needs_springs = [](const CaseContact& contact) {
     const CaseSurfaces* surfaces = contact.surfaces();
@@ -256,6 +300,19 @@ void choose_enforcement(Case& given) {
   };
   choose(given.scheme);
   for (CaseStage& stage : given.stages) choose(stage.scheme);
+}
+
+void choose_weights(Case& given) {
+  const CaseScheme* next = nullptr;
+  const auto choose = [&](CaseScheme& scheme) {
+    if (has_inertia(*scheme.kind)) next = &scheme;
+    if (!scheme.is_mass_chosen || has_inertia(*scheme.kind) || next == nullptr) return;
+    scheme.mass->value = **next->mass;
+    scheme.redistribution = next->redistribution;
+    scheme.layers = next->layers;
+  };
+  for (std::size_t i = given.stages.size(); i-- > 0;) choose(given.stages[i].scheme);
+  choose(given.scheme);
 }
 
 void choose_methods(Case& given) {

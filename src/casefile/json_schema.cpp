@@ -42,7 +42,9 @@ Json number_schema(const char* type, const KeyOptions& options) {
 
 Json text_schema(const KeyOptions& options) {
   Json schema{{"type", "string"}};
-  if (!options.choices.empty()) schema["enum"] = options.choices;
+  if (options.choices.empty()) return schema;
+  schema["enum"] = options.choices;
+  if (!options.others.empty()) return {{"anyOf", {schema, {{"type", "string"}, {"description", options.others}}}}};
   return schema;
 }
 
@@ -196,7 +198,14 @@ Json section_schema(const SectionDescription& section) {
   if (!needed.empty()) schema["required"] = needed;
   add_alternatives(section, schema);
   if (section.selector.find('.') == std::string::npos) add_kinds(section, schema);
-  return schema;
+  if (section.opened_by.empty()) return schema;
+  const Json condition{{"required", Json::array({section.opened_by})}};
+  const Json opened{{"required", Json::array({section.selector})}};
+  return {{"type", "object"},
+          {"properties", {{section.opened_by, properties[section.opened_by]}}},
+          {"if", condition},
+          {"then", opened},
+          {"else", schema}};
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ bool has(const std::vector<std::string>& words, const std::string& word) {
 
 std::string shape_text(const KeyDescription& key) {
   const std::vector<std::string>& choices = key.options.choices;
+  const std::string& others = key.options.others;
   switch (key.shape) {
     case Shape::boolean:
       return "true or false";
@@ -64,7 +65,8 @@ std::string shape_text(const KeyDescription& key) {
     case Shape::pairs:
       return "a list of rows [x, y], each of two numbers";
     case Shape::texts:
-      return choices.empty() ? "a list of texts" : "a list of some of " + quoted_list(choices);
+      if (choices.empty()) return "a list of texts";
+      return "a list of some of " + quoted_list(choices) + (others.empty() ? "" : ", " + others);
     case Shape::formulas:
       return "three formulas [\"...\", \"...\", \"...\"] in quotes, of x, y and z";
     case Shape::named_vectors:

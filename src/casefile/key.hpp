@@ -58,6 +58,7 @@ struct KeyOptions {
   Dimension unit = Dimension::none;
   Range range{};
   std::vector<std::string> choices{};  ///< for an enumeration in the order of its enumerators
+  std::string others{};                ///< in words, which other texts may stand beside the choices; "": none
   std::vector<std::string> kinds{};    ///< values of the section's selector for which the key is taken; empty: all
   enum class Need : std::uint8_t { optional, required } need = Need::optional;
   std::vector<std::string> required_for{};  ///< kinds for which an otherwise optional key is required
@@ -90,6 +91,7 @@ struct SectionDescription {
   std::string selector;
   std::string default_kind;  ///< value of the selector when it is absent
   std::vector<Alternatives> alternatives;
+  std::string opened_by;  ///< a key with which the section takes others than are known here; "": none
   std::vector<KeyDescription> keys;
 };
 

@@ -34,6 +34,8 @@ void write_law(const Law& law, std::string& text) {
                    range_text(p.range), default_text(p));
   if (!law.curve_key.empty())
     fmt::format_to(std::back_inserter(text), "| `{}` | {} |  |  | none |\n", law.curve_key, law.curve_meaning);
+  if (!law.rates_key.empty())
+    fmt::format_to(std::back_inserter(text), "| `{}` | {} |  |  | none |\n", law.rates_key, law.rates_meaning);
   if (law.history.empty()) return;
   text += "\nWhat a point remembers:";
   for (const std::string& variable : law.history)
@@ -51,7 +53,9 @@ std::string laws_markdown() {
       "lambda "
       "= E nu /\n((1 + nu)(1 - 2 nu)) and G = E / (2 (1 + nu)) are Lame's constants, K = lambda + 2 G / 3. "
       "[notation.md](notation.md) has the other symbols.\n"
-      "`carom material CASE --part NAME --path PATH` draws a law's stress on a path of deformation.\n";
+      "`carom material CASE --part NAME --path PATH` draws a law's stress on a path of deformation. Laws of your own "
+      "come "
+      "from libraries: [user_laws.md](user_laws.md).\n";
   for (const Law& law : laws()) write_law(law, text);
   return text;
 }

@@ -35,8 +35,9 @@ bool within(double value, const Plausible& range, UnitSystem units) {
 
 /// Do these properties make sense together in this unit system?
 bool plausible(const CaseMaterial& m, UnitSystem units) {
-  return within(*m.rho, density, units) && within(*m.value("E"), modulus, units) &&
-         within(std::sqrt(*m.value("E") / *m.rho), wave_speed, units);
+  const double E = m.made().at_rest().E;
+  return within(*m.rho, density, units) && within(E, modulus, units) &&
+         within(std::sqrt(E / *m.rho), wave_speed, units);
 }
 
 std::string place(const Location& where) {
@@ -83,9 +84,10 @@ class Lint {
     if (hint.empty()) hint = mixed_units_hint(m);
     const std::size_t before = lines_.size();
     check_value(m, m.rho.where, *m.rho, density, hint);
-    check_value(m, m.value("E").where, *m.value("E"), modulus, hint);
-    if (lines_.size() == before)
-      check_value(m, m.value("E").where, std::sqrt(*m.value("E") / *m.rho), wave_speed, hint);
+    const double E = m.made().at_rest().E;
+    const Location& where = m.place_of("E");
+    check_value(m, where, E, modulus, hint);
+    if (lines_.size() == before) check_value(m, where, std::sqrt(E / *m.rho), wave_speed, hint);
   }
 
   /// Is one of the two values in the unit of another system?
@@ -208,9 +210,9 @@ class Lint {
   /// The bulk modulus over the shear modulus is 2 (1 + nu) / (3 (1 - 2 nu)).
   void check_poisson(const CaseMaterial& m) {
     constexpr double most = 0.4999;
-    const double nu = *m.value("nu");
+    const double nu = m.made().at_rest().nu;
     if (nu <= most) return;
-    say(m.value("nu").where,
+    say(m.place_of("nu"),
         fmt::format("materials.{}: nu = {:g} makes the bulk modulus {:.2g} times the shear modulus: waves and explicit "
                     "steps follow the bulk, solids lock, and rounding grows by as much; rubber has 0.499 and less",
                     toml_key(m.name), nu, 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu))));

@@ -72,16 +72,34 @@ Case parse_case(std::string_view text, const std::string& name) {
 }
 
 Case case_of(const Node& root, const std::string& name) {
+  CaseErrors errors;
+  Case result = case_of(root, name, errors);
+  errors.check();
+  return result;
+}
+
+Case case_of(const Node& root, const std::string& name, CaseErrors& errors) {
   Case result;
   result.file = name;
-  case_schema().read(result, root, {root, message_units(root), "", case_schema().description});
+  case_schema().read(result, root, {root, message_units(root), "", name, case_schema().description, errors});
+  check_names(result, errors);
+  if (!errors.empty()) return result;
   choose_enforcement(result);
-  check_references(result);
+  choose_weights(result);
+  check_references(result, errors);
+  if (!errors.empty()) return result;
   choose_methods(result);
   return result;
 }
 
 Case read_case(const std::string& path) {
+  CaseErrors errors;
+  Case result = read_case(path, errors);
+  errors.check();
+  return result;
+}
+
+Case read_case(const std::string& path, CaseErrors& errors) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw CaseError({path, 0, 0}, "", "no such file", "a case file (.toml)");
@@ -104,7 +122,7 @@ Case read_case(const std::string& path) {
                     "`carom convert` makes a case of it; `carom run` and `carom check` also take it as it is.");
   }
   refuse_other_encodings(text, path);
-  return parse_case(text, path);
+  return case_of(read_toml(text, path), path, errors);
 }
 
 }  // namespace carom

@@ -38,6 +38,25 @@ SectionSchema<CasePointMass> point_mass_section() {
   return s;
 }
 
+SectionSchema<CaseErosion> erosion_section() {
+  SectionSchema<CaseErosion> s(
+      "Cells that go: when one of the criteria is reached at the end of a step, a cell of the part has no forces any "
+      "more from there on. Its mass stays at its nodes, what it has stored and spent becomes `eroded`, and the faces "
+      "behind it join the contacts that its own faces had, in the same step. For explicit schemes.");
+  s.key("part", &CaseErosion::part, "Name of a [[part]].", {.need = Need::required});
+  s.key("plastic_strain", &CaseErosion::plastic_strain, "Equivalent plastic strain, the largest of the cell's points.",
+        {.unit = Dimension::none, .range = greater_than(0.0)});
+  s.key(
+      "distortion", &CaseErosion::distortion,
+      "A corner of the cell keeps no more than this share of the volume that it had at rest: cells that are crushed go "
+      "before they fold or hold up the run by their short steps.",
+      {.range = between_open(0.0, 1.0)});
+  s.key("time", &CaseErosion::time, "At the first step that ends there or later all cells of the part go.",
+        {.unit = Dimension::time, .range = greater_than(0.0)});
+  s.description.alternatives = {{Alternatives::Count::at_least_one, {"plastic_strain", "distortion", "time"}}};
+  return s;
+}
+
 SectionSchema<CaseSpring> spring_section() {
   SectionSchema<CaseSpring> s(
       "Linear springs without mass at each node of a group: to the ground along the axes, or to the nodes of another "

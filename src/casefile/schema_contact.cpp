@@ -39,6 +39,9 @@ SectionSchema<CaseContact> contact_section() {
   s.key("moment_point", &CaseContact::moment_point, "Point about which contact.csv gives the moment of the contact.",
         {.unit = Dimension::length,
          .default_phrase = "the origin; of an obstacle with an imposed rotation its centre, which travels with it"});
+  s.key("cfc", &CaseContact::cfc,
+        "Low-pass filter of its forces and moments, in contact_filtered.csv: SAE J211 channel frequency class.",
+        {.range = greater_than(0.0)});
 #define CAROM_ADD_CONTACT(Kind) add_kind<Kind>(s);
   CAROM_CASE_CONTACTS(CAROM_ADD_CONTACT)
 #undef CAROM_ADD_CONTACT

@@ -120,7 +120,9 @@ void add_extent(SectionSchema<StructuredBlock>& s) {
 SectionSchema<StructuredBlock> block_section() {
   SectionSchema<StructuredBlock> s(
       "Regular cells: a box of HEXA8 along the axes, a rectangle of QUAD4 in a plane z = const, or a line of LINE2 in "
-      "any direction. Blocks that touch share no nodes; groups of the same name are united.");
+      "any direction. Blocks that touch share no nodes, and none with a mesh file; groups of the same name of several "
+      "blocks "
+      "are united, those of a file have other names.");
   s.description.selector = "kind";
   s.key("kind", &StructuredBlock::kind, "Box, rectangle or line.", {.choices = {"hexa", "quad", "bar"}});
   s.description.default_kind = "hexa";
@@ -142,7 +144,7 @@ SectionSchema<StructuredBlock> block_section() {
 }  // namespace
 
 SectionSchema<CaseMesh> mesh_section() {
-  SectionSchema<CaseMesh> s("Where the mesh comes from: a file, or structured blocks.");
+  SectionSchema<CaseMesh> s("Where the mesh comes from: a file, structured blocks, or both.");
   s.key("file", &CaseMesh::file,
         "Gmsh (.msh), MED (.med), Abaqus or CalculiX (.inp) file, relative to the folder of the case file.");
   s.tables("block", &CaseMesh::blocks, block_section());
@@ -159,10 +161,10 @@ SectionSchema<CaseMesh> mesh_section() {
         "What is done about cells that belong to no part, no interface, no rigid surface, and are no piece of the "
         "boundary of other cells.",
         {.choices = {"refuse", "ignore"}});
-  s.description.alternatives = {{Alternatives::Count::exactly_one, {"file", "block"}}};
+  s.description.alternatives = {{Alternatives::Count::at_least_one, {"file", "block"}}};
   s.finish = [](CaseMesh& mesh, const Node& node, const ReadContext& at) {
-    if (!mesh.file->empty() || !mesh.blocks.empty()) return;
     const bool has_file = find(node, "file") != nullptr;
+    if (has_file ? !mesh.file->empty() : !mesh.blocks.empty()) return;
     throw CaseError(has_file ? mesh.file.where : mesh.where, at.at(has_file ? "file" : "block").path,
                     has_file ? "\"\"" : "no block",
                     has_file ? "the name of a mesh file" : "at least one [[mesh.block]]");

@@ -31,7 +31,7 @@ Names implicit_schemes() {
   return schemes_with([](const SchemeTraits& s) { return !is_explicit(s.kind); });
 }
 Names implicit_dynamics() {
-  return schemes_with([](const SchemeTraits& s) { return !is_explicit(s.kind) && s.kind != SchemeKind::statics; });
+  return schemes_with([](const SchemeTraits& s) { return !is_explicit(s.kind) && s.has_inertia; });
 }
 Names explicit_schemes() {
   return schemes_with([](const SchemeTraits& s) { return is_explicit(s.kind); });
@@ -109,7 +109,8 @@ void add_scheme_keys(SectionSchema<S>& s, Access scheme_of) {
       "Mass matrix; modified: no inertia on contact nodes (of pairs: of the faces that look at the other side at the "
       "start), theirs given to their neighbours.",
       {.choices = {"consistent", "lumped", "modified"},
-       .default_phrase = "implicit: consistent; explicit: lumped; modified_mass: modified"});
+       .default_phrase = "implicit: consistent; explicit: lumped; modified_mass: modified; statics, which has only its "
+                         "weight: that of the next stage with inertia"});
   s.key_by("layers", [scheme_of](auto& section) -> auto& { return scheme_of(section).layers; },
            "With a modified mass: layers of nodes that take the mass of the contact nodes.",
            {.range = at_least(1.0), .default_phrase = "4"});
@@ -160,17 +161,19 @@ void check_mass(CaseScheme& scheme, const Node& node, const ReadContext& at) {
   if (!scheme.mass) {
     const Mass usual = must_be_modified ? Mass::modified : is_explicit(*scheme.kind) ? Mass::lumped : Mass::consistent;
     scheme.mass = Located<Mass>{usual, scheme.where};
+    scheme.is_mass_chosen = true;
   }
   const bool is_modified = **scheme.mass == Mass::modified;
-  const bool may_be_modified =
-      must_be_modified ||
-      (!is_explicit(*scheme.kind) && **scheme.enforcement == EnforcementKind::lagrange &&
-       *scheme.kind != SchemeKind::contact_stabilized_newmark && *scheme.kind != SchemeKind::statics);
+  const bool is_weight_alone = !has_inertia(*scheme.kind);
+  const bool may_be_modified = must_be_modified || is_weight_alone ||
+                               (!is_explicit(*scheme.kind) && **scheme.enforcement == EnforcementKind::lagrange &&
+                                *scheme.kind != SchemeKind::contact_stabilized_newmark);
   if (is_modified && !may_be_modified) {
     throw CaseError(scheme.mass->where, at.at("mass").path,
                     fmt::format("\"modified\" with scheme {} and enforcement {}", traits(*scheme.kind).name,
                                 name(**scheme.enforcement)),
-                    "modified_mass, or newmark, hht, wbz, generalized_alpha or bathe with enforcement = \"lagrange\"");
+                    "modified_mass, statics, or newmark, hht, wbz, generalized_alpha or bathe with enforcement = "
+                    "\"lagrange\"");
   }
   if (!is_modified && must_be_modified) {
     throw CaseError(scheme.mass->where, at.at("mass").path, "another mass than \"modified\"",
@@ -219,7 +222,7 @@ void check_alpha(const CaseScheme& scheme, const Node& node, const ReadContext& 
 void finish_scheme(CaseScheme& scheme, const Node& node, const ReadContext& at) {
   const Node* penetration = find(node, "penetration");
   if (!scheme.enforcement) {
-    const bool is_augmented = *scheme.kind == SchemeKind::statics && penetration != nullptr;
+    const bool is_augmented = !has_inertia(*scheme.kind) && penetration != nullptr;
     scheme.is_enforcement_chosen = !is_augmented;
     scheme.enforcement = Located<EnforcementKind>{
         is_augmented ? EnforcementKind::augmented_lagrangian : default_enforcement(*scheme.kind), scheme.where};
@@ -328,7 +331,7 @@ SectionSchema<CaseStage> stage_section() {
   s.tables("initial", &CaseStage::initial, stage_initial_section());
   s.finish = [](CaseStage& stage, const Node& node, const ReadContext& at) {
     stage.scheme.where = stage.time.where = stage.where;
-    if (*stage.scheme.kind == SchemeKind::statics && !stage.initial.empty())
+    if (!has_inertia(*stage.scheme.kind) && !stage.initial.empty())
       throw CaseError(stage.initial.front().where, at.at("initial").path, "a velocity in statics",
                       "velocities in stages with inertia", "Give it to the stage after this one.");
     finish_scheme(stage.scheme, node, at);

@@ -81,48 +81,52 @@ std::string written_kind(const Node& node, const SectionDescription& section, co
 }
 
 /// What may stand there: the keys of the section's kind, where that is known.
-[[noreturn]] void unknown_key(const Member& member, const Node& node, const SectionDescription& section,
-                              const ReadContext& at) {
+CaseError unknown_key(const Member& member, const Node& node, const SectionDescription& section,
+                      const ReadContext& at) {
   const std::string kind = written_kind(node, section, at);
   const std::vector<std::string> names = kind.empty() ? all_names(section) : names_for(section, kind);
   const std::string near = suggested_key(member.key, section);
   const std::vector<std::string> elsewhere = sections_with(member.key, at.format);
-  throw CaseError(member.where, join(at.path, member.key), "an unknown key", "one of " + plain_list(names),
-                  !near.empty()       ? fmt::format("Did you mean {}?", near)
-                  : elsewhere.empty() ? ""
-                                      : fmt::format("{} is a key of {}.", member.key, fmt::join(elsewhere, ", ")));
+  return CaseError(member.where, join(at.path, member.key), "an unknown key", "one of " + plain_list(names),
+                   !near.empty()       ? fmt::format("Did you mean {}?", near)
+                   : elsewhere.empty() ? ""
+                                       : fmt::format("{} is a key of {}.", member.key, fmt::join(elsewhere, ", ")));
 }
 
-[[noreturn]] void wrong_kind(const Member& member, const SectionDescription& section, const std::string& kind,
-                             const ReadContext& at) {
+CaseError wrong_kind(const Member& member, const SectionDescription& section, const std::string& kind,
+                     const ReadContext& at) {
   std::vector<std::string> kinds;
   for (const KeyDescription& key : section.keys) {
     if (key.key == member.key) kinds.insert(kinds.end(), key.options.kinds.begin(), key.options.kinds.end());
   }
-  throw CaseError(member.where, join(at.path, member.key),
-                  fmt::format("a key that {} = {} does not take", section.selector, toml_string(kind)),
-                  fmt::format("one of {}", plain_list(names_for(section, kind))),
-                  fmt::format("It belongs to {} = {}.", section.selector, quoted_list(kinds)));
+  return CaseError(member.where, join(at.path, member.key),
+                   fmt::format("a key that {} = {} does not take", section.selector, toml_string(kind)),
+                   fmt::format("one of {}", plain_list(names_for(section, kind))),
+                   fmt::format("It belongs to {} = {}.", section.selector, quoted_list(kinds)));
 }
 
-[[noreturn]] void missing_key(const Node& node, const KeyDescription& key, const ReadContext& at) {
-  throw CaseError(node.where, join(at.path, key.key), "nothing", expected_text(key, at.units),
-                  fmt::format("Add {}: {}", key.key, key.doc));
+CaseError missing_key(const Node& node, const KeyDescription& key, const ReadContext& at) {
+  return CaseError(node.where, join(at.path, key.key), "nothing", expected_text(key, at.units),
+                   fmt::format("Add {}: {}", key.key, key.doc));
 }
 
 /// The kind as written; the value of a selector must be one of its choices before anything else is judged by it.
-std::string find_kind(const Node& node, const SectionDescription& section, const ReadContext& at) {
+/// Nothing where it is wrong: of this section that is an error, elsewhere it is one already.
+std::optional<std::string> find_kind(const Node& node, const SectionDescription& section, const ReadContext& at) {
   if (section.selector.empty()) return "";
-  const bool elsewhere = section.selector.find('.') != std::string::npos;
-  const Node* value = find(elsewhere ? at.root : node, section.selector);
-  if (elsewhere) {
+  if (section.selector.find('.') != std::string::npos) {
+    const Node* value = find(at.root, section.selector);
     const auto* text = value != nullptr ? std::get_if<std::string>(&value->value) : nullptr;
-    return text != nullptr ? *text : "";
+    const std::vector<CaseError>& errors = at.errors.all();
+    const bool is_wrong = std::any_of(errors.begin(), errors.end(),
+                                      [&](const CaseError& error) { return error.key() == section.selector; });
+    return text == nullptr || is_wrong ? std::nullopt : std::optional(*text);
   }
+  const Node* value = find(node, section.selector);
   const auto key = std::find_if(section.keys.begin(), section.keys.end(),
                                 [&section](const KeyDescription& k) { return k.key == section.selector; });
   if (value != nullptr) return key->options.choices.at(decode_choice(*value, *key, at.at(key->key)));
-  if (section.default_kind.empty()) missing_key(node, *key, at);
+  if (section.default_kind.empty()) throw missing_key(node, *key, at);
   return section.default_kind;
 }
 
@@ -152,21 +156,28 @@ bool same_but_kinds(const KeyDescription& a, const KeyDescription& b) {
          initial(a) == initial(b);
 }
 
-std::string check_section(const Node& node, const SectionDescription& section, const ReadContext& at) {
+std::optional<std::string> check_section(const Node& node, const SectionDescription& section, const ReadContext& at) {
   const auto* table = std::get_if<Table>(&node.value);
-  if (table == nullptr) throw CaseError(node.where, at.path, describe(node), "a table of keys");
+  if (table == nullptr) {
+    at.errors.add(CaseError(node.where, at.path, describe(node), "a table of keys"));
+    return std::nullopt;
+  }
+  const std::size_t before = at.errors.size();
+  for (const Member& member : table->members)
+    if (declared_key(section, member.key, "") == nullptr) at.errors.add(unknown_key(member, node, section, at));
+  std::optional<std::string> kind;
+  at.errors.attempt([&] { kind = find_kind(node, section, at); });
+  if (!kind) return kind;
   for (const Member& member : table->members) {
-    if (declared_key(section, member.key, "") == nullptr) unknown_key(member, node, section, at);
+    const KeyDescription* key = declared_key(section, member.key, *kind);
+    if (key != nullptr && !applies(*key, *kind)) at.errors.add(wrong_kind(member, section, *kind, at));
   }
-  const std::string kind = find_kind(node, section, at);
-  for (const Member& member : table->members) {
-    const KeyDescription* key = declared_key(section, member.key, kind);
-    if (!applies(*key, kind)) wrong_kind(member, section, kind, at);
-  }
-  for (const Alternatives& alternatives : section.alternatives) check_alternatives(node, alternatives, at);
-  for (const KeyDescription& key : section.keys) {
-    if (required(key, kind) && table->find(key.key) == nullptr) missing_key(node, key, at);
-  }
+  // A key that is missing may be one of those, misspelt.
+  if (at.errors.size() != before) return kind;
+  for (const Alternatives& alternatives : section.alternatives)
+    at.errors.attempt([&] { check_alternatives(node, alternatives, at); });
+  for (const KeyDescription& key : section.keys)
+    if (required(key, *kind) && table->find(key.key) == nullptr) at.errors.add(missing_key(node, key, at));
   return kind;
 }
 

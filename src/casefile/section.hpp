@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -12,9 +13,10 @@
 
 namespace carom {
 
-/// Checks that the node is a table with known keys that its kind takes, all required ones and the right alternatives.
-/// Returns the kind (value of the selector, "" without one).
-std::string check_section(const Node& node, const SectionDescription& section, const ReadContext& at);
+/// Checks that the node is a table with known keys that its kind takes, all required ones and the right alternatives;
+/// what is wrong is added to the errors. Returns the kind (value of the selector, "" without one), or nothing where it
+/// is not known or the node is no table: then the keys cannot be read.
+std::optional<std::string> check_section(const Node& node, const SectionDescription& section, const ReadContext& at);
 
 /// True when two declarations differ at most in the kinds that they are for.
 bool same_but_kinds(const KeyDescription& a, const KeyDescription& b);
@@ -41,6 +43,10 @@ class SectionSchema {
   SectionDescription description;
   /// Rules between the keys of the section, and defaults that follow from them; called last.
   Finish finish = [](S&, const Node&, const ReadContext&) {};
+
+  /// Other keys in place of these, for sections that name what they take their keys from; nothing: these.
+  std::function<std::optional<SectionSchema>(const Node&, const ReadContext&)> instead_of_read;
+  std::function<std::optional<SectionSchema>(const S&)> instead_of_write;
 
   void add(KeyDescription key, Handlers handlers) {
     handlers_.push_back({{key.options.kinds, std::move(handlers)}});
@@ -79,6 +85,8 @@ class SectionSchema {
   void named_tables(const std::string& name, std::vector<Sub> S::*member, const SectionSchema<Sub>& sub,
                     KeyOptions options = {});
 
+  /// Reads all keys that can be; what is wrong is added to the errors, and the rules between the keys are not asked
+  /// then.
   void read(S& s, const Node& node, const ReadContext& at) const;
   /// `root` is nullptr for the root section itself.
   Node write(const S& s, const Node* root) const;

@@ -158,7 +158,15 @@ void SectionSchema<S>::kind(const std::string& name, std::variant<Kinds...> S::*
 
 template <class S>
 void SectionSchema<S>::read(S& s, const Node& node, const ReadContext& at) const {
-  const std::string kind = check_section(node, description, at);
+  if (instead_of_read) {
+    std::optional<SectionSchema> other;
+    if (!at.errors.attempt([&] { other = instead_of_read(node, at); })) return;
+    if (other) return other->read(s, node, at);
+  }
+  const std::size_t before = at.errors.size();
+  const std::optional<std::string> found = check_section(node, description, at);
+  if (!found) return;
+  const std::string& kind = *found;
   const Table& table = std::get<Table>(node.value);
   for (const OwnKind& own : own_kinds_)
     if (own.name == kind) own.begin(s);
@@ -168,17 +176,22 @@ void SectionSchema<S>::read(S& s, const Node& node, const ReadContext& at) const
     const Handlers& handlers = handlers_of(i, kind);
     const Node* value = table.find(declared.key);
     if (value != nullptr)
-      handlers.read(s, *value, at.at(declared.key));
-    else
-      handlers.absent(s, at.at(declared.key), node.where);
+      at.errors.attempt([&] { handlers.read(s, *value, at.at(declared.key)); });
+    else if (!required(declared, kind))
+      at.errors.attempt([&] { handlers.absent(s, at.at(declared.key), node.where); });
   }
-  finish(s, node, at);
-  for (const OwnKind& own : own_kinds_)
-    if (own.name == kind) own.finish(s, node, at);
+  if (at.errors.size() != before) return;
+  at.errors.attempt([&] {
+    finish(s, node, at);
+    for (const OwnKind& own : own_kinds_)
+      if (own.name == kind) own.finish(s, node, at);
+  });
 }
 
 template <class S>
 Node SectionSchema<S>::write(const S& s, const Node* root) const {
+  if (instead_of_write)
+    if (const std::optional<SectionSchema> other = instead_of_write(s)) return other->write(s, root);
   Node node{Table{}, {}};
   const Node& whole = root != nullptr ? *root : node;
   for (std::size_t i = 0; i < handlers_.size(); ++i) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/quantities.hpp"
+
 namespace carom {
 
 Location place_of(const Node& section, const std::string& key) {
@@ -63,6 +65,14 @@ void check_probe(CaseProbe& probe, const Node& node, const ReadContext& at) {
   check_name(probe.name, at.at("name").path);
   if (probe.quantities.empty()) {
     throw CaseError(place_of(node, "quantities"), at.at("quantities").path, "an empty list", "at least one quantity");
+  }
+  for (const Located<std::string>& quantity : probe.quantities) {
+    const Quantity* found = find_quantity(*quantity);
+    const bool is_of_part = found != nullptr && found->place == Place::part;
+    if (is_of_part != probe.part.has_value())
+      throw CaseError(quantity.where, at.at("quantities").path,
+                      fmt::format("\"{}\" {} a part", *quantity, is_of_part ? "without" : "of"),
+                      is_of_part ? "part = ... beside it" : "what there is of parts: see docs/quantities.md");
   }
   const auto force = std::find_if(probe.quantities.begin(), probe.quantities.end(),
                                   [](const Located<std::string>& q) { return *q == "section_force"; });

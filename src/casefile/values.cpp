@@ -125,7 +125,7 @@ void decode(const Node& node, const KeyDescription& key, const ReadContext& at, 
 void decode(const Node& node, const KeyDescription& key, const ReadContext& at, std::string& value) {
   const auto* found = std::get_if<std::string>(&node.value);
   if (found == nullptr) refuse(node, key, at);
-  if (!key.options.choices.empty()) decode_choice(node, key, at);
+  if (!key.options.choices.empty() && key.options.others.empty()) decode_choice(node, key, at);
   if (found->empty() && key.options.need == KeyOptions::Need::required) refuse(node, key, at);
   value = *found;
 }

@@ -17,10 +17,14 @@ struct ReadContext {
   const Node& root;
   UnitSystem units;
   std::string path;                  ///< dotted path of the section or key
+  const std::string& file;           ///< of the case; what it names is relative to its folder
   const SectionDescription& format;  ///< the root section: where a key that is out of place belongs
+  CaseErrors& errors;                ///< what is wrong with keys and sections so far; reading goes on behind it
 
-  ReadContext at(const std::string& key) const { return {root, units, join(path, key), format}; }
-  ReadContext entry(std::size_t i) const { return {root, units, path + "[" + std::to_string(i) + "]", format}; }
+  ReadContext at(const std::string& key) const { return {root, units, join(path, key), file, format, errors}; }
+  ReadContext entry(std::size_t i) const {
+    return {root, units, path + "[" + std::to_string(i) + "]", file, format, errors};
+  }
 };
 
 /// Throws the CaseError "found the node; expected what the key takes", with a near spelling among the choices.

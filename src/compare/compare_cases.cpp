@@ -100,7 +100,9 @@ ExitCode compare_cases(const std::string& case_file, const Options& options, con
   comparison.results = run_all(variants, settings, stop);
   comparison.reference = measure(comparison.results, options.reference);
   comparison.quantity = ranking_quantity(comparison.results);
-  comparison.recommendation = recommend(comparison.results, comparison.quantity, comparison.reference);
+  comparison.claims = claim_errors(comparison.results, comparison.quantity);
+  comparison.recommendation =
+      recommend(comparison.results, comparison.quantity, comparison.reference, comparison.claims);
   write_file(settings.folder + "/compare.csv", csv_table(comparison));
   write_file(settings.folder + "/compare.json", json_table(comparison));
   write_file(settings.folder + "/compare.html", make_page(comparison, read_text(case_file)));

@@ -1,5 +1,7 @@
 #include "compare/convergence.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -56,7 +58,29 @@ void sort_points(std::vector<Series>& all) {
   }
 }
 
+bool has_different_x(const Series& s) {
+  return s.points.size() > 1 && s.points.back().x > s.points.front().x * (1.0 + 1e-6);
+}
+
+std::optional<Order> order_of(std::span<const double> x, std::span<const double> y) {
+  if (x.size() < 3) return std::nullopt;
+  const std::optional<double> all = slope(x, y);
+  if (!all) return std::nullopt;
+  Order order{*all, *all, *all};
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    const std::optional<double> pair = slope(x.subspan(i, 2), y.subspan(i, 2));
+    if (!pair) continue;
+    order.least = std::min(order.least, *pair);
+    order.largest = std::max(order.largest, *pair);
+  }
+  return order;
+}
+
 }  // namespace
+
+std::string to_string(const Order& order) {
+  return fmt::format("{:.2f} ({:.2f} to {:.2f})", order.slope, order.least, order.largest);
+}
 
 std::optional<double> slope(std::span<const double> x, std::span<const double> y) {
   double mean_x = 0.0, mean_y = 0.0;
@@ -79,7 +103,7 @@ std::vector<Series> series_along(const std::vector<Result>& results, Along along
   std::vector<Series> all;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Result& r = results[i];
-    if (!r.compared()) continue;
+    if (!r.compared() || !r.is_judged) continue;
     const std::string name =
         series_name(r.variant, along != Along::stiffness, along != Along::cells, along != Along::step);
     add_point(all, name, {abscissa(r, along), r.error(quantity), i});
@@ -91,20 +115,22 @@ std::vector<Series> series_along(const std::vector<Result>& results, Along along
       x.push_back(along == Along::step ? p.x : 1.0 / p.x);
       y.push_back(p.y);
     }
-    s.order = slope(x, y);
+    s.order = order_of(x, y);
   }
-  std::erase_if(all, [](const Series& s) { return !s.order; });
+  std::erase_if(all, [](const Series& s) { return !has_different_x(s); });
   return all;
 }
 
-std::vector<Series> series_of_cost(const std::vector<Result>& results, const std::string& quantity) {
+std::vector<Series> series_of_cost(const std::vector<Result>& results, const std::string& quantity,
+                                   ReferenceKind reference) {
   std::vector<Series> all;
   const auto other_cells = [&results](const Result& r) { return r.variant.cells != results.front().variant.cells; };
   const bool by_cells = std::any_of(results.begin(), results.end(), other_cells);
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Result& r = results[i];
-    if (!r.compared()) continue;
-    add_point(all, series_name(r.variant, true, false, by_cells), {r.cpu_seconds(), r.error(quantity), i});
+    if (!r.failure.empty()) continue;
+    const double error = reference == ReferenceKind::exact ? r.error(quantity) : r.claimed;
+    add_point(all, series_name(r.variant, true, false, by_cells), {r.cpu_seconds(), error, i});
   }
   sort_points(all);
   return all;

@@ -121,9 +121,9 @@ std::vector<std::string> set_scheme(Node& root, const std::string& name_key, con
 
 void set_cells(Node& root, int cells) {
   Node* blocks = find_at(root, "mesh.block");
-  if (blocks == nullptr) {
-    throw CaseError({"command line"}, "--cells", "a case whose mesh comes from a file", "a case of [[mesh.block]]s",
-                    "Meshes of files are made finer by --refine 0,1,2.");
+  if (blocks == nullptr || find_at(root, "mesh.file") != nullptr) {
+    throw CaseError({"command line"}, "--cells", "a case whose mesh comes from a file",
+                    "a case of [[mesh.block]]s alone", "Meshes of files are made finer by --refine 0,1,2.");
   }
   for (Node& block : std::get<List>(blocks->value)) {
     Node& given = *member(block, "divisions");

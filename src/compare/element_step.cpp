@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "run/build_mesh.hpp"
-#include "run/build_model.hpp"
+#include "build/build_mesh.hpp"
+#include "build/build_model.hpp"
 #include "solid/smallest_cell.hpp"
 
 namespace carom::compare {

@@ -284,6 +284,25 @@ Result& choose_reference(const std::vector<Result*>& ended, const std::string& n
 
 }  // namespace
 
+bool Result::has_contact() const {
+  return std::any_of(curves.columns.begin(), curves.columns.end(),
+                     [](const std::string& column) { return column.ends_with(".penetration"); });
+}
+
+bool shares_nothing(const Result& a, const Result& b) {
+  constexpr double same = 1e-6;  // steps that differ by rounding alone
+  const bool has_other_step = std::abs(a.step() - b.step()) > same * std::max(a.step(), b.step());
+  const bool has_other_enforcement = !a.has_contact() || a.variant.enforcement != b.variant.enforcement;
+  return a.variant.cells != b.variant.cells && has_other_step && has_other_enforcement;
+}
+
+double difference(const Result& of, const Result& against, const std::string& quantity) {
+  Result compared;
+  compared.curves = of.curves;
+  compare_curves(compared, reference_curves(against.curves, false));
+  return compared.error(quantity);
+}
+
 ReferenceKind measure(std::vector<Result>& results, const std::string& named) {
   std::vector<Result*> ended;
   for (Result& result : results) {
@@ -291,13 +310,20 @@ ReferenceKind measure(std::vector<Result>& results, const std::string& named) {
   }
   const bool is_exact = std::all_of(ended.begin(), ended.end(), [](const Result* r) { return r->exact.has_value(); });
   if (named.empty() && is_exact) {
-    for (Result* result : ended) compare_curves(*result, reference_curves(*result->exact, true));
+    for (Result* result : ended) {
+      compare_curves(*result, reference_curves(*result->exact, true));
+      result->is_judged = true;
+    }
     return ReferenceKind::exact;
   }
   Result& finest = choose_reference(ended, named);
   finest.is_reference = true;
+  finest.is_named = !named.empty();
   const ReferenceCurves reference = reference_curves(finest.curves, false);
-  for (Result* result : ended) compare_curves(*result, reference);
+  for (Result* result : ended) {
+    compare_curves(*result, reference);
+    result->is_judged = shares_nothing(*result, finest);
+  }
   return named.empty() ? ReferenceKind::finest : ReferenceKind::named;
 }
 

@@ -1,6 +1,7 @@
 // What the runs of a comparison reached, in numbers.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,12 +53,18 @@ struct Result {
   CsvTable curves;                 ///< columns of probes.csv, contact.csv and energy.csv
   std::optional<CsvTable> exact;   ///< exact.csv
 
-  bool is_reference = false;  ///< the finest run, which the others are compared with
+  bool is_reference = false;  ///< the finest run, or the one that was named, which the others are compared with
+  bool is_named = false;      ///< the one that was named
+  bool is_judged = false;     ///< the reference is exact, or a run that shares nothing with this one
   std::vector<NamedError> columns, quantities;
   double peak_force = 0.0, reference_peak_force = 0.0;  ///< largest magnitude over the compared force columns
   double energy_kept = 0.0;
   double penetration = 0.0;  ///< largest over contacts and rows
+  double claimed =
+      std::numeric_limits<double>::quiet_NaN();  ///< what the other runs say of the error (claims.hpp); NaN: nothing
+  std::string basis;                             ///< of the claim
 
+  bool has_contact() const;
   bool compared() const { return failure.empty() && !is_reference; }
   /// Every item of the verdict, but for books that are off by rounding: they say nothing against the curves.
   bool passed() const;
@@ -79,6 +86,12 @@ double variation(const CsvTable& curves);
 
 /// Reads what a run left in its folder; `log` is what it printed.
 Result read_result(const Variant& variant, const std::string& folder, int exit_code, const std::string& log);
+
+/// True where two runs have neither cells nor step, nor, where there is contact, enforcement in common.
+bool shares_nothing(const Result& a, const Result& b);
+
+/// The relative L2 difference of a quantity, on the rows of the second run; NaN where the two cannot be compared.
+double difference(const Result& of, const Result& against, const std::string& quantity);
 
 /// Fills in the errors, against exact.csv where every run that reached its end has one and `named` is empty; else
 /// against the run of most cells whose label contains `named`, of those of one number of cells the one of least

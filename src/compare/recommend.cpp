@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "compare/convergence.hpp"
-
 namespace carom::compare {
 
 namespace {
@@ -16,19 +14,22 @@ std::string percent(double ratio) {
   return fmt::format("{:.3g} %", 100.0 * ratio);
 }
 
+double ranked(const Result& r, const std::string& quantity, ReferenceKind reference) {
+  return reference == ReferenceKind::exact ? r.error(quantity) : r.claimed;
+}
+
 /// Positions of the variants that may be recommended.
-std::vector<std::size_t> candidates(const std::vector<Result>& results, const std::string& quantity) {
+std::vector<std::size_t> candidates(const std::vector<Result>& results, const std::string& quantity,
+                                    ReferenceKind reference) {
   std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    if (results[i].compared() && results[i].passed() && std::isfinite(results[i].error(quantity))) out.push_back(i);
-  }
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (results[i].passed() && std::isfinite(ranked(results[i], quantity, reference))) out.push_back(i);
   return out;
 }
 
-/// Variants that were run, the reference apart.
 std::size_t run_count(const std::vector<Result>& results) {
-  return static_cast<std::size_t>(std::count_if(results.begin(), results.end(),
-                                                [](const Result& r) { return r.exit_code != 2 && !r.is_reference; }));
+  return static_cast<std::size_t>(
+      std::count_if(results.begin(), results.end(), [](const Result& r) { return r.exit_code != 2; }));
 }
 
 void say_which_failed(const std::vector<Result>& results, std::vector<std::string>& reasons) {
@@ -45,24 +46,32 @@ std::string share_of_exceeding(const Result& r) {
 }
 
 /// Why the smallest error speaks for nothing; "" when it does.
-std::string doubt(const std::vector<Result>& results, std::size_t best, const std::string& quantity,
-                  ReferenceKind reference) {
-  const double error = results[best].error(quantity);
-  if (error > largest_error)
-    return fmt::format(
-        "The smallest error of the {} is {} ({}), above {}: the runs differ too much from the reference to "
-        "choose among them. Refine the mesh and the step, or name another reference.",
-        quantity, percent(error), results[best].variant.label, percent(largest_error));
-  if (error <= small_error || reference == ReferenceKind::exact) return {};
-  for (const Series& s : series_along(results, Along::cells, quantity)) {
-    const auto is_best = [best](const Point& p) { return p.result == best; };
-    if (std::none_of(s.points.begin(), s.points.end(), is_best) || *s.order >= least_order) continue;
-    return fmt::format(
-        "The smallest error of the {} is {} ({}) and does not fall with the cells (order {:.2g}): the runs "
-        "do not converge to the reference.",
-        quantity, percent(error), results[best].variant.label, *s.order);
+std::string doubt(const Result& best, double error, const std::string& quantity, ReferenceKind reference) {
+  if (error <= largest_error) return {};
+  return fmt::format(
+      "The smallest {}error of the {} is {} ({}{}), above {}: the runs differ too much to choose among them. Refine "
+      "the mesh and the step.",
+      reference == ReferenceKind::exact ? "" : "claimed ", quantity, percent(error), best.variant.label,
+      best.basis.empty() ? "" : ": " + best.basis, percent(largest_error));
+}
+
+/// What is said where nobody can judge anybody.
+Recommendation without_judge(const std::vector<Result>& results, const Claims& claims) {
+  Recommendation out;
+  const auto has_passed = [](const Result& r) { return r.passed(); };
+  const auto has_ended = [](const Result& r) { return r.failure.empty(); };
+  if (std::none_of(results.begin(), results.end(), has_ended)) {
+    out.headline = "No variant could be compared, so none is recommended.";
+  } else if (std::none_of(results.begin(), results.end(), has_passed)) {
+    out.headline = "No variant passed every item of its verdict, so none is recommended.";
+  } else {
+    out.headline = "No run can judge another, so no error is claimed and none is recommended.";
+    for (const std::string& missing : claims.missing) out.reasons.push_back("Missing: " + missing + ".");
+    if (claims.missing.empty())
+      out.reasons.emplace_back("No run on the finest cells passed that has one of the same choice on coarser cells.");
   }
-  return {};
+  say_which_failed(results, out.reasons);
+  return out;
 }
 
 std::string behaviour(const Result& r) {
@@ -79,21 +88,18 @@ std::string behaviour(const Result& r) {
 
 }  // namespace
 
-Recommendation recommend(const std::vector<Result>& results, const std::string& quantity, ReferenceKind reference) {
+Recommendation recommend(const std::vector<Result>& results, const std::string& quantity, ReferenceKind reference,
+                         const Claims& claims) {
+  const bool is_exact = reference == ReferenceKind::exact;
+  const std::vector<std::size_t> fit = candidates(results, quantity, reference);
+  if (fit.empty()) return without_judge(results, claims);
   Recommendation out;
-  const std::vector<std::size_t> fit = candidates(results, quantity);
-  if (fit.empty()) {
-    out.headline = std::none_of(results.begin(), results.end(), [](const Result& r) { return r.compared(); })
-                       ? "No variant could be compared, so none is recommended."
-                       : "No variant passed every item of its verdict, so none is recommended.";
-    say_which_failed(results, out.reasons);
-    return out;
-  }
-  const auto error = [&](std::size_t i) { return results[i].error(quantity); };
+  const auto error = [&](std::size_t i) { return ranked(results[i], quantity, reference); };
   const std::size_t best =
       *std::min_element(fit.begin(), fit.end(), [&](std::size_t a, std::size_t b) { return error(a) < error(b); });
-  if (std::string reason = doubt(results, best, quantity, reference); !reason.empty()) {
-    out.headline = "No variant comes close enough to the reference, so none is recommended.";
+  if (std::string reason = doubt(results[best], error(best), quantity, reference); !reason.empty()) {
+    out.headline = is_exact ? "No variant comes close enough to the reference, so none is recommended."
+                            : "No variant can be trusted closely enough, so none is recommended.";
     out.reasons.push_back(std::move(reason));
     say_which_failed(results, out.reasons);
     return out;
@@ -106,28 +112,30 @@ Recommendation recommend(const std::vector<Result>& results, const std::string& 
       chosen = i;
   }
   const Result &r = results[chosen], &b = results[best];
+  const std::string word = is_exact ? "error" : "claimed error";
   out.result = chosen;
   out.headline = r.variant.label;
-  out.reasons.push_back(fmt::format("{} of {} variants that were run passed every item of their verdict.", fit.size(),
-                                    run_count(results)));
+  out.reasons.push_back(fmt::format("{} of {} variants that were run passed every item of their verdict{}.", fit.size(),
+                                    run_count(results), is_exact ? "" : " and can be judged by others"));
   if (chosen == best) {
     out.reasons.push_back(
-        fmt::format("Its error of the {} is the smallest of them, {}, in {:.3g} s of processor time; none that takes "
+        fmt::format("Its {} of the {} is the smallest of them, {}, in {:.3g} s of processor time; none that takes "
                     "{:g} times less comes within {:g} times of it.",
-                    quantity, percent(error(chosen)), r.cpu_seconds(), cheaper, as_good));
+                    word, quantity, percent(error(chosen)), r.cpu_seconds(), cheaper, as_good));
   } else {
     out.reasons.push_back(
-        fmt::format("Its error of the {} is {}, {:.3g} times the smallest ({}, {}), and it takes {:.3g} s of processor "
-                    "time instead "
-                    "of {:.3g} s: it is the cheapest within {:g} times of the smallest error.",
-                    quantity, percent(error(chosen)), error(chosen) / error(best), percent(error(best)),
+        fmt::format("Its {} of the {} is {}, {:.3g} times the smallest ({}, {}), and it takes {:.3g} s of processor "
+                    "time instead of {:.3g} s: it is the cheapest within {:g} times of the smallest error.",
+                    word, quantity, percent(error(chosen)), error(chosen) / error(best), percent(error(best)),
                     b.variant.label, r.cpu_seconds(), b.cpu_seconds(), as_good));
   }
+  if (!is_exact) out.reasons.push_back(fmt::format("The claim: {}.", r.basis));
+  if (!is_exact && claims.spread > 0.0)
+    out.reasons.push_back(
+        fmt::format("Enforcements of contact differ by {} on the finest cells, {}: no error below that is claimed.",
+                    percent(claims.spread), claims.spread_text));
   out.reasons.push_back(behaviour(r));
-  if (reference != ReferenceKind::exact) {
-    out.reasons.emplace_back(
-        "Errors are differences to the reference run: what is wrong with that run too does not show in them.");
-  }
+  if (!is_exact) out.reasons.emplace_back("What is wrong with all runs does not show in claims.");
   for (const Result& considered : results) {
     if (considered.failure.empty() && considered.has_rounding_only())
       out.reasons.push_back(fmt::format("Considered all the same: {}.", share_of_exceeding(considered)));

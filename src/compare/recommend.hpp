@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/measure.hpp"
+#include "compare/claims.hpp"
 
 namespace carom::compare {
 
@@ -16,8 +16,6 @@ constexpr double cheaper = 1.25;
 
 /// A smallest error above this is no measure of a good choice: the curves differ by a quarter of what they are.
 constexpr double largest_error = 0.25;
-/// Nor is a difference to a run above `small_error` that does not fall on finer meshes: an order below this.
-constexpr double small_error = 0.1, least_order = 0.2;
 
 struct Recommendation {
   std::optional<std::size_t> result;  ///< position of the recommended variant
@@ -25,10 +23,11 @@ struct Recommendation {
   std::vector<std::string> reasons;  ///< sentences with numbers
 };
 
-/// Among the variants that were compared and passed every item of their verdict: the one of the smallest
-/// L2 error of `quantity`; or, if any takes `cheaper` times less processor time and has an error of at most `as_good`
-/// times the smallest, the one of those that takes least. None where the smallest error is above `largest_error`, or
-/// above `small_error` without falling with the cells.
-Recommendation recommend(const std::vector<Result>& results, const std::string& quantity, ReferenceKind reference);
+/// Among the variants that passed every item of their verdict: the one of the smallest L2 error of `quantity`, against
+/// the exact solution, or else of the smallest claim (claims.hpp); or, if any takes `cheaper` times less processor time
+/// and has an error of at most `as_good` times the smallest, the one of those that takes least. None where nothing is
+/// claimed, or the smallest is above `largest_error`.
+Recommendation recommend(const std::vector<Result>& results, const std::string& quantity, ReferenceKind reference,
+                         const Claims& claims);
 
 }  // namespace carom::compare

@@ -75,6 +75,9 @@ Json result_json(const Result& r) {
   json["courant"] = r.step() / v.element_step;
   json["steps"] = r.summary->scheme.steps;
   json["cpu_seconds"] = r.cpu_seconds();
+  json["claimed_error"] = json_number(r.claimed);
+  json["basis_of_claim"] = r.basis;
+  json["shares_nothing_with_reference"] = r.is_judged;
   json["peak_force"] = r.peak_force;
   json["peak_force_over_reference"] = json_number(peak_ratio(r));
   json["energy_kept"] = json_number(r.energy_kept);
@@ -88,7 +91,9 @@ Json orders_json(const Comparison& comparison) {
   Json json = Json::object();
   const auto add = [&](const char* name, Along along) {
     json[name] = Json::object();
-    for (const Series& s : series_along(comparison.results, along, comparison.quantity)) json[name][s.name] = *s.order;
+    for (const Series& s : series_along(comparison.results, along, comparison.quantity))
+      if (s.order)
+        json[name][s.name] = {{"order", s.order->slope}, {"least", s.order->least}, {"largest", s.order->largest}};
   };
   add("cells", Along::cells);
   add("step", Along::step);
@@ -145,19 +150,22 @@ std::string text_table(const Comparison& comparison) {
   std::size_t width = 7;
   for (const Result& r : comparison.results) width = std::max(width, r.variant.label.size());
   std::string text = comparison.common.empty() ? "" : fmt::format("in all variants: {}\n", comparison.common);
-  text += fmt::format("{:<{}}  {:>10}  {:>10}  {:>10}  {:>11}  {:>9}  {:>9}  verdict\n", "variant", width,
-                      comparison.quantity.empty() ? "L2 error" : "L2 " + comparison.quantity, "peak/ref", "energy",
-                      "penetration", "steps", "CPU s");
+  const std::string of = comparison.quantity.empty() ? "" : " " + comparison.quantity;
+  text += fmt::format("{:<{}}  {:>12}  {:>10}  {:>10}  {:>10}  {:>11}  {:>9}  {:>9}  verdict\n", "variant", width,
+                      (comparison.reference == ReferenceKind::exact ? "error" : "off ref.") + of, "claimed", "peak/ref",
+                      "energy", "penetration", "steps", "CPU s");
   for (const Result& r : comparison.results) {
     const std::string status = r.is_reference ? status_text(r) + " (the reference)" : status_text(r);
     if (!r.failure.empty()) continue;
-    text += fmt::format("{:<{}}  {:>10}  {:>10}  {:>10}  {:>11}  {:>9}  {:>9}  {}\n", r.variant.label, width,
-                        r.is_reference ? "-" : number(r.error(comparison.quantity), 4), number(peak_ratio(r), 4),
-                        number(r.energy_kept, 5), number(r.penetration, 3), r.summary->scheme.steps,
-                        number(r.cpu_seconds(), 3), status);
+    text += fmt::format("{:<{}}  {:>12}  {:>10}  {:>10}  {:>10}  {:>11}  {:>9}  {:>9}  {}\n", r.variant.label, width,
+                        r.is_reference ? "-" : number(r.error(comparison.quantity), 4), number(r.claimed, 3),
+                        number(peak_ratio(r), 4), number(r.energy_kept, 5), number(r.penetration, 3),
+                        r.summary->scheme.steps, number(r.cpu_seconds(), 3), status);
   }
   for (const Remark& remark : failures(comparison)) text += fmt::format("{}\n  {}\n", remark.variants, remark.text);
-  if (!comparison.quantity.empty()) text += fmt::format("errors against {}\n", comparison.reference_text());
+  if (!comparison.quantity.empty())
+    text += fmt::format("{} {}\n", comparison.reference == ReferenceKind::exact ? "errors against" : "differences to",
+                        comparison.reference_text());
   const Recommendation& advice = comparison.recommendation;
   text += fmt::format("\n{}{}\n", advice.result ? "Recommended: " : "", advice.headline);
   for (const std::string& reason : advice.reasons) text += "  " + reason + "\n";
@@ -168,7 +176,7 @@ std::string csv_table(const Comparison& comparison) {
   const std::vector<std::string> names = quantities(comparison);
   std::string text = "name,scheme,enforcement,stiffness,cells,courant,step,steps,cpu_seconds";
   for (const std::string& name : names) text += fmt::format(",l2_{0},l1_{0}", name);
-  text += ",peak_force,peak_force_over_reference,energy_kept,penetration,status\n";
+  text += ",claimed_error,peak_force,peak_force_over_reference,energy_kept,penetration,status\n";
   for (const Result& r : comparison.results) {
     const Variant& v = r.variant;
     text += fmt::format("{},{},{},{},{}", v.name, csv_text(v.scheme), csv_text(v.enforcement),
@@ -180,9 +188,9 @@ std::string csv_table(const Comparison& comparison) {
                   : ",,,,";
     for (const std::string& name : names)
       text += fmt::format(",{},{}", csv_number(r.error(name)), csv_number(l1_of(r, name)));
-    text += ended ? fmt::format(",{},{},{},{}", r.peak_force, csv_number(peak_ratio(r)), csv_number(r.energy_kept),
-                                csv_number(r.penetration))
-                  : ",,,,";
+    text += ended ? fmt::format(",{},{},{},{},{}", csv_number(r.claimed), r.peak_force, csv_number(peak_ratio(r)),
+                                csv_number(r.energy_kept), csv_number(r.penetration))
+                  : ",,,,,";
     text += fmt::format(",{}\n", csv_text(status_text(r)));
   }
   return text;
@@ -197,6 +205,7 @@ std::string json_table(const Comparison& comparison) {
                                                                    : "finest run"},
       {"reference_run", comparison.finest() == nullptr ? Json(nullptr) : Json(comparison.finest()->variant.name)},
       {"ranked_by", comparison.quantity},
+      {"enforcement_spread", json_number(comparison.claims.spread)},
       {"variants", Json::array()},
       {"orders", orders_json(comparison)}};
   for (const Result& r : comparison.results) json["variants"].push_back(result_json(r));

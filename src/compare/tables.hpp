@@ -17,6 +17,7 @@ struct Comparison {
   ReferenceKind reference = ReferenceKind::exact;
   std::string quantity;  ///< by which variants are ranked
   std::vector<Result> results;
+  Claims claims;
   Recommendation recommendation;
 
   const Result* finest() const;

@@ -36,7 +36,8 @@ std::string text_at(const Node& root, std::string_view path) {
 /// A case tree on its way to one that is accepted.
 class Draft {
  public:
-  explicit Draft(Node root) : root_(std::move(root)) {}
+  explicit Draft(const Base& base)
+      : root_(base.root), file_((std::filesystem::path(base.file).parent_path() / "case.toml").string()) {}
 
   Node& root() { return root_; }
   const std::string& text() const { return text_; }
@@ -59,6 +60,7 @@ class Draft {
   bool may_leave_out(const std::string& path) const;
 
   Node root_;
+  std::string file_;  ///< in the folder from which the case names its files
   std::string text_;
   std::vector<std::string> keep_;  ///< paths that were asked for
   std::vector<std::string> notes_;
@@ -85,7 +87,7 @@ Case Draft::accept() {
   for (;;) {
     try {
       text_ = write_toml(root_);
-      return parse_case(text_, "case.toml");
+      return parse_case(text_, file_);
     } catch (const CaseError& error) {
       const auto before = left_out.find(error.key());
       if (before != left_out.end()) throw CaseError(before->second);  // it is needed after all
@@ -166,7 +168,7 @@ Case accept_with_step(Draft& draft, const Base& base, double element_step) {
 }
 
 void build(Variant& v, const Base& base, ElementSteps& steps) {
-  Draft draft(base.root);
+  Draft draft(base);
   if ((v.choice.scheme || v.choice.enforcement || v.choice.courant) && find(base.root, "stage") != nullptr) {
     throw CaseError({base.file}, "stage", "a case of several stages", "[scheme] and [time] alone",
                     "Of a case with stages, stiffness and cells can be varied.");
@@ -210,12 +212,15 @@ std::string finished(const Variant& v, const Base& base, const std::string& fold
   } else {
     std::get<Table>(root.value).members.insert(std::get<Table>(root.value).members.begin(), {"title", {}, {full, {}}});
   }
-  for (const char* key : {"mesh.file", "initial_state.from"}) {
-    const fs::path named = text_at(root, key);
-    if (named.empty() || named.is_absolute()) continue;
-    const fs::path from_here = fs::path(base.file).parent_path() / named;
-    find_at(root, key)->value = fs::proximate(from_here, fs::path(folder) / v.name).generic_string();
-  }
+  const auto see_from_there = [&](Node* named) {
+    const auto* text = named == nullptr ? nullptr : std::get_if<std::string>(&named->value);
+    if (text == nullptr || text->empty() || fs::path(*text).is_absolute()) return;
+    const fs::path from_here = fs::path(base.file).parent_path() / *text;
+    named->value = fs::proximate(from_here, fs::path(folder) / v.name).generic_string();
+  };
+  for (const char* key : {"mesh.file", "initial_state.from"}) see_from_there(find_at(root, key));
+  if (Node* materials = find_at(root, "materials"))
+    for (Member& m : std::get<Table>(materials->value).members) see_from_there(find_at(m.value, "library"));
   return write_toml(root);
 }
 

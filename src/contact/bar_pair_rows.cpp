@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "contact/broad_phase.hpp"
 #include "contact/kept_slots.hpp"
 #include "math/vec3.hpp"
+#include "surface/broad_phase.hpp"
 
 namespace carom {
 
@@ -128,6 +128,13 @@ class BarPairRows : public RowMaker {
     for (const BarSide& bar : second_) measure_2_.push_back(2.0 * bar.radius * length_of(X, bar));
   }
   std::size_t slots() const override { return slots_per_bar * first_.size(); }
+  void append_keys(SlotKeys& keys) const override {
+    for (const BarSide& bar : first_)
+      for (std::size_t k = 0; k < slots_per_bar; ++k) keys.add(bar.node, k);
+    std::vector<NodeKey> met;
+    for (const BarSide& bar : second_) met.push_back(node_key(bar.node));
+    keys.meet(std::move(met));
+  }
   bool is_fixed() const override { return false; }
 
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "contact/admissible.hpp"
-#include "contact/cone_solver.hpp"
 #include "math/vec3.hpp"
+#include "rows/admissible.hpp"
+#include "rows/cone_solver.hpp"
 
 namespace carom {
 
@@ -46,8 +46,7 @@ std::string failure(const ContactGeometry& contact, const ConstraintRows& rows, 
   if (std::isinf(result.error))
     return fmt::format(
         "the contact forces are not finite: {}. Shorten the step (time.step or time.safety), and look at the "
-        "velocities "
-        "and the stiffness there",
+        "velocities and the stiffness there",
         where);
   return fmt::format(
       "no contact forces were found for {} rows that close together (error {:.2g} of their motion, worst: {}). Where "

@@ -7,20 +7,21 @@
 #include <vector>
 
 #include "contact/contact_geometry.hpp"
-#include "contact/delassus.hpp"
-#include "contact/response.hpp"
+#include "rows/delassus.hpp"
+#include "rows/response.hpp"
 
 namespace carom {
 
-/// What contact does not know of the bodies: A of W = G A^-1 G^T.
+/// The operator A of W = G A^-1 G^T, which belongs to the bodies and which contact knows by these functions only.
 struct ContactOperator {
-  /// W on at least the chosen rows, in ascending order.
+  /// Makes W of the chosen rows, or of more, in ascending order.
   std::function<Delassus(const ConstraintRows&, const std::vector<std::size_t>& chosen)> delassus;
   /// Overwrites a dof vector b by A^-1 b, zero on fixed dofs.
   std::function<void(std::span<double> b)> inverse;
 };
 
-/// A row that takes part: w without multipliers, in its frame, the gap (or what stands for it) being part of w_n.
+/// A row that takes part, with the w, in its frame, that it would have without multipliers. w_n includes the gap, or
+/// what stands for it.
 struct ClosingRow {
   std::size_t row = 0;
   Vec3 w{};

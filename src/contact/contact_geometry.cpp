@@ -8,13 +8,14 @@
 #include <tuple>
 #include <utility>
 
-#include "contact/admissible.hpp"
 #include "contact/contact_kind.hpp"
+#include "contact/embedded_rows.hpp"
 #include "contact/equation_rows.hpp"
-#include "contact/response.hpp"
 #include "contact/row_maker.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
+#include "rows/admissible.hpp"
+#include "rows/response.hpp"
 
 namespace carom {
 
@@ -43,30 +44,101 @@ Vec3 middle_of(const std::vector<Vec3>& coordinates) {
 
 }  // namespace
 
-struct ContactGeometry::Impl {
-  explicit Impl(const Model& of) : model(of) {}
+/// The makers of a model's rows.
+struct RowMakers {
+  RowMakers(const Model& of, std::shared_ptr<const Topology> by);
 
   const Model& model;
+  std::shared_ptr<const Topology> topology;  ///< that the model is of; null: all cells are there
   std::vector<std::unique_ptr<RowMaker>> makers;
   std::vector<Index> first_slot{0};  ///< of each maker, and the number of slots
   std::vector<Index> nodes;          ///< that move and are asked for, each once
   std::vector<double> offset;        ///< by slot, <= 0
   std::vector<std::string> notes;
-  std::shared_ptr<const ConstraintRows> fixed;  ///< null when some rows are not fixed
+  std::shared_ptr<const ConstraintRows> fixed;  ///< null when some rows are not fixed, or cells have gone
   ConstraintRows bonds, equations;
+
+  std::size_t slots() const { return static_cast<std::size_t>(first_slot.back()); }
+  SlotKeys keys() const {
+    SlotKeys keys;
+    for (std::size_t i = 0; i < makers.size(); ++i) {
+      makers[i]->append_keys(keys);
+      keys.set_maker(static_cast<std::size_t>(first_slot[i]), i);
+    }
+    return keys;
+  }
+};
+
+RowMakers::RowMakers(const Model& of, std::shared_ptr<const Topology> by) : model(of), topology(std::move(by)) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const ContactDefinition& contact = model.contacts[i];
+    const ContactParts parts = parts_of(contact);
+    makers.push_back(kind_of(contact).rows(model, contact, static_cast<Index>(i), notes));
+    first_slot.push_back(first_slot.back() + static_cast<Index>(makers.back()->slots()));
+    if (parts.nature == ContactNature::bonds) makers.back()->append({}, first_slot[i], bonds);
+    if (!makers.back()->is_fixed()) add_moving_nodes(model, parts, nodes);
+    makers.back()->add_moving_nodes(nodes);
+  }
+  if (!model.equations.empty()) {
+    const Index first = first_slot.back();
+    makers.push_back(equation_rows(model));
+    first_slot.push_back(first + static_cast<Index>(makers.back()->slots()));
+    makers.back()->append({}, first, bonds);
+    makers.back()->append({}, first, equations);
+  }
+  embed(model.embedding, bonds);
+  embed(model.embedding, equations);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  offset.assign(slots(), 0.0);
+}
+
+struct ContactGeometry::Impl {
+  explicit Impl(const Model& of) : model(of), whole(of, nullptr), centre(middle_of(of.mesh->coordinates)) {}
+
+  const Model& model;
+  RowMakers whole;                             ///< of all cells
+  std::unique_ptr<RowMakers> eroded;           ///< of the topology that was asked for last
   Vec3 centre{};                               ///< of all nodes; pairs see positions relative to it
   std::vector<Vec3> x_begin, x, displacement;  ///< scratch of rows_at
+  std::vector<double> spread_begin, spread;    ///< displacements with those of followers; scratch of rows_at
 
   std::vector<std::shared_ptr<ConstraintRows>> made;  ///< rows that were given out; what nobody holds is filled again
 
+  RowMakers& of(const std::shared_ptr<const Topology>& topology);
+  void make_room(const RowMakers& all);
+  void fix(RowMakers& all);
   std::shared_ptr<ConstraintRows> empty_rows();
-  bool place(const Vec3& origin, std::span<const double> u_begin, std::span<const double> u);
+  bool place(std::span<const Index> nodes, const Vec3& origin, std::span<const double> u_begin,
+             std::span<const double> u);
   /// Where a maker takes positions from: gaps of pairs are differences of positions of nodes, which far from the origin
   /// would be known to the rounding of their coordinates only; obstacles stand where the case says.
   Vec3 origin_of(std::size_t maker) const { return parts_of(model.contacts[maker]).other != nullptr ? centre : Vec3{}; }
-  std::shared_ptr<ConstraintRows> make(std::span<const double> u_begin, std::span<const double> u,
+  std::shared_ptr<ConstraintRows> make(const RowMakers& all, std::span<const double> u_begin, std::span<const double> u,
                                        std::span<const RowHistory> history);
 };
+
+/// Those of a topology, which are kept while it is the same. Rows of what was closed at the start have no offset any
+/// more where cells have gone.
+RowMakers& ContactGeometry::Impl::of(const std::shared_ptr<const Topology>& topology) {
+  if (!topology) return whole;
+  if (!eroded || (eroded->topology != topology && !(*eroded->topology == *topology))) {
+    eroded = std::make_unique<RowMakers>(topology->model, topology);
+    make_room(*eroded);
+  }
+  return *eroded;
+}
+
+void ContactGeometry::Impl::make_room(const RowMakers& all) {
+  if (x.empty() && !all.nodes.empty()) x_begin = x = displacement = std::vector<Vec3>(model.mesh->node_count());
+}
+
+/// Makes the rows that never change, if all of them are such.
+void ContactGeometry::Impl::fix(RowMakers& all) {
+  make_room(all);
+  if (std::all_of(all.makers.begin(), all.makers.end(), [](const auto& m) { return m->is_fixed(); }))
+    all.fixed = make(all, {}, {}, {});
+}
 
 /// Rows without entries that nobody else holds.
 std::shared_ptr<ConstraintRows> ContactGeometry::Impl::empty_rows() {
@@ -80,7 +152,8 @@ std::shared_ptr<ConstraintRows> ContactGeometry::Impl::empty_rows() {
 }
 
 /// Positions of the nodes; false when one is not finite.
-bool ContactGeometry::Impl::place(const Vec3& origin, std::span<const double> u_begin, std::span<const double> u) {
+bool ContactGeometry::Impl::place(std::span<const Index> nodes, const Vec3& origin, std::span<const double> u_begin,
+                                  std::span<const double> u) {
   std::atomic<bool> is_finite = true;
   constexpr std::size_t grain = 512;  // nodes per task: some ten microseconds of work
   parallel_for(nodes.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -99,86 +172,79 @@ bool ContactGeometry::Impl::place(const Vec3& origin, std::span<const double> u_
   return is_finite;
 }
 
-std::shared_ptr<ConstraintRows> ContactGeometry::Impl::make(std::span<const double> u_begin, std::span<const double> u,
+std::shared_ptr<ConstraintRows> ContactGeometry::Impl::make(const RowMakers& all, std::span<const double> u_begin,
+                                                            std::span<const double> u,
                                                             std::span<const RowHistory> history) {
   const std::shared_ptr<ConstraintRows> kept = empty_rows();
   ConstraintRows& rows = *kept;
-  for (std::size_t i = 0; i < makers.size(); ++i) {
-    if (makers[i]->is_fixed()) {
-      makers[i]->append({}, first_slot[i], rows);
+  for (std::size_t i = 0; i < all.makers.size(); ++i) {
+    if (all.makers[i]->is_fixed()) {
+      all.makers[i]->append({}, all.first_slot[i], rows);
       continue;
     }
     const Vec3 origin = origin_of(i);
-    if (!place(origin, u_begin, u)) continue;
+    if (!place(all.nodes, origin, u_begin, u)) continue;
     const std::size_t before = rows.size();
-    makers[i]->append({x_begin, x, displacement, u, history}, first_slot[i], rows);
+    all.makers[i]->append({x_begin, x, displacement, u, history}, all.first_slot[i], rows);
     for (std::size_t r = before; r < rows.size(); ++r) rows.position[r] = add(rows.position[r], origin);
   }
-  for (std::size_t r = 0; r < rows.size(); ++r) rows.gap[r] -= offset[rows.slot[r]];
+  embed(all.model.embedding, rows);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    rows.gap[r] -= all.offset[rows.slot[r]];
+    if (history.empty()) continue;
+    rows.offset[r] = history[rows.slot[r]].offset;
+    rows.gap[r] -= rows.offset[r];
+  }
   return kept;
 }
 
 ContactGeometry::ContactGeometry(const Model& model) : impl_(std::make_unique<Impl>(model)) {
-  Impl& impl = *impl_;
-  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const ContactDefinition& contact = model.contacts[i];
-    const ContactParts parts = parts_of(contact);
-    impl.makers.push_back(kind_of(contact).rows(model, contact, static_cast<Index>(i), impl.notes));
-    impl.first_slot.push_back(impl.first_slot.back() + static_cast<Index>(impl.makers.back()->slots()));
-    if (parts.nature == ContactNature::bonds) impl.makers.back()->append({}, impl.first_slot[i], impl.bonds);
-    if (!impl.makers.back()->is_fixed()) add_moving_nodes(model, parts, impl.nodes);
-    impl.makers.back()->add_moving_nodes(impl.nodes);
-  }
-  if (!model.equations.empty()) {
-    const Index first = impl.first_slot.back();
-    impl.makers.push_back(equation_rows(model));
-    impl.first_slot.push_back(first + static_cast<Index>(impl.makers.back()->slots()));
-    impl.makers.back()->append({}, first, impl.bonds);
-    impl.makers.back()->append({}, first, impl.equations);
-  }
-  std::sort(impl.nodes.begin(), impl.nodes.end());
-  impl.nodes.erase(std::unique(impl.nodes.begin(), impl.nodes.end()), impl.nodes.end());
-  impl.offset.assign(slots(), 0.0);
-  impl.centre = middle_of(model.mesh->coordinates);
-  if (!impl.nodes.empty()) impl.x_begin = impl.x = impl.displacement = std::vector<Vec3>(model.mesh->node_count());
-  const bool is_fixed =
-      std::all_of(impl.makers.begin(), impl.makers.end(), [](const auto& m) { return m->is_fixed(); });
-  if (is_fixed) impl.fixed = impl.make({}, {}, {});
+  impl_->fix(impl_->whole);
 }
 ContactGeometry::~ContactGeometry() = default;
 ContactGeometry::ContactGeometry(ContactGeometry&&) noexcept = default;
 
 double ContactGeometry::reach() const {
   double reach = 0.0;
-  for (std::size_t i = 0; i < impl_->makers.size(); ++i) {
-    if (impl_->makers[i]->is_fixed()) continue;
+  for (std::size_t i = 0; i < impl_->whole.makers.size(); ++i) {
+    if (impl_->whole.makers[i]->is_fixed()) continue;
     const Vec3 origin = impl_->origin_of(i);
     for (const Vec3& X : impl_->model.mesh->coordinates)
       for (std::size_t c = 0; c < 3; ++c) reach = std::max(reach, std::abs(X[c] - origin[c]));
   }
   return reach;
 }
-std::size_t ContactGeometry::slots() const {
-  return static_cast<std::size_t>(impl_->first_slot.back());
+std::size_t ContactGeometry::slots(const std::shared_ptr<const Topology>& topology) const {
+  return impl_->of(topology).slots();
 }
 bool ContactGeometry::is_fixed() const {
-  return impl_->fixed != nullptr;
+  return impl_->whole.fixed != nullptr;
 }
 const ConstraintRows& ContactGeometry::bonds() const {
-  return impl_->bonds;
+  return impl_->whole.bonds;
 }
 const ConstraintRows& ContactGeometry::equations() const {
-  return impl_->equations;
+  return impl_->whole.equations;
 }
 std::shared_ptr<const ConstraintRows> ContactGeometry::rows_at(std::span<const double> u_begin,
                                                                std::span<const double> u,
-                                                               std::span<const RowHistory> history) const {
-  return impl_->fixed ? impl_->fixed : impl_->make(u_begin, u, history);
+                                                               const ContactPast& past) const {
+  const RowMakers& all = impl_->of(past.topology);
+  if (all.fixed) return all.fixed;
+  if (all.model.embedding.empty()) return impl_->make(all, u_begin, u, past.history);
+  const auto with_followers = [&](std::span<const double> values, std::vector<double>& own) {
+    own.assign(values.begin(), values.end());
+    all.model.embedding.spread(own);
+  };
+  with_followers(u_begin, impl_->spread_begin);
+  with_followers(u, impl_->spread);
+  return impl_->make(all, impl_->spread_begin, impl_->spread, past.history);
 }
 
 ConstraintRows ContactGeometry::stiffness_rows() const {
   ConstraintRows rows;
-  for (const auto& maker : impl_->makers) maker->append_stiffness(rows);
+  for (const auto& maker : impl_->whole.makers) maker->append_stiffness(rows);
+  embed(impl_->model.embedding, rows);
   return rows;
 }
 
@@ -196,6 +262,25 @@ std::vector<Penetration> ContactGeometry::initial_penetrations(std::span<const d
   return found;
 }
 
+std::vector<RowHistory> ContactGeometry::carried_history(const ContactPast& before, const ConstraintRows& rows,
+                                                         std::span<const double> u,
+                                                         const std::shared_ptr<const Topology>& after) const {
+  const SlotKeys keys_before = impl_->of(before.topology).keys(), keys = impl_->of(after).keys();
+  const std::vector<std::ptrdiff_t> places = keys.places_in(keys_before);
+  std::vector<RowHistory> history = keys.carry(keys_before, places, before.history);
+  std::vector<double> depth(keys_before.size(), 0.0);
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    depth[static_cast<std::size_t>(rows.slot[r])] = std::min(0.0, rows.gap_at(r, u));
+  const auto now = rows_at(u, u, {history, after});
+  for (std::size_t r = 0; r < now->size(); ++r) {
+    if (is_bond(now->law[r])) continue;
+    const auto slot = static_cast<std::size_t>(now->slot[r]);
+    const double was = places[slot] < 0 ? 0.0 : depth[static_cast<std::size_t>(places[slot])];
+    history[slot].offset += std::min(0.0, now->gap_at(r, u) - was);
+  }
+  return history;
+}
+
 std::vector<RowHistory> ContactGeometry::first_history(std::span<const double> u) const {
   std::vector<RowHistory> history(slots());
   mark_behind(*rows_at(u, u), u, history);
@@ -203,12 +288,13 @@ std::vector<RowHistory> ContactGeometry::first_history(std::span<const double> u
 }
 
 void ContactGeometry::set_initial(std::span<const double> u) {
-  impl_->offset.assign(slots(), 0.0);
-  if (impl_->fixed) impl_->fixed = impl_->make({}, {}, {});
+  RowMakers& all = impl_->whole;
+  all.offset.assign(slots(), 0.0);
+  impl_->fix(all);
   for (const Penetration& p : initial_penetrations(u))
-    impl_->offset[p.slot] =
+    all.offset[p.slot] =
         initial_of(impl_->model.contacts[p.contact]) == InitialPenetration::strain_free_offset ? -p.depth : -p.rounded;
-  if (impl_->fixed) impl_->fixed = impl_->make({}, {}, {});
+  impl_->fix(all);
 }
 
 std::string ContactGeometry::describe(const ConstraintRows& rows, std::size_t r) const {
@@ -221,7 +307,7 @@ std::string ContactGeometry::describe(const ConstraintRows& rows, std::size_t r)
 }
 
 const std::vector<std::string>& ContactGeometry::notes() const {
-  return impl_->notes;
+  return impl_->whole.notes;
 }
 
 }  // namespace carom

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "contact/constraint_rows.hpp"
-#include "contact/row_history.hpp"
 #include "model/model.hpp"
+#include "model/topology.hpp"
+#include "rows/constraint_rows.hpp"
+#include "rows/row_history.hpp"
 
 namespace carom {
 
@@ -19,6 +20,13 @@ struct Penetration {
   Vec3 position{};
   double depth = 0.0;    ///< - gap, positive
   double rounded = 0.0;  ///< how much of it is the rounding of edges alone (ConstraintRows::rounded)
+};
+
+/// The past on which rows depend beside the positions: the history of the slots (empty: nothing was behind a facet),
+/// and which cells there are (null: all).
+struct ContactPast {
+  std::span<const RowHistory> history{};
+  std::shared_ptr<const Topology> topology{};
 };
 
 /// Makes the rows of all contacts of a model:
@@ -39,31 +47,38 @@ class ContactGeometry {
   ~ContactGeometry();
   ContactGeometry(ContactGeometry&&) noexcept;
 
-  /// Number of entries of State::contact; the same for a whole run.
-  std::size_t slots() const;
+  /// Number of entries of State::contact; the same as long as the topology is.
+  std::size_t slots(const std::shared_ptr<const Topology>& topology = nullptr) const;
   /// Largest coordinate that gaps of rows that move are differences of; 0 where all rows are fixed.
   double reach() const;
   /// True when the rows are the same at every displacement.
   bool is_fixed() const;
   /// The rows that are bonds, which are the same at every displacement; in the order that they have among all rows.
   const ConstraintRows& bonds() const;
-  /// Those of them that are linear equations.
+  /// The bonds that are linear equations.
   const ConstraintRows& equations() const;
   /// Rows at displacement u, when the step began at u_begin (so that what crossed a facet in between is found) with the
-  /// history given (so that what was behind a facet stays there; without, nothing was). Where is_fixed, always the same
-  /// object. Search lists are kept from call to call, but the rows do not depend on them, nor on the number of threads.
-  /// Not to be called from two threads at once. Contacts whose rows are not fixed have none when a displacement of
-  /// their nodes is not finite.
+  /// past given (so that what was behind a facet stays there). Where is_fixed, always the same object while the
+  /// topology is the same. Search lists are kept from call to call, but the rows do not depend on them, nor on the
+  /// number of threads. Not to be called from two threads at once. Contacts whose rows are not fixed have none when a
+  /// displacement of their nodes is not finite.
   std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> u_begin, std::span<const double> u,
-                                                std::span<const RowHistory> history = {}) const;
+                                                const ContactPast& past = {}) const;
 
-  /// Rows of what stands against motion beside the rows that rows_at gave last (RowMaker::append_stiffness).
+  /// The springs that resist motion beside the rows that rows_at gave last, as rows (RowMaker::append_stiffness).
   ConstraintRows stiffness_rows() const;
 
-  /// What penetrates at displacement u, worst first; offsets of set_initial count as they stand.
+  /// The rows that penetrate at displacement u, worst first. Offsets of set_initial count.
   std::vector<Penetration> initial_penetrations(std::span<const double> u) const;
-  /// Histories of a run that begins at displacement u: what is behind a facet there is taken to have been.
+  /// The histories with which a run begins at displacement u: a row that is behind a facet there is taken to have been
+  /// behind it before.
   std::vector<RowHistory> first_history(std::span<const double> u) const;
+  /// The history of the slots of the topology `after` at displacement u, from `before` and its rows there. A slot is
+  /// found again by its nodes and facets; nodes that are new on a surface were behind nothing. No row becomes deeper by
+  /// the change: RowHistory::offset takes up the depth that it would gain.
+  std::vector<RowHistory> carried_history(const ContactPast& before, const ConstraintRows& rows,
+                                          std::span<const double> u,
+                                          const std::shared_ptr<const Topology>& after) const;
   /// Takes the penetrations at displacement u as free of strain in the contacts that say so
   /// (InitialPenetration::strain_free_offset), and in all others what is the rounding of edges alone: their gaps are
   /// subtracted from the slots' gaps from here on. Open slots have no offset.
@@ -71,7 +86,7 @@ class ContactGeometry {
 
   /// A row's contact and place, for messages: 'contact "faces", node 12 at (0.1, 0, 0.2)'.
   std::string describe(const ConstraintRows& rows, std::size_t r) const;
-  /// What was turned or noticed, for the log.
+  /// Notes for the log: facets that were turned, and what else was noticed.
   const std::vector<std::string>& notes() const;
 
  private:

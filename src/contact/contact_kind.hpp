@@ -11,18 +11,18 @@
 
 namespace carom {
 
-/// What is known of a kind but for its line of CAROM_CONTACTS (model/contact.hpp), which says what it consists of. The
-/// functions are called on contacts of the kind.
+/// The row of a kind of contact. What a contact consists of, its line in CAROM_CONTACTS (model/contact.hpp) says. The
+/// functions are called with contacts of the kind only.
 struct ContactKind {
   std::string_view name{};
-  /// Its rows; `source` is its index in Model::contacts. Appends what was turned or noticed to the notes. Throws
-  /// std::invalid_argument naming the contact.
+  /// Makes the maker of its rows; `source` is its index in Model::contacts. Appends to the notes what was turned or
+  /// noticed. Throws std::invalid_argument naming the contact.
   std::unique_ptr<RowMaker> (*rows)(const Model& model, const ContactDefinition& contact, Index source,
                                     std::vector<std::string>& notes) = nullptr;
-  /// The stiffness of a law that has none; null where springs are given. Throws std::invalid_argument naming the
-  /// contact.
+  /// Chooses the stiffness of a law that has none; null for kinds whose springs are always given. Throws
+  /// std::invalid_argument naming the contact.
   StiffnessChoice (*stiffness)(const PartCells& cells, const ContactDefinition& contact) = nullptr;
-  /// How many facets, nodes or cells two contacts of the kind treat in the same way.
+  /// Counts the facets, nodes or cells that two contacts of the kind treat in the same way.
   std::size_t (*shared)(const ContactDefinition& a, const ContactDefinition& b) = nullptr;
 };
 
@@ -33,20 +33,21 @@ CAROM_CONTACTS(CAROM_DECLARE_CONTACT)
 /// The row of a contact.
 const ContactKind& kind_of(const ContactDefinition& contact);
 
-/// How many facets, nodes or cells two contacts treat in the same way, so that one of them is one too many.
+/// The number of facets, nodes or cells that two contacts treat in the same way; where it is not 0, one of the two is
+/// one too many.
 std::size_t shared_places(const ContactDefinition& a, const ContactDefinition& b);
 
-/// Facets that are in both surfaces.
+/// The number of facets that are in both surfaces.
 std::size_t shared_facets(const Surface& a, const Surface& b);
-/// Facets that two contacts between deformable surfaces both see, whichever is the group.
+/// The number of facets that two contacts between deformable surfaces both see, whichever is the group.
 std::size_t shared_facets(const ContactParts& a, const ContactParts& b);
-/// Bars that are in both lists.
+/// The number of bars that are in both lists.
 std::size_t shared_bars(std::span<const BarSide> a, std::span<const BarSide> b);
-/// Bars that two contacts between bars both see, whichever are the group.
+/// The number of bars that two contacts between bars both see, whichever are the group.
 std::size_t shared_bars(const ContactParts& a, const ContactParts& b);
-/// Numbers that are in both lists.
+/// The number of entries that are in both lists.
 std::size_t shared_numbers(std::span<const Index> a, std::span<const Index> b);
-/// Equal but for rounding.
+/// True when two vectors are equal but for rounding.
 bool is_near(const Vec3& a, const Vec3& b);
 
 }  // namespace carom

@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "contact/broad_phase.hpp"
 #include "contact/kept_slots.hpp"
 #include "contact/meeting_edges.hpp"
 #include "math/vec3.hpp"
+#include "surface/broad_phase.hpp"
 
 namespace carom {
 namespace {
@@ -94,6 +94,13 @@ class EdgeRows : public RowMaker {
         broad_phase_(segments_of(edges_.first), segments_of(edges_.second), edges_.rule.reach * edges_.size,
                      edges_.rule.margin * edges_.size) {}
   std::size_t slots() const override { return slots_per_segment * edges_.first.size(); }
+  void append_keys(SlotKeys& keys) const override {
+    for (const FeatureEdge& edge : edges_.first)
+      for (std::size_t k = 0; k < slots_per_segment; ++k) keys.add(edge.node, k);
+    std::vector<NodeKey> met;
+    for (const FeatureEdge& edge : edges_.second) met.push_back(node_key(edge.node));
+    keys.meet(std::move(met));
+  }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override;
   void add_moving_nodes(std::vector<Index>& nodes) const override {
@@ -155,11 +162,11 @@ std::span<const EdgeRows::Behind> EdgeRows::behind_of(Index i) const {
 /// True when the segments, or those that go on with them, were behind each other. Not others at a corner: what those
 /// meet from the front says nothing of this one.
 bool EdgeRows::was_behind(Index i, Index j, std::span<const Vec3> x) const {
-  const auto is_near = [&](Index of_first, Index of_second) {
-    return go_on(edges_.first[of_first], edges_.first[i], x) && go_on(edges_.second[of_second], edges_.second[j], x);
-  };
+  const FeatureEdge &first = edges_.first[i], &second = edges_.second[j];
   return std::any_of(behind_.begin(), behind_.end(), [&](const Behind& was) {
-    return is_near(was.first, was.second) || (edges_.is_self && is_near(was.second, was.first));
+    const FeatureEdge &was_first = edges_.first[was.first], &was_second = edges_.second[was.second];
+    return (go_on(was_first, first, x) && go_on(was_second, second, x)) ||
+           (edges_.is_self && go_on(was_second, first, x) && go_on(was_first, second, x));
   });
 }
 
@@ -174,7 +181,9 @@ bool EdgeRows::counts(Index i, Index j, const EdgePair& pair, const ContactMotio
   const EdgeRule& rule = edges_.rule;
   if (pair.gap > rule.reach * edges_.size || pair.factor < rule.least_factor) return false;
   if (rule.from_the_front) return has_come_from_the_front(i, j, pair, motion);
-  return pair.gap > -std::min(edges_.depth_1[i], edges_.depth_2[j]);
+  if (pair.gap <= -std::min(edges_.depth_1[i], edges_.depth_2[j])) return false;
+  // The search lists those within reach; of what is deeper it depends on the axes.
+  return pair.gap > -rule.reach * edges_.size || was_behind(i, j, motion.x);
 }
 
 /// Where one edge alone sticks out, what is deeper than that may be the far side of either body.

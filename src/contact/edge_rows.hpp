@@ -18,8 +18,10 @@ namespace carom {
 /// crosses between two nodes. What counts depends on what holds the rows (see rule_of in
 /// meeting_edges.cpp):
 ///   springs      rows to a gap of h / 4, and behind each other to the least of 3 h / 4 and half of either body's
-///                thickness. Two sharp edges meet as borders of faces where the contact's rows stand at nodes (rows of
-///                overlaps see such faces by themselves);
+///                thickness; of those deeper than h / 4 what was behind already. Two sharp edges meet as borders of
+///                faces where the contact's rows stand at nodes (rows of overlaps see such faces by themselves).
+///                Where cells have gone they have come from the front, since edges that were inside of a body lie
+///                behind others at once;
 ///   impulses     rows to a gap of h, and to the same depth; the factor is no part of the motion;
 ///   increments   the same, of pairs that have come from the front, as what closes a gap throws out what came deep;
 ///   multipliers  sharp edges, of more than 30 degrees here, meet those of the other surface where both stick out, and

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <utility>
 
-#include "contact/half_thickness.hpp"
-#include "contact/overlap_column.hpp"
 #include "math/vec3.hpp"
 #include "model/bodies.hpp"
+#include "surface/half_thickness.hpp"
+#include "surface/overlap_column.hpp"
 
 namespace carom {
 namespace {

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "contact/broad_phase.hpp"
-#include "contact/clipping.hpp"
-#include "contact/parent_faces.hpp"
 #include "contact/row_maker.hpp"
+#include "surface/broad_phase.hpp"
+#include "surface/clipping.hpp"
+#include "surface/parent_faces.hpp"
 
 namespace carom {
 
@@ -48,7 +48,7 @@ struct FacetPoints {
   std::vector<FacePoint> points, border;
 };
 
-/// Where the points of a slave surface come from.
+/// Finds the points of a slave surface at which faces integrate.
 class FacePointFinder {
  public:
   virtual ~FacePointFinder() = default;
@@ -61,10 +61,11 @@ class FacePointFinder {
   virtual double size() const = 0;  ///< the larger mean facet size
   virtual const ParentFace& slave_face(std::size_t f) const = 0;
   virtual const ParentFace& master_face(Index g) const = 0;
-  virtual const Facet& master_facet(Index g) const = 0;
+  virtual std::span<const Facet> masters() const = 0;
+  const Facet& master_facet(Index g) const { return masters()[static_cast<std::size_t>(g)]; }
 };
 
-/// What the points of overlaps are for.
+/// The use that is made of the points of overlaps.
 enum class OverlapUse {
   springs,  ///< the energy of what is behind: points there alone, and those of borders
   means,    ///< mean gaps: points everywhere, of facets that face each other within 60 degrees; s = 1
@@ -82,7 +83,7 @@ class FaceOverlaps : public FacePointFinder {
   double size() const override { return size_; }
   const ParentFace& slave_face(std::size_t f) const override { return slave_faces_[f]; }
   const ParentFace& master_face(Index g) const override { return master_faces_[static_cast<std::size_t>(g)]; }
-  const Facet& master_facet(Index g) const override { return broad_phase_.targets()[static_cast<std::size_t>(g)]; }
+  std::span<const Facet> masters() const override { return broad_phase_.targets(); }
 
  private:
   struct Slave;

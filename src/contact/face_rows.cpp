@@ -30,6 +30,10 @@ class FaceRows : public RowMaker {
   FaceRows(std::span<const Vec3> X, const Surface& slave, std::unique_ptr<FacePointFinder> finder,
            const FaceNodes& has_row, const ContactLaw& law, OverlapUse use, Index source);
   std::size_t slots() const override { return nodes_.size(); }
+  void append_keys(SlotKeys& keys) const override {
+    for (const Node& node : nodes_) keys.add({&node.node, 1});
+    keys.meet(node_keys(finder_->masters()));
+  }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override;
   void append_stiffness(ConstraintRows& rows) const override;

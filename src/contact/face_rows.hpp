@@ -44,10 +44,10 @@ namespace carom {
 std::unique_ptr<RowMaker> face_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
                                     const ContactLaw& law, Index source);
 
-/// Which nodes have rows; empty: all.
+/// Says which nodes have rows; empty: all have.
 using FaceNodes = std::function<bool(Index)>;
 
-/// The same at points that are found by another way.
+/// Makes such rows from points that another finder gives.
 std::unique_ptr<RowMaker> face_rows(std::span<const Vec3> X, const Surface& slave,
                                     std::unique_ptr<FacePointFinder> finder, const FaceNodes& has_row,
                                     const ContactLaw& law, Index source);

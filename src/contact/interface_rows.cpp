@@ -48,17 +48,17 @@ std::optional<InterfaceFaces> coincident_faces(const Mesh& mesh, const Index* ce
 }
 
 /// One Gauss point of a QUAD4 face: shape functions, position, unit normal and area weight.
-struct FacePoint {
+struct MidFacePoint {
   std::array<double, 4> N;
   Vec3 position;
   Vec3 normal;
   double area;
 };
 
-std::array<FacePoint, 4> face_points(const Mesh& mesh, const std::array<Index, 4>& nodes) {
+std::array<MidFacePoint, 4> face_points(const Mesh& mesh, const std::array<Index, 4>& nodes) {
   constexpr std::array<std::array<double, 2>, 4> corner{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
   const double s = 1.0 / std::sqrt(3.0);
-  std::array<FacePoint, 4> points{};
+  std::array<MidFacePoint, 4> points{};
   for (std::size_t p = 0; p < 4; ++p) {
     const double xi = s * corner[p][0], eta = s * corner[p][1];
     Vec3 along_xi{}, along_eta{};
@@ -121,14 +121,14 @@ void put_part_above(const HexaCentroids& centroids, InterfaceFaces& faces) {
 }
 
 /// True when the part above says that the normal must be turned.
-bool normal_is_inverted(const HexaCentroids& centroids, const InterfaceFaces& faces, const FacePoint& point) {
+bool normal_is_inverted(const HexaCentroids& centroids, const InterfaceFaces& faces, const MidFacePoint& point) {
   const auto above = centroids.centroid_at(faces.upper);
   return above && dot(subtract(*above, point.position), point.normal) < 0;
 }
 
 void add_interface_cell(ConstraintRows& rows, const Mesh& mesh, const InterfaceFaces& faces, bool turn,
                         const ContactLaw& law, Index source) {
-  for (const FacePoint& point : face_points(mesh, faces.lower)) {
+  for (const MidFacePoint& point : face_points(mesh, faces.lower)) {
     rows.add_row(0.0, turn ? scaled(point.normal, -1.0) : point.normal, point.position, point.area,
                  row_law(law, point.area), source);
     for (std::size_t a = 0; a < 4; ++a) rows.add_node(faces.upper[a], point.N[a]);

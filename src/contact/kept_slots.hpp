@@ -12,9 +12,9 @@
 
 namespace carom {
 
-/// By slot the number of the pair found that it is for; -1: none. `kept`: by slot the other side of the pair that was
-/// in touch there at the beginning of the step, or -1. Those pairs keep their slots; the deepest of the others, by
-/// their gap, take the slots that are left, in their order.
+/// Gives slots to the pairs found. Returns for each slot the number of its pair, -1: none. `kept`: for each slot the
+/// other side of the pair that was in touch there at the beginning of the step, or -1. These pairs keep their slots; of
+/// the others the deepest, by their gap, take the slots that are left, in their order.
 template <std::size_t slots, class Found, class Gap>
 std::array<std::ptrdiff_t, slots> kept_slots(const std::vector<Found>& found, std::span<const Index> kept,
                                              const Gap& gap) {

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <span>
 
-#include "contact/half_thickness.hpp"
 #include "contact/row_maker.hpp"
-#include "mesh/skin.hpp"
 #include "model/bodies.hpp"
+#include "model/outer_facets.hpp"
+#include "surface/half_thickness.hpp"
 
 namespace carom {
 namespace {
@@ -22,11 +22,11 @@ constexpr double deepest = 0.75;                                  // of the face
 // at their wave speed deeper, 0.30 of a cell for 0.20.
 constexpr double ending_beside_overlaps = 0.05;
 
-EdgeRule rule_of(const PairContact& contact) {
+EdgeRule rule_of(const PairContact& contact, bool is_eroded) {
   switch (contact.law.hold) {
     case RowHold::springs:
       if (!contact.law.eps_N) break;
-      return {contact.method == PairMethod::faces ? PairFactor::moves : PairFactor::border, 0.0, false, 0.25, 0.25};
+      return {contact.method == PairMethod::faces ? PairFactor::moves : PairFactor::border, 0.0, is_eroded, 0.25, 0.25};
     case RowHold::impulses:
       return {PairFactor::stopped, 0.1, false, 1.0, 0.5};
     case RowHold::increments:
@@ -60,9 +60,9 @@ std::vector<FeatureEdge> edges_that(const std::vector<FeatureEdge>& edges, bool 
 class Meetings {
  public:
   Meetings(const Model& model, const PairContact& contact, const SmoothSides* smooth)
-      : model_(model), contact_(contact), smooth_(smooth), rule_(rule_of(contact)) {
+      : model_(model), contact_(contact), smooth_(smooth), rule_(rule_of(contact, model.is_eroded)) {
     const std::span<const Vec3> X = model.mesh->coordinates;
-    if (has_open_edges(contact.slave.facets) || has_open_edges(contact.master.facets)) beside_ = skin(*model.mesh);
+    if (has_open_edges(contact.slave.facets) || has_open_edges(contact.master.facets)) beside_ = skin(model);
     size_ = std::max(mean_facet_size(X, contact.slave.facets), mean_facet_size(X, contact.master.facets));
   }
   std::vector<MeetingEdges> find() && {
@@ -114,10 +114,14 @@ class Meetings {
     const double limit = deepest * size_;
     const std::map<Index, double> by_node =
         beside_.empty() ? depths_of_surfaces(limit) : depths_by_node(model_, beside_, limit);
+    // Faces of a rigid surface that are sides of no cell are not in the skin: nothing is behind them.
+    const auto depth = [&](Index node) {
+      const auto found = by_node.find(node);
+      return found == by_node.end() ? limit : found->second;
+    };
     const auto depths = [&](const std::vector<FeatureEdge>& edges) {
       std::vector<double> by_edge;
-      for (const FeatureEdge& edge : edges)
-        by_edge.push_back(std::min(by_node.at(edge.node[0]), by_node.at(edge.node[1])));
+      for (const FeatureEdge& edge : edges) by_edge.push_back(std::min(depth(edge.node[0]), depth(edge.node[1])));
       return by_edge;
     };
     for (MeetingEdges& lists : found_) {

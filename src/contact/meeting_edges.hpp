@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "contact/edge_pair.hpp"
-#include "contact/feature_edges.hpp"
 #include "contact/smooth_surface.hpp"
 #include "model/model.hpp"
+#include "surface/edge_pair.hpp"
+#include "surface/feature_edges.hpp"
 
 namespace carom {
 

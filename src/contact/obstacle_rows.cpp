@@ -11,10 +11,10 @@
 
 #include "contact/contact_kind.hpp"
 #include "contact/pair_rows.hpp"
-#include "contact/rigid_shapes.hpp"
-#include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
 #include "model/outer_facets.hpp"
+#include "surface/rigid_shapes.hpp"
+#include "surface/surface_search.hpp"
 
 namespace carom {
 namespace {
@@ -70,11 +70,22 @@ struct Touching {
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
       for (const Index n : nodes) points.push_back({{n, n}, 0.0, 1.0});
     } else {
-      for (const auto& [n, measure] : nodal_measures(X, contact.surface)) points.push_back({{n, n}, 0.0, measure});
+      std::map<Index, double> measures = nodal_measures(X, contact.surface);
+      measures.merge(nodal_measures(X, contact.loose));
+      for (const auto& [n, measure] : measures) points.push_back({{n, n}, 0.0, measure});
     }
     add_bars(contact);
   }
 
+  void add_nodes(std::vector<Index>& nodes) const {
+    for (const TouchingPoint& point : points) nodes.insert(nodes.end(), point.node.begin(), point.node.end());
+  }
+  /// Facets of obstacles keep their numbers.
+  void append_keys(SlotKeys& keys) const {
+    std::map<std::array<Index, 2>, std::uint64_t> count;
+    for (const TouchingPoint& point : points) keys.add(point.node, count[point.node]++);
+    keys.meet({});
+  }
   /// Where the obstacle stands for positions x of the nodes.
   Stand stand(std::span<const Vec3> x) const {
     if (body != nullptr) return {{}, BodyPlacement(*body, body_frame(*body, nodal_values(*body, x)))};
@@ -244,6 +255,7 @@ class PlaneRows : public RowMaker {
  public:
   PlaneRows(Touching touching, const Plane& plane) : touching_(std::move(touching)), plane_(plane) {}
   std::size_t slots() const override { return touching_.points.size(); }
+  void append_keys(SlotKeys& keys) const override { touching_.append_keys(keys); }
   bool is_fixed() const override { return true; }
   void append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const override {
     for (std::size_t i = 0; i < slots(); ++i) {
@@ -264,6 +276,8 @@ class ShapeRows : public RowMaker {
  public:
   ShapeRows(Touching touching, const Shape& shape) : touching_(std::move(touching)), shape_(shape) {}
   std::size_t slots() const override { return touching_.points.size(); }
+  void append_keys(SlotKeys& keys) const override { touching_.append_keys(keys); }
+  void add_moving_nodes(std::vector<Index>& nodes) const override { touching_.add_nodes(nodes); }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
     const Stand stand = touching_.stand(motion.x);
@@ -295,6 +309,8 @@ class RigidSurfaceRows : public RowMaker {
   RigidSurfaceRows(Touching touching, const Surface& own, const Surface& rigid)
       : touching_(std::move(touching)), search_(make_search(own, rigid)) {}
   std::size_t slots() const override { return touching_.points.size(); }
+  void append_keys(SlotKeys& keys) const override { touching_.append_keys(keys); }
+  void add_moving_nodes(std::vector<Index>& nodes) const override { touching_.add_nodes(nodes); }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
     const Stand begin = touching_.stand(motion.x_begin), stand = touching_.stand(motion.x);
@@ -381,6 +397,7 @@ class RigidPairRows : public RowMaker {
     std::erase_if(own_nodes_, [&](Index n) { return is_rigid_[n]; });
   }
   std::size_t slots() const override { return pair_->slots(); }
+  void append_keys(SlotKeys& keys) const override { pair_->append_keys(keys); }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
     const Stand begin = touching_.stand(motion.x_begin), now = touching_.stand(motion.x);

@@ -12,14 +12,16 @@
 #include "contact/contact_kind.hpp"
 #include "contact/edge_rows.hpp"
 #include "contact/face_rows.hpp"
-#include "contact/facing_facets.hpp"
-#include "contact/feature_edges.hpp"
-#include "contact/half_thickness.hpp"
 #include "contact/sharp_nodes.hpp"
 #include "contact/smooth_points.hpp"
-#include "contact/surface_search.hpp"
 #include "math/vec3.hpp"
 #include "model/bodies.hpp"
+#include "model/outer_facets.hpp"
+#include "surface/facing_facets.hpp"
+#include "surface/feature_edges.hpp"
+#include "surface/half_thickness.hpp"
+#include "surface/surface_search.hpp"
+#include "surface/tangent_dual.hpp"
 
 namespace carom {
 namespace {
@@ -43,9 +45,10 @@ std::vector<Index> keys(const std::map<Index, double>& map) {
   return out;
 }
 
-/// Adds what the last row sees of one facet to its master nodes, times a factor, and what the row's gap changes by as
-/// the facet's normal does.
-void add_foot(ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, double factor, const Vec3& of_normal) {
+/// Adds what the last row sees of one facet to its master nodes: its gap's gradient times `gap_factor`, its tangential
+/// motion times `factor`, and what the row's gap changes by as the facet's normal does.
+void add_foot(ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, double gap_factor, double factor,
+              const Vec3& of_normal) {
   const FacetShape shape = facet_shape(facet.size, foot.xi, foot.eta);
   const Vec3 n = foot.normal, t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
   TangentDual dual;
@@ -56,7 +59,8 @@ void add_foot(ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, d
     const double w = -factor * foot.weight * foot.N[a];
     const Vec3 tilt = scaled(add(scaled(dual.dual_1, shape.dN_dxi[a]), scaled(dual.dual_2, shape.dN_deta[a])),
                              factor * foot.weight * foot.gap);
-    Vec3 of_gap = scaled(add(scaled(foot.gradient, foot.N[a]), scaled(foot.at_closest, foot.N_closest[a])), -factor);
+    Vec3 of_gap =
+        scaled(add(scaled(foot.gradient, foot.N[a]), scaled(foot.at_closest, foot.N_closest[a])), -gap_factor);
     if (turns) {
       const double turn =
           dot(of_normal, of_facet.dual_1) * shape.dN_dxi[a] + dot(of_normal, of_facet.dual_2) * shape.dN_deta[a];
@@ -71,9 +75,9 @@ void add_foot(ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, d
 /// held.
 void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, const NodeStand& stand,
                std::span<const Facet> facets) {
-  const double f = stand.factor, deep = std::min(met.gap, 0.0);
-  rows.add_block(slave, {add(scaled(met.gradient, f), scaled(stand.of_node, deep)), scaled(rows.tangent_1.back(), f),
-                         scaled(rows.tangent_2.back(), f)});
+  const double f = stand.factor, deep = std::min(met.gap, 0.0), of_gap = f + deep * stand.of_gap;
+  rows.add_block(slave, {add(scaled(met.gradient, of_gap), scaled(stand.of_node, deep)),
+                         scaled(rows.tangent_1.back(), f), scaled(rows.tangent_2.back(), f)});
   if (deep < 0.0 && !stand.of_others.empty()) {
     RowBlocks others;
     for (const auto& [n, slope] : stand.of_others) others.add(n, scaled(slope, deep), {}, {});
@@ -81,7 +85,13 @@ void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, const
   }
   for (std::size_t k = 0; k < met.feet.size(); ++k) {
     const FacetFoot& foot = met.feet[k];
-    add_foot(rows, foot, facets[foot.facet], f, stand.of_normals.empty() ? Vec3{} : scaled(stand.of_normals[k], deep));
+    add_foot(rows, foot, facets[foot.facet], of_gap, f,
+             stand.of_normals.empty() ? Vec3{} : scaled(stand.of_normals[k], deep));
+  }
+  for (std::size_t k = 0; k < stand.sides.size(); ++k) {
+    const FacetFoot& side = stand.sides[k];
+    add_foot(rows, side, facets[side.facet], deep * stand.of_sides[k], 0.0,
+             scaled(stand.of_normals[met.feet.size() + k], deep));
   }
 }
 
@@ -110,6 +120,13 @@ class NodeRows : public RowMaker {
     has_points_ = covered_shares(master.facets, *sides->of_master);
   }
   std::size_t slots() const override { return measure_.size(); }
+  void append_keys(SlotKeys& keys) const override {
+    for (const Index n : search_.nodes()) keys.add({&n, 1});
+    keys.meet(node_keys(search_.facets()));
+  }
+  void add_moving_nodes(std::vector<Index>& nodes) const override {
+    nodes.insert(nodes.end(), search_.nodes().begin(), search_.nodes().end());
+  }
   bool is_fixed() const override { return false; }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
     search_.update(motion.x_begin, motion.x, motion.displacement, motion.behind(first_slot, slots()));
@@ -119,7 +136,7 @@ class NodeRows : public RowMaker {
         const SurfacePoint* met = search_.find(i, space);
         if (met == nullptr || leaves_to_points(i, met->facet)) continue;
         const Index n = search_.nodes()[i];
-        const NodeStand stand = sharp_ ? sharp_->stand(n, *met, motion.x) : NodeStand{};
+        const NodeStand stand = sharp_ ? stand_of(i, *met, motion.x) : NodeStand{};
         if (stand.factor == 0.0) continue;
         made.add_row(stand.factor * met->gap, direction(met->gradient), motion.x[n], measure_[i],
                      row_law(law_, measure_[i]), source_);
@@ -138,6 +155,10 @@ class NodeRows : public RowMaker {
     if (sides != nullptr)
       std::erase_if(measures, [&](const auto& m) { return sides->of_slave->is_smooth_node(m.first); });
     return measures;
+  }
+  NodeStand stand_of(std::size_t i, const SurfacePoint& met, std::span<const Vec3> x) const {
+    const std::vector<Index> others = met.gap < 0.0 ? search_.beside(i, met.feet.front().facet) : std::vector<Index>{};
+    return sharp_->stand(search_.nodes()[i], met, x, search_.facets(), others);
   }
   /// True where the points of a smooth master meet the flat face that the node is inside of.
   bool leaves_to_points(std::size_t i, Index facet) const {
@@ -176,6 +197,10 @@ class EndRows : public RowMaker {
     }
   }
   std::size_t slots() const override { return slaves_.size(); }
+  void append_keys(SlotKeys& keys) const override {
+    for (const Index n : slaves_) keys.add({&n, 1});
+    keys.meet({});
+  }
   bool is_fixed() const override { return true; }
   void append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const override {
     for (std::size_t i = 0; i < slaves_.size(); ++i) {
@@ -214,15 +239,6 @@ class EndRows : public RowMaker {
   std::vector<End> masters_;
 };
 
-}  // namespace
-
-TangentDual tangent_dual(const Vec3& a_1, const Vec3& a_2, const Vec3& n) {
-  const double scale = 1.0 / dot(n, cross(a_1, a_2));
-  return {scaled(cross(a_2, n), scale), scaled(cross(n, a_1), scale)};
-}
-
-namespace {
-
 bool has_sharp_edges(const Model& model, const Surface& surface) {
   constexpr double sharp = std::numbers::pi / 6.0;
   return !feature_edges(model.mesh->coordinates, surface.facets, {}, sharp).empty();
@@ -237,7 +253,7 @@ std::optional<SmoothSides> smooth_sides(const Model& model, const PairContact& c
   if (contact.smooth == Smoothing::round &&
       (has_sharp_edges(model, contact.slave) || has_sharp_edges(model, contact.master)))
     return std::nullopt;
-  const std::vector<Facet> beside = skin(*model.mesh);
+  const std::vector<Facet> beside = skin(model);
   const auto of = [&](const Surface& surface) {
     return std::make_shared<const SmoothSurface>(*model.mesh, surface.facets, beside);
   };
@@ -266,6 +282,7 @@ class RowsWithAllowance : public RowMaker {
  public:
   RowsWithAllowance(std::unique_ptr<RowMaker> rows, double allowance) : rows_(std::move(rows)), allowance_(allowance) {}
   std::size_t slots() const override { return rows_->slots(); }
+  void append_keys(SlotKeys& keys) const override { rows_->append_keys(keys); }
   bool is_fixed() const override { return rows_->is_fixed(); }
   void append(const ContactMotion& motion, Index first_slot, ConstraintRows& rows) const override {
     const std::size_t first = rows.size();
@@ -334,7 +351,7 @@ std::unique_ptr<RowMaker> MethodRows::of_faces_and_corners() const {
     auto all = std::make_unique<MakersInOrder>();
     all->add(face_rows(model_, slave, master, contact_.self, law, source_));
     all->add(std::make_unique<NodeRows>(model_.mesh->coordinates, slave, master, contact_.self, bodies(), law, source_,
-                                        nullptr, std::make_unique<const SharpNodes>(*model_.mesh, slave.facets)));
+                                        nullptr, std::make_unique<const SharpNodes>(model_, slave.facets)));
     return all;
   });
 }
@@ -387,6 +404,17 @@ std::unique_ptr<RowMaker> MethodRows::make() const {
 
 }  // namespace
 
+namespace {
+
+/// Nodes that all cells have left.
+std::unique_ptr<RowMaker> rows_of_points(const Model& model, const Surface& points, const Surface& master,
+                                         const ContactLaw& law, Index source) {
+  return std::make_unique<NodeRows>(model.mesh->coordinates, points, master, false, std::vector<Index>{}, law, source,
+                                    nullptr);
+}
+
+}  // namespace
+
 std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& contact, Index source) {
   if (!contact.slave_bars.empty()) return bar_pair_rows(model, contact, source);
   const std::optional<SmoothSides> smooth = smooth_sides(model, contact);
@@ -398,10 +426,15 @@ std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& conta
   const SmoothSides* const sides = smooth ? &*smooth : nullptr;
   std::unique_ptr<RowMaker> of_method = MethodRows(model, contact, source, sides).make(),
                             of_edges = edge_rows(model, contact, source, sides);
-  if (!of_edges) return of_method;
+  const bool has_loose = !contact.loose_slave.facets.empty() || !contact.loose_master.facets.empty();
+  if (!of_edges && !has_loose) return of_method;
   auto all = std::make_unique<MakersInOrder>();
   all->add(std::move(of_method));
-  all->add(std::move(of_edges));
+  if (of_edges) all->add(std::move(of_edges));
+  if (has_loose) {
+    all->add(rows_of_points(model, contact.loose_slave, contact.master, contact.law, source));
+    all->add(rows_of_points(model, contact.loose_master, contact.slave, contact.law, source), true);
+  }
   return all;
 }
 
@@ -412,7 +445,7 @@ std::unique_ptr<RowMaker> rigid_pair_rows(const Model& model, const PairContact&
   const double most = area / static_cast<double>(contact.slave.facets.size());
   const auto corners = [&](const Surface& of, const Surface& against) {
     return std::make_unique<NodeRows>(X, of, against, false, std::vector<Index>{}, contact.law, source, nullptr,
-                                      std::make_unique<const SharpNodes>(*model.mesh, of.facets), most);
+                                      std::make_unique<const SharpNodes>(model, of.facets), most);
   };
   auto all = std::make_unique<MakersInOrder>();
   all->add(face_rows(model, contact.slave, contact.master, false, contact.law, source));

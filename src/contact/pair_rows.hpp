@@ -3,12 +3,12 @@
 
 #include <memory>
 
-#include "contact/facet_geometry.hpp"
 #include "contact/row_maker.hpp"
+#include "surface/facet_geometry.hpp"
 
 namespace carom {
 
-/// The rows of a pair.
+/// Makes the row maker of a pair of deformable surfaces.
 ///
 /// Nodes against facets (node_to_surface; the ends of bars against facets whatever the method is): one slot per slave
 /// node, by increasing node; its measure is the node's share of the slave surface (nodal_measures). The row stands
@@ -41,12 +41,5 @@ std::unique_ptr<RowMaker> pair_rows(const Model& model, const PairContact& conta
 /// from the slave alone, which sees all of the overlaps, and whole; nodes of sharp edges of both sides, which stand for
 /// no more than a facet of the slave; and edges with edges.
 std::unique_ptr<RowMaker> rigid_pair_rows(const Model& model, const PairContact& contact, Index source);
-
-/// Coefficients beta^alpha = t . dual_alpha of t = beta^1 a_1 + beta^2 a_2 + gamma n, for tangents a_alpha of a facet
-/// and a direction n out of its plane: dual_1 = a_2 x n / V, dual_2 = n x a_1 / V, V = n . a_1 x a_2.
-struct TangentDual {
-  Vec3 dual_1{}, dual_2{};
-};
-TangentDual tangent_dual(const Vec3& a_1, const Vec3& a_2, const Vec3& n);
 
 }  // namespace carom

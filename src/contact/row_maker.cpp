@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/facet_geometry.hpp"
 #include "element/quad4.hpp"
 #include "math/vec3.hpp"
+#include "surface/facet_geometry.hpp"
 
 namespace carom {
 namespace {
@@ -41,6 +41,20 @@ std::array<double, 4> shares(const PlacedFacet& facet, const Surface& surface) {
 
 void FixedRows::append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const {
   append_rows(rows, rows_, first_slot);
+}
+
+/// Fixed rows are those of joints, whose nodes stay: in their order.
+void FixedRows::append_keys(SlotKeys& keys) const {
+  for (std::size_t r = 0; r < rows_.size(); ++r) keys.add({}, r);
+  keys.meet({});
+}
+
+void MakersInOrder::append_keys(SlotKeys& keys) const {
+  for (std::size_t i = 0; i < makers_.size(); ++i) {
+    const std::size_t first = keys.size();
+    makers_[i].maker->append_keys(keys);
+    keys.set_maker(first, i);
+  }
 }
 
 std::size_t MakersInOrder::slots() const {
@@ -123,6 +137,7 @@ void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_s
   append_all(rows.gap, from.gap);
   append_all(rows.is_back, from.is_back);
   append_all(rows.allowed, from.allowed);
+  append_all(rows.offset, from.offset);
   append_all(rows.rounded, from.rounded);
   append_all(rows.normal, from.normal);
   append_all(rows.tangent_1, from.tangent_1);

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/fade.hpp"
-#include "contact/feature_edges.hpp"
 #include "math/vec3.hpp"
-#include "mesh/skin.hpp"
+#include "model/outer_facets.hpp"
+#include "surface/fade.hpp"
+#include "surface/feature_edges.hpp"
+#include "surface/surface_point.hpp"
 
 namespace carom {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 constexpr double sharp_turn = std::numbers::pi / 6.0;
 constexpr double lies_flat = 0.06;     // w: 1 + n_k . n of a facet that is 20 degrees from lying flat
 constexpr double least_factor = 1e-4;  // 1e-8 of the force
+constexpr double other_side = 0.5;     // product of the normals of faces that do not go on in each other
 
 /// The corner of a facet at one of its nodes. A segment has e_z as the way to a node before or after it.
 struct Corner {
@@ -44,8 +46,9 @@ Corner corner_of(const Facet& facet, Index n, std::span<const Vec3> x) {
 
 }  // namespace
 
-SharpNodes::SharpNodes(const Mesh& mesh, std::span<const Facet> surface) {
-  const std::vector<Facet> beside = facets_beside(surface, skin(mesh));
+SharpNodes::SharpNodes(const Model& model, std::span<const Facet> surface) {
+  const Mesh& mesh = *model.mesh;
+  const std::vector<Facet> beside = facets_beside(surface, skin(model));
   for (const FeatureEdge& edge : feature_edges(mesh.coordinates, surface, beside, sharp_turn))
     for (const Index n : edge.node) facets_.try_emplace(n);
   for (const Facet& facet : surface)  // in the plane an edge is a node, and which of them are sharp is found below
@@ -67,32 +70,81 @@ SharpNodes::SharpNodes(const Mesh& mesh, std::span<const Facet> surface) {
   });
 }
 
-NodeStand SharpNodes::stand(Index n, const SurfacePoint& met, std::span<const Vec3> x) const {
-  NodeStand stand;
-  Vec3 normal{};
-  for (const FacetFoot& foot : met.feet) normal = add(normal, scaled(foot.facet_normal, foot.weight));
+/// f^2 towards a face with this normal.
+double SharpNodes::product(Index n, const Vec3& normal, std::span<const Vec3> x) const {
   double squared = 1.0;
+  for (const Facet& facet : facets_.at(n))
+    squared *= fade((1.0 + dot(corner_of(facet, n, x).normal, normal)) / lies_flat).value;
+  return squared;
+}
+
+/// Adds w times the gradient of the logarithm of f. The normal is the sum of those of `of_normals` by their shares.
+void SharpNodes::add_product(Index n, const Vec3& normal, std::span<const Vec3> x, double w,
+                             std::span<const double> shares, std::span<Vec3> of_normals, NodeStand& stand) const {
   for (const Facet& facet : facets_.at(n)) {
     const Corner corner = corner_of(facet, n, x);
-    const double z = 1.0 + dot(corner.normal, normal);
-    const Fade part = fade(z / lies_flat);
-    squared *= part.value;
-    if (!(squared > least_factor * least_factor)) return NodeStand::nothing();
-    if (part.slope == 0.0) continue;
-    stand.of_normals.resize(met.feet.size());
-    const double slope = part.slope / lies_flat;  // of log f, until the end
-    const Vec3 v = scaled(subtract(normal, scaled(corner.normal, dot(normal, corner.normal))), slope / corner.size);
+    const double cosine = dot(corner.normal, normal), slope = w * fade((1.0 + cosine) / lies_flat).slope / lies_flat;
+    if (slope == 0.0) continue;
+    const Vec3 v = scaled(subtract(normal, scaled(corner.normal, cosine)), slope / corner.size);
     const Vec3 of_next = cross(corner.to_previous, v), of_previous = cross(v, corner.to_next);
     stand.of_node = subtract(stand.of_node, add(of_next, of_previous));
     stand.of_others.emplace_back(corner.next, of_next);
     if (corner.previous >= 0) stand.of_others.emplace_back(corner.previous, of_previous);
-    for (std::size_t f = 0; f < met.feet.size(); ++f)
-      stand.of_normals[f] = add(stand.of_normals[f], scaled(corner.normal, slope * met.feet[f].weight));
+    for (std::size_t f = 0; f < shares.size(); ++f)
+      of_normals[f] = add(of_normals[f], scaled(corner.normal, slope * shares[f]));
   }
-  stand.factor = std::sqrt(squared);
+}
+
+/// Takes the factor of another side of the body. False where nothing is left of f.
+bool SharpNodes::take_side(Index n, const SurfacePoint& met, const FacetFoot& side, std::span<const Vec3> x,
+                           NodeStand& stand) const {
+  const double deep = -met.gap;
+  const Fade near = fade(2.0 + side.gap / deep);
+  if (near.value == 0.0) return true;
+  const double squared = product(n, side.normal, x), part = 1.0 - (1.0 - squared) * near.value;
+  if (part == 1.0) return true;
+  stand.factor *= std::sqrt(std::max(part, 0.0));
+  if (!(stand.factor > least_factor)) return false;
+  const double slope = -(1.0 - squared) * near.value * near.slope / part;  // of log f by 2 - d_h / |g|
+  stand.sides.push_back(side);
+  stand.sides.back().weight = 0.0;
+  stand.sides.back().gradient = side.normal;
+  stand.of_sides.push_back(slope / deep);
+  stand.of_node = add(stand.of_node, scaled(side.normal, slope / deep));
+  stand.of_gap += slope * side.gap / (deep * deep);
+  stand.of_normals.resize(met.feet.size() + stand.sides.size());
+  const double whole = 1.0;
+  if (squared > 0.0)
+    add_product(n, side.normal, x, near.value * squared / part, {&whole, 1}, {&stand.of_normals.back(), 1}, stand);
+  return true;
+}
+
+NodeStand SharpNodes::stand(Index n, const SurfacePoint& met, std::span<const Vec3> x, std::span<const Facet> facets,
+                            std::span<const Index> others) const {
+  NodeStand stand;
+  Vec3 normal{};
+  std::vector<double> shares;
+  for (const FacetFoot& foot : met.feet) {
+    normal = add(normal, scaled(foot.facet_normal, foot.weight));
+    shares.push_back(foot.weight);
+  }
+  stand.factor = std::sqrt(product(n, normal, x));
+  if (!(stand.factor > least_factor)) return NodeStand::nothing();
+  std::vector<Vec3> of_normals(shares.size());
+  add_product(n, normal, x, 1.0, shares, of_normals, stand);
+  if (!stand.of_others.empty()) stand.of_normals = std::move(of_normals);
+  for (const Index h : others) {
+    const PlacedFacet placed = place(facets[static_cast<std::size_t>(h)], x);
+    const Projection p = project(placed, x[static_cast<std::size_t>(n)]);
+    const bool is_other = p.site == ProjectionSite::interior && p.gap < 0.0 && p.gap > 2.0 * met.gap &&
+                          dot(p.normal, normal) < other_side;
+    if (is_other && !take_side(n, met, foot_at(h, p, p.normal, p.gap), x, stand)) return NodeStand::nothing();
+  }
   stand.of_node = scaled(stand.of_node, stand.factor);
+  stand.of_gap *= stand.factor;
   for (auto& [other, slope] : stand.of_others) slope = scaled(slope, stand.factor);
   for (Vec3& slope : stand.of_normals) slope = scaled(slope, stand.factor);
+  for (double& slope : stand.of_sides) slope *= stand.factor;
   return stand;
 }
 

@@ -1,4 +1,4 @@
-// Nodes at sharp edges and corners: how they stick out towards a face.
+// Nodes at sharp edges and corners, which have rows as far as they stick out towards a face.
 #pragma once
 
 #include <map>
@@ -6,18 +6,21 @@
 #include <utility>
 #include <vector>
 
-#include "contact/surface_search.hpp"
-#include "mesh/mesh.hpp"
+#include "model/model.hpp"
+#include "surface/surface_search.hpp"
 
 namespace carom {
 
-/// By how much a node sticks out towards the face that it meets, and the gradient of that. Lists are empty where f does
-/// not change.
+/// The factor f by which a node sticks out towards the face that it meets, and the gradient of f. Lists are empty where
+/// f does not change.
 struct NodeStand {
   double factor = 1.0;                            ///< f, 0 <= f <= 1
-  Vec3 of_node{};                                 ///< gradient of f by the node itself,
+  Vec3 of_node{};                                 ///< gradient of f by the node itself, that by its gap apart,
+  double of_gap = 0.0;                            ///< by its gap,
   std::vector<std::pair<Index, Vec3>> of_others;  ///< by the other nodes of its facets,
-  std::vector<Vec3> of_normals;                   ///< and by the normals of the feet, each of length 1
+  std::vector<Vec3> of_normals;                   ///< by the normals of the feet, each of length 1, then of `sides`,
+  std::vector<FacetFoot> sides;                   ///< and by the gaps of feet on other sides of the body that it is in,
+  std::vector<double> of_sides;                   ///< whose share in what the node meets is nothing
 
   static NodeStand nothing() {
     NodeStand stand;
@@ -33,15 +36,28 @@ struct NodeStand {
 /// n_k the outward normal of facet k at its corner there, n = sum_f w_f n_f the mean normal of the feet, S the fade
 /// (fade.hpp). z_k is 0 where the facet lies flat on the other body, and w at 20 degrees from that. So these rows count
 /// for nothing on flat faces, and the patch test is that of the overlaps. The gradient holds the weights w_f.
+///
+/// Beside an edge of the other body the nearest face may change, and a node that lay flat on the one sticks out towards
+/// the other. So f^2 has a factor 1 - (1 - f_h^2) S(2 - d_h / |g|) for each other face h that the node is behind, by
+/// d_h and at its foot, f_h^2 being the product above for h's normal: where two faces are as near, both count alike.
 class SharpNodes {
  public:
-  SharpNodes(const Mesh& mesh, std::span<const Facet> surface);
+  SharpNodes(const Model& model, std::span<const Facet> surface);
 
   bool has(Index n) const { return facets_.contains(n); }
-  /// x: current positions. A factor below 1e-4 is given as 0.
-  NodeStand stand(Index n, const SurfacePoint& met, std::span<const Vec3> x) const;
+  /// x: current positions; others: of the facets, those of the other body that may be near, none where the
+  /// gap is not below zero. A factor below 1e-4 is given
+  /// as 0.
+  NodeStand stand(Index n, const SurfacePoint& met, std::span<const Vec3> x, std::span<const Facet> facets,
+                  std::span<const Index> others) const;
 
  private:
+  double product(Index n, const Vec3& normal, std::span<const Vec3> x) const;
+  void add_product(Index n, const Vec3& normal, std::span<const Vec3> x, double w, std::span<const double> shares,
+                   std::span<Vec3> of_normals, NodeStand& stand) const;
+  bool take_side(Index n, const SurfacePoint& met, const FacetFoot& side, std::span<const Vec3> x,
+                 NodeStand& stand) const;
+
   std::map<Index, std::vector<Facet>> facets_;  ///< those of the body at each of the nodes
 };
 

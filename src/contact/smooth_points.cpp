@@ -5,13 +5,13 @@
 #include <numbers>
 #include <utility>
 
-#include "contact/facet_projection.hpp"
-#include "contact/feature_edges.hpp"
-#include "contact/half_thickness.hpp"
-#include "contact/overlap_column.hpp"
 #include "math/vec3.hpp"
 #include "model/bodies.hpp"
 #include "parallel/threads.hpp"
+#include "surface/facet_projection.hpp"
+#include "surface/feature_edges.hpp"
+#include "surface/half_thickness.hpp"
+#include "surface/overlap_column.hpp"
 
 namespace carom {
 namespace {

@@ -1,4 +1,4 @@
-// Points of facets of a smooth surface, and where they stand before another surface.
+// Points of the facets of a smooth surface, and their gaps to another surface.
 #pragma once
 
 #include <optional>
@@ -39,7 +39,7 @@ class SmoothPoints : public FacePointFinder {
   double size() const override { return size_; }
   const ParentFace& slave_face(std::size_t f) const override { return slave_faces_[f]; }
   const ParentFace& master_face(Index g) const override { return master_faces_[static_cast<std::size_t>(g)]; }
-  const Facet& master_facet(Index g) const override { return broad_phase_.targets()[static_cast<std::size_t>(g)]; }
+  std::span<const Facet> masters() const override { return broad_phase_.targets(); }
 
  private:
   struct Near;

@@ -5,8 +5,8 @@
 #include <map>
 #include <numbers>
 
-#include "contact/parent_faces.hpp"
 #include "math/vec3.hpp"
+#include "surface/parent_faces.hpp"
 
 namespace carom {
 namespace {

@@ -9,9 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "contact/facet_geometry.hpp"
-#include "contact/pair_rows.hpp"
+#include "contact/row_maker.hpp"
 #include "mesh/mesh.hpp"
+#include "surface/facet_geometry.hpp"
+#include "surface/tangent_dual.hpp"
 
 namespace carom {
 

@@ -33,12 +33,12 @@ namespace carom {
 /// std::invalid_argument naming the contact where no cell of a part is behind it.
 std::vector<std::string> choose_stiffness(Model& model);
 
-/// The same for ties, where a scheme ties by springs: 1000 times the stiffness of a pair, as no explicit step has to
-/// follow them, so that what they give way by is a thousandth of what the cells beside them do.
+/// Chooses the stiffness of ties, where a scheme ties by springs: 1000 times the stiffness of a pair, as no explicit
+/// step has to follow them, so that what they give way by is a thousandth of what the cells beside them do.
 std::vector<std::string> choose_tie_stiffness(Model& model);
 
-/// The same for ties that tear: 10 times the stiffness of a pair, so that an intact one gives way by a tenth of what
-/// the cells beside it do; more where softening would else be steeper than a fifth of that:
+/// Chooses the stiffness of ties that tear: 10 times the stiffness of a pair, so that an intact one gives way by a
+/// tenth of what the cells beside it do; more where softening would else be steeper than a fifth of that:
 ///   k >= 5 S^2 / G  for each strength S with its energy G.
 std::vector<std::string> choose_cohesive_stiffness(Model& model);
 

@@ -10,11 +10,11 @@
 #include <stdexcept>
 
 #include "base/types.hpp"
-#include "contact/facet_geometry.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
 #include "model/outer_facets.hpp"
 #include "model/wave_modulus.hpp"
+#include "surface/facet_geometry.hpp"
 
 namespace carom {
 

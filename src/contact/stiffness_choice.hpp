@@ -1,4 +1,4 @@
-// What the stiffness of a contact is chosen from: the cells behind its facets.
+// The cells behind the facets of a contact, from which its stiffness is chosen.
 #pragma once
 
 #include <algorithm>
@@ -56,7 +56,8 @@ class PartCells {
   std::vector<Cell> cells_;
 };
 
-/// The mean of what is behind some facets. Throws std::invalid_argument naming the contact where no cell is.
+/// The mean over the cells behind some facets. Throws std::invalid_argument naming the contact where no cell is behind
+/// a facet.
 Side side_of(const PartCells& cells, std::span<const Facet> facets, const std::string& contact);
 /// Throws std::invalid_argument: no cell of a part is behind the contact.
 [[noreturn]] void refuse_choice(const std::string& contact);

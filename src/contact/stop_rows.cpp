@@ -15,6 +15,10 @@ class StopRows : public RowMaker {
     law_.damper_acts = contact.damper_acts;
   }
   std::size_t slots() const override { return contact_.nodes.size(); }
+  void append_keys(SlotKeys& keys) const override {
+    for (const Index n : contact_.nodes) keys.add({&n, 1});
+    keys.meet({});
+  }
   bool is_fixed() const override { return true; }
   void append(const ContactMotion& /*motion*/, Index first_slot, ConstraintRows& rows) const override {
     for (const Index n : contact_.nodes) {

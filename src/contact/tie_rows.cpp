@@ -12,13 +12,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "contact/box_tree.hpp"
 #include "contact/contact_kind.hpp"
 #include "contact/face_rows.hpp"
-#include "contact/facet_geometry.hpp"
-#include "contact/facet_projection.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
+#include "surface/box_tree.hpp"
+#include "surface/facet_geometry.hpp"
+#include "surface/facet_projection.hpp"
 
 namespace carom {
 namespace {
@@ -327,6 +327,15 @@ void refuse_shared_nodes(const Model& model, const TieContact& contact) {
 }
 
 }  // namespace
+
+std::vector<Index> nodes_near_master(std::span<const Vec3> X, const TieContact& contact) {
+  const Master master(X, contact);
+  std::set<Index> near;
+  for (const Facet& facet : contact.slave.facets)
+    for (const Index n : facet)
+      if (!near.contains(n) && master.near(X[static_cast<std::size_t>(n)])) near.insert(n);
+  return {near.begin(), near.end()};
+}
 
 std::unique_ptr<RowMaker> tie_rows(const Model& model, const TieContact& contact, Index source,
                                    std::vector<std::string>& notes) {

@@ -28,7 +28,9 @@ namespace carom {
 /// nodes are too far away (FarNodes::refuse), and where none is tied.
 std::unique_ptr<RowMaker> tie_rows(const Model& model, const TieContact& contact, Index source,
                                    std::vector<std::string>& notes);
-/// The same as places of a cohesive zone, for a tie that tears; ConstraintRows::facet of mortar rows is that of the
+/// The nodes of the slave that are near enough to the master to be tied by node_to_surface, in increasing order.
+std::vector<Index> nodes_near_master(std::span<const Vec3> X, const TieContact& contact);
+/// The places of a tie that tears, as those of a cohesive zone; ConstraintRows::facet of mortar rows is that of the
 /// master nearest to their place.
 std::vector<CohesiveRow> cohesive_rows(const Model& model, const TieContact& contact, std::vector<std::string>& notes);
 

@@ -12,7 +12,9 @@
   X(Hexa20Reduced)        \
   X(Hexa27)               \
   X(Penta6)               \
+  X(Penta15)              \
   X(Pyra5)                \
+  X(Pyra13)               \
   X(Tetra4)               \
   X(CompositeTetra)       \
   X(Quad4Plane)           \

@@ -8,7 +8,9 @@
 #include "element/shapes/hexa20.hpp"
 #include "element/shapes/hexa27.hpp"
 #include "element/shapes/hexa8.hpp"
+#include "element/shapes/penta15.hpp"
 #include "element/shapes/penta6.hpp"
+#include "element/shapes/pyra13.hpp"
 #include "element/shapes/pyra5.hpp"
 #include "element/shapes/quad4.hpp"
 #include "element/shapes/quad8.hpp"
@@ -30,6 +32,8 @@ using Tria3PlaneCell = Isoparametric<Tria3, Frame::plane>;
 using Tria3RingCell = Isoparametric<Tria3, Frame::axisymmetric>;
 using Penta6Cell = Isoparametric<Penta6, Frame::solid>;
 using Pyra5Cell = Isoparametric<Pyra5, Frame::solid>;
+using Penta15Cell = Isoparametric<Penta15, Frame::solid>;
+using Pyra13Cell = Isoparametric<Pyra13, Frame::solid>;
 using Hexa20Cell = Isoparametric<Hexa20, Frame::solid>;
 using Hexa20ReducedCell = Isoparametric<ReducedHexa20, Frame::solid>;
 using Hexa27Cell = Isoparametric<Hexa27, Frame::solid>;

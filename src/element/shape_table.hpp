@@ -80,6 +80,39 @@ consteval Rule<n, 3> tetrahedron_rule() {
   }
 }
 
+/// Points of the weight s^2 on [0, 1]: m of them integrate degree 2 m - 1 exactly. They are the roots of
+/// s^2 - 4/3 s + 2/5 and s^3 - 15/8 s^2 + 15/14 s - 5/28.
+template <int m>
+consteval Rule<m, 1> shrinking_rule() {
+  if constexpr (m == 2) {
+    constexpr double s[2] = {0.45584815598877472, 0.87748517734455862};
+    constexpr double w = (0.25 - s[0] / 3.0) / (s[1] - s[0]);
+    return {{{s[0]}, {s[1]}}, {1.0 / 3.0 - w, w}};
+  } else {
+    static_assert(m == 3);
+    return {{{0.29499779011150161688}, {0.65299623396164811528}, {0.92700597592685026784}},
+            {0.029950703008580698011, 0.146246269259866022, 0.15713636106488661332}};
+  }
+}
+
+/// Conical product on the pyramid |xi|, |eta| <= 1 - zeta, 0 <= zeta <= 1: n x n Gauss points over the base, shrunk by
+/// s = 1 - zeta, times m points of the weight s^2.
+template <int n, int m>
+consteval Rule<m * n * n, 3> pyramid_rule() {
+  constexpr auto base = square_rule<n>();
+  constexpr auto height = shrinking_rule<m>();
+  Rule<m * n * n, 3> rule;
+  for (int k = 0; k < m; ++k)
+    for (int p = 0; p < n * n; ++p) {
+      const int q = p + n * n * k;
+      const double s = height.xi[k][0];
+      rule.weight[q] = height.weight[k] * base.weight[p];
+      for (int i = 0; i < 2; ++i) rule.xi[q][i] = s * base.xi[p][i];
+      rule.xi[q][2] = 1.0 - s;
+    }
+  return rule;
+}
+
 /// N[p][a] and dN[p][a][k] = dN_a / dxi_k at the points of a rule.
 template <int count, int nodes, int dimension>
 struct ShapeTable {

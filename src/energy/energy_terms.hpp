@@ -30,6 +30,8 @@ enum class TermKind : std::uint8_t { stored, spent, dissipated, supplied, scheme
   TERM(friction, dissipated, "sum over sliding rows of friction force times slip")                                    \
   TERM(damping, dissipated, "work of the dampers of discrete stops, pulling ones included")                           \
   TERM(impact, dissipated, "what contact enforced by multipliers or impulses takes out along the normals")            \
+  TERM(eroded, dissipated,                                                                                            \
+       "what cells that have gone had stored and spent, and what springs of contact lost with them")                  \
   TERM(external_work, supplied, "work of forces, pressure and gravity by the trapezoidal rule")                       \
   TERM(support_work, supplied,                                                                                        \
        "work of the reactions of imposed motions: their inertia by the mean velocity times the change of momentum, "  \

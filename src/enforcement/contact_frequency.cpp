@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "contact/admissible.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
+#include "rows/admissible.hpp"
 
 namespace carom {
 

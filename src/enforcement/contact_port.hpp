@@ -1,4 +1,4 @@
-// How an implicit stage meets contact, whichever enforcement it has.
+// The interface at which an implicit stage meets contact, whichever enforcement it has.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace carom {
 
-/// Where a stage begins and how its state follows its unknown y: x = x_hat + s y, v = v_hat + r y.
+/// The beginning of a stage, and how its state follows its unknown y: x = x_hat + s y, v = v_hat + r y.
 struct StageStart {
   const State* begin = nullptr;
   const StageMemory* memory = nullptr;  ///< of the stage, in `begin`
@@ -25,32 +25,33 @@ struct StageStart {
   double dt = 0.0;                        ///< length of the stage
 };
 
-/// What contact still violates at a trial state, as energy, and how much of that is rounding.
+/// By how much contact conditions are still violated at a trial state, as energy, and how much of that is rounding.
 struct ContactError {
   double work = 0.0;
   double round_off = 0.0;
 };
 
-/// What a port makes of a linear system.
+/// The result of a linear system that a port has solved.
 struct PortSolve {
   LinearSolveReport linear;
   std::string failure;  ///< why there is no solution, "" when there is one
 };
 
-/// One enforcement of contact within implicit stages. begin() comes first, once per stage; the state that it is given
-/// outlives the stage.
+/// One enforcement of contact within implicit stages. A stage calls begin() once, before anything else; the state that
+/// it gives outlives the stage.
 class ContactPort {
  public:
   virtual ~ContactPort() = default;
   virtual void begin(const StageStart& start) = 0;
-  /// True when displacement and velocity decide the forces; else conditions do, and a start has to find them.
+  /// True when the forces are a function of displacement and velocity. Otherwise conditions decide them, and the start
+  /// of a run has to find them.
   virtual bool is_law() const = 0;
-  /// True when respond() answers at any displacement and velocity, until settle() or renew() change its forces; false
-  /// when solve() brings forces that belong to the whole of its correction.
+  /// True when respond() may be asked at any displacement and velocity, until settle() or renew() change its forces.
+  /// False when solve() finds forces that are right at the end of its whole correction only.
   virtual bool is_function() const { return false; }
-  /// Forces on the rows at displacement x and velocity v.
+  /// Fills the forces on the rows at displacement x and velocity v.
   virtual void respond(std::span<const double> x, std::span<const double> v, ContactResponse& response) = 0;
-  /// Violation of the conditions that `response`, the answer at x and v, does not satisfy by its law.
+  /// The violation, at x and v, of those conditions that `response`, the answer there, does not satisfy by its law.
   virtual ContactError error(std::span<const double> x, std::span<const double> v,
                              const ContactResponse& response) const = 0;
   /// Solves A dy = residual with contact following dy; `response` and `residual` (its forces included) belong to x
@@ -58,23 +59,25 @@ class ContactPort {
   virtual PortSolve solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
                           const ContactResponse& response, std::span<const double> residual, double absolute,
                           std::span<double> dy) = 0;
-  /// At equilibrium: true when the contact conditions are met; else the forces have been changed and equilibrium must
-  /// be found again.
+  /// Takes from a residual at x what loads motions that nothing resists, where that is rounding (FreeModes::relieve).
+  virtual void relieve(std::span<const double> /*x*/, const ContactResponse& /*response*/,
+                       std::span<double> /*residual*/) const {}
+  /// Called at equilibrium. Returns true when the contact conditions are met; otherwise it has changed the forces, and
+  /// equilibrium must be found again.
   virtual bool settle(std::span<const double> x, const ContactResponse& response) = 0;
-  /// Short of equilibrium, whose residual has this 2-norm: true when the forces have been changed all the same.
+  /// Called short of equilibrium, with the 2-norm of the residual. Returns true when it has changed the forces already
+  /// now.
   virtual bool renew(std::span<const double> /*x*/, const ContactResponse& /*response*/, double /*residual*/) {
     return false;
   }
   /// d += the stiffness of contact on the diagonal, for the round-off of equilibrium.
   virtual void add_stiffness_diagonal(std::span<double> d) const = 0;
-  /// Work over a step. Multipliers work as supports do (StepWeights::support_work), (1 - end_weight) times those of the
-  /// beginning and end_weight times those of the end.
+  /// The work of contact over a step. Multipliers work as supports do (StepWeights::support_work): those of the
+  /// beginning count (1 - end_weight) times, those of the end end_weight times.
   virtual ContactWork work(const State& begin, const State& end, double end_weight) const = 0;
-  /// Writes what the port has kept of the stage, whose solve() has been called, to where the next one looks for it.
+  /// Writes what the port has kept of a stage, whose solve() has been called, into the memory that the next stage
+  /// begins with.
   virtual void leave(StageMemory& /*memory*/) const {}
 };
-
-/// The port of settings.enforcement.
-std::unique_ptr<ContactPort> make_contact_port(const System& system, const ImplicitSettings& settings);
 
 }  // namespace carom

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
-#include "contact/admissible.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
+#include "rows/admissible.hpp"
 
 namespace carom {
 
@@ -36,44 +38,56 @@ ContactWork multiplier_work(const State& begin, const State& end, double end_wei
 
 namespace {
 
-/// Friction of a row that slides.
-struct Sliding {
-  Index slot;
-  double friction;  ///< mu p
+/// Slots and rows of what is in contact, by increasing slot.
+class ClosedRows {
+ public:
+  explicit ClosedRows(const ContactResponse& response) {
+    for (std::size_t r = 0; r < response.status.size(); ++r)
+      if (response.status[r] != RowStatus::open) rows_.emplace_back(response.rows->slot[r], r);
+    std::ranges::sort(rows_);
+  }
+  /// Nothing where the slot has no closed row.
+  std::optional<std::size_t> at(Index slot) const {
+    const auto row = std::ranges::lower_bound(rows_, slot, {}, &std::pair<Index, std::size_t>::first);
+    return row == rows_.end() || row->first != slot ? std::nullopt : std::optional(row->second);
+  }
+
+ private:
+  std::vector<std::pair<Index, std::size_t>> rows_;
 };
 
-/// By increasing slot.
-std::vector<Sliding> sliding_rows(const ContactResponse& response) {
-  std::vector<Sliding> out;
-  for (std::size_t r = 0; r < response.status.size(); ++r)
-    if (response.status[r] == RowStatus::slip)
-      out.push_back({response.rows->slot[r], std::hypot(response.force[r][1], response.force[r][2])});
-  std::ranges::sort(out, {}, &Sliding::slot);
-  return out;
+double friction_of(const ContactResponse& response, std::size_t r) {
+  return std::hypot(response.force[r][1], response.force[r][2]);
 }
 
-/// How far row r has slipped without its springs in a step that it was closed in from the beginning.
-double slipped(const State& begin, const State& end, std::size_t r) {
-  const ConstraintRows& rows = *end.forces.rows.rows;
+bool has_friction(const ContactResponse& response) {
+  return std::ranges::any_of(response.rows->law, [](const RowLaw& law) { return law.eps_T > 0.0; });
+}
+
+/// How far row r of `rows` slips over the step beyond what its springs give, in its frame.
+Vec3 slipped(const ConstraintRows& rows, std::size_t r, const State& begin, const State& end) {
   const auto slot = static_cast<std::size_t>(rows.slot[r]);
   const Vec3 stretched = subtract(end.forces.rows.history[slot].slip, begin.contact[slot].slip);
-  const Vec3 w = subtract(subtract(rows.relative(r, end.q), rows.relative(r, begin.q)), rows.to_frame(r, stretched));
-  return std::hypot(w[1], w[2]);
+  return subtract(subtract(rows.relative(r, end.q), rows.relative(r, begin.q)), rows.to_frame(r, stretched));
 }
 
-/// What the mean of the friction at both ends of the step does more on the slip than that at its end, of rows that
-/// slide at both.
-double work_of_changes(const State& begin, const State& end) {
-  const ContactResponse& response = end.forces.rows;
-  const std::vector<Sliding> before = sliding_rows(begin.forces.rows);
+double work_of_friction(const State& begin, const State& end) {
+  const ContactResponse &before = begin.forces.rows, &after = end.forces.rows;
+  if (!has_friction(before) && !has_friction(after)) return 0.0;
+  const ClosedRows closed_before(before), closed_after(after);
   double work = 0.0;
-  for (std::size_t r = 0; !before.empty() && r < response.status.size(); ++r) {
-    if (response.status[r] != RowStatus::slip) continue;
-    const Index slot = response.rows->slot[r];
-    const auto was = std::ranges::lower_bound(before, slot, {}, &Sliding::slot);
-    if (was == before.end() || was->slot != slot) continue;
-    const double friction = std::hypot(response.force[r][1], response.force[r][2]);
-    work += 0.5 * (was->friction - friction) * slipped(begin, end, r);
+  for (std::size_t r = 0; r < after.status.size(); ++r) {
+    if (after.status[r] != RowStatus::slip) continue;
+    const Vec3 slip = slipped(*after.rows, r, begin, end);
+    const double last = friction_of(after, r);
+    const std::optional<std::size_t> was = closed_before.at(after.rows->slot[r]);
+    const double first = was ? friction_of(before, *was) : 0.0;
+    work += 0.5 * (first + last) * std::hypot(slip[1], slip[2]);
+  }
+  for (std::size_t r = 0; r < before.status.size(); ++r) {
+    if (before.status[r] == RowStatus::open || closed_after.at(before.rows->slot[r])) continue;
+    const Vec3 slip = slipped(*before.rows, r, begin, end), &force = before.force[r];
+    work += std::max(0.0, -0.5 * (force[1] * slip[1] + force[2] * slip[2]));
   }
   return work;
 }
@@ -81,7 +95,7 @@ double work_of_changes(const State& begin, const State& end) {
 }  // namespace
 
 ContactWork spring_work(const State& begin, const State& end) {
-  ContactWork out{.friction = end.forces.rows.slip_work + work_of_changes(begin, end)};
+  ContactWork out{.friction = work_of_friction(begin, end)};
   for (const Forces* forces : {&begin.forces, &end.forces}) {
     const ConstraintRows& rows = *forces->rows.rows;
     for (std::size_t r = 0; r < rows.size(); ++r) {

@@ -4,18 +4,18 @@
 #include <memory>
 #include <vector>
 
-#include "contact/admissible.hpp"
-#include "contact/cone_solver.hpp"
 #include "enforcement/contact_port.hpp"
 #include "enforcement/port_compliance.hpp"
+#include "rows/admissible.hpp"
+#include "rows/cone_solver.hpp"
 
 namespace carom {
 
 /// The forces lambda on the rows that satisfy Signorini's and Coulomb's conditions exactly:
 ///   w = w_free + slope G A^-1 G^T lambda,  (lambda, w) in the cones of solve_cone,
-/// where w_free is what the rows would see without lambda. Rows enter when they would be violated, bonds at once. How
-/// G A^-1 G^T is come by, and what of it is kept, is a matter of PortCompliance. Multipliers go on from step to step as
-/// start values, in State::contact.
+/// where w_free is what the rows would see without lambda. A row takes part as soon as it would be violated, a bond
+/// from the beginning. PortCompliance makes G A^-1 G^T and decides what of it is kept. The multipliers of a step are
+/// the start values of the next, in State::contact.
 class ExactPort : public ContactPort {
  public:
   explicit ExactPort(const System& system);
@@ -33,24 +33,24 @@ class ExactPort : public ContactPort {
 
  protected:
   virtual std::shared_ptr<const ConstraintRows> rows_at(std::span<const double> x) const = 0;
-  /// Slope in y of what the rows see, and which of x and v they see.
+  /// slope() is the derivative by y of the vector that the rows see, and seen() says which of x and v that is.
   virtual double slope() const = 0;
   virtual std::span<const double> seen(std::span<const double> x, std::span<const double> v) const = 0;
-  /// w of row r when they see z.
+  /// The w of row r when the rows see z.
   virtual Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const = 0;
   /// True when the rows are those at the end of the correction.
   virtual bool rows_follow() const { return false; }
   virtual bool may_act(std::size_t /*r*/) const { return true; }
   virtual Admissible admitted(const RowLaw& law) const { return admissible(law); }
-  /// Adds to W what the acting rows (counts[i] components of row i) answer to their forces beside slope x G A^-1 G^T,
-  /// over the slope; nothing here, see JumpPort.
+  /// Adds to W the compliance that acting rows (counts[i] components of row i) have beside slope x G A^-1 G^T, divided
+  /// by the slope. There is none here, but in JumpPort.
   virtual void add_direct_compliance(const std::shared_ptr<const ConstraintRows>& /*rows*/,
                                      std::span<const std::size_t> /*acting*/, std::span<const std::size_t> /*counts*/,
                                      Delassus& /*W*/) {}
-  /// Brings what add_direct_compliance keeps to where the state at the beginning of the stage has it. True when that is
-  /// something else.
+  /// Brings the compliances that add_direct_compliance keeps to those of the state at the beginning of the stage.
+  /// Returns true when they were others.
   virtual bool go_on_directly() { return false; }
-  /// value() is to include from now on what these forces (in the frames of the listed rows) do directly.
+  /// From now on value() includes the direct effect of these forces, which are in the frames of the listed rows.
   virtual void see_forces(const ConstraintRows& /*rows*/, std::span<const std::size_t> /*which*/,
                           std::span<const Vec3> /*force*/) {}
 
@@ -82,6 +82,7 @@ class ExactPort : public ContactPort {
   void see_all(const ContactResponse& response);
   void note_compliances(const ConstraintRows& rows);
   std::string solve_rows(const ContactResponse& response);
+  void refine(const ConstraintRows& rows, std::span<const Vec3> present);
   void add_forces(EffectiveSolver& solver, const ContactResponse& response, std::span<const double> residual,
                   double absolute, LinearSolveReport& linear, std::span<double> dy);
 
@@ -97,12 +98,13 @@ class ExactPort : public ContactPort {
   std::vector<double> load_;  ///< what the forces have changed since the response
 };
 
-/// 0 <= g(x) perpendicular to lambda_n >= 0 at the end of the stage, slip over the step in Coulomb's cone.
+/// Multipliers with 0 <= g(x) perpendicular to lambda_n >= 0 at the end of the stage, and slip over the step in
+/// Coulomb's cone.
 class MultiplierPort : public ExactPort {
  public:
   using ExactPort::ExactPort;
-  /// How far the multipliers are from their conditions on the rows made at x, where rows move or the operator has
-  /// springs of its own: elsewhere the solve has met them.
+  /// The distance of the multipliers from their conditions on the rows made at x, where rows move or the operator has
+  /// springs of its own. Elsewhere the solve has met the conditions.
   ContactError error(std::span<const double> x, std::span<const double> v,
                      const ContactResponse& response) const override;
 
@@ -114,22 +116,22 @@ class MultiplierPort : public ExactPort {
   Vec3 value(const ConstraintRows& rows, std::size_t r, std::span<const double> z) const override;
 };
 
-/// The same without friction: with m M y = contact(x) it finds the admissible x that is nearest to x_hat in the norm of
-/// M.
+/// A MultiplierPort without friction. With m M y = contact(x) it finds the admissible x that is nearest to x_hat in the
+/// norm of M.
 class ProjectionPort final : public MultiplierPort {
  public:
   using MultiplierPort::MultiplierPort;
-  /// Bonds start without force: those of the step before are of another kind, whose rounding would move what needs no
-  /// projection.
+  /// Lets bonds start without force. The forces of the step before belong to another equation, and their rounding would
+  /// move bodies that need no projection.
   void begin(const StageStart& start) override;
 
  protected:
   Admissible admitted(const RowLaw& law) const override { return admissible(law).without_friction(); }
 };
 
-/// On rows with g(x_predicted) <= 0, with U = G v: 0 <= U_n + e min(0, U_n at the beginning) perpendicular to
-/// lambda_n >= 0 (Newton's restitution), U_t in Coulomb's cone (Jean, Comput. Methods Appl. Mech. Eng. 177, 1999). The
-/// rows are those made at x_predicted. Open rows that move: see stopped_rows.hpp.
+/// Impulses on rows with g(x_predicted) <= 0. With U = G v, 0 <= U_n + e min(0, U_n at the beginning) perpendicular to
+/// lambda_n >= 0 (Newton's restitution), and U_t in Coulomb's cone (Jean, Comput. Methods Appl. Mech. Eng. 177, 1999).
+/// The rows are those made at x_predicted. For open rows that move see stopped_rows.hpp.
 class ImpulsePort : public ExactPort {
  public:
   using ExactPort::ExactPort;

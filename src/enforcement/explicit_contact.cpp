@@ -15,7 +15,7 @@ class PenaltyContact final : public ExplicitContact {
 
   std::string respond(const ExplicitPoint& at, Forces& forces) override {
     forces.contact.clear(at.u.size());
-    penalty_response(system_.contact.rows_at(at.u_begin, at.u, at.history), at.u_begin, at.u, at.v, at.history,
+    penalty_response(system_.contact.rows_at(at.u_begin, at.u, at.past), at.u_begin, at.u, at.v, at.past.history,
                      forces.rows);
     forces.rows.add_force(forces.contact);
     return bonds_.hold({at.h, at.u, at.v, at.a}, forces);
@@ -32,14 +32,14 @@ class PenaltyContact final : public ExplicitContact {
 
 std::string ExplicitContact::evaluate(const System& system, const State& begin, double h, std::span<const double> v,
                                       State& end) {
-  evaluate_bodies(system, {h, begin.points}, end);
-  return respond({h, h, begin.q, end.q, v, end.a, begin.contact}, end.forces);
+  evaluate_bodies(system, step_from(begin, h), end);
+  return respond({h, h, begin.q, end.q, v, end.a, past_of(begin)}, end.forces);
 }
 
 void ExplicitContact::start(const System& system, double dt, double weight, State& state) {
   const std::vector<double> points = state.points;
-  evaluate_bodies(system, start_step(dt, points), state);
-  const std::string failure = respond({dt, weight, state.q, state.q, state.v, state.a, state.contact}, state.forces);
+  evaluate_bodies(system, start_step(dt, points, state), state);
+  const std::string failure = respond({dt, weight, state.q, state.q, state.v, state.a, past_of(state)}, state.forces);
   if (!failure.empty()) throw std::runtime_error("at the start: " + failure);
 }
 

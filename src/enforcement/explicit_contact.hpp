@@ -1,4 +1,4 @@
-// How contact answers an explicit step: by springs, by impulses, or by forward-increment multipliers.
+// The interface at which an explicit step meets contact: springs, impulses, or forward-increment multipliers.
 #pragma once
 
 #include <memory>
@@ -10,13 +10,13 @@
 
 namespace carom {
 
-/// What is known at the end of a step but for contact: displacement u and velocity v, from which the next step goes on
-/// with v_next = v + weight a and u_next = u + h v_next.
+/// All that is known at the end of a step before contact has answered. From displacement u and velocity v the next step
+/// goes on with v_next = v + weight a and u_next = u + h v_next.
 struct ExplicitPoint {
   double h = 0.0, weight = 0.0;
   std::span<const double> u_begin, u, v;
   std::span<const double> a;  ///< holds the accelerations of the prescribed dofs
-  std::span<const RowHistory> history;
+  ContactPast past;
 };
 
 /// The contact force at the end of an explicit step, and its books. Bonds hold exactly whatever else contact does
@@ -27,11 +27,12 @@ class ExplicitContact {
   /// Fills forces.rows and forces.contact; internal and external forces are there. Returns why no force was found, ""
   /// when one was.
   virtual std::string respond(const ExplicitPoint& at, Forces& forces) = 0;
-  /// All forces of a step of length h whose end is at end.q and has the velocity v. Returns what respond() returns.
+  /// Fills all forces of a step of length h whose end is at end.q and has the velocity v. Returns what respond()
+  /// returns.
   std::string evaluate(const System& system, const State& begin, double h, std::span<const double> v, State& end);
-  /// All forces of a state that a run begins with. Throws std::runtime_error when contact finds none.
+  /// Fills all forces of a state that a run begins with. Throws std::runtime_error when contact finds none.
   void start(const System& system, double dt, double weight, State& state);
-  /// Where the work of its forces over the step went, as ContactPort::work has it; `total` is left to the books.
+  /// Says where the work of the contact forces over the step went, as ContactPort::work does; the caller fills `total`.
   virtual ContactWork work(const State& begin, const State& end) const = 0;
 };
 
@@ -42,7 +43,8 @@ std::unique_ptr<ExplicitContact> penalty_contact(const System& system);
 /// U = G v_next and e Newton's coefficient of restitution,
 ///   0 <= U_n + e min(0, (G v)_n)  perpendicular to  r_n >= 0,   U_t in Coulomb's cone with r_t,
 /// where r / weight is the contact force. Symplectic between impacts. Rows that have closed stay where they are: a
-/// penetration of at most one step's motion is not pushed out; where rows move it is not made (stopped_rows.hpp).
+/// fixed row may keep a penetration of at most one step's motion, which nothing pushes out; rows that move do not come
+/// to one (stopped_rows.hpp).
 std::unique_ptr<ExplicitContact> impulse_contact(const System& system);
 
 /// Forward-increment Lagrange multipliers (Carpenter, Taylor and Katona, Int. J. Numer. Methods Eng. 32, 1991):

@@ -6,8 +6,8 @@
 
 namespace carom {
 
-/// By columns A^-1 G^T that are kept for the run: an iteration with contact costs one back-substitution and products
-/// with them. In which order they have grown, and rows have been chosen, stands in StageMemory.
+/// Keeps the columns A^-1 G^T for the run, so that an iteration with contact costs one back-substitution and products
+/// with them. StageMemory says in which order they have grown and rows have been chosen.
 class FixedRowsCompliance final : public PortCompliance {
  public:
   explicit FixedRowsCompliance(std::size_t dof_count) : columns_(dof_count, RowCompliance::most_column_entries) {}

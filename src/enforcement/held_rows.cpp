@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/admissible.hpp"
+#include "rows/admissible.hpp"
 
 namespace carom {
 

@@ -18,13 +18,13 @@ class HeldRows {
   explicit HeldRows(const System& system);
 
   bool any() const { return size_ > 0; }
-  /// The multipliers are those of the beginning of the stage.
+  /// Takes the multipliers of the state at the beginning of the stage.
   void begin(const StageStart& start);
-  /// Completes a response that knows no equations: their forces at displacement x.
+  /// Adds the forces of the equations at displacement x to a response that lacks them.
   void respond(std::span<const double> x, ContactResponse& response) const;
   /// eps of row r, an equation.
   double stiffness(const ConstraintRows& rows, std::size_t r) const { return stiffness_[place(rows, r)]; }
-  /// rounding += on the dofs of the rows, what rounding of w makes of their forces.
+  /// Adds to `rounding`, on the dofs of the rows, the error of their forces that rounding of w makes.
   void add_rounding(std::span<const double> x, const ContactResponse& response, std::span<double> rounding) const;
   /// True when the equations are met; else their multipliers have been changed.
   bool settle(std::span<const double> x, const ContactResponse& response);

@@ -1,4 +1,4 @@
-// What every implicit scheme is told beside its own parameters.
+// The settings of every implicit scheme beside its own parameters.
 #pragma once
 
 #include "model/compatibility.hpp"

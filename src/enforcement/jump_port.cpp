@@ -3,7 +3,7 @@
 #include <cassert>
 #include <utility>
 
-#include "contact/admissible.hpp"
+#include "rows/admissible.hpp"
 
 namespace carom {
 

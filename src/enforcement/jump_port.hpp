@@ -1,4 +1,4 @@
-// Impulses that change the velocity at once, beside what they do through the equation of the step.
+// Impulses that change the velocity at once, in addition to their effect through the equation of the step.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,10 @@
 
 namespace carom {
 
-/// ImpulsePort for stages whose velocity is v = v_hat + r (y + ratio M^-1 G^T lambda): what the rows see is the
-/// velocity with its jump, W is G (A^-1 + ratio M^-1) G^T. Bonds are no impulses, and jump with what they join: for
-/// them M^-1 stands for A^-1 of BondedMass, which is without any of their forces. The caller adds the jump to the
-/// velocity of the stage.
+/// ImpulsePort for stages whose velocity is v = v_hat + r (y + ratio M^-1 G^T lambda): the rows see the velocity with
+/// its jump, and W is G (A^-1 + ratio M^-1) G^T. Bonds are no impulses, and jump with what they join: for them M^-1
+/// stands for A^-1 of BondedMass, which is without any of their forces. The caller adds the jump to the velocity of the
+/// stage.
 class JumpPort final : public ImpulsePort {
  public:
   /// ratio: 0 or greater. The solver and the bonds are shared with the scheme; the solver factors

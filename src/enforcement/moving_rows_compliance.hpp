@@ -7,9 +7,9 @@
 
 namespace carom {
 
-/// By the compliance of their nodes, which is kept for the run: the motion of the nodes costs no solve, that of all
-/// dofs one back-substitution. In which order it has grown stands in StageMemory. Where there would be too many nodes
-/// the columns of the rows are made anew.
+/// Keeps the compliance of the rows' nodes for the run, so that the motion of these nodes costs no solve, and that of
+/// all dofs one back-substitution. StageMemory says in which order it has grown. Where there would be too many nodes,
+/// it makes the columns of the rows anew instead.
 class MovingRowsCompliance final : public PortCompliance {
  public:
   /// node_capacity: see NodeCompliance.

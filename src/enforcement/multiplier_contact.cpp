@@ -2,12 +2,12 @@
 #include <optional>
 #include <vector>
 
-#include "contact/admissible.hpp"
 #include "contact/closing_rows.hpp"
 #include "enforcement/contact_work.hpp"
 #include "enforcement/explicit_contact.hpp"
 #include "enforcement/stopped_rows.hpp"
 #include "parallel/threads.hpp"
+#include "rows/admissible.hpp"
 #include "system/bonded_mass.hpp"
 #include "system/mass_solver.hpp"
 
@@ -47,7 +47,7 @@ class MultiplierContact final : public ExplicitContact {
 
   std::string respond(const ExplicitPoint& at, Forces& forces) override {
     forces.contact.clear(at.u.size());
-    open_response(system_.contact.rows_at(at.u_begin, at.u, at.history), at.history.size(), forces.rows);
+    open_response(system_.contact.rows_at(at.u_begin, at.u, at.past), at.past.history.size(), forces.rows);
     const ConstraintRows& rows = *forces.rows.rows;
     const BondMotion motion{at.h, at.u, at.v, at.a};
     std::string failure = bonds_.hold(motion, forces);
@@ -66,7 +66,7 @@ class MultiplierContact final : public ExplicitContact {
       c.round_off = (c.round_off + rows.rounding(c.row, v_free_)) / at.weight;
     }
     push_.resize(at.u.size());
-    failure = close_rows(system_.contact, closing_, at.history, operator_, forces.rows, push_);
+    failure = close_rows(system_.contact, closing_, at.past.history, operator_, forces.rows, push_);
     if (!failure.empty()) return failure;
     forces.contact.clear(at.u.size());
     forces.rows.add_force(forces.contact);

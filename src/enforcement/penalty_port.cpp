@@ -6,12 +6,12 @@
 #include <limits>
 #include <utility>
 
-#include "contact/bond_springs.hpp"
 #include "contact/row_maker.hpp"
 #include "enforcement/contact_work.hpp"
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
+#include "rows/bond_springs.hpp"
 #include "solid/smallest_cell.hpp"
 
 namespace carom {
@@ -31,7 +31,7 @@ void PenaltyPort::begin(const StageStart& start) {
 }
 
 void PenaltyPort::respond(std::span<const double> x, std::span<const double> v, ContactResponse& response) {
-  penalty_response(system_.contact.rows_at(begin_->q, x, begin_->contact), begin_->q, x, v, begin_->contact, response,
+  penalty_response(system_.contact.rows_at(begin_->q, x, past_of(*begin_)), begin_->q, x, v, begin_->contact, response,
                    slip_);
   add_bond_springs(x, response);
   held_.respond(x, response);
@@ -64,6 +64,14 @@ PortSolve PenaltyPort::solve(EffectiveSolver& solver, std::span<const double> x,
     for (double& d : tangents_[r]) d *= s_;
   }
   return solve_with_tangents(solver, x, response, residual, absolute, dy);
+}
+
+void PenaltyPort::relieve(std::span<const double> x, const ContactResponse& response,
+                          std::span<double> residual) const {
+  if (free_ == nullptr || free_->empty() || tangents_.size() != response.rows->size()) return;
+  std::vector<double> relieved(residual.begin(), residual.end());
+  if (free_->are_loads(free_->relieve(*response.rows, tangents_, x, relieved), x, force_parts_)) return;
+  std::copy(relieved.begin(), relieved.end(), residual.begin());
 }
 
 bool PenaltyPort::settle(std::span<const double> x, const ContactResponse& response) {
@@ -145,9 +153,11 @@ PortSolve PenaltyPort::solve_with_tangents(EffectiveSolver& solver, std::span<co
   for (std::size_t i = 0; i < load_.size(); ++i) {
     if (fixed[i]) load_[i] = 0.0;
   }
+  const std::vector<double> weak = free_->relieve(*response.rows, tangents_, x, load_);
   const Stiffness stiffness = stiffness_of(response);  // after hold_bodies, which closes rows
   PortSolve out{solver.solve(load_, stiffness.rows, stiffness.tangents, absolute, dy), {}};
   release_held(solver, stiffness, x, response, out.linear, dy);
+  free_->move_weakly(*response.rows, tangents_, x, weak, dy);
   return out;
 }
 
@@ -234,7 +244,7 @@ double AugmentedLagrangianPort::stiffening(const ConstraintRows& rows, std::size
 
 void AugmentedLagrangianPort::respond(std::span<const double> x, std::span<const double> /*v*/,
                                       ContactResponse& response) {
-  response.rows = system_.contact.rows_at(begin_->q, x, contact_);
+  response.rows = system_.contact.rows_at(begin_->q, x, {contact_, begin_->topology});
   const ConstraintRows& rows = *response.rows;
   response.force.assign(rows.size(), {});
   response.damper.assign(rows.size(), 0.0);

@@ -9,8 +9,8 @@
 
 namespace carom {
 
-/// The penalty (contact/penalty.hpp) with its tangents on the rows of the iterate. Linear equations are held exactly
-/// beside it (HeldRows).
+/// The penalty (rows/penalty.hpp), whose tangents are those of the rows of the iterate. HeldRows holds linear equations
+/// exactly beside it.
 class PenaltyPort : public ContactPort {
  public:
   explicit PenaltyPort(const System& system);
@@ -24,9 +24,10 @@ class PenaltyPort : public ContactPort {
   PortSolve solve(EffectiveSolver& solver, std::span<const double> x, std::span<const double> v,
                   const ContactResponse& response, std::span<const double> residual, double absolute,
                   std::span<double> dy) override;
+  void relieve(std::span<const double> x, const ContactResponse& response, std::span<double> residual) const override;
   bool settle(std::span<const double> x, const ContactResponse& response) override;
   void add_stiffness_diagonal(std::span<double> d) const override;
-  /// Friction on the slip, dampers by the trapezoidal rule, the total likewise.
+  /// Books friction on the slip, and dampers and the total by the trapezoidal rule.
   ContactWork work(const State& begin, const State& end, double end_weight) const override;
 
  protected:
@@ -36,12 +37,14 @@ class PenaltyPort : public ContactPort {
     double force;
   };
   virtual ClosedSpring closed_spring(const ConstraintRows& rows, std::size_t r, std::span<const double> x) const;
-  /// Solves with tangents_. Where a free motion of a body is loaded that they do not resist, the open rows that it
-  /// would reach first (to a hundredth of the smallest cell) count as closed, then sliding rows as sticking.
+  /// Solves the linear system with tangents_. Where a load acts on a free motion that these tangents do not resist, the
+  /// open rows that the motion would reach first (within a hundredth of the smallest cell) count as closed, and if that
+  /// is not enough, sliding rows as sticking.
   PortSolve solve_with_tangents(EffectiveSolver& solver, std::span<const double> x, const ContactResponse& response,
                                 std::span<const double> residual, double absolute, std::span<double> dy);
 
-  /// Rows and tangents_, and with them what stands against motion beside the rows.
+  /// The rows with tangents_, together with the springs that resist motion beside the rows
+  /// (RowMaker::append_stiffness).
   struct Stiffness {
     std::shared_ptr<const ConstraintRows> rows;
     std::vector<RowTangent> tangents;
@@ -75,7 +78,7 @@ class PenaltyPort : public ContactPort {
   std::vector<double> load_;
 };
 
-/// Uzawa's iteration around it (Wriggers, Computational Contact Mechanics, 2nd ed., section 6.3.2):
+/// Uzawa's iteration around the penalty (Wriggers, Computational Contact Mechanics, 2nd ed., section 6.3.2):
 ///   p = <lambda_n - eps_N g>,  t = lambda_t - eps_T slip, returned to |t| <= mu p,
 /// the slip being that of the step (rows of faces: face_rows.hpp); the multipliers become the forces wherever the
 /// residual is small against the change, and at equilibrium, until no row penetrates, no pressed row is open, and no

@@ -1,4 +1,4 @@
-// How exact contact within implicit stages comes by the compliance of its rows.
+// The compliance of rows, as exact contact within implicit stages asks for it.
 #pragma once
 
 #include <cstddef>
@@ -6,31 +6,31 @@
 #include <span>
 #include <vector>
 
-#include "contact/delassus.hpp"
+#include "rows/delassus.hpp"
 #include "state/state.hpp"
 #include "system/system.hpp"
 
 namespace carom {
 
-/// W = G A^-1 G^T of the rows in question, and the motions of forces on them as far as making W has found them. What is
-/// kept from one W to the next is a matter of the implementation.
+/// Makes W = G A^-1 G^T of the rows in question, and knows the motions under forces on them as far as making W has
+/// found these. Each implementation decides what it keeps from one W to the next.
 class PortCompliance {
  public:
   virtual ~PortCompliance() = default;
-  /// These rows and the operator of this number (EffectiveSolver::operators_made) come next. False when no W made
-  /// before is theirs, and no row chosen before one of them.
+  /// Says which rows, and the operator of which number (EffectiveSolver::operators_made), come next. Returns false when
+  /// all that was made and chosen before belongs to others.
   virtual bool use(const std::shared_ptr<const ConstraintRows>& rows, std::size_t operator_number) = 0;
-  /// Forgets what an inverse has made that failed.
+  /// Forgets all that was made, since the inverse has failed.
   virtual void forget() = 0;
-  /// Becomes what the memory of the beginning of the stage holds, and `chosen` the rows that had been chosen by then.
-  /// True when either was something else.
+  /// Goes back to what the memory at the beginning of the stage holds, and sets `chosen` to the rows that had been
+  /// chosen by then. Returns true when either was something else.
   virtual bool go_on(const StageMemory& /*memory*/, std::vector<std::size_t>& /*chosen*/,
                      const InverseOperator& /*inverse*/) {
     return false;
   }
-  /// Writes to where the next stage looks for it what go_on() goes on from.
+  /// Writes into the memory what go_on() of the next stage will read.
   virtual void leave(StageMemory& /*memory*/, std::span<const std::size_t> /*chosen*/) const {}
-  /// W of the listed ones of the rows, of which row i has counts[i] components. Throws TooManyRows.
+  /// Makes W of the rows listed in `acting`, of which entry i has counts[i] components. Throws TooManyRows.
   virtual Delassus make(const ConstraintRows& rows, std::span<const std::size_t> acting,
                         std::span<const std::size_t> counts, const InverseOperator& inverse) = 0;
   /// True when the last W was made of what add_node_motion() knows.
@@ -43,8 +43,5 @@ class PortCompliance {
   virtual void add_columns(std::span<const std::size_t> rows, std::span<const Vec3> force,
                            std::span<double> y) const = 0;
 };
-
-/// By columns that are kept, by nodes or anew, as the bodies and the rows of the system are.
-std::unique_ptr<PortCompliance> make_port_compliance(const System& system);
 
 }  // namespace carom

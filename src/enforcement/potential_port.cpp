@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/bond_springs.hpp"
 #include "math/vec3.hpp"
+#include "rows/bond_springs.hpp"
 
 namespace carom {
 
@@ -52,7 +52,7 @@ void PotentialPort::respond(std::span<const double> x, std::span<const double> /
   const std::vector<double>& x0 = begin_->q;
   middle_.resize(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) middle_[i] = 0.5 * (x0[i] + x[i]);
-  response.rows = system_.contact.rows_at(x0, middle_, begin_->contact);
+  response.rows = system_.contact.rows_at(x0, middle_, past_of(*begin_));
   const ConstraintRows& rows = *response.rows;
   response.force.assign(rows.size(), {});
   response.damper.assign(rows.size(), 0.0);

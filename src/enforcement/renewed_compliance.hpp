@@ -6,7 +6,7 @@
 
 namespace carom {
 
-/// By columns A^-1 G^T of the rows in question, made anew for every operator and all rows.
+/// Makes the columns A^-1 G^T of the rows in question anew for every operator and all rows.
 class RenewedCompliance final : public PortCompliance {
  public:
   explicit RenewedCompliance(std::size_t dof_count) : columns_(dof_count, RowCompliance::most_column_entries) {}

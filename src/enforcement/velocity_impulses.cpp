@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "contact/admissible.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
+#include "rows/admissible.hpp"
 
 namespace carom {
 

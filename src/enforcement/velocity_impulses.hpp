@@ -29,10 +29,10 @@ class VelocityImpulses {
   explicit VelocityImpulses(const System& system);
   VelocityImpulses(const VelocityImpulses&) = delete;
 
-  /// What the forces of a response make of the bodies, those of bonds apart: a = A^-1 contact (BondedMass) on the free
-  /// dofs, 0 on the others. False when the mass matrix cannot be solved.
+  /// Fills the accelerations that the forces of a response give the bodies, without those of bonds: a = A^-1 contact
+  /// (BondedMass) on the free dofs, 0 on the others. False when the mass matrix cannot be solved.
   bool accelerations(const ContactResponse& contact, std::span<double> a);
-  /// The bonds' forces at the end of a stage that has scaled those of multipliers: they balance its accelerations
+  /// Finds the forces of bonds at the end of a stage that has scaled the multipliers: they balance its accelerations
   /// (BondedMass::balance). Returns why there are none, "" when there are.
   std::string settle_bonds(State& state, std::span<const double> besides = {});
   bool has_bonds() const { return bonds_.any(); }
@@ -60,8 +60,8 @@ class VelocityImpulses {
   std::vector<double> push_;
 };
 
-/// None where contact is a law, where its multipliers are plain, or where free nodes have no mass (a modified mass):
-/// nothing is to be stopped there.
+/// Null where contact is a law, where its multipliers are plain, or where free nodes have no mass (a modified mass),
+/// since nothing is to be stopped there.
 std::unique_ptr<VelocityImpulses> velocity_impulses(const System& system, EnforcementKind enforcement);
 
 }  // namespace carom

@@ -1,6 +1,8 @@
 #include "linalg/process_environment.hpp"
 
 #include <sys/auxv.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "linalg/dense.hpp"
 #include "linalg/lapack.hpp"
 
 namespace carom {
@@ -52,6 +55,11 @@ const char* better_kernels() {
   return good ? nullptr : choice.name;
 }
 
+bool is_space_limited() {
+  rlimit limit{};
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
 }  // namespace
 
 void prepare_process_environment(char** argv) {
@@ -72,6 +80,32 @@ void prepare_process_environment(char** argv) {
   execv(buffer.data(), argv);
   // Only reached when the program could not be executed again: go on, only slower.
   for (const auto& [name, value] : wanted) unsetenv(name);
+}
+
+/// The C library has no environment yet: everything is in `environment`.
+void limit_blas_threads(int /*argc*/, char** argv, char** environment) {
+  static constexpr std::string_view name = "OPENBLAS_NUM_THREADS=";
+  static char setting[] = "OPENBLAS_NUM_THREADS=1";
+  static std::array<char*, 4096> more;
+  if (!is_space_limited()) return;
+  std::size_t count = 0;
+  for (char** one = environment; *one != nullptr; ++one) {
+    if (std::string_view(*one).starts_with(name) || count + 2 == more.size()) return;
+    more[count++] = *one;
+  }
+  more[count] = setting;
+  std::array<char, 4096> buffer;
+  if (!executable(buffer).empty()) execve(buffer.data(), argv, more.data());
+}
+
+bool reserve_blas_memory() {
+  constexpr std::size_t most = 160U << 20U;
+  if (!is_space_limited()) return true;
+  void* const space = mmap(nullptr, most, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (space == MAP_FAILED) return false;
+  munmap(space, most);
+  symmetric_eigen({4.0, 1.0, 2.0, 1.0, 5.0, 3.0, 2.0, 3.0, 6.0}, 3);
+  return true;
 }
 
 BlasKernels blas_kernels() {

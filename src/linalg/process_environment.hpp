@@ -14,6 +14,15 @@ namespace carom {
 /// BLAS runs one thread: results must not depend on their number. What the user has set stays.
 void prepare_process_environment(char** argv);
 
+/// To stand in the .preinit_array of an executable, which comes before its libraries: where the address space is
+/// limited (ulimit -v), executes the program again with OPENBLAS_NUM_THREADS=1. OpenBLAS makes its threads while it
+/// loads, and one that gets no memory asks for it for ever.
+void limit_blas_threads(int argc, char** argv, char** environment);
+
+/// Where the address space is limited, takes the buffer that OpenBLAS asks for with its first call (128 MB at most in
+/// 0.3.21), again and again until it gets it. False when the limit does not leave so much.
+bool reserve_blas_memory();
+
 /// The kernels that OpenBLAS has loaded, by its own name, and the value of OPENBLAS_CORETYPE for better ones, "" where
 /// they are as good as the processor allows. For processes that are not ours to execute again.
 struct BlasKernels {

@@ -31,7 +31,7 @@ double lateral_strain_neo_hookean(const void* parameters, const double strain[6]
 
 PreparedLaw prepare(const Material& material, int free_directions, const LawTable& table) {
   const Law& law = *material.law;
-  const LawKernels& kernels = table.laws[index_of(law)];
+  const LawKernels& kernels = law.loaded != nullptr ? table.loaded : table.laws[index_of(law)];
   const int history = static_cast<int>(law.history.size());
   PreparedLaw prepared{kernels, law.prepare(material), history};
   if (free_directions == 0) return prepared;

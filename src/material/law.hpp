@@ -14,6 +14,8 @@
 #include "material/isotropic_elastic.hpp"
 #include "math/interval.hpp"
 
+struct carom_law;  // material/carom_law.h
+
 namespace carom {
 
 /// A number that the user of a law gives.
@@ -38,10 +40,11 @@ struct Law;
 
 /// A law with the values that it was given.
 struct Material {
-  const Law* law = nullptr;                  ///< a row of laws()
+  const Law* law = nullptr;                  ///< a row of laws() or of a library (material/loaded_law.hpp)
   double rho = 0.0;                          ///< mass per (reference) volume
   std::vector<double> values;                ///< in the order of Law::parameters
   std::vector<std::array<double, 2>> curve;  ///< of the law's key curve_key; empty: not given
+  std::vector<double> rates;                 ///< of the law's key rates_key
 
   /// Hooke's law without stiffness.
   Material() : Material(LinearElastic{}) {}
@@ -51,6 +54,8 @@ struct Material {
   /// Values by their keys; those that are not named have their initial values. Throws std::invalid_argument for names
   /// that are not in the table.
   Material(std::string_view law, double rho, const std::vector<std::pair<std::string_view, double>>& values);
+
+  Material(const Law& law, double rho, const std::vector<std::pair<std::string_view, double>>& values);
 
   /// The value of a parameter of the law; throws std::invalid_argument for others.
   double value(std::string_view key) const;
@@ -71,10 +76,12 @@ struct Law {
   std::string when_turning{};
   std::vector<LawParameter> parameters{};
   std::string curve_key{}, curve_meaning{};  ///< a table of pairs (abscissa, stress); "": the law takes none
+  std::string rates_key{}, rates_meaning{};  ///< a list of rates; "": the law takes none
   /// Names of the variables that a point remembers. All are 0 at rest.
   std::vector<std::string> history{};
   bool is_linear = false;  ///< the stress is a fixed linear function of the strain
-  bool has_symmetric_tangent = true;
+  /// Without one, schemes and sections that need it are refused. Tangents are symmetric: all solvers count on it.
+  bool has_tangent = true;
   IsotropicElastic (*at_rest)(const Material&) = nullptr;
   /// What the kernels take as their parameters.
   std::shared_ptr<const void> (*prepare)(const Material&) = nullptr;
@@ -85,6 +92,7 @@ struct Law {
   /// The strain in the last `count` directions under which the stress there vanishes, where it has a closed form: of
   /// what prepare() made, and the other strains. Null: it is found by iteration.
   double (*lateral_strain)(const void* parameters, const double strain[6], int count) = nullptr;
+  const carom_law* loaded = nullptr;  ///< of a library: its functions; null: a row of laws()
 };
 
 /// The table.

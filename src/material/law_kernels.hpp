@@ -12,6 +12,7 @@ namespace carom {
 /// The kernels of the laws for one number type (material/law_table.hpp).
 struct LawTable {
   std::array<LawKernels, law_count> laws;  ///< in the order of laws()
+  LawKernels loaded;                       ///< those of libraries (material/loaded_update.hpp)
   LawKernels lateral;                      ///< any of them under zero lateral stress (material/lateral_update.hpp)
 };
 

@@ -7,13 +7,15 @@
 
 /// For X(law): law_row() gives its row, defined in a source file of its own; law_kernels<Real>() its kernels, defined
 /// in a header that material/law_table.hpp includes.
-#define CAROM_LAWS(X)    \
-  X(linear_elastic)      \
-  X(st_venant_kirchhoff) \
-  X(neo_hookean)         \
-  X(j2_small_strain)     \
-  X(j2)                  \
-  X(johnson_cook)
+#define CAROM_LAWS(X)     \
+  X(linear_elastic)       \
+  X(st_venant_kirchhoff)  \
+  X(neo_hookean)          \
+  X(j2_small_strain)      \
+  X(j2)                   \
+  X(johnson_cook)         \
+  X(j2_rate_small_strain) \
+  X(j2_rate)
 
 namespace carom {
 

@@ -11,6 +11,12 @@ Material elastic(const char* law, const IsotropicElastic& given) {
   return {law, given.rho, {{"E", given.E}, {"nu", given.nu}}};
 }
 
+const Law& row_of(std::string_view name) {
+  const Law* law = find_law(name);
+  if (law == nullptr) throw std::invalid_argument("no law " + std::string(name));
+  return *law;
+}
+
 std::size_t position(const Law& law, std::string_view key) {
   const auto it = std::find_if(law.parameters.begin(), law.parameters.end(),
                                [&](const LawParameter& parameter) { return parameter.key == key; });
@@ -27,8 +33,10 @@ Material::Material(const NeoHookean& given) : Material(elastic("neo_hookean", gi
 
 Material::Material(std::string_view law_name, double rho_,
                    const std::vector<std::pair<std::string_view, double>>& given)
-    : law(find_law(law_name)), rho(rho_) {
-  if (law == nullptr) throw std::invalid_argument("no law " + std::string(law_name));
+    : Material(row_of(law_name), rho_, given) {}
+
+Material::Material(const Law& row, double rho_, const std::vector<std::pair<std::string_view, double>>& given)
+    : law(&row), rho(rho_) {
   for (const LawParameter& parameter : law->parameters) values.push_back(parameter.initial.value_or(0.0));
   for (const auto& [key, value] : given) values[position(*law, key)] = value;
 }

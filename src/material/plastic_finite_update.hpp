@@ -229,6 +229,10 @@ static constexpr LawKernels j2_kernels() {
   return {finite_plastic_update<Real, Hardening>, finite_plastic_tangent<Real, Hardening>};
 }
 template <class Real>
+static constexpr LawKernels j2_rate_kernels() {
+  return {finite_plastic_update<Real, RateHardening>, finite_plastic_tangent<Real, RateHardening>};
+}
+template <class Real>
 static constexpr LawKernels johnson_cook_kernels() {
   return {finite_plastic_update<Real, JohnsonCook>, finite_plastic_tangent<Real, JohnsonCook>};
 }

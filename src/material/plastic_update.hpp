@@ -5,6 +5,7 @@
 #include "material/linear_elastic_update.hpp"
 #include "material/point_batch.hpp"
 #include "material/radial_return.hpp"
+#include "material/rate_hardening.hpp"
 #include "math/pack.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
@@ -157,6 +158,10 @@ static void small_plastic_tangent(const void* parameters, const TangentBatch& ba
 template <class Real>
 static constexpr LawKernels j2_small_strain_kernels() {
   return {small_plastic_update<Real, Hardening>, small_plastic_tangent<Real, Hardening>};
+}
+template <class Real>
+static constexpr LawKernels j2_rate_small_strain_kernels() {
+  return {small_plastic_update<Real, RateHardening>, small_plastic_tangent<Real, RateHardening>};
 }
 
 }  // namespace carom

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <vector>
 
 namespace carom {
 
@@ -23,7 +25,7 @@ constexpr const char* kNodal =
 
 constexpr const char* kVolume = "with mean dilatation where it yields or nu > 0.4; formulation = \"full\" has none";
 
-const std::array<DeckElementType, 65> kTypes{
+const std::array<DeckElementType, 65> kOwn{
     {{"C3D4", Kind::cell, CellType::tetra4, 4, {}, "solid", "", kNodal},
      {"C3D5", Kind::cell, CellType::pyra5, 5, {}, "solid", "", ""},
      {"C3D6", Kind::cell, CellType::penta6, 6, {}, "solid", "", ""},
@@ -46,7 +48,7 @@ const std::array<DeckElementType, 65> kTypes{
       "solid",
       "",
       "not the modified element of Abaqus, but one with mean dilatation"},
-     {"C3D15", Kind::cell, CellType::penta15, 15, {}, "solid", "", ""},
+     {"C3D15", Kind::cell, CellType::penta15, 15, {}, "solid", "", kVolume},
      {"C3D20", Kind::cell, CellType::hexa20, 20, {}, "solid", "", kVolume},
      {"C3D20R", Kind::cell, CellType::hexa20, 20, {}, "solid", "reduced", ""},
      {"C3D27", Kind::cell, CellType::hexa27, 27, kHexa27, "solid", "", kVolume},
@@ -139,16 +141,44 @@ const std::array<DeckElementType, 65> kTypes{
      {"SPRINGA", Kind::spring, CellType::line2, 2, {}, "", "", ""},
      {"SPRING1", Kind::ground_spring, CellType::point1, 1, {}, "", "", ""}}};
 
+/// The types that also have the temperature of their nodes; without it they are those whose name lacks the T.
+constexpr std::array kWithTemperature{"C3D4T",   "C3D6T",  "C3D8T",  "C3D8RT", "C3D10T", "C3D10MT", "C3D20T",
+                                      "C3D20RT", "CPE3T",  "CPE4T",  "CPE4RT", "CPE6T",  "CPE8T",   "CPE8RT",
+                                      "CPS3T",   "CPS4T",  "CPS4RT", "CPS6T",  "CPS8T",  "CPS8RT",  "CAX3T",
+                                      "CAX4T",   "CAX4RT", "CAX6T",  "CAX8T",  "CAX8RT"};
+
+std::vector<DeckElementType> all_types() {
+  static std::array<std::string, kWithTemperature.size()> remarks;
+  std::vector<DeckElementType> types(kOwn.begin(), kOwn.end());
+  for (std::size_t i = 0; i < kWithTemperature.size(); ++i) {
+    std::string_view twin = kWithTemperature[i];
+    twin.remove_suffix(1);
+    DeckElementType type = *std::find_if(kOwn.begin(), kOwn.end(), [&](const auto& own) { return own.name == twin; });
+    type.name = kWithTemperature[i];
+    remarks[i] = std::string("its nodes have no temperatures") + (type.remark.empty() ? "" : "; ");
+    remarks[i] += type.remark;
+    type.remark = remarks[i];
+    types.push_back(type);
+  }
+  return types;
+}
+
 }  // namespace
 
 std::span<const DeckElementType> deck_element_types() {
-  return kTypes;
+  static const std::vector<DeckElementType> types = all_types();
+  return types;
 }
 
 const DeckElementType* deck_element_type(std::string_view name) {
-  const auto found =
-      std::find_if(kTypes.begin(), kTypes.end(), [&](const DeckElementType& t) { return t.name == name; });
-  return found == kTypes.end() ? nullptr : &*found;
+  const std::span<const DeckElementType> types = deck_element_types();
+  const auto found = std::find_if(types.begin(), types.end(), [&](const DeckElementType& t) { return t.name == name; });
+  return found == types.end() ? nullptr : &*found;
+}
+
+const DeckElementType& unknown_element_type() {
+  static const DeckElementType unknown{"?", Kind::unknown, CellType::point1, 0, {}, "", "", ""};
+  return unknown;
 }
 
 }  // namespace carom

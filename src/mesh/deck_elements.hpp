@@ -13,10 +13,11 @@ namespace carom {
 struct DeckElementType {
   enum class Kind : std::uint8_t {
     cell,
-    mass,          ///< a point mass at its node
-    inertia,       ///< a rotary inertia at its node
-    spring,        ///< between two nodes, along the line between them
-    ground_spring  ///< from a node to the ground
+    mass,           ///< a point mass at its node
+    inertia,        ///< a rotary inertia at its node
+    spring,         ///< between two nodes, along the line between them
+    ground_spring,  ///< from a node to the ground
+    unknown         ///< Carom has none such
   };
   std::string_view name;  ///< "C3D8R"
   Kind kind = Kind::cell;
@@ -32,5 +33,8 @@ std::span<const DeckElementType> deck_element_types();
 
 /// By its name in upper case; nullptr where Carom has no such element.
 const DeckElementType* deck_element_type(std::string_view name);
+
+/// What elements of no known type are while the rest of the deck is looked at.
+const DeckElementType& unknown_element_type();
 
 }  // namespace carom

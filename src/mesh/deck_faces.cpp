@@ -110,6 +110,7 @@ void DeckFaces::append(const std::vector<Index>& elements, const std::string& la
     at.fail(printable(label), "S1 to S6, SPOS, SNEG or nothing", "Faces are numbered as Abaqus does (docs/decks.md).");
   for (const Index e : elements) {
     const DeckElement& element = elements_[carom::at(e)];
+    if (element.type->kind == DeckElementType::Kind::unknown) continue;
     const bool is_surface = element.type->kind == DeckElementType::Kind::cell && element.type->section.empty();
     if (element.type->kind != DeckElementType::Kind::cell)
       at.fail(fmt::format("a face of element {}, a {}", element.number, element.type->name),

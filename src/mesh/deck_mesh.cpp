@@ -10,6 +10,8 @@
 
 #include "base/terminal_text.hpp"
 #include "deck/keyword_table.hpp"
+#include "math/vec3.hpp"
+#include "mesh/deck_analytic.hpp"
 #include "mesh/deck_faces.hpp"
 #include "mesh/deck_sets.hpp"
 #include "mesh/finish_mesh.hpp"
@@ -22,8 +24,8 @@ constexpr std::int64_t highest_number = 2'000'000'000;
 
 class DeckMeshReader {
  public:
-  DeckMeshReader(const Statements& statements, const std::string& source)
-      : statements_(statements), faces_(mesh_, elements_) {
+  DeckMeshReader(const Statements& statements, const std::string& source, CaseErrors& errors)
+      : statements_(statements), errors_(errors), faces_(mesh_, elements_) {
     mesh_.report.source = source;
     mesh_.report.format = "deck of Abaqus or CalculiX";
   }
@@ -32,16 +34,21 @@ class DeckMeshReader {
     refuse_made_elsewhere();
     expect_numbers();
     each({"NODE"}, [this](const Statement& s) { read_nodes(s); });
-    each({"ELEMENT"}, [this](const Statement& s) { read_elements(s); });
+    if (is_whole_) each({"ELEMENT"}, [this](const Statement& s) { read_elements(s); });
     next_number_ = element_offset_;
-    for (const Statement& s : statements_.list) read_set(s);
-    each({"SURFACE"}, [this](const Statement& s) { read_surface(s); });
-    make_element_groups();
-    make_node_groups();
-    each({"DLOAD"}, [this](const Statement& s) { make_loaded_faces(s); });
-    name_surfaces();
+    if (is_whole_) {
+      for (const Statement& s : statements_.list) attempt([&] { read_set(s); });
+      each({"SURFACE"}, [this](const Statement& s) { read_surface(s); });
+    }
+    if (is_whole_) {
+      make_element_groups();
+      make_node_groups();
+      each({"DLOAD"}, [this](const Statement& s) { make_loaded_faces(s); });
+      attempt([&] { make_general_contact(); });
+      name_surfaces();
+    }
     note_others();
-    return {std::move(mesh_), std::move(names_)};
+    return {std::move(mesh_), std::move(names_), is_whole_};
   }
 
  private:
@@ -53,17 +60,25 @@ class DeckMeshReader {
     for (std::size_t own = 0; own < statements_.scopes.size(); ++own) {
       node_offset_ = highest_node_, element_offset_ = highest_element_;
       for (const Statement& s : statements_.list)
-        if (at(s.scope) == own && names.count(s.keyword->name) != 0) visit(s);
+        if (at(s.scope) == own && names.count(s.keyword->name) != 0) attempt([&] { visit(s); });
     }
     node_offset_ = highest_node_, element_offset_ = highest_element_;
   }
 
-  void refuse_made_elsewhere() const {
+  /// What fails makes a mesh that is not whole.
+  template <class Work>
+  void attempt(const Work& work) {
+    is_whole_ = errors_.attempt(work) && is_whole_;
+  }
+
+  void refuse_made_elsewhere() {
     for (const Statement& s : statements_.list) {
       const KeywordEntry* entry = find_keyword(s.keyword->name);
       if (entry == nullptr || entry->use != KeywordUse::refused_mesh) continue;
-      s.keyword->fail("a keyword that Carom does not carry out", "nodes and elements in full",
-                      std::string(entry->meaning) + " Write the deck with all its nodes and elements.");
+      attempt([&] {
+        s.keyword->fail("a keyword that Carom does not carry out", "nodes and elements in full",
+                        std::string(entry->meaning) + " Write the deck with all its nodes and elements.");
+      });
     }
   }
 
@@ -120,7 +135,9 @@ class DeckMeshReader {
   }
 
   void read_elements(const Statement& s) {
-    const DeckElementType& type = element_type(*s.keyword);
+    const DeckElementType* known = nullptr;
+    if (!errors_.attempt([&] { known = &element_type(*s.keyword); })) return read_unknown_elements(s);
+    const DeckElementType& type = *known;
     const std::size_t block = type.kind == DeckElementType::Kind::cell ? block_of(mesh_, type.type) : 0;
     const std::string* set = s.keyword->parameter("ELSET");
     std::vector<Index> members;
@@ -138,15 +155,33 @@ class DeckMeshReader {
     to.insert(to.end(), members.begin(), members.end());
   }
 
+  /// Their numbers alone: a line that ends with a comma goes on in the next one.
+  void read_unknown_elements(const Statement& s) {
+    has_unknown_ = true;
+    std::vector<Index> members;
+    bool goes_on = false;
+    for (DeckCursor at(*s.keyword); at.next_line();) {
+      const bool is_first = !goes_on;
+      goes_on = at.line().ends_with(',');
+      if (!is_first) continue;
+      const std::int64_t own = number(at, "the number of an element");
+      if (!element_sets_.insert(s.scope, own, static_cast<Index>(elements_.size()))) continue;
+      members.push_back(static_cast<Index>(elements_.size()));
+      elements_.push_back({&unknown_element_type(), {}, {}, own});
+    }
+    const std::string* set = s.keyword->parameter("ELSET");
+    if (set == nullptr) return;
+    std::vector<Index>& to = element_sets_.set(scope(s).prefix + upper_case(*set));
+    to.insert(to.end(), members.begin(), members.end());
+  }
+
   void read_element(DeckCursor& at, const Statement& s, const DeckElementType& type, std::size_t block,
                     std::int64_t own) {
     std::array<Index, most_nodes> nodes{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(type.nodes); ++i) {
       if (at.at_end() && !at.next_line())
         at.fail(fmt::format("{} nodes of element {}", i, own), fmt::format("{} of a {}", type.nodes, type.name));
-      const std::int64_t node = at.integer("the number of a node");
-      nodes[i] = node_sets_.find(s.scope, node);
-      if (nodes[i] < 0) at.fail(fmt::format("node {} in element {}", node, own), "the number of a node in *NODE");
+      nodes[i] = node_of_element(at, s.scope, own);
     }
     if (!at.at_end() && !at.field().empty())
       at.fail(fmt::format("more than {} nodes of element {}", type.nodes, own),
@@ -161,6 +196,23 @@ class DeckMeshReader {
       cells.file_numbers.push_back(element_offset_ + own);
     }
     elements_.push_back(element);
+  }
+
+  /// "7", or "PART-1-1.7".
+  Index node_of_element(DeckCursor& at, int scope, std::int64_t element) {
+    DeckCursor peek = at;
+    const std::string_view text = peek.field();
+    if (text.find('.') == std::string_view::npos || as_real(text)) {
+      const std::int64_t node = at.integer("the number of a node");
+      const Index found = node_sets_.find(scope, node);
+      if (found < 0) at.fail(fmt::format("node {} in element {}", node, element), "the number of a node in *NODE");
+      return found;
+    }
+    at.field();
+    const std::vector<Index>* found = node_sets_.entries(text, scope, statements_);
+    if (found == nullptr || found->size() != 1)
+      at.fail(fmt::format("node {} in element {}", printable(text), element), "the number of a node in *NODE");
+    return found->front();
   }
 
   void read_set(const Statement& s) {
@@ -198,10 +250,40 @@ class DeckMeshReader {
         const std::vector<Index>& elements = elements_named(at, s.scope);
         faces_.append(elements, upper_case(at.field()), at, surface_cells_[name], next_number_);
       }
+    } else if (type == "SEGMENTS" || type == "CYLINDER" || type == "REVOLUTION") {
+      names_.surfaces[name] = {name, DeckNames::SurfaceKind::faces, name};
+      add_analytic_faces(s, type, surface_cells_[name]);
     } else {
       mesh_.report.notes.push_back(
           fmt::format("{}: the surface {} of TYPE={} is no mesh; left out", to_string(keyword.where), name, type));
     }
+  }
+
+  void add_analytic_faces(const Statement& s, const std::string& type, std::vector<CellRef>& to) {
+    const AnalyticFaces made = analytic_faces(*s.keyword, type, box_diagonal());
+    const auto first = static_cast<Index>(mesh_.coordinates.size());
+    for (const Vec3& x : made.points) {
+      mesh_.coordinates.push_back(scope(s).placement.of(x));
+      mesh_.node_numbers.push_back(++highest_node_);
+    }
+    constexpr std::array types{CellType::line2, CellType::tria3, CellType::quad4};
+    for (const std::vector<std::size_t>& face : made.faces) {
+      const std::size_t block = block_of(mesh_, types.at(face.size() - 2));
+      CellBlock& cells = mesh_.blocks[block];
+      to.push_back({static_cast<Index>(block), static_cast<Index>(cells.size())});
+      for (const std::size_t point : face) cells.connectivity.push_back(first + static_cast<Index>(point));
+      cells.file_numbers.push_back(++next_number_);
+    }
+  }
+
+  /// Of the box around all nodes.
+  double box_diagonal() const {
+    Vec3 size{};
+    for (std::size_t c = 0; c < 3 && !mesh_.coordinates.empty(); ++c) {
+      const auto [least, most] = std::ranges::minmax(mesh_.coordinates, {}, [c](const Vec3& x) { return x[c]; });
+      size[c] = most[c] - least[c];
+    }
+    return norm(size);
   }
 
   void read_node_surface(const Statement& s, const std::string& name) {
@@ -212,7 +294,10 @@ class DeckMeshReader {
       const std::vector<Index>* nodes = node_sets_.entries(text, s.scope, statements_);
       if (nodes == nullptr) at.fail(printable(text), "the number of a node or the name of a node set");
       to.insert(to.end(), nodes->begin(), nodes->end());
-      if (!at.at_end()) at.fail("more than one field", "one node or set in a line", "Areas of nodes are not taken.");
+      // Abaqus' modeller writes the area that nodes have without one.
+      const double area = at.real_or(1.0, "an area");
+      if (area != 1.0) at.fail(fmt::format("an area of {:g}", area), "1, or none", "Areas of nodes are not taken.");
+      at.end_line("one node or set in a line, and an area of 1");
     }
   }
 
@@ -232,6 +317,8 @@ class DeckMeshReader {
         const DeckElement& element = elements_[at(e)];
         if (element.type->kind == DeckElementType::Kind::cell)
           cells[element.type].push_back(element.cell);
+        else if (element.type->kind == DeckElementType::Kind::unknown)
+          names_.element_sets[name];
         else
           group_discrete(name, element, e);
       }
@@ -337,10 +424,78 @@ class DeckMeshReader {
   void group_element(DeckCursor at, const Statement& s, const std::string& number) {
     if (!as_integer(number) || !key_of(names_.element_sets, scope(s), number).empty()) return;
     const DeckElement& element = elements_[carom::at(elements_named(at, s.scope).front())];
-    if (element.type->kind != DeckElementType::Kind::cell) return;
     const std::string key = scope(s).prefix + number;
+    if (element.type->kind == DeckElementType::Kind::unknown) names_.element_sets[key];
+    if (element.type->kind != DeckElementType::Kind::cell) return;
     names_.element_sets[key] = {{key + " (element)", element.type}};
     mesh_.cell_groups[key + " (element)"] = {element.cell};
+  }
+
+  /// General contact meets rigid bodies by a group of all outer faces of the bodies that deform, and by their own faces
+  /// on the side where those bodies are.
+  void make_general_contact() {
+    const auto is_general = [](const Statement& s) {
+      return s.keyword->name == "CONTACT INCLUSIONS" && s.keyword->has("ALL EXTERIOR");
+    };
+    const auto general = std::find_if(statements_.list.begin(), statements_.list.end(), is_general);
+    if (general == statements_.list.end()) return;
+    const DeckCursor at(*general->keyword);
+    for (const Statement& s : statements_.list) {
+      const std::string* set = s.keyword->name == "RIGID BODY" ? s.keyword->parameter("ELSET") : nullptr;
+      if (set != nullptr) add_rigid_side(s, *set, at);
+      if (s.keyword->name == "RIGID BODY") needs_exterior_ = true;
+    }
+    if (!needs_exterior_) return;
+    std::vector<Index> bodies;
+    for (std::size_t e = 0; e < elements_.size(); ++e)
+      if (deforms(elements_[e]) && elements_[e].type->section != "bar") bodies.push_back(static_cast<Index>(e));
+    names_.surfaces[all_exterior] = {all_exterior, DeckNames::SurfaceKind::faces, all_exterior};
+    faces_.append(bodies, "", at, surface_cells_[all_exterior], next_number_);
+  }
+
+  static bool deforms(const DeckElement& element) {
+    return element.type->kind == DeckElementType::Kind::cell && !element.type->section.empty();
+  }
+
+  void add_rigid_side(const Statement& s, const std::string& set, const DeckCursor& at) {
+    const std::vector<Index>* found = element_sets_.entries(set, s.scope, statements_);
+    if (found == nullptr || found->empty()) return;
+    const std::vector<Index> elements = *found;
+    const bool are_faces = std::all_of(elements.begin(), elements.end(), [&](Index e) {
+      const DeckElement& element = elements_[carom::at(e)];
+      return element.type->kind == DeckElementType::Kind::cell && !deforms(element);
+    });
+    if (!are_faces) return;
+    const std::string key = rigid_side_of(scope(s), set);
+    names_.surfaces[key] = {key, DeckNames::SurfaceKind::faces, key};
+    faces_.append(elements, looks_at_bodies(elements) ? "SPOS" : "SNEG", at, surface_cells_[key], next_number_);
+  }
+
+  /// Does the SPOS side of that face which is nearest to the middle of the bodies look there?
+  bool looks_at_bodies(const std::vector<Index>& elements) const {
+    Vec3 middle{};
+    double count = 0.0;
+    for (const DeckElement& element : elements_) {
+      if (!deforms(element)) continue;
+      for (const Index n : nodes_of(element)) middle = add(middle, mesh_.coordinates[at(n)]), count += 1.0;
+    }
+    middle = scaled(middle, count > 0.0 ? 1.0 / count : 0.0);
+    double nearest = std::numeric_limits<double>::infinity(), side = 0.0;
+    for (const Index e : elements) {
+      const std::vector<Index> nodes = nodes_of(elements_[at(e)]);
+      Vec3 centre{};
+      for (const Index n : nodes) centre = add(centre, mesh_.coordinates[at(n)]);
+      centre = scaled(centre, 1.0 / static_cast<double>(nodes.size()));
+      const Vec3 along = subtract(mesh_.coordinates[at(nodes[1])], mesh_.coordinates[at(nodes[0])]);
+      const Vec3 normal =
+          nodes.size() == 2 ? Vec3{-along[1], along[0], 0.0}
+                            : cross(along, subtract(mesh_.coordinates[at(nodes[2])], mesh_.coordinates[at(nodes[0])]));
+      const Vec3 there = subtract(middle, centre);
+      if (norm(there) >= nearest) continue;
+      nearest = norm(there);
+      side = dot(normal, there);
+    }
+    return side >= 0.0;
   }
 
   void name_surfaces() {
@@ -355,7 +510,7 @@ class DeckMeshReader {
       // Bars touch with their sides, which are no faces.
       if (faces_.bars_alone_between(surface_nodes_[name])) continue;
       const std::vector<CellRef> faces = faces_.between(surface_nodes_[name], next_number_);
-      surface.faces = faces.empty() ? "" : name + " (faces)";
+      surface.faces = faces.empty() && !has_unknown_ ? "" : name + " (faces)";
       if (!faces.empty()) mesh_.cell_groups[surface.faces] = faces;
     }
   }
@@ -373,6 +528,10 @@ class DeckMeshReader {
   static constexpr std::size_t at_most = std::numeric_limits<Index>::max();
 
   const Statements& statements_;
+  CaseErrors& errors_;
+  bool is_whole_ = true;
+  bool needs_exterior_ = false;  ///< general contact with rigid bodies
+  bool has_unknown_ = false;     ///< elements of no known type
   Mesh mesh_;
   DeckNames names_;
   DeckSets node_sets_{"node", "NSET"}, element_sets_{"element", "ELSET"};
@@ -385,8 +544,19 @@ class DeckMeshReader {
 
 }  // namespace
 
+std::string rigid_side_of(const DeckScope& scope, const std::string& set) {
+  return scope.prefix + upper_case(set) + " (rigid)";
+}
+
 DeckMesh deck_mesh(const Statements& statements, const std::string& source) {
-  return DeckMeshReader(statements, source).run();
+  CaseErrors errors;
+  DeckMesh made = deck_mesh(statements, source, errors);
+  errors.check();
+  return made;
+}
+
+DeckMesh deck_mesh(const Statements& statements, const std::string& source, CaseErrors& errors) {
+  return DeckMeshReader(statements, source, errors).run();
 }
 
 Mesh read_deck_mesh(std::string bytes, const std::string& source, const IncludeReader& include) {

@@ -43,11 +43,20 @@ struct DeckNames {
 struct DeckMesh {
   Mesh mesh;  ///< in the order of the file, not finished
   DeckNames names;
+  bool is_whole = true;  ///< false: more is wrong than types of elements, and groups are missing
 };
 
 /// Nodes, cells and groups of a deck: what is no mesh is left alone. Names in loads by number become groups, and so do
 /// the faces that pressures name. The numbers of an instance count on from the largest before. Throws CaseError.
 DeckMesh deck_mesh(const Statements& statements, const std::string& source);
+/// The same, with what is wrong added to `errors`. Elements of types that Carom does not have are members of their
+/// sets, which have no cells then.
+DeckMesh deck_mesh(const Statements& statements, const std::string& source, CaseErrors& errors);
+
+/// Surfaces that general contact with rigid bodies has: all outer faces of the bodies that deform, and the side of a
+/// rigid body, by its ELSET, that they are on.
+inline constexpr const char* all_exterior = "ALL EXTERIOR";
+std::string rigid_side_of(const DeckScope& scope, const std::string& set);
 
 /// The key in `scope` of a name or number as it is written there, or "" where `names` has none: with the instance
 /// before it, or else as it stands.

@@ -76,7 +76,7 @@ std::vector<std::uint32_t> face_twins(std::size_t faces, std::size_t per_cell, c
     enter(i, key);
     if (is_found && guess > i) enter(guess, key);
   }
-  // Of more than two equal faces, some may have been found by guess after another one was looked for.
+  // Where more than two faces are equal, a guess may have paired some of them after another one had been looked for.
   for (std::size_t i = 0; i < faces; ++i) {
     if (twin[i] != no_twin) continue;
     const FaceKey key = key_of(i);

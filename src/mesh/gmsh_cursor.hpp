@@ -20,7 +20,7 @@ class GmshCursor {
   std::string next_section();
   /// Throws CaseError unless "$End<section>" comes next.
   void end_section();
-  /// Goes behind "$End<section>"; throws CaseError when there is none.
+  /// Goes past "$End<section>"; throws CaseError when there is none.
   void skip_section();
 
   /// Begins the next line that is not blank.
@@ -36,7 +36,7 @@ class GmshCursor {
 
   /// The next `count` bytes as they are; throws CaseError when the file ends before.
   std::string_view raw(std::size_t count, std::string_view what);
-  /// Goes behind the next line feed, where the binary data of a section begin.
+  /// Goes past the next line feed, where the binary data of a section begin.
   void next_line();
   std::size_t remaining() const { return bytes_.size() - position_; }
 

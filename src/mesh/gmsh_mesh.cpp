@@ -123,6 +123,11 @@ std::size_t GmshMesh::block_of(CellType type) {
 
 GmshMesh::Group& GmshMesh::group(int dimension, std::int64_t tag) {
   Group& found = groups_[{dimension, tag}];
+  const auto any = groups_.find({any_dimension, tag});
+  if (found.names.empty() && any != groups_.end()) {
+    found.names = any->second.names;
+    any->second.used = true;
+  }
   if (found.names.empty()) found.names.push_back(std::to_string(tag));
   found.used = true;
   return found;
@@ -177,8 +182,9 @@ void GmshMesh::merge_repeated_cells() {
 Mesh GmshMesh::take() {
   for (const auto& [key, group] : groups_)
     if (!group.used)
-      mesh_.report.notes.push_back(fmt::format("physical name \"{}\" of dimension {} names nothing in this file",
-                                               fmt::join(group.names, "+"), key.first));
+      mesh_.report.notes.push_back(
+          fmt::format("physical name \"{}\"{} names nothing in this file", fmt::join(group.names, "+"),
+                      key.first == any_dimension ? "" : fmt::format(" of dimension {}", key.first)));
   return std::move(mesh_);
 }
 

@@ -20,7 +20,8 @@ namespace carom {
 /// CaseError at the place of the cursor.
 class GmshMesh {
  public:
-  /// $PhysicalNames: the name of a tag of a dimension (0 to 3).
+  static constexpr int any_dimension = -1;
+  /// $PhysicalNames: the name of a tag of a dimension (0 to 3, or any_dimension).
   void name_physical(int dimension, std::int64_t tag, const std::string& names);
   /// $Nodes begins: count as declared (already compared with the size of the file).
   void begin_nodes(const GmshCursor& at, std::int64_t count);

@@ -14,7 +14,7 @@ namespace carom {
 /// Physical tags of each entity (dimension, tag), from $Entities of format 4.1.
 using GmshEntities = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::int64_t>>;
 
-/// Format 2.2. The cursor stands behind the section's name, and is left before its end.
+/// Format 2.2. The cursor stands after the section's name, and is left before its end.
 template <class Stream>
 void read_nodes_2(Stream& in, GmshMesh& mesh);
 void read_elements_2(GmshText& in, GmshMesh& mesh);

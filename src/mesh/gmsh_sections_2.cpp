@@ -76,7 +76,7 @@ template void read_nodes_2(GmshBinary&, GmshMesh&);
 
 void read_elements_2(GmshText& in, GmshMesh& mesh) {
   const std::int64_t count = declared_count(in.cursor(), "cells");
-  check_cell_count(in.cursor(), count, 8);  // number, type, tag count and a node, a blank behind each
+  check_cell_count(in.cursor(), count, 8);  // number, type, tag count and a node, a blank after each
   for (std::int64_t i = 0; i < count; ++i) {
     in.next_record();
     const std::int64_t number = in.integer("a cell number");

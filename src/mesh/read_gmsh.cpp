@@ -11,19 +11,21 @@ namespace carom {
 
 namespace {
 
+/// 2.0 and 2.1 are read as 2.2: they differ in what tags after the first mean, which is not read.
 enum class Version : std::uint8_t { v2_2, v4_1 };
 enum class Flavour : std::uint8_t { text, little_endian, big_endian };
 
 struct Header {
   Version version;
+  std::string written;  ///< "2.2"
   Flavour flavour;
 };
 
-Version read_version(GmshCursor& at) {
-  const std::string_view version = at.word("the version of the format");
-  if (version == "2.2") return Version::v2_2;
-  if (version == "4.1") return Version::v4_1;
-  at.fail("Gmsh format " + printable(version), "format 2.2 or 4.1",
+std::string read_version(GmshCursor& at) {
+  const std::string version(at.word("the version of the format"));
+  if (version == "2") return "2.0";
+  if (version == "2.0" || version == "2.1" || version == "2.2" || version == "4.1") return version;
+  at.fail("Gmsh format " + printable(version), "format 2.0 to 2.2, or 4.1",
           "Save the mesh in one of them (gmsh -save -format msh41 or msh22).");
 }
 
@@ -38,12 +40,13 @@ Flavour binary_flavour(GmshCursor& at) {
 
 Header read_header(GmshCursor& at) {
   const std::string section = at.next_section();
-  if (section == "$NOD") at.fail("Gmsh format 1", "format 2.2 or 4.1", "Save the mesh in one of them.");
+  if (section == "$NOD") at.fail("Gmsh format 1", "format 2.0 to 2.2, or 4.1", "Save the mesh in one of them.");
   if (section != "$MeshFormat")
     at.fail(section.empty() ? "an empty file" : printable(section), "$MeshFormat",
             "A Gmsh file begins with the section $MeshFormat.");
   at.next_record();
-  Header header{read_version(at), Flavour::text};
+  const std::string version = read_version(at);
+  Header header{version == "4.1" ? Version::v4_1 : Version::v2_2, version, Flavour::text};
   const std::int64_t type = at.integer("the file type");
   if (type != 0 && type != 1) at.fail(fmt::format("file type {}", type), "0 for text or 1 for binary");
   const std::int64_t size = at.integer("the data size");
@@ -55,15 +58,16 @@ Header read_header(GmshCursor& at) {
   return header;
 }
 
-void read_physical_names(GmshCursor& at, GmshMesh& mesh) {
+/// Format 2.0 names a tag for all dimensions.
+void read_physical_names(GmshCursor& at, bool has_dimensions, GmshMesh& mesh) {
   at.next_record();
   const std::int64_t count = at.integer("the number of physical names");
-  check_declared(at, count, 6, "physical names");  // 0 1 ""
+  check_declared(at, count, has_dimensions ? 6 : 4, "physical names");  // 0 1 ""
   at.end_record();
   for (std::int64_t i = 0; i < count; ++i) {
     at.next_record();
-    const std::int64_t dimension = at.integer("a dimension");
-    if (dimension < 0 || dimension > 3) at.fail(fmt::format("dimension {}", dimension), "0 to 3");
+    const std::int64_t dimension = has_dimensions ? at.integer("a dimension") : GmshMesh::any_dimension;
+    if ((has_dimensions && dimension < 0) || dimension > 3) at.fail(fmt::format("dimension {}", dimension), "0 to 3");
     const std::int64_t tag = at.integer("a physical tag");
     mesh.name_physical(static_cast<int>(dimension), tag, at.quoted("a physical name"));
     at.end_record();
@@ -76,9 +80,11 @@ void require_nodes(const GmshCursor& at, const GmshMesh& mesh) {
 }
 
 template <class Stream>
-void read_section(const std::string& section, Version version, Stream& in, GmshEntities& entities, GmshMesh& mesh) {
+void read_section(const std::string& section, const Header& header, Stream& in, GmshEntities& entities,
+                  GmshMesh& mesh) {
+  const Version version = header.version;
   if (section == "$PhysicalNames")
-    read_physical_names(in.cursor(), mesh);
+    read_physical_names(in.cursor(), header.written != "2.0", mesh);
   else if (section == "$Nodes" && version == Version::v2_2)
     read_nodes_2(in, mesh);
   else if (section == "$Nodes")
@@ -101,14 +107,14 @@ void read_section(const std::string& section, Version version, Stream& in, GmshE
 }
 
 template <class Stream>
-void read_sections(Version version, Stream in, GmshMesh& mesh) {
+void read_sections(const Header& header, Stream in, GmshMesh& mesh) {
   GmshEntities entities;
   bool has_cells = false;
   for (std::string section = in.cursor().next_section(); !section.empty(); section = in.cursor().next_section()) {
     if (section == "$Elements" && has_cells)
       in.cursor().fail("a second list of cells", "one", "Remove one of the two $Elements sections.");
     has_cells = has_cells || section == "$Elements";
-    read_section(section, version, in, entities, mesh);
+    read_section(section, header, in, entities, mesh);
   }
   if (!mesh.has_nodes()) in.cursor().fail("no section $Nodes", "$Nodes", "Save the mesh, not only the geometry.");
   if (!has_cells) in.cursor().fail("no section $Elements", "$Elements", "Save the mesh with its cells.");
@@ -121,16 +127,15 @@ Mesh read_gmsh(std::string_view bytes, const std::string& source) {
   const Header header = read_header(at);
   GmshMesh collected;
   if (header.flavour == Flavour::text)
-    read_sections(header.version, GmshText(at), collected);
+    read_sections(header, GmshText(at), collected);
   else
-    read_sections(header.version,
+    read_sections(header,
                   GmshBinary(at, header.flavour == Flavour::little_endian ? std::endian::little : std::endian::big),
                   collected);
   if (header.version == Version::v2_2) collected.merge_repeated_cells();
   Mesh mesh = collected.take();
   mesh.report.source = source;
-  mesh.report.format = fmt::format("Gmsh {} {}", header.version == Version::v2_2 ? "2.2" : "4.1",
-                                   header.flavour == Flavour::text ? "text" : "binary");
+  mesh.report.format = fmt::format("Gmsh {} {}", header.written, header.flavour == Flavour::text ? "text" : "binary");
   return finished(std::move(mesh));
 }
 

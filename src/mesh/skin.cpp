@@ -93,7 +93,13 @@ class CellFaces {
   std::vector<bool> is_out_;
 };
 
-/// Appends the linear facets of a face.
+std::vector<std::uint32_t> twins(const Mesh& mesh, const CellFaces& faces) {
+  return face_twins(
+      faces.size(), faces.per_cell(), [&](std::size_t i) { return faces.key(i); }, mesh.node_count());
+}
+
+}  // namespace
+
 void append_facets(const Mesh& mesh, const CellRef& cell, int number, std::vector<OuterFacet>& outer) {
   const CellBlock& block = mesh.blocks[at(cell.block)];
   const std::span<const Index> nodes = block.nodes(cell.cell);
@@ -106,12 +112,9 @@ void append_facets(const Mesh& mesh, const CellRef& cell, int number, std::vecto
   }
 }
 
-}  // namespace
-
 std::vector<OuterFacet> outer_facets(const Mesh& mesh) {
   const CellFaces faces(mesh);
-  const std::vector<std::uint32_t> twin = face_twins(
-      faces.size(), faces.per_cell(), [&](std::size_t i) { return faces.key(i); }, mesh.node_count());
+  const std::vector<std::uint32_t> twin = twins(mesh, faces);
   std::vector<OuterFacet> outer;
   for (std::size_t i = 0; i < twin.size(); ++i) {
     if (twin[i] != no_twin || faces.is_out(i)) continue;
@@ -119,6 +122,20 @@ std::vector<OuterFacet> outer_facets(const Mesh& mesh) {
     append_facets(mesh, cell, face, outer);
   }
   return outer;
+}
+
+std::vector<SharedFace> shared_faces(const Mesh& mesh, const std::function<bool(const CellRef&)>& is_wanted) {
+  const CellFaces faces(mesh);
+  const std::vector<std::uint32_t> twin = twins(mesh, faces);
+  std::vector<SharedFace> shared;
+  for (std::size_t i = 0; i < twin.size(); ++i) {
+    if (twin[i] == no_twin || faces.is_out(i)) continue;
+    const auto [cell, face] = faces.at_number(i);
+    if (!is_wanted(cell)) continue;
+    const auto [other, other_face] = faces.at_number(twin[i]);
+    shared.push_back({cell, face, other, other_face});
+  }
+  return shared;
 }
 
 std::vector<Facet> skin(const Mesh& mesh) {

@@ -1,6 +1,7 @@
 // The outer surface of the cells that may be solids.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "mesh/facet.hpp"
@@ -22,6 +23,20 @@ struct OuterFacet {
 /// own, and where a cell ends in one of a higher dimension (a bar in a body) it has none either. Interfaces of zero
 /// thickness are left out, so that the facets beside them are outer ones. Time is linear in the number of cells.
 std::vector<OuterFacet> outer_facets(const Mesh& mesh);
+
+/// A face that two cells share; of cells of several dimensions or of zero thickness none does (see outer_facets).
+struct SharedFace {
+  CellRef cell;
+  int face = 0;
+  CellRef other;
+  int other_face = 0;
+};
+
+/// The faces that a wanted cell shares with another one, by that cell; twice if both are wanted.
+std::vector<SharedFace> shared_faces(const Mesh& mesh, const std::function<bool(const CellRef&)>& is_wanted);
+
+/// Appends the linear facets of a face of a cell, normals outward.
+void append_facets(const Mesh& mesh, const CellRef& cell, int face, std::vector<OuterFacet>& facets);
 
 /// The facets of outer_facets alone.
 std::vector<Facet> skin(const Mesh& mesh);

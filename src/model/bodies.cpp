@@ -1,5 +1,6 @@
 #include "model/bodies.hpp"
 
+#include <map>
 #include <numeric>
 #include <span>
 
@@ -24,6 +25,11 @@ std::vector<Index> bodies_of_nodes(const Model& model) {
         parent[at(root(n))] = root(nodes[0]);
       }
     }
+  }
+  std::map<Index, Index> first_of;  // parts of one rigid body are one
+  for (const Embedding::Follower& follower : model.embedding.followers()) {
+    const Index first = first_of.emplace(follower.body, follower.node).first->second;
+    parent[at(root(follower.node))] = root(first);
   }
   std::vector<Index> body(mesh.node_count(), -1);
   for (std::size_t n = 0; n < body.size(); ++n)

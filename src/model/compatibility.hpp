@@ -46,20 +46,24 @@ enum class Stepping : std::uint8_t { implicit_steps, explicit_steps };
 /// What the rest of the program has to know of an enforcement.
 struct EnforcementTraits {
   EnforcementKind kind;
-  std::string_view name;  ///< in case files
-  bool takes_stiffness;   ///< contacts have springs, if only as a means
-  bool adds_stiffness;    ///< the springs are part of the bodies' vibrations: they limit explicit steps
-  bool is_exact;          ///< its conditions are met on the rows by their compliance, a column of the inverse each
-  bool stops_touches;     ///< beside multipliers of displacements the velocities have impulses of their own
-  bool throws_back;       ///< they have none, and follow from the displacements
+  std::string_view name;         ///< in case files
+  bool takes_stiffness = false;  ///< contacts have springs, if only as a means
+  bool adds_stiffness = false;   ///< the springs are part of the bodies' vibrations: they limit explicit steps
+  bool is_exact = false;       ///< its conditions are met on the rows by their compliance, a column of the inverse each
+  bool stops_touches = false;  ///< beside multipliers of displacements the velocities have impulses of their own
+  bool throws_back = false;    ///< they have none, and follow from the displacements
 };
 
 inline constexpr std::array enforcement_table{
-    EnforcementTraits{EnforcementKind::penalty, "penalty", true, true, false, false, false},
-    EnforcementTraits{EnforcementKind::augmented_lagrangian, "augmented_lagrangian", true, false, false, true, false},
-    EnforcementTraits{EnforcementKind::lagrange, "lagrange", false, false, true, true, false},
-    EnforcementTraits{EnforcementKind::plain, "plain", false, false, true, false, true},
-    EnforcementTraits{EnforcementKind::impulse, "impulse", false, false, true, false, false}};
+    EnforcementTraits{
+        .kind = EnforcementKind::penalty, .name = "penalty", .takes_stiffness = true, .adds_stiffness = true},
+    EnforcementTraits{.kind = EnforcementKind::augmented_lagrangian,
+                      .name = "augmented_lagrangian",
+                      .takes_stiffness = true,
+                      .stops_touches = true},
+    EnforcementTraits{.kind = EnforcementKind::lagrange, .name = "lagrange", .is_exact = true, .stops_touches = true},
+    EnforcementTraits{.kind = EnforcementKind::plain, .name = "plain", .is_exact = true, .throws_back = true},
+    EnforcementTraits{.kind = EnforcementKind::impulse, .name = "impulse", .is_exact = true}};
 inline constexpr std::size_t enforcement_count = enforcement_table.size();
 inline constexpr std::array enforcement_names{enforcement_table[0].name, enforcement_table[1].name,
                                               enforcement_table[2].name, enforcement_table[3].name,
@@ -68,17 +72,29 @@ inline constexpr std::array enforcement_names{enforcement_table[0].name, enforce
 /// How a scheme keeps the angular momentum of bodies that turn far.
 enum class AngularMomentum : std::uint8_t { to_its_order, exactly };
 
+/// Which enforcements a scheme takes.
+struct Takes {
+  bool penalty = false, augmented_lagrangian = false, lagrange = false, plain = false, impulse = false;
+
+  /// In the order of EnforcementKind.
+  constexpr std::array<bool, enforcement_count> all() const {
+    return {penalty, augmented_lagrangian, lagrange, plain, impulse};
+  }
+  constexpr bool operator[](std::size_t kind) const { return all()[kind]; }
+};
+
 /// One line of the table. `why_not` says what stands against the enforcements that are not taken.
 struct SchemeTraits {
   SchemeKind kind;
   std::string_view name;   ///< in case files
   std::string_view title;  ///< in reports and messages
   Stepping stepping;
-  SchemeParameters parameters;                ///< with their initial values
-  std::array<bool, enforcement_count> takes;  ///< in the order of EnforcementKind
+  SchemeParameters parameters;  ///< with their initial values
+  Takes takes;
   std::string_view why_not;
   AngularMomentum angular_momentum = AngularMomentum::to_its_order;
   double gains = 0.005;       ///< energy that it may make, over what there is, without a trend (docs/schemes.md)
+  bool has_inertia = true;    ///< false: its steps are equilibria
   bool takes_history = true;  ///< bodies whose points remember, and so dissipate; distortion control
 };
 
@@ -101,117 +117,117 @@ inline constexpr std::string_view potential =
 
 /// Doyen, Ern and Piperno, SIAM J. Sci. Comput. 33(1), 2011, sort contact discretisations into the same four groups.
 inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
-    {SchemeKind::newmark,
-     "newmark",
-     "Newmark",
-     Stepping::implicit_steps,
-     NewmarkParameters{},
-     {true, true, true, true, false},
-     detail::smooth},
-    {SchemeKind::hht,
-     "hht",
-     "HHT",
-     Stepping::implicit_steps,
-     AlphaParameters{},
-     {true, true, true, true, false},
-     detail::smooth},
-    {SchemeKind::wbz,
-     "wbz",
-     "WBZ",
-     Stepping::implicit_steps,
-     AlphaParameters{},
-     {true, true, true, true, false},
-     detail::smooth},
-    {SchemeKind::generalized_alpha,
-     "generalized_alpha",
-     "generalised-alpha",
-     Stepping::implicit_steps,
-     SpectralRadius{},
-     {true, true, true, true, false},
-     detail::smooth},
-    {SchemeKind::bathe,
-     "bathe",
-     "Bathe composite",
-     Stepping::implicit_steps,
-     NoParameters{},
-     {true, true, true, true, false},
-     detail::smooth},
-    {SchemeKind::contact_stabilized_newmark,
-     "contact_stabilized_newmark",
-     "contact-stabilised Newmark",
-     Stepping::implicit_steps,
-     ContactStabilizedParameters{},
-     {false, false, true, false, false},
-     detail::displacement_level},
-    {SchemeKind::energy_momentum,
-     "energy_momentum",
-     "energy-momentum",
-     Stepping::implicit_steps,
-     NoParameters{},
-     {true, false, false, false, false},
-     detail::potential,
-     AngularMomentum::exactly,
-     0.005,
-     false},
-    {SchemeKind::moreau_jean,
-     "moreau_jean",
-     "Moreau-Jean",
-     Stepping::implicit_steps,
-     MoreauJeanParameters{},
-     {false, false, false, false, true},
-     detail::velocity_level},
-    {SchemeKind::nonsmooth_generalized_alpha,
-     "nonsmooth_generalized_alpha",
-     "nonsmooth generalised-alpha",
-     Stepping::implicit_steps,
-     SpectralRadius{},
-     {false, false, false, false, true},
-     detail::velocity_level},
-    {SchemeKind::central_differences,
-     "central_differences",
-     "central differences",
-     Stepping::explicit_steps,
-     NoParameters{},
-     {true, false, true, false, true},
-     detail::by_the_mass,
-     AngularMomentum::exactly},
-    {SchemeKind::hulbert_chung,
-     "hulbert_chung",
-     "Hulbert-Chung",
-     Stepping::explicit_steps,
-     SpectralRadius{},
-     {true, false, false, false, false},
-     detail::smooth_explicit},
-    {SchemeKind::noh_bathe,
-     "noh_bathe",
-     "Noh-Bathe",
-     Stepping::explicit_steps,
-     NohBatheParameters{},
-     {true, false, false, false, false},
-     detail::smooth_explicit},
-    {SchemeKind::tchamwa_wielgosz,
-     "tchamwa_wielgosz",
-     "Tchamwa-Wielgosz",
-     Stepping::explicit_steps,
-     TchamwaWielgoszParameters{},
-     {true, false, false, false, false},
-     detail::smooth_explicit},
-    {SchemeKind::modified_mass,
-     "modified_mass",
-     "central differences, modified mass",
-     Stepping::explicit_steps,
-     NoParameters{},
-     {false, false, true, false, false},
-     detail::displacement_level,
-     AngularMomentum::exactly,
-     0.02},
-    {SchemeKind::statics,
-     "statics",
-     "statics",
-     Stepping::implicit_steps,
-     NoParameters{},
-     {true, true, true, false, false},
-     detail::timeless},
+    {.kind = SchemeKind::newmark,
+     .name = "newmark",
+     .title = "Newmark",
+     .stepping = Stepping::implicit_steps,
+     .parameters = NewmarkParameters{},
+     .takes = {.penalty = true, .augmented_lagrangian = true, .lagrange = true, .plain = true},
+     .why_not = detail::smooth},
+    {.kind = SchemeKind::hht,
+     .name = "hht",
+     .title = "HHT",
+     .stepping = Stepping::implicit_steps,
+     .parameters = AlphaParameters{},
+     .takes = {.penalty = true, .augmented_lagrangian = true, .lagrange = true, .plain = true},
+     .why_not = detail::smooth},
+    {.kind = SchemeKind::wbz,
+     .name = "wbz",
+     .title = "WBZ",
+     .stepping = Stepping::implicit_steps,
+     .parameters = AlphaParameters{},
+     .takes = {.penalty = true, .augmented_lagrangian = true, .lagrange = true, .plain = true},
+     .why_not = detail::smooth},
+    {.kind = SchemeKind::generalized_alpha,
+     .name = "generalized_alpha",
+     .title = "generalised-alpha",
+     .stepping = Stepping::implicit_steps,
+     .parameters = SpectralRadius{},
+     .takes = {.penalty = true, .augmented_lagrangian = true, .lagrange = true, .plain = true},
+     .why_not = detail::smooth},
+    {.kind = SchemeKind::bathe,
+     .name = "bathe",
+     .title = "Bathe composite",
+     .stepping = Stepping::implicit_steps,
+     .parameters = NoParameters{},
+     .takes = {.penalty = true, .augmented_lagrangian = true, .lagrange = true, .plain = true},
+     .why_not = detail::smooth},
+    {.kind = SchemeKind::contact_stabilized_newmark,
+     .name = "contact_stabilized_newmark",
+     .title = "contact-stabilised Newmark",
+     .stepping = Stepping::implicit_steps,
+     .parameters = ContactStabilizedParameters{},
+     .takes = {.lagrange = true},
+     .why_not = detail::displacement_level},
+    {.kind = SchemeKind::energy_momentum,
+     .name = "energy_momentum",
+     .title = "energy-momentum",
+     .stepping = Stepping::implicit_steps,
+     .parameters = NoParameters{},
+     .takes = {.penalty = true},
+     .why_not = detail::potential,
+     .angular_momentum = AngularMomentum::exactly,
+     .takes_history = false},
+    {.kind = SchemeKind::moreau_jean,
+     .name = "moreau_jean",
+     .title = "Moreau-Jean",
+     .stepping = Stepping::implicit_steps,
+     .parameters = MoreauJeanParameters{},
+     .takes = {.impulse = true},
+     .why_not = detail::velocity_level},
+    {.kind = SchemeKind::nonsmooth_generalized_alpha,
+     .name = "nonsmooth_generalized_alpha",
+     .title = "nonsmooth generalised-alpha",
+     .stepping = Stepping::implicit_steps,
+     .parameters = SpectralRadius{},
+     .takes = {.impulse = true},
+     .why_not = detail::velocity_level},
+    {.kind = SchemeKind::central_differences,
+     .name = "central_differences",
+     .title = "central differences",
+     .stepping = Stepping::explicit_steps,
+     .parameters = NoParameters{},
+     .takes = {.penalty = true, .lagrange = true, .impulse = true},
+     .why_not = detail::by_the_mass,
+     .angular_momentum = AngularMomentum::exactly},
+    {.kind = SchemeKind::hulbert_chung,
+     .name = "hulbert_chung",
+     .title = "Hulbert-Chung",
+     .stepping = Stepping::explicit_steps,
+     .parameters = SpectralRadius{},
+     .takes = {.penalty = true},
+     .why_not = detail::smooth_explicit},
+    {.kind = SchemeKind::noh_bathe,
+     .name = "noh_bathe",
+     .title = "Noh-Bathe",
+     .stepping = Stepping::explicit_steps,
+     .parameters = NohBatheParameters{},
+     .takes = {.penalty = true},
+     .why_not = detail::smooth_explicit},
+    {.kind = SchemeKind::tchamwa_wielgosz,
+     .name = "tchamwa_wielgosz",
+     .title = "Tchamwa-Wielgosz",
+     .stepping = Stepping::explicit_steps,
+     .parameters = TchamwaWielgoszParameters{},
+     .takes = {.penalty = true},
+     .why_not = detail::smooth_explicit},
+    {.kind = SchemeKind::modified_mass,
+     .name = "modified_mass",
+     .title = "central differences, modified mass",
+     .stepping = Stepping::explicit_steps,
+     .parameters = NoParameters{},
+     .takes = {.lagrange = true},
+     .why_not = detail::displacement_level,
+     .angular_momentum = AngularMomentum::exactly,
+     .gains = 0.02},
+    {.kind = SchemeKind::statics,
+     .name = "statics",
+     .title = "statics",
+     .stepping = Stepping::implicit_steps,
+     .parameters = NoParameters{},
+     .takes = {.penalty = true, .augmented_lagrangian = true, .lagrange = true},
+     .why_not = detail::timeless,
+     .has_inertia = false},
 }};
 
 /// A name that a scheme has in the literature with one of its enforcements: a case may say it as its kind.
@@ -240,6 +256,9 @@ constexpr std::string_view name(EnforcementKind kind) {
 }
 constexpr bool is_explicit(SchemeKind kind) {
   return traits(kind).stepping == Stepping::explicit_steps;
+}
+constexpr bool has_inertia(SchemeKind kind) {
+  return traits(kind).has_inertia;
 }
 constexpr std::string_view title(SchemeKind scheme, EnforcementKind enforcement) {
   for (const SchemeAlias& alias : scheme_aliases) {

@@ -111,6 +111,7 @@ struct ObstacleContact {
   RowMeasure measure = RowMeasure::per_area;
   std::vector<Index> nodes;   ///< nodes that may touch (per_node)
   Surface surface;            ///< facets that may touch (per_area)
+  Surface loose;              ///< points: nodes that all cells have left (Topology)
   std::vector<BarSide> bars;  ///< bars that may touch with their sides (per_area)
   ContactLaw law;
   InitialPenetration initial = InitialPenetration::refuse;
@@ -122,6 +123,7 @@ struct ObstacleContact {
 struct PairContact {
   std::string name;
   Surface slave, master;
+  Surface loose_slave, loose_master;             ///< points: nodes of either side that all cells have left (Topology)
   std::vector<BarSide> slave_bars, master_bars;  ///< bars instead of facets
   bool self = false;
   PairMethod method = PairMethod::two_pass;

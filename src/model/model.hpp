@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/errors.hpp"
 #include "base/types.hpp"
 #include "element/formulation.hpp"
 #include "material/law.hpp"
@@ -19,6 +20,7 @@
 #include "mesh/skin.hpp"
 #include "model/cohesive.hpp"
 #include "model/contact.hpp"
+#include "model/embedding.hpp"
 #include "model/options.hpp"
 #include "model/surface.hpp"
 #include "model/turning_body.hpp"
@@ -34,7 +36,8 @@ struct Viscosity {
   bool is_any() const { return has_bulk() || hourglass > 0.0; }
 };
 
-/// Cells of one type and one material.
+/// Cells of one type and one material. A [[part]] of the case whose group has cells of several types is a Part for each
+/// of them: one after the other, of one name.
 struct Part {
   std::string name;
   std::vector<Index> cells;  ///< indices into Mesh::block(type)
@@ -47,6 +50,7 @@ struct Part {
                                       ///< stiffness is the whole one, 0.05 of one-point cells
   Viscosity viscosity{};
   double distortion_control = 0.0;  ///< share of its volume below which a corner resists (solid/distortion_control.hpp)
+  Index rigid_body = -1;  ///< in Model::turning_bodies: its cells have neither forces nor mass, their nodes follow this
 
   /// True when the forces depend on more than the displacement.
   bool remembers() const { return !material.law->history.empty() || viscosity.is_any(); }
@@ -107,7 +111,7 @@ struct InitialState {
   std::vector<Vec3> velocity;      ///< likewise
   std::size_t stage = 0;
 
-  /// Of the node at a position in `nodes`; there are some.
+  /// The displacement of the node at a position in `nodes`. Precondition: displacements are given.
   const Vec3& displacement_of(std::size_t k) const {
     return displacement.size() == 1 ? displacement[0] : displacement[k];
   }
@@ -124,7 +128,7 @@ struct LinearEquation {
   };
   std::string name;
   std::vector<Term> terms;
-  std::size_t section = 0;  ///< which [[equation]] it comes from
+  Location where{};  ///< of the section of the case that it comes from
 };
 
 /// A rigid body that moves without turning: a node of its own with a mass.
@@ -148,6 +152,15 @@ struct Spring {
   std::array<Vec3, 3> stiffness{};
 };
 
+/// Cells that go when something is reached: of the next step on they have no forces, their mass stays with their nodes.
+struct Erosion {
+  std::string name;                        ///< of the cells, for messages
+  std::vector<Index> cells;                ///< positions among all solid cells, part after part
+  std::optional<double> plastic_strain{};  ///< the largest of the cell's points
+  std::optional<double> distortion{};      ///< the least share of its volume at rest that a corner keeps
+  std::optional<double> time{};
+};
+
 /// Everything the discrete bodies and the contact are made from.
 struct Model {
   std::shared_ptr<const Mesh> mesh;
@@ -160,13 +173,21 @@ struct Model {
   std::vector<Spring> springs;
   std::vector<LinearEquation> equations;
   std::vector<CohesiveZone> cohesive;
+  std::vector<Erosion> erosion;
   std::vector<RigidBody> rigid_bodies;
   std::vector<TurningBody> turning_bodies;
+  Embedding embedding;                                      ///< of nodes in turning bodies
   std::shared_ptr<const std::vector<double>> node_lengths;  ///< of model/node_lengths.hpp, once the parts are complete
   std::shared_ptr<const std::vector<OuterFacet>> outer_facets;  ///< of the mesh (mesh/skin.hpp), where they are known
+  bool is_eroded = false;          ///< cells have gone, and surfaces have facets that were inside before (Topology)
+  std::vector<std::string> notes;  ///< what the log says of it
 
   /// The part that a cell belongs to; null: none.
   const Part* part_of(const CellRef& cell) const;
+  /// The same for all cells: per block and cell the position in `parts`, or -1.
+  std::vector<std::vector<Index>> part_of_cells() const;
+  /// Of each of `parts` the position of its [[part]] in the case, from 0.
+  std::vector<Index> part_numbers() const;
 };
 
 }  // namespace carom

@@ -53,6 +53,25 @@ Vec3 corner(const TurningBody& body, std::size_t a) {
   return x;
 }
 
+namespace {
+
+/// N_a of a point with these coordinates along the body's own axes.
+std::array<double, 4> weights_at(const TurningBody& body, const Vec3& X) {
+  std::array<double, 4> N{};
+  for (std::size_t a = 0; a < 4; ++a) {
+    N[a] = 0.25;
+    for (std::size_t i = 0; i < 3; ++i) N[a] += 0.25 * corner_signs[a][i] * X[i] / body.radii[i];
+  }
+  return N;
+}
+
+}  // namespace
+
+std::array<double, 4> corner_weights(const TurningBody& body, const Vec3& X) {
+  const Vec3 r = subtract(X, body.centre);
+  return weights_at(body, {dot(body.axes[0], r), dot(body.axes[1], r), dot(body.axes[2], r)});
+}
+
 BodyFrame body_frame(const TurningBody& body, const std::array<Vec3, 4>& nodal) {
   BodyFrame frame;
   for (std::size_t a = 0; a < 4; ++a) {
@@ -126,13 +145,7 @@ Vec3 BodyPlacement::gradient(const Vec3& g) const {
 
 std::array<double, 4> BodyPlacement::weights(const Vec3& x) const {
   const Vec3 r = subtract(x, centre_);
-  const Vec3 X{dot(duals_[0], r), dot(duals_[1], r), dot(duals_[2], r)};
-  std::array<double, 4> N{};
-  for (std::size_t a = 0; a < 4; ++a) {
-    N[a] = 0.25;
-    for (std::size_t i = 0; i < 3; ++i) N[a] += 0.25 * corner_signs[a][i] * X[i] / body_->radii[i];
-  }
-  return N;
+  return weights_at(*body_, {dot(duals_[0], r), dot(duals_[1], r), dot(duals_[2], r)});
 }
 
 BodyPlacement place_body(const TurningBody& body, std::span<const double> u) {

@@ -53,6 +53,9 @@ bool any_free(std::span<const TurningBody> bodies);
 /// Reference position of node a.
 Vec3 corner(const TurningBody& body, std::size_t a);
 
+/// N_a of the material point that is at X in the reference configuration.
+std::array<double, 4> corner_weights(const TurningBody& body, const Vec3& X);
+
 /// What turns nodal values (positions, or velocities) into those of the centre and the directors:
 ///   phi = 1/4 sum of x_a,  d_i = 1 / (4 r_i) sum of s_ai x_a.
 struct BodyFrame {

@@ -3,7 +3,10 @@
 
 #include <hdf5.h>
 
+#include <mutex>
 #include <utility>
+
+#include "base/hdf5_lock.hpp"
 
 namespace carom {
 
@@ -25,7 +28,7 @@ class Handle {
   T value_;
 };
 
-/// HDF5 keeps its complaints to itself: every call is looked at here.
+/// HDF5 keeps its complaints to itself, since every call is looked at, and serves this thread alone.
 class QuietHdf5 {
  public:
   QuietHdf5() {
@@ -37,6 +40,7 @@ class QuietHdf5 {
   QuietHdf5& operator=(const QuietHdf5&) = delete;
 
  private:
+  std::lock_guard<std::recursive_mutex> alone_{hdf5_lock()};
   H5E_auto2_t report_ = nullptr;
   void* data_ = nullptr;
 };

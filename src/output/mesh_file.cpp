@@ -17,7 +17,7 @@ namespace carom {
 namespace {
 
 void write_vtu_mesh(const std::string& path, const Mesh& mesh) {
-  VtuCells cells;
+  FrameCells cells;
   std::vector<std::size_t> first;  // cell of each block
   std::vector<std::int64_t> numbers;
   for (const CellBlock& block : mesh.blocks) {
@@ -25,7 +25,7 @@ void write_vtu_mesh(const std::string& path, const Mesh& mesh) {
     for (std::size_t c = 0; c < block.size(); ++c) cells.add(block.nodes(static_cast<Index>(c)), block.type);
     numbers.insert(numbers.end(), block.file_numbers.begin(), block.file_numbers.end());
   }
-  std::vector<VtuField> of_points{{"node_number", 1, mesh.node_numbers}}, of_cells{{"cell_number", 1, numbers}};
+  std::vector<FrameField> of_points{{"node_number", 1, mesh.node_numbers}}, of_cells{{"cell_number", 1, numbers}};
   for (const auto& [name, nodes] : mesh.node_groups) {
     std::vector<std::uint8_t> is_in(mesh.node_count());
     for (const Index n : nodes) is_in[at(n)] = 1;
@@ -36,7 +36,7 @@ void write_vtu_mesh(const std::string& path, const Mesh& mesh) {
     for (const CellRef& cell : members) is_in[first[at(cell.block)] + at(cell.cell)] = 1;
     of_cells.push_back({name, 1, std::move(is_in)});
   }
-  write_vtu(path, mesh.coordinates, cells, of_points, of_cells);
+  write_vtu(path, {mesh.coordinates, std::move(cells), std::move(of_points), std::move(of_cells)});
 }
 
 }  // namespace

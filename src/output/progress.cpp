@@ -110,7 +110,8 @@ void Progress::show_live(const ProgressUpdate& now) {
   if (time - last_shown_ < kLiveInterval) return;
   last_shown_ = time;
   // The last column stays free: a full line would wrap on some terminals.
-  show(stream_, "\r" + progress_line(now, t_end_, seconds_left(now.t), terminal_width(stream_) - 1) + "\x1b[K");
+  show(stream_,
+       fmt::format("\r{}\x1b[K", progress_line(now, t_end_, seconds_left(now.t), terminal_width(stream_) - 1)));
   live_shown_ = true;
 }
 

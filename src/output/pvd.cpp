@@ -1,45 +1,46 @@
-#include "output/pvd.hpp"
-
+// Frames as .vtu files, each with its mesh, and a collection (.pvd) that gives them their times.
 #include <fmt/format.h>
 
-#include <iterator>
-
-#include "output/file_writer.hpp"
+#include "output/frame_format.hpp"
+#include "output/vtu.hpp"
 #include "output/xml.hpp"
 
 namespace carom {
 
 namespace {
 
-std::string collection(const std::vector<PvdFrame>& frames) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
-  const auto add = [&text](double time, int part, const std::string& file) {
-    fmt::format_to(std::back_inserter(text), "<DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", time,
-                   part, xml_escape(file));
+class VtuWriter : public FrameWriter {
+ public:
+  VtuWriter(std::string folder, FrameMesh mesh) : folder_(std::move(folder)), mesh_(std::move(mesh)) {}
+  void write(const std::string& file, const Frame& frame) override { write_vtu(folder_ + "/" + file, mesh_, frame); }
+
+ private:
+  std::string folder_;
+  FrameMesh mesh_;
+};
+
+std::string entry(const std::string& /*folder*/, const FrameEntry& frame) {
+  const auto line = [&](int part, const std::string& file) {
+    return fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", frame.time, part,
+                       xml_escape(file));
   };
-  for (const PvdFrame& frame : frames) {
-    add(frame.time, 0, frame.file);
-    if (!frame.obstacles.empty()) add(frame.time, 1, frame.obstacles);
-  }
-  return text + "</Collection>\n</VTKFile>\n";
+  return frame.obstacles.empty() ? line(0, frame.file) : line(0, frame.file) + line(1, frame.obstacles);
 }
+
+constexpr IndexFile kCollection{"fields.pvd",
+                                "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+                                "byte_order=\"LittleEndian\">\n<Collection>\n",
+                                "</Collection>\n</VTKFile>\n", entry};
 
 }  // namespace
 
-std::string frame_file(int step) {
-  return fmt::format("fields/step_{:06}.vtu", step);
-}
-
-PvdCollection::PvdCollection(std::string path, std::vector<PvdFrame> frames)
-    : path_(std::move(path)), frames_(std::move(frames)) {
-  write_file(path_, collection(frames_));
-}
-
-void PvdCollection::add(double time, const std::string& file, const std::string& obstacles) {
-  frames_.push_back({time, file, obstacles});
-  write_file(path_, collection(frames_));
+FrameFormat vtu_format() {
+  return {.name = "vtu",
+          .end = ".vtu",
+          .indices = {&kCollection, 1},
+          .shares_mesh = false,
+          .make_writer = [](const std::string& folder, std::string_view /*body*/, FrameMesh mesh)
+              -> std::unique_ptr<FrameWriter> { return std::make_unique<VtuWriter>(folder, std::move(mesh)); }};
 }
 
 }  // namespace carom

@@ -11,6 +11,7 @@
 
 #include "base/errors.hpp"
 #include "output/file_writer.hpp"
+#include "output/frame_format.hpp"
 
 namespace carom {
 
@@ -18,9 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 11> kFiles{"probes_filtered.csv", "summary.json", "energy.csv", "contact.csv",
-                                                  "probes.csv",          "exact.csv",    "fields.pvd", "mesh.txt",
-                                                  resolved_case_file,    "report.html",  "watch.html"};
+constexpr std::array<std::string_view, 14> kFiles{
+    "probes_filtered.csv", "contact_filtered.csv", "summary.json", "energy.csv",       "contact.csv", "probes.csv",
+    "exact.csv",           "fields.pvd",           "mesh.txt",     resolved_case_file, "report.html", "watch.html",
+    "fields.xdmf",         "obstacles.xdmf"};
 
 /// The digits of a name such as step_000010.vtu; "" where it has not this form.
 std::string_view digits_of(std::string_view name, std::string_view begin, std::string_view end) {
@@ -32,7 +34,19 @@ std::string_view digits_of(std::string_view name, std::string_view begin, std::s
 /// As the recorder names them, or what an interrupted write of one left.
 bool is_frame(std::string_view name) {
   if (name.ends_with(".tmp")) name.remove_suffix(4);
-  return !digits_of(name, "step_", ".vtu").empty() || !digits_of(name, "obstacles_", ".vtu").empty();
+  const auto is_of = [name](const FrameFormat& format) {
+    return !digits_of(name, "step_", format.end).empty() || !digits_of(name, "obstacles_", format.end).empty();
+  };
+  return std::ranges::any_of(frame_formats(), is_of);
+}
+
+/// The mesh that frames share, or what an interrupted write of it left.
+bool is_mesh(std::string_view name) {
+  if (name.ends_with(".tmp")) name.remove_suffix(4);
+  return std::ranges::any_of(frame_formats(), [name](const FrameFormat& format) {
+    return format.shares_mesh && (name == fmt::format("{}{}", bodies_mesh, format.end) ||
+                                  name == fmt::format("{}{}", obstacles_mesh, format.end));
+  });
 }
 
 constexpr std::string_view kCheckpoints = "checkpoints", kCheckpointEnd = ".h5";
@@ -75,7 +89,7 @@ void prepare_results_folder(const std::string& path) {
     remove_file(folder / name);
     remove_file(folder / (std::string(name) + ".tmp"));
   }
-  remove_files(folder / "fields", is_frame);
+  remove_files(folder / "fields", [](const std::string& name) { return is_frame(name) || is_mesh(name); });
   remove_files(folder / kCheckpoints, is_checkpoint);
   const fs::path state = folder / kept_state_folder;
   remove_file(state / resolved_case_file);
@@ -86,11 +100,13 @@ void prepare_results_folder(const std::string& path) {
 
 void continue_results_folder(const std::string& path, const std::vector<std::string>& frames) {
   const fs::path folder(path);
-  for (const char* name : {"probes_filtered.csv", "summary.json", "report.html", "watch.html"}) {
+  for (const char* name :
+       {"probes_filtered.csv", "contact_filtered.csv", "summary.json", "report.html", "watch.html"}) {
     remove_file(folder / name);
     remove_file(folder / (std::string(name) + ".tmp"));
   }
   remove_files(folder / "fields", [&](const std::string& name) {
+    if (is_mesh(name)) return name.ends_with(".tmp");
     return is_frame(name) && std::find(frames.begin(), frames.end(), "fields/" + name) == frames.end();
   });
   remove_files(folder / kCheckpoints,

@@ -3,22 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 #include <vector>
 
-#include "base/units.hpp"
 #include "energy/ledger.hpp"
+#include "output/quantities.hpp"
 
 namespace carom {
 
 namespace {
 
-/// Unit of a moment: a force times a length, and so on; empty when a factor is unknown.
-std::string product(const std::string& a, const std::string& b) {
-  return a.empty() || b.empty() ? std::string() : a + " " + b;
+Dimension dimension_of(std::string_view quantity) {
+  const Quantity* found = find_quantity(quantity);
+  return found == nullptr ? Dimension::none : found->unit;
 }
 
-std::string per(const std::string& a, const std::string& b) {
-  return a.empty() || b.empty() ? std::string() : a + "/" + b;
+/// Is it a column of energy.csv? "strain" is an energy there, and a field beside.
+bool is_energy(std::string_view column) {
+  return std::ranges::find(energy_terms, column, &EnergyTerm::name) != energy_terms.end() ||
+         std::ranges::find(aster_names, column) != aster_names.end();
 }
 
 }  // namespace
@@ -63,39 +67,31 @@ ColumnName parse_column(std::string_view column) {
   const std::size_t bar = name.quantity.rfind('_');
   if (bar == std::string_view::npos) return name;
   const std::string_view tail = name.quantity.substr(bar + 1);
-  if (tail.empty() || tail.size() > 2 || tail.find_first_not_of("xyz") != std::string_view::npos) return name;
+  const bool is_rank =
+      std::ranges::find(component_names(Form::principal), tail) != component_names(Form::principal).end();
+  if (tail.empty() || tail.size() > 2) return name;
+  if (!is_rank && tail.find_first_not_of("xyz") != std::string_view::npos) return name;
   name.component = tail;
   name.quantity = name.quantity.substr(0, bar);
   return name;
 }
 
+std::string unit_of(const Units& units, Dimension dimension) {
+  const auto is_it = [&](UnitSystem system) { return units_of(name(system)) == units; };
+  const auto* const found = std::ranges::find_if(unit_systems, is_it);
+  if (found == unit_systems.end()) return {};
+  std::string unit(unit_name(dimension, *found));
+  for (const auto& [digit, raised] : {std::pair{'2', "²"}, std::pair{'3', "³"}})
+    for (std::size_t at = 0; (at = unit.find(digit)) != std::string::npos;) unit.replace(at, 1, raised);
+  return unit;
+}
+
 std::string unit_of_column(const Units& units, std::string_view column) {
-  const std::string_view quantity = parse_column(column).quantity;
-  const std::string velocity = per(units.length, units.time);
-  if (quantity == "time" || quantity == "dt") return units.time;
-  if (quantity == "displacement" || quantity == "penetration") return units.length;
-  if (quantity == "velocity") return velocity;
-  if (quantity == "acceleration") return velocity.empty() ? std::string() : velocity + "²";
-  if (quantity == "stress") return units.stress;
-  if (quantity == "force" || quantity == "section_force") return units.force;
-  if (quantity == "impulse") return product(units.force, units.time);
-  if (quantity == "moment") return product(units.force, units.length);
-  if (quantity == "momentum" || quantity == "momentum_error") return product(units.mass, velocity);
-  if (quantity == "angular_momentum" || quantity == "angular_momentum_error")
-    return velocity.empty() ? std::string() : product(units.mass, units.length + "²/" + units.time);
-  const auto is_term = [&](const EnergyTerm& term) { return term.name == quantity; };
-  const bool is_energy = std::any_of(energy_terms.begin(), energy_terms.end(), is_term) ||
-                         std::find(aster_names.begin(), aster_names.end(), quantity) != aster_names.end();
-  if (is_energy || quantity == "imbalance") return units.energy;
-  return {};
+  return unit_of(units, is_energy(column) ? Dimension::energy : dimension_of(parse_column(column).quantity));
 }
 
 std::string unit_of_field(const Units& units, std::string_view field) {
-  if (field == "von_mises" || field == "contact_pressure") return units.stress;
-  if (field == "contact_force") return units.force;
-  if (field == "contact_gap") return units.length;
-  if (field == "temperature_rise") return "K";
-  return unit_of_column(units, field);
+  return unit_of(units, dimension_of(field));
 }
 
 }  // namespace carom

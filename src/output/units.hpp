@@ -5,11 +5,14 @@
 #include <string>
 #include <string_view>
 
+#include "base/units.hpp"
+
 namespace carom {
 
 /// Unit names of a consistent system.
 struct Units {
   std::string length, time, mass, force, stress, energy;
+  friend bool operator==(const Units&, const Units&) = default;
 };
 
 /// Unit names of "SI", "mm-t-s" or "mm-kg-ms"; empty names for any other label.
@@ -27,6 +30,9 @@ struct ColumnName {
   std::string_view place, quantity, component;
 };
 ColumnName parse_column(std::string_view column);
+
+/// Name of the unit of a dimension, e.g. "m/s²"; "" where there is none, or where the system is unknown.
+std::string unit_of(const Units& units, Dimension dimension);
 
 /// Unit of a column of energy.csv, contact.csv or probes.csv by its name, e.g. "m/s" for "B.velocity_z" in SI; "" for
 /// numbers without a unit.

@@ -8,7 +8,6 @@
 #include <iterator>
 #include <vector>
 
-#include "mesh/cell_topology.hpp"
 #include "output/file_writer.hpp"
 #include "output/xml.hpp"
 
@@ -57,15 +56,18 @@ class VtuHeader {
     offset_ += sizeof(std::uint64_t) + values.size_bytes();
   }
 
-  void fields(std::string_view section, std::span<const VtuField> fields, [[maybe_unused]] std::size_t entries) {
+  void fields(std::string_view section, std::span<const FrameField> fixed, std::span<const FrameField> of_instant,
+              [[maybe_unused]] std::size_t entries) {
     line(fmt::format("<{}>", section));
-    for (const VtuField& field : fields) {
-      std::visit(
-          [&]<class T>(const std::vector<T>& values) {
-            assert(values.size() == entries * static_cast<std::size_t>(field.components));
-            array(field.name, field.components, std::span<const T>(values));
-          },
-          field.values);
+    for (const auto& fields : {fixed, of_instant}) {
+      for (const FrameField& field : fields) {
+        std::visit(
+            [&]<class T>(const std::vector<T>& values) {
+              assert(values.size() == entries * static_cast<std::size_t>(field.components));
+              array(field.name, field.components, std::span<const T>(values));
+            },
+            field.values);
+      }
     }
     line(fmt::format("</{}>", section));
   }
@@ -80,16 +82,9 @@ class VtuHeader {
 
 }  // namespace
 
-void VtuCells::add(std::span<const Index> points, CellType type) {
-  assert(points.size() == static_cast<std::size_t>(node_count(type)));
-  const VtkCellType vtk = vtk_cell_type(type);
-  for (std::size_t a = 0; a < points.size(); ++a) connectivity.push_back(points[vtk.order.empty() ? a : vtk.order[a]]);
-  ends.push_back(static_cast<Index>(connectivity.size()));
-  types.push_back(vtk.number);
-}
-
-void write_vtu(const std::string& path, std::span<const Vec3> points, const VtuCells& cells,
-               std::span<const VtuField> point_fields, std::span<const VtuField> cell_fields) {
+void write_vtu(const std::string& path, const FrameMesh& mesh, const Frame& frame) {
+  const std::span<const Vec3> points = mesh.points;
+  const FrameCells& cells = mesh.cells;
   assert(cells.types.size() == cells.ends.size());
   const std::span<const double> coordinates(points.empty() ? nullptr : points.front().data(), 3 * points.size());
 
@@ -99,8 +94,8 @@ void write_vtu(const std::string& path, std::span<const Vec3> points, const VtuC
   header.line("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">");
   header.line("<UnstructuredGrid>");
   header.line(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", points.size(), cells.types.size()));
-  header.fields("PointData", point_fields, points.size());
-  header.fields("CellData", cell_fields, cells.types.size());
+  header.fields("PointData", mesh.of_points, frame.points, points.size());
+  header.fields("CellData", mesh.of_cells, frame.cells, cells.types.size());
   header.line("<Points>");
   header.array("Points", 3, coordinates);
   header.line("</Points>\n<Cells>");

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <map>
 
+#include "advise/check_summary.hpp"
+#include "build/read_whole.hpp"
 #include "casefile/read_case.hpp"
 #include "casefile/read_toml.hpp"
 #include "casefile/resolved_case.hpp"
@@ -15,8 +17,6 @@
 #include "python/compute.hpp"
 #include "python/prepared_case.hpp"
 #include "python/tree.hpp"
-#include "run/check_summary.hpp"
-#include "translate/translate_deck.hpp"
 
 namespace carom::python {
 
@@ -25,7 +25,7 @@ namespace {
 /// The tree as it is written where the file is a text of TOML, else as it is meant. Read as a case first, so that
 /// everything that is wrong in it is said with its place.
 py::tuple read(const std::string& path, const std::vector<std::string>& accept) {
-  ReadCase read = read_case_or_deck(path, accept);
+  ReadCase read = read_whole(path, accept);
   auto source = std::make_shared<Source>();
   source->notes = std::move(read.notes);
   if (std::filesystem::path(path).extension() == ".toml") {

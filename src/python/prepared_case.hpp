@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "build/simulation.hpp"
 #include "casefile/document.hpp"
 #include "python/bindings.hpp"
-#include "run/simulation.hpp"
 
 namespace carom::python {
 

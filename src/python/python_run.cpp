@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "build/build_mesh.hpp"
+#include "build/initial_state.hpp"
 #include "math/called_function.hpp"
 #include "python/arrays.hpp"
 #include "python/callables.hpp"
 #include "python/compute.hpp"
-#include "run/build_mesh.hpp"
-#include "run/initial_state.hpp"
 
 namespace carom::python {
 

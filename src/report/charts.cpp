@@ -13,7 +13,7 @@
 #include "energy/energy_terms.hpp"
 #include "output/readable_unit.hpp"
 #include "report/decimate.hpp"
-#include "report/html.hpp"
+#include "report/place_text.hpp"
 
 namespace carom {
 
@@ -60,7 +60,7 @@ double largest_of(const Group& group, const CsvTable& table) {
   return largest;
 }
 
-/// What probes_filtered.csv says of the records of a place or of a column.
+/// What a table of filtered curves says of the records of a place or of a column.
 std::string remarks_on_filters(const Group& group, const std::optional<CsvTable>& filtered) {
   std::string text;
   if (!filtered) return text;
@@ -81,6 +81,8 @@ std::string remarks_on_filters(const Group& group, const std::optional<CsvTable>
 Chart make_chart(const Group& group, const CsvTable& table, const Tables& tables, const Units& units) {
   Chart chart{group.section, group.title, group.label, unit_of_column(units, group.columns.front()), {}, {}};
   const double scale = largest_of(group, table);
+  const bool is_contact = group.section == "Contact";
+  const std::optional<CsvTable>& filtered = is_contact ? tables.contact_filtered : tables.probes_filtered;
   std::vector<std::string> left_out, drawn;
   for (const std::string& column : group.columns) {
     const auto* values = table.column(column);
@@ -89,17 +91,16 @@ Chart make_chart(const Group& group, const CsvTable& table, const Tables& tables
     (is_negligible ? left_out : drawn).push_back(column);
   }
   for (const std::string& column : drawn) {
-    const bool is_filtered = tables.probes_filtered && tables.probes_filtered->column(column) != nullptr;
+    const bool is_filtered = filtered && filtered->column(column) != nullptr;
     chart.curves.push_back(make_curve(table, *table.column(column), curve_name(column),
                                       is_filtered ? CurveKind::raw : CurveKind::computed));
   }
-  for (const std::string& column : drawn)
-    add_overlay(chart, column, tables.probes_filtered, CurveKind::filtered, "filtered");
+  for (const std::string& column : drawn) add_overlay(chart, column, filtered, CurveKind::filtered, "filtered");
   for (const std::string& column : drawn) add_overlay(chart, column, tables.exact, CurveKind::exact, "exact");
   for (std::string& column : left_out) column = curve_name(column);
   if (!left_out.empty())
     chart.note = fmt::format("Not drawn, zero or below 1e-9 of the largest: {}.", fmt::join(left_out, ", "));
-  if (group.section == "Probes") chart.note += remarks_on_filters(group, tables.probes_filtered);
+  if (is_contact || group.section == "Probes") chart.note += remarks_on_filters(group, filtered);
   return chart;
 }
 

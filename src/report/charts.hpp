@@ -52,7 +52,7 @@ struct ChartData {
 
 /// The tables of a results folder, as far as they are there.
 struct Tables {
-  std::optional<CsvTable> energy{}, contact{}, probes{}, probes_filtered{}, exact{};
+  std::optional<CsvTable> energy{}, contact{}, probes{}, probes_filtered{}, contact_filtered{}, exact{};
 };
 
 /// What numbers are compared with before they are called round-off; zero where nothing is known.
@@ -67,7 +67,8 @@ Scales scales_of(const Tables& tables, const std::optional<Summary>& summary);
 /// A column over the table's times, reduced to what a screen can show (decimate.hpp).
 Curve make_curve(const CsvTable& table, const std::vector<double>& values, std::string name, CurveKind kind);
 
-/// Charts of probes, contact and energies; columns of the same name in probes_filtered.csv and exact.csv are laid over.
+/// Charts of probes, contact and energies; columns of the same name in probes_filtered.csv, contact_filtered.csv and
+/// exact.csv are laid over.
 /// The mechanical energy is drawn with its terms. Components below 1e-9 of the largest of their chart are named in its
 /// note instead of drawn. What is round-off is said instead of drawn: a whole chart below 1e-12 of the largest of its
 /// quantity, energies below 1e-10 of the largest of the run, imbalances within the bound of a verdict that passed.

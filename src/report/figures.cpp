@@ -12,6 +12,7 @@
 #include "output/readable_unit.hpp"
 #include "report/charts.hpp"
 #include "report/html.hpp"
+#include "report/place_text.hpp"
 
 namespace carom {
 

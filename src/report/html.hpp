@@ -13,9 +13,6 @@
 
 namespace carom {
 
-/// "(0, 12.5, 3) mm": a place, without the round-off of coordinates, which is relative to `reach`.
-std::string place_text(const Vec3& x, double reach, const std::string& unit);
-
 /// A three-dimensional view under a title of its own.
 struct PageView {
   std::string title;

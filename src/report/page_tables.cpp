@@ -104,8 +104,7 @@ std::string verdict_table(const Summary& summary) {
   // What an unfinished run has kept to so far does not say that it is right.
   return fmt::format(
       "<section>\n<h2>No verdict: the run did not reach its end</h2>\n{}<details><summary>The items up to there: {} of "
-      "{} "
-      "within their limits</summary>\n{}</details>\n</section>\n",
+      "{} within their limits</summary>\n{}</details>\n</section>\n",
       failed.empty() ? "" : table(failed), rows.size() - failed.size(), rows.size(), table(rows));
 }
 

@@ -10,7 +10,7 @@ namespace carom {
 
 /// Writes <results_folder>/report.html, or `file` where it is not "": one self-contained page that needs no network,
 /// from the files of the folder alone (summary.json, energy.csv, contact.csv, probes.csv, probes_filtered.csv,
-/// exact.csv, case.resolved.toml, fields.pvd and its frames). Files that are missing or cut short leave a note on the
+/// exact.csv, case.resolved.toml, the frames and their index). Files that are missing or cut short leave a note on the
 /// page instead of an error. Throws OutputError when the page cannot be written.
 void write_report(const std::string& results_folder, const std::string& file = "");
 

@@ -67,6 +67,7 @@ ReportData read_results(const std::string& results_folder) {
   tables.contact = read_table(folder, "contact.csv", data.notes);
   tables.probes = read_table(folder, "probes.csv", data.notes);
   tables.probes_filtered = read_table(folder, "probes_filtered.csv", data.notes);
+  tables.contact_filtered = read_table(folder, "contact_filtered.csv", data.notes);
   tables.exact = read_table(folder, "exact.csv", data.notes);
   if (!tables.energy) data.notes.emplace_back("energy.csv is missing.");
   data.case_text = read_case(folder, data.notes);

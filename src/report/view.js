@@ -13,7 +13,7 @@
     return element;
   }
 
-  const four = (x) => String(Number(x.toPrecision(4)));
+  const four = (x) => (Number.isNaN(x) ? "–" : String(Number(x.toPrecision(4))));
 
   class Viewer {
     constructor(section, data) {
@@ -339,15 +339,14 @@
     }
 
     drawColours() {
-      const { field, range, palette } = this.colouring;
+      const { field, palette } = this.colouring;
       this.scaleBar.hidden = !field;
       if (!field) return;
       const stops = palette.filter((_, i) => i % 15 === 0).map((c) => "rgb(" + c + ")").reverse();
-      const numbers = [1, 0.75, 0.5, 0.25, 0].map((x) => range[0] + x * (range[1] - range[0]));
       this.scaleBar.replaceChildren(
         create("strong", { textContent: this.quantityName() + (field.unit ? " [" + field.unit + "]" : "") }),
         create("i", { style: "background: linear-gradient(" + stops + ")" }),
-        create("span", {}, ...numbers.map((x) => create("b", { textContent: four(x / 10 ** field.power) }))));
+        create("span", {}, ...this.colouring.ticks().map((x) => create("b", { textContent: four(x / 10 ** field.power) }))));
     }
 
     update() {
@@ -464,6 +463,7 @@
       for (const mark of this.stage.querySelectorAll(".mark-of-node")) mark.remove();
       const { at } = this.models[0];
       this.picks.forEach((pick, p) => {
+        if (Number.isNaN(carom.positionOf(this.bodies, this.frame, pick.node)[0])) return;
         const v = new THREE.Vector3(at[0][pick.node], at[1][pick.node], at[2][pick.node]).project(this.camera);
         this.stage.append(create("span", { className: "mark-of-node", textContent: p + 1, style: `left: ${50 + 50 * v.x}%; top: ${50 - 50 * v.y}%` }));
       });

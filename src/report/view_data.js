@@ -67,6 +67,9 @@ carom.unpack = (function () {
     scene.node = [0, 1, 2].map(() => reader.numbers(scene.triangles, 4));
     scene.cell = reader.numbers(scene.triangles, 4);
     scene.edges = reader.numbers(scene.triangles, 1);
+    // Of every triangle, the first frame in which it is seen, and the first after that in which it is not.
+    if (scene.changes) [scene.from, scene.until] = [0, 1].map(() => reader.numbers(scene.triangles, 2));
+    scene.isSeen = (k, frame) => !scene.changes || (scene.from[k] <= frame && frame < scene.until[k]);
     for (const field of scene.fields) readField(reader, field, scene);
     scene.field = (name) => scene.fields.find((f) => f.name === name);
   }

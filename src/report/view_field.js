@@ -7,7 +7,6 @@ carom.Colouring = (function () {
   const VIRIDIS = ["440154", "482475", "414487", "355f8d", "2a788e", "21918c", "22a884", "44bf70", "7ad151", "bddf26", "fde725"];
   const BOTH_SIGNS = ["2c4fa0", "5b83c4", "9cb8dd", "d8e1ec", "f2f2f0", "f0d6cb", "e0a085", "c8604c", "a3262b"];
   const PARTS = ["6f9fd0", "d99a6c", "79b894", "b08fc0", "cbb45f", "79b3c2", "c9839f", "9aa0a6"];
-  const TENSOR = ["xx", "yy", "zz", "xy", "yz", "zx"];
 
   const rgb = (hex) => [0, 2, 4].map((i) => parseInt(hex.slice(i, i + 2), 16));
   function table(stops, count) {
@@ -20,14 +19,15 @@ carom.Colouring = (function () {
   }
   const palettes = { viridis: table(VIRIDIS, 256), signed: table(BOTH_SIGNS, 256), parts: PARTS.map(rgb), none: rgb("9aa4ac") };
 
+  // One colour for each of the whole numbers from 0 to this one.
+  const steps = (last) => Array.from({ length: 256 }, (_, i) => palettes.parts[Math.round((i / 255) * last) % palettes.parts.length]);
+
   // What may be chosen of a field: its length, its components.
   function choices(scene, field) {
-    const n = field.ranges.length;
-    if (n === 1) return [{ component: 0, label: field.label }];
-    const names = n === 3 ? ["x", "y", "z"] : TENSOR;
-    const parts = names.map((name, component) => ({ component, label: field.label + " " + name }));
+    if (field.ranges.length === 1) return [{ component: 0, label: field.label }];
+    const parts = field.components.map((name, component) => ({ component, label: field.label + " " + name }));
     if (field.name === "stress" && !scene.field("von_mises")) return [{ component: VON_MISES, label: "von Mises stress" }, ...parts];
-    if (n !== 3) return parts;
+    if (field.components[0] !== "x") return parts;
     return [{ component: LENGTH, label: field.name === "velocity" ? "speed" : field.label + ", length" }, ...parts];
   }
 
@@ -38,12 +38,21 @@ carom.Colouring = (function () {
       this.cover(field ? this.rangeOver(scene.frames) : [0, 0]);
     }
 
-    // The colours go from one of these numbers to the other; where they lie on both sides of zero, that has the middle.
+    // The colours go from one of these numbers to the other, or as the field wants it: from zero, about zero (which all
+    // numbers of both signs are), or one for each whole number.
     cover([low, high]) {
-      const isSigned = low < 0 && high > 0, most = Math.max(-low, high);
+      const wanted = !this.field ? "range" : this.component < 0 ? "from_zero" : this.field.colours;
+      const isSigned = wanted === "both_signs" || (low < 0 && high > 0), most = Math.max(-low, high);
       this.covered = [low, high];
+      if (wanted === "from_zero" || wanted === "categories") low = Math.min(0, low);
       this.range = isSigned ? [-most, most] : [low, high];
-      this.palette = isSigned ? palettes.signed : palettes.viridis;
+      this.palette = wanted === "categories" ? steps(high) : isSigned ? palettes.signed : palettes.viridis;
+    }
+
+    // The numbers of a legend, the largest first.
+    ticks() {
+      const [low, high] = this.range, count = this.field.colours === "categories" ? high : 4;
+      return Array.from({ length: count + 1 }, (_, i) => high - (i * (high - low)) / Math.max(1, count));
     }
 
     value(frame, i) {
@@ -94,12 +103,13 @@ carom.Colouring = (function () {
   return Colouring;
 })();
 
-// Where one node of a scene is, and where all are: reference and displacement times a scale.
+// Where one node of a scene is, NaN once it has gone with its cells, and where all are (those that have gone at rest,
+// where nothing is drawn): reference and displacement times a scale.
 carom.positionOf = function (scene, frame, node, scale = 1) {
   const u = scene.field("displacement");
   return scene.at.map((xs, c) => xs[node] + (u ? scale * u.value(c, frame, node) : 0));
 };
 carom.positions = function (scene, frame, scale) {
   const u = scene.field("displacement");
-  return scene.at.map((xs, c) => (u ? xs.map((x, i) => x + scale * u.value(c, frame, i)) : xs));
+  return scene.at.map((xs, c) => (u ? xs.map((x, i) => x + scale * (u.value(c, frame, i) || 0)) : xs));
 };

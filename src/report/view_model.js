@@ -17,17 +17,26 @@ carom.SceneModel = (function () {
     return texture;
   }
 
-  // Every edge of a cell once, as pairs of nodes with the part of one of its cells.
+  const EDGE = 5;  // numbers of an edge
+
+  // Every edge of a cell once: its nodes, the part of one of its cells, the frames from which and until which it is seen:
+  // what has become an edge of the surface stays one until its last cell goes.
   function edgesOf(scene) {
-    const seen = new Set(), edges = [];
+    const seen = new Map(), edges = [];
     for (let k = 0; k < scene.triangles; k++) {
       for (let e = 0; e < 3; e++) {
         if (!(scene.edges[k] & (1 << e))) continue;
         const a = scene.node[e][k], b = scene.node[(e + 1) % 3][k];
         const key = Math.min(a, b) * scene.nodes + Math.max(a, b);
-        if (seen.has(key)) continue;
-        seen.add(key);
-        edges.push(a, b, scene.part[scene.cell[k]]);
+        const [from, until] = scene.changes ? [scene.from[k], scene.until[k]] : [0, scene.frames];
+        const known = seen.get(key);
+        if (known === undefined) {
+          seen.set(key, edges.length);
+          edges.push(a, b, scene.part[scene.cell[k]], from, until);
+        } else {
+          edges[known + 3] = Math.min(edges[known + 3], from);
+          edges[known + 4] = Math.max(edges[known + 4], until);
+        }
       }
     }
     return Uint32Array.from(edges);
@@ -57,7 +66,7 @@ carom.SceneModel = (function () {
       this.mesh = new THREE.Mesh(surface, material);
       this.edges = edgesOf(scene);
       const lines = new THREE.BufferGeometry();
-      this.linePosition = attribute(lines, "position", (2 * this.edges.length) / 3, 3);
+      this.linePosition = attribute(lines, "position", (2 * this.edges.length) / EDGE, 3);
       lines.boundingSphere = everywhere;
       this.lines = new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ color: isObstacle ? 0x808080 : 0x000000, transparent: true, opacity: isObstacle ? 0.6 : 0.45, clippingPlanes: clipping }));
       for (const object of [this.mesh, this.lines]) object.frustumCulled = false;
@@ -129,7 +138,7 @@ carom.SceneModel = (function () {
       const atCells = places && colouring.field.at === "cell";
       const position = this.position.array, uv = this.uv.array;
       for (let k = 0; k < scene.triangles; k++) {
-        const cell = scene.cell[k], part = scene.part[cell], isHidden = this.hidden.has(part);
+        const cell = scene.cell[k], part = scene.part[cell], isHidden = this.hidden.has(part) || !scene.isSeen(k, frame);
         for (let a = 0; a < 3; a++) {
           const n = scene.node[isHidden ? 0 : a][k], v = 3 * k + a;
           for (let c = 0; c < 3; c++) position[3 * v + c] = at[c][n];
@@ -139,19 +148,20 @@ carom.SceneModel = (function () {
         }
       }
       this.position.needsUpdate = this.uv.needsUpdate = true;
-      this.showLines(at, edges);
+      this.showLines(at, frame, edges);
       if (this.force) for (const arrow of this.arrows) arrow.visible = arrows;
       if (arrows) this.updateArrows(frame, at, arrowLength);
     }
 
-    showLines(at, visible) {
+    showLines(at, frame, visible) {
       this.lines.visible = visible;
       if (!visible) return;
       const line = this.linePosition.array;
-      for (let e = 0; e < this.edges.length / 3; e++) {
-        const isHidden = this.hidden.has(this.edges[3 * e + 2]);
+      for (let e = 0; e < this.edges.length / EDGE; e++) {
+        const [, , part, from, until] = this.edges.subarray(EDGE * e, EDGE * (e + 1));
+        const isHidden = this.hidden.has(part) || (this.scene.changes && (frame < from || frame >= until));
         for (let a = 0; a < 2; a++)
-          for (let c = 0; c < 3; c++) line[6 * e + 3 * a + c] = at[c][this.edges[3 * e + (isHidden ? 0 : a)]];
+          for (let c = 0; c < 3; c++) line[6 * e + 3 * a + c] = at[c][this.edges[EDGE * e + (isHidden ? 0 : a)]];
       }
       this.linePosition.needsUpdate = true;
     }

@@ -24,7 +24,7 @@ carom.drawStill = (function () {
       const places = !isObstacle && colouring.field ? colouring.places(frame) : null;
       for (let k = 0; k < scene.triangles; k++) {
         const part = scene.part[scene.cell[k]];
-        if (hidden.has(part)) continue;
+        if (hidden.has(part) || !scene.isSeen(k, frame)) continue;
         const nodes = [0, 1, 2].map((a) => scene.node[a][k]);
         const points = nodes.map((n) => [at[0][n] - centre[0], at[1][n] - centre[1], at[2][n] - centre[2]]);
         const place = places ? (colouring.field.at === "cell" ? places[scene.cell[k]] : (places[nodes[0]] + places[nodes[1]] + places[nodes[2]]) / 3) : 0;

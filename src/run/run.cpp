@@ -6,25 +6,29 @@
 #include <filesystem>
 #include <fstream>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "advise/cost_estimate.hpp"
+#include "advise/lint.hpp"
+#include "advise/locking.hpp"
 #include "base/checksum.hpp"
 #include "base/errors.hpp"
 #include "base/version.hpp"
+#include "build/build_mesh.hpp"
+#include "build/digests.hpp"
+#include "build/initial_state.hpp"
 #include "casefile/read_case.hpp"
 #include "casefile/resolved_case.hpp"
 #include "math/called_function.hpp"
 #include "mesh/mesh_summary.hpp"
 #include "output/file_writer.hpp"
+#include "output/found_checkpoint.hpp"
 #include "output/results_folder.hpp"
+#include "record/frame_plan.hpp"
 #include "report/report.hpp"
-#include "run/build_mesh.hpp"
-#include "run/cost_estimate.hpp"
-#include "run/initial_state.hpp"
-#include "run/lint.hpp"
-#include "run/locking.hpp"
 #include "run/summarize.hpp"
 
 namespace carom {
@@ -50,15 +54,19 @@ std::size_t peak_memory() {
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
-/// The case with its files as seen from the results folder, so that the resolved case can be run there: the mesh stays
-/// where it is, an initial state has been copied (keep_state).
+/// The case with its files as seen from the results folder, so that the resolved case can be run there: mesh and
+/// libraries stay where they are, an initial state has been copied (keep_state).
 Case beside(Case given, const std::string& folder) {
   namespace fs = std::filesystem;
-  std::string& file = given.mesh.file.value;
+  const auto see_from_there = [&](std::string& file) {
+    if (!file.empty() && !fs::path(file).is_absolute())
+      file = fs::proximate(fs::path(given.file).parent_path() / file, folder).generic_string();
+  };
   if (given.mesh.text)
-    file = given_mesh_file;
-  else if (!file.empty() && !fs::path(file).is_absolute())
-    file = fs::proximate(fs::path(given.file).parent_path() / file, folder).generic_string();
+    given.mesh.file.value = given_mesh_file;
+  else
+    see_from_there(given.mesh.file.value);
+  for (CaseMaterial& material : given.materials) see_from_there(material.library.value);
   if (given.initial_state) given.initial_state->from.value = kept_state_folder;
   return given;
 }
@@ -134,6 +142,7 @@ void Run::begin() {
   const std::vector<std::string>& places = watched_->recorder.notes();
   watched_->notes.insert(watched_->notes.end(), places.begin(), places.end());
   if (folder_.empty()) return;
+  if (std::string note = frame_note(simulation_); !note.empty()) watched_->notes.push_back(std::move(note));
   lock_ = std::make_unique<ResultsLock>(folder_);
   watched_->recorder.begin();
   open_folder();
@@ -175,6 +184,11 @@ void Run::go_on(FoundRun found, std::optional<double> end) {
         folder_,
         fmt::format("the run has come to its end, t = {:.9g}; a later one can be given with --end", march().state().t));
   }
+  if (found.checkpoint.info.isa != origin.isa)
+    watched_->notes.push_back(fmt::format(
+        "from t = {:.6g} on the kernels take the instruction set {} after {}: the last digits of what follows "
+        "are others than those of a run in one piece; CAROM_ISA={} has them, where the machine has it",
+        march().state().t, origin.isa, found.checkpoint.info.isa, found.checkpoint.info.isa));
   watched_->recorder.go_on();
   remove_later(folder_, found.checkpoint);
   checkpoints_.emplace(folder_, simulation_.given().output, origin);
@@ -182,6 +196,7 @@ void Run::go_on(FoundRun found, std::optional<double> end) {
 }
 
 void Run::write_checkpoint() {
+  watched_->recorder.wait();  // before this thread holds HDF5, which the frame needs
   checkpoints_->write(march().steps(), march().state().t, [&](Archive& archive) { fields(archive, *watched_); });
 }
 
@@ -244,6 +259,10 @@ Summary Run::finish() {
   summary.warnings = watched_->warnings;
   summary.doubts = watched_->doubts;
   if (!watched_->folds.warnings().empty()) summary.doubts.emplace_back("a cell has folded");
+  if (std::optional<Doubt> doubt = watched_->stroke.doubt()) {
+    summary.doubts.push_back(std::move(doubt->brief));
+    summary.warnings.push_back(std::move(doubt->warning));
+  }
   summary.notes = watched_->notes;
   summary.outcome = outcome_;
   summary.message = message_;

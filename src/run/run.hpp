@@ -8,10 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "march/snapshot.hpp"
+#include "output/found_checkpoint.hpp"
 #include "output/results_lock.hpp"
 #include "output/summary.hpp"
-#include "run/checkpoints.hpp"
-#include "run/snapshot.hpp"
+#include "record/checkpoints.hpp"
 #include "run/watched_march.hpp"
 
 namespace carom {

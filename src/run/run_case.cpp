@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "base/terminal_text.hpp"
+#include "build/initial_state.hpp"
+#include "build/read_whole.hpp"
+#include "build/simulation.hpp"
 #include "casefile/read_case.hpp"
 #include "parallel/threads.hpp"
-#include "run/initial_state.hpp"
 #include "run/run.hpp"
-#include "run/simulation.hpp"
-#include "translate/translate_deck.hpp"
 
 namespace carom {
 
@@ -96,7 +96,7 @@ ExitCode conduct(Run& run, ShownProgress& progress, const RunOptions& options, c
 ExitCode run_case(const std::string& case_file, const RunOptions& options, const std::atomic<bool>& stop) {
   const Run::Clock::time_point begin = Run::Clock::now();
   set_threads(options.threads);
-  ReadCase read = read_case_or_deck(case_file, options.accepted);
+  ReadCase read = read_whole(case_file, options.accepted);
   refuse_own_folder(read.given, options.folder);
   const Simulation simulation(std::move(read.given));
   Run run(simulation, options.folder, begin);

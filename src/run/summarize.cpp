@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 #include <variant>
 
 #include "base/version.hpp"
+#include "build/build_mesh.hpp"
+#include "march/body_scales.hpp"
+#include "march/verdict.hpp"
 #include "parallel/threads.hpp"
-#include "run/body_scales.hpp"
-#include "run/build_mesh.hpp"
-#include "run/verdict.hpp"
 
 namespace carom {
 
@@ -51,9 +52,12 @@ std::string scheme_names(const Simulation& s) {
 }  // namespace
 
 VerdictItem body_strain_item(double strain) {
-  constexpr double limit = 1e-3;
-  return {"rigid body strain", strain, limit, strain <= limit,
-          "largest strain of the rigid bodies that turn, which should have none: is their rigidity high enough?"};
+  constexpr double limit = 1e-3, margin = 2.0;
+  std::string text = "largest strain of the rigid bodies that turn, which should have none";
+  if (strain > limit)
+    text += fmt::format(": it falls with the square of their rigidity, which {:.2g} times as high would do",
+                        std::sqrt(margin * strain / limit));
+  return {"rigid body strain", strain, limit, strain <= limit, text};
 }
 
 void fill(Summary& summary, const Simulation& s, const March& march) {

@@ -1,8 +1,8 @@
 // From a march and its simulation to the summary.
 #pragma once
 
+#include "march/march.hpp"
 #include "output/summary.hpp"
-#include "run/march.hpp"
 
 namespace carom {
 

@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "run/fold_watch.hpp"
-#include "run/march.hpp"
-#include "run/overlap_watch.hpp"
-#include "run/penetration_watch.hpp"
-#include "run/recorder.hpp"
-#include "run/rotation_watch.hpp"
+#include "advise/stroke_watch.hpp"
+#include "march/fold_watch.hpp"
+#include "march/march.hpp"
+#include "march/overlap_watch.hpp"
+#include "march/penetration_watch.hpp"
+#include "march/rotation_watch.hpp"
+#include "record/recorder.hpp"
 
 namespace carom {
 
@@ -28,6 +29,7 @@ struct WatchedMarch {
     march.add(overlap);
     march.add(rotation);
     march.add(folds);
+    march.add(stroke);
   }
   WatchedMarch(const WatchedMarch&) = delete;
   WatchedMarch& operator=(const WatchedMarch&) = delete;
@@ -40,6 +42,7 @@ struct WatchedMarch {
     archive("overlap", x.overlap);
     archive("rotation", x.rotation);
     archive("folds", x.folds);
+    archive("stroke", x.stroke);
     archive("case_file", x.case_file);
     archive("warnings", x.warnings);
     archive("doubts", x.doubts);
@@ -52,6 +55,7 @@ struct WatchedMarch {
   OverlapWatch overlap;
   RotationWatch rotation;
   FoldWatch folds;
+  StrokeWatch stroke;
   std::string case_file;                     ///< as the user named it
   std::vector<std::string> warnings, notes;  ///< of the case, before the first step
   std::vector<std::string> doubts;           ///< Summary::doubts

@@ -21,9 +21,9 @@ struct StepWeights {
   double support_work = 0.5;
 };
 
-/// Work of the support of entry k of Supports::prescribed: what its inertia takes, v_bar (M dv) with v_bar the mean of
-/// both ends, and what balances the forces, ((1 - w) (R0 - M a0) + w (R1 - M a1)) du. The first is the change of
-/// kinetic energy, whatever the velocity does within the step. balance: M a0 and R0, here and below
+/// Work of the support of entry k of Supports::prescribed: the part that its inertia takes, v_bar (M dv) with v_bar the
+/// mean of both ends, and the part that balances the forces, ((1 - w) (R0 - M a0) + w (R1 - M a1)) du. The first is the
+/// change of kinetic energy, whatever the velocity does within the step. balance: M a0 and R0, here and below
 /// (StepStart::balance).
 inline double support_work(const System& system, std::size_t k, const State& begin, const Balance& balance,
                            const State& end, double w) {
@@ -40,9 +40,9 @@ struct StepWorks {
   ContactWork contact;
 };
 
-/// All books of a step but `algorithmic` and the impulse. `quadrature` is what the works of internal forces and of
-/// contact leave of what these forces account for: what bodies and springs store, and what points, friction, dampers
-/// and impacts take.
+/// All books of a step but `algorithmic` and the impulse. `quadrature` is the difference between two sums: the works of
+/// internal forces and of contact, and all that these forces account for, which is what bodies and springs store and
+/// what points, friction, dampers and impacts take.
 LedgerIncrement books_of_works(const State& begin, const State& end, const StepWorks& works);
 
 /// The energies of a step, and the resultant of external, contact and support forces in the scheme's equation.
@@ -51,8 +51,8 @@ struct StepBooks {
   Momentum force;
 };
 
-/// Internal and external works by the trapezoidal rule, W_k; contact as its port has booked it; and what the scheme
-/// takes out by its own kinematics and weights,
+/// Books internal and external works by the trapezoidal rule, W_k, contact as its port has booked it, and what the
+/// scheme takes out by its own kinematics and weights,
 ///   algorithmic = du . M a~ - d(1/2 v.Mv) + sum over k of (W_k - du . f~_k),
 /// which is zero for the trapezoidal rule (a~ = dv/h, du = h (v0 + v1)/2). R~ closes the equation where motions are
 /// imposed. A scheme whose F~ is not a weighted mean of both ends gives it as mean_internal; its work is then du . F~.
@@ -73,7 +73,7 @@ Momentum combine(double a, const Momentum& p, double b, const Momentum& q);
 Momentum resultant(const System& system, const State& state, const Balance& balance);
 Momentum resultant(const System& system, const State& state);
 
-/// Of one force.
+/// Resultant of one force, a dof vector, with moments where the nodes stand at the displacement u.
 Momentum resultant(const System& system, std::span<const double> u, std::span<const double> force);
 
 }  // namespace carom

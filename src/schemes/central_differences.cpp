@@ -51,11 +51,11 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
     v_half[s.dof] = s.mean_velocity;
     end.q[s.dof] = s.u;
   }
-  evaluate_bodies(system_, {h, begin.points}, end);
+  evaluate_bodies(system_, step_from(begin, h), end);
   // Contact looks at the step that follows.
   imposed_steps(system_.supports, end.t, end.t + h, end.q, imposed_next_);
   for (const ImposedStep& s : imposed_next_) end.a[s.dof] = (s.mean_velocity - v_half[s.dof]) / h;
-  report.failure = contact_->respond({h, h, begin.q, end.q, v_half, end.a, begin.contact}, end.forces);
+  report.failure = contact_->respond({h, h, begin.q, end.q, v_half, end.a, past_of(begin)}, end.forces);
   if (!report.failure.empty()) return report;
   for (const ImposedStep& s : imposed_) {
     end.a[s.dof] = acceleration_from_middle(s, h);

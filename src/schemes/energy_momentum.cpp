@@ -56,7 +56,7 @@ StepReport EnergyMomentum::step(const State& begin, const StepRequest& request, 
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
   mean_internal_ = next.internal;
-  evaluate_solid(system_, {h, begin.points}, end);
+  evaluate_solid(system_, step_from(begin, h), end);
   complete_forces(system_, end);
   const StepWeights weights{.inertia = 1.0, .force = 0.5, .contact = 1.0, .support_work = 1.0};
   set_mean_reactions(system_, begin, weights, end, mean_internal_);

@@ -1,4 +1,4 @@
-// How exactly a step of an inexact Newton method solves its linear system.
+// The residual to which a step of an inexact Newton method solves its linear system.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ class ForcingTerm {
   /// is_exact: the first model is known to be the equations themselves.
   explicit ForcingTerm(bool is_exact) : eta_(is_exact ? 0.0 : most) {}
 
-  /// What the next solve is to leave: `wanted`, or what is enough for now. norm: |r_k|
+  /// The residual that the next solve may leave: `wanted`, or a larger one that is enough for now. norm: |r_k|
   double next(double norm, double wanted) {
     if (last_ > 0.0) eta_ = std::min(most, std::abs(norm - left_) / last_);
     last_ = norm;
@@ -24,7 +24,7 @@ class ForcingTerm {
     const double enough = eta_ * norm;
     return enough < near * wanted ? wanted : enough;
   }
-  /// What it has left.
+  /// Takes the residual that the solve has left.
   void solved(double residual) { left_ = residual; }
 
  private:

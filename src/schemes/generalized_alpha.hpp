@@ -52,7 +52,8 @@ constexpr GeneralizedAlphaParameters chung_hulbert_parameters(double rho_inf) {
 /// 1999): s = a - M^-1 G^T lambda takes the place of a above, and the multipliers lambda and the forces Lambda of the
 /// velocities act for the whole step,
 ///   u1 = ... + h^2/2 M^-1 G^T lambda1,  v1 = ... + h M^-1 G^T Lambda.
-/// What touches is stopped, and nothing of it is remembered. Newmark with 1/4, 1/2 keeps the energy between touches.
+/// A node that touches is stopped, and the next step remembers nothing of it. Newmark with 1/4, 1/2 keeps the energy
+/// between touches.
 class GeneralizedAlpha final : public Scheme {
  public:
   /// omega_max_squared: a bound of the spectrum of M^-1 K, for the choice of the solver; dt: the usual step.

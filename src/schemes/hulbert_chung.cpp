@@ -36,7 +36,7 @@ void HulbertChung::start(State& state, double dt) {
   for (const ImposedStep& s : imposed_) state.a[s.dof] = mean_acceleration(s, dt);
   contact_->start(system_, dt, dt, state);
   start_accelerations(system_, mass_solver_, state);
-  state.memory = HulbertChungMemory{state.a, resultant(system_, state)};
+  state.memory = HulbertChungMemory{state.a, resultant(system_, state), dt};
 }
 
 StepReport HulbertChung::step(const State& begin, const StepRequest& request, State& end) {
@@ -47,9 +47,11 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
   auto& memory_end = std::get<HulbertChungMemory>(end.memory);
   StepReport report;
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
+  const double change = h / memory.dt;
+  // The a0 for which v1 = v0 + h (mean acceleration).
   const auto wanted = [&](const ImposedStep& s) {
-    const double e0 = memory.e[s.dof], e1 = (mean_acceleration(s, h) - (1.0 - gamma_) * e0) / gamma_;
-    return (1.0 - alpha_m_) * e1 + alpha_m_ * e0;
+    const double of_e0 = 1.0 - gamma_ - gamma_ * share * alpha_m_;
+    return (mean_acceleration(s, h) - change * of_e0 * memory.e[s.dof]) / (gamma_ * share + (1.0 - change) * of_e0);
   };
   if (!start_.set(begin, h, imposed_, wanted)) {
     report.failure = MassSolver::failure;
@@ -57,7 +59,7 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
   }
   const std::span<const double> a_begin = start_.a();
   parallel_each(end.q.size(), [&](std::size_t i) {
-    const double e0 = memory.e[i], e1 = share * (a_begin[i] - alpha_m_ * e0);
+    const double e0 = mix(change, a_begin[i], memory.e[i]), e1 = share * (a_begin[i] - alpha_m_ * e0);
     memory_end.e[i] = e1;
     B_[i] = (0.5 - beta_) * e0 + beta_ * e1;
     A_[i] = (1.0 - gamma_) * e0 + gamma_ * e1;
@@ -80,8 +82,11 @@ StepReport HulbertChung::step(const State& begin, const StepRequest& request, St
   take_history(end.forces.rows, end.q, end.contact);
   complete_forces(system_, end);
   report.books = explicit_books(system_, begin, start_.balance(), contact_->work(begin, end), end, A_, B_, h);
-  memory_end.force = combine(share, resultant(system_, begin, start_.balance()), -share * alpha_m_, memory.force);
-  report.books.impulse = combine(h * (1.0 - gamma_), memory.force, h * gamma_, memory_end.force);
+  const Momentum now = resultant(system_, begin, start_.balance());
+  const Momentum before = combine(1.0 - change, now, change, memory.force);
+  memory_end.force = combine(share, now, -share * alpha_m_, before);
+  memory_end.dt = h;
+  report.books.impulse = combine(h * (1.0 - gamma_), before, h * gamma_, memory_end.force);
   report.converged = true;
   return report;
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/types.hpp"
+#include "enforcement/make_contact_port.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/initial_acceleration.hpp"
 
@@ -29,7 +30,9 @@ struct ImplicitStage::Residual {
 namespace {
 
 PointStep point_step(const StageEquation& eq, const State& begin) {
-  return {.dt = eq.dt, .history = begin.points, .is_static = eq.m == 0.0};
+  PointStep step = step_from(begin, eq.dt);
+  step.is_static = eq.m == 0.0;
+  return step;
 }
 
 constexpr const char* with_inertia = ". Lower time.step, or choose another enforcement or method of contact";
@@ -115,18 +118,20 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   const std::vector<double>& mass = system_.mass.node_diagonal();
   // Squares of the residual, of the displacement, of Jacobi's estimate of what is missing, and of the forces that
   // cancel in the residual.
+  double unbooked = 0.0;
   for (std::size_t i = 0; i < residual_.size(); ++i) {
     residual_[i] =
         fixed[i] ? 0.0 : eq.known[i] - eq.k * forces.internal[i] + forces.contact[i] - eq.m * forces.inertia[i];
+    unbooked += residual_[i] * (end.q[i] - begin.q[i]);
   }
-  const auto sums = parallel_sums<7>(residual_.size(), [&](std::size_t i, std::array<double, 7>& sum) {
+  if (is_improved_) port_->relieve(end.q, forces.rows, residual_);
+  const auto sums = parallel_sums<6>(residual_.size(), [&](std::size_t i, std::array<double, 6>& sum) {
     const double du = end.q[i] - begin.q[i];
     sum[1] += du * du;
     sum[4] += eq.known[i] * du;
     sum[5] += forces.internal[i] * du;
     if (fixed[i]) return;
     sum[0] += residual_[i] * residual_[i];
-    sum[6] += residual_[i] * du;
     const double slope = eq.m * mass[i / 3] + force_.factor * eq.k * eq.s * stiffness_diagonal_[i];
     const double missing = eq.s * residual_[i] / (slope > 0.0 ? slope : force_.factor * eq.k * eq.s * softest_);
     force_parts_[i] = std::abs(eq.known[i]) + std::abs(forces.internal[i]) + std::abs(forces.contact[i]) +
@@ -143,7 +148,7 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   out.norm = std::sqrt(sums[0]);
   out.displacement = std::sqrt(sums[1]) + std::sqrt(sums[2]);
   out.work = out.norm * out.displacement + contact.work;
-  out.unbooked = std::abs(sums[6]);
+  out.unbooked = std::abs(unbooked);
   out.supplied = std::max(std::abs(sums[4]), std::abs(sums[5]));
   // A displacement is known to a relative 1e-16 of its terms only, which the stiffness of a node turns into a force.
   constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
@@ -153,12 +158,13 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   return out;
 }
 
-/// What rounding may leave is a bound that the many dofs of a fine mesh, and rigid bodies that turn, seldom come near:
-/// a stage that has a share to meet, or such bodies, goes on below it as long as an iteration halves what is left. So
-/// does any other that would leave the ledger more than a third of its bound: a solve of an ill-conditioned operator
-/// leaves a residual whose norm is rounding, but whose work on the displacement another solve still takes away. What is
-/// unbooked may be small by chance (its terms cancel), and a single solve may fail to help: neither that nor the work
-/// falls in two of them. before, earlier: one and two iterations ago.
+/// Equilibrium is found when the residual's work is at most `wanted`. Below `round_off` it may be found as well, but
+/// that is a bound which fine meshes and turning rigid bodies seldom come near. So a stage with a share to meet, or
+/// with such bodies, goes on below it as long as an iteration halves the work. Any other stage goes on while it would
+/// leave the ledger more than a third of its bound: a solve of an ill-conditioned operator may leave a residual whose
+/// norm is rounding but whose work on the displacement another solve still takes away. The unbooked energy may be small
+/// by chance, since its terms cancel, and a single solve may fail to help; so the stage stops when neither the unbooked
+/// energy nor the work has fallen to half in two solves. before, earlier: one and two iterations ago.
 bool ImplicitStage::is_equilibrium(const StageEquation& eq, const Residual& error, double wanted,
                                    const Residual& before, const Residual& earlier) const {
   if (error.work <= wanted) return true;
@@ -237,7 +243,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
   return report;
 }
 
-/// What has been made for this operator goes on from what the memory holds of it; of another operator nothing does.
+/// Writes the stage's memory. Results that belong to another operator m M + c K than this one are dropped first.
 void ImplicitStage::leave(const StageEquation& eq, StageMemory& memory) const {
   if (memory.m != eq.m || memory.c != stiffness_share(eq)) {
     memory.m = eq.m;
@@ -321,8 +327,13 @@ std::string ImplicitStage::cycling_rows(const std::vector<RowStatus>& before, co
     list += fmt::format("{}row {} at ({:.4g}, {:.4g}, {:.4g}) {} -> {}", list.empty() ? "" : ", ", r, x[0], x[1], x[2],
                         names[static_cast<int>(before[r])], names[static_cast<int>(now[r])]);
   }
-  if (count == 0)
-    return fmt::format("no equilibrium after {} iterations, with a settled contact state", max_iterations_);
+  if (count == 0) {
+    const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    const auto worst = std::max_element(residual_.begin(), residual_.end(), smaller) - residual_.begin();
+    return fmt::format(
+        "no equilibrium after {} iterations, with a settled contact state; what is not balanced is greatest where {}",
+        max_iterations_, describe_motion(system_.mesh, static_cast<std::size_t>(worst)));
+  }
   if (count > 5) list += fmt::format(" and {} more", count - 5);
   return fmt::format("the contact state does not settle in {} iterations; these rows cycle: {}", max_iterations_, list);
 }
@@ -334,7 +345,7 @@ void impose_on_stage(const StageEquation& eq, std::span<double> y) {
 void start_in_equilibrium(const System& system, ImplicitStage& stage, double dt, State& state, std::size_t place) {
   start_with_supports(system, state);
   const std::vector<double> points = state.points;
-  evaluate_bodies(system, start_step(dt, points), state);
+  evaluate_bodies(system, start_step(dt, points, state), state);
   stage.start(state, place);
   std::vector<ImposedStep> imposed;
   imposed_steps(system.supports, state.t, state.t + dt, state.q, imposed);

@@ -37,22 +37,22 @@ struct StageReport {
   double rounding = 0.0;  ///< energy that the residual may leave unbooked, where that is rounding
 };
 
-/// The internal force of a stage when it is not F(x): value() fills the internal forces of `end` at end.q, and what
-/// else follows from the bodies there; factor x K(tangent_at) is its tangent.
+/// The internal force of a stage. value() fills the internal forces of `end` at end.q, and all else that follows from
+/// the bodies there; factor x K(tangent_at) is its tangent.
 struct StageForce {
   std::function<void(const PointStep& step, State& end)> value;
   std::function<std::span<const double>(std::span<const double> x)> tangent_at;
   double factor = 1.0;
 };
 
-/// Newton's method with m M + k s K(x) and the contact of a port. Equilibrium is reached when the residual could leave
-/// no more energy unbooked than the given tolerance, or rounding leaves more. The tangent of rows that move (turning
-/// normals, changing weights) is not complete; AndersonMixing makes up for what is missing.
+/// Newton's method with m M + k s K(x) and the contact of a port. Equilibrium is reached when the energy that the
+/// residual could leave unbooked is at most the given tolerance, or at most what rounding leaves. The tangent of rows
+/// that move (turning normals, changing weights) is not complete; AndersonMixing makes up for what is missing.
 class ImplicitStage {
  public:
   /// ratio: k s / m of the usual step; omega_max_squared: a bound of the spectrum of M^-1 K. Both choose the solver.
   ImplicitStage(const System& system, const ImplicitSettings& settings, double ratio, double omega_max_squared);
-  /// The same with another port and force.
+  /// The same stage with a port and a force of the caller's.
   ImplicitStage(const System& system, const ImplicitSettings& settings, double ratio, double omega_max_squared,
                 std::unique_ptr<ContactPort> port, StageForce force);
 
@@ -60,12 +60,13 @@ class ImplicitStage {
   /// contact history and the memory of the stage (that of the beginning on entry) follow. end.forces: external is
   /// given; internal, contact and rows are filled.
   StageReport solve(const StageEquation& equation, const State& begin, double work_tolerance, State& end);
-  /// The memory of the stage at a state that a run begins with.
+  /// Fills the memory of the stage in the state that a run begins with.
   void start_memory(State& state, std::size_t place) const;
-  /// The same, and the contact forces, their history included.
+  /// Does what start_memory() does, and fills the contact forces and their history.
   void start(State& state, std::size_t place);
 
-  /// Springs on the operator, not on the equation, so that it has an inverse where only contact holds a body.
+  /// Adds springs to the operator, not to the equation, so that the operator has an inverse where only contact holds a
+  /// body.
   void hold(const std::vector<DofSpring>& springs);
 
   const ContactPort& port() const { return *port_; }
@@ -105,15 +106,15 @@ class ImplicitStage {
   double body_force_ = 0.0;  ///< 2-norm of the forces by which rigid bodies that turn round (Solid)
 };
 
-/// F(x), with energies and history of the points.
+/// The force F(x) of the bodies, which fills their energies and the history of their points as well.
 StageForce force_of_bodies(const System& system);
 
 /// Sets the imposed entries of y so that the scheme's own rule gives the velocity at the end, v = v_hat + r y: momentum
 /// is then exact.
 void impose_on_stage(const StageEquation& equation, std::span<double> y);
 
-/// What the implicit schemes begin with: start_with_supports, the forces (multipliers included), and accelerations in
-/// equilibrium. dt: the first step.
+/// Makes the first state of an implicit scheme: start_with_supports, the forces, multipliers included, and
+/// accelerations in equilibrium with them. dt: the first step.
 void start_in_equilibrium(const System& system, ImplicitStage& stage, double dt, State& state, std::size_t place = 0);
 
 }  // namespace carom

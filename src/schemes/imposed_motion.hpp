@@ -30,7 +30,7 @@ inline double acceleration_to_middle(const ImposedStep& s, double h) {
 inline double acceleration_from_middle(const ImposedStep& s, double h) {
   return 2.0 * (s.v - s.mean_velocity) / h;
 }
-/// That of schemes with v = v_begin + h a.
+/// The acceleration of the dof in schemes with v = v_begin + h a.
 inline double mean_acceleration(const ImposedStep& s, double h) {
   return (s.v - s.v_begin) / h;
 }
@@ -45,8 +45,8 @@ void imposed_steps(const Supports& supports, double begin, double end, std::span
 
 /// Accelerations at the beginning of a step, from the right. An imposed acceleration may jump between two steps (at a
 /// kink of its velocity), and with a consistent mass its neighbours' jump along, as M a = f - F + contact stays on the
-/// free dofs. So a kink is over with the step that it belongs to: carried on by the rule of a scheme without
-/// dissipation, it would ring for ever.
+/// free dofs. The kink therefore ends with its step. If a scheme without dissipation carried it on by its rule, it
+/// would ring for ever.
 class StepStart {
  public:
   explicit StepStart(const System& system) : system_(system), mass_solver_(system) {}
@@ -56,13 +56,15 @@ class StepStart {
   /// a: accelerations from the left; wanted(s): that of the dof of an ImposedStep s from the right. False when the mass
   /// matrix cannot be solved.
   bool set(std::span<const double> a, double h, std::span<const ImposedStep> steps, const Wanted& wanted);
-  /// Of the beginning of a step, whose accelerations are those from the left; balance() follows.
+  /// Takes the accelerations of a state at the beginning of a step as those from the left. balance() follows from it as
+  /// well.
   bool set(const State& begin, double h, std::span<const ImposedStep> steps, const Wanted& wanted);
-  /// Accelerations from the right; refers to those from the left where nothing has changed.
+  /// The accelerations from the right. Refers to those from the left where nothing has changed.
   std::span<const double> a() const { return a_; }
-  /// What balances the forces then; refers to the state at the beginning where nothing has changed.
+  /// The inertia and the reactions that balance the forces with these accelerations. Refers to the state at the
+  /// beginning where nothing has changed.
   const Balance& balance() const { return *balance_; }
-  /// Resultant of M times their change, on the imposed dofs; u: displacement at the beginning.
+  /// The resultant of M times the change of the accelerations, on the imposed dofs. u: displacement at the beginning.
   Momentum change(std::span<const double> u);
 
  private:

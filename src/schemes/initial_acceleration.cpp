@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "contact/admissible.hpp"
 #include "parallel/threads.hpp"
+#include "rows/admissible.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "system/bonded_mass.hpp"
 
@@ -17,8 +17,10 @@ void start_with_supports(const System& system, State& state) {
   state.v.resize(n, 0.0);
   state.a.assign(n, 0.0);
   if (state.points.size() != system.solid.history_size()) state.points = system.solid.initial_history();
-  state.contact.resize(system.contact.slots());
-  carry_memory({}, state);
+  state.contact.resize(system.contact.slots(state.topology));
+  State fresh;
+  fresh.topology = state.topology;
+  carry_memory(fresh, state);
   const std::vector<bool>& fixed = system.supports.fixed();
   for (std::size_t i = 0; i < n; ++i) {
     if (fixed[i]) state.v[i] = 0.0;

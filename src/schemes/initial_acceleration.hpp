@@ -1,4 +1,4 @@
-// What every scheme does before its first step.
+// The first state of every scheme: supports, multipliers, accelerations.
 #pragma once
 
 #include "system/mass_solver.hpp"
@@ -7,8 +7,8 @@
 namespace carom {
 
 /// Sizes the state's vectors and sets the prescribed displacements and velocities at state.t (and their rates: the
-/// velocity of an imposed displacement is the derivative of its function). Nodes without mass get no velocity. What
-/// another scheme has left is cleared.
+/// velocity of an imposed displacement is the derivative of its function). Nodes without mass get no velocity. Clears
+/// the memory of the scheme that the state comes from.
 void start_with_supports(const System& system, State& state);
 
 /// Finds the multipliers that the rows of state.forces need at the start, and puts them into forces and history: where
@@ -18,7 +18,7 @@ void start_with_supports(const System& system, State& state);
 /// start_accelerations is to follow.
 void start_multipliers(const System& system, MassSolver& solver, double dt, State& state);
 
-/// The same for the linear equations alone, beside forces of contact that springs have given.
+/// Finds the multipliers of the linear equations alone, where springs have given the forces of contact.
 void start_equations(const System& system, MassSolver& solver, double dt, State& state);
 
 /// Solves M a = f - F(u) + contact for the free accelerations, the prescribed ones standing in state.a, and completes

@@ -7,14 +7,15 @@
 
 namespace carom {
 
-/// What the run asks of a step.
+/// The request of the run for one step.
 struct StepRequest {
   double t_end = 0.0;           ///< time at the end of the step
   double dt = 0.0;              ///< its length
   double work_tolerance = 0.0;  ///< energy that the residual may leave unbooked in this step
 };
 
-/// What became of a step. Not converging is a return value; the end of the step then means nothing.
+/// The result of a step. A step that has not converged is reported, not thrown; the state at its end then means
+/// nothing.
 struct StepReport {
   bool converged = false;
   int iterations = 0;         ///< Newton iterations on the contact state (0 for explicit schemes)
@@ -27,18 +28,18 @@ struct StepReport {
 /// One step of a scheme. start() makes velocities and accelerations consistent with the supports and the forces at
 /// state.t, and fills what else the state holds for the scheme. step() is a function of the state at the beginning and
 /// the request: made again, whatever was made in between, or by another scheme of the same kind on the same system, it
-/// gives the same bits. What a scheme keeps for itself is work space, and results that would be the same made anew
-/// (docs/decisions/0008-state-is-the-only-memory.md).
+/// gives the same bits. A scheme keeps nothing for itself but work space, and results that would be the same if they
+/// were made anew (docs/decisions/0008-state-is-the-only-memory.md).
 class Scheme {
  public:
   virtual ~Scheme() = default;
   virtual void start(State& state, double dt) = 0;
   /// `end` is another object than `begin`.
   virtual StepReport step(const State& begin, const StepRequest& request, State& end) = 0;
-  /// Weight of the force at the end of a step in its impulse, 1 minus that of the force at its beginning: of what
-  /// State::within leaves.
+  /// The impulse of the forces over a step is h times their mean, in which the force at the end has this weight and
+  /// that at the beginning 1 minus it. Where State::within has a weight of its own, these two share what it leaves.
   virtual double end_weight() const = 0;
-  /// Name of the linear solver that serves the scheme from this state on, for the log.
+  /// The name, for the log, of the linear solver that serves the scheme from this state on.
   virtual std::string solver_name(const State& state) const = 0;
 };
 

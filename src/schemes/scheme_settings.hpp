@@ -1,4 +1,4 @@
-// What a case says about its scheme.
+// The scheme of a case, its enforcement and its numbers.
 #pragma once
 
 #include "enforcement/implicit_settings.hpp"

@@ -11,7 +11,7 @@
 
 namespace carom {
 
-/// What a scheme is made from.
+/// All that a scheme is made from.
 struct SchemeRequest {
   const System& system;
   const SchemeSettings& settings;
@@ -24,8 +24,8 @@ struct SchemeRequest {
   }
 };
 
-/// What is known of a scheme but for its line of scheme_table (model/compatibility.hpp), which says what parameters it
-/// has.
+/// The row of a scheme: how it is made and what limits it. Its name and its parameters stand in its line of
+/// scheme_table (model/compatibility.hpp).
 struct SchemeRow {
   std::unique_ptr<Scheme> (*make)(const SchemeRequest& request) = nullptr;
   double (*stability_limit)(const SchemeParameters& parameters) = nullptr;  ///< null: any step is stable
@@ -44,12 +44,13 @@ std::string describe(const SchemeSettings& settings);
 /// Largest omega h at which the scheme is stable on an undamped oscillator; infinity where there is none.
 double stability_limit(const SchemeSettings& settings);
 
-/// Above this a run on plain multipliers may make more energy than it may keep (measured on cases/impact_bar/bars.toml
-/// at Courant numbers 0.15 to 3: growth below 1 % up to 1.4, above 5 % from 2.1 on).
+/// The largest touch_rebound() of a run on plain multipliers that may be expected to keep its energy; above it, it may
+/// make more (measured on cases/impact_bar/bars.toml at Courant numbers 0.15 to 3: growth below 1 % up to 1.4, above 5
+/// % from 2.1 on).
 inline constexpr double largest_touch_rebound = 1.5;
 
-/// Separating over approaching speed, the most, of a free mass that plain multipliers keep off a rigid row for one
-/// step; empty for other enforcements. Above 1 touches make energy, whatever the step, fixed wall or free.
+/// The largest ratio of separating to approaching speed of a free mass that plain multipliers keep off a rigid row for
+/// one step. Empty for other enforcements. Above 1 touches make energy, whatever the step, fixed wall or free.
 std::optional<double> touch_rebound(const SchemeSettings& settings);
 
 }  // namespace carom

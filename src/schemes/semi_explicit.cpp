@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "contact/admissible.hpp"
 #include "enforcement/explicit_contact.hpp"
 #include "enforcement/node_compliance.hpp"
 #include "parallel/threads.hpp"
+#include "rows/admissible.hpp"
 #include "schemes/books.hpp"
 #include "schemes/explicit_books.hpp"
 #include "schemes/imposed_motion.hpp"
@@ -167,7 +167,7 @@ struct SemiExplicit::Boundary {
 struct SemiExplicit::Target {
   const State& begin;
   double dt;
-  PointStep step() const { return {dt, begin.points}; }
+  PointStep step() const { return step_from(begin, dt); }
 };
 
 SemiExplicit::SemiExplicit(const System& system, int max_iterations)
@@ -222,8 +222,8 @@ std::string SemiExplicit::unanswered(const ConstraintRows& rows) const {
     if (gives_way || !has_mass) continue;
     return fmt::format(
         "contact closes between faces that did not look at each other at the start, so that their nodes have kept "
-        "their "
-        "mass: {}. Choose another scheme (cd_lagrange), or contact of kind = \"all\", whose nodes all go without mass",
+        "their mass: {}. Choose another scheme (cd_lagrange), or contact of kind = \"all\", whose nodes all go without "
+        "mass",
         system_.contact.describe(rows, c.row));
   }
   return {};
@@ -254,7 +254,7 @@ std::string SemiExplicit::equilibrate(const Target& target, std::span<double> u,
     b.residual(forces.external, u, target.step(), residual_);
     b.invert(residual_, 1);
     const bool follows = iterations <= most_row_updates && !system_.contact.is_fixed();
-    if (follows || !rows) rows = system_.contact.rows_at(target.begin.q, u, target.begin.contact);
+    if (follows || !rows) rows = system_.contact.rows_at(target.begin.q, u, past_of(target.begin));
     open_response(rows, history.size(), forces.rows);
     see_rows(target, u, *rows);
     std::string failure = unanswered(*rows);
@@ -343,7 +343,7 @@ StepReport SemiExplicit::step(const State& begin, const StepRequest& request, St
   }
   if (!report.failure.empty()) return report;
   end.memory = boundary_->memory();
-  evaluate_solid(system_, {h, begin.points}, end);
+  evaluate_solid(system_, step_from(begin, h), end);
   accelerate(end);
   parallel_each(n, [&](std::size_t i) { end.v[i] = v_half_[i] + 0.5 * h * end.a[i]; });
   for (const std::size_t i : boundary_->dofs) end.v[i] = (end.q[i] - begin.q[i]) / h;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "contact/closing_rows.hpp"
-#include "contact/delassus.hpp"
 #include "linalg/cholesky.hpp"
+#include "rows/delassus.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "schemes/scheme.hpp"
 

@@ -111,7 +111,7 @@ double closing_step(double limit, double contact_omega_squared) {
 
 double RestFrequencies::largest(std::shared_ptr<const ConstraintRows> rows) const {
   Vibration vibration(system_, std::vector<double>(system_.solid.dof_count(), 0.0), std::move(rows));
-  return largest_eigenvalue(vibration.pencil(), system_.solid.dof_count()).upper;
+  return largest_eigenvalue(vibration.pencil(), system_.solid.dof_count(), 1e-5).upper;
 }
 
 double RestFrequencies::free() const {
@@ -177,10 +177,10 @@ bool StableStepWatch::follow_damping(std::span<const double> points) {
   return damping_ > 0.0;
 }
 
-double StableStepWatch::follow_bodies(std::span<const double> u, std::span<const double> points) {
+double StableStepWatch::follow_bodies(const State& state) {
   if (cells_.empty() || at_rest_ == 0.0) return 0.0;
   std::vector<double> growth(cells_.size());
-  system_.solid.frequency_growth(u, {0.0, points, true}, growth);
+  system_.solid.frequency_growth(state.q, {.history = state.points, .is_over = true, .alive = state.alive()}, growth);
   const double before = omega_squared_;
   parallel_each(cells_.size(), [&](std::size_t k) { growth[k] *= cells_[k]; });
   const double largest = parallel_max(cells_.size(), 0.0, [&](std::size_t k) { return growth[k]; });

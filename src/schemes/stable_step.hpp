@@ -61,15 +61,16 @@ class RestFrequencies {
 /// The stable step of an omega^2 alone: L / omega.
 double stable_step_of(double limit, double omega_squared);
 
-/// At rest, in the reference position.
+/// The stable step of a system at rest, in the reference position.
 StableStep stable_step(const RestFrequencies& rest, double limit, EnforcementKind enforcement);
 StableStep stable_step(const System& system, double limit = 2.0,
                        EnforcementKind enforcement = EnforcementKind::penalty);
-/// The same but for what is without contact, which stays 0: half the work.
+/// The stable step with contact alone: the figures without contact stay 0, which halves the work.
 StableStep contact_step(const RestFrequencies& rest, double limit, EnforcementKind enforcement);
 
-/// The same through a run, as geometry and contact change. Where springs come and go the frequency of the linear system
-/// is not followed but bounded, by the sum of the squares of the bodies' and the contact's own (Weyl).
+/// Follows the stable step through a run, as geometry and contact change. Where springs come and go, the square of the
+/// frequency of the linear system is bounded by the sum of the squares of the bodies' and of the contact's own (Weyl),
+/// instead of being computed.
 class StableStepWatch {
  public:
   StableStepWatch(const RestFrequencies& rest, double limit, EnforcementKind enforcement);
@@ -78,14 +79,15 @@ class StableStepWatch {
   /// largest growth over the cells of (c / l)^2 (Solid::frequency_growth), each cell weighed by its bound at rest. It
   /// is that of elastic changes, since points that yield may unload at any moment. `points`: what they remember at the
   /// end of the step. One sweep over the laws; returns by how much of itself the frequency has changed.
-  double follow_bodies(std::span<const double> u, std::span<const double> points);
+  double follow_bodies(const State& state);
   /// Takes the damping of artificial viscosity from the rates that the points remember of a step, times the growth of
-  /// the bodies' omega: both go with 1 / l. One pass over cells with viscosity; false where there are none.
+  /// the bodies' omega, since both go with 1 / l. One pass over cells with viscosity. Returns false where there are
+  /// none.
   bool follow_damping(std::span<const double> points);
   /// The cell, a position in Solid::cells(), that has the highest frequency since follow_bodies; -1: not known.
   Index worst_cell() const { return worst_cell_; }
-  /// The steps with these rows, those of displacement u, every one of them closed: a few passes over the rows, only as
-  /// many as show that `wanted` may be advised where that is so.
+  /// The steps when every one of these rows, which are those at displacement u, is closed. Takes a few passes over the
+  /// rows, and stops as soon as they show that `wanted` may be advised.
   StableStep with(const ConstraintRows& rows, std::span<const double> u,
                   double wanted = std::numeric_limits<double>::infinity()) const;
 

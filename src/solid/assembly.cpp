@@ -30,15 +30,10 @@ NodeCells cells_of_nodes(const SolidCells& solid) {
 
 }  // namespace
 
-CsrMatrix node_graph(std::span<const SolidCells* const> solids, std::span<const Spring> springs,
-                     std::span<const std::vector<Index>> links) {
+CsrMatrix node_graph(std::span<const SolidCells* const> solids, std::span<const std::vector<Index>> links) {
   std::vector<NodeCells> incident;
   for (const SolidCells* solid : solids) incident.push_back(cells_of_nodes(*solid));
   std::multimap<Index, Index> tied;
-  for (const Spring& spring : springs) {
-    tied.emplace(spring.nodes[0], spring.nodes[1]);
-    tied.emplace(spring.nodes[1], spring.nodes[0]);
-  }
   for (const std::vector<Index>& nodes : links)
     for (const Index a : nodes)
       for (const Index b : nodes) tied.emplace(a, b);
@@ -92,16 +87,6 @@ void append_diagonal(CsrMatrix& matrix, Index row, double value) {
   matrix.column.insert(matrix.column.begin() + at, row);
   matrix.value.insert(matrix.value.begin() + at, value);
   for (std::size_t k = r + 1; k < matrix.row_begin.size(); ++k) ++matrix.row_begin[k];
-}
-
-void append_row(CsrMatrix& matrix, Index row, std::span<const Index> columns) {
-  const std::int64_t at = matrix.row_begin[static_cast<std::size_t>(row)];
-  append_diagonal(matrix, row, 0.0);
-  matrix.column[static_cast<std::size_t>(at)] = columns[0];
-  matrix.column.insert(matrix.column.begin() + at + 1, columns.begin() + 1, columns.end());
-  matrix.value.insert(matrix.value.begin() + at, columns.size() - 1, 0.0);
-  for (std::size_t k = static_cast<std::size_t>(row) + 1; k < matrix.row_begin.size(); ++k)
-    matrix.row_begin[k] += static_cast<std::int64_t>(columns.size()) - 1;
 }
 
 std::size_t entry(const CsrMatrix& matrix, Index row, Index column) {

@@ -8,10 +8,8 @@
 
 namespace carom {
 
-/// Empty matrix (zero values) whose entries are the pairs of nodes that share a solid cell, a spring or one of
-/// the links.
-CsrMatrix node_graph(std::span<const SolidCells* const> solids, std::span<const Spring> springs = {},
-                     std::span<const std::vector<Index>> links = {});
+/// Empty matrix (zero values) whose entries are the pairs of nodes that share a solid cell or one of the links.
+CsrMatrix node_graph(std::span<const SolidCells* const> solids, std::span<const std::vector<Index>> links = {});
 
 /// The same graph with 3 x 3 entries per pair of nodes; row 3 n + i is component i of node n.
 CsrMatrix dof_graph(const CsrMatrix& nodes);
@@ -21,9 +19,6 @@ void add_diagonal(CsrMatrix& matrix, Index row, double value);
 
 /// Gives a row without entries its diagonal entry.
 void append_diagonal(CsrMatrix& matrix, Index row, double value);
-
-/// Gives a row without entries zeros in the columns, which are sorted.
-void append_row(CsrMatrix& matrix, Index row, std::span<const Index> columns);
 
 /// Position in `matrix` of the entry (row, column), which must exist.
 std::size_t entry(const CsrMatrix& matrix, Index row, Index column);

@@ -225,7 +225,6 @@ Block block_of(const Part& part, std::shared_ptr<const CellStages> cell_stages, 
   block.distortion_limit = part.distortion_control;
   block.is_linear =
       block.small_strain && part.material.law->is_linear && !part.viscosity.is_any() && part.distortion_control == 0.0;
-  block.is_symmetric = part.material.law->has_symmetric_tangent;
   block.cell_stages = std::move(cell_stages);
   const CellStages* own = block.cell_stages.get();
   if (own == nullptr) own = &table.cells[static_cast<std::size_t>(element.kind)];
@@ -241,6 +240,10 @@ void cut_and_colour(SolidCells& solid) {
   const Index size = chunk_size(solid.size());
   for (std::size_t b = 0; b < solid.blocks.size(); ++b) {
     const Block& block = solid.blocks[b];
+    if (block.is_rigid) {
+      solid.rigid_chunks.push_back({static_cast<Index>(b), 0, block.cells});
+      continue;
+    }
     for (Index first = 0; first < block.cells; first += size) {
       chunks.push_back({static_cast<Index>(b), first, std::min(size, block.cells - first)});
       std::vector<Index>& nodes = chunk_nodes.emplace_back();
@@ -296,16 +299,27 @@ CellBatches SolidCells::batches(const Block& block, Index first, Index count, co
   return view;
 }
 
+std::span<const std::uint8_t> SolidCells::gone_among(const Block& block, Index first, Index count,
+                                                     const PointStep& step) const {
+  if (step.alive.empty() || !node_begin.empty()) return {};
+  const std::span<const std::uint8_t> own = step.alive.subspan(at(block.first + first), at(count));
+  return std::all_of(own.begin(), own.end(), [](std::uint8_t is_there) { return is_there != 0; })
+             ? std::span<const std::uint8_t>{}
+             : own;
+}
+
 void SolidCells::stiffness(const Block& block, Index first, const CellBatches& batch, std::span<const double> u,
-                           std::vector<double>& K) const {
+                           const PointStep& step, std::vector<double>& K) const {
   const std::size_t size = 9 * block.nodes() * block.nodes();
+  const std::span<const std::uint8_t> alive = gone_among(block, first, batch.cells, step);
   if (block.is_nodal())
     K.assign(size * block.lanes(), 0.0);
   else
-    batch_stiffness(batch, block.kernels, block.law(), block.is_symmetric, u.empty() ? nullptr : u.data(), K);
+    batch_stiffness(batch, block.kernels, block.law(), u.empty() ? nullptr : u.data(), alive, K);
   if (block.distortion.empty() || u.empty()) return;
   for (std::size_t l = 0; l < at(batch.cells); ++l)
-    block.distortion.add_stiffness(at(first) + l, u, std::span<double>(K).subspan(size * l, size));
+    if (alive.empty() || alive[l] != 0)
+      block.distortion.add_stiffness(at(first) + l, u, std::span<double>(K).subspan(size * l, size));
 }
 
 bool SolidCells::control_distortion(std::span<const double> volumes) {
@@ -325,23 +339,27 @@ bool SolidCells::control_distortion(std::span<const double> volumes) {
   return is_any;
 }
 
-double SolidCells::add_distortion_force(const Chunk& chunk, std::span<const double> u, std::span<double> f) const {
+double SolidCells::add_distortion_force(const Chunk& chunk, std::span<const double> u, std::span<double> f,
+                                        const PointStep& step) const {
   const DistortionControl& distortion = blocks[at(chunk.block)].distortion;
   double energy = 0.0;
   if (distortion.empty()) return energy;
-  for (Index c = chunk.first; c < chunk.first + chunk.cells; ++c) energy += distortion.add_force(at(c), u, f);
+  for (Index c = chunk.first; c < chunk.first + chunk.cells; ++c)
+    if (is_there(blocks[at(chunk.block)].first + c, step)) energy += distortion.add_force(at(c), u, f);
   return energy;
 }
 
 void SolidCells::add_distortion_action(const Chunk& chunk, std::span<const double> u, std::span<const double> x,
-                                       std::span<double> y) const {
+                                       std::span<double> y, const PointStep& step) const {
   const DistortionControl& distortion = blocks[at(chunk.block)].distortion;
   if (distortion.empty()) return;
-  for (Index c = chunk.first; c < chunk.first + chunk.cells; ++c) distortion.add_tangent_action(at(c), u, x, y);
+  for (Index c = chunk.first; c < chunk.first + chunk.cells; ++c)
+    if (is_there(blocks[at(chunk.block)].first + c, step)) distortion.add_tangent_action(at(c), u, x, y);
 }
 
 void SolidCells::add_distortion_growth(const Chunk& chunk, std::span<const double> u,
-                                       std::span<const double> bounds_at_rest, std::span<double> own) const {
+                                       std::span<const double> bounds_at_rest, std::span<double> own,
+                                       const PointStep& step) const {
   const Block& block = blocks[at(chunk.block)];
   if (block.distortion.empty()) return;
   for (Index first = 0; first < chunk.cells; first += block.stages.lanes) {
@@ -349,6 +367,7 @@ void SolidCells::add_distortion_growth(const Chunk& chunk, std::span<const doubl
     block.for_each_lumped_mass(
         batches(block, chunk.first + first, count), [&](std::size_t l, std::span<const double> mass) {
           const std::size_t k = at(first) + l, cell = at(chunk.first) + k;
+          if (!is_there(block.first + static_cast<Index>(cell), step)) return;
           own[k] += block.distortion.frequency_bound(cell, u, mass) / bounds_at_rest[at(block.first) + cell];
         });
   }
@@ -386,10 +405,16 @@ std::size_t SolidCells::history_size() const {
 }
 
 bool SolidCells::are_linear() const {
-  return std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.is_linear; });
+  return std::all_of(blocks.begin(), blocks.end(),
+                     [](const Block& block) { return block.is_linear || block.is_rigid; });
 }
 bool SolidCells::have_modes() const {
-  return std::any_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.stages.cell->modes > 0; });
+  return std::any_of(blocks.begin(), blocks.end(),
+                     [](const Block& block) { return block.stages.cell->modes > 0 && !block.is_rigid; });
+}
+
+bool SolidCells::is_there(Index position, const PointStep& step) const {
+  return step.alive.empty() || !node_begin.empty() || step.alive[at(position)] != 0;
 }
 
 const Block& SolidCells::block_of(std::size_t position) const {
@@ -426,6 +451,7 @@ SolidCells make_solid_cells(const Model& model, const KernelTable& table) {
     const std::size_t history_first = solid.history_size();
     solid.blocks.push_back(make_block(mesh, model.parts[p], cells, table));
     solid.blocks.back().part = p;
+    solid.blocks.back().is_rigid = model.parts[p].rigid_body >= 0;
     solid.blocks.back().history_first = history_first;
     solid.blocks.back().first = static_cast<Index>(solid.cells.size());
     solid.cells.insert(solid.cells.end(), cells.begin(), cells.end());

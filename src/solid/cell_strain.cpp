@@ -26,14 +26,14 @@ void strain_of(const double A[3][3], const double H[3][3], double finite, double
 /// One cell for the stages of plain double.
 class OneCell {
  public:
-  OneCell(const Mesh& mesh, const Part& part, Index cell) {
+  OneCell(const Mesh& mesh, std::span<const Vec3> x, const Part& part, Index cell) {
     const Element& element = *find_element(part.type, part.section, part.formulation);
     stages_.cell = &kernels_reference().cells[static_cast<std::size_t>(element.kind)];
     const auto n = static_cast<std::size_t>(stages_.cell->nodes);
     const Index* nodes = mesh.block(part.type)->connectivity.data() + n * static_cast<std::size_t>(cell);
     for (std::size_t a = 0; a < n; ++a) offset_[a] = 3 * nodes[a];
     cells_.stages = &stages_;
-    cells_.x = mesh.coordinates.front().data();
+    cells_.x = x.front().data();
     cells_.offset = offset_.data();
     cells_.cells = 1;
     cells_.thickness = part.thickness;
@@ -49,9 +49,11 @@ class OneCell {
   CellBatches cells_;
 };
 
-Strain mean_strain(const Mesh& mesh, const Part& part, Index cell, std::span<const double> u) {
-  const BatchGradients gradients = OneCell(mesh, part, cell).gradients(u);
-  const double finite = part.material.law->measure == Measure::small_strain ? 0.0 : 1.0;
+bool is_small(const Part& part) {
+  return part.material.law->measure == Measure::small_strain;
+}
+
+Strain mean_strain(const BatchGradients& gradients, const Part& part, double finite) {
   Strain mean{};
   for (int p = 0; p < gradients.points(); ++p) {
     double A[3][3], H[3][3], E[3][3];
@@ -84,10 +86,25 @@ double stretch_between(const BatchGradients& gradients, const Vec3& n) {
   return norm(back);
 }
 
+/// `strain_of_cell(part, cell)` of all solid cells, part after part.
+template <class OfCell>
+std::vector<Strain> strains(const Model& model, const OfCell& strain_of_cell) {
+  std::vector<Strain> strain;
+  for (const Part& part : model.parts) {
+    const std::size_t first = strain.size();
+    strain.resize(first + part.cells.size());
+    constexpr std::size_t grain = 256;
+    parallel_for(part.cells.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) strain[first + k] = strain_of_cell(part, part.cells[k]);
+    });
+  }
+  return strain;
+}
+
 }  // namespace
 
 double cell_shortening(const Mesh& mesh, const Part& part, Index cell, const Vec3& n, std::span<const double> u) {
-  const double stretch = stretch_between(OneCell(mesh, part, cell).gradients(u), n);
+  const double stretch = stretch_between(OneCell(mesh, mesh.coordinates, part, cell).gradients(u), n);
   std::vector<Vec3> x;
   const auto size = static_cast<std::size_t>(node_count(part.type));
   const Index* nodes = mesh.block(part.type)->connectivity.data() + size * static_cast<std::size_t>(cell);
@@ -96,16 +113,19 @@ double cell_shortening(const Mesh& mesh, const Part& part, Index cell, const Vec
 }
 
 std::vector<Strain> cell_strain(const Model& model, std::span<const double> u) {
-  std::vector<Strain> strain;
-  for (const Part& part : model.parts) {
-    const std::size_t first = strain.size();
-    strain.resize(first + part.cells.size());
-    constexpr std::size_t grain = 256;
-    parallel_for(part.cells.size(), grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) strain[first + k] = mean_strain(*model.mesh, part, part.cells[k], u);
-    });
-  }
-  return strain;
+  return strains(model, [&](const Part& part, Index cell) {
+    const OneCell one(*model.mesh, model.mesh->coordinates, part, cell);
+    return mean_strain(one.gradients(u), part, is_small(part) ? 0.0 : 1.0);
+  });
+}
+
+std::vector<Strain> cell_strain_rate(const Model& model, std::span<const double> u, std::span<const double> v) {
+  std::vector<Vec3> x = model.mesh->coordinates;
+  for (std::size_t i = 0; i < 3 * x.size(); ++i) x[i / 3][i % 3] += u[i];
+  return strains(model, [&](const Part& part, Index cell) {
+    const OneCell one(*model.mesh, is_small(part) ? model.mesh->coordinates : x, part, cell);
+    return mean_strain(one.gradients(v), part, 0.0);
+  });
 }
 
 }  // namespace carom

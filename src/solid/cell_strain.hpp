@@ -1,4 +1,4 @@
-// Strains of the cells, for output.
+// Strains of the cells and their rates, for output.
 #pragma once
 
 #include <array>
@@ -14,6 +14,11 @@ namespace carom {
 /// others Green-Lagrange's (F^T F - 1) / 2. zz is the hoop strain of axisymmetric cells; of plane stress it is not
 /// computed and zero, and bars give the tensor of their axial strain alone.
 std::vector<std::array<double, 6>> cell_strain(const Model& model, std::span<const double> u);
+
+/// The same of the rate of strain: the symmetric gradient of the velocity v where the cells are at u, of small-strain
+/// parts in the reference configuration. Zero of a body that turns.
+std::vector<std::array<double, 6>> cell_strain_rate(const Model& model, std::span<const double> u,
+                                                    std::span<const double> v);
 
 /// By what length a cell of the part is shorter at u than in the reference position, of its mean F, between planes
 /// whose normal at u is n: (1 - |F^T n|) times its reference length (cell_length). Negative where it is longer.

@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "linalg/csr_matrix.hpp"
 #include "model/cohesive.hpp"
-#include "solid/evaluation.hpp"
+#include "solid/contributor.hpp"
 
 namespace carom {
 
@@ -28,30 +27,32 @@ namespace carom {
 ///   A x integral of 1/2 k |w|^2 dd = A x 1/2 k lambda_0 lambda_f / (lambda_f - lambda_0) x lambda_0 x change of
 ///   lambda,
 /// `fracture`. Two numbers of history per row: d and what has been dissipated per area.
-class CohesiveZones {
+class CohesiveZones : public Contributor {
  public:
   explicit CohesiveZones(std::vector<CohesiveZone> zones, std::span<const Vec3> coordinates);
 
-  bool empty() const { return rows_.empty(); }
-  /// Numbers of history of all rows, and where they begin in that of a step.
-  std::size_t history_size() const { return 2 * rows_.size(); }
-  void place_history(std::size_t first) { first_ = first; }
-
-  /// Adds forces and energies at u; the history at the end goes to `end` unless it is empty.
+  bool empty() const override { return rows_.empty(); }
+  bool is_linear() const override { return rows_.empty(); }
+  /// The nodes of each row.
+  std::vector<std::vector<Index>> links() const override { return links_; }
+  std::size_t history_size() const override { return 2 * rows_.size(); }
+  void place_history(std::size_t first) override { first_ = first; }
   void add_force(std::span<const double> u, const PointStep& step, std::span<double> f, SolidEnergies* energies,
-                 std::span<double> end) const;
-  /// What all rows have dissipated.
-  double dissipated(std::span<const double> history) const;
+                 std::span<double> end) const override;
+  /// Nothing: energy-momentum schemes take no zones.
+  void add_discrete_gradient_force(std::span<const double> /*u_0*/, std::span<const double> /*u_1*/,
+                                   std::span<double> /*f*/) const override {}
   /// Adds the action of the tangent, the symmetric part of it while damage grows.
   void add_tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y,
-                          const PointStep& step) const;
-  /// Adds to K, which has entries for all pairs of nodes of a row (links).
-  void add_tangent(std::span<const double> u, const PointStep& step, CsrMatrix& K) const;
-  void add_tangent_diagonal(std::span<const double> u, const PointStep& step, std::span<double> diagonal) const;
-  /// The nodes of each row.
-  const std::vector<std::vector<Index>>& links() const { return links_; }
+                          const PointStep& step) const override;
+  void add_tangent(std::span<const double> u, const PointStep& step, CsrMatrix& K) const override;
+  void add_tangent_diagonal(std::span<const double> u, const PointStep& step,
+                            std::span<double> diagonal) const override;
   /// Largest change of separation from u_0 to u_1, over the separation at which nothing is borne any more.
-  double largest_change(std::span<const double> u_0, std::span<const double> u_1) const;
+  double largest_change(std::span<const double> u_0, std::span<const double> u_1) const override;
+
+  /// What all rows have dissipated.
+  double dissipated(std::span<const double> history) const;
   /// Calls visit(contact, row, force on the slave side) at u, the history being that of the state.
   template <class Visit>
   void for_each_force(std::span<const double> u, std::span<const double> history, const Visit& visit) const {

@@ -23,7 +23,7 @@ struct Element {
 };
 
 /// All rows. The first of a type and section is the one that parts without a formulation get (cells of second order
-/// that keep their volume: that with a linear volume, run/parts.cpp).
+/// that keep their volume: that with a linear volume, build/parts.cpp).
 std::span<const Element> elements();
 
 /// The row; nullptr where there is none.

@@ -44,7 +44,7 @@ std::vector<double> frequency_bounds_of(const SolidCells& cells, const Block& bl
     }
     CellBatches batch = cells.batches(block, 0, static_cast<Index>(count));
     batch.offset = offset.data();
-    batch_stiffness(batch, block.kernels, block.law(), block.is_symmetric, nullptr, K);
+    batch_stiffness(batch, block.kernels, block.law(), nullptr, {}, K);
     batch_bounds(cells, batch, block, K, std::span<double>(bounds).subspan(begin));
   }
   return bounds;
@@ -81,9 +81,9 @@ DampingBounds damping_bounds(const SolidCells& cells) {
       CellBatches viscous = batch;
       viscous.stages = &stages;
       std::vector<double> C, K;
-      batch_stiffness(viscous, block.kernels, block.law(), block.is_symmetric, nullptr, K);
+      batch_stiffness(viscous, block.kernels, block.law(), nullptr, {}, K);
       viscous.viscous_dt = batch.length[0] / stages.wave_speed;
-      batch_stiffness(viscous, block.kernels, block.law(), block.is_symmetric, nullptr, C);
+      batch_stiffness(viscous, block.kernels, block.law(), nullptr, {}, C);
       for (std::size_t k = 0; k < C.size(); ++k) C[k] = (C[k] - K[k]) * viscous.viscous_dt;
       batch_bounds(cells, batch, block, C, std::span<double>(bounds).subspan(first));
     };
@@ -96,7 +96,7 @@ DampingBounds damping_bounds(const SolidCells& cells) {
 double largest_damping(const SolidCells& cells, const DampingBounds& bounds, std::span<const double> history) {
   double largest = 0.0;
   for (const Block& block : cells.blocks) {
-    if (block.length.empty()) continue;
+    if (block.length.empty() || block.is_rigid) continue;
     const Viscosity& viscosity = block.stages.viscosity;
     const double quadratic = 2.0 * viscosity.quadratic * viscosity.quadratic / block.stages.wave_speed;
     const auto of_cell = [&](std::size_t c) {

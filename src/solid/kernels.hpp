@@ -25,14 +25,14 @@ struct BatchStages {
   double hourglass = 0.0;  ///< coefficient x modulus of the hourglass stiffness
   ModeModuli moduli{};     ///< of stabilised cells
   /// Of hourglass modes that yield or are viscous (solid/hourglass_flow.hpp): the coefficient, and the numbers that a
-  /// cell remembers of them, behind the history of its points. 0: they are elastic.
+  /// cell remembers of them, after the history of its points. 0: they are elastic.
   double hourglass_coefficient = 0.0;
   int hourglass_history = 0;
   double heating_share = 0.0;  ///< of the plastic work (Law)
   Viscosity viscosity{};
   double modulus = 0.0, rho = 0.0, wave_speed = 0.0;  ///< for viscosity: shear modulus, density, c, all at rest
 
-  /// Numbers that a cell remembers behind the history of its points.
+  /// Numbers that a cell remembers after the history of its points.
   int cell_history() const { return hourglass_history + (bulk == nullptr ? 0 : bulk_history); }
 };
 
@@ -50,7 +50,7 @@ struct CellBatches {
   const double* length = nullptr;  ///< of each cell, where there is viscosity, whole batches
   int history_variables = 0;
   /// At the beginning of the step: one PointBatch::history after the other, each with what its cells remember of
-  /// hourglass modes and of bulk viscosity behind it. Null: at rest.
+  /// hourglass modes and of bulk viscosity after it. Null: at rest.
   const double* history = nullptr;
   double* new_history = nullptr;  ///< at its end; null: not wanted
   bool is_over = false;           ///< the history is that at its end (PointStep)

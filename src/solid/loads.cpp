@@ -112,13 +112,29 @@ LoadVector make_load(const Pressure& load, const Model& model) {
   return sum.result(load.factor);
 }
 
+/// Forces on nodes of rigid bodies act on what these nodes follow.
+LoadVector carried(const LoadVector& load, const Model& model) {
+  if (model.embedding.empty()) return load;
+  NodeSum sum(model.mesh->node_count());
+  for (std::size_t k = 0; k < load.nodes.size(); ++k) {
+    const Embedding::Follower* follower = model.embedding.find(load.nodes[k]);
+    if (follower == nullptr) {
+      sum.add(load.nodes[k], 1.0, load.force[k]);
+      continue;
+    }
+    for (std::size_t a = 0; a < 4; ++a) sum.add(follower->carrier[a], follower->weight[a], load.force[k]);
+  }
+  return sum.result(load.factor);
+}
+
 }  // namespace
 
 std::vector<LoadVector> make_loads(const Model& model) {
   std::vector<LoadVector> loads;
+  const auto add = [&](const LoadVector& load) { loads.push_back(carried(load, model)); };
   for (const Load& load : model.loads) {
-    if (const auto* force = std::get_if<NodalForce>(&load)) loads.push_back(make_load(*force));
-    if (const auto* pressure = std::get_if<Pressure>(&load)) loads.push_back(make_load(*pressure, model));
+    if (const auto* force = std::get_if<NodalForce>(&load)) add(make_load(*force));
+    if (const auto* pressure = std::get_if<Pressure>(&load)) add(make_load(*pressure, model));
   }
   return loads;
 }

@@ -15,17 +15,11 @@ struct MeanVolume {
   [[gnu::always_inline]] static constexpr double at(int, int) { return 1.0; }
 };
 
-/// 1 and the parent coordinates, for the cells of second order, whose three points a direction are a product of Gauss
-/// rules.
-template <int dimension>
+/// 1 and the parent coordinates, for cells of second order at the points of their stiffness.
+template <class Shape>
 struct LinearVolume {
-  static constexpr int modes = 1 + dimension;
-  static constexpr auto rule = [] {
-    if constexpr (dimension == 2)
-      return square_rule<3>();
-    else
-      return cube_rule<3>();
-  }();
+  static constexpr int modes = 1 + Shape::dimension;
+  static constexpr auto rule = Shape::stiffness_rule();
   [[gnu::always_inline]] static constexpr double at(int p, int mode) { return mode == 0 ? 1.0 : rule.xi[p][mode - 1]; }
 };
 

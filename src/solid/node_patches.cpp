@@ -117,14 +117,15 @@ NodePatches make_node_patches(const Model& model, const SolidCells& solid, const
   NodePatches out;
   out.cells.mesh = solid.mesh;
   out.cells.power_bound = table.power_bound;
-  if (std::none_of(solid.blocks.begin(), solid.blocks.end(), [](const Block& block) { return block.is_nodal(); }))
+  if (std::none_of(solid.blocks.begin(), solid.blocks.end(),
+                   [](const Block& block) { return block.is_nodal() && !block.is_rigid; }))
     return out;
   std::vector<std::vector<Index>> of_cell(solid.size());
   out.part_begin.assign(1, 0);
   out.cells.node_begin.assign(1, 0);
   std::size_t history = solid.history_size();
   for (const Block& nodal : solid.blocks) {
-    if (!nodal.is_nodal()) continue;
+    if (!nodal.is_nodal() || nodal.is_rigid) continue;
     const Part& part = model.parts[nodal.part];
     const std::vector<Patch> patches = patches_of(solid.mesh->node_count(), at(nodal.first), at(nodal.cells),
                                                   [&](std::size_t k) { return solid.nodes_of(k); });

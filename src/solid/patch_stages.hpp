@@ -17,7 +17,7 @@
 namespace carom {
 
 /// The stages of one kind of patch, made of cells like Cell: TETRA4 or TRIA3 in a frame. Node 0 of a patch is its
-/// middle, the others are its neighbours. A batch's connectivity has the offsets of the nodes, and behind them of every
+/// middle, the others are its neighbours. A batch's connectivity has the offsets of the nodes, and after them of every
 /// cell of the patch the positions of its other corners among the neighbours; a cell whose corners are all the first
 /// one fills the patch up and has no volume.
 ///

@@ -127,7 +127,7 @@ void project_stiffness(std::span<const SolidCells* const> solids, std::span<cons
     slice.parts.resize(at(std::max<Index>(0, end - begin)));
     for (Index first = begin; first < end; first += lanes) {
       const Index count = std::min(lanes, end - first), cell = chunk.first + first;
-      solid.stiffness(block, cell, solid.batches(block, cell, count, step), u, slice.K);
+      solid.stiffness(block, cell, solid.batches(block, cell, count, step), u, step, slice.K);
       const std::size_t size = 9 * block.nodes() * block.nodes();
       for (std::size_t l = 0; l < at(count); ++l) {
         const auto K = std::span<const double>(slice.K).subspan(size * l, size);

@@ -67,8 +67,8 @@ Isa Solid::isa() const {
   return impl_->isa;
 }
 bool Solid::is_linear() const {
-  return impl_->turning_bodies.empty() && impl_->cohesive.empty() && impl_->solid.are_linear() &&
-         impl_->patches.cells.are_linear();
+  return impl_->solid.are_linear() && impl_->patches.cells.are_linear() &&
+         std::ranges::all_of(impl_->others, [](const Contributor* each) { return each->is_linear(); });
 }
 bool Solid::has_hourglass() const {
   return impl_->solid.have_modes() || !impl_->patches.empty();
@@ -101,21 +101,21 @@ std::vector<double> Solid::initial_history() const {
 
 SolidEnergies Solid::evaluate(std::span<const double> u, const PointStep& step, std::span<double> f,
                               std::span<double> end) const {
-  const std::size_t own = impl_->solid.chunks.size();
-  std::vector<SolidEnergies> partial(own + impl_->patches.cells.chunks.size());
+  const std::size_t count = impl_->solid.chunks.size();
+  std::vector<SolidEnergies> partial(count + impl_->patches.cells.chunks.size());
   impl_->sum_over_chunks(f, [&](const SolidCells& cells, std::size_t c, const Block& block, double* sum) {
     const Chunk& chunk = cells.chunks[c];
-    SolidEnergies& energies = partial[&cells == &impl_->solid ? c : own + c];
+    SolidEnergies& energies = partial[&cells == &impl_->solid ? c : count + c];
     if (!block.is_nodal())
-      block.kernels.add_internal_force(cells.batches(chunk, step, end), block.law(), u.data(), sum, &energies);
-    energies.distortion = cells.add_distortion_force(chunk, u, f);
+      cells.add_living(chunk, step, end, std::array{u.data()}, sum,
+                       [&](const CellBatches& batch, const std::array<const double*, 1>& own, double* into) {
+                         block.kernels.add_internal_force(batch, block.law(), own[0], into, &energies);
+                       });
+    energies.distortion = cells.add_distortion_force(chunk, u, f, step);
   });
   SolidEnergies total;
   for (const SolidEnergies& energies : partial) total.add(energies);
-  impl_->springs.add_force(1.0, u, f);
-  impl_->turning_bodies.add_internal_force(u, f);
-  impl_->cohesive.add_force(u, step, f, &total, end);
-  total.strain = total.strain + impl_->springs.energy(u) + impl_->turning_bodies.energy(u);
+  for (const Contributor* each : impl_->others) each->add_force(u, step, f, &total, end);
   return total;
 }
 
@@ -123,24 +123,28 @@ void Solid::internal_force(std::span<const double> u, std::span<double> f, const
   impl_->sum_over_chunks(f, [&](const SolidCells& cells, std::size_t c, const Block& block, double* sum) {
     const Chunk& chunk = cells.chunks[c];
     if (!block.is_nodal())
-      block.kernels.add_internal_force(cells.batches(chunk, step), block.law(), u.data(), sum, nullptr);
-    cells.add_distortion_force(chunk, u, f);
+      cells.add_living(chunk, step, {}, std::array{u.data()}, sum,
+                       [&](const CellBatches& batch, const std::array<const double*, 1>& own, double* into) {
+                         block.kernels.add_internal_force(batch, block.law(), own[0], into, nullptr);
+                       });
+    cells.add_distortion_force(chunk, u, f, step);
   });
-  impl_->springs.add_force(1.0, u, f);
-  impl_->cohesive.add_force(u, step, f, nullptr, {});
-  impl_->turning_bodies.add_internal_force(u, f);
+  for (const Contributor* each : impl_->others) each->add_force(u, step, f, nullptr, {});
 }
 
 void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const double> u, std::span<double> f,
-                                  const PointStep& step) const {
+                                  const PointStep& step, SolidEnergies* energies) const {
   std::vector<Index> of_patches;
   for (const Index cell : cells) {
     const Block& block = impl_->solid.block_of(at(cell));
     if (!block.is_nodal()) {
       const OneCell one(impl_->solid, block, cell - block.first, step);
-      block.kernels.add_internal_force(one.batch, block.law(), u.data(), f.data(), nullptr);
+      block.kernels.add_internal_force(one.batch, block.law(), u.data(), f.data(), energies);
     }
-    if (!block.distortion.empty()) block.distortion.add_force(at(cell - block.first), u, f);
+    if (!block.distortion.empty()) {
+      const double energy = block.distortion.add_force(at(cell - block.first), u, f);
+      if (energies != nullptr) energies->distortion += energy;
+    }
     const std::span<const Index> own = impl_->patches.of(at(cell));
     of_patches.insert(of_patches.end(), own.begin(), own.end());
   }
@@ -165,12 +169,13 @@ void Solid::tangent_action(std::span<const double> u, std::span<const double> x,
   impl_->sum_over_chunks(y, [&](const SolidCells& cells, std::size_t c, const Block& block, double* sum) {
     const Chunk& chunk = cells.chunks[c];
     if (!block.is_nodal())
-      block.kernels.add_tangent_action(cells.batches(chunk, step), block.law(), u.data(), x.data(), sum);
-    cells.add_distortion_action(chunk, u, x, y);
+      cells.add_living(chunk, step, {}, std::array{u.data(), x.data()}, sum,
+                       [&](const CellBatches& batch, const std::array<const double*, 2>& own, double* into) {
+                         block.kernels.add_tangent_action(batch, block.law(), own[0], own[1], into);
+                       });
+    cells.add_distortion_action(chunk, u, x, y, step);
   });
-  impl_->springs.add_force(1.0, x, y);
-  impl_->cohesive.add_tangent_action(u, x, y, step);
-  impl_->turning_bodies.add_tangent_action(u, x, y);
+  for (const Contributor* each : impl_->others) each->add_tangent_action(u, x, y, step);
 }
 
 void Solid::discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1,
@@ -180,15 +185,11 @@ void Solid::discrete_gradient_force(std::span<const double> u_0, std::span<const
       block.kernels.add_discrete_gradient_force(cells.batches(cells.chunks[c]), block.law(), u_0.data(), u_1.data(),
                                                 sum);
   });
-  impl_->springs.add_force(0.5, u_0, f);
-  impl_->springs.add_force(0.5, u_1, f);
-  impl_->turning_bodies.add_discrete_gradient_force(u_0, u_1, f);
+  for (const Contributor* each : impl_->others) each->add_discrete_gradient_force(u_0, u_1, f);
 }
 
 CsrMatrix Solid::tangent(std::span<const double> u, const PointStep& step) const {
-  CsrMatrix graph = impl_->graph();
-  impl_->turning_bodies.add_rows(graph);
-  CsrMatrix K = dof_graph(graph);
+  CsrMatrix K = dof_graph(impl_->graph());
   impl_->for_each_stiffness(u, step, [&](std::span<const Index> nodes, std::span<const double> cell) {
     const std::size_t dofs = 3 * nodes.size();
     for (std::size_t a = 0; a < nodes.size(); ++a)
@@ -198,9 +199,7 @@ CsrMatrix Solid::tangent(std::span<const double> u, const PointStep& step) const
           for (std::size_t j = 0; j < 3; ++j) row[j] += cell[(3 * a + i) * dofs + 3 * b + j];
         }
   });
-  impl_->springs.add_tangent(K);
-  impl_->cohesive.add_tangent(u, step, K);
-  impl_->turning_bodies.add_tangent(u, K);
+  for (const Contributor* each : impl_->others) each->add_tangent(u, step, K);
   return K;
 }
 
@@ -208,14 +207,13 @@ void Solid::project_tangent(std::span<const double> u, const PointStep& step, co
                             std::span<const std::uint8_t> fixed, BlockMatrix& coarse, BlockMatrix* fine) const {
   if (fine != nullptr && fine->column.empty()) {
     CsrMatrix graph = impl_->graph();
-    impl_->turning_bodies.add_rows(graph);
     fine->row_begin = std::move(graph.row_begin);
     fine->column = std::move(graph.column);
   }
   project_stiffness(std::array<const SolidCells*, 2>{&impl_->solid, &impl_->patches.cells}, u, step, P, fixed, coarse,
                     fine);
-  if (impl_->springs.empty() && impl_->turning_bodies.empty() && impl_->cohesive.empty()) return;
-  CsrMatrix ties = impl_->tangent_of_ties(u, step);
+  if (impl_->others.empty()) return;
+  CsrMatrix ties = impl_->tangent_of_others(u, step);
   if (fine != nullptr) {
     const BlockMatrix blocks = by_points(ties);
     for_each_block(blocks, [&](Index n, Index m, const double* block) {
@@ -245,8 +243,8 @@ double Solid::largest_change(std::span<const double> u_0, std::span<const double
     }
     return std::sqrt(most) / impl_->lengths[k];
   };
-  const double of_others =
-      std::max(impl_->turning_bodies.largest_change(u_0, u_1), impl_->cohesive.largest_change(u_0, u_1));
+  double of_others = 0.0;
+  for (const Contributor* each : impl_->others) of_others = std::max(of_others, each->largest_change(u_0, u_1));
   return parallel_max(cells().size(), of_others, of_cell);
 }
 
@@ -256,9 +254,7 @@ std::vector<double> Solid::tangent_diagonal(std::span<const double> u, const Poi
     const std::size_t dofs = 3 * nodes.size();
     for (std::size_t r = 0; r < dofs; ++r) diagonal[3 * at(nodes[r / 3]) + r % 3] += cell[r * (dofs + 1)];
   });
-  impl_->springs.add_tangent_diagonal(diagonal);
-  impl_->cohesive.add_tangent_diagonal(u, step, diagonal);
-  impl_->turning_bodies.add_tangent_diagonal(u, diagonal);
+  for (const Contributor* each : impl_->others) each->add_tangent_diagonal(u, step, diagonal);
   return diagonal;
 }
 
@@ -280,9 +276,10 @@ void Solid::add_body_force_scale(std::span<double> f) const {
   impl_->turning_bodies.add_force_scale(f);
 }
 
-Index Solid::first_inverted_cell(std::span<const double> u) const {
+Index Solid::first_inverted_cell(std::span<const double> u, std::span<const std::uint8_t> alive) const {
   std::vector<double> f(dof_count(), 0.0);
   for (std::size_t k = 0; k < cell_count(); ++k) {
+    if (!alive.empty() && alive[k] == 0) continue;
     const std::array<Index, 1> one{static_cast<Index>(k)};
     add_internal_force_of(one, u, f);
     bool is_finite = true;
@@ -313,8 +310,12 @@ Mass Solid::lumped_mass(std::span<const double> cell_factors) const {
 
 std::vector<double> Solid::cell_masses() const {
   std::vector<double> masses(cell_count());
-  impl_->solid.for_each_lumped_mass([&](std::size_t c, const Block&, std::span<const double> m) {
+  const auto add_up = [&](std::size_t c, std::span<const double> m) {
     masses[c] = std::accumulate(m.begin(), m.end(), 0.0);
+  };
+  impl_->solid.for_each_lumped_mass([&](std::size_t c, const Block&, std::span<const double> m) { add_up(c, m); });
+  impl_->solid.for_each_rigid_batch([&](std::size_t first, const Block& block, const CellBatches& batch) {
+    block.for_each_lumped_mass(batch, [&](std::size_t lane, std::span<const double> m) { add_up(first + lane, m); });
   });
   return masses;
 }

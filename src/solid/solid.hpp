@@ -29,6 +29,9 @@ std::string_view name(Isa isa);
 /// True when this processor has the instruction set.
 bool supported(Isa isa);
 
+/// What a value of a cell is of those of its points.
+enum class OverPoints : std::uint8_t { mean, largest };
+
 /// Bodies of the elements of solid/element_table.hpp. Dof 3 n + c is component c of node n whatever the cells; dof
 /// vectors have 3 x node_count entries. Plane cells have no forces and no stiffness in z, bars none across their axis
 /// but for the initial-stress term of finite strain. Parts whose law measures small strain are so, the others total
@@ -65,6 +68,10 @@ class Solid {
   std::size_t history_size() const;
   /// That of bodies at rest.
   std::vector<double> initial_history() const;
+  /// The same numbers in an order that depends on the mesh and the laws alone, and back: cell by cell, part after part.
+  /// Throws std::invalid_argument where they are not as many as the bodies remember.
+  std::vector<double> history_by_cell(std::span<const double> history) const;
+  std::vector<double> history_of_lanes(std::span<const double> by_cell) const;
 
   /// One sweep over the cells: f = F(u) = sum over cells of the integral of B^T sigma(B u), small strain, or P dN/dX
   /// with P = F S(E), for the step that ends at u; overwrites f and the history at the end of the step (`end`; empty:
@@ -76,9 +83,9 @@ class Solid {
   /// The force of `evaluate` alone. Does not allocate.
   void internal_force(std::span<const double> u, std::span<double> f, const PointStep& step = {}) const;
   /// Adds to f the internal force of the listed solid cells alone (positions in cells()), of nodal ones their part of
-  /// it.
+  /// it. Adds their energies unless null (not of nodal ones).
   void add_internal_force_of(std::span<const Index> cells, std::span<const double> u, std::span<double> f,
-                             const PointStep& step = {}) const;
+                             const PointStep& step = {}, SolidEnergies* energies = nullptr) const;
   /// y = K(u) x, the derivative of F at u in the direction x; overwrites y. As internal_force.
   void tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y,
                       const PointStep& step = {}) const;
@@ -109,14 +116,15 @@ class Solid {
   /// The strain energy of `evaluate` for points at rest before; allocates.
   double strain_energy(std::span<const double> u) const;
 
-  /// Largest rotation of a small-strain cell: the angle of R in its mean F = R U, bars: the angle by which the
-  /// axis turns; pi for a cell turned inside out. Small strain makes an error of order angle^2. Threaded, cheap enough
-  /// to be called every few steps.
-  Rotation largest_rotation(std::span<const double> u) const;
+  /// Largest rotation of a small-strain cell that is there: the angle of R in its mean F = R U, bars: the angle by
+  /// which the axis turns; pi for a cell turned inside out. Small strain makes an error of order angle^2. Threaded,
+  /// cheap enough to be called every few steps.
+  Rotation largest_rotation(std::span<const double> u, std::span<const std::uint8_t> alive = {}) const;
 
-  /// The first cell, a position in cells(), that has forces which are no numbers at u: at finite positions one that is
-  /// turned inside out (det F <= 0 at a quadrature point of finite strain). -1: none. One cell after the other.
-  Index first_inverted_cell(std::span<const double> u) const;
+  /// The first cell that is there, a position in cells(), that has forces which are no numbers at u: at finite
+  /// positions one that is turned inside out (det F <= 0 at a quadrature point of finite strain). -1: none. One cell
+  /// after the other.
+  Index first_inverted_cell(std::span<const double> u, std::span<const std::uint8_t> alive = {}) const;
 
   Mass mass(MassKind kind) const;
   /// The lumped mass, that of each cell times its factor.
@@ -163,9 +171,12 @@ class Solid {
   /// The largest measure of these stresses and its cell, the first of several.
   std::pair<double, std::size_t> largest_stress(std::span<const double> u, const PointStep& step,
                                                 double (*measure)(const Voigt& stress)) const;
-  /// Mean over the reference volume of a history variable of each solid cell (Law::history), from the history of all
-  /// points; 0 in cells of laws without it. Empty when no law of the bodies has it.
-  std::vector<double> cell_history(std::string_view variable, std::span<const double> history) const;
+  /// Mean over the reference volume, or largest, of a history variable of the points of each solid cell (Law::history),
+  /// from the history of all points; 0 in cells of laws without it. Empty when no law of the bodies has it.
+  std::vector<double> cell_history(std::string_view variable, std::span<const double> history,
+                                   OverPoints over = OverPoints::mean) const;
+  /// Zeroes what the points of the cells that have gone (alive: 0, by cell) remember.
+  void forget_gone(std::span<const std::uint8_t> alive, std::span<double> history) const;
   /// Reference volume of each solid cell (axisymmetric: of the ring) and a length: volume over the largest face area of
   /// HEXA8, area over the longest edge of QUAD4, the length of a bar.
   const std::vector<double>& cell_volumes() const;

@@ -41,17 +41,20 @@ struct Solid::Impl {
         patch_damping(damping_bounds(patches.cells)),
         volumes(solid.cells.size()),
         lengths(solid.cells.size()),
-        turning_bodies(model.turning_bodies, any_free(model.turning_bodies) ? std::sqrt(largest_bound()) : 0.0) {
-    solid.for_each_batch({}, [&](std::size_t first, const Block& block, const CellBatches& batch) {
+        turning_bodies(model.turning_bodies, any_free(model.turning_bodies) ? highest_frequency() : 0.0) {
+    const auto measure = [&](std::size_t first, const Block& block, const CellBatches& batch) {
       const BatchGradients at_rest(batch);
       for (Index l = 0; l < batch.cells; ++l) {
         const std::size_t c = first + at(l);
         volumes[c] = at_rest.volume(static_cast<int>(l));
         lengths[c] = cell_length(block.type, solid.coordinates_of(c));
       }
-    });
+    };
+    solid.for_each_batch({}, measure);
+    solid.for_each_rigid_batch(measure);
     if (solid.control_distortion(volumes)) bounds_at_rest = cell_frequency_bounds();
     cohesive.place_history(points_history_size());
+    others = contributors();
   }
 
   std::vector<Index> nodes_of_loads() const {
@@ -67,17 +70,26 @@ struct Solid::Impl {
     return nodes;
   }
 
-  /// What springs, cohesive zones and turning bodies add to the tangent.
-  CsrMatrix tangent_of_ties(std::span<const double> u, const PointStep& step) const {
+  /// All that acts between nodes beside the cells.
+  std::vector<const Contributor*> contributors() const {
+    std::vector<const Contributor*> all;
+    for (const Contributor* each : std::initializer_list<const Contributor*>{&springs, &turning_bodies, &cohesive})
+      if (!each->empty()) all.push_back(each);
+    return all;
+  }
+  std::vector<std::vector<Index>> links() const {
+    std::vector<std::vector<Index>> all;
+    for (const Contributor* each : others)
+      for (std::vector<Index>& nodes : each->links()) all.push_back(std::move(nodes));
+    return all;
+  }
+  /// What they add to the tangent.
+  CsrMatrix tangent_of_others(std::span<const double> u, const PointStep& step) const {
     SolidCells no_cells;
     no_cells.mesh = solid.mesh;
-    CsrMatrix graph = node_graph(std::array<const SolidCells*, 1>{&no_cells}, springs.all(), cohesive.links());
-    turning_bodies.add_rows(graph);
-    CsrMatrix ties = dof_graph(graph);
-    springs.add_tangent(ties);
-    cohesive.add_tangent(u, step, ties);
-    turning_bodies.add_tangent(u, ties);
-    return ties;
+    CsrMatrix sum = dof_graph(node_graph(std::array<const SolidCells*, 1>{&no_cells}, links()));
+    for (const Contributor* each : others) each->add_tangent(u, step, sum);
+    return sum;
   }
 
   /// Calls add(node, mass) for the masses of points and rigid bodies.
@@ -86,7 +98,8 @@ struct Solid::Impl {
     for (const PointMass& point : point_masses)
       for (const Index node : point.nodes) add(node, point.mass);
     for (const RigidBody& body : rigid_bodies) add(body.node, body.mass);
-    for (const auto& [node, mass] : turning_bodies.masses()) add(node, mass);
+    for (const Contributor* each : others)
+      for (const auto& [node, mass] : each->masses()) add(node, mass);
   }
   /// Lumped mass, that of cell c times factor(c).
   template <class Factor>
@@ -108,9 +121,16 @@ struct Solid::Impl {
       cells->for_each_stiffness(
           u, step, [&](std::size_t c, const Block&, std::span<const double> K) { body(cells->nodes_of(c), K); });
   }
-  CsrMatrix graph() const {
-    return node_graph(std::array<const SolidCells*, 2>{&solid, &patches.cells}, springs.all(), cohesive.links());
+  /// stress[6 k + c] of the cells k of a chunk; zero of those that have gone.
+  void mean_stress(const Chunk& chunk, const Block& block, std::span<const double> u, const PointStep& step,
+                   double* stress) const {
+    solid.for_each_living(chunk, step, {}, std::array{u.data()},
+                          [&](Index first, const CellBatches& batch, const std::array<const double*, 1>& own,
+                              std::span<const std::uint8_t>) {
+                            block.kernels.mean_stress(batch, block.law(), own[0], stress + 6 * at(first));
+                          });
   }
+  CsrMatrix graph() const { return node_graph(std::array<const SolidCells*, 2>{&solid, &patches.cells}, links()); }
 
   /// Of cells that patches are integrated for, the largest of a value of these.
   void largest_of_patches(std::span<const double> of_patch, std::span<double> of_cell) const {
@@ -135,6 +155,17 @@ struct Solid::Impl {
                         "of its material are too far apart",
                         solid.mesh->blocks[at(solid.cells[k].block)].file_numbers[at(solid.cells[k].cell)]));
     return bounds;
+  }
+  /// Of the deformable cells; where all are rigid, what theirs would be about, 2 c / length.
+  double highest_frequency() const {
+    double highest = std::sqrt(largest_bound());
+    if (highest > 0.0) return highest;
+    solid.for_each_rigid_batch([&](std::size_t first, const Block& block, const CellBatches& batch) {
+      const double c = std::sqrt(block.wave_modulus / block.rho);
+      for (std::size_t k = first; k < first + at(batch.cells); ++k)
+        highest = std::max(highest, 2.0 * c / cell_length(block.type, solid.coordinates_of(k)));
+    });
+    return highest;
   }
   double largest_bound() const {
     const std::vector<double> bounds = cell_frequency_bounds();
@@ -167,6 +198,7 @@ struct Solid::Impl {
   std::vector<double> volumes, lengths;
   std::vector<double> bounds_at_rest;  ///< cell_frequency_bounds(), for distortion control
   TurningBodies turning_bodies;
+  std::vector<const Contributor*> others;
 };
 
 }  // namespace carom

@@ -22,7 +22,7 @@ Vec3 force(const Spring& spring, const Vec3& d) {
 
 }  // namespace
 
-void Springs::add_force(double scale, std::span<const double> u, std::span<double> f) const {
+void Springs::add_scaled(double scale, std::span<const double> u, std::span<double> f) const {
   for (const Spring& spring : springs_) {
     const Vec3 k_d = force(spring, elongation(spring, u));
     for (std::size_t c = 0; c < 3; ++c) {
@@ -32,16 +32,34 @@ void Springs::add_force(double scale, std::span<const double> u, std::span<doubl
   }
 }
 
-double Springs::energy(std::span<const double> u) const {
-  double sum = 0.0;
-  for (const Spring& spring : springs_) {
-    const Vec3 d = elongation(spring, u);
-    sum += 0.5 * dot(d, force(spring, d));
-  }
-  return sum;
+std::vector<std::vector<Index>> Springs::links() const {
+  std::vector<std::vector<Index>> links;
+  for (const Spring& spring : springs_) links.emplace_back(spring.nodes.begin(), spring.nodes.end());
+  return links;
 }
 
-void Springs::add_tangent(CsrMatrix& K) const {
+void Springs::add_force(std::span<const double> u, const PointStep& /*step*/, std::span<double> f,
+                        SolidEnergies* energies, std::span<double> /*end*/) const {
+  add_scaled(1.0, u, f);
+  if (energies == nullptr) return;
+  for (const Spring& spring : springs_) {
+    const Vec3 d = elongation(spring, u);
+    energies->strain += 0.5 * dot(d, force(spring, d));
+  }
+}
+
+void Springs::add_discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1,
+                                          std::span<double> f) const {
+  add_scaled(0.5, u_0, f);
+  add_scaled(0.5, u_1, f);
+}
+
+void Springs::add_tangent_action(std::span<const double> /*u*/, std::span<const double> x, std::span<double> y,
+                                 const PointStep& /*step*/) const {
+  add_scaled(1.0, x, y);
+}
+
+void Springs::add_tangent(std::span<const double> /*u*/, const PointStep& /*step*/, CsrMatrix& K) const {
   for (const Spring& spring : springs_)
     for (std::size_t a = 0; a < 2; ++a)
       for (std::size_t b = 0; b < 2; ++b)
@@ -51,7 +69,8 @@ void Springs::add_tangent(CsrMatrix& K) const {
         }
 }
 
-void Springs::add_tangent_diagonal(std::span<double> diagonal) const {
+void Springs::add_tangent_diagonal(std::span<const double> /*u*/, const PointStep& /*step*/,
+                                   std::span<double> diagonal) const {
   for (const Spring& spring : springs_)
     for (const Index node : spring.nodes)
       for (std::size_t i = 0; i < 3; ++i) diagonal[3 * at(node) + i] += spring.stiffness[i][i];

@@ -306,7 +306,7 @@ class Batch {
       for (int l = 0; l < lanes(); ++l) values[c * lanes() + l] += factor[l] * of_modes[c * lanes() + l];
   }
   const double* plastic() const { return modes_flow() ? b_.modes.plastic : nullptr; }
-  /// What modes remember, behind the history of the point.
+  /// What modes remember, after the history of the point.
   template <class Number>
   Number* plastic_modes(Number* history) const {
     return history == nullptr ? nullptr

@@ -81,7 +81,7 @@ struct ModeStages {
 /// first numbers are the weights [p lanes], and gradients and stresses [(9 p + 3 i + j) lanes].
 struct CellStages {
   int nodes = 0, points = 0;
-  int corners = 0;       ///< of patches: places of corners of their cells, which stand behind the nodes' offsets
+  int corners = 0;       ///< of patches: places of corners of their cells, which stand after the nodes' offsets
   int frame_offset = 0;  ///< of bars: where F at rest stands in the geometry; 0: it is 1
   /// The smallest Jacobian determinant at the points of the stiffness [lane].
   void (*smallest_jacobian)(const double* x, const Index* offset, double* smallest) = nullptr;
@@ -131,10 +131,10 @@ struct PointStages {
 /// Numbers of a point that mean dilatation remembers within a sweep.
 inline constexpr int dilatation_memory = 24;
 
-/// What cells under mean dilatation know of their volume: its mean, or a linear function of the parent coordinates of a
-/// square or a cube of three points a direction (solid/mean_dilatation.hpp).
-enum class VolumeField : unsigned char { mean, linear_square, linear_cube };
-inline constexpr int volume_fields = 3;
+/// What cells under mean dilatation know of their volume: its mean, or a linear function of the parent coordinates of
+/// QUAD8, of HEXA20 and HEXA27, of PENTA15 or of PYRA13 (solid/mean_dilatation.hpp).
+enum class VolumeField : unsigned char { mean, linear_square, linear_cube, linear_wedge, linear_pyramid };
+inline constexpr int volume_fields = 5;
 
 /// What stands between the kinematics and the law: strains on their way to the law, stresses on their way back. The
 /// energy of a cell is the integral of W(E_bar), and what comes back is its derivative by E. `memory` has

@@ -64,10 +64,15 @@ static std::array<Vec3, 3> director_forces(const std::array<Vec3, 3>& S, const s
   return force;
 }
 
-void TurningBodies::add_internal_force(std::span<const double> u, std::span<double> f) const {
+void TurningBodies::add_force(std::span<const double> u, const PointStep& /*step*/, std::span<double> f,
+                              SolidEnergies* energies, std::span<double> /*end*/) const {
   for (const Body& body : bodies_) {
     const BodyFrame at = frame(body, u);
-    scatter(body, director_forces(stress(body, at), at.directors), f);
+    const Matrix S = stress(body, at);
+    scatter(body, director_forces(S, at.directors), f);
+    if (energies == nullptr) continue;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) energies->strain += 0.5 * S[i][j] * S[i][j] / body.k[i][j];
   }
 }
 
@@ -96,15 +101,15 @@ std::array<Vec3, 3> TurningBodies::stiffness_action(const Body& body, const Body
   return {add(material[0], initial[0]), add(material[1], initial[1]), add(material[2], initial[2])};
 }
 
-void TurningBodies::add_tangent_action(std::span<const double> u, std::span<const double> x,
-                                       std::span<double> y) const {
+void TurningBodies::add_tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y,
+                                       const PointStep& /*step*/) const {
   for (const Body& body : bodies_) {
     const BodyFrame direction = body_frame(body.data, nodal_values(body.data, x));
     scatter(body, stiffness_action(body, frame(body, u), direction), y);
   }
 }
 
-void TurningBodies::add_tangent(std::span<const double> u, CsrMatrix& K) const {
+void TurningBodies::add_tangent(std::span<const double> u, const PointStep& /*step*/, CsrMatrix& K) const {
   if (empty()) return;
   std::vector<double> column(u.size(), 0.0);
   for (const Body& body : bodies_) {
@@ -124,7 +129,8 @@ void TurningBodies::add_tangent(std::span<const double> u, CsrMatrix& K) const {
   }
 }
 
-void TurningBodies::add_tangent_diagonal(std::span<const double> u, std::span<double> diagonal) const {
+void TurningBodies::add_tangent_diagonal(std::span<const double> u, const PointStep& /*step*/,
+                                         std::span<double> diagonal) const {
   if (empty()) return;
   std::vector<double> column(u.size(), 0.0);
   for (const Body& body : bodies_) {
@@ -143,7 +149,7 @@ void TurningBodies::add_tangent_diagonal(std::span<const double> u, std::span<do
 void TurningBodies::add_force_scale(std::span<double> f) const {
   if (empty()) return;
   std::vector<double> diagonal(f.size(), 0.0);
-  add_tangent_diagonal(std::vector<double>(f.size(), 0.0), diagonal);
+  add_tangent_diagonal(std::vector<double>(f.size(), 0.0), {}, diagonal);
   for (const Body& body : bodies_) {
     const double length = norm(body.data.radii);
     for (const Index n : body.data.nodes)
@@ -151,22 +157,10 @@ void TurningBodies::add_force_scale(std::span<double> f) const {
   }
 }
 
-double TurningBodies::energy(std::span<const double> u) const {
-  double sum = 0.0;
-  for (const Body& body : bodies_) {
-    const Matrix S = stress(body, frame(body, u));
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) sum += 0.5 * S[i][j] * S[i][j] / body.k[i][j];
-  }
-  return sum;
-}
-
-void TurningBodies::add_rows(CsrMatrix& graph) const {
-  for (const Body& body : bodies_) {
-    std::array<Index, 4> nodes = body.data.nodes;
-    std::sort(nodes.begin(), nodes.end());
-    for (const Index n : nodes) append_row(graph, n, nodes);
-  }
+std::vector<std::vector<Index>> TurningBodies::links() const {
+  std::vector<std::vector<Index>> links;
+  for (const Body& body : bodies_) links.emplace_back(body.data.nodes.begin(), body.data.nodes.end());
+  return links;
 }
 
 std::vector<std::pair<Index, double>> TurningBodies::masses() const {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "linalg/csr_matrix.hpp"
 #include "model/turning_body.hpp"
+#include "solid/contributor.hpp"
 
 namespace carom {
 
@@ -15,30 +15,32 @@ namespace carom {
 /// and the energy-momentum force is the mean one. Rigid motions cost nothing; forces on the body strain it by about
 /// force x arm / (m r^2 omega^2), spinning at Omega by (Omega / omega)^2. Feeds the ledger's `strain`. Forces have
 /// neither resultant nor moment.
-class TurningBodies {
+class TurningBodies : public Contributor {
  public:
   /// frequency: of the mesh. Throws std::invalid_argument when it is not positive and a body names none of its own.
   TurningBodies(std::vector<TurningBody> bodies, double frequency);
 
-  bool empty() const { return bodies_.empty(); }
-  void add_internal_force(std::span<const double> u, std::span<double> f) const;
-  /// Between u_0 and u_1: f . (u_1 - u_0) is the change of the energy.
-  void add_discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1, std::span<double> f) const;
-  void add_tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y) const;
-  /// Adds to K, which has entries for all pairs of a body's nodes (add_rows).
-  void add_tangent(std::span<const double> u, CsrMatrix& K) const;
-  void add_tangent_diagonal(std::span<const double> u, std::span<double> diagonal) const;
+  bool empty() const override { return bodies_.empty(); }
+  bool is_linear() const override { return bodies_.empty(); }
+  std::vector<std::vector<Index>> links() const override;
+  /// m / 4 on every node.
+  std::vector<std::pair<Index, double>> masses() const override;
+  void add_force(std::span<const double> u, const PointStep& step, std::span<double> f, SolidEnergies* energies,
+                 std::span<double> end) const override;
+  void add_discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1,
+                                   std::span<double> f) const override;
+  void add_tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y,
+                          const PointStep& step) const override;
+  void add_tangent(std::span<const double> u, const PointStep& step, CsrMatrix& K) const override;
+  void add_tangent_diagonal(std::span<const double> u, const PointStep& step,
+                            std::span<double> diagonal) const override;
+  /// Largest change of a director between two displacements; 0 without.
+  double largest_change(std::span<const double> u_0, std::span<const double> u_1) const override;
+
   /// Adds stiffness x size of the body: a relative rounding of the directors makes this times it of force.
   void add_force_scale(std::span<double> f) const;
-  double energy(std::span<const double> u) const;
-  /// Entries for the pairs of the bodies' nodes, whose rows are empty.
-  void add_rows(CsrMatrix& node_graph) const;
-  /// m / 4 on every node.
-  std::vector<std::pair<Index, double>> masses() const;
   /// Largest strain over the bodies; 0 without.
   double largest_strain(std::span<const double> u) const;
-  /// Largest change of a director between two displacements; 0 without.
-  double largest_change(std::span<const double> u_0, std::span<const double> u_1) const;
 
  private:
   using Matrix = std::array<Vec3, 3>;  ///< symmetric: S or k

@@ -1,15 +1,19 @@
 // State: everything that evolves, as a value.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <tuple>
 #include <variant>
 #include <vector>
 
 #include "base/types.hpp"
-#include "contact/response.hpp"
 #include "energy/ledger.hpp"
+#include "model/topology.hpp"
+#include "rows/response.hpp"
 
 namespace carom {
 
@@ -37,7 +41,7 @@ struct ExternalForce {
 /// All forces at one instant. Where a dof is free, inertia = external - internal + contact up to the residual of the
 /// solver; where it is prescribed, the support's reaction closes the equation.
 struct Forces {
-  std::vector<double> internal;  ///< a dof vector, as
+  std::vector<double> internal;  ///< a dof vector
   ExternalForce external;
   NodeForces contact;
   /// M a, a dof vector; none where a scheme makes nothing of it but what follows from the accelerations (central
@@ -156,12 +160,14 @@ void fields(A& archive, GeneralizedAlphaMemory& x) {
 struct HulbertChungMemory {
   std::vector<double> e;  ///< the scheme's accelerations
   Momentum force;         ///< resultant of the forces, filtered like them
+  double dt = 0.0;        ///< the step that they are of
   friend bool operator==(const HulbertChungMemory&, const HulbertChungMemory&) = default;
 };
 template <class A>
 void fields(A& archive, HulbertChungMemory& x) {
   archive("e", x.e);
   archive("force", x.force);
+  archive("dt", x.dt);
 }
 
 /// What the nonsmooth generalised-alpha scheme carries.
@@ -211,17 +217,28 @@ using SchemeMemory =
 /// Everything that decides the next step. v and a are always those at time t. Copying a State is a checkpoint.
 struct State {
   double t = 0.0;
-  std::vector<double> q;            ///< displacement
-  std::vector<double> v;            ///< velocity
-  std::vector<double> a;            ///< acceleration
-  std::vector<double> points;       ///< history of the quadrature points (Solid::initial_history)
-  std::vector<RowHistory> contact;  ///< one entry per contact slot (ConstraintRows::slot)
-  Forces forces;                    ///< at time t
-  ContactWithin within;             ///< of the step that has led here
-  SchemeMemory memory;              ///< what else the scheme carries
-  std::vector<StageMemory> stages;  ///< of the scheme's implicit stages, in their order
+  std::vector<double> q;                     ///< displacement
+  std::vector<double> v;                     ///< velocity
+  std::vector<double> a;                     ///< acceleration
+  std::vector<double> points;                ///< history of the quadrature points (Solid::initial_history)
+  std::vector<RowHistory> contact;           ///< one entry per contact slot (ConstraintRows::slot)
+  Forces forces;                             ///< at time t
+  ContactWithin within;                      ///< of the step that has led here
+  SchemeMemory memory;                       ///< what else the scheme carries
+  std::vector<StageMemory> stages;           ///< of the scheme's implicit stages, in their order
+  std::shared_ptr<const Topology> topology;  ///< null: all cells are there
 
-  friend bool operator==(const State&, const State&) = default;
+  /// By solid cell, 0 where it has gone; empty: all are there.
+  std::span<const std::uint8_t> alive() const {
+    return topology ? std::span<const std::uint8_t>(topology->alive) : std::span<const std::uint8_t>{};
+  }
+
+  friend bool operator==(const State& a, const State& b) {
+    const auto values = [](const State& x) {
+      return std::tie(x.t, x.q, x.v, x.a, x.points, x.contact, x.forces, x.within, x.memory, x.stages);
+    };
+    return values(a) == values(b) && std::ranges::equal(a.alive(), b.alive());
+  }
 };
 template <class A>
 void fields(A& archive, State& x) {

@@ -120,8 +120,8 @@ struct Grid {
   }
 };
 
-/// Those of the bodies whose boxes are as wide as the cells are in the mean, over the spaces between the nodes of an
-/// edge, doubled.
+/// The finest grid of each body. Its boxes are twice as wide as the mean cell, divided by the number of spaces between
+/// the nodes of an edge.
 std::vector<Grid> finest_grids(const Mesh& mesh, const Solid& solid, const std::vector<Index>& body) {
   const Index bodies = body.empty() ? 0 : *std::max_element(body.begin(), body.end()) + 1;
   std::vector<Grid> grids(at(bodies));

@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "contact/admissible.hpp"
 #include "linalg/cholesky.hpp"
 #include "math/vec3.hpp"
+#include "rows/admissible.hpp"
 
 namespace carom {
 

@@ -12,7 +12,7 @@
 
 namespace carom {
 
-/// Where the bonds of the model are to be kept, and how fast their sides part.
+/// The displacement at which the bonds of the model are to hold, and the velocity with which their sides part.
 struct BondMotion {
   double h = 0.0;                   ///< length of the step
   std::span<const double> u, v, a;  ///< a holds the accelerations of the prescribed dofs
@@ -34,14 +34,14 @@ class BondedMass {
   BondedMass(const BondedMass&) = delete;
 
   bool any() const;
-  /// Gives the bonds among forces.rows the forces that they need beside all others of `forces`, their status and
-  /// history, and adds them to forces.contact; what they had before is taken off. Returns why there are none, "" when
-  /// there are.
+  /// Finds the forces that the bonds among forces.rows need beside all other `forces`, with status and history, and
+  /// puts them into forces.contact in place of those that they had. Returns why no such forces were found, "" when they
+  /// were.
   std::string hold(const BondMotion& motion, Forces& forces);
-  /// The same of the forces that balance accelerations which are known, and another force on the left side:
+  /// Does the same for forces that balance known accelerations and another force on the left side:
   ///   G M^-1 (M a + besides - f - G^T lambda) = 0.
   std::string balance(std::span<const double> a, Forces& forces, std::span<const double> besides = {});
-  /// Forces on rows that are no bonds, and what they make of the bodies that bonds keep together:
+  /// The operator from forces on rows that are no bonds to accelerations of the bodies that bonds keep together:
   ///   A^-1 = M^-1 - M^-1 G^T (G M^-1 G^T)^-1 G M^-1; mass_operator without bonds.
   ContactOperator contact_operator();
 

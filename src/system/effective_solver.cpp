@@ -25,10 +25,8 @@ namespace {
 std::string describe_free_motion(const Mesh& mesh, std::size_t dof) {
   return fmt::format(
       "{} without resistance: the tangent is singular. Hold the node by a [[support]] or a [[spring]] (bars resist "
-      "along "
-      "their axis only); where stiffness is lost on the way (a limit or bifurcation point), change the step or follow "
-      "the "
-      "motion by a scheme with inertia",
+      "along their axis only); where stiffness is lost on the way (a limit or bifurcation point), change the step or "
+      "follow the motion by a scheme with inertia",
       describe_motion(mesh, dof));
 }
 

@@ -15,6 +15,9 @@ namespace carom {
 
 namespace {
 
+/// Share of its pin's stiffness above which rows hold a motion.
+constexpr double held = 1e-4;
+
 /// Representative of the set that i belongs to (union-find with halved paths).
 std::size_t root(std::vector<std::size_t>& parent, std::size_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -293,29 +296,42 @@ std::vector<double> FreeModes::stiffness_of_rows(const ConstraintRows& rows, con
   return T;
 }
 
+std::vector<double> FreeModes::on_modes(std::span<const double> u, std::span<const double> field) const {
+  std::vector<double> out(size_, 0.0);
+  for (const Body& body : bodies_)
+    for (std::size_t k = 0; k < body.modes.size(); ++k)
+      for (const Index n : body.nodes)
+        out[body.first + k] += dot(combine(body, body.modes[k], n, u), vector_at(field, static_cast<std::size_t>(n)));
+  return out;
+}
+
+/// Bodies pass their loads on: what rounding leaves on one may come from the load of another.
+double FreeModes::largest_load(std::span<const double> u, std::span<const double> magnitude) const {
+  double largest = 0.0;
+  for (const Body& body : bodies_) {
+    for (const Candidate& mode : body.modes) {
+      double parts = 0.0;
+      for (const Index n : body.nodes)
+        parts += norm(combine(body, mode, n, u)) * norm(vector_at(magnitude, static_cast<std::size_t>(n)));
+      largest = std::max(largest, parts);
+    }
+  }
+  return largest;
+}
+
 std::vector<double> FreeModes::unheld(const ConstraintRows& rows, const std::vector<RowTangent>& D,
                                       std::span<const double> u, std::span<const double> force,
                                       std::span<const double> magnitude) const {
-  std::vector<double> T = stiffness_of_rows(rows, D, u);
+  std::vector<double> T = stiffness_of_rows(rows, D, u), e(size_);
   double most = 0.0;
   for (std::size_t k = 0; k < size_; ++k) most = std::max(most, T[k * size_ + k]);
-  std::vector<double> load(size_, 0.0), parts(size_, 0.0), e(size_);
-  for (const Body& body : bodies_) {
-    for (std::size_t k = 0; k < body.modes.size(); ++k) {
-      e[body.first + k] = std::max(1e-12 * body.stiffness, 1e-14 * most);
-      for (const Index n : body.nodes) {
-        const Vec3 v = combine(body, body.modes[k], n, u);
-        const std::size_t dof = 3 * static_cast<std::size_t>(n);
-        load[body.first + k] += dot(v, {force[dof], force[dof + 1], force[dof + 2]});
-        parts[body.first + k] += norm(v) * norm({magnitude[dof], magnitude[dof + 1], magnitude[dof + 2]});
-      }
-    }
+  for (std::size_t k = 0; k < size_; ++k) {
+    e[k] = std::max(1e-12 * pin_stiffness(k), 1e-14 * most);
+    T[k * size_ + k] += e[k];
   }
-  for (std::size_t k = 0; k < size_; ++k) T[k * size_ + k] += e[k];
-  std::vector<double> rho = load;
+  const double largest = largest_load(u, magnitude);
+  std::vector<double> rho = on_modes(u, force);
   DenseLu(std::move(T), static_cast<int>(size_)).solve(rho);
-  // Bodies pass their loads on: what rounding leaves on one may come from the load of another.
-  const double largest = parts.empty() ? 0.0 : *std::max_element(parts.begin(), parts.end());
   for (std::size_t k = 0; k < size_; ++k) {
     rho[k] *= e[k];
     if (std::abs(rho[k]) <= 1e-8 * largest) rho[k] = 0.0;
@@ -323,22 +339,89 @@ std::vector<double> FreeModes::unheld(const ConstraintRows& rows, const std::vec
   return rho;
 }
 
-std::vector<double> FreeModes::needless(const ConstraintRows& rows, const std::vector<RowTangent>& D,
-                                        std::span<const double> u) const {
+SymmetricEigen FreeModes::resistance(const ConstraintRows& rows, const std::vector<RowTangent>& D,
+                                     std::span<const double> u) const {
   const std::size_t d = size_;
-  std::vector<double> T = stiffness_of_rows(rows, D, u), stiffness(d);
-  for (std::size_t k = 0; k < d; ++k) stiffness[k] = bodies_[body_of_mode_[k]].stiffness;
+  std::vector<double> T = stiffness_of_rows(rows, D, u);
   for (std::size_t k = 0; k < d; ++k) {
     for (std::size_t l = 0; l <= k; ++l) {
-      const double mean = 0.5 * (T[k * d + l] + T[l * d + k]) / std::sqrt(stiffness[k] * stiffness[l]);
+      const double mean = 0.5 * (T[k * d + l] + T[l * d + k]) / std::sqrt(pin_stiffness(k) * pin_stiffness(l));
       T[k * d + l] = T[l * d + k] = mean;
     }
   }
-  const SymmetricEigen eigen = symmetric_eigen(std::move(T), static_cast<int>(d));
+  return symmetric_eigen(std::move(T), static_cast<int>(d));
+}
+
+std::vector<double> FreeModes::weak_part(const ConstraintRows& rows, const std::vector<RowTangent>& D,
+                                         std::span<const double> u, std::span<const double> c, double a) const {
+  const SymmetricEigen eigen = resistance(rows, D, u);
+  std::vector<double> out(size_, 0.0);
+  for (std::size_t m = 0; m < size_ && eigen.values[m] <= held; ++m) {
+    const double* v = eigen.vectors.data() + m * size_;
+    double part = 0.0;
+    for (std::size_t k = 0; k < size_; ++k) part += v[k] * c[k] * std::pow(pin_stiffness(k), -a);
+    for (std::size_t k = 0; k < size_; ++k) out[k] += v[k] * part * std::pow(pin_stiffness(k), a);
+  }
+  return out;
+}
+
+std::vector<double> FreeModes::per_square(std::span<const double> u, std::span<const double> c) const {
+  std::vector<double> out(c.begin(), c.end());
+  for (const Body& body : bodies_) {
+    const std::size_t count = body.modes.size();
+    if (count == 0) continue;
+    std::vector<double> square(count * count, 0.0);
+    for (const Index n : body.nodes)
+      for (std::size_t k = 0; k < count; ++k)
+        for (std::size_t l = 0; l < count; ++l)
+          square[k * count + l] += dot(combine(body, body.modes[k], n, u), combine(body, body.modes[l], n, u));
+    std::vector<double> own(out.begin() + static_cast<std::ptrdiff_t>(body.first),
+                            out.begin() + static_cast<std::ptrdiff_t>(body.first + count));
+    DenseLu(std::move(square), static_cast<int>(count)).solve(own);
+    std::copy(own.begin(), own.end(), out.begin() + static_cast<std::ptrdiff_t>(body.first));
+  }
+  return out;
+}
+
+void FreeModes::take_motion(std::span<const double> u, std::span<const double> c, std::span<double> field) const {
+  for (const Body& body : bodies_) {
+    for (const Index n : body.nodes) {
+      for (std::size_t k = 0; k < body.modes.size(); ++k) {
+        const Vec3 v = combine(body, body.modes[k], n, u);
+        for (std::size_t i = 0; i < 3; ++i) field[3 * static_cast<std::size_t>(n) + i] -= c[body.first + k] * v[i];
+      }
+    }
+  }
+}
+
+std::vector<double> FreeModes::relieve(const ConstraintRows& rows, const std::vector<RowTangent>& D,
+                                       std::span<const double> u, std::span<double> force) const {
+  std::vector<double> weak = weak_part(rows, D, u, on_modes(u, force), 0.5);
+  take_motion(u, per_square(u, weak), force);
+  return weak;
+}
+
+bool FreeModes::are_loads(std::span<const double> weak, std::span<const double> u,
+                          std::span<const double> magnitude) const {
+  const double limit = 1e-9 * largest_load(u, magnitude);
+  return std::any_of(weak.begin(), weak.end(), [&](double load) { return std::abs(load) > limit; });
+}
+
+void FreeModes::move_weakly(const ConstraintRows& rows, const std::vector<RowTangent>& D, std::span<const double> u,
+                            std::span<const double> weak, std::span<double> dy) const {
+  std::vector<double> change = weak_part(rows, D, u, per_square(u, on_modes(u, dy)), -0.5);
+  for (std::size_t k = 0; k < size_; ++k) change[k] -= weak[k] / pin_stiffness(k);
+  take_motion(u, change, dy);
+}
+
+std::vector<double> FreeModes::needless(const ConstraintRows& rows, const std::vector<RowTangent>& D,
+                                        std::span<const double> u) const {
+  const std::size_t d = size_;
+  const SymmetricEigen eigen = resistance(rows, D, u);
   // An orthonormal basis of the pins' displacements, scaled by the roots of their stiffnesses.
   std::vector<std::vector<double>> basis;
   for (std::size_t m = 0; m < d; ++m) {
-    if (!(eigen.values[m] > 1e-4)) continue;
+    if (!(eigen.values[m] > held)) continue;
     std::vector<double> p(d, 0.0);
     for (const Body& body : bodies_) {
       for (std::size_t i = 0; i < body.pins.size(); ++i) {
@@ -362,7 +445,7 @@ std::vector<double> FreeModes::needless(const ConstraintRows& rows, const std::v
   std::vector<double> N(d * d, 0.0);
   for (const std::vector<double>& q : basis)
     for (std::size_t i = 0; i < d; ++i)
-      for (std::size_t j = 0; j < d; ++j) N[i * d + j] += std::sqrt(stiffness[i] * stiffness[j]) * q[i] * q[j];
+      for (std::size_t j = 0; j < d; ++j) N[i * d + j] += std::sqrt(pin_stiffness(i) * pin_stiffness(j)) * q[i] * q[j];
   return N;
 }
 

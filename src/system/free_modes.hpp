@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/response.hpp"
+#include "linalg/dense.hpp"
+#include "rows/response.hpp"
 #include "system/effective_solver.hpp"
 #include "system/system.hpp"
 
@@ -28,7 +29,7 @@ class FreeModes {
   std::vector<std::vector<Index>> free_bodies() const;
   /// Displacement of a node in mode k, about the configuration x = X + u (dof vector; small strain: X).
   Vec3 displacement(std::size_t k, Index node, std::span<const double> u) const;
-  /// As many dofs as there are modes, so chosen that holding them holds every mode, each with `share` of the smallest
+  /// Springs on as many dofs as there are modes, so chosen that they hold every mode. Each has `share` of the smallest
   /// stiffness that a node of its body has on the diagonal of K.
   std::vector<DofSpring> pins(double share = 1.0) const;
 
@@ -38,18 +39,30 @@ class FreeModes {
   /// M lumped, where it is negative; 0 for linear bodies. Six actions of K.
   double inertia_for_turns(std::span<const double> u, const PointStep& step) const;
 
-  /// What of a force no tangent of the rows resists: coefficients rho of the modes, with (T + e) alpha = R^T f,
-  /// rho = e alpha, T = R^T G^T D G R and e 1e-12 of the stiffness of pins(), or 1e-14 of the largest of T.
+  /// The part of a force that no tangent of the rows resists, as coefficients rho of the modes, with (T + e) alpha =
+  /// R^T f, rho = e alpha, T = R^T G^T D G R and e 1e-12 of the stiffness of pins(), or 1e-14 of the largest of T.
   /// Coefficients below 1e-8 of what the parts of the force in `magnitude` could do, whatever their direction, are
   /// zero: rounding.
   std::vector<double> unheld(const ConstraintRows& rows, const std::vector<RowTangent>& D, std::span<const double> u,
                              std::span<const double> force, std::span<const double> magnitude) const;
   /// The part of the springs of pins() that rows with these tangents make needless, as a matrix N over the pins: the
   /// stiffness of a pin times the projector on the pins' displacements in motions that the symmetric part of T resists
-  /// by more than 1e-4 of that stiffness. Less is left to the pins: that much the turning of normals, which tangents of
-  /// rows leave out, may take away again. Empty when nothing is held.
+  /// by more than 1e-4 of that stiffness. Motions that are resisted by less are left to the pins, since the turning of
+  /// normals, which tangents of rows leave out, may take that much away again. Empty when nothing is held.
   std::vector<double> needless(const ConstraintRows& rows, const std::vector<RowTangent>& D,
                                std::span<const double> u) const;
+  /// Takes from a force what loads the weak motions, which rows with these tangents resist too little for their pins to
+  /// be needless, spread over the nodes of each body as its rigid motions are. Returns what it has taken, as
+  /// coefficients of the modes.
+  std::vector<double> relieve(const ConstraintRows& rows, const std::vector<RowTangent>& D, std::span<const double> u,
+                              std::span<double> force) const;
+  /// False where loads of weak motions are below 1e-9 of what the parts of the force in `magnitude` could do: nothing
+  /// stands against so little, so that no displacement would balance it.
+  bool are_loads(std::span<const double> weak, std::span<const double> u, std::span<const double> magnitude) const;
+  /// Makes the weak motions of a displacement those that springs as stiff as the pins would allow under these loads of
+  /// the modes: a body that is pressed then stays where it is in the mean, and not at the nodes of its pins.
+  void move_weakly(const ConstraintRows& rows, const std::vector<RowTangent>& D, std::span<const double> u,
+                   std::span<const double> weak, std::span<double> dy) const;
   /// Relative displacement of row r in its frame in the motion sum over k of coefficient_k x mode k.
   Vec3 relative(const ConstraintRows& rows, std::size_t r, std::span<const double> coefficient,
                 std::span<const double> u) const;
@@ -72,6 +85,21 @@ class FreeModes {
   void find_modes();
   void choose_pins(Body& body) const;
   Vec3 candidate(const Body& body, std::size_t j, const Vec3& x) const;
+  /// R^T f.
+  std::vector<double> on_modes(std::span<const double> u, std::span<const double> field) const;
+  /// The largest load of one mode that the parts of a force could make, whatever their directions.
+  double largest_load(std::span<const double> u, std::span<const double> magnitude) const;
+  /// Eigenvalues and vectors of the symmetric part of T, each mode scaled by the root of the stiffness of its pin.
+  SymmetricEigen resistance(const ConstraintRows& rows, const std::vector<RowTangent>& D,
+                            std::span<const double> u) const;
+  /// S^a V V^T S^-a of coefficients, V the weak eigenvectors of resistance(), S the stiffnesses of the pins.
+  std::vector<double> weak_part(const ConstraintRows& rows, const std::vector<RowTangent>& D, std::span<const double> u,
+                                std::span<const double> c, double a) const;
+  /// Coefficients (R^T R)^-1 c of each body, R its modes at its nodes.
+  std::vector<double> per_square(std::span<const double> u, std::span<const double> c) const;
+  /// field -= R c.
+  void take_motion(std::span<const double> u, std::span<const double> c, std::span<double> field) const;
+  double pin_stiffness(std::size_t mode) const { return bodies_[body_of_mode_[mode]].stiffness; }
   std::vector<double> stiffness_of_rows(const ConstraintRows& rows, const std::vector<RowTangent>& D,
                                         std::span<const double> u) const;
   Vec3 combine(const Body& body, const Candidate& c, Index node, std::span<const double> u) const;

@@ -27,14 +27,14 @@ class MassSolver {
   /// a holds the prescribed accelerations on fixed dofs on entry (zero where there is no mass); its other entries are
   /// the start value. Returns the number of iterations, or -1 when they do not converge.
   int solve(std::span<const double> f, std::span<double> a);
-  /// Of the factors, where there are some (EffectiveSolver::halves).
+  /// EffectiveSolver::halves of the factors; empty where there are none.
   std::function<std::vector<HalfPanel>(const SparseColumns&)> halves() const {
     return factors_ ? factors_->halves() : std::function<std::vector<HalfPanel>(const SparseColumns&)>{};
   }
-  /// What to say when it does not converge.
+  /// The message when it does not converge.
   static constexpr const char* failure =
       "the accelerations cannot be solved for: the forces are not finite or the mass is not positive";
-  /// For the log.
+  /// The name of the solver, for the log.
   std::string name() const;
 
  private:
@@ -44,7 +44,7 @@ class MassSolver {
   std::unique_ptr<EffectiveSolver> factors_;
 };
 
-/// A = M: accelerations, or velocities after impulses, that forces on rows make. Refers to the solver.
+/// The operator A = M: from forces on rows to accelerations, or from impulses to velocities. Refers to the solver.
 ContactOperator mass_operator(const System& system, MassSolver& solver);
 
 }  // namespace carom

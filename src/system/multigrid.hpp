@@ -8,7 +8,7 @@
 
 #include "linalg/cholesky.hpp"
 #include "linalg/conjugate_gradients.hpp"
-#include "system/effective_solver.hpp"
+#include "system/dof_spring.hpp"
 #include "system/system.hpp"
 
 namespace carom {
@@ -28,7 +28,7 @@ class Multigrid {
 
   /// A = m M + c K + springs between dofs and the ground, K being the tangent at `place`.
   void make(double m, double c, std::shared_ptr<const TangentPlace> place, const std::vector<DofSpring>& springs);
-  /// What contact adds; `rows` is kept.
+  /// Sets the part of A that contact adds, G^T D G. Keeps `rows`.
   void use(const std::shared_ptr<const ConstraintRows>& rows, const std::vector<RowTangent>& D);
   /// z = B r. r and z are zero on fixed dofs.
   void apply(std::span<const double> r, std::span<double> z);

@@ -1,4 +1,4 @@
-// What forces on the rows do through the inverse of an operator: A^-1 G^T and G A^-1 G^T, grown as rows are needed.
+// The effect of forces on rows through the inverse of an operator: A^-1 G^T and G A^-1 G^T, grown as rows are needed.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/compliance.hpp"
-#include "contact/delassus.hpp"
+#include "rows/compliance.hpp"
+#include "rows/delassus.hpp"
 #include "state/growth.hpp"
 
 namespace carom {
@@ -21,7 +21,7 @@ struct RowComponent {
 /// S = G A^-1 G^T for some components of the rows of one ConstraintRows; a component is solved for once.
 class RowCompliance {
  public:
-  /// Of column_entries, where columns are wanted: 512 MiB.
+  /// The usual value of column_entries where columns are wanted: 512 MiB.
   static constexpr std::size_t most_column_entries = std::size_t{1} << 26;
 
   /// column_entries: how many numbers of A^-1 G^T may be kept (0: none), where inverses have no halves.
@@ -33,9 +33,10 @@ class RowCompliance {
   void forget() { rows_.reset(); }
   /// Adds those components that are not there yet.
   void extend(std::span<const RowComponent> wanted, const InverseOperator& inverse);
-  /// How it has grown, as 3 row + component: made anew in the same way, it has the same bits.
+  /// The order in which the components came, as 3 row + component. A compliance that grows in the same order has the
+  /// same bits.
   const Growth& growth() const { return growth_; }
-  /// Becomes what this growth has made. True when it was something else.
+  /// Makes this compliance the one that has grown in the given order. Returns true when it was another one.
   bool grow_as(const Growth& growth, const InverseOperator& inverse);
   /// S of the listed rows, of which row i has counts[i] components, dense; what is not there yet is solved for. Throws
   /// TooManyRows before that.

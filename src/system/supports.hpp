@@ -19,7 +19,7 @@ struct PrescribedDof {
 /// All dofs that do not follow M a = force: prescribed ones, and those of nodes that carry no mass.
 class Supports {
  public:
-  /// What is imposed on one or more dofs.
+  /// A motion that is imposed on one or more dofs.
   struct Motion {
     MotionKind kind = MotionKind::displacement;
     TimeFunction function;
@@ -34,7 +34,7 @@ class Supports {
   const std::vector<Motion>& motions() const { return motions_; }
   /// One flag per dof: prescribed or without mass.
   const std::vector<bool>& fixed() const { return fixed_; }
-  /// The same of a node, bit c for component c.
+  /// The flags of a node: bit c is set where component c is fixed.
   unsigned fixed_components(std::size_t node) const { return fixed_components_[node]; }
   const std::vector<std::uint8_t>& fixed_components() const { return fixed_components_; }
   bool is_prescribed(Index dof) const { return prescribed_flag_[static_cast<std::size_t>(dof)]; }

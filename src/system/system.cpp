@@ -26,9 +26,9 @@ void evaluate_solid(const System& system, const PointStep& step, State& end) {
   forces.stored.fracture = system.solid.cohesive().dissipated(end.points);
 }
 
-PointStep start_step(double dt, std::span<const double> points) {
+PointStep start_step(double dt, std::span<const double> points, const State& state) {
   const bool have_flowed = std::any_of(points.begin(), points.end(), [](double value) { return value != 0.0; });
-  return {.dt = dt, .history = points, .is_over = have_flowed};
+  return {.dt = dt, .history = points, .is_over = have_flowed, .alive = state.alive()};
 }
 
 void evaluate_bodies(const System& system, const PointStep& step, State& end) {
@@ -52,6 +52,7 @@ void force_sum(const Forces& forces, std::span<double> rhs) {
 }
 
 void carry_memory(const State& begin, State& end) {
+  end.topology = begin.topology;
   end.memory = begin.memory;
   end.stages = begin.stages;
   end.within.weight = 0.0;

@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "contact/contact_geometry.hpp"
-#include "contact/penalty.hpp"
 #include "energy/ledger.hpp"
 #include "math/vec3.hpp"
+#include "rows/penalty.hpp"
 #include "solid/solid.hpp"
 #include "state/state.hpp"
 #include "system/supports.hpp"
 
 namespace carom {
 
-/// What every scheme steps. References only: the owner outlives the scheme.
+/// All that a scheme steps, as references: the owner outlives the scheme.
 struct System {
   const Mesh& mesh;
   const Solid& solid;
@@ -23,33 +23,43 @@ struct System {
   const Supports& supports;
 };
 
-/// What the forces of a state before the first step ask for: points that remember something have ended a step there
-/// already, and nothing flows any more.
-PointStep start_step(double dt, std::span<const double> points);
+/// The step of length dt that begins at the state, as the bodies ask for it; and the past of its contact rows.
+inline PointStep step_from(const State& begin, double dt) {
+  return {.dt = dt, .history = begin.points, .alive = begin.alive()};
+}
+inline ContactPast past_of(const State& begin) {
+  return {begin.contact, begin.topology};
+}
 
-/// The bodies at the end of a step of length dt from the points' history at its beginning, at displacement end.q: their
-/// internal forces, and, but for linear bodies, what they store and have dissipated, and the points' history.
+/// The step to evaluate the bodies with at a state before the first step. Where points remember something, a step has
+/// ended there already, so that nothing flows any more.
+PointStep start_step(double dt, std::span<const double> points, const State& state);
+
+/// Evaluates the bodies at the end of a step, at displacement end.q, from the points' history at its beginning. Fills
+/// their internal forces and, for bodies that are not linear, the energies that they store and have dissipated and the
+/// points' history.
 void evaluate_solid(const System& system, const PointStep& step, State& end);
-/// The same, and the external forces at end.t.
+/// Does what evaluate_solid does, and fills the external forces at end.t.
 void evaluate_bodies(const System& system, const PointStep& step, State& end);
-/// The external forces alone.
+/// Fills the external forces at time t alone.
 void evaluate_loads(const System& system, double t, Forces& forces);
 
-/// Fills what the accelerations and velocities of the state add to its forces: inertia, those of the supports, stored
-/// energies and total momentum (moments by MomentArms). The other forces are there (evaluate_bodies).
+/// Fills the forces that follow from the accelerations and velocities of the state: inertia and forces of the supports;
+/// and with them the stored energies and the total momentum (moments by MomentArms). Precondition: the other forces are
+/// there (evaluate_bodies).
 void complete_forces(const System& system, State& state);
-/// The forces of the supports alone.
+/// Fills the forces of the supports alone.
 void complete_supports(const System& system, State& state);
 
 /// rhs = f - F(u) + contact.
 void force_sum(const Forces& forces, std::span<double> rhs);
 
-/// Gives the end of a step what the scheme carries; nothing stands within the step.
+/// Copies to the end of a step what the scheme carries, and clears State::within.
 void carry_memory(const State& begin, State& end);
-/// The same, and displacement, velocity, acceleration and contact history to go on from.
+/// Does what carry_memory does, and copies displacement, velocity, acceleration and contact history to go on from.
 void go_on_from(const State& begin, State& end);
 
-/// What balances the forces at an instant: M a, the forces of the supports, and a . M a.
+/// The inertia M a, the forces of the supports, and a . M a at one instant, which balance the other forces.
 struct Balance {
   explicit Balance(const Forces& forces)
       : inertia(forces.inertia), supports(forces.supports), inertia_power(forces.inertia_power) {}
@@ -65,7 +75,7 @@ inline void add_with_moment(const Vec3& x, std::size_t c, double p, double* sums
   sums[3 + d] += x[e] * p;  // (x cross p)_d = x_e p_c - x_c p_e
   sums[3 + e] -= x[d] * p;
 }
-/// The same of all three components of a node.
+/// Adds all three components p of a node at x, and their moment, to six sums.
 inline void add_with_moment(const Vec3& x, const Vec3& p, double* sums) {
   const Vec3 moment = cross(x, p);
   for (std::size_t c = 0; c < 3; ++c) {
@@ -73,11 +83,11 @@ inline void add_with_moment(const Vec3& x, const Vec3& p, double* sums) {
     sums[3 + c] += moment[c];
   }
 }
-/// The six sums.
+/// The momentum that the six sums are.
 Momentum momentum_from(const double* sums);
 
-/// Where nodes stand for moments: at X where all bodies are linear (small displacements; their internal forces balance
-/// there), at X + (1 - w) u_0 + w u_1 where they are not.
+/// The arms of moments: nodes stand at X where all bodies are linear (small displacements; their internal forces
+/// balance there), at X + (1 - w) u_0 + w u_1 where they are not.
 class MomentArms {
  public:
   MomentArms(const System& system, std::span<const double> u) : MomentArms(system, u, u, 1.0) {}
@@ -98,8 +108,8 @@ class MomentArms {
   bool is_linear_;
 };
 
-/// What a node adds to the energies and momenta of a state: v.Mv, u.F (twice the energy of linear bodies), a.Ma,
-/// momentum and its moment, summed over the nodes in the order of parallel_sums.
+/// Sums over the nodes from which the energies and momenta of a state follow: v.Mv, u.F (twice the energy of linear
+/// bodies), a.Ma, momentum and its moment, in the order of parallel_sums.
 class StateSums {
  public:
   static constexpr std::size_t count = 9;

@@ -10,6 +10,7 @@
 
 #include "math/vec3.hpp"
 #include "translate/amplitudes.hpp"
+#include "translate/rigid.hpp"
 #include "translate/translation.hpp"
 #include "translate/tree.hpp"
 
@@ -41,20 +42,22 @@ struct GravityCells {
 
 class Actions {
  public:
-  explicit Actions(Translation& t) : t_(t), amplitudes_(amplitudes_of(t.statements)) {}
+  explicit Actions(Translation& t) : t_(t), amplitudes_(amplitudes_of(t.statements, t.errors)) {}
 
   void run() {
     for (std::size_t i = 0; i < t_.statements.list.size(); ++i) {
       const Statement& s = t_.statements.list[i];
       const std::string& name = s.keyword->name;
-      if (name == "BOUNDARY") each_line(s, i, &Actions::boundary);
-      if (name == "CLOAD") each_line(s, i, &Actions::force);
-      if (name == "DLOAD") each_line(s, i, &Actions::distributed);
-      if (name == "DSLOAD") each_line(s, i, &Actions::surface_pressure);
+      t_.errors.attempt([&] {
+        if (name == "BOUNDARY") each_line(s, i, &Actions::boundary);
+        if (name == "CLOAD") each_line(s, i, &Actions::force);
+        if (name == "DLOAD") each_line(s, i, &Actions::distributed);
+        if (name == "DSLOAD") each_line(s, i, &Actions::surface_pressure);
+      });
     }
     remove_replaced();
     if (!gravity_.empty()) refuse_partial_gravity();
-    for (const Acting& acting : all_) write(acting);
+    for (const Acting& acting : all_) t_.errors.attempt([&] { write(acting); });
   }
 
  private:
@@ -74,7 +77,7 @@ class Actions {
     is_before_steps_ = t_.steps.empty() || i < t_.steps.front().begin;
     const std::string* op = s.keyword->parameter("OP");
     if (op != nullptr && upper_case(*op) == "NEW") renewed_.insert({s.keyword->name, step});
-    for (DeckCursor at(*s.keyword); at.next_line();) (this->*line)(at, s, step);
+    for (DeckCursor at(*s.keyword); at.next_line();) t_.errors.attempt([&] { (this->*line)(at, s, step); });
   }
 
   /// What stands before all steps holds from the first one on.
@@ -119,12 +122,12 @@ class Actions {
     const int to = end.empty() ? from : component(at, end);
     const double value = at.real_or(0.0, "the value");
     at.end_line("nodes, first and last degree of freedom, value");
+    if (from < 1 || to < from || to > 6)
+      at.fail(fmt::format("degrees of freedom {} to {}", from, to), "1 to 3, or 1 to 6 with those of turning");
     const bool jumps = what == "DISPLACEMENT" && amplitude_ == nullptr && !t_.steps.empty() && !t_.steps.front().ramps;
     if (value != 0.0 && is_before_steps_ && jumps)
       at.fail(fmt::format("the displacement {:g} before the first step", value), "one with an AMPLITUDE",
               "The nodes would jump there when the first step begins.");
-    if (from < 1 || to < from || to > 6)
-      at.fail(fmt::format("degrees of freedom {} to {}", from, to), "1 to 3, or 1 to 6 with those of turning");
     for (int dof = from; dof <= to; ++dof) impose(at, group, dof, what, step, value, false);
   }
 
@@ -147,7 +150,8 @@ class Actions {
                                                                {"ZASYMM", {1, 2, 6}}};
     const auto found = names.find(name);
     if (found == names.end())
-      at.fail(fmt::format("\"{}\"", name), "a degree of freedom, ENCASTRE, PINNED, XSYMM or the like");
+      at.fail(fmt::format("\"{}\"", name), "a degree of freedom, ENCASTRE, PINNED, XSYMM, XASYMM or those of y and z",
+              "U1 to U3 are 1 to 3, UR1 to UR3 are 4 to 6.");
     return found->second;
   }
 
@@ -264,15 +268,26 @@ class Actions {
     if (is_support && acting.actions.front().step > 0)
       t_.findings.refuse(*acting.source, acting.where, "a support that begins with a later step",
                          "Carom's supports hold for the whole run.");
-    if (acting.body != nullptr) return move_rigid(*acting.body, acting, points);
+    if (acting.body != nullptr && acting.body->is_obstacle()) return move_rigid(*acting.body, acting, points);
     if (size == 0.0 && !is_support) return t_.findings.note(acting.where, "a load of 0: left out");
     std::string function;
     const bool is_constant = std::all_of(points.begin(), points.end(), [&](const auto& p) { return p.second == size; });
     if (!is_constant && size != 0.0) function = function_of(acting, points, size);
-    if (is_support)
+    if (acting.body != nullptr)
+      lead_rigid(*acting.body, acting, size, function);
+    else if (is_support)
       write_support(acting, size, function);
     else
       write_load(acting, size, function);
+  }
+
+  /// All nodes of a body of cells or nodes go along; what they cannot say translate_rigid_parts refuses.
+  void lead_rigid(RigidBody& body, const Acting& acting, double size, const std::string& function) {
+    body.motion.at(static_cast<std::size_t>(acting.component)) = RigidBody::Motion{size, function, acting.where};
+    if (acting.component >= 3) return;
+    Acting of_all = acting;
+    of_all.group = body.group;
+    write_support(of_all, size, function);
   }
 
   /// A rigid surface is moved by its velocity: that of a displacement is the slope of its polygon.

@@ -87,13 +87,16 @@ void follow_amplitude(Points& points, const Action& action, const DeckStep& step
 
 }  // namespace
 
-std::map<std::string, Amplitude> amplitudes_of(const Statements& statements) {
+std::map<std::string, Amplitude> amplitudes_of(const Statements& statements, CaseErrors& errors) {
   std::map<std::string, Amplitude> amplitudes;
   for (const Statement& s : statements.list) {
     if (s.keyword->name != "AMPLITUDE") continue;
-    const std::string name = s.keyword->required("NAME");
-    if (!amplitudes.emplace(name, read_amplitude(*s.keyword)).second)
-      s.keyword->fail("the amplitude " + name + " a second time", "a name of its own");
+    errors.attempt([&] {
+      const std::string name = s.keyword->required("NAME");
+      const auto [place, is_new] = amplitudes.emplace(name, Amplitude{s.keyword, {{0.0, 0.0}}, false});
+      if (!is_new) s.keyword->fail("the amplitude " + name + " a second time", "a name of its own");
+      place->second = read_amplitude(*s.keyword);
+    });
   }
   return amplitudes;
 }

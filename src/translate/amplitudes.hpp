@@ -19,8 +19,8 @@ struct Amplitude {
   bool is_total = false;  ///< TIME=TOTAL TIME: counts from the start of the run, not of the step
 };
 
-/// All of the deck by name in upper case. Throws CaseError.
-std::map<std::string, Amplitude> amplitudes_of(const Statements& statements);
+/// All of the deck by name in upper case; one that is wrong is 0.
+std::map<std::string, Amplitude> amplitudes_of(const Statements& statements, CaseErrors& errors);
 
 /// What a step says of a load or motion.
 struct Action {

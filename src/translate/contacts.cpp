@@ -1,7 +1,10 @@
 // *CONTACT PAIR, general contact and *TIE.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "deck/keyword_table.hpp"
+#include "translate/rigid.hpp"
 #include "translate/translation.hpp"
 #include "translate/tree.hpp"
 
@@ -53,10 +56,12 @@ std::map<std::string, Interaction> interactions_of(Translation& t) {
     }
     if (keyword.name != "SURFACE BEHAVIOR" && keyword.name != "FRICTION") continue;
     if (last == nullptr) keyword.fail("*" + keyword.name + " of no interaction", "*SURFACE INTERACTION before it");
-    if (keyword.name == "FRICTION")
-      read_friction(t, keyword, *last);
-    else
-      read_behavior(t, keyword, *last);
+    t.errors.attempt([&] {
+      if (keyword.name == "FRICTION")
+        read_friction(t, keyword, *last);
+      else
+        read_behavior(t, keyword, *last);
+    });
   }
   return all;
 }
@@ -87,12 +92,19 @@ std::string faces_of(Translation& t, const Statement& s, const DeckCursor& at, c
   return surface.faces;
 }
 
-std::string method_of(const DeckKeyword& pair) {
+std::string method_of(Translation& t, const DeckKeyword& pair) {
   const std::string* type = pair.parameter("TYPE");
   if (type == nullptr) return "two_pass";
   const std::string name = without_blanks(*type);
   if (name == "SURFACETOSURFACE") return "surface_to_surface";
   if (name == "NODETOSURFACE") return "node_to_surface";
+  if (name == "MASSLESS" || name == "MORTAR" || name == "LINMORTAR" || name == "PGLINMORTAR") {
+    t.findings.refuse(pair, pair.where, "TYPE=" + *type,
+                      name == "MASSLESS"
+                          ? "Nodes in contact would keep their mass, and contact be enforced as Carom does."
+                          : "Contact would be that of faces with faces, as Carom does it.");
+    return name == "MASSLESS" ? "two_pass" : "surface_to_surface";
+  }
   pair.fail("TYPE=" + *type, "NODE TO SURFACE or SURFACE TO SURFACE");
 }
 
@@ -123,33 +135,56 @@ void translate_pairs(Translation& t, const std::map<std::string, Interaction>& a
     } else {
       contact.text("kind", is_self ? "self" : "pair").text("group", group);
       if (!is_self) contact.text("master", other);
-      contact.text("method", method_of(keyword));
+      contact.text("method", method_of(t, keyword));
     }
     contact.text("initial_penetration", keyword.has("ADJUST") || t.is_explicit_abaqus() ? "offset" : "prestress");
-    add_interaction(interaction(all, keyword.required("INTERACTION"), at), contact);
+    if (keyword.has("INTERACTION"))
+      add_interaction(interaction(all, keyword.required("INTERACTION"), at), contact);
+    else
+      t.findings.note(keyword.where, "no INTERACTION: without friction, the stiffness is chosen");
     t.append("contact", contact.node());
   }
 }
 
-/// One interaction for all surfaces.
-void translate_general(Translation& t, const std::map<std::string, Interaction>& all, const DeckKeyword& inclusions) {
-  if (!inclusions.has("ALL EXTERIOR"))
-    inclusions.fail("contact of chosen surfaces", "ALL EXTERIOR", "Write pairs as *CONTACT PAIR.");
-  for (const RigidBody& body : t.rigid_bodies)
-    t.findings.refuse(inclusions, body.keyword->where, "a *RIGID BODY in general contact",
-                      "It would touch nothing; write *CONTACT PAIR.");
-  TableMaker contact(inclusions.where);
-  contact.text("name", "general contact").text("kind", "all").text("initial_penetration", "offset");
+/// That of general contact: one for all surfaces, or none.
+Interaction general_interaction(const Translation& t, const std::map<std::string, Interaction>& all) {
   for (const Statement& s : t.statements.list) {
     if (s.keyword->name != "CONTACT PROPERTY ASSIGNMENT") continue;
     DeckCursor at(*s.keyword);
     if (!at.next_line()) continue;
     const std::string first(at.field()), second(at.field());
     if (!first.empty() || !second.empty()) at.fail("an interaction of single surfaces", "one for all: , , NAME");
-    add_interaction(interaction(all, upper_case(at.field()), at), contact);
+    const Interaction& found = interaction(all, upper_case(at.field()), at);
     if (at.next_line()) at.fail("a second line", "one interaction for all surfaces");
+    return found;
   }
+  return {};
+}
+
+void translate_general(Translation& t, const std::map<std::string, Interaction>& all, const DeckKeyword& inclusions) {
+  if (!inclusions.has("ALL EXTERIOR"))
+    inclusions.fail("contact of chosen surfaces", "ALL EXTERIOR", "Write pairs as *CONTACT PAIR.");
+  const Interaction of = general_interaction(t, all);
+  TableMaker contact(inclusions.where);
+  contact.text("name", "general contact").text("kind", "all").text("initial_penetration", "offset");
+  add_interaction(of, contact);
   t.append("contact", contact.node());
+  for (RigidBody& body : t.rigid_bodies) {
+    const auto side = t.mesh.names.surfaces.find(body.side);
+    if (side == t.mesh.names.surfaces.end()) continue;
+    TableMaker rigid(body.keyword->where);
+    rigid.text("name", "general contact on " + body.side).text("kind", "surface");
+    rigid.text("group", t.mesh.names.surfaces.at(all_exterior).group).text("surface", side->second.group);
+    add_rigid_motion(t, body, rigid);
+    rigid.text("initial_penetration", "offset");
+    add_interaction(of, rigid);
+    t.append("contact", rigid.node());
+    const std::vector<CellRef>& met = t.mesh.mesh.cell_groups.at(side->second.group);
+    t.leaves_faces = t.leaves_faces || std::any_of(met.begin(), met.end(),
+                                                   [&](const CellRef& cell) { return body.cells.count(cell) == 0; });
+    t.findings.note(body.keyword->where,
+                    "general contact meets the rigid body from the side where the other bodies are");
+  }
 }
 
 void translate_ties(Translation& t, const Statement& s) {
@@ -168,7 +203,7 @@ void translate_ties(Translation& t, const Statement& s) {
     TableMaker tie(at.where());
     tie.text("name", upper_case(slave) + " to " + upper_case(master)).text("kind", "tie").text("group", group);
     tie.text("master", other);
-    if (keyword.has("TYPE")) tie.text("method", method_of(keyword));
+    if (keyword.has("TYPE")) tie.text("method", method_of(t, keyword));
     if (given != nullptr) tie.number("distance", distance).text("far", "leave");
     t.append("contact", tie.node());
   }
@@ -185,12 +220,14 @@ void translate_contacts(Translation& t) {
     if (t.steps.size() > 1 && i > t.steps[1].begin)
       t.findings.refuse(*s.keyword, s.keyword->where, "contact that begins with a later step",
                         "It would be there from the start.");
-    if (is_tie)
-      translate_ties(t, s);
-    else if (is_pair)
-      translate_pairs(t, all, s);
-    else
-      translate_general(t, all, *s.keyword);
+    t.errors.attempt([&] {
+      if (is_tie)
+        translate_ties(t, s);
+      else if (is_pair)
+        translate_pairs(t, all, s);
+      else
+        translate_general(t, all, *s.keyword);
+    });
   }
 }
 

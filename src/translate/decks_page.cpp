@@ -25,9 +25,17 @@ A deck is told by its first line that is no comment, which begins with `*` and a
 It is translated into the tree of a case, so that errors of the case name the line of the deck.
 
 **Nothing is dropped silently.** Every keyword and parameter that is not understood is listed with its line. What asks for
-results only, or steers the solver of the other program, is a note. What changes the physics refuses the run, all of it in
-one message; `--accept "KEYWORD,KEYWORD"` runs without what is named, and the loss becomes a note. Keywords that make
-nodes or elements, such as `*NGEN`, are refused in any case: the mesh would be another one.
+results only, or steers the solver of the other program, is a note. What changes the physics refuses the run. Keywords that
+make nodes or elements, such as `*NGEN`, are refused in any case: the mesh would be another one.
+
+**All findings come in one message**, each with its file and line, in this order:
+- what `--accept "KEYWORD,KEYWORD"` would run without, with the words to copy and what is then lost of each; in the run that
+  accepts it the loss is a note;
+- what has to be changed whatever is accepted: wrong values, unknown names, element types that Carom does not have;
+- where all could be accepted, what would still be refused then.
+
+An element type that is not known hides nothing: its sets keep their names, and only what is made of its cells (sections, loads
+and surfaces of them) is not looked at. `--accept` takes names of keywords alone; of others it says which one is near.
 
 ## Syntax
 
@@ -70,7 +78,7 @@ SURFACE`. `HARD` contact has the stiffness that Carom chooses. Overlaps at the s
 count as touching with `ADJUST=0`, and in decks of Abaqus' explicit program, which takes them away. Of a surface of nodes the faces between them touch, a group `NAME (faces)`, or the sides of bars where they alone
 are between them; one that makes neither is refused.
 
-A `*RIGID BODY` of faces (R3D3, R3D4, in the plane R2D2, around an axis RAX2) is an obstacle.
+A `*RIGID BODY` of faces (R3D3, R3D4, in the plane R2D2, around an axis RAX2) is an obstacle; of solids it is below.
 - Its reference node is held or moved along all axes by `*BOUNDARY`, with `TYPE=DISPLACEMENT` or `VELOCITY`. Degrees of
   freedom 4 to 6, in the plane 6, turn it about the node, through finite angles, by one amplitude for all: the axis keeps its
   direction and travels with the node. About what is not imposed it does not turn. Behind its last imposed displacement
@@ -82,8 +90,37 @@ A `*RIGID BODY` of faces (R3D3, R3D4, in the plane R2D2, around an axis RAX2) is
 What is neither is refused: a node that is free along or about some of the axes only, or held in its place and, with a
 `*ROTARY INERTIA`, free to turn.
 
-It is met from the side of its normal: by the right-hand rule, of R2D2 and RAX2 a quarter turn counter-clockwise from
-the first node to the second; `SNEG` names the other side. What would pass from behind is refused.
+In a pair it is met from the side of its normal: by the right-hand rule, of R2D2 and RAX2 a quarter turn counter-clockwise
+from the first node to the second; `SNEG` names the other side. What would pass from behind is refused.
+
+General contact (`*CONTACT INCLUSIONS, ALL EXTERIOR`) is `kind = "all"` between the bodies, and an obstacle for each rigid
+body, which names no side. It is met from the side on which, seen from its face that is nearest to the middle of all nodes of
+deformable bodies, that middle is; a note says so, and what then lies behind it is refused as in a pair. Faces that a `*TIE`
+holds take no part ([ties.md](ties.md)). Analytical surfaces are met from the side of their normal here, too.
+
+`*RIGID BODY, ANALYTICAL SURFACE` of a `*SURFACE` with `TYPE=SEGMENTS`, `CYLINDER` or `REVOLUTION` is made into faces: arcs
+(`CIRCL`) into pieces of at most 3 degrees, revolutions into 72 pieces, the nodes of which are on the arc, so that the middles of
+faces are inside of it by up to 0.03 % of its radius and 0.1 % of that of a revolution. Cylinders reach beyond the mesh by its
+size on both sides. `PARAB` is refused. The outward normal is a quarter turn counter-clockwise from the way from `START` on, as in
+Abaqus.
+
+## Rigid bodies of cells and of nodes
+
+A `*RIGID BODY` of solids is a [`[[rigid_body]]`](case_format.md#rigid_body) of their parts, with the mass and the inertia of
+its cells; a section of cells is in it as a whole or not at all. Nodes that deformable cells share with it are joined to it,
+and so are those of `TIE NSET` or `PIN NSET`, which are the same to nodes that do not turn. It touches in pairs, on either
+side of them, and in general contact as any part does. A `*MASS` or `*ROTARY INERTIA` at its reference node, which Abaqus adds
+to the cells', is refused unless accepted.
+
+`*COUPLING` with `*KINEMATIC` of degrees of freedom 1 to 3 or all, and a `*RIGID BODY` of `TIE NSET` or `PIN NSET` alone, is a
+`[[rigid_body]]` of these nodes with the `*MASS` and the `*ROTARY INERTIA` of the reference node, where its centre of mass is.
+Without a `*ROTARY INERTIA` its turns have to be held, without a mass its motion has to be imposed as a whole: then its nodes
+have supports alone. A `*COUPLING` to the reference node of a body of solids joins its nodes to that.
+
+`*BOUNDARY` on a reference node becomes supports of all nodes of the body. Along one axis these also hold the turns about the two
+others, along two axes all turns. So there may be imposed: nothing; 1 with 5 and 6, 2 with 4 and 6, or 3 with 4 and 5, as
+`XSYMM` and its like do; two or three of 1 to 3 with 4 to 6. Displacements, velocities and accelerations may be
+other than 0, turns not. `*CLOAD` acts where the reference node stands, and probes follow it. `*INITIAL CONDITIONS` at the reference node give its velocity and the angular velocity about it.
 
 ## neo-Hookean bodies
 
@@ -124,8 +161,7 @@ std::string spaced(std::string_view list) {
 std::string keywords() {
   std::string text =
       "## Keywords\n\nParameters that are not listed are refused; those that change nothing here give a note. A "
-      "keyword "
-      "that is not\nlisted is refused unless accepted.\n\n"
+      "keyword that is not\nlisted is refused unless accepted.\n\n"
       "| keyword | what becomes of it | parameters | change nothing | |\n|---|---|---|---|---|\n";
   for (const KeywordEntry& entry : keyword_table())
     text += fmt::format("| `*{}` | {} | {} | {} | {} |\n", entry.name, use_in_words(entry.use),
@@ -136,8 +172,7 @@ std::string keywords() {
 std::string elements() {
   std::string text =
       "\n## Elements\n\nTypes without a section are faces and lines: surfaces may be made of them, bodies not. Which "
-      "cells "
-      "a part may have stands in\n[cells.md](cells.md).\n\n| type | cell | section | formulation | "
+      "cells a part may have stands in\n[cells.md](cells.md).\n\n| type | cell | section | formulation | "
       "|\n|---|---|---|---|---|\n";
   for (const DeckElementType& type : deck_element_types()) {
     const bool is_cell = type.kind == DeckElementType::Kind::cell;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "math/vec3.hpp"
+#include "translate/rigid.hpp"
 #include "translate/translation.hpp"
 #include "translate/tree.hpp"
 
@@ -99,13 +100,17 @@ void translate_initial(Translation& t) {
   std::vector<GroupVelocity> all;
   for (const Statement& s : t.statements.list) {
     if (s.keyword->name != "INITIAL CONDITIONS") continue;
-    const std::string type = s.keyword->required("TYPE");
-    if (type == "VELOCITY")
-      read_velocities(t, s, all);
-    else if (type == "ROTATING VELOCITY" || type == "ROTATINGVELOCITY")
-      translate_rotation(t, s);
-    else
-      t.findings.refuse(*s.keyword, s.keyword->where, "TYPE=" + type, "The run would begin without.");
+    t.errors.attempt([&] {
+      const std::string type = s.keyword->required("TYPE");
+      if (type == "VELOCITY")
+        read_velocities(t, s, all);
+      else if (type == "ROTATING VELOCITY" || type == "ROTATINGVELOCITY")
+        translate_rotation(t, s);
+      else if (type == "TEMPERATURE")
+        t.findings.note(s.keyword->where, "temperatures act on the materials of Johnson and Cook alone");
+      else
+        t.findings.refuse(*s.keyword, s.keyword->where, "TYPE=" + type, "The run would begin without.");
+    });
   }
   refuse_mixed(t, all);
   for (const GroupVelocity& v : all) {
@@ -121,7 +126,7 @@ void translate_mass(Translation& t, const Statement& s) {
   if (!at.next_line()) s.keyword->fail("no data", "the mass");
   const double value = at.real("the mass");
   const std::vector<RigidBody*> bodies = referred_to(t, t.mesh.names.masses.at(key));
-  for (RigidBody* body : bodies) body->mass = value;
+  for (RigidBody* body : bodies) body->mass = value, body->mass_keyword = s.keyword;
   if (!bodies.empty()) return;
   TableMaker mass(s.keyword->where);
   mass.text("nodes", t.mesh.names.masses.at(key)).number("mass", value);
@@ -178,11 +183,11 @@ void translate_spring(Translation& t, const Statement& s) {
 }  // namespace
 
 void translate_discrete(Translation& t) {
-  for (const Statement& s : t.statements.list) {
-    if (s.keyword->name == "MASS") translate_mass(t, s);
-    if (s.keyword->name == "ROTARY INERTIA") translate_inertia(t, s);
-    if (s.keyword->name == "SPRING") translate_spring(t, s);
-  }
+  static const std::map<std::string, void (*)(Translation&, const Statement&)> known{
+      {"MASS", translate_mass}, {"ROTARY INERTIA", translate_inertia}, {"SPRING", translate_spring}};
+  for (const Statement& s : t.statements.list)
+    if (const auto found = known.find(s.keyword->name); found != known.end())
+      t.errors.attempt([&] { found->second(t, s); });
   translate_initial(t);
 }
 

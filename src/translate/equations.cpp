@@ -5,6 +5,7 @@
 
 #include "deck/deck_cursor.hpp"
 #include "math/vec3.hpp"
+#include "translate/rigid.hpp"
 #include "translate/translation.hpp"
 #include "translate/tree.hpp"
 
@@ -85,7 +86,7 @@ void translate_equations(Translation& t) {
       t.findings.refuse(*s.keyword, s.keyword->where, "INPUT=" + *input, "What the other file says would not hold.");
     if (!t.steps.empty() && i > t.steps[0].begin)
       t.findings.refuse(*s.keyword, s.keyword->where, "an equation within a step", "It would be there from the start.");
-    translate_equation(t, s);
+    t.errors.attempt([&] { translate_equation(t, s); });
   }
 }
 

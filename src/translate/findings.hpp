@@ -20,15 +20,21 @@ class Findings {
   /// `what` of the keyword is not carried over; `consequence` says what that means.
   void refuse(const DeckKeyword& keyword, const Location& where, const std::string& what,
               const std::string& consequence);
-  bool accepts(const std::string& keyword) const;
-  /// CaseError that lists all refusals, if there is one; also for accepted names that no keyword of the deck has.
-  void check(const std::string& source) const;
+  /// Adds an error for each accepted word that is no keyword, and a note for each that nothing is refused of.
+  void check_accepted(const Deck& deck, const std::string& source, CaseErrors& errors);
+  /// Has something of this keyword been accepted, or would it have to be?
+  bool is_left_out(const std::string& keyword) const;
+  bool empty() const { return refusals_.empty(); }
+  /// CaseError that lists all refusals, what is wrong whatever is accepted (`errors`), and, where nothing is, what
+  /// would be wrong with the deck when all is accepted (`rest`). Nothing where there is neither refusal nor error.
+  void check(const std::string& source, const CaseErrors& errors, const CaseErrors& rest = {}) const;
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  std::vector<std::string> words_;  ///< accepted, as written
   std::set<std::string> accepted_;  ///< without blanks
+  std::set<std::string> used_;      ///< accepted ones of which something is left out, without blanks
   std::vector<std::string> notes_, refusals_, keywords_;
-  Location first_;
 };
 
 }  // namespace carom

@@ -24,7 +24,8 @@ std::set<std::string> quantities_of(Translation& t, const DeckKeyword& keyword) 
   for (DeckCursor at(keyword); at.next_line();)
     while (!at.at_end()) {
       const std::string name = upper_case(at.field());
-      const auto found = known.find(name);
+      const bool is_component = name.size() == 2 && name[1] >= '1' && name[1] <= '3';  // probes have all three
+      const auto found = known.find(is_component ? name.substr(0, 1) : name);
       if (found != known.end())
         asked.insert(found->second);
       else if (!name.empty())
@@ -62,11 +63,13 @@ void translate_probes(Translation& t) {
   for (const Statement& s : t.statements.list) {
     const DeckKeyword& keyword = *s.keyword;
     if ((keyword.name != "NODE PRINT" && keyword.name != "NODE OUTPUT") || !keyword.has("NSET")) continue;
-    const std::string key = key_of(t.mesh.names.node_sets, t.scope(s), *keyword.parameter("NSET"));
-    if (key.empty()) keyword.fail("NSET=" + *keyword.parameter("NSET"), "the name of a node set");
-    Asked& entry = asked[t.mesh.names.node_sets.at(key)];
-    for (const std::string& quantity : quantities_of(t, keyword)) entry.quantities.insert(quantity);
-    entry.where = keyword.where;
+    t.errors.attempt([&] {
+      const std::string key = key_of(t.mesh.names.node_sets, t.scope(s), *keyword.parameter("NSET"));
+      if (key.empty()) keyword.fail("NSET=" + *keyword.parameter("NSET"), "the name of a node set");
+      Asked& entry = asked[t.mesh.names.node_sets.at(key)];
+      for (const std::string& quantity : quantities_of(t, keyword)) entry.quantities.insert(quantity);
+      entry.where = keyword.where;
+    });
   }
   for (const auto& [group, entry] : asked)
     if (!entry.quantities.empty()) write_probes(t, group, entry);

@@ -11,29 +11,112 @@ namespace carom {
 
 namespace {
 
-RigidBody read_rigid_body(const Translation& t, const Statement& s) {
+/// The faces or the solid cells of an ELSET.
+void add_elements(const Translation& t, const Statement& s, RigidBody& body) {
   const DeckKeyword& keyword = *s.keyword;
-  const std::string set = keyword.required("ELSET"), node = keyword.required("REF NODE");
-  const std::string cells = key_of(t.mesh.names.element_sets, t.scope(s), set);
+  const std::string set = keyword.required("ELSET"), cells = key_of(t.mesh.names.element_sets, t.scope(s), set);
   if (cells.empty()) keyword.fail("ELSET=" + set, "the name of a set of cells");
-  const std::string group = key_of(t.mesh.names.node_sets, t.scope(s), node);
-  const std::vector<Index> nodes =
-      group.empty() ? std::vector<Index>{} : t.mesh.mesh.nodes_of(t.mesh.names.node_sets.at(group));
-  if (nodes.size() != 1) keyword.fail("REF NODE=" + node, "the number of a node, or a set of one");
-  RigidBody body;
-  body.keyword = &keyword;
-  body.node = group;
-  body.reference = nodes.front();
-  body.centre = t.mesh.mesh.coordinates[at(body.reference)];
-  for (const DeckNames::Cells& each : t.mesh.names.element_sets.at(cells)) {
-    if (!each.type->section.empty())
-      keyword.fail(fmt::format("{}, elements of type {}", set, each.type->name), "R3D3, R3D4, or other faces",
-                   "Carom's rigid bodies are surfaces; bodies made of cells deform.");
+  body.name = cells;
+  body.side = rigid_side_of(t.scope(s), set);
+  const std::vector<DeckNames::Cells>& all = t.mesh.names.element_sets.at(cells);
+  const bool is_solid = !all.empty() && all.front().type->section == "solid";
+  if (is_solid) body.group = all.size() == 1 ? all.front().group : cells;
+  for (const DeckNames::Cells& each : all) {
+    if (each.type->section != (is_solid ? "solid" : ""))
+      keyword.fail(fmt::format("{}, elements of type {}", set, each.type->name),
+                   is_solid ? "solids alone" : "solids, R3D3, R3D4, or other faces",
+                   is_solid ? "Make a *RIGID BODY of each, or of the solids alone."
+                            : "Plane and axisymmetric cells deform: R2D2 and RAX2 are their rigid bodies.");
     const std::vector<CellRef>& refs = t.mesh.mesh.cell_groups.at(each.group);
     body.cells.insert(refs.begin(), refs.end());
     if (each.type->name == "RAX2") body.space = RigidBody::Space::ring;
     if (each.type->name == "R2D2") body.space = RigidBody::Space::plane;
   }
+}
+
+/// The faces of an analytical surface: lines are rings where the deck has axisymmetric cells.
+void add_analytical(const Translation& t, const Statement& s, RigidBody& body) {
+  const std::string name = s.keyword->required("ANALYTICAL SURFACE");
+  body.side = key_of(t.mesh.names.surfaces, t.scope(s), name);
+  if (body.side.empty()) s.keyword->fail("ANALYTICAL SURFACE=" + name, "the NAME of a *SURFACE");
+  body.name = body.side;
+  const std::vector<CellRef>& refs = t.mesh.mesh.cell_groups.at(t.mesh.names.surfaces.at(body.side).group);
+  body.cells.insert(refs.begin(), refs.end());
+  if (refs.empty() || t.mesh.mesh.blocks[at(refs.front().block)].type != CellType::line2) return;
+  body.space = RigidBody::Space::plane;
+  for (const auto& [set, list] : t.mesh.names.element_sets)
+    for (const DeckNames::Cells& cells : list)
+      if (cells.type->section == "axisymmetric") body.space = RigidBody::Space::ring;
+}
+
+void add_reference(const Translation& t, const Statement& s, RigidBody& body) {
+  const DeckKeyword& keyword = *s.keyword;
+  const std::string node = keyword.required("REF NODE");
+  const std::string group = key_of(t.mesh.names.node_sets, t.scope(s), node);
+  const std::vector<Index> nodes =
+      group.empty() ? std::vector<Index>{} : t.mesh.mesh.nodes_of(t.mesh.names.node_sets.at(group));
+  if (nodes.size() != 1) keyword.fail("REF NODE=" + node, "the number of a node, or a set of one");
+  body.node = group;
+  body.reference = nodes.front();
+  body.centre = t.mesh.mesh.coordinates[at(body.reference)];
+}
+
+/// PIN NSET and TIE NSET are the same to nodes that do not turn. Without elements they are the body.
+void add_nodes(const Translation& t, const Statement& s, RigidBody& body) {
+  const DeckKeyword& keyword = *s.keyword;
+  for (const char* const key : {"TIE NSET", "PIN NSET"}) {
+    const std::string* set = keyword.parameter(key);
+    if (set == nullptr) continue;
+    const std::string found = key_of(t.mesh.names.node_sets, t.scope(s), *set);
+    if (found.empty()) keyword.fail(fmt::format("{}={}", key, *set), "the name of a node set");
+    if (!body.joined.empty()) keyword.fail("TIE NSET beside PIN NSET", "one of them", "Join both sets in one *NSET.");
+    if (!body.cells.empty() && body.is_obstacle())
+      keyword.fail(fmt::format("{} beside faces", key), "faces or an analytical surface alone",
+                   "Bodies of solids hold nodes of others: give the faces cells behind them.");
+    body.joined = t.mesh.names.node_sets.at(found);
+    if (body.name.empty()) body.name = found;
+  }
+  if (body.is_of_nodes()) body.group = body.joined;
+}
+
+RigidBody read_rigid_body(const Translation& t, const Statement& s) {
+  RigidBody body;
+  body.keyword = s.keyword;
+  if (s.keyword->has("ANALYTICAL SURFACE"))
+    add_analytical(t, s, body);
+  else if (s.keyword->has("ELSET") || !(s.keyword->has("TIE NSET") || s.keyword->has("PIN NSET")))
+    add_elements(t, s, body);
+  add_nodes(t, s, body);
+  add_reference(t, s, body);
+  return body;
+}
+
+/// *KINEMATIC lists the degrees of freedom that it holds, all without lines: nodes of solids have the first three.
+void check_kinematic(const DeckKeyword& keyword) {
+  std::array<bool, 3> held{};
+  bool has_lines = false;
+  for (DeckCursor at(keyword); at.next_line();) {
+    has_lines = true;
+    const std::int64_t first = at.integer("the first degree of freedom");
+    const std::int64_t last = at.at_end() ? first : at.integer("the last degree of freedom");
+    for (std::int64_t dof = first; dof <= last && dof <= 3; ++dof)
+      if (dof >= 1) held[carom::at(dof - 1)] = true;
+  }
+  if (has_lines && !std::ranges::all_of(held, [](bool is_held) { return is_held; }))
+    keyword.fail("some degrees of freedom alone", "1 to 3, or all",
+                 "Nodes that slide along the reference node's body are not joined: write *EQUATION.");
+}
+
+/// The nodes of the surface move with the reference node.
+RigidBody read_coupling(const Translation& t, const Statement& s, const DeckKeyword& kinematic) {
+  const std::string surface = s.keyword->required("SURFACE");
+  RigidBody body;
+  body.keyword = s.keyword;
+  body.name = key_of(t.mesh.names.surfaces, t.scope(s), surface);
+  if (body.name.empty()) s.keyword->fail("SURFACE=" + surface, "the NAME of a *SURFACE");
+  body.group = body.joined = t.mesh.names.surfaces.at(body.name).group;
+  check_kinematic(kinematic);
+  add_reference(t, s, body);
   return body;
 }
 
@@ -181,8 +264,28 @@ void add_free_body(Translation& t, RigidBody& body, const Components& components
 
 std::vector<RigidBody> rigid_bodies_of(const Translation& t) {
   std::vector<RigidBody> bodies;
-  for (const Statement& s : t.statements.list)
-    if (s.keyword->name == "RIGID BODY") bodies.push_back(read_rigid_body(t, s));
+  const auto add = [&](RigidBody body) {
+    const auto same =
+        std::ranges::find_if(bodies, [&](const RigidBody& other) { return other.reference == body.reference; });
+    if (same == bodies.end()) return bodies.push_back(std::move(body));
+    if (!body.is_of_nodes() || same->is_obstacle() || !same->joined.empty())
+      body.keyword->fail("the reference node of " + same->name + " for " + body.name, "a reference node for each body",
+                         "Bodies of solids may hold the nodes of one *COUPLING.");
+    same->joined = body.joined;
+  };
+  const std::vector<Statement>& list = t.statements.list;
+  for (const Statement& statement : list)
+    if (statement.keyword->name == "RIGID BODY") t.errors.attempt([&] { add(read_rigid_body(t, statement)); });
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].keyword->name != "COUPLING") continue;
+    const DeckKeyword* behind = i + 1 < list.size() ? list[i + 1].keyword : nullptr;
+    if (behind != nullptr && behind->name == "DISTRIBUTING") continue;
+    t.errors.attempt([&] {
+      if (behind == nullptr || behind->name != "KINEMATIC")
+        list[i].keyword->fail("*COUPLING alone", "*KINEMATIC or *DISTRIBUTING behind it");
+      add(read_coupling(t, list[i], *behind));
+    });
+  }
   return bodies;
 }
 

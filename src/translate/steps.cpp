@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "deck/keyword_table.hpp"
 #include "translate/translation.hpp"
 #include "translate/tree.hpp"
 
@@ -28,6 +29,8 @@ void read_times(DeckStep& step) {
     if (increment < 0.0 || !(step.period > 0.0))
       at.fail(fmt::format("increment {}, time {}", increment, step.period), "positive times");
     if (step.increment && !says_period) step.period = std::max(1.0, increment);
+    const double smallest = at.real_or(0.0, "the smallest increment");
+    if (smallest > 0.0) step.smallest = smallest;
   }
   if (step.is_explicit_abaqus() && !has_period)
     step.procedure->fail("no time of the step", "it as the second number of the data line: `, 1.0e-3`",
@@ -59,6 +62,35 @@ void read_procedure(DeckStep& step, const DeckKeyword& keyword) {
   read_times(step);
 }
 
+/// The stable step that *FIXED and *VARIABLE MASS SCALING keep.
+void read_mass_scaling(Translation& t, DeckStep& step, const DeckKeyword& keyword) {
+  const std::string* type = keyword.parameter("TYPE");
+  const std::string kind = type == nullptr ? "" : without_blanks(*type);
+  const std::string* dt = keyword.parameter("DT");
+  if (step.kind != DeckStep::Kind::explicit_dynamics)
+    return t.findings.note(keyword.where, "*" + keyword.name + " changes nothing in a step that is not explicit");
+  if (dt == nullptr || (kind != "" && kind != "BELOWMIN")) {
+    t.findings.refuse(keyword, keyword.where, dt == nullptr ? "no DT" : "TYPE=" + *type, "No mass would be added.");
+    return;
+  }
+  const auto value = as_real(*dt);
+  if (!value || !(*value > 0.0)) keyword.fail("DT=" + *dt, "a time");
+  if (keyword.name == "VARIABLE MASS SCALING")
+    t.findings.refuse(keyword, keyword.where, "masses that change during the step",
+                      "Mass would be added at its start alone; the step falls where cells shrink.");
+  step.mass_step = std::max(*value, step.mass_step.value_or(0.0));
+}
+
+/// CalculiX' explicit steps have a smallest increment, below which it scales masses.
+void scale_to_smallest(Translation& t, DeckStep& step) {
+  const bool is_explicit = step.kind == DeckStep::Kind::explicit_dynamics;
+  if (!step.smallest || !is_explicit || step.is_explicit_abaqus()) return;
+  t.findings.refuse(*step.procedure, step.procedure->where, "a smallest increment in an explicit step",
+                    "Cells whose own step is below it would become heavier, in all their motions: CalculiX scales "
+                    "selectively, which leaves the motion as a whole its mass.");
+  step.mass_step = step.smallest;
+}
+
 const char* scheme_of(DeckStep::Kind kind) {
   switch (kind) {
     case DeckStep::Kind::statics:
@@ -73,6 +105,8 @@ const char* scheme_of(DeckStep::Kind kind) {
 
 void add_scheme(const DeckStep& step, TableMaker& table) {
   table.text("kind", scheme_of(step.kind));
+  constexpr double no_limit = 1e9;  // times the mass of all parts
+  if (step.mass_step) table.number("mass_scaling_step", *step.mass_step).number("mass_scaling_limit", no_limit);
   if (step.kind != DeckStep::Kind::implicit_dynamics) return;
   const std::string* alpha = step.procedure->parameter("ALPHA");
   double value = -0.05;
@@ -99,6 +133,11 @@ void note_step(const DeckStep& step, Findings& findings) {
     findings.note(where, fmt::format("steps of the first increment, {:g}: Carom shortens them where one fails, and "
                                      "does not lengthen them",
                                      *step.increment));
+  if (step.mass_step)
+    findings.note(where,
+                  fmt::format("cells whose own stable step is below {:g} become heavier, without a limit; the log "
+                              "says by how much",
+                              *step.mass_step));
   findings.note(step.step->where, step.is_finite ? "finite rotations and strains" : "small strains and rotations");
 }
 
@@ -109,15 +148,23 @@ bool DeckStep::is_explicit_abaqus() const {
   return value != nullptr && value->empty();
 }
 
+bool DeckStep::is_coupled() const {
+  return procedure->name == "DYNAMIC TEMPERATURE-DISPLACEMENT";
+}
+
+bool DeckStep::heats() const {
+  return is_coupled() || procedure->has("ADIABATIC");
+}
+
 bool Translation::is_explicit_abaqus() const {
   return std::any_of(steps.begin(), steps.end(), [](const DeckStep& step) { return step.is_explicit_abaqus(); });
 }
 
 void find_steps(Translation& t) {
-  static const std::set<std::string> procedures{"STATIC", "DYNAMIC"};
+  static const std::set<std::string> procedures{"STATIC", "DYNAMIC", "DYNAMIC TEMPERATURE-DISPLACEMENT"};
   DeckStep step;
   double start = 0.0;
-  for (std::size_t i = 0; i < t.statements.list.size(); ++i) {
+  const auto take = [&](std::size_t i) {
     const DeckKeyword& keyword = *t.statements.list[i].keyword;
     if (keyword.name == "STEP") {
       if (step.step != nullptr)
@@ -129,20 +176,33 @@ void find_steps(Translation& t) {
     } else if (procedures.count(keyword.name) != 0) {
       if (step.step == nullptr) keyword.fail("*" + keyword.name + " outside of a step", "*STEP before it");
       read_procedure(step, keyword);
+      if (step.is_coupled())
+        t.findings.refuse(keyword, keyword.where, "a step that computes temperatures",
+                          "It would be adiabatic: plastic work would heat where it is done, and heat would not flow.");
+    } else if (keyword.name == "FIXED MASS SCALING" || keyword.name == "VARIABLE MASS SCALING") {
+      if (step.procedure == nullptr)
+        t.findings.refuse(keyword, keyword.where, "mass scaling before the procedure of a step",
+                          "No mass would be added.");
+      else
+        read_mass_scaling(t, step, keyword);
     } else if (keyword.name == "END STEP") {
       if (step.step == nullptr) keyword.fail("*END STEP without *STEP", "*STEP before it");
       step.end = i;
+      if (step.procedure != nullptr) scale_to_smallest(t, step);
       if (step.procedure != nullptr) t.steps.push_back(step);
       if (step.procedure != nullptr) start = step.finish();
       step = {};
     }
-  }
-  if (step.step != nullptr) step.step->fail("*STEP without *END STEP", "*END STEP at its end", "Is the file complete?");
-  const Location top{t.mesh.mesh.report.source, 0, 0};
-  if (t.steps.empty()) t.findings.check(top.file);
-  if (t.steps.empty())
-    throw CaseError(top, "", "no step with *STATIC or *DYNAMIC", "at least one",
-                    "`carom mesh` describes a deck without steps; other procedures are not computed.");
+  };
+  const std::size_t before = t.errors.size();
+  for (std::size_t i = 0; i < t.statements.list.size(); ++i) t.errors.attempt([&] { take(i); });
+  t.errors.attempt([&] {
+    if (step.step != nullptr)
+      step.step->fail("*STEP without *END STEP", "*END STEP at its end", "Is the file complete?");
+  });
+  if (!t.steps.empty() || t.errors.size() != before) return;
+  t.errors.add(CaseError({t.mesh.mesh.report.source, 0, 0}, "", "no step with *STATIC or *DYNAMIC", "at least one",
+                         "`carom mesh` describes a deck without steps; other procedures are not computed."));
 }
 
 void translate_steps(Translation& t) {

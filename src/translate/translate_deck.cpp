@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "casefile/read_case.hpp"
+#include "translate/rigid.hpp"
 #include "translate/translation.hpp"
 #include "translate/tree.hpp"
 
@@ -83,46 +84,87 @@ TranslatedDeck translate_deck(const std::string& path, const std::vector<std::st
   return translate_deck(read_included(path, {path, 0, 0}), path, accepted, read_included);
 }
 
-TranslatedDeck translate_deck(std::string bytes, const std::string& path, const std::vector<std::string>& accepted,
-                              const IncludeReader& include) {
+namespace {
+
+/// What has become of a deck: the tree as if all that is not carried over were accepted, whole where nothing is wrong.
+struct Attempt {
+  Node tree;
+  Findings findings;
+  CaseErrors errors;
+};
+
+/// What needs the mesh and the steps.
+void translate_on_mesh(Translation& t) {
+  for (void (*const translate)(Translation&) :
+       {translate_discrete, translate_actions, translate_rigid_parts, translate_equations, translate_contacts,
+        translate_steps, translate_probes})
+    t.errors.attempt([&] { translate(t); });
+}
+
+Attempt attempt(std::string bytes, const std::string& path, const std::vector<std::string>& accepted,
+                const IncludeReader& include) {
   const Deck deck = read_deck(std::move(bytes), path, include);
   const Statements statements = statements_of(deck);
-  const DeckMesh mesh = deck_mesh(statements, path);
-  Findings findings(accepted);
-  Translation t{statements, mesh, findings, {}, {}, {}};
+  Attempt made{{}, Findings(accepted), {}};
+  const DeckMesh mesh = deck_mesh(statements, path, made.errors);
+  Translation t{statements, mesh, made.findings, made.errors, {}, {}, false, {}};
   survey(t);
+  const std::size_t before = made.errors.size();
   find_steps(t);
-  t.rigid_bodies = rigid_bodies_of(t);
+  const bool has_steps = made.errors.size() == before && !t.steps.empty();
   const Location top{path, 1, 0};
   t.root.members.push_back({"title", top, title_of(statements, path)});
   TableMaker of_mesh(top);
   of_mesh.text("file", std::filesystem::path(path).filename().string());
-  const auto leaves_cells = {"SHELL SECTION", "BEAM SECTION", "BEAM GENERAL SECTION", "MEMBRANE SECTION"};
-  if (std::any_of(leaves_cells.begin(), leaves_cells.end(), [&](const char* name) { return findings.accepts(name); }))
-    of_mesh.text("unused", "ignore");
-  t.root.members.push_back({"mesh", top, of_mesh.node()});
+  t.root.members.push_back({"mesh", top, {}});
+  if (mesh.is_whole) t.rigid_bodies = rigid_bodies_of(t);
   translate_bodies(t);
-  translate_discrete(t);
-  translate_actions(t);
-  translate_equations(t);
-  translate_contacts(t);
-  translate_steps(t);
-  translate_probes(t);
-  findings.check(path);
+  if (has_steps && mesh.is_whole) translate_on_mesh(t);
+  const auto leaves_cells = {"SHELL SECTION", "BEAM SECTION", "BEAM GENERAL SECTION", "MEMBRANE SECTION"};
+  if (t.leaves_faces || std::any_of(leaves_cells.begin(), leaves_cells.end(),
+                                    [&](const char* name) { return made.findings.is_left_out(name); }))
+    of_mesh.text("unused", "ignore");
+  t.root.members[1].value = of_mesh.node();
+  made.findings.check_accepted(deck, path, made.errors);
+  if (!made.errors.empty()) return made;
   const std::string units = unit_system(t.root);
-  findings.note(top, "units = \"" + units + "\" by the size of the densities; a label, nothing is converted");
+  made.findings.note(top, "units = \"" + units + "\" by the size of the densities; a label, nothing is converted");
   t.root.members.insert(t.root.members.begin() + 1, {"units", top, text_node(units, top)});
-  return {{std::move(t.root), top}, findings.notes()};
+  made.tree = {std::move(t.root), top};
+  return made;
 }
 
-ReadCase read_case_or_deck(const std::string& path, const std::vector<std::string>& accepted) {
+}  // namespace
+
+TranslatedDeck translate_deck(std::string bytes, const std::string& path, const std::vector<std::string>& accepted,
+                              const IncludeReader& include) {
+  Attempt made = attempt(std::move(bytes), path, accepted, include);
+  made.findings.check(path, made.errors);
+  return {std::move(made.tree), made.findings.notes()};
+}
+
+ReadCase read_case_or_deck(const std::string& path, const std::vector<std::string>& accepted,
+                           const FurtherLooks& looks) {
+  CaseErrors errors;
   if (!begins_as_deck(path)) {
     if (!accepted.empty())
       throw CaseError({path, 0, 0}, "", "a case file, with --accept", "a deck of Abaqus or CalculiX with --accept");
-    return {read_case(path), {}};
+    ReadCase read{read_case(path, errors), {}};
+    if (!errors.empty()) looks.at_wrong_case(read.given, errors);
+    errors.check();
+    return read;
   }
-  TranslatedDeck translated = translate_deck(path, accepted);
-  return {case_of(translated.tree, path), std::move(translated.notes)};
+  Attempt made = attempt(read_included(path, {path, 0, 0}), path, accepted, read_included);
+  if (!made.errors.empty()) made.findings.check(path, made.errors);
+  Case given = case_of(made.tree, path, errors);
+  if (made.findings.empty()) {
+    if (!errors.empty()) looks.at_wrong_case(given, errors);
+    errors.check();
+    return {std::move(given), made.findings.notes()};
+  }
+  if (errors.empty()) errors.attempt([&] { looks.at_refused_deck(given); });
+  made.findings.check(path, {}, errors);
+  return {};
 }
 
 }  // namespace carom

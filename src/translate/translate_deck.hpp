@@ -1,6 +1,7 @@
 // A deck of Abaqus or CalculiX as a case.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,14 @@ struct ReadCase {
   Case given;
   std::vector<std::string> notes;  ///< of the translation
 };
-ReadCase read_case_or_deck(const std::string& path, const std::vector<std::string>& accepted);
+/// What others can say of a case that will not be run.
+struct FurtherLooks {
+  /// Adds what is wrong with the mesh of a case that is wrong elsewhere.
+  std::function<void(const Case& partial, CaseErrors& errors)> at_wrong_case = [](const Case&, CaseErrors&) {};
+  /// Throws what would be wrong with a deck if all that is not carried over were accepted.
+  std::function<void(const Case& given)> at_refused_deck = [](const Case&) {};
+};
+ReadCase read_case_or_deck(const std::string& path, const std::vector<std::string>& accepted,
+                           const FurtherLooks& looks = {});
 
 }  // namespace carom

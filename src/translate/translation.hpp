@@ -11,7 +11,7 @@
 #include "deck/statements.hpp"
 #include "mesh/deck_mesh.hpp"
 #include "translate/findings.hpp"
-#include "translate/rigid.hpp"
+#include "translate/rigid_body.hpp"
 
 namespace carom {
 
@@ -24,13 +24,19 @@ struct DeckStep {
   std::size_t begin = 0, end = 0;  ///< statements
   double start = 0.0, period = 1.0;
   std::optional<double> increment;
-  bool is_finite = false;  ///< finite rotations
-  bool ramps = false;      ///< loads without an amplitude grow with the time of the step
+  std::optional<double> smallest;   ///< increment
+  std::optional<double> mass_step;  ///< stable step that cells are made heavier for
+  bool is_finite = false;           ///< finite rotations
+  bool ramps = false;               ///< loads without an amplitude grow with the time of the step
 
   double finish() const { return start + period; }
   /// CalculiX writes EXPLICIT=1; Abaqus' explicit program knows no value. It follows finite rotations unless told
   /// otherwise, has bulk viscosity, and takes overlaps away before the first step without straining the bodies.
   bool is_explicit_abaqus() const;
+  /// Are temperatures computed?
+  bool is_coupled() const;
+  /// Does plastic work heat?
+  bool heats() const;
 };
 
 /// The deck, what is known of it, and the tree that grows.
@@ -38,8 +44,10 @@ struct Translation {
   const Statements& statements;
   const DeckMesh& mesh;
   Findings& findings;
+  CaseErrors& errors;  ///< what is wrong; the rest is translated all the same
   std::vector<DeckStep> steps;
   std::vector<RigidBody> rigid_bodies;
+  bool leaves_faces = false;  ///< faces of rigid bodies that look away from general contact
   Table root;
 
   const DeckScope& scope(const Statement& s) const { return statements.scopes[at(s.scope)]; }
@@ -57,7 +65,7 @@ struct Translation {
 
 /// Each keyword and parameter that is not understood, as a note or a refusal.
 void survey(Translation& t);
-/// The steps of the deck in their order. Throws CaseError, with what the survey has refused where there is none.
+/// The steps of the deck in their order.
 void find_steps(Translation& t);
 /// [scheme], [time] and [[stage]].
 void translate_steps(Translation& t);
@@ -65,6 +73,8 @@ void translate_steps(Translation& t);
 void translate_bodies(Translation& t);
 /// [[support]], [[load]] and their functions.
 void translate_actions(Translation& t);
+/// [[rigid_body]], behind what acts.
+void translate_rigid_parts(Translation& t);
 /// [[contact]].
 void translate_contacts(Translation& t);
 /// [[equation]].

@@ -7,10 +7,13 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "mesh/cell_topology.hpp"
+#include "output/vtkhdf.hpp"
 
 namespace carom {
 
@@ -63,24 +66,20 @@ std::optional<T> number(std::string_view text) {
 
 /// The array that a line of the header describes; its bytes stand in the appended section.
 StoredArray array_of(std::string_view line, std::span<const std::byte> appended, const std::string& path) {
-  StoredArray array;
-  array.name = attribute(line, "Name");
+  const std::string name(attribute(line, "Name"));
   const std::string_view vtk = attribute(line, "type");
   const auto* const type =
       std::find_if(kTypes.begin(), kTypes.end(), [vtk](const TypeName& t) { return t.vtk == vtk; });
   const auto components = number<int>(attribute(line, "NumberOfComponents"));
   const auto offset = number<std::size_t>(attribute(line, "offset"));
   if (type == kTypes.end() || !components || *components < 1 || !offset)
-    refuse(path, fmt::format("array \"{}\" is not understood", array.name));
-  array.type = type->type;
-  array.components = *components;
+    refuse(path, fmt::format("array \"{}\" is not understood", name));
   constexpr std::size_t head = sizeof(std::uint64_t);
   const bool has_head = *offset <= appended.size() && appended.size() - *offset >= head;
   const std::uint64_t bytes = has_head ? read_as<std::uint64_t>(appended.data() + *offset) : 0;
   if (!has_head || bytes > appended.size() - *offset - head)
-    refuse(path, fmt::format("it is cut short in array \"{}\"", array.name));
-  array.bytes = appended.subspan(*offset + head, bytes);
-  return array;
+    refuse(path, fmt::format("it is cut short in array \"{}\"", name));
+  return {name, *components, type->type, appended.subspan(*offset + head, bytes)};
 }
 
 /// By VTK's number, the cell type and where each of its nodes stands in VTK's order.
@@ -108,12 +107,24 @@ const StoredArray* find(std::span<const StoredArray> arrays, std::string_view na
 
 }  // namespace
 
-std::size_t StoredArray::entries() const {
-  return bytes.size() / (size_of(type) * static_cast<std::size_t>(components));
-}
+StoredArray::StoredArray(std::string its_name, int width, Type its_type, std::span<const std::byte> bytes)
+    : name(std::move(its_name)),
+      components(width),
+      type(its_type),
+      entries_(bytes.size() / (size_of(type) * static_cast<std::size_t>(components))),
+      bytes_(bytes) {}
+
+StoredArray::StoredArray(std::string its_name, int width, Type its_type, std::size_t entries,
+                         std::function<std::vector<std::byte>()> read)
+    : name(std::move(its_name)), components(width), type(its_type), entries_(entries), read_(std::move(read)) {}
 
 double StoredArray::at(std::size_t entry, std::size_t component) const {
-  const std::byte* from = bytes.data() + (entry * static_cast<std::size_t>(components) + component) * size_of(type);
+  if (read_ && !kept_.is_there) {
+    kept_.bytes = read_();
+    kept_.is_there = true;
+  }
+  const std::byte* from = (read_ ? kept_.bytes.data() : bytes_.data()) +
+                          (entry * static_cast<std::size_t>(components) + component) * size_of(type);
   switch (type) {
     case Type::float32:
       return static_cast<double>(read_as<float>(from));
@@ -129,8 +140,40 @@ double StoredArray::at(std::size_t entry, std::size_t component) const {
   return 0.0;
 }
 
-FrameFile::FrameFile(const std::string& path) : file_(path), path_(path) {
-  const std::span<const std::byte> bytes = file_.bytes();
+FrameFile::FrameFile(const std::string& path) : path_(path) {
+  path.ends_with(xdmf_format().end) ? read_hdf5() : read_vtu();
+  const auto all_have = [](std::span<const StoredArray> arrays, std::size_t entries) {
+    return std::all_of(arrays.begin(), arrays.end(), [&](const StoredArray& a) { return a.entries() == entries; });
+  };
+  const bool is_whole = structure_.size() == 4 && structure_[0].entries() == points_ && structure_[0].components == 3 &&
+                        (structure_[2].entries() == cells_ || structure_[2].entries() == cells_ + 1) &&
+                        structure_[3].entries() == cells_;
+  if (!is_whole || !all_have(point_fields_, points_) || !all_have(cell_fields_, cells_))
+    refuse(path, "its arrays do not have as many entries as it has points and cells");
+}
+
+void FrameFile::read_hdf5() {
+  structure_.resize(4);
+  constexpr std::array<std::string_view, 4> structure{"Points", "Connectivity", "Offsets", "Types"};
+  for (const VtkHdfArray& found : vtkhdf_arrays(path_)) {
+    StoredArray array(found.name, found.components, found.type, found.entries,
+                      [path = path_, found] { return read_vtkhdf(path, found); });
+    const auto* const place = std::find(structure.begin(), structure.end(), found.name);
+    if (found.group == "PointData")
+      point_fields_.push_back(std::move(array));
+    else if (found.group == "CellData")
+      cell_fields_.push_back(std::move(array));
+    else if (place != structure.end())
+      structure_[static_cast<std::size_t>(place - structure.begin())] = std::move(array);
+  }
+  points_ = structure_[0].entries();
+  cells_ = structure_[3].entries();
+}
+
+void FrameFile::read_vtu() {
+  const std::string& path = path_;
+  file_.emplace(path);
+  const std::span<const std::byte> bytes = file_->bytes();
   const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());  // NOLINT: bytes as text
   constexpr std::string_view begin = "<AppendedData encoding=\"raw\">\n_";
   const std::size_t end = all.find(begin);
@@ -153,13 +196,6 @@ FrameFile::FrameFile(const std::string& path) : file_(path), path_(path) {
     if (line == "<Points>") section = &structure_;
     if (line.starts_with("<DataArray") && section != nullptr) section->push_back(array_of(line, appended, path));
   }
-  const auto all_have = [](std::span<const StoredArray> arrays, std::size_t entries) {
-    return std::all_of(arrays.begin(), arrays.end(), [&](const StoredArray& a) { return a.entries() == entries; });
-  };
-  const bool is_whole = structure_.size() == 4 && structure_[0].entries() == points_ && structure_[0].components == 3 &&
-                        structure_[2].entries() == cells_ && structure_[3].entries() == cells_;
-  if (!is_whole || !all_have(point_fields_, points_) || !all_have(cell_fields_, cells_))
-    refuse(path, "its arrays do not have as many entries as it has points and cells");
 }
 
 const StoredArray* FrameFile::point_field(std::string_view name) const {
@@ -171,22 +207,29 @@ const StoredArray* FrameFile::cell_field(std::string_view name) const {
 }
 
 Mesh FrameFile::mesh() const {
-  const StoredArray &points = structure_[0], &connectivity = structure_[1], &ends = structure_[2],
-                    &types = structure_[3];
   Mesh mesh;
   mesh.coordinates.resize(points_);
-  for (std::size_t i = 0; i < points_; ++i)
-    for (std::size_t c = 0; c < 3; ++c) mesh.coordinates[i][c] = points.at(i, c);
+  {
+    const StoredArray points = structure_[0];  // its bytes go with it
+    for (std::size_t i = 0; i < points_; ++i)
+      for (std::size_t c = 0; c < 3; ++c) mesh.coordinates[i][c] = points.at(i, c);
+  }
+  const StoredArray connectivity = structure_[1], ends = structure_[2], types = structure_[3];
+  const std::size_t before = ends.entries() - cells_;
   std::array<int, 256> block_of{};  // by VTK's number, plus one
   std::vector<FromVtk> orders;
   std::size_t first = 0;
   for (std::size_t k = 0; k < cells_; ++k) {
     const auto number = static_cast<std::uint8_t>(types.at(k));
-    const auto end = static_cast<std::size_t>(ends.at(k));
+    const auto end = static_cast<std::size_t>(ends.at(before + k));
     if (block_of[number] == 0) {
       std::optional<FromVtk> order = from_vtk(number);
       if (!order) refuse(path_, fmt::format("cells of VTK's type {}", number));
       mesh.blocks.push_back({order->type, {}, {}});
+      if (k == 0) {  // most meshes have cells of one type
+        mesh.blocks.back().connectivity.reserve(connectivity.entries());
+        mesh.blocks.back().file_numbers.reserve(cells_);
+      }
       orders.push_back(std::move(*order));
       block_of[number] = static_cast<int>(orders.size());
     }
@@ -205,9 +248,26 @@ Mesh FrameFile::mesh() const {
   return mesh;
 }
 
-std::vector<PvdFrame> read_frames(const std::string& path) {
+namespace {
+
+/// The grids of an index in XDMF; none where it is not there.
+std::vector<std::pair<double, std::string>> read_xdmf(const std::string& path) {
   std::ifstream stream(path);
-  std::vector<PvdFrame> frames;
+  std::vector<std::pair<double, std::string>> grids;
+  std::string file;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("<Grid") && attribute(line, "GridType") == "Uniform") file = attribute(line, "Name");
+    if (!line.starts_with("<Time")) continue;
+    const auto time = number<double>(attribute(line, "Value"));
+    if (!time || file.empty()) throw std::runtime_error(fmt::format("{}: \"{}\" is not understood", path, line));
+    grids.emplace_back(*time, file);
+  }
+  return grids;
+}
+
+std::vector<FrameEntry> read_collection(const std::string& path) {
+  std::ifstream stream(path);
+  std::vector<FrameEntry> frames;
   for (std::string line; std::getline(stream, line);) {
     if (!line.starts_with("<DataSet")) continue;
     const auto time = number<double>(attribute(line, "timestep"));
@@ -219,6 +279,18 @@ std::vector<PvdFrame> read_frames(const std::string& path) {
       frames.back().obstacles = file;
     }
   }
+  return frames;
+}
+
+}  // namespace
+
+std::vector<FrameEntry> read_frames(const std::string& folder) {
+  std::vector<FrameEntry> frames = read_collection(folder + "/fields.pvd");
+  for (auto& [time, file] : read_xdmf(folder + "/fields.xdmf")) frames.push_back({time, std::move(file), ""});
+  std::map<double, std::string> obstacles;
+  for (auto& [time, file] : read_xdmf(folder + "/obstacles.xdmf")) obstacles[time] = std::move(file);
+  for (FrameEntry& frame : frames)
+    if (const auto found = obstacles.find(frame.time); found != obstacles.end()) frame.obstacles = found->second;
   return frames;
 }
 

@@ -1,7 +1,9 @@
 // The fields of one instant, read back from a results folder.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,26 +11,50 @@
 
 #include "base/types.hpp"
 #include "mesh/mesh.hpp"
-#include "output/pvd.hpp"
+#include "output/frame_format.hpp"
 #include "view/mapped_file.hpp"
 
 namespace carom {
 
 /// One array of a frame: `components` values per entry, entry after entry.
-struct StoredArray {
-  enum class Type : std::uint8_t { float32, float64, int32, int64, uint8 };
+class StoredArray {
+ public:
+  using Type = NumberType;
 
   std::string name;
   int components = 1;
   Type type{};
-  std::span<const std::byte> bytes;
 
-  std::size_t entries() const;
+  StoredArray() = default;
+  /// Bytes that are there, as long as the array is used.
+  StoredArray(std::string its_name, int width, Type its_type, std::span<const std::byte> bytes);
+  /// Bytes that are read when a value is looked at for the first time; a copy reads them anew.
+  StoredArray(std::string its_name, int width, Type its_type, std::size_t entries,
+              std::function<std::vector<std::byte>()> read);
+
+  std::size_t entries() const { return entries_; }
   double at(std::size_t entry, std::size_t component = 0) const;
+
+ private:
+  std::size_t entries_ = 0;
+  std::function<std::vector<std::byte>()> read_;
+  std::span<const std::byte> bytes_;
+  /// What has been read.
+  struct Kept {
+    std::vector<std::byte> bytes;
+    bool is_there = false;
+    Kept() = default;
+    Kept(const Kept& /*other*/) {}
+    Kept& operator=(const Kept& /*other*/) { return *this; }
+    Kept(Kept&&) = default;
+    Kept& operator=(Kept&&) = default;
+    ~Kept() = default;
+  };
+  mutable Kept kept_;
 };
 
-/// A .vtu as write_vtu writes it (raw appended data, header_type UInt64); others are refused. The arrays stay in the
-/// file until they are looked at. Throws std::runtime_error, which names the file and what is wrong with it.
+/// A frame as the formats of output/frame_format.hpp write it; others are refused. The arrays stay in the file until
+/// they are looked at. Throws std::runtime_error, which names the file and what is wrong with it.
 class FrameFile {
  public:
   explicit FrameFile(const std::string& path);
@@ -45,15 +71,19 @@ class FrameFile {
   Mesh mesh() const;
 
  private:
-  MappedFile file_;
+  void read_vtu();
+  void read_hdf5();
+
+  std::optional<MappedFile> file_;
   std::string path_;
   std::size_t points_ = 0, cells_ = 0;
   std::vector<StoredArray> point_fields_, cell_fields_;
-  std::vector<StoredArray> structure_;  ///< coordinates, connectivity, offsets, types
+  /// Coordinates, connectivity, ends of the cells in it (after a 0, where there is one more than cells), types.
+  std::vector<StoredArray> structure_;
 };
 
-/// The frames of a collection that PvdCollection has written; empty when there is no such file. Throws
-/// std::runtime_error for a line that is not understood.
-std::vector<PvdFrame> read_frames(const std::string& path);
+/// The frames that the indices of a results folder name; empty when there are none. Throws std::runtime_error for a
+/// line that is not understood.
+std::vector<FrameEntry> read_frames(const std::string& folder);
 
 }  // namespace carom

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <stdexcept>
 #include <string_view>
 
+#include "output/frame.hpp"
 #include "view/frame_file.hpp"
 
 namespace carom {
@@ -14,20 +16,22 @@ namespace carom {
 namespace {
 
 /// What tells where things are, and is no field to look at.
-constexpr std::array<std::string_view, 4> kNames{"part", "contact", "node_number", "cell_number"};
+constexpr std::array<std::string_view, 5> kNames{"part", "contact", "node_number", "cell_number", ghost_type};
 
 bool is_field(const StoredArray& array) {
   return std::find(kNames.begin(), kNames.end(), array.name) == kNames.end();
 }
 
-std::vector<std::int64_t> whole_numbers(const StoredArray* array, std::span<const Index> entries) {
+std::vector<std::int64_t> whole_numbers(const StoredArray* found, std::span<const Index> entries) {
   std::vector<std::int64_t> values;
-  if (array == nullptr) return values;
-  for (const Index i : entries) values.push_back(static_cast<std::int64_t>(array->at(static_cast<std::size_t>(i))));
+  if (found == nullptr) return values;
+  const StoredArray array = *found;  // its bytes go with it
+  for (const Index i : entries) values.push_back(static_cast<std::int64_t>(array.at(static_cast<std::size_t>(i))));
   return values;
 }
 
-std::vector<float> values_at(const StoredArray& array, std::span<const Index> entries) {
+std::vector<float> values_at(const StoredArray& found, std::span<const Index> entries) {
+  const StoredArray array = found;  // its bytes go with it
   std::vector<float> values;
   const auto components = static_cast<std::size_t>(array.components);
   values.reserve(entries.size() * components);
@@ -65,6 +69,32 @@ std::vector<T> taken(const std::vector<T>& all, std::span<const Index> places, s
   return some;
 }
 
+/// By cell the first of the frames in which it has gone (output/vtu.hpp), or never; empty where none may go.
+std::vector<Index> first_gone(std::span<const std::string> frames) {
+  std::vector<Index> gone;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const FrameFile frame(frames[f]);
+    const StoredArray* hidden = frame.cell_field(ghost_type);
+    if (hidden == nullptr) return {};
+    if (f == 0) gone.assign(frame.cells(), never);
+    for (std::size_t k = 0; k < std::min(gone.size(), frame.cells()); ++k)
+      if (gone[k] == never && hidden->at(k) == hidden_cell) gone[k] = static_cast<Index>(f);
+  }
+  return gone;
+}
+
+/// What has gone has no values.
+void forget_gone(Scene& scene) {
+  const SurfaceEnds ends = ends_of(scene.surface);
+  for (SceneField& field : scene.fields) {
+    const std::vector<Index>& end = field.at_cells ? ends.of_cells : ends.of_nodes;
+    const auto components = static_cast<std::size_t>(field.components);
+    for (std::size_t f = 0; f < field.frames.size(); ++f)
+      for (std::size_t i = 0; i < field.frames[f].size(); ++i)
+        if (static_cast<Index>(f) >= end[i / components]) field.frames[f][i] = std::numeric_limits<float>::quiet_NaN();
+  }
+}
+
 void add_frame(Scene& scene, const FrameFile& frame) {
   std::erase_if(scene.fields, [&frame](const SceneField& field) {
     return (field.at_cells ? frame.cell_field(field.name) : frame.point_field(field.name)) == nullptr;
@@ -95,13 +125,13 @@ Scene read_scene(std::span<const std::string> frames, const std::string& part, s
     scene.part.assign(part_numbers.begin(), part_numbers.end());
     scene.part.resize(scene.surface.cells.size());
     scene.reference.clear();
+    const StoredArray& points = first.coordinates();
     for (const Index n : scene.surface.nodes) {
       const auto i = static_cast<std::size_t>(n);
-      scene.reference.push_back(
-          {first.coordinates().at(i, 0), first.coordinates().at(i, 1), first.coordinates().at(i, 2)});
+      scene.reference.push_back({points.at(i, 0), points.at(i, 1), points.at(i, 2)});
     }
   };
-  scene.surface = seen_surface(first.mesh());
+  scene.surface = seen_surface(first.mesh(), first_gone(frames));
   scene.surface_nodes = scene.surface.nodes.size();
   describe();
   if (scene.surface.nodes.size() > most) {
@@ -121,6 +151,7 @@ Scene read_scene(std::span<const std::string> frames, const std::string& part, s
       throw std::runtime_error(fmt::format("{}: it has not the mesh of {}", path, frames.front()));
     add_frame(scene, frame);
   }
+  if (scene.surface.changes()) forget_gone(scene);
   return scene;
 }
 

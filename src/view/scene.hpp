@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "output/pvd.hpp"
+#include "output/frame_format.hpp"
 #include "view/seen_surface.hpp"
 
 namespace carom {

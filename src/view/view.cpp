@@ -13,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include "output/quantities.hpp"
 #include "output/readable_unit.hpp"
 #include "view/frame_file.hpp"
 #include "view/packed_arrays.hpp"
@@ -99,10 +100,20 @@ Json pack_field(const SceneField& field, const std::vector<std::size_t>& times, 
   return ranges;
 }
 
-std::string label_of(std::string name) {
-  if (name == "von_mises") return "von Mises stress";
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
+/// What the table of quantities says of a field, and by the number of its components of one that it does not have.
+Quantity quantity_of(const SceneField& field) {
+  const Quantity* found = find_quantity(field.name);
+  if (found != nullptr && static_cast<int>(components(found->form)) == field.components) return *found;
+  Quantity quantity;
+  quantity.form = field.components == 3 ? Form::vector : field.components == 6 ? Form::tensor : Form::scalar;
+  return quantity;
+}
+
+/// For view_field.js.
+std::string_view colours_of(const Quantity& quantity) {
+  if (quantity.form == Form::category) return "categories";
+  if (quantity.colours == Colours::from_zero) return "from_zero";
+  return quantity.colours == Colours::both_signs ? "both_signs" : "range";
 }
 
 double largest_of(const Json& ranges) {
@@ -110,6 +121,22 @@ double largest_of(const Json& ranges) {
   for (const Json& range : ranges)
     for (const Json& end : range) largest = std::max(largest, std::abs(end.get<double>()));
   return largest;
+}
+
+/// Per triangle the first of the frames of these times in which it is seen, and the first after that in which it is
+/// not.
+void pack_lives(const SeenSurface& surface, const std::vector<std::size_t>& times, PackedArrays& arrays) {
+  const auto frame = [&](Index recorded) {
+    const auto found = std::lower_bound(times.begin(), times.end(), static_cast<std::size_t>(recorded));
+    return static_cast<std::uint32_t>(found - times.begin());
+  };
+  std::vector<std::uint32_t> from, until;
+  for (const SeenTriangle& t : surface.triangles) {
+    from.push_back(frame(t.from));
+    until.push_back(frame(t.until));
+  }
+  arrays.add(from, 2);
+  arrays.add(until, 2);
 }
 
 /// Fields one after the other; which is written first does not matter to view.js.
@@ -141,14 +168,21 @@ Json pack_scene(const Scene& scene, const Detail& detail, const Units& units, Pa
   const std::size_t recorded = scene.fields.empty() ? 0 : scene.fields.front().frames.size();
   const std::vector<std::size_t> times = evenly(recorded, detail.frames);
   json["frames"] = times.size();
+  if (surface.changes()) {
+    json["changes"] = true;
+    pack_lives(surface, times, arrays);
+  }
   json["fields"] = Json::array();
   for (const SceneField& field : scene.fields) {
     if (field.components > 3 && !detail.tensors) continue;
     const int bits = field.name == "displacement" ? 16 : detail.bits;
     Json ranges = pack_field(field, times, bits, arrays);
     const ReadableUnit unit = readable_unit(largest_of(ranges), unit_of_field(units, field.name));
+    const Quantity quantity = quantity_of(field);
     json["fields"].push_back({{"name", field.name},
                               {"label", label_of(field.name)},
+                              {"components", component_names(quantity.form)},
+                              {"colours", colours_of(quantity)},
                               {"unit", unit.name},
                               {"power", unit.power},
                               {"at", field.at_cells ? "cell" : "node"},
@@ -166,7 +200,7 @@ struct Source {
 
 Source find_frames(const std::filesystem::path& folder) {
   Source source;
-  const std::vector<PvdFrame> all = read_frames((folder / "fields.pvd").string());
+  const std::vector<FrameEntry> all = read_frames(folder.string());
   for (const std::size_t i : evenly(all.size(), kMostFrames)) {
     source.times.push_back(all[i].time);
     source.bodies.push_back((folder / all[i].file).string());
@@ -220,7 +254,7 @@ std::string note_of(const Scene& bodies, const Detail& detail, std::size_t frame
   if (!detail.tensors) note += ", no components of tensors";
   note += fmt::format(". Displacements are exact to 1/65000 of their range, the other fields to 1/{}000.",
                       detail.bits > 12 ? 65 : 4);
-  return note + " The frames in fields/ hold everything (ParaView: fields.pvd).";
+  return note + " The frames in fields/ hold everything (ParaView: fields.xdmf or fields.pvd).";
 }
 
 Json part_names(const Scene& scene, const std::vector<std::string>& given, std::string_view what) {
@@ -237,7 +271,7 @@ Json part_names(const Scene& scene, const std::vector<std::string>& given, std::
 std::optional<View> make_view(const std::string& folder, const ViewLabels& labels, std::size_t most_bytes) {
   Source source = find_frames(folder);
   if (source.bodies.empty()) return std::nullopt;
-  const std::size_t recorded = read_frames((std::filesystem::path(folder) / "fields.pvd").string()).size();
+  const std::size_t recorded = read_frames(folder).size();
   keep_some(source, read_scene(std::span(source.bodies).first(1), "part", kMostNodes).value_count());
   Scene bodies = read_scene(source.bodies, "part", kMostNodes);
   if (bodies.surface.nodes.empty()) return std::nullopt;

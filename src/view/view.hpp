@@ -22,11 +22,11 @@ struct ViewLabels {
   std::vector<std::string> contacts;  ///< likewise: of obstacles
 };
 
-/// Reads fields.pvd and its frames, as many of them as a page can hold: the outer surface, its motion and all fields on
-/// it, quantised (numbers of 16 bits between the smallest and the largest of each component over all times),
-/// differences in time, deflated. Until json is no longer than `most_bytes`: numbers of 12 bits, without components of
-/// tensors, fewer times, fewer nodes. Nothing where there are no frames. Throws std::runtime_error for frames that
-/// cannot be read.
+/// Reads the index of the folder and its frames, as many of them as a page can hold: the outer surface, its motion and
+/// all fields on it, quantised (numbers of 16 bits between the smallest and the largest of each component over all
+/// times), differences in time, deflated. Until json is no longer than `most_bytes`: numbers of 12 bits, without
+/// components of tensors, fewer times, fewer nodes. Nothing where there are no frames. Throws std::runtime_error for
+/// frames that cannot be read.
 std::optional<View> make_view(const std::string& folder, const ViewLabels& labels, std::size_t most_bytes);
 
 }  // namespace carom

@@ -200,7 +200,7 @@ class Pages(unittest.TestCase):
         (folder / "summary.json").unlink()
         text = (folder / "energy.csv").read_text(encoding="utf-8")
         (folder / "energy.csv").write_text(text[:len(text) * 2 // 3], encoding="utf-8")
-        frames = sorted((folder / "fields").glob("step_*.vtu"))
+        frames = sorted((folder / "fields").glob("step_*.vtkhdf"))
         frames[-1].write_bytes(frames[-1].read_bytes()[:1000])
         subprocess.run([CAROM, "report", folder], check=True, stdout=subprocess.DEVNULL)
         open_report(self.driver, folder / "report.html")

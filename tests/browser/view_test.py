@@ -78,6 +78,50 @@ node = 60
 quantities = ["displacement"]
 """
 
+# A row of four cubes of 0.1 m, three of which go in the middle of the run.
+ERODED = """
+title = "A bar of which a cube stays"
+units = "SI"
+
+[[mesh.block]]
+origin = [0.0, 0.0, 0.0]
+size = [0.1, 0.1, 0.1]
+divisions = [1, 1, 1]
+groups = { cells = "STAYS" }
+
+[[mesh.block]]
+origin = [0.1, 0.0, 0.0]
+size = [0.3, 0.1, 0.1]
+divisions = [3, 1, 1]
+groups = { cells = "GOES" }
+
+[materials.rubber]
+law = "neo_hookean"
+E = 1.0e6
+nu = 0.3
+rho = 1000.0
+
+[[part]]
+name = "stays"
+cells = "STAYS"
+material = "rubber"
+
+[[part]]
+name = "goes"
+cells = "GOES"
+material = "rubber"
+
+[[erosion]]
+part = "goes"
+time = 0.01
+
+[scheme]
+kind = "central_differences"
+
+[time]
+end = 0.02
+"""
+
 SIZE = (1200, 1000)
 
 
@@ -295,6 +339,30 @@ class View(unittest.TestCase):
         self.assertLess(len(text.encode()), 6_000_000)
         loaded = self.driver.execute_script("return performance.getEntriesByType('resource').map((e) => e.name)")
         self.assertEqual([name for name in loaded if not name.startswith(("data:", "blob:"))], [])
+
+
+class ErodedCells(unittest.TestCase):
+    """Cells that go vanish, with their edges, from the picture with WebGL and from that without."""
+
+    def test_they_are_seen_only_before(self):
+        with tempfile.TemporaryDirectory() as folder:
+            case = pathlib.Path(folder) / "eroded.toml"
+            case.write_text(ERODED, encoding="utf-8")
+            results = pathlib.Path(folder) / "results"
+            subprocess.run([CAROM, "run", case, "--out", results, "--quiet"], check=False)
+            for webgl in (True, False):
+                with self.subTest(webgl=webgl), browser(*SIZE, webgl=webgl) as driver:
+                    open_report(driver, results / "report.html")
+                    canvas = driver.find_element(By.CSS_SELECTOR, ".stage canvas")
+                    driver.execute_script("carom.show(0)")
+                    whole = picture(driver, canvas)
+                    driver.execute_script("carom.show(0.02)")
+                    left = picture(driver, canvas)
+                    # Towards the eye at (1, -1.4, 0.8) look one face along x, and one along y and z of each of the
+                    # cubes that are there. 3 % for the pixels of edges.
+                    expected = (1.0 + 1.4 + 0.8) / (1.0 + 4 * 1.4 + 4 * 0.8)
+                    self.assertAlmostEqual(left["count"] / whole["count"], expected, delta=0.03 * expected)
+                    self.assertAlmostEqual(left["left"], whole["left"], delta=1)
 
 
 class OtherReaders(unittest.TestCase):

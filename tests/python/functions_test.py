@@ -201,17 +201,28 @@ class ObserverTest(FolderTest):
 
     def test_another_thread_sees_how_far_it_is(self):
         run = falling_block(end=2e-3).start(threads=1)
+        done, read = threading.Semaphore(0), threading.Semaphore(0)
+
+        @run.observe
+        def wait(r):  # after each of the first three steps, until the other thread has read
+            if r.steps <= 3:
+                done.release()
+                read.acquire(timeout=60)
+
         thread = threading.Thread(target=run.finish)
         thread.start()
-        seen = set()
+        seen = []
+        for _ in range(3):
+            self.assertTrue(done.acquire(timeout=60))
+            seen.append(run.steps)
+            read.release()
         while thread.is_alive():
-            seen.add(run.steps)
             time.sleep(0.001)
             try:
                 run.history
             except RuntimeError as error:
                 self.assertIn("middle of a step", str(error))
-        self.assertGreater(len(seen), 2)
+        self.assertEqual(seen, [1, 2, 3])
         self.assertGreaterEqual(run.time, 2e-3 * (1 - 1e-12))
 
     def test_what_an_observer_raises_comes_out_after_the_step(self):

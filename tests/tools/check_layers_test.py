@@ -21,15 +21,15 @@ class CheckLayers(ToolTest):
 
     def test_passes_downward_includes(self):
         code, output = self.run_tool("check_layers.py")
-        self.assertEqual((code, output), (0, "layers: includes point down\n"))
+        self.assertEqual((code, output), (0, "layers: includes point down, and no files include each other in a circle\n"))
 
     def test_upward_include(self):
         self.write("src/base/log.cpp", '\n#include "mesh/mesh.hpp"\n')
         self.assert_offence("src/base/log.cpp:2: base (level 0) may not include mesh (level 4)")
 
     def test_sideways_include(self):
-        self.write("src/contact/rows.hpp", '#include "solid/solid.hpp"\n')
-        self.assert_offence("src/contact/rows.hpp:1: contact (level 6) may not include solid (level 6)")
+        self.write("src/surface/facets.hpp", '#include "solid/solid.hpp"\n')
+        self.assert_offence("src/surface/facets.hpp:1: surface (level 6) may not include solid (level 6)")
 
     def test_include_that_cmake_does_not_name(self):
         self.write("src/contact/rows.cpp", '#include "base/errors.hpp"\n#include "mesh/mesh.hpp"\n')
@@ -46,6 +46,11 @@ class CheckLayers(ToolTest):
     def test_folder_without_level(self):
         self.write("src/misc/a.hpp", "\n")
         self.assert_offence("src/misc: folder without a level")
+
+    def test_circle_of_files(self):
+        self.write("src/solid/mass.hpp", '#include "solid/lumped.hpp"\n')
+        self.write("src/solid/lumped.cpp", '#include "solid/solid_impl.hpp"\n')
+        self.assert_offence("src/solid: files include each other in a circle: lumped -> solid -> mass -> lumped")
 
     def test_every_folder_of_the_project_has_a_level(self):
         for folder in (TOOLS.parent / "src").iterdir():

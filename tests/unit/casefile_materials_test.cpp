@@ -8,6 +8,7 @@
 #include "casefile/read_case.hpp"
 #include "casefile/resolved_case.hpp"
 #include "casefile/schema.hpp"
+#include "output/quantities.hpp"
 
 namespace carom::casefile_materials_test {
 namespace {
@@ -117,10 +118,11 @@ TEST(CasefileMaterials, BadValuesAreRefusedWithTheirReason) {
       {"law = \"linear_elastic\"\n" + elastic + "yield_stress = 4e8\n",
        "c.toml:10:1: materials.m.yield_stress: found a key that law = \"linear_elastic\" does not take; expected one "
        "of "
-       "law, E, nu, rho. It belongs to law = \"j2_small_strain\", \"j2\"."},
+       "law, E, nu, rho, library, checksum. It belongs to law = \"j2_small_strain\", \"j2\"."},
       {"law = \"j2\"\n" + elastic + "yield = 4e8\n",
        "c.toml:10:1: materials.m.yield: found an unknown key; expected one of law, E, nu, rho, yield_stress, "
-       "hardening_modulus, saturation_stress, saturation_rate, hardening_table. Did you mean yield_stress?"}};
+       "hardening_modulus, saturation_stress, saturation_rate, hardening_table, library, checksum. Did you mean "
+       "yield_stress?"}};
   for (const Bad& bad : all) EXPECT_EQ(message_of(bad.material), bad.message) << bad.material;
 }
 
@@ -130,6 +132,14 @@ TEST(CasefileMaterials, ThePageInTheRepositoryIsCurrent) {
   const std::string written = testing::TempDir() + "material_laws.md";
   if (committed != laws_markdown()) std::ofstream(written) << laws_markdown();
   EXPECT_TRUE(committed == laws_markdown()) << "copy " << written << " to docs/material_laws.md";
+}
+
+TEST(CasefileQuantities, ThePageInTheRepositoryIsCurrent) {
+  std::ifstream file(std::string(CAROM_SOURCE_DIR) + "/docs/quantities.md");
+  const std::string committed{std::istreambuf_iterator<char>(file), {}};
+  const std::string written = testing::TempDir() + "quantities.md";
+  if (committed != quantities_markdown()) std::ofstream(written) << quantities_markdown();
+  EXPECT_TRUE(committed == quantities_markdown()) << "copy " << written << " to docs/quantities.md";
 }
 
 }  // namespace

@@ -289,14 +289,21 @@ void expect_listed(const SectionDescription& section, const nlohmann::json& sche
     ASSERT_TRUE(property.contains("description")) << child;
     if (key.shape == Shape::section) expect_listed(*key.section, property, child);
     if (key.shape == Shape::sections) expect_listed(*key.section, property["items"], child);
-    if (key.shape == Shape::named_sections) expect_listed(*key.section, property["additionalProperties"], child);
+    if (key.shape == Shape::named_sections) {
+      const nlohmann::json& entry = property["additionalProperties"];
+      expect_listed(*key.section, key.section->opened_by.empty() ? entry : entry["else"], child);
+    }
   }
 }
 
 TEST(Casefile, JsonSchemaListsEveryKey) {
   const nlohmann::json schema = nlohmann::json::parse(json_schema());
   expect_listed(case_schema().description, schema, "");
-  const nlohmann::json& material = schema["properties"]["materials"]["additionalProperties"];
+  const nlohmann::json& any_material = schema["properties"]["materials"]["additionalProperties"];
+  EXPECT_EQ(any_material["if"]["required"], nlohmann::json{"library"});  // the keys are then those of its law
+  EXPECT_EQ(any_material["then"]["required"], nlohmann::json{"law"});
+  EXPECT_FALSE(any_material.contains("additionalProperties"));
+  const nlohmann::json& material = any_material["else"];
   EXPECT_EQ(material["properties"]["nu"]["exclusiveMaximum"], 0.5);
   EXPECT_EQ(material["additionalProperties"], false);
   EXPECT_EQ(schema["required"], (nlohmann::json{"mesh", "materials", "part", "scheme", "time"}));

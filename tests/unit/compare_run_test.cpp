@@ -135,6 +135,34 @@ TEST_F(CompareRun, OfTheImpactBarMeasuresWhatTheRunsWrote) {
   EXPECT_NE(read(folder_ / "out/compare.csv").find("01_newmark_10_cells,"), std::string::npos);
 }
 
+/// What runs claim of each other without the exact solution is no less than what it says. By both enforcements and
+/// schemes that dissipate and do not, on two and on three meshes.
+TEST_F(CompareRun, ClaimsNoLessThanTheTrueError) {
+  struct Of {
+    const char* file;
+    std::vector<int> cells;
+  };
+  const std::vector<std::string> schemes{"newmark:beta=0.25:gamma=0.5", "hht:alpha=-0.1", "cd_lagrange", "moreau_jean",
+                                         "modified_mass"};
+  for (const Of& of : {Of{"impact_bar/rigid_wall", {25, 50}}, Of{"impact_bar/rigid_wall", {12, 25, 50}},
+                       Of{"two_bars/equal", {20, 40}}, Of{"two_bars/double_impedance", {10, 20, 40}}}) {
+    const std::string file = std::string(CAROM_SOURCE_DIR) + "/cases/" + of.file + ".toml";
+    const Settings settings{CAROM_PROGRAM, (folder_ / "out").string(), 1, true};
+    EXPECT_EQ(compare_cases(file, {schemes, {}, {}, of.cells, {0.5}}, settings, stop_), ExitCode::good);
+    const nlohmann::json json = nlohmann::json::parse(read(folder_ / "out/compare.json"));
+    EXPECT_GT(json["enforcement_spread"].get<double>(), 0.0);
+    std::size_t claims = 0;
+    for (const auto& v : json["variants"]) {
+      if (v["claimed_error"].is_null()) continue;
+      ++claims;
+      EXPECT_GE(v["claimed_error"].get<double>(), v["errors"]["force"]["l2"].get<double>())
+          << of.file << ": " << v["label"];
+    }
+    // All on the coarsest and on the finest cells; those between have judges of the finest as well.
+    EXPECT_EQ(claims, schemes.size() * of.cells.size()) << of.file;
+  }
+}
+
 TEST_F(CompareRun, OfForbiddenCombinationsOnlyIsAnErrorOfTheCase) {
   const std::string file = std::string(CAROM_SOURCE_DIR) + "/cases/impact_bar/newmark.toml";
   const Settings settings{CAROM_PROGRAM, (folder_ / "out").string(), 1, true};

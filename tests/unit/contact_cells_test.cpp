@@ -9,17 +9,17 @@
 #include <string>
 
 #include "cell_meshes.hpp"
-#include "contact/body_overlap.hpp"
-#include "contact/buried_facets.hpp"
-#include "contact/cell_location.hpp"
-#include "contact/facet_geometry.hpp"
-#include "contact/facing_facets.hpp"
-#include "contact/half_thickness.hpp"
 #include "contact/stiffness.hpp"
 #include "contact_rows_fixture.hpp"
 #include "mesh/cell_size.hpp"
 #include "mesh/structured_block.hpp"
 #include "model/bodies.hpp"
+#include "surface/body_overlap.hpp"
+#include "surface/buried_facets.hpp"
+#include "surface/cell_location.hpp"
+#include "surface/facet_geometry.hpp"
+#include "surface/facing_facets.hpp"
+#include "surface/half_thickness.hpp"
 
 namespace carom::contact_cells_test {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <random>
 
-#include "contact/clipping.hpp"
-#include "contact/facet_geometry.hpp"
 #include "math/gauss_legendre.hpp"
 #include "math/vec3.hpp"
+#include "surface/clipping.hpp"
+#include "surface/facet_geometry.hpp"
 
 namespace carom::contact_clipping_test {
 namespace {

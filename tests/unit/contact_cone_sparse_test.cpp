@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/cone_solver.hpp"
 #include "math/vec3.hpp"
+#include "rows/cone_solver.hpp"
 
 namespace carom::contact_cone_sparse_test {
 namespace {

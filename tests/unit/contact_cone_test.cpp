@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "contact/cone_solver.hpp"
 #include "linalg/dense.hpp"
+#include "rows/cone_solver.hpp"
 
 namespace carom::contact_cone_test {
 namespace {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "cell_meshes.hpp"
-#include "contact/skin_motion.hpp"
-#include "contact/surface_crossings.hpp"
 #include "contact_rows_fixture.hpp"
 #include "mesh/structured_block.hpp"
 #include "parallel/threads.hpp"
+#include "surface/skin_motion.hpp"
+#include "surface/surface_crossings.hpp"
 
 namespace carom::contact_crossings_test {
 namespace {

@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
-#include "contact/delassus.hpp"
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
+#include "rows/delassus.hpp"
 
 namespace carom::contact_delassus_test {
 namespace {

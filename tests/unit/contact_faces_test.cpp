@@ -161,6 +161,36 @@ TEST(FaceRows, ForcesAreTheGradientOfTheirEnergyWhereACornerDips) {
   }
 }
 
+/// A box that stands out over two sides of another one, whose corner is inside of it: `down` behind its lower side, and
+/// `along` behind the side beside that, which looks the same way as a side of the corner.
+struct EdgeOnEdge {
+  Scene scene;
+  EdgeOnEdge(double down, double along) {
+    const std::vector<Facet> lower = scene.add_box({0, 0, 0}, {10, 10, 10}, 2),
+                             upper = scene.add_box({4, -along, 10 - down}, {15, 6, 18}, 3);
+    scene.finish().contacts.emplace_back(faces(upper, lower));
+  }
+};
+
+// A node in the corner between two sides meets the nearer one. Its facet lies flat on the one that it came through, and
+// not on the other: a row of it alone jumped from nothing to all of its spring where that became the nearer one.
+TEST(FaceRows, DoNotJumpWhereAnotherSideBecomesTheNearest) {
+  constexpr double dip = 0.3, step = 1e-3;
+  double last = 0.0, most = 0.0;
+  for (double along = 0.5 * dip; along < 1.5 * dip; along += step) {
+    const EdgeOnEdge boxes(dip, along);
+    const double now = energy(ContactGeometry(boxes.scene.model), boxes.scene.zero());
+    if (last > 0.0) most = std::max(most, std::abs(now / last - 1.0));
+    last = now;
+  }
+  EXPECT_LT(most, 10.0 * step / dip);  // of the fades, whose lengths are parts of the dip
+  Random random(3);
+  for (const double along : {0.8 * dip, 0.95 * dip, 1.1 * dip, 1.5 * dip}) {
+    const EdgeOnEdge boxes(dip, along);
+    EXPECT_LT(force_error(ContactGeometry(boxes.scene.model), shaken(boxes.scene, random, 0.01)), 5e-3) << along;
+  }
+}
+
 TEST(FaceRows, HaveNeitherForceNorMoment) {
   Random random(3);
   const AskewBoxes boxes;
@@ -277,7 +307,7 @@ TEST(FaceRows, DoNotTakeTheFarSideOfABodyForItsFront) {
   scene.finish().contacts.emplace_back(pair);
   const ContactGeometry contact(scene.model);
   const std::vector<double> u = scene.zero();
-  const auto rows = contact.rows_at(u, u), again = contact.rows_at(u, u, contact.first_history(u));
+  const auto rows = contact.rows_at(u, u), again = contact.rows_at(u, u, {contact.first_history(u)});
   ASSERT_EQ(rows->size(), again->size());
   for (std::size_t r = 0; r < rows->size(); ++r) EXPECT_EQ(rows->gap_at(r, u), again->gap_at(r, u));
   EXPECT_NEAR(energy(contact, u), 0.5 * 100.0 * 0.1 * 0.1, 1e-12);  // eps A d^2 / 2: half of it from each side

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <random>
 
-#include "contact/bilinear_patch.hpp"
-#include "contact/facet_geometry.hpp"
-#include "contact/facet_projection.hpp"
 #include "math/vec3.hpp"
+#include "surface/bilinear_patch.hpp"
+#include "surface/facet_geometry.hpp"
+#include "surface/facet_projection.hpp"
 
 namespace carom::contact_facet_test {
 namespace {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/facet_geometry.hpp"
-#include "contact/facing_facets.hpp"
 #include "math/vec3.hpp"
 #include "mesh/skin.hpp"
 #include "mesh/structured_block.hpp"
+#include "surface/facet_geometry.hpp"
+#include "surface/facing_facets.hpp"
 
 namespace carom::contact_facing_test {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <optional>
 
-#include "contact/body_overlap.hpp"
-#include "contact/response.hpp"
 #include "contact_rows_fixture.hpp"
 #include "mesh/skin.hpp"
 #include "mesh/structured_block.hpp"
+#include "rows/response.hpp"
+#include "surface/body_overlap.hpp"
 
 namespace carom::contact_memory_test {
 namespace {
@@ -23,7 +23,7 @@ constexpr double round_off = 1e-13;  // positions below 10, some ten operations
 std::vector<RowHistory> history_at(const ContactGeometry& contact, const std::vector<double>& u,
                                    const std::vector<RowHistory>& before) {
   ContactResponse response;
-  response.rows = contact.rows_at(u, u, before);
+  response.rows = contact.rows_at(u, u, {before});
   response.history.resize(contact.slots());
   std::vector<RowHistory> history;
   take_history(response, u, history);
@@ -41,7 +41,7 @@ Path follow(const ContactGeometry& contact, const Scene& scene, Index node, cons
   std::vector<double> u = scene.zero();
   for (const Vec3& place : places) {
     const std::vector<double> next = with_displacement(scene.zero(), node, place);
-    const auto rows = contact.rows_at(u, next, history);
+    const auto rows = contact.rows_at(u, next, {history});
     const auto r = row_of(*rows, 0);
     path.gaps.push_back(r < 0 ? NAN : rows->gap_at(static_cast<std::size_t>(r), next));
     if (r >= 0) path.normal = rows->normal[static_cast<std::size_t>(r)];
@@ -119,7 +119,7 @@ class CornerAtABox {
     std::vector<double> next = scene_.zero();
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t c = 0; c < 3; ++c) next[3 * a + c] = triangle[a][c] - scene_.mesh.coordinates[a][c];
-    const auto rows = geometry_->rows_at(u_, next, history_);
+    const auto rows = geometry_->rows_at(u_, next, {history_});
     const auto r = row_of(*rows, 0);
     ContactResponse response;
     response.rows = rows;
@@ -264,7 +264,9 @@ TEST(BodyOverlap, IsTheDepthUnderTheSkinInCells) {
   EXPECT_NEAR(overlap.deepest(cubes.lowered(0.025)).depth, 0.1, round_off);
   EXPECT_GE(overlap.deepest(cubes.lowered(0.3)).depth, 1.0 - round_off);
   const Overlap deep = overlap.deepest(cubes.lowered(0.025));
-  EXPECT_NE(overlap.part_of(deep.node), overlap.part_of(deep.cell));
+  const std::span<const Index> nodes =
+      cubes.model.mesh->blocks[static_cast<std::size_t>(deep.cell.block)].nodes(deep.cell.cell);
+  EXPECT_EQ(std::ranges::count(nodes, deep.node), 0);
   EXPECT_EQ(overlap.deepest(cubes.lowered(-0.3)).depth, 0.0);
 }
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <set>
 
-#include "contact/facet_projection.hpp"
 #include "contact_rows_fixture.hpp"
 #include "parallel/threads.hpp"
+#include "surface/facet_projection.hpp"
 
 namespace carom::contact_pairs_test {
 namespace {
@@ -421,7 +421,7 @@ TEST(SelfContact, TakesNoSideOfACrushedPlateForAnother) {
     return u;
   };
   const std::vector<RowHistory> none_behind(contact.slots());
-  EXPECT_EQ(contact.rows_at(crushed_to(0.35), crushed_to(0.33), none_behind)->size(), 0U);
+  EXPECT_EQ(contact.rows_at(crushed_to(0.35), crushed_to(0.33), {none_behind})->size(), 0U);
 }
 
 // Two boxes of equal section stand on each other, one shifted a little to the side, both in one surface: the nodes on

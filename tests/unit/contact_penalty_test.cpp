@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "contact/penalty.hpp"
 #include "math/vec3.hpp"
+#include "rows/penalty.hpp"
 #include "solid_fixture.hpp"
 
 namespace carom::contact_penalty_test {

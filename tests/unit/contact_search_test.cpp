@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "contact/box_tree.hpp"
-#include "contact/broad_phase.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
+#include "surface/box_tree.hpp"
+#include "surface/broad_phase.hpp"
 
 namespace carom::contact_search_test {
 namespace {

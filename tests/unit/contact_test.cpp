@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "contact/contact_geometry.hpp"
-#include "contact/penalty.hpp"
 #include "contact_fixture.hpp"
 #include "math/vec3.hpp"
+#include "rows/penalty.hpp"
 #include "solid_fixture.hpp"
 
 namespace carom::contact_test {

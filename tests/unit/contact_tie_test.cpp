@@ -3,10 +3,10 @@
 
 #include <stdexcept>
 
-#include "contact/admissible.hpp"
-#include "contact/cone_solver.hpp"
 #include "contact/stiffness.hpp"
 #include "model/wave_modulus.hpp"
+#include "rows/admissible.hpp"
+#include "rows/cone_solver.hpp"
 #include "tie_fixture.hpp"
 
 namespace carom::contact_tie_test {

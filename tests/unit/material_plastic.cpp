@@ -52,15 +52,14 @@ Material johnson_cook(double C = 0.05, double taylor_quinney = 0.9, double speci
 }
 
 std::vector<Material> all_plastic() {
-  return {
-      plastic("j2_small_strain"), plastic("j2"), voce("j2_small_strain"), voce("j2"), tabulated("j2"), johnson_cook()};
-}
-
-double equivalent(const Voigt& s) {
-  const double p = (s[0] + s[1] + s[2]) / 3;
-  double square = 0.0;
-  for (std::size_t c = 0; c < 6; ++c) square += c < 3 ? (s[c] - p) * (s[c] - p) : 2 * s[c] * s[c];
-  return std::sqrt(1.5 * square);
+  return {plastic("j2_small_strain"),
+          plastic("j2"),
+          voce("j2_small_strain"),
+          voce("j2"),
+          tabulated("j2"),
+          johnson_cook(),
+          with_rates("j2_rate_small_strain", E, nu),
+          with_rates("j2_rate", E, nu)};
 }
 
 /// Random paths of strain whose steps yield more often than not.

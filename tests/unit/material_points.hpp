@@ -90,4 +90,20 @@ inline Tensor rotation(double a, double b, double c) {
   return product(about_z(a), product(about_x, about_z(c)));
 }
 
+/// Von Mises' stress.
+inline double equivalent(const Voigt& s) {
+  const double p = (s[0] + s[1] + s[2]) / 3;
+  double square = 0.0;
+  for (std::size_t c = 0; c < 6; ++c) square += c < 3 ? (s[c] - p) * (s[c] - p) : 2 * s[c] * s[c];
+  return std::sqrt(1.5 * square);
+}
+
+/// Curves at the rates 0, 10 and 100.
+inline Material with_rates(const char* law, double E, double nu) {
+  Material material(law, 1.0, {{"E", E}, {"nu", nu}});
+  material.rates = {0.0, 10.0, 100.0};
+  material.curve = {{0.0, 1.0}, {0.1, 2.0}, {0.0, 1.5}, {0.05, 2.0}, {0.0, 2.5}};
+  return material;
+}
+
 }  // namespace carom::test

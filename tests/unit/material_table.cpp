@@ -23,6 +23,10 @@ Material sample(const Law& law) {
     if (key == "yield_stress") material.values[p] = 1.0;
     if (key == "melting_temperature") material.values[p] = 1000.0;
   }
+  if (!law.rates_key.empty()) {
+    material.curve = {{0.0, 1.0}, {0.1, 2.0}, {0.0, 2.0}};
+    material.rates = {0.0, 10.0};
+  }
   return material;
 }
 
@@ -80,6 +84,7 @@ TEST(Laws, NoElasticWaveIsFasterThanTheyClaim) {
     Material material = sample(law);
     for (std::size_t p = 0; p < material.values.size(); ++p)  // nothing yields
       if (law.parameters[p].key == "yield_stress" || law.parameters[p].key == "A") material.values[p] = 1e4;
+    for (auto& point : material.curve) point[1] *= 1e4;
     const PointLaw point(material);
     for (const Voigt& strain : {Voigt{0.2, 0, 0, 0, 0, 0},
                                 {-0.1, 0, 0, 0, 0, 0},

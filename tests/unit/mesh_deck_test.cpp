@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
 #include "mesh/deck_mesh.hpp"
 #include "mesh/read_gmsh.hpp"
@@ -239,6 +240,39 @@ TEST(MeshDeck, WhatIsWrittenAsGmshIsReadBackTheSame) {
   EXPECT_EQ(test::by_file_numbers(mesh), test::by_file_numbers(again));
   const Mesh quadratic = read(quadratic_hexa("C3D27", 27));
   EXPECT_EQ(test::by_file_numbers(quadratic), test::by_file_numbers(read_gmsh(gmsh_text(quadratic), "again.msh")));
+}
+
+/// A quarter of a circle of radius 2 about the origin, from (2, 0) to (0, 2), in pieces of 3 degrees: its outward
+/// normal is a quarter turn counter-clockwise from its way, so that it looks to the centre. Turned about the axis it is
+/// half a sphere, whose points at r = 0 are one.
+TEST(MeshDeck, AnalyticalSurfaces) {
+  const std::string rest = "START, 2., 0.\nCIRCL, 0., 2., 0., 0.\n";
+  const Mesh plane = read("*NODE\n1, 0., 0.\n*SURFACE, TYPE=SEGMENTS, NAME=ARC\n" + rest);
+  const std::vector<CellRef>& arc = plane.cell_groups.at("ARC");
+  ASSERT_EQ(arc.size(), 30U);
+  for (const CellRef& cell : arc) {
+    const auto nodes = plane.blocks[at(cell.block)].nodes(cell.cell);
+    const Vec3 a = plane.coordinates[at(nodes[0])], b = plane.coordinates[at(nodes[1])];
+    EXPECT_NEAR(norm(a), 2.0, 1e-15);
+    EXPECT_LT(cross(a, b)[2], 0.0);  // lines are numbered clockwise, as Facet has them
+  }
+  const Mesh ball = read("*NODE\n1, 0., 0., 0.\n*SURFACE, TYPE=REVOLUTION, NAME=BALL\n0., 0., 0., 0., 0., 1.\n" + rest);
+  EXPECT_EQ(ball.cell_groups.at("BALL").size(), 30U * 72U);
+  EXPECT_EQ(ball.block(CellType::tria3)->size(), 72U);
+  EXPECT_EQ(ball.node_count(), 1U + 30U * 72U + 1U);
+  for (const CellRef& cell : ball.cell_groups.at("BALL")) {
+    const auto nodes = ball.blocks[at(cell.block)].nodes(cell.cell);
+    const Vec3 a = ball.coordinates[at(nodes[0])], b = ball.coordinates[at(nodes[1])],
+               c = ball.coordinates[at(nodes[2])];
+    EXPECT_LT(dot(cross(subtract(b, a), subtract(c, a)), a), 0.0);
+  }
+}
+
+TEST(MeshDeck, ElementsNameNodesOfInstances) {
+  const Mesh mesh = read(
+      "*PART, NAME=P\n*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=P-1, PART=P\n"
+      "*END INSTANCE\n*ELEMENT, TYPE=T3D2, ELSET=BAR\n1, P-1.1, P-1.2\n*END ASSEMBLY\n");
+  EXPECT_EQ(mesh.nodes_of("BAR").size(), 2U);
 }
 
 }  // namespace

@@ -71,6 +71,23 @@ TEST(MeshGmsh, SplitsNamesMergesRepeatedCellsAndNamesTagsByNumber) {
   EXPECT_EQ(mesh.report.notes[0], "1 repeated cells (one for each physical group of a cell) merged into one each");
 }
 
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+/// 2.1 is as 2.2, and 2.0 names physical tags without a dimension.
+TEST(MeshGmsh, ReadsTheOlderVersionsOfFormat2) {
+  const Mesh newest = read_gmsh(kTetra, "memory");
+  const std::string middle = replaced(kTetra, "2.2 0 8", "2.1 0 8");
+  const std::string oldest = replaced(replaced(replaced(kTetra, "2.2 0 8", "2 0 8"), "0 5 \"TIP+P\"", "5 \"TIP+P\""),
+                                      "3 2 \"BODY\"", "2 \"BODY\"");
+  for (const auto& [text, version] : {std::pair(middle, "2.1"), std::pair(oldest, "2.0")}) {
+    const Mesh mesh = read_gmsh(text, "memory");
+    EXPECT_EQ(test::by_file_numbers(mesh), test::by_file_numbers(newest)) << version;
+    EXPECT_EQ(mesh.report.format, fmt::format("Gmsh {} text", version));
+  }
+}
+
 TEST(MeshGmsh, NotesPhysicalNamesOfNothing) {
   std::string text = kTetra;
   text.replace(text.find("2\n0 5"), 1, "3");

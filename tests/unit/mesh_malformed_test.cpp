@@ -59,14 +59,14 @@ struct Spoiled {
 
 const std::vector<Spoiled> spoiled_texts{
     {"version", replaced(kGood, "2.2 0", "4.0 0"),
-     ":2: $MeshFormat: found Gmsh format '4.0'; expected format 2.2 or 4.1. Save the mesh in one of them (gmsh -save "
-     "-format msh41 or msh22)."},
+     ":2: $MeshFormat: found Gmsh format '4.0'; expected format 2.0 to 2.2, or 4.1. Save the mesh in one of them (gmsh "
+     "-save -format msh41 or msh22)."},
     {"file type", replaced(kGood, "2.2 0", "2.2 2"),
      ":2: $MeshFormat: found file type 2; expected 0 for text or 1 for binary"},
     {"data size", replaced(kGood, "2.2 0 8", "2.2 0 4"),
      ":2: $MeshFormat: found data size 4; expected 8. Save the mesh on a 64-bit system."},
     {"format 1", "$NOD\n1\n1 0 0 0\n$ENDNOD\n",
-     ":1: $NOD: found Gmsh format 1; expected format 2.2 or 4.1. Save the mesh in one of them."},
+     ":1: $NOD: found Gmsh format 1; expected format 2.0 to 2.2, or 4.1. Save the mesh in one of them."},
     {"no header", kGood.substr(kGood.find("$Nodes")),
      ":1: $Nodes: found '$Nodes'; expected $MeshFormat. A Gmsh file begins with the section $MeshFormat."},
     {"no nodes", replaced(replaced(kGood, "$Nodes", "$Other"), "$EndNodes", "$EndOther"),
@@ -80,8 +80,7 @@ const std::vector<Spoiled> spoiled_texts{
      ": found a mesh without cells; expected at least one cell. Save the mesh after meshing, with all its cells."},
     {"cut off early in the nodes", kGood.substr(0, kGood.find("1 1 1\n")),
      ":9: $Nodes: found 8 nodes declared with 51 bytes left in the file; expected at most 6. The count is wrong or "
-     "the "
-     "file cut off; write or copy it again."},
+     "the file cut off; write or copy it again."},
     {"cut off late in the nodes",
      replaced(kGood.substr(0, kGood.find("8 0 1 1")), "1 0 0 0", "1 0.0000000000000000 0 0"),
      ":17: $Nodes: found the end of the file; expected a node number. The file seems cut off; write or copy it "
@@ -91,8 +90,7 @@ const std::vector<Spoiled> spoiled_texts{
      "again."},
     {"unknown section without end", kGood + "$NodeData\n1 2 3\n",
      ":23: $NodeData: found $NodeData without its end; expected $EndNodeData. The file seems cut off; write or copy "
-     "it "
-     "again."},
+     "it again."},
     {"word between sections", replaced(kGood, "$Elements", "hello\n$Elements"),
      ":19: found 'hello'; expected the beginning of a section, such as $Nodes. Remove what stands between the "
      "sections, or compare the counts with the lines of the section before."},
@@ -101,8 +99,7 @@ const std::vector<Spoiled> spoiled_texts{
      "wrong or the file cut off; write or copy it again."},
     {"10 GB of cells", replaced(kGood, "$Elements\n1\n", "$Elements\n312500000\n"),
      ":20: $Elements: found 312500000 cells declared with 40 bytes left in the file; expected at most 5. The count "
-     "is "
-     "wrong or the file cut off; write or copy it again."},
+     "is wrong or the file cut off; write or copy it again."},
     {"negative count", replaced(kGood, "$Nodes\n8", "$Nodes\n-8"),
      ":9: $Nodes: found -8 nodes; expected a count that is not negative. The file is damaged; write it again."},
     {"count too small", replaced(kGood, "$Nodes\n8", "$Nodes\n7"),
@@ -129,8 +126,7 @@ const std::vector<Spoiled> spoiled_texts{
      ":12: $Nodes: found the end of the line; expected a coordinate. A value is missing on this line."},
     {"long line", replaced(kGood, "3 1 1 0", "3 1 1 0 7"),
      ":12: $Nodes: found '7'; expected the end of the line. Compare the number of values with the type and the "
-     "counts "
-     "before."},
+     "counts before."},
     {"node that is not there", replaced(kGood, "6 7 8\n", "6 7 9\n"),
      ":21: $Elements: found node 9 in cell 1; expected the number of a node in $Nodes. Save the mesh again with all "
      "its nodes, or correct the cell."},
@@ -149,8 +145,7 @@ const std::vector<Spoiled> spoiled_texts{
      "anew."},
     {"repeated node", replaced(kGood, "6 7 8\n", "6 7 7\n"),
      ": cell 1 (HEXA8): found a node that occurs twice in the cell, at (0.625, 0.5, 0.5); expected a cell with "
-     "volume, "
-     "not folded, over distinct nodes. Mesh the place again, or write the node order of this cell anew."},
+     "volume, not folded, over distinct nodes. Mesh the place again, or write the node order of this cell anew."},
     {"name without quotes", replaced(kGood, "\"BODY\"", "BODY"),
      ":6: $PhysicalNames: found 'BODY'; expected a physical name in double quotes"},
     {"dimension of a name", replaced(kGood, "3 1 \"BODY\"", "4 1 \"BODY\""),

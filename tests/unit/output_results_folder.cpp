@@ -8,7 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/terminal_text.hpp"
-#include "output/pvd.hpp"
+#include "output/frame_format.hpp"
 #include "output/results_folder.hpp"
 #include "output/results_lock.hpp"
 
@@ -32,17 +32,19 @@ TEST_F(ResultsFolder, IsMadeWithItsParents) {
 
 TEST_F(ResultsFolder, OnlyFilesOfAnEarlierRunAreRemoved) {
   prepare_results_folder(base_.string());
-  const auto ours = {"summary.json", "energy.csv",          "contact.csv", "probes.csv",
-                     "exact.csv",    "probes_filtered.csv", "fields.pvd",  "case.resolved.toml",
-                     "mesh.txt",     "summary.json.tmp",    "report.html"};
-  const auto others = {"notes.txt", "case.toml", "fields/step_x.vtu", "fields/step_000001.vtu.bak", "fields/mine.vtu"};
+  const auto ours = {"summary.json", "energy.csv",          "contact.csv",        "probes.csv",
+                     "exact.csv",    "probes_filtered.csv", "fields.pvd",         "case.resolved.toml",
+                     "mesh.txt",     "summary.json.tmp",    "report.html",        "contact_filtered.csv",
+                     "fields.xdmf",  "obstacles.xdmf",      "fields/mesh.vtkhdf", "fields/obstacles.vtkhdf.tmp"};
+  const auto others = {"notes.txt",       "case.toml",       "fields/step_x.vtu",    "fields/step_000001.vtu.bak",
+                       "fields/mine.vtu", "fields/mesh.vtu", "fields/my_mesh.vtkhdf"};
   for (const char* name : ours) touch(base_ / name);
   for (const char* name : others) touch(base_ / name);
-  touch(base_ / frame_file(10));
+  for (const FrameFormat& format : frame_formats()) touch(base_ / frame_file(format, 10));
   prepare_results_folder(base_.string());
   for (const char* name : ours) EXPECT_FALSE(fs::exists(base_ / name)) << name;
   for (const char* name : others) EXPECT_TRUE(fs::exists(base_ / name)) << name;
-  EXPECT_FALSE(fs::exists(base_ / frame_file(10)));
+  for (const FrameFormat& format : frame_formats()) EXPECT_FALSE(fs::exists(base_ / frame_file(format, 10)));
 }
 
 TEST_F(ResultsFolder, AFileInItsPlaceIsAnError) {

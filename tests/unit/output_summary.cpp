@@ -227,6 +227,12 @@ TEST(Units, OfColumns) {
   EXPECT_EQ(unit_of_column(si, "momentum_error"), "kg m/s");
   EXPECT_EQ(unit_of_column(si, "wall.closed"), "");
   EXPECT_EQ(unit_of_column(units_of("unknown"), "B.velocity_z"), "");
+  EXPECT_EQ(unit_of_column(si, "P.kinetic_energy"), "J");
+  EXPECT_EQ(unit_of_column(si, "P.principal_stress_1"), "Pa");
+  EXPECT_EQ(unit_of_column(si, "strain"), "J");  // of energy.csv
+  EXPECT_EQ(unit_of_column(si, "P.strain_xx"), "");
+  EXPECT_EQ(unit_of_field(si, "strain"), "");
+  EXPECT_EQ(unit_of_field(si, "strain_rate"), "1/s");
 }
 
 }  // namespace

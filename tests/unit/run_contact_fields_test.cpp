@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "contact_rows_fixture.hpp"
-#include "run/contact_fields.hpp"
-#include "run/contact_resultants.hpp"
+#include "record/contact_fields.hpp"
+#include "record/contact_resultants.hpp"
 
 namespace carom::run_contact_fields_test {
 namespace {

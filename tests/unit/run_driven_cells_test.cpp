@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "run/check_summary.hpp"
-#include "run/march.hpp"
-#include "run/material_path.hpp"
+#include "advise/check_summary.hpp"
+#include "driver/material_path.hpp"
+#include "march/march.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_driven_cells_test {
@@ -31,6 +31,12 @@ constexpr LawValues all_laws[] = {
     {"johnson_cook",
      "E = 2.06e11\nnu = 0.3\nrho = 7830.0\nA = 8.06e8\nB = 6.14e8\nn = 0.168\nC = 0.0089\nm = 1.1\n"
      "reference_rate = 1.0\nmelting_temperature = 1540.0\nspecific_heat = 460.0\n"},
+    {"j2_rate_small_strain",
+     "E = 2.1e11\nnu = 0.3\nrho = 7800.0\nrates = [0.0, 100.0]\n"
+     "hardening_tables = [[0.0, 4e8], [1.0, 5e8], [0.0, 6e8], [1.0, 7e8]]\n"},
+    {"j2_rate",
+     "E = 2.1e11\nnu = 0.3\nrho = 7800.0\nrates = [0.0, 100.0]\n"
+     "hardening_tables = [[0.0, 4e8], [1.0, 5e8], [0.0, 6e8], [1.0, 7e8]]\n"},
 };
 
 /// A cube of 1 m whose nodes on one side move by `to` along x in a millisecond: the side across x (the length changes)
@@ -95,12 +101,12 @@ struct DrivenPath {
 // The same path at a single point by `carom material` in 20,000 steps, without cells and supports. Laws that flow lose
 // 0.5 % of the stress by 0.5 % of strain a step, and 0.006 % of the plastic strain (driven_cells.hpp); elastic laws
 // lose nothing. The waves through the cell alone would leave eight steps.
-TEST(DrivenCell, GivesTheAnswerOfItsLaw) {
+void expect_answers_of_laws(const std::string& scheme, const std::string& time) {
   for (const LawValues& law : all_laws) {
     for (const DrivenPath& path :
          {DrivenPath{"uniaxial_strain", -0.3}, {"uniaxial_strain", 0.2}, {"simple_shear", 1.0}}) {
       SCOPED_TRACE(fmt::format("{} {} {}", law.law, path.kind, path.to));
-      const std::string text = driven_case(law, path.kind, path.to);
+      const std::string text = replaced(driven_case(law, path.kind, path.to, time), "central_differences", scheme);
       const DrivenEnd end = drive(text);
       const Simulation simulation(parse_case(text, "case.toml"));
       const MaterialCurve curve =
@@ -124,6 +130,16 @@ TEST(DrivenCell, GivesTheAnswerOfItsLaw) {
   }
 }
 
+TEST(DrivenCell, GivesTheAnswerOfItsLaw) {
+  expect_answers_of_laws("central_differences", "");
+}
+
+// 200 steps, as many as the explicit ones above have at least.
+TEST(DrivenCell, OfImplicitSchemesGivesTheAnswerOfItsLaw) {
+  expect_answers_of_laws("newmark", "step = 5e-6\n");
+  expect_answers_of_laws("statics", "step = 5e-6\n");
+}
+
 // Closed form, linear hardening at small strain: tau = (yield + H alpha) / sqrt 3, gamma = tau / G + sqrt 3 alpha.
 TEST(DrivenCell, OfLinearHardeningIsExactInShear) {
   const double G = 2.1e11 / 2.6, gamma = 0.1;
@@ -131,6 +147,22 @@ TEST(DrivenCell, OfLinearHardeningIsExactInShear) {
   const DrivenEnd end = drive(driven_case(all_laws[3], "simple_shear", gamma));
   EXPECT_NEAR(end.plastic_strain, alpha, 1e-12);
   EXPECT_NEAR(end.stress[3], (4e8 + 1e9 * alpha) / std::sqrt(3.0), 1e-3);  // 1e-11 of it
+}
+
+// Free sides, equilibrium by the law's tangent: sigma = E (R t - alpha) = s + H alpha + k alpha' with s = 4e8, H = 1e8
+// and k = 2e8 / 100 of the curves. What is left of the start is alpha = E R / (E + H) (t - s / E R - k / (E + H)); the
+// start itself falls by 3 in each of 48 steps.
+TEST(DrivenCell, OfCurvesOverTheRateIsExactInStaticTension) {
+  std::string text = driven_case(all_laws[6], "uniaxial_strain", 0.05, "step = 2e-5\nfixed = true\n");
+  text = replaced(text, "xmin = \"HELD\"", "xmin = \"HELD\", ymin = \"SIDE\", zmin = \"BELOW\"");
+  text = replaced(text, "nodes = \"CUBE\"\nblocked = [\"y\", \"z\"]",
+                  "nodes = \"SIDE\"\nblocked = [\"y\"]\n[[support]]\nnodes = \"BELOW\"\nblocked = [\"z\"]");
+  const DrivenEnd end = drive(replaced(text, "central_differences", "statics"));
+  const double E = 2.1e11, R = 0.05 / duration,
+               alpha = E * R / (E + 1e8) * (duration - 4e8 / (E * R) - 2e6 / (E + 1e8));
+  EXPECT_NEAR(end.plastic_strain, alpha, 1e-9 * alpha);
+  EXPECT_NEAR(end.stress[0], E * (0.05 - alpha), 1e-6 * 5e8);
+  EXPECT_NEAR(end.stress[1], 0.0, 1e-6 * 5e8);
 }
 
 // No free node has a stable step: that of the cell, if it were free, and half a per cent of strain a step. The length

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "run/energy_guard.hpp"
+#include "march/energy_guard.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_explicit_energy_test {

@@ -1,11 +1,19 @@
 // The fields of a run: strain, von Mises stress, parts, and obstacles as a body of their own.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <string>
+#include <utility>
 
 #include "math/voigt.hpp"
-#include "run/obstacle_bodies.hpp"
+#include "record/frame_plan.hpp"
+#include "record/obstacle_bodies.hpp"
 #include "run_fixture.hpp"
 #include "solid/cell_strain.hpp"
+#include "view/frame_file.hpp"
 
 namespace carom::run_fields_test {
 namespace {
@@ -84,17 +92,16 @@ fields_every = 1
 TEST(Fields, ObstaclesAreABodyOfTheirOwn) {
   const TemporaryCase in(test::case_of_block(thrown_at_a_plane));
   in.run();
-  const std::string pvd = in.result("fields.pvd");
-  for (const char* frame : {"000000", "000001", "000002"}) {
-    EXPECT_NE(pvd.find(std::string("part=\"1\" file=\"fields/obstacles_") + frame), std::string::npos) << pvd;
-    const std::string vtu = in.result(std::string("fields/obstacles_") + frame + ".vtu");
-    EXPECT_NE(vtu.find("Name=\"displacement\""), std::string::npos);
-    // The plane's quadrangle, and 24 x 48 of the sphere.
-    EXPECT_NE(vtu.find("NumberOfCells=\"" + std::to_string(1 + 24 * 48) + "\""), std::string::npos);
+  const std::vector<FrameEntry> frames = read_frames(in.results().string());
+  ASSERT_EQ(frames.size(), 3U);
+  for (std::size_t f = 0; f < 3; ++f) {
+    EXPECT_EQ(frames[f].obstacles, fmt::format("fields/obstacles_{:06}.vtkhdf", f));
+    const FrameFile obstacles((in.results() / frames[f].obstacles).string());
+    EXPECT_NE(obstacles.point_field("displacement"), nullptr);
+    EXPECT_EQ(obstacles.cells(), 1U + 24U * 48U);  // the plane's quadrangle, and 24 x 48 of the sphere
   }
-  const std::string bodies = in.result("fields/step_000002.vtu");
-  for (const char* field : {"von_mises", "strain", "part"})
-    EXPECT_NE(bodies.find(std::string("Name=\"") + field + "\""), std::string::npos) << field;
+  const FrameFile bodies((in.results() / "fields/step_000002.vtkhdf").string());
+  for (const char* field : {"von_mises", "strain", "part"}) EXPECT_NE(bodies.cell_field(field), nullptr) << field;
 }
 
 TEST(Fields, ObstaclesAtRestAreWrittenOnce) {
@@ -102,8 +109,8 @@ TEST(Fields, ObstaclesAtRestAreWrittenOnce) {
   text.replace(text.find("velocity = [0.0, 0.0, -0.5]\n"), 28, "");
   const TemporaryCase in(text);
   in.run();
-  EXPECT_TRUE(std::filesystem::exists(in.results() / "fields/obstacles_000000.vtu"));
-  EXPECT_FALSE(std::filesystem::exists(in.results() / "fields/obstacles_000001.vtu"));
+  EXPECT_TRUE(std::filesystem::exists(in.results() / "fields/obstacles_000000.vtkhdf"));
+  EXPECT_FALSE(std::filesystem::exists(in.results() / "fields/obstacles_000001.vtkhdf"));
 }
 
 // Uniaxial strain e: the trial stress 2 G e exceeds sigma_y by 3 G alpha (radial return without hardening), E = 2 and
@@ -128,11 +135,112 @@ TEST(Fields, PlasticStrainOfBodiesThatYield) {
   std::string text = test::case_of_block(thrown_at_a_plane);
   const TemporaryCase elastic(text);
   elastic.run();
-  EXPECT_EQ(elastic.result("fields/step_000002.vtu").find("equivalent_plastic_strain"), std::string::npos);
+  const auto plastic_strain = [](const TemporaryCase& in) {
+    return FrameFile((in.results() / "fields/step_000002.vtkhdf").string()).cell_field("equivalent_plastic_strain") !=
+           nullptr;
+  };
+  EXPECT_FALSE(plastic_strain(elastic));
   text.replace(text.find("\"linear_elastic\""), 16, "\"j2_small_strain\"\nyield_stress = 1.0e3");
   const TemporaryCase yielding(text);
   yielding.run();
-  EXPECT_NE(yielding.result("fields/step_000002.vtu").find("equivalent_plastic_strain"), std::string::npos);
+  EXPECT_TRUE(plastic_strain(yielding));
+}
+
+/// Two parts side by side, the cells of one of which go in the middle of the run.
+constexpr const char* one_part_goes = R"(units = "SI"
+[[mesh.block]]
+size = [2.0, 1.0, 1.0]
+divisions = [2, 1, 1]
+groups = { cells = "GOES" }
+[[mesh.block]]
+origin = [3.0, 0.0, 0.0]
+size = [3.0, 1.0, 1.0]
+divisions = [3, 1, 1]
+groups = { cells = "STAYS" }
+[materials.soft]
+law = "linear_elastic"
+E = 2.0
+nu = 0.3
+rho = 1.5
+[[part]]
+name = "stays"
+cells = "STAYS"
+material = "soft"
+[[part]]
+name = "goes"
+cells = "GOES"
+material = "soft"
+[[erosion]]
+part = "goes"
+time = 0.3
+[scheme]
+kind = "central_differences"
+[time]
+end = 0.6
+step = 0.1
+[output]
+fields_every = 1
+)";
+
+// Cells stand part after part in the files. The cells go at the end of the third step.
+TEST(Fields, CellsThatHaveGoneAreHidden) {
+  const TemporaryCase one(one_part_goes);
+  one.run();
+  for (const auto& [step, hidden] : {std::pair{0, 0.0}, {2, 0.0}, {4, 32.0}, {6, 32.0}}) {
+    const FrameFile frame((one.results() / fmt::format("fields/step_{:06}.vtkhdf", step)).string());
+    const StoredArray* found = frame.cell_field("vtkGhostType");
+    ASSERT_NE(found, nullptr);
+    EXPECT_EQ(found->type, StoredArray::Type::uint8);
+    ASSERT_EQ(found->entries(), 5U);
+    for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(found->at(k), k < 3 ? 0.0 : hidden) << step << " " << k;
+  }
+  const TemporaryCase other(test::replaced(one_part_goes, "[[erosion]]\npart = \"goes\"\ntime = 0.3\n", ""));
+  other.run();
+  const FrameFile frame((other.results() / "fields/step_000006.vtkhdf").string());
+  EXPECT_EQ(frame.cell_field("vtkGhostType"), nullptr);
+}
+
+// n frames take n times as much and cut a run into n - 1 pieces: 50 at most, and one at least.
+TEST(Fields, FramesFitABudget) {
+  EXPECT_EQ(intervals_within(2e9, 1e6), 50);
+  EXPECT_EQ(intervals_within(2e9, 2e9 / 51.0), 50);
+  EXPECT_EQ(intervals_within(2e9, 4e8), 4);
+  EXPECT_EQ(intervals_within(2e9, 4.1e8), 3);
+  EXPECT_EQ(intervals_within(2e9, 3e9), 1);
+  EXPECT_EQ(intervals_within(-1.0, 3e9), 1);
+  const Simulation small(parse_case(test::case_of_block(thrown_at_a_plane), "case.toml"));
+  EXPECT_EQ(frame_note(small), "");
+}
+
+// A case may ask for VTK's files and for double precision; the values are those of the run's own state to round-off of
+// the precision: 2^-24 of the value in single, none in double.
+TEST(Fields, FormatAndPrecisionAreTheCase) {
+  const std::string text =  // in touch from the start, so that there are stresses
+      test::replaced(test::case_of_block(thrown_at_a_plane), "point = [0.0, 0.0, -1.0]", "point = [0.0, 0.0, 0.0]");
+  const TemporaryCase as_default(text);
+  as_default.run();
+  const TemporaryCase in_double(text + "precision = \"double\"\nformat = \"vtu\"\n");
+  in_double.run();
+  EXPECT_FALSE(std::filesystem::exists(in_double.results() / "fields.xdmf"));
+  EXPECT_FALSE(std::filesystem::exists(as_default.results() / "fields.pvd"));
+  const FrameFile coarse((as_default.results() / "fields/step_000002.vtkhdf").string()),
+      fine((in_double.results() / "fields/step_000002.vtu").string());
+  ASSERT_EQ(coarse.points(), fine.points());
+  const auto compare = [](const StoredArray* a, const StoredArray* b, const char* name) {
+    ASSERT_TRUE(a != nullptr && b != nullptr) << name;
+    EXPECT_EQ(a->type, NumberType::float32) << name;
+    EXPECT_EQ(b->type, NumberType::float64) << name;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a->entries(); ++i)
+      for (std::size_t c = 0; c < static_cast<std::size_t>(a->components); ++c) {
+        EXPECT_EQ(a->at(i, c), static_cast<double>(static_cast<float>(b->at(i, c)))) << name;
+        largest = std::max(largest, std::abs(b->at(i, c)));
+      }
+    EXPECT_GT(largest, 0.0) << name;
+  };
+  for (const char* name : {"displacement", "velocity"}) compare(coarse.point_field(name), fine.point_field(name), name);
+  for (const char* name : {"stress", "strain", "von_mises"})
+    compare(coarse.cell_field(name), fine.cell_field(name), name);
 }
 
 }  // namespace

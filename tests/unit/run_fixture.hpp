@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "build/simulation.hpp"
 #include "casefile/read_case.hpp"
 #include "run/run_case.hpp"
-#include "run/simulation.hpp"
 
 namespace carom::test {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "run/folded_cells.hpp"
+#include "march/folded_cells.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_folded_cells_test {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "advise/lint.hpp"
 #include "exact/bar_impact.hpp"
-#include "run/lint.hpp"
 #include "run_fixture.hpp"
 #include "schemes/generalized_alpha.hpp"
 #include "schemes/scheme_table.hpp"

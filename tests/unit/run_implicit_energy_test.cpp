@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "run/energy_guard.hpp"
+#include "march/energy_guard.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_implicit_energy_test {

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "advise/check_summary.hpp"
 #include "output/checkpoint_file.hpp"
+#include "output/found_checkpoint.hpp"
 #include "output/results_folder.hpp"
 #include "output/summary.hpp"
-#include "run/check_summary.hpp"
-#include "run/checkpoints.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_initial_state_test {
@@ -526,19 +526,22 @@ class WithIsa {
   WithIsa& operator=(const WithIsa&) = delete;
 };
 
-TEST(InitialState, OfYieldingBodiesIsOfOneInstructionSet) {
+// What points remember stands cell by cell in a checkpoint: another instruction set begins with the same stresses, in
+// other places of its batches. The runs differ by the rounding of some hundred steps.
+TEST(InitialState, OfYieldingBodiesIsTakenByAnotherInstructionSet) {
   if (std::getenv("CAROM_ISA") != nullptr || chosen_isa() == Isa::reference) GTEST_SKIP() << "there is no choice";
   const Cases cases;
   {
     const WithIsa reference("reference");
     cases.run("yielding", block(yielding, torn + stepping("central_differences", 1.0)));
-    cases.run("elastic", block(elastic, torn + stepping("central_differences", 1.0)));
+    cases.run("as before", block(yielding, from("yielding") + stepping("central_differences", 1.0)));
   }
-  const std::string message = cases.refusal(block(yielding, from("yielding") + stepping("central_differences", 1.0)));
-  EXPECT_NE(message.find("a state of the instruction set reference, where this run takes"), std::string::npos)
-      << message;
-  EXPECT_NE(message.find("CAROM_ISA=reference"), std::string::npos) << message;
-  EXPECT_EQ(cases.refusal(block(elastic, from("elastic") + stepping("central_differences", 1.0))), "");
+  cases.run("now", block(yielding, from("yielding") + stepping("central_differences", 1.0)));
+  const auto before = last_row(read_text(cases.results("as before") / "energy.csv")),
+             now = last_row(read_text(cases.results("now") / "energy.csv"));
+  EXPECT_GT(before.at("plastic"), 0.0);
+  for (const char* name : {"kinetic", "strain", "plastic"})
+    EXPECT_NEAR(now.at(name), before.at(name), 1e-10 * before.at("plastic")) << name;
 }
 
 }  // namespace

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <fstream>
 
+#include "advise/cell_columns.hpp"
+#include "advise/locking.hpp"
 #include "cell_meshes.hpp"
 #include "mesh/write_gmsh.hpp"
-#include "run/cell_columns.hpp"
-#include "run/locking.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_locking_test {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "advise/locking.hpp"
+#include "advise/lone_cells.hpp"
 #include "cell_meshes.hpp"
 #include "mesh/write_gmsh.hpp"
-#include "run/locking.hpp"
-#include "run/lone_cells.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_lone_cells_test {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "run/march.hpp"
+#include "march/march.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_march_test {

@@ -8,11 +8,11 @@
 
 #include "base/errors.hpp"
 #include "casefile/read_case.hpp"
+#include "driver/material_page.hpp"
+#include "driver/material_path.hpp"
+#include "driver/measured_curve.hpp"
 #include "report/csv_table.hpp"
 #include "report/xy_plot.hpp"
-#include "run/material_page.hpp"
-#include "run/material_path.hpp"
-#include "run/measured_curve.hpp"
 
 namespace carom::run_material_path_test {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
+#include "build/build_mesh.hpp"
+#include "build/build_model.hpp"
+#include "build/parts.hpp"
 #include "cell_meshes.hpp"
 #include "mesh/deck_elements.hpp"
 #include "mesh/write_gmsh.hpp"
-#include "run/build_mesh.hpp"
-#include "run/build_model.hpp"
-#include "run/parts.hpp"
 #include "run_fixture.hpp"
 #include "solid/element_table.hpp"
 
@@ -132,7 +132,7 @@ TEST(Parts, EveryMessage) {
   EXPECT_NE(
       message_of(text_of(strip + part("p", "STRIP", "")))
           .find("part.cells: found \"STRIP\", a group of QUAD4 cells; expected HEXA8, TETRA4, TETRA10, PENTA6, PYRA5, "
-                "HEXA20, HEXA27 cells, since section = \"solid\""),
+                "HEXA20, HEXA27, PENTA15, PYRA13 cells, since section = \"solid\""),
       std::string::npos);
   EXPECT_NE(message_of(text_of(box + part("p", "BOX", "section = \"plane_strain\"")))
                 .find(" in \"BOX\"; expected QUAD4, TRIA3, QUAD8, TRIA6 cells, since section = \"plane_strain\""),
@@ -186,7 +186,9 @@ TEST(Parts, CellsOfSecondOrderThatKeepTheirVolumeTakeMeanDilatation) {
   for (const auto& [type, section] : {std::pair{CellType::quad8, "plane_strain"},
                                       {CellType::quad8, "axisymmetric"},
                                       {CellType::hexa20, "solid"},
-                                      {CellType::hexa27, "solid"}}) {
+                                      {CellType::hexa27, "solid"},
+                                      {CellType::penta15, "solid"},
+                                      {CellType::pyra13, "solid"}}) {
     EXPECT_EQ(chosen(type, section, steel), std::nullopt);
     EXPECT_EQ(chosen(type, section, rubber), Formulation::mean_dilatation);
     EXPECT_EQ(chosen(type, section, metal), Formulation::mean_dilatation);
@@ -217,7 +219,34 @@ TEST(Parts, EveryFormulationOfADeckElementIsOneOfItsCells) {
     })) << type.name;
     if (type.formulation == "reduced") ++reduced;
   }
-  EXPECT_EQ(reduced, 4) << "C3D20R, CPE8R, CPS8R and CAX8R";
+  EXPECT_EQ(reduced, 8) << "C3D20R, CPE8R, CPS8R and CAX8R, and those with temperatures";
+}
+
+TEST(Parts, EveryDeckElementOfASectionIsACellOfIt) {
+  for (const DeckElementType& type : deck_element_types())
+    if (!type.section.empty()) {
+      const auto rows = elements();
+      EXPECT_TRUE(std::any_of(rows.begin(), rows.end(), [&](const Element& row) {
+        return row.type == type.type && name(row.section) == type.section;
+      })) << type.name;
+    }
+}
+
+/// So that a set of elements of several types can be one part with that formulation (translate/bodies.cpp).
+TEST(Parts, AFormulationOfADeckElementIsNoneOfOtherCells) {
+  for (const DeckElementType& with : deck_element_types())
+    for (const DeckElementType& without : deck_element_types()) {
+      if (with.formulation.empty() || !without.formulation.empty() || with.section != without.section ||
+          with.type == without.type)
+        continue;
+      const auto rows = elements();
+      EXPECT_TRUE(std::none_of(rows.begin(), rows.end(),
+                               [&](const Element& row) {
+                                 return row.type == without.type && name(row.section) == with.section &&
+                                        name(row.formulation) == with.formulation;
+                               }))
+          << with.name << " and " << without.name;
+    }
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "run/recorder.hpp"
+#include "record/recorder.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_refusals_test {
@@ -128,6 +128,39 @@ TEST(RedundantContacts, AreRefused) {
   EXPECT_NO_THROW(Simulation{excluded});
 }
 
+// A block on top of the body that is tied to it, and hangs over by one of its two cells: what the tie holds is no
+// contact again, and what hangs over stays in contact.
+TEST(RedundantContacts, OfAllLeaveOutWhatATieHolds) {
+  const auto other = [](const char* lower, const char* divisions) {
+    return fmt::format(
+        "[[mesh.block]]\norigin = [{}, 0.0, 3.0]\nsize = [4.0, 2.0, 1.0]\ndivisions = {}\n"
+        "groups = {{ cells = \"OTHER\", zmin = \"UNDER\" }}\n"
+        "[[part]]\nname = \"other\"\ncells = \"OTHER\"\nmaterial = \"soft\"\n"
+        "[[contact]]\nname = \"all\"\nkind = \"all\"\n"
+        "[[contact]]\nname = \"glue\"\nkind = \"tie\"\ngroup = \"UNDER\"\nmaster = \"HEAD\"\nfar = \"leave\"\n",
+        lower, divisions);
+  };
+  // Those over the body go, and the row beside it, which has nodes at its rim.
+  for (const auto& [lower, divisions, left] : {std::tuple{"0.0", "[4, 2, 1]", 2U}, {"0.0", "[8, 2, 1]", 6U}}) {
+    const Case given = parse_case(case_of_block(other(lower, divisions) + newmark), "case.toml");
+    const Simulation simulation(given);
+    const Model& model = simulation.model();
+    const auto& all = std::get<PairContact>(model.contacts[0]);
+    const auto is_under = [&](const Facet& facet) {
+      return std::all_of(facet.begin(), facet.end(),
+                         [&](Index n) { return model.mesh->coordinates[static_cast<std::size_t>(n)][2] == 3.0; });
+    };
+    // the four faces of the head, and what hangs over
+    EXPECT_EQ(std::count_if(all.slave.facets.begin(), all.slave.facets.end(), is_under), 4 + left);
+    EXPECT_EQ(std::count_if(all.master.facets.begin(), all.master.facets.end(), is_under), 4 + left);
+    EXPECT_NE(std::find_if(model.notes.begin(), model.notes.end(),
+                           [](const std::string& note) {
+                             return note.find("contact \"all\" leaves out ") == 0 && note.ends_with("\"glue\" holds");
+                           }),
+              model.notes.end());
+  }
+}
+
 TEST(RigidSurface, OfFacesOfAPartThatMovesIsRefused) {
   const std::string lid =
       "[[mesh.block]]\norigin = [0.0, 0.0, 3.5]\nsize = [2.0, 2.0, 1.0]\ndivisions = [1, 1, 1]\n"
@@ -168,27 +201,25 @@ TEST(Statics, LoadsThatNothingHoldsAreRefusedBeforeTheRun) {
 TEST(CellTypes, WithoutAnElementAreRefusedWithARemedy) {
   const auto message = [](int gmsh_type, const std::string& nodes, const std::string& cell) -> std::string {
     const std::string file = testing::TempDir() + "other_cells.msh";
-    std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"BODY\"\n"
+    std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"BODY\"\n"
                            "$EndPhysicalNames\n$Nodes\n" +
                                nodes + "$EndNodes\n$Elements\n1\n1 " + std::to_string(gmsh_type) + " 2 1 1 " + cell +
                                "\n$EndElements\n";
     return case_error("units = \"SI\"\nmesh.file = \"" + file +
                       "\"\n[materials.m]\nlaw = \"linear_elastic\"\nE = 1e9\nnu = 0.3\nrho = 1000.0\n"
-                      "[[part]]\nname = \"body\"\ncells = \"BODY\"\nmaterial = \"m\"\n" +
+                      "[[part]]\nname = \"body\"\ncells = \"BODY\"\nmaterial = \"m\"\nsection = \"plane_strain\"\n" +
                       newmark)
         .what();
   };
-  std::string nodes = "15\n";
-  constexpr double x[15][3] = {{0, 0, 0},  {1, 0, 0},  {0, 1, 0},  {0, 0, 1},  {1, 0, 1},
-                               {0, 1, 1},  {.5, 0, 0}, {0, .5, 0}, {0, 0, .5}, {.5, .5, 0},
-                               {1, 0, .5}, {0, 1, .5}, {.5, 0, 1}, {0, .5, 1}, {.5, .5, 1}};
+  std::string nodes = "9\n";
+  constexpr double x[9][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {.5, 0}, {1, .5}, {.5, 1}, {0, .5}, {.5, .5}};
   std::string cell;
-  for (int i = 0; i < 15; ++i) {
-    nodes += fmt::format("{} {} {} {}\n", i + 1, x[i][0], x[i][1], x[i][2]);
+  for (int i = 0; i < 9; ++i) {
+    nodes += fmt::format("{} {} {} 0\n", i + 1, x[i][0], x[i][1]);
     cell += fmt::format("{}{}", i == 0 ? "" : " ", i + 1);
   }
-  const std::string second_order = message(18, nodes, cell);
-  EXPECT_NE(second_order.find("1 PENTA15 cell (1) in \"BODY\""), std::string::npos) << second_order;
+  const std::string second_order = message(10, nodes, cell);
+  EXPECT_NE(second_order.find("1 QUAD9 cell (1) in \"BODY\""), std::string::npos) << second_order;
   EXPECT_NE(second_order.find("mesh.order = \"linear\""), std::string::npos) << second_order;
   EXPECT_NE(second_order.find("cells of first order"), std::string::npos) << second_order;
 }

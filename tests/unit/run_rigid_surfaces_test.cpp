@@ -136,5 +136,62 @@ TEST(RigidSurfaces, CarryAUniformPressure) {
   }
 }
 
+/// A cube, side 1 and mass 1000, that falls at 1 m/s on a rigid floor of a deck; in the plane along y.
+std::string on_floor_of_deck(const std::string& wall, const std::string& contact, bool is_plane = false) {
+  const std::string cube =
+      is_plane ? "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n11,0,0\n*ELEMENT, TYPE=CPE4, ELSET=CUBE\n1,1,2,3,4\n"
+               : "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n11,-1,-1,-1e-3\n"
+                 "*ELEMENT, TYPE=C3D8, ELSET=CUBE\n1,1,2,3,4,5,6,7,8\n";
+  return cube + "*NSET, NSET=ALL, ELSET=CUBE\n*SURFACE, NAME=FOOT\nCUBE, S1\n" + wall +
+         "*MATERIAL, NAME=STUFF\n*ELASTIC\n1e9, 0.3\n*DENSITY\n1000.\n*SOLID SECTION, ELSET=CUBE, MATERIAL=STUFF\n"
+         "*BOUNDARY\n11, 1, 6\n*INITIAL CONDITIONS, TYPE=VELOCITY\nALL, " +
+         (is_plane ? "2" : "3") + ", -1.\n*STEP\n*DYNAMIC, EXPLICIT\n, 0.02\n" + contact + "*END STEP\n";
+}
+
+void expect_rebound(const std::string& deck, const std::string& contact, const std::string& axis = "z") {
+  const TemporaryCase run(deck);
+  EXPECT_EQ(run.run(), ExitCode::good) << run.result("summary.json");
+  const double impulse = last_row(run.result("contact.csv")).at(contact + ".impulse_" + axis);
+  EXPECT_GT(impulse, 1000.0) << contact;
+  EXPECT_LT(impulse, 2002.5) << contact;  // as above
+}
+
+const std::string two_faces =
+    "*NODE\n12,0.4,-1,-1e-3\n13,2,-1,-0.2\n14,-1,2,-1e-3\n15,0.4,2,-1e-3\n16,2,2,-0.2\n"
+    "*ELEMENT, TYPE=R3D4, ELSET=WALL\n2,11,12,15,14\n3,12,13,16,15\n"
+    "*SURFACE, NAME=FLOOR\nWALL, SPOS\n*RIGID BODY, ELSET=WALL, REF NODE=11\n";
+const std::string pair = "*CONTACT PAIR\nFOOT, FLOOR\n";  // without an interaction: no friction
+const std::string general = "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n";
+
+/// Two faces that are sides of no cell and meet in a fold.
+TEST(RigidSurfaces, OfDecksAreMetByPairsWithoutAnInteraction) {
+  expect_rebound(on_floor_of_deck(two_faces, pair), "FOOT on FLOOR");
+}
+
+/// General contact meets them from the side where the cube is, whichever way their nodes go.
+TEST(RigidSurfaces, OfDecksAreMetByGeneralContact) {
+  const std::string name = "general contact on WALL (rigid)";
+  expect_rebound(on_floor_of_deck(two_faces, general), name);
+  std::string turned = two_faces;
+  for (const auto& [from, to] :
+       {std::pair("2,11,12,15,14", "2,11,14,15,12"), std::pair("3,12,13,16,15", "3,12,15,16,13")})
+    turned.replace(turned.find(from), std::string(from).size(), to);
+  expect_rebound(on_floor_of_deck(turned, general), name);
+}
+
+/// A profile that goes to the right has its outward normal upwards: as a line, along y, and around z.
+TEST(RigidSurfaces, OfDecksMayBeAnalytical) {
+  const std::string body = "*RIGID BODY, ANALYTICAL SURFACE=FLOOR, REF NODE=11\n";
+  const std::string cylinder =
+      "*SURFACE, TYPE=CYLINDER, NAME=FLOOR\n0,0,0,1,0,0\n0,-1,0\nSTART,-5,-1e-3\nLINE,5,-1e-3\n" + body;
+  const std::string revolution =
+      "*SURFACE, TYPE=REVOLUTION, NAME=FLOOR\n0,0,0,0,0,1\nSTART,0,-1e-3\nLINE,5,-1e-3\n" + body;
+  const std::string segments = "*SURFACE, TYPE=SEGMENTS, NAME=FLOOR\nSTART,-5,-1e-3\nLINE,5,-1e-3\n" + body;
+  expect_rebound(on_floor_of_deck(cylinder, pair), "FOOT on FLOOR");
+  expect_rebound(on_floor_of_deck(revolution, pair), "FOOT on FLOOR");
+  expect_rebound(on_floor_of_deck(segments, pair, true), "FOOT on FLOOR", "y");
+  expect_rebound(on_floor_of_deck(cylinder, general), "general contact on FLOOR");
+}
+
 }  // namespace
 }  // namespace carom::run_rigid_surfaces_test

@@ -300,7 +300,7 @@ quantities = ["displacement"]
 // (p - yield stress) / H, less what its section gains.
 TEST(StaticsByDefault, FindsTheEquilibriumOfABlockThatYieldsAllAtOnce) {
   const TemporaryCase held(yielding_block("[[support]]\nnodes = \"B0\"\nblocked = [\"x\", \"y\", \"z\"]\n"));
-  const TemporaryCase given(yielding_block(R"([[mesh.block]]
+  const std::string on_a_block = R"([[mesh.block]]
 size = [0.1, 0.1, 0.05]
 divisions = [3, 3, 2]
 groups = { cells = "A", zmin = "A0", zmax = "A1" }
@@ -316,16 +316,63 @@ name = "c"
 kind = "pair"
 group = "B0"
 master = "A1"
-friction = 0.4
-)"));
+)";
+  const TemporaryCase given(yielding_block(on_a_block + "friction = 0.4\n")), slides(yielding_block(on_a_block));
   ASSERT_EQ(held.run(), ExitCode::good) << held.result("summary.json");
   ASSERT_EQ(given.run(), ExitCode::good) << given.result("summary.json");
+  // Nothing holds it sideways: it stays where it is, in as many steps.
+  ASSERT_EQ(slides.run(), ExitCode::good) << slides.result("summary.json");
+  EXPECT_EQ(column(slides.result("probes.csv"), "time").size(), 11U);
   const std::string probes = given.result("probes.csv");
   EXPECT_EQ(column(probes, "time").size(), 11U);  // no step was cut
   const double alone = last_row(held.result("probes.csv")).at("top.displacement_z");
   const double sunk = last_row(probes).at("top.displacement_z");
   EXPECT_LT(sunk, alone);
   EXPECT_GT(sunk, -0.05 * (4.0e6 / 2.0e9 + 1.0e6 / 2.0e7));
+}
+
+// Mass that goes from the foot to the inside takes its weight along: the foot bore 3.9 to 6.0 N of 4.9 N as the stage
+// with inertia began. Statics are solved to 1e-10 of the forces.
+TEST(StaticsByDefault, WeighByTheMassOfTheStageWithInertia) {
+  const TemporaryCase given(R"(units = "SI"
+[[mesh.block]]
+size = [0.1, 0.1, 0.05]
+divisions = [3, 3, 2]
+groups = { cells = "B", zmin = "FOOT" }
+[materials.m]
+law = "linear_elastic"
+E = 1e7
+nu = 0.3
+rho = 1000.0
+[[part]]
+name = "b"
+cells = "B"
+material = "m"
+[[load]]
+gravity = [0.0, 0.0, -9.81]
+[[contact]]
+name = "floor"
+kind = "plane"
+group = "FOOT"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+friction = 0.5
+[scheme]
+kind = "statics"
+[time]
+end = 1.0
+step = 0.5
+[[stage]]
+kind = "modified_mass"
+end = 1.01
+)");
+  ASSERT_EQ(given.run(), ExitCode::good) << given.result("summary.json");
+  const std::string contact = given.result("contact.csv");
+  const std::vector<double> time = column(contact, "time"), force = column(contact, "floor.force_z");
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    if (time[i] < 1.0) continue;
+    EXPECT_NEAR(force[i], 0.1 * 0.1 * 0.05 * 1000.0 * 9.81, 1e-6) << time[i];
+  }
 }
 
 }  // namespace

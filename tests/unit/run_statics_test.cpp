@@ -146,6 +146,69 @@ step = 1.0
   EXPECT_NEAR(last_row(given.result("contact.csv"))["fit.force_z"], 0.01, 1e-10);
 }
 
+// A plate that nothing but a block under it holds, both of 2 GPa, pressed on: a fit for multipliers, whose rounding on
+// the plate's weak springs moved its forces by 1e-12 at each Newton step, too much for an equilibrium of any step. The
+// block bears 25 MPa on 50 x 50 mm, to the balance of the run.
+TEST(Statics, BalancesPlatesThatMultipliersAloneHold) {
+  const TemporaryCase given(R"(units = "mm-t-s"
+[[mesh.block]]
+size = [100.0, 100.0, 100.0]
+divisions = [8, 8, 8]
+groups = { cells = "LOWER", xmin = "LX", ymin = "LY", zmin = "FOOT", zmax = "MASTER" }
+[[mesh.block]]
+origin = [0.0, 0.0, 100.0]
+size = [50.0, 50.0, 5.0]
+divisions = [6, 6, 6]
+groups = { cells = "UPPER", xmin = "UX", ymin = "UY", zmin = "SLAVE", zmax = "HEAD" }
+[materials.soft]
+law = "linear_elastic"
+E = 2000.0
+nu = 0.3
+rho = 1e-9
+[[part]]
+name = "lower"
+cells = "LOWER"
+material = "soft"
+[[part]]
+name = "upper"
+cells = "UPPER"
+material = "soft"
+[[support]]
+nodes = "FOOT"
+blocked = ["z"]
+[[support]]
+nodes = "LX"
+symmetry = "x"
+[[support]]
+nodes = "LY"
+symmetry = "y"
+[[support]]
+nodes = "UX"
+symmetry = "x"
+[[support]]
+nodes = "UY"
+symmetry = "y"
+[[load]]
+pressure = 25.0
+group = "HEAD"
+[[contact]]
+name = "c"
+kind = "pair"
+group = "SLAVE"
+master = "MASTER"
+[scheme]
+kind = "statics"
+enforcement = "lagrange"
+[time]
+end = 1.0
+step = 1.0
+)");
+  EXPECT_EQ(given.run(), ExitCode::good) << given.result("summary.json");
+  const std::vector<double> force = column(given.result("contact.csv"), "c.force_z");
+  ASSERT_EQ(force.size(), 2u);  // the start, and one step
+  EXPECT_NEAR(std::abs(force.back()), 62500.0, 62500.0 * 1e-10);
+}
+
 // The uppermost of four blocks with gaps of 0.05 comes down by 0.5 in four steps: after the first it carries two on,
 // which nothing loads yet, and all energy is what rounding leaves.
 TEST(Statics, CarryBodiesOnBeforeAnythingIsLoaded) {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "run/step_control.hpp"
+#include "march/step_control.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_step_guard_test {

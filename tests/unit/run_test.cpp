@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "run/step_control.hpp"
+#include "march/step_control.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_test {
@@ -126,7 +126,7 @@ fixed = true
   EXPECT_LT(column(energy, "time").back(), 100.0);
   EXPECT_GT(kinetic.back() + strain.back(), 1.05 * kinetic.front());
   EXPECT_LE(kinetic[kinetic.size() - 2] + strain[strain.size() - 2], 1.05 * kinetic.front());
-  EXPECT_NE(one.result("fields.pvd").find("</VTKFile>"), std::string::npos);
+  EXPECT_NE(one.result("fields.xdmf").find("</Xdmf>"), std::string::npos);
 }
 
 TEST(Run, StopsWhenNumbersOverflow) {

@@ -165,6 +165,24 @@ TEST(Tunnelling, OfCrossedBarsBetweenTheirNodesIsNamed) {
   }
 }
 
+// Who has been inside of whom is known when the cells have gone since: in the cases above the one that was hit goes.
+TEST(Tunnelling, OfCellsThatHaveGoneIsNamed) {
+  const auto summary_of = [](const std::string& text) {
+    const TemporaryCase one(text);
+    EXPECT_EQ(one.run(), ExitCode::verdict_failed);
+    return one.result("summary.json");
+  };
+  const std::string nodes = summary_of(
+      blocks(5.0, "[[erosion]]\npart = \"a\"\ntime = 0.03\n", "kind = \"central_differences\"\n[time]\nend = 0.05"));
+  EXPECT_NE(nodes.find(" of part \\\"a\\\" inside of part \\\"b\\\", between which no contact is defined"),
+            std::string::npos)
+      << nodes;
+  const std::string edges = summary_of(crossed_bars("kind = \"central_differences\"\n[time]\nend = 0.01\n") +
+                                       "[[erosion]]\npart = \"low\"\ntime = 0.008\n");
+  EXPECT_NE(edges.find(" goes through a face of part "), std::string::npos) << edges;
+  EXPECT_NE(edges.find("between which no contact is defined"), std::string::npos) << edges;
+}
+
 // The same by rows that see faces between their nodes. On these cells both press to 4 % of each other at 1 % of the
 // wave speed (docs/trials.md); faces by means threw the bars apart in three steps.
 TEST(CrossedBars, AreHeldBetweenTheirNodes) {

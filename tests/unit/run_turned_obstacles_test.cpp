@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "advise/lint_contact.hpp"
 #include "math/vec3.hpp"
 #include "model/compatibility.hpp"
-#include "run/lint_contact.hpp"
 #include "run_fixture.hpp"
 #include "schemes_fixture.hpp"
 

@@ -5,13 +5,13 @@
 #include <initializer_list>
 #include <numeric>
 
+#include "advise/lint.hpp"
 #include "contact/row_maker.hpp"
+#include "march/body_scales.hpp"
+#include "march/penetration_watch.hpp"
+#include "march/rotation_watch.hpp"
+#include "march/verdict.hpp"
 #include "mesh/structured_block.hpp"
-#include "run/body_scales.hpp"
-#include "run/lint.hpp"
-#include "run/penetration_watch.hpp"
-#include "run/rotation_watch.hpp"
-#include "run/verdict.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_verdict_test {

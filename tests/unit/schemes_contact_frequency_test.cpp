@@ -151,7 +151,7 @@ TEST(StableStepWatch, FollowsElasticBodies) {
                             }};
         const double wanted = largest_eigenvalue(pencil, u.size(), 1e-6).value;
         StableStepWatch watch(RestFrequencies(p.system), 2.0, EnforcementKind::lagrange);
-        watch.follow_bodies(u, {});
+        watch.follow_bodies(state_at(u));
         const double followed = watch.with({}, u).omega_max_squared_free;
         EXPECT_GT(followed, 0.81 * wanted) << name(type) << " " << material.law->name << way;
         if (way == 1 && material.law->name == "st_venant_kirchhoff") continue;  // softens there, past its limit point
@@ -178,7 +178,7 @@ TEST(StableStepWatch, TakesBodiesThatYieldAsElasticInTheirNewShape) {
     const Problem elastic(one_part(std::move(crushed)), MassKind::lumped);
     const double wanted = stable_step(elastic.system, 2.0, EnforcementKind::lagrange).dt;
     StableStepWatch watch(RestFrequencies(p.system), 2.0, EnforcementKind::lagrange);
-    watch.follow_bodies(u, {});
+    watch.follow_bodies(state_at(u));
     const double dt = watch.with({}, u).dt;
     EXPECT_LE(dt, 1.02 * wanted) << height;  // stable_step and cell bounds differ by a percent or so
     EXPECT_GE(dt, wanted / std::sqrt(3.0)) << height;

@@ -137,7 +137,7 @@ TEST_P(Equations, OfAPeriodicCellKeepMomentum) {
 // take it back at the rate of their ties (both roots at 0.05 of a step): some steps' worth of it.
 TEST_P(Equations, FollowADrivenNode) {
   if (GetParam().kind == SchemeKind::tchamwa_wielgosz || GetParam().kind == SchemeKind::nonsmooth_generalized_alpha)
-    GTEST_SKIP() << "refused: run/stage.cpp";
+    GTEST_SKIP() << "refused: build/stage.cpp";
   with_each_enforcement([](SchemeKind kind, EnforcementKind enforcement) {
     Model model = one_part(one_block());
     const std::vector<Index> begin = model.mesh->nodes_of("XMIN");

@@ -576,7 +576,7 @@ TEST(StableStepWatch, SeesTheBodyChange) {
   StableStepWatch watch(RestFrequencies(p.system), 2.0, EnforcementKind::lagrange),
       fresh(RestFrequencies(p.system), 2.0, EnforcementKind::lagrange);
   const auto step_at = [&](StableStepWatch& of, const std::vector<double>& u) {
-    of.follow_bodies(u, {});
+    of.follow_bodies(state_at(u));
     return of.with({}, u).dt;
   };
   const double at_rest = step_at(watch, zero);

@@ -18,6 +18,13 @@
 
 namespace carom::test {
 
+/// A state at displacement u.
+inline State state_at(const std::vector<double>& u) {
+  State state;
+  state.q = u;
+  return state;
+}
+
 /// Everything that System refers to.
 struct Problem {
   explicit Problem(Model given, MassKind kind = MassKind::consistent, Isa isa = chosen_isa())

@@ -131,7 +131,7 @@ class ImposedMotionOf : public testing::TestWithParam<SchemeTraits> {};
 TEST_P(ImposedMotionOf, IsTheExactIntegral) {
   SchemeSettings settings{.kind = GetParam().kind};
   for (std::size_t e = 0; e < enforcement_count; ++e) {
-    if (GetParam().takes.at(e)) settings.enforcement = static_cast<EnforcementKind>(e);
+    if (GetParam().takes[e]) settings.enforcement = static_cast<EnforcementKind>(e);
   }
   for (const MotionKind kind :
        {MotionKind::displacement, MotionKind::velocity, MotionKind::acceleration, MotionKind::rotation}) {

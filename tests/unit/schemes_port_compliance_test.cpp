@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "enforcement/fixed_rows_compliance.hpp"
+#include "enforcement/make_port_compliance.hpp"
 #include "enforcement/moving_rows_compliance.hpp"
 #include "enforcement/renewed_compliance.hpp"
 #include "random_rows.hpp"

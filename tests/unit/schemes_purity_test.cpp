@@ -144,7 +144,7 @@ struct Way {
 
 constexpr int steps = 4;
 
-/// Which edges make rows depends on what holds them; as a case's model has it (run/simulation.cpp).
+/// Which edges make rows depends on what holds them; as a case's model has it (build/simulation.cpp).
 void set_hold(const SchemeSettings& settings, Model& model) {
   for (ContactDefinition& definition : model.contacts) {
     auto* pair = std::get_if<PairContact>(&definition);

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "contact/admissible.hpp"
 #include "model/compatibility.hpp"
+#include "rows/admissible.hpp"
 #include "schemes/scheme_table.hpp"
 #include "system/bonded_mass.hpp"
 #include "tie_fixture.hpp"

@@ -100,6 +100,11 @@ inline Mesh distorted_mesh(CellType type, int divisions = 0) {
   return mesh;
 }
 
+/// How far nodes of a distorted mesh may move at random without inverting a cell: less where they are nearer.
+inline double largest_move(CellType type) {
+  return type == CellType::pyra13 ? 0.04 : type == CellType::penta15 ? 0.07 : 0.1;
+}
+
 /// One distorted cell.
 inline Mesh one_cell(CellType type) {
   if (dimension(type) == 1) return mesh_of(type, {{0, 0, 0}, {0.6, 0.5, 0.7}}, {0, 1});

@@ -174,7 +174,7 @@ TEST_P(DistortionOf, TheBoundOfItsFrequencyHolds) {
 INSTANTIATE_TEST_SUITE_P(AllCells, DistortionOf,
                          testing::Values(CellType::hexa8, CellType::tetra4, CellType::penta6, CellType::pyra5,
                                          CellType::quad4, CellType::tria3, CellType::hexa20, CellType::tetra10,
-                                         CellType::quad8),
+                                         CellType::quad8, CellType::penta15, CellType::pyra13),
                          [](const auto& of) { return std::string(name(of.param)); });
 
 /// A block of 3 x 3 x 3 cells, with an inner node pushed through the corner of a cell.

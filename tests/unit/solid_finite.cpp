@@ -33,7 +33,7 @@ class EveryFiniteBody : public testing::TestWithParam<Body> {
   /// Displacements that turn and strain the cells by some 10 % and invert none.
   std::vector<double> displacement(unsigned seed) const {
     auto u = random_vector(solid_.dof_count(), seed);
-    for (double& entry : u) entry *= 0.1;
+    for (double& entry : u) entry *= largest_move(GetParam().element.type);
     return u;
   }
   /// Stored energy: of strain and of hourglass modes.
@@ -359,8 +359,8 @@ TEST_P(EveryIsaAndBody, KernelsEqualTheReference) {
   const Model model = body(of);  // the last batch is not full
   const Solid solid(model, isa), reference(model, Isa::reference);
   auto u = random_vector(solid.dof_count(), 18), v = random_vector(solid.dof_count(), 19);
-  for (double& entry : u) entry *= 0.08;
-  for (double& entry : v) entry *= 0.08;
+  for (double& entry : u) entry *= 0.8 * largest_move(of.element.type);
+  for (double& entry : v) entry *= 0.8 * largest_move(of.element.type);
   EXPECT_LT(largest_difference(internal_force(solid, u), internal_force(reference, u)), round_off);
   std::vector<double> y(u.size()), expected(u.size());
   solid.tangent_action(u, v, y);

@@ -342,7 +342,7 @@ TEST_F(IsaVariable, ForcesAnInstructionSetOrSaysWhyNot) {
 // for some: the mass goes inwards all the same, and nothing inside loses any.
 TEST(ModifiedMass, GoesInwardsWhateverTheCells) {
   for (const CellType type : {CellType::tetra4, CellType::tetra10, CellType::penta6, CellType::pyra5, CellType::hexa8,
-                              CellType::hexa20, CellType::hexa27}) {
+                              CellType::hexa20, CellType::hexa27, CellType::penta15, CellType::pyra13}) {
     Model model;
     model.mesh = std::make_shared<const Mesh>(with_cells(block_mesh({3, 3, 3}, 0.0), type));
     Part part{.name = "body", .cells = {}, .material = unit_material, .type = type};

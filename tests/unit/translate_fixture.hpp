@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
+
+#include "casefile/read_case.hpp"
+#include "translate/translate_deck.hpp"
 
 namespace carom::test {
 
@@ -34,6 +39,32 @@ inline std::string replaced(std::string text, const std::string& from, const std
   const std::size_t found = text.find(from);
   EXPECT_NE(found, std::string::npos) << from;
   return found == std::string::npos ? text : text.replace(found, from.size(), to);
+}
+
+inline std::string no_file(const std::string& path, const Location& where) {
+  throw CaseError(where, "*INCLUDE", "no file " + path, "");
+}
+
+inline TranslatedDeck translated(const std::string& text, const std::vector<std::string>& accepted = {}) {
+  return translate_deck(text, "x.inp", accepted, no_file);
+}
+
+inline Case case_from(const std::string& text, const std::vector<std::string>& accepted = {}) {
+  return case_of(translated(text, accepted).tree, "x.inp");
+}
+
+inline bool has_note(const TranslatedDeck& deck, const std::string& part) {
+  return std::any_of(deck.notes.begin(), deck.notes.end(),
+                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
+}
+
+inline std::string message_of(const std::string& deck, const std::vector<std::string>& accepted = {}) {
+  try {
+    translated(deck, accepted);
+  } catch (const CaseError& error) {
+    return error.what();
+  }
+  return "no error";
 }
 
 }  // namespace carom::test

@@ -98,7 +98,8 @@ const std::vector<Spoiled> spoiled_decks{
     {"instance_part", "*HEADING", "*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n*HEADING",
      ":1: *INSTANCE: found the unknown part P; expected the NAME of a *PART before it"},
     {"elastic_lost", "*MATERIAL, NAME=STEEL\n", "",
-     ":32: *ELASTIC: found *ELASTIC of no material; expected *MATERIAL before it"},
+     ":32: *ELASTIC: found *ELASTIC of no material; expected *MATERIAL before it\nx.inp:34: *DENSITY: found *DENSITY "
+     "of no material; expected *MATERIAL before it\n2 errors"},
     {"elastic_twice", "*DENSITY", "*ELASTIC\n1., 0.\n*DENSITY",
      ":35: *ELASTIC: found *ELASTIC a second time; expected once in a material"},
     {"elastic_type", "*ELASTIC\n", "*ELASTIC, TYPE=ORTHOTROPIC\n",
@@ -128,22 +129,24 @@ const std::vector<Spoiled> spoiled_decks{
     {"boundary_range", "BASE, 1, 3", "BASE, 3, 1",
      ":40: *BOUNDARY: found degrees of freedom 3 to 1; expected 1 to 3, or 1 to 6 with those of turning"},
     {"boundary_name", "BASE, 1, 3", "BASE, FIXED",
-     ":40: *BOUNDARY: found \"FIXED\"; expected a degree of freedom, ENCASTRE, PINNED, XSYMM or the like"},
+     ":40: *BOUNDARY: found \"FIXED\"; expected a degree of freedom, ENCASTRE, PINNED, XSYMM, XASYMM or those of y and "
+     "z. U1 to U3 are 1 to 3, UR1 to UR3 are 4 to 6."},
+    {"boundary_temperature", "BASE, 1, 3", "BASE, 11, 11, 300.",
+     ":40: *BOUNDARY: found degrees of freedom 11 to 11; expected 1 to 3, or 1 to 6 with those of turning"},
     {"boundary_turn", "*CLOAD", "*BOUNDARY\nBASE, 4, 4, 0.1\n*CLOAD",
      ":56: *BOUNDARY: found a turn of degree of freedom 4; expected 1, 2 or 3. Nodes do not turn, but for "
      "those that a *RIGID BODY refers to."},
     {"boundary_value_before_steps", "BASE, 1, 3", "BASE, 1, 3, 0.1",
      ":40: *BOUNDARY: found the displacement 0.1 before the first step; expected one with an AMPLITUDE. The nodes "
-     "would "
-     "jump there when the first step begins."},
+     "would jump there when the first step begins."},
     {"boundary_fifth_field", "BASE, 1, 3", "BASE, 1, 3, 0., 7",
      ":40: *BOUNDARY: found '7' behind the others; expected nodes, first and last degree of freedom, value"},
     {"contact_third_surface", "FOOT, FLOOR", "FOOT, FLOOR, TOP",
      ":49: *CONTACT PAIR: found 'TOP' behind the others; expected the slave and the master"},
     {"plastic_temperatures", "*DENSITY", "*PLASTIC\n90., 0.\n120., 0.1, 300.\n*DENSITY",
      ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
-     "\"PLASTIC\" runs without:\n  x.inp:35: *PLASTIC: several curves, one for each temperature or rate. Only one is "
-     "carried."},
+     "\"PLASTIC\" runs without:\n  x.inp:35: *PLASTIC: several curves, one for each temperature. That of the "
+     "first line's temperature would hold at all."},
     {"initial_dof", "FALLING, 3, -1000.", "FALLING, 4, -1000.",
      ":42: *INITIAL CONDITIONS: found degree of freedom 4; expected 1, 2 or 3"},
     {"initial_type", "TYPE=VELOCITY", "TYPE=STRESS",
@@ -157,10 +160,10 @@ const std::vector<Spoiled> spoiled_decks{
     {"contact_nodes", "*SURFACE, NAME=FOOT\nUPPER, S1", "*SURFACE, NAME=FOOT, TYPE=NODE\n11",
      ":49: *CONTACT PAIR: found FOOT, a surface of nodes that make no face; expected nodes with all those of a face, "
      "or TYPE=ELEMENT. Carom's contact needs the faces of both sides."},
-    {"surface_area", "*SURFACE, NAME=FOOT\nUPPER, S1", "*SURFACE, NAME=FOOT, TYPE=NODE\nFALLING, 1.",
-     ":31: *SURFACE: found more than one field; expected one node or set in a line. Areas of nodes are not taken."},
-    {"contact_type", "*CONTACT PAIR, INTERACTION=I", "*CONTACT PAIR, INTERACTION=I, TYPE=MORTAR",
-     ":48: *CONTACT PAIR: found TYPE=MORTAR; expected NODE TO SURFACE or SURFACE TO SURFACE"},
+    {"surface_area", "*SURFACE, NAME=FOOT\nUPPER, S1", "*SURFACE, NAME=FOOT, TYPE=NODE\nFALLING, 2.",
+     ":31: *SURFACE: found an area of 2; expected 1, or none. Areas of nodes are not taken."},
+    {"contact_type", "*CONTACT PAIR, INTERACTION=I", "*CONTACT PAIR, INTERACTION=I, TYPE=MORTA",
+     ":48: *CONTACT PAIR: found TYPE=MORTA; expected NODE TO SURFACE or SURFACE TO SURFACE"},
     {"tie_tolerance", "*STEP\n", "*TIE, NAME=T, POSITION TOLERANCE=-1.\nFOOT, FLOOR\n*STEP\n",
      ":52: *TIE: found POSITION TOLERANCE=-1.; expected a distance of 0 or more"},
     {"tie_surface", "*STEP\n", "*TIE, NAME=T\nFOOT, GROUND\n*STEP\n",
@@ -170,9 +173,52 @@ const std::vector<Spoiled> spoiled_decks{
     {"contact_adjust", "*CONTACT PAIR, INTERACTION=I", "*CONTACT PAIR, INTERACTION=I, ADJUST=0.2",
      ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
      "\"CONTACT PAIR\" runs without:\n  x.inp:48: *CONTACT PAIR: ADJUST=0.2. Gaps at the start would stay open."},
-    {"contact_rigid", "*STEP\n", "*RIGID BODY, ELSET=LOWER, REF NODE=1\n*STEP\n",
-     ":52: *RIGID BODY: found LOWER, elements of type C3D8; expected R3D3, R3D4, or other faces. Carom's rigid bodies "
-     "are surfaces; bodies made of cells deform."},
+    {"rigid_set", "*STEP\n", "*RIGID BODY, ELSET=ROCK, REF NODE=1\n*STEP\n",
+     ":52: *RIGID BODY: found ELSET=ROCK; expected the name of a set of cells"},
+    {"rigid_plane", "*ELEMENT, TYPE=C3D8, ELSET=UPPER",
+     "*ELEMENT, TYPE=CPE4, ELSET=FLAT\n9,1,2,3,4\n*RIGID BODY, ELSET=FLAT, REF NODE=1\n*ELEMENT, TYPE=C3D8, "
+     "ELSET=UPPER",
+     ":24: *RIGID BODY: found FLAT, elements of type CPE4; expected solids, R3D3, R3D4, or other faces. Plane and "
+     "axisymmetric cells deform: R2D2 and RAX2 are their rigid bodies."},
+    {"rigid_mixed", "*ELEMENT, TYPE=C3D8, ELSET=UPPER",
+     "*ELEMENT, TYPE=R3D4, ELSET=UPPER\n9,1,2,3,4\n*RIGID BODY, ELSET=UPPER, REF NODE=1\n*ELEMENT, TYPE=C3D8, "
+     "ELSET=UPPER",
+     ":24: *RIGID BODY: found UPPER, elements of type R3D4; expected solids alone. Make a *RIGID BODY of each, or of "
+     "the "
+     "solids alone.\nx.inp:41: *SOLID SECTION: found elements of type R3D4 in UPPER; expected solids, plane cells or "
+     "bars\n2 errors"},
+    {"rigid_part_of_section", "*STEP\n",
+     "*ELSET, ELSET=BOTH\n1, 2\n*SOLID SECTION, ELSET=BOTH, MATERIAL=STEEL\n*RIGID BODY, ELSET=LOWER, REF "
+     "NODE=1\n*STEP\n",
+     ":55: *RIGID BODY: found 1 of the 2 elements of the section of BOTH in LOWER; expected all elements of a section, "
+     "or none. Elements 2 of it are not in LOWER: give the rigid elements a section of their own."},
+    {"rigid_no_section", "*SOLID SECTION, ELSET=LOWER, MATERIAL=STEEL\n", "*RIGID BODY, ELSET=LOWER, REF NODE=1\n",
+     ":37: *RIGID BODY: found elements 1 of LOWER without a section; expected a *SOLID SECTION of all elements of the "
+     "body. Their material gives the body its mass."},
+    {"rigid_nodes_of_faces", "*ELEMENT, TYPE=C3D8, ELSET=UPPER",
+     "*ELEMENT, TYPE=R3D4, ELSET=LID\n9,1,2,3,4\n*RIGID BODY, ELSET=LID, REF NODE=1, TIE NSET=FALLING\n*ELEMENT, "
+     "TYPE=C3D8, ELSET=UPPER",
+     ":24: *RIGID BODY: found TIE NSET beside faces; expected faces or an analytical surface alone. Bodies of solids "
+     "hold nodes of others: give the faces cells behind them."},
+    {"rigid_two_sets_of_nodes", "*STEP\n",
+     "*RIGID BODY, ELSET=UPPER, REF NODE=11, TIE NSET=BASE, PIN NSET=BASE\n*STEP\n",
+     ":52: *RIGID BODY: found TIE NSET beside PIN NSET; expected one of them. Join both sets in one *NSET."},
+    {"rigid_two_bodies", "*STEP\n",
+     "*RIGID BODY, ELSET=UPPER, REF NODE=11\n*RIGID BODY, ELSET=LOWER, REF NODE=11\n*STEP\n",
+     ":53: *RIGID BODY: found the reference node of UPPER for LOWER; expected a reference node for each body. Bodies "
+     "of "
+     "solids may hold the nodes of one *COUPLING."},
+    {"coupling_surface", "*STEP\n", "*COUPLING, REF NODE=1, SURFACE=GROUND\n*KINEMATIC\n*STEP\n",
+     ":52: *COUPLING: found SURFACE=GROUND; expected the NAME of a *SURFACE"},
+    {"coupling_alone", "*STEP\n", "*COUPLING, REF NODE=1, SURFACE=FLOOR\n*STEP\n",
+     ":52: *COUPLING: found *COUPLING alone; expected *KINEMATIC or *DISTRIBUTING behind it"},
+    {"coupling_some", "*STEP\n", "*COUPLING, REF NODE=1, SURFACE=FLOOR\n*KINEMATIC\n1, 2\n*STEP\n",
+     ":53: *KINEMATIC: found some degrees of freedom alone; expected 1 to 3, or all. Nodes that slide along the "
+     "reference node's body are not joined: write *EQUATION."},
+    {"coupling_distributing", "*STEP\n", "*COUPLING, REF NODE=1, SURFACE=FLOOR\n*DISTRIBUTING\n*STEP\n",
+     ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
+     "\"DISTRIBUTING\" runs without:\n  x.inp:53: *DISTRIBUTING: not carried out. The reference node of the *COUPLING "
+     "would pull at nothing."},
     {"behavior_slope", "LINEAR\n1e6", "LINEAR\n0.", ":45: *SURFACE BEHAVIOR: found slope 0; expected a positive one"},
     {"behavior_kind", "OVERCLOSURE=LINEAR", "OVERCLOSURE=EXPONENTIAL",
      ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
@@ -202,8 +248,10 @@ const std::vector<Spoiled> spoiled_decks{
      ":53: scheme.alpha: found -0.5 with scheme hht; expected a number >= -1/3 and <= 0. Below, HHT dissipates less "
      "again: choose -1/3, or scheme wbz."},
     {"frequency", "*DYNAMIC, DIRECT\n1e-6, 1e-3", "*FREQUENCY\n10",
-     ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
-     "\"FREQUENCY\" runs without:\n  x.inp:53: *FREQUENCY: not carried out. The step is left out."},
+     ": found something that Carom does not carry over, and 1 that is wrong; expected a deck that loses nothing of its "
+     "physics. --accept \"FREQUENCY\" runs without:\n  x.inp:53: *FREQUENCY: not carried out. The step is left "
+     "out.\nTo be changed whatever is accepted:\n  x.inp: found no step with *STATIC or *DYNAMIC; expected at least "
+     "one. `carom mesh` describes a deck without steps; other procedures are not computed."},
     {"cload_dof", "15, 1, 5.", "15, 5, 5.",
      ":56: *CLOAD: found degree of freedom 5; expected 1, 2 or 3. Nodes of solids take no moments."},
     {"cload_node", "15, 1, 5.", "99, 1, 5.",

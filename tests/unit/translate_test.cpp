@@ -9,6 +9,7 @@
 
 #include "casefile/read_case.hpp"
 #include "casefile/write_toml.hpp"
+#include "deck/keyword_table.hpp"
 #include "translate/amplitudes.hpp"
 #include "translate/decks_page.hpp"
 #include "translate/translate_deck.hpp"
@@ -20,22 +21,11 @@ namespace {
 using test::good_deck;
 using test::replaced;
 
-std::string no_file(const std::string& path, const Location& where) {
-  throw CaseError(where, "*INCLUDE", "no file " + path, "");
-}
-
-TranslatedDeck translated(const std::string& text, const std::vector<std::string>& accepted = {}) {
-  return translate_deck(text, "x.inp", accepted, no_file);
-}
-
-Case case_from(const std::string& text, const std::vector<std::string>& accepted = {}) {
-  return case_of(translated(text, accepted).tree, "x.inp");
-}
-
-bool has_note(const TranslatedDeck& deck, const std::string& part) {
-  return std::any_of(deck.notes.begin(), deck.notes.end(),
-                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
-}
+using test::case_from;
+using test::has_note;
+using test::message_of;
+using test::no_file;
+using test::translated;
 
 TEST(Translate, TheWholeOfASmallDeck) {
   const Case made = case_from(good_deck);
@@ -118,14 +108,6 @@ TEST(Translate, StepsAreStagesThatGoOn) {
   EXPECT_EQ(*made.stages[0].time.end, 2.001);
 }
 
-TEST(Translate, PlasticityAsATable) {
-  const std::string deck = replaced(good_deck, "*DENSITY", "*PLASTIC\n300., 0.\n400., 0.1\n*DENSITY");
-  const Case made = case_from(deck);
-  EXPECT_EQ(*made.materials[0].law, "j2_small_strain");
-  EXPECT_EQ(*made.materials[0].curve, (std::vector<std::array<double, 2>>{{0.0, 300.0}, {0.1, 400.0}}));
-  EXPECT_EQ(*case_from(replaced(deck, "*STEP\n", "*STEP, NLGEOM\n")).materials[0].law, "j2");
-}
-
 TEST(Translate, OverlapsOfAbaqusExplicitCountAsTouching) {
   const auto penetration = [](const char* line) {
     return *case_from(replaced(good_deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3", line)).contacts[0].law()->initial_penetration;
@@ -148,31 +130,6 @@ TEST(Translate, AnExplicitStepHasItsTimeInTheSecondNumber) {
       EXPECT_EQ(error.found(), "no time of the step") << line;
     }
   }
-}
-
-TEST(Translate, JohnsonAndCook) {
-  const Case made = case_from(replaced(replaced(good_deck, "*DENSITY",
-                                                "*PLASTIC, HARDENING=JOHNSON COOK\n90., 292., 0.31, 1.09, 1356., 298.\n"
-                                                "*RATE DEPENDENT, TYPE=JOHNSON COOK\n0.025, 1.\n*SPECIFIC HEAT\n3.8e8\n"
-                                                "*DENSITY"),
-                                       "*DYNAMIC, DIRECT\n1e-6", "*DYNAMIC, EXPLICIT, ADIABATIC\n"));
-  EXPECT_EQ(*made.materials[0].law, "johnson_cook");
-  EXPECT_EQ(*made.materials[0].value("n"), 0.31);
-  EXPECT_EQ(*made.materials[0].value("m"), 1.09);
-  EXPECT_EQ(*made.materials[0].value("C"), 0.025);
-  EXPECT_EQ(*made.materials[0].value("melting_temperature"), 1356.0);
-  EXPECT_EQ(*made.materials[0].value("taylor_quinney"), 0.9);
-}
-
-/// C10 = G / 2 and D1 = 2 / K: E = 9 K G / (3 K + G).
-TEST(Translate, NeoHookeOnlyWhereItsPotentialIsAccepted) {
-  const std::string deck = replaced(replaced(good_deck, "*ELASTIC\n210000., 0.3", "*HYPERELASTIC, NEO HOOKE\n0.5, 0.2"),
-                                    "*STEP\n", "*STEP, NLGEOM\n");
-  EXPECT_THROW(case_from(deck), CaseError);
-  const Case made = case_from(deck, {"hyperelastic"});
-  EXPECT_EQ(*made.materials[0].law, "neo_hookean");
-  EXPECT_NEAR(*made.materials[0].value("E"), 90.0 / 31.0, 1e-15);  // K = 10, G = 1
-  EXPECT_NEAR(*made.materials[0].value("nu"), 28.0 / 62.0, 1e-15);
 }
 
 TEST(Translate, FormulationsOfElementTypes) {
@@ -203,262 +160,6 @@ TEST(Translate, BarsBetweenTheNodesOfASurfaceTouchWithTheirSides) {
   };
   EXPECT_EQ(group("11\n12\n13"), "FOOT");
   EXPECT_EQ(group("11"), "FOOT (faces)");  // its end
-}
-
-/// The lower cube replaced by a rigid square with the reference node 99.
-std::string with_rigid_wall(const std::string& reference) {
-  const std::string wall = replaced(good_deck, "*ELEMENT, TYPE=C3D8, ELSET=LOWER\n1,1,2,3,4,5,6,7,8\n",
-                                    "99,0,0,0\n*ELEMENT, TYPE=R3D4, ELSET=LOWER\n1,5,6,7,8\n");
-  return replaced(replaced(replaced(wall, "LOWER, S2", "LOWER, SPOS"), "*SOLID SECTION, ELSET=LOWER, MATERIAL=STEEL\n",
-                           "*RIGID BODY, ELSET=LOWER, REF NODE=99\n"),
-                  "*BOUNDARY\nBASE, 1, 3\n", reference);
-}
-
-TEST(Translate, ARigidSurfaceAtRestIsAnObstacle) {
-  const Case made = case_from(with_rigid_wall("*BOUNDARY\n99, ENCASTRE\n"));
-  EXPECT_EQ(*made.contacts[0].kind, "surface");
-  EXPECT_EQ(**made.contacts[0].own_cells(), "FLOOR");
-  EXPECT_FALSE(made.contacts[0].obstacle()->velocity);
-  EXPECT_TRUE(made.supports.empty());
-}
-
-TEST(Translate, ADisplacedReferenceNodeMovesItsSurfaceByTheSlope) {
-  const Case made = case_from(
-      replaced(with_rigid_wall("*BOUNDARY\n99, 1, 2\n"), "*CLOAD", "*BOUNDARY, AMPLITUDE=A\n99, 3, 3, 0.5\n*CLOAD"));
-  EXPECT_EQ(*made.contacts[0].obstacle()->velocity, (Vec3{0.0, 0.0, 500.0}));  // 0.5 in 1e-3
-  ASSERT_TRUE(made.contacts[0].obstacle()->function);
-  for (const CaseFunction& function : made.functions) {
-    if (function.name != **made.contacts[0].obstacle()->function) continue;
-    EXPECT_EQ(function.function(5e-4), 1.0);
-    EXPECT_EQ(function.function(2e-3), 0.0);
-  }
-}
-
-TEST(Translate, AFreeRigidSurfaceHasTheMassOfItsReferenceNode) {
-  const Case made = case_from(replaced(with_rigid_wall("*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n*MASS, ELSET=M\n2.5\n"),
-                                       "FALLING, 3, -1000.", "FALLING, 3, -1000.\n99, 3, 20."));
-  EXPECT_EQ(*made.contacts[0].obstacle()->body.mass, 2.5);
-  EXPECT_EQ(*made.contacts[0].obstacle()->velocity, (Vec3{0.0, 0.0, 20.0}));
-  EXPECT_TRUE(made.point_masses.empty());
-  EXPECT_EQ(made.initial.size(), 1U);
-}
-
-TEST(Translate, AReferenceNodeThatIsNotHeldIsRefused) {
-  EXPECT_THROW(case_from(with_rigid_wall("*BOUNDARY\n99, 3\n")), CaseError);
-}
-
-/// The rigid square; its reference node, which stands at (1, 2, 0.5), is held but for what the step says of it.
-std::string with_turning_wall(const std::string& in_step, const std::string& held = "99, 1, 6") {
-  const std::string wall = replaced(with_rigid_wall("*BOUNDARY\n" + held + "\n"), "99,0,0,0\n", "99,1,2,0.5\n");
-  return replaced(wall, "*CLOAD", in_step + "*CLOAD");
-}
-
-const CaseFunction& function_named(const Case& made, const std::string& name) {
-  const auto found = std::find_if(made.functions.begin(), made.functions.end(),
-                                  [&](const CaseFunction& function) { return function.name == name; });
-  EXPECT_NE(found, made.functions.end()) << name;
-  return *found;
-}
-
-TEST(Translate, AReferenceNodeTurnsItsSurface) {
-  const TranslatedDeck deck = translated(with_turning_wall("*BOUNDARY, TYPE=VELOCITY\n99, 6, 6, 3.\n99, 4, 4, -4.\n"));
-  const Case made = case_of(deck.tree, "x.inp");
-  const CaseObstacle& wall = *made.contacts[0].obstacle();
-  EXPECT_EQ(**wall.body.angular_velocity, (Vec3{-4.0, 0.0, 3.0}));
-  EXPECT_EQ(to_string(wall.body.angular_velocity->where), "x.inp:57");  // of the last component
-  EXPECT_EQ(*wall.body.centre_of_rotation, (Vec3{1.0, 2.0, 0.5}));
-  EXPECT_FALSE(wall.velocity);
-  EXPECT_FALSE(wall.function);
-  EXPECT_FALSE(wall.angular_function);
-  EXPECT_FALSE(has_note(deck, "does not turn"));
-  EXPECT_TRUE(made.supports.empty());
-}
-
-// 1.5 radians in 1e-3, as the amplitude goes; the travel has a time of its own.
-TEST(Translate, ATurnByAnAmplitudeHasItsSlope) {
-  const Case made =
-      case_from(with_turning_wall("*BOUNDARY, AMPLITUDE=A\n99, 5, 6, 1.5\n"
-                                  "*BOUNDARY, TYPE=VELOCITY\n99, 1, 1, 7.\n"));
-  const CaseObstacle& wall = *made.contacts[0].obstacle();
-  EXPECT_EQ(**wall.body.angular_velocity, (Vec3{0.0, 1500.0, 1500.0}));
-  EXPECT_EQ(*wall.velocity, (Vec3{7.0, 0.0, 0.0}));
-  EXPECT_FALSE(wall.function);
-  EXPECT_EQ(function_named(made, **wall.angular_function).function(5e-4), 1.0);
-  EXPECT_EQ(function_named(made, **wall.angular_function).function(2e-3), 0.0);
-}
-
-// Else the rotation would have the function of the travel.
-TEST(Translate, ASteadyTurnBesideATravelWithAFunction) {
-  const Case made =
-      case_from(with_turning_wall("*BOUNDARY, AMPLITUDE=A\n99, 1, 1, 1.5\n"
-                                  "*BOUNDARY, TYPE=VELOCITY\n99, 6, 6, 7.\n"));
-  const CaseObstacle& wall = *made.contacts[0].obstacle();
-  EXPECT_EQ(**wall.body.angular_velocity, (Vec3{0.0, 0.0, 7.0}));
-  EXPECT_EQ(function_named(made, **wall.function).function(2e-3), 0.0);
-  EXPECT_EQ(function_named(made, **wall.angular_function).function(2e-3), 1.0);
-}
-
-// A third of an amplitude and a seventh of it are rounded differently.
-TEST(Translate, MultiplesOfOneAmplitudeAreOneFunction) {
-  const std::string smooth = "*AMPLITUDE, NAME=S, DEFINITION=SMOOTH STEP\n0., 0., 1e-3, 0.7\n";
-  const std::string deck =
-      with_turning_wall("*BOUNDARY, AMPLITUDE=S\n99, 4, 4, 0.3333333\n99, 5, 5, 0.1428571\n99, 6, 6, -0.7\n");
-  const Case made = case_from(replaced(deck, "*STEP\n", smooth + "*STEP\n"));
-  const Vec3 rate = **made.contacts[0].obstacle()->body.angular_velocity;
-  EXPECT_NEAR(rate[1] / rate[0], 0.1428571 / 0.3333333, 1e-12);
-  EXPECT_NEAR(rate[2] / rate[0], -0.7 / 0.3333333, 1e-12);
-}
-
-TEST(Translate, ASetOfReferenceNodesImposesOnEachBody) {
-  const std::string second =
-      "98,0,0,3\n25,0,0,3\n26,1,0,3\n27,1,1,3\n28,0,1,3\n"
-      "*ELEMENT, TYPE=R3D4, ELSET=LID\n9,25,28,27,26\n*SURFACE, NAME=COVER\nLID, SPOS\n*SURFACE, NAME=HEAD\nUPPER, S2\n"
-      "*RIGID BODY, ELSET=LID, REF NODE=98\n*NSET, NSET=BOTH\n98, 99\n*ELEMENT, TYPE=R3D4, ELSET=LOWER\n";
-  const std::string deck = replaced(with_rigid_wall("*BOUNDARY\nBOTH, 1, 5\nBOTH, 6, 6, 0.\n"),
-                                    "*ELEMENT, TYPE=R3D4, ELSET=LOWER\n", second);
-  const Case made = case_from(replaced(replaced(deck, "FOOT, FLOOR", "FOOT, FLOOR\nHEAD, COVER"), "*CLOAD",
-                                       "*BOUNDARY, TYPE=VELOCITY\nBOTH, 6, 6, 2.\n98, 6, 6, 5.\n*CLOAD"));
-  ASSERT_EQ(made.contacts.size(), 2U);
-  EXPECT_EQ(**made.contacts[0].obstacle()->body.angular_velocity, (Vec3{0.0, 0.0, 2.0}));
-  EXPECT_EQ(**made.contacts[1].obstacle()->body.angular_velocity, (Vec3{0.0, 0.0, 5.0}));
-  EXPECT_EQ(*made.contacts[1].obstacle()->body.centre_of_rotation, (Vec3{0.0, 0.0, 3.0}));
-  EXPECT_TRUE(made.supports.empty());
-}
-
-/// The free rigid square with a mass of 2.5 and an inertia; `more` stands before the steps.
-std::string with_free_wall(const std::string& more) {
-  return replaced(with_rigid_wall("*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n*MASS, ELSET=M\n2.5\n"
-                                  "*ELEMENT, TYPE=ROTARYI, ELSET=J\n51, 99\n"
-                                  "*ROTARY INERTIA, ELSET=J\n4., 5., 6., 0.1, 0.2, 0.3\n" +
-                                  more),
-                  "99,0,0,0\n", "99,1,2,0.5\n");
-}
-
-TEST(Translate, AFreeRigidSurfaceTurnsByItsRotaryInertia) {
-  const Case made = case_from(
-      replaced(with_free_wall(""), "FALLING, 3, -1000.", "FALLING, 3, -1000.\n99, 2, 20.\n99, 5, 30.\n99, 6, 40."));
-  const CaseObstacle& wall = *made.contacts[0].obstacle();
-  EXPECT_EQ(*wall.body.mass, 2.5);
-  EXPECT_EQ(**wall.body.inertia, (Vec3{4.0, 5.0, 6.0}));
-  EXPECT_EQ(*wall.body.products_of_inertia, (Vec3{0.1, 0.3, 0.2}));  // xy, yz, zx of xy, xz, yz
-  EXPECT_EQ(*wall.body.centre_of_mass, (Vec3{1.0, 2.0, 0.5}));
-  EXPECT_EQ(*wall.velocity, (Vec3{0.0, 20.0, 0.0}));
-  EXPECT_EQ(**wall.body.angular_velocity, (Vec3{0.0, 30.0, 40.0}));
-  EXPECT_EQ(made.initial.size(), 1U);
-}
-
-// omega x (X - a) = (0, 0, 2) x (1, 2, 0) = (-4, 2, 0) beside the velocity (5, 6, 7), from the node or the cells.
-TEST(Translate, ARotatingVelocityOfAFreeRigidSurface) {
-  for (const std::string target : {"99", "LOWER"}) {
-    const Case made = case_from(with_free_wall("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\n" + target +
-                                               ", 2., 5., 6., 7.\n0., 0., 0., 0., 0., 1.\n"));
-    const CaseObstacle& wall = *made.contacts[0].obstacle();
-    EXPECT_EQ(*wall.velocity, (Vec3{1.0, 8.0, 7.0})) << target;
-    EXPECT_EQ(**wall.body.angular_velocity, (Vec3{0.0, 0.0, 2.0})) << target;
-    EXPECT_EQ(made.initial.size(), 1U) << target;
-  }
-}
-
-TEST(Translate, AFreeRigidSurfaceThatIsHeldAboutAllAxesDoesNotTurn) {
-  const TranslatedDeck deck = translated(with_free_wall("*BOUNDARY\n99, 4, 6\n"));
-  const Case made = case_of(deck.tree, "x.inp");
-  EXPECT_EQ(*made.contacts[0].obstacle()->body.mass, 2.5);
-  EXPECT_FALSE(made.contacts[0].obstacle()->body.inertia);
-  EXPECT_TRUE(has_note(deck, "the rigid body does not turn"));
-}
-
-/// A square of plane cells over a rigid line, `type`, with the reference node 99.
-std::string plane_deck(const std::string& type, const std::string& cells, const std::string& more) {
-  return "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n11,-1,0\n12,2,0\n99,0,-2\n*ELEMENT, TYPE=" + cells +
-         ", ELSET=BODY\n1,1,2,3,4\n*ELEMENT, TYPE=" + type +
-         ", ELSET=LINE\n2,11,12\n*SURFACE, NAME=FOOT\nBODY, S1\n*SURFACE, NAME=FLOOR\nLINE, SPOS\n"
-         "*RIGID BODY, ELSET=LINE, REF NODE=99\n*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.8e-9\n"
-         "*SOLID SECTION, ELSET=BODY, MATERIAL=STEEL\n*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I\n"
-         "FOOT, FLOOR\n" +
-         more + "*STEP\n*DYNAMIC\n1e-6, 1e-3\n*END STEP\n";
-}
-
-TEST(Translate, RigidLinesTurnInThePlane) {
-  const Case led = case_from(plane_deck("R2D2", "CPE4", "*BOUNDARY, TYPE=VELOCITY\n99, 1, 2\n99, 6, 6, 3.\n"));
-  EXPECT_EQ(**led.contacts[0].obstacle()->body.angular_velocity, (Vec3{0.0, 0.0, 3.0}));
-  EXPECT_EQ(*led.contacts[0].obstacle()->body.centre_of_rotation, (Vec3{0.0, -2.0, 0.0}));
-  const std::string inertia =
-      "*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n*MASS, ELSET=M\n2.5\n"
-      "*ELEMENT, TYPE=ROTARYI, ELSET=J\n51, 99\n*ROTARY INERTIA, ELSET=J\n0., 0., 6.\n";
-  const Case free = case_from(plane_deck("R2D2", "CPE4", inertia));
-  EXPECT_EQ(**free.contacts[0].obstacle()->body.inertia, (Vec3{6.0, 6.0, 6.0}));
-}
-
-TEST(Translate, ARingMovesAlongItsAxis) {
-  const Case made = case_from(plane_deck("RAX2", "CAX4", "*BOUNDARY, TYPE=VELOCITY\n99, 1, 1\n99, 2, 2, 3.\n99, 6\n"));
-  EXPECT_EQ(*made.contacts[0].obstacle()->velocity, (Vec3{0.0, 3.0, 0.0}));
-  EXPECT_FALSE(made.contacts[0].obstacle()->body.angular_velocity);
-}
-
-TEST(Translate, MotionsOfRigidBodiesThatCannotBeAreRefused) {
-  const auto refusal = [](const std::string& deck) {
-    try {
-      case_from(deck);
-    } catch (const CaseError& error) {
-      return std::string(error.what());
-    }
-    return std::string("no error");
-  };
-  EXPECT_EQ(refusal(with_turning_wall("*BOUNDARY, TYPE=VELOCITY\n99, 4, 4, 3.\n*BOUNDARY, TYPE=VELOCITY, "
-                                      "AMPLITUDE=A\n99, 6, 6, 3.\n")),
-            "x.inp:59: *BOUNDARY: found a turn with an amplitude for each axis; expected one amplitude for all. "
-            "Carom's obstacles turn about an axis of fixed direction.");
-  EXPECT_EQ(refusal(with_turning_wall("*BOUNDARY, TYPE=ACCELERATION\n99, 6, 6, 3.\n")),
-            "x.inp:57: *BOUNDARY: found an imposed acceleration of the reference node of a rigid body; expected its "
-            "velocity or displacement");
-  EXPECT_EQ(refusal(with_free_wall("*BOUNDARY, TYPE=VELOCITY\n99, 6, 6, 3.\n")),
-            "x.inp:49: *BOUNDARY: found a turn that is imposed on a rigid body that moves freely; expected a body that "
-            "is held or moved along all axes, or turns freely too. Impose its degrees of freedom 1 to 3, or give it a "
-            "*ROTARY INERTIA.");
-  EXPECT_EQ(refusal(with_free_wall("*BOUNDARY\n99, 4, 5\n")),
-            "x.inp:38: *RIGID BODY: found a free rigid body that is held about 2 of 3 axes; expected about all, or "
-            "none. Carom's free bodies turn about every axis or do not turn.");
-  EXPECT_EQ(refusal(with_free_wall("*BOUNDARY\n99, 1, 3\n")),
-            "x.inp: found something that Carom does not carry over; expected a deck that loses nothing of its physics. "
-            "--accept \"ROTARY INERTIA\" runs without:\n  x.inp:38: *ROTARY INERTIA: a rigid body that is held in its "
-            "place and not in its turns. It would turn only as *BOUNDARY says.");
-  EXPECT_EQ(refusal(with_free_wall("*INITIAL CONDITIONS, TYPE=VELOCITY\n99, 6, 30.\n*BOUNDARY\n99, 4, 6\n")),
-            "x.inp:38: *RIGID BODY: found an angular velocity of a rigid body that does not turn; expected a *ROTARY "
-            "INERTIA of its reference node, which *BOUNDARY does not hold");
-  EXPECT_EQ(refusal(plane_deck("R2D2", "CPE4", "*BOUNDARY, TYPE=VELOCITY\n99, 1, 3\n99, 4, 4, 3.\n")),
-            "x.inp:29: *BOUNDARY: found a motion of degree of freedom 4 of a rigid body in the plane; expected 1, 2 or "
-            "6. Plane cells have no displacement along z.");
-  EXPECT_EQ(refusal(plane_deck("RAX2", "CAX4", "*BOUNDARY, TYPE=VELOCITY\n99, 1, 2\n99, 6, 6, 3.\n")),
-            "x.inp:29: *BOUNDARY: found a motion of degree of freedom 6 of a rigid body around an axis; expected 2 "
-            "alone. What moves otherwise is no ring: model it in three dimensions.");
-  EXPECT_EQ(refusal(plane_deck("R2D2", "CPE4", "*BOUNDARY\n99, 1\n")),
-            "x.inp:17: *RIGID BODY: found a reference node that is held along 1 of 2 axes; expected all of them "
-            "imposed, or none and a *MASS. Say with *BOUNDARY what its reference node does.");
-}
-
-// The tensor is given along the axes of the part, which the instance turns.
-TEST(Translate, AnInertiaInAnInstanceThatTurnsIsRefused) {
-  const std::string deck = plane_deck("R2D2", "CPE4", "*BOUNDARY\n99, 1, 2\n");
-  const auto in_instance = [&](const std::string& placement) {
-    return "*PART, NAME=P\n*NODE\n1,0,0\n*ELEMENT, TYPE=ROTARYI, ELSET=J\n1,1\n*ROTARY INERTIA, ELSET=J\n1.,1.,1.\n"
-           "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n" +
-           placement + "*END INSTANCE\n*END ASSEMBLY\n" + deck;
-  };
-  try {
-    translated(in_instance("0., 0., 0.\n0., 0., 0., 0., 0., 1., 90.\n"));
-    FAIL();
-  } catch (const CaseError& error) {
-    EXPECT_EQ(to_string(error.where()), "x.inp:7");
-    EXPECT_EQ(error.found(), "an inertia in an instance that is turned");
-  }
-  try {
-    translated(in_instance(""));
-    FAIL();
-  } catch (const CaseError& error) {
-    EXPECT_NE(std::string(error.what()).find("*ROTARY INERTIA: an inertia of nodes that no *RIGID BODY refers to"),
-              std::string::npos)
-        << error.what();
-  }
 }
 
 TEST(Translate, GravityLineByLineIsThatOfAll) {
@@ -537,6 +238,24 @@ TEST(Translate, NamedSupports) {
   EXPECT_EQ(*made.supports[3].nodes, "5");
 }
 
+/// All names that Abaqus has for nodes of solids, in upper and lower case; turns of nodes are nothing.
+TEST(Translate, NamesOfSupportsHoldWhatTheySay) {
+  for (const auto& [name, x, y, z] : {std::tuple{"encastre", true, true, true},
+                                      {"PINNED", true, true, true},
+                                      {"XSymm", true, false, false},
+                                      {"YSYMM", false, true, false},
+                                      {"ZSYMM", false, false, true},
+                                      {"XASYMM", false, true, true},
+                                      {"YASYMM", true, false, true},
+                                      {"ZASYMM", true, true, false}}) {
+    const Case made = case_from(replaced(good_deck, "BASE, 1, 3", std::string("BASE, ") + name));
+    std::array<bool, 3> blocked{};
+    for (const CaseSupport& support : made.supports)
+      for (std::size_t c = 0; c < 3; ++c) blocked[c] = blocked[c] || support.blocked[c];
+    EXPECT_EQ(blocked, (std::array{x, y, z})) << name;
+  }
+}
+
 TEST(Translate, GravityPressureAndMasses) {
   const Case made = case_from(replaced(good_deck, "*CLOAD, AMPLITUDE=A\n15, 1, 5.",
                                        "*DLOAD\n, GRAV, 9810., 0., 0., -2.\nUPPER, P2, 3.\n*DSLOAD\nFLOOR, P, -1."));
@@ -547,17 +266,63 @@ TEST(Translate, GravityPressureAndMasses) {
 }
 
 TEST(Translate, WhatChangesThePhysicsIsRefusedAllAtOnceUnlessAccepted) {
-  const std::string deck = replaced(good_deck, "*BOUNDARY", "*COUPLING\n1\n*FANCY STUFF\n*BOUNDARY");
+  const std::string deck = replaced(good_deck, "*BOUNDARY", "*MPC\n1\n*FANCY STUFF\n*BOUNDARY");
   try {
     translated(deck);
     FAIL();
   } catch (const CaseError& error) {
     const std::string what = error.what();
-    EXPECT_NE(what.find("x.inp:39: *COUPLING"), std::string::npos) << what;
+    EXPECT_NE(what.find("x.inp:39: *MPC"), std::string::npos) << what;
     EXPECT_NE(what.find("x.inp:41: *FANCY STUFF: an unknown keyword"), std::string::npos) << what;
-    EXPECT_NE(what.find("--accept \"COUPLING,FANCY STUFF\""), std::string::npos) << what;
+    EXPECT_NE(what.find("--accept \"MPC,FANCY STUFF\""), std::string::npos) << what;
   }
-  EXPECT_TRUE(has_note(translated(deck, {"coupling", "FancyStuff"}), "*COUPLING: not carried out"));
+  EXPECT_TRUE(has_note(translated(deck, {"mpc", "FancyStuff"}), "*MPC: not carried out"));
+}
+
+std::size_t count(const std::string& text, const std::string& of) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(of); at != std::string::npos; at = text.find(of, at + 1)) ++n;
+  return n;
+}
+
+/// An element type that Carom does not have hides nothing, and nothing follows from it: its cells are in their sets,
+/// and sections, surfaces, loads and contact of them are not looked at.
+TEST(Translate, AllFindingsOfADeckAreSaidAtOnce) {
+  std::string deck = replaced(good_deck, "TYPE=C3D8, ELSET=UPPER", "TYPE=C3D9, ELSET=UPPER");
+  deck = replaced(deck, "*DENSITY\n", "*CREEP\n1., 1., 1.\n*DENSITY\n");
+  deck = replaced(deck, "*BOUNDARY\n", "*FANCY STUFF\n*BOUNDARY, FANCY=1\n");
+  deck = replaced(deck, "15, 1, 5.\n", "15, 7, 5.\n*DLOAD\nUPPER, P2, 1.\n2, GRAV, 9.81, 0., 0., -1.\n");
+  deck = replaced(deck, "FOOT, FLOOR\n", "FOOT, FLOOR\nFEET, FLOOR\n");
+  const std::string what = message_of(deck);
+  for (const char* finding :
+       {"found 4 things that Carom does not carry over, and 3 that are wrong",
+        "--accept \"CREEP,FANCY STUFF,BOUNDARY,DLOAD\"", "x.inp:22: *ELEMENT: found elements of type C3D9",
+        "x.inp:35: *CREEP", "x.inp:41: *FANCY STUFF", "x.inp:42: *BOUNDARY: the parameter FANCY",
+        "*CLOAD: found degree of freedom 7", "*CONTACT PAIR: found \"FEET\""})
+    EXPECT_NE(what.find(finding), std::string::npos) << finding << " in " << what;
+  EXPECT_EQ(count(what, "\n  x.inp:"), 7U) << what;
+}
+
+/// What is wrong with nodes or sets is said with the findings of the survey, the materials and the steps.
+TEST(Translate, AWrongMeshHidesNoKeyword) {
+  std::string deck = replaced(good_deck, "LOWER, S2", "LOWR, S2");
+  deck = replaced(deck, "*DENSITY\n", "*CREEP\n1., 1., 1.\n*DENSITY\n");
+  deck = replaced(deck, "1e-6, 1e-3", "1e-6, -1.");
+  const std::string what = message_of(deck);
+  for (const char* finding : {"x.inp:29: *SURFACE: found 'LOWR'", "*CREEP", "found increment 1e-06, time -1"})
+    EXPECT_NE(what.find(finding), std::string::npos) << finding << " in " << what;
+  EXPECT_EQ(count(what, "\n  x.inp:"), 3U) << what;
+}
+
+TEST(Translate, AcceptedWordsAreKeywords) {
+  const std::string deck = replaced(good_deck, "*BOUNDARY", "*SUBMODEL\n1\n*BOUNDARY");
+  const std::string what = message_of(deck, {"sumbodel"});
+  EXPECT_NE(what.find("--accept: found \"sumbodel\"; expected names of keywords. Did you mean \"SUBMODEL\"?"),
+            std::string::npos)
+      << what;
+  EXPECT_NE(what.find("x.inp:39: *SUBMODEL"), std::string::npos) << what;
+  EXPECT_TRUE(has_note(translated(deck, {"SUBMODEL", "CREEP"}), "--accept CREEP: nothing of the deck"));
+  EXPECT_TRUE(has_note(translated(deck, {"*submode"}), "*SUBMODEL: not carried out"));
 }
 
 TEST(Translate, UnknownParametersAreRefusedAndThoseOfOutputNoted) {
@@ -567,6 +332,56 @@ TEST(Translate, UnknownParametersAreRefusedAndThoseOfOutputNoted) {
   EXPECT_TRUE(has_note(made, "*EL FILE"));
   EXPECT_TRUE(has_note(made, "RF: no probe"));
   EXPECT_EQ(case_of(made.tree, "x.inp").probes.size(), 4U);
+}
+
+/// Of Abaqus at once, of CalculiX and those that vary where they are accepted.
+TEST(Translate, MassScaling) {
+  const std::string step = "*DYNAMIC, DIRECT\n1e-6, 1e-3";
+  const auto scaled = [&](const std::string& procedure, const std::vector<std::string>& accepted = {}) {
+    return case_of(translated(replaced(good_deck, step, procedure), accepted).tree, "x.inp").scheme;
+  };
+  const CaseScheme fixed = scaled("*DYNAMIC, EXPLICIT\n, 1e-3\n*FIXED MASS SCALING, DT=2e-6, TYPE=BELOW MIN");
+  EXPECT_EQ(**fixed.mass_scaling_step, 2e-6);
+  EXPECT_EQ(*fixed.mass_scaling_limit, 1e9);
+  EXPECT_FALSE(scaled("*DYNAMIC, EXPLICIT\n, 1e-3").mass_scaling_step);
+  for (const char* refused :
+       {"*DYNAMIC, EXPLICIT\n, 1e-3\n*VARIABLE MASS SCALING, DT=2e-6, TYPE=BELOW MIN, FREQUENCY=10",
+        "*DYNAMIC, EXPLICIT=1\n1e-6, 1e-3, 2e-6"}) {
+    EXPECT_THROW(scaled(refused), CaseError);
+    EXPECT_EQ(**scaled(refused, {"VARIABLE MASS SCALING", "DYNAMIC"}).mass_scaling_step, 2e-6);
+  }
+  const std::string uniform =
+      message_of(replaced(good_deck, step, "*DYNAMIC, EXPLICIT\n, 1e-3\n*FIXED MASS SCALING, DT=2e-6, TYPE=UNIFORM"));
+  EXPECT_NE(uniform.find("*FIXED MASS SCALING: TYPE=UNIFORM. No mass would be added."), std::string::npos) << uniform;
+  EXPECT_FALSE(scaled("*DYNAMIC\n1e-6, 1e-3, 1e-9, 1e-5").mass_scaling_step);  // halves as far as it must
+}
+
+TEST(Translate, MasslessContactKeepsItsMassWhereAccepted) {
+  const std::string deck =
+      replaced(good_deck, "*CONTACT PAIR, INTERACTION=I", "*CONTACT PAIR, INTERACTION=I, TYPE=MASSLESS");
+  EXPECT_NE(message_of(deck).find("TYPE=MASSLESS. Nodes in contact would keep their mass"), std::string::npos);
+  EXPECT_EQ(case_of(translated(deck, {"CONTACT PAIR"}).tree, "x.inp").contacts.size(), 1U);
+}
+
+/// Every keyword that asks for results or messages alone is a note: a deck with all of them is a case.
+TEST(Translate, OutputAloneIsANote) {
+  for (const KeywordEntry& entry : keyword_table()) {
+    if (entry.use != KeywordUse::output) continue;
+    const std::string keyword = "*" + std::string(entry.name);
+    EXPECT_TRUE(has_note(translated(replaced(good_deck, "*END STEP", keyword + ", FREQUENCY=1\n*END STEP")), keyword));
+  }
+  for (const char* name : {"INCREMENTATION OUTPUT", "INTEGRATED OUTPUT SECTION", "MODAL OUTPUT", "RADIATION OUTPUT",
+                           "SECTION FILE", "MONITOR", "PREPRINT", "FILE FORMAT"})
+    EXPECT_EQ(find_keyword(name)->use, KeywordUse::output) << name;
+}
+
+TEST(Translate, ComponentsOfOutputAreProbes) {
+  const TranslatedDeck made =
+      translated(replaced(good_deck, "*END STEP", "*NODE OUTPUT, NSET=FALLING\nU3, V3, A3, RF3\n*END STEP"));
+  const Case given = case_of(made.tree, "x.inp");
+  ASSERT_EQ(given.probes.size(), 8U);
+  EXPECT_EQ(given.probes[0].quantities.size(), 3U);
+  EXPECT_TRUE(has_note(made, "RF3: no probe"));
 }
 
 TEST(Translate, HistoriesOfStepsWithAndWithoutRamps) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 #include <set>
 #include <utility>
 
@@ -79,6 +80,96 @@ TEST(SeenSurface, QuadraticFacesAreTheirPieces) {
     for (std::size_t e = 0; e < 3; ++e)
       if ((t.edges >> e & 1U) != 0) edges.insert(std::minmax({t.node[e], t.node[(e + 1) % 3]}));
   EXPECT_EQ(edges.size(), 24U);
+}
+
+/// The cells that are there in a frame. Cells have their position among all of them as number.
+Mesh left_of(const Mesh& mesh, const std::vector<Index>& gone, Index frame) {
+  Mesh left;
+  left.coordinates = mesh.coordinates;
+  left.node_numbers = mesh.node_numbers;
+  for (const CellBlock& block : mesh.blocks) {
+    CellBlock kept{block.type, {}, {}};
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      if (gone[static_cast<std::size_t>(block.file_numbers[k])] <= frame) continue;
+      const std::span<const Index> nodes = block.nodes(static_cast<Index>(k));
+      kept.connectivity.insert(kept.connectivity.end(), nodes.begin(), nodes.end());
+      kept.file_numbers.push_back(block.file_numbers[k]);
+    }
+    if (kept.size() > 0) left.blocks.push_back(std::move(kept));
+  }
+  return left;
+}
+
+/// What is seen in a frame, by nodes and cells of the mesh, with the bits of the edges.
+std::multiset<std::array<Index, 5>> seen_in(const SeenSurface& surface, Index frame) {
+  std::multiset<std::array<Index, 5>> seen;
+  const auto node = [&](const SeenTriangle& t, std::size_t a) { return surface.nodes[at(t.node[a])]; };
+  for (const SeenTriangle& t : surface.triangles)
+    if (t.from <= frame && frame < t.until)
+      seen.insert({node(t, 0), node(t, 1), node(t, 2), surface.cells[at(t.cell)], t.edges});
+  return seen;
+}
+
+// In every frame one sees the surface of the mesh of the cells that are there then.
+TEST(SeenSurface, WhereCellsGoIsThatOfTheCellsThatAreThere) {
+  constexpr Index frames = 4;
+  std::mt19937 random(11);
+  for (const CellType type : test::solid_types) {
+    Mesh mesh = test::with_cells(block(3, 3, 2, {1.0, 1.0, 1.0}), type);
+    std::erase_if(mesh.blocks, [](const CellBlock& b) { return dimension(b.type) < 3; });
+    Index count = 0;
+    for (CellBlock& b : mesh.blocks)
+      for (std::int64_t& number : b.file_numbers) number = count++;
+    std::vector<Index> gone;  // a third of the cells stays
+    for (Index k = 0; k < count; ++k) gone.push_back(random() % 3 == 0 ? never : static_cast<Index>(random() % frames));
+    const SeenSurface surface = seen_surface(mesh, gone);
+    EXPECT_TRUE(surface.changes());
+    for (Index frame = 0; frame < frames; ++frame)
+      EXPECT_EQ(seen_in(surface, frame), seen_in(seen_surface(left_of(mesh, gone, frame)), 0)) << name(type) << frame;
+    const SurfaceEnds ends = ends_of(surface);
+    for (std::size_t k = 0; k < surface.cells.size(); ++k) EXPECT_EQ(ends.of_cells[k], gone[at(surface.cells[k])]);
+  }
+}
+
+TEST(SeenSurface, WhereNoCellGoesIsTheSameAsEver) {
+  const Mesh mesh = block(3, 2, 2, {1.0, 1.0, 1.0});
+  const SeenSurface plain = seen_surface(mesh);
+  const SeenSurface kept = seen_surface(mesh, std::vector<Index>(mesh.block(CellType::hexa8)->size() + 1, never));
+  EXPECT_FALSE(plain.changes());
+  EXPECT_FALSE(kept.changes());
+  EXPECT_EQ(seen_in(kept, 0), seen_in(plain, 0));
+}
+
+// The half x < 0.5 goes, cell by cell in any order. Before, the surface is that of the cube, after it that of the other
+// half, with the plane x = 0.5 in its place: no node of it has been moved to one that has gone.
+TEST(SeenSurface, CoarsenedOneKeepsToNodesThatAreThere) {
+  constexpr std::size_t most = 5000;
+  Mesh mesh = block(40, 40, 40, {1.0, 1.0, 1.0});
+  CellBlock& cells = mesh.blocks[0];
+  ASSERT_EQ(cells.type, CellType::hexa8);
+  std::mt19937 random(7);
+  std::vector<Index> gone;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const bool goes = mesh.coordinates[at(cells.nodes(static_cast<Index>(k))[0])][0] < 0.5 - 1e-9;
+    gone.push_back(goes ? 1 + static_cast<Index>(random() % 3) : never);
+    cells.file_numbers[k] = static_cast<std::int64_t>(k);
+  }
+  const SeenSurface fine = seen_surface(mesh, gone);
+  const std::vector<Vec3> at = points_of(fine, mesh);
+  const SeenSurface coarse = coarsened(fine, at, std::vector<Index>(at.size(), 0), most);
+  const std::vector<Vec3> left = points_of(coarse, mesh);
+  double before = 0.0, after = 0.0, least = 1.0;
+  for (const SeenTriangle& t : coarse.triangles) {
+    const double share = dot(area_vector(t, left), left[static_cast<std::size_t>(t.node[0])]) / 3.0;
+    if (t.from == 0) before += share;
+    if (t.until < never) continue;
+    after += share;
+    for (const Index n : t.node) least = std::min(least, left[static_cast<std::size_t>(n)][0]);
+  }
+  EXPECT_LE(coarse.nodes.size(), most);
+  EXPECT_EQ(least, 0.5);
+  EXPECT_NEAR(before, 1.0, 0.1);  // as below: less what the clusters on the edges move
+  EXPECT_NEAR(after, 0.5, 0.05);
 }
 
 TEST(SeenSurface, CoarsenedOneKeepsItsShapeWithinItsGrid) {

@@ -7,6 +7,7 @@ volumes (areas of plane cells) inside of VTK's faces (edges) are to add up to VO
 
 import sys
 
+from vtkmodules.vtkIOHDF import vtkHDFReader
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 
@@ -71,7 +72,7 @@ def size(cell):
 
 
 def judge(path, volume):
-    reader = vtkXMLUnstructuredGridReader()
+    reader = vtkHDFReader() if path.endswith(".vtkhdf") else vtkXMLUnstructuredGridReader()
     reader.SetFileName(path)
     reader.Update()
     grid = reader.GetOutput()

@@ -1,17 +1,19 @@
-"""Reads a results folder with VTK and compares every number: vtu_read.py FOLDER nx ny nz hexahedra|mixed STEP...
+"""Reads the frames of an index with VTK and compares every number: vtu_read.py INDEX nx ny nz hexahedra|mixed STEP...
 
 The expected numbers are computed here from the rules in output_vtu.cpp (unit cubes, x fastest; entry i of a field is
 scale * (i + 1/3) with scale = step + 1, negated for the stress and doubled for the energy density, which is there in
-single precision as well; points have their number modulo 251, cells theirs less 7). Equality is exact: raw binary data
-lose nothing. `mixed`: behind the cubes come the face z = 0 of the first one and that face's first edge.
+single precision as well; points have their number modulo 251, cells theirs less 7). Equality is exact: binary data
+lose nothing, deflated or not. `mixed`: behind the cubes come the face z = 0 of the first one and that face's first edge.
 """
 
+import os
 import struct
 import sys
 import xml.etree.ElementTree as ElementTree
 
 from vtkmodules.vtkCommonCore import vtkCommand
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_LINE, VTK_QUAD
+from vtkmodules.vtkIOHDF import vtkHDFReader
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 
@@ -40,12 +42,12 @@ def values(count, components, scale):
 
 def same(what, found, expected):
     if found != expected:
-        sys.exit(f"{what}: {len(found)} entries, expected {len(expected)}, or values differ")
+        sys.exit(f"{what}: {str(found)[:80]}, expected {str(expected)[:80]}, or values behind differ")
 
 
 def read(path):
     errors = []
-    reader = vtkXMLUnstructuredGridReader()
+    reader = vtkHDFReader() if path.endswith(".vtkhdf") else vtkXMLUnstructuredGridReader()
     reader.AddObserver(vtkCommand.ErrorEvent, lambda *_: errors.append(True))
     reader.SetFileName(path)
     reader.Update()
@@ -79,13 +81,42 @@ def check_frame(path, shape, is_mixed, scale):
     same("number", tuples(on_cells.GetArray("number")), [(c - 7,) for c in range(len(cells))])
 
 
+def frames(index):
+    """Times and files, as the index has them; what XDMF says of the arrays is compared with what VTK reads."""
+    root = ElementTree.parse(index).getroot()
+    if index.endswith(".pvd"):
+        return [(float(s.get("timestep")), s.get("file")) for s in root.find("Collection").findall("DataSet")]
+    grids = root.find("Domain").find("Grid").findall("Grid")
+    for grid in grids:
+        check_items(os.path.dirname(index), grid)
+    return [(float(g.find("Time").get("Value")), g.get("Name")) for g in grids]
+
+
+def check_items(folder, grid):
+    found = read(folder + "/" + grid.get("Name"))
+    fields = {"Node": found.GetPointData(), "Cell": found.GetCellData()}
+    kinds = {"vtkDoubleArray": ("Float", "8"), "vtkFloatArray": ("Float", "4"), "vtkIntArray": ("Int", "4"),
+             "vtkUnsignedCharArray": ("UChar", "1")}
+    same("arrays", len(grid.findall("Attribute")), sum(f.GetNumberOfArrays() for f in fields.values()))
+    for attribute in grid.findall("Attribute"):
+        array = fields[attribute.get("Center")].GetArray(attribute.get("Name"))
+        item = attribute.find("DataItem")
+        shape = [array.GetNumberOfTuples()] + ([array.GetNumberOfComponents()] if array.GetNumberOfComponents() > 1 else [])
+        same(attribute.get("Name"), item.get("Dimensions"), " ".join(str(n) for n in shape))
+        same(attribute.get("Name"), (item.get("NumberType"), item.get("Precision")), kinds[array.GetClassName()])
+    for item in grid.iter("DataItem"):
+        if not os.path.exists(folder + "/" + item.text.split(":")[0]):
+            sys.exit(f"{item.text}: no such file")
+    same("cells", int(grid.find("Topology").get("NumberOfElements")), found.GetNumberOfCells())
+
+
 def main():
-    folder, shape, steps = sys.argv[1], [int(n) for n in sys.argv[2:5]], [int(n) for n in sys.argv[6:]]
-    sets = ElementTree.parse(folder + "/fields.pvd").getroot().find("Collection").findall("DataSet")
-    if [float(s.get("timestep")) for s in sets] != [0.1 * step for step in steps]:
-        sys.exit("fields.pvd: wrong times")
-    for data_set, step in zip(sets, steps):
-        check_frame(folder + "/" + data_set.get("file"), shape, sys.argv[5] == "mixed", step + 1.0)
+    index, shape, steps = sys.argv[1], [int(n) for n in sys.argv[2:5]], [int(n) for n in sys.argv[6:]]
+    sets = frames(index)
+    if [time for time, _ in sets] != [0.1 * step for step in steps]:
+        sys.exit(f"{index}: wrong times")
+    for (_, file), step in zip(sets, steps):
+        check_frame(os.path.dirname(index) + "/" + file, shape, sys.argv[5] == "mixed", step + 1.0)
 
 
 main()

@@ -200,7 +200,7 @@ class Impact:
         text.append('[[contact]]\nname = "touch"\n' + self.contact)
         text.append('[scheme]\nkind = "central_differences"')
         text.append(f"[time]\nend = {end * radius / wave!r}")
-        text.append('[output]\nfields = ["displacement", "contact_pressure"]\n')
+        text.append(with_vtu('[output]\nfields = ["displacement", "contact_pressure"]\n'))
         (folder / "case.toml").write_text("\n".join(text), encoding="utf-8")
 
     def end(self):
@@ -213,6 +213,12 @@ def read_csv(path):
     with path.open(encoding="utf-8") as file:
         rows = list(csv.reader(line for line in file if not line.startswith("#")))
     return {name: array.array("d", map(float, column)) for name, column in zip(rows[0], zip(*rows[1:]))}
+
+
+def with_vtu(text):
+    """The case with frames that read_field reads: VTK's files, in double precision."""
+    keys = '[output]\nformat = "vtu"\nprecision = "double"\n'
+    return text.replace("[output]\n", keys, 1) if "[output]\n" in text else f"{text}\n{keys}"
 
 
 def read_field(path, name):

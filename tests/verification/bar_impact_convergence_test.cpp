@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "build/simulation.hpp"
 #include "casefile/read_case.hpp"
 #include "exact/bar_impact.hpp"
-#include "run/simulation.hpp"
 
 namespace carom {
 namespace {

@@ -7,7 +7,7 @@ import pathlib
 import subprocess
 import sys
 
-from ball_on_plate import read_csv, read_field
+from ball_on_plate import read_csv, read_field, with_vtu
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
 import gmsh_file as gmsh  # noqa: E402
@@ -120,7 +120,8 @@ class Run:
                 grid.file.write(folder / "mesh.msh")
             finally:
                 sys.stdout = out
-        (folder / "case.toml").write_text(f'units = "{units}"\n[mesh]\nfile = "mesh.msh"\n' + text, encoding="utf-8")
+        (folder / "case.toml").write_text(with_vtu(f'units = "{units}"\n[mesh]\nfile = "mesh.msh"\n{text}'),
+                                          encoding="utf-8")
         done = subprocess.run([carom, "run", "case.toml", "--out", "out", "--quiet", "--threads", "1"], cwd=folder,
                               text=True, capture_output=True, check=False)
         self.out, self.said = folder / "out", done.stdout + done.stderr

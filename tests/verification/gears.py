@@ -29,7 +29,7 @@ import tempfile
 
 import numpy as np
 
-from ball_on_plate import read_csv, read_field
+from ball_on_plate import read_csv, read_field, with_vtu
 
 CASE = pathlib.Path(__file__).resolve().parents[2] / "cases/gears/involute.toml"
 RATIO, PITCH, BETWEEN, FACET = 18 / 24, 2 * math.pi / 18, 0.105, 1.25e-3
@@ -78,7 +78,7 @@ class Run:
         if changes:
             text = text[:text.index("[[check]]")]
         folder.mkdir(parents=True, exist_ok=True)
-        (folder / "case.toml").write_text(text, encoding="utf-8")
+        (folder / "case.toml").write_text(with_vtu(text), encoding="utf-8")
         done = subprocess.run([carom, "run", "case.toml", "--out", "out", "--quiet"], cwd=folder, text=True,
                               capture_output=True, check=False)
         self.out = folder / "out"

@@ -48,7 +48,7 @@ import sys
 import tempfile
 import time
 
-from ball_on_plate import ball_nodes, grid_cells, grid_faces, permuted, read_csv, read_field
+from ball_on_plate import ball_nodes, grid_cells, grid_faces, permuted, read_csv, read_field, with_vtu
 
 SEED = 20261122
 IMPACTS, DRAWS = 30, 10
@@ -304,7 +304,7 @@ class Variant:
         text.append(f"[time]\nend = {impact.end!r}")
         if self.scheme not in EXPLICIT:
             text.append(f"step = {impact.step()!r}")
-        text.append('[output]\nfields = ["displacement"]\n')
+        text.append(with_vtu('[output]\nfields = ["displacement"]\n'))
         (folder / "case.toml").write_text("\n".join(text), encoding="utf-8")
 
     def write_mesh(self, path, length):

@@ -30,7 +30,7 @@ import tempfile
 import numpy as np
 
 import shape_bodies
-from ball_on_plate import read_field
+from ball_on_plate import read_field, with_vtu
 
 PRESSURE, E, NU = 10.0, 1000.0, 0.3
 SOLIDS = ("HEXA8", "HEXA20", "HEXA27", "TETRA4", "TETRA10", "PENTA6")
@@ -144,7 +144,7 @@ class Patch:
         text.append('[functions.ramp]\ntime = [0.0, 1.0]\nvalue = [0.0, 1.0]')
         text.append(f'[[contact]]\nname = "c"\nkind = "pair"\ngroup = "LOW1"\nmaster = "HIGH0"\n{contact}')
         text.append(f'[scheme]\nkind = "statics"\n{scheme}[time]\nend = 1.0\nstep = 1.0')
-        text.append('[output]\nfields = ["displacement", "stress", "contact_pressure"]\nfields_every = 1\n')
+        text.append(with_vtu('[output]\nfields = ["displacement", "stress", "contact_pressure"]\nfields_every = 1\n'))
         (folder / "case.toml").write_text("\n".join(text), encoding="utf-8")
 
     def run(self, carom, folder, enforcement):

@@ -11,7 +11,7 @@ import numpy as np
 
 import shape_bodies
 import surface_crossing
-from ball_on_plate import read_csv, read_field
+from ball_on_plate import read_csv, read_field, with_vtu
 
 # Gauss's points of the cells and the derivatives of their shape functions there: volumes of the shares of nodes
 POINT = 1.0 / np.sqrt(3.0)
@@ -73,7 +73,7 @@ class Scene:
                             f"centre = {centre.tolist()}")
         text += self.text
         text.append(f"[scheme]\n{scheme}\n[time]\nend = {self.end!r}{extra}")
-        (folder / "case.toml").write_text("\n".join(text) + "\n", encoding="utf-8")
+        (folder / "case.toml").write_text(with_vtu("\n".join(text) + "\n"), encoding="utf-8")
 
     def centre(self, i, x):
         mass = self.bodies[i].mass

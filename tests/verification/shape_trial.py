@@ -51,7 +51,7 @@ import numpy as np
 
 import shape_bodies
 import surface_crossing
-from ball_on_plate import read_csv, read_field
+from ball_on_plate import read_csv, read_field, with_vtu
 from impact_trial import DEPTH_LIMIT, EXPLICIT, UNITS, gained, rotation, run_all
 from shape_placing import place
 
@@ -193,7 +193,7 @@ class Variant:
         text.append(f'[scheme]\nkind = "{self.scheme}"\n[time]\nend = {float(self.end)!r}')
         if self.scheme not in EXPLICIT:
             text.append(f"step = {float(self.step)!r}")
-        text.append('[output]\nfields = ["displacement"]\n')
+        text.append(with_vtu('[output]\nfields = ["displacement"]\n'))
         (folder / "case.toml").write_text("\n".join(text), encoding="utf-8")
 
     def write_mesh(self, path, length):
@@ -244,7 +244,7 @@ class Variant:
 
     def measure(self, out, summary):
         found = {"momentum": summary["linear_momentum"]["error"],
-                 "gain": gained(read_csv(out / "energy.csv"), self.scheme),
+                 "gain": self.gain(read_csv(out / "energy.csv")),
                  "impulses": [[p["mass"] * (b - a) for a, b in zip(p["velocity_begin"], p["velocity_end"])]
                               for p in summary["parts"]]}
         found["overlap"], found["between"] = self.deepest(out)
@@ -258,6 +258,9 @@ class Variant:
         if not found["overlap"] <= DEPTH_LIMIT:
             faults.append("crossing of " + found["between"].split()[0])
         return found | {"fault": "; ".join(faults)}
+
+    def gain(self, energy):
+        return gained(energy, self.scheme)
 
     def deepest(self, out):
         """Greatest depth of two skins in each other over all frames, in the smaller cell, and of what, which and when."""

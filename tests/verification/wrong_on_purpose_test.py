@@ -263,6 +263,29 @@ WRONG = {
                                       ("[output]", "[output]\ncurves_every = 40")), r"filter"),
     "check of what is not there": (changed("fall", (PROBE, PROBE + "[[check]]\nquantity = \"velocity_w\"\nplace = \"top\"\nvalue = 2.0\ntolerance = 0.1\n")),
                                    r"which no table of this run holds"),
+    "no inertia where the foot yields": (changed("fall", ("law = \"linear_elastic\"", "law = \"j2\"\nyield_stress = 2e7"),
+                                                 ("central_differences", "modified_mass")), r"takes the inertia of contact nodes"),
+    "load that nothing holds": (changed("strip", ("blocked = [\"x\", \"y\"]", "blocked = [\"x\"]")), r"no support and no contact holds|nothing holds"),
+    "springs that take a part of the stroke": (changed("strip", ("[[load]]\ngroup = \"TIP\"\nforce = [0.0, -10.0, 0.0]",
+                                                                 "[[support]]\nnodes = \"FACE\"\ndisplacement = { y = -2e-5, function = \"ramp\" }\n"
+                                                                 "[functions.ramp]\ntime = [0.0, 1.0]\nvalue = [0.0, 1.0]\n"
+                                                                 "[[contact]]\nname = \"bed\"\nkind = \"plane\"\ngroup = \"BED\"\n"
+                                                                 "point = [0.0, 0.0, 0.0]\nnormal = [0.0, 1.0, 0.0]"),
+                                                       ("[[support]]\nnodes = \"ROOT\"\nblocked = [\"x\", \"y\"]", "[[support]]\nnodes = \"ROOT\"\nblocked = [\"x\"]"),
+                                                       ("ymax = \"FACE\"", "ymin = \"BED\", ymax = \"FACE\""),
+                                                       ("kind = \"statics\"", "kind = \"statics\"\nenforcement = \"penalty\"")),
+                                               r"of the motion that is imposed"),
+    "restitution of a soft block": (changed("fall", ("group = \"FOOT\"\npoint", "group = \"FOOT\"\nrestitution = 0.5\npoint"),
+                                            ("central_differences", "cd_lagrange")), r"restitution"),
+    "small strain where cells are crushed": (changed("strip", ("[[load]]\ngroup = \"TIP\"\nforce = [0.0, -10.0, 0.0]",
+                                                               "[[support]]\nnodes = \"TIP\"\ndisplacement = { x = -0.15, function = \"ramp\" }\n"
+                                                               "[functions.ramp]\ntime = [0.0, 1.0]\nvalue = [0.0, 1.0]")), r"small.strain"),
+    "key of 50,000 dots": (SOUND["fall"] + "\n" + "a." * 50000 + "b = 1\n", r"parts|dots|deep"),
+    "formulation of other cells": (changed("strip", ("section = \"plane_strain\"", "section = \"plane_strain\"\nformulation = \"reduced\"")),
+                                   r"formulation"),
+    "mass of another world": (changed("fall", ("central_differences\"", "central_differences\"\nmass_scaling_step = 1e-4")), r"mass_scaling_limit"),
+    "a second shift of the plane": (changed("fall", ("point = [0.0, 0.0, -1e-4]", "point = [0.0, 0.0, -1e-1]")), r"not reached before the end"),
+    "two materials of one name": (SOUND["fall"] + STEEL, r"materials.steel|steel"),
     "text in UTF-16": (SOUND["fall"].encode("utf-16"), r"UTF-16.*save it as UTF-8"),
     "text in Latin-1": ((UNITS + "\ntitle = \"Stoß\"" + SOUND["fall"][len(UNITS):]).encode("latin-1"), r"Latin-1.*save it as UTF-8"),
 }

@@ -1,0 +1,54 @@
+#include "march/failure_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/vec3.hpp"
+#include "schemes/scheme_table.hpp"
+
+namespace carom {
+
+std::string worst_place(const System& s, const State& state) {
+  std::size_t worst = 0;
+  double fastest = -1.0;
+  for (std::size_t n = 0; n < s.mesh.node_count(); ++n) {
+    const double speed = norm({state.v[3 * n], state.v[3 * n + 1], state.v[3 * n + 2]});
+    if (speed <= fastest) continue;
+    worst = n;
+    fastest = speed;
+    if (!std::isfinite(speed)) break;
+  }
+  const Vec3& x = s.mesh.coordinates[worst];
+  std::string text = fmt::format("worst node {} at ({:.4g}, {:.4g}, {:.4g}), speed {:.4g}", s.mesh.node_numbers[worst],
+                                 x[0], x[1], x[2], fastest);
+  for (std::size_t k = 0; k < s.solid.cell_count(); ++k) {
+    const auto nodes = s.solid.nodes_of_cell(k);
+    if (std::find(nodes.begin(), nodes.end(), static_cast<Index>(worst)) == nodes.end()) continue;
+    const CellRef cell = s.solid.cells()[k];
+    const CellBlock& block = s.mesh.blocks[static_cast<std::size_t>(cell.block)];
+    return text + fmt::format(", in cell {}", block.file_numbers[static_cast<std::size_t>(cell.cell)]);
+  }
+  return text;
+}
+
+std::string energy_remedy(const Stage& stage) {
+  const SchemeSettings& scheme = stage.settings();
+  const bool has_springs = traits(scheme.enforcement).adds_stiffness && stage.system().contact.slots() > 0;
+  std::string text = stage.time().step ? "Lower time.step" : "Lower time.safety";
+  if (has_springs) text += " or contact.stiffness (contact.stiffness_factor)";
+  if (!is_explicit(scheme.kind)) text += ", or choose a scheme that dissipates or conserves energy";
+  return text;
+}
+
+std::string touch_remedy(const Stage& stage) {
+  const std::optional<double> rebound = touch_rebound(stage.settings());
+  if (!rebound || *rebound <= largest_touch_rebound) return {};
+  return fmt::format(
+      "{} with plain multipliers throws a node that touches for one step back with up to {:.3g} times its speed, and "
+      "so makes energy where touches are short; enforcement = \"lagrange\", which stops what touches, does not",
+      describe(stage.settings()), *rebound);
+}
+
+}  // namespace carom

@@ -1,0 +1,117 @@
+// The way of a simulation through time, step by step.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "build/simulation.hpp"
+#include "march/erosions.hpp"
+#include "march/observer.hpp"
+#include "march/step_guard.hpp"
+#include "march/step_scale.hpp"
+
+namespace carom {
+
+/// Leads the state of a simulation through its stages. Marches know nothing of each other: there may be several, one
+/// after the other and side by side, of one simulation or of several. Not movable, since parts refer to each other.
+class March {
+ public:
+  /// The simulation outlives the march.
+  explicit March(const Simulation& simulation);
+  March(const March&) = delete;
+  March& operator=(const March&) = delete;
+
+  /// From start() on it sees what becomes of the run, after those that have been added before; it outlives the march.
+  void add(Observer& observer) { observers_.push_back(&observer); }
+
+  /// Starts the first scheme and shows the initial state. Throws RunError when there is no way to start.
+  void start();
+  /// Makes one step that holds, shortened and made again as often as need be, in the next stage where one has ended.
+  /// Precondition: started, not failed, and not at the end. Throws RunError when the run cannot go on, or lets
+  /// has_failed tell so.
+  void step();
+  /// The march ends at this time, in steps as before. A fixed step has to lead there; others meet it to 2^-17 of the
+  /// usual step. Throws std::invalid_argument, which says why, where that cannot be. Precondition: started.
+  void prolong(double end);
+  /// The run ends here, before its end: for the observers.
+  void leave();
+
+  bool at_end() const;
+  /// When.
+  double end() const { return end_; }
+  /// No further step can be made; message() says why.
+  bool has_failed() const { return !message_.empty(); }
+  const std::string& message() const { return message_; }
+
+  /// Of the last step, or the initial state. Precondition: started. Valid until the next step.
+  StepView view() const;
+  /// Precondition of all of these: started.
+  const Scheme& scheme() const { return *scheme_; }
+  const EnergyLedger& ledger() const { return *ledger_; }
+  const RunMonitor& monitor() const { return *monitor_; }
+  bool is_started() const { return ledger_.has_value(); }
+
+  const State& state() const { return state_; }
+  /// Gives away what holds q, v or a for those that go on looking at it, and goes on with a copy.
+  std::vector<double> hand_over(std::vector<double> State::*values);
+  long long steps() const { return step_; }
+  double dt_smallest() const { return dt_smallest_; }
+  double dt_largest() const { return dt_largest_; }
+  /// Largest strain so far of the rigid bodies that turn.
+  double body_strain() const { return body_strain_; }
+  /// Changes of scheme and solver on the way, and why steps were cut or kept short.
+  std::vector<std::string> log() const;
+
+ private:
+  template <class A>
+  friend void fields(A& archive, March& x) {
+    x.keep(archive);
+  }
+  void keep(Archive& archive);
+  void keep_state(Archive& archive);
+  void keep_topology(Archive& archive);
+
+  struct GivenMotion {
+    double kinetic = 0.0;
+    Momentum momentum{};
+  };
+  const Stage& stage() const { return *s_.stages()[stage_number_]; }
+  void begin_stage();
+  void begin_books();
+  void let_follow();
+  GivenMotion given_motion(const std::vector<double>& v_before) const;
+  void book_switch(const GivenMotion& given);
+  std::string with_cell(const std::string& failure) const;
+  std::optional<StepReport> make_step();
+  void book(const StepReport& report);
+  void erode();
+  void book_eroded(const EnergyTerms& before, const SolidEnergies& gone);
+  void note_solver();
+  double load_impulse() const;
+  void show();
+
+  const Simulation& s_;
+  std::vector<Observer*> observers_;
+  std::unique_ptr<Scheme> scheme_;
+  std::optional<StepGuard> steps_;
+  std::optional<StepScale> step_scale_;
+  State state_, next_;
+  std::optional<EnergyLedger> ledger_;
+  std::optional<RunMonitor> monitor_;
+  std::optional<Erosions> erosions_;  ///< where cells may go
+  double end_;
+  std::size_t stage_number_ = 0;
+  long long step_ = 0;
+  double dt_ = 0.0;     ///< of the last step
+  int iterations_ = 0;  ///< of the last step
+  std::string solver_;  ///< Scheme::solver_name after the last step
+  std::vector<std::string> log_;
+  double dt_smallest_ = 0.0, dt_largest_ = 0.0;
+  double body_strain_ = 0.0;
+  std::string alarm_, message_;
+};
+
+}  // namespace carom

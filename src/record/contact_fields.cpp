@@ -1,0 +1,123 @@
+#include "record/contact_fields.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "math/vec3.hpp"
+
+namespace carom {
+
+namespace {
+
+/// The entries of a row's nodes: of its own side, or of the other one.
+struct Entries {
+  std::size_t begin, end;
+};
+Entries entries_of_side(const ConstraintRows& rows, std::size_t r, bool is_other) {
+  const auto first = static_cast<std::size_t>(rows.begin[r]), last = static_cast<std::size_t>(rows.begin[r + 1]);
+  const std::size_t split = last - static_cast<std::size_t>(rows.behind[r]);
+  return is_other ? Entries{split, last} : Entries{first, split};
+}
+
+/// Nodes with a row of their own in a contact of two passes by multipliers. What each pass carries there is one of many
+/// answers (the rows depend on each other), but the force on a node is unique: it balances the cells. So it makes the
+/// pressure. Where nodes are guards, means have the pressure. Springs, which store energy, have no such nodes: the
+/// force of each row follows from its own gap.
+class TwoPassNodes {
+ public:
+  explicit TwoPassNodes(const ContactResponse& response) : response_(response) {
+    const ConstraintRows& rows = *response.rows;
+    if (response.stored > 0.0) return;
+    std::set<Index> sources;
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      if (rows.is_back[r]) sources.insert(rows.source[r]);
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      if (rows.allowed[r] > 0.0) sources.erase(rows.source[r]);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const auto [begin, end] = entries_of_side(rows, r, false);
+      if (end - begin == 1 && sources.contains(rows.source[r]))
+        own_[{rows.source[r], rows.node[begin]}] = {rows.measure[r], rows.normal[r]};
+    }
+  }
+  bool has(std::size_t r, Index node) const { return own_.contains({response_.rows->source[r], node}); }
+
+  /// Adds the normal forces of all rows on these nodes, over the areas that their own rows stand for.
+  void add_to(std::vector<double>& pressure) const {
+    const ConstraintRows& rows = *response_.rows;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      for (std::int64_t k = rows.begin[r]; k < rows.begin[r + 1]; ++k) {
+        const Index node = rows.node[static_cast<std::size_t>(k)];
+        const auto own = own_.find({rows.source[r], node});
+        if (own == own_.end()) continue;
+        pressure[static_cast<std::size_t>(node)] +=
+            response_.force[r][0] * dot(rows.block[static_cast<std::size_t>(k)][0], own->second.normal) /
+            own->second.area;
+      }
+    }
+  }
+
+ private:
+  struct Own {
+    double area;
+    Vec3 normal;
+  };
+  const ContactResponse& response_;
+  std::map<std::pair<Index, Index>, Own> own_;  ///< by source and node
+};
+
+/// Means over the rows that see a node from one side, by their weights along the normal; pressures without the nodes of
+/// two passes. What guards press comes on top.
+struct SideMeans {
+  std::vector<double> pressure, gap, weight;
+  std::vector<std::uint8_t> status;
+
+  SideMeans(const ContactResponse& response, const TwoPassNodes& two_pass, std::span<const double> u, bool is_other)
+      : pressure(u.size() / 3, 0.0), gap(pressure), weight(pressure), status(weight.size(), 0) {
+    const ConstraintRows& rows = *response.rows;
+    std::vector<double> pressing = weight, guarded = weight;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (rows.source[r] < 0) continue;  // an equation
+      const auto [begin, end] = entries_of_side(rows, r, is_other);
+      for (std::size_t k = begin; k < end; ++k) {
+        const double w = (is_other ? -1.0 : 1.0) * dot(rows.block[k][0], rows.normal[r]);
+        if (w <= 0.0) continue;
+        const auto n = static_cast<std::size_t>(rows.node[k]);
+        status[n] = std::max(status[n], static_cast<std::uint8_t>(1 + static_cast<int>(response.status[r])));
+        if (rows.allowed[r] > 0.0) {
+          guarded[n] += w * response.force[r][0] / rows.measure[r];
+          continue;
+        }
+        weight[n] += w;
+        gap[n] += w * rows.gap_at(r, u);
+        if (two_pass.has(r, rows.node[k])) continue;
+        pressing[n] += w;
+        pressure[n] += w * response.force[r][0] / rows.measure[r];
+      }
+    }
+    for (std::size_t n = 0; n < weight.size(); ++n) {
+      if (pressing[n] > 0.0) pressure[n] /= pressing[n];
+      pressure[n] += guarded[n];
+      if (weight[n] > 0.0) gap[n] /= weight[n];
+    }
+  }
+};
+
+}  // namespace
+
+NodalContact nodal_contact(const ContactResponse& response, std::span<const double> u) {
+  const TwoPassNodes two_pass(response);
+  SideMeans own(response, two_pass, u, false);
+  const SideMeans other(response, two_pass, u, true);
+  for (std::size_t n = 0; n < own.weight.size(); ++n) {
+    own.pressure[n] += other.pressure[n];
+    own.status[n] = std::max(own.status[n], other.status[n]);
+    if (own.weight[n] == 0.0) own.gap[n] = other.gap[n];
+  }
+  two_pass.add_to(own.pressure);
+  return {std::move(own.pressure), std::move(own.gap), std::move(own.status)};
+}
+
+}  // namespace carom

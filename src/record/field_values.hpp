@@ -1,0 +1,70 @@
+// The values of fields at one instant, by their names.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "build/simulation.hpp"
+#include "march/observer.hpp"
+#include "math/voigt.hpp"
+#include "output/quantities.hpp"
+#include "record/contact_fields.hpp"
+
+namespace carom {
+
+/// Values entry after entry; they may be those of the state, or of what FieldsNow keeps.
+struct FieldValues {
+  std::vector<double> own{};
+  std::vector<Voigt> tensors{};
+  std::span<const double> values{};
+
+  explicit FieldValues(std::span<const double> kept) : values(kept) {}
+  explicit FieldValues(std::vector<double> made) : own(std::move(made)), values(own) {}
+  explicit FieldValues(std::vector<Voigt> made) : tensors(std::move(made)), values(entries(tensors)) {}
+  FieldValues(FieldValues&&) = default;  // the values stay where they are
+
+  static std::span<const double> entries(const std::vector<Voigt>& tensors) {
+    return {tensors.empty() ? nullptr : tensors.front().data(), 6 * tensors.size()};
+  }
+};
+
+/// What a field is: of a quantity of the table, or of a variable that laws remember.
+struct FieldKind {
+  Place place = Place::points;
+  Form form = Form::scalar;
+
+  bool is_at_nodes() const { return place == Place::nodes; }
+};
+/// Nothing where the case has no such field: of contact without one, of what no law remembers, or no field of frames.
+std::optional<FieldKind> field_kind(const Simulation& simulation, std::string_view name);
+
+/// Fields at an instant. What several of them need is made once: ask for those that need stresses one after the other.
+class FieldsNow {
+ public:
+  FieldsNow(const Simulation& s, const StepView& now) : simulation(s), view(now) {}
+
+  /// Precondition: field_kind has one.
+  FieldValues evaluate(std::string_view name);
+  /// Does it need the stresses of all cells, the largest array of all?
+  static bool needs_stress(std::string_view name);
+  void forget_stress() { stress_ = {}; }
+
+  const std::vector<Voigt>& stress();
+  const NodalContact& contact();
+
+  const Simulation& simulation;
+  const StepView& view;
+
+ private:
+  std::vector<Voigt> stress_;
+  std::optional<NodalContact> contact_;
+};
+
+/// Names of the fields that can be evaluated; those of points join by themselves.
+std::vector<std::string_view> evaluated_fields();
+
+}  // namespace carom

@@ -1,0 +1,64 @@
+// The point of a surface that a node meets, put together from feet on facets.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "surface/facet_projection.hpp"
+
+namespace carom {
+
+/// The foot of a node on one facet that it meets: the point of the perpendicular.
+struct FacetFoot {
+  Index facet = -1;
+  double weight = 1.0;         ///< share of this facet in what the node meets
+  double xi = 0.0, eta = 0.0;  ///< a little outside of the facet beyond an edge
+  std::array<double, 4> N{};
+  Vec3 a_1{}, a_2{}, facet_normal{};  ///< tangents and normal of the facet there
+  Vec3 normal{};                      ///< unit vector along x - foot
+  double gap = 0.0;                   ///< (x - foot) . normal
+  Vec3 gradient{};                    ///< of the node's gap: along x, and times -N_a along x_a
+  Vec3 at_closest{};                  ///< the same with N_closest
+  std::array<double, 4> N_closest{};  ///< at the facet's closest point
+  double unlike_slope = 0.0;          ///< of the weight, not yet divided by the sum, in the difference of the gaps
+};
+
+/// The point that a node meets: on one facet, or beside edges on several, whose weights add up to 1. gap = sum_f
+/// weight_f gap_f; its gradient by x is `gradient` (of length 1 where the facets lie in one plane), by the facets'
+/// nodes see FacetFoot.
+struct SurfacePoint {
+  Index facet = -1;  ///< the nearest
+  std::vector<FacetFoot> feet;
+  Vec3 gradient{};
+  double gap = 0.0;
+  /// The length, >= 0, by which the gap is below that of the nearest facet alone and of the body with its sides where
+  /// they are.
+  double rounded = 0.0;
+};
+
+/// A foot at the facet's closest point, alone.
+FacetFoot foot_at(Index f, const Projection& p, const Vec3& normal, double gap);
+
+/// Multiplies the weight of a foot by (1 - z^2 / b^2)^2, z = g - g_0 the difference of its gap to that of the nearest
+/// facet; false where nothing is left. `gradient` and `at_closest` are those of the weight without the change of z.
+bool fade_unlike(FacetFoot& foot, double b, const FacetFoot& nearest);
+
+/// Makes the point the mean over its feet, the nearest first, whose gradients are those of their weights.
+void take_mean(SurfacePoint& met);
+
+/// Makes the point one of facet f alone.
+void take_only(Index f, const Projection& p, const SignedDistance& at, SurfacePoint& met);
+
+/// The closest point of a facet's end, and how far the facet is continued beyond it.
+struct Rim {
+  Vec3 point{};
+  std::array<double, 4> N{};
+  double width = 0.0;
+};
+
+/// Multiplies the gap of a point beyond the end of facet f by (1 - t^2 / w^2)^2, t^2 = |x - p|^2 - g^2 the distance
+/// from the end's closest point p along the facet, g the gap from the facet: so that it begins at zero at t = w,
+/// without a kink at either end. The gradient is exact.
+void fade(Index f, const Projection& p, const Rim& rim, const Vec3& x, SurfacePoint& met);
+
+}  // namespace carom

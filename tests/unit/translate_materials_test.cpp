@@ -1,0 +1,131 @@
+// *MATERIAL of a deck: elasticity, plasticity, heat.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "translate_fixture.hpp"
+
+namespace carom::translate_materials_test {
+namespace {
+
+using test::case_from;
+using test::good_deck;
+using test::has_note;
+using test::message_of;
+using test::replaced;
+using test::translated;
+
+const std::string johnson_cook =
+    "*DENSITY\n7.8e-9\n*PLASTIC, HARDENING=JOHNSON COOK\n90., 292., 0.31, 1.09, 1083., 25.\n"
+    "*RATE DEPENDENT, TYPE=JOHNSON COOK\n0.025, 1.\n*SPECIFIC HEAT\n3.83e8\n*INELASTIC HEAT FRACTION\n0.9\n"
+    "*CONDUCTIVITY\n400.\n*EXPANSION, ZERO=20.\n1.7e-5\n";
+
+TEST(Translate, PlasticityAsATable) {
+  const std::string deck = replaced(good_deck, "*DENSITY", "*PLASTIC\n300., 0.\n400., 0.1\n*DENSITY");
+  const Case made = case_from(deck);
+  EXPECT_EQ(*made.materials[0].law, "j2_small_strain");
+  EXPECT_EQ(*made.materials[0].curve, (std::vector<std::array<double, 2>>{{0.0, 300.0}, {0.1, 400.0}}));
+  EXPECT_EQ(*case_from(replaced(deck, "*STEP\n", "*STEP, NLGEOM\n")).materials[0].law, "j2");
+}
+
+/// Accepted, the curve of the temperature of the first line holds.
+TEST(Translate, CurvesOfTemperatures) {
+  const std::string deck = replaced(good_deck, "*DENSITY",
+                                    "*PLASTIC\n90., 0., 20.\n120., 0.1, 20.\n60., 0., 600.\n80., 0.1, 600.\n*DENSITY");
+  EXPECT_NE(message_of(deck).find("--accept \"PLASTIC\" runs without"), std::string::npos);
+  const Case made = case_of(translated(deck, {"PLASTIC"}).tree, "x.inp");
+  EXPECT_EQ(*made.materials[0].curve, (std::vector<std::array<double, 2>>{{0.0, 90.0}, {0.1, 120.0}}));
+}
+
+TEST(Translate, PlasticityThatDependsOnTheRate) {
+  const auto material = [](const std::string& plastic) {
+    return case_from(replaced(good_deck, "*DENSITY", plastic + "*DENSITY")).materials[0];
+  };
+  const CaseMaterial curves = material("*PLASTIC\n90., 0.\n120., 0.1\n*PLASTIC, RATE=100.\n130., 0.\n");
+  EXPECT_EQ(*curves.law, "j2_rate_small_strain");
+  EXPECT_EQ(curves.rates, (std::vector<double>{0.0, 100.0}));
+  EXPECT_EQ(*curves.curve, (std::vector<std::array<double, 2>>{{0.0, 90.0}, {0.1, 120.0}, {0.0, 130.0}}));
+  const CaseMaterial ratios = material("*PLASTIC\n90., 0.\n*RATE DEPENDENT, TYPE=YIELD RATIO\n1., 0.\n1.5, 100.\n");
+  EXPECT_EQ(*ratios.curve, (std::vector<std::array<double, 2>>{{0.0, 90.0}, {0.0, 135.0}}));
+  // Cowper and Symonds' factor of mild steel at the rate D is 2: within the rates that are written, and between two.
+  const CaseMaterial power = material("*PLASTIC\n90., 0.\n*RATE DEPENDENT, TYPE=POWER LAW\n40., 5.\n");
+  const auto faster = std::upper_bound(power.rates.begin(), power.rates.end(), 40.0);
+  ASSERT_NE(faster, power.rates.end());
+  const auto k = static_cast<std::size_t>(faster - power.rates.begin());
+  const double share = (40.0 - power.rates[k - 1]) / (power.rates[k] - power.rates[k - 1]);
+  const double stress = (*power.curve)[k - 1][1] + share * ((*power.curve)[k][1] - (*power.curve)[k - 1][1]);
+  EXPECT_NEAR(stress, 180.0, 0.01 * 90.0);
+}
+
+TEST(Translate, JohnsonAndCook) {
+  const Case made = case_from(replaced(replaced(good_deck, "*DENSITY",
+                                                "*PLASTIC, HARDENING=JOHNSON COOK\n90., 292., 0.31, 1.09, 1356., 298.\n"
+                                                "*RATE DEPENDENT, TYPE=JOHNSON COOK\n0.025, 1.\n*SPECIFIC HEAT\n3.8e8\n"
+                                                "*DENSITY"),
+                                       "*DYNAMIC, DIRECT\n1e-6", "*DYNAMIC, EXPLICIT, ADIABATIC\n"));
+  EXPECT_EQ(*made.materials[0].law, "johnson_cook");
+  EXPECT_EQ(*made.materials[0].value("n"), 0.31);
+  EXPECT_EQ(*made.materials[0].value("m"), 1.09);
+  EXPECT_EQ(*made.materials[0].value("C"), 0.025);
+  EXPECT_EQ(*made.materials[0].value("melting_temperature"), 1356.0);
+  EXPECT_EQ(*made.materials[0].value("taylor_quinney"), 0.9);
+}
+
+/// A deck in degrees Celsius: the law takes differences of temperatures alone.
+TEST(Translate, InitialTemperaturesOfJohnsonAndCook) {
+  std::string deck = replaced(good_deck, "*DENSITY\n7.8e-9\n", johnson_cook);
+  deck =
+      replaced(deck, "*INITIAL CONDITIONS", "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, -40.\n*INITIAL CONDITIONS");
+  deck = replaced(deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3", "*DYNAMIC, EXPLICIT\n, 1e-3");
+  const TranslatedDeck cold = translated(deck);  // no step heats: conduction and expansion change nothing
+  EXPECT_TRUE(has_note(cold, "*CONDUCTIVITY changes nothing"));
+  EXPECT_TRUE(has_note(cold, "*EXPANSION changes nothing"));
+  const Case of_cold = case_of(cold.tree, "x.inp");
+  EXPECT_DOUBLE_EQ(*of_cold.materials[0].value("initial_temperature"), -40.0 + 273.15);
+  EXPECT_DOUBLE_EQ(*of_cold.materials[0].value("reference_temperature"), 25.0 + 273.15);
+  EXPECT_DOUBLE_EQ(*of_cold.materials[0].value("melting_temperature"), 1083.0 + 273.15);
+  EXPECT_EQ(*of_cold.materials[0].value("taylor_quinney"), 0.0);
+  const std::string some = message_of(replaced(deck, "NALL, -40.", "BASE, -40."));
+  EXPECT_NE(some.find("*INITIAL CONDITIONS: several temperatures in the material STEEL, or none at some nodes"),
+            std::string::npos)
+      << some;
+}
+
+/// Adiabatic and coupled steps, and elements with temperatures, which are their mechanical twins.
+TEST(Translate, StepsThatHeat) {
+  std::string deck = replaced(good_deck, "*DENSITY\n7.8e-9\n", johnson_cook);
+  deck = replaced(replaced(deck, "TYPE=C3D8,", "TYPE=C3D8RT,"), "TYPE=C3D8,", "TYPE=C3D8T,");
+  const std::string step = "*DYNAMIC, DIRECT\n1e-6, 1e-3";
+  const std::string adiabatic = replaced(deck, step, "*DYNAMIC, EXPLICIT, ADIABATIC\n, 1e-3");
+  EXPECT_NE(message_of(adiabatic).find("--accept \"EXPANSION\" runs"), std::string::npos) << message_of(adiabatic);
+  const std::string coupled = replaced(deck, step, "*DYNAMIC TEMPERATURE-DISPLACEMENT, EXPLICIT\n, 1e-3");
+  EXPECT_NE(message_of(coupled).find("--accept \"DYNAMIC TEMPERATURE-DISPLACEMENT,CONDUCTIVITY,EXPANSION\" runs"),
+            std::string::npos)
+      << message_of(coupled);
+  for (const TranslatedDeck& made :
+       {translated(adiabatic, {"EXPANSION"}),
+        translated(coupled, {"EXPANSION", "CONDUCTIVITY", "DYNAMIC TEMPERATURE-DISPLACEMENT"})}) {
+    EXPECT_TRUE(has_note(made, "C3D8RT: its nodes have no temperatures; one point"));
+    const Case given = case_of(made.tree, "x.inp");
+    EXPECT_EQ(*given.scheme.kind, SchemeKind::central_differences);
+    EXPECT_EQ(*given.materials[0].value("taylor_quinney"), 0.9);
+    EXPECT_EQ(**given.parts[0].formulation, "one_point");
+    EXPECT_FALSE(given.parts[1].formulation);
+  }
+}
+
+// C10 = G / 2 and D1 = 2 / K: E = 9 K G / (3 K + G).
+TEST(Translate, NeoHookeOnlyWhereItsPotentialIsAccepted) {
+  const std::string deck = replaced(replaced(good_deck, "*ELASTIC\n210000., 0.3", "*HYPERELASTIC, NEO HOOKE\n0.5, 0.2"),
+                                    "*STEP\n", "*STEP, NLGEOM\n");
+  EXPECT_THROW(case_from(deck), CaseError);
+  const Case made = case_from(deck, {"hyperelastic"});
+  EXPECT_EQ(*made.materials[0].law, "neo_hookean");
+  EXPECT_NEAR(*made.materials[0].value("E"), 90.0 / 31.0, 1e-15);  // K = 10, G = 1
+  EXPECT_NEAR(*made.materials[0].value("nu"), 28.0 / 62.0, 1e-15);
+}
+
+}  // namespace
+}  // namespace carom::translate_materials_test
