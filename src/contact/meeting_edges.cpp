@@ -15,9 +15,9 @@ namespace carom {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr double sharp = 5.0 * degree, no_notch = -5.0 * degree;  // sharp edges, and what they meet
-constexpr double sharp_for_multipliers = 30.0 * degree;           // both
-constexpr double deepest = 0.75;                                  // of the facet size
+constexpr double turn_of_sharp = 5.0 * degree, no_notch = -5.0 * degree;  // sharp edges, and what they meet
+constexpr double sharp_for_multipliers = 30.0 * degree;                   // both
+constexpr double deepest_crossing = 0.75;                                 // of the facet size
 // EdgeEnd::width where rows of overlaps hold corners, too: there pairs that fade in less bring blocks that are crushed
 // at their wave speed deeper, 0.30 of a cell for 0.20.
 constexpr double ending_beside_overlaps = 0.05;
@@ -80,7 +80,7 @@ class Meetings {
     std::vector<FeatureEdge> edges = feature_edges(model_.mesh->coordinates, surface.facets, beside_, least_turn);
     const SmoothSurface* smooth = smooth_of(surface);
     for (FeatureEdge& edge : edges)
-      edge.is_sharp = edge.turn > sharp && (smooth == nullptr || !smooth->is_smooth_across(edge.node));
+      edge.is_sharp = edge.turn > turn_of_sharp && (smooth == nullptr || !smooth->is_smooth_across(edge.node));
     return edges;
   }
   const SmoothSurface* smooth_of(const Surface& surface) const {
@@ -111,7 +111,7 @@ class Meetings {
     if (!contact_.self) add(edges_that(second, true), edges_that(first, false), true);
   }
   void find_depths() {
-    const double limit = deepest * size_;
+    const double limit = deepest_crossing * size_;
     const std::map<Index, double> by_node =
         beside_.empty() ? depths_of_surfaces(limit) : depths_by_node(model_, beside_, limit);
     // Faces of a rigid surface that are sides of no cell are not in the skin: nothing is behind them.
