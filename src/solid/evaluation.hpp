@@ -1,6 +1,7 @@
 // What an evaluation of the solids needs beside the displacement, and what it gives beside the forces.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -27,15 +28,13 @@ struct alignas(64) SolidEnergies {
   double strain = 0.0, plastic = 0.0, hourglass = 0.0, hourglass_loss = 0.0, viscous = 0.0, heat = 0.0;
   double distortion = 0.0;
 
+  static const std::array<double SolidEnergies::*, 7> terms;
   void add(const SolidEnergies& other) {
-    strain += other.strain;
-    plastic += other.plastic;
-    hourglass += other.hourglass;
-    hourglass_loss += other.hourglass_loss;
-    viscous += other.viscous;
-    heat += other.heat;
-    distortion += other.distortion;
+    for (double SolidEnergies::*const term : terms) this->*term += other.*term;
   }
 };
+inline constexpr std::array<double SolidEnergies::*, 7> SolidEnergies::terms{
+    &SolidEnergies::strain,  &SolidEnergies::plastic, &SolidEnergies::hourglass, &SolidEnergies::hourglass_loss,
+    &SolidEnergies::viscous, &SolidEnergies::heat,    &SolidEnergies::distortion};
 
 }  // namespace carom

@@ -101,34 +101,37 @@ std::vector<double> Solid::initial_history() const {
 
 SolidEnergies Solid::evaluate(std::span<const double> u, const PointStep& step, std::span<double> f,
                               std::span<double> end) const {
-  const std::size_t count = impl_->solid.chunks.size();
-  std::vector<SolidEnergies> partial(count + impl_->patches.cells.chunks.size());
-  impl_->sum_over_chunks(f, [&](const SolidCells& cells, std::size_t c, const Block& block, double* sum) {
-    const Chunk& chunk = cells.chunks[c];
-    SolidEnergies& energies = partial[&cells == &impl_->solid ? c : count + c];
-    if (!block.is_nodal())
-      cells.add_living(chunk, step, end, std::array{u.data()}, sum,
-                       [&](const CellBatches& batch, const std::array<const double*, 1>& own, double* into) {
-                         block.kernels.add_internal_force(batch, block.law(), own[0], into, &energies);
-                       });
-    energies.distortion = cells.add_distortion_force(chunk, u, f, step);
-  });
+  std::vector<SolidEnergies> of_cells(impl_->solid.chunks.size()), of_patches(impl_->patches.cells.chunks.size());
+  impl_->sum_over_chunks(
+      f, [&](const SolidCells& cells, std::size_t c, const Block& block, std::span<const Chunk> runs, double* sum) {
+        SolidEnergies& energies = (&cells == &impl_->solid ? of_cells : of_patches)[c];
+        for (const Chunk& run : runs)
+          if (!block.is_nodal())
+            cells.add_living(run, step, end, std::array{u.data()}, sum,
+                             [&](const CellBatches& batch, const std::array<const double*, 1>& own, double* into) {
+                               block.kernels.add_internal_force(batch, block.law(), own[0], into, &energies);
+                             });
+        for (const Chunk& run : runs) energies.distortion += cells.add_distortion_force(run, u, f, step);
+      });
+  impl_->gather(of_cells, of_patches, end);
   SolidEnergies total;
-  for (const SolidEnergies& energies : partial) total.add(energies);
+  for (const std::vector<SolidEnergies>* partial : {&of_cells, &of_patches})
+    for (const SolidEnergies& energies : *partial) total.add(energies);
   for (const Contributor* each : impl_->others) each->add_force(u, step, f, &total, end);
   return total;
 }
 
 void Solid::internal_force(std::span<const double> u, std::span<double> f, const PointStep& step) const {
-  impl_->sum_over_chunks(f, [&](const SolidCells& cells, std::size_t c, const Block& block, double* sum) {
-    const Chunk& chunk = cells.chunks[c];
-    if (!block.is_nodal())
-      cells.add_living(chunk, step, {}, std::array{u.data()}, sum,
-                       [&](const CellBatches& batch, const std::array<const double*, 1>& own, double* into) {
-                         block.kernels.add_internal_force(batch, block.law(), own[0], into, nullptr);
-                       });
-    cells.add_distortion_force(chunk, u, f, step);
-  });
+  impl_->sum_over_chunks(
+      f, [&](const SolidCells& cells, std::size_t, const Block& block, std::span<const Chunk> runs, double* sum) {
+        for (const Chunk& run : runs)
+          if (!block.is_nodal())
+            cells.add_living(run, step, {}, std::array{u.data()}, sum,
+                             [&](const CellBatches& batch, const std::array<const double*, 1>& own, double* into) {
+                               block.kernels.add_internal_force(batch, block.law(), own[0], into, nullptr);
+                             });
+        for (const Chunk& run : runs) cells.add_distortion_force(run, u, f, step);
+      });
   for (const Contributor* each : impl_->others) each->add_force(u, step, f, nullptr, {});
 }
 
@@ -166,25 +169,27 @@ void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const 
 
 void Solid::tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y,
                            const PointStep& step) const {
-  impl_->sum_over_chunks(y, [&](const SolidCells& cells, std::size_t c, const Block& block, double* sum) {
-    const Chunk& chunk = cells.chunks[c];
-    if (!block.is_nodal())
-      cells.add_living(chunk, step, {}, std::array{u.data(), x.data()}, sum,
-                       [&](const CellBatches& batch, const std::array<const double*, 2>& own, double* into) {
-                         block.kernels.add_tangent_action(batch, block.law(), own[0], own[1], into);
-                       });
-    cells.add_distortion_action(chunk, u, x, y, step);
-  });
+  impl_->sum_over_chunks(
+      y, [&](const SolidCells& cells, std::size_t, const Block& block, std::span<const Chunk> runs, double* sum) {
+        for (const Chunk& run : runs)
+          if (!block.is_nodal())
+            cells.add_living(run, step, {}, std::array{u.data(), x.data()}, sum,
+                             [&](const CellBatches& batch, const std::array<const double*, 2>& own, double* into) {
+                               block.kernels.add_tangent_action(batch, block.law(), own[0], own[1], into);
+                             });
+        for (const Chunk& run : runs) cells.add_distortion_action(run, u, x, y, step);
+      });
   for (const Contributor* each : impl_->others) each->add_tangent_action(u, x, y, step);
 }
 
 void Solid::discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1,
                                     std::span<double> f) const {
-  impl_->sum_over_chunks(f, [&](const SolidCells& cells, std::size_t c, const Block& block, double* sum) {
-    if (!block.is_nodal())
-      block.kernels.add_discrete_gradient_force(cells.batches(cells.chunks[c]), block.law(), u_0.data(), u_1.data(),
-                                                sum);
-  });
+  impl_->sum_over_chunks(
+      f, [&](const SolidCells& cells, std::size_t, const Block& block, std::span<const Chunk> runs, double* sum) {
+        for (const Chunk& run : runs)
+          if (!block.is_nodal())
+            block.kernels.add_discrete_gradient_force(cells.batches(run), block.law(), u_0.data(), u_1.data(), sum);
+      });
   for (const Contributor* each : impl_->others) each->add_discrete_gradient_force(u_0, u_1, f);
 }
 

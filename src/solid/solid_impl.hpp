@@ -16,6 +16,7 @@
 #include "solid/frequency_bounds.hpp"
 #include "solid/loads.hpp"
 #include "solid/node_patches.hpp"
+#include "solid/rank_share.hpp"
 #include "solid/solid.hpp"
 #include "solid/springs.hpp"
 #include "solid/turning_bodies.hpp"
@@ -37,6 +38,8 @@ struct Solid::Impl {
         point_masses(model.point_masses),
         springs(model.springs),
         cohesive(model.cohesive, model.mesh->coordinates),
+        share_of_cells(rank_share(solid)),
+        share_of_patches(rank_share(patches.cells)),
         damping(damping_bounds(solid)),
         patch_damping(damping_bounds(patches.cells)),
         volumes(solid.cells.size()),
@@ -54,9 +57,18 @@ struct Solid::Impl {
     solid.for_each_rigid_batch(measure);
     if (solid.control_distortion(volumes)) bounds_at_rest = cell_frequency_bounds();
     cohesive.place_history(points_history_size());
+    if (share_of_cells) by_node.emplace(owned_dofs(solid.mesh->node_count()));
     others = contributors();
   }
 
+  static std::vector<std::vector<EntryRange>> owned_dofs(std::size_t node_count) {
+    std::vector<std::vector<EntryRange>> of_ranks;
+    for (std::size_t r = 0; r < ranks().count(); ++r) {
+      const EntryRange nodes = share_of(r, ranks().count(), node_count);
+      of_ranks.push_back({{3 * nodes.begin, 3 * nodes.end}});
+    }
+    return of_ranks;
+  }
   std::vector<Index> nodes_of_loads() const {
     std::vector<Index> nodes;
     if (!gravity.empty()) {
@@ -172,16 +184,44 @@ struct Solid::Impl {
     return parallel_max(bounds.size(), 0.0, [&](std::size_t k) { return bounds[k]; });
   }
 
-  /// Overwrites f with the sum over all that is integrated of add(cells of a chunk, block, f), colour by colour.
+  /// Overwrites f with the sum over all that is integrated of add(cells, number of a chunk, block, its runs of cells,
+  /// f), colour by colour; every rank adds what it computes, and has all of f afterwards.
   template <class Add>
   void sum_over_chunks(std::span<double> f, const Add& add) const {
     constexpr std::size_t zeros_per_task = 1 << 15;
     parallel_for(f.size(), zeros_per_task,
                  [&](std::size_t first, std::size_t last) { std::fill(f.data() + first, f.data() + last, 0.0); });
-    for (const SolidCells* cells : {&solid, &patches.cells})
-      cells->for_each_chunk([&](const Chunk& chunk) {
-        add(*cells, at(&chunk - cells->chunks.data()), cells->blocks[at(chunk.block)], f.data());
+    for (const auto& [cells, share] :
+         {std::pair{&solid, &share_of_cells}, std::pair{&patches.cells, &share_of_patches}})
+      for_each_duty(*cells, *share, [&](std::size_t c, std::span<const Chunk> runs) {
+        add(*cells, c, cells->blocks[at(runs[0].block)], runs, f.data());
       });
+    if (share_of_cells) by_node->gather(f);
+  }
+  /// Calls body(number of a chunk, runs of its cells) for what the rank has to do, colour by colour.
+  template <class Body>
+  static void for_each_duty(const SolidCells& cells, const std::optional<RankShare>& share, const Body& body) {
+    if (!share)
+      return cells.for_each_chunk(
+          [&](const Chunk& chunk) { body(at(&chunk - cells.chunks.data()), std::span(&chunk, 1)); });
+    for (std::size_t k = 0; k + 1 < share->colour_begin.size(); ++k)
+      parallel_for(share->colour_begin[k + 1] - share->colour_begin[k], 1, [&](std::size_t begin, std::size_t) {
+        const ChunkDuty& duty = share->duties[share->colour_begin[k] + begin];
+        body(duty.chunk, duty.runs);
+      });
+  }
+  /// The energies of chunks, and the history of their points, which every rank has of its own, become those of all.
+  void gather(std::span<SolidEnergies> of_cells, std::span<SolidEnergies> of_patches, std::span<double> points) const {
+    if (!share_of_cells) return;
+    for (const auto& [share, energies] : {std::pair{&*share_of_cells, of_cells}, {&*share_of_patches, of_patches}}) {
+      std::vector<double> term(energies.size());
+      for (double SolidEnergies::*const member : SolidEnergies::terms) {
+        for (std::size_t c = 0; c < term.size(); ++c) term[c] = energies[c].*member;
+        share->by_chunk.gather(term);
+        for (std::size_t c = 0; c < term.size(); ++c) energies[c].*member = term[c];
+      }
+      if (!points.empty()) share->history.gather(points);
+    }
   }
 
   Isa isa;
@@ -194,6 +234,8 @@ struct Solid::Impl {
   std::vector<PointMass> point_masses;
   Springs springs;
   CohesiveZones cohesive;
+  std::optional<RankShare> share_of_cells, share_of_patches;  ///< of this rank; none where it is the only one
+  std::optional<Exchange> by_node;                            ///< of dof vectors
   DampingBounds damping, patch_damping;
   std::vector<double> volumes, lengths;
   std::vector<double> bounds_at_rest;  ///< cell_frequency_bounds(), for distortion control

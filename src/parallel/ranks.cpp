@@ -1,0 +1,131 @@
+#include "parallel/ranks.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "parallel/threads.hpp"
+
+namespace carom {
+namespace {
+
+class Alone final : public Ranks {
+ public:
+  std::size_t count() const override { return 1; }
+  std::size_t own() const override { return 0; }
+  void send(std::size_t, std::span<const double>) override { throw std::logic_error("there is no other rank"); }
+  std::vector<double> receive(std::size_t) override { throw std::logic_error("there is no other rank"); }
+};
+
+thread_local Ranks* current = nullptr;
+
+/// The messages between the ranks of one process.
+class Post {
+ public:
+  explicit Post(std::size_t count) : count_(count), on_the_way_(count * count) {}
+  std::size_t count() const { return count_; }
+  void put(std::size_t from, std::size_t to, std::span<const double> values) {
+    const std::scoped_lock lock(mutex_);
+    on_the_way_[from * count_ + to].emplace_back(values.begin(), values.end());
+    has_come_.notify_all();
+  }
+  std::vector<double> take(std::size_t from, std::size_t to) {
+    std::unique_lock lock(mutex_);
+    std::deque<std::vector<double>>& messages = on_the_way_[from * count_ + to];
+    has_come_.wait(lock, [&] { return !messages.empty() || failure_; });
+    if (messages.empty()) throw std::runtime_error("another rank has ended with an error");
+    std::vector<double> values = std::move(messages.front());
+    messages.pop_front();
+    return values;
+  }
+  void fail(const std::exception_ptr& failure) {
+    const std::scoped_lock lock(mutex_);
+    if (!failure_) failure_ = failure;
+    has_come_.notify_all();
+  }
+  /// Of the first rank that failed; null: none has.
+  std::exception_ptr failure() const { return failure_; }
+
+ private:
+  std::size_t count_;
+  std::mutex mutex_;
+  std::condition_variable has_come_;
+  std::vector<std::deque<std::vector<double>>> on_the_way_;  ///< [from count + to]
+  std::exception_ptr failure_;
+};
+
+class RankOfProcess final : public Ranks {
+ public:
+  RankOfProcess(Post& post, std::size_t own) : post_(post), own_(own) {}
+  std::size_t count() const override { return post_.count(); }
+  std::size_t own() const override { return own_; }
+  void send(std::size_t to, std::span<const double> values) override { post_.put(own_, to, values); }
+  std::vector<double> receive(std::size_t from) override { return post_.take(from, own_); }
+
+ private:
+  Post& post_;
+  std::size_t own_;
+};
+
+}  // namespace
+
+Ranks& ranks() {
+  static Alone alone;
+  return current == nullptr ? alone : *current;
+}
+
+void run_on_ranks(std::size_t count, const std::function<void()>& body) {
+  Post post(count);
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t r = 0; r < count; ++r)
+      threads.emplace_back([&post, &body, r] {
+        RankOfProcess own(post, r);
+        current = &own;
+        const ThreadScope one(1);
+        try {
+          body();
+        } catch (...) {
+          post.fail(std::current_exception());
+        }
+      });
+  }
+  if (post.failure()) std::rethrow_exception(post.failure());
+}
+
+EntryRange share_of(std::size_t rank, std::size_t ranks, std::size_t n) {
+  return {rank * n / ranks, (rank + 1) * n / ranks};
+}
+
+void Exchange::gather(std::span<double> values) const {
+  Ranks& all = ranks();
+  std::vector<double> own;
+  for (const EntryRange& range : of_ranks_[all.own()])
+    own.insert(own.end(), values.begin() + static_cast<std::ptrdiff_t>(range.begin),
+               values.begin() + static_cast<std::ptrdiff_t>(range.end));
+  for (std::size_t r = 0; r < all.count(); ++r)
+    if (r != all.own()) all.send(r, own);
+  for (std::size_t r = 0; r < all.count(); ++r) {
+    if (r == all.own()) continue;
+    const std::vector<double> given = all.receive(r);
+    if (given.size() != size_of(r)) throw std::logic_error("ranks exchange vectors of different sizes");
+    auto next = given.begin();
+    for (const EntryRange& range : of_ranks_[r]) {
+      std::copy_n(next, range.size(), values.begin() + static_cast<std::ptrdiff_t>(range.begin));
+      next += static_cast<std::ptrdiff_t>(range.size());
+    }
+  }
+}
+
+std::size_t Exchange::size_of(std::size_t rank) const {
+  std::size_t size = 0;
+  for (const EntryRange& range : of_ranks_[rank]) size += range.size();
+  return size;
+}
+
+}  // namespace carom

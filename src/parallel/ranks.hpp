@@ -1,0 +1,55 @@
+// Ranks: computations side by side that share a run. Each has all that is not shared out, and tells the others what is.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+/// One rank as it sees the others. Messages from one rank to another arrive in the order in which they were sent.
+class Ranks {
+ public:
+  virtual ~Ranks() = default;
+  virtual std::size_t count() const = 0;
+  /// The number of this one, from 0 on.
+  virtual std::size_t own() const = 0;
+  /// Does not wait for the other rank to receive.
+  virtual void send(std::size_t to, std::span<const double> values) = 0;
+  /// Waits. Throws std::runtime_error when the other rank has ended with an error.
+  virtual std::vector<double> receive(std::size_t from) = 0;
+};
+
+/// The ranks of the run that the calling thread takes part in; by itself it is the only one.
+Ranks& ranks();
+
+/// Runs body() on `count` ranks, each a thread of this process with one thread of its own for loops, and waits for
+/// all. Throws what the first of them to fail threw; the others end at their next receive.
+void run_on_ranks(std::size_t count, const std::function<void()>& body);
+
+/// Entries [begin, end) of a vector.
+struct EntryRange {
+  std::size_t begin = 0, end = 0;
+  std::size_t size() const { return end - begin; }
+};
+
+/// The share of a rank in n entries that follow each other: rank r of R has those from r n / R on.
+EntryRange share_of(std::size_t rank, std::size_t ranks, std::size_t n);
+
+/// Vectors of which each rank knows entries of its own: gather() gives them to all.
+class Exchange {
+ public:
+  /// The entries of each rank; no entry is of two ranks.
+  explicit Exchange(std::vector<std::vector<EntryRange>> of_ranks) : of_ranks_(std::move(of_ranks)) {}
+
+  /// Afterwards every rank has the entries of all ranks. All ranks call it, for vectors of the same size.
+  void gather(std::span<double> values) const;
+  /// How many entries a rank gives away.
+  std::size_t size_of(std::size_t rank) const;
+
+ private:
+  std::vector<std::vector<EntryRange>> of_ranks_;
+};
+
+}  // namespace carom
