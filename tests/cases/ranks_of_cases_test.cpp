@@ -1,0 +1,126 @@
+// The same bits from any number of ranks: the explicit cases of cases/, and blocks of many chunks.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "build/simulation.hpp"
+#include "casefile/read_case.hpp"
+#include "march/march.hpp"
+#include "parallel/ranks.hpp"
+
+namespace carom::ranks_of_cases_test {
+namespace {
+
+/// Where a run has come to after some steps.
+struct Reached {
+  State state;
+  EnergyTerms energies;
+  Momentum momentum;
+  long long steps = 0;
+
+  friend bool operator==(const Reached&, const Reached&) = default;
+};
+
+Reached reached(const Case& given, long long steps) {
+  const Simulation simulation(given);
+  March march(simulation);
+  march.start();
+  while (march.steps() < steps && !march.at_end() && !march.has_failed()) march.step();
+  EXPECT_FALSE(march.has_failed()) << march.message();
+  return {march.state(), march.ledger().now(), march.ledger().momentum(), march.steps()};
+}
+
+/// What every rank has reached.
+std::vector<Reached> on_ranks(std::size_t count, const Case& given, long long steps) {
+  std::vector<Reached> all(count);
+  run_on_ranks(count, [&] { all[ranks().own()] = reached(given, steps); });
+  return all;
+}
+
+void expect_same_bits(const Case& given, long long steps) {
+  const Reached alone = reached(given, steps);
+  EXPECT_GT(alone.steps, 0);
+  for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {
+    const std::vector<Reached> all = on_ranks(count, given, steps);
+    for (std::size_t r = 0; r < count; ++r) EXPECT_TRUE(all[r] == alone) << "rank " << r << " of " << count;
+  }
+}
+
+bool is_explicit(const Case& given) {
+  return traits(given.scheme.kind.value).stepping == Stepping::explicit_steps;
+}
+
+std::vector<std::string> explicit_cases() {
+  std::vector<std::string> found;
+  const std::filesystem::path folder = std::filesystem::path(CAROM_SOURCE_DIR) / "cases";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".toml" && is_explicit(read_case(entry.path().string())))
+      found.push_back(std::filesystem::relative(entry.path(), folder).string());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+class CaseOnRanks : public testing::TestWithParam<std::string> {};
+
+TEST_P(CaseOnRanks, HasTheSameBits) {
+  expect_same_bits(read_case(std::string(CAROM_SOURCE_DIR "/cases/") + GetParam()), 60);
+}
+
+/// 12,288 cells that yield, 24 chunks of 512, on a plane with friction.
+constexpr std::string_view bar_of_many_chunks = R"(
+[[mesh.block]]
+origin = [0.0, 0.0, 0.0]
+size = [0.016, 0.016, 0.048]
+divisions = [16, 16, 48]
+groups = { cells = "BAR", zmin = "FOOT" }
+
+[materials.copper]
+law = "j2"
+E = 1.17e11
+nu = 0.35
+rho = 8930.0
+yield_stress = 4.0e8
+hardening_modulus = 1.0e8
+
+[[part]]
+name = "bar"
+cells = "BAR"
+material = "copper"
+
+[[initial]]
+part = "bar"
+velocity = [20.0, 0.0, -227.0]
+
+[[contact]]
+name = "wall"
+kind = "plane"
+group = "FOOT"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+friction = 0.3
+
+[scheme]
+kind = "central_differences"
+
+[time]
+end = 1e-5
+)";
+
+TEST(BarOnRanks, HasTheSameBitsWhereChunksAreOfSeveralRanks) {
+  expect_same_bits(parse_case(std::string(bar_of_many_chunks), "bar.toml"), 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, CaseOnRanks, testing::ValuesIn(explicit_cases()),
+                         [](const testing::TestParamInfo<std::string>& param) {
+                           std::string name = param.param;
+                           std::ranges::replace_if(
+                               name, [](char c) { return std::isalnum(c) == 0; }, '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace carom::ranks_of_cases_test

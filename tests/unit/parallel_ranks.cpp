@@ -1,0 +1,71 @@
+// Ranks of one process: their messages, what they gather, and how they end.
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+#include "parallel/ranks.hpp"
+#include "parallel/threads.hpp"
+
+namespace carom::parallel_ranks {
+namespace {
+
+TEST(Ranks, AThreadByItselfIsTheOnlyOne) {
+  EXPECT_EQ(ranks().count(), 1U);
+  EXPECT_EQ(ranks().own(), 0U);
+  EXPECT_THROW(ranks().receive(0), std::logic_error);
+}
+
+TEST(Ranks, SharesFollowEachOtherAndCoverAll) {
+  for (const std::size_t n : {0U, 2U, 7U, 1000U}) {
+    std::size_t next = 0;
+    for (std::size_t r = 0; r < 3; ++r) {
+      const EntryRange share = share_of(r, 3, n);
+      EXPECT_EQ(share.begin, next);
+      EXPECT_LE(share.size(), n / 3 + 1);
+      next = share.end;
+    }
+    EXPECT_EQ(next, n);
+  }
+}
+
+TEST(Ranks, MessagesArriveInTheOrderTheyWereSentIn) {
+  std::vector<std::vector<double>> seen(3);
+  run_on_ranks(3, [&] {
+    Ranks& all = ranks();
+    const std::size_t next = (all.own() + 1) % 3, before = (all.own() + 2) % 3;
+    for (const double value : {1.0, 2.0}) all.send(next, std::vector{10.0 * static_cast<double>(all.own()) + value});
+    for (int k = 0; k < 2; ++k) seen[all.own()].push_back(all.receive(before).at(0));
+    EXPECT_EQ(thread_count(), 1);
+  });
+  EXPECT_EQ(seen, (std::vector<std::vector<double>>{{21.0, 22.0}, {1.0, 2.0}, {11.0, 12.0}}));
+  EXPECT_EQ(ranks().count(), 1U);
+}
+
+TEST(Ranks, GatherGivesTheEntriesOfEachToAll) {
+  const std::vector<std::vector<EntryRange>> of_ranks{{{0, 1}, {5, 8}}, {{1, 4}}, {{8, 8}}};
+  run_on_ranks(3, [&] {
+    const Exchange exchange(of_ranks);
+    EXPECT_EQ(exchange.size_of(0), 4U);
+    std::vector<double> values(8, -1.0);
+    for (const EntryRange& range : of_ranks[ranks().own()])
+      std::iota(values.begin() + static_cast<std::ptrdiff_t>(range.begin),
+                values.begin() + static_cast<std::ptrdiff_t>(range.end), static_cast<double>(range.begin));
+    exchange.gather(values);
+    EXPECT_EQ(values, (std::vector{0.0, 1.0, 2.0, 3.0, -1.0, 5.0, 6.0, 7.0})) << "entry 4 is nobody's";
+  });
+}
+
+TEST(Ranks, OneThatFailsEndsThoseThatWaitForIt) {
+  const auto fails = [] {
+    run_on_ranks(3, [] {
+      if (ranks().own() == 1) throw std::invalid_argument("rank 1");
+      ranks().receive(1);
+    });
+  };
+  EXPECT_THROW(fails(), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace carom::parallel_ranks
