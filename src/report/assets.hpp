@@ -1,4 +1,5 @@
-// Text built into the program for the report page: own style and scripts, and the libraries (assets.cpp.in).
+// Text built into the program for the report page: own style and scripts, each list of them joined, and the libraries
+// (assets.cpp.in).
 #pragma once
 
 #include <string_view>
@@ -6,13 +7,7 @@
 namespace carom::assets {
 
 extern const std::string_view page_css;
-extern const std::string_view cursor_js;
-extern const std::string_view export_js;
 extern const std::string_view curves_js;
-extern const std::string_view view_data_js;
-extern const std::string_view view_field_js;
-extern const std::string_view view_model_js;
-extern const std::string_view view_still_js;
 extern const std::string_view view_js;
 extern const std::string_view dygraph_js;
 extern const std::string_view dygraph_css;

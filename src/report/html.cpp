@@ -96,7 +96,7 @@ std::string view_sections(const std::vector<PageView>& views) {
 
 namespace {
 
-/// The libraries of views, deflated: view_data.js runs them.
+/// The libraries of views, deflated: scripts/view_data.js runs them.
 std::string view_libraries() {
   const auto element = [](std::string_view id, std::string_view library) {
     return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, base64_deflated(library));
@@ -122,15 +122,13 @@ std::string html_document(std::string_view title, const std::string& content, co
   html += content;
   html += fmt::format("</main>\n<script type=\"application/json\" id=\"charts\">{}</script>\n", charts_json(data));
   const auto run = [&html](std::string_view script) { html += fmt::format("<script>{}</script>\n", script); };
-  for (const std::string_view script : {assets::cursor_js, assets::dygraph_js, assets::export_js, assets::curves_js})
-    run(script);
+  run(assets::dygraph_js);
+  run(assets::curves_js);
   if (!views.empty()) {
     html += view_libraries();
     for (std::size_t v = 0; v < views.size(); ++v)
       html += fmt::format("<script type=\"application/json\" id=\"view-{}\">{}</script>\n", v, views[v].view.json);
-    for (const std::string_view script :
-         {assets::view_data_js, assets::view_field_js, assets::view_model_js, assets::view_still_js, assets::view_js})
-      run(script);
+    run(assets::view_js);
   }
   return html + "</body>\n</html>\n";
 }

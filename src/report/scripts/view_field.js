@@ -103,13 +103,3 @@ carom.Colouring = (function () {
   return Colouring;
 })();
 
-// Where one node of a scene is, NaN once it has gone with its cells, and where all are (those that have gone at rest,
-// where nothing is drawn): reference and displacement times a scale.
-carom.positionOf = function (scene, frame, node, scale = 1) {
-  const u = scene.field("displacement");
-  return scene.at.map((xs, c) => xs[node] + (u ? scale * u.value(c, frame, node) : 0));
-};
-carom.positions = function (scene, frame, scale) {
-  const u = scene.field("displacement");
-  return scene.at.map((xs, c) => (u ? xs.map((x, i) => x + scale * (u.value(c, frame, i) || 0)) : xs));
-};

@@ -1,4 +1,5 @@
 // The instant that all curves and views of the page show.
+/* exported carom */
 const carom = (function () {
   "use strict";
   const listeners = [];
@@ -15,11 +16,6 @@ const carom = (function () {
       if (t === this.t) return;
       this.t = t;
       for (const listener of listeners) listener(t);
-    },
-    // A number in the readable unit of its axis.
-    short(value, power) {
-      if (value === null || value === undefined || Number.isNaN(value)) return "";
-      return String(Number((value / Math.pow(10, power)).toPrecision(7)));
     },
   };
 })();

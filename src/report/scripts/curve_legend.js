@@ -1,0 +1,42 @@
+// The legend of a chart: a button for every curve, with its value at the mouse, and the time there.
+carom.CurveLegend = class {
+  constructor(element, curves) {
+    const more = document.createElement("details");
+    const count = curves.filter((c) => !c.shown).length;
+    more.append(Object.assign(document.createElement("summary"), { textContent: count + " more" }));
+    this.entries = curves.map((curve) => {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.setAttribute("aria-pressed", String(curve.shown));
+      const line = document.createElement("i");
+      if (curve.kind === "exact") line.className = "dashed";
+      const value = document.createElement("output");
+      button.append(line, curve.name, value);
+      (curve.shown ? element : more).append(button);
+      return { button, line, value };
+    });
+    if (count > 0) element.append(more);
+    this.time = document.createElement("output");
+    element.append(this.time);
+  }
+
+  // A click on curve k switches it on or off.
+  listen(setVisibility) {
+    this.entries.forEach(({ button }, k) => {
+      button.addEventListener("click", () => {
+        const on = button.getAttribute("aria-pressed") !== "true";
+        button.setAttribute("aria-pressed", String(on));
+        setVisibility(k, on);
+      });
+    });
+  }
+
+  show(time, values) {
+    this.entries.forEach(({ value }, k) => (value.textContent = values[k]));
+    this.time.textContent = time;
+  }
+
+  paint(colours) {
+    this.entries.forEach(({ line }, k) => (line.style.borderColor = colours[k]));
+  }
+};

@@ -1,0 +1,27 @@
+// How curves look: their colours and widths of line.
+(function () {
+  "use strict";
+  const { css } = carom;
+
+  // Exact curves are dashes in the colour of text: they lie over the computed curve of any colour. A filtered curve has
+  // the colour of the raw one below it, which is pale.
+  carom.curveColours = function (curves) {
+    const numbered = curves.filter((c) => c.kind === "computed" || c.kind === "raw").map((c) => c.name);
+    return curves.map((c) => {
+      if (c.kind === "exact" || /(^|: )total: /.test(c.name)) return css("--ink");
+      const own = css("--curve-" + ((numbered.indexOf(c.name.replace(/, filtered$/, "")) % 8) + 1));
+      return c.kind === "raw" ? own + "70" : own;
+    });
+  };
+
+  carom.chartTheme = (chart) => ({
+    colors: carom.curveColours(chart.curves), gridLineColor: css("--grid"), gridLineWidth: 0.6, axisLineColor: css("--line"),
+  });
+
+  const strokes = {
+    computed: { strokeWidth: 2 }, raw: { strokeWidth: 1 }, filtered: { strokeWidth: 2 }, exact: { strokePattern: [6, 5], strokeWidth: 1.3 },
+  };
+
+  // Many curves are thinner.
+  carom.curveStroke = (curve, count) => (count > 5 && curve.kind === "computed" ? { strokeWidth: 1.2 } : strokes[curve.kind]);
+})();
