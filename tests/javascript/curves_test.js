@@ -1,0 +1,97 @@
+// Curves as numbers, rows and files.
+"use strict";
+const test = require("node:test");
+const assert = require("node:assert/strict");
+const { load } = require("./page.js");
+globalThis.getComputedStyle = () => ({ getPropertyValue: (name) => ` ${name}` });  // every colour is its own name
+globalThis.document = {};
+const carom = load("numbers", "curve_rows", "curve_files", "curve_style");
+
+const curve = (name, kind, t, y) => ({ name, kind, t, y });
+
+test("numbers have the digits of their place, in the unit of their axis", () => {
+  assert.equal(carom.digits(0.0123456, -3, 4), "12.35");  // 12.3456 ms
+  assert.equal(carom.digits(2.5e9, 6, 6), "2500");
+  assert.equal(carom.digits(1 / 3, 0, 3), "0.333");
+  assert.equal(carom.short(1e-3 / 3, -3), "0.3333333");
+  assert.equal(carom.four(123456, 3), "123.5");
+  assert.equal(carom.four(-0.5), "-0.5");
+});
+
+test("what has no value has no number", () => {
+  for (const none of [null, undefined, NaN]) assert.equal(carom.short(none, 0), "");
+  assert.equal(carom.four(NaN), "–");
+});
+
+test("axes name their unit if they have one", () => {
+  assert.equal(carom.axisTitle("time", "ms"), "time [ms]");
+  assert.equal(carom.axisTitle("rows", ""), "rows");
+});
+
+test("rows hold all times, with straight lines between the points of a curve and nothing beyond its ends", () => {
+  // The lines y = 10 t from 0 to 2 and y = 3 - t from 1 to 3.
+  const curves = [curve("a", "computed", [0, 2], [0, 20]), curve("b", "computed", [1, 1.5, 3], [2, 1.5, 0])];
+  assert.deepEqual(carom.curveRows(curves), [[0, 0, null], [1, 10, 2], [1.5, 15, 1.5], [2, 20, 1], [3, null, 0]]);
+});
+
+test("a window shows one point beyond each of its ends", () => {
+  const rows = [[0, 5, null], [1, 6, 1], [2, null, 2], [3, 8, 3], [4, 9, 4]];
+  assert.deepEqual(carom.curvePoints(rows, 0, 0, 4), [[0, 5], [1, 6], [3, 8], [4, 9]]);
+  assert.deepEqual(carom.curvePoints(rows, 0, 1, 3), [[1, 6], [3, 8]]);  // its ends are points
+  assert.deepEqual(carom.curvePoints(rows, 0, 2.5, 3.5), [[1, 6], [3, 8], [4, 9]]);
+  assert.deepEqual(carom.curvePoints(rows, 0, 1.5, 2.5), [[1, 6], [3, 8]]);  // no point within, a line across
+  assert.deepEqual(carom.curvePoints(rows, 1, -1, 0.5), [[1, 1]]);
+  assert.deepEqual(carom.curvePoints([[0, null]], 0, 0, 1), []);
+});
+
+const chart = { label: "force", unit: "kN", power: 3, curves: [curve('the "left", z', "computed"), curve("exact", "exact"), curve("a < b", "raw")] };
+const what = {
+  title: "F & G", chart, rows: [[0, 0, 0, 0], [0.001, 1000, null, 500], [0.002, 2000, 4000, 250]], colours: ["red", "#333", "blue"],
+  time: { unit: "ms", power: -3 }, shown: [0, 1], window: { from: 0, to: 0.002, low: 0, high: 4000, timeTicks: [0.001], valueTicks: [2000] },
+};
+
+test("a file of numbers has what is shown, in the units of the axes, quoted as RFC 4180 has it", () => {
+  assert.equal(carom.chartCsv(what), 'time [ms],"the ""left"", z [kN]",exact [kN]\n0,0,0\n1,1,\n2,2,4\n');
+  const window = { ...what.window, from: 0.0005, to: 0.0015 };
+  assert.equal(carom.chartCsv({ ...what, window, shown: [2] }), "time [ms],a < b [kN]\n1,0.5\n");
+});
+
+test("a file of the picture has curves from corner to corner of its frame", () => {
+  const svg = carom.chartSvg({ ...what, shown: [0, 1, 2] });
+  // The frame reaches from 78 to 784 to the right and from 368 up to 34: 0 is below left, 2 ms and 4 kN above right.
+  assert.match(svg, /<path d="M78\.00 368\.00L784\.00 34\.00" stroke="#333" stroke-width="2" stroke-dasharray="6 5"\/>/);
+  // 1 kN at 1 ms: half the width, a quarter of the height.
+  assert.match(svg, /<path d="M78\.00 368\.00L431\.00 284\.50L784\.00 201\.00" stroke="red" stroke-width="2"\/>/);
+  assert.match(svg, /stroke="blue" stroke-width="1"\/>/);
+  assert.match(svg, /class="grid" d="M431 34V368"\/><text x="431\.0" y="384\.0" text-anchor="middle">1<\/text>/);
+  assert.match(svg, /class="grid" d="M78 201H784"\/><text x="72\.0" y="205\.0" text-anchor="end">2<\/text>/);
+  for (const text of ["F &amp; G", "a &lt; b", "time [ms]", "force [kN]"]) assert.ok(svg.includes(`>${text}</text>`), text);
+});
+
+test("a picture without one curve does not name it", () => {
+  const svg = carom.chartSvg(what);
+  assert.ok(!svg.includes("a &lt; b") && !svg.includes("blue"));
+});
+
+test("exact curves and totals are ink, a filtered curve has the colour of the raw one below it", () => {
+  const curves = [curve("z", "raw"), curve("z, filtered", "filtered"), curve("x", "computed"), curve("x, exact", "exact"), curve("run: total: x", "computed")];
+  assert.deepEqual(carom.curveColours(curves), ["--curve-170", "--curve-1", "--curve-2", "--ink", "--ink"]);
+  const many = Array.from({ length: 9 }, (_, k) => curve("c" + k, "computed"));
+  assert.equal(carom.curveColours(many)[8], "--curve-1");  // there are eight
+});
+
+test("many computed curves are thinner", () => {
+  assert.deepEqual(carom.curveStroke(curve("a", "computed"), 5), { strokeWidth: 2 });
+  assert.deepEqual(carom.curveStroke(curve("a", "computed"), 6), { strokeWidth: 1.2 });
+  assert.deepEqual(carom.curveStroke(curve("a", "exact"), 6).strokePattern, [6, 5]);
+});
+
+test("who follows the page's time hears of it once, and of what it is at first", () => {
+  const heard = [];
+  carom.follow((t) => heard.push(["early", t]));
+  carom.show(1);
+  carom.show(1);
+  carom.follow((t) => heard.push(["late", t]));
+  carom.show(2);
+  assert.deepEqual(heard, [["early", 1], ["late", 1], ["early", 2], ["late", 2]]);
+});

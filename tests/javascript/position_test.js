@@ -1,0 +1,84 @@
+// Where the nodes of a scene are, and its edges.
+"use strict";
+const test = require("node:test");
+const assert = require("node:assert/strict");
+const { load, loadThree, fieldOf, sceneOf, assertNear } = require("./page.js");
+loadThree();
+const carom = load("view_position", "view_field", "view_buffers", "view_edges", "view_arrows");
+
+// Two nodes; the second moves by (1, 0, 2) in the second frame, the first goes.
+const moved = sceneOf([[0, 0, 0], [3, 4, 0]], [], [fieldOf("displacement", [[[0, 0], [NaN, 1]], [[0, 0], [NaN, 0]], [[0, 0], [NaN, 2]]])], { frames: 2 });
+
+test("a node is at its reference and its displacement times a scale", () => {
+  assert.deepEqual(carom.positionOf(moved, 1, 1), [4, 4, 2]);
+  assert.deepEqual(carom.positionOf(moved, 1, 1, 10), [13, 4, 20]);
+  assert.deepEqual(carom.positionOf(moved, 1, 0), [NaN, NaN, NaN]);
+  assert.deepEqual(carom.positions(moved, 1, 2), [[0, 5], [0, 4], [0, 4]]);
+  assert.deepEqual(carom.positions(sceneOf([[1, 2, 3]], []), 0, 5), [[1], [2], [3]]);
+});
+
+test("the extent is that of all times", () => {
+  const { low, high, centre, reach, isPlane } = carom.extentOf(moved);
+  assert.deepEqual([low, high, centre], [[0, 0, 0], [4, 4, 2], [2, 2, 1]]);
+  assert.equal(reach, 3);  // half of sqrt(16 + 16 + 4)
+  assert.equal(isPlane, false);
+});
+
+test("bodies in a plane are seen as that, a single node from a distance", () => {
+  const flat = carom.extentOf(sceneOf([[0, 0, 1], [6, 8, 1]], []));
+  assert.equal(flat.isPlane, true);
+  assert.equal(flat.reach, 5);
+  assert.equal(carom.extentOf(sceneOf([[1, 1, 1]], [])).reach, 1);
+});
+
+test("the frame next to a time is shown, the earlier of two", () => {
+  const times = [0, 1, 4];
+  assert.deepEqual([-1, 0.4, 0.5, 0.6, 2.5, 3, 9].map((t) => carom.nearestFrame(times, t)), [0, 0, 0, 1, 1, 2, 2]);
+});
+
+// A square of two triangles, whose common side (nodes 0 and 2) is an edge of no cell.
+const square = (more) => sceneOf([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]], [], { edges: [3, 6], ...more });
+const rowsOf = (numbers) => Array.from({ length: numbers.length / 5 }, (_, e) => [...numbers.slice(5 * e, 5 * e + 5)]);
+
+test("the edges of a square are its four sides", () => {
+  assert.deepEqual(rowsOf(carom.CellEdges.edgesOf(square())), [[0, 1, 0, 0, 1], [1, 2, 0, 0, 1], [2, 3, 0, 0, 1], [3, 0, 0, 0, 1]]);
+});
+
+test("an edge of two triangles stands once, seen as long as one of them", () => {
+  const edges = rowsOf(carom.CellEdges.edgesOf(square({ edges: [4, 1], frames: 9, changes: true, from: [2, 0], until: [5, 3] })));
+  assert.deepEqual(edges, [[2, 0, 0, 0, 5]]);
+});
+
+const end = (matrix, y) => new THREE.Vector3(0, y, 0).applyMatrix4(matrix).toArray();
+
+test("an arrow ends at its node and is as long as it shall be", () => {
+  for (const [force, direction] of [[[0, 0, -7], [0, 0, -1]], [[3, 4, 0], [0.6, 0.8, 0]], [[0, -2, 0], [0, -1, 0]]]) {
+    const matrix = carom.ForceArrows.placeArrow(new THREE.Vector3(...force), new THREE.Vector3(1, 2, 3), 0.5, 1);
+    assertNear(end(matrix, 1), [1, 2, 3], 1e-15 * 8);  // rounding of numbers up to 3, some operations
+    assertNear(end(matrix, 0), [1, 2, 3].map((x, c) => x - 0.5 * direction[c]), 1e-15 * 8);
+  }
+});
+
+test("a short arrow is a quarter of the longest thick, a long one in its own measure", () => {
+  const widthOf = (length) => {
+    const matrix = carom.ForceArrows.placeArrow(new THREE.Vector3(0, 1, 0), new THREE.Vector3(), length, 2);
+    return new THREE.Vector3().setFromMatrixScale(matrix).toArray();
+  };
+  assertNear(widthOf(0.1), [0.5, 0.1, 0.5], 1e-15);
+  assertNear(widthOf(2), [2, 2, 2], 1e-15);
+});
+
+test("arrows are made for the frame that has most of them", () => {
+  const force = fieldOf("contact_force", [[[0, 0, 0], [3, 0, 1]], [[0, 0, 0], [4, 0, 0]], [[0, 0, 0], [0, 1e-4, 0]]]);
+  const scene = sceneOf([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [], [force], { frames: 2 });
+  const arrows = carom.ForceArrows.of(scene, []);
+  assert.equal(arrows.largest, 5);  // (3, 4, 0)
+  // 5 and 1; 1e-4 is below a thousandth of 5.
+  arrows.show(1, scene.at, 1, true);
+  assert.deepEqual(arrows.objects.map((o) => o.count), [2, 2]);
+  arrows.show(0, scene.at, 1, true);
+  assert.equal(arrows.objects[0].count, 0);
+  assert.equal(carom.ForceArrows.of(sceneOf([[0, 0, 0]], []), []), null);
+  const untouched = sceneOf([[0, 0, 0]], [], [fieldOf("contact_force", [[[0]], [[0]], [[0]]])]);
+  assert.equal(carom.ForceArrows.of(untouched, []), null);
+});
