@@ -61,7 +61,7 @@ format:  ## rewrite all sources as .clang-format says
 	@tools/setup ci
 	@tools/sources | xargs clang-format-14 -i
 
-lint:    ## formatting, layers, sizes, words, links, names in pages, clang-tidy
+lint:    ## formatting, layers, sizes, words, links, names in pages, clang-tidy, ESLint
 	@tools/setup build python test ci
 	@tools/lint
 
