@@ -30,6 +30,12 @@ void add_kind(SectionSchema<CaseFunction>& s) {
   s.add(key, handlers);
 }
 
+/// Before and after the jump, whose time may be missing.
+std::vector<double>& values_of_step(TimeFunction& f) {
+  f.value.resize(2);
+  return f.value;
+}
+
 /// A number of a step; written as a table, so there is nothing to write here.
 template <class Store>
 void add_step_number(SectionSchema<CaseFunction>& s, const KeyDescription& key, Store store) {
@@ -59,12 +65,13 @@ SectionSchema<CaseFunction> function_section() {
   s.key_by("value", [](auto& f) -> auto& { return f.function.value; }, "One value for each time.",
            {.kinds = table_key, .need = Need::required});
   add_step_number(s, {"time", Shape::number, "Time of the jump.", time, {}, {}}, [](TimeFunction& f, double t) {
-    f = {{t, t}, {0.0, 0.0}};
+    f.time = {t, t};
+    values_of_step(f);
   });
   add_step_number(s, {"before", Shape::number, "Value before it.", number, {}, {}},
-                  [](TimeFunction& f, double value) { f.value[0] = value; });
+                  [](TimeFunction& f, double value) { values_of_step(f)[0] = value; });
   add_step_number(s, {"after", Shape::number, "Value from it on.", number, {}, {}},
-                  [](TimeFunction& f, double value) { f.value[1] = value; });
+                  [](TimeFunction& f, double value) { values_of_step(f)[1] = value; });
   s.finish = check_function;
   return s;
 }

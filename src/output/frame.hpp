@@ -49,7 +49,7 @@ struct FrameMesh {
 };
 
 /// What is of one instant.
-struct Frame {
+struct FieldFrame {
   std::vector<FrameField> points, cells;
 };
 

@@ -41,7 +41,7 @@ std::string obstacles_file(const FrameFormat& format, long long step) {
 }
 
 FrameIndex::FrameIndex(std::string folder, const FrameFormat& format, std::vector<FrameEntry> frames)
-    : folder_(std::move(folder)), format_(&format), frames_(std::move(frames)), ends_(format.indices.size()) {
+    : folder_(std::move(folder)), format_(format), frames_(std::move(frames)), ends_(format.indices.size()) {
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     const IndexFile& index = format.indices[i];
     std::string text(index.head);
@@ -54,7 +54,7 @@ FrameIndex::FrameIndex(std::string folder, const FrameFormat& format, std::vecto
 
 void FrameIndex::add(FrameEntry frame) {
   for (std::size_t i = 0; i < ends_.size(); ++i) {
-    const IndexFile& index = format_->indices[i];
+    const IndexFile& index = format_.indices[i];
     const std::string path = fmt::format("{}/{}", folder_, index.name), entry = index.entry(folder_, frame);
     if (entry.empty()) continue;
     if (ends_[i] == 0) {

@@ -17,7 +17,7 @@ class FrameWriter {
  public:
   virtual ~FrameWriter() = default;
   /// file: relative to the folder. The file appears under its name only when it is complete. Throws OutputError.
-  virtual void write(const std::string& file, const Frame& frame) = 0;
+  virtual void write(const std::string& file, const FieldFrame& frame) = 0;
 };
 
 /// A frame that is on disk; files are relative to the results folder, obstacles "" when there are none.
@@ -70,7 +70,7 @@ class FrameIndex {
 
  private:
   std::string folder_;
-  const FrameFormat* format_;
+  FrameFormat format_;
   std::vector<FrameEntry> frames_;
   std::vector<std::size_t> ends_;  ///< by index file: where its tail begins; 0: there is no such file
 };

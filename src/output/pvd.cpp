@@ -12,7 +12,9 @@ namespace {
 class VtuWriter : public FrameWriter {
  public:
   VtuWriter(std::string folder, FrameMesh mesh) : folder_(std::move(folder)), mesh_(std::move(mesh)) {}
-  void write(const std::string& file, const Frame& frame) override { write_vtu(folder_ + "/" + file, mesh_, frame); }
+  void write(const std::string& file, const FieldFrame& frame) override {
+    write_vtu(folder_ + "/" + file, mesh_, frame);
+  }
 
  private:
   std::string folder_;

@@ -229,7 +229,7 @@ class VtkHdfWriter : public FrameWriter {
     of_mesh_ = vtkhdf_arrays(path);
   }
 
-  void write(const std::string& file, const Frame& frame) override {
+  void write(const std::string& file, const FieldFrame& frame) override {
     const QuietHdf5 quiet;
     Output out(folder_ + "/" + file);
     for (const VtkHdfArray& array : of_mesh_) out.link(mesh_file_, array);

@@ -82,7 +82,7 @@ class VtuHeader {
 
 }  // namespace
 
-void write_vtu(const std::string& path, const FrameMesh& mesh, const Frame& frame) {
+void write_vtu(const std::string& path, const FrameMesh& mesh, const FieldFrame& frame) {
   const std::span<const Vec3> points = mesh.points;
   const FrameCells& cells = mesh.cells;
   assert(cells.types.size() == cells.ends.size());

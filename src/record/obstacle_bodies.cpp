@@ -151,7 +151,7 @@ FrameMesh ObstacleBodies::mesh() const {
   return {points_, cells_, {}, {{"contact", 1, contact_}}};
 }
 
-Frame ObstacleBodies::frame(const State& state) const {
+FieldFrame ObstacleBodies::frame(const State& state) const {
   std::vector<Vec3> displacement(points_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const ContactParts obstacle = parts_of(model_.contacts[bodies_[b].contact]);

@@ -20,7 +20,7 @@ class ObstacleBodies {
   /// With `contact`, the position of each in the case, from 0. The points stay here.
   FrameMesh mesh() const;
   /// `displacement`.
-  Frame frame(const State& state) const;
+  FieldFrame frame(const State& state) const;
 
  private:
   struct Body {

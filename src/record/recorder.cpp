@@ -99,9 +99,9 @@ FrameField frame_field(std::string name, Form form, std::span<const double> valu
   return precision == CaseOutput::Precision::in_single ? in_type(float{}) : in_type(double{});
 }
 
-Frame frame_of(const Simulation& s, const StepView& view) {
+FieldFrame frame_of(const Simulation& s, const StepView& view) {
   const CaseOutput& output = s.given().output;
-  Frame frame;
+  FieldFrame frame;
   if (!s.model().erosion.empty()) frame.cells.push_back(hidden_cells(view.state.alive(), s.solid().cell_count()));
   FieldsNow now(s, view);
   const auto add = [&](const std::string& name) {
@@ -264,7 +264,7 @@ void Recorder::record_frame(const StepView& view) {
   last_frame_ = view.step;
   writer_.finish();  // one frame in memory at a time
   if (!files_->bodies) files_->bodies = format_.make_writer(folder_, bodies_mesh, frame_mesh(simulation_));
-  Frame frame = frame_of(simulation_, view);
+  FieldFrame frame = frame_of(simulation_, view);
   const std::string obstacles = record_obstacles(view), file = frame_file(format_, view.step);
   writer_.start([this, frame = std::move(frame), t = view.state.t, file, obstacles] {
     files_->bodies->write(file, frame);

@@ -26,11 +26,11 @@ struct LinearVolume {
 /// The function of the modes that is nearest to the values of a cell's points, which are weighted by their volume: the
 /// least squares over the reference cell. A symmetric operator on weighted values that keeps constants.
 template <class Real, class Volume>
-class Projection {
+class VolumeProjection {
  public:
   static constexpr int modes = Volume::modes;
 
-  [[gnu::always_inline]] inline Projection(int points, const double* weight) {
+  [[gnu::always_inline]] inline VolumeProjection(int points, const double* weight) {
     for (int p = 0; p < points; ++p) {
       const Real w = scalar<Real>(weight, p);
       for (int k = 0; k < modes; ++k)
@@ -72,7 +72,7 @@ namespace small_dilatation {
 template <class Real, class Volume>
 static void average(int points, const double* weight, double* values) {
   constexpr int n = lanes<Real>;
-  Projection<Real, Volume> mean(points, weight);
+  VolumeProjection<Real, Volume> mean(points, weight);
   for (int p = 0; p < points; ++p) {
     const double* v = values + 6 * p * n;
     mean.add(p, scalar<Real>(weight, p) * (load<Real>(v) + load<Real>(v + n) + load<Real>(v + 2 * n)));
@@ -169,7 +169,7 @@ template <class Real>
 
 template <class Real, class Volume>
 static void strain(int points, const double* weight, double* E, double* memory) {
-  Projection<Real, Volume> mean(points, weight);
+  VolumeProjection<Real, Volume> mean(points, weight);
   for (int p = 0; p < points; ++p) {
     Real e[6];
     load_voigt(E, p, e);
@@ -198,9 +198,9 @@ static void strain(int points, const double* weight, double* E, double* memory) 
 
 /// p_hat
 template <class Real, class Volume>
-[[gnu::always_inline]] static inline Projection<Real, Volume> mean_pressure(int points, const double* weight,
-                                                                            const double* memory) {
-  Projection<Real, Volume> mean(points, weight);
+[[gnu::always_inline]] static inline VolumeProjection<Real, Volume> mean_pressure(int points, const double* weight,
+                                                                                  const double* memory) {
+  VolumeProjection<Real, Volume> mean(points, weight);
   for (int p = 0; p < points; ++p)
     mean.add(p, scalar<Real>(weight, p) * get<Real>(memory, p, pressure) * get<Real>(memory, p, inverse_mean));
   mean.solve();
@@ -230,7 +230,7 @@ static void stress(int points, const double* weight, double* memory, const doubl
 /// With d ln J = C^-1 : dE, the projection J_bar d ln J_bar of J d ln J and theta: dE_bar = r^2 dE + theta C_bar.
 template <class Real, class Volume>
 static void strain_change(int points, const double* weight, double* memory, const double* E_bar, double* dE) {
-  Projection<Real, Volume> mean(points, weight);
+  VolumeProjection<Real, Volume> mean(points, weight);
   for (int p = 0; p < points; ++p) {
     Real de[6], log_J{};
     load_voigt(dE, p, de);
@@ -263,7 +263,7 @@ static void stress_change(int points, const double* weight, const double* memory
   constexpr int n = lanes<Real>;
   const auto p_hat = mean_pressure<Real, Volume>(points, weight, memory);
   double pressure_change[most_points * n];
-  Projection<Real, Volume> change_of_mean(points, weight);
+  VolumeProjection<Real, Volume> change_of_mean(points, weight);
   for (int p = 0; p < points; ++p) {
     Real ds[6], e[6], de[6], s[6];
     load_voigt(dS, p, ds);

@@ -29,7 +29,7 @@ struct Acting {
   Location where;
   std::vector<Action> actions;
   const DeckKeyword* source = nullptr;  ///< the first keyword that says it
-  RigidBody* body = nullptr;            ///< the one whose reference node is imposed
+  DeckRigidBody* body = nullptr;        ///< the one whose reference node is imposed
 };
 
 /// The cells that gravity of one size is given to in a step, line by line.
@@ -160,8 +160,8 @@ class Actions {
     static const std::map<std::string, std::string> keys{
         {"DISPLACEMENT", "displacement"}, {"VELOCITY", "velocity"}, {"ACCELERATION", "acceleration"}};
     Acting wanted{"BOUNDARY", group, keys.at(what), dof - 1, {}, at.where(), {}, nullptr, nullptr};
-    const std::vector<RigidBody*> bodies = referred_to(t_, group);
-    for (RigidBody* body : bodies) {
+    const std::vector<DeckRigidBody*> bodies = referred_to(t_, group);
+    for (DeckRigidBody* body : bodies) {
       wanted.group = body->node;
       wanted.body = body;
       act(at, wanted, step, value);
@@ -282,8 +282,8 @@ class Actions {
   }
 
   /// All nodes of a body of cells or nodes go along; what they cannot say translate_rigid_parts refuses.
-  void lead_rigid(RigidBody& body, const Acting& acting, double size, const std::string& function) {
-    body.motion.at(static_cast<std::size_t>(acting.component)) = RigidBody::Motion{size, function, acting.where};
+  void lead_rigid(DeckRigidBody& body, const Acting& acting, double size, const std::string& function) {
+    body.motion.at(static_cast<std::size_t>(acting.component)) = DeckRigidBody::Motion{size, function, acting.where};
     if (acting.component >= 3) return;
     Acting of_all = acting;
     of_all.group = body.group;
@@ -291,7 +291,7 @@ class Actions {
   }
 
   /// A rigid surface is moved by its velocity: that of a displacement is the slope of its polygon.
-  void move_rigid(RigidBody& body, const Acting& acting, Points points) {
+  void move_rigid(DeckRigidBody& body, const Acting& acting, Points points) {
     if (acting.what == "acceleration")
       fail_at(acting, "an imposed acceleration of the reference node of a rigid body", "its velocity or displacement");
     if (acting.what == "displacement") points = slopes(acting, points);
@@ -300,7 +300,7 @@ class Actions {
       if (std::abs(value) > std::abs(size)) size = value;
     const bool is_constant = std::all_of(points.begin(), points.end(), [&](const auto& p) { return p.second == size; });
     body.motion.at(static_cast<std::size_t>(acting.component)) =
-        RigidBody::Motion{size, is_constant || size == 0.0 ? "" : function_of(acting, points, size), acting.where};
+        DeckRigidBody::Motion{size, is_constant || size == 0.0 ? "" : function_of(acting, points, size), acting.where};
   }
 
   [[noreturn]] static void fail_at(const Acting& acting, const std::string& found, const std::string& expected) {

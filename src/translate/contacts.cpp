@@ -129,7 +129,7 @@ void translate_pairs(Translation& t, const std::map<std::string, Interaction>& a
     contact.text("name", is_self ? upper_case(slave) + " self" : upper_case(slave) + " on " + upper_case(master));
     if (body_of_cells(t, group) != nullptr)
       at.fail(slave + ", the surface of a rigid body", "the deformable one first", "Name the rigid surface second.");
-    if (RigidBody* body = body_of_cells(t, other)) {
+    if (DeckRigidBody* body = body_of_cells(t, other)) {
       contact.text("kind", "surface").text("group", group).text("surface", other);
       add_rigid_motion(t, *body, contact);
     } else {
@@ -169,7 +169,7 @@ void translate_general(Translation& t, const std::map<std::string, Interaction>&
   contact.text("name", "general contact").text("kind", "all").text("initial_penetration", "offset");
   add_interaction(of, contact);
   t.append("contact", contact.node());
-  for (RigidBody& body : t.rigid_bodies) {
+  for (DeckRigidBody& body : t.rigid_bodies) {
     const auto side = t.mesh.names.surfaces.find(body.side);
     if (side == t.mesh.names.surfaces.end()) continue;
     TableMaker rigid(body.keyword->where);

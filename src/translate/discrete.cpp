@@ -26,10 +26,10 @@ void read_velocities(Translation& t, const Statement& s, std::vector<GroupVeloci
     const std::string group = t.node_group(at, s, target);
     const std::int64_t dof = at.integer("the degree of freedom");
     const double value = at.real("the velocity");
-    const std::vector<RigidBody*> bodies = referred_to(t, group);
+    const std::vector<DeckRigidBody*> bodies = referred_to(t, group);
     if (dof < 1 || dof > (bodies.empty() ? 3 : 6))
       at.fail(fmt::format("degree of freedom {}", dof), bodies.empty() ? "1, 2 or 3" : "1 to 6");
-    for (RigidBody* body : bodies) {
+    for (DeckRigidBody* body : bodies) {
       std::optional<Vec3>& of = dof > 3 ? body->initial_rotation : body->initial_velocity;
       if (!of) of = Vec3{};
       (*of)[carom::at((dof - 1) % 3)] = value;
@@ -63,10 +63,10 @@ void refuse_mixed(const Translation& t, const std::vector<GroupVelocity>& all) {
 }
 
 /// The bodies of the reference nodes of a node set, or of a set of cells.
-std::vector<RigidBody*> rigid_of(Translation& t, const std::string& nodes, const std::string& cells) {
+std::vector<DeckRigidBody*> rigid_of(Translation& t, const std::string& nodes, const std::string& cells) {
   if (cells.empty()) return referred_to(t, nodes);
-  RigidBody* const body = body_of_cells(t, cells);
-  return body == nullptr ? std::vector<RigidBody*>{} : std::vector<RigidBody*>{body};
+  DeckRigidBody* const body = body_of_cells(t, cells);
+  return body == nullptr ? std::vector<DeckRigidBody*>{} : std::vector<DeckRigidBody*>{body};
 }
 
 /// Node or cell set, angular velocity, velocity; then two points of the axis.
@@ -85,8 +85,8 @@ void translate_rotation(Translation& t, const Statement& s) {
     const Vec3 axis = subtract(b, a);
     if (norm(axis) == 0.0) at.fail("an axis from a point to itself", "two points");
     const Vec3 omega = scaled(normalized(axis), speed);
-    const std::vector<RigidBody*> bodies = rigid_of(t, group, cells);
-    for (RigidBody* body : bodies) {
+    const std::vector<DeckRigidBody*> bodies = rigid_of(t, group, cells);
+    for (DeckRigidBody* body : bodies) {
       body->initial_velocity = add(velocity, cross(omega, subtract(body->centre, a)));
       body->initial_rotation = omega;
     }
@@ -125,8 +125,8 @@ void translate_mass(Translation& t, const Statement& s) {
   DeckCursor at(*s.keyword);
   if (!at.next_line()) s.keyword->fail("no data", "the mass");
   const double value = at.real("the mass");
-  const std::vector<RigidBody*> bodies = referred_to(t, t.mesh.names.masses.at(key));
-  for (RigidBody* body : bodies) body->mass = value, body->mass_keyword = s.keyword;
+  const std::vector<DeckRigidBody*> bodies = referred_to(t, t.mesh.names.masses.at(key));
+  for (DeckRigidBody* body : bodies) body->mass = value, body->mass_keyword = s.keyword;
   if (!bodies.empty()) return;
   TableMaker mass(s.keyword->where);
   mass.text("nodes", t.mesh.names.masses.at(key)).number("mass", value);
@@ -139,7 +139,7 @@ void translate_inertia(Translation& t, const Statement& s) {
   if (key.empty()) keyword.fail("ELSET=" + set, "a set of elements of TYPE=ROTARYI");
   DeckCursor at(keyword);
   if (!at.next_line()) keyword.fail("no data", "I11, I22, I33, I12, I13, I23");
-  RigidBody::Inertia inertia{&keyword, {}, {}};
+  DeckRigidBody::Inertia inertia{&keyword, {}, {}};
   for (double& moment : inertia.moments) moment = at.real_or(0.0, "a moment of inertia");
   const double xy = at.real_or(0.0, "I12"), xz = at.real_or(0.0, "I13"), yz = at.real_or(0.0, "I23");
   inertia.products = {xy, yz, xz};
@@ -147,8 +147,8 @@ void translate_inertia(Translation& t, const Statement& s) {
   if (t.scope(s).placement.turn)
     at.fail("an inertia in an instance that is turned", "one in an instance that is shifted alone",
             "Its axes turn with the instance: give the inertia in the assembly, about its axes.");
-  const std::vector<RigidBody*> bodies = referred_to(t, t.mesh.names.inertias.at(key));
-  for (RigidBody* body : bodies) body->inertia = inertia;
+  const std::vector<DeckRigidBody*> bodies = referred_to(t, t.mesh.names.inertias.at(key));
+  for (DeckRigidBody* body : bodies) body->inertia = inertia;
   if (bodies.empty())
     t.findings.refuse(keyword, keyword.where, "an inertia of nodes that no *RIGID BODY refers to",
                       "It would be left out.");

@@ -12,7 +12,7 @@ namespace carom {
 namespace {
 
 /// The faces or the solid cells of an ELSET.
-void add_elements(const Translation& t, const Statement& s, RigidBody& body) {
+void add_elements(const Translation& t, const Statement& s, DeckRigidBody& body) {
   const DeckKeyword& keyword = *s.keyword;
   const std::string set = keyword.required("ELSET"), cells = key_of(t.mesh.names.element_sets, t.scope(s), set);
   if (cells.empty()) keyword.fail("ELSET=" + set, "the name of a set of cells");
@@ -29,13 +29,13 @@ void add_elements(const Translation& t, const Statement& s, RigidBody& body) {
                             : "Plane and axisymmetric cells deform: R2D2 and RAX2 are their rigid bodies.");
     const std::vector<CellRef>& refs = t.mesh.mesh.cell_groups.at(each.group);
     body.cells.insert(refs.begin(), refs.end());
-    if (each.type->name == "RAX2") body.space = RigidBody::Space::ring;
-    if (each.type->name == "R2D2") body.space = RigidBody::Space::plane;
+    if (each.type->name == "RAX2") body.space = DeckRigidBody::Space::ring;
+    if (each.type->name == "R2D2") body.space = DeckRigidBody::Space::plane;
   }
 }
 
 /// The faces of an analytical surface: lines are rings where the deck has axisymmetric cells.
-void add_analytical(const Translation& t, const Statement& s, RigidBody& body) {
+void add_analytical(const Translation& t, const Statement& s, DeckRigidBody& body) {
   const std::string name = s.keyword->required("ANALYTICAL SURFACE");
   body.side = key_of(t.mesh.names.surfaces, t.scope(s), name);
   if (body.side.empty()) s.keyword->fail("ANALYTICAL SURFACE=" + name, "the NAME of a *SURFACE");
@@ -43,13 +43,13 @@ void add_analytical(const Translation& t, const Statement& s, RigidBody& body) {
   const std::vector<CellRef>& refs = t.mesh.mesh.cell_groups.at(t.mesh.names.surfaces.at(body.side).group);
   body.cells.insert(refs.begin(), refs.end());
   if (refs.empty() || t.mesh.mesh.blocks[at(refs.front().block)].type != CellType::line2) return;
-  body.space = RigidBody::Space::plane;
+  body.space = DeckRigidBody::Space::plane;
   for (const auto& [set, list] : t.mesh.names.element_sets)
     for (const DeckNames::Cells& cells : list)
-      if (cells.type->section == "axisymmetric") body.space = RigidBody::Space::ring;
+      if (cells.type->section == "axisymmetric") body.space = DeckRigidBody::Space::ring;
 }
 
-void add_reference(const Translation& t, const Statement& s, RigidBody& body) {
+void add_reference(const Translation& t, const Statement& s, DeckRigidBody& body) {
   const DeckKeyword& keyword = *s.keyword;
   const std::string node = keyword.required("REF NODE");
   const std::string group = key_of(t.mesh.names.node_sets, t.scope(s), node);
@@ -62,7 +62,7 @@ void add_reference(const Translation& t, const Statement& s, RigidBody& body) {
 }
 
 /// PIN NSET and TIE NSET are the same to nodes that do not turn. Without elements they are the body.
-void add_nodes(const Translation& t, const Statement& s, RigidBody& body) {
+void add_nodes(const Translation& t, const Statement& s, DeckRigidBody& body) {
   const DeckKeyword& keyword = *s.keyword;
   for (const char* const key : {"TIE NSET", "PIN NSET"}) {
     const std::string* set = keyword.parameter(key);
@@ -79,8 +79,8 @@ void add_nodes(const Translation& t, const Statement& s, RigidBody& body) {
   if (body.is_of_nodes()) body.group = body.joined;
 }
 
-RigidBody read_rigid_body(const Translation& t, const Statement& s) {
-  RigidBody body;
+DeckRigidBody read_rigid_body(const Translation& t, const Statement& s) {
+  DeckRigidBody body;
   body.keyword = s.keyword;
   if (s.keyword->has("ANALYTICAL SURFACE"))
     add_analytical(t, s, body);
@@ -108,9 +108,9 @@ void check_kinematic(const DeckKeyword& keyword) {
 }
 
 /// The nodes of the surface move with the reference node.
-RigidBody read_coupling(const Translation& t, const Statement& s, const DeckKeyword& kinematic) {
+DeckRigidBody read_coupling(const Translation& t, const Statement& s, const DeckKeyword& kinematic) {
   const std::string surface = s.keyword->required("SURFACE");
-  RigidBody body;
+  DeckRigidBody body;
   body.keyword = s.keyword;
   body.name = key_of(t.mesh.names.surfaces, t.scope(s), surface);
   if (body.name.empty()) s.keyword->fail("SURFACE=" + surface, "the NAME of a *SURFACE");
@@ -125,35 +125,35 @@ struct Components {
   std::vector<std::size_t> along, about;
 };
 
-Components components_of(RigidBody::Space space) {
+Components components_of(DeckRigidBody::Space space) {
   switch (space) {
-    case RigidBody::Space::plane:
+    case DeckRigidBody::Space::plane:
       return {{0, 1}, {5}};
-    case RigidBody::Space::ring:
+    case DeckRigidBody::Space::ring:
       return {{1}, {}};
-    case RigidBody::Space::solid:
+    case DeckRigidBody::Space::solid:
       break;
   }
   return {{0, 1, 2}, {3, 4, 5}};
 }
 
-std::size_t count_imposed(const RigidBody& body, const std::vector<std::size_t>& components) {
+std::size_t count_imposed(const DeckRigidBody& body, const std::vector<std::size_t>& components) {
   return at(
       std::count_if(components.begin(), components.end(), [&](std::size_t c) { return body.motion[c].has_value(); }));
 }
 
-[[noreturn]] void fail_at(const RigidBody::Motion& motion, const std::string& found, const std::string& expected,
+[[noreturn]] void fail_at(const DeckRigidBody::Motion& motion, const std::string& found, const std::string& expected,
                           const std::string& suggestion) {
   throw CaseError(motion.where, "*BOUNDARY", found, expected, suggestion);
 }
 
 /// In the plane and around an axis there are no other motions.
-void refuse_leaving_space(const RigidBody& body, const Components& components) {
+void refuse_leaving_space(const DeckRigidBody& body, const Components& components) {
   for (std::size_t c = 0; c < body.motion.size(); ++c) {
     const std::vector<std::size_t>& own = c < 3 ? components.along : components.about;
     if (!body.motion[c] || body.motion[c]->velocity == 0.0 || std::find(own.begin(), own.end(), c) != own.end())
       continue;
-    const bool is_ring = body.space == RigidBody::Space::ring;
+    const bool is_ring = body.space == DeckRigidBody::Space::ring;
     fail_at(*body.motion[c],
             fmt::format("a motion of degree of freedom {} of a rigid body {}", c + 1,
                         is_ring ? "around an axis" : "in the plane"),
@@ -171,9 +171,9 @@ struct Imposed {
 };
 
 /// From the components `first` to first + 2, which have one function where they are not 0.
-Imposed imposed(const RigidBody& body, std::size_t first) {
+Imposed imposed(const DeckRigidBody& body, std::size_t first) {
   Imposed all;
-  const RigidBody::Motion* before = nullptr;
+  const DeckRigidBody::Motion* before = nullptr;
   for (std::size_t c = 0; c < 3; ++c) {
     const auto& own = body.motion[first + c];
     if (!own || own->velocity == 0.0) continue;
@@ -202,7 +202,7 @@ std::string constant_function(Translation& t, const Location& where) {
   return name;
 }
 
-void add_led_body(Translation& t, const RigidBody& body, const Components& components, TableMaker& contact) {
+void add_led_body(Translation& t, const DeckRigidBody& body, const Components& components, TableMaker& contact) {
   const Imposed travel = imposed(body, 0), turn = imposed(body, 3);
   if (travel.vector != Vec3{}) {
     contact.vector("velocity", travel.vector);
@@ -226,12 +226,12 @@ void add_led_body(Translation& t, const RigidBody& body, const Components& compo
 }
 
 /// In the plane nothing feels the moments about x and y.
-Vec3 moments_of(const RigidBody& body) {
+Vec3 moments_of(const DeckRigidBody& body) {
   const Vec3& given = body.inertia->moments;
-  return body.space == RigidBody::Space::plane ? Vec3{given[2], given[2], given[2]} : given;
+  return body.space == DeckRigidBody::Space::plane ? Vec3{given[2], given[2], given[2]} : given;
 }
 
-void add_free_body(Translation& t, RigidBody& body, const Components& components, TableMaker& contact) {
+void add_free_body(Translation& t, DeckRigidBody& body, const Components& components, TableMaker& contact) {
   const DeckKeyword& keyword = *body.keyword;
   if (++body.contacts > 1)
     keyword.fail("a free rigid body in several contacts", "one contact", "A free body belongs to one contact.");
@@ -254,7 +254,7 @@ void add_free_body(Translation& t, RigidBody& body, const Components& components
   }
   const Location& where = body.inertia->keyword->where;
   contact.add("inertia", vector_node(moments_of(body), where));
-  if (body.space == RigidBody::Space::solid && body.inertia->products != Vec3{})
+  if (body.space == DeckRigidBody::Space::solid && body.inertia->products != Vec3{})
     contact.add("products_of_inertia", vector_node(body.inertia->products, where));
   contact.add("centre_of_mass", vector_node(body.centre, where));
   if (body.initial_rotation) contact.vector("angular_velocity", *body.initial_rotation);
@@ -262,11 +262,11 @@ void add_free_body(Translation& t, RigidBody& body, const Components& components
 
 }  // namespace
 
-std::vector<RigidBody> rigid_bodies_of(const Translation& t) {
-  std::vector<RigidBody> bodies;
-  const auto add = [&](RigidBody body) {
+std::vector<DeckRigidBody> rigid_bodies_of(const Translation& t) {
+  std::vector<DeckRigidBody> bodies;
+  const auto add = [&](DeckRigidBody body) {
     const auto same =
-        std::ranges::find_if(bodies, [&](const RigidBody& other) { return other.reference == body.reference; });
+        std::ranges::find_if(bodies, [&](const DeckRigidBody& other) { return other.reference == body.reference; });
     if (same == bodies.end()) return bodies.push_back(std::move(body));
     if (!body.is_of_nodes() || same->is_obstacle() || !same->joined.empty())
       body.keyword->fail("the reference node of " + same->name + " for " + body.name, "a reference node for each body",
@@ -289,29 +289,29 @@ std::vector<RigidBody> rigid_bodies_of(const Translation& t) {
   return bodies;
 }
 
-std::vector<RigidBody*> referred_to(Translation& t, const std::string& node_group) {
+std::vector<DeckRigidBody*> referred_to(Translation& t, const std::string& node_group) {
   if (t.rigid_bodies.empty()) return {};
-  std::vector<RigidBody*> bodies;
+  std::vector<DeckRigidBody*> bodies;
   for (const Index node : t.mesh.mesh.nodes_of(node_group)) {
     const auto found = std::find_if(t.rigid_bodies.begin(), t.rigid_bodies.end(),
-                                    [&](const RigidBody& body) { return body.reference == node; });
+                                    [&](const DeckRigidBody& body) { return body.reference == node; });
     if (found == t.rigid_bodies.end()) return {};
     bodies.push_back(&*found);
   }
   return bodies;
 }
 
-RigidBody* body_of_cells(Translation& t, const std::string& cell_group) {
+DeckRigidBody* body_of_cells(Translation& t, const std::string& cell_group) {
   const auto cells = t.mesh.mesh.cell_groups.find(cell_group);
   if (cells == t.mesh.mesh.cell_groups.end()) return nullptr;
-  const auto found = std::find_if(t.rigid_bodies.begin(), t.rigid_bodies.end(), [&](const RigidBody& body) {
+  const auto found = std::find_if(t.rigid_bodies.begin(), t.rigid_bodies.end(), [&](const DeckRigidBody& body) {
     return std::all_of(cells->second.begin(), cells->second.end(),
                        [&](const CellRef& cell) { return body.cells.count(cell) != 0; });
   });
   return found == t.rigid_bodies.end() ? nullptr : &*found;
 }
 
-void add_rigid_motion(Translation& t, RigidBody& body, TableMaker& contact) {
+void add_rigid_motion(Translation& t, DeckRigidBody& body, TableMaker& contact) {
   const Components components = components_of(body.space);
   refuse_leaving_space(body, components);
   const std::size_t held = count_imposed(body, components.along), all = components.along.size();

@@ -12,15 +12,15 @@ namespace carom {
 class TableMaker;
 
 /// All of the deck. Throws CaseError.
-std::vector<RigidBody> rigid_bodies_of(const Translation& t);
+std::vector<DeckRigidBody> rigid_bodies_of(const Translation& t);
 
 /// The bodies whose reference nodes are the nodes of the group; none where it has other nodes too.
-std::vector<RigidBody*> referred_to(Translation& t, const std::string& node_group);
+std::vector<DeckRigidBody*> referred_to(Translation& t, const std::string& node_group);
 
 /// The body that all cells of the group belong to, or nullptr.
-RigidBody* body_of_cells(Translation& t, const std::string& cell_group);
+DeckRigidBody* body_of_cells(Translation& t, const std::string& cell_group);
 
 /// Adds what the body does to the contact with its surface.
-void add_rigid_motion(Translation& t, RigidBody& body, TableMaker& contact);
+void add_rigid_motion(Translation& t, DeckRigidBody& body, TableMaker& contact);
 
 }  // namespace carom

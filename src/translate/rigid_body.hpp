@@ -13,7 +13,7 @@
 namespace carom {
 
 /// A body of faces that belong to no part, which is an obstacle; of cells, which are parts; or of nodes alone.
-struct RigidBody {
+struct DeckRigidBody {
   /// Of its faces: R3D3 and R3D4, R2D2, RAX2.
   enum class Space : std::uint8_t { solid, plane, ring };
   /// A component of the motion of the reference node.

@@ -13,14 +13,14 @@ namespace carom {
 
 namespace {
 
-std::size_t count_held(const RigidBody& body, std::size_t first, std::size_t end) {
+std::size_t count_held(const DeckRigidBody& body, std::size_t first, std::size_t end) {
   return at(std::count_if(body.motion.begin() + static_cast<std::ptrdiff_t>(first),
                           body.motion.begin() + static_cast<std::ptrdiff_t>(end),
                           [](const auto& motion) { return motion.has_value(); }));
 }
 
 /// A support of all nodes of a body along one axis also holds the turns about the two others, of two axes all turns.
-void refuse_other_hinges(const RigidBody& body) {
+void refuse_other_hinges(const DeckRigidBody& body) {
   std::string held;
   for (std::size_t c = 0; c < body.motion.size(); ++c) {
     if (!body.motion[c]) continue;
@@ -42,7 +42,7 @@ void refuse_other_hinges(const RigidBody& body) {
 }
 
 /// The parts whose cells are those of the body. Throws CaseError where a part has others too, or no part has some.
-std::vector<std::string> parts_of(const Translation& t, const RigidBody& body) {
+std::vector<std::string> parts_of(const Translation& t, const DeckRigidBody& body) {
   const auto numbers_of = [&](const std::vector<CellRef>& cells) {
     constexpr std::size_t most = 5;
     std::string text;
@@ -88,14 +88,14 @@ bool is_of_a_part(const Translation& t, Index node) {
 }
 
 /// To a body of cells Abaqus adds what stands at its reference node.
-void refuse_added_mass(Translation& t, const RigidBody& body) {
+void refuse_added_mass(Translation& t, const DeckRigidBody& body) {
   const char* const own = "The body would have the mass and the inertia of its cells alone.";
   if (body.mass) t.findings.refuse(*body.mass_keyword, body.mass_keyword->where, "a mass beside that of cells", own);
   if (body.inertia)
     t.findings.refuse(*body.inertia->keyword, body.inertia->keyword->where, "an inertia beside that of cells", own);
 }
 
-void add_initial(Translation& t, const RigidBody& body) {
+void add_initial(Translation& t, const DeckRigidBody& body) {
   if (!body.initial_velocity && !body.initial_rotation) return;
   TableMaker initial(body.keyword->where);
   initial.text("nodes", body.group).vector("velocity", body.initial_velocity.value_or(Vec3{}));
@@ -104,7 +104,7 @@ void add_initial(Translation& t, const RigidBody& body) {
 }
 
 /// A body that cannot turn may have any inertia; this one has that of a ring through its farthest node, or nearly.
-Vec3 any_inertia(const Translation& t, const RigidBody& body) {
+Vec3 any_inertia(const Translation& t, const DeckRigidBody& body) {
   double reach = 0.0;
   for (const Index n : t.mesh.mesh.nodes_of(body.group))
     reach = std::max(reach, norm(subtract(t.mesh.mesh.coordinates[at(n)], body.centre)));
@@ -113,7 +113,7 @@ Vec3 any_inertia(const Translation& t, const RigidBody& body) {
 }
 
 /// false: it is no body, since its supports say all.
-bool add_given_inertia(Translation& t, const RigidBody& body, TableMaker& section) {
+bool add_given_inertia(Translation& t, const DeckRigidBody& body, TableMaker& section) {
   if (count_held(body, 0, 6) == 6) return false;
   const bool turns = count_held(body, 3, 6) < 3;
   if (!body.mass || (turns && !body.inertia)) {
@@ -129,7 +129,7 @@ bool add_given_inertia(Translation& t, const RigidBody& body, TableMaker& sectio
   return true;
 }
 
-void add_rigid_part(Translation& t, const RigidBody& body) {
+void add_rigid_part(Translation& t, const DeckRigidBody& body) {
   refuse_other_hinges(body);
   TableMaker section(body.keyword->where);
   section.text("name", body.name);
@@ -148,7 +148,7 @@ void add_rigid_part(Translation& t, const RigidBody& body) {
 }  // namespace
 
 void translate_rigid_parts(Translation& t) {
-  for (const RigidBody& body : t.rigid_bodies)
+  for (const DeckRigidBody& body : t.rigid_bodies)
     if (!body.is_obstacle()) t.errors.attempt([&] { add_rigid_part(t, body); });
 }
 

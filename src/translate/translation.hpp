@@ -46,7 +46,7 @@ struct Translation {
   Findings& findings;
   CaseErrors& errors;  ///< what is wrong; the rest is translated all the same
   std::vector<DeckStep> steps;
-  std::vector<RigidBody> rigid_bodies;
+  std::vector<DeckRigidBody> rigid_bodies;
   bool leaves_faces = false;  ///< faces of rigid bodies that look away from general contact
   Table root;
 
