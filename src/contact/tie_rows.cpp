@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -23,10 +22,9 @@
 namespace carom {
 namespace {
 
-double facet_size(const PlacedFacet& facet) {
-  if (facet.size == 1) return 0.0;
-  const double extent = measure(facet);
-  return facet.size == 2 ? extent : std::sqrt(extent);
+/// Points have none.
+double tied_size(const PlacedFacet& facet) {
+  return facet.size == 1 ? 0.0 : facet_size(facet);
 }
 
 /// Where a slave node is on the master.
@@ -62,12 +60,12 @@ class Master {
     for (std::size_t f = 0; f < all.size(); ++f) all[f] = static_cast<Index>(f);
     return *nearest(x, all, false);
   }
-  double size(Index f) const { return facet_size(place(facets_[static_cast<std::size_t>(f)], X_)); }
+  double size(Index f) const { return tied_size(place(facets_[static_cast<std::size_t>(f)], X_)); }
   /// How far from the facet nodes are tied; coincident ones are whatever the tolerance is.
   double reach(const Facet& facet) const {
     double far = 0.0;
     for (const Index n : facet) far = std::max(far, norm(X_[static_cast<std::size_t>(n)]));
-    return tie_.distance.value_or(tie_.tolerance * facet_size(place(facet, X_))) + 1e-12 * far;
+    return tie_.distance.value_or(tie_.tolerance * tied_size(place(facet, X_))) + 1e-12 * far;
   }
 
  private:

@@ -88,6 +88,11 @@ double measure(const PlacedFacet& facet) {
   return 1.0;
 }
 
+double facet_size(const PlacedFacet& facet) {
+  const double extent = measure(facet);
+  return facet.size == 2 ? extent : std::sqrt(extent);
+}
+
 void nodal_normals(std::span<const Facet> surface, std::span<const Vec3> coordinates, std::vector<Vec3>& normals) {
   normals.resize(coordinates.size());
   for (const Facet& facet : surface)

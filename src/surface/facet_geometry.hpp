@@ -59,6 +59,18 @@ inline Vec3 direction(const Vec3& n) {
   return length > 0.0 ? scaled(n, 1.0 / length) : Vec3{};
 }
 
+/// Two unit normals oppose each other when their product is below this: sides that stand at a right angle do not.
+inline constexpr double opposed = -0.1;
+
+/// Normal at the centre times area or length; zero for a point.
+inline Vec3 area_vector(const PlacedFacet& facet) {
+  const auto& x = facet.x;
+  if (facet.size == 4) return scaled(cross(subtract(x[2], x[0]), subtract(x[3], x[1])), 0.5);
+  if (facet.size == 3) return scaled(cross(subtract(x[1], x[0]), subtract(x[2], x[0])), 0.5);
+  if (facet.size == 2) return {x[1][1] - x[0][1], x[0][0] - x[1][0], 0.0};
+  return {};
+}
+
 /// Parent coordinates of the centre (the mean of the nodes).
 ParentPoint facet_centre(int size);
 
@@ -82,6 +94,9 @@ FacetFrame facet_tangents(const PlacedFacet& facet, const FacetShape& shape);
 
 /// Length of a segment, area of a triangle or a quadrilateral (2 x 2 Gauss points: exact when flat), 1 for a point.
 double measure(const PlacedFacet& facet);
+
+/// Length of a segment, square root of the area of a triangle or a quadrilateral, 1 for a point.
+double facet_size(const PlacedFacet& facet);
 
 /// Averaged unit normals at the nodes of a surface, n_a along the sum over facets of (integral of N_a n dGamma): the
 /// average of the facets' normals weighted by the areas of the node's share, which is the gradient of the enclosed

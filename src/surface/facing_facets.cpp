@@ -11,7 +11,6 @@
 #include "math/vec3.hpp"
 #include "surface/box_tree.hpp"
 #include "surface/facet_geometry.hpp"
-#include "surface/surface_search.hpp"
 
 namespace carom {
 

@@ -13,7 +13,7 @@ namespace carom {
 namespace {
 
 constexpr std::size_t piece_grain = 64;
-constexpr double nearly_parallel = 1e-6;  // sin^2 of an angle
+constexpr double along_facet = 1e-6;  // sin^2 of an angle
 
 bool share_a_node(std::span<const Index> a, std::span<const Index> b) {
   return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
@@ -24,8 +24,7 @@ bool share_a_node(std::span<const Index> a, std::span<const Index> b) {
 double to_ridge(const Piercing& one, const Piercing& two) {
   const double c = dot(one.normal, two.normal), sin_squared = 1.0 - c * c;
   const Vec3 way = subtract(two.position, one.position), out = cross(way, cross(one.normal, two.normal));
-  if (!(sin_squared > nearly_parallel) || !(dot(out, out) > nearly_parallel * sin_squared * dot(way, way)))
-    return infinity;
+  if (!(sin_squared > along_facet) || !(dot(out, out) > along_facet * sin_squared * dot(way, way))) return infinity;
   // The point p - p_1 = w (n_2 - c n_1) of that line, n_2 . (p - p_2) = 0.
   const double w = dot(two.normal, way) / sin_squared;
   return std::abs(w * dot(subtract(two.normal, scaled(one.normal, c)), out)) / norm(out);

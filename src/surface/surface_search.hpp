@@ -2,35 +2,18 @@
 // crossings within a step.
 #pragma once
 
-#include <cstdint>
-#include <optional>
+#include <cstddef>
 #include <span>
 #include <vector>
 
-#include "surface/box_tree.hpp"
 #include "surface/broad_phase.hpp"
-#include "surface/facet_projection.hpp"
+#include "surface/node_normals.hpp"
+#include "surface/node_query.hpp"
+#include "surface/search_range.hpp"
 #include "surface/surface_point.hpp"
+#include "surface/target_surface.hpp"
 
 namespace carom {
-
-/// Two unit normals oppose each other when their product is below this: sides that stand at a right angle do not.
-inline constexpr double opposed = -0.1;
-
-/// The lengths that say how far a search looks.
-struct SearchRange {
-  double reach = 0.0;           ///< largest distance of a point that counts
-  double margin = 0.0;          ///< of the lists that are kept (BroadPhase)
-  std::vector<double> depth;    ///< of each facet: largest distance behind it that counts
-  std::vector<double> width;    ///< of each facet: how far it acts beyond its edges (none: where it is nearest only)
-  std::vector<Index> body{};    ///< by node, where nodes may touch their own body; else empty
-  bool moves_sides_out = true;  ///< sides that do not count, always; else where nobody knows what was behind alone
-  bool fades = true;  ///< gaps fade beyond the end of the surface, as the potential of springs has to; multipliers,
-                      ///< whose rows would depend on each other there, keep them whole
-};
-
-/// For SearchRange::width: a tenth of each facet's size.
-std::vector<double> edge_widths(std::span<const Vec3> coordinates, std::span<const Facet> facets);
 
 /// Closest points of nodes on a surface of segments, triangles and quadrilaterals.
 ///
@@ -74,6 +57,8 @@ class SurfaceSearch {
  public:
   /// `own`: the facets that the nodes belong to, for their averaged normals; nodes on none have no normal.
   SurfaceSearch(std::vector<Index> nodes, std::vector<Facet> own, std::vector<Facet> facets, SearchRange range);
+  SurfaceSearch(const SurfaceSearch&) = delete;
+  SurfaceSearch& operator=(const SurfaceSearch&) = delete;
 
   /// Brings the search up to date. The positions must stay until the last find; displacement = x - x_begin. behind: by
   /// node of nodes() the facet that it was behind at x_begin, -1: none; empty: none was.
@@ -92,68 +77,25 @@ class SurfaceSearch {
   std::span<const Index> nodes() const { return nodes_; }
   /// The facets of the body of facet f that nodes()[q] may be near, but f, in the order of their numbers. In the plane
   /// none, where a node at a corner meets both of its sides.
-  std::vector<Index> beside(std::size_t q, Index f) const {
-    std::vector<Index> out;
-    for (const Index g : broad_phase_.targets_of(q))
-      if (g != f && facets()[g].size > 2 && body_of(g) == body_of(f)) out.push_back(g);
-    return out;
-  }
+  std::vector<Index> beside(std::size_t q, Index f) const;
   std::span<const Facet> facets() const { return broad_phase_.targets(); }
   long builds() const { return broad_phase_.builds(); }
 
  private:
-  struct Query;
-  struct Best;
-  struct SidePoint;
-  void find_active();
-  void place_active();
-  PlacedFacet placed(Index f) const { return place(facets()[f], x_); }
-  Vec3 facet_normal(Index f) const;
-  std::span<const Index> own_facets(std::size_t q) const {
-    return std::span(own_at_).subspan(own_begin_[q], own_begin_[q + 1] - own_begin_[q]);
-  }
-  Vec3 node_normal(std::size_t q) const;
-  bool counts(const Query& query, Index f) const;
-  bool stays_behind(const Query& query, Index f) const;
-  bool is_too_deep(const Query& query, Index f, double gap) const;
-  bool ends_at(const Query& query, Index f, const Projection& p) const;
-  bool goes_on_nearer(const Query& query, Index f, const Projection& p) const;
-  void consider(const Query& query, Index f, Best& best) const;
-  Index body_of(Index f) const { return range_.body.empty() ? 0 : range_.body[facets()[f][0]]; }
+  Index body_of(Index f) const { return range_.body_of(facets()[f][0]); }
   std::span<const Index> by_body(std::span<const Index> candidates, Space& space) const;
-  bool find_nearest(const Query& query, Space& space) const;
-  Best closest(const Query& query) const;
-  Vec3 pseudonormal(Index f, const Projection& p) const;
-  std::optional<Index> crossed_facet(const Query& query) const;
-  Best followed(const Query& query, Index from) const;
-  bool met(const Query& query, const Best& best, SurfacePoint& point) const;
-  bool goes_on(Index f, const Projection& p) const;
-  double rim_width(Index f) const;
-  std::optional<SidePoint> side_at(const Query& query, Index f) const;
-  double farthest_foot(Index f, double least) const;
-  double alike(Index f) const;
-  FacetFoot foot_on(const Query& query, Index f, const Projection& p) const;
-  void feet_around(const Query& query, const Best& best, std::vector<FacetFoot>& feet) const;
+  NodeQuery query_of(std::size_t q, std::span<const Index> candidates, Index behind, Space& space) const;
+  bool find_nearest(const NodeQuery& query, Space& space) const;
 
   std::vector<Index> nodes_;
-  std::vector<Facet> own_;
   SearchRange range_;
   BroadPhase broad_phase_;
-  std::vector<std::vector<Index>> facets_at_;  ///< by node
-  std::vector<std::size_t> own_begin_{0};      ///< those of own_ at nodes_[q]: own_at_[own_begin_[q]] ...
-  std::vector<Index> own_at_;
-  std::vector<Index> target_nodes_;           ///< of all facets, each once
+  TargetSurface surface_;
+  NodeNormals normals_;
   std::vector<std::vector<Index>> excluded_;  ///< by query, increasing: neighbours of the node's own facets
-  std::span<const Vec3> x_begin_, x_, displacement_;
   std::vector<Index> behind_;
-  // What many queries ask for: the facets on the lists, and the own facets of the nodes that have any.
-  std::vector<Index> active_, active_own_;
-  std::vector<std::uint8_t> is_active_, is_active_own_;
-  long active_since_ = -1;           ///< the build of the lists that they belong to
-  std::vector<Bounds> bounds_;       ///< of active facets
-  std::vector<Vec3> facet_normals_;  ///< of active facets, at their centres
-  std::vector<Vec3> own_areas_;      ///< area vectors of active own facets
-  double least_depth_ = 0.0;
+  long active_since_ = -1;  ///< the build of the lists that surface_ and normals_ have been made ready for
+  double least_depth_;
   bool is_fast_ = false;  ///< something may have crossed a facet without being near it now
 };
 
