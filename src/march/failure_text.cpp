@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "march/folded_cells.hpp"
+#include "march/inside_out.hpp"
 #include "math/vec3.hpp"
 #include "schemes/scheme_table.hpp"
 
@@ -49,6 +51,21 @@ std::string touch_remedy(const Stage& stage) {
       "{} with plain multipliers throws a node that touches for one step back with up to {:.3g} times its speed, and "
       "so makes energy where touches are short; enforcement = \"lagrange\", which stops what touches, does not",
       describe(stage.settings()), *rebound);
+}
+
+std::string with_cell(const std::string& failure, const Simulation& s, std::span<const double> u,
+                      std::span<const std::uint8_t> alive) {
+  if (std::string inverted = inside_out(s, u, alive); !inverted.empty()) return inverted;
+  if (u.size() != s.solid().dof_count()) return failure;
+  const FlattestCorner corner = flattest_corner(s, u, alive);
+  return corner.is_folded() ? failure + "; on the way " + describe_fold(s, corner, u) : failure;
+}
+
+std::string place_and_remedy(const Simulation& s, const Stage& stage, const State& state) {
+  if (const FlattestCorner corner = flattest_corner(s, state.q, state.alive()); corner.is_folded())
+    return describe_fold(s, corner, state.q);
+  const std::string remedy = s.given().contacts.empty() ? "" : touch_remedy(stage);
+  return worst_place(stage.system(), state) + ". " + (remedy.empty() ? energy_remedy(stage) : remedy);
 }
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 // The way of a simulation through time, step by step.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,8 +11,9 @@
 #include "build/simulation.hpp"
 #include "march/erosions.hpp"
 #include "march/observer.hpp"
-#include "march/step_guard.hpp"
-#include "march/step_scale.hpp"
+#include "march/run_books.hpp"
+#include "march/stage_run.hpp"
+#include "march/step_count.hpp"
 
 namespace carom {
 
@@ -39,6 +41,7 @@ class March {
   /// The run ends here, before its end: for the observers.
   void leave();
 
+  bool is_started() const { return books_.has_value(); }
   bool at_end() const;
   /// When.
   double end() const { return end_; }
@@ -49,19 +52,18 @@ class March {
   /// Of the last step, or the initial state. Precondition: started. Valid until the next step.
   StepView view() const;
   /// Precondition of all of these: started.
-  const Scheme& scheme() const { return *scheme_; }
-  const EnergyLedger& ledger() const { return *ledger_; }
-  const RunMonitor& monitor() const { return *monitor_; }
-  bool is_started() const { return ledger_.has_value(); }
+  const Scheme& scheme() const { return stage_->scheme(); }
+  const EnergyLedger& ledger() const { return books_->ledger(); }
+  const RunMonitor& monitor() const { return books_->monitor(); }
+  /// Largest strain so far of the rigid bodies that turn.
+  double body_strain() const { return books_->body_strain(); }
 
   const State& state() const { return state_; }
   /// Gives away what holds q, v or a for those that go on looking at it, and goes on with a copy.
   std::vector<double> hand_over(std::vector<double> State::*values);
-  long long steps() const { return step_; }
-  double dt_smallest() const { return dt_smallest_; }
-  double dt_largest() const { return dt_largest_; }
-  /// Largest strain so far of the rigid bodies that turn.
-  double body_strain() const { return body_strain_; }
+  long long steps() const { return count_.steps(); }
+  double dt_smallest() const { return count_.smallest(); }
+  double dt_largest() const { return count_.largest(); }
   /// Changes of scheme and solver on the way, and why steps were cut or kept short.
   std::vector<std::string> log() const;
 
@@ -71,47 +73,24 @@ class March {
     x.keep(archive);
   }
   void keep(Archive& archive);
-  void keep_state(Archive& archive);
   void keep_topology(Archive& archive);
 
-  struct GivenMotion {
-    double kinetic = 0.0;
-    Momentum momentum{};
-  };
-  const Stage& stage() const { return *s_.stages()[stage_number_]; }
-  void begin_stage();
-  void begin_books();
-  void let_follow();
-  GivenMotion given_motion(const std::vector<double>& v_before) const;
-  void book_switch(const GivenMotion& given);
-  std::string with_cell(const std::string& failure) const;
-  std::optional<StepReport> make_step();
-  void book(const StepReport& report);
+  const Stage& stage() const { return stage_->stage(); }
+  void begin_stage(std::size_t number);
+  void book(const MadeStep& made);
   void erode();
-  void book_eroded(const EnergyTerms& before, const SolidEnergies& gone);
-  void note_solver();
-  double load_impulse() const;
   void show();
 
   const Simulation& s_;
   std::vector<Observer*> observers_;
-  std::unique_ptr<Scheme> scheme_;
-  std::optional<StepGuard> steps_;
-  std::optional<StepScale> step_scale_;
+  std::unique_ptr<StageRun> stage_;  ///< the present one; null before the start
   State state_, next_;
-  std::optional<EnergyLedger> ledger_;
-  std::optional<RunMonitor> monitor_;
+  std::optional<RunBooks> books_;     ///< none before the start
   std::optional<Erosions> erosions_;  ///< where cells may go
   double end_;
-  std::size_t stage_number_ = 0;
-  long long step_ = 0;
-  double dt_ = 0.0;     ///< of the last step
-  int iterations_ = 0;  ///< of the last step
-  std::string solver_;  ///< Scheme::solver_name after the last step
+  StepCount count_;
   std::vector<std::string> log_;
-  double dt_smallest_ = 0.0, dt_largest_ = 0.0;
-  double body_strain_ = 0.0;
-  std::string alarm_, message_;
+  std::string message_;
 };
 
 }  // namespace carom
