@@ -96,7 +96,8 @@ void March::begin_stage(std::size_t number) {
   const double rest = rest_energy(s_.solid(), reach(s_.mesh()));
   const bool was_static = stage_ && !has_inertia(stage().settings().kind);
   auto next = std::make_unique<StageRun>(s_, number, rest);
-  if (stage_) log_ = log();
+  if (stage_)
+    for (std::string& line : stage_->notes()) log_.push_back(std::move(line));
   stage_ = std::move(next);
   const std::vector<double> v_before = state_.v;
   const bool gives_velocities = s_.begin_velocities(number, state_);

@@ -1,6 +1,7 @@
 // Cells that go within a run.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -47,7 +48,8 @@ std::string three_parts() {
 /// The bar flies, turns and stretches; its slice goes at t = 2.
 class CutBar {
  public:
-  explicit CutBar(const std::string& scheme = "central_differences") {
+  /// later: the stages after the first.
+  explicit CutBar(const std::string& scheme = "central_differences", const std::string& later = "") {
     static int count = 0;
     mesh_ = std::filesystem::temp_directory_path() /
             ("carom_cut_" + std::to_string(getpid()) + "_" + std::to_string(count++) + ".msh");
@@ -63,7 +65,7 @@ class CutBar {
         "[[initial]]\npart = \"left\"\nvelocity = [-0.02, 0.0, 0.01]\n"
         "[[initial]]\npart = \"right\"\nvelocity = [0.03, 0.02, 0.0]\n"
         "[[erosion]]\npart = \"slice\"\ntime = 2.0\n[scheme]\nkind = \"" +
-        scheme + "\"\n[time]\nend = 8.0\n";
+        scheme + "\"\n[time]\nend = 8.0\n" + later;
     simulation_ = std::make_unique<Simulation>(parse_case(text, "case.toml"));
   }
   ~CutBar() { std::filesystem::remove(mesh_); }
@@ -212,6 +214,21 @@ TEST(RunErosion, GoesOnToTheBit) {
     }
     set_threads(0);
   }
+}
+
+// What a part has lost is one line of the log, however many stages there are.
+TEST(RunErosion, TheLogSaysOnceWhatHasGone) {
+  const CutBar bar("central_differences", "[[stage]]\nkind = \"central_differences\"\nend = 9.0\n");
+  March march(bar.simulation());
+  march.start();
+  while (!march.at_end() && !march.has_failed()) march.step();
+  const std::vector<std::string> log = march.log();
+  const auto lines = [&](const std::string& begin) {
+    return std::ranges::count_if(log, [&](const std::string& line) { return line.starts_with(begin); });
+  };
+  EXPECT_EQ(lines("stage: "), 1);
+  EXPECT_EQ(lines("erosion: "), 1);
+  EXPECT_EQ(lines("erosion: 4 of the 4 cells of part \"slice\" have gone, from t = 2"), 1);
 }
 
 // In the state that a step ends with, contact sees the faces that its erosion has laid bare.
