@@ -123,6 +123,7 @@ std::string describe_driven(const Stage& stage, const Simulation& s) {
 std::string describe(const Erosion& erosion, std::string_view time) {
   std::vector<std::string> when;
   if (erosion.plastic_strain) when.push_back(fmt::format("a plastic strain of {:g}", *erosion.plastic_strain));
+  if (erosion.damage) when.push_back(fmt::format("a damage of {:g}", *erosion.damage));
   if (erosion.distortion) when.push_back(fmt::format("a corner's volume of {:g} of that at rest", *erosion.distortion));
   if (erosion.time) when.push_back(fmt::format("t = {:g} {}", *erosion.time, time));
   return fmt::format("  erosion   \"{}\": {} may go, at {}\n", erosion.name,

@@ -45,11 +45,14 @@ void check_parts(const CaseErosion& given, const Model& model) {
       refuse(given, "part", fmt::format("formulation = \"nodal\" of part \"{}\"", part.name),
              "cells that have points of their own",
              "Leave the formulation out, or take \"full\": what nodes remember cannot go with a cell.");
-    const std::vector<std::string>& history = part.material.law->history;
+    const std::vector<std::string> history = part.material.history();
     if (given.plastic_strain && std::ranges::find(history, yielding_by) == history.end())
       refuse(given, "plastic_strain",
              fmt::format("law = \"{}\" of part \"{}\", which does not yield", part.material.law->name, part.name),
              "a law that yields", "Give the part such a law, or let it go at a time.");
+    if (given.damage && std::ranges::find(history, damaged_by) == history.end())
+      refuse(given, "damage", fmt::format("a material of part \"{}\" that has none", part.name),
+             "a material with damage", "Give the material `damage = { D1 = ..., ... }`.");
   }
 }
 
@@ -87,7 +90,7 @@ void add_erosion(const CaseErosion& given, Model& model) {
   ErodingCells cells = cells_of(given, model);
   check_joints(given, model, cells.nodes);
   model.erosion.push_back(
-      {*given.part, std::move(cells.positions), given.plastic_strain, given.distortion, given.time});
+      {*given.part, std::move(cells.positions), given.plastic_strain, given.damage, given.distortion, given.time});
 }
 
 void refuse_erosion(const Case& given, const Model& model, const std::vector<std::unique_ptr<Stage>>& stages) {

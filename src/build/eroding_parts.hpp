@@ -12,15 +12,12 @@ namespace carom {
 
 class Stage;
 
-/// The variable of laws' history that the criterion plastic_strain looks at.
-inline constexpr const char* yielding_by = "equivalent_plastic_strain";
-
 /// True when a part of this name is to erode.
 bool erodes(const Case& given, const std::string& part);
 
 /// Adds an [[erosion]] to the model, whose parts, contacts, loads and equations are complete. Throws CaseError
-/// where the law of a part has no plastic strain, and where what is tied, joined by equations or under pressure would
-/// go.
+/// where a part has no plastic strain or no damage to go by, and where what is tied, joined by equations or under
+/// pressure would go.
 void add_erosion(const CaseErosion& given, Model& model);
 
 /// Throws CaseError where a stage has a scheme in which cells cannot go.

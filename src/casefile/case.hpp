@@ -47,6 +47,7 @@ struct CaseMaterial {
   std::map<std::string, Located<double>> values;  ///< of the parameters of the law, by their keys
   Located<std::vector<std::array<double, 2>>> curve;
   std::vector<double> rates;
+  std::optional<JohnsonCookDamage> damage;
 
   const Located<double>& value(const std::string& key) const { return values.at(key); }
   /// Of a value, or of the law where it has none of this name.
@@ -121,7 +122,7 @@ struct CaseSpring {
 struct CaseErosion {
   Location where;
   Located<std::string> part;
-  std::optional<double> plastic_strain, distortion, time;
+  std::optional<double> plastic_strain, damage, distortion, time;
 };
 
 /// [[rigid_body]]: the cells of parts, and nodes of others, that move as one.

@@ -70,8 +70,9 @@ void write_section(const std::string& path, const KeyDescription& key, std::stri
                  needed ? " Required." : "");
   write_values(section, text);
   write_alternatives(section, text);
+  const char* of_each = key.shape == Shape::named_sections ? ".NAME" : "";
   for (const KeyDescription& child : section.keys) {
-    if (child.section) write_section(join(path, key.key), child, text);
+    if (child.section) write_section(join(path, key.key) + of_each, child, text);
   }
 }
 

@@ -43,6 +43,30 @@ void write_law(const Law& law, std::string& text) {
   text += ".\n";
 }
 
+const char* const damage_text = R"(
+## Damage
+
+`damage = { D1 = ..., D2 = ..., ... }` in `[materials.NAME]` gives a law that yields, one of those above that remember
+`equivalent_plastic_strain`, the damage of Johnson and Cook. A point remembers it as `damage` behind the law's own variables: 0
+at rest, fracture at 1. It grows as d `damage` = d alpha / eps_f with the equivalent plastic strain alpha,
+
+    eps_f = [D1 + D2 exp(D3 eta)] [1 + D4 ln(max(rate / reference_rate, 1))] [1 + D5 theta]
+
+(G. R. Johnson and W. H. Cook, Eng. Fract. Mech. 21, 1985, pp. 31-48). eta is the mean over the von Mises stress at the end of the
+step, tension positive: 1/3 in a bar under tension, 0 in shear, -1/3 under compression. D3 of metals is below 0, as in the paper;
+Abaqus writes exp(-d3 eta). rate is that of alpha over the step. theta is that of johnson_cook, at the beginning of the step; laws
+without a temperature take no D5. The keys are those of [materials.NAME.damage](case_format.md#materialsnamedamage).
+
+- It is an indicator: the stress does not soften, and the damage may exceed 1. `[[erosion]]` lets the cells go whose points have
+  reached a damage, and fields, probes and `carom material` have it by its name.
+- Below reference_rate the rate has no influence, as in johnson_cook's yield stress; so it is in OpenRadioss, too.
+- The formula holds for every eta. Under pressure it gives large strains at fracture, so that little damage grows; other programs
+  let none grow below a limit of their own (Y. Bao and T. Wierzbicki, Eng. Fract. Mech. 72, 2005, find -1/3), with which the parameters of
+  the formula have not been fitted. The paper uses it up to 1.5 and passes over to spall beyond, which is not done here.
+- In a step the damage of a point grows by 1 at most. It does so where a point flows for which the formula gives no strain above that
+  of the step: with D1 < 0 it comes to 0 and below at a high eta.
+)";
+
 }  // namespace
 
 std::string laws_markdown() {
@@ -57,6 +81,7 @@ std::string laws_markdown() {
       "come "
       "from libraries: [user_laws.md](user_laws.md).\n";
   for (const Law& law : laws()) write_law(law, text);
+  text += damage_text;
   return text;
 }
 

@@ -46,6 +46,9 @@ SectionSchema<CaseErosion> erosion_section() {
   s.key("part", &CaseErosion::part, "Name of a [[part]].", {.need = Need::required});
   s.key("plastic_strain", &CaseErosion::plastic_strain, "Equivalent plastic strain, the largest of the cell's points.",
         {.unit = Dimension::none, .range = greater_than(0.0)});
+  s.key("damage", &CaseErosion::damage,
+        "Damage of the material (materials.NAME.damage: fracture at 1), the largest of the cell's points.",
+        {.unit = Dimension::none, .range = greater_than(0.0)});
   s.key(
       "distortion", &CaseErosion::distortion,
       "A corner of the cell keeps no more than this share of the volume that it had at rest: cells that are crushed go "
@@ -53,7 +56,8 @@ SectionSchema<CaseErosion> erosion_section() {
       {.range = between_open(0.0, 1.0)});
   s.key("time", &CaseErosion::time, "At the first step that ends there or later all cells of the part go.",
         {.unit = Dimension::time, .range = greater_than(0.0)});
-  s.description.alternatives = {{Alternatives::Count::at_least_one, {"plastic_strain", "distortion", "time"}}};
+  s.description.alternatives = {
+      {Alternatives::Count::at_least_one, {"plastic_strain", "damage", "distortion", "time"}}};
   return s;
 }
 

@@ -6,6 +6,7 @@
 
 #include "casefile/case_schema.hpp"
 #include "casefile/write_toml.hpp"
+#include "material/damaged_law.hpp"
 #include "material/loaded_law.hpp"
 
 namespace carom {
@@ -126,9 +127,46 @@ void add_rates(SectionSchema<CaseMaterial>& s, const Law& law) {
   s.add(key, handlers);
 }
 
+SectionSchema<JohnsonCookDamage> damage_section() {
+  SectionSchema<JohnsonCookDamage> s(
+      "Johnson and Cook's damage, of laws that yield: the `damage` of a point grows from 0 by the plastic strain over "
+      "that at fracture, [D1 + D2 exp(D3 eta)] [1 + D4 ln(rate / reference_rate)] [1 + D5 theta], where eta is the "
+      "mean over the von Mises stress, tension positive (docs/material_laws.md). It does not soften the stress; "
+      "[[erosion]] can go by it, fields and probes have it by its name.");
+  s.key("D1", &JohnsonCookDamage::D1, "Strain at fracture that is left at a high eta.",
+        {.need = Need::required, .aliases = {"d1", "D_1"}});
+  s.key("D2", &JohnsonCookDamage::D2, "What eta = 0 adds to it.", {.range = at_least(0.0), .aliases = {"d2", "D_2"}});
+  s.key("D3", &JohnsonCookDamage::D3,
+        "Exponent of eta; below 0 where tension breaks sooner. Abaqus' d3 has the other sign.",
+        {.aliases = {"d3", "D_3"}});
+  s.key("D4", &JohnsonCookDamage::D4, "Factor of the logarithm of the rate; 0: no influence of the rate.",
+        {.aliases = {"d4", "D_4"}});
+  s.key("D5", &JohnsonCookDamage::D5,
+        "Factor of theta, the temperature between the law's reference_temperature (0) and melting_temperature (1); 0: "
+        "no influence of the temperature.",
+        {.aliases = {"d5", "D_5"}});
+  s.key("reference_rate", &JohnsonCookDamage::reference_rate,
+        "Rate of plastic strain below which there is no influence of the rate.",
+        {.unit = Dimension::rate,
+         .range = greater_than(0.0),
+         .aliases = {"epsilon_0", "strain_rate"},
+         .default_phrase = "that of the law; needed beside D4 where it has none"});
+  return s;
+}
+
+/// The rules between the values of the damage.
+void check_damage_of(const Material& made, const Node& node, const ReadContext& at) {
+  const std::optional<LawProblem> problem = check_damage(made);
+  if (!problem) return;
+  const Node& damage = *find(node, "damage");
+  throw CaseError(find(damage, problem->key)->where, at.at("damage").at(problem->key).path, problem->found,
+                  problem->expected, problem->remedy);
+}
+
 /// The rules of the law between its values.
 void check_material(CaseMaterial& material, const Node& node, const ReadContext& at) {
   const Material made = material.made();
+  if (made.damage) check_damage_of(made, node, at);
   if (made.law->check == nullptr) return;
   const std::optional<LawProblem> problem = made.law->check(made);
   if (!problem) return;
@@ -206,6 +244,7 @@ Material CaseMaterial::made() const {
   for (std::size_t p = 0; p < material.values.size(); ++p) material.values[p] = *value(material.law->parameters[p].key);
   material.curve = *curve;
   material.rates = rates;
+  material.damage = damage;
   return material;
 }
 
@@ -222,6 +261,7 @@ SectionSchema<CaseMaterial> material_section() {
     add_curve(s, law);
     add_rates(s, law);
   }
+  s.table("damage", &CaseMaterial::damage, damage_section(), {.kinds = kinds_of(yields)});
   add_library_keys(s);
   s.finish = check_material;
   s.instead_of_read = of_library;

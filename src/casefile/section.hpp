@@ -75,7 +75,8 @@ class SectionSchema {
   void table(const std::string& name, Sub S::*member, const SectionSchema<Sub>& sub, KeyOptions options = {});
   /// [name], stored in a member that is empty when the section is absent.
   template <class Sub>
-  void table(const std::string& name, std::optional<Sub> S::*member, const SectionSchema<Sub>& sub);
+  void table(const std::string& name, std::optional<Sub> S::*member, const SectionSchema<Sub>& sub,
+             KeyOptions options = {});
   /// [[name]]
   template <class Sub>
   void tables(const std::string& name, std::vector<Sub> S::*member, const SectionSchema<Sub>& sub,

@@ -65,7 +65,8 @@ void SectionSchema<S>::table(const std::string& name, Sub S::*member, const Sect
 
 template <class S>
 template <class Sub>
-void SectionSchema<S>::table(const std::string& name, std::optional<Sub> S::*member, const SectionSchema<Sub>& sub) {
+void SectionSchema<S>::table(const std::string& name, std::optional<Sub> S::*member, const SectionSchema<Sub>& sub,
+                             KeyOptions options) {
   Handlers handlers;
   handlers.read = [member, sub](S& s, const Node& node, const ReadContext& at) {
     Sub& value = (s.*member).emplace();
@@ -76,7 +77,7 @@ void SectionSchema<S>::table(const std::string& name, std::optional<Sub> S::*mem
     if (!(s.*member)) return std::nullopt;
     return sub.write(*(s.*member), &root);
   };
-  add(describe_section(name, Shape::section, sub.description, {}), std::move(handlers));
+  add(describe_section(name, Shape::section, sub.description, std::move(options)), std::move(handlers));
 }
 
 template <class S>

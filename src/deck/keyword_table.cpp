@@ -9,7 +9,7 @@ namespace {
 
 using enum KeywordUse;
 
-constexpr std::array<KeywordEntry, 159> kKeywords{{
+constexpr std::array<KeywordEntry, 162> kKeywords{{
     {"AMPLITUDE", model, "NAME,TIME,DEFINITION,VALUE", "",
      "A function of time; SMOOTH STEP becomes a table of 33 points."},
     {"ASSEMBLY", mesh, "NAME", "", "Begins the list of instances."},
@@ -52,6 +52,13 @@ constexpr std::array<KeywordEntry, 159> kKeywords{{
      "Nodes that move as one rigid body with the reference node, with *KINEMATIC behind it."},
     {"CREEP", refused, "", "", "The material would not creep."},
     {"CYCLIC SYMMETRY MODEL", refused, "", "", "Nothing would hold the edges of the sector."},
+    {"DAMAGE EVOLUTION", model, "TYPE", "SOFTENING,MIXED MODE BEHAVIOR,MODE MIX RATIO,DEGRADATION",
+     "0 after *DAMAGE INITIATION: cells go where their damage reaches 1. Others, under which the stress softens first, "
+     "are refused unless accepted: cells would go at once."},
+    {"DAMAGE INITIATION", model, "CRITERION", "",
+     "CRITERION=JOHNSON COOK: damage of the material, D3 with the other sign; without *DAMAGE EVOLUTION no cell goes. "
+     "Other criteria are refused unless accepted: nothing would break."},
+    {"DAMAGE STABILIZATION", solver, "", "*", "Steers how the other program softens."},
     {"DAMPING", refused, "", "", "The bodies would not be damped."},
     {"DASHPOT", refused, "", "", "The damper would be left out."},
     {"DENSITY", model, "", "", "Density."},

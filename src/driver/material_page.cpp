@@ -99,6 +99,8 @@ std::vector<Figure> figures_of(const Drive& drive) {
   if (!drive.column("equivalent_plastic_strain").empty())
     figures.push_back(
         {"Plastic strain", fmt::format("{:.4g}", last("equivalent_plastic_strain")), "equivalent, at the end"});
+  if (!drive.column(damaged_by).empty())
+    figures.push_back({"Damage", fmt::format("{:.4g}", last(damaged_by)), "at the end; fracture at 1"});
   if (drive.measured) figures.push_back(off_measured(drive));
   if (!drive.column("temperature_rise").empty())
     figures.push_back({"Temperature", fmt::format("+{:.4g} K", last("temperature_rise")), "at the end"});

@@ -154,14 +154,14 @@ Voigt cauchy(Measure measure, const Gradient& F, const Voigt& S) {
   return sigma;
 }
 
-std::vector<std::string> columns_of(const Law& law, const MaterialPath& path) {
+std::vector<std::string> columns_of(const std::vector<std::string>& remembered, const MaterialPath& path) {
   std::vector<std::string> columns{"time"};
   if (!path.strain.empty()) columns.emplace_back("strain");
   for (const char* row : axes)
     for (const char* column : axes) columns.push_back(fmt::format("F_{}{}", row, column));
   for (const char* component : components) columns.push_back(fmt::format("stress_{}", component));
   for (const char* name : {"von_mises", "energy", "dissipation"}) columns.emplace_back(name);
-  columns.insert(columns.end(), law.history.begin(), law.history.end());
+  columns.insert(columns.end(), remembered.begin(), remembered.end());
   return columns;
 }
 
@@ -185,7 +185,8 @@ MaterialCurve follow(const Material& material, int free_directions, const Materi
   const Law& law = *material.law;
   const int free = path.kind == PathKind::uniaxial_stress ? 2 : free_directions;
   const PreparedLaw prepared = prepare(material, free, kernels_reference().laws);
-  MaterialCurve curve{columns_of(law, path), {}};
+  const std::vector<std::string> remembered = material.history();
+  MaterialCurve curve{columns_of(remembered, path), {}};
   std::vector<double> history(static_cast<std::size_t>(prepared.history), 0.0), next(history.size());
   for (std::size_t p = 0; p < path.F.size(); ++p) {
     Gradient F = path.F[p];
@@ -202,7 +203,7 @@ MaterialCurve follow(const Material& material, int free_directions, const Materi
     for (const auto& line : F) row.insert(row.end(), line.begin(), line.end());
     row.insert(row.end(), sigma.begin(), sigma.end());
     row.insert(row.end(), {von_mises(sigma), energy, dissipation});
-    row.insert(row.end(), history.begin(), history.begin() + static_cast<std::ptrdiff_t>(law.history.size()));
+    row.insert(row.end(), history.begin(), history.begin() + static_cast<std::ptrdiff_t>(remembered.size()));
     if (!std::all_of(row.begin(), row.end(), [](double value) { return std::isfinite(value); }))
       throw RunError(static_cast<int>(p), path.time[p],
                      fmt::format("the law {} gives no number on this path", law.name));

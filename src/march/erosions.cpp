@@ -15,16 +15,17 @@ Erosions::Erosions(const Simulation& simulation)
       topologies_(simulation.model(), simulation.solid().cells()),
       so_far_(simulation.model().erosion.size()) {}
 
-/// The equivalent plastic strain of all cells, the largest of their points; empty where no criterion asks for it.
-std::vector<double> Erosions::plastic_strain(const State& state) const {
-  if (std::ranges::none_of(s_.model().erosion, [](const Erosion& e) { return e.plastic_strain.has_value(); }))
-    return {};
-  return s_.solid().cell_history(yielding_by, state.points, OverPoints::largest);
+/// A variable of all cells, the largest of their points; empty where its criterion is none of the model's.
+std::vector<double> Erosions::largest(const char* variable, std::optional<double> Erosion::*criterion,
+                                      const State& state) const {
+  if (std::ranges::none_of(s_.model().erosion, [&](const Erosion& e) { return (e.*criterion).has_value(); })) return {};
+  return s_.solid().cell_history(variable, state.points, OverPoints::largest);
 }
 
-bool Erosions::goes(const Erosion& erosion, Index cell, const State& state, std::span<const double> strain) const {
+bool Erosions::goes(const Erosion& erosion, Index cell, const State& state, const Reached& reached) const {
   if (erosion.time && state.t >= *erosion.time) return true;
-  if (erosion.plastic_strain && strain[at(cell)] >= *erosion.plastic_strain) return true;
+  if (erosion.plastic_strain && reached.plastic_strain[at(cell)] >= *erosion.plastic_strain) return true;
+  if (erosion.damage && reached.damage[at(cell)] >= *erosion.damage) return true;
   if (!erosion.distortion) return false;
   const CellType type = s_.mesh().blocks[at(s_.solid().cells()[at(cell)].block)].type;
   return flattest_share(s_.mesh(), type, s_.solid().nodes_of_cell(at(cell)), state.q) <= *erosion.distortion;
@@ -33,11 +34,12 @@ bool Erosions::goes(const Erosion& erosion, Index cell, const State& state, std:
 std::vector<std::uint8_t> Erosions::next(const State& state) const {
   std::vector<std::uint8_t> alive(state.alive().begin(), state.alive().end());
   if (alive.empty()) alive.assign(s_.solid().cell_count(), 1);
-  const std::vector<double> strain = plastic_strain(state);
+  const Reached reached{largest(yielding_by, &Erosion::plastic_strain, state),
+                        largest(damaged_by, &Erosion::damage, state)};
   bool changes = false;
   for (const Erosion& erosion : s_.model().erosion)
     for (const Index cell : erosion.cells) {
-      if (alive[at(cell)] == 0 || !goes(erosion, cell, state, strain)) continue;
+      if (alive[at(cell)] == 0 || !goes(erosion, cell, state, reached)) continue;
       alive[at(cell)] = 0;
       changes = true;
     }

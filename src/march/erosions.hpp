@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,8 +40,13 @@ class Erosions {
   std::vector<ErodedSoFar>& so_far() { return so_far_; }
 
  private:
-  std::vector<double> plastic_strain(const State& state) const;
-  bool goes(const Erosion& erosion, Index cell, const State& state, std::span<const double> strain) const;
+  /// What the cells have come to, by solid cell, where a criterion asks for it.
+  struct Reached {
+    std::vector<double> plastic_strain, damage;
+  };
+  std::vector<double> largest(const char* variable, std::optional<double> Erosion::*criterion,
+                              const State& state) const;
+  bool goes(const Erosion& erosion, Index cell, const State& state, const Reached& reached) const;
 
   const Simulation& s_;
   Topologies topologies_;

@@ -90,7 +90,7 @@ Law johnson_cook_row() {
               "reference_temperature) between 0 and 1 (G. R. Johnson and W. H. Cook, Proc. 7th Int. Symp. Ballistics, "
               "1983). T rises by taylor_quinney / (rho specific_heat) times the plastic work, without conduction; a "
               "step takes the temperature of its beginning, and strain and rate of its end. All plastic work counts as "
-              "dissipated. No damage.",
+              "dissipated.",
           .measure = Measure::green_lagrange,
           .parameters = johnson_cook_parameters(),
           .history = {"plastic_c_inverse_xx", "plastic_c_inverse_yy", "plastic_c_inverse_zz", "plastic_c_inverse_xy",

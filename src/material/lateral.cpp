@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "material/damaged_law.hpp"
 #include "material/law_kernels.hpp"
 
 namespace carom {
@@ -32,12 +33,13 @@ double lateral_strain_neo_hookean(const void* parameters, const double strain[6]
 PreparedLaw prepare(const Material& material, int free_directions, const LawTable& table) {
   const Law& law = *material.law;
   const LawKernels& kernels = law.loaded != nullptr ? table.loaded : table.laws[index_of(law)];
-  const int history = static_cast<int>(law.history.size());
-  PreparedLaw prepared{kernels, law.prepare(material), history};
+  PreparedLaw prepared{kernels, law.prepare(material), static_cast<int>(law.history.size())};
+  if (material.damage) prepared = with_damage(material, prepared, table.damaged);
   if (free_directions == 0) return prepared;
-  LateralLaw lateral{kernels, prepared.parameters.get(), prepared.parameters, law.lateral_strain, free_directions};
-  lateral.history = history;
-  lateral.total_history = history + (law.lateral_strain == nullptr ? 1 : 0);
+  LateralLaw lateral{prepared.kernels, prepared.parameters.get(), prepared.parameters, law.lateral_strain,
+                     free_directions};
+  lateral.history = prepared.history;
+  lateral.total_history = prepared.history + (law.lateral_strain == nullptr ? 1 : 0);
   lateral.least_strain = law.measure == Measure::small_strain ? -1e3 : -0.5;
   prepared.history = lateral.total_history;
   prepared.kernels = table.lateral;

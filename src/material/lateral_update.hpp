@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "material/lateral.hpp"
+#include "material/point_of_batch.hpp"
 #include "math/pack.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
@@ -99,33 +100,20 @@ static void complete_strain(const LateralLaw& law, double* strain, const double*
   fill_lateral<n>(law, x, strain);
 }
 
-/// A place in an array that may be null.
-template <class Number>
-static Number* at(Number* array, int offset) {
-  return array == nullptr ? nullptr : array + offset;
-}
-
 /// parameters: const LateralLaw*. History: that of the law in three dimensions, then the lateral strain where it has to
 /// be iterated for.
 template <class Real>
 static void lateral_update(const void* parameters, const PointBatch& batch) {
   const auto& law = *static_cast<const LateralLaw*>(parameters);
   constexpr int n = lanes<Real>;
-  const int H = law.total_history * n;
   for (int p = 0; p < batch.points; ++p) {
-    double* strain = batch.strain + 6 * p * n;
-    const double* history = at(batch.history, H * p);
-    double* new_history = at(batch.new_history, H * p);
-    complete_strain<Real>(law, strain, history, batch.dt, at(batch.mode_square, p * n), batch.is_over);
-    double* stress = batch.stress + 6 * p * n;
-    law.kernels.update(law.parameters,
-                       {1, strain, stress, at(batch.energy, p * n), batch.dt, history, new_history,
-                        at(batch.dissipation, p * n), at(batch.wave_modulus, p * n), at(batch.yield_stress, p * n),
-                        at(batch.mode_square, p * n), at(batch.share, p * n), batch.is_over});
-    fill_lateral<n>(law, 0.0, stress);
+    const PointBatch point = point_of<n>(batch, p, law.total_history);
+    complete_strain<Real>(law, point.strain, point.history, point.dt, point.mode_square, point.is_over);
+    law.kernels.update(law.parameters, point);
+    fill_lateral<n>(law, 0.0, point.stress);
     for (int l = 0; l < n; ++l) {
-      if (new_history != nullptr && law.total_history > law.history)
-        new_history[law.history * n + l] = strain[2 * n + l];
+      if (point.new_history != nullptr && law.total_history > law.history)
+        point.new_history[law.history * n + l] = point.strain[2 * n + l];
     }
   }
 }

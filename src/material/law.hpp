@@ -12,11 +12,17 @@
 
 #include "base/units.hpp"
 #include "material/isotropic_elastic.hpp"
+#include "material/johnson_cook_damage.hpp"
 #include "math/interval.hpp"
 
 struct carom_law;  // material/carom_law.h
 
 namespace carom {
+
+/// Variables of a history that others than the law go by: equivalent plastic strain, rise of the temperature, damage.
+inline constexpr const char* yielding_by = "equivalent_plastic_strain";
+inline constexpr const char* heating_by = "temperature_rise";
+inline constexpr const char* damaged_by = "damage";
 
 /// A number that the user of a law gives.
 struct LawParameter {
@@ -45,6 +51,7 @@ struct Material {
   std::vector<double> values;                ///< in the order of Law::parameters
   std::vector<std::array<double, 2>> curve;  ///< of the law's key curve_key; empty: not given
   std::vector<double> rates;                 ///< of the law's key rates_key
+  std::optional<JohnsonCookDamage> damage;   ///< of laws that yield
 
   /// Hooke's law without stiffness.
   Material() : Material(LinearElastic{}) {}
@@ -59,6 +66,8 @@ struct Material {
 
   /// The value of a parameter of the law; throws std::invalid_argument for others.
   double value(std::string_view key) const;
+  /// Names of the variables that a point remembers: those of the law, and its damage.
+  std::vector<std::string> history() const;
   /// The moduli of small changes of the body at rest.
   IsotropicElastic at_rest() const;
 };

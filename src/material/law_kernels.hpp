@@ -13,6 +13,7 @@ namespace carom {
 struct LawTable {
   std::array<LawKernels, law_count> laws;  ///< in the order of laws()
   LawKernels loaded;                       ///< those of libraries (material/loaded_update.hpp)
+  LawKernels damaged;                      ///< any of those that yield, with damage (material/damaged_update.hpp)
   LawKernels lateral;                      ///< any of them under zero lateral stress (material/lateral_update.hpp)
 };
 

@@ -1,6 +1,7 @@
 // The kernels of all laws over one number type.
 #pragma once
 
+#include "material/damaged_update.hpp"
 #include "material/lateral_update.hpp"
 #include "material/law_kernels.hpp"
 #include "material/law_list.hpp"
@@ -15,7 +16,7 @@ namespace carom {
 template <class Real>
 static constexpr LawTable make_law_table() {
 #define CAROM_LAW_KERNELS(law) law##_kernels<Real>(),
-  return {{CAROM_LAWS(CAROM_LAW_KERNELS)}, loaded_kernels<Real>(), lateral_kernels<Real>()};
+  return {{CAROM_LAWS(CAROM_LAW_KERNELS)}, loaded_kernels<Real>(), damaged_kernels<Real>(), lateral_kernels<Real>()};
 #undef CAROM_LAW_KERNELS
 }
 

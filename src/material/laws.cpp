@@ -45,6 +45,12 @@ double Material::value(std::string_view key) const {
   return values[position(*law, key)];
 }
 
+std::vector<std::string> Material::history() const {
+  std::vector<std::string> names = law->history;
+  if (damage) names.emplace_back(damaged_by);
+  return names;
+}
+
 IsotropicElastic Material::at_rest() const {
   return law->at_rest(*this);
 }

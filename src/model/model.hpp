@@ -157,6 +157,7 @@ struct Erosion {
   std::string name;                        ///< of the cells, for messages
   std::vector<Index> cells;                ///< positions among all solid cells, part after part
   std::optional<double> plastic_strain{};  ///< the largest of the cell's points
+  std::optional<double> damage{};          ///< the same
   std::optional<double> distortion{};      ///< the least share of its volume at rest that a corner keeps
   std::optional<double> time{};
 };

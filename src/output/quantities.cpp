@@ -42,6 +42,8 @@ constexpr Quantity table[] = {
      "accumulated, the mean of the cell"},
     {"temperature_rise", Place::points, Form::scalar, D::temperature, Colours::from_zero, asked,
      "by plastic work, the mean of the cell"},
+    {"damage", Place::points, Form::scalar, D::none, Colours::from_zero, asked,
+     "Johnson and Cook's, fracture at 1, the mean of the cell"},
     {"equivalent_plastic_strain_at_nodes", Place::nodes, Form::scalar, D::none, Colours::from_zero, asked,
      "mean over the cells at the node, as stress_at_nodes"},
     {"contact_force", Place::nodes, Form::vector, D::force, Colours::range, always,

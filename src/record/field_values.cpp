@@ -73,7 +73,8 @@ bool tears(const Simulation& s) {
 }
 bool remembers(const Simulation& s, std::string_view variable) {
   return std::ranges::any_of(s.model().parts, [&](const Part& part) {
-    return std::ranges::find(part.material.law->history, variable) != part.material.law->history.end();
+    const std::vector<std::string> names = part.material.history();
+    return std::ranges::find(names, variable) != names.end();
   });
 }
 constexpr std::string_view plastic_strain = "equivalent_plastic_strain";

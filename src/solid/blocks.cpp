@@ -220,7 +220,7 @@ Block block_of(const Part& part, std::shared_ptr<const CellStages> cell_stages, 
   block.is_ring = part.section == Section::axisymmetric;
   block.rho = part.material.rho;
   block.wave_modulus = part.material.at_rest().p_wave_modulus();
-  block.law_row = part.material.law;
+  block.history_names = part.material.history();
   block.small_strain = part.material.law->measure == Measure::small_strain;
   block.distortion_limit = part.distortion_control;
   block.is_linear =

@@ -23,12 +23,12 @@ struct Block {
   Index cells = 0;
   CellType type{};
   double thickness = 1.0, rho = 0.0;
-  double wave_modulus = 0.0;  ///< lambda + 2 G at rest
-  bool is_ring = false;       ///< axisymmetric
-  bool is_rigid = false;      ///< its cells are of a rigid body: no chunk has them
-  bool small_strain = true;   ///< the measure of its law; the others are total Lagrangian
-  bool is_linear = true;      ///< the forces are linear in the displacements
-  const Law* law_row = nullptr;
+  double wave_modulus = 0.0;               ///< lambda + 2 G at rest
+  bool is_ring = false;                    ///< axisymmetric
+  bool is_rigid = false;                   ///< its cells are of a rigid body: no chunk has them
+  bool small_strain = true;                ///< the measure of its law; the others are total Lagrangian
+  bool is_linear = true;                   ///< the forces are linear in the displacements
+  std::vector<std::string> history_names;  ///< of a point (Material::history)
   CellMass mass = nullptr;
   std::shared_ptr<const CellStages> cell_stages;  ///< of patches, which stages.cell is then
   BatchStages stages;

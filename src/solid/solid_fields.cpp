@@ -168,10 +168,10 @@ void Solid::forget_gone(std::span<const std::uint8_t> alive, std::span<double> h
 std::vector<double> Solid::cell_history(std::string_view variable, std::span<const double> history,
                                         OverPoints over) const {
   const auto position = [&](const Block& block) {
-    const std::vector<std::string>& names = block.law_row->history;
+    const std::vector<std::string>& names = block.history_names;
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), variable) - names.begin());
   };
-  const auto has_it = [&](const Block& block) { return position(block) < block.law_row->history.size(); };
+  const auto has_it = [&](const Block& block) { return position(block) < block.history_names.size(); };
   if (std::none_of(impl_->solid.blocks.begin(), impl_->solid.blocks.end(), has_it)) return {};
   const auto means_of = [&](const SolidCells& cells) {
     std::vector<double> means(cells.size());

@@ -29,8 +29,16 @@ struct MaterialKeywords {
 };
 
 std::vector<MaterialKeywords> materials_of(Translation& t) {
-  static const std::set<std::string> names{"ELASTIC",      "PLASTIC",       "RATE DEPENDENT",         "DENSITY",
-                                           "HYPERELASTIC", "SPECIFIC HEAT", "INELASTIC HEAT FRACTION"};
+  static const std::set<std::string> names{"ELASTIC",
+                                           "PLASTIC",
+                                           "RATE DEPENDENT",
+                                           "DENSITY",
+                                           "HYPERELASTIC",
+                                           "SPECIFIC HEAT",
+                                           "INELASTIC HEAT FRACTION",
+                                           "DAMAGE INITIATION",
+                                           "DAMAGE EVOLUTION",
+                                           "DAMAGE STABILIZATION"};
   std::vector<MaterialKeywords> materials;
   bool is_within = false;
   for (const Statement& s : t.statements.list) {
@@ -48,6 +56,10 @@ std::vector<MaterialKeywords> materials_of(Translation& t) {
     });
   }
   return materials;
+}
+
+bool is_johnson_cook(const DeckKeyword& damage_initiation) {
+  return without_blanks(damage_initiation.required("CRITERION")) == "JOHNSONCOOK";
 }
 
 /// The values of the first data line, at least `least` of them.
@@ -332,6 +344,59 @@ void add_law(Translation& t, const MaterialKeywords& m, TableMaker& to) {
   add_table(t, m, to);
 }
 
+/// Do cells of the material go where their damage reaches 1? Where nothing more is needed to separate them.
+bool breaks(Translation& t, const MaterialKeywords& m) {
+  const DeckKeyword *initiation = m.option("DAMAGE INITIATION"), *evolution = m.option("DAMAGE EVOLUTION");
+  if (evolution == nullptr) return false;
+  if (initiation == nullptr) evolution->fail("*DAMAGE EVOLUTION alone", "*DAMAGE INITIATION before it");
+  if (!is_johnson_cook(*initiation)) return false;
+  if (values_of(*evolution, 1, "the displacement or energy of fracture").front() != 0.0)
+    t.findings.refuse(*evolution, evolution->where, "damage that softens the stress until the cell goes",
+                      "Cells would go as soon as their damage is 1.");
+  return true;
+}
+
+/// theta of the damage is that of the law: D5, unless the deck has other temperatures for it.
+double of_temperature(Translation& t, const DeckKeyword& initiation, const DeckKeyword& plastic,
+                      const std::vector<double>& v) {
+  const std::string* hardening = plastic.parameter("HARDENING");
+  if (v[4] == 0.0) return 0.0;
+  if (hardening == nullptr || without_blanks(*hardening) != "JOHNSONCOOK") {
+    t.findings.refuse(initiation, initiation.where, fmt::format("d5 = {:g} without HARDENING=JOHNSON COOK", v[4]),
+                      "The strain at fracture would not depend on the temperature.");
+    return 0.0;
+  }
+  const std::vector<double> p = values_of(plastic, 6, "A, B, n, m, melting temperature, transition temperature");
+  if (v[5] != p[4] || v[6] != p[5])
+    initiation.fail(fmt::format("melting and transition temperatures {:g}, {:g}", v[5], v[6]),
+                    fmt::format("those of *PLASTIC, {:g} and {:g}", p[4], p[5]), "A body has one melting temperature.");
+  return v[4];
+}
+
+/// Returns whether cells go by it.
+bool add_damage(Translation& t, const MaterialKeywords& m, TableMaker& to) {
+  const DeckKeyword *initiation = m.option("DAMAGE INITIATION"), *plastic = m.option("PLASTIC");
+  const bool cells_go = breaks(t, m);
+  if (initiation == nullptr) return false;
+  if (!is_johnson_cook(*initiation)) {
+    t.findings.refuse(*initiation, initiation->where, "CRITERION=" + initiation->required("CRITERION"),
+                      "Nothing would break.");
+    return false;
+  }
+  if (plastic == nullptr) initiation->fail("*DAMAGE INITIATION without *PLASTIC", "*PLASTIC in the material");
+  const char* const what = "d1, d2, d3, d4, d5, melting temperature, transition temperature, reference rate";
+  const std::vector<double> v = values_of(*initiation, 8, what);
+  DeckCursor at(*initiation);
+  if (at.next_line() && at.next_line()) at.fail("a second line", "one line of Abaqus' values");
+  TableMaker damage(initiation->where);
+  damage.number("D1", v[0]).number("D2", v[1]).number("D3", -v[2]).number("D4", v[3]);
+  damage.number("D5", of_temperature(t, *initiation, *plastic, v)).number("reference_rate", v[7]);
+  to.add("damage", damage.node());
+  t.findings.note(initiation->where, cells_go ? "cells go where their damage is 1"
+                                              : "no *DAMAGE EVOLUTION: the damage is computed, and no cell goes");
+  return cells_go;
+}
+
 /// Statics without gravity needs no density.
 bool needs_density(const Translation& t) {
   const bool is_dynamic =
@@ -344,9 +409,12 @@ bool needs_density(const Translation& t) {
          });
 }
 
-void translate_material(Translation& t, const MaterialKeywords& m) {
+/// Adds it to those whose cells go by their damage, where they do.
+void translate_material(Translation& t, const MaterialKeywords& m, std::set<std::string>& breaking) {
   TableMaker table(m.material->where);
   add_law(t, m, table);
+  const std::string name = m.material->required("NAME");
+  if (add_damage(t, m, table)) breaking.insert(name);
   const Elasticity elastic = elasticity(t, m);
   table.add("E", number_node(elastic.E, elastic.where)).add("nu", number_node(elastic.nu, elastic.where));
   if (const DeckKeyword* density = m.option("DENSITY")) {
@@ -358,7 +426,7 @@ void translate_material(Translation& t, const MaterialKeywords& m) {
     table.number("rho", 1.0);
     t.findings.note(m.material->where, "no *DENSITY, which statics does not need; 1 is written");
   }
-  t.define("materials", m.material->required("NAME"), table.node());
+  t.define("materials", name, table.node());
 }
 
 /// The last *BULK VISCOSITY, or what Abaqus' explicit program has without one.
@@ -413,7 +481,14 @@ std::string_view formulation_of(const std::vector<DeckNames::Cells>& set) {
   return named == set.end() ? std::string_view{} : named->type->formulation;
 }
 
-void translate_section(Translation& t, const Statement& s, const std::array<double, 2>& viscosity) {
+/// What the sections of a deck share.
+struct OfSections {
+  std::array<double, 2> viscosity{};  ///< linear and quadratic
+  std::set<std::string> breaking;     ///< materials whose cells go by their damage
+};
+
+void translate_section(Translation& t, const Statement& s, const OfSections& shared) {
+  const std::array<double, 2>& viscosity = shared.viscosity;
   const DeckKeyword& keyword = *s.keyword;
   const std::string set = keyword.required("ELSET"), material = keyword.required("MATERIAL");
   const std::string key = key_of(t.mesh.names.element_sets, t.scope(s), set);
@@ -443,6 +518,8 @@ void translate_section(Translation& t, const Statement& s, const std::array<doub
     if (viscosity[0] != 0.0) part.number("linear_bulk_viscosity", viscosity[0]);
     if (viscosity[1] != 0.0) part.number("quadratic_bulk_viscosity", viscosity[1]);
     t.append("part", part.node());
+    if (shared.breaking.contains(material))
+      t.append("erosion", TableMaker(keyword.where).text("part", group).number("damage", 1.0).node());
   };
   if (are_of_one_part(all))
     add_part(key, all.front().type->section, formulation_of(all));
@@ -453,14 +530,15 @@ void translate_section(Translation& t, const Statement& s, const std::array<doub
 }  // namespace
 
 void translate_bodies(Translation& t) {
-  for (const MaterialKeywords& m : materials_of(t)) t.errors.attempt([&] { translate_material(t, m); });
+  OfSections shared;
+  for (const MaterialKeywords& m : materials_of(t))
+    t.errors.attempt([&] { translate_material(t, m, shared.breaking); });
   for (const Statement& s : t.statements.list)
     if (s.keyword->name == "CONDUCTIVITY" || s.keyword->name == "EXPANSION") refuse_heat(t, *s.keyword);
-  std::array<double, 2> viscosity{};
-  t.errors.attempt([&] { viscosity = bulk_viscosity(t); });
+  t.errors.attempt([&] { shared.viscosity = bulk_viscosity(t); });
   if (!t.mesh.is_whole) return;
   for (const Statement& s : t.statements.list)
-    if (s.keyword->name == "SOLID SECTION") t.errors.attempt([&] { translate_section(t, s, viscosity); });
+    if (s.keyword->name == "SOLID SECTION") t.errors.attempt([&] { translate_section(t, s, shared); });
   const bool lacks_all = t.root.find("materials") == nullptr || t.root.find("part") == nullptr;
   if (lacks_all && t.errors.empty())
     t.errors.add(

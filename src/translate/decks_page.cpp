@@ -122,6 +122,13 @@ others, along two axes all turns. So there may be imposed: nothing; 1 with 5 and
 `XSYMM` and its like do; two or three of 1 to 3 with 4 to 6. Displacements, velocities and accelerations may be
 other than 0, turns not. `*CLOAD` acts where the reference node stands, and probes follow it. `*INITIAL CONDITIONS` at the reference node give its velocity and the angular velocity about it.
 
+## Damage
+
+`*DAMAGE INITIATION, CRITERION=JOHNSON COOK` is `damage` of the material, D3 with the other sign
+([material_laws.md](material_laws.md#damage)). Its temperatures have to be those of `*PLASTIC, HARDENING=JOHNSON COOK` where d5 is not
+0. With a `*DAMAGE EVOLUTION` of 0 the parts of the material get an `[[erosion]]` at a damage of 1, by the first point of a cell that reaches
+it. Without one Abaqus computes the damage alone, and so does Carom. CalculiX' form, which has a second line, is refused.
+
 ## neo-Hookean bodies
 
 `*HYPERELASTIC, NEO HOOKE` has the energy C10 (I1 J^(-2/3) - 3) + (J - 1)^2 / D1, Carom's `neo_hookean` G/2 (I1 - 3) - G ln J +

@@ -34,7 +34,9 @@ const std::vector<std::string> good{
     j2 + "yield_stress = 4e8\nhardening_modulus = 1e8\nsaturation_stress = 6e8\nsaturation_rate = 12.0\n",
     j2 + "hardening_table = [[0.0, 4e8], [0.1, 5e8], [0.2, 5e8]]\n",
     johnson_cook,
-    johnson_cook + "taylor_quinney = 1.0\ninitial_temperature = 600.0\n"};
+    johnson_cook + "taylor_quinney = 1.0\ninitial_temperature = 600.0\n",
+    johnson_cook + "damage = { D1 = -2.2, D2 = 5.43, D3 = -0.47, D4 = 0.016, D5 = 0.63 }\n",
+    j2 + "yield_stress = 4e8\ndamage = { D1 = 0.5, D2 = 0.1, D3 = -1.5, D4 = -0.01, reference_rate = 5e-4 }\n"};
 
 // What is written of a case reads as the same material, to the last bit.
 TEST(CasefileMaterials, EveryLawIsReadAndWritten) {
@@ -47,6 +49,7 @@ TEST(CasefileMaterials, EveryLawIsReadAndWritten) {
     EXPECT_EQ(a.curve, b.curve) << text;
     EXPECT_EQ(a.at_rest().E, 2e11);
     EXPECT_EQ(a.at_rest().nu, 0.3);
+    EXPECT_EQ(a.damage, b.damage) << text;
   }
   const Material table = parse_case(case_with(good[6]), "c.toml").materials[0].made();
   ASSERT_EQ(table.curve.size(), 3U);
@@ -54,6 +57,12 @@ TEST(CasefileMaterials, EveryLawIsReadAndWritten) {
   const Material heated = parse_case(case_with(good[8]), "c.toml").materials[0].made();
   EXPECT_EQ(heated.value("initial_temperature"), 600.0);
   EXPECT_EQ(heated.value("reference_temperature"), 293.15);
+  EXPECT_FALSE(heated.damage);
+  const auto damage_of = [](std::size_t i) {
+    return parse_case(case_with(good[i]), "c.toml").materials[0].made().damage;
+  };
+  EXPECT_EQ(damage_of(9), (JohnsonCookDamage{-2.2, 5.43, -0.47, 0.016, 0.63, std::nullopt}));
+  EXPECT_EQ(damage_of(10), (JohnsonCookDamage{0.5, 0.1, -1.5, -0.01, 0.0, 5e-4}));
 }
 
 std::string message_of(const std::string& material) {
@@ -121,8 +130,31 @@ TEST(CasefileMaterials, BadValuesAreRefusedWithTheirReason) {
        "law, E, nu, rho, library, checksum. It belongs to law = \"j2_small_strain\", \"j2\"."},
       {"law = \"j2\"\n" + elastic + "yield = 4e8\n",
        "c.toml:10:1: materials.m.yield: found an unknown key; expected one of law, E, nu, rho, yield_stress, "
-       "hardening_modulus, saturation_stress, saturation_rate, hardening_table, library, checksum. Did you mean "
-       "yield_stress?"}};
+       "hardening_modulus, saturation_stress, saturation_rate, hardening_table, damage, library, checksum. Did you mean "
+       "yield_stress?"},
+      {"law = \"neo_hookean\"\n" + elastic + "damage = { D1 = 0.5 }\n",
+       "c.toml:10:1: materials.m.damage: found a key that law = \"neo_hookean\" does not take; expected one of law, E, "
+       "nu, rho, library, checksum. It belongs to law = \"j2_small_strain\", \"j2\", \"johnson_cook\", "
+       "\"j2_rate_small_strain\", \"j2_rate\"."},
+      {j2 + "yield_stress = 4e8\ndamage = { D2 = 0.5 }\n",
+       "c.toml:11:10: materials.m.damage.D1: found nothing; expected a number. Add D1: Strain at fracture that is left "
+       "at a high eta."},
+      {j2 + "yield_stress = 4e8\ndamage = { D1 = 0.5, D2 = -0.5 }\n",
+       "c.toml:11:27: materials.m.damage.D2: found -0.5; expected a number >= 0"},
+      {j2 + "yield_stress = 4e8\ndamage = { D1 = 0.5, d2 = 0.5 }\n",
+       "c.toml:11:22: materials.m.damage.d2: found an unknown key; expected one of D1, D2, D3, D4, D5, "
+       "reference_rate. Did you mean D2?"},
+      {j2 + "yield_stress = 4e8\ndamage = { D1 = -0.5, D2 = 0.5, D3 = -1.5 }\n",
+       "c.toml:11:17: materials.m.damage.D1: found D1 + D2 exp(D3 / 3) = -0.196735; expected a strain at fracture > "
+       "0. That is the strain at which a bar under slow tension breaks."},
+      {j2 + "yield_stress = 4e8\ndamage = { D1 = 0.5, D4 = 0.01 }\n",
+       "c.toml:11:27: materials.m.damage.D4: found 0.01 without reference_rate; expected reference_rate beside it. The "
+       "law j2 has none of its own."},
+      {j2 + "yield_stress = 4e8\ndamage = { D1 = 0.5, D5 = 0.6 }\n",
+       "c.toml:11:27: materials.m.damage.D5: found 0.6 with law = \"j2\"; expected a law that knows the temperature. "
+       "Take \"johnson_cook\", or leave D5 out."},
+      {johnson_cook + "damage = { D1 = 0.5, reference_rate = 0.0 }\n",
+       "c.toml:18:39: materials.m.damage.reference_rate: found 0.0; expected a number > 0 in 1/s"}};
   for (const Bad& bad : all) EXPECT_EQ(message_of(bad.material), bad.message) << bad.material;
 }
 

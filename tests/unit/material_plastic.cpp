@@ -51,6 +51,13 @@ Material johnson_cook(double C = 0.05, double taylor_quinney = 0.9, double speci
            {"taylor_quinney", taylor_quinney}}};
 }
 
+/// All terms of the damage count.
+Material damaged(Material material) {
+  const bool has_heat = material.law->name == "johnson_cook";
+  material.damage = JohnsonCookDamage{0.54, 4.89, -0.5, 0.014, has_heat ? 1.12 : 0.0, 1e-3};
+  return material;
+}
+
 std::vector<Material> all_plastic() {
   return {plastic("j2_small_strain"),
           plastic("j2"),
@@ -59,7 +66,9 @@ std::vector<Material> all_plastic() {
           tabulated("j2"),
           johnson_cook(),
           with_rates("j2_rate_small_strain", E, nu),
-          with_rates("j2_rate", E, nu)};
+          with_rates("j2_rate", E, nu),
+          damaged(plastic("j2_small_strain")),
+          damaged(johnson_cook())};
 }
 
 /// Random paths of strain whose steps yield more often than not.

@@ -170,6 +170,13 @@ kind = ")" +
          scheme + "\"\nenforcement = \"" + enforcement + "\"\n[time]\nend = 4.0\n";
 }
 
+/// The same by damage, under pressure and tension.
+std::string pierced_by_damage() {
+  return replaced(replaced(pierced(), "plastic_strain = 0.3", "damage = 1.0"), "hardening_modulus = 0.2\n",
+                  "hardening_modulus = 0.2\ndamage = { D1 = 0.1, D2 = 0.3, D3 = -1.5, D4 = 0.05, reference_rate = 0.01 "
+                  "}\n");
+}
+
 std::vector<double> rows_of(const carom::Run& run) {
   std::vector<double> all;
   for (const Recorder::KeptTable& table : run.watched().recorder.kept())
@@ -181,10 +188,86 @@ std::size_t gone(const State& state) {
   return static_cast<std::size_t>(std::ranges::count(state.alive(), 0));
 }
 
+/// A cube all of whose nodes are led: in a time of 1 its length along x grows by 1, its sides are held.
+std::string led_cube() {
+  return R"(units = "SI"
+[[mesh.block]]
+size = [1.0, 1.0, 1.0]
+divisions = [1, 1, 1]
+groups = { cells = "CUBE", xmin = "FOOT", xmax = "HEAD" }
+[materials.soft]
+law = "j2"
+E = 200.0
+nu = 0.3
+rho = 1.0
+yield_stress = 1.0
+hardening_modulus = 10.0
+damage = { D1 = 0.05, D2 = 0.3, D3 = -0.2, D4 = 0.05, reference_rate = 0.1 }
+[[part]]
+name = "cube"
+cells = "CUBE"
+material = "soft"
+formulation = "full"
+[[erosion]]
+part = "cube"
+damage = 1.0
+[[support]]
+nodes = "CUBE"
+blocked = ["y", "z"]
+[[support]]
+nodes = "FOOT"
+blocked = ["x"]
+[[support]]
+nodes = "HEAD"
+displacement = { x = 1.0, function = "ramp" }
+[functions.ramp]
+time = [0.0, 1.0]
+value = [0.0, 1.0]
+[scheme]
+kind = "central_differences"
+[time]
+end = 0.5
+step = 0.002
+)";
+}
+
+// With e = ln(1 + t): alpha = (2 G e - yield) / (3 G + H), eta = K e / (yield + H alpha), and d D = d alpha / ([D1 + D2
+// exp(D3 eta)] [1 + D4 ln(rate / reference_rate)]) summed over the steps. The cell goes in the step in which that is 1,
+// with all that it has stored, s^2 / (6 G) of the equivalent stress s and K e^2 / 2, and spent.
+TEST(RunErosion, ACellGoesInTheStepInWhichItsDamageIsOne) {
+  constexpr double G = 200.0 / 2.6, K = 200.0 / 1.2, yield = 1.0, H = 10.0;
+  const Simulation simulation(parse_case(led_cube(), "case.toml"));
+  March march(simulation);
+  march.start();
+  double before = 0.0, damage = 0.0, held = 0.0;
+  int with_growth = 0;
+  while (damage < 1.0) {
+    ASSERT_FALSE(march.at_end()) << damage;
+    EXPECT_EQ(march.state().topology, nullptr);
+    const double start = march.state().t;
+    march.step();
+    ASSERT_FALSE(march.has_failed()) << march.message();
+    EXPECT_LE(std::abs(march.ledger().imbalance()), 1e-12);
+    const double e = std::log1p(march.state().t), alpha = std::max(0.0, (2 * G * e - yield) / (3 * G + H));
+    const double s = alpha > 0.0 ? yield + H * alpha : 2 * G * e, rate = (alpha - before) / (march.state().t - start);
+    const double of_rate = 1.0 + 0.05 * std::log(std::max(1.0, rate / 0.1));
+    damage += (alpha - before) / ((0.05 + 0.3 * std::exp(-0.2 * K * e / s)) * of_rate);
+    held = s * s / (6 * G) + 0.5 * K * e * e + (yield + 0.5 * H * alpha) * alpha;
+    if (alpha > before) ++with_growth;
+    before = alpha;
+    const std::vector<double> found =
+        simulation.solid().cell_history(damaged_by, march.state().points, OverPoints::largest);
+    if (damage < 1.0) EXPECT_NEAR(found.at(0), damage, 1e-10);  // some hundred sums, rates from differences of times
+  }
+  EXPECT_GT(with_growth, 20);
+  ASSERT_NE(march.state().topology, nullptr);
+  EXPECT_EQ(gone(march.state()), 1U);
+  EXPECT_NEAR(march.ledger().now().eroded, held, 1e-10);
+}
+
 // To the bit with one thread and with two, from snapshots before and between erosions, in this run and in another.
 TEST(RunErosion, GoesOnToTheBit) {
-  for (const char* enforcement : {"penalty", "impulse"}) {
-    const std::string text = pierced("central_differences", enforcement);
+  for (const std::string& text : {pierced(), pierced("central_differences", "impulse"), pierced_by_damage()}) {
     const Simulation simulation(parse_case(text, "case.toml"));
     set_threads(1);
     carom::Run run(simulation, "", carom::Run::Clock::now());
@@ -267,6 +350,9 @@ TEST(RunErosion, IsRefusedWhereCellsCannotGo) {
   const std::string elastic = replaced(replaced(pierced(), "law = \"j2\"", "law = \"neo_hookean\""),
                                        "yield_stress = 0.2\nhardening_modulus = 0.2\n", "");
   EXPECT_TRUE(has(found(elastic), "does not yield"));
+  const std::string whole = replaced(pierced(), "plastic_strain = 0.3", "damage = 1.0");
+  EXPECT_EQ(case_error(whole).key(), "erosion.damage");
+  EXPECT_TRUE(has(found(whole), "has none"));
   const std::string pressed = pierced() + R"([[load]]
 group = "PLATE"
 pressure = 0.01
@@ -287,6 +373,8 @@ TEST(RunErosion, IsSaidBeforeTheRun) {
   EXPECT_TRUE(
       has(check_summary(simulation),
           "\"plate\": 192 cells may go, at a plastic strain of 0.3 or a corner's volume of 0.1 of that at rest"));
+  const Simulation damaged(parse_case(pierced_by_damage(), "case.toml"));
+  EXPECT_TRUE(has(check_summary(damaged), "192 cells may go, at a damage of 1 or a corner's"));
 }
 
 }  // namespace

@@ -322,14 +322,15 @@ quantities = ["mass", "momentum", "kinetic_energy", "strain_energy"]
 TEST(Quantities, WhatLawsRememberJoins) {
   const std::string text = pulled(0.05, R"([output]
 precision = "double"
-fields = ["equivalent_plastic_strain", "equivalent_plastic_strain_at_nodes", "plastic_strain_zz"]
+fields = ["equivalent_plastic_strain", "equivalent_plastic_strain_at_nodes", "plastic_strain_zz", "damage"]
 [[probe]]
 name = "foot"
 group = "FOOT"
-quantities = ["equivalent_plastic_strain", "plastic_strain_zz"]
+quantities = ["equivalent_plastic_strain", "plastic_strain_zz", "damage"]
 )");
-  const TemporaryCase in(
-      replaced(text, "\"linear_elastic\"", "\"j2_small_strain\"\nyield_stress = 0.04\nhardening_modulus = 0.5"));
+  const TemporaryCase in(replaced(text, "\"linear_elastic\"",
+                                  "\"j2_small_strain\"\nyield_stress = 0.04\nhardening_modulus = 0.5\n"
+                                  "damage = { D1 = 0.01, D2 = 0.04, D3 = -1.5 }"));
   ASSERT_EQ(in.run(), ExitCode::good) << in.result("summary.json");
   // 0.05 = s / E + (s - 0.04) / 0.5: s = 0.052, to what Newton's iterations leave.
   const double alpha = (0.052 - 0.04) / 0.5;
@@ -337,6 +338,9 @@ quantities = ["equivalent_plastic_strain", "plastic_strain_zz"]
     for (const auto& value : field(in, name)) EXPECT_NEAR(value[0], alpha, 1e-10) << name;
   EXPECT_NEAR(last_row(in.result("probes.csv"))["foot.equivalent_plastic_strain"], alpha, 1e-10);
   EXPECT_NEAR(last_row(in.result("probes.csv"))["foot.plastic_strain_zz"], alpha, 1e-10);
+  const double damage = alpha / (0.01 + 0.04 * std::exp(-0.5));  // the mean stress is a third of von Mises'
+  for (const auto& value : field(in, "damage")) EXPECT_NEAR(value[0], damage, 1e-8);  // alpha's, over 0.034
+  EXPECT_NEAR(last_row(in.result("probes.csv"))["foot.damage"], damage, 1e-8);
 }
 
 std::string message_of(const std::string& text) {

@@ -116,6 +116,55 @@ TEST(Translate, StepsThatHeat) {
   }
 }
 
+/// The good deck with a material that breaks; the temperatures are those of *PLASTIC.
+std::string breaking(const std::string& damage) {
+  const std::string deck = replaced(good_deck, "*DENSITY\n7.8e-9\n", johnson_cook + damage);
+  return replaced(deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3", "*DYNAMIC, EXPLICIT\n, 1e-3");
+}
+
+const std::string initiation =
+    "*DAMAGE INITIATION, CRITERION=JOHNSON COOK\n0.54, 4.89, 3.03, 0.014, 1.12, 1083., 25., 2.\n";
+
+// d3 has the other sign in Abaqus.
+TEST(Translate, DamageOfJohnsonAndCook) {
+  const TranslatedDeck made = translated(breaking(initiation + "*DAMAGE EVOLUTION, TYPE=DISPLACEMENT\n0.\n"));
+  const Case given = case_of(made.tree, "x.inp");
+  EXPECT_EQ(given.materials[0].damage, (JohnsonCookDamage{0.54, 4.89, -3.03, 0.014, 1.12, 2.0}));
+  ASSERT_EQ(given.erosion.size(), 2U);
+  EXPECT_EQ(*given.erosion[0].part, *given.parts[0].name);
+  EXPECT_EQ(*given.erosion[1].part, *given.parts[1].name);
+  EXPECT_EQ(given.erosion[1].damage, 1.0);
+  EXPECT_FALSE(given.erosion[1].plastic_strain);
+  const TranslatedDeck alone = translated(breaking(initiation));
+  EXPECT_TRUE(has_note(alone, "the damage is computed, and no cell goes"));
+  EXPECT_TRUE(case_of(alone.tree, "x.inp").materials[0].damage);
+  EXPECT_TRUE(case_of(alone.tree, "x.inp").erosion.empty());
+}
+
+TEST(Translate, OtherDamageIsRefusedWithItsReason) {
+  const auto says = [](const std::string& damage, const std::string& what) {
+    EXPECT_NE(message_of(breaking(damage)).find(what), std::string::npos) << message_of(breaking(damage));
+  };
+  const std::string softening = initiation + "*DAMAGE EVOLUTION, TYPE=DISPLACEMENT\n0.1\n";
+  says(softening, "*DAMAGE EVOLUTION: damage that softens the stress until the cell goes");
+  EXPECT_EQ(case_from(breaking(softening), {"DAMAGE EVOLUTION"}).erosion.size(), 2U);
+  const std::string ductile =
+      "*DAMAGE INITIATION, CRITERION=DUCTILE\n0.5, 0.33, 1.\n*DAMAGE EVOLUTION, TYPE=ENERGY\n0.\n";
+  says(ductile, "*DAMAGE INITIATION: CRITERION=DUCTILE");
+  const Case accepted = case_from(breaking(ductile), {"DAMAGE INITIATION"});
+  EXPECT_TRUE(accepted.erosion.empty());
+  EXPECT_FALSE(accepted.materials[0].damage);
+  says("*DAMAGE EVOLUTION, TYPE=ENERGY\n0.\n", "*DAMAGE EVOLUTION alone");
+  says(replaced(initiation, "1083., 25.", "1000., 25."), "melting and transition temperatures 1000, 25");
+  says(initiation + "0.045\n", "a second line");
+  says(replaced(initiation, ", 2.\n", "\n"), "7 values");
+  const std::string elastic = replaced(good_deck, "*DENSITY", initiation + "*DENSITY");
+  EXPECT_NE(message_of(elastic).find("*DAMAGE INITIATION without *PLASTIC"), std::string::npos) << message_of(elastic);
+  const std::string table = replaced(good_deck, "*DENSITY", "*PLASTIC\n300., 0.\n" + initiation + "*DENSITY");
+  EXPECT_NE(message_of(table).find("d5 = 1.12 without HARDENING=JOHNSON COOK"), std::string::npos);
+  EXPECT_EQ(case_from(table, {"DAMAGE INITIATION"}).materials[0].damage->D5, 0.0);
+}
+
 // C10 = G / 2 and D1 = 2 / K: E = 9 K G / (3 K + G).
 TEST(Translate, NeoHookeOnlyWhereItsPotentialIsAccepted) {
   const std::string deck = replaced(replaced(good_deck, "*ELASTIC\n210000., 0.3", "*HYPERELASTIC, NEO HOOKE\n0.5, 0.2"),
