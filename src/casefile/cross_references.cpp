@@ -206,7 +206,6 @@ void check_quantities(const Case& given, const Names& parts, CaseErrors& errors)
   for (const CaseMaterial& material : given.materials)
     for (Names* names : {&fields, &probed}) {
       if (const Law* law = material.row()) names->insert(names->end(), law->history.begin(), law->history.end());
-      if (material.damage) names->emplace_back(damaged_by);
       if (material.row() == nullptr && !errors.empty()) names->emplace_back();  // what it remembers is not known
     }
   for (std::size_t i = 0; i < given.output.fields.size(); ++i)

@@ -75,6 +75,11 @@ class Lint {
 
   void check_material(const CaseMaterial& m) {
     check_poisson(m);
+    if (m.damage && m.damage->D3 > 0.0)
+      say(m.where,
+          fmt::format("materials.{}: D3 = {:g} of the damage lets tension break later than compression; the d3 "
+                      "of Abaqus has the other sign, is it one?",
+                      toml_key(m.name), m.damage->D3));
     if (plausible(m, case_.units)) return;
     std::string hint;
     for (const UnitSystem other : unit_systems) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "casefile/plausibility.hpp"
 #include "casefile/read_case.hpp"
 #include "casefile/resolved_case.hpp"
 #include "casefile/schema.hpp"
@@ -156,6 +157,20 @@ TEST(CasefileMaterials, BadValuesAreRefusedWithTheirReason) {
       {johnson_cook + "damage = { D1 = 0.5, reference_rate = 0.0 }\n",
        "c.toml:18:39: materials.m.damage.reference_rate: found 0.0; expected a number > 0 in 1/s"}};
   for (const Bad& bad : all) EXPECT_EQ(message_of(bad.material), bad.message) << bad.material;
+}
+
+// Constants of an input file of Abaqus, copied as they are.
+TEST(CasefileMaterials, DamageWithTheSignOfAbaqusIsDoubtful) {
+  const auto doubts = [](const std::string& D3) {
+    return plausibility_warnings(
+        parse_case(case_with(johnson_cook + "damage = { D1 = 0.54, D2 = 4.89, D3 = " + D3 + " }\n"), "c.toml"));
+  };
+  EXPECT_TRUE(doubts("-3.03").empty());
+  ASSERT_EQ(doubts("3.03").size(), 1U);
+  EXPECT_EQ(
+      doubts("3.03")[0],
+      "c.toml:5: materials.m: D3 = 3.03 of the damage lets tension break later than compression; the d3 of Abaqus "
+      "has the other sign, is it one?");
 }
 
 TEST(CasefileMaterials, ThePageInTheRepositoryIsCurrent) {

@@ -257,7 +257,9 @@ TEST(RunErosion, ACellGoesInTheStepInWhichItsDamageIsOne) {
     before = alpha;
     const std::vector<double> found =
         simulation.solid().cell_history(damaged_by, march.state().points, OverPoints::largest);
-    if (damage < 1.0) EXPECT_NEAR(found.at(0), damage, 1e-10);  // some hundred sums, rates from differences of times
+    if (damage < 1.0) {
+      EXPECT_NEAR(found.at(0), damage, 1e-10);  // some hundred sums, rates from differences of times
+    }
   }
   EXPECT_GT(with_growth, 20);
   ASSERT_NE(march.state().topology, nullptr);
