@@ -74,8 +74,8 @@ Seen see(const std::string& text) {
 
 /// The way of the common motion, 7 mm, is a thousand times the depth of the impact: its rounding is 1e-13 of the force,
 /// which springs that open and close and the lag of the schemes make 1e-6 of. Implicit steps are solved to 1e-12 of the
-/// energy, which the common velocity makes 240 times as large: the square root of both is the error of forces, and twice that where a step has two
-/// solves (contact-stabilised Newmark's predictor and its step).
+/// energy, which the common velocity makes 240 times as large: the square root of both is the error of forces, and
+/// twice that where a step has two solves (contact-stabilised Newmark's predictor and its step).
 constexpr double of_explicit = 1e-6, of_implicit = 3.2e-5;
 
 void expect_same(const Seen& rest, const Seen& moving, double tolerance) {

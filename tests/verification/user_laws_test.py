@@ -189,9 +189,9 @@ class Bits(UserLawsTest):
         self.assertIn(b'"plastic_strain_zz"', text)
         self.assertIn(b'"equivalent_plastic_strain"', text)
         code, text = self.carom("check", self.case("fields", 'library = "../laws.so"\nlaw = "metal"\n' + METAL,
-                                                   more='fields = ["damage"]\n'))
+                                                   more='fields = ["porosity"]\n'))
         self.assertEqual(code, 2)
-        self.assertIn('output.fields[0]: found the unknown name "damage"', " ".join(text.split()))
+        self.assertIn('output.fields[0]: found the unknown name "porosity"', " ".join(text.split()))
 
 
 class Folders(UserLawsTest):
