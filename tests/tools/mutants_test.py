@@ -1,6 +1,7 @@
 """tools/mutants.py finds operators and constants with their operands, leaves alone what is no code that runs, and writes
 sources in which one mutant at a time can be switched on; tools/mutate.py chooses tests and takes out what does not compile."""
 
+import json
 import os
 import random
 import subprocess
@@ -107,6 +108,11 @@ class Running(ToolTest):
         todo, reaching = mutate.batches(1, "src/math/a.cpp", tests, 10.0)
         self.assertEqual(todo, [("math_tests", ["B.Own"], 3.0), ("run_tests", ["A.Quick"], 0.1)])
         self.assertEqual(reaching, 3)
+
+    def test_long_tests_are_left_out(self):
+        filtered = {"name": "sanitize", "filter": {"exclude": {"name": "LongOne|^Threads[.]"}}}
+        self.write("CMakePresets.json", json.dumps({"testPresets": [{"name": "release"}, filtered]}))
+        self.assertEqual(mutate.long_ones(self.root), ["*LongOne*"])
 
     def test_groups_of_tests(self):
         self.write("tests/unit/CMakeLists.txt", "# carom_tests(group folder...)\ncarom_tests(run run driver)\n")
