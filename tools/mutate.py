@@ -172,11 +172,7 @@ def reach_of(trial, path):
     log = trial.folder / f"{path.name}.log"
     if not log.exists() or not log.read_text().endswith("end\n"):
         log.write_text("")
-        with tempfile.TemporaryDirectory(prefix="mutate_") as folder:
-            shared = pathlib.Path(folder) / "reached"
-            shared.write_bytes(bytes(CAPACITY))
-            run(path, ["--gtest_brief=1", "--gtest_filter=-" + ":".join(long_ones(ROOT))], folder,
-                {"MUTANTS_REACHED": str(shared), "MUTANTS_LOG": str(log)})
+        run_all(path, log)
         with log.open("a") as file:
             file.write("end\n")
     found = {}
@@ -186,6 +182,26 @@ def reach_of(trial, path):
             found[name] = {"program": path.name, "seconds": float(seconds),
                            "reached": [int(number) for number in reached.split()]}
     return found
+
+
+def run_all(path, log):
+    """Runs all tests of a program into the log; where one ends the program, those that come after it in another process."""
+    left_out = long_ones(ROOT)
+    while True:
+        with tempfile.TemporaryDirectory(prefix="mutate_", ignore_cleanup_errors=True) as folder:
+            shared, flags = pathlib.Path(folder) / "reached", pathlib.Path(folder) / "flags"
+            shared.write_bytes(bytes(CAPACITY))
+            flags.write_text("--gtest_filter=-" + ":".join(left_out) + "\n")
+            code, output = run(path, [f"--gtest_flagfile={flags}"], folder,
+                               {"MUTANTS_REACHED": str(shared), "MUTANTS_LOG": str(log)})
+        if code in (0, 1):
+            return
+        done = [line.split("\t")[0] for line in log.read_text().splitlines()]
+        begun = re.findall(r"\[ RUN      \] ([\w./]+)", output)
+        if not begun or begun[-1] in done:
+            raise SystemExit(f"mutate: {path.name} ends with {code}, and not in a test\n{output[-2000:]}")
+        print(f"{path.name}: {begun[-1]} ends the program without a mutant, and does not take part", flush=True)
+        left_out += [*done, begun[-1]]
 
 
 def limit():
