@@ -25,10 +25,12 @@ SWAPS = {"+": "-", "-": "+", "*": "/", "/": "*", "%": "/", "==": "!=", "!=": "==
 OPENING, CLOSING = set("([{"), set(")]}")
 KEYWORDS = {"return", "throw", "else", "in", "do", "co_return", "co_yield"}
 # A statement with one of these is not touched.
-FORBIDDEN = re.compile(r'"|\b(constexpr|consteval|static_assert|case|enum|template|concept|requires|using|typedef|operator|'
-                       r"virtual|alignas|sizeof|goto|asm|decltype|noexcept)\b|\bstatic const\b")
-# A constant whose initialiser holds no name: the compiler works it out, so that no mutant of it would ever run.
+FORBIDDEN = re.compile(r'"|\b(constexpr|consteval|static_assert|case|enum|template|concept|requires|using|typedef|'
+                       r"operator|virtual|alignas|assert|sizeof|goto|asm|decltype|noexcept)\b|\bstatic const\b")
+# A constant whose initialiser holds no name, and the end of a list of constants alone: the compiler works them out, so
+# that no mutant of them would ever run.
 LITERAL = re.compile(r"\bconst (int|unsigned|long|bool|char|Index|std::size_t|std::u?int\w*_t)\s+\w+ ?[={][^a-zA-Z]*$")
+CONSTANTS = re.compile(r"[\d\s.,'+\-eE]*}$")
 NOT_CODE = re.compile(check_sizes.NOT_CODE.pattern + "|" + r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", re.DOTALL | re.MULTILINE)
 TOKEN = re.compile(
     r"(?P<number>(?<![\w.])(?:0[xX][0-9a-fA-F']+|(?:\d[\d']*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)[fFuUlLzZ]*)|"
@@ -56,7 +58,7 @@ class Mutant:
 
 
 def blank(match):
-    """A comment or directive as blanks, a string or character as quotation marks; every position stays, and line ends."""
+    """A comment or directive as blanks, a string or character as quotation marks; positions and line ends stay."""
     fill = " " if match[0].lstrip()[0] in "/#" else '"'
     return "".join(char if char == "\n" else fill for char in match[0])
 
@@ -89,7 +91,7 @@ class Source:
     def __init__(self, name, text):
         self.name, self.text = name, text
         self.code = NOT_CODE.sub(blank, text)
-        self.tokens = [Token(token[0], token.start(), token.end(), token.lastgroup) for token in TOKEN.finditer(self.code)]
+        self.tokens = [Token(found[0], *found.span(), found.lastgroup) for found in TOKEN.finditer(self.code)]
         self.line_ends = [found.start() for found in re.finditer("\n", text)]
 
     def mutants(self, random):
@@ -194,7 +196,7 @@ class Source:
 
     def constant(self, index, random):
         token = self.tokens[index]
-        if not self.is_free(index):
+        if not self.is_free(index) or CONSTANTS.match(self.statement(index)[0]):
             return None
         after = other_constant(token.text, random)
         if after is None:
@@ -206,7 +208,7 @@ class Source:
 
 
 def angles(text):
-    """How many template brackets are open at the end of a text; comparisons, which stand between blanks, do not count."""
+    """How many template brackets are open at the end of a text; comparisons, between blanks, do not count."""
     text = re.sub(r"->|<=>|(?<=\s)(<|>|<=|>=|<<|>>)(?=\s|$)", " ", text)
     return text.count("<") - text.count(">")
 
@@ -228,7 +230,7 @@ def other_constant(text, random):
 
 
 def draw(sources, count, random):
-    """`count` mutants of sources {name: text}, folders weighted by their lines, none within another, in random order."""
+    """`count` mutants of sources {name: text}, folders weighted by their lines, none within another, in any order."""
     lines, possible = collections.Counter(), collections.defaultdict(list)
     for name, text in sorted(sources.items()):
         folder = name.split("/")[1]

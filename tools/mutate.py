@@ -185,7 +185,7 @@ def reach_of(trial, path):
 
 
 def run_all(path, log):
-    """Runs all tests of a program into the log; where one ends the program, those that come after it in another process."""
+    """Runs all tests of a program into the log; where one ends the program, those after it in another process."""
     left_out = long_ones(ROOT)
     while True:
         with tempfile.TemporaryDirectory(prefix="mutate_", ignore_cleanup_errors=True) as folder:
@@ -289,7 +289,8 @@ def try_all(trial, options):
         for row in filter(None, pool.map(one, todo)):
             rows[row["number"]] = row
             trial.results.write_text(json.dumps(list(rows.values()), indent=1))
-            print(f"{row['number']:4} {row['result']:11} {row['seconds']:6.1f} s  {row['file']}:{row['line']}", flush=True)
+            print(f"{row['number']:4} {row['result']:11} {row['seconds']:6.1f} s  {row['file']}:{row['line']}",
+                  flush=True)
     return list(rows.values())
 
 
@@ -336,7 +337,8 @@ def main():
     rows = try_all(trial, options)
     (trial.folder / "mutation.md").write_text(table(rows))
     killed = sum(row["result"] == "killed" for row in rows)
-    print(f"mutate: {killed} of {len(rows)} mutants killed, {killed / max(1, len(rows)):.1%}; {trial.folder}/mutation.md")
+    print(f"mutate: {killed} of {len(rows)} mutants killed, {killed / max(1, len(rows)):.1%}; "
+          f"{trial.folder}/mutation.md")
     return 0
 
 

@@ -1,4 +1,4 @@
-"""tools/coverage.py counts what a program ran, by folder, names functions that it did not enter, fails below its bound."""
+"""tools/coverage.py counts what a program ran, by folder, names what it did not enter, and fails below its bound."""
 
 import subprocess
 import unittest
@@ -9,7 +9,7 @@ from tool_test import TOOLS, ToolTest
 class Coverage(ToolTest):
     def setUp(self):
         super().setUp()
-        # Of the four lines with code in src/, those of `other` are not run. A template counts once, for all its instances.
+        # Of the four lines with code in src/, those of `other` are not run. A template counts once.
         self.write("src/a/twice.hpp", "template <class T>\nT twice(T x) {\n  return x + x;\n}\n")
         self.write("src/b/other.hpp", "inline int other(int x) {\n  return x;\n}\n")
         main = self.write("main.cpp", '#include "src/a/twice.hpp"\n#include "src/b/other.hpp"\n'

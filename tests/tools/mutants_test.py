@@ -1,5 +1,6 @@
-"""tools/mutants.py finds operators and constants with their operands, leaves alone what is no code that runs, and writes
-sources in which one mutant at a time can be switched on; tools/mutate.py chooses tests and takes out what does not compile."""
+"""tools/mutants.py finds operators and constants with their operands, leaves alone what is no code that runs, and
+writes sources in which one mutant at a time can be switched on; tools/mutate.py chooses tests and takes out what does
+not compile."""
 
 import json
 import os
@@ -60,7 +61,8 @@ class Places(unittest.TestCase):
 
     def test_what_is_left_alone(self):
         for statement in ('throw E("a" + b, 2);', "constexpr int n = 2 * m;", "static_assert(n == 2);", "case 3: f();",
-                          "std::array<double, 3> x;", "using T = A<B, 2>;", "// a + b", "const int n = 3;", "f(A<m + 1>());"):
+                          "std::array<double, 3> x;", "using T = A<B, 2>;", "// a + b", "const int n = 3;", "f(A<m + 1>());",
+                          "assert(a + b == 1);", "const Vec3 x{1.0, 0.0, 0.0};"):
             self.assertEqual(found(body(statement)), [], statement)
         self.assertEqual(found("const double x = 2.0 * y;\nstruct S { int n = 2; };\n#define X 1 + 2\n"), [])
         self.assertEqual(found("constexpr int f(int a) { return a + 1; }\n"), [])
@@ -82,7 +84,8 @@ class Drawing(unittest.TestCase):
         drawn = mutants.draw({"src/a/a.cpp": body("x = 1;\n  y = 2;\n  z = 3;")}, 3, random.Random(1))
         output = "src/a/a.cpp:2:3: note: here\n../tree/src/a/a.cpp:3:4: error: no match\nsrc/b/b.cpp:4:1: error: no\n"
         self.assertEqual(mutate.guilty(output, drawn), {mutant.number for mutant in drawn if mutant.line == 3})
-        self.assertEqual(mutate.guilty("src/a/a.cpp:2:3: note: here\n", drawn), {m.number for m in drawn if m.line == 2})
+        beside = mutate.guilty("src/a/a.cpp:2:3: note: here\n", drawn)
+        self.assertEqual(beside, {mutant.number for mutant in drawn if mutant.line == 2})
 
 
 class Running(ToolTest):
@@ -96,7 +99,8 @@ class Running(ToolTest):
         subprocess.run(["g++", "-std=c++20", "-include", header, source, "-o", program], check=True)
         shared = self.write("reached", "\0" * 4096)
         for number, code in (("0", 3), ("8", 3), ("9", 7)):
-            done = subprocess.run([program], env={**os.environ, "MUTANT": number, "MUTANTS_REACHED": str(shared)}, check=False)
+            chosen = {**os.environ, "MUTANT": number, "MUTANTS_REACHED": str(shared)}
+            done = subprocess.run([program], env=chosen, check=False)
             self.assertEqual(done.returncode, code)
         self.assertEqual([number for number, byte in enumerate(shared.read_bytes()) if byte], [9])
 

@@ -190,6 +190,17 @@ TEST(Ldlt, AnalysesAPatternOnceAndGoesOnAfterAFailure) {
   EXPECT_LT(test::largest_difference(x, y), 30 * eps * 10);  // kappa of 4 x 4 x 4 is 9.5
 }
 
+TEST(Ldlt, AnalysesAnotherPatternOfTheSameSize) {
+  Ldlt factors;
+  factors.factorize(test::sparse({2, 1, 0, 1, 2, 0, 0, 0, 2}, 3));
+  factors.factorize(test::sparse({2, 0, 0, 0, 2, 1, 0, 1, 2}, 3));  // as many entries, elsewhere
+  EXPECT_EQ(factors.analyses(), 2);
+  std::vector<double> b{2, 4, 5};
+  factors.solve(b);
+  const std::vector<double> x{1, 1, 2};
+  EXPECT_LT(test::largest_difference(x, b), 30 * eps * 2);  // kappa is 3
+}
+
 TEST(Ldlt, ReadsTheLowerTriangleOnly) {
   Ldlt factors;
   factors.factorize(test::sparse({4, 99, 2, -5}, 2));

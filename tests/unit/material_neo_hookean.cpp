@@ -1,10 +1,12 @@
 // Neo-Hookean law, laws under zero lateral stress and the discrete gradient, at single points.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "material/discrete_gradient.hpp"
+#include "material/lateral_update.hpp"
 #include "material/law_table.hpp"
 
 namespace carom::material_neo_hookean_test {
@@ -130,6 +132,18 @@ TEST(Laws, LateralStressesVanish) {
       EXPECT_NEAR(response.stress[0], check.stress[0], round_off);
       EXPECT_EQ(response.stress[2], 0.0);
     }
+}
+
+// A lateral stress that no strain makes vanish leaves no number, so that the step is refused, and the iteration ends.
+TEST(Laws, NoLateralStrainIsFoundWhereThereIsNone) {
+  LateralLaw law;
+  law.least_strain = -0.5;
+  law.kernels.update = [](const void*, const PointBatch& batch) { std::fill_n(batch.stress, 6, 1.0); };
+  law.kernels.tangent = [](const void*, const TangentBatch& batch) { std::fill_n(batch.stress_change, 6, 1e-3); };
+  Voigt strain{0.1};
+  complete_strain<double>(law, strain.data(), nullptr, 0.0, nullptr);
+  EXPECT_EQ(strain[0], 0.1);
+  EXPECT_TRUE(std::isnan(strain[2]));
 }
 
 // A bar has Young's modulus: S = E E_11; plane stress E / (1 - nu^2) with the other side held.

@@ -177,6 +177,19 @@ std::string pierced_by_damage() {
                   "}\n");
 }
 
+// A share of a volume at rest: with one and more, cells would go that nothing has crushed.
+TEST(Erosion, TakesADistortionBelowOneOnly) {
+  EXPECT_NO_THROW(parse_case(replaced(pierced(), "distortion = 0.1", "distortion = 0.9"), "case.toml"));
+  for (const char* share : {"1.0", "1.5"}) {
+    try {
+      parse_case(replaced(pierced(), "distortion = 0.1", std::string("distortion = ") + share), "case.toml");
+      ADD_FAILURE() << "no error with " << share;
+    } catch (const CaseError& e) {
+      EXPECT_EQ(e.key(), "erosion[0].distortion") << e.what();
+    }
+  }
+}
+
 std::vector<double> rows_of(const carom::Run& run) {
   std::vector<double> all;
   for (const Recorder::KeptTable& table : run.watched().recorder.kept())

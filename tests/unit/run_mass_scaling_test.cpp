@@ -87,6 +87,20 @@ TEST(MassScaling, IsRefusedOnAConsistentMassAndALimitAlone) {
     EXPECT_THROW(parse_case(case_with_flake(scheme), "case.toml"), CaseError) << scheme;
 }
 
+// Not with an implicit scheme on a lumped mass, and not with the modified one, which is its own.
+TEST(MassScaling, BelongsToExplicitSchemesOfALumpedMass) {
+  for (const char* scheme : {"newmark\"\nmass = \"lumped", "modified_mass"}) {
+    std::string text = replaced(case_with_flake("mass_scaling_step = 0.1"), "central_differences", scheme);
+    text = replaced(text, "end = 4.0", "end = 4.0\nstep = 0.1");
+    try {
+      parse_case(text, "case.toml");
+      ADD_FAILURE() << "no error with " << scheme;
+    } catch (const CaseError& e) {
+      EXPECT_EQ(e.key(), "scheme.mass_scaling_step") << e.what();
+    }
+  }
+}
+
 // Falls on a floor under its weight: energy, momentum and the work of gravity are those of the heavier body.
 TEST(MassScaling, ClosesTheBooksWithTheHeavierBody) {
   const Simulation plain(parse_case(case_with_flake(""), "case.toml"));

@@ -49,14 +49,17 @@ TEST(Translate, PlasticityThatDependsOnTheRate) {
   EXPECT_EQ(*curves.curve, (std::vector<std::array<double, 2>>{{0.0, 90.0}, {0.1, 120.0}, {0.0, 130.0}}));
   const CaseMaterial ratios = material("*PLASTIC\n90., 0.\n*RATE DEPENDENT, TYPE=YIELD RATIO\n1., 0.\n1.5, 100.\n");
   EXPECT_EQ(*ratios.curve, (std::vector<std::array<double, 2>>{{0.0, 90.0}, {0.0, 135.0}}));
-  // Cowper and Symonds' factor of mild steel at the rate D is 2: within the rates that are written, and between two.
+  // Cowper and Symonds' factor of mild steel, 1 + (rate / D)^(1/n), at the rate D is 2 and at 32 D with n = 5 it is 3:
+  // within the rates that are written, and between two.
   const CaseMaterial power = material("*PLASTIC\n90., 0.\n*RATE DEPENDENT, TYPE=POWER LAW\n40., 5.\n");
-  const auto faster = std::upper_bound(power.rates.begin(), power.rates.end(), 40.0);
-  ASSERT_NE(faster, power.rates.end());
-  const auto k = static_cast<std::size_t>(faster - power.rates.begin());
-  const double share = (40.0 - power.rates[k - 1]) / (power.rates[k] - power.rates[k - 1]);
-  const double stress = (*power.curve)[k - 1][1] + share * ((*power.curve)[k][1] - (*power.curve)[k - 1][1]);
-  EXPECT_NEAR(stress, 180.0, 0.01 * 90.0);
+  for (const auto& [rate, factor] : {std::pair{40.0, 2.0}, {1280.0, 3.0}}) {
+    const auto faster = std::upper_bound(power.rates.begin(), power.rates.end(), rate);
+    ASSERT_NE(faster, power.rates.end());
+    const auto k = static_cast<std::size_t>(faster - power.rates.begin());
+    const double share = (rate - power.rates[k - 1]) / (power.rates[k] - power.rates[k - 1]);
+    const double stress = (*power.curve)[k - 1][1] + share * ((*power.curve)[k][1] - (*power.curve)[k - 1][1]);
+    EXPECT_NEAR(stress, factor * 90.0, 0.01 * 90.0);
+  }
 }
 
 TEST(Translate, JohnsonAndCook) {
