@@ -1,3 +1,4 @@
+#!/usr/bin/python3
 """Which lines of src/ the unit tests run.
 
 Usage: coverage.py [--at-least PERCENT] [--no-run] [--build FOLDER] [--jobs N]

@@ -1,3 +1,4 @@
+#!/usr/bin/python3
 """A mutation trial: changes one operator or constant of src/ at a time and looks whether the unit tests notice.
 
 Usage: mutate.py [FOLDER] [--count 300] [--seed 1] [--jobs N] [--seconds S] [--budget S] [--cmake ARGUMENT]...
