@@ -61,8 +61,8 @@ class Places(unittest.TestCase):
 
     def test_what_is_left_alone(self):
         for statement in ('throw E("a" + b, 2);', "constexpr int n = 2 * m;", "static_assert(n == 2);", "case 3: f();",
-                          "std::array<double, 3> x;", "using T = A<B, 2>;", "// a + b", "const int n = 3;", "f(A<m + 1>());",
-                          "assert(a + b == 1);", "const Vec3 x{1.0, 0.0, 0.0};"):
+                          "std::array<double, 3> x;", "using T = A<B, 2>;", "// a + b", "const int n = 3;",
+                          "f(A<m + 1>());", "assert(a + b == 1);", "const Vec3 x{1.0, 0.0, 0.0};"):
             self.assertEqual(found(body(statement)), [], statement)
         self.assertEqual(found("const double x = 2.0 * y;\nstruct S { int n = 2; };\n#define X 1 + 2\n"), [])
         self.assertEqual(found("constexpr int f(int a) { return a + 1; }\n"), [])
