@@ -191,11 +191,13 @@ struct Solid::Impl {
     constexpr std::size_t zeros_per_task = 1 << 15;
     parallel_for(f.size(), zeros_per_task,
                  [&](std::size_t first, std::size_t last) { std::fill(f.data() + first, f.data() + last, 0.0); });
-    for (const auto& [cells, share] :
-         {std::pair{&solid, &share_of_cells}, std::pair{&patches.cells, &share_of_patches}})
-      for_each_duty(*cells, *share, [&](std::size_t c, std::span<const Chunk> runs) {
-        add(*cells, c, cells->blocks[at(runs[0].block)], runs, f.data());
+    const auto add_all = [&](const SolidCells& cells, const std::optional<RankShare>& share) {
+      for_each_duty(cells, share, [&](std::size_t c, std::span<const Chunk> runs) {
+        add(cells, c, cells.blocks[at(runs[0].block)], runs, f.data());
       });
+    };
+    add_all(solid, share_of_cells);
+    add_all(patches.cells, share_of_patches);
     if (share_of_cells) by_node->gather(f);
   }
   /// Calls body(number of a chunk, runs of its cells) for what the rank has to do, colour by colour.
