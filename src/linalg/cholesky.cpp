@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "linalg/lapack.hpp"
+#include "linalg/metis_turn.hpp"
 
 namespace carom {
 
@@ -143,6 +144,7 @@ void Cholesky::Impl::analyse(cholmod_sparse A) {
     LowerTriangle nodes = by_nodes(begin, column);
     cholmod_sparse graph = nodes.view();
     std::vector<SuiteSparse_long> order_of_nodes(graph.ncol);
+    const std::scoped_lock turn(metis_turn);
     if (cholmod_l_metis(&graph, nullptr, 0, 1, order_of_nodes.data(), &common) == 0)
       throw std::runtime_error("Cholesky factorisation: ordering failed: " + reason(common));
     for (const SuiteSparse_long node : order_of_nodes)

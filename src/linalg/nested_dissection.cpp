@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "linalg/metis_turn.hpp"
+
 namespace carom {
 
 namespace {
@@ -49,6 +51,7 @@ std::vector<Index> nested_dissection(const CsrMatrix& A) {
   cholmod_l_start(&common);
   common.print = 0;
   const int postorder = 1;
+  const std::scoped_lock turn(metis_turn);
   const bool done = cholmod_l_metis(&view, nullptr, 0, postorder, order.data(), &common) != 0;
   const bool without_memory = common.status == CHOLMOD_OUT_OF_MEMORY;
   cholmod_l_finish(&common);

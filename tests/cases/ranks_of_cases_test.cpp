@@ -1,4 +1,4 @@
-// The same bits from any number of ranks: the explicit cases of cases/, and blocks of many chunks.
+// The same bits from any number of ranks: the explicit penalty cases of cases/, and blocks of many chunks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,15 +50,17 @@ void expect_same_bits(const Case& given, long long steps) {
   }
 }
 
-bool is_explicit(const Case& given) {
-  return traits(given.scheme.kind.value).stepping == Stepping::explicit_steps;
+bool is_explicit_penalty(const Case& given) {
+  const CaseScheme& scheme = given.scheme;
+  return traits(scheme.kind.value).stepping == Stepping::explicit_steps && scheme.enforcement &&
+         scheme.enforcement->value == EnforcementKind::penalty;
 }
 
 std::vector<std::string> explicit_cases() {
   std::vector<std::string> found;
   const std::filesystem::path folder = std::filesystem::path(CAROM_SOURCE_DIR) / "cases";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.path().extension() == ".toml" && is_explicit(read_case(entry.path().string())))
+    if (entry.path().extension() == ".toml" && is_explicit_penalty(read_case(entry.path().string())))
       found.push_back(std::filesystem::relative(entry.path(), folder).string());
   std::sort(found.begin(), found.end());
   return found;
