@@ -54,8 +54,8 @@ std::optional<RankShare> rank_share(const SolidCells& cells) {
   RankShare share{{}, {0}, Exchange(std::move(chunks)), Exchange(std::move(history))};
   for (std::size_t colour = 0; colour + 1 < cells.colour_begin.size(); ++colour) {
     for (std::size_t c = cells.colour_begin[colour]; c < cells.colour_begin[colour + 1]; ++c) {
-      ChunkDuty duty{c, owner[c] == own, {cells.chunks[c]}};
-      if (!duty.is_own) duty.runs = batches_at(cells, cells.chunks[c], share_of(own, count, node_count));
+      ChunkDuty duty{c, {cells.chunks[c]}};
+      if (owner[c] != own) duty.runs = batches_at(cells, cells.chunks[c], share_of(own, count, node_count));
       for (const Chunk& run : duty.runs) share.cells += at(run.cells);
       if (!duty.runs.empty()) share.duties.push_back(std::move(duty));
     }

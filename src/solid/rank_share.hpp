@@ -13,7 +13,6 @@ namespace carom {
 /// What a rank has to do in one chunk of cells.
 struct ChunkDuty {
   std::size_t chunk = 0;
-  bool is_own = false;      ///< the energies and the history of the chunk are the rank's to tell
   std::vector<Chunk> runs;  ///< the cells that it computes: whole batches, all of them if it is its own
 };
 
