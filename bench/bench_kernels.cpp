@@ -15,6 +15,7 @@
 #include "casefile/read_case.hpp"
 #include "flops.hpp"
 #include "parallel/threads.hpp"
+#include "solid/point_history.hpp"
 #include "solid/smallest_cell.hpp"
 #include "solid/solid.hpp"
 
@@ -44,16 +45,16 @@ Bodies read_bodies(const std::string& path) {
 /// (coordinates among them), `histories` of the points.
 double bytes_per_cell(const Solid& solid, int vectors, int histories) {
   std::size_t corners = 0;
-  for (std::size_t k = 0; k < solid.cell_count(); ++k) corners += solid.nodes_of_cell(k).size();
-  const std::size_t doubles = static_cast<std::size_t>(vectors) * solid.dof_count() +
-                              static_cast<std::size_t>(histories) * solid.history_size();
+  for (std::size_t k = 0; k < solid.cells().size(); ++k) corners += solid.cells().nodes_of(k).size();
+  const std::size_t doubles =
+      static_cast<std::size_t>(vectors) * solid.dof_count() + static_cast<std::size_t>(histories) * history_size(solid);
   return static_cast<double>(sizeof(double) * doubles + sizeof(Index) * corners) /
-         static_cast<double>(solid.cell_count());
+         static_cast<double>(solid.cells().size());
 }
 
 void measure(benchmark::State& state, const Bodies& bodies, Sweep sweep, Isa isa) {
   const Solid solid(bodies.model, isa);
-  const std::vector<double> history = solid.initial_history();
+  const std::vector<double> history = initial_history(solid);
   std::vector<double> end(history), f(bodies.u.size());
   const PointStep step{.dt = 1e-6, .history = history};
   for (auto _ : state) {
@@ -63,7 +64,7 @@ void measure(benchmark::State& state, const Bodies& bodies, Sweep sweep, Isa isa
       solid.tangent_action(bodies.u, bodies.u, f, step);
     benchmark::ClobberMemory();
   }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(solid.cell_count()));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(solid.cells().size()));
   const bool is_force = sweep == Sweep::force;
   state.counters["flops_per_cell"] = flops_per_cell(bodies.model, bodies.u, sweep);
   state.counters["bytes_per_cell"] = bytes_per_cell(solid, is_force ? 4 : 5, is_force ? 2 : 1);

@@ -38,8 +38,8 @@ function(carom_library folder)
 endfunction()
 
 # carom_tests(group folder...): the files <group>_*.cpp of this folder become the program <group>_tests, each of its gtest
-# cases a ctest entry labelled with the name of this folder, the parameterised ones, where there are any, a single entry. A
-# file's tests stand in a namespace of its own.
+# cases a ctest entry labelled with the name of this folder, <group>.<suite> for all cases of a parameterised suite. A file's
+# tests stand in a namespace of its own.
 function(carom_tests group)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${group}_*.cpp)
   add_executable(${group}_tests ${sources})
@@ -51,17 +51,23 @@ function(carom_tests group)
   target_compile_options(${group}_tests PRIVATE ${CAROM_TEST_OPTIMISATION})
   get_filename_component(kind ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   # Threads that wait by spinning starve each other where other work shares the cores. A program that registers thousands
-  # of cases takes longer to start than most of them: the parameterised ones share a process.
+  # of cases takes longer to start than most of them: those of a parameterised suite share a process.
   set(properties LABELS ${kind} ENVIRONMENT OMP_WAIT_POLICY=passive)
   gtest_discover_tests(${group}_tests DISCOVERY_MODE PRE_TEST TEST_FILTER "-*/*" PROPERTIES TIMEOUT 300 ${properties})
-  set(parameterised)
   foreach(source IN LISTS sources)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
-    file(STRINGS ${source} found REGEX "INSTANTIATE_TEST_SUITE_P")
-    list(APPEND parameterised ${found})
+    file(STRINGS ${source} lines REGEX "^(INSTANTIATE_TEST_SUITE_P|TYPED_TEST_SUITE)")
+    foreach(line IN LISTS lines)
+      if(NOT line MATCHES "^(INSTANTIATE_TEST_SUITE_P\\([A-Za-z]*, |TYPED_TEST_SUITE\\()([A-Za-z0-9]+),")
+        message(FATAL_ERROR "${source}: the name of the suite is not on the line \"${line}\"")
+      endif()
+      set(suite ${CMAKE_MATCH_2})
+      if(TEST ${group}.${suite})
+        continue()
+      endif()
+      add_test(NAME ${group}.${suite} COMMAND ${group}_tests --gtest_brief=1
+               "--gtest_filter=${suite}.*/*:*/${suite}.*/*:${suite}/*")
+      set_tests_properties(${group}.${suite} PROPERTIES TIMEOUT 1800 COST 100 ${properties})
+    endforeach()
   endforeach()
-  if(parameterised)
-    add_test(NAME ${group}.parameterised COMMAND ${group}_tests --gtest_brief=1 "--gtest_filter=*/*")
-    set_tests_properties(${group}.parameterised PROPERTIES TIMEOUT 2700 COST 100 ${properties})
-  endif()
 endfunction()

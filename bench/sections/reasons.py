@@ -9,7 +9,7 @@ REASONS = {
     "BatchGradients::means": "watch of rotations, every fiftieth step far from its limit: small strain is wrong for cells that turn",
     "prepare_cells": "the same watch: gradients of the shape functions",
     "cell_gradients": "the same watch: gradients of the displacement",
-    "Solid::largest_rotation": "the same watch: the bound of the angle of each cell",
+    "largest_rotation": "the same watch: the bound of the angle of each cell",
     "rotation_angle": "the same watch: the cells whose bound does not say enough",
     "hexa8_small::mean_stress": "key figures: largest stress, in about 200 steps of a run",
     "KeyFigures::velocities": "key figures: mean velocities of the parts, in the same steps",

@@ -46,7 +46,7 @@ class CellColumns {
   Vec3 middle(Side side) const;
 
   const Mesh& mesh_;
-  const std::vector<CellRef>& cells_;
+  const BodyCells& cells_;
   std::vector<std::uint32_t> neighbour_;  ///< per side: the side of the next cell that is the same face, or no_twin
   std::vector<std::array<Index, 3>> of_cell_;
   std::vector<CellColumn> columns_;

@@ -22,6 +22,7 @@
 #include "record/frame_plan.hpp"
 #include "record/recorder.hpp"
 #include "solid/smallest_cell.hpp"
+#include "solid/stability.hpp"
 
 namespace carom {
 
@@ -44,8 +45,8 @@ void summarise(const Simulation& s, const Part& part, std::size_t first, const S
     return;
   }
   for (std::size_t k = first; k < first + part.cells.size(); ++k) {
-    const std::span<const Index> nodes = solid.nodes_of_cell(k);
-    const double share = part.material.rho * solid.cell_volumes()[k] / static_cast<double>(nodes.size());
+    const std::span<const Index> nodes = solid.cells().nodes_of(k);
+    const double share = part.material.rho * solid.cells().volumes[k] / static_cast<double>(nodes.size());
     for (const Index node : nodes) {
       const auto n = static_cast<std::size_t>(node);
       const Vec3 v{state.v[3 * n], state.v[3 * n + 1], state.v[3 * n + 2]};
@@ -154,7 +155,7 @@ std::string check_summary(const Simulation& s) {
   std::string text =
       fmt::format("{}\n  units     {}\n  mesh      {}, {}, smallest cell {:.4g} {}\n", s.given().title, name(units),
                   count_of(static_cast<long long>(given_nodes(s.given(), s.mesh())), "node"),
-                  count_of(static_cast<long long>(s.solid().cell_count()), "solid cell"), smallest_cell(s.solid()),
+                  count_of(static_cast<long long>(s.solid().cells().size()), "solid cell"), smallest_cell(s.solid()),
                   unit(Dimension::length));
   for (const PartLine& p : summarise(s, state)) {
     if (!p.rigid_body.empty()) {
@@ -182,7 +183,7 @@ std::string check_summary(const Simulation& s) {
   const StableStep stable = s.stable();
   text += fmt::format("  stable    explicit step {} with contact, {} without; element estimate (lumped mass) {}\n",
                       step_text(stable.dt), step_text(stable.dt_free),
-                      step_text(stable_step_of(2.0, s.solid().largest_frequency_bound())));
+                      step_text(stable_step_of(2.0, largest_frequency_bound(s.solid()))));
   if (std::isfinite(stable.dt_closing))
     text += fmt::format("  closing   contact springs that open and close need {:.4g}\n", stable.dt_closing);
   for (const auto& stage : s.stages()) text += describe_driven(*stage, s);

@@ -15,6 +15,8 @@
 #include "record/frame_plan.hpp"
 #include "record/recorder.hpp"
 #include "rows/delassus.hpp"
+#include "solid/point_history.hpp"
+#include "solid/stability.hpp"
 
 namespace carom {
 
@@ -30,7 +32,7 @@ bool has_factor(const Stage& stage) {
   if (!is_implicit(stage)) return false;
   const SchemeSettings& settings = stage.settings();
   const double ratio = !has_inertia(settings.kind) ? infinity : 0.25 * stage.dt() * stage.dt();
-  const double omega_squared = stage.system().solid.largest_frequency_bound();
+  const double omega_squared = largest_frequency_bound(stage.system().solid);
   const SolverKind kind = chosen_solver(stage.system(), settings.solver, settings.enforcement, ratio, omega_squared);
   return kind == SolverKind::cholesky || kind == SolverKind::ldlt;
 }
@@ -76,7 +78,8 @@ double row_bytes(const Simulation& s) {
 }  // namespace
 
 CostEstimate estimate_cost(const Simulation& s) {
-  const double cells = static_cast<double>(s.solid().cell_count()), nodes = static_cast<double>(s.mesh().node_count());
+  const double cells = static_cast<double>(s.solid().cells().size()),
+               nodes = static_cast<double>(s.mesh().node_count());
   CostEstimate cost;
   for (const auto& stage : s.stages()) cost.seconds += stage_seconds(*stage, s, has_factor(*stage));
   // 0.5 kB per cell for the mesh, the kernels' tables and the states (0.44 to 0.46 measured), 2 kB where steps are
@@ -88,7 +91,7 @@ CostEstimate estimate_cost(const Simulation& s) {
       std::any_of(s.stages().begin(), s.stages().end(), [](const auto& stage) { return has_factor(*stage); });
   const bool has_implicit =
       std::any_of(s.stages().begin(), s.stages().end(), [](const auto& stage) { return is_implicit(*stage); });
-  const double history = 8.0 * static_cast<double>(s.solid().history_size());
+  const double history = 8.0 * static_cast<double>(history_size(s.solid()));
   cost.memory_bytes = 2.4e7 + (has_implicit ? 2e3 : 5e2) * cells + 2.0 * history +
                       (has_matrix ? 14.0 * 72.0 * std::pow(nodes, 4.0 / 3.0) : 0.0);
   cost.frames = s.given().output.fields.empty() ? 0 : (s.steps() + frame_interval(s) - 1) / frame_interval(s) + 1;

@@ -12,6 +12,7 @@
 #include "base/types.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
+#include "solid/cell_values.hpp"
 #include "solid/element_table.hpp"
 #include "solid/node_patches.hpp"
 #include "surface/facet_geometry.hpp"
@@ -169,7 +170,7 @@ class Examiner {
     const IsotropicElastic at_rest = part.material.at_rest();
     const double nu = at_rest.nu, across = is_plate ? nu / (1.0 - nu) : nu;
     const double modulus = is_plate ? at_rest.E / (1.0 - nu * nu) : at_rest.E;
-    const std::span<const Index> nodes = s_.solid().nodes_of_cell(k);
+    const std::span<const Index> nodes = s_.solid().cells().nodes_of(k);
     const Vec3 t = columns_.direction(k, thin_axis), along = columns_.direction(k, long_axis);
     const Vec3 a = normalized(subtract(along, scaled(t, dot(along, t)))), w = cross(t, a);
     Vec3 centre{};
@@ -186,14 +187,14 @@ class Examiner {
         const double deflection = 0.5 * (x * x + across * y * y - c * z * z);
         u.push_back(add(add(scaled(a, -x * y), scaled(t, deflection)), scaled(w, c * y * z)));
       }
-      return s_.solid().energy_at_rest(k, u);
+      return energy_at_rest(s_.solid(), k, u);
     };
     double least = energy(0.0);
     if (!is_plate) {
       const double up = energy(1.0), down = energy(-1.0), slope = 0.5 * (up - down), bend = 0.5 * (up + down) - least;
       if (bend > 0.0) least -= 0.25 * slope * slope / bend;
     }
-    return 2.0 * least / (modulus * s_.solid().square_integral(k, height));
+    return 2.0 * least / (modulus * square_integral(s_.solid(), k, height));
   }
   /// A plane of symmetry at one end keeps a column from bending.
   bool is_held(const CellColumn& column) const {
@@ -349,7 +350,7 @@ std::vector<Findings> examine(const Simulation& s) {
     const bool has_columns = part.section != Section::bar && node_count(part.type) == corner_count(part.type);
     for (const std::size_t end = k + part.cells.size(); k < end; ++k) {
       if (!has_columns) continue;
-      const double volume = s.solid().cell_volumes()[k];
+      const double volume = s.solid().cells().volumes[k];
       found.volume += volume;
       if (part.section != Section::plane_stress) found.fewest = std::min(found.fewest, examiner.fewest_across(k));
       for (const Thin& thin : examiner.thin(k, part)) found.add(thin, volume);

@@ -25,6 +25,7 @@
 #include "math/vec3.hpp"
 #include "output/found_checkpoint.hpp"
 #include "output/results_folder.hpp"
+#include "solid/point_history.hpp"
 
 namespace carom {
 
@@ -288,10 +289,10 @@ std::optional<TakenState> take_over(const Case& given, Model& model) {
 
 void take_points(const Case& given, const Solid& solid, TakenState& taken) {
   const std::string own = version();
-  if (solid.history_size() == 0 && taken.points.empty()) return;
+  if (history_size(solid) == 0 && taken.points.empty()) return;
   if (taken.info.version == own) {
     try {
-      taken.points = solid.history_of_lanes(taken.points);
+      taken.points = history_of_lanes(solid, taken.points);
       return;
     } catch (const std::invalid_argument&) {
     }
@@ -300,7 +301,7 @@ void take_points(const Case& given, const Solid& solid, TakenState& taken) {
       given,
       fmt::format("a state of carom {}, whose points remember {} numbers", taken.info.version, taken.points.size()),
       fmt::format("one of carom {}, and {} numbers, where bodies yield", own,
-                  solid.history_by_cell(solid.initial_history()).size()),
+                  history_by_cell(solid, initial_history(solid)).size()),
       "Run the first case again with this program.");
 }
 

@@ -12,6 +12,7 @@
 #include "build/torn_ties.hpp"
 #include "solid/mass_scaling.hpp"
 #include "solid/modified_mass.hpp"
+#include "solid/stability.hpp"
 #include "surface/facing_facets.hpp"
 #include "system/free_modes.hpp"
 
@@ -230,7 +231,7 @@ void Stage::refuse_loads_without_hold() const {
   std::vector<double> f(context_.solid.dof_count());
   const std::vector<double> zero(f.size(), 0.0);
   for (const double t : {begin_ + dt_, end()}) {
-    context_.solid.external_force(t, mass_, f);
+    context_.solid.loads().force(t, mass_, f);
     const std::vector<double> motion = free.unheld({}, {}, zero, f, f);
     if (std::all_of(motion.begin(), motion.end(), [](double m) { return m == 0.0; })) continue;
     throw CaseError(
@@ -364,7 +365,7 @@ StableStepWatch Stage::watch_stable_step() const {
 }
 
 std::unique_ptr<Scheme> Stage::make_scheme() const {
-  const double bound = is_explicit(settings_.kind) ? infinity : context_.solid.largest_frequency_bound();
+  const double bound = is_explicit(settings_.kind) ? infinity : largest_frequency_bound(context_.solid);
   return carom::make_scheme({system_, settings_, dt_, bound});
 }
 

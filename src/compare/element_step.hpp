@@ -6,7 +6,7 @@
 namespace carom::compare {
 
 /// Time in which the fastest wave crosses the shortest cell: min over solid cells of their length (volume over largest
-/// face, Solid::cell_lengths), over the largest c_p = sqrt((lambda + 2 G) / rho) of the parts; the Courant number of
+/// face, BodyCells::lengths), over the largest c_p = sqrt((lambda + 2 G) / rho) of the parts; the Courant number of
 /// `carom check` is the step over it. Builds the mesh; throws CaseError.
 double element_step(const Case& given);
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "kernels/kernels.hpp"
 #include "math/voigt.hpp"
 #include "report/csv_table.hpp"
-#include "solid/kernels.hpp"
 
 namespace carom {
 

@@ -29,7 +29,7 @@ namespace {
 double trace_at_rest(const Solid& solid) {
   constexpr std::size_t many = 4096;
   const std::vector<double> zero(solid.dof_count(), 0.0);
-  if (solid.cell_count() < many) {
+  if (solid.cells().size() < many) {
     const std::vector<double> diagonal = solid.tangent_diagonal(zero);
     return std::accumulate(diagonal.begin(), diagonal.end(), 0.0);
   }

@@ -7,6 +7,7 @@
 
 #include "build/eroding_parts.hpp"
 #include "march/folded_cells.hpp"
+#include "solid/cell_values.hpp"
 
 namespace carom {
 
@@ -19,7 +20,7 @@ Erosions::Erosions(const Simulation& simulation)
 std::vector<double> Erosions::largest(const char* variable, std::optional<double> Erosion::*criterion,
                                       const State& state) const {
   if (std::ranges::none_of(s_.model().erosion, [&](const Erosion& e) { return (e.*criterion).has_value(); })) return {};
-  return s_.solid().cell_history(variable, state.points, OverPoints::largest);
+  return cell_history(s_.solid(), variable, state.points, OverPoints::largest);
 }
 
 bool Erosions::goes(const Erosion& erosion, Index cell, const State& state, const Reached& reached) const {
@@ -28,12 +29,12 @@ bool Erosions::goes(const Erosion& erosion, Index cell, const State& state, cons
   if (erosion.damage && reached.damage[at(cell)] >= *erosion.damage) return true;
   if (!erosion.distortion) return false;
   const CellType type = s_.mesh().blocks[at(s_.solid().cells()[at(cell)].block)].type;
-  return flattest_share(s_.mesh(), type, s_.solid().nodes_of_cell(at(cell)), state.q) <= *erosion.distortion;
+  return flattest_share(s_.mesh(), type, s_.solid().cells().nodes_of(at(cell)), state.q) <= *erosion.distortion;
 }
 
 std::vector<std::uint8_t> Erosions::next(const State& state) const {
   std::vector<std::uint8_t> alive(state.alive().begin(), state.alive().end());
-  if (alive.empty()) alive.assign(s_.solid().cell_count(), 1);
+  if (alive.empty()) alive.assign(s_.solid().cells().size(), 1);
   const Reached reached{largest(yielding_by, &Erosion::plastic_strain, state),
                         largest(damaged_by, &Erosion::damage, state)};
   bool changes = false;

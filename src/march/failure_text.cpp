@@ -25,8 +25,8 @@ std::string worst_place(const System& s, const State& state) {
   const Vec3& x = s.mesh.coordinates[worst];
   std::string text = fmt::format("worst node {} at ({:.4g}, {:.4g}, {:.4g}), speed {:.4g}", s.mesh.node_numbers[worst],
                                  x[0], x[1], x[2], fastest);
-  for (std::size_t k = 0; k < s.solid.cell_count(); ++k) {
-    const auto nodes = s.solid.nodes_of_cell(k);
+  for (std::size_t k = 0; k < s.solid.cells().size(); ++k) {
+    const auto nodes = s.solid.cells().nodes_of(k);
     if (std::find(nodes.begin(), nodes.end(), static_cast<Index>(worst)) == nodes.end()) continue;
     const CellRef cell = s.solid.cells()[k];
     const CellBlock& block = s.mesh.blocks[static_cast<std::size_t>(cell.block)];

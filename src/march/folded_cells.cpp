@@ -91,13 +91,13 @@ FlattestCorner flattest_corner(const Simulation& simulation, std::span<const dou
   const Mesh& mesh = simulation.mesh();
   const std::vector<char> is_small = are_small_strain(simulation.model());
   constexpr std::size_t grain = 1024;
-  std::vector<FlattestCorner> of_task((solid.cell_count() + grain - 1) / grain);
+  std::vector<FlattestCorner> of_task((solid.cells().size() + grain - 1) / grain);
   parallel_for(of_task.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t task = begin; task < end; ++task)
-      for (std::size_t k = grain * task; k < std::min(grain * (task + 1), solid.cell_count()); ++k) {
+      for (std::size_t k = grain * task; k < std::min(grain * (task + 1), solid.cells().size()); ++k) {
         if (!alive.empty() && alive[k] == 0) continue;
         const CellType type = mesh.blocks[at(solid.cells()[k].block)].type;
-        const double share = flattest_share(mesh, type, solid.nodes_of_cell(k), u);
+        const double share = flattest_share(mesh, type, solid.cells().nodes_of(k), u);
         FlattestCorner& least = of_task[task];
         if (share < least.small_strain && is_small[k] != 0) least.small_strain = share;
         if (share >= least.share) continue;
@@ -116,7 +116,7 @@ FlattestCorner flattest_corner(const Simulation& simulation, std::span<const dou
 }
 
 std::string describe_fold(const Simulation& simulation, const FlattestCorner& corner, std::span<const double> u) {
-  const std::span<const Index> nodes = simulation.solid().nodes_of_cell(at(corner.cell));
+  const std::span<const Index> nodes = simulation.solid().cells().nodes_of(at(corner.cell));
   const Corners of_cell(simulation.mesh(), u, nodes);
   Vec3 centre{};
   for (std::size_t a = 0; a < nodes.size(); ++a)

@@ -7,6 +7,7 @@
 
 #include "base/types.hpp"
 #include "math/vec3.hpp"
+#include "solid/cell_values.hpp"
 
 namespace carom {
 
@@ -15,9 +16,9 @@ std::string inside_out(const Simulation& simulation, std::span<const double> u, 
   const bool is_finite = u.size() == solid.dof_count() &&
                          std::all_of(u.begin(), u.end(), [](double value) { return std::isfinite(value); });
   if (solid.is_linear() || !is_finite) return {};
-  const Index k = solid.first_inverted_cell(u, alive);
+  const Index k = first_inverted_cell(solid, u, alive);
   if (k < 0) return {};
-  const std::span<const Index> nodes = solid.nodes_of_cell(static_cast<std::size_t>(k));
+  const std::span<const Index> nodes = solid.cells().nodes_of(static_cast<std::size_t>(k));
   Vec3 centre{};
   for (const Index n : nodes) {
     const auto i = 3 * static_cast<std::size_t>(n);

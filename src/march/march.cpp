@@ -10,6 +10,7 @@
 #include "march/body_scales.hpp"
 #include "march/failure_text.hpp"
 #include "march/kept_state.hpp"
+#include "solid/point_history.hpp"
 
 namespace carom {
 
@@ -140,7 +141,7 @@ void March::erode() {
   state_.contact =
       s_.contact().carried_history({state_.contact, state_.topology}, *state_.forces.rows.rows, state_.q, topology);
   state_.topology = topology;
-  s_.solid().forget_gone(next, state_.points);
+  forget_gone(s_.solid(), next, state_.points);
   stage_->begin_again(state_, count_.steps());
   books_->add_eroded(state_, stored, gone);
 }

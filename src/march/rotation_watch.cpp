@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/types.hpp"
+#include "solid/cell_values.hpp"
 
 namespace carom {
 
@@ -48,7 +49,7 @@ void RotationWatch::see(const StepView& view) {
   if (is_explicit(view.stage.settings().kind) && step < next_ && !view.ends_stage) return;
   constexpr long long every = 10, seldom = 50;  // explicit steps
   const CaseGuards& guards = simulation_.given().guards;
-  const Rotation rotation = simulation_.solid().largest_rotation(state.q, state.alive());
+  const Rotation rotation = largest_rotation(simulation_.solid(), state.q, state.alive());
   const double angle = rotation.angle / degree;
   growth_ = std::max(0.0, angle - angle_) / static_cast<double>(std::max(1LL, step - looked_));
   angle_ = angle;

@@ -6,6 +6,7 @@
 
 #include "build/simulation.hpp"
 #include "march/observer.hpp"
+#include "solid/rotation.hpp"
 
 namespace carom {
 

@@ -66,7 +66,7 @@ double RunBooks::begin_stage(const Stage& stage, const State& begin, const Given
 double RunBooks::load_impulse(const Stage& stage, const State& end, double dt) const {
   if (s_.model().loads.empty() || !has_inertia(stage.settings().kind)) return 0.0;
   const std::vector<double>& f = end.forces.external.value;
-  const std::vector<Index>& nodes = s_.solid().loaded_nodes();
+  const std::vector<Index>& nodes = s_.solid().loads().nodes();
   const auto sum = parallel_sums<3>(nodes.size(), [&](std::size_t k, std::array<double, 3>& s) {
     for (std::size_t c = 0; c < 3; ++c) s[c] += f[3 * static_cast<std::size_t>(nodes[k]) + c];
   });
@@ -76,7 +76,7 @@ double RunBooks::load_impulse(const Stage& stage, const State& end, double dt) c
 void RunBooks::add_step(const Stage& stage, const State& end, const StepReport& report, double dt) {
   ledger_.add(report.books, end.forces.total_momentum);
   monitor_.update(load_impulse(stage, end, dt), report.rounding);
-  body_strain_ = std::max(body_strain_, s_.solid().body_strain(end.q));
+  body_strain_ = std::max(body_strain_, s_.solid().turning_bodies().largest_strain(end.q));
   alarm_ = monitor_.alarm(s_.given().guards.energy_growth);
 }
 

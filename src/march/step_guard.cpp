@@ -60,7 +60,7 @@ std::string cell_place(const System& system, Index cell) {
   const CellBlock& block = system.mesh.blocks[static_cast<std::size_t>(ref.block)];
   const Vec3& x =
       system.mesh
-          .coordinates[static_cast<std::size_t>(system.solid.nodes_of_cell(static_cast<std::size_t>(cell)).front())];
+          .coordinates[static_cast<std::size_t>(system.solid.cells().nodes_of(static_cast<std::size_t>(cell)).front())];
   return fmt::format("cell {} at ({:.4g}, {:.4g}, {:.4g})", block.file_numbers[static_cast<std::size_t>(ref.cell)],
                      x[0], x[1], x[2]);
 }

@@ -15,6 +15,7 @@
 #include "base/types.hpp"
 #include "element/formulation.hpp"
 #include "material/law.hpp"
+#include "material/viscosity.hpp"
 #include "math/time_function.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/skin.hpp"
@@ -26,15 +27,6 @@
 #include "model/turning_body.hpp"
 
 namespace carom {
-
-/// Coefficients of artificial viscosity: of the bulk, linear and quadratic (solid/bulk_viscosity.hpp), and of the
-/// hourglass modes of one-point cells (solid/hourglass_flow.hpp).
-struct Viscosity {
-  double linear = 0.0, quadratic = 0.0, hourglass = 0.0;
-
-  bool has_bulk() const { return linear > 0.0 || quadratic > 0.0; }
-  bool is_any() const { return has_bulk() || hourglass > 0.0; }
-};
 
 /// Cells of one type and one material. A [[part]] of the case whose group has cells of several types is a Part for each
 /// of them: one after the other, of one name.

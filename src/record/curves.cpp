@@ -209,8 +209,8 @@ void ProbeCurves::find_cells(const CaseProbe& given, const Vec3& position, Probe
   const Vec3 across = given.side ? across_section(given, probe.nodes, mesh) : Vec3{};
   std::vector<bool> is_member(mesh.node_count(), false);
   for (const Index n : probe.nodes) is_member[static_cast<std::size_t>(n)] = true;
-  for (std::size_t k = 0; k < solid.cell_count(); ++k) {
-    const auto nodes = solid.nodes_of_cell(k);
+  for (std::size_t k = 0; k < solid.cells().size(); ++k) {
+    const auto nodes = solid.cells().nodes_of(k);
     bool touches = false;
     Vec3 centre{};
     for (const Index n : nodes) {

@@ -180,8 +180,8 @@ class CurveBuilder {
   /// Lowest coordinate of the parts along the axis.
   double lowest() const {
     double low = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < simulation_.solid().cell_count(); ++k)
-      for (const Index n : simulation_.solid().nodes_of_cell(k))
+    for (std::size_t k = 0; k < simulation_.solid().cells().size(); ++k)
+      for (const Index n : simulation_.solid().cells().nodes_of(k))
         low = std::min(low, simulation_.mesh().coordinates[static_cast<std::size_t>(n)][axis_]);
     return low;
   }
@@ -192,7 +192,7 @@ class CurveBuilder {
     const std::vector<Part>& parts = simulation_.model().parts;
     for (std::size_t p = 0; p < parts.size(); ++p) {
       for (std::size_t k = 0; k < parts[p].cells.size(); ++k, ++cell) {
-        const auto nodes = simulation_.solid().nodes_of_cell(cell);
+        const auto nodes = simulation_.solid().cells().nodes_of(cell);
         if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) return simulation_.model().part_numbers()[p];
       }
     }

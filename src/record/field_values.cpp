@@ -9,6 +9,7 @@
 #include "math/principal_axes.hpp"
 #include "parallel/threads.hpp"
 #include "solid/cell_strain.hpp"
+#include "solid/cell_values.hpp"
 
 namespace carom {
 
@@ -35,8 +36,8 @@ FieldValues at_nodes(const FieldsNow& now, std::size_t count, std::span<const do
   for (const Part& part : now.simulation.model().parts)
     for (const std::size_t end = k + part.cells.size(); k < end; ++k) {
       if (part.rigid_body >= 0 || (!alive.empty() && alive[k] == 0)) continue;
-      const double volume = solid.cell_volumes()[k];
-      for (const Index n : solid.nodes_of_cell(k)) {
+      const double volume = solid.cells().volumes[k];
+      for (const Index n : solid.cells().nodes_of(k)) {
         volumes[at(n)] += volume;
         for (std::size_t c = 0; c < count; ++c) sums[count * at(n) + c] += volume * of_cells[count * k + c];
       }
@@ -48,12 +49,12 @@ FieldValues at_nodes(const FieldsNow& now, std::size_t count, std::span<const do
 
 FieldValues energy_densities(const FieldsNow& now) {
   const Solid& solid = now.simulation.solid();
-  std::vector<double> density(solid.cell_count(), 0.0), force(solid.dof_count(), 0.0);
+  std::vector<double> density(solid.cells().size(), 0.0), force(solid.dof_count(), 0.0);
   for (std::size_t k = 0; k < density.size(); ++k) {
     SolidEnergies energies;
     const std::array cell{static_cast<Index>(k)};
     solid.add_internal_force_of(cell, now.view.state.q, force, now.view.points(), &energies);
-    density[k] = energies.strain / solid.cell_volumes()[k];
+    density[k] = energies.strain / solid.cells().volumes[k];
   }
   return FieldValues(std::move(density));
 }
@@ -162,7 +163,7 @@ std::optional<FieldKind> field_kind(const Simulation& simulation, std::string_vi
 
 FieldValues FieldsNow::evaluate(std::string_view name) {
   if (const Evaluator* found = find(name)) return found->evaluate(*this);
-  return FieldValues(simulation.solid().cell_history(name, view.points().history));
+  return FieldValues(cell_history(simulation.solid(), name, view.points().history));
 }
 
 bool FieldsNow::needs_stress(std::string_view name) {
@@ -171,7 +172,7 @@ bool FieldsNow::needs_stress(std::string_view name) {
 }
 
 const std::vector<Voigt>& FieldsNow::stress() {
-  if (stress_.empty()) stress_ = simulation.solid().cell_stress(view.state.q, view.points());
+  if (stress_.empty()) stress_ = cell_stress(simulation.solid(), view.state.q, view.points());
   return stress_;
 }
 

@@ -34,9 +34,9 @@ FieldBytes field_bytes(const Simulation& s) {
     (kind->is_at_nodes() ? of_node : of_cell) +=
         kind->form == Form::category ? 1.0 : real * static_cast<double>(components(kind->form));
   }
-  for (std::size_t k = 0; k < s.solid().cell_count(); ++k)
-    corners += static_cast<double>(s.solid().nodes_of_cell(k).size());
-  const auto nodes = static_cast<double>(s.mesh().node_count()), cells = static_cast<double>(s.solid().cell_count());
+  for (std::size_t k = 0; k < s.solid().cells().size(); ++k)
+    corners += static_cast<double>(s.solid().cells().nodes_of(k).size());
+  const auto nodes = static_cast<double>(s.mesh().node_count()), cells = static_cast<double>(s.solid().cells().size());
   const double values = of_node * nodes + of_cell * cells;
   // Coordinates, cells, numbers and parts; where frames share them, the cells are there twice (vtkhdf.hpp).
   const bool is_shared = frame_format(s).shares_mesh;

@@ -9,6 +9,7 @@
 #include "math/vec3.hpp"
 #include "math/voigt.hpp"
 #include "parallel/threads.hpp"
+#include "solid/cell_values.hpp"
 
 namespace carom {
 
@@ -36,8 +37,8 @@ std::vector<Vec3> KeyFigures::velocities(const std::vector<double>& v) const {
   std::size_t first = 0;  // the cells stand part after part
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto of_part = parallel_sums<4>(parts[p].cells.size(), [&](std::size_t c, std::array<double, 4>& sums) {
-      const auto nodes = solid.nodes_of_cell(first + c);
-      const double volume = solid.cell_volumes()[first + c], share = volume / static_cast<double>(nodes.size());
+      const auto nodes = solid.cells().nodes_of(first + c);
+      const double volume = solid.cells().volumes[first + c], share = volume / static_cast<double>(nodes.size());
       for (const Index n : nodes)
         for (std::size_t i = 0; i < 3; ++i) sums[i] += share * v[3 * static_cast<std::size_t>(n) + i];
       sums[3] += volume;
@@ -53,7 +54,7 @@ std::vector<Vec3> KeyFigures::velocities(const std::vector<double>& v) const {
 
 void KeyFigures::look_at_stress(const StepView& view) {
   const Solid& solid = simulation_.solid();
-  const auto [largest, worst] = solid.largest_stress(view.state.q, view.points(), von_mises);
+  const auto [largest, worst] = largest_stress(solid, view.state.q, view.points(), von_mises);
   std::size_t end_of_part = 0;
   ++stress_.instants;
   if (!(largest > stress_.value)) return;
@@ -68,7 +69,7 @@ void KeyFigures::look_at_stress(const StepView& view) {
   const CellRef cell = solid.cells()[worst];
   stress_.cell = mesh.blocks[static_cast<std::size_t>(cell.block)].file_numbers[static_cast<std::size_t>(cell.cell)];
   stress_.position = {};
-  const auto nodes = solid.nodes_of_cell(worst);
+  const auto nodes = solid.cells().nodes_of(worst);
   for (const Index n : nodes)
     stress_.position = add(stress_.position, scaled(mesh.coordinates[static_cast<std::size_t>(n)],
                                                     1.0 / static_cast<double>(nodes.size())));
@@ -95,7 +96,7 @@ namespace {
 std::vector<double> rigid_shares(const Simulation& s) {
   const Model& model = s.model();
   std::vector<double> of_cells(model.turning_bodies.size(), 0.0), shares;
-  auto volume = s.solid().cell_volumes().begin();
+  auto volume = s.solid().cells().volumes.begin();
   for (const Part& part : model.parts) {
     const auto end = volume + static_cast<std::ptrdiff_t>(part.cells.size());
     if (part.rigid_body >= 0) of_cells[at(part.rigid_body)] += part.material.rho * std::accumulate(volume, end, 0.0);
@@ -111,7 +112,7 @@ std::vector<double> rigid_shares(const Simulation& s) {
 
 std::vector<PartSummary> KeyFigures::parts() const {
   std::vector<PartSummary> out;
-  auto volume = simulation_.solid().cell_volumes().begin();
+  auto volume = simulation_.solid().cells().volumes.begin();
   if (end_.empty()) return out;
   const std::vector<Part>& parts = simulation_.model().parts;
   const std::vector<Index> numbers = simulation_.model().part_numbers();

@@ -22,8 +22,8 @@ struct Span {
 
 Span span_of(const Simulation& simulation) {
   Vec3 low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  for (std::size_t k = 0; k < simulation.solid().cell_count(); ++k) {
-    for (const Index n : simulation.solid().nodes_of_cell(k)) {
+  for (std::size_t k = 0; k < simulation.solid().cells().size(); ++k) {
+    for (const Index n : simulation.solid().cells().nodes_of(k)) {
       const Vec3& x = simulation.mesh().coordinates[static_cast<std::size_t>(n)];
       for (std::size_t c = 0; c < 3; ++c) {
         low[c] = std::min(low[c], x[c]);

@@ -72,10 +72,10 @@ void PartSums::find_centre() {
   const Solid& solid = simulation_->solid();
   double volume = 0.0;
   for (const Index k : cells_) {
-    const std::span<const Index> nodes = solid.nodes_of_cell(at(k));
-    const double share = solid.cell_volumes()[at(k)] / static_cast<double>(nodes.size());
+    const std::span<const Index> nodes = solid.cells().nodes_of(at(k));
+    const double share = solid.cells().volumes[at(k)] / static_cast<double>(nodes.size());
     for (const Index n : nodes) centre_ = add(centre_, scaled(simulation_->mesh().coordinates[at(n)], share));
-    volume += solid.cell_volumes()[at(k)];
+    volume += solid.cells().volumes[at(k)];
   }
   centre_ = scaled(centre_, 1.0 / volume);
 }

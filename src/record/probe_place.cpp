@@ -42,8 +42,8 @@ Index numbered_node(const Located<std::int64_t>& number, const Simulation& simul
 double cell_size(Index node, const Simulation& simulation) {
   const std::vector<Vec3>& x = simulation.mesh().coordinates;
   double size = 0.0;
-  for (std::size_t k = 0; k < simulation.solid().cell_count(); ++k) {
-    const std::span<const Index> nodes = simulation.solid().nodes_of_cell(k);
+  for (std::size_t k = 0; k < simulation.solid().cells().size(); ++k) {
+    const std::span<const Index> nodes = simulation.solid().cells().nodes_of(k);
     if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) continue;
     for (const Index a : nodes)
       for (const Index b : nodes) size = std::max(size, norm(subtract(x[at(a)], x[at(b)])));

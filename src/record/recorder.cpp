@@ -38,12 +38,13 @@ FrameCells frame_cells(const Simulation& simulation) {
   FrameCells cells;
   const Solid& solid = simulation.solid();
   std::size_t corners = 0;
-  for (std::size_t k = 0; k < solid.cell_count(); ++k) corners += solid.nodes_of_cell(k).size();
+  for (std::size_t k = 0; k < solid.cells().size(); ++k) corners += solid.cells().nodes_of(k).size();
   cells.connectivity.reserve(corners);
-  cells.ends.reserve(solid.cell_count());
-  cells.types.reserve(solid.cell_count());
-  for (std::size_t k = 0; k < solid.cell_count(); ++k)
-    cells.add(solid.nodes_of_cell(k), simulation.mesh().blocks[static_cast<std::size_t>(solid.cells()[k].block)].type);
+  cells.ends.reserve(solid.cells().size());
+  cells.types.reserve(solid.cells().size());
+  for (std::size_t k = 0; k < solid.cells().size(); ++k)
+    cells.add(solid.cells().nodes_of(k),
+              simulation.mesh().blocks[static_cast<std::size_t>(solid.cells()[k].block)].type);
   return cells;
 }
 
@@ -102,7 +103,7 @@ FrameField frame_field(std::string name, Form form, std::span<const double> valu
 FieldFrame frame_of(const Simulation& s, const StepView& view) {
   const CaseOutput& output = s.given().output;
   FieldFrame frame;
-  if (!s.model().erosion.empty()) frame.cells.push_back(hidden_cells(view.state.alive(), s.solid().cell_count()));
+  if (!s.model().erosion.empty()) frame.cells.push_back(hidden_cells(view.state.alive(), s.solid().cells().size()));
   FieldsNow now(s, view);
   const auto add = [&](const std::string& name) {
     const std::optional<FieldKind> kind = field_kind(s, name);

@@ -76,7 +76,7 @@ CheckpointInfo origin_of(const Simulation& simulation, const std::string& resolv
   const std::size_t nodes = given_nodes(simulation.given(), simulation.mesh());
   return {version(),
           compiler(),
-          std::string(name(simulation.solid().isa())),
+          std::string(name(chosen_isa())),
           checksum(resolved_case),
           mesh_digest(simulation.mesh()),
           bodies_digest(simulation.model(), nodes),

@@ -97,10 +97,10 @@ void fill(Summary& summary, const Simulation& s, const March& march) {
 
 Summary summary_of(const Simulation& s) {
   Summary summary;
-  summary.program = {version(), compiler(), std::string(name(s.solid().isa())), thread_count()};
+  summary.program = {version(), compiler(), std::string(name(chosen_isa())), thread_count()};
   summary.case_info = {s.given().file, s.given().title, std::string(name(s.given().units))};
   summary.mesh.nodes = given_nodes(s.given(), s.mesh());
-  summary.mesh.cells = s.solid().cell_count();
+  summary.mesh.cells = s.solid().cells().size();
   summary.mesh.reach = reach(s.mesh());
   for (const CaseContact& contact : s.given().contacts) summary.contacts.push_back(*contact.name);
   for (const std::string& group : s.mesh().group_names()) {

@@ -7,6 +7,7 @@
 
 #include "math/vec3.hpp"
 #include "schemes/imposed_motion.hpp"
+#include "solid/stability.hpp"
 
 namespace carom {
 
@@ -109,12 +110,12 @@ double largest_strain(const System& system, const std::vector<int>& leader, std:
 }  // namespace
 
 std::vector<double> cell_bounds(const System& system) {
-  std::vector<double> bounds = system.solid.cell_frequency_bounds();
+  std::vector<double> bounds = cell_frequency_bounds(system.solid);
   const std::vector<double> lumped = system.solid.mass(MassKind::lumped).node_diagonal();
   const std::vector<double>& own = system.mass.node_diagonal();
   for (std::size_t k = 0; k < bounds.size(); ++k) {
     double lightest = 0.0;
-    for (const Index node : system.solid.nodes_of_cell(k)) {
+    for (const Index node : system.solid.cells().nodes_of(k)) {
       const auto n = static_cast<std::size_t>(node);
       if (own[n] > 0.0) lightest = std::max(lightest, lumped[n] / own[n]);
     }
@@ -126,8 +127,8 @@ std::vector<double> cell_bounds(const System& system) {
 DrivenCells driven_cells(const System& system, double begin, double end) {
   const std::vector<int> leader = leaders(system.supports, system.solid.dof_count());
   std::vector<std::size_t> cells;
-  for (std::size_t k = 0; k < system.solid.cell_count(); ++k)
-    if (is_led_apart(system.solid.nodes_of_cell(k), leader)) cells.push_back(k);
+  for (std::size_t k = 0; k < system.solid.cells().size(); ++k)
+    if (is_led_apart(system.solid.cells().nodes_of(k), leader)) cells.push_back(k);
   DrivenCells out;
   if (cells.empty()) return out;
   const std::vector<double> bounds = cell_bounds(system);
@@ -140,7 +141,7 @@ DrivenCells driven_cells(const System& system, double begin, double end) {
     led.go(times[t - 1], times[t]);
     for (std::size_t k = 0; k < cells.size(); ++k) {
       constexpr double rounding = 1e-12;
-      const double strain = largest_strain(system, leader, system.solid.nodes_of_cell(cells[k]), before, led.u());
+      const double strain = largest_strain(system, leader, system.solid.cells().nodes_of(cells[k]), before, led.u());
       if (strain <= rounding) continue;
       is_strained[k] = true;
       const double fastest = std::sqrt(bounds[cells[k]]);

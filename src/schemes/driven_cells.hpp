@@ -9,7 +9,7 @@ namespace carom {
 
 /// The cells in which supports alone change the distance between nodes. Their nodes have no equation, so that no
 /// vibration of the bodies knows these cells; an explicit step is bounded by
-///   - omega_max_squared, the largest of their own frequency bounds (Solid::cell_frequency_bounds), by the scheme's
+///   - omega_max_squared, the largest of their own frequency bounds (cell_frequency_bounds), by the scheme's
 ///     mass: what would bound it if they were free;
 ///   - dt_strain, the longest step in which none of these distances changes its logarithm by more than
 ///     most_imposed_strain. Not where nodes part faster than the fastest wave would run between them, as where a
@@ -29,7 +29,7 @@ inline constexpr double most_imposed_strain = 0.005;
 /// The driven cells of the motion between two times.
 DrivenCells driven_cells(const System& system, double begin, double end);
 
-/// Solid::cell_frequency_bounds for the scheme's mass instead of the lumped one. Mass scaling multiplies the mass of a
+/// cell_frequency_bounds for the scheme's mass instead of the lumped one. Mass scaling multiplies the mass of a
 /// node by one factor in all cells there. Nodes without mass follow the others.
 std::vector<double> cell_bounds(const System& system);
 

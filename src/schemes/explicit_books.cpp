@@ -101,8 +101,8 @@ LedgerIncrement central_difference_books(const System& system, const State& begi
 }
 
 PushedNodes::PushedNodes(const System& system)
-    : loaded_(system.solid.loaded_nodes().size()),
-      nodes_(system.solid.loaded_nodes()),
+    : loaded_(system.solid.loads().nodes().size()),
+      nodes_(system.solid.loads().nodes()),
       is_pushed_(system.solid.node_count(), 0) {
   for (const Index n : nodes_) is_pushed_[static_cast<std::size_t>(n)] = 1;
 }

@@ -13,6 +13,7 @@
 #include "enforcement/make_contact_port.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/initial_acceleration.hpp"
+#include "solid/point_history.hpp"
 
 namespace carom {
 
@@ -77,7 +78,7 @@ ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& setti
   closed_diagonal_.assign(residual_.size(), 0.0);
   port_->add_stiffness_diagonal(closed_diagonal_);
   std::vector<double> body_force(residual_.size(), 0.0);
-  system.solid.add_body_force_scale(body_force);
+  system.solid.turning_bodies().add_force_scale(body_force);
   body_force_ = std::sqrt(std::inner_product(body_force.begin(), body_force.end(), body_force.begin(), 0.0));
 }
 
@@ -228,7 +229,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
     // another equation. Far from equilibrium points yield and let go from one iterate to the next, each time with
     // another tangent: the last differences say nothing then, and Newton's method comes near by itself.
     constexpr double near = 0.01;
-    const bool is_far = system_.solid.history_size() > 0 && error.norm > near * first;
+    const bool is_far = history_size(system_.solid) > 0 && error.norm > near * first;
     if (newton == 0 || before != forces.rows.status || is_far) mixing_.forget();
     earlier = last;
     last = newton == 0 ? none : error;  // before the first solve, the work is of a displacement that is a guess

@@ -7,6 +7,7 @@
 #include "parallel/threads.hpp"
 #include "rows/admissible.hpp"
 #include "schemes/imposed_motion.hpp"
+#include "solid/point_history.hpp"
 #include "system/bonded_mass.hpp"
 
 namespace carom {
@@ -16,7 +17,7 @@ void start_with_supports(const System& system, State& state) {
   state.q.resize(n, 0.0);
   state.v.resize(n, 0.0);
   state.a.assign(n, 0.0);
-  if (state.points.size() != system.solid.history_size()) state.points = system.solid.initial_history();
+  if (state.points.size() != history_size(system.solid)) state.points = initial_history(system.solid);
   state.contact.resize(system.contact.slots(state.topology));
   State fresh;
   fresh.topology = state.topology;

@@ -17,6 +17,7 @@
 #include "schemes/imposed_motion.hpp"
 #include "schemes/initial_acceleration.hpp"
 #include "schemes/scheme_table.hpp"
+#include "solid/point_history.hpp"
 
 namespace carom {
 
@@ -39,8 +40,8 @@ struct SemiExplicit::Boundary {
       of_dof[i] = static_cast<Index>(dofs.size());
       dofs.push_back(i);
     }
-    for (std::size_t k = 0; k < system.solid.cell_count(); ++k) {
-      const auto nodes = system.solid.nodes_of_cell(k);
+    for (std::size_t k = 0; k < system.solid.cells().size(); ++k) {
+      const auto nodes = system.solid.cells().nodes_of(k);
       const bool touches = std::any_of(nodes.begin(), nodes.end(), [this](Index n) {
         const std::size_t i = 3 * static_cast<std::size_t>(n);
         return of_dof[i] >= 0 || of_dof[i + 1] >= 0 || of_dof[i + 2] >= 0;
@@ -182,7 +183,7 @@ SemiExplicit::SemiExplicit(const System& system, int max_iterations)
   residual_.resize(n);
   push_.resize(n);
   try {
-    const std::vector<double> history = system.solid.initial_history();
+    const std::vector<double> history = initial_history(system.solid);
     boundary_->factorise(v_half_, {0.0, history});
   } catch (const std::runtime_error& e) {
     throw std::invalid_argument(fmt::format(

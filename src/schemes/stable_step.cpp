@@ -9,6 +9,7 @@
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/driven_cells.hpp"
+#include "solid/stability.hpp"
 #include "system/mass_solver.hpp"
 
 namespace carom {
@@ -135,7 +136,7 @@ StableStep contact_step(const RestFrequencies& rest, double limit, EnforcementKi
   const System& system = rest.system();
   StableStep out;
   out.dt_closing = std::numeric_limits<double>::infinity();
-  double damping_ratio = system.solid.largest_damping({});
+  double damping_ratio = largest_damping(system.solid, {});
   if (traits(enforcement).adds_stiffness && system.contact.slots() > 0) {
     const std::vector<double> zero(system.solid.dof_count(), 0.0);
     const auto rows = system.contact.rows_at(zero, zero);
@@ -152,7 +153,7 @@ StableStep contact_step(const RestFrequencies& rest, double limit, EnforcementKi
 StableStep stable_step(const RestFrequencies& rest, double limit, EnforcementKind enforcement) {
   StableStep out = contact_step(rest, limit, enforcement);
   out.omega_max_squared_free = rest.free();
-  out.dt_free = step_of(limit, out.omega_max_squared_free, rest.system().solid.largest_damping({}));
+  out.dt_free = step_of(limit, out.omega_max_squared_free, largest_damping(rest.system().solid, {}));
   return out;
 }
 
@@ -165,22 +166,22 @@ StableStepWatch::StableStepWatch(const RestFrequencies& rest, double limit, Enfo
       limit_(limit),
       enforcement_(enforcement),
       omega_squared_(rest.free()),
-      damping_(system_.solid.largest_damping({})),
+      damping_(largest_damping(system_.solid, {})),
       at_rest_(omega_squared_) {
   if (system_.solid.is_linear()) return;
-  if (system_.solid.cell_count() > 0) cells_ = relative_bounds(system_);
+  if (system_.solid.cells().size() > 0) cells_ = relative_bounds(system_);
 }
 
 bool StableStepWatch::follow_damping(std::span<const double> points) {
   const double growth = at_rest_ > 0.0 ? omega_squared_ / at_rest_ : 1.0;
-  damping_ = system_.solid.largest_damping(points) * std::sqrt(std::max(1.0, growth));
+  damping_ = largest_damping(system_.solid, points) * std::sqrt(std::max(1.0, growth));
   return damping_ > 0.0;
 }
 
 double StableStepWatch::follow_bodies(const State& state) {
   if (cells_.empty() || at_rest_ == 0.0) return 0.0;
   std::vector<double> growth(cells_.size());
-  system_.solid.frequency_growth(state.q, {.history = state.points, .is_over = true, .alive = state.alive()}, growth);
+  frequency_growth(system_.solid, state.q, {.history = state.points, .is_over = true, .alive = state.alive()}, growth);
   const double before = omega_squared_;
   parallel_each(cells_.size(), [&](std::size_t k) { growth[k] *= cells_[k]; });
   const double largest = parallel_max(cells_.size(), 0.0, [&](std::size_t k) { return growth[k]; });

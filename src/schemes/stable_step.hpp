@@ -76,7 +76,7 @@ class StableStepWatch {
   StableStepWatch(const RestFrequencies& rest, double limit, EnforcementKind enforcement);
 
   /// Re-estimates the frequency of the bodies at displacement u, where they are nonlinear: that at rest times the
-  /// largest growth over the cells of (c / l)^2 (Solid::frequency_growth), each cell weighed by its bound at rest. It
+  /// largest growth over the cells of (c / l)^2 (frequency_growth), each cell weighed by its bound at rest. It
   /// is that of elastic changes, since points that yield may unload at any moment. `points`: what they remember at the
   /// end of the step. One sweep over the laws; returns by how much of itself the frequency has changed.
   double follow_bodies(const State& state);

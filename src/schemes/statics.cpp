@@ -44,7 +44,7 @@ StepReport Statics::step(const State& begin, const StepRequest& request, State& 
                                .free = &free_,
                                .x_hat = begin.q,
                                .v_hat = zero_,
-                               .known = system_.solid.has_loads() ? end.forces.external.value : zero_,
+                               .known = !system_.solid.loads().empty() ? end.forces.external.value : zero_,
                                .imposed = imposed_};
   StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};

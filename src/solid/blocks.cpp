@@ -8,12 +8,12 @@
 
 #include "base/errors.hpp"
 #include "base/types.hpp"
+#include "kernels/hourglass_flow.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_size.hpp"
 #include "model/wave_modulus.hpp"
 #include "solid/colouring.hpp"
 #include "solid/element_table.hpp"
-#include "solid/hourglass_flow.hpp"
 
 namespace carom {
 namespace {
@@ -265,7 +265,7 @@ std::span<const Index> SolidCells::nodes_of(std::size_t position) const {
   if (!node_begin.empty())
     return std::span<const Index>(node_list).subspan(node_begin[position],
                                                      node_begin[position + 1] - node_begin[position]);
-  return connectivity_of(*mesh, cells[position]);
+  return cells.nodes_of(position);
 }
 
 CellNodes SolidCells::coordinates_of(std::size_t position) const {
@@ -422,28 +422,12 @@ const Block& SolidCells::block_of(std::size_t position) const {
   return *std::find_if(blocks.begin(), blocks.end(), holds);
 }
 
-double SolidCells::energy_at_rest(std::size_t position, std::span<const Vec3> u) const {
-  const Block& block = block_of(position);
-  const Index cell = static_cast<Index>(position) - block.first, lanes = block.stages.lanes;
-  const CellBatches batch = batches(block, cell / lanes * lanes, 1);
-  return 0.5 * stiffness_product(batch, block.kernels, block.law(), cell % lanes, u);
-}
-
-double SolidCells::square_integral(std::size_t position, std::span<const double> f) const {
-  const Block& block = block_of(position);
-  const NodeMatrix M = block.mass(coordinates_of(position), block.thickness, 1.0);
-  double sum = 0.0;
-  for (std::size_t a = 0; a < f.size(); ++a)
-    for (std::size_t b = 0; b < f.size(); ++b) sum += M[f.size() * a + b] * f[a] * f[b];
-  return sum;
-}
-
 SolidCells make_solid_cells(const Model& model, const KernelTable& table) {
   const Mesh& mesh = *model.mesh;
   Owners owners;
   for (const CellBlock& block : mesh.blocks) owners.emplace_back(block.size(), -1);
   SolidCells solid;
-  solid.mesh = model.mesh;
+  solid.mesh = solid.cells.mesh = model.mesh;
   solid.power_bound = table.power_bound;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const std::vector<CellRef> cells = cells_of(mesh, model.parts, p, owners);
@@ -454,7 +438,7 @@ SolidCells make_solid_cells(const Model& model, const KernelTable& table) {
     solid.blocks.back().is_rigid = model.parts[p].rigid_body >= 0;
     solid.blocks.back().history_first = history_first;
     solid.blocks.back().first = static_cast<Index>(solid.cells.size());
-    solid.cells.insert(solid.cells.end(), cells.begin(), cells.end());
+    solid.cells.refs.insert(solid.cells.refs.end(), cells.begin(), cells.end());
   }
   cut_and_colour(solid);
   return solid;

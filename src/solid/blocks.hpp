@@ -8,11 +8,13 @@
 #include <span>
 #include <vector>
 
+#include "kernels/kernels.hpp"
 #include "model/model.hpp"
 #include "parallel/threads.hpp"
+#include "solid/body_cells.hpp"
 #include "solid/cell_matrices.hpp"
 #include "solid/distortion_control.hpp"
-#include "solid/kernels.hpp"
+#include "solid/point_step.hpp"
 
 namespace carom {
 
@@ -82,7 +84,7 @@ struct Chunk {
 /// All solid cells. Chunk bounds and colours depend on the mesh alone, never on the number of threads.
 struct SolidCells {
   std::shared_ptr<const Mesh> mesh;
-  std::vector<CellRef> cells;  ///< none of patches, which have their nodes here, filled up as the batches:
+  BodyCells cells;  ///< none of patches, which have their nodes here, filled up as the batches:
   std::vector<std::size_t> node_begin;
   std::vector<Index> node_list;
   std::vector<Block> blocks;              ///< one per part that has cells
@@ -200,9 +202,6 @@ struct SolidCells {
     }
     return position;
   }
-  /// Solid::energy_at_rest and square_integral.
-  double energy_at_rest(std::size_t position, std::span<const Vec3> u) const;
-  double square_integral(std::size_t position, std::span<const double> f) const;
   const Block& block_of(std::size_t position) const;
   bool are_linear() const;
   /// Hourglass modes.

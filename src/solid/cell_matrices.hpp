@@ -9,8 +9,8 @@
 
 #include "base/types.hpp"
 #include "element/cell_list.hpp"
+#include "kernels/kernels.hpp"
 #include "mesh/mesh.hpp"
-#include "solid/kernels.hpp"
 
 namespace carom {
 

@@ -1,9 +1,9 @@
 #include "solid/cell_strain.hpp"
 
+#include "kernels/batch_gradients.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_size.hpp"
 #include "parallel/threads.hpp"
-#include "solid/batch_gradients.hpp"
 #include "solid/cell_matrices.hpp"
 #include "solid/element_table.hpp"
 

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "linalg/csr_matrix.hpp"
-#include "solid/evaluation.hpp"
+#include "solid/point_step.hpp"
 
 namespace carom {
 
 /// One kind of what a Solid sums besides its cells: springs, cohesive zones, rigid bodies that turn. It adds itself to
-/// every sum; a Solid knows nothing else of it. A new one is a class, and a line in Solid::Impl::contributors.
+/// every sum; a Solid knows nothing else of it. A new one is a class, and a line in Solid::Parts::contributors.
 class Contributor {
  public:
   virtual ~Contributor() = default;

@@ -8,8 +8,8 @@
 
 #include "element/cell_list.hpp"
 #include "element/formulation.hpp"
+#include "kernels/stages.hpp"
 #include "model/model.hpp"
-#include "solid/stages.hpp"
 
 namespace carom {
 

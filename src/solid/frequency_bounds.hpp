@@ -8,7 +8,7 @@
 
 namespace carom {
 
-/// Solid::cell_frequency_bounds of each of some cells; 0 of those of nodal parts.
+/// cell_frequency_bounds of each of some cells; 0 of those of nodal parts.
 std::vector<double> frequency_bounds(const SolidCells& cells);
 
 /// Bounds of the eigenvalues of M^-1 C per cell: of a linear bulk viscosity of coefficient 1, and of the viscosity of
@@ -19,7 +19,7 @@ struct DampingBounds {
 };
 DampingBounds damping_bounds(const SolidCells& cells);
 
-/// Solid::largest_damping of some cells.
+/// largest_damping of some cells.
 double largest_damping(const SolidCells& cells, const DampingBounds& bounds, std::span<const double> history);
 
 }  // namespace carom

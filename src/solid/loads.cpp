@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
+#include <numeric>
 
 #include "base/errors.hpp"
 #include "base/types.hpp"
@@ -145,6 +147,31 @@ std::vector<Gravity> gravity_loads(const Model& model) {
     if (const auto* gravity = std::get_if<Gravity>(&load)) loads.push_back(*gravity);
   }
   return loads;
+}
+
+Loads::Loads(const Model& model) : vectors_(make_loads(model)), gravity_(gravity_loads(model)) {
+  if (!gravity_.empty()) {
+    nodes_.resize(model.mesh->node_count());
+    std::iota(nodes_.begin(), nodes_.end(), Index{0});
+    return;
+  }
+  for (const LoadVector& load : vectors_) nodes_.insert(nodes_.end(), load.nodes.begin(), load.nodes.end());
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+}
+
+void Loads::force(double t, const Mass& mass, std::span<double> f) const {
+  std::fill(f.begin(), f.end(), 0.0);
+  for (const LoadVector& load : vectors_) {
+    const double factor = load.factor(t);
+    for (std::size_t k = 0; k < load.nodes.size(); ++k)
+      for (std::size_t i = 0; i < 3; ++i) f[3 * at(load.nodes[k]) + i] += factor * load.force[k][i];
+  }
+  for (const Gravity& gravity : gravity_) {
+    const double factor = gravity.factor(t);
+    const Vec3& g = gravity.acceleration;
+    mass.add_gravity({factor * g[0], factor * g[1], factor * g[2]}, f);
+  }
 }
 
 }  // namespace carom

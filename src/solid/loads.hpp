@@ -1,9 +1,11 @@
 // External forces as fixed vectors times functions of time.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "model/model.hpp"
+#include "solid/mass.hpp"
 
 namespace carom {
 
@@ -12,6 +14,24 @@ struct LoadVector {
   std::vector<Index> nodes;
   std::vector<Vec3> force;  ///< one per node
   TimeFunction factor;
+};
+
+/// The external forces of a model.
+class Loads {
+ public:
+  explicit Loads(const Model& model);
+
+  bool empty() const { return nodes_.empty(); }
+  /// The nodes that they may act on, increasing: all of them under gravity.
+  const std::vector<Index>& nodes() const { return nodes_; }
+  /// f = external force at time t (nodal forces, pressures, gravity); overwrites f. Gravity acts on the mass that the
+  /// scheme uses.
+  void force(double t, const Mass& mass, std::span<double> f) const;
+
+ private:
+  std::vector<LoadVector> vectors_;
+  std::vector<Gravity> gravity_;
+  std::vector<Index> nodes_;
 };
 
 /// One vector per nodal force and pressure of the model. Nodal forces as they are; pressure: f_a = -p integral of

@@ -4,16 +4,19 @@
 
 #include <algorithm>
 
+#include "solid/cell_values.hpp"
+#include "solid/stability.hpp"
+
 namespace carom {
 
 std::vector<double> mass_factors(const Solid& solid, double omega_squared) {
-  std::vector<double> factors = solid.cell_frequency_bounds();
+  std::vector<double> factors = cell_frequency_bounds(solid);
   for (double& factor : factors) factor = std::max(1.0, factor / omega_squared);
   return factors;
 }
 
 MassGain mass_gain(const Solid& solid, const std::vector<double>& factors) {
-  const std::vector<double> masses = solid.cell_masses();
+  const std::vector<double> masses = cell_masses(solid);
   MassGain gain;
   gain.total = solid.mass(MassKind::lumped).total();
   for (std::size_t k = 0; k < factors.size(); ++k) {
@@ -30,12 +33,12 @@ MassGain mass_gain(const Solid& solid, const std::vector<double>& factors) {
 
 std::string describe(const MassGain& gain, const Solid& solid, const Mesh& mesh) {
   std::string text = fmt::format("{} of {} cells gain a mass of {:.6g}, {:.4g} % of all", gain.cells,
-                                 solid.cell_count(), gain.added, 100.0 * gain.share());
+                                 solid.cells().size(), gain.added, 100.0 * gain.share());
   const char* separator = "; the worst: ";
   for (const ScaledCell& one : gain.worst) {
     const CellRef ref = solid.cells()[one.cell];
     Vec3 centre{};
-    const std::span<const Index> nodes = solid.nodes_of_cell(one.cell);
+    const std::span<const Index> nodes = solid.cells().nodes_of(one.cell);
     for (const Index n : nodes) {
       for (std::size_t c = 0; c < 3; ++c)
         centre[c] += mesh.coordinates[static_cast<std::size_t>(n)][c] / static_cast<double>(nodes.size());

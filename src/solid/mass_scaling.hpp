@@ -26,7 +26,7 @@ struct MassGain {
 };
 
 /// Factors s_k = max(1, omega_k^2 / omega^2) on the masses of the cells, one per cell of the solid: with lumped masses
-/// no frequency of the bodies is then above `omega_squared` (Solid::cell_frequency_bounds; Irons). Solid::lumped_mass
+/// no frequency of the bodies is then above `omega_squared` (cell_frequency_bounds; Irons). Solid::lumped_mass
 /// makes the mass of the run from them: kinetic energy, momenta and weight are those of the heavier bodies.
 std::vector<double> mass_factors(const Solid& solid, double omega_squared);
 MassGain mass_gain(const Solid& solid, const std::vector<double>& factors);

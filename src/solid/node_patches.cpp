@@ -8,9 +8,9 @@
 
 #include "base/errors.hpp"
 #include "base/types.hpp"
+#include "kernels/hourglass_flow.hpp"
 #include "mesh/cell_size.hpp"
 #include "solid/element_table.hpp"
-#include "solid/hourglass_flow.hpp"
 
 namespace carom {
 namespace {

@@ -1,5 +1,5 @@
 // Nodal integration of linear tetrahedra and triangles: each node of a part with the cells about it is one cell more,
-// its patch (solid/patch_stages.hpp).
+// its patch (kernels/patch_stages.hpp).
 #pragma once
 
 #include <span>

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "element/kinematics.hpp"
+#include "kernels/batch_gradients.hpp"
 #include "math/vec3.hpp"
-#include "solid/batch_gradients.hpp"
 
 namespace carom {
 

@@ -8,10 +8,10 @@
 
 namespace carom {
 
-/// Least of Solid::cell_lengths, in the reference position; 0 without cells. What belongs to a place takes the cells
+/// Least of BodyCells::lengths, in the reference position; 0 without cells. What belongs to a place takes the cells
 /// there (node_lengths of model/node_lengths.hpp).
 inline double smallest_cell(const Solid& solid) {
-  const std::vector<double>& lengths = solid.cell_lengths();
+  const std::vector<double>& lengths = solid.cells().lengths;
   return lengths.empty() ? 0.0 : *std::min_element(lengths.begin(), lengths.end());
 }
 

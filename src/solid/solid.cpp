@@ -9,23 +9,9 @@
 #include "base/types.hpp"
 #include "parallel/threads.hpp"
 #include "solid/projected_stiffness.hpp"
-#include "solid/solid_impl.hpp"
+#include "solid/solid_parts.hpp"
 
 namespace carom {
-
-const KernelTable& kernels(Isa isa) {
-  switch (isa) {
-    case Isa::x86_64_v2:
-      return kernels_v2();
-    case Isa::x86_64_v3:
-      return kernels_v3();
-    case Isa::x86_64_v4:
-      return kernels_v4();
-    case Isa::reference:
-      break;
-  }
-  return kernels_reference();
-}
 
 namespace {
 
@@ -53,102 +39,67 @@ struct OneCell {
 
 }  // namespace
 
-Solid::Solid(const Model& model, Isa isa) : impl_(std::make_unique<Impl>(model, isa)) {}
+Solid::Solid(const Model& model, Isa isa) : parts_(std::make_unique<Parts>(model, isa)) {}
 Solid::~Solid() = default;
 Solid::Solid(Solid&&) noexcept = default;
 
 std::size_t Solid::node_count() const {
-  return impl_->solid.mesh->node_count();
+  return parts_->solid.mesh->node_count();
 }
-std::size_t Solid::cell_count() const {
-  return impl_->solid.cells.size();
-}
-Isa Solid::isa() const {
-  return impl_->isa;
+const BodyCells& Solid::cells() const {
+  return parts_->solid.cells;
 }
 bool Solid::is_linear() const {
-  return impl_->solid.are_linear() && impl_->patches.cells.are_linear() &&
-         std::ranges::all_of(impl_->others, [](const Contributor* each) { return each->is_linear(); });
+  return parts_->solid.are_linear() && parts_->patches.cells.are_linear() &&
+         std::ranges::all_of(parts_->others, [](const Contributor* each) { return each->is_linear(); });
 }
-bool Solid::has_hourglass() const {
-  return impl_->solid.have_modes() || !impl_->patches.empty();
+const Loads& Solid::loads() const {
+  return parts_->loads;
 }
 const std::vector<Spring>& Solid::springs() const {
-  return impl_->springs.all();
+  return parts_->springs.all();
 }
 const CohesiveZones& Solid::cohesive() const {
-  return impl_->cohesive;
+  return parts_->cohesive;
 }
-const std::vector<CellRef>& Solid::cells() const {
-  return impl_->solid.cells;
-}
-std::span<const Index> Solid::nodes_of_cell(std::size_t k) const {
-  return impl_->solid.nodes_of(k);
-}
-const std::vector<double>& Solid::cell_volumes() const {
-  return impl_->volumes;
-}
-const std::vector<double>& Solid::cell_lengths() const {
-  return impl_->lengths;
-}
-
-std::size_t Solid::history_size() const {
-  return impl_->points_history_size() + impl_->cohesive.history_size();
-}
-std::vector<double> Solid::initial_history() const {
-  return std::vector<double>(history_size(), 0.0);
+const TurningBodies& Solid::turning_bodies() const {
+  return parts_->turning_bodies;
 }
 
 SolidEnergies Solid::evaluate(std::span<const double> u, const PointStep& step, std::span<double> f,
                               std::span<double> end) const {
-  std::vector<SolidEnergies> of_cells(impl_->solid.chunks.size()), of_patches(impl_->patches.cells.chunks.size());
-  impl_->sum_over_chunks(
-      f, [&](const SolidCells& cells, std::size_t c, const Block& block, std::span<const Chunk> runs, double* sum) {
-        SolidEnergies& energies = (&cells == &impl_->solid ? of_cells : of_patches)[c];
-        for (const Chunk& run : runs)
-          if (!block.is_nodal())
-            cells.add_living(run, step, end, std::array{u.data()}, sum,
-                             [&](const CellBatches& batch, const std::array<const double*, 1>& own, double* into) {
-                               block.kernels.add_internal_force(batch, block.law(), own[0], into, &energies);
-                             });
-        for (const Chunk& run : runs) energies.distortion += cells.add_distortion_force(run, u, f, step);
-      });
-  impl_->gather(of_cells, of_patches, end);
+  std::vector<SolidEnergies> of_cells(parts_->solid.chunks.size()), of_patches(parts_->patches.cells.chunks.size());
+  parts_->sum_forces(u, step, f, end, [&](const SolidCells& cells, std::size_t chunk) {
+    return &(&cells == &parts_->solid ? of_cells : of_patches)[chunk];
+  });
+  parts_->gather(of_cells, of_patches, end);
   SolidEnergies total;
   for (const std::vector<SolidEnergies>* partial : {&of_cells, &of_patches})
     for (const SolidEnergies& energies : *partial) total.add(energies);
-  for (const Contributor* each : impl_->others) each->add_force(u, step, f, &total, end);
+  for (const Contributor* each : parts_->others) each->add_force(u, step, f, &total, end);
   return total;
 }
 
 void Solid::internal_force(std::span<const double> u, std::span<double> f, const PointStep& step) const {
-  impl_->sum_over_chunks(
-      f, [&](const SolidCells& cells, std::size_t, const Block& block, std::span<const Chunk> runs, double* sum) {
-        for (const Chunk& run : runs)
-          if (!block.is_nodal())
-            cells.add_living(run, step, {}, std::array{u.data()}, sum,
-                             [&](const CellBatches& batch, const std::array<const double*, 1>& own, double* into) {
-                               block.kernels.add_internal_force(batch, block.law(), own[0], into, nullptr);
-                             });
-        for (const Chunk& run : runs) cells.add_distortion_force(run, u, f, step);
-      });
-  for (const Contributor* each : impl_->others) each->add_force(u, step, f, nullptr, {});
+  const auto unwanted = [](const SolidCells&, std::size_t) -> SolidEnergies* { return nullptr; };
+  parts_->sum_forces(u, step, f, {}, unwanted);
+  for (const Contributor* each : parts_->others) each->add_force(u, step, f, nullptr, {});
 }
 
 void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const double> u, std::span<double> f,
                                   const PointStep& step, SolidEnergies* energies) const {
   std::vector<Index> of_patches;
   for (const Index cell : cells) {
-    const Block& block = impl_->solid.block_of(at(cell));
+    const Block& block = parts_->solid.block_of(at(cell));
     if (!block.is_nodal()) {
-      const OneCell one(impl_->solid, block, cell - block.first, step);
+      const OneCell one(parts_->solid, block, cell - block.first, step);
       block.kernels.add_internal_force(one.batch, block.law(), u.data(), f.data(), energies);
     }
     if (!block.distortion.empty()) {
       const double energy = block.distortion.add_force(at(cell - block.first), u, f);
       if (energies != nullptr) energies->distortion += energy;
     }
-    const std::span<const Index> own = impl_->patches.of(at(cell));
+    const std::span<const Index> own = parts_->patches.of(at(cell));
     of_patches.insert(of_patches.end(), own.begin(), own.end());
   }
   if (of_patches.empty()) return;
@@ -157,10 +108,10 @@ void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const 
   std::vector<Index> wanted(cells.begin(), cells.end());
   std::sort(wanted.begin(), wanted.end());
   for (const Index patch : of_patches) {
-    const Block& block = impl_->patches.cells.block_of(at(patch));
-    const OneCell one(impl_->patches.cells, block, patch - block.first, step);
+    const Block& block = parts_->patches.cells.block_of(at(patch));
+    const OneCell one(parts_->patches.cells, block, patch - block.first, step);
     std::array<unsigned char, most_patch_cells> is_wanted{};
-    const std::span<const Index> own = impl_->patches.cells_of(at(patch));
+    const std::span<const Index> own = parts_->patches.cells_of(at(patch));
     for (std::size_t e = 0; e < own.size(); ++e)
       is_wanted[e] = std::binary_search(wanted.begin(), wanted.end(), own[e]) ? 1 : 0;
     add_internal_force_of_parts(one.batch, block.law(), u.data(), is_wanted.data(), f.data());
@@ -169,7 +120,7 @@ void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const 
 
 void Solid::tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y,
                            const PointStep& step) const {
-  impl_->sum_over_chunks(
+  parts_->sum_over_chunks(
       y, [&](const SolidCells& cells, std::size_t, const Block& block, std::span<const Chunk> runs, double* sum) {
         for (const Chunk& run : runs)
           if (!block.is_nodal())
@@ -179,23 +130,23 @@ void Solid::tangent_action(std::span<const double> u, std::span<const double> x,
                              });
         for (const Chunk& run : runs) cells.add_distortion_action(run, u, x, y, step);
       });
-  for (const Contributor* each : impl_->others) each->add_tangent_action(u, x, y, step);
+  for (const Contributor* each : parts_->others) each->add_tangent_action(u, x, y, step);
 }
 
 void Solid::discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1,
                                     std::span<double> f) const {
-  impl_->sum_over_chunks(
+  parts_->sum_over_chunks(
       f, [&](const SolidCells& cells, std::size_t, const Block& block, std::span<const Chunk> runs, double* sum) {
         for (const Chunk& run : runs)
           if (!block.is_nodal())
             block.kernels.add_discrete_gradient_force(cells.batches(run), block.law(), u_0.data(), u_1.data(), sum);
       });
-  for (const Contributor* each : impl_->others) each->add_discrete_gradient_force(u_0, u_1, f);
+  for (const Contributor* each : parts_->others) each->add_discrete_gradient_force(u_0, u_1, f);
 }
 
 CsrMatrix Solid::tangent(std::span<const double> u, const PointStep& step) const {
-  CsrMatrix K = dof_graph(impl_->graph());
-  impl_->for_each_stiffness(u, step, [&](std::span<const Index> nodes, std::span<const double> cell) {
+  CsrMatrix K = dof_graph(parts_->graph());
+  parts_->for_each_stiffness(u, step, [&](std::span<const Index> nodes, std::span<const double> cell) {
     const std::size_t dofs = 3 * nodes.size();
     for (std::size_t a = 0; a < nodes.size(); ++a)
       for (std::size_t b = 0; b < nodes.size(); ++b)
@@ -204,21 +155,21 @@ CsrMatrix Solid::tangent(std::span<const double> u, const PointStep& step) const
           for (std::size_t j = 0; j < 3; ++j) row[j] += cell[(3 * a + i) * dofs + 3 * b + j];
         }
   });
-  for (const Contributor* each : impl_->others) each->add_tangent(u, step, K);
+  for (const Contributor* each : parts_->others) each->add_tangent(u, step, K);
   return K;
 }
 
 void Solid::project_tangent(std::span<const double> u, const PointStep& step, const Interpolation& P,
                             std::span<const std::uint8_t> fixed, BlockMatrix& coarse, BlockMatrix* fine) const {
   if (fine != nullptr && fine->column.empty()) {
-    CsrMatrix graph = impl_->graph();
+    CsrMatrix graph = parts_->graph();
     fine->row_begin = std::move(graph.row_begin);
     fine->column = std::move(graph.column);
   }
-  project_stiffness(std::array<const SolidCells*, 2>{&impl_->solid, &impl_->patches.cells}, u, step, P, fixed, coarse,
+  project_stiffness(std::array<const SolidCells*, 2>{&parts_->solid, &parts_->patches.cells}, u, step, P, fixed, coarse,
                     fine);
-  if (impl_->others.empty()) return;
-  CsrMatrix ties = impl_->tangent_of_others(u, step);
+  if (parts_->others.empty()) return;
+  CsrMatrix ties = parts_->tangent_of_others(u, step);
   if (fine != nullptr) {
     const BlockMatrix blocks = by_points(ties);
     for_each_block(blocks, [&](Index n, Index m, const double* block) {
@@ -238,7 +189,7 @@ void Solid::project_tangent(std::span<const double> u, const PointStep& step, co
 
 double Solid::largest_change(std::span<const double> u_0, std::span<const double> u_1) const {
   const auto of_cell = [&](std::size_t k) {
-    const auto nodes = nodes_of_cell(k);
+    const auto nodes = cells().nodes_of(k);
     const auto moved = [&](Index n, std::size_t c) { return u_1[3 * at(n) + c] - u_0[3 * at(n) + c]; };
     double most = 0.0;
     for (const Index n : nodes) {
@@ -246,114 +197,39 @@ double Solid::largest_change(std::span<const double> u_0, std::span<const double
       for (std::size_t c = 0; c < 3; ++c) square += std::pow(moved(n, c) - moved(nodes[0], c), 2);
       most = std::max(most, square);
     }
-    return std::sqrt(most) / impl_->lengths[k];
+    return std::sqrt(most) / cells().lengths[k];
   };
   double of_others = 0.0;
-  for (const Contributor* each : impl_->others) of_others = std::max(of_others, each->largest_change(u_0, u_1));
+  for (const Contributor* each : parts_->others) of_others = std::max(of_others, each->largest_change(u_0, u_1));
   return parallel_max(cells().size(), of_others, of_cell);
 }
 
 std::vector<double> Solid::tangent_diagonal(std::span<const double> u, const PointStep& step) const {
   std::vector<double> diagonal(dof_count(), 0.0);
-  impl_->for_each_stiffness(u, step, [&](std::span<const Index> nodes, std::span<const double> cell) {
+  parts_->for_each_stiffness(u, step, [&](std::span<const Index> nodes, std::span<const double> cell) {
     const std::size_t dofs = 3 * nodes.size();
     for (std::size_t r = 0; r < dofs; ++r) diagonal[3 * at(nodes[r / 3]) + r % 3] += cell[r * (dofs + 1)];
   });
-  for (const Contributor* each : impl_->others) each->add_tangent_diagonal(u, step, diagonal);
+  for (const Contributor* each : parts_->others) each->add_tangent_diagonal(u, step, diagonal);
   return diagonal;
 }
 
-double Solid::energy_at_rest(std::size_t k, std::span<const Vec3> u) const {
-  return impl_->solid.energy_at_rest(k, u);
-}
-double Solid::square_integral(std::size_t k, std::span<const double> f) const {
-  return impl_->solid.square_integral(k, f);
-}
-double Solid::strain_energy(std::span<const double> u) const {
-  std::vector<double> f(dof_count());
-  return evaluate(u, {}, f, {}).strain;
-}
-
-double Solid::body_strain(std::span<const double> u) const {
-  return impl_->turning_bodies.largest_strain(u);
-}
-void Solid::add_body_force_scale(std::span<double> f) const {
-  impl_->turning_bodies.add_force_scale(f);
-}
-
-Index Solid::first_inverted_cell(std::span<const double> u, std::span<const std::uint8_t> alive) const {
-  std::vector<double> f(dof_count(), 0.0);
-  for (std::size_t k = 0; k < cell_count(); ++k) {
-    if (!alive.empty() && alive[k] == 0) continue;
-    const std::array<Index, 1> one{static_cast<Index>(k)};
-    add_internal_force_of(one, u, f);
-    bool is_finite = true;
-    for (const Index n : nodes_of_cell(k))
-      for (std::size_t c = 0; c < 3; ++c) is_finite = is_finite && std::isfinite(f[3 * at(n) + c]);
-    if (!is_finite) return one[0];
-  }
-  return -1;
-}
-
 Mass Solid::mass(MassKind kind) const {
-  if (kind == MassKind::lumped) return impl_->lumped_mass([](std::size_t) { return 1.0; });
-  CsrMatrix M = node_graph(std::array<const SolidCells*, 1>{&impl_->solid});
-  impl_->solid.for_each_cell([&](std::size_t c, const Block& block) {
-    const NodeMatrix cell = block.mass(impl_->solid.coordinates_of(c), block.thickness, block.rho);
-    const auto nodes = impl_->solid.nodes_of(c);
+  if (kind == MassKind::lumped) return parts_->lumped_mass([](std::size_t) { return 1.0; });
+  CsrMatrix M = node_graph(std::array<const SolidCells*, 1>{&parts_->solid});
+  parts_->solid.for_each_cell([&](std::size_t c, const Block& block) {
+    const NodeMatrix cell = block.mass(parts_->solid.coordinates_of(c), block.thickness, block.rho);
+    const auto nodes = parts_->solid.nodes_of(c);
     for (std::size_t a = 0; a < nodes.size(); ++a)
       for (std::size_t b = 0; b < nodes.size(); ++b)
         M.value[entry(M, nodes[a], nodes[b])] += cell[a * nodes.size() + b];
   });
-  impl_->for_each_body_mass([&](Index node, double mass) { add_diagonal(M, node, mass); });
+  parts_->for_each_body_mass([&](Index node, double mass) { add_diagonal(M, node, mass); });
   return Mass(std::move(M));
 }
 
 Mass Solid::lumped_mass(std::span<const double> cell_factors) const {
-  return impl_->lumped_mass([&](std::size_t c) { return cell_factors[c]; });
-}
-
-std::vector<double> Solid::cell_masses() const {
-  std::vector<double> masses(cell_count());
-  const auto add_up = [&](std::size_t c, std::span<const double> m) {
-    masses[c] = std::accumulate(m.begin(), m.end(), 0.0);
-  };
-  impl_->solid.for_each_lumped_mass([&](std::size_t c, const Block&, std::span<const double> m) { add_up(c, m); });
-  impl_->solid.for_each_rigid_batch([&](std::size_t first, const Block& block, const CellBatches& batch) {
-    block.for_each_lumped_mass(batch, [&](std::size_t lane, std::span<const double> m) { add_up(first + lane, m); });
-  });
-  return masses;
-}
-
-std::vector<double> Solid::cell_frequency_bounds() const {
-  return impl_->cell_frequency_bounds();
-}
-
-double Solid::largest_frequency_bound() const {
-  return impl_->largest_bound();
-}
-
-double Solid::largest_damping(std::span<const double> history) const {
-  return std::max(carom::largest_damping(impl_->solid, impl_->damping, history),
-                  carom::largest_damping(impl_->patches.cells, impl_->patch_damping, history));
-}
-
-void Solid::external_force(double t, const Mass& mass, std::span<double> f) const {
-  std::fill(f.begin(), f.end(), 0.0);
-  for (const LoadVector& load : impl_->loads) {
-    const double factor = load.factor(t);
-    for (std::size_t k = 0; k < load.nodes.size(); ++k)
-      for (std::size_t i = 0; i < 3; ++i) f[3 * at(load.nodes[k]) + i] += factor * load.force[k][i];
-  }
-  for (const Gravity& gravity : impl_->gravity) {
-    const double factor = gravity.factor(t);
-    const Vec3& g = gravity.acceleration;
-    mass.add_gravity({factor * g[0], factor * g[1], factor * g[2]}, f);
-  }
-}
-
-const std::vector<Index>& Solid::loaded_nodes() const {
-  return impl_->loaded_nodes;
+  return parts_->lumped_mass([&](std::size_t c) { return cell_factors[c]; });
 }
 
 }  // namespace carom

@@ -220,7 +220,7 @@ struct State {
   std::vector<double> q;                     ///< displacement
   std::vector<double> v;                     ///< velocity
   std::vector<double> a;                     ///< acceleration
-  std::vector<double> points;                ///< history of the quadrature points (Solid::initial_history)
+  std::vector<double> points;                ///< history of the quadrature points (initial_history)
   std::vector<RowHistory> contact;           ///< one entry per contact slot (ConstraintRows::slot)
   Forces forces;                             ///< at time t
   ContactWithin within;                      ///< of the step that has led here

@@ -79,8 +79,8 @@ std::vector<Index> bodies_of(const Solid& solid, std::span<const std::uint8_t> f
     while (parent[at(n)] != n) n = parent[at(n)] = parent[at(parent[at(n)])];
     return n;
   };
-  for (std::size_t k = 0; k < solid.cell_count(); ++k) {
-    const auto nodes = solid.nodes_of_cell(k);
+  for (std::size_t k = 0; k < solid.cells().size(); ++k) {
+    const auto nodes = solid.cells().nodes_of(k);
     for (const Index n : nodes) {
       if (parent[at(n)] < 0) parent[at(n)] = n;
       const Index a = root(nodes[0]), b = root(n);
@@ -127,8 +127,8 @@ std::vector<Grid> finest_grids(const Mesh& mesh, const Solid& solid, const std::
   std::vector<Grid> grids(at(bodies));
   std::vector<double> cells(at(bodies), 0.0);
   std::vector<Vec3> end(at(bodies), {-infinity, -infinity, -infinity});
-  for (std::size_t k = 0; k < solid.cell_count(); ++k) {
-    const auto nodes = solid.nodes_of_cell(k);
+  for (std::size_t k = 0; k < solid.cells().size(); ++k) {
+    const auto nodes = solid.cells().nodes_of(k);
     const CellType type = mesh.blocks[at(solid.cells()[k].block)].type;
     const double spaces = node_count(type) > corner_count(type) ? 2.0 : 1.0;
     Grid& grid = grids[at(body[at(nodes[0])])];

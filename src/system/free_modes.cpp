@@ -45,8 +45,8 @@ void FreeModes::find_bodies() {
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   std::vector<bool> is_used(parent.size());
   for (std::size_t n = 0; n < parent.size(); ++n) is_used[n] = mass[n] > 0.0;
-  for (std::size_t k = 0; k < solid.cell_count(); ++k) {
-    const std::span<const Index> nodes = solid.nodes_of_cell(k);
+  for (std::size_t k = 0; k < solid.cells().size(); ++k) {
+    const std::span<const Index> nodes = solid.cells().nodes_of(k);
     for (const Index n : nodes) {
       parent[root(parent, static_cast<std::size_t>(n))] = root(parent, static_cast<std::size_t>(nodes[0]));
       is_used[static_cast<std::size_t>(n)] = true;  // also where a modified mass leaves none

@@ -4,14 +4,16 @@
 #include <array>
 
 #include "parallel/threads.hpp"
+#include "solid/cell_values.hpp"
+#include "solid/point_history.hpp"
 
 namespace carom {
 
 void evaluate_solid(const System& system, const PointStep& step, State& end) {
   Forces& forces = end.forces;
   forces.internal.resize(end.q.size());
-  end.points.resize(system.solid.history_size());
-  if (system.solid.is_linear() && !system.solid.has_hourglass()) {
+  end.points.resize(history_size(system.solid));
+  if (system.solid.is_linear() && !has_hourglass(system.solid)) {
     system.solid.internal_force(end.q, forces.internal);
     return;
   }
@@ -37,9 +39,9 @@ void evaluate_bodies(const System& system, const PointStep& step, State& end) {
 }
 
 void evaluate_loads(const System& system, double t, Forces& forces) {
-  if (!system.solid.has_loads()) return forces.external.value.clear();
+  if (system.solid.loads().empty()) return forces.external.value.clear();
   forces.external.value.resize(system.solid.dof_count());
-  system.solid.external_force(t, system.mass, forces.external.value);
+  system.solid.loads().force(t, system.mass, forces.external.value);
 }
 
 Momentum momentum_from(const double* sums) {

@@ -13,6 +13,7 @@
 #include "parallel/threads.hpp"
 #include "run/run.hpp"
 #include "run_fixture.hpp"
+#include "solid/cell_values.hpp"
 
 namespace carom::run_erosion_test {
 namespace {
@@ -269,7 +270,7 @@ TEST(RunErosion, ACellGoesInTheStepInWhichItsDamageIsOne) {
     if (alpha > before) ++with_growth;
     before = alpha;
     const std::vector<double> found =
-        simulation.solid().cell_history(damaged_by, march.state().points, OverPoints::largest);
+        cell_history(simulation.solid(), damaged_by, march.state().points, OverPoints::largest);
     if (damage < 1.0) {
       EXPECT_NEAR(found.at(0), damage, 1e-10);  // some hundred sums, rates from differences of times
     }

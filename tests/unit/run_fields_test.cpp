@@ -13,6 +13,8 @@
 #include "record/obstacle_bodies.hpp"
 #include "run_fixture.hpp"
 #include "solid/cell_strain.hpp"
+#include "solid/cell_values.hpp"
+#include "solid/point_history.hpp"
 #include "view/frame_file.hpp"
 
 namespace carom::run_fields_test {
@@ -48,7 +50,7 @@ TEST(Fields, StrainOfALinearDisplacement) {
     const Case given = parse_case(resting(finite > 0.0 ? "neo_hookean" : "linear_elastic"), "case.toml");
     const Simulation simulation(given);
     const auto strain = cell_strain(simulation.model(), linear_motion(simulation.mesh(), H));
-    ASSERT_EQ(strain.size(), simulation.solid().cell_count());
+    ASSERT_EQ(strain.size(), simulation.solid().cells().size());
     constexpr std::array<std::array<std::size_t, 2>, 6> voigt{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
     for (const auto& of_cell : strain) {
       for (std::size_t c = 0; c < 6; ++c) {
@@ -121,13 +123,13 @@ TEST(Fields, PlasticStrainOfAUniaxialStrain) {
   const std::string law = "j2_small_strain\"\nyield_stress = 4e-3 # \"";
   const Simulation simulation(parse_case(resting(law), "case.toml"));
   const Solid& solid = simulation.solid();
-  const std::vector<double> u = linear_motion(simulation.mesh(), H), begin = solid.initial_history();
+  const std::vector<double> u = linear_motion(simulation.mesh(), H), begin = initial_history(solid);
   std::vector<double> f(u.size()), end(begin.size());
   solid.evaluate(u, {0.0, begin}, f, end);
-  const std::vector<double> alpha = solid.cell_history("equivalent_plastic_strain", end);
-  ASSERT_EQ(alpha.size(), solid.cell_count());
+  const std::vector<double> alpha = cell_history(solid, "equivalent_plastic_strain", end);
+  ASSERT_EQ(alpha.size(), solid.cells().size());
   for (const double of_cell : alpha) EXPECT_NEAR(of_cell, (2.0 * G * e - yield_stress) / (3.0 * G), 1e-15);
-  EXPECT_TRUE(solid.cell_history("temperature_rise", end).empty());
+  EXPECT_TRUE(cell_history(solid, "temperature_rise", end).empty());
 }
 
 // Only bodies that yield have a plastic strain to show.

@@ -26,7 +26,7 @@ TEST(FoldedCells, TheFlattestCornerIsThatOfTheNodeThatWentThrough) {
     const FlattestCorner flattest = flattest_corner(s, u);
     EXPECT_NEAR(flattest.share, 1.0 - way, 1e-15);
     EXPECT_EQ(flattest.is_folded(), way > 1.0);
-    const auto nodes = s.solid().nodes_of_cell(static_cast<std::size_t>(flattest.cell));
+    const auto nodes = s.solid().cells().nodes_of(static_cast<std::size_t>(flattest.cell));
     EXPECT_NE(std::find(nodes.begin(), nodes.end(), static_cast<Index>(corner)), nodes.end());
   }
   EXPECT_NE(describe_fold(s, flattest_corner(s, u), u)

@@ -277,7 +277,7 @@ TEST(CellColumns, CountCellsFromSkinToSkin) {
   const Case given = parse_case(case_of_block("[scheme]\nkind = \"newmark\"\n[time]\nend = 1.0\nstep = 1.0\n"), "c");
   const Simulation s(given);
   const CellColumns columns(s.mesh(), s.solid());
-  for (std::size_t k = 0; k < s.solid().cell_count(); ++k) {
+  for (std::size_t k = 0; k < s.solid().cells().size(); ++k) {
     ASSERT_EQ(columns.dimension(k), 3);
     std::array<int, 3> cells{};
     for (int axis = 0; axis < 3; ++axis) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "run_fixture.hpp"
+#include "solid/point_history.hpp"
 
 namespace carom::run_tearing_test {
 namespace {
@@ -86,7 +87,7 @@ TEST(CaseTearing, IsAZoneAndAPair) {
   EXPECT_EQ(pair.law.mu, 0.25);
   // Ten times M / h of a cell, M = (1 - nu) / ((1 + nu) (1 - 2 nu)) its modulus and h = 1; raised for S^2 / G = 4.
   EXPECT_NEAR(zone.law.stiffness, std::max(10.0 * 0.7 / (1.3 * 0.4), 5.0 * 4.0), 1e-12);
-  EXPECT_EQ(s.solid().history_size(), 18U);
+  EXPECT_EQ(history_size(s.solid()), 18U);
 }
 
 }  // namespace

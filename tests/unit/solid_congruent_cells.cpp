@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "solid/congruent_cells.hpp"
+#include "solid/stability.hpp"
 #include "solid_bodies.hpp"
 #include "solid_fixture.hpp"
 
@@ -53,21 +54,21 @@ TEST(CongruentCells, ShareTheBoundThatEachWouldHaveAlone) {
   Mesh mesh = block_mesh({4, 3, 3}, 0.0);
   for (Vec3& x : mesh.coordinates) x[0] += 0.1 * x[0] * x[0];  // four sizes of cells
   const Model model = one_part(mesh);
-  const std::vector<double> bounds = Solid(model).cell_frequency_bounds();
+  const std::vector<double> bounds = cell_frequency_bounds(Solid(model));
   for (std::size_t c = 0; c < bounds.size(); c += 5) {
     Model alone = model;
     alone.parts[0].cells = {model.parts[0].cells[c]};
-    EXPECT_NEAR(bounds[c], Solid(alone).cell_frequency_bounds()[0], 1e-9 * bounds[c]) << c;
+    EXPECT_NEAR(bounds[c], cell_frequency_bounds(Solid(alone))[0], 1e-9 * bounds[c]) << c;
   }
 }
 
 // The powers of the matrices are taken in every instruction set; of distorted cells, seven of which fill no batch.
 TEST(FrequencyBounds, OfEveryInstructionSetAreThoseOfTheReference) {
   const Model model = one_part(block_mesh({7, 1, 1}, 0.2));
-  const std::vector<double> expected = Solid(model, Isa::reference).cell_frequency_bounds();
+  const std::vector<double> expected = cell_frequency_bounds(Solid(model, Isa::reference));
   for (const Isa isa : {Isa::x86_64_v2, Isa::x86_64_v3, Isa::x86_64_v4}) {
     if (!supported(isa)) continue;
-    const std::vector<double> bounds = Solid(model, isa).cell_frequency_bounds();
+    const std::vector<double> bounds = cell_frequency_bounds(Solid(model, isa));
     for (std::size_t c = 0; c < bounds.size(); ++c)
       EXPECT_NEAR(bounds[c], expected[c], 1e-12 * expected[c]) << name(isa) << ' ' << c;
   }

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "solid/cell_values.hpp"
+#include "solid/stability.hpp"
 #include "solid_bodies.hpp"
 
 namespace carom::test::solid_elements_test {
@@ -48,10 +50,10 @@ TEST_P(EveryElement, MassesAreDensityTimesVolumeAndLumpedOnesPositive) {
   EXPECT_NEAR(consistent.total(), exact, tolerance);
   EXPECT_NEAR(lumped.total(), exact, tolerance);
   for (const double m : lumped.node_diagonal()) EXPECT_GT(m, 1e-3 * exact / static_cast<double>(solid.node_count()));
-  const auto masses = solid.cell_masses();
+  const auto masses = cell_masses(solid);
   double sum = 0.0;
   for (std::size_t c = 0; c < masses.size(); ++c) {
-    EXPECT_NEAR(masses[c], unit_material.rho * solid.cell_volumes()[c], tolerance);
+    EXPECT_NEAR(masses[c], unit_material.rho * solid.cells().volumes[c], tolerance);
     sum += masses[c];
   }
   EXPECT_NEAR(sum, exact, tolerance);
@@ -75,7 +77,7 @@ TEST_P(EveryElement, LumpedMassOfOneCellHasItsClosedForm) {
   block.connectivity.resize(nodes);
   block.file_numbers.resize(1);
   const Solid solid(body(mesh, element, unit_material, thickness));
-  const double total = unit_material.rho * solid.cell_volumes()[0];
+  const double total = unit_material.rho * solid.cells().volumes[0];
   const auto m = solid.mass(MassKind::lumped).node_diagonal();
   const auto corners = static_cast<std::size_t>(corner_count(element.type));
   for (std::size_t a = 0; a < nodes; ++a) {
@@ -114,13 +116,13 @@ TEST_P(EveryElement, FallsFreely) {
   model.loads.emplace_back(Gravity{g, {}});
   const Solid solid(model);
   const Mass mass = solid.mass(MassKind::lumped);
-  const auto bounds = solid.cell_frequency_bounds();
+  const auto bounds = cell_frequency_bounds(solid);
   const double h = 1.0 / std::sqrt(*std::max_element(bounds.begin(), bounds.end()));
   std::vector<double> u(solid.dof_count(), 0.0), before(u.size()), f(u.size());
   for (std::size_t d = 0; d < u.size(); ++d) before[d] = 0.5 * h * h * g[d % 3];  // u(-h)
   constexpr int steps = 20;
   for (int k = 0; k < steps; ++k) {
-    solid.external_force(k * h, mass, f);
+    solid.loads().force(k * h, mass, f);
     const auto F = internal_force(solid, u);
     for (std::size_t d = 0; d < u.size(); ++d) {
       const double next = 2 * u[d] - before[d] + h * h * (f[d] - F[d]) / mass.node_diagonal()[d / 3];
@@ -154,7 +156,7 @@ double largest_frequency_squared(const Solid& solid) {
 // between them is between cell and mesh (solid_tangent.cpp).
 TEST_P(EveryElement, CellBoundsAreAboveTheLargestFrequency) {
   const Solid solid(body(distorted_mesh(GetParam().type), GetParam(), unit_material, thickness));
-  const auto bounds = solid.cell_frequency_bounds();
+  const auto bounds = cell_frequency_bounds(solid);
   const double exact = largest_frequency_squared(solid), bound = *std::max_element(bounds.begin(), bounds.end());
   EXPECT_GE(bound, exact);
   // A patch has a quarter of its cells' masses, and couples more nodes than a cell; the top of a PYRA13 has little
@@ -167,8 +169,8 @@ TEST_P(EveryElement, CellBoundsAreAboveTheLargestFrequency) {
 TEST_P(EveryElement, YieldingLeavesTheStableStep) {
   const Element& element = GetParam();
   const Mesh mesh = distorted_mesh(element.type);
-  const auto bounds = Solid(body(mesh, element, yielding("j2"))).cell_frequency_bounds();
-  const auto expected = Solid(body(mesh, element, unit_material)).cell_frequency_bounds();
+  const auto bounds = cell_frequency_bounds(Solid(body(mesh, element, yielding("j2"))));
+  const auto expected = cell_frequency_bounds(Solid(body(mesh, element, unit_material)));
   EXPECT_LT(largest_difference(bounds, expected), round_off * largest(expected));
 }
 
@@ -247,7 +249,7 @@ TEST(Bar, HangsExactlyAtItsNodes) {
   model.loads.emplace_back(Gravity{{g, 0.0, 0.0}, {}});
   const Solid solid(model);
   std::vector<double> f(solid.dof_count());
-  solid.external_force(0.0, solid.mass(MassKind::lumped), f);
+  solid.loads().force(0.0, solid.mass(MassKind::lumped), f);
   std::vector<bool> held(f.size(), true);
   for (std::size_t n = 1; n < 4; ++n) held[3 * n] = false;
   const auto u = solve(solid, f, held);

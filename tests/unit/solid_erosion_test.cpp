@@ -5,6 +5,9 @@
 #include <limits>
 #include <string>
 
+#include "solid/cell_values.hpp"
+#include "solid/point_history.hpp"
+#include "solid/stability.hpp"
 #include "solid_bodies.hpp"
 
 namespace carom::solid_erosion_test {
@@ -39,14 +42,14 @@ Model living(Model model, const std::vector<std::uint8_t>& alive) {
 void expect_as_without_the_rest(const Element& element, const Material& material) {
   const Model model = body(distorted_mesh(element.type), element, material);
   const Solid solid(model);
-  std::vector<std::uint8_t> alive(solid.cell_count(), 1);
+  std::vector<std::uint8_t> alive(solid.cells().size(), 1);
   for (std::size_t k = 1; k < alive.size(); k += 2) alive[k] = 0;
   const Solid without(living(model, alive));
   std::vector<double> u = random_vector(solid.dof_count(), 5);
   for (double& component : u) component *= 0.5 * largest_move(element.type);
   for (std::size_t i = 2; i < u.size() && dimension(element.type) == 2; i += 3) u[i] = 0.0;
 
-  std::vector<double> f(u.size()), g(u.size()), end(solid.history_size()), end_without(without.history_size());
+  std::vector<double> f(u.size()), g(u.size()), end(history_size(solid)), end_without(history_size(without));
   const PointStep step{.dt = 0.1, .history = {}, .alive = alive};
   const SolidEnergies energies = solid.evaluate(u, step, f, end);
   const SolidEnergies expected = without.evaluate(u, {.dt = 0.1, .history = {}}, g, end_without);
@@ -73,23 +76,23 @@ TEST_P(CellsThatGo, OfWhatIsThereForcesStiffnessAndEnergiesAreAsWithoutTheRest) 
 TEST_P(CellsThatGo, WhatHasGoneMayHaveAnyShape) {
   const Model model = body(distorted_mesh(GetParam().type), GetParam(), yielding());
   const Solid solid(model);
-  std::vector<std::uint8_t> alive(solid.cell_count(), 0);
+  std::vector<std::uint8_t> alive(solid.cells().size(), 0);
   std::vector<double> u(solid.dof_count(), std::numeric_limits<double>::quiet_NaN());
   alive[0] = 1;
-  for (const Index n : solid.nodes_of_cell(0))
+  for (const Index n : solid.cells().nodes_of(0))
     for (std::size_t c = 0; c < 3; ++c) u[3 * static_cast<std::size_t>(n) + c] = 0.0;
   const PointStep step{.dt = 0.1, .history = {}, .alive = alive};
-  std::vector<double> f(u.size()), end(solid.history_size());
+  std::vector<double> f(u.size()), end(history_size(solid));
   const SolidEnergies energies = solid.evaluate(u, step, f, end);
   EXPECT_EQ(energies.strain, 0.0);
   EXPECT_EQ(energies.plastic, 0.0);
   for (const double force : f) EXPECT_EQ(force, 0.0);
   for (const double value : end) EXPECT_EQ(value, 0.0);
-  for (const auto& stress : solid.cell_stress(u, step))
+  for (const auto& stress : cell_stress(solid, u, step))
     for (const double component : stress) EXPECT_EQ(component, 0.0);
-  EXPECT_EQ(solid.first_inverted_cell(u, alive), -1);
-  std::vector<double> growth(solid.cell_count());
-  solid.frequency_growth(u, step, growth);
+  EXPECT_EQ(first_inverted_cell(solid, u, alive), -1);
+  std::vector<double> growth(solid.cells().size());
+  frequency_growth(solid, u, step, growth);
   for (const double of_cell : growth) EXPECT_TRUE(std::isfinite(of_cell));
 }
 

@@ -7,6 +7,8 @@
 
 #include "math/gauss_legendre.hpp"
 #include "parallel/threads.hpp"
+#include "solid/cell_values.hpp"
+#include "solid/point_history.hpp"
 #include "solid_bodies.hpp"
 
 namespace carom::test::solid_finite_test {
@@ -24,7 +26,7 @@ class EveryFiniteBody : public testing::TestWithParam<Body> {
   /// What the points remember of a step to other displacements; nothing in elastic bodies.
   std::vector<double> yielded() const {
     const auto u = displacement(20);
-    std::vector<double> f(u.size()), history = solid_.initial_history(), end(history.size());
+    std::vector<double> f(u.size()), history = initial_history(solid_), end(history.size());
     const SolidEnergies energies = solid_.evaluate(u, {1.0, history}, f, end);
     EXPECT_EQ(energies.plastic > 1e-3, remembers(GetParam()));
     return end;
@@ -143,7 +145,7 @@ TEST_P(EveryFiniteBody, EnergyIsTheWorkOfTheForce) {
 /// dissipated at its end; over the work.
 double missing_work(const Solid& solid, const std::vector<double>& u, int n) {
   const std::vector<double> zero(u.size(), 0.0);
-  std::vector<double> f(u.size()), before(u.size(), 0.0), history = solid.initial_history(), end(history.size());
+  std::vector<double> f(u.size()), before(u.size(), 0.0), history = initial_history(solid), end(history.size());
   SolidEnergies energies;
   double work = 0.0;
   for (int k = 1; k <= n; ++k) {
@@ -207,7 +209,7 @@ TEST_P(EveryFiniteBody, FiniteStrainIsObjective) {
   for (const double degrees : {1.0, 30.0, 180.0}) {
     const auto R = turn_by(degrees, section);
     EXPECT_LT(largest(internal_force(solid_, turned(*model_.mesh, R, rest))), round_off);
-    for (const auto& stress : solid_.cell_stress(turned(*model_.mesh, R, rest)))
+    for (const auto& stress : cell_stress(solid_, turned(*model_.mesh, R, rest)))
       for (const double component : stress) EXPECT_NEAR(component, 0.0, round_off);
     const auto Ru = turned(*model_.mesh, R, u), Rf = internal_force(solid_, Ru);
     EXPECT_NEAR(energy(Ru), energy(u), round_off);
@@ -277,7 +279,7 @@ TEST_P(EveryFiniteBody, AnInvertedCellGivesNoNumber) {
   for (std::size_t n = 0; n < solid_.node_count(); ++n)  // mirrored at y = 0 (plane) or z = 0: J = -1, C = 1
     u[3 * n + (plane ? 1 : 2)] = -2.0 * model_.mesh->coordinates[n][plane ? 1 : 2];
   EXPECT_TRUE(std::isnan(internal_force(solid_, u)[0]));
-  EXPECT_TRUE(std::isnan(solid_.strain_energy(u)));
+  EXPECT_TRUE(std::isnan(strain_energy(solid_, u)));
 }
 
 TEST_P(EveryFiniteBody, SameBitsForAnyNumberOfThreads) {
@@ -297,7 +299,7 @@ TEST_P(EveryFiniteBody, SameBitsForAnyNumberOfThreads) {
   const auto x = random_vector(u.size(), 16);
   const auto all = [&](int threads) {
     set_threads(threads);
-    std::vector<double> result(u.size()), y(u.size()), history = solid.initial_history(), end(history.size());
+    std::vector<double> result(u.size()), y(u.size()), history = initial_history(solid), end(history.size());
     const SolidEnergies energies = solid.evaluate(u, {1.0, history}, result, end);
     result.insert(result.end(), {energies.strain, energies.plastic, energies.hourglass, energies.hourglass_loss});
     result.insert(result.end(), end.begin(), end.end());
@@ -307,8 +309,8 @@ TEST_P(EveryFiniteBody, SameBitsForAnyNumberOfThreads) {
       solid.discrete_gradient_force(u, std::vector<double>(u.size(), 0.0), y);
       result.insert(result.end(), y.begin(), y.end());
     }
-    result.push_back(solid.strain_energy(u));
-    const Rotation rotation = solid.largest_rotation(u);
+    result.push_back(strain_energy(solid, u));
+    const Rotation rotation = largest_rotation(solid, u);
     result.push_back(rotation.angle);
     result.push_back(rotation.cell);
     return result;
@@ -324,7 +326,7 @@ TEST_P(EveryFiniteBody, ForceOfSomeCellsIsTheirShare) {
   const auto u = displacement(17);
   std::vector<double> f(u.size(), 0.0);
   std::vector<Index> others;
-  for (Index c = 1; c < static_cast<Index>(solid_.cell_count()); ++c) others.push_back(c);
+  for (Index c = 1; c < static_cast<Index>(solid_.cells().size()); ++c) others.push_back(c);
   solid_.add_internal_force_of(std::vector<Index>{0}, u, f);
   EXPECT_GT(largest_difference(f, internal_force(solid_, u)), 0.01);
   solid_.add_internal_force_of(others, u, f);
@@ -342,7 +344,7 @@ INSTANTIATE_TEST_SUITE_P(Solid, EveryIsaAndBody,
 void expect_equal_second_steps(const Solid& solid, const Solid& reference, const std::vector<double>& u,
                                const std::vector<double>& v) {
   const auto second = [&](const Solid& of, std::vector<double>& f) {
-    std::vector<double> rest = of.initial_history(), begin(rest.size()), end(rest.size());
+    std::vector<double> rest = initial_history(of), begin(rest.size()), end(rest.size());
     of.evaluate(u, {1.0, rest}, f, begin);
     return of.evaluate(v, {1.0, begin}, f, end);
   };
@@ -374,8 +376,8 @@ TEST_P(EveryIsaAndBody, KernelsEqualTheReference) {
     reference.discrete_gradient_force(u, v, expected);
     EXPECT_LT(largest_difference(y, expected), round_off);
   }
-  EXPECT_NEAR(solid.strain_energy(u), reference.strain_energy(u), round_off * reference.strain_energy(u));
-  const auto stress = solid.cell_stress(u), expected_stress = reference.cell_stress(u);
+  EXPECT_NEAR(strain_energy(solid, u), strain_energy(reference, u), round_off * strain_energy(reference, u));
+  const auto stress = cell_stress(solid, u), expected_stress = cell_stress(reference, u);
   for (std::size_t c = 0; c < stress.size(); ++c)
     for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(stress[c][i], expected_stress[c][i], round_off);
 }
@@ -386,11 +388,11 @@ TEST(SolidRotation, IsTheAngleOfTheRotationWhateverTheStretch) {
   const std::array<Vec3, 3> H{{{1.1 * c - 1, -0.9 * s, 0}, {1.1 * s, 0.9 * c - 1, 0}, {0, 0, 0}}};
   for (const Section section : {Section::solid, Section::plane_stress, Section::plane_strain}) {
     const Model model = body(distorted_mesh(section), section, unit_material);
-    EXPECT_NEAR(Solid(model).largest_rotation(affine(*model.mesh, H)).angle, angle, round_off);
+    EXPECT_NEAR(largest_rotation(Solid(model), affine(*model.mesh, H)).angle, angle, round_off);
   }
   const std::array<Vec3, 3> R{{{c - 1, -s, 0}, {s, c - 1, 0}, {0, 0, 0}}};
   const Model bar = body(mesh_of(CellType::line2, {{0, 0, 0}, {2, 0, 0}}, {0, 1}), Section::bar, unit_material);
-  EXPECT_NEAR(Solid(bar).largest_rotation(affine(*bar.mesh, R)).angle, angle, round_off);
+  EXPECT_NEAR(largest_rotation(Solid(bar), affine(*bar.mesh, R)).angle, angle, round_off);
 }
 
 TEST(SolidRotation, NamesTheCellAndLooksAtSmallStrainAlone) {
@@ -398,14 +400,14 @@ TEST(SolidRotation, NamesTheCellAndLooksAtSmallStrainAlone) {
   std::vector<double> u(3 * model.mesh->node_count(), 0.0);
   for (std::size_t n = 0; n < model.mesh->node_count(); ++n)  // the last cell leans by tan = 0.1
     if (model.mesh->coordinates[n][0] > 2.5) u[3 * n + 1] = 0.1;
-  const Rotation rotation = Solid(model).largest_rotation(u);
+  const Rotation rotation = largest_rotation(Solid(model), u);
   EXPECT_EQ(rotation.cell, 2);
   EXPECT_NEAR(rotation.angle, std::atan(0.05), round_off);  // simple shear: tan(angle) = shear / 2
   model.parts[0].material = NeoHookean{unit_material};
-  EXPECT_EQ(Solid(model).largest_rotation(u).cell, -1);
+  EXPECT_EQ(largest_rotation(Solid(model), u).cell, -1);
   model.parts[0].material = unit_material;
   u[0] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(Solid(model).largest_rotation(u).angle, std::numbers::pi);
+  EXPECT_EQ(largest_rotation(Solid(model), u).angle, std::numbers::pi);
 }
 
 }  // namespace

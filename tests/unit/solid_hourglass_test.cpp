@@ -1,7 +1,8 @@
 // Hourglass modes of one-point cells that yield: closed form, tangent, objectivity, energies.
 #include <gtest/gtest.h>
 
-#include "solid/hourglass_flow.hpp"
+#include "kernels/hourglass_flow.hpp"
+#include "solid/point_history.hpp"
 #include "solid_bodies.hpp"
 
 namespace carom::test::solid_hourglass_test {
@@ -16,7 +17,7 @@ Model one_point_body(Mesh mesh, CellType type, Section section, std::string_view
 
 /// A body and what it remembers.
 struct Walk {
-  explicit Walk(const Model& model) : solid(model), history(solid.initial_history()), end(history) {}
+  explicit Walk(const Model& model) : solid(model), history(initial_history(solid)), end(history) {}
   SolidEnergies evaluate(const std::vector<double>& u) {
     f.resize(u.size());
     return solid.evaluate(u, {1.0, history}, f, end);

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <set>
 
+#include "kernels/batch_gradients.hpp"
+#include "kernels/cell_stages.hpp"
+#include "kernels/hexa8_small.hpp"
+#include "kernels/kernels.hpp"
 #include "material/linear_elastic_update.hpp"
-#include "solid/batch_gradients.hpp"
 #include "solid/blocks.hpp"
-#include "solid/cell_stages.hpp"
 #include "solid/colouring.hpp"
-#include "solid/hexa8_small.hpp"
-#include "solid/kernels.hpp"
 #include "solid_bodies.hpp"
 #include "solid_fixture.hpp"
 

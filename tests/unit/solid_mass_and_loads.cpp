@@ -33,7 +33,7 @@ TEST(SolidMass, TotalIsDensityTimesVolumeOnADistortedMesh) {
   const double expected = unit_material.rho * volume_of(divisions);
   EXPECT_NEAR(solid.mass(MassKind::consistent).total(), expected, expected * round_off);
   EXPECT_NEAR(solid.mass(MassKind::lumped).total(), expected, expected * round_off);
-  const auto& volumes = solid.cell_volumes();
+  const auto& volumes = solid.cells().volumes;
   EXPECT_NEAR(std::accumulate(volumes.begin(), volumes.end(), 0.0), volume_of(divisions), expected * round_off);
 }
 
@@ -53,7 +53,7 @@ TEST(SolidMass, OfTheUnitCube) {
     }
   const Mass lumped = solid.mass(MassKind::lumped);
   for (const double m : lumped.node_diagonal()) EXPECT_NEAR(m, unit_material.rho / 8, round_off);
-  EXPECT_NEAR(solid.cell_lengths()[0], 1.0, round_off);
+  EXPECT_NEAR(solid.cells().lengths[0], 1.0, round_off);
 }
 
 // integral of rho v . v for a linear field v_z = x over the block [0,3]x[0,4]x[0,3]: rho 9 x 12 = 108 rho, exact for
@@ -73,7 +73,7 @@ TEST(SolidMass, NodesOutsideThePartsHaveNone) {
   const Solid solid(model);
   const std::vector<double> nodes = solid.mass(MassKind::consistent).node_diagonal();
   EXPECT_EQ(std::count(nodes.begin(), nodes.end(), 0.0), 4);
-  EXPECT_EQ(solid.cell_count(), 1U);
+  EXPECT_EQ(solid.cells().size(), 1U);
 }
 
 std::array<Vec3, 2> resultant_and_moment(const Mesh& mesh, const std::vector<double>& f) {
@@ -104,12 +104,12 @@ TEST(SolidLoads, PressureHasItsResultantAndMoment) {
   model.loads.emplace_back(Pressure{{faces_of(*model.mesh, "ZMAX")}, 0.5, TimeFunction{{0.0, 1.0}, {0.0, 2.0}}});
   const Solid solid(model);
   std::vector<double> f(solid.dof_count(), 7.0);
-  solid.external_force(0.5, solid.mass(MassKind::lumped), f);
+  solid.loads().force(0.5, solid.mass(MassKind::lumped), f);
   const auto [force, moment] = resultant_and_moment(*model.mesh, f);
   const Vec3 expected{0.0, 0.0, -3.0}, expected_moment{1.5 * -3.0, 1.0 * 3.0, 0.0};
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(force[i], expected[i], round_off);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(moment[i], expected_moment[i], round_off);
-  solid.external_force(0.0, solid.mass(MassKind::lumped), f);
+  solid.loads().force(0.0, solid.mass(MassKind::lumped), f);
   EXPECT_EQ(largest(f), 0.0);
 }
 
@@ -238,7 +238,7 @@ TEST(SolidLoads, PressureOnAClosedWarpedSkinVanishes) {
   model.loads.emplace_back(Pressure{{faces}, 1.0, {}});
   const Solid solid(model);
   std::vector<double> f(solid.dof_count());
-  solid.external_force(0.0, solid.mass(MassKind::lumped), f);
+  solid.loads().force(0.0, solid.mass(MassKind::lumped), f);
   EXPECT_GT(largest(f), 0.1);
   const auto [force, moment] = resultant_and_moment(*model.mesh, f);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(force[i], 0.0, round_off);
@@ -250,7 +250,7 @@ TEST(SolidLoads, GravityIsTheWeightAtTheCentroid) {
   model.loads.emplace_back(Gravity{g, {}});
   const Solid solid(model);
   std::vector<double> f(solid.dof_count());
-  solid.external_force(1.0, solid.mass(MassKind::consistent), f);
+  solid.loads().force(1.0, solid.mass(MassKind::consistent), f);
   const auto [force, moment] = resultant_and_moment(*model.mesh, f);
   const double m = 36.0 * unit_material.rho;  // block 3 x 4 x 3 with its centroid at (1.5, 2, 1.5)
   const Vec3 expected_moment{m * (2.0 * g[2] - 1.5 * g[1]), m * (1.5 * g[0] - 1.5 * g[2]),
@@ -268,7 +268,7 @@ TEST(SolidLoads, GravityAcceleratesEveryNodeOfADistortedBodyByG) {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] = g[i % 3];
   for (const MassKind kind : {MassKind::consistent, MassKind::lumped}) {
     const Mass mass = solid.mass(kind);
-    solid.external_force(0.0, mass, f);
+    solid.loads().force(0.0, mass, f);
     mass.apply(a, Ma);
     for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(f[i], Ma[i], 100 * round_off);
   }
@@ -276,13 +276,13 @@ TEST(SolidLoads, GravityAcceleratesEveryNodeOfADistortedBodyByG) {
 
 TEST(SolidLoads, NodalForcesAddUpAndFollowTheirFactor) {
   Model model = one_part(block_mesh({1, 1, 1}, 0.0));
-  EXPECT_FALSE(Solid(model).has_loads());
+  EXPECT_FALSE(!Solid(model).loads().empty());
   model.loads.emplace_back(NodalForce{{0, 3}, {1.0, 2.0, 3.0}, TimeFunction{{0.0, 2.0}, {1.0, 3.0}}});
   model.loads.emplace_back(NodalForce{{3}, {0.0, 0.0, 1.0}, {}});
   const Solid solid(model);
-  EXPECT_TRUE(solid.has_loads());
+  EXPECT_TRUE(!solid.loads().empty());
   std::vector<double> f(24), expected(24, 0.0);
-  solid.external_force(1.0, solid.mass(MassKind::lumped), f);
+  solid.loads().force(1.0, solid.mass(MassKind::lumped), f);
   expected[0] = 2.0, expected[1] = 4.0, expected[2] = 6.0;
   expected[9] = 2.0, expected[10] = 4.0, expected[11] = 7.0;
   EXPECT_EQ(f, expected);

@@ -9,6 +9,7 @@
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
 #include "solid/node_patches.hpp"
+#include "solid/point_history.hpp"
 #include "solid_bodies.hpp"
 
 namespace carom::test::solid_nodal_test {
@@ -80,8 +81,8 @@ TEST(Nodal, EnergyIsThatOfItsDefinition) {
     double V = 0.0;
     Tensor mean{};
     std::vector<std::pair<double, Tensor>> cells;
-    for (std::size_t k = 0; k < solid.cell_count(); ++k) {
-      const auto nodes = solid.nodes_of_cell(k);
+    for (std::size_t k = 0; k < solid.cells().size(); ++k) {
+      const auto nodes = solid.cells().nodes_of(k);
       if (std::find(nodes.begin(), nodes.end(), static_cast<Index>(n)) == nodes.end()) continue;
       double volume = 0.0;
       const Tensor F = gradient(mesh, nodes, u, volume);
@@ -122,7 +123,7 @@ TEST(Nodal, ForcesOfSomeCellsActOnTheirNodesAndAddUp) {
   for (const Kind& kind : kinds) {
     for (const char* law : {"j2", "j2_small_strain"}) {
       const Solid solid(body(distorted_mesh(kind.type), nodal(kind), yielding(law)));
-      std::vector<double> u = random_vector(solid.dof_count(), 3), f(u.size()), history(solid.history_size());
+      std::vector<double> u = random_vector(solid.dof_count(), 3), f(u.size()), history(history_size(solid));
       for (std::size_t d = 0; d < u.size(); ++d) u[d] *= d % 3 < components(kind.section) ? 0.1 : 0.0;
       solid.evaluate(u, {}, f, history);
       for (double& component : u) component *= 1.2;
@@ -132,10 +133,10 @@ TEST(Nodal, ForcesOfSomeCellsActOnTheirNodesAndAddUp) {
       for (std::size_t part = 0; part < 2; ++part) {
         std::vector<Index> cells;
         std::vector<char> has(solid.node_count(), 0);
-        for (std::size_t k = 0; k < solid.cell_count(); ++k) {
+        for (std::size_t k = 0; k < solid.cells().size(); ++k) {
           if (k % 2 != part) continue;
           cells.push_back(static_cast<Index>(k));
-          for (const Index n : solid.nodes_of_cell(k)) has[static_cast<std::size_t>(n)] = 1;
+          for (const Index n : solid.cells().nodes_of(k)) has[static_cast<std::size_t>(n)] = 1;
         }
         std::vector<double> own(f.size(), 0.0);
         solid.add_internal_force_of(cells, u, own, step);
@@ -150,7 +151,7 @@ TEST(Nodal, ForcesOfSomeCellsActOnTheirNodesAndAddUp) {
       const std::vector<Index> one{0};
       std::vector<double> own(f.size(), 0.0);
       solid.add_internal_force_of(one, u, own, step);
-      const auto nodes = solid.nodes_of_cell(0);
+      const auto nodes = solid.cells().nodes_of(0);
       for (std::size_t d = 0; d < own.size(); ++d)
         if (std::find(nodes.begin(), nodes.end(), static_cast<Index>(d / 3)) == nodes.end()) {
           EXPECT_NEAR(own[d], 0.0, 1e-13 * largest(f));

@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "base/errors.hpp"
+#include "solid/cell_values.hpp"
+#include "solid/stability.hpp"
 #include "solid_bodies.hpp"
 
 namespace carom::test::solid_sections_test {
@@ -43,7 +45,7 @@ TEST_P(EveryBody, PatchTest) {
   const Solid solid(model);
   const auto u = affine(mesh, patch_gradient(section));
   const auto f = internal_force(solid, u);
-  const auto stress = solid.cell_stress(u);
+  const auto stress = cell_stress(solid, u);
   EXPECT_GT(largest({stress[0].begin(), stress[0].end()}), 0.01);
   for (const auto& cell : stress)
     for (std::size_t c = 0; c < 6; ++c) EXPECT_NEAR(cell[c], stress[0][c], round_off);
@@ -80,7 +82,7 @@ TEST_P(EveryBody, OneCellHasItsRigidModesAndNoMore) {
 // exceeds it by at most 6^(1/16) = 1.12.
 TEST(Bar, HasItsFrequency) {
   const Solid solid(body(mesh_of(CellType::line2, {{0, 0, 0}, {0, 0, 0.5}}, {0, 1}), Section::bar, unit_material));
-  const double exact = 4 * unit_material.E / (unit_material.rho * 0.25), bound = solid.cell_frequency_bounds()[0];
+  const double exact = 4 * unit_material.E / (unit_material.rho * 0.25), bound = cell_frequency_bounds(solid)[0];
   EXPECT_GE(bound, exact * (1 - round_off));
   EXPECT_LE(bound, 1.12 * exact);
 }
@@ -93,14 +95,14 @@ TEST(SectionMass, BarsAndRingsAndPlates) {
   const std::vector<double> expected{2.0, 1.0, 1.0, 2.0};
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_NEAR(bar_mass.node_matrix().value[k], rho * 0.5 * 5.0 / 6.0 * expected[k], round_off);
-  EXPECT_NEAR(bar.cell_volumes()[0], 2.5, round_off);
-  EXPECT_NEAR(bar.cell_lengths()[0], 5.0, round_off);
+  EXPECT_NEAR(bar.cells().volumes[0], 2.5, round_off);
+  EXPECT_NEAR(bar.cells().lengths[0], 5.0, round_off);
   for (const MassKind kind : {MassKind::consistent, MassKind::lumped}) {
     const Solid ring(body(quad_mesh(3, 3, 0.2), Section::axisymmetric, unit_material));
     EXPECT_NEAR(ring.mass(kind).total(), rho * pi * 15 * 3, 100 * round_off);
     const Solid plate(body(quad_mesh(3, 3, 0.2), Section::plane_stress, unit_material, 0.7));
     EXPECT_NEAR(plate.mass(kind).total(), rho * 9 * 0.7, 100 * round_off);
-    EXPECT_NEAR(plate.cell_lengths()[0], plate.cell_volumes()[0] / 0.7, 0.3) << "squares of about 1";
+    EXPECT_NEAR(plate.cells().lengths[0], plate.cells().volumes[0] / 0.7, 0.3) << "squares of about 1";
   }
 }
 
@@ -130,7 +132,7 @@ double tube_error(Section section, int n) {
   model.loads.emplace_back(load);
   const Solid solid(model);
   std::vector<double> f(solid.dof_count());
-  solid.external_force(0.0, solid.mass(MassKind::lumped), f);
+  solid.loads().force(0.0, solid.mass(MassKind::lumped), f);
   std::vector<bool> held(f.size(), false);
   for (std::size_t k = 0; k < mesh.node_count(); ++k) {
     held[3 * k + 2] = true;
@@ -200,7 +202,7 @@ TEST_P(EveryBody, UniaxialTension) {
   }
   EXPECT_NEAR(force, area * t.nominal_stress, round_off);
   const double section_ratio = !is_finite_strain(GetParam()) ? 1.0 : t.lateral * t.lateral;
-  for (const auto& stress : solid.cell_stress(u)) {
+  for (const auto& stress : cell_stress(solid, u)) {
     EXPECT_NEAR(stress[0], t.nominal_stress / section_ratio, round_off);
     for (std::size_t c = 1; c < 6; ++c) EXPECT_NEAR(stress[c], 0.0, round_off);
   }
@@ -209,7 +211,7 @@ TEST_P(EveryBody, UniaxialTension) {
 std::array<double, 3> resultant(const Model& model) {
   const Solid solid(model);
   std::vector<double> f(solid.dof_count());
-  solid.external_force(0.0, solid.mass(MassKind::lumped), f);
+  solid.loads().force(0.0, solid.mass(MassKind::lumped), f);
   std::array<double, 3> force{};
   for (std::size_t d = 0; d < f.size(); ++d) force[d % 3] += f[d];
   return force;

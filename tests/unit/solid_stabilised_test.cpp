@@ -6,6 +6,7 @@
 
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
+#include "solid/point_history.hpp"
 #include "solid_bodies.hpp"
 
 namespace carom::test::solid_stabilised_test {
@@ -180,7 +181,7 @@ double plastic_moment(int n) {
     held[3 * k + 1] = first;
     first = false;
   }
-  std::vector<double> u(solid.dof_count(), 0.0), f(u.size()), history = solid.initial_history(), end(history.size());
+  std::vector<double> u(solid.dof_count(), 0.0), f(u.size()), history = initial_history(solid), end(history.size());
   constexpr int steps = 100;
   for (int s = 1; s <= steps; ++s) {
     const double curvature = 10.0 * yield / (E * half) * s / steps;
@@ -272,7 +273,7 @@ double plate_deflection(int n, double nu) {
   }
   const Solid solid(model);
   std::vector<double> f(solid.dof_count());
-  solid.external_force(0.0, solid.mass(MassKind::lumped), f);
+  solid.loads().force(0.0, solid.mass(MassKind::lumped), f);
   const auto u = solve(solid, f, held, 1e-12);
   double w = 0.0;
   for (std::size_t k = 0; k < mesh.node_count(); ++k)

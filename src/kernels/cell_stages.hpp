@@ -6,10 +6,10 @@
 #include "base/types.hpp"
 #include "element/cell_integrals.hpp"
 #include "element/hexa8_length.hpp"
-#include "solid/batch_values.hpp"
-#include "solid/hourglass_flow.hpp"
-#include "solid/stabilisation_stages.hpp"
-#include "solid/stages.hpp"
+#include "kernels/batch_values.hpp"
+#include "kernels/hourglass_flow.hpp"
+#include "kernels/stabilisation_stages.hpp"
+#include "kernels/stages.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {

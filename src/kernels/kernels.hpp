@@ -5,12 +5,12 @@
 
 #include "base/types.hpp"
 #include "element/cell_list.hpp"
+#include "kernels/bulk_viscosity.hpp"
+#include "kernels/energies.hpp"
+#include "kernels/stages.hpp"
 #include "material/law_kernels.hpp"
 #include "material/point_batch.hpp"
-#include "model/model.hpp"
-#include "solid/bulk_viscosity.hpp"
-#include "solid/evaluation.hpp"
-#include "solid/stages.hpp"
+#include "material/viscosity.hpp"
 
 namespace carom {
 
@@ -24,7 +24,7 @@ struct BatchStages {
   const BulkStages* bulk = nullptr;
   double hourglass = 0.0;  ///< coefficient x modulus of the hourglass stiffness
   ModeModuli moduli{};     ///< of stabilised cells
-  /// Of hourglass modes that yield or are viscous (solid/hourglass_flow.hpp): the coefficient, and the numbers that a
+  /// Of hourglass modes that yield or are viscous (kernels/hourglass_flow.hpp): the coefficient, and the numbers that a
   /// cell remembers of them, after the history of its points. 0: they are elastic.
   double hourglass_coefficient = 0.0;
   int hourglass_history = 0;
@@ -95,7 +95,7 @@ struct KernelTable {
   DilatationStages small_dilatation[volume_fields], finite_dilatation[volume_fields];  ///< in the order of VolumeField
   BulkStages small_bulk, finite_bulk;
   LawTable laws;
-  void (*power_bound)(int n, double* A, double* work, double* bound) = nullptr;  ///< solid/power_bound.hpp
+  void (*power_bound)(int n, double* A, double* work, double* bound) = nullptr;  ///< kernels/power_bound.hpp
 };
 
 const KernelTable& kernels_reference();

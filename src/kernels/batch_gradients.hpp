@@ -1,7 +1,7 @@
 // Weights and displacement gradients at the points of a batch of cells, lane by lane.
 #pragma once
 
-#include "solid/kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace carom {
 

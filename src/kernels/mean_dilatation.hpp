@@ -3,8 +3,8 @@
 #pragma once
 
 #include "element/shape_table.hpp"
+#include "kernels/point_stages.hpp"
 #include "material/neo_hookean_update.hpp"
-#include "solid/point_stages.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {

@@ -19,7 +19,7 @@ inline constexpr int most_hourglass = 12, most_stabilised = 3 * most_neighbours;
 /// Cells of a batch at most.
 inline constexpr int most_lanes = 8;
 
-/// Of modes that yield or are viscous by themselves (solid/hourglass_flow.hpp), in one step.
+/// Of modes that yield or are viscous by themselves (kernels/hourglass_flow.hpp), in one step.
 struct ModeFlow {
   double coefficient = 0.0, modulus = 0.0;
   bool is_viscous = false;
@@ -132,7 +132,7 @@ struct PointStages {
 inline constexpr int dilatation_memory = 24;
 
 /// What cells under mean dilatation know of their volume: its mean, or a linear function of the parent coordinates of
-/// QUAD8, of HEXA20 and HEXA27, of PENTA15 or of PYRA13 (solid/mean_dilatation.hpp).
+/// QUAD8, of HEXA20 and HEXA27, of PENTA15 or of PYRA13 (kernels/mean_dilatation.hpp).
 enum class VolumeField : unsigned char { mean, linear_square, linear_cube, linear_wedge, linear_pyramid };
 inline constexpr int volume_fields = 5;
 
@@ -153,7 +153,7 @@ struct DilatationStages {
   void (*cauchy)(int points, const double* memory, double* sigma) = nullptr;
 };
 
-/// The volume of a cell, for bulk viscosity (solid/bulk_viscosity.hpp): V - V_0 and its change per lane, the least
+/// The volume of a cell, for bulk viscosity (kernels/bulk_viscosity.hpp): V - V_0 and its change per lane, the least
 /// stretch of the points less 1, and the derivative g = dJ/dE of the volume ratio J of a point by the strain that the
 /// kinematics give, [(6 p + c) lanes].
 struct BulkStages {

@@ -1,24 +1,9 @@
-// What an evaluation of the solids needs beside the displacement, and what it gives beside the forces.
+// What an evaluation of the solids gives beside the forces.
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <span>
 
 namespace carom {
-
-/// The step that ends at the displacement: its length, for laws with rates, and the history of the quadrature points at
-/// its beginning (Solid::initial_history). Empty: the points at rest. is_over: the history is that at its end, and the
-/// forces and stresses are those that the step has ended with. is_static: a step of statics, in which artificial
-/// viscosity rests. alive: by solid cell, 0 where it has gone (Topology::alive; empty: all are there). What has gone
-/// takes no part, and its history is that of rest.
-struct PointStep {
-  double dt = 0.0;
-  std::span<const double> history;
-  bool is_over = false;
-  bool is_static = false;
-  std::span<const std::uint8_t> alive{};
-};
 
 /// Integrals over the bodies of what is stored (strain, hourglass, distortion), of what their points and hourglass
 /// modes have dissipated since the start (plastic, hourglass_loss, viscous), and what of it is heat. Functions of

@@ -1,7 +1,7 @@
 // The kernels of HEXA8 under small strain: gather, interpolate, constitutive, integrate, scatter.
 #pragma once
 
-#include "solid/hexa8_batch.hpp"
+#include "kernels/hexa8_batch.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom::hexa8_small {

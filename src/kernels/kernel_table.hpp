@@ -2,16 +2,16 @@
 #pragma once
 
 #include "element/cells.hpp"
+#include "kernels/bulk_stages.hpp"
+#include "kernels/cell_stages.hpp"
+#include "kernels/hexa8_finite.hpp"
+#include "kernels/hexa8_small.hpp"
+#include "kernels/kernels.hpp"
+#include "kernels/mean_dilatation.hpp"
+#include "kernels/patch_stages.hpp"
+#include "kernels/point_stages.hpp"
+#include "kernels/power_bound.hpp"
 #include "material/law_table.hpp"
-#include "solid/bulk_stages.hpp"
-#include "solid/cell_stages.hpp"
-#include "solid/hexa8_finite.hpp"
-#include "solid/hexa8_small.hpp"
-#include "solid/kernels.hpp"
-#include "solid/mean_dilatation.hpp"
-#include "solid/patch_stages.hpp"
-#include "solid/point_stages.hpp"
-#include "solid/power_bound.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "kernels/point_stages.hpp"
+#include "kernels/stages.hpp"
 #include "material/linear_elastic_update.hpp"
-#include "solid/point_stages.hpp"
-#include "solid/stages.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "element/kinematics.hpp"
+#include "kernels/hexa8_batch.hpp"
 #include "material/discrete_gradient.hpp"
-#include "solid/hexa8_batch.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom::hexa8_finite {

@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kernels/batch_gradients.hpp"
 #include "mesh/cell_size.hpp"
 #include "solid/assembly.hpp"
-#include "solid/batch_gradients.hpp"
 #include "solid/frequency_bounds.hpp"
 #include "solid/loads.hpp"
 #include "solid/node_patches.hpp"
@@ -23,17 +23,12 @@
 
 namespace carom {
 
-/// The kernels of an instruction set.
-const KernelTable& kernels(Isa isa);
-
-struct Solid::Impl {
-  Impl(const Model& model, Isa wanted)
+struct Solid::Parts {
+  Parts(const Model& model, Isa wanted)
       : isa(wanted),
         solid(make_solid_cells(model, kernels(wanted))),
         patches(make_node_patches(model, solid, kernels(wanted))),
-        loads(make_loads(model)),
-        gravity(gravity_loads(model)),
-        loaded_nodes(nodes_of_loads()),
+        loads(model),
         rigid_bodies(model.rigid_bodies),
         point_masses(model.point_masses),
         springs(model.springs),
@@ -42,20 +37,21 @@ struct Solid::Impl {
         share_of_patches(rank_share(patches.cells)),
         damping(damping_bounds(solid)),
         patch_damping(damping_bounds(patches.cells)),
-        volumes(solid.cells.size()),
-        lengths(solid.cells.size()),
         turning_bodies(model.turning_bodies, any_free(model.turning_bodies) ? highest_frequency() : 0.0) {
+    BodyCells& cells = solid.cells;
+    cells.volumes.resize(cells.size());
+    cells.lengths.resize(cells.size());
     const auto measure = [&](std::size_t first, const Block& block, const CellBatches& batch) {
       const BatchGradients at_rest(batch);
       for (Index l = 0; l < batch.cells; ++l) {
         const std::size_t c = first + at(l);
-        volumes[c] = at_rest.volume(static_cast<int>(l));
-        lengths[c] = cell_length(block.type, solid.coordinates_of(c));
+        cells.volumes[c] = at_rest.volume(static_cast<int>(l));
+        cells.lengths[c] = cell_length(block.type, solid.coordinates_of(c));
       }
     };
     solid.for_each_batch({}, measure);
     solid.for_each_rigid_batch(measure);
-    if (solid.control_distortion(volumes)) bounds_at_rest = cell_frequency_bounds();
+    if (solid.control_distortion(cells.volumes)) bounds_at_rest = cell_frequency_bounds();
     cohesive.place_history(points_history_size());
     if (share_of_cells) by_node.emplace(owned_dofs(solid.mesh->node_count()));
     others = contributors();
@@ -68,18 +64,6 @@ struct Solid::Impl {
       of_ranks.push_back({{3 * nodes.begin, 3 * nodes.end}});
     }
     return of_ranks;
-  }
-  std::vector<Index> nodes_of_loads() const {
-    std::vector<Index> nodes;
-    if (!gravity.empty()) {
-      nodes.resize(solid.mesh->node_count());
-      std::iota(nodes.begin(), nodes.end(), Index{0});
-      return nodes;
-    }
-    for (const LoadVector& load : loads) nodes.insert(nodes.end(), load.nodes.begin(), load.nodes.end());
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    return nodes;
   }
 
   /// All that acts between nodes beside the cells.
@@ -200,6 +184,26 @@ struct Solid::Impl {
     add_all(patches.cells, share_of_patches);
     if (share_of_cells) by_node->gather(f);
   }
+  /// Overwrites f with the internal force of all that is integrated. energies_of(cells, number of a chunk): what takes
+  /// its energies, null where they are not wanted.
+  template <class EnergiesOf>
+  void sum_forces(std::span<const double> u, const PointStep& step, std::span<double> f, std::span<double> end,
+                  const EnergiesOf& energies_of) const {
+    sum_over_chunks(
+        f, [&](const SolidCells& cells, std::size_t c, const Block& block, std::span<const Chunk> runs, double* sum) {
+          SolidEnergies* const energies = energies_of(cells, c);
+          for (const Chunk& run : runs)
+            if (!block.is_nodal())
+              cells.add_living(run, step, end, std::array{u.data()}, sum,
+                               [&](const CellBatches& batch, const std::array<const double*, 1>& own, double* into) {
+                                 block.kernels.add_internal_force(batch, block.law(), own[0], into, energies);
+                               });
+          for (const Chunk& run : runs) {
+            const double energy = cells.add_distortion_force(run, u, f, step);
+            if (energies != nullptr) energies->distortion += energy;
+          }
+        });
+  }
   /// Calls body(number of a chunk, runs of its cells) for what the rank has to do, colour by colour.
   template <class Body>
   static void for_each_duty(const SolidCells& cells, const std::optional<RankShare>& share, const Body& body) {
@@ -229,9 +233,7 @@ struct Solid::Impl {
   Isa isa;
   SolidCells solid;
   NodePatches patches;
-  std::vector<LoadVector> loads;
-  std::vector<Gravity> gravity;
-  std::vector<Index> loaded_nodes;
+  Loads loads;
   std::vector<RigidBody> rigid_bodies;
   std::vector<PointMass> point_masses;
   Springs springs;
@@ -239,7 +241,6 @@ struct Solid::Impl {
   std::optional<RankShare> share_of_cells, share_of_patches;  ///< of this rank; none where it is the only one
   std::optional<Exchange> by_node;                            ///< of dof vectors
   DampingBounds damping, patch_damping;
-  std::vector<double> volumes, lengths;
   std::vector<double> bounds_at_rest;  ///< cell_frequency_bounds(), for distortion control
   TurningBodies turning_bodies;
   std::vector<const Contributor*> others;

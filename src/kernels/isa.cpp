@@ -1,9 +1,9 @@
+#include "kernels/isa.hpp"
+
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-
-#include "solid/solid.hpp"
 
 namespace carom {
 namespace {
@@ -57,6 +57,20 @@ Isa chosen_isa() {
   }
   throw std::runtime_error("CAROM_ISA=" + std::string(wish) +
                            ": no such instruction set; expected reference, v2, v3 or v4, or leave it unset");
+}
+
+const KernelTable& kernels(Isa isa) {
+  switch (isa) {
+    case Isa::x86_64_v2:
+      return kernels_v2();
+    case Isa::x86_64_v3:
+      return kernels_v3();
+    case Isa::x86_64_v4:
+      return kernels_v4();
+    case Isa::reference:
+      break;
+  }
+  return kernels_reference();
 }
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-#include "solid/kernel_table.hpp"
+#include "kernels/kernel_table.hpp"
 
 namespace carom {
 

@@ -3,8 +3,8 @@
 
 #include "element/cell_operators.hpp"
 #include "element/kinematics.hpp"
+#include "kernels/stages.hpp"
 #include "material/discrete_gradient.hpp"
-#include "solid/stages.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {

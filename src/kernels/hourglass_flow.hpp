@@ -3,8 +3,8 @@
 
 #include <limits>
 
+#include "kernels/stages.hpp"
 #include "math/pack.hpp"
-#include "solid/stages.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {

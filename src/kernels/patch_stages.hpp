@@ -8,10 +8,10 @@
 
 #include "element/cell_integrals.hpp"
 #include "element/kinematics.hpp"
+#include "kernels/batch_values.hpp"
+#include "kernels/point_stages.hpp"
+#include "kernels/stages.hpp"
 #include "math/directional.hpp"
-#include "solid/batch_values.hpp"
-#include "solid/point_stages.hpp"
-#include "solid/stages.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {
@@ -25,8 +25,8 @@ namespace carom {
 /// each of its nodes, and the gradients G of the cells' linear fields, the point of the patch has
 ///   H = sum_e f_e sum_b u_b (x) G_eb,
 /// and the modes are what H does not explain, q_b = u_b - H X_b. They are what stabilised cells have
-/// (solid/stabilisation_stages.hpp), but for the energy: with D_e = sum_b q_b (x) G_eb, how far the gradient of a cell
-/// is from that of the patch, and Y_e = D_e F^-1 it is per volume
+/// (kernels/stabilisation_stages.hpp), but for the energy: with D_e = sum_b q_b (x) G_eb, how far the gradient of a
+/// cell is from that of the patch, and Y_e = D_e F^-1 it is per volume
 ///   w = c G sum_e f_e |sym Y_e|^2 = c G sum_e f_e tr (C^-1 e_e C^-1 e_e),   e_e = sym sum_b z_b (x) G_eb,  z = F^T q
 /// (nodal integration: Dohrmann, Heinstein, Jung, Key and Witkowski, Int. J. Numer. Methods Eng. 47, 2000; with such a
 /// stabilisation: Puso and Solberg, ibid. 67, 2006; Gee, Dohrmann, Key and Wall, ibid. 78, 2009).

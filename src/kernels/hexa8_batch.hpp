@@ -2,8 +2,8 @@
 #pragma once
 
 #include "element/hexa8_affine.hpp"
-#include "solid/batch_values.hpp"
-#include "solid/kernels.hpp"
+#include "kernels/batch_values.hpp"
+#include "kernels/kernels.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {

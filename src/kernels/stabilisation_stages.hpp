@@ -2,9 +2,9 @@
 #pragma once
 
 #include "element/kinematics.hpp"
+#include "kernels/point_stages.hpp"
+#include "kernels/stages.hpp"
 #include "math/directional.hpp"
-#include "solid/point_stages.hpp"
-#include "solid/stages.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solid/staged_batch.hpp"
+#include "kernels/staged_batch.hpp"
 
 namespace carom {
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include "base/types.hpp"
-#include "solid/bulk_viscosity.hpp"
-#include "solid/kernels.hpp"
+#include "kernels/bulk_viscosity.hpp"
+#include "kernels/kernels.hpp"
 
 namespace carom {
 
@@ -83,7 +83,7 @@ class Batch {
   /// Of a cell.
   std::ptrdiff_t history_numbers() const { return points() * cells_.history_variables + stages_.cell_history(); }
   bool is_stabilised() const { return stages_.cell->stabilisation.trial != nullptr; }
-  /// Of cells whose modes have a flow or a viscosity of their own (solid/hourglass_flow.hpp).
+  /// Of cells whose modes have a flow or a viscosity of their own (kernels/hourglass_flow.hpp).
   bool modes_remember() const { return stages_.hourglass_history > 0 && !is_stabilised(); }
   bool modes_yield() const { return modes_remember() && cells_.history_variables > 0; }
   /// Of cells whose modes flow with the point.

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "base/types.hpp"
+#include "kernels/staged_batch.hpp"
 #include "material/discrete_gradient.hpp"
-#include "solid/staged_batch.hpp"
 
 namespace carom {
 

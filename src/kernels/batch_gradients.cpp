@@ -1,4 +1,4 @@
-#include "solid/batch_gradients.hpp"
+#include "kernels/batch_gradients.hpp"
 
 #include <algorithm>
 
