@@ -13,8 +13,8 @@ void Batch::try_modes() const {
   stabilisation.pull(b_.geometry, finite(b_.gradient), b_.q, b_.modes.z);
   std::fill_n(b_.modes.share, lanes(), 1.0);
   if (modes_flow())
-    stabilisation.begin(b_.geometry, finite(b_.strain), b_.modes.z, plastic_modes(cells_.history), cells_.is_over,
-                        b_.modes.plastic, b_.modes.share);
+    stabilisation.begin(b_.geometry, finite(b_.strain), b_.modes.z, slot(MemorySlot::hourglass, cells_.history),
+                        cells_.is_over, b_.modes.plastic, b_.modes.share);
   try_forces();
 }
 
@@ -52,8 +52,9 @@ void Batch::return_modes(ModeReturn& modes) const {
     flow.viscosity = viscosity.hourglass * stages_.modulus / (stages_.wave_speed * cells_.viscous_dt);
   stages_.cell->stabilisation.pull(b_.geometry, finite(b_.gradient), b_.q, b_.modes.z);
   stages_.cell->flow.give(b_.geometry, flow, b_.modes.z, modes_yield() ? b_.yield_stress : nullptr,
-                          flow.is_viscous ? cells_.length + first_ : nullptr, plastic_modes(cells_.history),
-                          plastic_modes(cells_.new_history), modes);
+                          flow.is_viscous ? cells_.length + first_ : nullptr,
+                          slot(MemorySlot::hourglass, cells_.history), slot(MemorySlot::hourglass, cells_.new_history),
+                          modes);
 }
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include "base/types.hpp"
 #include "element/cell_list.hpp"
 #include "kernels/bulk_viscosity.hpp"
+#include "kernels/cell_memory.hpp"
 #include "kernels/energies.hpp"
 #include "kernels/stages.hpp"
 #include "material/law_kernels.hpp"
@@ -22,18 +23,13 @@ struct BatchStages {
   const PointStages* points = nullptr;
   const DilatationStages* dilatation = nullptr;
   const BulkStages* bulk = nullptr;
-  double hourglass = 0.0;  ///< coefficient x modulus of the hourglass stiffness
-  ModeModuli moduli{};     ///< of stabilised cells
-  /// Of hourglass modes that yield or are viscous (kernels/hourglass_flow.hpp): the coefficient, and the numbers that a
-  /// cell remembers of them, after the history of its points. 0: they are elastic.
-  double hourglass_coefficient = 0.0;
-  int hourglass_history = 0;
-  double heating_share = 0.0;  ///< of the plastic work (Law)
+  double hourglass = 0.0;              ///< coefficient x modulus of the hourglass stiffness
+  ModeModuli moduli{};                 ///< of stabilised cells
+  double hourglass_coefficient = 0.0;  ///< of modes that yield or are viscous (kernels/hourglass_flow.hpp)
+  CellMemory memory{};                 ///< of a cell; no slot of modes: they are elastic
+  double heating_share = 0.0;          ///< of the plastic work (Law)
   Viscosity viscosity{};
   double modulus = 0.0, rho = 0.0, wave_speed = 0.0;  ///< for viscosity: shear modulus, density, c, all at rest
-
-  /// Numbers that a cell remembers after the history of its points.
-  int cell_history() const { return hourglass_history + (bulk == nullptr ? 0 : bulk_history); }
 };
 
 /// Cells of one type, section and material, `lanes` of them per batch. offset[(n b + a) lanes + l] is 3 x the node
@@ -44,16 +40,14 @@ struct CellBatches {
   const double* x = nullptr;  ///< coordinates, 3 per node
   const Index* offset = nullptr;
   Index cells = 0;
-  double thickness = 1.0;          ///< of plane cells; area of the section of bars
-  double dt = 0.0;                 ///< length of the step, for laws with rates
-  double viscous_dt = 0.0;         ///< the same for artificial viscosity; 0: it rests
-  const double* length = nullptr;  ///< of each cell, where there is viscosity, whole batches
-  int history_variables = 0;
-  /// At the beginning of the step: one PointBatch::history after the other, each with what its cells remember of
-  /// hourglass modes and of bulk viscosity after it. Null: at rest.
-  const double* history = nullptr;
-  double* new_history = nullptr;  ///< at its end; null: not wanted
-  bool is_over = false;           ///< the history is that at its end (PointStep)
+  double thickness = 1.0;           ///< of plane cells; area of the section of bars
+  double dt = 0.0;                  ///< length of the step, for laws with rates
+  double viscous_dt = 0.0;          ///< the same for artificial viscosity; 0: it rests
+  const double* length = nullptr;   ///< of each cell, where there is viscosity, whole batches
+  int history_variables = 0;        ///< of a point
+  const double* history = nullptr;  ///< CellMemory of batch after batch at the beginning of the step; null: at rest
+  double* new_history = nullptr;    ///< at its end; null: not wanted
+  bool is_over = false;             ///< the history is that at its end (PointStep)
 };
 
 /// The kernels of one kind of cell under one formulation. Dof vectors have 3 entries per node. None of them allocates.

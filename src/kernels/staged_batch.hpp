@@ -65,7 +65,7 @@ class Batch {
   /// stores to the new one hold up all that follow. Inlined, since GCC drops calls that do nothing but ask.
   [[gnu::always_inline]] void fetch_next(const double* history) const {
     if (history == nullptr) return;
-    const std::ptrdiff_t size = history_numbers() * stages_.lanes;
+    const std::ptrdiff_t size = memory_of_batch();
     constexpr std::ptrdiff_t line = 8;
     for (std::ptrdiff_t k = 0; k < size; k += line) __builtin_prefetch(of_batch(history) + size + k);
   }
@@ -78,13 +78,18 @@ class Batch {
   /// Where the batch stands in a history.
   template <class Number>
   Number* of_batch(Number* history) const {
-    return history == nullptr ? nullptr : history + first_ * history_numbers();
+    return history == nullptr ? nullptr : history + first_ / lanes() * memory_of_batch();
   }
-  /// Of a cell.
-  std::ptrdiff_t history_numbers() const { return points() * cells_.history_variables + stages_.cell_history(); }
+  /// Where a slot of its memory does; null where nothing is remembered.
+  template <class Number>
+  Number* slot(MemorySlot which, Number* history) const {
+    return history == nullptr ? nullptr
+                              : of_batch(history) + static_cast<std::ptrdiff_t>(stages_.memory.begin(which)) * lanes();
+  }
+  std::ptrdiff_t memory_of_batch() const { return static_cast<std::ptrdiff_t>(stages_.memory.size()) * lanes(); }
   bool is_stabilised() const { return stages_.cell->stabilisation.trial != nullptr; }
   /// Of cells whose modes have a flow or a viscosity of their own (kernels/hourglass_flow.hpp).
-  bool modes_remember() const { return stages_.hourglass_history > 0 && !is_stabilised(); }
+  bool modes_remember() const { return stages_.memory.size(MemorySlot::hourglass) > 0 && !is_stabilised(); }
   bool modes_yield() const { return modes_remember() && cells_.history_variables > 0; }
   /// Of cells whose modes flow with the point.
   bool modes_flow() const { return is_stabilised() && cells_.history_variables > 0; }
@@ -129,7 +134,7 @@ class Batch {
                  true);
     if (modes_flow() && cells_.new_history != nullptr)
       stages_.cell->stabilisation.flow(b_.geometry, finite(b_.strain), b_.modes.z, b_.modes.plastic, b_.modes.share,
-                                       plastic_modes(cells_.new_history));
+                                       slot(MemorySlot::hourglass, cells_.new_history));
   }
   /// Adds the forces of the stress P and of the hourglass modes.
   void scatter(const double* Q, double* f) const { stages_.cell->add_forces(b_.geometry, b_.P, Q, offset_, count_, f); }
@@ -306,12 +311,6 @@ class Batch {
       for (int l = 0; l < lanes(); ++l) values[c * lanes() + l] += factor[l] * of_modes[c * lanes() + l];
   }
   const double* plastic() const { return modes_flow() ? b_.modes.plastic : nullptr; }
-  /// What modes remember, after the history of the point.
-  template <class Number>
-  Number* plastic_modes(Number* history) const {
-    return history == nullptr ? nullptr
-                              : of_batch(history) + static_cast<std::ptrdiff_t>(cells_.history_variables) * lanes();
-  }
   std::ptrdiff_t at(int p, int c, int l) const { return static_cast<std::ptrdiff_t>(6 * p + c) * lanes() + l; }
   void change_bulk(const double* dE, double* dS) const;
   void correct_points(const double* E_0, const double* E_1, const double* W_0, const double* W_1) const;

@@ -13,15 +13,13 @@ void Batch::return_bulk() const {
   Bulk& bulk = b_.bulk;
   stages_.bulk->volume(points(), b_.geometry, b_.strain, bulk.change, bulk.stretch, bulk.g);
   const int n = lanes();
-  const std::ptrdiff_t start =
-      static_cast<std::ptrdiff_t>(points() * cells_.history_variables + stages_.hourglass_history) * n;
-  const double* history = of_batch(cells_.history);
-  double* new_history = of_batch(cells_.new_history);
+  const double* history = slot(MemorySlot::viscosity, cells_.history);
+  double* new_history = slot(MemorySlot::viscosity, cells_.new_history);
   for (int l = 0; l < n; ++l) {
     double volume = 0.0;
     for (int p = 0; p < points(); ++p) volume += weight(p, l);
     double begin[bulk_history] = {};
-    for (int k = 0; history != nullptr && k < bulk_history; ++k) begin[k] = history[start + k * n + l];
+    for (int k = 0; history != nullptr && k < bulk_history; ++k) begin[k] = history[k * n + l];
     const BulkHistory before{begin[0], begin[1], begin[2], begin[3], begin[4]};
     BulkHistory after{.change = bulk.change[l] / volume, .stretch = bulk.stretch[l]};
     BulkReturn of_lane;
@@ -36,7 +34,7 @@ void Batch::return_bulk() const {
     bulk.lost[l] = after.lost * volume;
     if (new_history == nullptr) continue;
     const double end[bulk_history] = {after.change, after.pressure, after.lost, after.stretch, after.speed};
-    for (int k = 0; k < bulk_history; ++k) new_history[start + k * n + l] = end[k];
+    for (int k = 0; k < bulk_history; ++k) new_history[k * n + l] = end[k];
   }
 }
 

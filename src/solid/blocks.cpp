@@ -150,9 +150,12 @@ BatchStages stages_of(const Part& part, const Element& element, const CellStages
   stages.modulus = at_rest.E / (2.0 * (1.0 + at_rest.nu));
   stages.rho = part.material.rho;
   stages.wave_speed = std::sqrt(wave_modulus(part) / part.material.rho);
-  if (part.viscosity.has_bulk()) stages.bulk = small_strain ? &table.small_bulk : &table.finite_bulk;
+  if (part.viscosity.has_bulk()) {
+    stages.bulk = small_strain ? &table.small_bulk : &table.finite_bulk;
+    stages.memory.resize(MemorySlot::viscosity, bulk_history);
+  }
   if (!part.material.law->history.empty() || part.viscosity.hourglass > 0.0)
-    stages.hourglass_history = hourglass_history(*stages.cell, part.viscosity.hourglass > 0.0);
+    stages.memory.resize(MemorySlot::hourglass, hourglass_history(*stages.cell, part.viscosity.hourglass > 0.0));
   return stages;
 }
 
@@ -196,7 +199,7 @@ Block make_block(const Mesh& mesh, const Part& part, const std::vector<CellRef>&
     block.kernels = {};
     block.prepared_law = {};
     block.stages.bulk = nullptr;
-    block.stages.hourglass_history = 0;
+    block.stages.memory = {};
     block.length.clear();
   }
   return block;
@@ -230,6 +233,7 @@ Block block_of(const Part& part, std::shared_ptr<const CellStages> cell_stages, 
   if (own == nullptr) own = &table.cells[static_cast<std::size_t>(element.kind)];
   block.stages = stages_of(part, element, *own, block.small_strain, table);
   block.prepared_law = prepare(part.material, free_directions(part.section), table.laws);
+  block.stages.memory.resize(MemorySlot::law, block.stages.cell->points * block.prepared_law.history);
   block.kernels = kernels_of(element, block, table);
   return block;
 }

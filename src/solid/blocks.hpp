@@ -48,16 +48,13 @@ struct Block {
   bool is_nodal() const { return kernels.add_internal_force == nullptr; }
   bool has_no_stiffness() const { return is_nodal() && distortion.empty(); }
   BatchLaw law() const { return prepared_law.batch(); }
-  /// Numbers of history of one lane, those of the cell included: batches, filled up, follow each other as
-  /// PointBatch::history.
-  std::size_t history_per_cell() const {
-    return static_cast<std::size_t>(stages.cell->points) * static_cast<std::size_t>(prepared_law.history) +
-           static_cast<std::size_t>(stages.cell_history());
-  }
+  /// Numbers of history of one lane (CellMemory): batches, filled up, follow each other.
+  std::size_t history_per_cell() const { return static_cast<std::size_t>(stages.memory.size()); }
   /// The speed at which a cell of the block opens (BulkHistory), a position in it.
   double bulk_speed(std::size_t cell, std::span<const double> history) const {
     const std::size_t n = lanes(), batch = history_first + history_per_cell() * (cell / n * n);
-    return history[batch + (history_per_cell() - 1) * n + cell % n];
+    const auto speed = static_cast<std::size_t>(stages.memory.begin(MemorySlot::viscosity)) + bulk_history - 1;
+    return history[batch + speed * n + cell % n];
   }
   /// Calls body(lane, the lumped masses of its nodes) for the cells of one batch.
   template <class Body>

@@ -22,9 +22,7 @@ struct BodyCells {
   auto begin() const { return refs.begin(); }
   auto end() const { return refs.end(); }
   /// Nodes of cell k.
-  std::span<const Index> nodes_of(std::size_t k) const {
-    return mesh->blocks[at(refs[k].block)].nodes(refs[k].cell);
-  }
+  std::span<const Index> nodes_of(std::size_t k) const { return mesh->blocks[at(refs[k].block)].nodes(refs[k].cell); }
 };
 
 }  // namespace carom

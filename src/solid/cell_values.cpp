@@ -9,7 +9,7 @@
 
 #include "base/types.hpp"
 #include "parallel/threads.hpp"
-#include "solid/solid_parts.hpp"
+#include "solid/solid_impl.hpp"
 
 namespace carom {
 

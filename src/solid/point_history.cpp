@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "base/types.hpp"
-#include "solid/solid_parts.hpp"
+#include "solid/solid_impl.hpp"
 
 namespace carom {
 

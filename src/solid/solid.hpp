@@ -87,7 +87,7 @@ class Solid {
   const CohesiveZones& cohesive() const;
   const TurningBodies& turning_bodies() const;
 
-  /// What it is made of: solid/solid_parts.hpp, for the files of this folder.
+  /// What it is made of: solid/solid_impl.hpp, for the files of this folder.
   struct Parts;
   const Parts& parts() const { return *parts_; }
 

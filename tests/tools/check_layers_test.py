@@ -49,7 +49,7 @@ class CheckLayers(ToolTest):
 
     def test_circle_of_files(self):
         self.write("src/solid/mass.hpp", '#include "solid/lumped.hpp"\n')
-        self.write("src/solid/lumped.cpp", '#include "solid/solid_parts.hpp"\n')
+        self.write("src/solid/lumped.cpp", '#include "solid/solid_impl.hpp"\n')
         self.assert_offence("src/solid: files include each other in a circle: lumped -> solid -> mass -> lumped")
 
     def test_every_folder_of_the_project_has_a_level(self):
