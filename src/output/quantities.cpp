@@ -50,6 +50,8 @@ constexpr Quantity table[] = {
      "force of all contacts on the node"},
     {"contact_pressure", Place::nodes, Form::scalar, D::stress, Colours::from_zero, always, "normal force per area"},
     {"contact_gap", Place::nodes, Form::scalar, D::length, Colours::range, always, "positive where it is open"},
+    {"contact_slip_rate", Place::nodes, Form::scalar, D::velocity, Colours::from_zero, asked,
+     "how fast the surfaces move along each other where they touch, 0 elsewhere"},
     {"contact_status", Place::nodes, Form::category, D::none, Colours::range, always,
      "0 far from contact, 1 open, 2 sticking or without friction, 3 sliding"},
     {"contact_damage", Place::nodes, Form::scalar, D::none, Colours::range, always,

@@ -1,6 +1,7 @@
 #include "record/contact_fields.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -71,16 +72,24 @@ class TwoPassNodes {
 /// Means over the rows that see a node from one side, by their weights along the normal; pressures without the nodes of
 /// two passes. What guards press comes on top.
 struct SideMeans {
-  std::vector<double> pressure, gap, weight;
+  std::vector<double> pressure, gap, slip_rate, weight, closed;
   std::vector<std::uint8_t> status;
 
-  SideMeans(const ContactResponse& response, const TwoPassNodes& two_pass, std::span<const double> u, bool is_other)
-      : pressure(u.size() / 3, 0.0), gap(pressure), weight(pressure), status(weight.size(), 0) {
+  SideMeans(const ContactResponse& response, const TwoPassNodes& two_pass, std::span<const double> u,
+            std::span<const double> v, bool is_other)
+      : pressure(u.size() / 3, 0.0),
+        gap(pressure),
+        slip_rate(pressure),
+        weight(pressure),
+        closed(pressure),
+        status(weight.size(), 0) {
     const ConstraintRows& rows = *response.rows;
     std::vector<double> pressing = weight, guarded = weight;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       if (rows.source[r] < 0) continue;  // an equation
       const auto [begin, end] = entries_of_side(rows, r, is_other);
+      const bool is_closed = response.status[r] != RowStatus::open;
+      const Vec3 rate = is_closed ? rows.relative(r, v) : Vec3{};
       for (std::size_t k = begin; k < end; ++k) {
         const double w = (is_other ? -1.0 : 1.0) * dot(rows.block[k][0], rows.normal[r]);
         if (w <= 0.0) continue;
@@ -92,6 +101,10 @@ struct SideMeans {
         }
         weight[n] += w;
         gap[n] += w * rows.gap_at(r, u);
+        if (is_closed) {
+          closed[n] += w;
+          slip_rate[n] += w * std::hypot(rate[1], rate[2]);
+        }
         if (two_pass.has(r, rows.node[k])) continue;
         pressing[n] += w;
         pressure[n] += w * response.force[r][0] / rows.measure[r];
@@ -101,23 +114,25 @@ struct SideMeans {
       if (pressing[n] > 0.0) pressure[n] /= pressing[n];
       pressure[n] += guarded[n];
       if (weight[n] > 0.0) gap[n] /= weight[n];
+      if (closed[n] > 0.0) slip_rate[n] /= closed[n];
     }
   }
 };
 
 }  // namespace
 
-NodalContact nodal_contact(const ContactResponse& response, std::span<const double> u) {
+NodalContact nodal_contact(const ContactResponse& response, std::span<const double> u, std::span<const double> v) {
   const TwoPassNodes two_pass(response);
-  SideMeans own(response, two_pass, u, false);
-  const SideMeans other(response, two_pass, u, true);
+  SideMeans own(response, two_pass, u, v, false);
+  const SideMeans other(response, two_pass, u, v, true);
   for (std::size_t n = 0; n < own.weight.size(); ++n) {
     own.pressure[n] += other.pressure[n];
     own.status[n] = std::max(own.status[n], other.status[n]);
     if (own.weight[n] == 0.0) own.gap[n] = other.gap[n];
+    if (own.closed[n] == 0.0) own.slip_rate[n] = other.slip_rate[n];
   }
   two_pass.add_to(own.pressure);
-  return {std::move(own.pressure), std::move(own.gap), std::move(own.status)};
+  return {std::move(own.pressure), std::move(own.gap), std::move(own.slip_rate), std::move(own.status)};
 }
 
 }  // namespace carom

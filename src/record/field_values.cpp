@@ -129,6 +129,7 @@ const Evaluator evaluators[] = {
     {"contact_force", [](FieldsNow& now) { return contact_forces(now); }, {}, touches},
     {"contact_pressure", [](FieldsNow& now) { return kept(now.contact().pressure); }, {}, touches},
     {"contact_gap", [](FieldsNow& now) { return kept(now.contact().gap); }, {}, touches},
+    {"contact_slip_rate", [](FieldsNow& now) { return kept(now.contact().slip_rate); }, {}, touches},
     {"contact_status",
      [](FieldsNow& now) {
        return FieldValues(std::vector<double>(now.contact().status.begin(), now.contact().status.end()));
@@ -177,7 +178,7 @@ const std::vector<Voigt>& FieldsNow::stress() {
 }
 
 const NodalContact& FieldsNow::contact() {
-  if (!contact_) contact_ = nodal_contact(view.forces.rows, view.state.q);
+  if (!contact_) contact_ = nodal_contact(view.forces.rows, view.state.q, view.state.v);
   return *contact_;
 }
 

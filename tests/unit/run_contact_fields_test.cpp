@@ -38,7 +38,7 @@ TEST(NodalContact, HasTheWholePressureOnBothSidesByEveryMethod) {
       response.force.push_back({share * pressure * measure, 0.0, 0.0});
       response.status.push_back(RowStatus::stick);
     }
-    const NodalContact nodes = nodal_contact(response, u);
+    const NodalContact nodes = nodal_contact(response, u, u);
     for (const double p : nodes.pressure) EXPECT_NEAR(p, pressure, 1e-12) << static_cast<int>(method);
     for (const double status : nodes.status) EXPECT_EQ(status, 2.0);
     const ContactResultant sum = ContactResultants(scene.model, {Vec3{}}).of(response, u)[0];
@@ -111,8 +111,36 @@ TEST(NodalContact, IsUniformWhateverTheSharesOfTwoPasses) {
     for (std::size_t r = 0; r < rows.size(); ++r) start.push_back(size * std::sin(static_cast<double>(r)));
     response.force.clear();
     for (const double s : row_forces(rows, wanted, start)) response.force.push_back({s, 0.0, 0.0});
-    for (const double p : nodal_contact(response, u).pressure) EXPECT_NEAR(p, pressure, 1e-10) << size;
+    for (const double p : nodal_contact(response, u, u).pressure) EXPECT_NEAR(p, pressure, 1e-10) << size;
   }
+}
+
+// The upper patch moves by (3, 4) along the lower one and by 7 away from it: 5 along where they touch, on both sides,
+// and nothing where the rows are open.
+TEST(NodalContact, SlipsAsFastAsTheSurfacesMoveAlongEachOther) {
+  Scene scene;
+  const auto master = scene.add_patch(4, 4, [](double s, double t) { return Vec3{s, t, 0.0}; });
+  const auto slave = scene.add_patch(4, 4, [](double s, double t) { return Vec3{t, s, 0.0}; });
+  PairContact contact;
+  contact.name = "pair";
+  contact.slave = {slave};
+  contact.master = {master};
+  scene.finish().contacts.emplace_back(contact);
+  const auto u = scene.zero();
+  ContactResponse response;
+  response.rows = ContactGeometry(scene.model).rows_at(u, u);
+  const ConstraintRows& rows = *response.rows;
+  std::vector<double> v = u;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto n = static_cast<std::size_t>(rows.node[static_cast<std::size_t>(rows.begin[r])]);
+    if (rows.is_back[r]) continue;
+    for (std::size_t c = 0; c < 3; ++c) v[3 * n + c] = Vec3{3.0, 4.0, 7.0}[c];
+  }
+  response.force.assign(rows.size(), Vec3{});
+  response.status.assign(rows.size(), RowStatus::stick);
+  for (const double rate : nodal_contact(response, u, v).slip_rate) EXPECT_NEAR(rate, 5.0, 1e-12);
+  response.status.assign(rows.size(), RowStatus::open);
+  for (const double rate : nodal_contact(response, u, v).slip_rate) EXPECT_EQ(rate, 0.0);
 }
 
 }  // namespace

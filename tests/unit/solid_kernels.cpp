@@ -110,6 +110,7 @@ TEST(SolidKernels, HistoryGoesFromTheBeginningOfTheStepToItsEnd) {
   SolidCells solid = make_solid_cells(model, kernels_reference());
   Block& block = solid.blocks[0];
   block.prepared_law.history = 2;
+  block.stages.memory.resize(MemorySlot::law, 4 * 2);  // of four points
   block.prepared_law.kernels.update = remember;
   block.kernels = staged_kernels;
   ASSERT_EQ(solid.history_size(), 8 * static_cast<std::size_t>(block.cells));
