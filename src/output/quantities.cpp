@@ -44,6 +44,8 @@ constexpr Quantity table[] = {
      "by plastic work, the mean of the cell"},
     {"damage", Place::points, Form::scalar, D::none, Colours::from_zero, asked,
      "Johnson and Cook's, fracture at 1, the mean of the cell"},
+    {"largest_plastic_rate", Place::points, Form::scalar, D::rate, Colours::from_zero, asked,
+     "largest rate of the equivalent plastic strain in a step so far, the mean of the cell"},
     {"equivalent_plastic_strain_at_nodes", Place::nodes, Form::scalar, D::none, Colours::from_zero, asked,
      "mean over the cells at the node, as stress_at_nodes"},
     {"contact_force", Place::nodes, Form::vector, D::force, Colours::range, always,
