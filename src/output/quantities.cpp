@@ -23,6 +23,8 @@ constexpr Quantity table[] = {
      "von Mises' equivalent stress of the cell's mean stress", "von Mises stress"},
     {"principal_stress", Place::cells, Form::principal, D::stress, Colours::range, asked,
      "principal values of the cell's mean stress, the largest first"},
+    {"maximum_shear_stress", Place::cells, Form::scalar, D::stress, Colours::from_zero, asked,
+     "half the difference of the largest and the smallest principal value of the cell's mean stress (Tresca)"},
     {"pressure", Place::cells, Form::scalar, D::stress, Colours::both_signs, asked,
      "minus a third of the trace of the cell's mean stress: positive where it is compressed"},
     {"stress_at_nodes", Place::nodes, Form::tensor, D::stress, Colours::range, asked,
