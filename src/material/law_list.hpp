@@ -15,7 +15,8 @@
   X(j2)                   \
   X(johnson_cook)         \
   X(j2_rate_small_strain) \
-  X(j2_rate)
+  X(j2_rate)              \
+  X(swift_small_strain)
 
 namespace carom {
 

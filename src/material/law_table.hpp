@@ -9,6 +9,7 @@
 #include "material/loaded_update.hpp"
 #include "material/neo_hookean_update.hpp"
 #include "material/plastic_finite_update.hpp"
+#include "material/swift_small_strain_update.hpp"
 
 // Internal linkage throughout: see math/pack.hpp.
 namespace carom {

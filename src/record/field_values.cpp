@@ -23,6 +23,13 @@ FieldValues of_cells(const std::vector<Voigt>& stress, const OfStress& of_stress
   return FieldValues(std::move(out));
 }
 
+/// Principal values, the largest first.
+Vec3 principal_stress(const Voigt& s) {
+  Vec3 values = principal_axes({s[0], s[1], s[2]}, {s[3], s[4], s[5]}).values;
+  std::ranges::sort(values, std::greater<>());
+  return values;
+}
+
 FieldValues kept(std::span<const double> values) {
   return FieldValues(values);
 }
@@ -102,10 +109,15 @@ const Evaluator evaluators[] = {
      from_stress},
     {"principal_stress",
      [](FieldsNow& now) {
-       return of_cells<3>(now.stress(), [](const Voigt& s, double* out) {
-         Vec3 values = principal_axes({s[0], s[1], s[2]}, {s[3], s[4], s[5]}).values;
-         std::ranges::sort(values, std::greater<>());
-         std::ranges::copy(values, out);
+       return of_cells<3>(now.stress(),
+                          [](const Voigt& s, double* out) { std::ranges::copy(principal_stress(s), out); });
+     },
+     from_stress},
+    {"maximum_shear_stress",
+     [](FieldsNow& now) {
+       return of_cells<1>(now.stress(), [](const Voigt& s, double* out) {
+         const Vec3 values = principal_stress(s);
+         *out = 0.5 * (values[0] - values[2]);
        });
      },
      from_stress},

@@ -66,9 +66,8 @@ struct Malformed {
   const char* message;
 };
 
-const std::vector<Malformed>
-    malformed{
-        // clang-format off
+const std::vector<Malformed> malformed{
+    // clang-format off
     {"title = \"base\"",
      "title = \"base",
      "c.toml:1:14: found a syntax error (Error while parsing string: unescaped control characters other than TAB (U+0009) are explicitly prohibited); expected TOML. Check quotes, brackets and commas here."},
@@ -149,7 +148,7 @@ const std::vector<Malformed>
      "c.toml:3:8: mesh: found \"bar.msh\"; expected a table of keys"},
     {"quantities = [\"displacement\"]",
      "quantities = \"displacement\"",
-     "c.toml:40:14: probe[0].quantities: found \"displacement\"; expected a list of some of \"displacement\", \"velocity\", \"acceleration\", \"stress\", \"von_mises\", \"principal_stress\", \"pressure\", \"stress_at_nodes\", \"strain\", \"strain_rate\", \"strain_energy_density\", \"equivalent_plastic_strain\", \"temperature_rise\", \"damage\", \"equivalent_plastic_strain_at_nodes\", \"contact_force\", \"contact_pressure\", \"contact_gap\", \"contact_damage\", \"section_force\", \"reaction\", \"reaction_moment\", \"mass\", \"momentum\", \"kinetic_energy\", \"strain_energy\", a variable that points remember (docs/material_laws.md, or of a library's law). Did you mean \"displacement\"?"},
+     "c.toml:40:14: probe[0].quantities: found \"displacement\"; expected a list of some of \"displacement\", \"velocity\", \"acceleration\", \"stress\", \"von_mises\", \"principal_stress\", \"maximum_shear_stress\", \"pressure\", \"stress_at_nodes\", \"strain\", \"strain_rate\", \"strain_energy_density\", \"equivalent_plastic_strain\", \"temperature_rise\", \"damage\", \"largest_plastic_rate\", \"equivalent_plastic_strain_at_nodes\", \"contact_force\", \"contact_pressure\", \"contact_gap\", \"contact_damage\", \"section_force\", \"reaction\", \"reaction_moment\", \"mass\", \"momentum\", \"kinetic_energy\", \"strain_energy\", a variable that points remember (docs/material_laws.md, or of a library's law). Did you mean \"displacement\"?"},
     {"rho = 7.85e-9",
      "rho = -7.85e-9",
      "c.toml:9:7: materials.steel.rho: found -7.85e-09; expected a number > 0 in t/mm3"},
@@ -215,7 +214,7 @@ const std::vector<Malformed>
      "c.toml:2:9: units: found \"cgs\"; expected one of \"SI\", \"mm-t-s\", \"mm-kg-ms\""},
     {"law = \"linear_elastic\"",
      "law = \"linear_elastc\"",
-     "c.toml:6:7: materials.steel.law: found \"linear_elastc\"; expected one of \"linear_elastic\", \"st_venant_kirchhoff\", \"neo_hookean\", \"j2_small_strain\", \"j2\", \"johnson_cook\", \"j2_rate_small_strain\", \"j2_rate\". Did you mean \"linear_elastic\"?"},
+     "c.toml:6:7: materials.steel.law: found \"linear_elastc\"; expected one of \"linear_elastic\", \"st_venant_kirchhoff\", \"neo_hookean\", \"j2_small_strain\", \"j2\", \"johnson_cook\", \"j2_rate_small_strain\", \"j2_rate\", \"swift_small_strain\". Did you mean \"linear_elastic\"?"},
     {"kind = \"newmark\"",
      "kind = \"newmarck\"",
      "c.toml:33:8: scheme.kind: found \"newmarck\"; expected one of \"newmark\", \"hht\", \"wbz\", \"generalized_alpha\", \"bathe\", \"contact_stabilized_newmark\", \"energy_momentum\", \"moreau_jean\", \"nonsmooth_generalized_alpha\", \"central_differences\", \"hulbert_chung\", \"noh_bathe\", \"tchamwa_wielgosz\", \"modified_mass\", \"statics\", \"cd_lagrange\", \"forward_increment\". Did you mean \"newmark\"?"},
@@ -224,7 +223,7 @@ const std::vector<Malformed>
      "c.toml:24:8: contact[0].kind: found \"plan\"; expected one of \"interface\", \"plane\", \"sphere\", \"cylinder\", \"box\", \"surface\", \"pair\", \"self\", \"all\", \"stop\", \"tie\". Did you mean \"plane\"?"},
     {"quantities = [\"displacement\"]",
      "quantities = [\"displacments\"]",
-     "c.toml:40:15: probe[0].quantities[0]: found the unknown name \"displacments\"; expected a quantity, or a variable that points remember (displacement, velocity, acceleration, stress, von_mises, principal_stress, pressure, stress_at_nodes, strain, strain_rate, strain_energy_density, equivalent_plastic_strain, temperature_rise, damage, equivalent_plastic_strain_at_nodes, contact_force, contact_pressure, contact_gap, contact_damage, section_force, reaction, reaction_moment, mass, momentum, kinetic_energy, strain_energy). Did you mean \"displacement\"?"},
+     "c.toml:40:15: probe[0].quantities[0]: found the unknown name \"displacments\"; expected a quantity, or a variable that points remember (displacement, velocity, acceleration, stress, von_mises, principal_stress, maximum_shear_stress, pressure, stress_at_nodes, strain, strain_rate, strain_energy_density, equivalent_plastic_strain, temperature_rise, damage, largest_plastic_rate, equivalent_plastic_strain_at_nodes, contact_force, contact_pressure, contact_gap, contact_damage, section_force, reaction, reaction_moment, mass, momentum, kinetic_energy, strain_energy). Did you mean \"displacement\"?"},
     {"quantities = [\"displacement\"]",
      "quantities = [\"velocity\", \"velocity\"]",
      "c.toml:40:27: probe[0].quantities[1]: found \"velocity\" a second time; expected each name once"},
@@ -450,8 +449,8 @@ const std::vector<Malformed>
     {"[[support]]",
      "[[part]]\nname = \"bar\"\ncells = \"PAD\"\nmaterial = \"steel\"\n[[support]]",
      "c.toml:15:8: part[1].name: found the name \"bar\" a second time; expected a name of its own. The first is part[0].name at line 11."},
-        // clang-format on
-    };
+    // clang-format on
+};
 
 std::string message_of(const std::string& text) {
   try {

@@ -128,7 +128,7 @@ TEST(CasefileMaterials, BadValuesAreRefusedWithTheirReason) {
       {"law = \"linear_elastic\"\n" + elastic + "yield_stress = 4e8\n",
        "c.toml:10:1: materials.m.yield_stress: found a key that law = \"linear_elastic\" does not take; expected one "
        "of "
-       "law, E, nu, rho, library, checksum. It belongs to law = \"j2_small_strain\", \"j2\"."},
+       "law, E, nu, rho, library, checksum. It belongs to law = \"j2_small_strain\", \"j2\", \"swift_small_strain\"."},
       {"law = \"j2\"\n" + elastic + "yield = 4e8\n",
        "c.toml:10:1: materials.m.yield: found an unknown key; expected one of law, E, nu, rho, yield_stress, "
        "hardening_modulus, saturation_stress, saturation_rate, hardening_table, damage, library, checksum. Did you mean "
@@ -136,7 +136,7 @@ TEST(CasefileMaterials, BadValuesAreRefusedWithTheirReason) {
       {"law = \"neo_hookean\"\n" + elastic + "damage = { D1 = 0.5 }\n",
        "c.toml:10:1: materials.m.damage: found a key that law = \"neo_hookean\" does not take; expected one of law, E, "
        "nu, rho, library, checksum. It belongs to law = \"j2_small_strain\", \"j2\", \"johnson_cook\", "
-       "\"j2_rate_small_strain\", \"j2_rate\"."},
+       "\"j2_rate_small_strain\", \"j2_rate\", \"swift_small_strain\"."},
       {j2 + "yield_stress = 4e8\ndamage = { D2 = 0.5 }\n",
        "c.toml:11:10: materials.m.damage.D1: found nothing; expected a number. Add D1: Strain at fracture that is left "
        "at a high eta."},

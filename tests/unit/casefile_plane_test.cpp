@@ -126,7 +126,7 @@ TEST(CasefilePlane, EveryMessage) {
        "c.toml:13:27: mesh.block[1].groups.zmax: found an unknown key; expected one of cells, start, end"},
       {"law = \"neo_hookean\"",
        "law = \"neohookean\"",
-       "c.toml:15:7: materials.rubber.law: found \"neohookean\"; expected one of \"linear_elastic\", \"st_venant_kirchhoff\", \"neo_hookean\", \"j2_small_strain\", \"j2\", \"johnson_cook\", \"j2_rate_small_strain\", \"j2_rate\". Did you mean \"neo_hookean\"?"},
+       "c.toml:15:7: materials.rubber.law: found \"neohookean\"; expected one of \"linear_elastic\", \"st_venant_kirchhoff\", \"neo_hookean\", \"j2_small_strain\", \"j2\", \"johnson_cook\", \"j2_rate_small_strain\", \"j2_rate\", \"swift_small_strain\". Did you mean \"neo_hookean\"?"},
       {"section = \"plane_stress\"",
        "section = \"plane\"",
        "c.toml:23:11: part[0].section: found \"plane\"; expected one of \"solid\", \"plane_strain\", \"plane_stress\", \"axisymmetric\", \"bar\""},

@@ -153,8 +153,9 @@ TEST(Damage, GrowsByOneAtMostInAStep) {
 
 // Stress, energies, waves, tangents and all other history are to the bit those of the law without damage.
 TEST(Damage, LeavesTheLawAsItIs) {
-  std::vector<Material> laws{j2(), j2("j2"), johnson_cook(), with_rates("j2_rate_small_strain", E, nu),
-                             with_rates("j2_rate", E, nu)};
+  std::vector<Material> laws{
+      j2(),        j2("j2"), johnson_cook(), with_rates("j2_rate_small_strain", E, nu), with_rates("j2_rate", E, nu),
+      swift(E, nu)};
   for (const Material& material : laws)
     for (const int free_directions : {0, 1, 2}) {
       const PointLaw plain(material, free_directions), damaged(with(copper, material), free_directions);

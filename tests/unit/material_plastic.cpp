@@ -67,6 +67,7 @@ std::vector<Material> all_plastic() {
           johnson_cook(),
           with_rates("j2_rate_small_strain", E, nu),
           with_rates("j2_rate", E, nu),
+          swift(E, nu),
           damaged(plastic("j2_small_strain")),
           damaged(johnson_cook())};
 }
@@ -212,7 +213,8 @@ TEST(Plastic, TangentsAreTheDerivativesOfTheStressAndSymmetric) {
 // Appl. Mech. Eng. 171, 1999): the books of a step close to second order, whatever the law hardens by.
 TEST(Plastic, StressIsTheDerivativeOfEnergyAndWork) {
   const double h = 1e-5;
-  for (const Material& material : {plastic("j2_small_strain"), plastic("j2"), voce("j2"), tabulated("j2")}) {
+  for (const Material& material :
+       {plastic("j2_small_strain"), plastic("j2"), voce("j2"), tabulated("j2"), swift(E, nu)}) {
     const PointLaw law(material);
     const auto history = law.update({-0.02, 0.03, 0.01, -0.01, 0.02, 0.01}, law.rest()).history;
     for (const Voigt& strain : looked_at)

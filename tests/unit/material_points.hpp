@@ -106,4 +106,11 @@ inline Material with_rates(const char* law, double E, double nu) {
   return material;
 }
 
+/// Swift's hardening from the yield stress 1.
+inline Material swift(double E, double nu) {
+  return {"swift_small_strain",
+          1.0,
+          {{"E", E}, {"nu", nu}, {"yield_stress", 1.0}, {"pre_strain", 0.01}, {"exponent", 0.2}}};
+}
+
 }  // namespace carom::test

@@ -39,6 +39,8 @@ constexpr LawValues all_laws[] = {
     {"j2_rate",
      "E = 2.1e11\nnu = 0.3\nrho = 7800.0\nrates = [0.0, 100.0]\n"
      "hardening_tables = [[0.0, 4e8], [1.0, 5e8], [0.0, 6e8], [1.0, 7e8]]\n"},
+    {"swift_small_strain",
+     "E = 2.1e11\nnu = 0.3\nrho = 7800.0\nyield_stress = 4e8\npre_strain = 0.01\nexponent = 0.2\n"},
 };
 
 /// A cube of 1 m whose nodes on one side move by `to` along x in a millisecond: the side across x (the length changes)

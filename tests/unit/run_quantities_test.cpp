@@ -76,16 +76,16 @@ std::vector<std::vector<double>> field(const TemporaryCase& in, const std::strin
   return values;
 }
 
-// Uniaxial stress s = E e: principal values (s, 0, 0) or (0, 0, s), pressure -s / 3, energy s e / 2; the patch test of
-// statics, to the rounding that the factors leave.
+// Uniaxial stress s = E e: principal values (s, 0, 0) or (0, 0, s), pressure -s / 3, shear |s| / 2, energy s e / 2; the
+// patch test of statics, to the rounding that the factors leave.
 TEST(Quantities, OfUniaxialStress) {
   for (const double e : {0.01, -0.02}) {
     const double s = 2.0 * e;
-    const TemporaryCase in(
-        pulled(e,
-               "[output]\nprecision = \"double\"\nfields = [\"stress_at_nodes\", \"principal_stress\", \"pressure\", "
-               "\"strain_energy_density\", \"von_mises\"]\n[[probe]]\nname = \"foot\"\ngroup = \"FOOT\"\n"
-               "quantities = [\"pressure\", \"principal_stress\", \"stress_at_nodes\"]\n"));
+    const TemporaryCase in(pulled(
+        e,
+        "[output]\nprecision = \"double\"\nfields = [\"stress_at_nodes\", \"principal_stress\", \"pressure\", "
+        "\"strain_energy_density\", \"von_mises\", \"maximum_shear_stress\"]\n[[probe]]\nname = \"foot\"\ngroup = \"FOOT\"\n"
+        "quantities = [\"pressure\", \"principal_stress\", \"stress_at_nodes\", \"maximum_shear_stress\"]\n"));
     ASSERT_EQ(in.run(), ExitCode::good) << in.result("summary.json");
     const auto is = [&](const std::string& name, const std::vector<double>& expected, std::size_t count) {
       const auto values = field(in, name);
@@ -97,6 +97,7 @@ TEST(Quantities, OfUniaxialStress) {
     };
     is("stress_at_nodes", {0.0, 0.0, s, 0.0, 0.0, 0.0}, 36);
     is("principal_stress", {std::max(s, 0.0), 0.0, std::min(s, 0.0)}, 12);
+    is("maximum_shear_stress", {0.5 * std::abs(s)}, 12);
     is("pressure", {-s / 3.0}, 12);
     is("strain_energy_density", {0.5 * s * e}, 12);
     is("von_mises", {std::abs(s)}, 12);
@@ -104,6 +105,7 @@ TEST(Quantities, OfUniaxialStress) {
     EXPECT_NEAR(row["foot.pressure"], -s / 3.0, 1e-14);
     EXPECT_NEAR(row["foot.principal_stress_1"], std::max(s, 0.0), 1e-14);
     EXPECT_NEAR(row["foot.principal_stress_3"], std::min(s, 0.0), 1e-14);
+    EXPECT_NEAR(row["foot.maximum_shear_stress"], 0.5 * std::abs(s), 1e-14);
     EXPECT_NEAR(row["foot.stress_at_nodes_zz"], s, 1e-14);
   }
 }
