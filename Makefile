@@ -47,7 +47,7 @@ book: build ## runs every case, leaves the verification book, out/book/verificat
 	@tools/setup test book
 	@/usr/bin/python3 tools/book.py build/release/carom
 
-docs:    ## writes the pages of docs/ that follow from tables of the code: case format, laws, schemes and enforcements, decks
+docs:    ## writes the pages of docs/ that follow from tables of the code: case format, laws, quantities, schemes and enforcements, decks
 	@tools/setup build python test
 	@tools/build release casefile_tests
 	@tools/build release translate_tests

@@ -31,7 +31,8 @@ constexpr Quantity table[] = {
      "mean of the stresses of the cells at the node, weighted by their reference volumes; cells that have gone and "
      "those of rigid bodies do not count"},
     {"strain", Place::cells, Form::tensor, D::none, Colours::range, always,
-     "mean of the cell, tensor components; Green-Lagrange's with finite strain"},
+     "mean of the cell, tensor components; Green-Lagrange's with finite strain; zz of plane cells is 0, bars have the "
+     "strain along their axis alone"},
     {"strain_rate", Place::cells, Form::tensor, D::rate, Colours::range, asked,
      "mean of the symmetric gradient of the velocity, tensor components; with finite strain in the configuration where "
      "the cell is now"},
