@@ -66,8 +66,8 @@ struct Malformed {
   const char* message;
 };
 
+// clang-format off
 const std::vector<Malformed> malformed{
-    // clang-format off
     {"title = \"base\"",
      "title = \"base",
      "c.toml:1:14: found a syntax error (Error while parsing string: unescaped control characters other than TAB (U+0009) are explicitly prohibited); expected TOML. Check quotes, brackets and commas here."},
@@ -449,8 +449,8 @@ const std::vector<Malformed> malformed{
     {"[[support]]",
      "[[part]]\nname = \"bar\"\ncells = \"PAD\"\nmaterial = \"steel\"\n[[support]]",
      "c.toml:15:8: part[1].name: found the name \"bar\" a second time; expected a name of its own. The first is part[0].name at line 11."},
-    // clang-format on
 };
+// clang-format on
 
 std::string message_of(const std::string& text) {
   try {
