@@ -394,5 +394,19 @@ TEST(ComparePage, HidesTheWorstOfMany) {
   EXPECT_FALSE(chart.curves[9].shown);
 }
 
+// Steps that differ by more than rounding are others, whatever the unit of time.
+TEST(CompareClaims, StepsAreComparedRelativeToEachOther) {
+  Result a = result_of("a", 10, 1.2, 1.0), b = result_of("b", 20, 1.1, 2.0);
+  a.variant.enforcement = "penalty";
+  b.variant.enforcement = "lagrange";
+  for (const double unit : {1e-9, 1.0, 1e9}) {
+    a.summary->scheme.dt_largest = unit;
+    b.summary->scheme.dt_largest = 2.0 * unit;
+    EXPECT_TRUE(shares_nothing(a, b)) << unit;
+    b.summary->scheme.dt_largest = (1.0 + 1e-9) * unit;
+    EXPECT_FALSE(shares_nothing(a, b)) << unit;
+  }
+}
+
 }  // namespace
 }  // namespace carom::compare::compare_measure_test

@@ -325,5 +325,47 @@ TEST(Overlap, OfSegments) {
   EXPECT_EQ(add_overlap(slave, edge_on, points), 0);
 }
 
+// Behind, in the plane z = -0.1 under a slave of corners up to 1: the rule of three points a polygon for two triangles,
+// and of three points for each triangle from the centroid where one of them is a quadrilateral.
+TEST(Overlap, OfTheLowRuleHasThreePointsAPolygonOrATriangleOfIt) {
+  const OverlapRule low{.is_high = false, .only_behind = true};
+  const auto slave = [](int size) { return PlacedFacet{{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}, size}; };
+  const PlacedFacet triangle{{{{-5, -5, -0.1}, {9, -5, -0.1}, {-5, 9, -0.1}}}, 3},
+      quadrilateral{{{{-5, -5, -0.1}, {5, -5, -0.1}, {5, 5, -0.1}, {-5, 5, -0.1}}}, 4};
+  const auto count = [&](int size, const PlacedFacet& master) {
+    std::vector<OverlapPoint> points;
+    const OverlapColumn column(slave(size));
+    carom::add_overlap(column, column.seen(master), low, points);
+    EXPECT_NEAR(sum_of_weights(points), size == 3 ? 0.5 : 1.0, round_off);
+    return points.size();
+  };
+  EXPECT_EQ(count(3, triangle), 3U);
+  EXPECT_EQ(count(4, triangle), 4U * 3U);
+  EXPECT_EQ(count(3, quadrilateral), 3U * 3U);
+  EXPECT_EQ(count(4, quadrilateral), 4U * 3U);
+}
+
+// The slave has length 5, s in [-2.5, 2.5]; the gap is a + b s. What it divides is kept where it is negative, whichever
+// end that is; what it does not divide is kept.
+TEST(Overlap, OfSegmentsIsCutWhereTheGapChangesItsSign) {
+  const PlacedFacet slave{{{{1, 1, 0}, {4, 5, 0}}}, 2};
+  const FacetFrame frame = facet_frame(slave, 0.0, 0.0);
+  const Vec3 along = scaled(frame.a_1, 1.0 / 2.5);
+  const auto length = [&](double a, double b) {
+    const auto node = [&](double s) {
+      return add(frame.position, add(scaled(along, s), scaled(frame.normal, a + b * s)));
+    };
+    std::vector<OverlapPoint> points;
+    const OverlapColumn column(slave);
+    carom::add_overlap(column, column.seen({{node(4.0), node(-4.0)}, 2}), {.only_behind = true}, points);
+    return sum_of_weights(points);
+  };
+  EXPECT_NEAR(length(0.1, 0.1), 1.5, round_off);   // s < -1
+  EXPECT_NEAR(length(0.1, -0.1), 1.5, round_off);  // s > 1
+  EXPECT_NEAR(length(0.4, 0.04), 5.0, round_off);
+  EXPECT_NEAR(length(0.4, -0.04), 5.0, round_off);
+  EXPECT_NEAR(length(-0.4, 0.04), 5.0, round_off);
+}
+
 }  // namespace
 }  // namespace carom::contact_clipping_test

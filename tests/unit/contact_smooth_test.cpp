@@ -266,5 +266,57 @@ TEST(SmoothRows, DoNotCallTheBulgePenetration) {
   }
 }
 
+// Triangles bent to a bowl, whose rim |x| + |y| = sqrt(1/2) is turned by 45 degrees to the axes, so that the boxes
+// around them stick out over it; everywhere 4e-3 inside of a larger bowl, whose nodes stand 1/4 apart along both axes.
+// Those that are more than a facet, 1/2 in |x| + |y|, beyond the rim have no force.
+TEST(SmoothRows, OfTrianglesEndAtTheRim) {
+  Scene scene;
+  const auto bowl = [](double x, double y) { return 0.02 * (x * x + y * y); };
+  const std::vector<Facet> lower = scene.add_patch(
+      4, 4,
+      [&](double s, double t) {
+        const double x = (s - t) * std::sqrt(0.5), y = (s + t - 1.0) * std::sqrt(0.5);
+        return Vec3{x, y, bowl(x, y)};
+      },
+      true);
+  const auto first = scene.mesh.coordinates.size();
+  const std::vector<Facet> upper = scene.add_patch(
+      8, 8,
+      [&](double s, double t) {
+        const double x = 2.0 * t - 1.0, y = 2.0 * s - 1.0;
+        return Vec3{x, y, bowl(x, y) - 4e-3};
+      },
+      true);
+  PairContact contact = smooth_pair(upper, lower);
+  contact.method = PairMethod::faces;
+  scene.finish().contacts.emplace_back(contact);
+  const std::vector<double> f = forces(ContactGeometry(scene.model), scene.zero());
+  double inside = 0.0, beyond = 0.0;
+  for (std::size_t n = first; n < scene.mesh.coordinates.size(); ++n) {
+    const Vec3& x = scene.mesh.coordinates[n];
+    const bool is_beyond = std::abs(x[0]) + std::abs(x[1]) > std::sqrt(0.5) + 0.5 + 1e-9;
+    (is_beyond ? beyond : inside) += std::abs(f[3 * n + 2]);
+  }
+  EXPECT_GT(inside, 0.0);
+  EXPECT_EQ(beyond, 0.0);
+}
+
+// Smoothing is for springs of both passes: any other rows see facets.
+TEST(SmoothRows, AreOfSpringsOfBothPassesAlone) {
+  const auto rows_of = [](Smoothing smooth, PairMethod method, RowHold hold) {
+    Balls balls(3, 4, 0.02, true, 1.0, smooth);
+    auto& pair = std::get<PairContact>(balls.scene.model.contacts[0]);
+    pair.method = method;
+    pair.law.hold = hold;
+    const std::vector<double> u = balls.scene.zero();
+    return *ContactGeometry(balls.scene.model).rows_at(u, u);
+  };
+  for (const PairMethod method : {PairMethod::node_to_surface, PairMethod::two_pass, PairMethod::faces})
+    for (const RowHold hold : {RowHold::springs, RowHold::multipliers}) {
+      const bool is_smooth = has_both_passes(method) && hold == RowHold::springs;
+      EXPECT_EQ(rows_of(Smoothing::all, method, hold) == rows_of(Smoothing::none, method, hold), !is_smooth);
+    }
+}
+
 }  // namespace
 }  // namespace carom::contact_smooth_test

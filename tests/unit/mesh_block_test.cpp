@@ -299,5 +299,19 @@ TEST(MeshSummary, NamesWhatTheMeshHolds) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
 }
 
+// A cube and a cell of no height on it, whose upper nodes stand where the lower ones do.
+TEST(MeshSummary, CountsTheCellsOfZeroThicknessAlone) {
+  Mesh mesh;
+  for (const double z : {0.0, 1.0, 1.0})
+    for (const Vec3& x : {Vec3{0, 0, z}, Vec3{1, 0, z}, Vec3{1, 1, z}, Vec3{0, 1, z}}) mesh.coordinates.push_back(x);
+  CellBlock cells{CellType::hexa8, {}, {1, 2}};
+  for (const Index first : {0, 4})
+    for (Index n = 0; n < 8; ++n) cells.connectivity.push_back(first + n);
+  mesh.blocks.push_back(cells);
+  for (std::int64_t n = 1; n <= 12; ++n) mesh.node_numbers.push_back(n);
+  EXPECT_NE(mesh_summary(mesh).find(" 1 of zero thickness\n"), std::string::npos) << mesh_summary(mesh);
+  EXPECT_EQ(mesh_summary(test::sample_block()).find("zero thickness"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace carom::mesh_block_test

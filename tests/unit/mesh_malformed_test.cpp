@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -341,6 +342,20 @@ TEST(MeshMalformed, HdfFilesThatAreDamaged) {
             "bad.med: HDF5: found bytes that libhdf5 cannot open" + advice);
   EXPECT_EQ(message_of([&] { read_mesh(good.substr(0, 8), "bad.med"); }),
             "bad.med: HDF5: found bytes that libhdf5 cannot open" + advice);
+}
+
+// libhdf5 may crash on a damaged file, in a process of its own: no line of that file is wrong.
+TEST(MeshMalformed, BytesThatLibhdf5CrashesOnAreSaidOfTheWholeFile) {
+  const std::string bytes = test::bytes_of(CAROM_SOURCE_DIR "/cases/sdnv100/meshes/sdnv100a.med");
+  try {
+    read_hdf5_tree(bytes, "bad.med", [](const std::string&) -> bool { std::abort(); });
+    FAIL() << "they were read";
+  } catch (const CaseError& error) {
+    EXPECT_TRUE(error.found().starts_with("bytes that libhdf5 cannot read")) << error.found();
+    EXPECT_EQ(error.where().file, "bad.med");
+    EXPECT_EQ(error.where().line, 0);
+    EXPECT_EQ(error.where().column, 0);
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "output/readable_unit.hpp"
 #include "report/charts.hpp"
+#include "report/figures.hpp"
 
 namespace carom::report_charts_test {
 namespace {
@@ -216,6 +217,25 @@ TEST(ReadableUnit, TakesPrefixesWhereThereAreSome) {
   EXPECT_EQ(name(0.0, "N"), "N");
   EXPECT_EQ(readable_unit(4e8, "Pa").power, 6);
   EXPECT_EQ(with_readable_unit(-40665.7, "N", 3), "-40.7 kN");
+}
+
+// What is lost or only told apart is no scale: kinetic 8 is the largest that there was, whatever friction took since.
+TEST(Scales, OfEnergyAreThoseThatAreStoredOrSupplied) {
+  const CsvTable stored = table_of({{"time", {0, 1}}, {"kinetic", {8, 4}}, {"strain", {0, 3}}, {"friction", {0, 20}}});
+  EXPECT_EQ(scales_of({.energy = stored}, std::nullopt).energy, 8.0);
+  const CsvTable supplied = table_of({{"time", {0, 1}}, {"kinetic", {8, 4}}, {"external_work", {0, -12}}});
+  EXPECT_EQ(scales_of({.energy = supplied}, std::nullopt).energy, 12.0);
+}
+
+// In units of GPa stresses of steel are below 1.
+TEST(LargestValues, HaveTheStressHoweverSmallItsNumber) {
+  Summary summary;
+  summary.stress = {0.25, 2e-5, "bar", 7, {0.0, 0.0, 0.0}, 3};
+  const std::vector<LargestValue> values = largest_values({}, summary, kUnits);
+  ASSERT_EQ(values.size(), 1U);
+  EXPECT_EQ(values[0].quantity, "von Mises stress");
+  summary.stress.value = 0.0;
+  EXPECT_TRUE(largest_values({}, summary, kUnits).empty());
 }
 
 }  // namespace

@@ -143,5 +143,23 @@ TEST(NodalContact, SlipsAsFastAsTheSurfacesMoveAlongEachOther) {
   for (const double rate : nodal_contact(response, u, v).slip_rate) EXPECT_EQ(rate, 0.0);
 }
 
+// The first row guards a node, beside a mean of the other pass: each node has what its own row presses with over its
+// area, 3 / 2 and 5 / 4, once.
+TEST(NodalContact, CountsGuardsOnceBesideTheMeansOfTwoPasses) {
+  auto rows = std::make_shared<ConstraintRows>();
+  for (const Index n : {0, 1}) {
+    rows->add_row(0.0, {0, 0, 1}, {}, n == 0 ? 2.0 : 4.0, {}, 0);
+    rows->add_node(n, 1.0);
+  }
+  rows->allowed[0] = 0.1;
+  rows->is_back[1] = 1;
+  ContactResponse response;
+  response.rows = rows;
+  response.status.assign(2, RowStatus::stick);
+  response.force = {{3, 0, 0}, {5, 0, 0}};
+  const std::vector<double> u(6, 0.0);
+  EXPECT_EQ(nodal_contact(response, u, u).pressure, (std::vector<double>{1.5, 1.25}));
+}
+
 }  // namespace
 }  // namespace carom::run_contact_fields_test

@@ -174,5 +174,29 @@ TEST(FreeMass, SchemesThatThrowBackAreNamed) {
   EXPECT_EQ(verdict_and_warnings(bathe, mass(10.0), ExitCode::good).find("times its speed"), std::string::npos);
 }
 
+// The wall presses with rho c v = 3 while the wave is in the bar, whichever axis the bar lies along. The front holds
+// 0.03 of the momentum, as above.
+TEST(ModifiedMass, OfABarIsThatOfItsAxis) {
+  const std::string axes = "xyz";
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto along = [&](const std::string& length) {
+      std::array<std::string, 3> x{"0.0", "0.0", "0.0"};
+      x[c] = length;
+      return "[" + x[0] + ", " + x[1] + ", " + x[2] + "]";
+    };
+    std::string text = bar_case(modified_mass, "", 1.5e-3);
+    text = replaced(text, "origin = [0.0, 0.0, 0.05]", "origin = [0.0, 0.0, 0.0]");
+    text = replaced(text, "end = [0.0, 0.0, 10.05]", "end = " + along("10.0"));
+    text = replaced(text, "blocked = [\"x\", \"y\"]",
+                    std::string("blocked = [\"") + axes[(c + 1) % 3] + "\", \"" + axes[(c + 2) % 3] + "\"]");
+    text = replaced(text, "velocity = [0.0, 0.0, -0.1]", "velocity = " + along("-0.1"));
+    text = replaced(text, "normal = [0.0, 0.0, 1.0]", "normal = " + along("1.0"));
+    text = replaced(text, "end = 1.5\n", "end = 0.3\n");
+    const TemporaryCase one(text);
+    EXPECT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
+    EXPECT_NEAR(last_row(one.result("contact.csv")).at(std::string("wall.impulse_") + axes[c]), 3.0 * 0.3, 0.03) << c;
+  }
+}
+
 }  // namespace
 }  // namespace carom::run_free_mass_test

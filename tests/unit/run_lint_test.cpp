@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "advise/approach.hpp"
 #include "advise/cost_estimate.hpp"
 #include "advise/lint.hpp"
+#include "build/facing.hpp"
 #include "record/recorder.hpp"
 #include "run_fixture.hpp"
 
@@ -303,6 +305,89 @@ TEST(Lint, SaysWhereMoreRowsMayTouchThanExactContactTakes) {
   EXPECT_FALSE(is_told("0.0", "\"newmark\"\nenforcement = \"lagrange\""));
   EXPECT_FALSE(is_told("0.3", "\"newmark\"\nenforcement = \"penalty\""));
   EXPECT_FALSE(is_told("0.3", "\"cd_lagrange\""));
+}
+
+/// A square of 2 x 2 unit cells in plane strain that falls onto a floor, whose nodes have a spring of 0.1 each.
+double foretold_penetration(double thickness) {
+  const Case given = parse_case(
+      "units = \"SI\"\n[[mesh.block]]\nkind = \"quad\"\nsize = [2.0, 2.0]\n"
+      "divisions = [2, 2]\ngroups = { cells = \"BODY\", ymin = \"FOOT\" }\n"
+      "[materials.m]\nlaw = \"linear_elastic\"\nE = 2.0\nnu = 0.3\nrho = 1.5\n"
+      "[[part]]\nname = \"body\"\ncells = \"BODY\"\nmaterial = \"m\"\n"
+      "section = \"plane_strain\"\nthickness = " +
+          std::to_string(thickness) +
+          "\n[[initial]]\npart = \"body\"\nvelocity = [0.0, -1.0, 0.0]\n"
+          "[[contact]]\nname = \"floor\"\nkind = \"plane\"\ngroup = \"FOOT\"\n"
+          "measure = \"node\"\nstiffness = 0.1\npoint = [0.0, -0.1, 0.0]\n"
+          "normal = [0.0, 1.0, 0.0]\n" +
+          central_differences,
+      "case.toml");
+  const std::string before = "will penetrate by about ";
+  for (const std::string& w : lint_warnings(Simulation(given)))
+    if (w.find(before) != std::string::npos) return std::stod(w.substr(w.find(before) + before.size()));
+  ADD_FAILURE() << "nothing is said of the penetration";
+  return 0.0;
+}
+
+// Half of the thickness is half of the area that a plane wave presses on the same springs: rho c v t L / (3 k), with
+// c^2 = 2 x 0.7 / (1.3 x 0.4) / 1.5 and the length L = 2 of the foot. It is said to three digits.
+TEST(Lint, PressesOnSpringsOfNodesByTheAreaOfThePlaneBody) {
+  const double c = std::sqrt(2.0 * 0.7 / (1.3 * 0.4) / 1.5);
+  for (const double thickness : {1.0, 0.5}) {
+    const double exact = 1.5 * c * thickness * 2.0 / 0.3;
+    EXPECT_NEAR(foretold_penetration(thickness), exact, 5e-3 * exact) << thickness;
+  }
+}
+
+// A bar along x that stands on end: its end looks upward, to the back of a sheet whose normal is along z.
+TEST(Facing, TheEndOfABarLooksTheWayTheBarStandsNow) {
+  const Case given = parse_case(R"(units = "SI"
+[[mesh.block]]
+kind = "bar"
+end = [1.0, 0.0, 0.0]
+divisions = 1
+groups = { cells = "BAR", end = "END" }
+[[mesh.block]]
+kind = "quad"
+origin = [-1.0, -1.0, 1.1]
+size = [3.0, 2.0]
+divisions = [1, 1]
+groups = { cells = "SHEET" }
+[materials.m]
+law = "linear_elastic"
+E = 2.0
+nu = 0.3
+rho = 1.5
+[[part]]
+name = "bar"
+cells = "BAR"
+material = "m"
+section = "bar"
+area = 1.0
+[[contact]]
+name = "sheet"
+kind = "surface"
+surface = "SHEET"
+group = "END"
+)" + central_differences,
+                                "case.toml");
+  const Simulation s(given);
+  State state;
+  state.q.assign(3 * s.mesh().node_count(), 0.0);
+  state.v = state.q;
+  EXPECT_FALSE(shows_its_back(s.model(), 0, state));
+  const auto end = static_cast<std::size_t>(s.mesh().nodes_of("END").at(0));
+  state.q[3 * end] = -1.0;
+  state.q[3 * end + 2] = 1.0;
+  EXPECT_TRUE(shows_its_back(s.model(), 0, state));
+}
+
+// What the bodies cost is measured: twelve cells for some ten steps are a matter of less than a second.
+TEST(CostEstimate, OfAFewStepsIsAShortTime) {
+  const CostEstimate cost =
+      estimate_cost(Simulation(parse_case(case_of_block(moving(1.0) + central_differences), "case.toml")));
+  EXPECT_GT(cost.seconds, 0.0);
+  EXPECT_LT(cost.seconds, 1.0);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "output/checkpoint_file.hpp"
 #include "run/run.hpp"
 #include "run_fixture.hpp"
+#include "view/frame_file.hpp"
 
 namespace carom::run_snapshot_test {
 namespace {
@@ -112,6 +113,26 @@ TEST(RunSnapshot, AFunctionThatAProgramComputesIsRefusedWithoutIt) {
   const CaseError e = case_error(falling(
       implicit + "[functions.pulse]\nkind = \"called\"\n[[load]]\ngravity = [0.0, 0.0, 1.0]\nfunction = \"pulse\"\n"));
   EXPECT_EQ(e.key(), "functions.pulse");
+}
+
+// Back to the second frame: the first two stay, each with the obstacle as it stood then.
+TEST(RunSnapshot, FramesThatStayKeepTheirObstacles) {
+  const TemporaryCase folder("");
+  std::string text = falling(implicit + "[output]\nfields_every = 1\n");
+  text = replaced(text, "kind = \"plane\"\n", "kind = \"plane\"\nvelocity = [0.0, 0.0, -0.01]\n");
+  const Simulation simulation(parse_case(text, "case.toml"));
+  carom::Run run(simulation, folder.results().string(), Run::Clock::now());
+  run.begin();
+  for (int i = 0; i < 2; ++i) run.step();  // the initial state, and a step
+  const std::shared_ptr<const Snapshot> early = run.save();
+  for (int i = 0; i < 2; ++i) run.step();
+  run.restore(*early);
+  const std::vector<FrameEntry> frames = read_frames(folder.results().string());
+  ASSERT_EQ(frames.size(), 2U);
+  for (const FrameEntry& frame : frames) {
+    EXPECT_FALSE(frame.obstacles.empty()) << frame.file;
+    EXPECT_TRUE(std::filesystem::exists(folder.results() / frame.obstacles)) << frame.obstacles;
+  }
 }
 
 }  // namespace

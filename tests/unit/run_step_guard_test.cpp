@@ -246,5 +246,48 @@ TEST(FastProjectile, IsNotLostBehindAThinPlate) {
   EXPECT_GT(fly({0.97, 3.0, "", scheme, time}).deepest, -0.05);
 }
 
+// A limit that stays is no change of the step: after four steps it is doubled, at a multiple of the doubled one.
+TEST(StepControl, GrowsAgainUnderALimitThatStays) {
+  StepControl control(0.0, 1.0, 4, StepControl::Halving::allowed);
+  EXPECT_TRUE(control.halve());
+  std::vector<double> lengths;
+  while (!control.at_end()) {
+    EXPECT_TRUE(control.limit(1.0));
+    lengths.push_back(control.dt());
+    control.accept();
+  }
+  EXPECT_EQ(lengths, (std::vector<double>{0.5, 0.5, 0.5, 0.5, 1.0, 1.0}));
+}
+
+/// A block of finite strain between its foot and its head, which has been pressed together and carried away, so that
+/// nothing of it is where it was in the mesh.
+std::string pressed_block(const std::string& function, const std::string& rest) {
+  return replaced(case_of_block(R"([[support]]
+nodes = "all"
+displacement = { x = 0.1, y = 0.1, function = "path" }
+[[support]]
+nodes = "FOOT"
+displacement = { z = 0.1, function = "path" }
+[[support]]
+nodes = "HEAD"
+displacement = { z = -1.15, function = "path" }
+[functions.path]
+)" + function + rest),
+                  "linear_elastic", "neo_hookean");
+}
+
+// The first step of a stage that begins displaced is that of the deformed cells, 0.58 of their height.
+TEST(StepGuard, BeginsWithTheStepOfBodiesThatHaveMovedAltogether) {
+  const TemporaryCase pressed(pressed_block("time = [0.0, 1.0]\nvalue = [0.0, 1.0]\n",
+                                            "[scheme]\nkind = \"statics\"\n[time]\nend = 1.0\nstep = 0.1\n"));
+  EXPECT_EQ(pressed.run(), ExitCode::good) << pressed.result("summary.json");
+  const std::string text = pressed_block("time = [0.0]\nvalue = [1.0]\n",
+                                         "[initial_state]\nfrom = \"" + pressed.results().string() +
+                                             "\"\n[scheme]\nkind = \"central_differences\"\n[time]\nend = 1.0\n");
+  const TemporaryCase on(text);
+  on.run();
+  EXPECT_LT(column(on.result("energy.csv"), "dt").at(1), 0.9 * Simulation(parse_case(text, "case.toml")).dt());
+}
+
 }  // namespace
 }  // namespace carom::run_step_guard_test

@@ -1,8 +1,13 @@
 // Ties of cases that tear: what is refused, and what the results hold.
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "build/torn_ties.hpp"
+#include "math/vec3.hpp"
+#include "record/contact_resultants.hpp"
 #include "run_fixture.hpp"
 #include "solid/point_history.hpp"
 
@@ -88,6 +93,53 @@ TEST(CaseTearing, IsAZoneAndAPair) {
   // Ten times M / h of a cell, M = (1 - nu) / ((1 + nu) (1 - 2 nu)) its modulus and h = 1; raised for S^2 / G = 4.
   EXPECT_NEAR(zone.law.stiffness, std::max(10.0 * 0.7 / (1.3 * 0.4), 5.0 * 4.0), 1e-12);
   EXPECT_EQ(history_size(s.solid()), 18U);
+}
+
+// The right block is carried away with the left one and moved by w against it, far below what tears: the glue pulls
+// with -k w on the face of area 1, whose middle stands at (1, 1/2, 1/2) + carried + w.
+TEST(CaseTearing, ForcesHaveTheirMomentWhereTheNodesAre) {
+  const Simulation s(parse_case(blocks(tears), "case.toml"));
+  const Vec3 carried{0.3, -0.2, 0.5}, w{1e-5, 2e-5, -3e-5};
+  std::vector<double> u;
+  for (std::size_t n = 0; n < s.mesh().node_count(); ++n) u.insert(u.end(), carried.begin(), carried.end());
+  for (const Index n : s.mesh().nodes_of("RIGHT"))
+    for (std::size_t c = 0; c < 3; ++c) u[3 * static_cast<std::size_t>(n) + c] += w[c];
+  const ContactResultants resultants(s.model(), {std::nullopt});
+  std::vector<ContactResultant> sums(1);
+  resultants.add_cohesive(s.solid().cohesive(), u, initial_history(s.solid()), sums);
+  const Vec3 force = scaled(w, -s.model().cohesive[0].law.stiffness),
+             moment = cross(add({1.0, 0.5, 0.5}, add(carried, w)), force);
+  EXPECT_LT(norm(subtract(sums[0].force, force)), 1e-12 * norm(force));
+  EXPECT_LT(norm(subtract(sums[0].moment, moment)), 1e-12 * norm(moment));
+}
+
+// Nine rows remember two numbers each: a run with glue is no beginning of one that remembers nothing.
+TEST(CaseTearing, WhatGlueRemembersIsTakenByTheSameGlueAlone) {
+  const auto refusal = [&](const std::string& first, const std::string& then) {
+    const TemporaryCase before(blocks(first));
+    before.run();
+    try {
+      const Simulation s(
+          parse_case(blocks(then) + "[initial_state]\nfrom = \"" + before.results().string() + "\"\n", "case.toml"));
+    } catch (const CaseError& error) {
+      return error.found();
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal(tears, tears), "");
+  EXPECT_NE(refusal(tears, "").find("whose points remember 18 numbers"), std::string::npos);
+}
+
+// A row sees the dofs at which its coefficients are not zero, whatever they are.
+TEST(TornTies, LookAtTheDofsThatARowSees) {
+  ConstraintRows rows;
+  rows.add_row(0.0, {0, 0, 1}, {}, 1.0, {}, 0);
+  rows.add_block(4, {Vec3{0, 0, 1}, Vec3{}, Vec3{}});
+  rows.add_block(7, {Vec3{0, 1e-3, 0}, Vec3{}, Vec3{}});
+  std::vector<std::size_t> seen;
+  for (std::size_t dof = 0; dof < 30; ++dof)
+    if (any_dof(rows, 0, [dof](std::size_t i) { return i == dof; })) seen.push_back(dof);
+  EXPECT_EQ(seen, (std::vector<std::size_t>{3 * 4 + 2, 3 * 7 + 1}));
 }
 
 }  // namespace

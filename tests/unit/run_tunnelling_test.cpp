@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "output/summary.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_tunnelling_test {
@@ -274,6 +275,23 @@ TEST(Tunnelling, OfAThinBoxIsPrevented) {
     EXPECT_TRUE(code != ExitCode::good || last.at("b.velocity_z") < 0.0) << one.result("summary.json");
     EXPECT_LT(last.at("b.displacement_z"), 0.1);
   }
+}
+
+// The bars come together at t = 1e-4 with 10 m/s: 0.5 mm deep at 1.5e-4, a tenth of the cells of 5 mm, which is named,
+// and less than the quarter that is allowed, so that nothing is to be mended; 4 mm at 5e-4.
+TEST(Tunnelling, IsAdvisedAgainstWhereItIsTooDeep) {
+  const auto explanation = [](const std::string& end, ExitCode code) {
+    const TemporaryCase one(crossed_bars("kind = \"newmark\"\n[time]\nend = " + end + "\nstep = 1e-5\n"));
+    EXPECT_EQ(one.run(), code);
+    for (const VerdictItem& item : read_summary((one.results() / "summary.json").string()).verdict)
+      if (item.name == "overlap of bodies") return item.explanation;
+    return std::string();
+  };
+  const std::string shallow = explanation("1.5e-4", ExitCode::good),
+                    deep = explanation("5e-4", ExitCode::verdict_failed), advice = ": define a contact there";
+  EXPECT_NE(shallow.find(" goes through a face of part "), std::string::npos) << shallow;
+  EXPECT_EQ(shallow.find(advice), std::string::npos) << shallow;
+  EXPECT_NE(deep.find(advice), std::string::npos) << deep;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // What the verdict judges errors by, and what it leaves out.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <numeric>
@@ -12,6 +13,7 @@
 #include "march/rotation_watch.hpp"
 #include "march/verdict.hpp"
 #include "mesh/structured_block.hpp"
+#include "output/summary.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_verdict_test {
@@ -334,6 +336,80 @@ TEST(Guards, OfEnergyHaveAKey) {
   EXPECT_NE(strict.result("summary.json").find("energy_growth in [guards]"), std::string::npos);
   EXPECT_EQ(patient.run(), ExitCode::verdict_failed);  // to the end, where the verdict says what it thinks of it
   EXPECT_NE(patient.result("summary.json").find(" (not "), std::string::npos) << patient.result("summary.json");
+}
+
+// Four corners of a cube that nothing shortens, so that all have the same limit: the item is of the deepest.
+TEST(Verdict, NamesThePenetrationThatIsDeepestForItsLimit) {
+  StructuredBlock block;
+  block.size = {2.0, 2.0, 2.0};
+  block.cells_group = "BODY";
+  Model model;
+  model.mesh = std::make_shared<const Mesh>(make_structured_blocks({block}));
+  model.parts.push_back({.name = "body", .cells = {0}, .material = StVenantKirchhoff{{1.0, 0.0, 1.0}}});
+  model.contacts.emplace_back(ObstacleContact{});
+  const std::vector<double> u(3 * model.mesh->node_count(), 0.0);
+  ConstraintRows rows;
+  const std::vector<double> depths{0.1, 0.06, 0.08, 0.06};
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    rows.add_row(0.0, {0, 0, 1}, model.mesh->coordinates[i], 1.0, {}, 0);
+    rows.add_node(static_cast<Index>(i), 1.0);
+    finish_row(rows, u, static_cast<Index>(i));
+    rows.gap.back() -= 2.0 * depths[i];  // cells of length 2
+  }
+  ContactResponse response;
+  response.status.assign(rows.size(), RowStatus::stick);
+  response.rows = std::make_shared<const ConstraintRows>(std::move(rows));
+  PenetrationWatch watch(model);
+  watch.look(response, u);
+  EXPECT_NEAR(watch.item().value, 0.1, 1e-15);
+}
+
+/// The summary of a body that turns a little, of a law and by a scheme.
+Summary summary_of_turning(const std::string& law, const std::string& scheme) {
+  const TemporaryCase one(replaced(
+      case_of_block("[[initial]]\npart = \"body\"\nvelocity = [0.01, 0.0, 0.0]\nangular_velocity = [0.0, 0.01, "
+                    "0.0]\ncentre = [1.0, 1.0, 1.5]\n[scheme]\nkind = \"" +
+                    scheme + "\"\n[time]\nend = 0.2\nstep = 0.1\n"),
+      "linear_elastic", law));
+  EXPECT_EQ(one.run(), ExitCode::good) << one.result("summary.json");
+  return read_summary((one.results() / "summary.json").string());
+}
+
+// Round-off where the angular momentum is kept: by linear bodies, and by energy-momentum schemes
+// (model/compatibility.hpp); the order of the scheme elsewhere.
+TEST(Verdict, HoldsAngularMomentumToRoundOffWhereItIsKept) {
+  const auto limit = [](const std::string& law, const std::string& scheme) {
+    return item(summary_of_turning(law, scheme).verdict, "angular momentum").limit;
+  };
+  EXPECT_EQ(limit("linear_elastic", "newmark"), 1e-9);
+  EXPECT_EQ(limit("neo_hookean", "energy_momentum"), 1e-9);
+  EXPECT_EQ(limit("neo_hookean", "newmark"), 1e-2);
+}
+
+TEST(Summary, HasTheSixEnergiesOfCodeAster) {
+  std::vector<std::string> names;
+  for (const NamedValue& term : summary_of_turning("linear_elastic", "newmark").code_aster) names.push_back(term.name);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"ENER_CIN", "ENER_TOT", "TRAV_EXT", "TRAV_AMOR", "TRAV_LIAI", "DISS_SCH"}));
+}
+
+// A block pressed onto soft springs by its head: a stroke of statics that the springs take a part of is doubted. With
+// inertia the penetration is judged by the cells alone.
+TEST(Stroke, IsDoubtedInStaticsAlone) {
+  const auto is_doubted = [](const std::string& scheme) {
+    const TemporaryCase one(case_of_block(
+        "[[support]]\nnodes = \"HEAD\"\nblocked = [\"x\", \"y\"]\n[[support]]\nnodes = \"HEAD\"\n"
+        "displacement = { z = -0.1, function = \"ramp\" }\n[functions.ramp]\ntime = [0.0, 10.0]\nvalue = [0.0, 1.0]\n"
+        "[[contact]]\nname = \"floor\"\nkind = \"plane\"\ngroup = \"FOOT\"\npoint = [0.0, 0.0, 0.0]\n"
+        "normal = [0.0, 0.0, 1.0]\nstiffness = 1.0\n[scheme]\nkind = \"" +
+        scheme + "\"\nenforcement = \"penalty\"\n[time]\nend = 10.0\nstep = 1.0\n"));
+    one.run();
+    const std::vector<std::string> doubts = read_summary((one.results() / "summary.json").string()).doubts;
+    return std::any_of(doubts.begin(), doubts.end(),
+                       [](const std::string& doubt) { return doubt.starts_with("springs of contact take"); });
+  };
+  EXPECT_TRUE(is_doubted("statics"));
+  EXPECT_FALSE(is_doubted("newmark"));
 }
 
 }  // namespace

@@ -198,5 +198,33 @@ TEST(Multigrid, IsSymmetricAndPositiveDefinite) {
   }
 }
 
+// Springs of some cells' stiffness at all dofs of the foot in the place of supports, where nothing else holds the body:
+// the same solution as that of a factorisation, in no more iterations than where supports hold the foot (above).
+TEST(Multigrid, SpringsHoldABodyOnEveryLevel) {
+  for (const std::size_t spread : {1U, 2U}) {
+    const Problem p(bar(8));
+    std::vector<DofSpring> held;
+    const std::vector<Index> foot = p.model.mesh->nodes_of("ZMIN");
+    for (std::size_t k = 0; k < foot.size(); k += spread)
+      for (std::size_t c = 0; c < 3; ++c)
+        held.push_back({3 * static_cast<std::size_t>(foot[k]) + c, 100.0 * unit_material.E});
+    const std::vector<double> b = free_load(p, 1), rest(b.size(), 0.0);
+    std::vector<double> iterated(b.size()), factored(b.size());
+    const double absolute = eight_digits * std::sqrt(dot(b, b));
+    int iterations = 0;
+    for (const SolverKind kind : {SolverKind::multigrid, SolverKind::cholesky}) {
+      const auto solver = make_effective_solver(p.system, kind);
+      solver->hold(held);
+      ASSERT_EQ(solver->prepare(0.0, 1.0, rest), "");
+      std::vector<double>& x = kind == SolverKind::multigrid ? iterated : factored;
+      const LinearSolveReport report = solver->solve(b, p.rows(), {}, absolute, x);
+      EXPECT_TRUE(report.converged);
+      if (kind == SolverKind::multigrid) iterations = report.iterations;
+    }
+    EXPECT_LE(iterations, 16) << spread;
+    EXPECT_LT(largest_difference(iterated, factored), 1e-6 * largest(factored)) << spread;
+  }
+}
+
 }  // namespace
 }  // namespace carom::schemes_multigrid_test

@@ -10,6 +10,7 @@
 #include "math/vec3.hpp"
 #include "solid/node_patches.hpp"
 #include "solid/point_history.hpp"
+#include "solid/stability.hpp"
 #include "solid_bodies.hpp"
 
 namespace carom::test::solid_nodal_test {
@@ -222,6 +223,36 @@ TEST(Nodal, NodesWithTooManyNeighboursAreNamed) {
   } catch (const CaseError& error) {
     EXPECT_NE(std::string(error.what()).find("node 1 with 100 neighbours"), std::string::npos) << error.what();
   }
+}
+
+// A turn changes no frequency, and of an isotropic body a shear changes them by as much in every plane of the axes: the
+// shortest stretch of gamma = 1/2 is that of C = (1 + gamma^2, gamma; gamma, 1).
+TEST(Nodal, FrequenciesGrowByTheShortestStretchInWhateverDirection) {
+  const Material law("neo_hookean", 1.0, {{"E", 3.0}, {"nu", 0.2}});
+  const Model model = body(distorted_mesh(CellType::tetra4), nodal(kinds[0]), law);
+  const Solid solid(model);
+  const auto largest_growth = [&](const Tensor& H) {
+    std::vector<double> growth(solid.cells().size());
+    const std::vector<double> history = initial_history(solid);
+    frequency_growth(solid, affine(*model.mesh, {Vec3{H[0]}, Vec3{H[1]}, Vec3{H[2]}}), {.dt = 1.0, .history = history},
+                     growth);
+    return *std::max_element(growth.begin(), growth.end());
+  };
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  std::vector<double> of_shear;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    Tensor turn{}, shear{};
+    turn[i][i] = turn[j][j] = c - 1.0;
+    turn[i][j] = -s;
+    turn[j][i] = s;
+    EXPECT_NEAR(largest_growth(turn), 1.0, 1e-12) << i;
+    shear[i][j] = 0.5;
+    of_shear.push_back(largest_growth(shear));
+  }
+  EXPECT_GT(of_shear[0], 1.3);
+  EXPECT_NEAR(of_shear[1], of_shear[0], 1e-12);
+  EXPECT_NEAR(of_shear[2], of_shear[0], 1e-12);
 }
 
 }  // namespace

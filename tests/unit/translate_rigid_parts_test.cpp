@@ -220,5 +220,15 @@ TEST(TranslateRigidParts, CoupledNodesThatAreHeld) {
   EXPECT_EQ(supports_of(held, "FLOOR"), (std::vector<std::string>{"x", "y", "z"}));
 }
 
+// A single node where the reference node is: it does not turn and has no size, so that its mass at a unit's distance is
+// as good an inertia as any.
+TEST(TranslateRigidParts, ANodeAtItsReferenceNodeHasTheInertiaOfItsMassAtOne) {
+  const std::string mass = "*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n*MASS, ELSET=M\n2.5\n";
+  const std::string body = "*NSET, NSET=SPOT\n5\n*RIGID BODY, TIE NSET=SPOT, REF NODE=99\n";
+  const Case made = case_from(replaced(with_body("99, 1, 2\n99, 4, 6\n", body + mass), "99,0.5,0.5,4.", "99,0.,0.,1."));
+  ASSERT_EQ(made.rigid_parts.size(), 1U);
+  EXPECT_EQ(**made.rigid_parts[0].inertia, (Vec3{2.5, 2.5, 2.5}));
+}
+
 }  // namespace
 }  // namespace carom::translate_rigid_parts_test

@@ -308,5 +308,34 @@ TEST_F(ViewFrames, AViewTellsWhenTrianglesAreSeen) {
   EXPECT_EQ(std::count(until.begin(), until.end(), 3U), 2 * 10);  // to the end
 }
 
+// Both numbers have two bytes each, whatever stands behind them: here the greatest displacement, since the bar begins
+// at the far end of its way.
+TEST_F(ViewFrames, AViewHasTwoBytesForTheFramesOfATriangle) {
+  StructuredBlock b;
+  b.size = {1.0, 1.0, 3.0};
+  b.divisions = {1, 1, 3};
+  const Mesh mesh = make_structured_blocks({b});
+  FrameIndex frames(folder_.string(), vtu_format());
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = fmt::format("fields/{:06}.vtu", i);
+    write_frame(path(name), mesh, 0.01 * (2 - i), i < 2 ? 0 : 1);
+    frames.add({0.1 * i, name, ""});
+  }
+  const auto json = nlohmann::json::parse(make_view(folder_.string(), {units_of("SI"), {"bar"}, {}}, 4'000'000)->json);
+  const auto& scene = json["scenes"][0];
+  const auto nodes = scene["nodes"].get<std::size_t>(), cells = scene["cells"].get<std::size_t>(),
+             triangles = scene["triangles"].get<std::size_t>();
+  const std::string bytes = decoded(json["data"]);
+  const std::size_t place = 3 * 2 * nodes + 4 * nodes + 4 * cells + 2 * cells + 4 * 4 * triangles + triangles;
+  const std::vector<std::uint32_t> from = unpacked(bytes, place, triangles, 2);
+  const std::vector<std::uint32_t> until = unpacked(bytes, place + 2 * triangles, triangles, 2);
+  const std::vector<std::uint32_t> along_x = unpacked(bytes, place + 4 * triangles, nodes, 2);
+  for (std::size_t t = 0; t < triangles; ++t) {
+    EXPECT_LE(from[t], 2U);
+    EXPECT_TRUE(until[t] == 2U || until[t] == 3U) << until[t];
+  }
+  EXPECT_GT(along_x.at(0), 65000U);  // of 65535
+}
+
 }  // namespace
 }  // namespace carom::view_frames_test
