@@ -107,7 +107,6 @@ void scatter_node(Counted x, Counted y, Counted z, const Index* offset, double* 
 
 #include "kernels/kernel_table.hpp"
 #include "solid/blocks.hpp"
-#include "solid/point_history.hpp"
 
 namespace carom {
 
@@ -115,7 +114,7 @@ double flops_per_cell(const Model& model, const std::vector<double>& u, Sweep sw
   static constexpr KernelTable table = make_kernels<Counted>();
   static constexpr Index most_cells = 1000;
   const SolidCells solid = make_solid_cells(model, table);
-  const std::vector<double> rest(history_size(solid), 0.0);
+  const std::vector<double> rest(solid.history_size(), 0.0);
   std::vector<double> end(rest), f(u.size(), 0.0);
   SolidEnergies energies;
   Index cells = 0;
