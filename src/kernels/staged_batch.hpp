@@ -80,7 +80,7 @@ class Batch {
   Number* of_batch(Number* history) const {
     return history == nullptr ? nullptr : history + first_ / lanes() * memory_of_batch();
   }
-  /// Where a slot of its memory does; null where nothing is remembered.
+  /// Where a slot of the memory of the batch begins in a history; null where there is no history.
   template <class Number>
   Number* slot(MemorySlot which, Number* history) const {
     return history == nullptr ? nullptr

@@ -83,7 +83,7 @@ TEST(Swift, RemembersTheLargestRate) {
   for (const auto& [gamma, dt] : {std::pair{0.02, 0.5}, {0.05, 0.1}, {0.06, 1.0}, {0.055, 1e-9}, {0.07, 1e-3}}) {
     const Answer answer = law.update({0, 0, 0, gamma, 0, 0}, history, dt);
     largest = std::max(largest, (answer.history[6] - history[6]) / dt);
-    EXPECT_NEAR(answer.history[7], largest, 1e-13 * largest / dt);
+    EXPECT_NEAR(answer.history[7], largest, 1e-13 * largest / dt);  // the rounding of a difference, over dt
     history = answer.history;
   }
   EXPECT_GT(largest, 1.0);
