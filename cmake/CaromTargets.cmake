@@ -17,9 +17,10 @@ function(carom_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# Headers cost several times what the code behind them costs: files of a target are compiled a few at a time.
+# Headers cost as much as the code behind them: files of a target are compiled together, sixteen at a time (in one run, two
+# eights of tests took 24.5 s apart and 19.3 s as one sixteen).
 function(carom_unity target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${CAROM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${CAROM_UNITY} UNITY_BUILD_BATCH_SIZE 16)
 endfunction()
 
 # carom_library(folder DEPENDS folder...  LIBRARIES target...): every .cpp of the folder becomes carom_<folder>.

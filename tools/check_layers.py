@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Checks that includes in src/ point down only, and that the files of a folder do not include each other in circles.
+"""Checks that includes in src/ point down only, that the files of a folder do not include each other in circles, and that
+sums and decisions over values are made in src/parallel alone.
 
 Usage: check_layers.py [ROOT]. Reads the tables of ROOT/docs/layers.md (level of each folder; folders that may use a
 library's header), the #include lines of ROOT/src and the DEPENDS lists of its CMakeLists.txt files. Prints each
@@ -11,6 +12,9 @@ import re
 import sys
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+# Sums of the standard library, and its decisions by a predicate that takes a value.
+REDUCTION = re.compile(r"\bstd::(accumulate|inner_product|reduce|transform_reduce)\b"
+                       r"|\b((?:all|any|none)_of)\([^;]*\]\((?:const )?double\b")
 
 
 def read_tables(page):
@@ -57,6 +61,15 @@ def check_file(path, folder, levels, confined, links):
         for prefix, folders in confined.items():
             if header.startswith(prefix) and folder not in folders:
                 yield number, f"<{header}> belongs behind {' or '.join(folders)}, not in {folder}"
+
+
+def reductions(path):
+    """Yields (line number, message) for each sum of values, or decision about all of them, that a file makes itself."""
+    text = re.sub(r"//.*", "", path.read_text())
+    for match in REDUCTION.finditer(text):
+        yield text.count("\n", 0, match.start()) + 1, (
+            f"{match[1] or match[2]} over values belongs behind parallel, where the order of sums is fixed and ranks "
+            "can share them: sum_of, dot, largest_of, is_zero, is_finite, parallel_sum or parallel_max")
 
 
 def included_files(directory):
@@ -113,15 +126,17 @@ def check(root):
         if names := circle(included_files(directory)):
             lines.append(f"src/{directory.name}: files include each other in a circle: {' -> '.join(names)}")
         for path in sorted(directory.rglob("*.[ch]pp*")):
-            for number, message in check_file(path, directory.name, levels, confined, links):
-                lines.append(f"{path.relative_to(root)}:{number}: {message}")
+            found = [*check_file(path, directory.name, levels, confined, links)]
+            if levels[directory.name] > levels["parallel"]:
+                found += reductions(path)
+            lines += [f"{path.relative_to(root)}:{number}: {message}" for number, message in sorted(found)]
     return lines
 
 
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
     lines = check(root)
-    print("\n".join(lines) if lines else "layers: includes point down, and no files include each other in a circle")
+    print("\n".join(lines) if lines else "layers: includes point down, no files include each other in a circle, sums are behind parallel")
     return 1 if lines else 0
 
 

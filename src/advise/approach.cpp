@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parallel/threads.hpp"
 #include "rows/admissible.hpp"
 
 namespace carom {
@@ -18,7 +19,7 @@ class Flight {
     const std::vector<PrescribedMotion>& motions = s.model().motions;
     for (const PrescribedMotion& motion : motions) {
       const TimeFunction& f = motion.function;
-      const bool is_zero = std::all_of(f.value.begin(), f.value.end(), [](double v) { return v == 0.0; });
+      const bool is_zero = carom::is_zero(f.value);
       if (is_zero && !motion.rotation) continue;
       moved_.push_back({&motion, path_of(motion), {}});
       if (motion.rotation) moved_.back().angle = integrals(f);

@@ -16,6 +16,7 @@
 #include "math/vec3.hpp"
 #include "model/bodies.hpp"
 #include "model/outer_facets.hpp"
+#include "parallel/threads.hpp"
 #include "solid/smallest_cell.hpp"
 
 namespace carom {
@@ -53,7 +54,7 @@ double surface_area(const Simulation& s, const CaseContact& contact) {
 constexpr double touching = 1e-6;
 
 bool moves(const PrescribedMotion& motion) {
-  return std::any_of(motion.function.value.begin(), motion.function.value.end(), [](double v) { return v != 0.0; });
+  return !is_zero(motion.function.value);
 }
 
 /// A motion of nodes of bodies, not of obstacles alone.

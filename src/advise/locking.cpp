@@ -12,6 +12,7 @@
 #include "base/types.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
+#include "parallel/threads.hpp"
 #include "solid/cell_values.hpp"
 #include "solid/element_table.hpp"
 #include "solid/node_patches.hpp"
@@ -44,10 +45,6 @@ class Thinness {
   double sum_[3][3]{};
   double volume_ = 0.0;
 };
-
-bool is_zero(const TimeFunction& f) {
-  return std::all_of(f.value.begin(), f.value.end(), [](double v) { return v == 0.0; });
-}
 
 /// Does anything push or carry along the thickness of a part?
 class Actions {
@@ -91,7 +88,7 @@ class Actions {
     return std::any_of(motions.begin(), motions.end(), [&](const PrescribedMotion& motion) {
       Vec3 direction{};
       direction[at(motion.component)] = 1.0;
-      return is_zero(motion.function) == as_zero && thin_.is_along(direction);
+      return is_zero(motion.function.value) == as_zero && thin_.is_along(direction);
     });
   }
   bool flies() const {
@@ -109,7 +106,7 @@ class Actions {
 std::vector<std::array<bool, 3>> held_components(const Simulation& s) {
   std::vector<std::array<bool, 3>> held(s.mesh().node_count());
   for (const PrescribedMotion& motion : s.model().motions) {
-    if (!is_zero(motion.function)) continue;
+    if (!is_zero(motion.function.value)) continue;
     for (const Index n : motion.nodes) held[at(n)][at(motion.component)] = true;
   }
   return held;

@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "contact/contact_kind.hpp"
+#include "parallel/threads.hpp"
 
 namespace carom {
 
@@ -25,7 +26,7 @@ std::vector<char> moving_nodes(const Model& model) {
   }
   for (const PrescribedMotion& motion : model.motions) {
     const auto& value = motion.function.value;
-    if (std::any_of(value.begin(), value.end(), [](double v) { return v != 0.0; })) continue;
+    if (!is_zero(value)) continue;
     for (const Index n : motion.nodes) {
       char& free = free_components[static_cast<std::size_t>(n)];
       free = static_cast<char>(static_cast<unsigned>(free) & ~(1U << static_cast<unsigned>(motion.component)));

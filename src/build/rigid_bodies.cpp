@@ -1,6 +1,5 @@
 #include "build/rigid_bodies.hpp"
 
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -64,8 +63,9 @@ std::size_t carrier_nodes(const CaseContact& contact) {
 }
 
 std::size_t carrier_nodes(const Case& given) {
-  return std::accumulate(given.contacts.begin(), given.contacts.end(), std::size_t{0},
-                         [](std::size_t sum, const CaseContact& contact) { return sum + carrier_nodes(contact); });
+  std::size_t count = 0;
+  for (const CaseContact& contact : given.contacts) count += carrier_nodes(contact);
+  return count;
 }
 
 std::vector<Vec3> carrier_positions(const CaseContact& contact, double size) {

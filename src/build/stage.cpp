@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "build/torn_ties.hpp"
+#include "parallel/threads.hpp"
 #include "solid/mass_scaling.hpp"
 #include "solid/modified_mass.hpp"
 #include "solid/stability.hpp"
@@ -233,7 +234,7 @@ void Stage::refuse_loads_without_hold() const {
   for (const double t : {begin_ + dt_, end()}) {
     context_.solid.loads().force(t, mass_, f);
     const std::vector<double> motion = free.unheld({}, {}, zero, f, f);
-    if (std::all_of(motion.begin(), motion.end(), [](double m) { return m == 0.0; })) continue;
+    if (is_zero(motion)) continue;
     throw CaseError(
         scheme_.where, "scheme.kind",
         "statics, where no support and no contact holds " + free.describe(motion) + ", where the loads push it",
@@ -250,8 +251,7 @@ void Stage::refuse_driven_bonds() const {
   std::vector<bool> is_driven(context_.solid.dof_count(), false);
   for (const PrescribedDof& p : supports_.prescribed()) {
     const std::vector<double>& values = supports_.motions()[p.motion].function.value;
-    is_driven[static_cast<std::size_t>(p.dof)] =
-        std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; });
+    is_driven[static_cast<std::size_t>(p.dof)] = !is_zero(values);
   }
   const ConstraintRows& bonds = context_.contact.bonds();
   for (std::size_t r = 0; r < bonds.size(); ++r) {

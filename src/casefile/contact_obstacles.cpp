@@ -8,7 +8,7 @@ namespace carom {
 
 namespace {
 
-constexpr auto needed = KeyOptions::Need::required;
+constexpr auto mandatory = KeyOptions::Need::required;
 
 template <class Kind>
 void add_body(SectionSchema<Kind>& s) {
@@ -162,7 +162,7 @@ SectionSchema<Kind> obstacle_keys(const std::string& doc) {
 
 template <class Kind>
 void add_round(SectionSchema<Kind>& s) {
-  s.key("radius", &Kind::radius, "Radius.", {.unit = Dimension::length, .range = greater_than(0.0), .need = needed});
+  s.key("radius", &Kind::radius, "Radius.", {.unit = Dimension::length, .range = greater_than(0.0), .need = mandatory});
   s.key("inside", &Kind::inside, "The body is inside of the shape.");
 }
 
@@ -170,8 +170,8 @@ void add_round(SectionSchema<Kind>& s) {
 
 SectionSchema<CasePlane> contact_keys(std::type_identity<CasePlane>) {
   auto s = obstacle_keys<CasePlane>("a rigid half-space");
-  s.key("point", &CasePlane::point, "A point of the plane.", {.unit = Dimension::length, .need = needed});
-  s.key("normal", &CasePlane::normal, "Direction from the plane to the body; of any length but 0.", {.need = needed});
+  s.key("point", &CasePlane::point, "A point of the plane.", {.unit = Dimension::length, .need = mandatory});
+  s.key("normal", &CasePlane::normal, "Direction from the plane to the body; of any length but 0.", {.need = mandatory});
   s.finish = [](CasePlane& given, const Node& node, const ReadContext& at) {
     check_obstacle(given, node, at);
     check_direction(given.normal, at.at("normal").path);
@@ -182,15 +182,15 @@ SectionSchema<CasePlane> contact_keys(std::type_identity<CasePlane>) {
 SectionSchema<CaseSphere> contact_keys(std::type_identity<CaseSphere>) {
   auto s = obstacle_keys<CaseSphere>("a rigid sphere");
   s.key("centre", &CaseSphere::centre, "Centre of the sphere.",
-        {.unit = Dimension::length, .need = needed, .aliases = {"center"}});
+        {.unit = Dimension::length, .need = mandatory, .aliases = {"center"}});
   add_round(s);
   return s;
 }
 
 SectionSchema<CaseCylinder> contact_keys(std::type_identity<CaseCylinder>) {
   auto s = obstacle_keys<CaseCylinder>("a rigid cylinder");
-  s.key("point", &CaseCylinder::point, "A point of the axis.", {.unit = Dimension::length, .need = needed});
-  s.key("axis", &CaseCylinder::axis, "Direction of the cylinder, which is endless.", {.need = needed});
+  s.key("point", &CaseCylinder::point, "A point of the axis.", {.unit = Dimension::length, .need = mandatory});
+  s.key("axis", &CaseCylinder::axis, "Direction of the cylinder, which is endless.", {.need = mandatory});
   add_round(s);
   s.finish = [](CaseCylinder& given, const Node& node, const ReadContext& at) {
     check_obstacle(given, node, at);
@@ -202,9 +202,9 @@ SectionSchema<CaseCylinder> contact_keys(std::type_identity<CaseCylinder>) {
 SectionSchema<CaseBox> contact_keys(std::type_identity<CaseBox>) {
   auto s = obstacle_keys<CaseBox>("a rigid box along the axes");
   s.key("lower", &CaseBox::lower, "Corner of the box with the smallest coordinates.",
-        {.unit = Dimension::length, .need = needed});
+        {.unit = Dimension::length, .need = mandatory});
   s.key("upper", &CaseBox::upper, "Corner of the box with the largest coordinates.",
-        {.unit = Dimension::length, .need = needed});
+        {.unit = Dimension::length, .need = mandatory});
   s.finish = [](CaseBox& given, const Node& node, const ReadContext& at) {
     check_obstacle(given, node, at);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -220,7 +220,7 @@ SectionSchema<CaseBox> contact_keys(std::type_identity<CaseBox>) {
 SectionSchema<CaseRigidSurface> contact_keys(std::type_identity<CaseRigidSurface>) {
   auto s = obstacle_keys<CaseRigidSurface>("a rigid surface of faces of the mesh");
   s.key("surface", &CaseRigidSurface::surface, "Group of the faces of the rigid surface, which belong to no part.",
-        {.need = needed});
+        {.need = mandatory});
   return s;
 }
 

@@ -17,9 +17,7 @@ namespace {
 constexpr double face_look = 1.5;              // of the facet size: overlaps within count
 constexpr double least_facing_of_faces = 0.2;  // c_0
 constexpr double least_facing_of_means = 0.5;  // cosine of 60 degrees
-constexpr double going_on = 0.5;               // product of the normals of facets that go on with each other
 constexpr double smooth_edge = 0.9;            // the same, of those whose parts at their common edge cancel
-constexpr double sideways_depth = 0.02;        // of the facet size: deeper, a facet has to come in from the front
 
 /// s as a function of c.
 double facing_factor(double c) {

@@ -12,6 +12,11 @@
 
 namespace carom {
 
+/// Product of the normals of facets that go on with each other.
+inline constexpr double going_on = 0.5;
+/// Of the facet size: deeper, a facet or a point has to come in from the front.
+inline constexpr double sideways_depth = 0.02;
+
 /// One point of a slave facet: its gap, and what the gap's gradient is made of, see face_rows.hpp. The gradient is
 ///   - along N_b(x_s): -along,   along N_c(x_m): along,
 /// and with the turning of the facets' normals

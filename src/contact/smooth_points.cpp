@@ -24,9 +24,7 @@ constexpr double look = 0.1;      // of the facet size: how far before each othe
 constexpr double reach = 1.5;     // of the facet size: of the lists
 constexpr double beyond = 0.01;   // in parent coordinates: feet beyond a smooth edge
 constexpr double on_edge = 1e-10;
-constexpr double sideways_depth = 0.02;  // of the facet size: deeper, a point has to come in from the front
-constexpr double going_on = 0.5;         // product of the normals of facets that go on with each other
-constexpr double safety = 1.5;           // on the curvature that parts are ruled out by
+constexpr double safety = 1.5;  // on the curvature that parts are ruled out by
 
 ParentFace linear_face(const Facet& facet) {
   ParentFace face;

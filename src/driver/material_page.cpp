@@ -14,6 +14,7 @@
 #include "output/readable_unit.hpp"
 #include "output/units.hpp"
 #include "output/xml.hpp"
+#include "parallel/threads.hpp"
 #include "report/html.hpp"
 #include "report/xy_plot.hpp"
 
@@ -146,14 +147,11 @@ class Charts {
            const std::vector<std::string>& columns) {
     Chart chart{section, title, label, unit, {}, ""};
     double largest = 0.0;
-    for (const std::string& name : columns)
-      for (const double value : drive_.column(name)) largest = std::max(largest, std::abs(value));
+    for (const std::string& name : columns) largest = std::max(largest, largest_of(drive_.column(name)));
     for (const std::string& name : columns) {
       const std::vector<double> values = drive_.column(name);
       constexpr double negligible = 1e-12;
-      if (values.empty() || !std::any_of(values.begin(), values.end(),
-                                         [largest](double v) { return std::abs(v) > negligible * largest; }))
-        continue;
+      if (!(largest_of(values) > negligible * largest)) continue;
       std::string shown = name;
       std::replace(shown.begin(), shown.end(), '_', ' ');
       chart.curves.push_back({shown, drive_.path.time, values, CurveKind::computed});

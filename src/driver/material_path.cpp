@@ -8,6 +8,7 @@
 #include "base/errors.hpp"
 #include "kernels/kernels.hpp"
 #include "math/voigt.hpp"
+#include "parallel/threads.hpp"
 #include "report/csv_table.hpp"
 
 namespace carom {
@@ -204,7 +205,7 @@ MaterialCurve follow(const Material& material, int free_directions, const Materi
     row.insert(row.end(), sigma.begin(), sigma.end());
     row.insert(row.end(), {von_mises(sigma), energy, dissipation});
     row.insert(row.end(), history.begin(), history.begin() + static_cast<std::ptrdiff_t>(remembered.size()));
-    if (!std::all_of(row.begin(), row.end(), [](double value) { return std::isfinite(value); }))
+    if (!is_finite(row))
       throw RunError(static_cast<int>(p), path.time[p],
                      fmt::format("the law {} gives no number on this path", law.name));
     curve.rows.push_back(std::move(row));

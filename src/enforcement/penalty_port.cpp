@@ -123,7 +123,7 @@ std::string PenaltyPort::hold_bodies(const ContactResponse& response, std::span<
                                      std::span<const double> residual) {
   for (;;) {
     const std::vector<double> motion = free_->unheld(*response.rows, tangents_, x, residual, force_parts_);
-    if (std::all_of(motion.begin(), motion.end(), [](double m) { return m == 0.0; })) return {};
+    if (is_zero(motion)) return {};
     if (close_reached(*response.rows, x, motion) || stick_sliding(response, x)) continue;
     return "no support and no contact holds " + free_->describe(motion) + ", where the loads push it";
   }

@@ -44,7 +44,7 @@ Delassus VelocityImpulses::of_consistent_mass(const ConstraintRows& rows, const 
 bool VelocityImpulses::accelerations(const ContactResponse& response, std::span<double> a) {
   std::fill(a.begin(), a.end(), 0.0);
   const std::vector<double> contact = force_of_contact(response, a.size());
-  if (std::all_of(contact.begin(), contact.end(), [](double f) { return f == 0.0; })) return true;
+  if (is_zero(contact)) return true;
   mass_.factorise();
   if (!bonds_.any()) return mass_.solve(contact, a) >= 0;
   std::copy(contact.begin(), contact.end(), a.begin());

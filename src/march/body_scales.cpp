@@ -1,7 +1,6 @@
 #include "march/body_scales.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <random>
 #include <vector>
 
@@ -31,7 +30,7 @@ double trace_at_rest(const Solid& solid) {
   const std::vector<double> zero(solid.dof_count(), 0.0);
   if (solid.cells().size() < many) {
     const std::vector<double> diagonal = solid.tangent_diagonal(zero);
-    return std::accumulate(diagonal.begin(), diagonal.end(), 0.0);
+    return sum_of(diagonal);
   }
   std::vector<double> sign(zero.size()), K_sign(zero.size());
   std::minstd_rand bits;

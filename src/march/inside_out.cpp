@@ -2,19 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/types.hpp"
 #include "math/vec3.hpp"
+#include "parallel/threads.hpp"
 #include "solid/cell_values.hpp"
 
 namespace carom {
 
 std::string inside_out(const Simulation& simulation, std::span<const double> u, std::span<const std::uint8_t> alive) {
   const Solid& solid = simulation.solid();
-  const bool is_finite = u.size() == solid.dof_count() &&
-                         std::all_of(u.begin(), u.end(), [](double value) { return std::isfinite(value); });
+  const bool is_finite = u.size() == solid.dof_count() && carom::is_finite(u);
   if (solid.is_linear() || !is_finite) return {};
   const Index k = first_inverted_cell(solid, u, alive);
   if (k < 0) return {};

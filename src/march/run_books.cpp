@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 
 #include "march/body_scales.hpp"
 #include "math/vec3.hpp"
@@ -21,7 +20,7 @@ RunMonitor::StageKind stage_kind(const Stage& stage, const State& begin) {
 
 RunMonitor::Bodies bodies_of(const Simulation& s, const Stage& stage, double rest) {
   const std::vector<double>& masses = stage.mass().node_diagonal();
-  return {std::accumulate(masses.begin(), masses.end(), 0.0), rest, momenta_of(s.model())};
+  return {sum_of(masses), rest, momenta_of(s.model())};
 }
 
 }  // namespace
@@ -29,7 +28,7 @@ RunMonitor::Bodies bodies_of(const Simulation& s, const Stage& stage, double res
 GivenMotion given_motion(const Stage& stage, const State& state, const std::vector<double>& v_before) {
   std::vector<double> p(v_before.size());
   stage.mass().apply(v_before, p);
-  const double kinetic_before = 0.5 * std::inner_product(p.begin(), p.end(), v_before.begin(), 0.0);
+  const double kinetic_before = 0.5 * dot(p, v_before);
   const MomentArms arms(stage.system(), state.q);
   std::array<double, 6> before{};
   for (std::size_t i = 0; i < p.size(); ++i) add_with_moment(arms.at(i / 3), i % 3, p[i], before.data());

@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "march/contact_event.hpp"
 #include "march/failure_text.hpp"
+#include "parallel/threads.hpp"
 #include "rows/admissible.hpp"
 
 namespace carom {
@@ -229,7 +230,7 @@ bool StepGuard::fits(const State& begin, const State& end, long long step) {
 }
 
 void StepGuard::begin_at(const State& now, long long step) {
-  if (!watch_ || std::all_of(now.q.begin(), now.q.end(), [](double u) { return u == 0.0; })) return;
+  if (!watch_ || is_zero(now.q)) return;
   is_restless_ = true;
   follow_stable_step(now, step);
 }

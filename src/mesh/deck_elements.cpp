@@ -12,8 +12,8 @@ namespace {
 using Kind = DeckElementType::Kind;
 
 /// The deck has the centre of the cell before those of its faces, which it numbers as it does its faces.
-constexpr std::array<LocalNode, 27> kHexa27{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13,
-                                            14, 15, 16, 17, 18, 19, 26, 24, 23, 25, 21, 22, 20};
+constexpr std::array<LocalNode, 27> kHexa27InDecks{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13,
+                                                   14, 15, 16, 17, 18, 19, 26, 24, 23, 25, 21, 22, 20};
 constexpr std::array<LocalNode, 3> kMiddleSecond{0, 2, 1};
 
 constexpr const char* kStabilised =
@@ -51,7 +51,7 @@ const std::array<DeckElementType, 65> kOwn{
      {"C3D15", Kind::cell, CellType::penta15, 15, {}, "solid", "", kVolume},
      {"C3D20", Kind::cell, CellType::hexa20, 20, {}, "solid", "", kVolume},
      {"C3D20R", Kind::cell, CellType::hexa20, 20, {}, "solid", "reduced", ""},
-     {"C3D27", Kind::cell, CellType::hexa27, 27, kHexa27, "solid", "", kVolume},
+     {"C3D27", Kind::cell, CellType::hexa27, 27, kHexa27InDecks, "solid", "", kVolume},
      {"CPE3", Kind::cell, CellType::tria3, 3, {}, "plane_strain", "", kNodal},
      {"CPE4", Kind::cell, CellType::quad4, 4, {}, "plane_strain", "", kStabilised},
      {"CPE4R",

@@ -215,8 +215,8 @@ std::vector<Index> sort_cells(CellBlock& block, std::size_t node_count) {
   std::vector<Key> keys(block.size());
   for (std::size_t cell = 0; cell < block.size(); ++cell) {
     const std::span<const Index> nodes = block.nodes(static_cast<Index>(cell));
-    keys[cell] = {*std::min_element(nodes.begin(), nodes.end()),
-                  std::accumulate(nodes.begin(), nodes.end(), std::int64_t{0})};
+    keys[cell] = {*std::min_element(nodes.begin(), nodes.end()), 0};
+    for (const Index node : nodes) keys[cell].sum += node;
   }
   std::vector<Index> order =
       sorted_by(first_entries(keys.size()), node_count, [&](Index i) { return at(keys[at(i)].smallest); });

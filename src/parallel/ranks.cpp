@@ -20,6 +20,7 @@ class Alone final : public Ranks {
   std::size_t own() const override { return 0; }
   void send(std::size_t, std::span<const double>) override { throw std::logic_error("there is no other rank"); }
   std::vector<double> receive(std::size_t) override { throw std::logic_error("there is no other rank"); }
+  Traffic sent() const override { return {}; }
 };
 
 thread_local Ranks* current = nullptr;
@@ -64,12 +65,18 @@ class RankOfProcess final : public Ranks {
   RankOfProcess(Post& post, std::size_t own) : post_(post), own_(own) {}
   std::size_t count() const override { return post_.count(); }
   std::size_t own() const override { return own_; }
-  void send(std::size_t to, std::span<const double> values) override { post_.put(own_, to, values); }
+  void send(std::size_t to, std::span<const double> values) override {
+    post_.put(own_, to, values);
+    ++sent_.messages;
+    sent_.values += values.size();
+  }
   std::vector<double> receive(std::size_t from) override { return post_.take(from, own_); }
+  Traffic sent() const override { return sent_; }
 
  private:
   Post& post_;
   std::size_t own_;
+  Traffic sent_;
 };
 
 }  // namespace

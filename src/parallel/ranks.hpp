@@ -8,6 +8,11 @@
 
 namespace carom {
 
+/// What a rank has given to others.
+struct Traffic {
+  std::size_t messages = 0, values = 0;
+};
+
 /// One rank as it sees the others. Messages from one rank to another arrive in the order in which they were sent.
 class Ranks {
  public:
@@ -19,6 +24,8 @@ class Ranks {
   virtual void send(std::size_t to, std::span<const double> values) = 0;
   /// Waits. Throws std::runtime_error when the other rank has ended with an error.
   virtual std::vector<double> receive(std::size_t from) = 0;
+  /// All that this one has sent so far.
+  virtual Traffic sent() const = 0;
 };
 
 /// The ranks of the run that the calling thread takes part in; by itself it is the only one.

@@ -73,6 +73,13 @@ double parallel_max(std::size_t n, double lowest, const Term& term);
 
 /// a . b
 double dot(std::span<const double> a, std::span<const double> b);
+double sum_of(std::span<const double> values);
+/// Largest |value|, 0 of none.
+double largest_of(std::span<const double> values);
+/// True where every value is 0.
+bool is_zero(std::span<const double> values);
+/// True where every value is a finite number.
+bool is_finite(std::span<const double> values);
 
 }  // namespace carom
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "base/types.hpp"
 #include "math/vec3.hpp"
@@ -99,7 +98,7 @@ std::vector<double> rigid_shares(const Simulation& s) {
   auto volume = s.solid().cells().volumes.begin();
   for (const Part& part : model.parts) {
     const auto end = volume + static_cast<std::ptrdiff_t>(part.cells.size());
-    if (part.rigid_body >= 0) of_cells[at(part.rigid_body)] += part.material.rho * std::accumulate(volume, end, 0.0);
+    if (part.rigid_body >= 0) of_cells[at(part.rigid_body)] += part.material.rho * sum_of({volume, end});
     volume = end;
   }
   for (const Part& part : model.parts)
@@ -121,7 +120,7 @@ std::vector<PartSummary> KeyFigures::parts() const {
     const std::size_t k = at(numbers[p]);
     if (k == out.size()) out.push_back({parts[p].name, 0.0, begin_.empty() ? end_[k] : begin_[k], end_[k]});
     const auto end = volume + static_cast<std::ptrdiff_t>(parts[p].cells.size());
-    out[k].mass += shares[p] * parts[p].material.rho * std::accumulate(volume, end, 0.0);
+    out[k].mass += shares[p] * parts[p].material.rho * sum_of({volume, end});
     volume = end;
   }
   return out;

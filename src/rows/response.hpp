@@ -1,12 +1,12 @@
 // The answer of contact at one configuration, whichever enforcement has made it.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "parallel/threads.hpp"
 #include "rows/admissible.hpp"
 #include "rows/constraint_rows.hpp"
 #include "rows/node_forces.hpp"
@@ -55,7 +55,7 @@ using RowTangent = std::array<double, 9>;
 
 /// True unless the tangent is zero.
 inline bool acts(const RowTangent& D) {
-  return std::any_of(D.begin(), D.end(), [](double d) { return d != 0.0; });
+  return !is_zero(D);
 }
 /// D w
 inline Vec3 product(const RowTangent& D, const Vec3& w) {

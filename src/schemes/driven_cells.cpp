@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "math/vec3.hpp"
+#include "parallel/threads.hpp"
 #include "schemes/imposed_motion.hpp"
 #include "solid/stability.hpp"
 
@@ -20,8 +21,8 @@ std::vector<int> leaders(const Supports& supports, std::size_t dofs) {
   std::vector<int> leader(dofs, nobody);
   for (const PrescribedDof& p : supports.prescribed()) {
     const std::vector<double>& values = supports.motions()[p.motion].function.value;
-    const bool moves = p.start_velocity != 0.0 || supports.motions()[p.motion].kind == MotionKind::rotation ||
-                       std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; });
+    const bool moves =
+        p.start_velocity != 0.0 || supports.motions()[p.motion].kind == MotionKind::rotation || !is_zero(values);
     leader[static_cast<std::size_t>(p.dof)] = moves ? static_cast<int>(p.motion) : held;
   }
   return leader;

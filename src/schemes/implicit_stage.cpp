@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "base/types.hpp"
@@ -79,7 +78,7 @@ ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& setti
   port_->add_stiffness_diagonal(closed_diagonal_);
   std::vector<double> body_force(residual_.size(), 0.0);
   system.solid.turning_bodies().add_force_scale(body_force);
-  body_force_ = std::sqrt(std::inner_product(body_force.begin(), body_force.end(), body_force.begin(), 0.0));
+  body_force_ = std::sqrt(dot(body_force, body_force));
 }
 
 StageForce force_of_bodies(const System& system) {

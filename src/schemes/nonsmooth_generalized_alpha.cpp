@@ -48,8 +48,7 @@ bool NonsmoothGeneralizedAlpha::solve_jump(const Forces& forces) {
   if (std::all_of(status.begin(), status.end(), [](RowStatus s) { return s == RowStatus::open; })) return true;
   if (!bonds_->any()) return mass_solver_->solve(forces.contact.dense(), jump_) >= 0;
   jump_ = force_of_contact(forces.rows, jump_.size());
-  if (std::any_of(jump_.begin(), jump_.end(), [](double f) { return f != 0.0; }))
-    bonds_->contact_operator().inverse(jump_);
+  if (!is_zero(jump_)) bonds_->contact_operator().inverse(jump_);
   return true;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -128,9 +127,7 @@ std::vector<double> cell_history(const Solid& solid, std::string_view variable, 
 std::vector<double> cell_masses(const Solid& solid) {
   const Solid::Parts& parts = solid.parts();
   std::vector<double> masses(solid.cells().size());
-  const auto add_up = [&](std::size_t c, std::span<const double> m) {
-    masses[c] = std::accumulate(m.begin(), m.end(), 0.0);
-  };
+  const auto add_up = [&](std::size_t c, std::span<const double> m) { masses[c] = sum_of(m); };
   parts.solid.for_each_lumped_mass([&](std::size_t c, const Block&, std::span<const double> m) { add_up(c, m); });
   parts.solid.for_each_rigid_batch([&](std::size_t first, const Block& block, const CellBatches& batch) {
     block.for_each_lumped_mass(batch, [&](std::size_t lane, std::span<const double> m) { add_up(first + lane, m); });

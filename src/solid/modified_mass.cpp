@@ -8,12 +8,12 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "base/types.hpp"
 #include "math/vec3.hpp"
+#include "parallel/threads.hpp"
 #include "solid/least_squares_mass.hpp"
 
 namespace carom {
@@ -268,8 +268,8 @@ Vec3 mass_centre(const Mesh& mesh, const std::vector<double>& mass, double total
 MassShift compare(const Mesh& mesh, const std::vector<bool>& massless, const std::vector<double>& before,
                   const std::vector<double>& after) {
   MassShift shift;
-  shift.total = std::accumulate(before.begin(), before.end(), 0.0);
-  shift.total_error = std::accumulate(after.begin(), after.end(), 0.0) - shift.total;
+  shift.total = sum_of(before);
+  shift.total_error = sum_of(after) - shift.total;
   for (std::size_t n = 0; n < before.size(); ++n) {
     if (massless[n]) {
       shift.moved += before[n];

@@ -48,7 +48,7 @@ std::optional<RankShare> rank_share(const SolidCells& cells) {
     std::size_t rank = 0;
     while (node >= share_of(rank, count, node_count).end) ++rank;
     owner.push_back(rank);
-    chunks[rank].push_back({c, c + 1});
+    chunks[rank].push_back({c * SolidEnergies::terms.size(), (c + 1) * SolidEnergies::terms.size()});
     history[rank].push_back(history_of(cells, cells.chunks[c]));
   }
   RankShare share{{}, {0}, Exchange(std::move(chunks)), Exchange(std::move(history))};

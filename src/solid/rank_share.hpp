@@ -23,7 +23,7 @@ struct ChunkDuty {
 struct RankShare {
   std::vector<ChunkDuty> duties;          ///< by colour
   std::vector<std::size_t> colour_begin;  ///< as SolidCells::colour_begin
-  Exchange by_chunk, history;             ///< entries of a vector with one for each chunk, and of the history
+  Exchange by_chunk, history;             ///< entries of a vector with all energies of each chunk, and of the history
   std::size_t cells = 0;                  ///< how many the rank computes
 };
 

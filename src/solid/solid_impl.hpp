@@ -220,12 +220,13 @@ struct Solid::Parts {
   void gather(std::span<SolidEnergies> of_cells, std::span<SolidEnergies> of_patches, std::span<double> points) const {
     if (!share_of_cells) return;
     for (const auto& [share, energies] : {std::pair{&*share_of_cells, of_cells}, {&*share_of_patches, of_patches}}) {
-      std::vector<double> term(energies.size());
-      for (double SolidEnergies::*const member : SolidEnergies::terms) {
-        for (std::size_t c = 0; c < term.size(); ++c) term[c] = energies[c].*member;
-        share->by_chunk.gather(term);
-        for (std::size_t c = 0; c < term.size(); ++c) energies[c].*member = term[c];
-      }
+      std::vector<double> values;
+      for (const SolidEnergies& chunk : energies)
+        for (double SolidEnergies::*const term : SolidEnergies::terms) values.push_back(chunk.*term);
+      share->by_chunk.gather(values);
+      auto next = values.begin();
+      for (SolidEnergies& chunk : energies)
+        for (double SolidEnergies::*const term : SolidEnergies::terms) chunk.*term = *next++;
       if (!points.empty()) share->history.gather(points);
     }
   }

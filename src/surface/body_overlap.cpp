@@ -244,7 +244,7 @@ BodyOverlap::BodyOverlap(BodyOverlap&&) noexcept = default;
 Overlap BodyOverlap::deepest(std::span<const double> u) {
   Impl& impl = *impl_;
   Overlap worst;
-  const bool is_finite = std::all_of(u.begin(), u.end(), [](double value) { return std::isfinite(value); });
+  const bool is_finite = carom::is_finite(u);
   if (!is_finite) return worst;
   const std::vector<Overlap> now = impl.depths(u);
   for (std::size_t i = 0; i < now.size(); ++i) {

@@ -355,7 +355,7 @@ std::vector<RowComponent> DirectSolver::active_components(const std::vector<RowT
   std::vector<RowComponent> active;
   for (std::size_t r = 0; r < D.size(); ++r) {
     if (!acts(D[r])) continue;
-    const bool tangential = std::any_of(D[r].begin() + 1, D[r].end(), [](double d) { return d != 0.0; });
+    const bool tangential = !is_zero({D[r].begin() + 1, D[r].end()});
     for (std::size_t c = 0; c < (tangential ? 3U : 1U); ++c) active.push_back({r, c});
   }
   return active;

@@ -10,6 +10,7 @@
 
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
+#include "parallel/threads.hpp"
 
 namespace carom {
 
@@ -211,7 +212,7 @@ void FreeModes::choose_pins(Body& body) const {
     }
   }
   const auto product = [d](const std::array<double, 6>& a, const std::array<double, 6>& b) {
-    return std::inner_product(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(d), b.begin(), 0.0);
+    return dot({a.data(), d}, {b.data(), d});
   };
   for (std::size_t k = 0; k < d; ++k) {
     const auto largest = static_cast<std::size_t>(
@@ -281,7 +282,7 @@ std::vector<double> FreeModes::stiffness_of_rows(const ConstraintRows& rows, con
   std::vector<Vec3> w(size_);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const RowTangent& t = D[r];
-    if (std::all_of(t.begin(), t.end(), [](double d) { return d == 0.0; })) continue;
+    if (!acts(t)) continue;
     for (std::size_t k = 0; k < size_; ++k) {
       unit[k] = 1.0;
       w[k] = relative(rows, r, unit, u);
@@ -404,7 +405,7 @@ std::vector<double> FreeModes::relieve(const ConstraintRows& rows, const std::ve
 bool FreeModes::are_loads(std::span<const double> weak, std::span<const double> u,
                           std::span<const double> magnitude) const {
   const double limit = 1e-9 * largest_load(u, magnitude);
-  return std::any_of(weak.begin(), weak.end(), [&](double load) { return std::abs(load) > limit; });
+  return largest_of(weak) > limit;
 }
 
 void FreeModes::move_weakly(const ConstraintRows& rows, const std::vector<RowTangent>& D, std::span<const double> u,
@@ -433,11 +434,11 @@ std::vector<double> FreeModes::needless(const ConstraintRows& rows, const std::v
     }
     for (int again = 0; again < 2; ++again) {
       for (const std::vector<double>& q : basis) {
-        const double part = std::inner_product(p.begin(), p.end(), q.begin(), 0.0);
+        const double part = dot(p, q);
         for (std::size_t i = 0; i < d; ++i) p[i] -= part * q[i];
       }
     }
-    const double length = std::sqrt(std::inner_product(p.begin(), p.end(), p.begin(), 0.0));
+    const double length = std::sqrt(dot(p, p));
     for (double& v : p) v /= length;
     basis.push_back(std::move(p));
   }

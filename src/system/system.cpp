@@ -29,7 +29,7 @@ void evaluate_solid(const System& system, const PointStep& step, State& end) {
 }
 
 PointStep start_step(double dt, std::span<const double> points, const State& state) {
-  const bool have_flowed = std::any_of(points.begin(), points.end(), [](double value) { return value != 0.0; });
+  const bool have_flowed = !is_zero(points);
   return {.dt = dt, .history = points, .is_over = have_flowed, .alive = state.alive()};
 }
 

@@ -21,7 +21,8 @@ class CheckLayers(ToolTest):
 
     def test_passes_downward_includes(self):
         code, output = self.run_tool("check_layers.py")
-        self.assertEqual((code, output), (0, "layers: includes point down, and no files include each other in a circle\n"))
+        self.assertEqual((code, output), (
+            0, "layers: includes point down, no files include each other in a circle, sums are behind parallel\n"))
 
     def test_upward_include(self):
         self.write("src/base/log.cpp", '\n#include "mesh/mesh.hpp"\n')
@@ -51,6 +52,19 @@ class CheckLayers(ToolTest):
         self.write("src/solid/mass.hpp", '#include "solid/lumped.hpp"\n')
         self.write("src/solid/lumped.cpp", '#include "solid/solid_impl.hpp"\n')
         self.assert_offence("src/solid: files include each other in a circle: lumped -> solid -> mass -> lumped")
+
+    def test_sum_outside_parallel(self):
+        self.write("src/solid/sum.cpp", "// std::reduce\n\ndouble s = std::accumulate(m.begin(), m.end(), 0.0);\n")
+        self.assert_offence("src/solid/sum.cpp:3: accumulate over values belongs behind parallel")
+
+    def test_decision_about_values_outside_parallel(self):
+        self.write("src/solid/rest.cpp", "bool b = std::ranges::any_of(\n    u, [&](double v) { return v != 0.0; });\n")
+        self.assert_offence("src/solid/rest.cpp:1: any_of over values belongs behind parallel")
+
+    def test_decisions_about_other_things_and_sums_of_parallel_pass(self):
+        self.write("src/solid/any.cpp", "bool b = std::any_of(a, e, [](Index n) { return n > 0; });\n")
+        self.write("src/parallel/sum.cpp", "double s = std::accumulate(m.begin(), m.end(), 0.0);\n")
+        self.assertEqual(self.run_tool("check_layers.py")[0], 0)
 
     def test_every_folder_of_the_project_has_a_level(self):
         for folder in (TOOLS.parent / "src").iterdir():

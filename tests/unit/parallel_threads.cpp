@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -62,6 +63,24 @@ TEST(Threads, DotHasTheSameBitsForAnyThreadCount) {
     EXPECT_EQ(dot(a, b), one) << threads << " threads";
   }
   EXPECT_GE(set_threads(0), 1);
+}
+
+TEST(Threads, SumLargestAndZeroAreOfAllValues) {
+  std::vector<double> v(50000, 0.0);
+  EXPECT_TRUE(is_zero(v));
+  EXPECT_EQ(largest_of(v), 0.0);
+  EXPECT_TRUE(is_zero({}));
+  v[49999] = -3.0;
+  v[1] = 1.0;
+  EXPECT_FALSE(is_zero(v));
+  EXPECT_EQ(largest_of(v), 3.0);
+  EXPECT_EQ(sum_of(v), -2.0);
+  EXPECT_TRUE(is_finite(v));
+  for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    v[30000] = wrong;
+    EXPECT_FALSE(is_finite(v));
+    EXPECT_FALSE(is_zero(v));
+  }
 }
 
 }  // namespace

@@ -54,5 +54,47 @@ TEST(RankShare, ComputesOneLayerOfCellsTwice) {
   }
 }
 
+// A cut between two layers of nodes leaves one of them on the other side; a cut within a layer a row more, and cells
+// are computed in whole batches of at most 8, and in whole chunks of 512 by their owner.
+TEST(RankShare, NeedsOneLayerOfTheNodesOfOthersAtEachCut) {
+  constexpr std::size_t nodes_of_layer = (across + 1) * (across + 1);
+  for (const std::size_t count : {2U, 3U, 4U}) {
+    std::vector<std::size_t> foreign(count);
+    run_on_ranks(count, [&] {
+      const SolidCells cells = bar();
+      const EntryRange own = share_of(ranks().own(), count, cells.mesh->node_count());
+      std::set<Index> seen;
+      const RankShare share = rank_share(cells).value();
+      for (const ChunkDuty& duty : share.duties)
+        for (const Chunk& run : duty.runs)
+          for (Index c = 0; c < run.cells; ++c)
+            for (const Index n : cells.nodes_of(at(cells.blocks[at(run.block)].first + run.first + c)))
+              if (at(n) < own.begin || at(n) >= own.end) seen.insert(n);
+      foreign[ranks().own()] = seen.size();
+    });
+    for (std::size_t r = 0; r < count; ++r) {
+      const std::size_t cuts = r == 0 || r + 1 == count ? 1 : 2;
+      EXPECT_GE(foreign[r], cuts * nodes_of_layer);
+      EXPECT_LE(foreign[r], cuts * (nodes_of_layer + 2 * (across + 1) + 8) + 2 * nodes_of_layer);
+    }
+  }
+}
+
+// Whole sums of its own nodes go to each other rank; with energies and history asked for, those of its chunks as well.
+TEST(RankShare, SendsEachOtherRankWhatItOwnsAndNothingElse) {
+  for (const std::size_t count : {2U, 3U, 4U})
+    run_on_ranks(count, [&] {
+      const Solid solid(one_part(block_mesh({across, across, along}, 0.0)));
+      const std::vector<double> u = random_vector(solid.dof_count(), 3);
+      const std::size_t own = share_of(ranks().own(), count, solid.node_count()).size();
+      std::vector<double> f(u.size());
+      const Traffic before = ranks().sent();
+      solid.internal_force(u, f, {});
+      const Traffic after = ranks().sent();
+      EXPECT_EQ(after.messages - before.messages, count - 1);
+      EXPECT_EQ(after.values - before.values, (count - 1) * 3 * own);
+    });
+}
+
 }  // namespace
 }  // namespace carom::test::solid_ranks_test
