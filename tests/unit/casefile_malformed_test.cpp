@@ -310,7 +310,7 @@ const std::vector<Malformed> malformed{
      "c.toml:31:8: functions.ramp.time: found a list of 2 values; expected a number in s\nc.toml:33:1: functions.ramp.value: found a key that kind = \"step\" does not take; expected one of kind, time, before, after. It belongs to kind = \"table\".\n2 errors"},
     {"[[check]]",
      "[exact]\nsolution = \"bar_on_rigid_wall\"\nstiffness = 1.0\n[[check]]",
-     "c.toml:43:1: exact.stiffness: found a key that solution = \"bar_on_rigid_wall\" does not take; expected one of solution, length, area, modulus, density, speed, gap, initial_displacement, second, axis. It belongs to solution = \"bar_on_penalty_wall\", \"friction_oscillator\"."},
+     "c.toml:43:1: exact.stiffness: found a key that solution = \"bar_on_rigid_wall\" does not take; expected one of solution, length, area, modulus, density, speed, gap, initial_displacement, axis. It belongs to solution = \"bar_on_penalty_wall\", \"friction_oscillator\"."},
     {"file = \"bar.msh\"",
      "file = \"\"\n[[mesh.block]]\nsize = [1, 1, 1]\ndivisions = [1, 1, 1]",
      "c.toml:4:8: mesh.file: found \"\"; expected the name of a mesh file"},
