@@ -41,7 +41,7 @@ bool has_factor(const Stage& stage) {
 /// steps, nodes without mass) or of a consistent mass (stops that implicit steps give to what touches).
 bool has_dense_rows(const Stage& stage) {
   const SchemeSettings& settings = stage.settings();
-  if (settings.kind == SchemeKind::modified_mass) return true;
+  if (has_massless_contact(settings.kind)) return true;
   if (!is_implicit(stage)) return false;
   const EnforcementTraits& enforcement = traits(settings.enforcement);
   const bool stops = enforcement.stops_touches && has_inertia(settings.kind);

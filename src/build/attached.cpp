@@ -11,14 +11,14 @@ namespace carom {
 
 namespace {
 
-constexpr const char* spring_nodes = "spring.nodes";
+constexpr const char *mass_nodes = "point_mass.nodes", *spring_nodes = "spring.nodes", *spring_to = "spring.to";
 
 class Attachment {
  public:
   Attachment(const Mesh& mesh, const Groups& groups, Model& model) : mesh_(mesh), groups_(groups), model_(model) {}
 
   void add(const CasePointMass& given) {
-    PointMass point{groups_.nodes(given.nodes, "point_mass.nodes"), 0.0};
+    PointMass point{groups_.nodes(given.nodes, mass_nodes), 0.0};
     point.mass = given.mass ? *given.mass : *given.total / static_cast<double>(point.nodes.size());
     model_.point_masses.push_back(std::move(point));
   }
@@ -28,8 +28,8 @@ class Attachment {
     const std::vector<Index> nodes = groups_.nodes(given.nodes, spring_nodes);
     refuse_without_mass(nodes, parts, given.nodes, spring_nodes);
     if (given.axial) {
-      const std::vector<Index> to = groups_.nodes(*given.to, "spring.to");
-      refuse_without_mass(to, parts, *given.to, "spring.to");
+      const std::vector<Index> to = groups_.nodes(*given.to, spring_to);
+      refuse_without_mass(to, parts, *given.to, spring_to);
       add_between(given, nodes, to);
       return;
     }
@@ -71,7 +71,7 @@ class Attachment {
   void add_between(const CaseSpring& given, const std::vector<Index>& nodes, const std::vector<Index>& to) {
     if (to.size() != 1 && to.size() != nodes.size()) {
       throw CaseError(
-          given.to->where, "spring.to",
+          given.to->where, spring_to,
           fmt::format("{} nodes in \"{}\" against {} in \"{}\"", to.size(), **given.to, nodes.size(), *given.nodes),
           "one node, or as many as `nodes` has");
     }
@@ -79,7 +79,7 @@ class Attachment {
     for (const Index node : nodes) {
       const Index other = nearest_of(to, node);
       if (to.size() > 1 && !taken.insert(other).second) {
-        throw CaseError(given.to->where, "spring.to",
+        throw CaseError(given.to->where, spring_to,
                         fmt::format("node {} of \"{}\", which is the nearest to two nodes of \"{}\", {} being one",
                                     number(other), **given.to, *given.nodes, number(node)),
                         "groups whose nodes lie opposite each other", "Give each pair a [[spring]] of its own.");
@@ -87,7 +87,7 @@ class Attachment {
       const Vec3 along = subtract(X(other), X(node));
       const double length = norm(along);
       if (!(length > 0.0)) {
-        throw CaseError(given.to->where, "spring.to",
+        throw CaseError(given.to->where, spring_to,
                         fmt::format("nodes {} and {} at one place", number(node), number(other)),
                         "ends that are apart, since the spring acts along their line");
       }
@@ -114,6 +114,18 @@ std::vector<Vec3> ground_positions(const Case& given, const Mesh& mesh) {
       positions.push_back(mesh.coordinates[static_cast<std::size_t>(node)]);
   }
   return positions;
+}
+
+std::vector<AttachedGroup> attached_groups(const Case& given) {
+  std::vector<AttachedGroup> groups;
+  for (const CasePointMass& mass : given.point_masses)
+    groups.push_back({mass.nodes, mass_nodes, "a point mass", "Give the body its mass and inertia instead."});
+  for (const CaseSpring& spring : given.springs) {
+    const char* remedy = "Join a group of deformable cells to the body, and let the spring act on them.";
+    groups.push_back({spring.nodes, spring_nodes, "a spring", remedy});
+    if (spring.to) groups.push_back({*spring.to, spring_to, "a spring", remedy});
+  }
+  return groups;
 }
 
 bool has_point_mass(const Model& model, Index node) {

@@ -20,6 +20,17 @@ std::vector<Vec3> ground_positions(const Case& given, const Mesh& mesh);
 void add_attached(const Case& given, const Mesh& mesh, const Groups& groups, const Parts& parts, Index ground,
                   Model& model);
 
+/// A group of nodes that something attached hangs on.
+struct AttachedGroup {
+  const Located<std::string>& group;
+  const char* key;     ///< of the case, for messages
+  const char* what;    ///< hangs there: "a spring"
+  const char* remedy;  ///< where a rigid body holds the nodes
+};
+
+/// Those of all attached things, in the order of the case.
+std::vector<AttachedGroup> attached_groups(const Case& given);
+
 /// True when a point mass of the model stands at the node.
 bool has_point_mass(const Model& model, Index node);
 

@@ -97,7 +97,7 @@ void refuse_erosion(const Case& given, const Model& model, const std::vector<std
   if (model.erosion.empty()) return;
   for (const std::unique_ptr<Stage>& stage : stages) {
     const SchemeKind kind = stage->settings().kind;
-    if (!is_explicit(kind) || kind == SchemeKind::modified_mass)
+    if (!is_explicit(kind) || has_massless_contact(kind))
       refuse(given.erosion.front(), "part", fmt::format("scheme.kind = \"{}\"", traits(kind).name),
              "an explicit scheme with the masses of the bodies in all stages",
              "Take \"central_differences\", where cells may go at the end of a step.");

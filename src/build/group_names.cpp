@@ -1,5 +1,6 @@
 #include "build/group_names.hpp"
 
+#include "build/attached.hpp"
 #include "build/groups.hpp"
 
 namespace carom {
@@ -36,11 +37,7 @@ void check_group_names(const Case& given, const Mesh& mesh, CaseErrors& errors) 
   Names names(mesh, errors);
   for (const CasePart& part : given.parts) names.check(part.cells, "part.cells");
   for (const CaseSupport& support : given.supports) names.check(support.nodes, "support.nodes");
-  for (const CasePointMass& mass : given.point_masses) names.check(mass.nodes, "point_mass.nodes");
-  for (const CaseSpring& spring : given.springs) {
-    names.check(spring.nodes, "spring.nodes");
-    names.check(spring.to, "spring.to");
-  }
+  for (const AttachedGroup& attached : attached_groups(given)) names.check(attached.group, attached.key);
   for (const CaseEquation& equation : given.equations)
     for (const CaseEquation::Term& term : equation.terms) names.check(term.nodes, "equation.terms.nodes");
   for (const CaseLoad& load : given.loads) names.check(load.group, "load.group");

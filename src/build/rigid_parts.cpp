@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "build/attached.hpp"
 #include "build/eroding_parts.hpp"
 #include "math/vec3.hpp"
 #include "solid/part_inertia.hpp"
@@ -98,21 +99,13 @@ RigidParts::RigidParts(const Case& given, const Mesh& mesh, const Groups& groups
 
 /// Springs and masses hang on nodes that move by themselves.
 void RigidParts::refuse_attached() const {
-  const auto refuse = [&](const Located<std::string>& group, const char* key, const char* what, const char* remedy) {
-    for (const Index n : groups_.nodes(group, key))
+  for (const AttachedGroup& attached : attached_groups(case_))
+    for (const Index n : groups_.nodes(attached.group, attached.key))
       if (const Index body = body_of_node_[at(n)]; body >= 0)
-        throw CaseError(group.where, key,
-                        fmt::format("{} at node {} of \"{}\", which rigid body \"{}\" holds", what, number(n), *group,
-                                    *bodies_[at(body)].given->name),
-                        "nodes that move by themselves", remedy);
-  };
-  for (const CasePointMass& mass : case_.point_masses)
-    refuse(mass.nodes, "point_mass.nodes", "a point mass", "Give the body its mass and inertia instead.");
-  for (const CaseSpring& spring : case_.springs) {
-    const char* remedy = "Join a group of deformable cells to the body, and let the spring act on them.";
-    refuse(spring.nodes, "spring.nodes", "a spring", remedy);
-    if (spring.to) refuse(*spring.to, "spring.to", "a spring", remedy);
-  }
+        throw CaseError(attached.group.where, attached.key,
+                        fmt::format("{} at node {} of \"{}\", which rigid body \"{}\" holds", attached.what, number(n),
+                                    *attached.group, *bodies_[at(body)].given->name),
+                        "nodes that move by themselves", attached.remedy);
 }
 
 void RigidParts::refuse_torn(const Model& model) const {
@@ -138,7 +131,7 @@ void RigidParts::refuse_company() const {
   if (!has_inertia(*case_.scheme.kind)) refuse("a rigid body, with statics", "a scheme with inertia");
   for (const CaseStage& stage : case_.stages)
     if (!has_inertia(*stage.scheme.kind)) refuse("a rigid body, with a stage of statics", "stages with inertia");
-  const auto gives_mass_away = [](const CaseScheme& scheme) { return *scheme.kind == SchemeKind::modified_mass; };
+  const auto gives_mass_away = [](const CaseScheme& scheme) { return has_massless_contact(*scheme.kind); };
   if (gives_mass_away(case_.scheme) ||
       std::ranges::any_of(case_.stages, [&](const CaseStage& stage) { return gives_mass_away(stage.scheme); }))
     refuse("a rigid body, with modified_mass",

@@ -247,7 +247,7 @@ void Stage::refuse_loads_without_hold() const {
 /// the smooth motion and of the jumps, while its supports answer their sum.
 void Stage::refuse_driven_bonds() const {
   const SchemeTraits& scheme = traits(settings_.kind);
-  if (scheme.kind != SchemeKind::tchamwa_wielgosz && scheme.kind != SchemeKind::nonsmooth_generalized_alpha) return;
+  if (scheme.takes_driven_bonds) return;
   std::vector<bool> is_driven(context_.solid.dof_count(), false);
   for (const PrescribedDof& p : supports_.prescribed()) {
     const std::vector<double>& values = supports_.motions()[p.motion].function.value;
@@ -293,7 +293,7 @@ void Stage::refuse_history() const {
 
 /// Schemes that solve for displacements need the tangent of every law.
 void Stage::refuse_laws_without_tangent() const {
-  if (is_explicit(settings_.kind) && settings_.kind != SchemeKind::modified_mass) return;
+  if (is_explicit(settings_.kind) && !has_massless_contact(settings_.kind)) return;
   for (const Part& part : context_.model.parts)
     if (!part.material.law->has_tangent)
       throw CaseError(scheme_.kind.where, "scheme.kind",

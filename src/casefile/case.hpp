@@ -15,6 +15,7 @@
 #include "base/units.hpp"
 #include "casefile/case_contact.hpp"
 #include "casefile/located.hpp"
+#include "exact/solution.hpp"
 #include "material/law.hpp"
 #include "math/time_function.hpp"
 #include "mesh/structured_block.hpp"
@@ -274,25 +275,11 @@ struct CaseCheck {
   std::string source;
 };
 
-/// [exact.second]: the bar on the positive side of the axis.
-struct CaseExactBar {
-  Location where;
-  double length = 0.0, area = 0.0, modulus = 0.0, density = 0.0, speed = 0.0;
-};
-
-/// [exact]: the exact solution of this case, for checks and curves (see exact/).
+/// [exact]: the exact solution of this case, for checks and curves.
 struct CaseExact {
   Location where;
-  Located<std::string> solution;
-  double length = 0.0, area = 0.0, modulus = 0.0, density = 0.0, speed = 0.0, gap = 0.0;
-  double stiffness = 0.0;              ///< penalty wall: stress per length; friction oscillator: force per length
-  double initial_displacement = 0.0;   ///< added to displacements (SDNV100 counts its initial +2 mm); the oscillator's
-  double gravity = 0.0;                ///< bouncing bar, sliding block, friction oscillator
-  double mass = 0.0;                   ///< sphere, block, oscillator
-  double radius = 0.0, poisson = 0.0;  ///< sphere
-  double friction = 0.0;               ///< Coulomb mu
-  double angle = 0.0;                  ///< of the incline, radians
-  std::optional<CaseExactBar> second;
+  Located<std::string> solution;  ///< the name of a row of exact_solutions()
+  ExactValues values;             ///< of all parameters of the row
   int axis = 2;
 };
 

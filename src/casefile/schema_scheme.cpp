@@ -38,7 +38,7 @@ Names explicit_schemes() {
 }
 
 Names schemes_of_lumped_mass() {
-  return schemes_with([](const SchemeTraits& s) { return is_explicit(s.kind) && s.kind != SchemeKind::modified_mass; });
+  return schemes_with([](const SchemeTraits& s) { return is_explicit(s.kind) && !s.has_massless_contact; });
 }
 
 /// `kind`, which brings the parameters of the scheme with it.
@@ -157,7 +157,7 @@ void check_alias(const CaseScheme& scheme, const Node& node, const ReadContext& 
 
 void check_mass(CaseScheme& scheme, const Node& node, const ReadContext& at) {
   using Mass = CaseScheme::Mass;
-  const bool must_be_modified = *scheme.kind == SchemeKind::modified_mass;
+  const bool must_be_modified = has_massless_contact(*scheme.kind);
   if (!scheme.mass) {
     const Mass usual = must_be_modified ? Mass::modified : is_explicit(*scheme.kind) ? Mass::lumped : Mass::consistent;
     scheme.mass = Located<Mass>{usual, scheme.where};

@@ -23,9 +23,9 @@ enum class KeywordUse : std::uint8_t {
 struct KeywordEntry {
   std::string_view name;  ///< with its blanks, "SOLID SECTION"
   KeywordUse use{};
-  std::string_view parameters;  ///< those that are understood, with commas between
-  std::string_view noted;       ///< those that change nothing here and are listed as notes
-  std::string_view meaning;     ///< what becomes of it, or what its loss would mean
+  std::string_view parameters{};  ///< those that are understood, with commas between
+  std::string_view noted{};       ///< those that change nothing here and are listed as notes
+  std::string_view meaning{};     ///< what becomes of it, or what its loss would mean
 };
 
 /// In alphabetical order.

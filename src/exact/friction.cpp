@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 
 #include "exact/arguments.hpp"
+#include "exact/solution.hpp"
 
 namespace carom {
 
@@ -95,6 +97,67 @@ double SlidingBlock::dissipated(double t) const {
 
 double SlidingBlock::stop_position() const {
   return std::isinf(stop_time_) ? stop_time_ : position(stop_time_);
+}
+
+namespace {
+
+/// Of a rigid body, the same at every place.
+template <class Block>
+ExactMotion motion_of_block(const std::shared_ptr<const Block>& block) {
+  ExactMotion motion;
+  motion.at = [block](const ExactPlace&) {
+    return ExactPoint{
+        [block](double t) { return block->position(t); }, [block](double t) { return block->velocity(t); }, {}};
+  };
+  motion.energies = {{"friction", [block](double t) { return block->dissipated(t); }}};
+  return motion;
+}
+
+ExactParameter block_mass() {
+  return positive("mass", "Mass of the body.", Dimension::mass);
+}
+ExactParameter coulomb() {
+  return not_negative("friction", "Coulomb's coefficient.", Dimension::none);
+}
+
+}  // namespace
+
+ExactSolution sliding_block_row() {
+  ExactSolution row{.name = "sliding_block", .summary = "a rigid block slides on a level or inclined plane"};
+  row.parameters = {
+      block_mass(),
+      {.key = "speed", .meaning = "Of the block, along the axis.", .unit = Dimension::velocity, .initial = 0.0},
+      gravity_parameter(),
+      coulomb(),
+      not_negative("angle", "Slope of the incline, in radians.", Dimension::none)};
+  row.motion = [](const ExactValues& values, const ExactCase&) {
+    return motion_of_block(std::make_shared<const SlidingBlock>(SlidingBlockData{.mass = values.at("mass"),
+                                                                                 .mu = values.at("friction"),
+                                                                                 .gravity = values.at("gravity"),
+                                                                                 .angle = values.at("angle"),
+                                                                                 .speed = values.at("speed")}));
+  };
+  return row;
+}
+
+ExactSolution friction_oscillator_row() {
+  ExactSolution row{.name = "friction_oscillator", .summary = "a rigid block on a spring rubs on a plane"};
+  row.parameters = {block_mass(),
+                    positive("stiffness", "Of the spring.", Dimension::force_per_length),
+                    gravity_parameter(),
+                    coulomb(),
+                    {.key = "initial_displacement",
+                     .meaning = "Where the oscillator is released.",
+                     .unit = Dimension::length,
+                     .initial = 0.0}};
+  row.motion = [](const ExactValues& values, const ExactCase&) {
+    return motion_of_block(std::make_shared<const FrictionOscillator>(
+        FrictionOscillatorData{.mass = values.at("mass"),
+                               .stiffness = values.at("stiffness"),
+                               .friction = values.at("friction") * values.at("mass") * values.at("gravity"),
+                               .start = values.at("initial_displacement")}));
+  };
+  return row;
 }
 
 }  // namespace carom

@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include "exact/arguments.hpp"
+#include "exact/solution.hpp"
 
 namespace carom {
 
@@ -146,6 +148,28 @@ double HertzImpact::approach(double t) const {
 double HertzImpact::speed(double t) const {
   if (t <= 0.0) return speed_;
   return t >= contact_time() ? -speed_ : speed_ * std::cos(phase(t));
+}
+
+ExactSolution sphere_on_rigid_wall_row() {
+  ExactSolution row{.name = "sphere_on_rigid_wall", .summary = "an elastic sphere against a rigid wall, by Hertz"};
+  row.parameters = {positive("modulus", "Young's modulus.", Dimension::stress),
+                    {.key = "poisson",
+                     .meaning = "Poisson's ratio of the sphere.",
+                     .range = {.low = -1.0, .high = 0.5},
+                     .initial = 0.0},
+                    positive("mass", "Mass of the body.", Dimension::mass),
+                    positive("radius", "Radius of the sphere.", Dimension::length),
+                    {.key = "speed", .meaning = "Speed towards the wall.", .unit = Dimension::velocity},
+                    gap_parameter()};
+  row.motion = [](const ExactValues& values, const ExactCase&) {
+    const double poisson = values.at("poisson"), modulus = values.at("modulus") / (1.0 - poisson * poisson);
+    const double speed = values.at("speed"), touch = values.at("gap") / speed;
+    const auto impact = std::make_shared<const HertzImpact>(values.at("mass"), values.at("radius"), modulus, speed);
+    ExactMotion motion;
+    motion.force = [impact, touch](double t) { return t < touch ? 0.0 : impact->force(t - touch); };
+    return motion;
+  };
+  return row;
 }
 
 }  // namespace carom

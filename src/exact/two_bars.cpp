@@ -1,8 +1,13 @@
 #include "exact/two_bars.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <memory>
+#include <stdexcept>
 
 #include "exact/arguments.hpp"
+#include "exact/solution.hpp"
 
 namespace carom {
 
@@ -56,6 +61,46 @@ bool TwoBars::apart_for_good() const {
   const Ringing left = ringing_after(until_, bars_[0], contact_.waves[0]);
   const Ringing right = ringing_after(until_, bars_[1], contact_.waves[1]);
   return mean_velocity(1, until_) >= mean_velocity(0, until_) && gap(until_) > left.ahead + right.behind;
+}
+
+ExactSolution two_bars_row() {
+  ExactSolution row{.name = "two_bars",
+                    .summary = "two elastic bars in line collide, the first part being that on the negative side",
+                    .parameters = bar_parameters()};
+  row.parameters.push_back(
+      {.key = "speed", .meaning = "Of the first bar, along the axis.", .unit = Dimension::velocity});
+  row.parameters.push_back(gap_parameter());
+  row.bodies = {{"second",
+                 "the bar on the positive side of the axis.",
+                 {positive("length", "Length.", Dimension::length),
+                  positive("area", "Section.", Dimension::area),
+                  positive("modulus", "Stress per axial strain.", Dimension::stress),
+                  positive("density", "Density.", Dimension::density),
+                  {.key = "speed",
+                   .meaning = "Velocity along the axis at the start.",
+                   .unit = Dimension::velocity,
+                   .initial = 0.0}}}};
+  row.motion = [](const ExactValues& values, const ExactCase& given) {
+    if (given.parts != 2) throw std::invalid_argument(fmt::format("{} parts", given.parts));
+    const TwoBarsData data{bar_of(values), bar_of(values, "second"), values.at("gap")};
+    const auto bars = std::make_shared<const TwoBars>(data, given.until);
+    ExactMotion motion;
+    motion.at = [bars, data, face = given.lowest + data.left.length](const ExactPlace& place) {
+      const int bar = place.part;
+      const double length = bar == 0 ? data.left.length : data.right.length;
+      const double z = std::clamp(bar == 0 ? face - place.x : place.x - face - data.gap, 0.0, length);
+      return ExactPoint{[bars, bar, z](double t) { return bars->displacement(bar, z, t); },
+                        [bars, bar, z](double t) { return bars->velocity(bar, z, t); },
+                        [bars, bar, z](double t) { return bars->stress(bar, z, t); }};
+    };
+    const double sign = given.pressed_part == 0 ? -1.0 : 1.0;
+    motion.force = [bars, sign](double t) { return sign * bars->force(t); };
+    motion.energies = {
+        {"kinetic", [bars](double t) { return bars->kinetic_energy(0, t) + bars->kinetic_energy(1, t); }},
+        {"strain", [bars](double t) { return bars->strain_energy(0, t) + bars->strain_energy(1, t); }}};
+    return motion;
+  };
+  return row;
 }
 
 }  // namespace carom

@@ -96,6 +96,10 @@ struct SchemeTraits {
   double gains = 0.005;       ///< energy that it may make, over what there is, without a trend (docs/schemes.md)
   bool has_inertia = true;    ///< false: its steps are equilibria
   bool takes_history = true;  ///< bodies whose points remember, and so dissipate; distortion control
+  /// Explicit steps whose contact nodes have given their mass away, and are solved for by the tangent.
+  bool has_massless_contact = false;
+  /// Bonds with what an imposed motion leads (Stage::refuse_driven_bonds says why not).
+  bool takes_driven_bonds = true;
 };
 
 namespace detail {
@@ -181,7 +185,8 @@ inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
      .stepping = Stepping::implicit_steps,
      .parameters = SpectralRadius{},
      .takes = {.impulse = true},
-     .why_not = detail::velocity_level},
+     .why_not = detail::velocity_level,
+     .takes_driven_bonds = false},
     {.kind = SchemeKind::central_differences,
      .name = "central_differences",
      .title = "central differences",
@@ -210,7 +215,8 @@ inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
      .stepping = Stepping::explicit_steps,
      .parameters = TchamwaWielgoszParameters{},
      .takes = {.penalty = true},
-     .why_not = detail::smooth_explicit},
+     .why_not = detail::smooth_explicit,
+     .takes_driven_bonds = false},
     {.kind = SchemeKind::modified_mass,
      .name = "modified_mass",
      .title = "central differences, modified mass",
@@ -219,7 +225,8 @@ inline constexpr std::array<SchemeTraits, scheme_count> scheme_table{{
      .takes = {.lagrange = true},
      .why_not = detail::displacement_level,
      .angular_momentum = AngularMomentum::exactly,
-     .gains = 0.02},
+     .gains = 0.02,
+     .has_massless_contact = true},
     {.kind = SchemeKind::statics,
      .name = "statics",
      .title = "statics",
@@ -256,6 +263,9 @@ constexpr std::string_view name(EnforcementKind kind) {
 }
 constexpr bool is_explicit(SchemeKind kind) {
   return traits(kind).stepping == Stepping::explicit_steps;
+}
+constexpr bool has_massless_contact(SchemeKind kind) {
+  return traits(kind).has_massless_contact;
 }
 constexpr bool has_inertia(SchemeKind kind) {
   return traits(kind).has_inertia;

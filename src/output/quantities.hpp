@@ -19,6 +19,7 @@ enum class Place : std::uint8_t {
   points,   ///< remembered by the points of some laws: means over the cells
   mesh,     ///< of cells, with the mesh that all frames share
   held,     ///< nodes that supports hold or move
+  turning,  ///< nodes, along axes that turn with the body there
   section,  ///< the cells on one side of some nodes
   part,
   contact,  ///< with what a contact touches

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "energy/ledger.hpp"
 #include "math/vec3.hpp"
@@ -56,6 +57,10 @@ std::vector<std::string_view> motion_quantities(const Model& model, std::size_t 
   std::vector<std::string_view> names{"displacement", "velocity"};
   if (found.body >= 0) names.emplace_back("angular_velocity");
   return names;
+}
+
+bool asks(const CaseProbe& probe, std::string_view quantity) {
+  return std::ranges::any_of(probe.quantities, [&](const auto& name) { return *name == quantity; });
 }
 
 std::vector<std::optional<Vec3>> moment_points(const Case& given) {
@@ -171,6 +176,7 @@ ProbeCurves::ProbeCurves(const Simulation& simulation)
     } else {
       add_nodes(given, probe);
     }
+    probe.position = positions_.back();
     add_columns(given, probe);
     probes_.push_back(std::move(probe));
   }
@@ -185,6 +191,7 @@ void ProbeCurves::add_nodes(const CaseProbe& given, Probe& probe) {
         add(position, scaled(simulation_.mesh().coordinates[at(n)], 1.0 / static_cast<double>(probe.nodes.size())));
   find_cells(given, position, probe);
   find_held(given, probe);
+  if (asks(given, "local_acceleration")) probe.axes = TurningAxes(given, probe.nodes, simulation_);
   if (given.point) note_node(given, place);
 }
 
@@ -196,9 +203,6 @@ void ProbeCurves::note_node(const CaseProbe& given, const ProbePlace& place) {
 }
 
 void ProbeCurves::find_cells(const CaseProbe& given, const Vec3& position, Probe& probe) const {
-  const auto asks = [&](const char* q) {
-    return std::find(probe.quantities.begin(), probe.quantities.end(), q) != probe.quantities.end();
-  };
   const auto of_cells = std::ranges::find_if(probe.quantities, [&](const std::string& name) {
     const std::optional<FieldKind> kind = field_kind(simulation_, name);
     return (kind && !kind->is_at_nodes()) || name == "section_force";
@@ -228,14 +232,14 @@ void ProbeCurves::find_cells(const CaseProbe& given, const Vec3& position, Probe
     if (given.side && dot(subtract(centre, position), across) > 0.0)
       probe.section_cells.push_back(static_cast<Index>(k));
   }
-  const bool nothing_to_sum = asks("section_force") && probe.section_cells.empty();
+  const bool nothing_to_sum = asks(given, "section_force") && probe.section_cells.empty();
   if (probe.cells.empty() || nothing_to_sum) {
     throw CaseError(
         given.where, "probe",
         fmt::format("no solid cell that touches probe \"{}\"{}", *given.name, nothing_to_sum ? " on that side" : ""),
         "a probe on nodes of a part", nothing_to_sum ? "Turn `side` to where the cells are." : "");
   }
-  if (asks("section_force")) probe.section_mass = SectionMass(solid, probe.nodes, probe.section_cells);
+  if (asks(given, "section_force")) probe.section_mass = SectionMass(solid, probe.nodes, probe.section_cells);
 }
 
 void ProbeCurves::find_held(const CaseProbe& given, Probe& probe) const {
@@ -272,21 +276,26 @@ void ProbeCurves::add_columns(const CaseProbe& given, Probe& probe) {
   table_.columns.insert(table_.columns.end(), probe.columns.begin(), probe.columns.end());
 }
 
-void ProbeCurves::sample(const StepView& view) {
-  table_.row = {view.state.t};
-  FieldsNow now(simulation_, view);
-  for (std::size_t p = 0; p < probes_.size(); ++p)
-    for (const std::string& quantity : probes_[p].quantities) append(quantity, p, now);
+void ProbeCurves::sample(FieldsNow& now) {
+  table_.row = {now.view.state.t};
+  for (const Probe& probe : probes_)
+    for (const std::string& quantity : probe.quantities) append(quantity, probe, now);
 }
 
-void ProbeCurves::append(const std::string& quantity, std::size_t p, FieldsNow& now) {
-  const Probe& probe = probes_[p];
+void ProbeCurves::append(const std::string& quantity, const Probe& probe, FieldsNow& now) {
+  using Value = Vec3 (ProbeCurves::*)(const Probe&, const StepView&);
+  static constexpr std::pair<std::string_view, Value> own[]{{"section_force", &ProbeCurves::section_force},
+                                                            {"reaction", &ProbeCurves::reaction_force},
+                                                            {"reaction_moment", &ProbeCurves::reaction_moment},
+                                                            {"local_acceleration", &ProbeCurves::local_acceleration}};
   const Quantity* found = find_quantity(quantity);
-  const auto add = [&](const Vec3& v) { table_.row.insert(table_.row.end(), v.begin(), v.end()); };
   if (found != nullptr && found->place == Place::part) return probe.part.append(quantity, now.view, table_.row);
-  if (quantity == "section_force") return add(section_force(probe, now.view));
-  if (quantity == "reaction") return add(reaction(probe, positions_[p], now.view).force);
-  if (quantity == "reaction_moment") return add(reaction(probe, positions_[p], now.view).moment);
+  for (const auto& [name, value] : own) {
+    if (name != quantity) continue;
+    const Vec3 v = (this->*value)(probe, now.view);
+    table_.row.insert(table_.row.end(), v.begin(), v.end());
+    return;
+  }
   append_mean(quantity, probe, now);
 }
 
@@ -316,7 +325,7 @@ Vec3 ProbeCurves::section_force(const Probe& probe, const StepView& view) {
   return sum;
 }
 
-Wrench ProbeCurves::reaction(const Probe& probe, const Vec3& centre, const StepView& view) const {
+Wrench ProbeCurves::reaction(const Probe& probe, const StepView& view) const {
   Wrench sum;
   const std::vector<PrescribedDof>& prescribed = view.stage.supports().prescribed();
   for (std::size_t k = 0; k < prescribed.size(); ++k) {
@@ -326,9 +335,16 @@ Wrench ProbeCurves::reaction(const Probe& probe, const Vec3& centre, const StepV
     force[at(prescribed[k].dof % 3)] = view.forces.supports[k].reaction;
     const Vec3 x = add(simulation_.mesh().coordinates[at(node)], vector_at(view.state.q, at(node)));
     sum.force = add(sum.force, force);
-    sum.moment = add(sum.moment, cross(subtract(x, centre), force));
+    sum.moment = add(sum.moment, cross(subtract(x, probe.position), force));
   }
   return sum;
+}
+
+Vec3 ProbeCurves::local_acceleration(const Probe& probe, const StepView& view) {
+  Vec3 mean{};
+  for (const Index n : probe.nodes)
+    mean = add(mean, scaled(vector_at(view.state.a, at(n)), 1.0 / static_cast<double>(probe.nodes.size())));
+  return along(probe.axes.at(view.state.q, view.state.alive()), mean);
 }
 
 }  // namespace carom

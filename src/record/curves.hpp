@@ -14,6 +14,7 @@
 #include "record/field_values.hpp"
 #include "record/part_sums.hpp"
 #include "record/probe_place.hpp"
+#include "record/turning_axes.hpp"
 #include "solid/loads.hpp"
 
 namespace carom {
@@ -82,12 +83,12 @@ struct Wrench {
 /// probes.csv: means of fields over the probes' nodes and cells; section forces: what the cells on the probe's side
 /// pull the section with, that is minus their internal force on its nodes, minus the inertia of their share of these
 /// nodes and plus its weight; the reactions of what holds or moves nodes, with their moment about the probe's reference
-/// position; and sums over parts.
+/// position; accelerations along axes that turn with the body; and sums over parts.
 class ProbeCurves {
  public:
   /// Throws CaseError as place_probe and across_section do.
   explicit ProbeCurves(const Simulation& simulation);
-  void sample(const StepView& view);
+  void sample(FieldsNow& now);
   const CurveTable& table() const { return table_; }
   /// Mean reference position of each probe, in the order of Case::probes.
   const std::vector<Vec3>& positions() const { return positions_; }
@@ -104,7 +105,9 @@ class ProbeCurves {
     std::vector<Index> cells;          ///< positions in Solid::cells() of the cells that touch the nodes
     std::vector<Index> section_cells;  ///< those of them on the probe's side
     SectionMass section_mass;
+    TurningAxes axes;
     PartSums part;
+    Vec3 position{};  ///< mean reference position
     std::vector<std::string> quantities;
     std::vector<std::string> columns{};
   };
@@ -112,10 +115,13 @@ class ProbeCurves {
   void find_cells(const CaseProbe& given, const Vec3& position, Probe& probe) const;
   void find_held(const CaseProbe& given, Probe& probe) const;
   Vec3 section_force(const Probe& probe, const StepView& view);
-  Wrench reaction(const Probe& probe, const Vec3& centre, const StepView& view) const;
+  Wrench reaction(const Probe& probe, const StepView& view) const;
+  Vec3 reaction_force(const Probe& probe, const StepView& view) { return reaction(probe, view).force; }
+  Vec3 reaction_moment(const Probe& probe, const StepView& view) { return reaction(probe, view).moment; }
+  Vec3 local_acceleration(const Probe& probe, const StepView& view);
   void add_nodes(const CaseProbe& given, Probe& probe);
   void add_columns(const CaseProbe& given, Probe& probe);
-  void append(const std::string& quantity, std::size_t probe, FieldsNow& now);
+  void append(const std::string& quantity, const Probe& probe, FieldsNow& now);
   void append_mean(const std::string& field, const Probe& probe, FieldsNow& now);
 
   const Simulation& simulation_;

@@ -1,11 +1,11 @@
 // The exact solution of a case beside its curves.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "exact/solution.hpp"
 #include "record/curves.hpp"
 
 namespace carom {
@@ -23,10 +23,9 @@ class ExactCurves {
   void sample(double t);
   const CurveTable& table() const { return table_; }
 
-  using Value = std::function<double(double t)>;
   struct Column {
     std::string name;
-    Value value;
+    ExactCurve value;
   };
 
  private:

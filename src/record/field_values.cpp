@@ -100,61 +100,76 @@ struct Evaluator {
 
 constexpr auto from_stress = Evaluator::Needs::stress;
 const Evaluator evaluators[] = {
-    {"displacement", [](FieldsNow& now) { return kept(now.view.state.q); }},
-    {"velocity", [](FieldsNow& now) { return kept(now.view.state.v); }},
-    {"acceleration", [](FieldsNow& now) { return kept(now.view.state.a); }},
-    {"stress", [](FieldsNow& now) { return kept(FieldValues::entries(now.stress())); }, from_stress},
-    {"von_mises",
-     [](FieldsNow& now) { return of_cells<1>(now.stress(), [](const Voigt& s, double* out) { *out = von_mises(s); }); },
-     from_stress},
-    {"principal_stress",
-     [](FieldsNow& now) {
-       return of_cells<3>(now.stress(),
-                          [](const Voigt& s, double* out) { std::ranges::copy(principal_stress(s), out); });
-     },
-     from_stress},
-    {"maximum_shear_stress",
-     [](FieldsNow& now) {
-       return of_cells<1>(now.stress(), [](const Voigt& s, double* out) {
-         const Vec3 values = principal_stress(s);
-         *out = 0.5 * (values[0] - values[2]);
-       });
-     },
-     from_stress},
-    {"pressure",
-     [](FieldsNow& now) {
-       return of_cells<1>(now.stress(), [](const Voigt& s, double* out) { *out = -(s[0] + s[1] + s[2]) / 3.0; });
-     },
-     from_stress},
-    {"stress_at_nodes", [](FieldsNow& now) { return at_nodes(now, 6, FieldValues::entries(now.stress())); },
-     from_stress},
-    {"strain", [](FieldsNow& now) { return FieldValues(cell_strain(now.simulation.model(), now.view.state.q)); }},
-    {"strain_rate",
-     [](FieldsNow& now) {
-       return FieldValues(cell_strain_rate(now.simulation.model(), now.view.state.q, now.view.state.v));
-     }},
-    {"strain_energy_density", [](FieldsNow& now) { return energy_densities(now); }},
-    {"equivalent_plastic_strain_at_nodes",
-     [](FieldsNow& now) { return at_nodes(now, 1, now.evaluate(plastic_strain).values); },
-     {},
-     yields},
-    {"contact_force", [](FieldsNow& now) { return contact_forces(now); }, {}, touches},
-    {"contact_pressure", [](FieldsNow& now) { return kept(now.contact().pressure); }, {}, touches},
-    {"contact_gap", [](FieldsNow& now) { return kept(now.contact().gap); }, {}, touches},
-    {"contact_slip_rate", [](FieldsNow& now) { return kept(now.contact().slip_rate); }, {}, touches},
-    {"contact_status",
-     [](FieldsNow& now) {
-       return FieldValues(std::vector<double>(now.contact().status.begin(), now.contact().status.end()));
-     },
-     {},
-     touches},
-    {"contact_damage",
-     [](FieldsNow& now) {
-       return FieldValues(now.simulation.solid().cohesive().nodal_damage(now.view.points().history,
-                                                                         now.simulation.mesh().node_count()));
-     },
-     {},
-     tears},
+    {.name = "displacement", .evaluate = [](FieldsNow& now) { return kept(now.view.state.q); }},
+    {.name = "velocity", .evaluate = [](FieldsNow& now) { return kept(now.view.state.v); }},
+    {.name = "acceleration", .evaluate = [](FieldsNow& now) { return kept(now.view.state.a); }},
+    {.name = "stress",
+     .evaluate = [](FieldsNow& now) { return kept(FieldValues::entries(now.stress())); },
+     .needs = from_stress},
+    {.name = "von_mises",
+     .evaluate =
+         [](FieldsNow& now) {
+           return of_cells<1>(now.stress(), [](const Voigt& s, double* out) { *out = von_mises(s); });
+         },
+     .needs = from_stress},
+    {.name = "principal_stress",
+     .evaluate =
+         [](FieldsNow& now) {
+           return of_cells<3>(now.stress(),
+                              [](const Voigt& s, double* out) { std::ranges::copy(principal_stress(s), out); });
+         },
+     .needs = from_stress},
+    {.name = "maximum_shear_stress",
+     .evaluate =
+         [](FieldsNow& now) {
+           return of_cells<1>(now.stress(), [](const Voigt& s, double* out) {
+             const Vec3 values = principal_stress(s);
+             *out = 0.5 * (values[0] - values[2]);
+           });
+         },
+     .needs = from_stress},
+    {.name = "pressure",
+     .evaluate =
+         [](FieldsNow& now) {
+           return of_cells<1>(now.stress(), [](const Voigt& s, double* out) { *out = -(s[0] + s[1] + s[2]) / 3.0; });
+         },
+     .needs = from_stress},
+    {.name = "stress_at_nodes",
+     .evaluate = [](FieldsNow& now) { return at_nodes(now, 6, FieldValues::entries(now.stress())); },
+     .needs = from_stress},
+    {.name = "strain",
+     .evaluate = [](FieldsNow& now) { return FieldValues(cell_strain(now.simulation.model(), now.view.state.q)); }},
+    {.name = "strain_rate",
+     .evaluate =
+         [](FieldsNow& now) {
+           return FieldValues(cell_strain_rate(now.simulation.model(), now.view.state.q, now.view.state.v));
+         }},
+    {.name = "strain_energy_density", .evaluate = [](FieldsNow& now) { return energy_densities(now); }},
+    {.name = "equivalent_plastic_strain_at_nodes",
+     .evaluate = [](FieldsNow& now) { return at_nodes(now, 1, now.evaluate(plastic_strain).values); },
+     .is_there = yields},
+    {.name = "contact_force", .evaluate = [](FieldsNow& now) { return contact_forces(now); }, .is_there = touches},
+    {.name = "contact_pressure",
+     .evaluate = [](FieldsNow& now) { return kept(now.contact().pressure); },
+     .is_there = touches},
+    {.name = "contact_gap", .evaluate = [](FieldsNow& now) { return kept(now.contact().gap); }, .is_there = touches},
+    {.name = "contact_slip_rate",
+     .evaluate = [](FieldsNow& now) { return kept(now.contact().slip_rate); },
+     .is_there = touches},
+    {.name = "contact_slip", .evaluate = [](FieldsNow& now) { return kept(now.contact_slip); }, .is_there = touches},
+    {.name = "contact_status",
+     .evaluate =
+         [](FieldsNow& now) {
+           return FieldValues(std::vector<double>(now.contact().status.begin(), now.contact().status.end()));
+         },
+     .is_there = touches},
+    {.name = "contact_damage",
+     .evaluate =
+         [](FieldsNow& now) {
+           return FieldValues(now.simulation.solid().cohesive().nodal_damage(now.view.points().history,
+                                                                             now.simulation.mesh().node_count()));
+         },
+     .is_there = tears},
 };
 
 const Evaluator* find(std::string_view name) {

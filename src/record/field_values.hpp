@@ -45,7 +45,9 @@ std::optional<FieldKind> field_kind(const Simulation& simulation, std::string_vi
 /// Fields at an instant. What several of them need is made once: ask for those that need stresses one after the other.
 class FieldsNow {
  public:
-  FieldsNow(const Simulation& s, const StepView& now) : simulation(s), view(now) {}
+  /// slip: ContactSlip::path.
+  FieldsNow(const Simulation& s, const StepView& now, std::span<const double> slip)
+      : simulation(s), view(now), contact_slip(slip) {}
 
   /// Precondition: field_kind has one.
   FieldValues evaluate(std::string_view name);
@@ -58,6 +60,7 @@ class FieldsNow {
 
   const Simulation& simulation;
   const StepView& view;
+  const std::span<const double> contact_slip;
 
  private:
   std::vector<Voigt> stress_;

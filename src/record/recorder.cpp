@@ -100,11 +100,11 @@ FrameField frame_field(std::string name, Form form, std::span<const double> valu
   return precision == CaseOutput::Precision::in_single ? in_type(float{}) : in_type(double{});
 }
 
-FieldFrame frame_of(const Simulation& s, const StepView& view) {
+FieldFrame frame_of(const Simulation& s, const StepView& view, std::span<const double> slip) {
   const CaseOutput& output = s.given().output;
   FieldFrame frame;
   if (!s.model().erosion.empty()) frame.cells.push_back(hidden_cells(view.state.alive(), s.solid().cells().size()));
-  FieldsNow now(s, view);
+  FieldsNow now(s, view, slip);
   const auto add = [&](const std::string& name) {
     const std::optional<FieldKind> kind = field_kind(s, name);
     if (!kind) return;
@@ -132,6 +132,7 @@ Recorder::Recorder(const Simulation& simulation, std::string folder)
       folder_(std::move(folder)),
       tables_(simulation),
       figures_(simulation),
+      slip_(simulation),
       format_(frame_format(simulation)),
       obstacles_(simulation),
       frame_every_(frame_interval(simulation)) {}
@@ -229,14 +230,18 @@ void Recorder::keep_places() {
 }
 
 void Recorder::record(const StepView& view, bool is_last) {
-  if (view.step != last_sample_) tables_.contact.sample(view);  // every step, once: the impulses are sums
+  FieldsNow now(simulation_, view, slip_.path());
+  if (view.step != last_sample_) {  // every step, once: impulses and paths are sums
+    tables_.contact.sample(view);
+    slip_.sample(now);
+  }
   last_sample_ = view.step;
   figures_.sample(view, is_last);
   const bool due = is_last || view.step % simulation_.given().output.curves_every == 0;
   const bool is_checked = tables_.checks.is_due(view.state.t, simulation_.dt());
   if (due || is_checked) {
     tables_.energy.sample(view);
-    tables_.probes.sample(view);
+    tables_.probes.sample(now);
   }
   if (is_checked) tables_.checks.sample(view.state.t);
   if (due && view.step != last_row_) {
@@ -265,7 +270,7 @@ void Recorder::record_frame(const StepView& view) {
   last_frame_ = view.step;
   writer_.finish();  // one frame in memory at a time
   if (!files_->bodies) files_->bodies = format_.make_writer(folder_, bodies_mesh, frame_mesh(simulation_));
-  FieldFrame frame = frame_of(simulation_, view);
+  FieldFrame frame = frame_of(simulation_, view, slip_.path());
   const std::string obstacles = record_obstacles(view), file = frame_file(format_, view.step);
   writer_.start([this, frame = std::move(frame), t = view.state.t, file, obstacles] {
     files_->bodies->write(file, frame);

@@ -12,6 +12,7 @@
 #include "output/frame_format.hpp"
 #include "record/checks.hpp"
 #include "record/contact_fields.hpp"
+#include "record/contact_slip.hpp"
 #include "record/curves.hpp"
 #include "record/exact_curves.hpp"
 #include "record/key_figures.hpp"
@@ -94,6 +95,7 @@ class Recorder : public Observer {
     archive("contact", x.tables_.contact);
     archive("checks", x.tables_.checks);
     archive("figures", x.figures_);
+    if (x.slip_.is_wanted()) archive("slip", x.slip_);
     archive("obstacles_file", x.obstacles_file_);
     archive("last_sample", x.last_sample_);
     archive("last_frame", x.last_frame_);
@@ -134,6 +136,7 @@ class Recorder : public Observer {
   std::string folder_;
   RunTables tables_;
   KeyFigures figures_;
+  ContactSlip slip_;
   std::optional<Files> files_;       ///< none without a folder
   std::vector<Rows> rows_;           ///< of each table, where they are kept
   std::vector<std::size_t> places_;  ///< how long the tables were at the last checkpoint

@@ -229,7 +229,7 @@ TEST(Casefile, ProbesChecksAndExact) {
   EXPECT_FALSE(c.checks[0].value.has_value());
   EXPECT_TRUE(c.checks[1].absolute);
   ASSERT_TRUE(c.exact.has_value());
-  EXPECT_EQ(c.exact->stiffness, 1e6);
+  EXPECT_EQ(c.exact->values.at("stiffness"), 1e6);
   EXPECT_EQ(c.exact->axis, 2);
 }
 

@@ -150,7 +150,7 @@ friction = 0.3
 [[probe]]
 name = "foot"
 group = "FOOT"
-quantities = ["displacement", "velocity", "acceleration", "section_force"]
+quantities = ["displacement", "velocity", "acceleration", "section_force", "local_acceleration", "contact_slip"]
 side = [0.0, 0.0, 1.0]
 [guards]
 rotation_stop = 90.0

@@ -1,0 +1,34 @@
+#include "record/contact_slip.hpp"
+
+#include <algorithm>
+
+namespace carom {
+
+namespace {
+
+bool asks_for_slip(const Simulation& simulation) {
+  const Case& given = simulation.given();
+  const auto is_it = [](const Located<std::string>& name) { return *name == "contact_slip"; };
+  return !given.contacts.empty() && (std::ranges::any_of(given.output.fields, is_it) ||
+                                     std::ranges::any_of(given.probes, [&](const CaseProbe& probe) {
+                                       return std::ranges::any_of(probe.quantities, is_it);
+                                     }));
+}
+
+}  // namespace
+
+ContactSlip::ContactSlip(const Simulation& simulation) : is_wanted_(asks_for_slip(simulation)) {
+  if (!is_wanted_) return;
+  path_.resize(simulation.mesh().node_count());
+  rate_.resize(path_.size());
+}
+
+void ContactSlip::sample(FieldsNow& now) {
+  if (!is_wanted_) return;
+  const std::vector<double>& rate = now.contact().slip_rate;
+  if (now.view.step > 0)
+    for (std::size_t n = 0; n < path_.size(); ++n) path_[n] += 0.5 * now.view.dt * (rate_[n] + rate[n]);
+  rate_ = rate;
+}
+
+}  // namespace carom
