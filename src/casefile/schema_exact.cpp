@@ -17,7 +17,7 @@ std::vector<std::string> solutions_that(const Takes& takes) {
   return names;
 }
 
-std::string summaries() {
+std::string summaries_of_exact() {
   std::string text;
   for (const ExactSolution& solution : exact_solutions())
     text += (text.empty() ? "`" : "; `") + solution.name + "`: " + solution.summary;
@@ -77,7 +77,7 @@ void add_body(SectionSchema<CaseExact>& s, const ExactSolution& solution, const 
 
 SectionSchema<CaseExact> exact_section() {
   SectionSchema<CaseExact> s("Exact solution of the case, for checks and curves; the motion is along one axis. " +
-                             summaries() + ".");
+                             summaries_of_exact() + ".");
   s.description.selector = "solution";
   s.key("solution", &CaseExact::solution, "Which solution.",
         {.choices = solutions_that([](const ExactSolution&) { return true; }), .need = Need::required});

@@ -23,6 +23,24 @@ Entries entries_of_side(const ConstraintRows& rows, std::size_t r, bool is_other
   return is_other ? Entries{split, last} : Entries{first, split};
 }
 
+/// The nodes that rows stand at, in ascending order, and their numbers in it.
+class NodesOfRows {
+ public:
+  explicit NodesOfRows(const ConstraintRows& rows) : nodes_(rows.node.begin(), rows.node.end()) {
+    std::ranges::sort(nodes_);
+    const auto rest = std::ranges::unique(nodes_);
+    nodes_.erase(rest.begin(), rest.end());
+  }
+  std::size_t size() const { return nodes_.size(); }
+  std::size_t number(Index node) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(nodes_, node) - nodes_.begin());
+  }
+  std::vector<Index> take() && { return std::move(nodes_); }
+
+ private:
+  std::vector<Index> nodes_;
+};
+
 /// Nodes with a row of their own in a contact of two passes by multipliers. What each pass carries there is one of many
 /// answers (the rows depend on each other), but the force on a node is unique: it balances the cells. So it makes the
 /// pressure. Where nodes are guards, means have the pressure. Springs, which store energy, have no such nodes: the
@@ -46,16 +64,16 @@ class TwoPassNodes {
   bool has(std::size_t r, Index node) const { return own_.contains({response_.rows->source[r], node}); }
 
   /// Adds the normal forces of all rows on these nodes, over the areas that their own rows stand for.
-  void add_to(std::vector<double>& pressure) const {
+  void add_to(std::vector<double>& pressure, const NodesOfRows& nodes) const {
     const ConstraintRows& rows = *response_.rows;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       for (std::int64_t k = rows.begin[r]; k < rows.begin[r + 1]; ++k) {
         const Index node = rows.node[static_cast<std::size_t>(k)];
         const auto own = own_.find({rows.source[r], node});
         if (own == own_.end()) continue;
-        pressure[static_cast<std::size_t>(node)] +=
-            response_.force[r][0] * dot(rows.block[static_cast<std::size_t>(k)][0], own->second.normal) /
-            own->second.area;
+        pressure[nodes.number(node)] += response_.force[r][0] *
+                                        dot(rows.block[static_cast<std::size_t>(k)][0], own->second.normal) /
+                                        own->second.area;
       }
     }
   }
@@ -75,9 +93,9 @@ struct SideMeans {
   std::vector<double> pressure, gap, slip_rate, weight, closed;
   std::vector<std::uint8_t> status;
 
-  SideMeans(const ContactResponse& response, const TwoPassNodes& two_pass, std::span<const double> u,
-            std::span<const double> v, bool is_other)
-      : pressure(u.size() / 3, 0.0),
+  SideMeans(const ContactResponse& response, const NodesOfRows& nodes, const TwoPassNodes& two_pass,
+            std::span<const double> u, std::span<const double> v, bool is_other)
+      : pressure(nodes.size(), 0.0),
         gap(pressure),
         slip_rate(pressure),
         weight(pressure),
@@ -93,7 +111,7 @@ struct SideMeans {
       for (std::size_t k = begin; k < end; ++k) {
         const double w = (is_other ? -1.0 : 1.0) * dot(rows.block[k][0], rows.normal[r]);
         if (w <= 0.0) continue;
-        const auto n = static_cast<std::size_t>(rows.node[k]);
+        const std::size_t n = nodes.number(rows.node[k]);
         status[n] = std::max(status[n], static_cast<std::uint8_t>(1 + static_cast<int>(response.status[r])));
         if (rows.allowed[r] > 0.0) {
           guarded[n] += w * response.force[r][0] / rows.measure[r];
@@ -122,17 +140,19 @@ struct SideMeans {
 }  // namespace
 
 NodalContact nodal_contact(const ContactResponse& response, std::span<const double> u, std::span<const double> v) {
+  NodesOfRows nodes(*response.rows);
   const TwoPassNodes two_pass(response);
-  SideMeans own(response, two_pass, u, v, false);
-  const SideMeans other(response, two_pass, u, v, true);
+  SideMeans own(response, nodes, two_pass, u, v, false);
+  const SideMeans other(response, nodes, two_pass, u, v, true);
   for (std::size_t n = 0; n < own.weight.size(); ++n) {
     own.pressure[n] += other.pressure[n];
     own.status[n] = std::max(own.status[n], other.status[n]);
     if (own.weight[n] == 0.0) own.gap[n] = other.gap[n];
     if (own.closed[n] == 0.0) own.slip_rate[n] = other.slip_rate[n];
   }
-  two_pass.add_to(own.pressure);
-  return {std::move(own.pressure), std::move(own.gap), std::move(own.slip_rate), std::move(own.status)};
+  two_pass.add_to(own.pressure, nodes);
+  return {std::move(nodes).take(), std::move(own.pressure), std::move(own.gap), std::move(own.slip_rate),
+          std::move(own.status)};
 }
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/types.hpp"
 #include "rows/response.hpp"
 
 namespace carom {
@@ -17,8 +18,17 @@ namespace carom {
 /// node over the area that its own row stands for: that is unique, the share of each pass is not. Nodes that stand for
 /// obstacles have values, too, which mean nothing.
 struct NodalContact {
+  std::vector<Index> nodes;  ///< those that rows stand at, in ascending order: all values are theirs, and 0 elsewhere
   std::vector<double> pressure, gap, slip_rate;
   std::vector<std::uint8_t> status;
+
+  /// One of the values for each of `count` nodes.
+  template <class Value>
+  std::vector<double> at_all(const std::vector<Value>& values, std::size_t count) const {
+    std::vector<double> all(count, 0.0);
+    for (std::size_t i = 0; i < nodes.size(); ++i) all[at(nodes[i])] = static_cast<double>(values[i]);
+    return all;
+  }
 };
 NodalContact nodal_contact(const ContactResponse& response, std::span<const double> u, std::span<const double> v);
 

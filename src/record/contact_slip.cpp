@@ -1,6 +1,7 @@
 #include "record/contact_slip.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace carom {
 
@@ -25,10 +26,11 @@ ContactSlip::ContactSlip(const Simulation& simulation) : is_wanted_(asks_for_sli
 
 void ContactSlip::sample(FieldsNow& now) {
   if (!is_wanted_) return;
-  const std::vector<double>& rate = now.contact().slip_rate;
+  const NodalContact& contact = now.contact();
+  std::vector<double> rate = contact.at_all(contact.slip_rate, path_.size());
   if (now.view.step > 0)
     for (std::size_t n = 0; n < path_.size(); ++n) path_[n] += 0.5 * now.view.dt * (rate_[n] + rate[n]);
-  rate_ = rate;
+  rate_ = std::move(rate);
 }
 
 }  // namespace carom

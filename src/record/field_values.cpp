@@ -73,6 +73,12 @@ FieldValues contact_forces(const FieldsNow& now) {
   return FieldValues(std::move(force));
 }
 
+template <class Value>
+FieldValues of_contact(FieldsNow& now, const std::vector<Value> NodalContact::*values) {
+  const NodalContact& contact = now.contact();
+  return FieldValues(contact.at_all(contact.*values, now.simulation.mesh().node_count()));
+}
+
 bool touches(const Simulation& s) {
   return !s.given().contacts.empty();
 }
@@ -150,18 +156,17 @@ const Evaluator evaluators[] = {
      .is_there = yields},
     {.name = "contact_force", .evaluate = [](FieldsNow& now) { return contact_forces(now); }, .is_there = touches},
     {.name = "contact_pressure",
-     .evaluate = [](FieldsNow& now) { return kept(now.contact().pressure); },
+     .evaluate = [](FieldsNow& now) { return of_contact(now, &NodalContact::pressure); },
      .is_there = touches},
-    {.name = "contact_gap", .evaluate = [](FieldsNow& now) { return kept(now.contact().gap); }, .is_there = touches},
+    {.name = "contact_gap",
+     .evaluate = [](FieldsNow& now) { return of_contact(now, &NodalContact::gap); },
+     .is_there = touches},
     {.name = "contact_slip_rate",
-     .evaluate = [](FieldsNow& now) { return kept(now.contact().slip_rate); },
+     .evaluate = [](FieldsNow& now) { return of_contact(now, &NodalContact::slip_rate); },
      .is_there = touches},
     {.name = "contact_slip", .evaluate = [](FieldsNow& now) { return kept(now.contact_slip); }, .is_there = touches},
     {.name = "contact_status",
-     .evaluate =
-         [](FieldsNow& now) {
-           return FieldValues(std::vector<double>(now.contact().status.begin(), now.contact().status.end()));
-         },
+     .evaluate = [](FieldsNow& now) { return of_contact(now, &NodalContact::status); },
      .is_there = touches},
     {.name = "contact_damage",
      .evaluate =

@@ -53,7 +53,7 @@ class FieldsNow {
   FieldValues evaluate(std::string_view name);
   /// Does it need the stresses of all cells, the largest array of all?
   static bool needs_stress(std::string_view name);
-  void forget_stress() { stress_ = {}; }
+  void forget_stress() { stress_ = std::vector<Voigt>(); }  // {} would empty it and keep its memory
 
   const std::vector<Voigt>& stress();
   const NodalContact& contact();
