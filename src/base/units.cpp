@@ -10,40 +10,40 @@ namespace {
 /// Exponents of length, mass and time, and the names of the unit in SI, mm-t-s and mm-kg-ms.
 struct DimensionRow {
   std::string_view name;
-  int length, mass, time;
+  int length = 0, mass = 0, time = 0;
   std::array<std::string_view, 3> units;
 };
 
 /// In the order of Dimension.
 constexpr std::array<DimensionRow, 23> dimension_rows{{
-    {"", 0, 0, 0, {"", "", ""}},
-    {"length", 1, 0, 0, {"m", "mm", "mm"}},
-    {"area", 2, 0, 0, {"m2", "mm2", "mm2"}},
-    {"mass", 0, 1, 0, {"kg", "t", "kg"}},
-    {"time", 0, 0, 1, {"s", "s", "ms"}},
-    {"force", 1, 1, -2, {"N", "N", "kN"}},
-    {"stress", -1, 1, -2, {"Pa", "MPa", "GPa"}},
-    {"energy", 2, 1, -2, {"J", "mJ", "J"}},
-    {"density", -3, 1, 0, {"kg/m3", "t/mm3", "kg/mm3"}},
-    {"velocity", 1, 0, -1, {"m/s", "mm/s", "mm/ms"}},
-    {"acceleration", 1, 0, -2, {"m/s2", "mm/s2", "mm/ms2"}},
-    {"stress per length", -2, 1, -2, {"Pa/m", "MPa/mm", "GPa/mm"}},
-    {"force per length", 0, 1, -2, {"N/m", "N/mm", "kN/mm"}},
-    {"force per velocity", 0, 1, -1, {"N s/m", "N s/mm", "kN ms/mm"}},
-    {"inertia", 2, 1, 0, {"kg m2", "t mm2", "kg mm2"}},
-    {"angular velocity", 0, 0, -1, {"1/s", "1/s", "1/ms"}},
-    {"rate", 0, 0, -1, {"1/s", "1/s", "1/ms"}},
-    {"temperature", 0, 0, 0, {"K", "K", "K"}},
-    {"specific heat", 2, 0, -2, {"J/(kg K)", "mJ/(t K)", "J/(kg K)"}},
-    {"impulse", 1, 1, -1, {"N s", "N s", "kN ms"}},
-    {"moment", 2, 1, -2, {"N m", "N mm", "kN mm"}},
-    {"momentum", 1, 1, -1, {"kg m/s", "t mm/s", "kg mm/ms"}},
-    {"angular momentum", 2, 1, -1, {"kg m2/s", "t mm2/s", "kg mm2/ms"}},
+    {.name = "", .units = {"", "", ""}},
+    {.name = "length", .length = 1, .units = {"m", "mm", "mm"}},
+    {.name = "area", .length = 2, .units = {"m2", "mm2", "mm2"}},
+    {.name = "mass", .mass = 1, .units = {"kg", "t", "kg"}},
+    {.name = "time", .time = 1, .units = {"s", "s", "ms"}},
+    {.name = "force", .length = 1, .mass = 1, .time = -2, .units = {"N", "N", "kN"}},
+    {.name = "stress", .length = -1, .mass = 1, .time = -2, .units = {"Pa", "MPa", "GPa"}},
+    {.name = "energy", .length = 2, .mass = 1, .time = -2, .units = {"J", "mJ", "J"}},
+    {.name = "density", .length = -3, .mass = 1, .units = {"kg/m3", "t/mm3", "kg/mm3"}},
+    {.name = "velocity", .length = 1, .time = -1, .units = {"m/s", "mm/s", "mm/ms"}},
+    {.name = "acceleration", .length = 1, .time = -2, .units = {"m/s2", "mm/s2", "mm/ms2"}},
+    {.name = "stress per length", .length = -2, .mass = 1, .time = -2, .units = {"Pa/m", "MPa/mm", "GPa/mm"}},
+    {.name = "force per length", .mass = 1, .time = -2, .units = {"N/m", "N/mm", "kN/mm"}},
+    {.name = "force per velocity", .mass = 1, .time = -1, .units = {"N s/m", "N s/mm", "kN ms/mm"}},
+    {.name = "inertia", .length = 2, .mass = 1, .units = {"kg m2", "t mm2", "kg mm2"}},
+    {.name = "angular velocity", .time = -1, .units = {"1/s", "1/s", "1/ms"}},
+    {.name = "rate", .time = -1, .units = {"1/s", "1/s", "1/ms"}},
+    {.name = "temperature", .units = {"K", "K", "K"}},
+    {.name = "specific heat", .length = 2, .time = -2, .units = {"J/(kg K)", "mJ/(t K)", "J/(kg K)"}},
+    {.name = "impulse", .length = 1, .mass = 1, .time = -1, .units = {"N s", "N s", "kN ms"}},
+    {.name = "moment", .length = 2, .mass = 1, .time = -2, .units = {"N m", "N mm", "kN mm"}},
+    {.name = "momentum", .length = 1, .mass = 1, .time = -1, .units = {"kg m/s", "t mm/s", "kg mm/ms"}},
+    {.name = "angular momentum", .length = 2, .mass = 1, .time = -1, .units = {"kg m2/s", "t mm2/s", "kg mm2/ms"}},
 }};
 
 struct SystemRow {
   std::string_view name;
-  int length, mass, time;  ///< powers of ten of the base units, in m, kg, s
+  int length = 0, mass = 0, time = 0;  ///< powers of ten of the base units, in m, kg, s
 };
 
 /// In the order of UnitSystem.

@@ -22,11 +22,11 @@ struct DeckElementType {
   std::string_view name;  ///< "C3D8R"
   Kind kind = Kind::cell;
   CellType type{};
-  int nodes = 0;                     ///< in the deck, per element
-  std::span<const LocalNode> order;  ///< entry i: the place in the deck of our node i; empty where they are the same
-  std::string_view section;          ///< of a part: "solid", "plane_strain", ...; "" where it can be none
-  std::string_view formulation;      ///< of a part; "" where Carom's own default holds
-  std::string_view remark;           ///< what is not as in the other program; may be empty
+  int nodes = 0;                       ///< in the deck, per element
+  std::span<const LocalNode> order{};  ///< entry i: the place in the deck of our node i; empty where they are the same
+  std::string_view section{};          ///< of a part: "solid", "plane_strain", ...; "" where it can be none
+  std::string_view formulation{};      ///< of a part; "" where Carom's own default holds
+  std::string_view remark{};           ///< what is not as in the other program; may be empty
 };
 
 std::span<const DeckElementType> deck_element_types();

@@ -244,10 +244,14 @@ struct SchemeAlias {
   SchemeKind kind;
   EnforcementKind enforcement;
 };
-inline constexpr std::array scheme_aliases{
-    SchemeAlias{"cd_lagrange", "CD-Lagrange", SchemeKind::central_differences, EnforcementKind::impulse},
-    SchemeAlias{"forward_increment", "central differences, forward-increment multipliers",
-                SchemeKind::central_differences, EnforcementKind::lagrange}};
+inline constexpr std::array scheme_aliases{SchemeAlias{.name = "cd_lagrange",
+                                                       .title = "CD-Lagrange",
+                                                       .kind = SchemeKind::central_differences,
+                                                       .enforcement = EnforcementKind::impulse},
+                                           SchemeAlias{.name = "forward_increment",
+                                                       .title = "central differences, forward-increment multipliers",
+                                                       .kind = SchemeKind::central_differences,
+                                                       .enforcement = EnforcementKind::lagrange}};
 
 constexpr const SchemeTraits& traits(SchemeKind kind) {
   return scheme_table[static_cast<std::size_t>(kind)];

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -153,6 +155,31 @@ section = "{}"
 TEST(Accelerometer, AxesAreTheRotationOfTheCells) {
   expect_axes(case_of_block(probe), turn(normalized({1.0, 2.0, -0.5}), 2.5), {1.3, 0.8, 1.1}, 0.2);
   expect_axes(plane_case("plane_strain"), turn({0.0, 0.0, 1.0}, -2.0), {1.3, 0.8, 1.0}, 0.2);
+}
+
+// The nodes of a cell that has gone fly anywhere, and the axes are those of the cells that are there still.
+TEST(Accelerometer, AxesAreThoseOfTheCellsThatAreThere) {
+  const Simulation simulation(parse_case(case_of_block(probe), "case.toml"));
+  const BodyCells& cells = simulation.solid().cells();
+  const std::vector<Index> edge{cells.nodes_of(0)[0], cells.nodes_of(1)[1]};  // on a line through two cells
+  const TurningAxes axes(simulation.given().probes.at(0), edge, simulation);
+  const Columns3 R = turn(normalized({1.0, 2.0, -0.5}), 2.5);
+  const std::vector<double> together = moved(simulation.mesh(), R, {1.3, 0.8, 1.1}, 0.2);
+  std::vector<double> apart = together;
+  const auto kept = cells.nodes_of(0);
+  for (Index n = 0; n < static_cast<Index>(apart.size() / 3); ++n)
+    if (std::find(kept.begin(), kept.end(), n) == kept.end()) apart[static_cast<std::size_t>(3 * n)] += 0.3 * n;
+  std::vector<std::uint8_t> alive(cells.size(), 0);
+  const auto error = [&](const std::vector<double>& u) {
+    double largest = 0.0;
+    const Columns3 found = axes.at(u, alive);
+    for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, norm(subtract(found[c], R[c])));
+    return largest;
+  };
+  EXPECT_LT(error(together), 1e-13);  // none is there: all of them say it, as long as they stay together
+  EXPECT_GT(error(apart), 1e-3);
+  alive[0] = 1;
+  EXPECT_LT(error(apart), 1e-13);
 }
 
 TEST(Accelerometer, IsRefusedWhereNobodyKnowsHowABodyTurns) {

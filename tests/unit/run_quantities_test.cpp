@@ -275,6 +275,29 @@ TEST(Quantities, PartsAddUpToTheLedger) {
   }
 }
 
+// Exact solutions know places, and nothing of the sums over a part.
+TEST(Quantities, ExactCurvesLeaveProbesOfPartsOut) {
+  const std::string exact = R"([exact]
+solution = "two_bars"
+axis = "x"
+length = 2.0
+area = 1.0
+modulus = 2.0
+density = 1.5
+speed = 0.1
+gap = 1.0
+second = { length = 3.0, area = 1.0, modulus = 2.0, density = 1.5 }
+[[probe]]
+name = "end"
+point = [2.0, 0.0, 0.0]
+quantities = ["velocity"]
+)";
+  const Simulation simulation(parse_case(two_bodies("newmark") + exact, "case.toml"));
+  const RunTables tables(simulation);
+  EXPECT_EQ(tables.exact->table().columns, (std::vector<std::string>{"time", "end.velocity_x", "kinetic", "strain"}));
+  EXPECT_EQ(tables.exact->value("end.velocity_x", 0.5), 0.1);  // before they meet
+}
+
 // A brick of 1 x 2 x 3 and mass 12 that turns about z: w^2 / 2 times m (1 + 4) / 12, and m v.
 TEST(Quantities, RigidPartsHaveThoseOfTheirBody) {
   const TemporaryCase in(R"(units = "SI"
