@@ -48,9 +48,9 @@ bool are_in_contact(const Model& model, const Part& a, const Part& b) {
 
 OverlapWatch::OverlapWatch(const Simulation& simulation, const State& start)
     : simulation_(simulation),
-      q_start_(start.q),
-      overlap_(std::make_unique<BodyOverlap>(simulation.model(), q_start_)),
-      surfaces_(std::make_unique<SurfaceCrossings>(simulation.model(), q_start_)),
+      q_start_(simulation.model().erosion.empty() ? std::vector<double>() : start.q),
+      overlap_(std::make_unique<BodyOverlap>(simulation.model(), start.q)),
+      surfaces_(std::make_unique<SurfaceCrossings>(simulation.model(), start.q)),
       motion_(std::make_unique<SkinMotion>(surfaces_->skin())),
       next_(simulation.end() / 50.0),
       every_(simulation.end() / 50.0) {

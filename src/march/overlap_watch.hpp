@@ -42,7 +42,7 @@ class OverlapWatch : public Observer {
   std::string remedy() const;
 
   const Simulation& simulation_;
-  std::vector<double> q_start_;
+  std::vector<double> q_start_;               ///< for those that look anew where cells have gone; empty where none goes
   std::shared_ptr<const Topology> topology_;  ///< that is looked at; null: all cells
   std::unique_ptr<BodyOverlap> overlap_;
   std::unique_ptr<SurfaceCrossings> surfaces_;

@@ -105,17 +105,23 @@ FieldFrame frame_of(const Simulation& s, const StepView& view, std::span<const d
   FieldFrame frame;
   if (!s.model().erosion.empty()) frame.cells.push_back(hidden_cells(view.state.alive(), s.solid().cells().size()));
   FieldsNow now(s, view, slip);
-  const auto add = [&](const std::string& name) {
+  const auto add = [&](std::string_view name) {
     const std::optional<FieldKind> kind = field_kind(s, name);
     if (!kind) return;
     (kind->is_at_nodes() ? frame.points : frame.cells)
-        .push_back(frame_field(name, kind->form, now.evaluate(name).values, output.precision));
+        .push_back(frame_field(std::string(name), kind->form, now.evaluate(name).values, output.precision));
   };
-  for (const auto& field : output.fields)  // first, since nothing takes as much memory on its way
-    if (FieldsNow::needs_stress(*field)) add(*field);
+  // What takes most memory on its way comes first, while the frame is small: all that needs stresses, then strains.
+  std::vector<std::string_view> names;
+  for (const auto& field : output.fields) names.push_back(*field);
+  const auto middle = std::ranges::stable_partition(names, FieldsNow::needs_stress).begin();
+  std::stable_partition(middle, names.end(), [&](std::string_view name) {
+    const std::optional<FieldKind> kind = field_kind(s, name);
+    return kind && kind->form == Form::tensor;
+  });
+  std::for_each(names.begin(), middle, add);
   now.forget_stress();
-  for (const auto& field : output.fields)
-    if (!FieldsNow::needs_stress(*field)) add(*field);
+  std::for_each(middle, names.end(), add);
   return frame;
 }
 

@@ -1,6 +1,7 @@
 #include "run/run.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <filesystem>
@@ -141,6 +142,7 @@ void Run::begin() {
   watched_->notes.insert(watched_->notes.end(), simulation_.notes().begin(), simulation_.notes().end());
   const std::vector<std::string>& places = watched_->recorder.notes();
   watched_->notes.insert(watched_->notes.end(), places.begin(), places.end());
+  malloc_trim(0);  // what the set-up alone needed goes back to the system
   if (folder_.empty()) return;
   if (std::string note = frame_note(simulation_); !note.empty()) watched_->notes.push_back(std::move(note));
   lock_ = std::make_unique<ResultsLock>(folder_);
