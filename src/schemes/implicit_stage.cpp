@@ -140,8 +140,7 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
     const double moved = std::abs(begin.q[i]) + std::abs(eq.x_hat[i]) + std::abs(end.q[i]);
     // Gaps of moving rows are differences of positions, those of fixed rows of displacements.
     const double placed = moved + reach_;
-    const double force =
-        force_parts_[i] + force_.factor * stiffness_diagonal_[i] * moved + closed_diagonal_[i] * placed;
+    const double force = force_parts_[i] + stiffness_diagonal_[i] * moved + closed_diagonal_[i] * placed;
     sum[2] += missing * missing;
     sum[3] += force * force;
   });
@@ -154,9 +153,9 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   out.supplied = std::max(std::abs(sums[4]), std::abs(sums[5]));
   // A displacement is known to a relative 1e-16 of its terms only, which the stiffness of a node turns into a force.
   constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
-  out.round_off = out.displacement * (precision * std::sqrt(sums[3]) +
-                                      std::numeric_limits<double>::epsilon() * force_.factor * body_force_) +
-                  contact.round_off;
+  out.round_off =
+      out.displacement * (precision * std::sqrt(sums[3]) + std::numeric_limits<double>::epsilon() * body_force_) +
+      contact.round_off;
   return out;
 }
 
