@@ -128,6 +128,7 @@ class EdgeRows : public RowMaker {
   bool was_behind(Index i, Index j, std::span<const Vec3> x) const;
   PairFactor factor_of(Index i, Index j) const;
   bool counts(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const;
+  bool stood_at_begin(Index i, Index j, const ContactMotion& motion) const;
   double depth_at_start(Index i, Index j) const;
   bool has_come_from_the_front(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const;
   void find(Index i, const ContactMotion& motion, std::vector<Found>& found) const;
@@ -179,11 +180,21 @@ PairFactor EdgeRows::factor_of(Index i, Index j) const {
 
 bool EdgeRows::counts(Index i, Index j, const EdgePair& pair, const ContactMotion& motion) const {
   const EdgeRule& rule = edges_.rule;
-  if (pair.gap > rule.reach * edges_.size || pair.factor < rule.least_factor) return false;
+  if (pair.gap > rule.reach * edges_.size) return false;
+  if (pair.factor < rule.least_factor && !stood_at_begin(i, j, motion)) return false;
   if (rule.from_the_front) return has_come_from_the_front(i, j, pair, motion);
   if (pair.gap <= -std::min(edges_.depth_1[i], edges_.depth_2[j])) return false;
   // The search lists those within reach; of what is deeper it depends on the axes.
   return pair.gap > -rule.reach * edges_.size || was_behind(i, j, motion.x);
+}
+
+/// True of a pair that multipliers hold, if its factor was large enough when the step began: its force must not be able
+/// to push it out of the rows within the step, where no forces would be in balance.
+bool EdgeRows::stood_at_begin(Index i, Index j, const ContactMotion& motion) const {
+  if (edges_.rule.factor != PairFactor::held) return false;
+  const auto pair = edge_pair(place(edges_.first[i], motion.x_begin), edges_.first[i].end,
+                              place(edges_.second[j], motion.x_begin), edges_.second[j].end, factor_of(i, j));
+  return pair && pair->factor >= edges_.rule.least_factor;
 }
 
 /// Where one edge alone sticks out, what is deeper than that may be the far side of either body.

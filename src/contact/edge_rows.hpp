@@ -26,6 +26,7 @@ namespace carom {
 ///   increments   the same, of pairs that have come from the front, as what closes a gap throws out what came deep;
 ///   multipliers  sharp edges, of more than 30 degrees here, meet those of the other surface where both stick out, and
 ///                have come from the front: rows of edges that lie nearly flat would depend on those of the faces.
+///                A pair that sticks out far enough when the step begins has its row to the end of the step.
 /// The diagonals of flat quadrilaterals are edges, too, folds, which sharp edges meet where both stick out: so a ridge
 /// is seen by a facet that bends under it. Multipliers of implicit steps meet none.
 ///

@@ -290,6 +290,7 @@ void FaceRows::add_row(const Node& node, Index slot, const ContactMotion& motion
   const Vec3 at = is_mean_ ? motion.x[node.node] : scaled(position, 1.0 / weight);
   rows.add_row(gap, scaled(along, 1.0 / length), at, measure, law, source_);
   rows.facet.back() = sums.master;
+  rows.has_entered.back() = is_mean_ && sums.least_gap < 0.0;
   if (sums.is_closed() && sums.of_facets < sums.energy)
     rows.rounded.back() = sums.depth - depth_of_energy(unit_, sums.of_facets / node.measure);
   add_blocks(node, sums, rows);

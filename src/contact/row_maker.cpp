@@ -139,6 +139,7 @@ void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_s
   append_all(rows.allowed, from.allowed);
   append_all(rows.offset, from.offset);
   append_all(rows.rounded, from.rounded);
+  append_all(rows.has_entered, from.has_entered);
   append_all(rows.normal, from.normal);
   append_all(rows.tangent_1, from.tangent_1);
   append_all(rows.tangent_2, from.tangent_2);

@@ -88,10 +88,12 @@ VerdictItem PenetrationWatch::item() const {
   Place worst;
   for (const Place& place : places_)
     if (place.depth * worst.limit() > worst.depth * place.limit()) worst = place;
-  return {"penetration", worst.depth, worst.limit(), worst.depth <= worst.limit(),
-          "penetration relative to the smallest cell there, where it is worst; the limit is 5 %, or half of what the "
-          "cells there are shortened by, but never more than a quarter: is the penalty stiff enough "
-          "(contact.stiffness, contact.stiffness_factor)?"};
+  return {
+      "penetration", worst.depth, worst.limit(), worst.depth <= worst.limit(),
+      "penetration relative to the smallest cell there, where it is worst; the limit is 5 %, or half of what the "
+      "cells there are shortened by, but never more than a quarter: is the penalty stiff enough "
+      "(contact.stiffness, contact.stiffness_factor), or the step short enough, where impulses stop velocities alone "
+      "(time.safety, time.step)?"};
 }
 
 }  // namespace carom

@@ -114,11 +114,20 @@ double RunMonitor::angular_momentum_error() const {
   return ratio(angular_error_, angular_scale_);
 }
 
+/// Energy that the schemes have given by the end, if it is more than they may keep, `lent` being what they may take
+/// back.
+double RunMonitor::kept(double lent) const {
+  // A step that changes its length changes what an explicit scheme keeps: 0.5 % where bodies are crushed.
+  constexpr double least_of_explicit = 0.02, least_of_implicit = 0.005;
+  const EnergyTerms now = dynamic();
+  const double by_explicit = -explicit_loss_ - lent,
+               by_implicit = -(implicit_loss_ - static_.algorithmic) - std::max(0.0, now.impact) - lent;
+  return std::max(by_explicit > least_of_explicit * scale() ? by_explicit : 0.0,
+                  by_implicit > least_of_implicit * scale() ? by_implicit : 0.0);
+}
+
 std::vector<VerdictItem> RunMonitor::items(const Limits& limits) const {
-  const double scale = this->scale(), kept = -explicit_loss_ - limits.lent;
-  // A step that changes its length changes what the scheme keeps: 0.5 % where bodies are crushed.
-  constexpr double least_kept = 0.02;
-  const double gained = std::max(gained_, kept > least_kept * scale ? kept : 0.0);
+  const double scale = this->scale(), gained = std::max(gained_, kept(limits.lent));
   const auto item = [](const char* name, double value, double limit, const char* explanation) {
     return VerdictItem{name, value, limit, value <= limit, explanation};
   };

@@ -33,7 +33,7 @@ class RunMonitor {
   /// Limits of the items that depend on the schemes of the run.
   struct Limits {
     double angular_momentum = 1e-9, energy_gained = 0.005;
-    double lent = 0.0;  ///< energy that explicit steps may have lent at the end
+    double lent = 0.0;  ///< energy that steps with inertia may have lent at the end
   };
   RunMonitor(const EnergyLedger& ledger, const Bodies& bodies, const StageKind& stage)
       : ledger_(ledger), bodies_(bodies), stage_(stage) {}
@@ -55,8 +55,9 @@ class RunMonitor {
   /// quadrature and algorithmic is left out, since without inertia it says nothing about the step. Two figures count as
   /// energy gained, of which the larger is shown. One is the net energy that the quadrature has given and that exact
   /// contact has given, less the energy that implicit schemes have taken out beside it, since they book the jump of the
-  /// velocities at a touch on either side. The other, if it is more than 2 %, is the energy that explicit steps have
-  /// given by the end and cannot take back.
+  /// velocities at a touch on either side. The other is the energy that the schemes have given by the end and cannot
+  /// take back: explicit ones if it is more than 2 %, implicit ones if it is more than 0.5 % and than exact contact has
+  /// taken.
   std::vector<VerdictItem> items(const Limits& limits) const;
   double linear_momentum_error() const;
   double angular_momentum_error() const;
@@ -106,6 +107,7 @@ class RunMonitor {
     archive("steps", x.steps_);
   }
 
+  double kept(double lent) const;
   double growth() const;
   EnergyTerms dynamic() const;
 

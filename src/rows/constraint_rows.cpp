@@ -45,6 +45,7 @@ void ConstraintRows::clear() {
   allowed.clear();
   offset.clear();
   rounded.clear();
+  has_entered.clear();
   facet.clear();
   slot.clear();
 }
@@ -67,6 +68,7 @@ void ConstraintRows::add_row(double row_gap, const Vec3& row_normal, const Vec3&
   allowed.push_back(0.0);
   offset.push_back(0.0);
   rounded.push_back(0.0);
+  has_entered.push_back(false);
   facet.push_back(0);
 }
 

@@ -82,8 +82,9 @@ struct ConstraintRows {
   std::vector<double> allowed;  ///< added to the gap of rows that guard what means do not see; else 0
   std::vector<double> offset;   ///< <= 0: RowHistory::offset, taken from the gap
   std::vector<double> rounded;  ///< what going round the edges of the other surface has taken from the gap, >= 0
-  std::vector<Index> facet;     ///< what the row meets: facet of the other surface, face of a box, 0 where there is one
-  std::vector<Index> slot;      ///< entry of State::contact; at most one row per slot
+  std::vector<bool> has_entered;  ///< a part of what a mean stands for is behind, whatever its gap is
+  std::vector<Index> facet;  ///< what the row meets: facet of the other surface, face of a box, 0 where there is one
+  std::vector<Index> slot;   ///< entry of State::contact; at most one row per slot
 
   std::size_t size() const { return gap.size(); }
   /// Removes all rows and keeps the memory.
@@ -158,6 +159,7 @@ void fields(A& archive, ConstraintRows& x) {
   archive("allowed", x.allowed);
   archive("offset", x.offset);
   archive("rounded", x.rounded);
+  archive("has_entered", x.has_entered);
   archive("facet", x.facet);
   archive("slot", x.slot);
 }

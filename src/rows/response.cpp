@@ -26,7 +26,7 @@ bool operator==(const ContactResponse& a, const ContactResponse& b) {
 
 void mark_behind(const ConstraintRows& rows, std::span<const double> u, std::vector<RowHistory>& history) {
   for (std::size_t r = 0; r < rows.size(); ++r)
-    if (!is_bond(rows.law[r]) && rows.gap_at(r, u) < 0.0)
+    if (!is_bond(rows.law[r]) && (rows.gap_at(r, u) < 0.0 || rows.has_entered[r]))
       history[static_cast<std::size_t>(rows.slot[r])].facet = rows.facet[r];
 }
 

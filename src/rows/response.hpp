@@ -43,7 +43,8 @@ void fields(A& archive, ContactResponse& x) {
   archive("slip_work", x.slip_work);
 }
 
-/// Enters into the history which facet each row is behind at displacement u: where its gap is negative, its own facet.
+/// Enters into the history which facet each row is behind at displacement u: where its gap is negative or a part
+/// of it is behind (ConstraintRows::has_entered), its own facet.
 /// In the next step the row is taken to be behind that facet, however deep it goes, until it comes out in front.
 void mark_behind(const ConstraintRows& rows, std::span<const double> u, std::vector<RowHistory>& history);
 

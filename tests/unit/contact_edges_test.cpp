@@ -441,6 +441,35 @@ TEST(EdgeRows, OfMultipliersRememberWhatWasBehind) {
   EXPECT_EQ(bars.rows(far, far, history).size(), 0U);
 }
 
+// What sticks out far enough when the step begins has its row to the end of the step, however flat it turns out to lie
+// there; what is as flat when the step begins has none. Else the force of a row could push it out of the rows that
+// need the force, and no force would be in balance. The lower bar lies rolled by 1 degree, where its flatter side has
+// z = sin(1 degree) / w = 0.349 of the way from lying flat, f = sqrt(S(0.349)) = 0.53, or by 0.8 degrees with f = 0.43:
+// on either side of the least factor, 1/2.
+TEST(EdgeRows, OfMultipliersStayForTheStepThatTheyBeginIn) {
+  Lie lie;
+  lie.hold = RowHold::multipliers;
+  const auto rolled = [&](double angle) {
+    Lie at = lie;
+    at.roll_2 = angle * degree;
+    return Bars(at);
+  };
+  const Bars out = rolled(1.0), flat = rolled(0.8);
+  std::vector<double> to_flat(out.scene.zero()), none = out.scene.zero();
+  for (std::size_t n = 0; n < out.scene.mesh.coordinates.size(); ++n) {
+    const Vec3 d = subtract(flat.scene.mesh.coordinates[n], out.scene.mesh.coordinates[n]);
+    for (std::size_t c = 0; c < 3; ++c) to_flat[3 * n + c] = d[c];
+  }
+  EXPECT_EQ(out.rows(none, none).size(), 1U);
+  EXPECT_EQ(out.rows(to_flat, to_flat).size(), 0U);
+  const ConstraintRows stays = out.rows(none, to_flat);
+  ASSERT_EQ(stays.size(), 1U);
+  // The gap counts by the factor there: S(z) = z^2 (3 - 2 z), z = sin(0.8 degrees) / 0.05.
+  const double z = std::sin(0.8 * degree) / 0.05;
+  EXPECT_NEAR(stays.gap_at(0, to_flat), lie.gap * std::sqrt(z * z * (3.0 - 2.0 * z)), 1e-3 * -lie.gap);
+  EXPECT_EQ(out.rows(to_flat, none).size(), 1U);  // what comes to stick out is there
+}
+
 // Edges that were behind each other at a corner of a bar say nothing of another edge that ends there.
 TEST(EdgeRows, OfMultipliersDoNotRememberRoundACorner) {
   Lie lie;

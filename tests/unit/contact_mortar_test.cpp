@@ -272,5 +272,40 @@ TEST(MortarRows, CatchASlaveThatCrossesAPlateInOneStep) {
   EXPECT_EQ(contact.rows_at(end, end)->size(), 0U);
 }
 
+// A tip of 2 x 2 facets, inclined by 0.3 both ways, is pushed into a plate of 3 x 3 facets of 1.4 amid one, 0.015 a
+// step, while the mean about its node is open: depths that the steps before have seen go on to count beyond 0.02 facet
+// sizes. The mean height of a facet that rises by 0.3 (x + y), with the weight (1 - x)(1 - y), is 0.2 over the tip;
+// gaps are along the facets' normals, (0.3, 0.3, -1). (Where they did not count, the row jumped to what is open about
+// the tip, and threw the tip out, deep at once, when that closed.)
+TEST(MortarRows, OfATipGoOnToSeeWhatIsDeepInIt) {
+  Scene scene;
+  const auto tip = scene.add_patch(2, 2, [](double s, double t) {
+    const double x = 2.0 * t - 1.0, y = 2.0 * s - 1.0;
+    return Vec3{x, y, 0.05 + 0.3 * (std::abs(x) + std::abs(y))};
+  });
+  const auto plate = scene.add_patch(3, 3, [](double s, double t) { return Vec3{4.2 * s - 2.1, 4.2 * t - 2.1, 0.0}; });
+  scene.finish().contacts.emplace_back(mortar({tip}, {plate}));
+  const ContactGeometry contact(scene.model);
+  const Index pole = tip[0][2];
+  ASSERT_NEAR(norm(subtract(scene.mesh.coordinates[static_cast<std::size_t>(pole)], {0.0, 0.0, 0.05})), 0.0, round_off);
+  std::vector<double> begin = scene.zero();
+  std::vector<RowHistory> history = contact.first_history(begin);
+  for (int step = 1; step <= 22; ++step) {
+    std::vector<double> u = scene.zero();
+    for (Index n = 0; n < 9; ++n) u[3 * static_cast<std::size_t>(n) + 2] = -0.015 * step;
+    const auto rows = contact.rows_at(begin, u, {history});
+    bool is_found = false;
+    for (std::size_t r = 0; r < rows->size(); ++r) {
+      if (rows->node[static_cast<std::size_t>(rows->begin[r])] != pole) continue;
+      is_found = true;
+      EXPECT_NEAR(rows->gap_at(r, u), std::sqrt(1.18) * (0.25 - 0.015 * step), round_off) << step;
+    }
+    EXPECT_TRUE(is_found) << step;
+    history.assign(history.size(), {});
+    mark_behind(*rows, u, history);
+    begin = u;
+  }
+}
+
 }  // namespace
 }  // namespace carom::contact_mortar_test

@@ -169,6 +169,16 @@ TEST(Verdict, JudgesGainsApartFromLosses) {
   EXPECT_TRUE(gained({lent}, steps_of_its_own, 0.29).pass);  // all but 1 %, for 2 % that steps that change may keep
   EXPECT_TRUE(gained({lent}, steps_of_its_own, 0.3).pass);
   EXPECT_TRUE(gained({thrown, made, made}, {.is_static = true}).pass);
+  // Implicit steps must not keep more than the limit, 0.5 %, unless it is the other side of the jump at a touch.
+  const LedgerIncrement given = with(&EnergyTerms::algorithmic, -0.09), at_touch = with(&EnergyTerms::impact, 0.09),
+                        little = with(&EnergyTerms::algorithmic, -0.0049);
+  EXPECT_FALSE(gained({given}, implicit).pass);
+  EXPECT_NEAR(gained({given}, implicit).value, 0.09, 1e-15);
+  EXPECT_FALSE(gained({given}, implicit, 0.08).pass);
+  EXPECT_TRUE(gained({given}, implicit, 0.086).pass);
+  EXPECT_TRUE(gained({little}, implicit).pass);
+  EXPECT_TRUE(gained({given, at_touch}, implicit).pass);
+  EXPECT_TRUE(gained({given}, {.is_static = true}).pass);
   EXPECT_FALSE(gained({lost, thrown}, steps_of_its_own).pass);
   EXPECT_TRUE(gained({lost, thrown}, implicit).pass);  // both sides of the jump of velocities at a touch
 }
