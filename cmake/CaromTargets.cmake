@@ -38,11 +38,11 @@ function(carom_library folder)
   endif()
 endfunction()
 
-# carom_tests(group folder...): the files <group>_*.cpp of this folder become the program <group>_tests, each of its gtest
+# carom_tests(group folder...): the files <group>/*.cpp and <group>_*.cpp become the program <group>_tests, each of its gtest
 # cases a ctest entry labelled with the name of this folder, <group>.<suite> for all cases of a parameterised suite. A file's
 # tests stand in a namespace of its own.
 function(carom_tests group)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${group}_*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${group}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/${group}_*.cpp)
   add_executable(${group}_tests ${sources})
   list(TRANSFORM ARGN PREPEND carom_ OUTPUT_VARIABLE folders)
   target_link_libraries(${group}_tests PRIVATE ${folders} carom_test_main)

@@ -5,7 +5,7 @@
 
 #include "math/pack.hpp"
 
-// Internal linkage throughout: see math/pack.hpp. Errors are those found by tests/unit/math_elementary.cpp, in units of
+// Internal linkage throughout: see math/pack.hpp. Errors are those found by tests/unit/math/elementary_test.cpp, in units of
 // the rounding of the result (2^-52 of it).
 namespace carom {
 

@@ -105,7 +105,7 @@ TEST_P(Frames, VtkReadsEveryPointCellAndFieldExactly) {
   FrameIndex frames(folder_.string(), format());
   for (const int step : {0, 10}) frames.add({0.1 * step, write_frame(grid, step, step + 1.0), ""});
   const std::string command =
-      fmt::format("/usr/bin/python3 \"{}/tests/unit/vtu_read.py\" \"{}\" 3 2 2 mixed 0 10", CAROM_SOURCE_DIR, index());
+      fmt::format("/usr/bin/python3 \"{}/tests/unit/output/vtu_read.py\" \"{}\" 3 2 2 mixed 0 10", CAROM_SOURCE_DIR, index());
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
@@ -116,7 +116,7 @@ TEST_P(Frames, VtkReadsMoreThanOneBuffer) {
   FrameIndex frames(folder_.string(), format());
   frames.add({0.1 * 123456, write_frame(grid, 123456, 123457.0), ""});
   const std::string command = fmt::format(
-      "/usr/bin/python3 \"{}/tests/unit/vtu_read.py\" \"{}\" 40 30 20 hexahedra 123456", CAROM_SOURCE_DIR, index());
+      "/usr/bin/python3 \"{}/tests/unit/output/vtu_read.py\" \"{}\" 40 30 20 hexahedra 123456", CAROM_SOURCE_DIR, index());
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
@@ -140,7 +140,7 @@ TEST_P(Frames, VtkReadsEveryTypeOfCell) {
   std::string solids, planes;
   for (const CellType type : test::solid_types) solids += write(box, type);
   for (const CellType type : test::plane_types) planes += write(strip, type);
-  const std::string script = fmt::format("/usr/bin/python3 \"{}/tests/unit/vtu_cells.py\"", CAROM_SOURCE_DIR);
+  const std::string script = fmt::format("/usr/bin/python3 \"{}/tests/unit/output/vtu_cells.py\"", CAROM_SOURCE_DIR);
   EXPECT_EQ(std::system((script + " 6" + solids).c_str()), 0);
   EXPECT_EQ(std::system((script + " 2" + planes).c_str()), 0);
 }
@@ -154,7 +154,7 @@ TEST_P(Frames, VtkLeavesOutHiddenCells) {
     format()
         .make_writer(folder_.string(), bodies_mesh, {grid.points, grid.cells, {}, {}})
         ->write(file, {{}, {{"energy", 1, values(3, 1.0)}, {ghost_type, 1, hidden}}});
-    const std::string script = fmt::format("/usr/bin/python3 \"{}/tests/unit/vtu_hidden.py\"", CAROM_SOURCE_DIR);
+    const std::string script = fmt::format("/usr/bin/python3 \"{}/tests/unit/output/vtu_hidden.py\"", CAROM_SOURCE_DIR);
     return std::system(fmt::format("{} \"{}\" {} {}", script, (folder_ / file).string(), faces, faces).c_str()) == 0;
   };
   EXPECT_TRUE(surface_has({0, 0, 0}, 14));

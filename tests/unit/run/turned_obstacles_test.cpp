@@ -83,7 +83,7 @@ double at_time(const std::vector<double>& time, const std::vector<double>& value
 // the surface hold it then, on which it rings on by mu m g / sqrt(2 k m) = 3e-3 m/s.
 void expect_dragged(const TemporaryCase& run, double tolerance) {
   ASSERT_EQ(run.run(), ExitCode::good) << run.result("summary.json");
-  const Columns contact = read_csv(run.result("contact.csv")), probe = read_csv(run.result("probes.csv"));
+  const Columns contact = test::read_csv(run.result("contact.csv")), probe = test::read_csv(run.result("probes.csv"));
   EXPECT_NEAR(at_time(probe.at("time"), probe.at("block.velocity_x"), 0.02), 0.3 * 9.81 * 0.02, tolerance * 0.06);
   EXPECT_NEAR(probe.at("block.velocity_x").back(), 0.1, tolerance * 0.1);
   EXPECT_NEAR(contact.at("roller.impulse_x").back(), 0.2, tolerance * 0.2);
@@ -168,7 +168,7 @@ quantities = ["velocity"]
                                       scheme, step, end));
   EXPECT_EQ(run.run(), ExitCode::good) << run.result("summary.json");
   const auto energy = last_row(run.result("energy.csv"));
-  const Columns contact = read_csv(run.result("contact.csv"));
+  const Columns contact = test::read_csv(run.result("contact.csv"));
   const double work = energy.at("support_work");
   return {last_row(run.result("probes.csv")).at("block.velocity_y"),
           std::abs(work - integral(contact.at("time"), contact.at("paddle.moment_z"))) / work,
@@ -236,7 +236,7 @@ rotation_stop = 90.0
 fields = []
 )" + time);
   EXPECT_NE(run.run(), ExitCode::run_failed) << run.result("summary.json");
-  return read_csv(run.result("contact.csv"));
+  return test::read_csv(run.result("contact.csv"));
 }
 
 // After one turn everything is where it was, and presses as it did, to what the equations are solved to; and a stage
@@ -387,7 +387,7 @@ struct Books {
 Books books_of(const std::string& text) {
   const TemporaryCase run(text);
   EXPECT_NE(run.run(), ExitCode::run_failed) << run.result("summary.json");
-  const Columns energy = read_csv(run.result("energy.csv"));
+  const Columns energy = test::read_csv(run.result("energy.csv"));
   const auto largest = [&](const char* name) {
     double most = 0.0;
     for (const double value : energy.at(name)) most = std::max(most, std::abs(value));
@@ -565,7 +565,7 @@ point = [0.0, 0.0, 0.0]
 quantities = ["displacement"]
 )");
   ASSERT_EQ(run.run(), ExitCode::good) << run.result("summary.json");
-  const Columns energy = read_csv(run.result("energy.csv"));
+  const Columns energy = test::read_csv(run.result("energy.csv"));
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i < energy.at("time").size(); ++i) {
     if (energy.at("time")[i] < 0.04) continue;

@@ -1,4 +1,5 @@
 // Contact between bodies of every type of cell: where a point is in them, overlap, chosen stiffness, gaps and measures.
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <string>
 
 #include "cell_meshes.hpp"
+#include "contact/row_maker.hpp"
 #include "contact/stiffness.hpp"
 #include "contact_rows_fixture.hpp"
 #include "mesh/cell_size.hpp"
