@@ -107,7 +107,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=ROOT, help="tree whose src/ is looked at")
     parser.add_argument("--build", type=pathlib.Path, help="folder of the build (build/coverage)")
-    parser.add_argument("--at-least", type=float, default=90.0, help="bound in per cent of all lines")
+    parser.add_argument("--at-least", type=float, default=95.0, help="bound in per cent of all lines")
     parser.add_argument("--no-run", action="store_true", help="read the counters that are there")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()

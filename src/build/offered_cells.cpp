@@ -27,8 +27,4 @@ std::span<const CellType> offered_cells(Section section) {
   return types.at(static_cast<std::size_t>(section));
 }
 
-bool is_offered(CellType type, Section section) {
-  return find_element(type, section, {}) != nullptr;
-}
-
 }  // namespace carom

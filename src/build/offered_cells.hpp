@@ -11,6 +11,4 @@ namespace carom {
 /// Readers, skins, contact and output know all types.
 std::span<const CellType> offered_cells(Section section);
 
-bool is_offered(CellType type, Section section);
-
 }  // namespace carom

@@ -35,25 +35,6 @@ std::array<FacePoint, 4> face_points(const std::array<Vec3, 4>& x) {
   return points;
 }
 
-PlaneGradient plane_gradient(const std::array<Vec3, 4>& x, double xi, double eta) {
-  std::array<double, 4> dxi{}, deta{};
-  double J[2][2] = {};  // J[k][i] = dX_i / dxi_k
-  for (std::size_t a = 0; a < 4; ++a) {
-    dxi[a] = 0.25 * corner[a][0] * (1.0 + eta * corner[a][1]);
-    deta[a] = 0.25 * corner[a][1] * (1.0 + xi * corner[a][0]);
-    for (std::size_t i = 0; i < 2; ++i) {
-      J[0][i] += dxi[a] * x[a][i];
-      J[1][i] += deta[a] * x[a][i];
-    }
-  }
-  PlaneGradient result;
-  result.det_J = J[0][0] * J[1][1] - J[0][1] * J[1][0];
-  for (std::size_t a = 0; a < 4; ++a)
-    result.dN_dX[a] = {(dxi[a] * J[1][1] - deta[a] * J[0][1]) / result.det_J,
-                       (deta[a] * J[0][0] - dxi[a] * J[1][0]) / result.det_J, 0.0};
-  return result;
-}
-
 double area(const std::array<Vec3, 4>& x) {
   double corner[3][4];
   for (std::size_t a = 0; a < 4; ++a)

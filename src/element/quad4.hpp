@@ -25,14 +25,6 @@ struct FacePoint {
 /// The 2 x 2 Gauss points. N_a n dA is of degree 2 or less in each direction, so its integral is exact.
 std::array<FacePoint, 4> face_points(const std::array<Vec3, 4>& x);
 
-/// Gradients of a cell in the x-y plane (z components zero) with respect to X, and the Jacobian determinant of that
-/// plane map. As hexa8::physical_gradient.
-struct PlaneGradient {
-  std::array<Vec3, 4> dN_dX{};
-  double det_J = 0.0;
-};
-PlaneGradient plane_gradient(const std::array<Vec3, 4>& x, double xi, double eta);
-
 /// Area (2 x 2 Gauss; exact for plane faces).
 double area(const std::array<Vec3, 4>& x);
 

@@ -1,4 +1,6 @@
 // Surfaces of bodies some cells of which have gone.
+#include "model/topology.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,11 +8,11 @@
 #include <numeric>
 #include <vector>
 
+#include "contact/contact_geometry.hpp"
 #include "math/vec3.hpp"
 #include "mesh/skin.hpp"
 #include "mesh/structured_block.hpp"
 #include "model/outer_facets.hpp"
-#include "model/topology.hpp"
 
 namespace carom::contact_topology_test {
 namespace {
@@ -115,6 +117,67 @@ TEST(Topologies, AreAFunctionOfWhatIsThere) {
   EXPECT_EQ(own(*one, 1).facets, own(*same, 1).facets);
   const auto none = block.without({});
   EXPECT_EQ(own(*none, 1).facets, skin(*block.model.mesh));
+}
+
+/// Contacts of the block of every kind whose histories may have to find their slots again.
+std::vector<ContactDefinition> every_contact(const Block& block) {
+  std::vector<ContactDefinition> all;
+  Surface bottom, top;
+  for (const Facet& facet : skin(*block.model.mesh)) {
+    if (block.is_at(facet, 0.0)) bottom.facets.push_back(facet);
+    if (block.is_at(facet, 3.0)) top.facets.push_back(facet);
+  }
+  const RigidShape shapes[] = {Plane{}, Sphere{{1.5, 1.5, -5.0}, 5.0}, Cylinder{{1.5, 1.5, -5.0}, {0.0, 1.0, 0.0}, 5.0},
+                               Box{{-1.0, -1.0, -1.0}, {4.0, 4.0, 0.0}}};
+  for (const RigidShape& shape : shapes)
+    for (const RowMeasure measure : {RowMeasure::per_area, RowMeasure::per_node}) {
+      ObstacleContact contact;
+      contact.name = "obstacle";
+      contact.shape = shape;
+      contact.measure = measure;
+      contact.law.eps_N = 1.0;
+      if (measure == RowMeasure::per_area)
+        contact.surface = bottom;
+      else
+        contact.nodes = {0, 1, 2, 5};
+      all.emplace_back(contact);
+    }
+  for (const PairMethod method : {PairMethod::node_to_surface, PairMethod::two_pass, PairMethod::surface_to_surface})
+    for (const RowHold hold : {RowHold::springs, RowHold::impulses, RowHold::increments, RowHold::multipliers})
+      for (const bool self : {false, true}) {
+        PairContact contact;
+        contact.name = "pair";
+        contact.self = self;
+        contact.method = method;
+        contact.slave.facets = self ? skin(*block.model.mesh) : bottom.facets;
+        contact.master.facets = self ? contact.slave.facets : top.facets;
+        contact.law.eps_N = 1.0;
+        contact.law.hold = hold;
+        all.emplace_back(contact);
+      }
+  StopContact stop;
+  stop.name = "stop";
+  stop.nodes = {0, 3, 7};
+  stop.direction = {0.0, 0.0, 1.0};
+  stop.stiffness = 1.0;
+  all.emplace_back(stop);
+  return all;
+}
+
+// Where nothing has gone, each slot is found again: no two have the same key, and none is without.
+TEST(Topologies, EveryKindOfContactFindsItsSlotsAgain) {
+  Block block;
+  for (const ContactDefinition& contact : every_contact(block)) {
+    block.model.contacts = {contact};
+    const ContactGeometry geometry(block.model);
+    const std::vector<double> u(3 * block.model.mesh->node_count(), 0.0);
+    std::vector<RowHistory> history(geometry.slots());
+    ASSERT_FALSE(history.empty());
+    for (std::size_t k = 0; k < history.size(); ++k) history[k].slip = {static_cast<double>(k + 1), 0.0, 0.0};
+    const auto rows = geometry.rows_at(u, u, {history, nullptr});
+    EXPECT_EQ(geometry.carried_history({history, nullptr}, *rows, u, block.without({})), history)
+        << name_of(contact) << ", contact of index " << contact.index();
+  }
 }
 
 }  // namespace
