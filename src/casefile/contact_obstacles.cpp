@@ -171,7 +171,8 @@ void add_round(SectionSchema<Kind>& s) {
 SectionSchema<CasePlane> contact_keys(std::type_identity<CasePlane>) {
   auto s = obstacle_keys<CasePlane>("a rigid half-space");
   s.key("point", &CasePlane::point, "A point of the plane.", {.unit = Dimension::length, .need = mandatory});
-  s.key("normal", &CasePlane::normal, "Direction from the plane to the body; of any length but 0.", {.need = mandatory});
+  s.key("normal", &CasePlane::normal, "Direction from the plane to the body; of any length but 0.",
+        {.need = mandatory});
   s.finish = [](CasePlane& given, const Node& node, const ReadContext& at) {
     check_obstacle(given, node, at);
     check_direction(given.normal, at.at("normal").path);

@@ -11,9 +11,11 @@ SectionSchema<CaseStop> contact_keys(std::type_identity<CaseStop>) {
   add_group(s);
   s.key("normal", &CaseStop::normal, "Direction from the stop to the node; of any length but 0.", {.need = mandatory});
   s.key("gap", &CaseStop::gap, "Distance that a node moves before it touches.", {.unit = Dimension::length});
-  s.key(
-      "stiffness", &CaseStop::stiffness, "Force of a node per penetration.",
-      {.unit = Dimension::force_per_length, .range = greater_than(0.0), .need = mandatory, .aliases = stiffness_aliases});
+  s.key("stiffness", &CaseStop::stiffness, "Force of a node per penetration.",
+        {.unit = Dimension::force_per_length,
+         .range = greater_than(0.0),
+         .need = mandatory,
+         .aliases = stiffness_aliases});
   s.key("damping", &CaseStop::damping, "Force of a node per closing speed, while it touches.",
         {.unit = Dimension::damping, .range = at_least(0.0)});
   s.key("damper", &CaseStop::damper,

@@ -5,8 +5,8 @@
 
 #include "math/pack.hpp"
 
-// Internal linkage throughout: see math/pack.hpp. Errors are those found by tests/unit/math/elementary_test.cpp, in units of
-// the rounding of the result (2^-52 of it).
+// Internal linkage throughout: see math/pack.hpp. Errors are those found by tests/unit/math/elementary_test.cpp, in
+// units of the rounding of the result (2^-52 of it).
 namespace carom {
 
 namespace elementary {

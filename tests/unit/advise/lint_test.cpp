@@ -1,4 +1,6 @@
 // What a case is warned of before it runs.
+#include "advise/lint.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 
 #include "advise/approach.hpp"
 #include "advise/cost_estimate.hpp"
-#include "advise/lint.hpp"
 #include "build/facing.hpp"
 #include "record/recorder.hpp"
 #include "run_fixture.hpp"

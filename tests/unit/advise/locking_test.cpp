@@ -1,4 +1,6 @@
 // Where fully integrated cells lock: the estimate against the solver and closed forms, and when it is said.
+#include "advise/locking.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +9,6 @@
 #include <fstream>
 
 #include "advise/cell_columns.hpp"
-#include "advise/locking.hpp"
 #include "cell_meshes.hpp"
 #include "mesh/write_gmsh.hpp"
 #include "run_fixture.hpp"

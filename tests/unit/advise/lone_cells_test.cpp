@@ -1,11 +1,12 @@
 // Cells of reduced integration that no neighbour holds.
+#include "advise/lone_cells.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "advise/locking.hpp"
-#include "advise/lone_cells.hpp"
 #include "cell_meshes.hpp"
 #include "mesh/write_gmsh.hpp"
 #include "run_fixture.hpp"

@@ -1,4 +1,6 @@
 // Groups as the case names them: "all", groups of nodes alone, pieces of bodies that end in others.
+#include "build/groups.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 
 #include "build/build_mesh.hpp"
 #include "build/build_model.hpp"
-#include "build/groups.hpp"
 #include "cell_meshes.hpp"
 #include "mesh/structured_block.hpp"
 #include "run_fixture.hpp"

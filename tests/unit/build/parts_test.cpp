@@ -1,4 +1,6 @@
 // Parts of plane cells and bars: what is held, what surfaces are, what is refused.
+#include "build/parts.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -6,7 +8,6 @@
 
 #include "build/build_mesh.hpp"
 #include "build/build_model.hpp"
-#include "build/parts.hpp"
 #include "cell_meshes.hpp"
 #include "mesh/deck_elements.hpp"
 #include "mesh/write_gmsh.hpp"

@@ -1,4 +1,6 @@
 // Every pair of scheme and enforcement: the allowed ones are read, the others refused with their reason.
+#include "model/compatibility.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +11,6 @@
 #include "base/errors.hpp"
 #include "casefile/read_case.hpp"
 #include "casefile/schema.hpp"
-#include "model/compatibility.hpp"
 
 namespace carom::casefile_compatibility_test {
 namespace {

@@ -1,4 +1,6 @@
 // Errors, orders and advice from tables made by hand.
+#include "compare/measure.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +14,6 @@
 #include "compare/convergence.hpp"
 #include "compare/histories.hpp"
 #include "compare/log_plot.hpp"
-#include "compare/measure.hpp"
 #include "compare/page.hpp"
 #include "compare/recommend.hpp"
 #include "compare/tables.hpp"

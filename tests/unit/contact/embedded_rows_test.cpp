@@ -1,10 +1,11 @@
 // Rows of nodes that follow rigid bodies.
+#include "contact/embedded_rows.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "contact/embedded_rows.hpp"
 #include "math/vec3.hpp"
 #include "model/turning_body.hpp"
 

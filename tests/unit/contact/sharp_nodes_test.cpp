@@ -1,9 +1,10 @@
 // Nodes at sharp edges and corners against the formula of sharp_nodes.hpp.
+#include "contact/sharp_nodes.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "contact/sharp_nodes.hpp"
 #include "contact_rows_fixture.hpp"
 #include "surface/surface_point.hpp"
 

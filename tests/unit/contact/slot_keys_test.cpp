@@ -1,10 +1,10 @@
 // Histories find their slots again when surfaces have lost and gained facets.
+#include "contact/slot_keys.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
 #include <vector>
-
-#include "contact/slot_keys.hpp"
 
 namespace carom::contact_slot_keys_test {
 namespace {

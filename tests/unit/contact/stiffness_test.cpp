@@ -1,4 +1,6 @@
 // The stiffness of contact that is chosen where none is given, against M / h by hand.
+#include "contact/stiffness.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "contact/stiffness.hpp"
 #include "contact_fixture.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/skin.hpp"

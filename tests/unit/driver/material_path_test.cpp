@@ -1,4 +1,6 @@
 // The point driver: paths, closed forms, tables, files and what is refused.
+#include "driver/material_path.hpp"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -9,7 +11,6 @@
 #include "base/errors.hpp"
 #include "casefile/read_case.hpp"
 #include "driver/material_page.hpp"
-#include "driver/material_path.hpp"
 #include "driver/measured_curve.hpp"
 #include "report/csv_table.hpp"
 #include "report/xy_plot.hpp"

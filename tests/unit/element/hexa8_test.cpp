@@ -1,10 +1,11 @@
 // Shape functions, quadrature and faces of HEXA8 and QUAD4.
+#include "element/hexa8.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "element/hexa8.hpp"
 #include "element/quad4.hpp"
 
 namespace carom::element_hexa8_test {

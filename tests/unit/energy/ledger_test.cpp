@@ -1,11 +1,11 @@
 // The sums of the energy ledger, with numbers that are exact in binary.
+#include "energy/ledger.hpp"
+
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 #include <string>
-
-#include "energy/ledger.hpp"
 
 namespace carom::energy_ledger_test {
 namespace {

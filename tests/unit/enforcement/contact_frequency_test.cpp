@@ -1,11 +1,12 @@
 // The bound of the frequency of contact springs on the masses of their nodes.
+#include "enforcement/contact_frequency.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "enforcement/contact_frequency.hpp"
 #include "linalg/largest_eigenvalue.hpp"
 #include "schemes_fixture.hpp"
 #include "solid_bodies.hpp"

@@ -1,9 +1,10 @@
 // The compliance of nodes against the Delassus operator by columns for each row.
+#include "enforcement/node_compliance.hpp"
+
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "enforcement/node_compliance.hpp"
 #include "random_rows.hpp"
 
 namespace carom::schemes_node_compliance_test {

@@ -1,11 +1,11 @@
+#include "exact/bar_impact.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
-
-#include "exact/bar_impact.hpp"
 
 namespace carom::exact_bar_impact_test {
 namespace {

@@ -1,10 +1,11 @@
+#include "exact/bouncing_bar.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
 #include "exact/bar_impact.hpp"
-#include "exact/bouncing_bar.hpp"
 
 namespace carom::exact_bouncing_bar_test {
 namespace {

@@ -1,9 +1,9 @@
+#include "exact/cavity.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
-
-#include "exact/cavity.hpp"
 
 namespace carom::exact_cavity_test {
 namespace {

@@ -1,3 +1,5 @@
+#include "exact/friction.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -5,8 +7,6 @@
 #include <numbers>
 #include <stdexcept>
 #include <vector>
-
-#include "exact/friction.hpp"
 
 namespace carom::exact_friction_test {
 namespace {

@@ -1,3 +1,5 @@
+#include "exact/hertz.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -5,8 +7,6 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
-
-#include "exact/hertz.hpp"
 
 namespace carom::exact_hertz_test {
 namespace {

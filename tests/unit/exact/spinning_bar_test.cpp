@@ -1,10 +1,10 @@
+#include "exact/spinning_bar.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-
-#include "exact/spinning_bar.hpp"
 
 namespace carom::exact_spinning_bar_test {
 namespace {

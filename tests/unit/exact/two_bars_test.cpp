@@ -1,3 +1,5 @@
+#include "exact/two_bars.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <vector>
 
 #include "exact/bar_impact.hpp"
-#include "exact/two_bars.hpp"
 
 namespace carom::exact_two_bars_test {
 namespace {

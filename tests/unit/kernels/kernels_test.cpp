@@ -1,4 +1,6 @@
 // The kernels of every lane count on batches laid out by hand, and the colouring of chunks.
+#include "kernels/kernels.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include "kernels/batch_gradients.hpp"
 #include "kernels/cell_stages.hpp"
 #include "kernels/hexa8_small.hpp"
-#include "kernels/kernels.hpp"
 #include "material/linear_elastic_update.hpp"
 #include "solid/blocks.hpp"
 #include "solid/colouring.hpp"

@@ -1,8 +1,8 @@
+#include "linalg/block_matrix.hpp"
+
 #include <gtest/gtest.h>
 
 #include <vector>
-
-#include "linalg/block_matrix.hpp"
 
 namespace carom::linalg_block_matrix_test {
 namespace {

@@ -1,3 +1,5 @@
+#include "linalg/cholesky.hpp"
+
 #include <gtest/gtest.h>
 
 #include <initializer_list>
@@ -5,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "linalg/cholesky.hpp"
 #include "linalg/dense.hpp"
 #include "linalg_problems.hpp"
 #include "parallel/threads.hpp"

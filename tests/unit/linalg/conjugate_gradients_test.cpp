@@ -1,9 +1,10 @@
+#include "linalg/conjugate_gradients.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "linalg/conjugate_gradients.hpp"
 #include "linalg_problems.hpp"
 #include "parallel/threads.hpp"
 

@@ -1,6 +1,7 @@
+#include "linalg/csr_matrix.hpp"
+
 #include <gtest/gtest.h>
 
-#include "linalg/csr_matrix.hpp"
 #include "linalg_problems.hpp"
 #include "parallel/threads.hpp"
 

@@ -1,10 +1,11 @@
+#include "linalg/dense.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "linalg/dense.hpp"
 #include "linalg_problems.hpp"
 
 namespace carom::linalg_dense_test {

@@ -1,6 +1,7 @@
+#include "linalg/largest_eigenvalue.hpp"
+
 #include <gtest/gtest.h>
 
-#include "linalg/largest_eigenvalue.hpp"
 #include "linalg_problems.hpp"
 #include "parallel/threads.hpp"
 

@@ -1,3 +1,5 @@
+#include "linalg/ldlt.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 
 #include "linalg/cholesky.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/ldlt.hpp"
 #include "linalg/nested_dissection.hpp"
 #include "linalg_problems.hpp"
 #include "parallel/threads.hpp"

@@ -1,11 +1,11 @@
+#include "linalg/process_environment.hpp"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
 #include <string>
-
-#include "linalg/process_environment.hpp"
 
 /// Stands in for the library's function: an OpenBLAS that does not know this processor, until it is told.
 extern "C" char* openblas_get_corename() {

@@ -1,3 +1,5 @@
+#include "linalg/reused_factors.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include <vector>
 
 #include "linalg/nested_dissection.hpp"
-#include "linalg/reused_factors.hpp"
 #include "linalg_problems.hpp"
 
 namespace {

@@ -1,10 +1,11 @@
 // Cells that fold at a corner: which one, by how much, and what a run says of it.
+#include "march/folded_cells.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "march/folded_cells.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_folded_cells_test {

@@ -1,11 +1,12 @@
 // Marches: the same steps alone, one after the other and side by side; what observers see.
+#include "march/march.hpp"
+
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "march/march.hpp"
 #include "run_fixture.hpp"
 
 namespace carom::run_march_test {

@@ -1,4 +1,6 @@
 // What the verdict judges errors by, and what it leaves out.
+#include "march/verdict.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +13,6 @@
 #include "march/body_scales.hpp"
 #include "march/penetration_watch.hpp"
 #include "march/rotation_watch.hpp"
-#include "march/verdict.hpp"
 #include "mesh/structured_block.hpp"
 #include "output/summary.hpp"
 #include "run_fixture.hpp"

@@ -1,9 +1,10 @@
+#include "math/called_function.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 
-#include "math/called_function.hpp"
 #include "math/time_function.hpp"
 
 namespace carom::math_called_function_test {

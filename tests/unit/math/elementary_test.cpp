@@ -1,9 +1,9 @@
+#include "math/elementary.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
-
-#include "math/elementary.hpp"
 
 namespace carom::math_elementary_test {
 namespace {

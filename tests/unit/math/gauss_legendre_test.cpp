@@ -1,8 +1,8 @@
+#include "math/gauss_legendre.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "math/gauss_legendre.hpp"
 
 namespace carom::math_gauss_legendre_test {
 namespace {

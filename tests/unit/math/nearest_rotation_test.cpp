@@ -1,9 +1,10 @@
+#include "math/nearest_rotation.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "math/nearest_rotation.hpp"
 #include "math/vec3.hpp"
 
 namespace carom::math_nearest_rotation {

@@ -1,8 +1,8 @@
+#include "math/vec3.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "math/vec3.hpp"
 
 namespace carom::math_vec3_test {
 namespace {

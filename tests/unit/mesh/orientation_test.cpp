@@ -1,4 +1,6 @@
 // Turning of solid cells, interfaces of zero thickness, cells that cannot be mended.
+#include "mesh/orientation.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 
 #include "base/errors.hpp"
 #include "mesh/cell_topology.hpp"
-#include "mesh/orientation.hpp"
 #include "mesh/skin.hpp"
 #include "mesh_fixture.hpp"
 

@@ -1,4 +1,6 @@
 // Numbering for locality: what it must keep and what it must reach.
+#include "mesh/renumber.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <random>
 
 #include "mesh/finish_mesh.hpp"
-#include "mesh/renumber.hpp"
 #include "mesh/structured_block.hpp"
 #include "mesh_fixture.hpp"
 

@@ -1,4 +1,6 @@
 // What is written is read back as it was.
+#include "mesh/write_gmsh.hpp"
+
 #include <gtest/gtest.h>
 
 #include <map>
@@ -11,7 +13,6 @@
 #include "mesh/cell_topology.hpp"
 #include "mesh/read_mesh.hpp"
 #include "mesh/structured_block.hpp"
-#include "mesh/write_gmsh.hpp"
 
 namespace carom::mesh_write_gmsh_test {
 namespace {

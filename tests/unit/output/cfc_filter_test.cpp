@@ -1,3 +1,5 @@
+#include "output/cfc_filter.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,8 +8,6 @@
 #include <numbers>
 #include <stdexcept>
 #include <vector>
-
-#include "output/cfc_filter.hpp"
 
 namespace carom::output_cfc_filter_test {
 namespace {

@@ -1,3 +1,5 @@
+#include "output/csv.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -17,7 +19,6 @@
 #include <vector>
 
 #include "base/errors.hpp"
-#include "output/csv.hpp"
 #include "output/file_writer.hpp"
 
 namespace carom::output_csv_test {

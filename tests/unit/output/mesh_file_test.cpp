@@ -1,3 +1,5 @@
+#include "output/mesh_file.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -11,7 +13,6 @@
 #include "cell_meshes.hpp"
 #include "mesh/read_mesh.hpp"
 #include "mesh/structured_block.hpp"
-#include "output/mesh_file.hpp"
 
 namespace carom::output_mesh_file_test {
 namespace {

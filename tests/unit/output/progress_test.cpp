@@ -1,3 +1,5 @@
+#include "output/progress.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -5,8 +7,6 @@
 #include <cstdio>
 #include <string>
 #include <thread>
-
-#include "output/progress.hpp"
 
 namespace carom::output_progress_test {
 namespace {

@@ -1,3 +1,5 @@
+#include "output/results_folder.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,7 +11,6 @@
 #include "base/errors.hpp"
 #include "base/terminal_text.hpp"
 #include "output/frame_format.hpp"
-#include "output/results_folder.hpp"
 #include "output/results_lock.hpp"
 
 namespace carom::output_results_folder_test {

@@ -1,3 +1,5 @@
+#include "output/summary.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,7 +12,6 @@
 #include <string>
 
 #include "base/errors.hpp"
-#include "output/summary.hpp"
 #include "output/units.hpp"
 
 namespace carom::output_summary_test {

@@ -104,8 +104,8 @@ TEST_P(Frames, VtkReadsEveryPointCellAndFieldExactly) {
   grid.add_flat_cells();
   FrameIndex frames(folder_.string(), format());
   for (const int step : {0, 10}) frames.add({0.1 * step, write_frame(grid, step, step + 1.0), ""});
-  const std::string command =
-      fmt::format("/usr/bin/python3 \"{}/tests/unit/output/vtu_read.py\" \"{}\" 3 2 2 mixed 0 10", CAROM_SOURCE_DIR, index());
+  const std::string command = fmt::format(
+      "/usr/bin/python3 \"{}/tests/unit/output/vtu_read.py\" \"{}\" 3 2 2 mixed 0 10", CAROM_SOURCE_DIR, index());
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
@@ -115,8 +115,9 @@ TEST_P(Frames, VtkReadsMoreThanOneBuffer) {
   const Grid grid(40, 30, 20);
   FrameIndex frames(folder_.string(), format());
   frames.add({0.1 * 123456, write_frame(grid, 123456, 123457.0), ""});
-  const std::string command = fmt::format(
-      "/usr/bin/python3 \"{}/tests/unit/output/vtu_read.py\" \"{}\" 40 30 20 hexahedra 123456", CAROM_SOURCE_DIR, index());
+  const std::string command =
+      fmt::format("/usr/bin/python3 \"{}/tests/unit/output/vtu_read.py\" \"{}\" 40 30 20 hexahedra 123456",
+                  CAROM_SOURCE_DIR, index());
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 

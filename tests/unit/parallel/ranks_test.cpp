@@ -1,11 +1,12 @@
 // Ranks of one process: their messages, what they gather, and how they end.
+#include "parallel/ranks.hpp"
+
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <stdexcept>
 #include <vector>
 
-#include "parallel/ranks.hpp"
 #include "parallel/threads.hpp"
 
 namespace carom::parallel_ranks {

@@ -1,3 +1,5 @@
+#include "parallel/threads.hpp"
+
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -5,8 +7,6 @@
 #include <limits>
 #include <random>
 #include <vector>
-
-#include "parallel/threads.hpp"
 
 namespace carom::parallel_threads_test {
 namespace {

@@ -1,4 +1,6 @@
 // Contact at the nodes.
+#include "record/contact_fields.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "contact_rows_fixture.hpp"
-#include "record/contact_fields.hpp"
 #include "record/contact_resultants.hpp"
 
 namespace carom::run_contact_fields_test {

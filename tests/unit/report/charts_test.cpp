@@ -1,3 +1,5 @@
+#include "report/charts.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "output/readable_unit.hpp"
-#include "report/charts.hpp"
 #include "report/figures.hpp"
 
 namespace carom::report_charts_test {

@@ -1,4 +1,6 @@
 // The Delassus operator against products of dense matrices.
+#include "rows/delassus.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
-#include "rows/delassus.hpp"
 
 namespace carom::contact_delassus_test {
 namespace {

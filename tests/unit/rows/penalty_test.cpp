@@ -1,10 +1,11 @@
 // Penalty enforcement: forces, energies and tangents of single rows against closed forms and finite differences.
+#include "rows/penalty.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "math/vec3.hpp"
-#include "rows/penalty.hpp"
 #include "solid_fixture.hpp"
 
 namespace carom::contact_penalty_test {

@@ -1,10 +1,10 @@
 // Anderson's acceleration of linear iterations.
+#include "schemes/anderson_mixing.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
-
-#include "schemes/anderson_mixing.hpp"
 
 namespace carom::schemes_anderson_mixing_test {
 namespace {

@@ -1,9 +1,10 @@
 // Frequency bounds of cells for the mass that a scheme takes.
+#include "schemes/driven_cells.hpp"
+
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "schemes/driven_cells.hpp"
 #include "schemes_fixture.hpp"
 #include "solid/stability.hpp"
 

@@ -1,7 +1,7 @@
 // How exactly inexact Newton steps are solved.
-#include <gtest/gtest.h>
-
 #include "schemes/forcing_term.hpp"
+
+#include <gtest/gtest.h>
 
 namespace carom::schemes_forcing_term_test {
 namespace {

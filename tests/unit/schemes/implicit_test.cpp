@@ -1,12 +1,11 @@
 // Every implicit scheme: order, damping of high frequencies, failures without trace, thread bits, contact.
-#include "schemes_implicit.hpp"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "schemes/statics.hpp"
 #include "schemes_impact_bar.hpp"
+#include "schemes_implicit.hpp"
 
 namespace carom::schemes_implicit_test {
 namespace {

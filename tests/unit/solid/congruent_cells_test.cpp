@@ -1,11 +1,12 @@
 // Cells of the same shape, and bounds that they share.
+#include "solid/congruent_cells.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "solid/congruent_cells.hpp"
 #include "solid/stability.hpp"
 #include "solid_bodies.hpp"
 #include "solid_fixture.hpp"

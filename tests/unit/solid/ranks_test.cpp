@@ -1,11 +1,12 @@
 // What a rank computes of the cells.
+#include "parallel/ranks.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 #include <set>
 
-#include "parallel/ranks.hpp"
 #include "solid/rank_share.hpp"
 #include "solid_fixture.hpp"
 

@@ -1,4 +1,6 @@
 // Overlaps of facets: areas, consistent integrals, parent coordinates, degenerate positions.
+#include "surface/clipping.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 
 #include "math/gauss_legendre.hpp"
 #include "math/vec3.hpp"
-#include "surface/clipping.hpp"
 #include "surface/facet_geometry.hpp"
 
 namespace carom::contact_clipping_test {

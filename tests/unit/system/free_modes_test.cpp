@@ -1,9 +1,10 @@
 // Bodies that only contact can hold: their free motions, and how statics goes about them.
+#include "system/free_modes.hpp"
+
 #include <gtest/gtest.h>
 
 #include "schemes/statics.hpp"
 #include "schemes_fixture.hpp"
-#include "system/free_modes.hpp"
 
 namespace carom::schemes_free_modes_test {
 namespace {

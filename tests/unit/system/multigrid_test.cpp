@@ -1,4 +1,6 @@
 // The multilevel preconditioner: what it must be for conjugate gradients, and how many iterations it leaves them.
+#include "system/multigrid.hpp"
+
 #include <gtest/gtest.h>
 
 #include <string>
@@ -8,7 +10,6 @@
 #include "cell_meshes.hpp"
 #include "schemes_fixture.hpp"
 #include "solid_bodies.hpp"
-#include "system/multigrid.hpp"
 
 namespace carom::schemes_multigrid_test {
 namespace {
