@@ -28,8 +28,7 @@ class NodesOfRows {
  public:
   explicit NodesOfRows(const ConstraintRows& rows) : nodes_(rows.node.begin(), rows.node.end()) {
     std::ranges::sort(nodes_);
-    const auto rest = std::ranges::unique(nodes_);
-    nodes_.erase(rest.begin(), rest.end());
+    nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
   }
   std::size_t size() const { return nodes_.size(); }
   std::size_t number(Index node) const {

@@ -114,7 +114,7 @@ FieldFrame frame_of(const Simulation& s, const StepView& view, std::span<const d
   // What takes most memory on its way comes first, while the frame is small: all that needs stresses, then strains.
   std::vector<std::string_view> names;
   for (const auto& field : output.fields) names.push_back(*field);
-  const auto middle = std::ranges::stable_partition(names, FieldsNow::needs_stress).begin();
+  const auto middle = std::stable_partition(names.begin(), names.end(), FieldsNow::needs_stress);
   std::stable_partition(middle, names.end(), [&](std::string_view name) {
     const std::optional<FieldKind> kind = field_kind(s, name);
     return kind && kind->form == Form::tensor;
