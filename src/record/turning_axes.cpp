@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "math/principal_axes.hpp"
 #include "math/vec3.hpp"

@@ -40,6 +40,7 @@ TEST(NodalContact, HasTheWholePressureOnBothSidesByEveryMethod) {
       response.status.push_back(RowStatus::stick);
     }
     const NodalContact nodes = nodal_contact(response, u, u);
+    EXPECT_EQ(nodes.nodes.size(), scene.model.mesh->node_count()) << "each node of the two patches";
     for (const double p : nodes.pressure) EXPECT_NEAR(p, pressure, 1e-12) << static_cast<int>(method);
     for (const double status : nodes.status) EXPECT_EQ(status, 2.0);
     const ContactResultant sum = ContactResultants(scene.model, {Vec3{}}).of(response, u)[0];
@@ -112,7 +113,9 @@ TEST(NodalContact, IsUniformWhateverTheSharesOfTwoPasses) {
     for (std::size_t r = 0; r < rows.size(); ++r) start.push_back(size * std::sin(static_cast<double>(r)));
     response.force.clear();
     for (const double s : row_forces(rows, wanted, start)) response.force.push_back({s, 0.0, 0.0});
-    for (const double p : nodal_contact(response, u, u).pressure) EXPECT_NEAR(p, pressure, 1e-10) << size;
+    const NodalContact nodes = nodal_contact(response, u, u);
+    EXPECT_EQ(nodes.nodes.size(), scene.model.mesh->node_count());
+    for (const double p : nodes.pressure) EXPECT_NEAR(p, pressure, 1e-10) << size;
   }
 }
 
@@ -139,7 +142,9 @@ TEST(NodalContact, SlipsAsFastAsTheSurfacesMoveAlongEachOther) {
   }
   response.force.assign(rows.size(), Vec3{});
   response.status.assign(rows.size(), RowStatus::stick);
-  for (const double rate : nodal_contact(response, u, v).slip_rate) EXPECT_NEAR(rate, 5.0, 1e-12);
+  const NodalContact nodes = nodal_contact(response, u, v);
+  EXPECT_EQ(nodes.nodes.size(), scene.model.mesh->node_count());
+  for (const double rate : nodes.slip_rate) EXPECT_NEAR(rate, 5.0, 1e-12);
   response.status.assign(rows.size(), RowStatus::open);
   for (const double rate : nodal_contact(response, u, v).slip_rate) EXPECT_EQ(rate, 0.0);
 }
@@ -159,7 +164,9 @@ TEST(NodalContact, CountsGuardsOnceBesideTheMeansOfTwoPasses) {
   response.status.assign(2, RowStatus::stick);
   response.force = {{3, 0, 0}, {5, 0, 0}};
   const std::vector<double> u(6, 0.0);
-  EXPECT_EQ(nodal_contact(response, u, u).pressure, (std::vector<double>{1.5, 1.25}));
+  const NodalContact nodes = nodal_contact(response, u, u);
+  EXPECT_EQ(nodes.pressure, (std::vector<double>{1.5, 1.25}));
+  EXPECT_EQ(nodes.at_all(nodes.pressure, 3), (std::vector<double>{1.5, 1.25, 0.0})) << "0 where no row stands";
 }
 
 }  // namespace
