@@ -6,15 +6,15 @@
 namespace carom {
 
 SectionSchema<CaseStop> contact_keys(std::type_identity<CaseStop>) {
-  constexpr auto mandatory = KeyOptions::Need::required;
+  constexpr auto required = KeyOptions::Need::required;
   SectionSchema<CaseStop> s("discrete stops on nodes");
   add_group(s);
-  s.key("normal", &CaseStop::normal, "Direction from the stop to the node; of any length but 0.", {.need = mandatory});
+  s.key("normal", &CaseStop::normal, "Direction from the stop to the node; of any length but 0.", {.need = required});
   s.key("gap", &CaseStop::gap, "Distance that a node moves before it touches.", {.unit = Dimension::length});
   s.key("stiffness", &CaseStop::stiffness, "Force of a node per penetration.",
         {.unit = Dimension::force_per_length,
          .range = greater_than(0.0),
-         .need = mandatory,
+         .need = required,
          .aliases = stiffness_aliases});
   s.key("damping", &CaseStop::damping, "Force of a node per closing speed, while it touches.",
         {.unit = Dimension::damping, .range = at_least(0.0)});

@@ -8,15 +8,15 @@
 namespace carom::quad4 {
 namespace {
 
-constexpr std::array<std::array<double, 2>, 4> corner{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+constexpr std::array<std::array<double, 2>, 4> reference{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
 
 }  // namespace
 
 Vec3 area_normal(const std::array<Vec3, 4>& x, double xi, double eta) {
   Vec3 s{}, t{};
   for (std::size_t a = 0; a < 4; ++a) {
-    const double dxi = 0.25 * corner[a][0] * (1.0 + eta * corner[a][1]);
-    const double deta = 0.25 * corner[a][1] * (1.0 + xi * corner[a][0]);
+    const double dxi = 0.25 * reference[a][0] * (1.0 + eta * reference[a][1]);
+    const double deta = 0.25 * reference[a][1] * (1.0 + xi * reference[a][0]);
     for (std::size_t i = 0; i < 3; ++i) {
       s[i] += dxi * x[a][i];
       t[i] += deta * x[a][i];
@@ -29,7 +29,7 @@ std::array<FacePoint, 4> face_points(const std::array<Vec3, 4>& x) {
   const double g = 1.0 / std::sqrt(3.0);
   std::array<FacePoint, 4> points{};
   for (std::size_t p = 0; p < 4; ++p) {
-    const double xi = g * corner[p][0], eta = g * corner[p][1];
+    const double xi = g * reference[p][0], eta = g * reference[p][1];
     points[p] = {shape(xi, eta), area_normal(x, xi, eta)};
   }
   return points;

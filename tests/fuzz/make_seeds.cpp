@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "../unit/fixtures/mesh_fixture.hpp"
+#include "mesh_fixture.hpp"
 #include "mesh/hdf5_visitor.hpp"
 #include "mesh/isolated_process.hpp"
 #include "mesh/structured_block.hpp"
