@@ -26,11 +26,7 @@ constexpr std::size_t kHeaderBytes = 1024;  // HDF5's user block, in front of wh
 constexpr std::string_view kTitle = "carom checkpoint, format ", kHeaderSum = "header ";
 
 using Descriptor = Handle<int, ::close>;
-using File = Handle<hid_t, H5Fclose>;
-using Plist = Handle<hid_t, H5Pclose>;
-using Space = Handle<hid_t, H5Sclose>;
-using Set = Handle<hid_t, H5Dclose>;
-using Type = Handle<hid_t, H5Tclose>;
+using hdf5::File, hdf5::Plist, hdf5::Space, hdf5::Set, hdf5::Type, hdf5::file_access;
 
 Type variable_string() {
   const hid_t type = H5Tcopy(H5T_C_S1);
@@ -122,15 +118,6 @@ class Reader : public Archive {
   hid_t file_;
   std::string path_;
 };
-
-/// Locks of the file system are not needed, since the folder of results is locked, and not there on some.
-Plist file_access() {
-  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-#if H5_VERSION_GE(1, 10, 7)
-  H5Pset_file_locking(access, false, true);
-#endif
-  return Plist(access);
-}
 
 struct Sum {
   std::uint64_t value = 0;

@@ -21,14 +21,7 @@ namespace {
 
 constexpr std::size_t kGroupName = 80;  ///< bytes of a name in MED
 
-using File = Handle<hid_t, H5Fclose>;
-using Plist = Handle<hid_t, H5Pclose>;
-using Group = Handle<hid_t, H5Gclose>;
-using Type = Handle<hid_t, H5Tclose>;
-using Object = Handle<hid_t, H5Oclose>;
-using Space = Handle<hid_t, H5Sclose>;
-using Attribute = Handle<hid_t, H5Aclose>;
-using Set = Handle<hid_t, H5Dclose>;
+using hdf5::File, hdf5::Plist, hdf5::Group, hdf5::Type, hdf5::Object, hdf5::Space, hdf5::Attribute, hdf5::Set;
 
 /// A MED file being written; groups by their paths.
 class MedFile {

@@ -24,13 +24,7 @@ namespace carom {
 
 namespace {
 
-using File = Handle<hid_t, H5Fclose>;
-using Group = Handle<hid_t, H5Gclose>;
-using Plist = Handle<hid_t, H5Pclose>;
-using Space = Handle<hid_t, H5Sclose>;
-using Set = Handle<hid_t, H5Dclose>;
-using Attribute = Handle<hid_t, H5Aclose>;
-using Type = Handle<hid_t, H5Tclose>;
+using hdf5::File, hdf5::Group, hdf5::Plist, hdf5::Space, hdf5::Set, hdf5::Attribute, hdf5::Type, hdf5::file_access;
 
 constexpr const char* kRoot = "/VTKHDF";
 constexpr std::array<const char*, 2> kFieldGroups{"PointData", "CellData"};
@@ -47,21 +41,12 @@ NumberType number_type() {
   return static_cast<NumberType>(decltype(FrameField::values)(std::vector<T>{}).index());
 }
 
-/// Locks of the file system are not needed, since the folder of results is locked, and not there on some.
-hid_t file_access() {
-  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-#if H5_VERSION_GE(1, 10, 7)
-  H5Pset_file_locking(access, false, true);
-#endif
-  return access;
-}
-
 /// A file that is being written.
 class Output {
  public:
   explicit Output(std::string path) : path_(std::move(path)), temporary_(path_ + ".tmp") {
     { const FileWriter probe(path_); }  // says why, where a file cannot be made there
-    const Plist access(file_access());
+    const Plist access = file_access();
     file_.emplace(H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
     H5Pset_obj_track_times(groups_, false);  // equal values make equal files
     H5Pset_link_creation_order(groups_, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
@@ -248,7 +233,7 @@ class VtkHdfWriter : public FrameWriter {
 }
 
 File open_frame(const std::string& path) {
-  const Plist access(file_access());
+  const Plist access = file_access();
   return File(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access));
 }
 
