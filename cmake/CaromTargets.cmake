@@ -51,9 +51,9 @@ function(carom_tests group)
   carom_unity(${group}_tests)
   target_compile_options(${group}_tests PRIVATE ${CAROM_TEST_OPTIMISATION})
   get_filename_component(kind ${CMAKE_CURRENT_SOURCE_DIR} NAME)
-  # Threads that wait by spinning starve each other where other work shares the cores. A program that registers thousands
-  # of cases takes longer to start than most of them: those of a parameterised suite share a process.
-  set(properties LABELS ${kind} ENVIRONMENT OMP_WAIT_POLICY=passive)
+  # ctest runs a process a core: a test has one thread unless it asks for more, and threads that wait do not spin. A program
+  # that registers thousands of cases takes longer to start than most of them: those of a parameterised suite share a process.
+  set(properties LABELS ${kind} ENVIRONMENT OMP_NUM_THREADS=1 ENVIRONMENT_MODIFICATION OMP_WAIT_POLICY=set:passive)
   gtest_discover_tests(${group}_tests DISCOVERY_MODE PRE_TEST TEST_FILTER "-*/*" PROPERTIES TIMEOUT 300 ${properties})
   foreach(source IN LISTS sources)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})

@@ -111,9 +111,11 @@ SectionSchema<CaseOutput> output_section() {
         "always there; those of contact only where there is one, contact_damage only where a tie tears, what laws "
         "remember only where one does.",
         {.choices = names_where(is_field), .others = remembered});
-  s.key("fields_every", &CaseOutput::fields_every,
-        "Steps between frames of fields; 0: about 50 frames over the run, fewer where 50 might take more than 2 GB.",
-        {.range = at_least(0.0)});
+  s.key(
+      "fields_every", &CaseOutput::fields_every,
+      "Steps between frames of fields; 0: about 50 frames at equal times over the run, fewer where 50 might take more "
+      "than 2 GB.",
+      {.range = at_least(0.0)});
   s.key(
       "format", &CaseOutput::format,
       "Of the frames. xdmf: HDF5 files, deflated, with the mesh in a file of its own, and fields.xdmf for ParaView and "

@@ -21,7 +21,7 @@ namespace carom {
 
 namespace {
 
-constexpr int kFormat = 3;
+constexpr int kFormat = 4;
 constexpr std::size_t kHeaderBytes = 1024;  // HDF5's user block, in front of what HDF5 writes: a power of 2 from 512 on
 constexpr std::string_view kTitle = "carom checkpoint, format ", kHeaderSum = "header ";
 

@@ -56,6 +56,15 @@ long long frame_interval(const Simulation& s) {
   return std::max(1LL, (s.steps() + intervals - 1) / intervals);
 }
 
+long long FrameClock::due(long long step, double t) const {
+  if (simulation_.given().output.fields_every > 0) return step / interval_;
+  constexpr double rounding = 1e-6;  // of a step, by which sums of steps may miss a time
+  double usual_steps = rounding;
+  for (const auto& stage : simulation_.stages())
+    usual_steps += std::clamp((t - stage->begin()) / stage->dt(), 0.0, static_cast<double>(stage->steps()));
+  return static_cast<long long>(usual_steps / static_cast<double>(interval_));
+}
+
 std::string frame_note(const Simulation& s) {
   const CaseOutput& output = s.given().output;
   if (output.fields.empty() || output.fields_every > 0) return {};

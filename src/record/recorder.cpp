@@ -141,7 +141,7 @@ Recorder::Recorder(const Simulation& simulation, std::string folder)
       slip_(simulation),
       format_(frame_format(simulation)),
       obstacles_(simulation),
-      frame_every_(frame_interval(simulation)) {}
+      clock_(simulation) {}
 
 std::vector<Recorder::TableFile> Recorder::table_files() const {
   std::vector<TableFile> list{{folder_ + "/energy.csv", "energies", tables_.energy.table()},
@@ -241,7 +241,10 @@ void Recorder::record(const StepView& view, bool is_last) {
     tables_.contact.sample(view);
     slip_.sample(now);
   }
+  const bool frame_is_due =
+      last_sample_ < 0 || clock_.due(view.step, view.state.t) > clock_.due(last_sample_, last_time_);
   last_sample_ = view.step;
+  last_time_ = view.state.t;
   figures_.sample(view, is_last);
   const bool due = is_last || view.step % simulation_.given().output.curves_every == 0;
   const bool is_checked = tables_.checks.is_due(view.state.t, simulation_.dt());
@@ -255,7 +258,7 @@ void Recorder::record(const StepView& view, bool is_last) {
     if (tables_.exact) tables_.exact->sample(view.state.t);
     add_row();
   }
-  if ((is_last || view.step % frame_every_ == 0) && view.step != last_frame_) record_frame(view);
+  if ((is_last || frame_is_due) && view.step != last_frame_) record_frame(view);
 }
 
 void Recorder::add_row() {

@@ -15,6 +15,7 @@
 #include "record/contact_slip.hpp"
 #include "record/curves.hpp"
 #include "record/exact_curves.hpp"
+#include "record/frame_plan.hpp"
 #include "record/key_figures.hpp"
 #include "record/obstacle_bodies.hpp"
 
@@ -98,6 +99,7 @@ class Recorder : public Observer {
     if (x.slip_.is_wanted()) archive("slip", x.slip_);
     archive("obstacles_file", x.obstacles_file_);
     archive("last_sample", x.last_sample_);
+    archive("last_time", x.last_time_);
     archive("last_frame", x.last_frame_);
     archive("last_row", x.last_row_);
   }
@@ -144,8 +146,9 @@ class Recorder : public Observer {
   const FrameFormat& format_;
   ObstacleBodies obstacles_;
   std::string obstacles_file_;  ///< the last that was written
-  long long frame_every_;
+  FrameClock clock_;
   long long last_sample_ = -1, last_frame_ = -1, last_row_ = -1;  ///< steps sampled or written last
+  double last_time_ = 0.0;                                        ///< of last_sample_
   Background writer_;                                             ///< last: it waits before the others go
 };
 

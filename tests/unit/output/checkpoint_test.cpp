@@ -247,7 +247,7 @@ TEST_F(CheckpointFile, EveryDamageIsSeenAndNamed) {
     bytes.replace(bytes.find(from), from.size(), to);
     return bytes;
   };
-  list.push_back({"another format", replaced("format 3", "format 4"), "header is damaged"});
+  list.push_back({"another format", replaced("format 4", "format 5"), "header is damaged"});
   list.push_back({"another version", replaced("version 1.2.3", "version 1.2.4"), "header is damaged"});
   list.push_back({"another instruction set", replaced("isa v3", "isa v4"), "header is damaged"});
   list.push_back({"another case", replaced("case 0", "case 1"), "header is damaged"});
@@ -256,10 +256,10 @@ TEST_F(CheckpointFile, EveryDamageIsSeenAndNamed) {
   list.push_back({"another time", replaced("time 0.1", "time 0.2"), "header is damaged"});
   list.push_back({"without its sum", replaced("\nheader ", "\nfooter "), "header is damaged"});
   std::string later = good;  // whole, but of a format to come
-  later.replace(later.find("format 3"), 8, "format 4");
+  later.replace(later.find("format 4"), 8, "format 5");
   const std::size_t sum = later.find("\nheader ") + 1;
   later.replace(sum + 7, 16, fmt::format("{:016x}", checksum(later.substr(0, sum))));
-  list.push_back({"a later format", later, "it is of format 4; this program reads format 3"});
+  list.push_back({"a later format", later, "it is of format 5; this program reads format 4"});
   for (const std::size_t part : {1U, 2U, 3U}) {
     const std::size_t length = 1024 + part * (good.size() - 1024) / 4;
     list.push_back({fmt::format("cut at {}", length), good.substr(0, length), "it is cut off"});

@@ -214,6 +214,26 @@ TEST(Fields, FramesFitABudget) {
   EXPECT_EQ(frame_note(small), "");
 }
 
+// By default frames come at equal times, however many steps lie between them; else by the steps that the case says.
+// Times that are sums of steps may miss those of the frames by rounding.
+TEST(Fields, FramesComeAtEqualTimesOrAfterSoManySteps) {
+  const std::string text = test::case_of_block(thrown_at_a_plane);
+  const auto every = [&](const char* steps) { return test::replaced(text, "fields_every = 1", steps); };
+  const Simulation by_default(parse_case(every("fields_every = 0"), "case.toml"));
+  const FrameClock clock(by_default);
+  const long long between = frame_interval(by_default);
+  const double dt = by_default.dt(), until = static_cast<double>(between) * dt;
+  for (const long long cut : {1, 7}) {  // every step taken in so many
+    EXPECT_EQ(clock.due(0, 0.0), 0);
+    EXPECT_EQ(clock.due(cut * between - 1, until - dt / static_cast<double>(cut)), 0);
+    EXPECT_EQ(clock.due(cut * between, until * (1.0 - 1e-15)), 1);
+    EXPECT_EQ(clock.due(cut * by_default.steps(), by_default.end()), by_default.steps() / between);
+  }
+  const Simulation by_steps(parse_case(every("fields_every = 3"), "case.toml"));
+  EXPECT_EQ(FrameClock(by_steps).due(2, by_steps.end()), 0);
+  EXPECT_EQ(FrameClock(by_steps).due(3, 0.0), 1);
+}
+
 // A case may ask for VTK's files and for double precision; the values are those of the run's own state to round-off of
 // the precision: 2^-24 of the value in single, none in double.
 TEST(Fields, FormatAndPrecisionAreTheCase) {
