@@ -21,7 +21,7 @@ test:    ## the same set-up, then all tests through ctest
 	@tools/build release all
 	@ctest --preset release -j "$$(nproc)"
 
-verify: build ## long verification cases, resumable, writes docs/verification.md; then 300 impacts, 600 of random shapes, 60 towers, 100 impacts seen otherwise, edges and curves with defaults, a soak, decks of CalculiX, data races
+verify: build ## long verification cases, resumable, writes docs/verification.md; then 300 impacts, 600 of random shapes, 60 towers, 100 impacts seen otherwise, edges and curves with defaults, a soak, decks of CalculiX, data races, lines that tests run
 	@tools/verify
 	@/usr/bin/python3 tests/verification/impact_trial.py build/release/carom --jobs "$$(nproc)"
 	@tools/setup python
@@ -34,6 +34,7 @@ verify: build ## long verification cases, resumable, writes docs/verification.md
 	@/usr/bin/python3 tests/verification/calculix_decks.py build/release/carom
 	@tools/setup test
 	@tools/thread_check
+	@tools/coverage.py
 
 bench:   ## measures kernels, steps, growth, implicit runs, peers: writes docs/performance.md (half an hour)
 	@tools/setup build bench
