@@ -17,6 +17,7 @@
 #include "math/vec3.hpp"
 #include "model/bodies.hpp"
 #include "model/outer_facets.hpp"
+#include "parallel/threads.hpp"
 #include "surface/facing_facets.hpp"
 #include "surface/feature_edges.hpp"
 #include "surface/half_thickness.hpp"
@@ -244,6 +245,18 @@ bool has_sharp_edges(const Model& model, const Surface& surface) {
   return !feature_edges(model.mesh->coordinates, surface.facets, {}, sharp).empty();
 }
 
+/// By node and component: whether it is held at its place all the time, as by a plane of symmetry.
+std::vector<std::array<bool, 3>> held_nodes(const Model& model) {
+  std::vector<std::array<bool, 3>> held(model.mesh->coordinates.size());
+  for (const PrescribedMotion& motion : model.motions) {
+    const bool rests = motion.kind != MotionKind::rotation && !motion.function.called && is_zero(motion.function.value);
+    if (!rests) continue;
+    for (const Index n : motion.nodes)
+      held[static_cast<std::size_t>(n)][static_cast<std::size_t>(motion.component)] = true;
+  }
+  return held;
+}
+
 /// Null where the contact is to be seen as facets, or is flat.
 std::optional<SmoothSides> smooth_sides(const Model& model, const PairContact& contact) {
   if (contact.smooth == Smoothing::none || !smooths(contact.method) || contact.law.hold != RowHold::springs ||
@@ -254,8 +267,9 @@ std::optional<SmoothSides> smooth_sides(const Model& model, const PairContact& c
       (has_sharp_edges(model, contact.slave) || has_sharp_edges(model, contact.master)))
     return std::nullopt;
   const std::vector<Facet> beside = skin(model);
+  const std::vector<std::array<bool, 3>> held = held_nodes(model);
   const auto of = [&](const Surface& surface) {
-    return std::make_shared<const SmoothSurface>(*model.mesh, surface.facets, beside);
+    return std::make_shared<const SmoothSurface>(*model.mesh, surface.facets, beside, held);
   };
   SmoothSides sides{contact.slave, contact.master, of(contact.slave), nullptr, contact.self};
   sides.of_master = contact.self ? sides.of_slave : of(contact.master);

@@ -15,6 +15,7 @@ constexpr double least_sharp = 0.5 * std::numbers::sqrt3;  // cosine of 30 degre
 constexpr double flat = 1e-3;                              // of an edge: bulges below are none
 constexpr double longest = 0.25;                           // of an edge: its bulge at most
 constexpr double round_off = 1e-12;                        // square of the turn of parallel normals
+constexpr double in_plane = 1e-6;                          // of a facet's size: nodes of one plane
 constexpr double settled = 1e-8;  // step in parent coordinates after which, shrinking as its square, none is left
 
 /// Shape functions of the edges' vectors and their derivatives.
@@ -70,7 +71,9 @@ Vec3 of_corner(const PlacedFacet& facet, std::size_t a) {
 /// All facets of a surface and what is beside it, and how they hang together.
 class Fans {
  public:
-  Fans(const Mesh& mesh, std::span<const Facet> facets, std::span<const Facet> beside) : X_(mesh.coordinates) {
+  Fans(const Mesh& mesh, std::span<const Facet> facets, std::span<const Facet> beside,
+       std::span<const std::array<bool, 3>> is_held)
+      : X_(mesh.coordinates), is_held_(is_held) {
     facets_.assign(facets.begin(), facets.end());
     std::map<std::array<Index, 4>, bool> own;
     for (const Facet& facet : facets) own[key(facet)] = true;
@@ -79,10 +82,11 @@ class Fans {
     for (const ParentFace& face : parent_faces(mesh, facets_)) is_linear_.push_back(face.is_linear);
     for (const Facet& facet : facets_) normals_.push_back(normal_at_centre(place(facet, X_)));
     join();
+    mirror();
   }
 
   std::span<const Facet> facets() const { return facets_; }
-  bool goes_on(std::size_t f, std::size_t edge) const { return next_[f][edge] >= 0; }
+  bool goes_on(std::size_t f, std::size_t edge) const { return next_[f][edge] >= 0 || across_[f][edge] >= 0; }
   /// The facets that hang together around corner a of facet f, f among them.
   std::vector<std::pair<std::size_t, std::size_t>> around(std::size_t f, std::size_t a) const {
     std::vector<std::pair<std::size_t, std::size_t>> fan{{f, a}};
@@ -97,15 +101,20 @@ class Fans {
     };
     for (std::size_t i = 0; i < fan.size(); ++i) {  // NOLINT(modernize-loop-convert): it grows
       const auto [g, b] = fan[i];
-      add(next_[g][b]);
-      const auto n = static_cast<std::size_t>(facets_[g].size);
-      if (n > 2) add(next_[g][(b + n - 1) % n]);
+      for (const std::size_t edge : edges_at(g, b)) add(next_[g][edge]);
     }
     return fan;
   }
   Vec3 normal(std::size_t f, std::size_t a) const {
     Vec3 sum{};
-    for (const auto& [g, b] : around(f, a)) sum = add(sum, of_corner(place(facets_[g], X_), b));
+    std::array<bool, 3> is_mirrored{};
+    for (const auto& [g, b] : around(f, a)) {
+      sum = add(sum, of_corner(place(facets_[g], X_), b));
+      for (const std::size_t edge : edges_at(g, b))
+        if (across_[g][edge] >= 0) is_mirrored[static_cast<std::size_t>(across_[g][edge])] = true;
+    }
+    for (std::size_t c = 0; c < 3; ++c)
+      if (is_mirrored[c]) sum[c] = 0.0;  // what the image adds takes it away
     const Vec3 n = direction(sum);
     return dot(n, n) > 0.0 ? n : normals_[f];
   }
@@ -139,11 +148,41 @@ class Fans {
     }
   }
 
+  /// The edges of facet f that meet its corner a.
+  std::vector<std::size_t> edges_at(std::size_t f, std::size_t a) const {
+    const auto n = static_cast<std::size_t>(facets_[f].size);
+    if (n <= 2) return {a};
+    return {a, (a + n - 1) % n};
+  }
+  /// Finds the edges in planes of symmetry.
+  void mirror() {
+    across_.assign(facets_.size(), {-1, -1, -1, -1});
+    if (is_held_.empty()) return;
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      const auto n = static_cast<std::size_t>(facets_[f].size);
+      const double size = std::sqrt(measure(place(facets_[f], X_)));
+      for (std::size_t a = 0; n > 1 && a < n; ++a) {
+        const auto p = static_cast<std::size_t>(facets_[f][a]);
+        const auto q = n == 2 ? p : static_cast<std::size_t>(facets_[f][(a + 1) % n]);
+        if (next_[f][a] >= 0 || !is_linear_[f]) continue;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const auto is_in_plane = [&](auto node) { return std::abs(X_[node][c] - X_[p][c]) < in_plane * size; };
+          const bool ends_there = is_held_[p][c] && is_held_[q][c] && is_in_plane(q) &&
+                                  !std::all_of(facets_[f].begin(), facets_[f].end(), is_in_plane);
+          if (ends_there && 1.0 - 2.0 * normals_[f][c] * normals_[f][c] > least_sharp)
+            across_[f][a] = static_cast<int>(c);
+        }
+      }
+    }
+  }
+
   std::span<const Vec3> X_;
+  std::span<const std::array<bool, 3>> is_held_;
   std::vector<Facet> facets_;
   std::vector<bool> is_linear_;
   std::vector<Vec3> normals_;
   std::vector<std::array<Index, 4>> next_;  ///< by facet and edge (segment: end): the facet that goes on, -1: none
+  std::vector<std::array<int, 4>> across_;  ///< the component of the plane of symmetry that the edge is in, -1: none
 };
 
 }  // namespace
@@ -159,13 +198,14 @@ Vec3 edge_bulge(const Vec3& d, const Vec3& n_0, const Vec3& n_1) {
   return size > longest * length ? scaled(c, longest * length / size) : c;
 }
 
-SmoothSurface::SmoothSurface(const Mesh& mesh, std::span<const Facet> facets, std::span<const Facet> beside)
+SmoothSurface::SmoothSurface(const Mesh& mesh, std::span<const Facet> facets, std::span<const Facet> beside,
+                             std::span<const std::array<bool, 3>> is_held)
     : is_curved_(facets.size()),
       bulges_(facets.size()),
       goes_on_(facets.size(), {false, false, false, false}),
       nodes_(mesh.coordinates.size(), none) {
   const std::span<const Vec3> X = mesh.coordinates;
-  const Fans fans(mesh, facets, beside);
+  const Fans fans(mesh, facets, beside, is_held);
   for (std::size_t f = 0; f < facets.size(); ++f) {
     const PlacedFacet facet = place(facets[f], X);
     const auto n = static_cast<std::size_t>(facet.size);

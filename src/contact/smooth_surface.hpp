@@ -40,11 +40,15 @@ Vec3 edge_bulge(const Vec3& d, const Vec3& n_0, const Vec3& n_1);
 ///   n = sum of (e_1 x e_2) / (|e_1|^2 |e_2|^2) over their corners there   (segments: sum of n / length),
 /// e_1, e_2 being the edges at the corner: exact on spheres (N. Max, J. Graphics Tools 4(2), 1999). Facets whose
 /// bulges are all below a thousandth of their edges are flat.
+///
+/// At a plane of symmetry it goes on as its mirror image: across edges (an end of segments) whose nodes all have the
+/// same coordinate i and are held along i, where the facet and its image turn by less than 30 degrees.
 class SmoothSurface {
  public:
   /// beside: more facets of the same bodies, that go on beyond the surface's ends (the skin; facets of the surface may
-  /// be in it).
-  SmoothSurface(const Mesh& mesh, std::span<const Facet> facets, std::span<const Facet> beside);
+  /// be in it). is_held: by node and component; empty: no node is held.
+  SmoothSurface(const Mesh& mesh, std::span<const Facet> facets, std::span<const Facet> beside,
+                std::span<const std::array<bool, 3>> is_held = {});
 
   bool has_curved() const { return has_curved_; }
   bool is_curved(Index f) const { return is_curved_[static_cast<std::size_t>(f)]; }

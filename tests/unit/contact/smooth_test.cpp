@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 #include "contact/smooth_surface.hpp"
 #include "contact_rows_fixture.hpp"
@@ -112,6 +114,79 @@ TEST(SmoothSurface, BulgesAsAnArcDoes) {
   EXPECT_NEAR(c[0], 0.0, 1e-15);
   EXPECT_NEAR(-c[1] / 4.0, 1.0 - std::cos(a / 2), std::pow(a, 4) / 100.0);
   EXPECT_EQ(edge_bulge({1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 1.0, 0.0}), (Vec3{}));  // flat
+}
+
+/// Those facets of a surface none of whose nodes has a negative coordinate c, and the nodes that are held in the planes
+/// of symmetry that bound them.
+struct Cut {
+  std::vector<Facet> facets;
+  std::vector<Index> of_whole;
+  std::vector<std::array<bool, 3>> held;
+
+  Cut(const Mesh& mesh, const std::vector<Facet>& whole, std::span<const std::size_t> components)
+      : held(mesh.coordinates.size()) {
+    constexpr double round_off = 1e-14;
+    for (std::size_t f = 0; f < whole.size(); ++f) {
+      const bool stays = std::ranges::all_of(components, [&](std::size_t c) {
+        return std::all_of(whole[f].begin(), whole[f].end(),
+                           [&](Index n) { return mesh.coordinates[static_cast<std::size_t>(n)][c] > -round_off; });
+      });
+      if (!stays) continue;
+      facets.push_back(whole[f]);
+      of_whole.push_back(static_cast<Index>(f));
+    }
+    for (std::size_t n = 0; n < held.size(); ++n)
+      for (const std::size_t c : components) held[n][c] = std::abs(mesh.coordinates[n][c]) < round_off;
+  }
+};
+
+// A half and an eighth of a ball and half of a circle whose nodes are held in planes of symmetry have the bulges of the
+// whole, to the round-off of sums in another order, and no end.
+TEST(SmoothSurface, GoesOnAsItsImageAtPlanesOfSymmetry) {
+  Scene scene;
+  const std::vector<Facet> ball = add_ball(scene, 4, {}, 1.0, {}, false);
+  std::vector<Facet> circle;
+  const auto node = [&](int k) {
+    const double angle = std::numbers::pi * k / 8.0;
+    return scene.add_node({std::sin(angle), -std::cos(angle), 0.0});
+  };
+  const Index first = node(0);
+  for (int k = 1; k < 16; ++k) node(k);
+  for (int k = 0; k < 16; ++k) circle.push_back({{first + k, first + (k + 1) % 16, -1, -1}, 2});
+  scene.finish();
+  const std::array<std::size_t, 3> x{0, 1, 2};
+  for (const auto& [whole, planes] : {std::pair{ball, 1U}, std::pair{ball, 3U}, std::pair{circle, 1U}}) {
+    const Cut cut(scene.mesh, whole, std::span(x).first(planes));
+    ASSERT_LT(cut.facets.size(), whole.size());
+    const SmoothSurface all(scene.mesh, whole, {}), part(scene.mesh, cut.facets, {}, cut.held),
+        open(scene.mesh, cut.facets, {});
+    for (std::size_t f = 0; f < cut.facets.size(); ++f) {
+      const Bulge &found = part.bulge(static_cast<Index>(f)), &expected = all.bulge(cut.of_whole[f]);
+      for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found.edge[k][c], expected.edge[k][c], 1e-14);
+      for (const Index n : cut.facets[f]) {
+        EXPECT_TRUE(part.is_smooth_node(n));
+        const std::array<bool, 3>& held = cut.held[static_cast<std::size_t>(n)];
+        EXPECT_EQ(open.is_smooth_node(n), std::ranges::none_of(held, std::identity{}));
+      }
+    }
+  }
+}
+
+// Where nodes are held along the plane of a circle, or a flat end is, no surface goes on.
+TEST(SmoothSurface, EndsWhereNodesAreHeldOtherwise) {
+  Scene scene;
+  const Index a = scene.add_node({0, 0, 0}), b = scene.add_node({1, 0.1, 0}), c = scene.add_node({2, 0, 0});
+  const std::vector<Facet> arc{{{c, b, -1, -1}, 2}, {{b, a, -1, -1}, 2}};
+  scene.finish();
+  std::vector<std::array<bool, 3>> held(scene.mesh.coordinates.size());
+  for (const bool along_the_arc : {false, true}) {
+    for (auto& components : held) components = {along_the_arc, true, true};
+    const SmoothSurface surface(scene.mesh, arc, {}, held);
+    EXPECT_EQ(surface.goes_on(0, 0), along_the_arc);
+    EXPECT_EQ(surface.goes_on(1, 1), along_the_arc);
+    EXPECT_TRUE(surface.goes_on(0, 1));
+  }
 }
 
 // Flat facets, and those that meet at 30 degrees or more, have no bulge at all, and their contact has the rows of
