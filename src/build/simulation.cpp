@@ -13,6 +13,7 @@
 #include "build/eroding_parts.hpp"
 #include "build/facing.hpp"
 #include "build/torn_ties.hpp"
+#include "contact/mirror_images.hpp"
 #include "contact/stiffness.hpp"
 #include "math/vec3.hpp"
 #include "schemes/imposed_motion.hpp"
@@ -70,6 +71,7 @@ Model make_model(const Case& given, std::shared_ptr<const Mesh> mesh, std::optio
     if (ContactLaw* law = law_of(contact)) law->hold = hold_of(given);
   for (const CohesiveZone& zone : model.cohesive) notes.insert(notes.end(), zone.notes.begin(), zone.notes.end());
   taken = take_over(given, model);
+  leave_out_cuts(model);
   const auto choose = [&](std::vector<std::string> (*choice)(Model&)) {
     const auto more = at_section(contacts_place(given), "contact", [&] { return choice(model); });
     notes.insert(notes.end(), more.begin(), more.end());

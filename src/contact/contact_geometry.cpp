@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "contact/contact_kind.hpp"
 #include "contact/embedded_rows.hpp"
 #include "contact/equation_rows.hpp"
+#include "contact/mirror_images.hpp"
 #include "contact/row_maker.hpp"
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
@@ -46,7 +48,7 @@ Vec3 middle_of(const std::vector<Vec3>& coordinates) {
 
 /// The makers of a model's rows.
 struct RowMakers {
-  RowMakers(const Model& of, std::shared_ptr<const Topology> by);
+  RowMakers(const Model& of, const MirrorImages& images, std::shared_ptr<const Topology> by);
 
   const Model& model;
   std::shared_ptr<const Topology> topology;  ///< that the model is of; null: all cells are there
@@ -57,6 +59,8 @@ struct RowMakers {
   std::vector<std::string> notes;
   std::shared_ptr<const ConstraintRows> fixed;  ///< null when some rows are not fixed, or cells have gone
   ConstraintRows bonds, equations;
+  std::vector<bool> has_images;        ///< by maker: its rows are those of the whole
+  std::optional<SlotKeys> whole_keys;  ///< where one has images
 
   std::size_t slots() const { return static_cast<std::size_t>(first_slot.back()); }
   SlotKeys keys() const {
@@ -69,19 +73,23 @@ struct RowMakers {
   }
 };
 
-RowMakers::RowMakers(const Model& of, std::shared_ptr<const Topology> by) : model(of), topology(std::move(by)) {
+RowMakers::RowMakers(const Model& of, const MirrorImages& images, std::shared_ptr<const Topology> by)
+    : model(of), topology(std::move(by)) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const ContactDefinition& contact = model.contacts[i];
+    has_images.push_back(!images.empty() && MirrorImages::has_images(model.contacts[i]));
+    const Model& seen = has_images[i] ? images.whole() : model;
+    const ContactDefinition& contact = seen.contacts[i];
     const ContactParts parts = parts_of(contact);
-    makers.push_back(kind_of(contact).rows(model, contact, static_cast<Index>(i), notes));
+    makers.push_back(kind_of(contact).rows(seen, contact, static_cast<Index>(i), notes));
     first_slot.push_back(first_slot.back() + static_cast<Index>(makers.back()->slots()));
     if (parts.nature == ContactNature::bonds) makers.back()->append({}, first_slot[i], bonds);
-    if (!makers.back()->is_fixed()) add_moving_nodes(model, parts, nodes);
+    if (!makers.back()->is_fixed()) add_moving_nodes(seen, parts, nodes);
     makers.back()->add_moving_nodes(nodes);
   }
   if (!model.equations.empty()) {
     const Index first = first_slot.back();
     makers.push_back(equation_rows(model));
+    has_images.push_back(false);
     first_slot.push_back(first + static_cast<Index>(makers.back()->slots()));
     makers.back()->append({}, first, bonds);
     makers.back()->append({}, first, equations);
@@ -91,17 +99,21 @@ RowMakers::RowMakers(const Model& of, std::shared_ptr<const Topology> by) : mode
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   offset.assign(slots(), 0.0);
+  if (std::ranges::find(has_images, true) != has_images.end()) whole_keys = keys();
 }
 
 struct ContactGeometry::Impl {
-  explicit Impl(const Model& of) : model(of), whole(of, nullptr), centre(middle_of(of.mesh->coordinates)) {}
+  explicit Impl(const Model& of)
+      : model(of), images(of), whole(of, images, nullptr), centre(middle_of(of.mesh->coordinates)) {}
 
   const Model& model;
+  MirrorImages images;
   RowMakers whole;                             ///< of all cells
   std::unique_ptr<RowMakers> eroded;           ///< of the topology that was asked for last
   Vec3 centre{};                               ///< of all nodes; pairs see positions relative to it
   std::vector<Vec3> x_begin, x, displacement;  ///< scratch of rows_at
-  std::vector<double> spread_begin, spread;    ///< displacements with those of followers; scratch of rows_at
+  std::vector<double> spread_begin, spread;    ///< displacements with those of followers or images; scratch of rows_at
+  ConstraintRows seen;                         ///< of the whole, before they are folded; scratch of make
 
   std::vector<std::shared_ptr<ConstraintRows>> made;  ///< rows that were given out; what nobody holds is filled again
 
@@ -123,14 +135,15 @@ struct ContactGeometry::Impl {
 RowMakers& ContactGeometry::Impl::of(const std::shared_ptr<const Topology>& topology) {
   if (!topology) return whole;
   if (!eroded || (eroded->topology != topology && !(*eroded->topology == *topology))) {
-    eroded = std::make_unique<RowMakers>(topology->model, topology);
+    eroded = std::make_unique<RowMakers>(topology->model, images, topology);
     make_room(*eroded);
   }
   return *eroded;
 }
 
 void ContactGeometry::Impl::make_room(const RowMakers& all) {
-  if (x.empty() && !all.nodes.empty()) x_begin = x = displacement = std::vector<Vec3>(model.mesh->node_count());
+  if (x.empty() && !all.nodes.empty())
+    x_begin = x = displacement = std::vector<Vec3>(images.whole().mesh->node_count());
 }
 
 /// Makes the rows that never change, if all of them are such.
@@ -161,7 +174,7 @@ bool ContactGeometry::Impl::place(std::span<const Index> nodes, const Vec3& orig
     for (std::size_t k = begin; k < end; ++k) {
       const Index n = nodes[k];
       const auto i = 3 * static_cast<std::size_t>(n);
-      const Vec3 X = subtract(model.mesh->coordinates[n], origin);
+      const Vec3 X = subtract(images.whole().mesh->coordinates[static_cast<std::size_t>(n)], origin);
       x_begin[n] = add(X, {u_begin[i], u_begin[i + 1], u_begin[i + 2]});
       x[n] = add(X, {u[i], u[i + 1], u[i + 2]});
       displacement[n] = subtract(x[n], x_begin[n]);
@@ -185,7 +198,18 @@ std::shared_ptr<ConstraintRows> ContactGeometry::Impl::make(const RowMakers& all
     const Vec3 origin = origin_of(i);
     if (!place(all.nodes, origin, u_begin, u)) continue;
     const std::size_t before = rows.size();
-    all.makers[i]->append({x_begin, x, displacement, u, history}, all.first_slot[i], rows);
+    const ContactMotion motion{x_begin, x, displacement, u, history};
+    if (all.has_images[i]) {
+      seen.clear();
+      all.makers[i]->append(motion, all.first_slot[i], seen);
+      for (std::size_t r = 0; r < seen.size(); ++r)
+        images.fold(
+            seen, r,
+            images.share(all.whole_keys->nodes(static_cast<std::size_t>(seen.slot[r])), add(seen.position[r], origin)),
+            rows);
+    } else {
+      all.makers[i]->append(motion, all.first_slot[i], rows);
+    }
     for (std::size_t r = before; r < rows.size(); ++r) rows.position[r] = add(rows.position[r], origin);
   }
   embed(all.model.embedding, rows);
@@ -200,6 +224,7 @@ std::shared_ptr<ConstraintRows> ContactGeometry::Impl::make(const RowMakers& all
 
 ContactGeometry::ContactGeometry(const Model& model) : impl_(std::make_unique<Impl>(model)) {
   impl_->fix(impl_->whole);
+  if (!impl_->images.empty()) impl_->whole.notes.push_back(impl_->images.note());
 }
 ContactGeometry::~ContactGeometry() = default;
 ContactGeometry::ContactGeometry(ContactGeometry&&) noexcept = default;
@@ -231,19 +256,30 @@ std::shared_ptr<const ConstraintRows> ContactGeometry::rows_at(std::span<const d
                                                                const ContactPast& past) const {
   const RowMakers& all = impl_->of(past.topology);
   if (all.fixed) return all.fixed;
-  if (all.model.embedding.empty()) return impl_->make(all, u_begin, u, past.history);
-  const auto with_followers = [&](std::span<const double> values, std::vector<double>& own) {
+  const MirrorImages& images = impl_->images;
+  if (all.model.embedding.empty() && images.empty()) return impl_->make(all, u_begin, u, past.history);
+  const auto with_others = [&](std::span<const double> values, std::vector<double>& own) {
     own.assign(values.begin(), values.end());
     all.model.embedding.spread(own);
+    images.spread(own);
   };
-  with_followers(u_begin, impl_->spread_begin);
-  with_followers(u, impl_->spread);
+  with_others(u_begin, impl_->spread_begin);
+  with_others(u, impl_->spread);
   return impl_->make(all, impl_->spread_begin, impl_->spread, past.history);
 }
 
 ConstraintRows ContactGeometry::stiffness_rows() const {
   ConstraintRows rows;
-  for (const auto& maker : impl_->whole.makers) maker->append_stiffness(rows);
+  const RowMakers& all = impl_->whole;
+  for (std::size_t i = 0; i < all.makers.size(); ++i) {
+    if (!all.has_images[i]) {
+      all.makers[i]->append_stiffness(rows);
+      continue;
+    }
+    ConstraintRows seen;
+    all.makers[i]->append_stiffness(seen);
+    for (std::size_t r = 0; r < seen.size(); ++r) impl_->images.fold(seen, r, impl_->images.even_share(), rows);
+  }
   embed(impl_->model.embedding, rows);
   return rows;
 }

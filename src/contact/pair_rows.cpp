@@ -12,12 +12,12 @@
 #include "contact/contact_kind.hpp"
 #include "contact/edge_rows.hpp"
 #include "contact/face_rows.hpp"
+#include "contact/mirror_images.hpp"
 #include "contact/sharp_nodes.hpp"
 #include "contact/smooth_points.hpp"
 #include "math/vec3.hpp"
 #include "model/bodies.hpp"
 #include "model/outer_facets.hpp"
-#include "parallel/threads.hpp"
 #include "surface/facing_facets.hpp"
 #include "surface/feature_edges.hpp"
 #include "surface/half_thickness.hpp"
@@ -243,18 +243,6 @@ class EndRows : public RowMaker {
 bool has_sharp_edges(const Model& model, const Surface& surface) {
   constexpr double sharp = std::numbers::pi / 6.0;
   return !feature_edges(model.mesh->coordinates, surface.facets, {}, sharp).empty();
-}
-
-/// By node and component: whether it is held at its place all the time, as by a plane of symmetry.
-std::vector<std::array<bool, 3>> held_nodes(const Model& model) {
-  std::vector<std::array<bool, 3>> held(model.mesh->coordinates.size());
-  for (const PrescribedMotion& motion : model.motions) {
-    const bool rests = motion.kind != MotionKind::rotation && !motion.function.called && is_zero(motion.function.value);
-    if (!rests) continue;
-    for (const Index n : motion.nodes)
-      held[static_cast<std::size_t>(n)][static_cast<std::size_t>(motion.component)] = true;
-  }
-  return held;
 }
 
 /// Null where the contact is to be seen as facets, or is flat.

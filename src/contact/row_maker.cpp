@@ -11,9 +11,37 @@
 namespace carom {
 namespace {
 
-template <class T>
-void append_all(std::vector<T>& to, const std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
+/// Appends the rows [begin, end) of `from`, their slots moved by first_slot.
+void append_range(ConstraintRows& rows, const ConstraintRows& from, std::size_t begin, std::size_t end,
+                  Index first_slot) {
+  const auto append = [](auto& to, const auto& list, std::size_t first, std::size_t last) {
+    to.insert(to.end(), list.begin() + static_cast<std::ptrdiff_t>(first),
+              list.begin() + static_cast<std::ptrdiff_t>(last));
+  };
+  const auto first = static_cast<std::size_t>(from.begin[begin]), last = static_cast<std::size_t>(from.begin[end]);
+  const Index moved = rows.begin.back() - from.begin[begin];
+  for (std::size_t r = begin; r < end; ++r) {
+    rows.begin.push_back(from.begin[r + 1] + moved);
+    rows.slot.push_back(from.slot[r] + first_slot);
+  }
+  append(rows.node, from.node, first, last);
+  append(rows.block, from.block, first, last);
+  append(rows.gap, from.gap, begin, end);
+  append(rows.is_back, from.is_back, begin, end);
+  append(rows.allowed, from.allowed, begin, end);
+  append(rows.offset, from.offset, begin, end);
+  append(rows.rounded, from.rounded, begin, end);
+  append(rows.has_entered, from.has_entered, begin, end);
+  append(rows.normal, from.normal, begin, end);
+  append(rows.tangent_1, from.tangent_1, begin, end);
+  append(rows.tangent_2, from.tangent_2, begin, end);
+  append(rows.position, from.position, begin, end);
+  append(rows.reach, from.reach, begin, end);
+  append(rows.measure, from.measure, begin, end);
+  append(rows.law, from.law, begin, end);
+  append(rows.source, from.source, begin, end);
+  append(rows.behind, from.behind, begin, end);
+  append(rows.facet, from.facet, begin, end);
 }
 
 /// Shares of the nodes of one facet in its measure.
@@ -127,29 +155,11 @@ void finish_row(ConstraintRows& rows, std::span<const double> u, Index slot) {
 }
 
 void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_slot) {
-  const Index first = rows.begin.back();
-  for (std::size_t r = 0; r < from.size(); ++r) {
-    rows.begin.push_back(from.begin[r + 1] + first);
-    rows.slot.push_back(from.slot[r] + first_slot);
-  }
-  append_all(rows.node, from.node);
-  append_all(rows.block, from.block);
-  append_all(rows.gap, from.gap);
-  append_all(rows.is_back, from.is_back);
-  append_all(rows.allowed, from.allowed);
-  append_all(rows.offset, from.offset);
-  append_all(rows.rounded, from.rounded);
-  append_all(rows.has_entered, from.has_entered);
-  append_all(rows.normal, from.normal);
-  append_all(rows.tangent_1, from.tangent_1);
-  append_all(rows.tangent_2, from.tangent_2);
-  append_all(rows.position, from.position);
-  append_all(rows.reach, from.reach);
-  append_all(rows.measure, from.measure);
-  append_all(rows.law, from.law);
-  append_all(rows.source, from.source);
-  append_all(rows.behind, from.behind);
-  append_all(rows.facet, from.facet);
+  append_range(rows, from, 0, from.size(), first_slot);
+}
+
+void append_row(ConstraintRows& rows, const ConstraintRows& from, std::size_t r) {
+  append_range(rows, from, r, r + 1, 0);
 }
 
 }  // namespace carom

@@ -116,6 +116,8 @@ void finish_row(ConstraintRows& rows, std::span<const double> u, Index slot);
 
 /// Appends all rows of `from`, their slots moved by first_slot.
 void append_rows(ConstraintRows& rows, const ConstraintRows& from, Index first_slot = 0);
+/// The same with row r alone.
+void append_row(ConstraintRows& rows, const ConstraintRows& from, std::size_t r);
 
 /// Makes rows in parts, in threads, and keeps the memory of the parts.
 class RowParts {

@@ -51,6 +51,9 @@ class SlotKeys {
     for (std::size_t s = first; s < own_.size(); ++s) own_[s].place = most_makers * own_[s].place + maker;
   }
   std::size_t size() const { return own_.size(); }
+  /// The nodes of a slot, and of a facet that its history may refer to.
+  const NodeKey& nodes(std::size_t slot) const { return own_[slot].nodes; }
+  const NodeKey& met(std::size_t slot, Index facet) const { return met_[list_[slot]][static_cast<std::size_t>(facet)]; }
 
   /// For each slot the slot of `before` that it was, or -1.
   std::vector<std::ptrdiff_t> places_in(const SlotKeys& before) const {
