@@ -206,6 +206,73 @@ TEST(ImplicitSchemes, GiveTheSameBitsFromAnyNumberOfThreads) {
   }
 }
 
+/// Powers of two, by which every product, quotient and root of squares is as exact as in the units themselves.
+struct Units {
+  double length = 1.0, mass = 1.0;
+  double pressure() const { return mass / length; }
+  double energy() const { return mass * length * length; }
+};
+
+/// A block that comes down aslant on another one: rows that turn with their facets.
+Model aslant(const char* law, const Units& unit) {
+  StructuredBlock lower, upper;
+  lower.size = {3, 3, 1};
+  lower.divisions = {3, 3, 1};
+  lower.face_groups = {"", "", "", "", "FOOT", "MASTER"};
+  upper.size = {2, 2, 1};
+  upper.divisions = {2, 2, 1};
+  upper.origin = {0.45, 0.4, 1.01};
+  upper.face_groups = {"", "", "", "", "SLAVE", ""};
+  Mesh mesh = make_structured_blocks({lower, upper});
+  for (Vec3& x : mesh.coordinates) {
+    if (x[2] > 1.005) x[2] += 0.02 * x[0] + 0.01 * x[1];
+    for (double& coordinate : x) coordinate *= unit.length;
+  }
+  const double density = unit.mass / (unit.length * unit.length * unit.length);
+  Model model = one_part(std::move(mesh), Material(law, 1.5 * density, {{"E", 2.0 * unit.pressure()}, {"nu", 0.3}}));
+  block(model, "FOOT", {0, 1, 2});
+  PairContact pair;
+  pair.name = "pair";
+  pair.slave.facets = faces_of(*model.mesh, "SLAVE");
+  pair.master.facets = faces_of(*model.mesh, "MASTER");
+  pair.law.eps_N = 20.0 * unit.pressure() / unit.length;
+  model.contacts.emplace_back(pair);
+  return model;
+}
+
+class Steps : public testing::TestWithParam<const char*> {};  // of bodies of this law
+
+// Nothing is compared with a number that has a unit: in about megametres and picograms a motion has the same bits.
+TEST_P(Steps, HaveTheSameBitsInAnyUnits) {
+  const Units small{std::ldexp(1.0, -20), std::ldexp(1.0, 40)};
+  const double h = 0.04;
+  for (const ImplicitScheme& one : implicit_schemes()) {
+    SCOPED_TRACE(one.name);
+    std::vector<State> ends;
+    for (const Units& unit : {Units{}, small}) {
+      const Problem p(aslant(GetParam(), unit));
+      State state = p.moving({}), next;
+      for (std::size_t n = 0; n < p.model.mesh->node_count(); ++n)
+        if (p.model.mesh->coordinates[n][2] > 1.005 * unit.length) state.v[3 * n + 2] = -0.3 * unit.length;
+      const auto scheme = one.with(p, h);
+      scheme->start(state, h);
+      for (int i = 1; i <= 3; ++i) {
+        const StepReport report = scheme->step(state, {i * h, h, 1e-9 * unit.energy()}, next);
+        ASSERT_TRUE(report.converged) << report.failure;
+        std::swap(state, next);
+      }
+      ends.push_back(state);
+    }
+    EXPECT_GT(largest(ends[0].forces.contact.dense()), 0.0);
+    for (std::size_t i = 0; i < ends[0].q.size(); ++i) {
+      EXPECT_EQ(ends[1].q[i], small.length * ends[0].q[i]);
+      EXPECT_EQ(ends[1].v[i], small.length * ends[0].v[i]);
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(, Steps, testing::Values("linear_elastic", "neo_hookean"),
+                         [](const auto& of) { return std::string(of.param); });
+
 /// Figures of a one-dimensional program for this bar (100 two-node elements, Courant number 1), and the mass with which
 /// they are met.
 struct Reference {
