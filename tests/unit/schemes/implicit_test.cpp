@@ -273,6 +273,38 @@ TEST_P(Steps, HaveTheSameBitsInAnyUnits) {
 INSTANTIATE_TEST_SUITE_P(, Steps, testing::Values("linear_elastic", "neo_hookean"),
                          [](const auto& of) { return std::string(of.param); });
 
+// A cell that hangs from its head and whose foot is pulled onto the plane that it touches: nothing moves, and a step
+// that goes on from another one at rest begins with its solution, whatever beta. Conjugate gradients count that.
+TEST(ImplicitSchemes, BeginWithTheSolutionAtRestOnRows) {
+  for (const GeneralizedAlphaParameters& parameters :
+       {newmark_parameters(0.25, 0.5), newmark_parameters(0.4, 0.5), hht_parameters(-0.2), wbz_parameters(-0.2),
+        chung_hulbert_parameters(0.5)}) {
+    Model model = one_part(block_mesh({1, 1, 1}, 0.0));
+    block(model, "BLOCK", {0, 1});
+    block(model, "ZMAX", {2});
+    model.loads.emplace_back(Pressure{{faces_of(*model.mesh, "ZMIN")}, -0.1, {}});
+    model.contacts.emplace_back(plane_below(model, 0.0, 20.0));
+    const Problem p(model);
+    const double h = 0.1;
+    const auto scheme = generalized_alpha(
+        p, h, parameters, {.enforcement = EnforcementKind::lagrange, .solver = SolverKind::conjugate_gradients});
+    State state = p.moving({}), next;
+    scheme->start(state, h);
+    std::vector<int> iterations;
+    for (int i = 1; i <= 2; ++i) {
+      const StepReport report = scheme->step(state, {i * h, h, 1e-14}, next);
+      ASSERT_TRUE(report.converged) << report.failure;
+      iterations.push_back(report.linear_iterations);
+      std::swap(state, next);
+    }
+    EXPECT_GT(iterations[0], 0);
+    EXPECT_EQ(iterations[1], 0) << parameters.beta;
+    double force = 0.0;
+    for (std::size_t i = 2; i < state.forces.contact.size(); i += 3) force += state.forces.contact[i];
+    EXPECT_NEAR(force, 0.1, 1e-14) << "the pressure on a face of area 1";
+  }
+}
+
 /// Figures of a one-dimensional program for this bar (100 two-node elements, Courant number 1), and the mass with which
 /// they are met.
 struct Reference {
