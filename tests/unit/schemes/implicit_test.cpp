@@ -186,6 +186,24 @@ TEST(ImplicitSchemes, AreNotTouchedByAStepThatIsGivenUp) {
   }
 }
 
+// A response says which part of a force a damper gives: none of what conditions decide. Springs that act in a later
+// stage would book it.
+TEST(ImplicitSchemes, HaveNoDampersBesideMultipliers) {
+  for (const ImplicitScheme& one : implicit_schemes()) {
+    if (!traits(one.settings.enforcement).is_exact) continue;
+    SCOPED_TRACE(one.name);
+    const Problem p(touching());
+    bool touched = false;
+    const History run = march(*one.with(p, 0.05), p.moving({0.1, 0.05, -0.2}), 0.05, 2, [&](const State& state) {
+      const ContactResponse& rows = state.forces.rows;
+      touched = touched || largest(state.forces.contact.dense()) > 0.0;
+      EXPECT_EQ(rows.damper, std::vector<double>(rows.status.size(), 0.0));
+    });
+    EXPECT_TRUE(run.converged) << run.failure;
+    EXPECT_TRUE(touched);
+  }
+}
+
 TEST(ImplicitSchemes, GiveTheSameBitsFromAnyNumberOfThreads) {
   Model model = one_part(block_mesh({6, 6, 8}, 0.15));
   model.contacts.emplace_back(plane_below(model, 0.002, 20.0, {10.0, 0.3}));
