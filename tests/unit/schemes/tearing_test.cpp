@@ -116,6 +116,9 @@ TEST(Tearing, IsNotDoneAgainByAStepThatIsOver) {
   EXPECT_EQ(g, f);
   EXPECT_EQ(later, before);
   EXPECT_GT(largest(f), 0.0);
+  for (double& x : u) x *= 1.5;
+  p.solid.evaluate(u, {.dt = 1.0, .history = end, .is_over = true}, g, again);
+  EXPECT_EQ(again, end) << "at any displacement";
 }
 
 // Pressed, and pressed and sheared by less than it bears: nothing is lost. Pressed and sheared by more: what shear
