@@ -70,8 +70,9 @@ struct HourglassReturn {
       viscous += 0.5 * (force_before + added) * change;
     }
   }
-  /// The step is over: adds the viscous force that it ended with.
+  /// The step is over: adds the viscous force that it ended with, and keeps what had been dissipated then.
   [[gnu::always_inline]] inline void hold(const double* before) {
+    viscous = load<Real>(before + 2 * size * lanes<Real>);
     for (int c = 0; c < size; ++c) force[c] += load<Real>(before + (size + c) * lanes<Real>);
   }
 };

@@ -24,7 +24,7 @@ void Batch::return_bulk() const {
     BulkHistory after{.change = bulk.change[l] / volume, .stretch = bulk.stretch[l]};
     BulkReturn of_lane;
     if (cells_.is_over)
-      after.pressure = before.pressure;
+      after = before;
     else
       of_lane.go(before, cells_.viscous_dt, stages_.rho, cells_.length[first_ + l],
                  stages_.viscosity.linear * stages_.wave_speed,

@@ -3,6 +3,7 @@
 import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 CAROM = str(pathlib.Path(sys.argv.pop(1)).resolve())
@@ -30,6 +31,15 @@ class CommandLine(unittest.TestCase):
         code, out, _ = carom("check", str(CASES / "springs/block_on_springs.toml"))
         self.assertEqual(code, 0)
         self.assertIn(" 8 nodes, 1 solid cell,", out)  # one cell of eight nodes, a spring at each
+
+    def test_a_folder_that_no_run_has_written_is_named_alone(self):
+        """What is wrong is said of the folder, which has no lines."""
+        for command in ("report", "watch"):
+            with tempfile.TemporaryDirectory() as folder:
+                code, out, error = carom(command, folder)
+            self.assertEqual((code, out), (2, ""))
+            self.assertEqual(error, f"error: {folder}: found a folder without energy.csv and summary.json; expected the results folder of a run "
+                                    "(carom run CASE.toml --out FOLDER)\n")
 
     def test_little_address_space_is_said_and_does_not_hang(self):
         """OpenBLAS asks again for ever: 150 MB are too little for it, 600 MB enough for a block."""

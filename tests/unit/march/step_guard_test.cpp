@@ -1,4 +1,6 @@
 // The length of steps: cuts, halvings, the stable step; contact that closes within a step.
+#include "march/step_guard.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -287,6 +289,34 @@ TEST(StepGuard, BeginsWithTheStepOfBodiesThatHaveMovedAltogether) {
   const TemporaryCase on(text);
   on.run();
   EXPECT_LT(column(on.result("energy.csv"), "dt").at(1), 0.9 * Simulation(parse_case(text, "case.toml")).dt());
+}
+
+/// The length of the first step of central differences after it has ended with a block of a fifth of its height, over
+/// what it was; `control`: of its cells. `is_repeated`: whether it is made again.
+double length_after_crushing(const std::string& control, bool& is_repeated) {
+  const std::string text = case_of_block(control + "[scheme]\nkind = \"central_differences\"\n[time]\nend = 10.0\n");
+  const Simulation simulation(parse_case(replaced(text, "linear_elastic", "neo_hookean"), "case.toml"));
+  const Stage& stage = simulation.first();
+  StepGuard guard(stage);
+  const State begin = simulation.initial_state();
+  State end = begin;
+  for (std::size_t n = 0; n < simulation.mesh().node_count(); ++n)
+    end.q[3 * n + 2] = -0.8 * simulation.mesh().coordinates[n][2];
+  stage.make_scheme()->start(end, stage.dt());
+  EXPECT_EQ(end.forces.stored.distortion > 0.0, !control.empty());
+  const double before = guard.control().dt();
+  is_repeated = guard.is_to_be_repeated(begin, end, {}, 1);
+  return guard.control().dt() / before;
+}
+
+// Distortion control has been no part of the step in which it comes to act, whose length follows what stiffens by
+// itself after it.
+TEST(StepGuard, MakesAStepAgainThatWasTooLongForDistortionControl) {
+  bool is_repeated = true;
+  EXPECT_EQ(length_after_crushing("", is_repeated), 1.0);
+  EXPECT_FALSE(is_repeated);
+  EXPECT_LT(length_after_crushing("distortion_control = 0.3\n", is_repeated), std::exp2(-1.0 / 8.0));
+  EXPECT_TRUE(is_repeated);
 }
 
 }  // namespace

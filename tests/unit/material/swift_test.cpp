@@ -1,4 +1,4 @@
-// Swift's hardening at single points: its equation, its work, the largest rate, steps that are over.
+// Swift's hardening at single points: its equation, its work, the largest rate.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -87,25 +87,6 @@ TEST(Swift, RemembersTheLargestRate) {
     history = answer.history;
   }
   EXPECT_GT(largest, 1.0);
-}
-
-// From the history at its end, a step that is over has the same stress, and nothing of its history changes.
-TEST(Swift, AStepThatIsOverKeepsItsStress) {
-  const PointLaw law(swift(E, nu));
-  const Answer step = law.update({0.02, -0.01, 0.0, 0.03, 0.01, 0.0}, law.rest(), 0.1);
-  ASSERT_GT(step.history[6], 0.01);
-  Answer again{step.strain};
-  again.history.resize(step.history.size());
-  PointBatch batch{1, again.strain.data(), again.stress.data(), &again.energy};
-  batch.history = step.history.data();
-  batch.new_history = again.history.data();
-  batch.dissipation = &again.dissipation;
-  batch.is_over = true;
-  law.law.kernels.update(law.law.parameters.get(), batch);
-  for (std::size_t c = 0; c < 6; ++c) EXPECT_NEAR(again.stress[c], step.stress[c], round_off);
-  EXPECT_EQ(again.history, step.history);
-  EXPECT_NEAR(again.energy, step.energy, round_off);
-  EXPECT_EQ(again.dissipation, step.dissipation);
 }
 
 }  // namespace

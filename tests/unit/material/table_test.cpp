@@ -5,30 +5,11 @@
 #include <set>
 #include <stdexcept>
 
+#include "law_samples.hpp"
 #include "material_points.hpp"
 
 namespace carom::test::material_table_test {
 namespace {
-
-/// The law with moduli near 1 and whatever else it needs: 1, or the middle of a bounded range.
-Material sample(const Law& law) {
-  std::vector<std::pair<std::string_view, double>> values;
-  for (const LawParameter& p : law.parameters)
-    if (!p.initial) values.emplace_back(p.key, std::isfinite(p.range.high) ? 0.5 * (p.range.low + p.range.high) : 1.0);
-  Material material(law.name, 2.0, values);
-  for (std::size_t p = 0; p < material.values.size(); ++p) {
-    const std::string& key = law.parameters[p].key;
-    if (key == "E") material.values[p] = 200.0;
-    if (key == "nu") material.values[p] = 0.3;
-    if (key == "yield_stress") material.values[p] = 1.0;
-    if (key == "melting_temperature") material.values[p] = 1000.0;
-  }
-  if (!law.rates_key.empty()) {
-    material.curve = {{0.0, 1.0}, {0.1, 2.0}, {0.0, 2.0}};
-    material.rates = {0.0, 10.0};
-  }
-  return material;
-}
 
 TEST(Laws, RowsAreWholeAndTheirNamesTheirOwn) {
   std::set<std::string> names;
@@ -126,6 +107,42 @@ TEST(Laws, NoElasticWaveIsFasterThanTheyClaim) {
     }
   }
 }
+
+class EveryLaw : public testing::TestWithParam<Material> {};
+
+// Steps that flow, from rest and on, that let go, and that flow back, each evaluated again from the history at its end:
+// nothing flows, hardens, heats or damages once more.
+TEST_P(EveryLaw, AStepThatIsOverIsWhatItWas) {
+  constexpr double round_off = 1e-13 * 200.0;  // some hundred operations on strains below 1, times E
+  for (const int free_directions : {0, 1, 2}) {
+    const PointLaw law(GetParam(), free_directions);
+    std::vector<double> history = law.rest();
+    const std::size_t own = GetParam().law->history.size();
+    int changed = 0;
+    for (const auto& [size, dt] :
+         {std::pair{0.02, 0.5}, {0.05, 1e-3}, {0.05, 0.1}, {0.049, 0.1}, {-0.03, 10.0}, {-0.1, 1e-6}}) {
+      SCOPED_TRACE(testing::Message() << free_directions << " free directions, strains of " << size);
+      const auto strain_of = [](double s) { return Voigt{s, -0.4 * s, 0.1 * s, 1.5 * s, -0.3 * s, 0.5 * s}; };
+      const Voigt strain = strain_of(size);
+      const Answer step = law.update(strain, history, dt), again = law.update(strain, step.history, dt, true);
+      EXPECT_EQ(again.history, step.history);
+      EXPECT_EQ(again.strain, step.strain) << "lateral ones";
+      EXPECT_EQ(again.dissipation, step.dissipation) << "a function of the history";
+      for (std::size_t c = 0; c < 6; ++c) EXPECT_NEAR(again.stress[c], step.stress[c], round_off);
+      EXPECT_NEAR(again.energy, step.energy, round_off);
+      EXPECT_EQ(law.update(strain_of(1.5 * size), step.history, dt, true).history, step.history) << "at any strain";
+      EXPECT_NEAR(again.wave_modulus, step.wave_modulus, round_off);
+      changed += !std::equal(history.begin(), history.begin() + static_cast<std::ptrdiff_t>(own), step.history.begin());
+      history = step.history;
+    }
+    EXPECT_GE(changed, own > 0 ? 4 : 0);
+    if (GetParam().damage) {
+      EXPECT_GT(history[own], 0.0);
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(, EveryLaw, testing::ValuesIn(all_samples()),
+                         [](const auto& instance) { return name_of(instance.param); });
 
 }  // namespace
 }  // namespace carom::test::material_table_test

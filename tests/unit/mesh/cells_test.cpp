@@ -90,6 +90,22 @@ TEST(FaceTwins, AreTheFacesThatOccurAgain) {
   }
 }
 
+// Cells in a row, each with its face at the front and at the back: a face is found by two keys, its own and that of the
+// place to which the cell before leads, but at both ends of the row.
+TEST(FaceTwins, AreFirstLookedForWhereTheCellBeforeLeads) {
+  constexpr std::size_t cells = 1000;
+  std::size_t keys = 0;
+  const auto key_of = [&](std::size_t i) {
+    ++keys;
+    return face_key(std::vector<Index>{static_cast<Index>((i + 1) / 2)});
+  };
+  const std::vector<std::uint32_t> twin = face_twins(2 * cells, 2, key_of, cells + 1);
+  EXPECT_EQ(twin.front(), no_twin);
+  EXPECT_EQ(twin.back(), no_twin);
+  for (std::size_t i = 1; i + 1 < twin.size(); ++i) EXPECT_EQ(twin[i], i % 2 == 1 ? i + 1 : i - 1);
+  EXPECT_LE(keys, 2 * (cells - 1) + 10);
+}
+
 TEST(CellFaces, EncloseTheVolumeOfTheCell) {
   const std::map<CellType, double> volume{{CellType::tetra4, 1.0 / 6.0}, {CellType::pyra5, 1.0 / 3.0},
                                           {CellType::penta6, 0.5},       {CellType::hexa8, 1.0},

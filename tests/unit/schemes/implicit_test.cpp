@@ -186,6 +186,24 @@ TEST(ImplicitSchemes, AreNotTouchedByAStepThatIsGivenUp) {
   }
 }
 
+// A response says which part of a force a damper gives: none of what conditions decide. Springs that act in a later
+// stage would book it.
+TEST(ImplicitSchemes, HaveNoDampersBesideMultipliers) {
+  for (const ImplicitScheme& one : implicit_schemes()) {
+    if (!traits(one.settings.enforcement).is_exact) continue;
+    SCOPED_TRACE(one.name);
+    const Problem p(touching());
+    bool touched = false;
+    const History run = march(*one.with(p, 0.05), p.moving({0.1, 0.05, -0.2}), 0.05, 2, [&](const State& state) {
+      const ContactResponse& rows = state.forces.rows;
+      touched = touched || largest(state.forces.contact.dense()) > 0.0;
+      EXPECT_EQ(rows.damper, std::vector<double>(rows.status.size(), 0.0));
+    });
+    EXPECT_TRUE(run.converged) << run.failure;
+    EXPECT_TRUE(touched);
+  }
+}
+
 TEST(ImplicitSchemes, GiveTheSameBitsFromAnyNumberOfThreads) {
   Model model = one_part(block_mesh({6, 6, 8}, 0.15));
   model.contacts.emplace_back(plane_below(model, 0.002, 20.0, {10.0, 0.3}));
@@ -203,6 +221,105 @@ TEST(ImplicitSchemes, GiveTheSameBitsFromAnyNumberOfThreads) {
     set_threads(0);
     EXPECT_TRUE(states[1] == states[0]);
     EXPECT_TRUE(states[2] == states[0]);
+  }
+}
+
+/// Powers of two, by which every product, quotient and root of squares is as exact as in the units themselves.
+struct Units {
+  double length = 1.0, mass = 1.0;
+  double pressure() const { return mass / length; }
+  double energy() const { return mass * length * length; }
+};
+
+/// A block that comes down aslant on another one: rows that turn with their facets.
+Model aslant(const char* law, const Units& unit) {
+  StructuredBlock lower, upper;
+  lower.size = {3, 3, 1};
+  lower.divisions = {3, 3, 1};
+  lower.face_groups = {"", "", "", "", "FOOT", "MASTER"};
+  upper.size = {2, 2, 1};
+  upper.divisions = {2, 2, 1};
+  upper.origin = {0.45, 0.4, 1.01};
+  upper.face_groups = {"", "", "", "", "SLAVE", ""};
+  Mesh mesh = make_structured_blocks({lower, upper});
+  for (Vec3& x : mesh.coordinates) {
+    if (x[2] > 1.005) x[2] += 0.02 * x[0] + 0.01 * x[1];
+    for (double& coordinate : x) coordinate *= unit.length;
+  }
+  const double density = unit.mass / (unit.length * unit.length * unit.length);
+  Model model = one_part(std::move(mesh), Material(law, 1.5 * density, {{"E", 2.0 * unit.pressure()}, {"nu", 0.3}}));
+  block(model, "FOOT", {0, 1, 2});
+  PairContact pair;
+  pair.name = "pair";
+  pair.slave.facets = faces_of(*model.mesh, "SLAVE");
+  pair.master.facets = faces_of(*model.mesh, "MASTER");
+  pair.law.eps_N = 20.0 * unit.pressure() / unit.length;
+  model.contacts.emplace_back(pair);
+  return model;
+}
+
+class Steps : public testing::TestWithParam<const char*> {};  // of bodies of this law
+
+// Nothing is compared with a number that has a unit: in about megametres and picograms a motion has the same bits.
+TEST_P(Steps, HaveTheSameBitsInAnyUnits) {
+  const Units small{std::ldexp(1.0, -20), std::ldexp(1.0, 40)};
+  const double h = 0.04;
+  for (const ImplicitScheme& one : implicit_schemes()) {
+    SCOPED_TRACE(one.name);
+    std::vector<State> ends;
+    for (const Units& unit : {Units{}, small}) {
+      const Problem p(aslant(GetParam(), unit));
+      State state = p.moving({}), next;
+      for (std::size_t n = 0; n < p.model.mesh->node_count(); ++n)
+        if (p.model.mesh->coordinates[n][2] > 1.005 * unit.length) state.v[3 * n + 2] = -0.3 * unit.length;
+      const auto scheme = one.with(p, h);
+      scheme->start(state, h);
+      for (int i = 1; i <= 3; ++i) {
+        const StepReport report = scheme->step(state, {i * h, h, 1e-9 * unit.energy()}, next);
+        ASSERT_TRUE(report.converged) << report.failure;
+        std::swap(state, next);
+      }
+      ends.push_back(state);
+    }
+    EXPECT_GT(largest(ends[0].forces.contact.dense()), 0.0);
+    for (std::size_t i = 0; i < ends[0].q.size(); ++i) {
+      EXPECT_EQ(ends[1].q[i], small.length * ends[0].q[i]);
+      EXPECT_EQ(ends[1].v[i], small.length * ends[0].v[i]);
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(, Steps, testing::Values("linear_elastic", "neo_hookean"),
+                         [](const auto& of) { return std::string(of.param); });
+
+// A cell that hangs from its head and whose foot is pulled onto the plane that it touches: nothing moves, and a step
+// that goes on from another one at rest begins with its solution, whatever beta. Conjugate gradients count that.
+TEST(ImplicitSchemes, BeginWithTheSolutionAtRestOnRows) {
+  for (const GeneralizedAlphaParameters& parameters :
+       {newmark_parameters(0.25, 0.5), newmark_parameters(0.4, 0.5), hht_parameters(-0.2), wbz_parameters(-0.2),
+        chung_hulbert_parameters(0.5)}) {
+    Model model = one_part(block_mesh({1, 1, 1}, 0.0));
+    block(model, "BLOCK", {0, 1});
+    block(model, "ZMAX", {2});
+    model.loads.emplace_back(Pressure{{faces_of(*model.mesh, "ZMIN")}, -0.1, {}});
+    model.contacts.emplace_back(plane_below(model, 0.0, 20.0));
+    const Problem p(model);
+    const double h = 0.1;
+    const auto scheme = generalized_alpha(
+        p, h, parameters, {.enforcement = EnforcementKind::lagrange, .solver = SolverKind::conjugate_gradients});
+    State state = p.moving({}), next;
+    scheme->start(state, h);
+    std::vector<int> iterations;
+    for (int i = 1; i <= 2; ++i) {
+      const StepReport report = scheme->step(state, {i * h, h, 1e-14}, next);
+      ASSERT_TRUE(report.converged) << report.failure;
+      iterations.push_back(report.linear_iterations);
+      std::swap(state, next);
+    }
+    EXPECT_GT(iterations[0], 0);
+    EXPECT_EQ(iterations[1], 0) << parameters.beta;
+    double force = 0.0;
+    for (std::size_t i = 2; i < state.forces.contact.size(); i += 3) force += state.forces.contact[i];
+    EXPECT_NEAR(force, 0.1, 1e-14) << "the pressure on a face of area 1";
   }
 }
 

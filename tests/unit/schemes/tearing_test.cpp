@@ -8,6 +8,7 @@
 #include "contact/tie_rows.hpp"
 #include "model/compatibility.hpp"
 #include "schemes/scheme_table.hpp"
+#include "solid/point_history.hpp"
 #include "tie_fixture.hpp"
 
 namespace carom::schemes_tearing_test {
@@ -99,6 +100,25 @@ TEST(Tearing, TakesItsEnergyPerAreaInAnyMode) {
     const double mixed = 1.0 / (0.36 / glue.normal_energy + 0.64 / glue.shear_energy);
     EXPECT_NEAR(fracture({0.12, 0.16, 0.0}, steps), 4.0 * mixed, 1e-15);
   }
+}
+
+// Torn by half and evaluated again from what it has become, glue bears what it bore, and no more of it is gone.
+TEST(Tearing, IsNotDoneAgainByAStepThatIsOver) {
+  const Problem p(Pulled({0.02, 0.01, 0.0}).model);
+  std::vector<double> u(p.solid.dof_count(), 0.0), f(u.size()), g(u.size());
+  for (const Index n : second_block(*p.model.mesh)) u[3 * static_cast<std::size_t>(n)] = 0.02;
+  std::vector<double> history = initial_history(p.solid), end(history.size()), again(history.size());
+  const double before = p.solid.evaluate(u, {.dt = 1.0, .history = history}, f, end).strain;
+  const double later = p.solid.evaluate(u, {.dt = 1.0, .history = end, .is_over = true}, g, again).strain;
+  EXPECT_GT(p.solid.cohesive().dissipated(end), 0.0);
+  EXPECT_LT(p.solid.cohesive().dissipated(end), 4.0 * glue.normal_energy) << "the energy of the whole";
+  EXPECT_EQ(again, end);
+  EXPECT_EQ(g, f);
+  EXPECT_EQ(later, before);
+  EXPECT_GT(largest(f), 0.0);
+  for (double& x : u) x *= 1.5;
+  p.solid.evaluate(u, {.dt = 1.0, .history = end, .is_over = true}, g, again);
+  EXPECT_EQ(again, end) << "at any displacement";
 }
 
 // Pressed, and pressed and sheared by less than it bears: nothing is lost. Pressed and sheared by more: what shear

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "math/gauss_legendre.hpp"
+#include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 #include "solid/cell_values.hpp"
 #include "solid/point_history.hpp"
@@ -235,6 +236,23 @@ TEST_P(EveryFiniteBody, DiscreteGradientForceOfNoStepIsTheForce) {
   if (remembers(GetParam())) return;  // no potential
   const auto u = displacement(11);
   EXPECT_LT(largest_difference(discrete_force(u, u), internal_force(solid_, u)), round_off);
+}
+
+// Lengths times a power of two, with the thickness of plane cells and the area of bars: areas and forces times its
+// square, to the bit.
+TEST_P(EveryFiniteBody, DiscreteGradientForceIsThatOfTheSmallerBody) {
+  if (remembers(GetParam())) return;  // no potential
+  const double unit = std::ldexp(1.0, -20);
+  Mesh mesh = *model_.mesh;
+  for (Vec3& x : mesh.coordinates) x = scaled(x, unit);
+  Model small = model_;
+  small.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  small.parts[0].thickness *= GetParam().section == Section::bar ? unit * unit : unit;
+  const auto u_0 = displacement(26), u_1 = displacement(27), f = discrete_force(u_0, u_1);
+  std::vector<double> small_u_0 = u_0, small_u_1 = u_1, small_f(f.size());
+  for (std::size_t i = 0; i < f.size(); ++i) small_u_0[i] *= unit, small_u_1[i] *= unit;
+  Solid(small).discrete_gradient_force(small_u_0, small_u_1, small_f);
+  for (std::size_t i = 0; i < f.size(); ++i) EXPECT_EQ(small_f[i], unit * unit * f[i]) << i;
 }
 
 // No resultant and no moment about the middle configuration (reference configuration under small strain); axisymmetric
