@@ -126,10 +126,12 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "DSLOAD", .use = step, .parameters = "OP,AMPLITUDE", .meaning = "P: pressure on a surface."},
     {.name = "DYNAMIC",
      .use = step,
-     .parameters = "EXPLICIT,DIRECT,ALPHA,ADIABATIC",
-     .noted = "DIRECT USER CONTROL,APPLICATION,NOHAF,HAFTOL,INITIAL,SOLVER,ELEMENT BY ELEMENT,FIXED TIME "
+     .parameters = "EXPLICIT,DIRECT,ALPHA,ADIABATIC,APPLICATION,TIME INTEGRATOR",
+     .noted = "DIRECT USER CONTROL,NOHAF,HAFTOL,INITIAL,SOLVER,ELEMENT BY ELEMENT,FIXED TIME "
               "INCREMENTATION,IMPROVED DT METHOD,SCALE FACTOR",
-     .meaning = "hht (alpha -0.05 where none is given) or, with EXPLICIT, central_differences."},
+     .meaning =
+         "hht (alpha -0.05 where none is given) or, with EXPLICIT, central_differences. APPLICATION=MODERATE DISSIPATION: "
+         "alpha -1/3; QUASI-STATIC, which is refused unless accepted, too, and loads grow with the time of the step."},
     {.name = "DYNAMIC TEMPERATURE-DISPLACEMENT",
      .use = step,
      .parameters = "EXPLICIT",
@@ -181,8 +183,10 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "FILTER", .use = output, .noted = "*", .meaning = "Filters results."},
     {.name = "FIXED MASS SCALING",
      .use = step,
-     .parameters = "DT,TYPE",
-     .meaning = "DT with TYPE=BELOW MIN, of all parts: mass_scaling_step, without a limit."},
+     .parameters = "DT,TYPE,ELSET,FACTOR",
+     .meaning =
+         "DT with TYPE=BELOW MIN, of all parts: mass_scaling_step, without a limit, also in later steps that say nothing "
+         "of it. A FACTOR, and sets that are not all parts, are refused unless accepted."},
     {.name = "FREQUENCY", .use = refused, .meaning = "The step is left out."},
     {.name = "FRICTION",
      .use = model,
@@ -379,7 +383,7 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "USER OUTPUT VARIABLES", .use = output, .noted = "*", .meaning = "Results of the user's own."},
     {.name = "VARIABLE MASS SCALING",
      .use = step,
-     .parameters = "DT,TYPE",
+     .parameters = "DT,TYPE,ELSET,FACTOR",
      .noted = "FREQUENCY,NUMBER INTERVAL",
      .meaning = "As *FIXED MASS SCALING, at the start alone, if it is accepted."},
     {.name = "VIEWFACTOR OUTPUT", .use = output, .noted = "*", .meaning = "Results of radiation."},

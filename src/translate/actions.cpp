@@ -216,13 +216,7 @@ class Actions {
 
   /// Carom's gravity acts on all parts.
   void refuse_partial_gravity() {
-    std::set<CellRef> bodies;
-    for (const auto& [name, list] : t_.mesh.names.element_sets)
-      for (const DeckNames::Cells& cells : list)
-        if (!cells.type->section.empty()) {
-          const auto& group = t_.mesh.mesh.cell_groups.at(cells.group);
-          bodies.insert(group.begin(), group.end());
-        }
+    const std::set<CellRef> bodies = t_.body_cells();
     for (const auto& [key, on] : gravity_)
       if (!on.is_everywhere && !std::includes(on.cells.begin(), on.cells.end(), bodies.begin(), bodies.end()))
         t_.findings.refuse(*on.keyword, on.where, "gravity on some cells only", "It would act on all parts.");

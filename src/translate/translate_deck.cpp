@@ -57,6 +57,17 @@ bool Translation::is_finite() const {
   return std::any_of(steps.begin(), steps.end(), [](const DeckStep& step) { return step.is_finite; });
 }
 
+std::set<CellRef> Translation::body_cells() const {
+  std::set<CellRef> bodies;
+  for (const auto& [name, list] : mesh.names.element_sets)
+    for (const DeckNames::Cells& cells : list)
+      if (!cells.type->section.empty()) {
+        const std::vector<CellRef>& group = mesh.mesh.cell_groups.at(cells.group);
+        bodies.insert(group.begin(), group.end());
+      }
+  return bodies;
+}
+
 void Translation::append(const std::string& section, Node entry) {
   for (Member& member : root.members)
     if (member.key == section) return std::get<List>(member.value.value).push_back(std::move(entry));

@@ -352,8 +352,71 @@ TEST(Translate, MassScaling) {
   }
   const std::string uniform =
       message_of(replaced(good_deck, step, "*DYNAMIC, EXPLICIT\n, 1e-3\n*FIXED MASS SCALING, DT=2e-6, TYPE=UNIFORM"));
-  EXPECT_NE(uniform.find("*FIXED MASS SCALING: TYPE=UNIFORM. No mass would be added."), std::string::npos) << uniform;
+  EXPECT_NE(uniform.find("*FIXED MASS SCALING: TYPE=UNIFORM. No mass would be added: write TYPE=BELOW MIN"),
+            std::string::npos)
+      << uniform;
   EXPECT_FALSE(scaled("*DYNAMIC\n1e-6, 1e-3, 1e-9, 1e-5").mass_scaling_step);  // halves as far as it must
+}
+
+/// Abaqus keyword *FIXED MASS SCALING: without DT and FACTOR masses are those of the material; ELSET limits it, and all
+/// cells of parts are as good as none.
+TEST(Translate, MassScalingOfSetsAndByFactors) {
+  const std::string step = "*DYNAMIC, DIRECT\n1e-6, 1e-3", scaling = "*DYNAMIC, EXPLICIT\n, 1e-3\n*FIXED MASS SCALING";
+  const auto with = [&](const std::string& parameters) { return replaced(good_deck, step, scaling + parameters); };
+  const std::string all = replaced(with(", ELSET=BOTH, DT=2e-6"), "*STEP", "*ELSET, ELSET=BOTH\n1, 2\n*STEP");
+  EXPECT_EQ(**case_from(all).scheme.mass_scaling_step, 2e-6);
+  EXPECT_FALSE(case_from(with("")).scheme.mass_scaling_step);
+  const std::string some = message_of(with(", ELSET=UPPER, DT=2e-6"));
+  EXPECT_NE(some.find("x.inp:55: *FIXED MASS SCALING: masses of UPPER alone. Cells of all parts"), std::string::npos)
+      << some;
+  const std::string factor = message_of(with(", FACTOR=100."));
+  EXPECT_NE(
+      factor.find("*FIXED MASS SCALING: FACTOR=100 of masses. Masses would stay as they are, but for DT: multiply "
+                  "the *DENSITY."),
+      std::string::npos)
+      << factor;
+  EXPECT_NE(message_of(with(", ELSET=ROCK, DT=2e-6")).find("found ELSET=ROCK"), std::string::npos);
+}
+
+/// Abaqus Analysis User's Guide, "Mass scaling", in an analysis of several steps: the scaled masses of one step are
+/// those of the next, unless it has a *FIXED MASS SCALING of its own.
+TEST(Translate, ScaledMassesStayInLaterSteps) {
+  const std::string scaled = replaced(good_deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3",
+                                      "*DYNAMIC, EXPLICIT\n, 1e-3\n*FIXED MASS SCALING, DT=2e-6, TYPE=BELOW MIN");
+  const auto next = [&](const std::string& keyword) {
+    return case_from(scaled + "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-3\n" + keyword + "*END STEP\n").stages.at(0).scheme;
+  };
+  EXPECT_EQ(**next("").mass_scaling_step, 2e-6);
+  EXPECT_EQ(**next("*FIXED MASS SCALING, DT=1e-6\n").mass_scaling_step, 1e-6);
+  EXPECT_FALSE(next("*FIXED MASS SCALING\n").mass_scaling_step);
+}
+
+/// Abaqus Analysis User's Guide, "Implicit dynamic analysis using direct integration": TRANSIENT FIDELITY is
+/// Hilber-Hughes-Taylor with alpha = -0.05; MODERATE DISSIPATION, the default beside contact, with alpha = -0.41421,
+/// beyond -1/3, the strongest of hht here; QUASI-STATIC backward Euler, under which loads grow linearly.
+TEST(Translate, ApplicationsOfImplicitSteps) {
+  const auto with = [](const std::string& parameters) {
+    return replaced(good_deck, "*DYNAMIC, DIRECT", "*DYNAMIC, DIRECT" + parameters);
+  };
+  const auto alpha = [&](const std::string& parameters, const std::vector<std::string>& accepted = {}) {
+    return std::get<AlphaParameters>(case_from(with(parameters), accepted).scheme.parameters).alpha;
+  };
+  EXPECT_EQ(alpha(""), -0.05);
+  EXPECT_EQ(alpha(", APPLICATION=TRANSIENT FIDELITY"), -0.05);
+  EXPECT_EQ(alpha(", APPLICATION=MODERATE DISSIPATION"), -1.0 / 3.0);
+  EXPECT_EQ(alpha(", TIME INTEGRATOR=HHT-MD"), -1.0 / 3.0);
+  EXPECT_EQ(alpha(", APPLICATION=MODERATE DISSIPATION, ALPHA=-0.1"), -0.1);
+  EXPECT_TRUE(has_note(translated(with(", APPLICATION=MODERATE DISSIPATION")), "Abaqus has -0.41421"));
+  EXPECT_TRUE(has_note(translated(good_deck), "beside contact Abaqus takes APPLICATION=MODERATE DISSIPATION"));
+  EXPECT_FALSE(has_note(translated(with(", ALPHA=0.")), "beside contact"));
+  const std::string quasi = message_of(with(", APPLICATION=QUASI-STATIC"));
+  EXPECT_NE(quasi.find("x.inp:53: *DYNAMIC: the backward Euler method"), std::string::npos) << quasi;
+  EXPECT_EQ(alpha(", APPLICATION=QUASI-STATIC", {"DYNAMIC"}), -1.0 / 3.0);
+  const std::string ramp = replaced(with(", APPLICATION=QUASI-STATIC"), "*CLOAD, AMPLITUDE=A", "*CLOAD");
+  EXPECT_EQ(case_from(ramp, {"DYNAMIC"}).functions.at(0).function(5e-4), 0.5);
+  EXPECT_NE(
+      message_of(with(", APPLICATION=FAST")).find("expected TRANSIENTFIDELITY, MODERATEDISSIPATION, QUASI-STATIC"),
+      std::string::npos);
 }
 
 TEST(Translate, MasslessContactKeepsItsMassWhereAccepted) {
