@@ -9,11 +9,11 @@ namespace {
 
 using enum KeywordUse;
 
-constexpr std::array<KeywordEntry, 162> kKeywords{{
+constexpr std::array<KeywordEntry, 167> kKeywords{{
     {.name = "AMPLITUDE",
      .use = model,
-     .parameters = "NAME,TIME,DEFINITION,VALUE",
-     .meaning = "A function of time; SMOOTH STEP becomes a table of 33 points."},
+     .parameters = "NAME,TIME,DEFINITION,VALUE,FIXED INTERVAL,BEGIN",
+     .meaning = "A function of time: TABULAR, EQUALLY SPACED, or SMOOTH STEP, which becomes a table of 33 points."},
     {.name = "ASSEMBLY", .use = mesh, .parameters = "NAME", .meaning = "Begins the list of instances."},
     {.name = "BASE MOTION", .use = refused, .meaning = "The supports would stand still."},
     {.name = "BEAM GENERAL SECTION", .use = refused, .meaning = "Carom has no beams."},
@@ -41,6 +41,7 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
      .noted = "*",
      .meaning =
          "Changes nothing where no step computes temperatures; where one does, the step is adiabatic if it is accepted."},
+    {.name = "CONNECTOR SECTION", .use = refused, .meaning = "The connector would be left out."},
     {.name = "CONTACT",
      .use = step,
      .noted = "OP",
@@ -66,7 +67,8 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "CONTACT INCLUSIONS",
      .use = step,
      .parameters = "ALL EXTERIOR",
-     .meaning = "ALL EXTERIOR: every outer face may touch every other."},
+     .meaning =
+         "ALL EXTERIOR: every outer face may touch every other; else pairs of the surfaces that the lines name."},
     {.name = "CONTACT OUTPUT",
      .use = output,
      .noted = "*",
@@ -84,7 +86,7 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
      .meaning = "Results of contact are in contact.csv and the fields."},
     {.name = "CONTACT PROPERTY ASSIGNMENT",
      .use = step,
-     .meaning = "The interaction of general contact; one for all surfaces."},
+     .meaning = "The interaction of general contact: one for all surfaces, of chosen surfaces also for two of them."},
     {.name = "CONTACT RESPONSE", .use = output, .noted = "*", .meaning = "Sensitivities of results."},
     {.name = "CONTROLS",
      .use = solver,
@@ -117,8 +119,14 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "DENSITY", .use = model, .meaning = "Density."},
     {.name = "DEPVAR", .use = refused, .meaning = "Belongs to a material of the user's own."},
     {.name = "DIAGNOSTICS", .use = output, .noted = "*", .meaning = "Messages of the other program."},
+    {.name = "DISPLAY BODY", .use = output, .noted = "*", .meaning = "Shows an instance that takes no part."},
     {.name = "DISTRIBUTING", .use = refused, .meaning = "The reference node of the *COUPLING would pull at nothing."},
     {.name = "DISTRIBUTING COUPLING", .use = refused, .meaning = "The reference node would pull at nothing."},
+    {.name = "DISTRIBUTION", .use = output, .noted = "*", .meaning = "A table of values, which nothing here uses."},
+    {.name = "DISTRIBUTION TABLE",
+     .use = output,
+     .noted = "*",
+     .meaning = "A table of values, which nothing here uses."},
     {.name = "DLOAD",
      .use = step,
      .parameters = "OP,AMPLITUDE",
@@ -291,12 +299,14 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
          "TYPE=JOHNSON COOK: C and the reference rate; POWER LAW, YIELD RATIO: the table times the ratio at several "
          "rates."},
     {.name = "RESTART",
-     .use = output,
-     .noted = "*",
-     .meaning = "Carom writes checkpoints by itself (output.checkpoint_every)."},
+     .use = step,
+     .noted = "WRITE,FREQUENCY,OVERLAY,NUMBER INTERVAL,TIME MARKS",
+     .meaning =
+         "Carom writes checkpoints by itself (output.checkpoint_every). READ, which goes on with another run, is refused."},
     {.name = "RIGID BODY",
      .use = model,
-     .parameters = "ELSET,REF NODE,ANALYTICAL SURFACE,TIE NSET,PIN NSET",
+     .parameters = "ELSET,REF NODE,ANALYTICAL SURFACE,TIE NSET,PIN NSET,POSITION",
+     .noted = "ISOTHERMAL",
      .meaning =
          "A surface of faces that moves and turns with its reference node, or is free where that has a *MASS. It is met by "
          "*CONTACT PAIR, as the second surface, or by general contact. Of solids: a [[rigid_body]] of parts; TIE NSET and "
@@ -360,13 +370,17 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "SURFACE BEHAVIOR",
      .use = model,
      .parameters = "PRESSURE-OVERCLOSURE",
-     .noted = "PENALTY,DIRECT",
+     .noted = "PENALTY,DIRECT,AUGMENTED LAGRANGE",
      .meaning = "HARD: the stiffness that Carom chooses; LINEAR: its slope as the stiffness."},
     {.name = "SURFACE INTERACTION",
      .use = model,
      .parameters = "NAME",
      .meaning = "What contacts have: stiffness and friction."},
     {.name = "SURFACE OUTPUT", .use = output, .noted = "*", .meaning = "Results on surfaces."},
+    {.name = "SURFACE SECTION",
+     .use = model,
+     .parameters = "ELSET",
+     .meaning = "Nothing: elements without a density that surfaces are made of."},
     {.name = "SYSTEM", .use = refused_mesh, .meaning = "Nodes would stand elsewhere."},
     {.name = "TEMPERATURE", .use = refused, .meaning = "There would be no thermal strains."},
     {.name = "TIE",

@@ -138,6 +138,7 @@ class DeckMeshReader {
     const DeckElementType* known = nullptr;
     if (!errors_.attempt([&] { known = &element_type(*s.keyword); })) return read_unknown_elements(s);
     const DeckElementType& type = *known;
+    if (type.kind == DeckElementType::Kind::unknown) return read_unknown_elements(s);
     const std::size_t block = type.kind == DeckElementType::Kind::cell ? block_of(mesh_, type.type) : 0;
     const std::string* set = s.keyword->parameter("ELSET");
     std::vector<Index> members;
@@ -247,19 +248,25 @@ class DeckMeshReader {
     } else if (type == "ELEMENT") {
       names_.surfaces[name] = {name, DeckNames::SurfaceKind::faces, name};
       for (DeckCursor at(keyword); at.next_line();) {
-        const std::vector<Index>& elements = elements_named(at, s.scope);
-        faces_.append(elements, upper_case(at.field()), at, surface_cells_[name], next_number_);
+        const std::vector<Index> elements = elements_named(at, s.scope);
+        std::string label = upper_case(at.field());
+        if (label.empty() && are_rigid(elements)) {
+          label = looks_at_bodies(elements) ? "SPOS" : "SNEG";
+          names_.surfaces[name].is_side_chosen = true;
+        }
+        faces_.append(elements, label, at, surface_cells_[name], next_number_);
       }
     } else if (type == "SEGMENTS" || type == "CYLINDER" || type == "REVOLUTION") {
       names_.surfaces[name] = {name, DeckNames::SurfaceKind::faces, name};
-      add_analytic_faces(s, type, surface_cells_[name]);
+      names_.surfaces[name].roundness = add_analytic_faces(s, type, surface_cells_[name]);
     } else {
       mesh_.report.notes.push_back(
           fmt::format("{}: the surface {} of TYPE={} is no mesh; left out", to_string(keyword.where), name, type));
     }
   }
 
-  void add_analytic_faces(const Statement& s, const std::string& type, std::vector<CellRef>& to) {
+  /// Returns how far the faces are from the surface.
+  double add_analytic_faces(const Statement& s, const std::string& type, std::vector<CellRef>& to) {
     const AnalyticFaces made = analytic_faces(*s.keyword, type, box_diagonal());
     const auto first = static_cast<Index>(mesh_.coordinates.size());
     for (const Vec3& x : made.points) {
@@ -274,6 +281,7 @@ class DeckMeshReader {
       for (const std::size_t point : face) cells.connectivity.push_back(first + static_cast<Index>(point));
       cells.file_numbers.push_back(++next_number_);
     }
+    return made.roundness;
   }
 
   /// Of the box around all nodes.
@@ -451,6 +459,11 @@ class DeckMeshReader {
       if (deforms(elements_[e]) && elements_[e].type->section != "bar") bodies.push_back(static_cast<Index>(e));
     names_.surfaces[all_exterior] = {all_exterior, DeckNames::SurfaceKind::faces, all_exterior};
     faces_.append(bodies, "", at, surface_cells_[all_exterior], next_number_);
+  }
+
+  /// Abaqus' explicit program takes both sides of rigid faces in space where none is named.
+  bool are_rigid(const std::vector<Index>& elements) const {
+    return std::ranges::all_of(elements, [&](Index e) { return elements_[at(e)].type->name.starts_with("R3D"); });
   }
 
   static bool deforms(const DeckElement& element) {

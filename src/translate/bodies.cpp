@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -429,18 +430,27 @@ void translate_material(Translation& t, const MaterialKeywords& m, std::set<std:
   t.define("materials", name, table.node());
 }
 
-/// The last *BULK VISCOSITY, or what Abaqus' explicit program has without one.
-std::array<double, 2> bulk_viscosity(const Translation& t) {
-  std::optional<std::array<double, 2>> given;
-  for (const Statement& s : t.statements.list) {
-    if (s.keyword->name != "BULK VISCOSITY") continue;
-    const std::vector<double> v = values_of(*s.keyword, 1, "linear, quadratic bulk viscosity");
-    given = {v[0], v.size() > 1 ? v[1] : 0.0};
+/// That of the last step; one goes on in later steps. Abaqus' explicit program has one where none is given.
+std::array<double, 2> bulk_viscosity(Translation& t) {
+  constexpr std::array<double, 2> without_keyword{0.06, 1.2};
+  std::vector<std::array<double, 2>> given;
+  const DeckKeyword* last = nullptr;
+  const bool has_own = t.is_explicit_abaqus();
+  for (std::size_t i = 0; i < t.statements.list.size(); ++i) {
+    const DeckKeyword& keyword = *t.statements.list[i].keyword;
+    if (keyword.name != "BULK VISCOSITY") continue;
+    if (given.empty() && has_own && t.steps.size() > 1 && i > t.steps[1].begin) given.push_back(without_keyword);
+    const std::vector<double> v = values_of(keyword, 1, "linear, quadratic bulk viscosity");
+    given.push_back({v[0], v.size() > 1 ? v[1] : 0.0});
+    last = &keyword;
   }
-  if (given || !t.is_explicit_abaqus()) return given.value_or(std::array<double, 2>{});
+  if (std::ranges::adjacent_find(given, std::ranges::not_equal_to{}) != given.end())
+    t.findings.refuse(*last, last->where, "another bulk viscosity than in a step before",
+                      "It would be that of the whole run.");
+  if (!given.empty() || !has_own) return given.empty() ? std::array<double, 2>{} : given.back();
   t.findings.note(t.steps.front().procedure->where,
                   "bulk viscosity 0.06 and 1.2, which Abaqus has where none is given");
-  return {0.06, 1.2};
+  return without_keyword;
 }
 
 /// Where the *SECTION CONTROLS that a section names keeps its cells from folding: the share that they keep.

@@ -91,9 +91,12 @@ What is neither is refused: a node that is free along or about some of the axes 
 `*ROTARY INERTIA`, free to turn.
 
 In a pair it is met from the side of its normal: by the right-hand rule, of R2D2 and RAX2 a quarter turn counter-clockwise
-from the first node to the second; `SNEG` names the other side. What would pass from behind is refused.
+from the first node to the second; `SNEG` names the other side. What would pass from behind is refused. Of R3D3 and
+R3D4 without `SPOS` or `SNEG` Abaqus' explicit program meets both sides: here that on which the deformable bodies are, as in
+general contact; a note says so. In decks of that program the rigid surface may be named first.
 
-General contact (`*CONTACT INCLUSIONS, ALL EXTERIOR`) is `kind = "all"` between the bodies, and an obstacle for each rigid
+General contact of chosen surfaces (`*CONTACT INCLUSIONS` with lines) is a pair for each line, of a surface alone with itself.
+With `ALL EXTERIOR` it is `kind = "all"` between the bodies, and an obstacle for each rigid
 body, which names no side. It is met from the side on which, seen from its face that is nearest to the middle of all nodes of
 deformable bodies, that middle is; a note says so, and what then lies behind it is refused as in a pair. Faces that a `*TIE`
 holds take no part ([ties.md](ties.md)). Analytical surfaces are met from the side of their normal here, too.
@@ -185,6 +188,7 @@ std::string elements() {
     const bool is_cell = type.kind == DeckElementType::Kind::cell;
     const char* discrete = type.kind == DeckElementType::Kind::mass      ? "point mass"
                            : type.kind == DeckElementType::Kind::inertia ? "rotary inertia"
+                           : type.kind == DeckElementType::Kind::unknown ? ""
                                                                          : "spring";
     text +=
         fmt::format("| `{}` | {} | {} | {} | {} |\n", type.name, is_cell ? name(type.type) : std::string_view(discrete),

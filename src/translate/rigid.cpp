@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "deck/keyword_table.hpp"
 #include "translate/translation.hpp"
 #include "translate/tree.hpp"
 
@@ -79,6 +80,16 @@ void add_nodes(const Translation& t, const Statement& s, DeckRigidBody& body) {
   if (body.is_of_nodes()) body.group = body.joined;
 }
 
+/// Abaqus may move the reference node to the centre of mass, where it stands anyway of a surface, whose mass it has.
+void check_position(const Translation& t, const DeckKeyword& keyword, const DeckRigidBody& body) {
+  const std::string* given = keyword.parameter("POSITION");
+  const std::string position = given == nullptr ? "INPUT" : without_blanks(*given);
+  if (position == "INPUT" || (position == "CENTEROFMASS" && body.is_obstacle())) return;
+  if (position != "CENTEROFMASS") keyword.fail("POSITION=" + *given, "INPUT or CENTER OF MASS");
+  t.findings.refuse(keyword, keyword.where, "POSITION=CENTER OF MASS",
+                    "Forces and velocities of the reference node would act where the deck has it.");
+}
+
 DeckRigidBody read_rigid_body(const Translation& t, const Statement& s) {
   DeckRigidBody body;
   body.keyword = s.keyword;
@@ -88,6 +99,7 @@ DeckRigidBody read_rigid_body(const Translation& t, const Statement& s) {
     add_elements(t, s, body);
   add_nodes(t, s, body);
   add_reference(t, s, body);
+  check_position(t, *s.keyword, body);
   return body;
 }
 
@@ -318,7 +330,11 @@ void add_rigid_motion(Translation& t, DeckRigidBody& body, TableMaker& contact) 
   if (held == all) return add_led_body(t, body, components, contact);
   if (held == 0 && body.mass) return add_free_body(t, body, components, contact);
   body.keyword->fail(fmt::format("a reference node that is held along {} of {} axes", held, all),
-                     "all of them imposed, or none and a *MASS", "Say with *BOUNDARY what its reference node does.");
+                     "all of them imposed, or none and a *MASS",
+                     std::string("Impose the others, or let it move along all of them") +
+                         (body.space == DeckRigidBody::Space::solid
+                              ? "; a *RIGID BODY of solids may be held along two axes and about all."
+                              : "."));
 }
 
 }  // namespace carom

@@ -72,6 +72,21 @@ const CaseFunction& function_named(const Case& made, const std::string& name) {
   return *found;
 }
 
+/// Abaqus keyword *RIGID BODY: POSITION=CENTER OF MASS moves the reference node there. The mass of a surface of faces
+/// is that of its reference node, which stays.
+TEST(Translate, APositionAtTheCentreOfMassIsThatOfASurface) {
+  const std::string held = "*BOUNDARY\n99, ENCASTRE\n";
+  const auto with = [](const std::string& deck) {
+    return replaced(deck, "REF NODE=", "POSITION=CENTER OF MASS, REF NODE=");
+  };
+  EXPECT_EQ(case_from(with(with_rigid_wall(held))).contacts.size(), 1U);
+  const std::string solid = replaced(good_deck, "*STEP\n", "*RIGID BODY, ELSET=UPPER, REF NODE=11\n*STEP\n");
+  const std::string refused = message_of(with(solid));
+  EXPECT_NE(refused.find("*RIGID BODY: POSITION=CENTER OF MASS. Forces and velocities of the reference node"),
+            std::string::npos)
+      << refused;
+}
+
 TEST(Translate, AReferenceNodeTurnsItsSurface) {
   const TranslatedDeck deck = translated(with_turning_wall("*BOUNDARY, TYPE=VELOCITY\n99, 6, 6, 3.\n99, 4, 4, -4.\n"));
   const Case made = case_of(deck.tree, "x.inp");
@@ -245,7 +260,7 @@ TEST(Translate, MotionsOfRigidBodiesThatCannotBeAreRefused) {
             "alone. What moves otherwise is no ring: model it in three dimensions.");
   EXPECT_EQ(refusal(plane_deck("R2D2", "CPE4", "*BOUNDARY\n99, 1\n")),
             "x.inp:17: *RIGID BODY: found a reference node that is held along 1 of 2 axes; expected all of them "
-            "imposed, or none and a *MASS. Say with *BOUNDARY what its reference node does.");
+            "imposed, or none and a *MASS. Impose the others, or let it move along all of them.");
 }
 
 // The tensor is given along the axes of the part, which the instance turns.

@@ -426,6 +426,61 @@ TEST(Translate, MasslessContactKeepsItsMassWhereAccepted) {
   EXPECT_EQ(case_of(translated(deck, {"CONTACT PAIR"}).tree, "x.inp").contacts.size(), 1U);
 }
 
+/// Elements that go with a keyword that is accepted: what gives them their properties says what is lost.
+TEST(Translate, ElementsOfAcceptedKeywordsAreLeftOut) {
+  const struct {
+    const char *type, *keyword;
+  } rows[] = {{"DASHPOTA", "DASHPOT"}, {"GAPUNI", "GAP"}, {"CONN3D2", "CONNECTOR SECTION"}};
+  for (const auto& row : rows) {
+    const std::string keyword = row.keyword;
+    const std::string deck = replaced(good_deck, "*SURFACE INTERACTION",
+                                      std::string("*ELEMENT, TYPE=") + row.type + ", ELSET=D\n90, 5, 11\n*" + keyword +
+                                          ", ELSET=D\n1.\n*SURFACE INTERACTION");
+    const std::string refused = message_of(deck);
+    EXPECT_NE(refused.find("--accept \"" + keyword + "\" runs without:\n  x.inp:45: *" + keyword), std::string::npos)
+        << refused;
+    EXPECT_EQ(case_from(deck, {keyword}).parts.size(), 2U);
+    EXPECT_TRUE(has_note(translated(deck, {keyword}), std::string(row.type) + ": left out with its *" + keyword));
+  }
+}
+
+/// Abaqus Analysis User's Guide, "Choosing the element's formulation": hybrid elements have the pressure as a further
+/// unknown, for materials that are nearly or quite incompressible; their nodes and points are those of their twins.
+TEST(Translate, HybridElementsAreTheirTwins) {
+  const std::string deck = replaced(good_deck, "TYPE=C3D8, ELSET=UPPER", "TYPE=C3D8RH, ELSET=UPPER");
+  EXPECT_EQ(**case_from(deck).parts[1].formulation, "one_point");
+  EXPECT_TRUE(has_note(translated(deck), "C3D8RH: its pressure is no unknown of its own"));
+}
+
+/// Abaqus keyword *BULK VISCOSITY: of a step and those behind it; 0.06 and 1.2 where none is given.
+TEST(Translate, BulkViscosityThatChangesIsRefused) {
+  const std::string one = replaced(good_deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3", "*DYNAMIC, EXPLICIT\n, 1e-3");
+  const std::string next = "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-3\n*BULK VISCOSITY\n0.06, 1.2\n*END STEP\n";
+  EXPECT_EQ(case_from(one + next).parts[0].linear_bulk_viscosity, 0.06);
+  const std::string other = message_of(one + replaced(next, "0.06", "0.2"));
+  EXPECT_NE(other.find("*BULK VISCOSITY: another bulk viscosity than in a step before"), std::string::npos) << other;
+}
+
+/// Abaqus keyword *AMPLITUDE: EQUALLY SPACED has values alone, FIXED INTERVAL apart, from BEGIN on.
+TEST(Translate, AmplitudesOfEquallySpacedValues) {
+  const auto with = [](const std::string& keyword, const std::string& lines) {
+    return replaced(good_deck, "*AMPLITUDE, NAME=A\n0., 0., 1e-3, 1.", "*AMPLITUDE, NAME=A, " + keyword + "\n" + lines);
+  };
+  const Case made = case_from(with("DEFINITION=EQUALLY SPACED, FIXED INTERVAL=5e-4", "0., 1.\n0.5"));
+  EXPECT_DOUBLE_EQ(made.functions.at(0).function(2.5e-4), 0.5);
+  EXPECT_DOUBLE_EQ(made.functions.at(0).function(1e-3), 0.5);
+  EXPECT_NE(message_of(with("DEFINITION=EQUALLY SPACED", "0., 1.")).find("found no FIXED INTERVAL"), std::string::npos);
+  EXPECT_NE(message_of(with("DEFINITION=PERIODIC", "1, 6.28, 0., 0.\n0., 1.")).find("found DEFINITION=PERIODIC"),
+            std::string::npos);
+}
+
+/// *RESTART, READ goes on with another run; its other parameters say what is written.
+TEST(Translate, RestartOfAnotherRunIsRefused) {
+  EXPECT_TRUE(has_note(translated("*RESTART, WRITE, FREQUENCY=1\n" + good_deck), "*RESTART: WRITE changes nothing"));
+  EXPECT_NE(message_of("*RESTART, READ, STEP=1\n" + good_deck).find("*RESTART: the parameter READ is not known"),
+            std::string::npos);
+}
+
 /// Every keyword that asks for results or messages alone is a note: a deck with all of them is a case.
 TEST(Translate, OutputAloneIsANote) {
   for (const KeywordEntry& entry : keyword_table()) {
@@ -434,7 +489,7 @@ TEST(Translate, OutputAloneIsANote) {
     EXPECT_TRUE(has_note(translated(replaced(good_deck, "*END STEP", keyword + ", FREQUENCY=1\n*END STEP")), keyword));
   }
   for (const char* name : {"INCREMENTATION OUTPUT", "INTEGRATED OUTPUT SECTION", "MODAL OUTPUT", "RADIATION OUTPUT",
-                           "SECTION FILE", "MONITOR", "PREPRINT", "FILE FORMAT"})
+                           "SECTION FILE", "MONITOR", "PREPRINT", "FILE FORMAT", "DISPLAY BODY"})
     EXPECT_EQ(find_keyword(name)->use, KeywordUse::output) << name;
 }
 
