@@ -116,7 +116,7 @@ constexpr std::array<KeywordEntry, 167> kKeywords{{
     {.name = "DAMAGE STABILIZATION", .use = solver, .noted = "*", .meaning = "Steers how the other program softens."},
     {.name = "DAMPING", .use = refused, .meaning = "The bodies would not be damped."},
     {.name = "DASHPOT", .use = refused, .meaning = "The damper would be left out."},
-    {.name = "DENSITY", .use = model, .meaning = "Density."},
+    {.name = "DENSITY", .use = model, .meaning = "Density, at the temperature of the start."},
     {.name = "DEPVAR", .use = refused, .meaning = "Belongs to a material of the user's own."},
     {.name = "DIAGNOSTICS", .use = output, .noted = "*", .meaning = "Messages of the other program."},
     {.name = "DISPLAY BODY", .use = output, .noted = "*", .meaning = "Shows an instance that takes no part."},
@@ -150,7 +150,7 @@ constexpr std::array<KeywordEntry, 167> kKeywords{{
     {.name = "ELASTIC",
      .use = model,
      .parameters = "TYPE",
-     .meaning = "TYPE=ISOTROPIC: Young's modulus and Poisson's ratio, at one temperature."},
+     .meaning = "TYPE=ISOTROPIC: Young's modulus and Poisson's ratio, at the temperature of the start."},
     {.name = "ELCOPY", .use = refused_mesh, .meaning = "Elements made by the other program are missing."},
     {.name = "ELEMENT",
      .use = mesh,
@@ -222,8 +222,8 @@ constexpr std::array<KeywordEntry, 167> kKeywords{{
      .use = model,
      .parameters = "TYPE",
      .meaning =
-         "TYPE=VELOCITY (of nodes) and ROTATING VELOCITY (of nodes or cells); TEMPERATURE: initial_temperature of Johnson "
-         "and Cook's law, one for all nodes of a material."},
+         "TYPE=VELOCITY (of nodes) and ROTATING VELOCITY (of nodes or cells); TEMPERATURE, one for all nodes of a material "
+         "and 0 where none is given: initial_temperature of Johnson and Cook's law, and at which tables are taken."},
     {.name = "INSTANCE",
      .use = mesh,
      .parameters = "NAME,PART",
@@ -283,7 +283,8 @@ constexpr std::array<KeywordEntry, 167> kKeywords{{
      .use = model,
      .parameters = "HARDENING,RATE",
      .meaning =
-         "HARDENING=ISOTROPIC: table of yield stress (Cauchy) and plastic strain at one temperature, one for each RATE; "
+         "HARDENING=ISOTROPIC: table of yield stress (Cauchy) and plastic strain at the temperature of the start, one for each "
+         "RATE; "
          "JOHNSON COOK."},
     {.name = "POST OUTPUT", .use = output, .noted = "*", .meaning = "Results files of the other program."},
     {.name = "PREPRINT", .use = output, .noted = "*", .meaning = "Messages of the other program."},
@@ -382,7 +383,9 @@ constexpr std::array<KeywordEntry, 167> kKeywords{{
      .parameters = "ELSET",
      .meaning = "Nothing: elements without a density that surfaces are made of."},
     {.name = "SYSTEM", .use = refused_mesh, .meaning = "Nodes would stand elsewhere."},
-    {.name = "TEMPERATURE", .use = refused, .meaning = "There would be no thermal strains."},
+    {.name = "TEMPERATURE",
+     .use = refused,
+     .meaning = "There would be no thermal strains, and tables be taken at the temperature of the start."},
     {.name = "TIE",
      .use = model,
      .parameters = "TYPE,POSITION TOLERANCE",

@@ -122,6 +122,10 @@ class Actions {
     const int to = end.empty() ? from : component(at, end);
     const double value = at.real_or(0.0, "the value");
     at.end_line("nodes, first and last degree of freedom, value");
+    constexpr int temperature = 11;
+    if (from == temperature && to == from)
+      return t_.findings.refuse(*s.keyword, at.where(), "an imposed temperature",
+                                "It would be left out: nodes have no temperatures.");
     if (from < 1 || to < from || to > 6)
       at.fail(fmt::format("degrees of freedom {} to {}", from, to), "1 to 3, or 1 to 6 with those of turning");
     const bool jumps = what == "DISPLACEMENT" && amplitude_ == nullptr && !t_.steps.empty() && !t_.steps.front().ramps;

@@ -169,14 +169,16 @@ void add_pair(Translation& t, const DeckCursor& at, const Statement& s, std::str
 void translate_pairs(Translation& t, const std::map<std::string, Interaction>& all, const Statement& s) {
   const DeckKeyword& keyword = *s.keyword;
   refuse_closing(t, keyword);
-  for (DeckCursor at(keyword); at.next_line();) {
-    const std::string slave(at.field()), master(at.field());
-    at.end_line("the slave and the master");
-    const bool has_interaction = keyword.has("INTERACTION");
-    add_pair(t, at, s, slave, master,
-             {&keyword, has_interaction ? &interaction(all, keyword.required("INTERACTION"), at) : nullptr,
-              method_of(t, keyword), keyword.has("ADJUST") || t.is_explicit_abaqus(), t.is_explicit_abaqus()});
-  }
+  const std::string method = method_of(t, keyword);
+  for (DeckCursor at(keyword); at.next_line();)
+    t.errors.attempt([&] {
+      const std::string slave(at.field()), master(at.field());
+      at.end_line("the slave and the master");
+      const bool has_interaction = keyword.has("INTERACTION");
+      add_pair(t, at, s, slave, master,
+               {&keyword, has_interaction ? &interaction(all, keyword.required("INTERACTION"), at) : nullptr, method,
+                keyword.has("ADJUST") || t.is_explicit_abaqus(), t.is_explicit_abaqus()});
+    });
 }
 
 /// A line of *CONTACT PROPERTY ASSIGNMENT; without surfaces it is for all.

@@ -125,6 +125,14 @@ others, along two axes all turns. So there may be imposed: nothing; 1 with 5 and
 `XSYMM` and its like do; two or three of 1 to 3 with 4 to 6. Displacements, velocities and accelerations may be
 other than 0, turns not. `*CLOAD` acts where the reference node stands, and probes follow it. `*INITIAL CONDITIONS` at the reference node give its velocity and the angular velocity about it.
 
+## Temperatures
+
+Nodes have no temperatures. Tables of `*ELASTIC`, `*PLASTIC`, `*DENSITY`, `*SPECIFIC HEAT` and `*HYPERELASTIC` are taken at that of
+the start (`*INITIAL CONDITIONS, TYPE=TEMPERATURE`, 0 where none is given): linear between two that are given, and constant outside,
+as in both programs; where a step heats or computes temperatures, tables of several are refused unless accepted. Only Johnson
+and Cook's law heats, in steps that are `ADIABATIC` or compute temperatures. Imposed temperatures (degree of freedom 11) and thermal
+strains are refused unless accepted.
+
 ## Damage
 
 `*DAMAGE INITIATION, CRITERION=JOHNSON COOK` is `damage` of the material, D3 with the other sign

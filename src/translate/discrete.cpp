@@ -20,26 +20,28 @@ struct GroupVelocity {
   Location where;
 };
 
-void read_velocities(Translation& t, const Statement& s, std::vector<GroupVelocity>& all) {
-  for (DeckCursor at(*s.keyword); at.next_line();) {
-    const std::string target(at.field());
-    const std::string group = t.node_group(at, s, target);
-    const std::int64_t dof = at.integer("the degree of freedom");
-    const double value = at.real("the velocity");
-    const std::vector<DeckRigidBody*> bodies = referred_to(t, group);
-    if (dof < 1 || dof > (bodies.empty() ? 3 : 6))
-      at.fail(fmt::format("degree of freedom {}", dof), bodies.empty() ? "1, 2 or 3" : "1 to 6");
-    for (DeckRigidBody* body : bodies) {
-      std::optional<Vec3>& of = dof > 3 ? body->initial_rotation : body->initial_velocity;
-      if (!of) of = Vec3{};
-      (*of)[carom::at((dof - 1) % 3)] = value;
-    }
-    if (!bodies.empty()) continue;
-    auto found = std::find_if(all.begin(), all.end(), [&](const GroupVelocity& v) { return v.group == group; });
-    if (found == all.end()) found = all.insert(all.end(), {group, {}, {}, at.where()});
-    found->velocity[carom::at(dof - 1)] = value;
-    found->given[carom::at(dof - 1)] = true;
+void read_velocity(Translation& t, const Statement& s, DeckCursor& at, std::vector<GroupVelocity>& all) {
+  const std::string target(at.field());
+  const std::string group = t.node_group(at, s, target);
+  const std::int64_t dof = at.integer("the degree of freedom");
+  const double value = at.real("the velocity");
+  const std::vector<DeckRigidBody*> bodies = referred_to(t, group);
+  if (dof < 1 || dof > (bodies.empty() ? 3 : 6))
+    at.fail(fmt::format("degree of freedom {}", dof), bodies.empty() ? "1, 2 or 3" : "1 to 6");
+  for (DeckRigidBody* body : bodies) {
+    std::optional<Vec3>& of = dof > 3 ? body->initial_rotation : body->initial_velocity;
+    if (!of) of = Vec3{};
+    (*of)[carom::at((dof - 1) % 3)] = value;
   }
+  if (!bodies.empty()) return;
+  auto found = std::find_if(all.begin(), all.end(), [&](const GroupVelocity& v) { return v.group == group; });
+  if (found == all.end()) found = all.insert(all.end(), {group, {}, {}, at.where()});
+  found->velocity[carom::at(dof - 1)] = value;
+  found->given[carom::at(dof - 1)] = true;
+}
+
+void read_velocities(Translation& t, const Statement& s, std::vector<GroupVelocity>& all) {
+  for (DeckCursor at(*s.keyword); at.next_line();) t.errors.attempt([&] { read_velocity(t, s, at, all); });
 }
 
 /// A later section of the case replaces the whole velocity of a node: components of sets that overlap cannot be told
@@ -96,6 +98,18 @@ void translate_rotation(Translation& t, const Statement& s) {
   }
 }
 
+/// They are looked up by the materials.
+void check_temperatures(Translation& t, const Statement& s) {
+  for (DeckCursor at(*s.keyword); at.next_line();)
+    t.errors.attempt([&] {
+      const std::string target(at.field());
+      t.node_group(at, s, target);
+      at.real("the temperature");
+    });
+  t.findings.note(s.keyword->where,
+                  "temperatures choose values of tables and begin Johnson and Cook's law, and strain nothing");
+}
+
 void translate_initial(Translation& t) {
   std::vector<GroupVelocity> all;
   for (const Statement& s : t.statements.list) {
@@ -107,7 +121,7 @@ void translate_initial(Translation& t) {
       else if (type == "ROTATING VELOCITY" || type == "ROTATINGVELOCITY")
         translate_rotation(t, s);
       else if (type == "TEMPERATURE")
-        t.findings.note(s.keyword->where, "temperatures act on the materials of Johnson and Cook alone");
+        check_temperatures(t, s);
       else
         t.findings.refuse(*s.keyword, s.keyword->where, "TYPE=" + type, "The run would begin without.");
     });

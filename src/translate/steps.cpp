@@ -251,6 +251,10 @@ bool DeckStep::heats() const {
   return is_coupled() || procedure->has("ADIABATIC");
 }
 
+bool Translation::heats() const {
+  return std::any_of(steps.begin(), steps.end(), [](const DeckStep& step) { return step.heats(); });
+}
+
 bool Translation::is_explicit_abaqus() const {
   return std::any_of(steps.begin(), steps.end(), [](const DeckStep& step) { return step.is_explicit_abaqus(); });
 }

@@ -56,6 +56,8 @@ struct Translation {
   const DeckScope& scope(const Statement& s) const { return statements.scopes[at(s.scope)]; }
   /// Is the body to be followed through finite rotations?
   bool is_finite() const;
+  /// Is there a step in which plastic work heats?
+  bool heats() const;
   /// Is there a step of Abaqus' explicit program?
   bool is_explicit_abaqus() const;
   /// The cells that parts are made of.

@@ -303,6 +303,15 @@ TEST(Translate, AllFindingsOfADeckAreSaidAtOnce) {
   EXPECT_EQ(count(what, "\n  x.inp:"), 7U) << what;
 }
 
+/// Each line of a keyword is looked at, whatever the others are.
+TEST(Translate, AllLinesOfAKeywordAreLookedAt) {
+  std::string deck = replaced(good_deck, "FALLING, 3, -1000.\n", "FALLNG, 3, -1000.\n99, 3, 1.\n");
+  deck = replaced(deck, "FOOT, FLOOR\n", "FEET, FLOOR\nFOOT, GROUND\n");
+  const std::string what = message_of(deck);
+  for (const char* finding : {"found \"FALLNG\"", "found \"99\"", "found \"FEET\"", "found \"GROUND\""})
+    EXPECT_NE(what.find(finding), std::string::npos) << finding << " in " << what;
+}
+
 /// What is wrong with nodes or sets is said with the findings of the survey, the materials and the steps.
 TEST(Translate, AWrongMeshHidesNoKeyword) {
   std::string deck = replaced(good_deck, "LOWER, S2", "LOWR, S2");
