@@ -51,6 +51,12 @@ std::vector<std::string_view> split_at_commas(std::string_view text) {
   return pieces;
 }
 
+std::string without_quotes(std::string_view text) {
+  std::string bare(text);
+  std::erase(bare, '"');
+  return bare;
+}
+
 /// Reads one file after the other, included ones in their place.
 class DeckReader {
  public:
@@ -117,15 +123,12 @@ class DeckReader {
     const std::size_t equals = text.find('=');
     const std::string name = upper_case(trimmed(text.substr(0, equals)));
     std::string_view value = equals == std::string_view::npos ? "" : trimmed(text.substr(equals + 1));
-    if (value.starts_with('"')) {
-      if (value.size() < 2 || !value.ends_with('"'))
-        keyword.fail(printable(value), "a closing quotation mark", "Names with blanks stand in \"quotes\".");
-      value = value.substr(1, value.size() - 2);
-    }
-    const auto is_plain = [](char c) { return c >= 32 && c < 127 && c != '"'; };
+    if (std::ranges::count(value, '"') % 2 != 0)
+      keyword.fail(printable(value), "a closing quotation mark", "Names with blanks stand in \"quotes\".");
+    const auto is_plain = [](char c) { return c >= 32 && c < 127; };
     if (!std::all_of(value.begin(), value.end(), is_plain) || !std::all_of(name.begin(), name.end(), is_plain))
       keyword.fail(printable(text), "letters of ASCII", "Rename it.");
-    return {entry != nullptr ? parameter_name(*entry, name) : without_blanks(name), std::string(value)};
+    return {entry != nullptr ? parameter_name(*entry, name) : without_blanks(name), without_quotes(value)};
   }
 
   void include_file(const DeckKeyword& keyword) {
@@ -155,6 +158,10 @@ std::string upper_case(std::string_view text) {
   for (char& c : upper)
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   return upper;
+}
+
+std::string deck_name(std::string_view text) {
+  return upper_case(without_quotes(text));
 }
 
 const std::string* DeckKeyword::parameter(std::string_view wanted) const {

@@ -359,7 +359,8 @@ class DeckMeshReader {
     static const std::set<std::string> by_number{"BOUNDARY", "CLOAD", "INITIAL CONDITIONS"};
     for (const auto& [name, nodes] : node_sets_.all()) add_nodes(name, nodes);
     for (const Statement& s : statements_.list) {
-      if (const std::string* node = s.keyword->parameter("REF NODE")) add_node(s, *node);
+      for (const char* const name : {"REF NODE", "ROT NODE"})
+        if (const std::string* node = s.keyword->parameter(name)) add_node(s, *node);
       if (s.keyword->name == "EQUATION") add_nodes_of_equations(s);
       if (by_number.count(s.keyword->name) == 0) continue;
       for (DeckCursor at(*s.keyword); at.next_line();) add_node(s, at.field());
@@ -385,7 +386,7 @@ class DeckMeshReader {
   }
 
   void add_node(const Statement& s, std::string_view number) {
-    const std::string key = scope(s).prefix + upper_case(number);
+    const std::string key = scope(s).prefix + deck_name(number);
     if (names_.node_sets.count(key) != 0) return;
     const std::vector<Index>* nodes = node_sets_.entries(key, 0, statements_);
     if (nodes != nullptr && nodes->size() == 1) add_nodes(key, *nodes);
@@ -417,7 +418,7 @@ class DeckMeshReader {
   void make_loaded_faces(const Statement& s) {
     for (DeckCursor at(*s.keyword); at.next_line();) {
       DeckCursor peek = at;
-      const std::string set = upper_case(peek.field()), label = upper_case(peek.field());
+      const std::string set = deck_name(peek.field()), label = upper_case(peek.field());
       if (label == "GRAV") group_element(at, s, set);
       if (label.size() != 2 || label[0] != 'P' || label[1] < '1' || label[1] > '6') continue;
       const std::string key = scope(s).prefix + set + " " + label;

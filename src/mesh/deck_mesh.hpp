@@ -64,7 +64,7 @@ std::string rigid_side_of(const DeckScope& scope, const std::string& set);
 /// before it, or else as it stands.
 template <class Map>
 std::string key_of(const Map& names, const DeckScope& scope, std::string_view text) {
-  const std::string name = upper_case(text);
+  const std::string name = deck_name(text);
   if (names.count(scope.prefix + name) != 0) return scope.prefix + name;
   return names.count(name) != 0 ? name : std::string();
 }

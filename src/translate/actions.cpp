@@ -163,6 +163,10 @@ class Actions {
               double value, bool is_named) {
     static const std::map<std::string, std::string> keys{
         {"DISPLACEMENT", "displacement"}, {"VELOCITY", "velocity"}, {"ACCELERATION", "acceleration"}};
+    if (DeckRigidBody* const body = turned_by(t_, group)) {
+      if (dof > 3) at.fail(fmt::format("degree of freedom {} of a ROT NODE", dof), "1, 2 or 3: turns about the axes");
+      return act(at, {"BOUNDARY", body->node, keys.at(what), dof + 2, {}, at.where(), {}, nullptr, body}, step, value);
+    }
     Acting wanted{"BOUNDARY", group, keys.at(what), dof - 1, {}, at.where(), {}, nullptr, nullptr};
     const std::vector<DeckRigidBody*> bodies = referred_to(t_, group);
     for (DeckRigidBody* body : bodies) {
@@ -188,7 +192,7 @@ class Actions {
   }
 
   void distributed(DeckCursor& at, const Statement& s, std::size_t step) {
-    const std::string target(at.field()), label = upper_case(at.field());
+    const std::string target = deck_name(at.field()), label = upper_case(at.field());
     if (label == "GRAV") return gravity(at, s, step, target);
     const std::string key = key_of(t_.mesh.names.loaded_faces, t_.scope(s), target + " " + label);
     if (key.empty()) {

@@ -88,7 +88,8 @@ A `*RIGID BODY` of faces (R3D3, R3D4, in the plane R2D2, around an axis RAX2) is
   `*INITIAL CONDITIONS` may give its velocity and angular velocity (degrees of freedom 4 to 6, or `ROTATING VELOCITY`).
 
 What is neither is refused: a node that is free along or about some of the axes only, or held in its place and, with a
-`*ROTARY INERTIA`, free to turn.
+`*ROTARY INERTIA`, free to turn. One with a `*MASS` that is held along some axes, as of a guided hammer, may be accepted: it is
+free along all of them.
 
 In a pair it is met from the side of its normal: by the right-hand rule, of R2D2 and RAX2 a quarter turn counter-clockwise
 from the first node to the second; `SNEG` names the other side. What would pass from behind is refused. Of R3D3 and

@@ -23,9 +23,13 @@ struct GroupVelocity {
 void read_velocity(Translation& t, const Statement& s, DeckCursor& at, std::vector<GroupVelocity>& all) {
   const std::string target(at.field());
   const std::string group = t.node_group(at, s, target);
-  const std::int64_t dof = at.integer("the degree of freedom");
+  std::int64_t dof = at.integer("the degree of freedom");
   const double value = at.real("the velocity");
-  const std::vector<DeckRigidBody*> bodies = referred_to(t, group);
+  std::vector<DeckRigidBody*> bodies = referred_to(t, group);
+  if (DeckRigidBody* const body = turned_by(t, group); body != nullptr && dof >= 1 && dof <= 3) {
+    bodies = {body};
+    dof += 3;
+  }
   if (dof < 1 || dof > (bodies.empty() ? 3 : 6))
     at.fail(fmt::format("degree of freedom {}", dof), bodies.empty() ? "1, 2 or 3" : "1 to 6");
   for (DeckRigidBody* body : bodies) {

@@ -17,6 +17,9 @@ std::vector<DeckRigidBody> rigid_bodies_of(const Translation& t);
 /// The bodies whose reference nodes are the nodes of the group; none where it has other nodes too.
 std::vector<DeckRigidBody*> referred_to(Translation& t, const std::string& node_group);
 
+/// The body whose turns are the displacements of the one node of the group, or nullptr.
+DeckRigidBody* turned_by(Translation& t, const std::string& node_group);
+
 /// The body that all cells of the group belong to, or nullptr.
 DeckRigidBody* body_of_cells(Translation& t, const std::string& cell_group);
 

@@ -204,7 +204,7 @@ const std::vector<Spoiled> spoiled_decks{
      "hold nodes of others: give the faces cells behind them."},
     {"rigid_two_sets_of_nodes", "*STEP\n",
      "*RIGID BODY, ELSET=UPPER, REF NODE=11, TIE NSET=BASE, PIN NSET=BASE\n*STEP\n",
-     ":52: *RIGID BODY: found TIE NSET beside PIN NSET; expected one of them. Join both sets in one *NSET."},
+     ":52: *RIGID BODY: found PIN NSET beside another set of nodes; expected one of them. Join both sets in one *NSET."},
     {"rigid_two_bodies", "*STEP\n",
      "*RIGID BODY, ELSET=UPPER, REF NODE=11\n*RIGID BODY, ELSET=LOWER, REF NODE=11\n*STEP\n",
      ":53: *RIGID BODY: found the reference node of UPPER for LOWER; expected a reference node for each body. Bodies "

@@ -72,6 +72,23 @@ const CaseFunction& function_named(const Case& made, const std::string& name) {
   return *found;
 }
 
+/// A free body moves along all axes: what guides it is lost where that is accepted.
+TEST(Translate, AGuidedRigidSurfaceIsFreeWhereThatIsAccepted) {
+  const std::string mass = "*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n*MASS, ELSET=M\n2.5\n*BOUNDARY\n99, 1, 2\n99, 4, 6\n";
+  const std::string deck = replaced(with_rigid_wall(mass), "FALLING, 3, -1000.", "FALLING, 3, -1000.\n99, 3, 20.");
+  const std::string refused = message_of(deck);
+  EXPECT_NE(refused.find("*RIGID BODY: a reference node with a *MASS that is held along 2 of 3 axes. It would be free"),
+            std::string::npos)
+      << refused;
+  const Case made = case_from(deck, {"RIGID BODY"});
+  EXPECT_EQ(*made.contacts[0].obstacle()->body.mass, 2.5);
+  EXPECT_EQ(*made.contacts[0].obstacle()->velocity, (Vec3{0.0, 0.0, 20.0}));
+  const std::string led = replaced(deck, "*BOUNDARY\n99, 1, 2\n", "*BOUNDARY, TYPE=VELOCITY\n99, 1, 2, 5.\n");
+  EXPECT_NE(message_of(led, {"RIGID BODY"}).find("found a reference node that is held along 2 of 3 axes"),
+            std::string::npos)
+      << message_of(led, {"RIGID BODY"});
+}
+
 /// Abaqus keyword *RIGID BODY: POSITION=CENTER OF MASS moves the reference node there. The mass of a surface of faces
 /// is that of its reference node, which stays.
 TEST(Translate, APositionAtTheCentreOfMassIsThatOfASurface) {
