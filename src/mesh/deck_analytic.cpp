@@ -53,6 +53,9 @@ void append_arc(DeckCursor& at, Profile& to) {
   const double first = std::atan2(from[1] - centre[1], from[0] - centre[0]);
   const double whole = 2.0 * std::numbers::pi;
   const double sweep = std::remainder(std::atan2(end[1] - centre[1], end[0] - centre[0]) - first, whole);
+  constexpr double widest = 179.74 * std::numbers::pi / 180.0;  // of Abaqus
+  if (std::abs(sweep) > widest)
+    at.fail("an arc of half a circle", "one of less than 179.74 degrees", "Write two: which way it goes is open.");
   constexpr double piece = std::numbers::pi / 60.0;
   const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / piece - 1e-9)));
   for (int i = 1; i < pieces; ++i) {
