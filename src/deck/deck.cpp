@@ -113,10 +113,34 @@ class DeckReader {
     if (keyword.name.empty()) throw CaseError(where, "", "a * alone", "a keyword such as *NODE");
     for (std::size_t i = 1; i < pieces.size(); ++i)
       if (!pieces[i].empty()) keyword.parameters.push_back(parameter(pieces[i], entry, keyword));
-    if (keyword.name == "INCLUDE")
-      include_file(keyword);
-    else
-      deck_.keywords.push_back(std::move(keyword));
+    if (keyword.name == "INCLUDE") return include_file(keyword);
+    take_data_of_file(keyword);
+    deck_.keywords.push_back(std::move(keyword));
+  }
+
+  /// INPUT names a file of the keyword's data lines.
+  void take_data_of_file(DeckKeyword& keyword) {
+    const auto input = std::ranges::find(keyword.parameters, "INPUT", &DeckParameter::name);
+    if (input == keyword.parameters.end() || input->value.empty()) return;
+    const std::string path = path_of(input->value, keyword);
+    deck_.files.push_back(std::make_unique<Deck::File>(Deck::File{path, include_(path, keyword.where)}));
+    const Deck::File& file = *deck_.files.back();
+    int line = 1;
+    for (std::size_t at = 0; at < file.bytes.size(); ++line) {
+      const std::string_view content = trimmed(take_line(file.bytes, at));
+      if (content.starts_with('*') && !is_comment(content))
+        throw CaseError({path, line, 0}, "*" + keyword.name, printable(content), "data lines alone",
+                        "A file with keywords stands in *INCLUDE.");
+    }
+    keyword.data.push_back({&file.name, 1, file.bytes});
+    keyword.parameters.erase(input);
+  }
+
+  /// Counts from the folder of the file that the keyword stands in.
+  static std::string path_of(const std::string& input, const DeckKeyword& keyword) {
+    const std::filesystem::path path(input);
+    const auto folder = std::filesystem::path(keyword.where.file).parent_path();
+    return (path.is_absolute() ? path : folder / path).string();
   }
 
   static DeckParameter parameter(std::string_view text, const KeywordEntry* entry, const DeckKeyword& keyword) {
@@ -139,9 +163,7 @@ class DeckReader {
     if (++depth_ > deepest)
       keyword.fail(fmt::format("files included {} deep", depth_), fmt::format("at most {}", deepest),
                    "Does a file include itself?");
-    const std::filesystem::path path(*input);
-    const auto folder = std::filesystem::path(keyword.where.file).parent_path();
-    const std::string whole = (path.is_absolute() ? path : folder / path).string();
+    const std::string whole = path_of(*input, keyword);
     read(include_(whole, keyword.where), whole);
     --depth_;
   }

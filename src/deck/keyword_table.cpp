@@ -173,7 +173,6 @@ constexpr std::array<KeywordEntry, 167> kKeywords{{
     {.name = "ENERGY PRINT", .use = output, .noted = "*", .meaning = "Energies are in energy.csv."},
     {.name = "EQUATION",
      .use = model,
-     .parameters = "INPUT",
      .meaning =
          "A linear homogeneous equation between displacements; the first term is the dependent one. Sets are matched by "
          "the places of their nodes."},
@@ -321,8 +320,8 @@ constexpr std::array<KeywordEntry, 167> kKeywords{{
      .parameters = "NAME,DISTORTION CONTROL,LENGTH RATIO",
      .noted = "*",
      .meaning =
-         "DISTORTION CONTROL=YES: distortion_control of the parts that name it, LENGTH RATIO or 0.1. Hourglass control is "
-         "Carom's own (part.hourglass)."},
+         "DISTORTION CONTROL=YES: distortion_control of the parts that name it, LENGTH RATIO or 0.1. Factors of the bulk "
+         "viscosities, the fourth and the fifth number, hold; hourglass control is Carom's own (part.hourglass)."},
     {.name = "SECTION FILE", .use = output, .noted = "*", .meaning = "Results over sections."},
     {.name = "SECTION PRINT", .use = output, .noted = "*", .meaning = "Results over sections."},
     {.name = "SELECT CYCLIC SYMMETRY MODES", .use = refused, .meaning = "The step is left out."},
@@ -364,9 +363,9 @@ constexpr std::array<KeywordEntry, 167> kKeywords{{
     {.name = "SUBSTRUCTURE OUTPUT", .use = output, .noted = "*", .meaning = "Matrices of the other program."},
     {.name = "SURFACE",
      .use = mesh,
-     .parameters = "NAME,TYPE,INTERNAL",
+     .parameters = "NAME,TYPE,COMBINE,INTERNAL",
      .meaning =
-         "TYPE=ELEMENT: a group of faces; TYPE=NODE: a group of nodes; SEGMENTS, CYLINDER, REVOLUTION: an analytical rigid "
+         "TYPE=ELEMENT: a group of faces; TYPE=NODE: a group of nodes; COMBINE=UNION of others; SEGMENTS, CYLINDER, REVOLUTION: an analytical rigid "
          "surface, as faces."},
     {.name = "SURFACE BEHAVIOR",
      .use = model,

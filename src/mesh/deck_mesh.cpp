@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <utility>
@@ -243,6 +244,7 @@ class DeckMeshReader {
     const std::string name = scope(s).prefix + keyword.required("NAME");
     const std::string* given = keyword.parameter("TYPE");
     const std::string type = given == nullptr ? "ELEMENT" : upper_case(*given);
+    if (keyword.has("COMBINE")) return unite_surfaces(s, name);
     if (type == "NODE") {
       read_node_surface(s, name);
     } else if (type == "ELEMENT") {
@@ -263,6 +265,27 @@ class DeckMeshReader {
       mesh_.report.notes.push_back(
           fmt::format("{}: the surface {} of TYPE={} is no mesh; left out", to_string(keyword.where), name, type));
     }
+  }
+
+  /// COMBINE=UNION of surfaces of faces that stand before it, each face once.
+  void unite_surfaces(const Statement& s, const std::string& name) {
+    const DeckKeyword& keyword = *s.keyword;
+    if (keyword.required("COMBINE") != "UNION")
+      keyword.fail("COMBINE=" + keyword.required("COMBINE"), "UNION", "Write the faces that are meant.");
+    std::vector<CellRef> all;
+    for (DeckCursor at(keyword); at.next_line();)
+      while (!at.at_end()) {
+        const std::string text(at.field());
+        if (text.empty()) continue;
+        const std::string key = key_of(names_.surfaces, scope(s), text);
+        if (key.empty() || names_.surfaces.at(key).kind != DeckNames::SurfaceKind::faces)
+          at.fail(printable(text), "the NAME of a *SURFACE of faces before this one");
+        std::ranges::copy(surface_cells_[key], std::back_inserter(all));
+      }
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    names_.surfaces[name] = {name, DeckNames::SurfaceKind::faces, name};
+    surface_cells_[name] = std::move(all);
   }
 
   /// Returns how far the faces are from the surface.

@@ -138,8 +138,9 @@ struct RateCurves {
 
 /// The curve times 1 + (rate / D)^(1 / n) (G. R. Cowper and P. S. Symonds, 1957), at rates that double from 1e-9 to 1e4
 /// times D; between them it is below by less than 1.5 % of what the rate adds, the most at n = 2.
-void add_power_law(const DeckKeyword& dependent, const HardeningCurve& curve, const Location& where, RateCurves& to) {
-  const std::vector<double> v = values_of(dependent, 2, "the multiplier D, the exponent n");
+void add_power_law(Translation& t, const std::string& material, const DeckKeyword& dependent,
+                   const HardeningCurve& curve, const Location& where, RateCurves& to) {
+  const std::vector<double> v = values_at_start(t, material, dependent, 2, 2, "the multiplier D, the exponent n");
   if (!(v[0] > 0.0) || !(v[1] >= 1.0))
     dependent.fail(fmt::format("D = {:g}, n = {:g}", v[0], v[1]), "D > 0 and n of at least 1");
   to.add(0.0, curve, 1.0, where);
@@ -164,7 +165,7 @@ RateCurves rate_curves_of(Translation& t, const MaterialKeywords& m) {
     const HardeningCurve curve = curve_at_start(t, m.name(), *m.plastic.front());
     const Location& where = m.plastic.front()->where;
     if (kind == "POWERLAW")
-      add_power_law(*dependent, curve, where, curves);
+      add_power_law(t, m.name(), *dependent, curve, where, curves);
     else if (kind == "YIELDRATIO")
       add_yield_ratios(*dependent, curve, where, curves);
     else
@@ -365,8 +366,10 @@ std::array<double, 2> bulk_viscosity(Translation& t) {
     const DeckKeyword& keyword = *t.statements.list[i].keyword;
     if (keyword.name != "BULK VISCOSITY") continue;
     if (given.empty() && has_own && t.steps.size() > 1 && i > t.steps[1].begin) given.push_back(without_keyword);
-    const std::vector<double> v = values_of(keyword, 1, "linear, quadratic bulk viscosity");
-    given.push_back({v[0], v.size() > 1 ? v[1] : 0.0});
+    DeckCursor at(keyword);
+    at.next_line();
+    const double linear = at.real_or(without_keyword[0], "the linear bulk viscosity");
+    given.push_back({linear, at.real_or(without_keyword[1], "the quadratic bulk viscosity")});
     last = &keyword;
   }
   if (std::ranges::adjacent_find(given, std::ranges::not_equal_to{}) != given.end())
@@ -398,6 +401,23 @@ std::optional<double> distortion_control(Translation& t, const DeckKeyword& sect
   return std::nullopt;
 }
 
+/// What the fourth and the fifth number of the *SECTION CONTROLS that a section names are: factors of the linear and
+/// the quadratic bulk viscosity.
+std::array<double, 2> viscosity_factors(const Translation& t, const DeckKeyword& section) {
+  std::array<double, 2> factors{1.0, 1.0};
+  const std::string* name = section.parameter("CONTROLS");
+  for (const Statement& s : t.statements.list) {
+    const DeckKeyword& controls = *s.keyword;
+    if (name == nullptr || controls.name != "SECTION CONTROLS" || controls.required("NAME") != upper_case(*name))
+      continue;
+    DeckCursor at(controls);
+    if (!at.next_line()) continue;
+    for (int i = 0; i < 3; ++i) at.field();  // of hourglass control
+    for (double& factor : factors) factor = at.real_or(1.0, "a factor of the bulk viscosity");
+  }
+  return factors;
+}
+
 /// Can one part have the elements of all types of a set? Its formulation is for the cells that have it.
 bool are_of_one_part(const std::vector<DeckNames::Cells>& set) {
   const auto may_stand_beside = [](const DeckElementType& a, const DeckElementType& b) {
@@ -423,7 +443,8 @@ struct OfSections {
 };
 
 void translate_section(Translation& t, const Statement& s, const OfSections& shared) {
-  const std::array<double, 2>& viscosity = shared.viscosity;
+  std::array<double, 2> viscosity = viscosity_factors(t, *s.keyword);
+  for (std::size_t i = 0; i < viscosity.size(); ++i) viscosity[i] *= shared.viscosity[i];
   const DeckKeyword& keyword = *s.keyword;
   const std::string set = keyword.required("ELSET"), material = keyword.required("MATERIAL");
   const std::string key = key_of(t.mesh.names.element_sets, t.scope(s), set);

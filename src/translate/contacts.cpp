@@ -32,6 +32,9 @@ void read_behavior(Translation& t, const DeckKeyword& keyword, Interaction& to) 
     to.stiffness = slope;
     return;
   }
+  if (kind == "TIED")
+    return t.findings.refuse(keyword, keyword.where, "PRESSURE-OVERCLOSURE=TIED",
+                             "The surfaces would slide and part: write *TIE.");
   t.findings.refuse(keyword, keyword.where, "PRESSURE-OVERCLOSURE=" + kind,
                     "Contact would have the stiffness that Carom chooses from the material and the cells.");
 }

@@ -42,7 +42,7 @@ and surfaces of them) is not looked at. `--accept` takes names of keywords alone
 Upper and lower case are the same, blanks in keywords do not count, keywords and parameters may be shortened where the
 beginning (four letters, three of a parameter) fits one name only. Keyword lines that end with a comma go on; `**` begins a
 comment; exponents may be written with `D`; names with blanks stand in quotes; `*INCLUDE` counts from the folder of the
-file that it stands in. Parts may be used by several instances, shifted and turned; numbers restart in every part, and in
+file that it stands in, as `INPUT` of other keywords does, a file of their data lines. Parts may be used by several instances, shifted and turned; numbers restart in every part, and in
 Carom the numbers of an instance count on from the largest before it. Names and numbers of an instance are written
 `INSTANCE.NAME`. Sets given several times are united. Names come out in upper case.
 

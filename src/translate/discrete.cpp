@@ -144,7 +144,10 @@ void translate_mass(Translation& t, const Statement& s) {
   if (!at.next_line()) s.keyword->fail("no data", "the mass");
   const double value = at.real("the mass");
   const std::vector<DeckRigidBody*> bodies = referred_to(t, t.mesh.names.masses.at(key));
-  for (DeckRigidBody* body : bodies) body->mass = value, body->mass_keyword = s.keyword;
+  for (DeckRigidBody* body : bodies) {
+    body->mass = body->mass.value_or(0.0) + value;
+    body->mass_keyword = s.keyword;
+  }
   if (!bodies.empty()) return;
   TableMaker mass(s.keyword->where);
   mass.text("nodes", t.mesh.names.masses.at(key)).number("mass", value);
@@ -166,7 +169,10 @@ void translate_inertia(Translation& t, const Statement& s) {
     at.fail("an inertia in an instance that is turned", "one in an instance that is shifted alone",
             "Its axes turn with the instance: give the inertia in the assembly, about its axes.");
   const std::vector<DeckRigidBody*> bodies = referred_to(t, t.mesh.names.inertias.at(key));
-  for (DeckRigidBody* body : bodies) body->inertia = inertia;
+  for (DeckRigidBody* body : bodies) {
+    const DeckRigidBody::Inertia before = body->inertia.value_or(DeckRigidBody::Inertia{});
+    body->inertia = {&keyword, add(inertia.moments, before.moments), add(inertia.products, before.products)};
+  }
   if (bodies.empty())
     t.findings.refuse(keyword, keyword.where, "an inertia of nodes that no *RIGID BODY refers to",
                       "It would be left out.");

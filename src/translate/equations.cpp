@@ -82,8 +82,6 @@ void translate_equations(Translation& t) {
   for (std::size_t i = 0; i < t.statements.list.size(); ++i) {
     const Statement& s = t.statements.list[i];
     if (s.keyword->name != "EQUATION") continue;
-    if (const std::string* input = s.keyword->parameter("INPUT"))
-      t.findings.refuse(*s.keyword, s.keyword->where, "INPUT=" + *input, "What the other file says would not hold.");
     if (!t.steps.empty() && i > t.steps[0].begin)
       t.findings.refuse(*s.keyword, s.keyword->where, "an equation within a step", "It would be there from the start.");
     t.errors.attempt([&] { translate_equation(t, s); });

@@ -63,6 +63,26 @@ TEST(TranslateContacts, TwoChosenSurfacesHaveAnInteractionOfTheirOwn) {
   EXPECT_EQ(made.contacts[1].law()->friction, 0.2);
 }
 
+/// Abaqus keyword *SURFACE: COMBINE=UNION has the faces of all surfaces that its lines name.
+TEST(TranslateContacts, AUnionOfSurfacesHasTheFacesOfAll) {
+  const std::string deck =
+      replaced(good_deck, "*MATERIAL", "*SURFACE, NAME=BOTH, COMBINE=UNION\nFOOT, FLOOR\nFOOT\n*MATERIAL");
+  EXPECT_EQ(read_deck_mesh(deck, "x.inp", test::no_file).cell_groups.at("BOTH").size(), 2U);
+  EXPECT_EQ(case_from(replaced(deck, "\nFOOT, FLOOR\n*AMPL", "\nBOTH,\n*AMPL")).contacts.size(), 1U);
+  EXPECT_NE(message_of(replaced(deck, "UNION", "DIFFERENCE")).find("found COMBINE=DIFFERENCE; expected UNION"),
+            std::string::npos);
+  EXPECT_NE(message_of(replaced(deck, "FOOT, FLOOR\nFOOT", "FOOT, ROOF")).find("*SURFACE: found 'ROOF'"),
+            std::string::npos);
+}
+
+/// CalculiX' PRESSURE-OVERCLOSURE=TIED holds the surfaces together.
+TEST(TranslateContacts, TiedContactIsNoContact) {
+  const std::string refused = message_of(replaced(good_deck, "OVERCLOSURE=LINEAR", "OVERCLOSURE=TIED"));
+  EXPECT_NE(refused.find("PRESSURE-OVERCLOSURE=TIED. The surfaces would slide and part: write *TIE."),
+            std::string::npos)
+      << refused;
+}
+
 TEST(TranslateContacts, GeneralContactThatIsNotPairsIsRefused) {
   EXPECT_NE(message_of(generally("*CONTACT INCLUSIONS\n, FLOOR\n")).find("found contact of all with chosen surfaces"),
             std::string::npos);

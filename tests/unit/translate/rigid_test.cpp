@@ -55,6 +55,19 @@ TEST(Translate, AFreeRigidSurfaceHasTheMassOfItsReferenceNode) {
   EXPECT_EQ(made.initial.size(), 1U);
 }
 
+/// Abaqus Analysis User's Guide, "Point masses" and "Rotary inertia": what several elements bring to a node adds up.
+TEST(Translate, MassesAndInertiasOfAReferenceNodeAddUp) {
+  const std::string masses =
+      "*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n*MASS, ELSET=M\n2.5\n*ELEMENT, TYPE=MASS, ELSET=N\n51, 99\n*MASS, "
+      "ELSET=N\n0.5\n*ELEMENT, TYPE=ROTARYI, ELSET=R\n52, 99\n*ROTARY INERTIA, ELSET=R\n4., 5., 6., 0.1\n*ELEMENT, "
+      "TYPE=ROTARYI, ELSET=S\n53, 99\n*ROTARY INERTIA, ELSET=S\n1., 1., 1., 0.2\n";
+  const Case made =
+      case_from(replaced(with_rigid_wall(masses), "FALLING, 3, -1000.", "FALLING, 3, -1000.\n99, 3, 20."));
+  EXPECT_EQ(*made.contacts[0].obstacle()->body.mass, 3.0);
+  EXPECT_EQ(**made.contacts[0].obstacle()->body.inertia, (Vec3{5.0, 6.0, 7.0}));
+  EXPECT_DOUBLE_EQ((*made.contacts[0].obstacle()->body.products_of_inertia)[0], 0.3);
+}
+
 TEST(Translate, AReferenceNodeThatIsNotHeldIsRefused) {
   EXPECT_THROW(case_from(with_rigid_wall("*BOUNDARY\n99, 3\n")), CaseError);
 }
