@@ -253,7 +253,7 @@ class DeckMeshReader {
         const std::vector<Index> elements = elements_named(at, s.scope);
         std::string label = upper_case(at.field());
         if (label.empty() && are_rigid(elements)) {
-          label = looks_at_bodies(elements) ? "SPOS" : "SNEG";
+          label = faces_.looks_at_bodies(elements) ? "SPOS" : "SNEG";
           names_.surfaces[name].is_side_chosen = true;
         }
         faces_.append(elements, label, at, surface_cells_[name], next_number_);
@@ -490,10 +490,6 @@ class DeckMeshReader {
     return std::ranges::all_of(elements, [&](Index e) { return elements_[at(e)].type->name.starts_with("R3D"); });
   }
 
-  static bool deforms(const DeckElement& element) {
-    return element.type->kind == DeckElementType::Kind::cell && !element.type->section.empty();
-  }
-
   void add_rigid_side(const Statement& s, const std::string& set, const DeckCursor& at) {
     const std::vector<Index>* found = element_sets_.entries(set, s.scope, statements_);
     if (found == nullptr || found->empty()) return;
@@ -505,34 +501,7 @@ class DeckMeshReader {
     if (!are_faces) return;
     const std::string key = rigid_side_of(scope(s), set);
     names_.surfaces[key] = {key, DeckNames::SurfaceKind::faces, key};
-    faces_.append(elements, looks_at_bodies(elements) ? "SPOS" : "SNEG", at, surface_cells_[key], next_number_);
-  }
-
-  /// Does the SPOS side of that face which is nearest to the middle of the bodies look there?
-  bool looks_at_bodies(const std::vector<Index>& elements) const {
-    Vec3 middle{};
-    double count = 0.0;
-    for (const DeckElement& element : elements_) {
-      if (!deforms(element)) continue;
-      for (const Index n : nodes_of(element)) middle = add(middle, mesh_.coordinates[at(n)]), count += 1.0;
-    }
-    middle = scaled(middle, count > 0.0 ? 1.0 / count : 0.0);
-    double nearest = std::numeric_limits<double>::infinity(), side = 0.0;
-    for (const Index e : elements) {
-      const std::vector<Index> nodes = nodes_of(elements_[at(e)]);
-      Vec3 centre{};
-      for (const Index n : nodes) centre = add(centre, mesh_.coordinates[at(n)]);
-      centre = scaled(centre, 1.0 / static_cast<double>(nodes.size()));
-      const Vec3 along = subtract(mesh_.coordinates[at(nodes[1])], mesh_.coordinates[at(nodes[0])]);
-      const Vec3 normal =
-          nodes.size() == 2 ? Vec3{-along[1], along[0], 0.0}
-                            : cross(along, subtract(mesh_.coordinates[at(nodes[2])], mesh_.coordinates[at(nodes[0])]));
-      const Vec3 there = subtract(middle, centre);
-      if (norm(there) >= nearest) continue;
-      nearest = norm(there);
-      side = dot(normal, there);
-    }
-    return side >= 0.0;
+    faces_.append(elements, faces_.looks_at_bodies(elements) ? "SPOS" : "SNEG", at, surface_cells_[key], next_number_);
   }
 
   void name_surfaces() {
