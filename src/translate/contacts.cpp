@@ -186,6 +186,7 @@ void translate_pairs(Translation& t, const std::map<std::string, Interaction>& a
 
 /// A line of *CONTACT PROPERTY ASSIGNMENT; without surfaces it is for all.
 struct Assignment {
+  const DeckKeyword* keyword = nullptr;
   std::string first, second;
   const Interaction* interaction = nullptr;
   DeckCursor at;
@@ -209,7 +210,7 @@ std::vector<Assignment> assignments_of(Translation& t, const std::map<std::strin
     for (DeckCursor at(keyword); at.next_line();) {
       const std::string first = upper_case(at.field()), second = upper_case(at.field());
       assignments.push_back(
-          {first, second.empty() ? first : second, &interaction(all, upper_case(at.field()), at), at});
+          {&keyword, first, second.empty() ? first : second, &interaction(all, upper_case(at.field()), at), at});
     }
   }
   return assignments;
@@ -236,9 +237,13 @@ void translate_general(Translation& t, const std::map<std::string, Interaction>&
   const DeckKeyword& inclusions = *s.keyword;
   const std::vector<Assignment> assignments = assignments_of(t, all);
   if (!inclusions.has("ALL EXTERIOR")) return translate_inclusions(t, assignments, s);
-  const auto single = std::ranges::find_if_not(assignments, &Assignment::is_for_all);
-  if (single != assignments.end()) single->at.fail("an interaction of single surfaces", "one for all: , , NAME");
-  const Interaction of = assignments.empty() ? Interaction{} : *assignments.back().interaction;
+  Interaction of;
+  for (const Assignment& assignment : assignments)
+    if (assignment.is_for_all())
+      of = *assignment.interaction;
+    else
+      t.findings.refuse(*assignment.keyword, assignment.at.where(), "an interaction of single surfaces",
+                        "That of all surfaces would hold, or none where none is given.");
   TableMaker contact(inclusions.where);
   contact.text("name", "general contact").text("kind", "all").text("initial_penetration", "offset");
   add_interaction(of, contact);

@@ -89,8 +89,11 @@ TEST(TranslateContacts, GeneralContactThatIsNotPairsIsRefused) {
   EXPECT_NE(message_of(generally("*CONTACT INCLUSIONS\n")).find("*CONTACT INCLUSIONS: found no surfaces"),
             std::string::npos);
   const std::string all = "*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n";
-  EXPECT_NE(message_of(generally(all + "FOOT, FLOOR, I\n")).find("found an interaction of single surfaces"),
-            std::string::npos);
+  const std::string single = generally(all + "FOOT, FLOOR, I\n");
+  EXPECT_NE(message_of(single).find("*CONTACT PROPERTY ASSIGNMENT: an interaction of single surfaces. That of all"),
+            std::string::npos)
+      << message_of(single);
+  EXPECT_EQ(case_from(single, {"CONTACT PROPERTY ASSIGNMENT"}).contacts[0].law()->friction, 0.0);
   const std::string later = message_of(generally(all + ",,I\n") +
                                        "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-3\n*CONTACT PROPERTY ASSIGNMENT\n,,SMOOTH\n"
                                        "*END STEP\n");

@@ -68,6 +68,13 @@ TEST(Translate, MassesAndInertiasOfAReferenceNodeAddUp) {
   EXPECT_DOUBLE_EQ((*made.contacts[0].obstacle()->body.products_of_inertia)[0], 0.3);
 }
 
+TEST(Translate, ARigidSurfaceTakesNoForces) {
+  const std::string deck = replaced(with_rigid_wall("*BOUNDARY\n99, ENCASTRE\n"), "15, 1, 5.", "99, 1, 5.");
+  EXPECT_NE(message_of(deck).find("*CLOAD: found a force on the reference node of the rigid surface LOWER"),
+            std::string::npos)
+      << message_of(deck);
+}
+
 TEST(Translate, AReferenceNodeThatIsNotHeldIsRefused) {
   EXPECT_THROW(case_from(with_rigid_wall("*BOUNDARY\n99, 3\n")), CaseError);
 }

@@ -171,6 +171,21 @@ TEST(Translate, GravityLineByLineIsThatOfAll) {
   EXPECT_EQ(made.loads[0].vector, (Vec3{0.0, 0.0, -9.0}));
 }
 
+/// Abaqus Analysis User's Guide, "Distributed loads": gravity acts on the elements that are named, point masses as
+/// well.
+TEST(Translate, GravityThatLeavesPointMassesOutIsRefused) {
+  const std::string deck = replaced(good_deck, "*SURFACE INTERACTION",
+                                    "*ELEMENT, TYPE=MASS, ELSET=M\n50, 15\n*MASS, ELSET=M\n2.5\n*SURFACE INTERACTION");
+  const std::string cells = replaced(deck, "*CLOAD, AMPLITUDE=A\n15, 1, 5.\n",
+                                     "*DLOAD\nLOWER, GRAV, 9810., 0., 0., -1.\nUPPER, GRAV, 9810., 0., 0., -1.\n");
+  const std::string refused = message_of(cells);
+  EXPECT_NE(refused.find("*DLOAD: gravity on cells and not on all point masses. It would act on these, too."),
+            std::string::npos)
+      << refused;
+  const std::string all = replaced(cells, "*END STEP", "*DLOAD\nM, GRAV, 9810., 0., 0., -1.\n*END STEP");
+  EXPECT_EQ(case_from(all).loads.size(), 1U);
+}
+
 TEST(Translate, SupportsAndContactOfLaterStepsAreRefusedUnlessAccepted) {
   const std::string second = "*STEP\n*STATIC\n1., 1.\n";
   EXPECT_THROW(case_from(good_deck + second + "*BOUNDARY\nFALLING, 1\n*END STEP\n"), CaseError);
