@@ -169,13 +169,14 @@ class Actions {
       return act(at, {"BOUNDARY", body->node, keys.at(what), dof + 2, {}, at.where(), {}, nullptr, body}, step, value);
     }
     Acting wanted{"BOUNDARY", group, keys.at(what), dof - 1, {}, at.where(), {}, nullptr, nullptr};
-    const std::vector<DeckRigidBody*> bodies = referred_to(t_, group);
-    for (DeckRigidBody* body : bodies) {
-      wanted.group = body->node;
-      wanted.body = body;
-      act(at, wanted, step, value);
+    const Referred of = referred_to(t_, group);
+    for (DeckRigidBody* body : of.bodies) {
+      Acting on_body = wanted;
+      on_body.group = body->node;
+      on_body.body = body;
+      act(at, on_body, step, value);
     }
-    if (!bodies.empty()) return;
+    if (!of.has_others) return;
     if (dof <= 3) return act(at, wanted, step, value);
     if (value != 0.0)
       at.fail(fmt::format("a turn of degree of freedom {}", dof), "1, 2 or 3",
@@ -187,7 +188,7 @@ class Actions {
     const std::string target(at.field());
     const std::string group = t_.node_group(at, s, target);
     const int dof = component(at, at.field());
-    for (const DeckRigidBody* body : referred_to(t_, group))
+    for (const DeckRigidBody* body : referred_to(t_, group).bodies)
       if (body->is_obstacle())
         at.fail(
             "a force on the reference node of the rigid surface " + body->name, "forces on bodies",

@@ -60,7 +60,7 @@ void translate_equation(Translation& t, const Statement& s) {
         target = at.field();
       }
       const std::string nodes = t.node_group(at, s, target);
-      if (!referred_to(t, nodes).empty())
+      if (!referred_to(t, nodes).bodies.empty())
         at.fail(fmt::format("\"{}\", the reference node of a rigid body", target), "nodes of deformable bodies");
       if (terms.empty()) first = nodes;
       refuse_other_order(t, at, first, nodes);

@@ -284,6 +284,12 @@ void add_free_body(Translation& t, DeckRigidBody& body, const Components& compon
   if (body.initial_rotation) contact.vector("angular_velocity", *body.initial_rotation);
 }
 
+bool is_of_cells(const Translation& t, Index node) {
+  return std::ranges::any_of(t.body_cells(), [&](const CellRef& cell) {
+    return std::ranges::count(t.mesh.mesh.blocks[at(cell.block)].nodes(cell.cell), node) != 0;
+  });
+}
+
 }  // namespace
 
 std::vector<DeckRigidBody> rigid_bodies_of(const Translation& t) {
@@ -313,16 +319,19 @@ std::vector<DeckRigidBody> rigid_bodies_of(const Translation& t) {
   return bodies;
 }
 
-std::vector<DeckRigidBody*> referred_to(Translation& t, const std::string& node_group) {
+Referred referred_to(Translation& t, const std::string& node_group) {
   if (t.rigid_bodies.empty()) return {};
-  std::vector<DeckRigidBody*> bodies;
+  Referred referred{{}, false};
   for (const Index node : t.mesh.mesh.nodes_of(node_group)) {
-    const auto found = std::find_if(t.rigid_bodies.begin(), t.rigid_bodies.end(),
-                                    [&](const DeckRigidBody& body) { return body.reference == node; });
-    if (found == t.rigid_bodies.end()) return {};
-    bodies.push_back(&*found);
+    const auto found = std::ranges::find(t.rigid_bodies, node, &DeckRigidBody::reference);
+    if (found == t.rigid_bodies.end())
+      referred.has_others = true;
+    else
+      referred.bodies.push_back(&*found);
   }
-  return bodies;
+  if (referred.has_others)
+    std::erase_if(referred.bodies, [&](const DeckRigidBody* body) { return is_of_cells(t, body->reference); });
+  return referred;
 }
 
 DeckRigidBody* turned_by(Translation& t, const std::string& node_group) {

@@ -68,6 +68,21 @@ TEST(Translate, MassesAndInertiasOfAReferenceNodeAddUp) {
   EXPECT_DOUBLE_EQ((*made.contacts[0].obstacle()->body.products_of_inertia)[0], 0.3);
 }
 
+/// A set of a whole instance has the reference node among others: what it says holds for the body, too.
+TEST(Translate, SetsWithAReferenceNodeAmongOthersSpeakOfTheBody) {
+  const std::string plate = "*NSET, NSET=PLATE\n5, 6, 7, 8, 99, 11\n", mass = "*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n";
+  const Case held = case_from(with_rigid_wall(plate + "*BOUNDARY\nPLATE, ENCASTRE\n"));
+  EXPECT_FALSE(held.contacts[0].obstacle()->body.mass);
+  EXPECT_EQ(held.supports.size(), 3U);  // of node 11
+  const Case flying = case_from(
+      replaced(with_rigid_wall(plate + mass + "*MASS, ELSET=M\n2.5\n"), "FALLING, 3, -1000.", "PLATE, 3, 20."));
+  EXPECT_EQ(*flying.contacts[0].obstacle()->velocity, (Vec3{0.0, 0.0, 20.0}));
+  EXPECT_EQ(flying.initial.size(), 1U);
+  const std::string two = replaced(mass, "50, 99", "50, 99\n51, 11") + "*MASS, ELSET=M\n2.5\n";
+  EXPECT_NE(message_of(with_rigid_wall(two)).find("*MASS: found a set with reference nodes of rigid bodies and other"),
+            std::string::npos);
+}
+
 TEST(Translate, ARigidSurfaceTakesNoForces) {
   const std::string deck = replaced(with_rigid_wall("*BOUNDARY\n99, ENCASTRE\n"), "15, 1, 5.", "99, 1, 5.");
   EXPECT_NE(message_of(deck).find("*CLOAD: found a force on the reference node of the rigid surface LOWER"),
