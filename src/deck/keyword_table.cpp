@@ -75,8 +75,8 @@ constexpr std::array<KeywordEntry, 167> kKeywords{{
      .meaning = "Results of contact are in contact.csv and the fields."},
     {.name = "CONTACT PAIR",
      .use = model,
-     .parameters = "INTERACTION,TYPE,ADJUST",
-     .noted = "SMALL SLIDING,MECHANICAL CONSTRAINT,CPSET,EXTENSION ZONE,OP,TRACKING",
+     .parameters = "INTERACTION,TYPE,ADJUST,OP",
+     .noted = "SMALL SLIDING,MECHANICAL CONSTRAINT,CPSET,EXTENSION ZONE,TRACKING",
      .meaning =
          "Contact of two surfaces, slave and master; sliding is always followed. ADJUST=0: overlaps at the start count as "
          "touching; other values, which close gaps, are refused unless accepted."},
@@ -317,7 +317,7 @@ constexpr std::array<KeywordEntry, 167> kKeywords{{
      .meaning = "Of the reference node of a free rigid body of faces or of nodes, which turns by it."},
     {.name = "SECTION CONTROLS",
      .use = model,
-     .parameters = "NAME,DISTORTION CONTROL,LENGTH RATIO",
+     .parameters = "NAME,DISTORTION CONTROL,LENGTH RATIO,ELEMENT DELETION",
      .noted = "*",
      .meaning =
          "DISTORTION CONTROL=YES: distortion_control of the parts that name it, LENGTH RATIO or 0.1. Factors of the bulk "

@@ -401,6 +401,19 @@ std::optional<double> distortion_control(Translation& t, const DeckKeyword& sect
   return std::nullopt;
 }
 
+/// Cells may be told to stay when their damage is 1.
+void refuse_staying(Translation& t, const DeckKeyword& section) {
+  const std::string* name = section.parameter("CONTROLS");
+  for (const Statement& s : t.statements.list) {
+    const DeckKeyword& controls = *s.keyword;
+    if (name == nullptr || controls.name != "SECTION CONTROLS" || controls.required("NAME") != upper_case(*name))
+      continue;
+    const std::string* deletion = controls.parameter("ELEMENT DELETION");
+    if (deletion != nullptr && upper_case(*deletion) == "NO")
+      t.findings.refuse(controls, controls.where, "ELEMENT DELETION=NO", "Cells would go where their damage is 1.");
+  }
+}
+
 /// What the fourth and the fifth number of the *SECTION CONTROLS that a section names are: factors of the linear and
 /// the quadratic bulk viscosity.
 std::array<double, 2> viscosity_factors(const Translation& t, const DeckKeyword& section) {
@@ -474,6 +487,7 @@ void translate_section(Translation& t, const Statement& s, const OfSections& sha
     if (viscosity[0] != 0.0) part.number("linear_bulk_viscosity", viscosity[0]);
     if (viscosity[1] != 0.0) part.number("quadratic_bulk_viscosity", viscosity[1]);
     t.append("part", part.node());
+    if (shared.breaking.contains(material)) refuse_staying(t, keyword);
     if (shared.breaking.contains(material))
       t.append("erosion", TableMaker(keyword.where).text("part", group).number("damage", 1.0).node());
   };

@@ -298,6 +298,11 @@ void translate_contacts(Translation& t) {
     const Statement& s = t.statements.list[i];
     const bool is_pair = s.keyword->name == "CONTACT PAIR", is_tie = s.keyword->name == "TIE";
     if (!is_pair && !is_tie && s.keyword->name != "CONTACT INCLUSIONS") continue;
+    const std::string* op = s.keyword->parameter("OP");
+    if (is_pair && op != nullptr && upper_case(*op) == "DELETE") {
+      t.findings.refuse(*s.keyword, s.keyword->where, "contact that ends with a step", "It would stay.");
+      continue;
+    }
     if (t.steps.size() > 1 && i > t.steps[1].begin)
       t.findings.refuse(*s.keyword, s.keyword->where, "contact that begins with a later step",
                         "It would be there from the start.");

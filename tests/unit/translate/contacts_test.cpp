@@ -75,6 +75,15 @@ TEST(TranslateContacts, AUnionOfSurfacesHasTheFacesOfAll) {
             std::string::npos);
 }
 
+/// Abaqus keyword *CONTACT PAIR: OP=DELETE ends the contact of a pair with the step before.
+TEST(TranslateContacts, ContactThatEndsStaysWhereThatIsAccepted) {
+  const std::string deck =
+      good_deck + "*STEP\n*DYNAMIC, DIRECT\n1e-6, 1e-3\n*CONTACT PAIR, OP=DELETE\nFOOT, FLOOR\n*END STEP\n";
+  const std::string refused = message_of(deck);
+  EXPECT_NE(refused.find("*CONTACT PAIR: contact that ends with a step. It would stay."), std::string::npos) << refused;
+  EXPECT_EQ(case_from(deck, {"CONTACT PAIR"}).contacts.size(), 1U);
+}
+
 /// CalculiX' PRESSURE-OVERCLOSURE=TIED holds the surfaces together.
 TEST(TranslateContacts, TiedContactIsNoContact) {
   const std::string refused = message_of(replaced(good_deck, "OVERCLOSURE=LINEAR", "OVERCLOSURE=TIED"));

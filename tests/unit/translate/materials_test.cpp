@@ -197,6 +197,22 @@ TEST(Translate, DamageOfJohnsonAndCook) {
   EXPECT_TRUE(case_of(alone.tree, "x.inp").erosion.empty());
 }
 
+/// Abaqus keyword *SECTION CONTROLS: ELEMENT DELETION=NO keeps elements that are broken, YES, the default, does not.
+TEST(Translate, CellsThatAreToStayWhenBrokenAreRefused) {
+  const auto with = [](const std::string& deletion) {
+    const std::string deck = breaking(initiation +
+                                      "*DAMAGE EVOLUTION, TYPE=DISPLACEMENT\n0.\n*SECTION CONTROLS, NAME=C, "
+                                      "ELEMENT DELETION=" +
+                                      deletion + "\n");
+    return replaced(deck, "ELSET=LOWER, MATERIAL=STEEL", "ELSET=LOWER, MATERIAL=STEEL, CONTROLS=C");
+  };
+  const std::string refused = message_of(with("NO"));
+  EXPECT_NE(refused.find("*SECTION CONTROLS: ELEMENT DELETION=NO. Cells would go where their damage is 1."),
+            std::string::npos)
+      << refused;
+  EXPECT_EQ(message_of(with("YES")), "no error");
+}
+
 TEST(Translate, OtherDamageIsRefusedWithItsReason) {
   const auto says = [](const std::string& damage, const std::string& what) {
     EXPECT_NE(message_of(breaking(damage)).find(what), std::string::npos) << message_of(breaking(damage));
