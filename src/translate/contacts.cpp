@@ -290,6 +290,15 @@ void translate_ties(Translation& t, const Statement& s) {
   }
 }
 
+/// Rigid surfaces that no contact names do nothing.
+void leave_unmet(Translation& t) {
+  for (const DeckRigidBody& body : t.rigid_bodies) {
+    if (!body.is_obstacle() || body.contacts > 0) continue;
+    t.findings.note(body.keyword->where, "no contact meets the rigid surface " + body.name);
+    t.leaves_faces = true;
+  }
+}
+
 }  // namespace
 
 void translate_contacts(Translation& t) {
@@ -315,6 +324,7 @@ void translate_contacts(Translation& t) {
         translate_general(t, all, s);
     });
   }
+  if (t.errors.empty()) leave_unmet(t);
 }
 
 }  // namespace carom

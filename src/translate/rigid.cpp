@@ -257,7 +257,7 @@ Vec3 moments_of(const DeckRigidBody& body) {
 
 void add_free_body(Translation& t, DeckRigidBody& body, const Components& components, TableMaker& contact) {
   const DeckKeyword& keyword = *body.keyword;
-  if (++body.contacts > 1)
+  if (body.contacts > 1)
     keyword.fail("a free rigid body in several contacts", "one contact", "A free body belongs to one contact.");
   const Imposed turn = imposed(body, 3);
   if (turn.vector != Vec3{})
@@ -354,6 +354,7 @@ DeckRigidBody* body_of_cells(Translation& t, const std::string& cell_group) {
 }
 
 void add_rigid_motion(Translation& t, DeckRigidBody& body, TableMaker& contact) {
+  ++body.contacts;
   const Components components = components_of(body.space);
   refuse_leaving_space(body, components);
   const std::size_t held = count_imposed(body, components.along), all = components.along.size();

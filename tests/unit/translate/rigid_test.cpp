@@ -68,6 +68,30 @@ TEST(Translate, MassesAndInertiasOfAReferenceNodeAddUp) {
   EXPECT_DOUBLE_EQ((*made.contacts[0].obstacle()->body.products_of_inertia)[0], 0.3);
 }
 
+/// A rigid surface that nothing meets is as good as none; cells have to have a section all the same.
+TEST(Translate, ARigidSurfaceThatNoContactMeetsIsANote) {
+  const std::string deck =
+      replaced(with_rigid_wall("*BOUNDARY\n99, ENCASTRE\n"), "*CONTACT PAIR, INTERACTION=I\nFOOT, FLOOR\n", "");
+  const TranslatedDeck made = translated(deck);
+  EXPECT_TRUE(has_note(made, "no contact meets the rigid surface LOWER"));
+  EXPECT_EQ(case_of(made.tree, "x.inp").mesh.unused, CaseMesh::Unused::ignore);
+  const std::string loose = message_of(
+      replaced(deck, "*NSET, NSET=BASE", "*ELEMENT, TYPE=C3D8, ELSET=MORE\n3,1,2,3,4,5,6,7,8\n*NSET, NSET=BASE"));
+  EXPECT_NE(loose.find("found 1 elements without a section, element 3 the first"), std::string::npos) << loose;
+}
+
+/// Abaqus keyword *DISPLAY BODY: the instance is shown and takes no part.
+TEST(Translate, AnInstanceThatIsShownTakesNoPart) {
+  const std::string deck =
+      "*PART, NAME=P\n*NODE\n1,5,0,0\n2,6,0,0\n3,6,1,0\n4,5,1,0\n5,5,0,1\n6,6,0,1\n7,6,1,1\n8,5,1,1\n"
+      "*ELEMENT, TYPE=C3D8, ELSET=ALL\n1,1,2,3,4,5,6,7,8\n*END PART\n*ASSEMBLY\n*INSTANCE, NAME=I, PART=P\n"
+      "*END INSTANCE\n*DISPLAY BODY, INSTANCE=I\n*END ASSEMBLY\n" +
+      good_deck;
+  const Case made = case_from(deck);
+  EXPECT_EQ(made.parts.size(), 2U);
+  EXPECT_EQ(made.mesh.unused, CaseMesh::Unused::ignore);
+}
+
 /// A set of a whole instance has the reference node among others: what it says holds for the body, too.
 TEST(Translate, SetsWithAReferenceNodeAmongOthersSpeakOfTheBody) {
   const std::string plate = "*NSET, NSET=PLATE\n5, 6, 7, 8, 99, 11\n", mass = "*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n";
