@@ -51,6 +51,12 @@ std::vector<std::string_view> split_at_commas(std::string_view text) {
   return pieces;
 }
 
+std::string without_quotes(std::string_view text) {
+  std::string bare(text);
+  std::erase(bare, '"');
+  return bare;
+}
+
 /// Reads one file after the other, included ones in their place.
 class DeckReader {
  public:
@@ -107,25 +113,46 @@ class DeckReader {
     if (keyword.name.empty()) throw CaseError(where, "", "a * alone", "a keyword such as *NODE");
     for (std::size_t i = 1; i < pieces.size(); ++i)
       if (!pieces[i].empty()) keyword.parameters.push_back(parameter(pieces[i], entry, keyword));
-    if (keyword.name == "INCLUDE")
-      include_file(keyword);
-    else
-      deck_.keywords.push_back(std::move(keyword));
+    if (keyword.name == "INCLUDE") return include_file(keyword);
+    take_data_of_file(keyword);
+    deck_.keywords.push_back(std::move(keyword));
+  }
+
+  /// INPUT names a file of the keyword's data lines.
+  void take_data_of_file(DeckKeyword& keyword) {
+    const auto input = std::ranges::find(keyword.parameters, "INPUT", &DeckParameter::name);
+    if (input == keyword.parameters.end() || input->value.empty()) return;
+    const std::string path = path_of(input->value, keyword);
+    deck_.files.push_back(std::make_unique<Deck::File>(Deck::File{path, include_(path, keyword.where)}));
+    const Deck::File& file = *deck_.files.back();
+    int line = 1;
+    for (std::size_t at = 0; at < file.bytes.size(); ++line) {
+      const std::string_view content = trimmed(take_line(file.bytes, at));
+      if (content.starts_with('*') && !is_comment(content))
+        throw CaseError({path, line, 0}, "*" + keyword.name, printable(content), "data lines alone",
+                        "A file with keywords stands in *INCLUDE.");
+    }
+    keyword.data.push_back({&file.name, 1, file.bytes});
+    keyword.parameters.erase(input);
+  }
+
+  /// Counts from the folder of the file that the keyword stands in.
+  static std::string path_of(const std::string& input, const DeckKeyword& keyword) {
+    const std::filesystem::path path(input);
+    const auto folder = std::filesystem::path(keyword.where.file).parent_path();
+    return (path.is_absolute() ? path : folder / path).string();
   }
 
   static DeckParameter parameter(std::string_view text, const KeywordEntry* entry, const DeckKeyword& keyword) {
     const std::size_t equals = text.find('=');
     const std::string name = upper_case(trimmed(text.substr(0, equals)));
     std::string_view value = equals == std::string_view::npos ? "" : trimmed(text.substr(equals + 1));
-    if (value.starts_with('"')) {
-      if (value.size() < 2 || !value.ends_with('"'))
-        keyword.fail(printable(value), "a closing quotation mark", "Names with blanks stand in \"quotes\".");
-      value = value.substr(1, value.size() - 2);
-    }
-    const auto is_plain = [](char c) { return c >= 32 && c < 127 && c != '"'; };
+    if (std::ranges::count(value, '"') % 2 != 0)
+      keyword.fail(printable(value), "a closing quotation mark", "Names with blanks stand in \"quotes\".");
+    const auto is_plain = [](char c) { return c >= 32 && c < 127; };
     if (!std::all_of(value.begin(), value.end(), is_plain) || !std::all_of(name.begin(), name.end(), is_plain))
       keyword.fail(printable(text), "letters of ASCII", "Rename it.");
-    return {entry != nullptr ? parameter_name(*entry, name) : without_blanks(name), std::string(value)};
+    return {entry != nullptr ? parameter_name(*entry, name) : without_blanks(name), without_quotes(value)};
   }
 
   void include_file(const DeckKeyword& keyword) {
@@ -136,9 +163,7 @@ class DeckReader {
     if (++depth_ > deepest)
       keyword.fail(fmt::format("files included {} deep", depth_), fmt::format("at most {}", deepest),
                    "Does a file include itself?");
-    const std::filesystem::path path(*input);
-    const auto folder = std::filesystem::path(keyword.where.file).parent_path();
-    const std::string whole = (path.is_absolute() ? path : folder / path).string();
+    const std::string whole = path_of(*input, keyword);
     read(include_(whole, keyword.where), whole);
     --depth_;
   }
@@ -155,6 +180,10 @@ std::string upper_case(std::string_view text) {
   for (char& c : upper)
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   return upper;
+}
+
+std::string deck_name(std::string_view text) {
+  return upper_case(without_quotes(text));
 }
 
 const std::string* DeckKeyword::parameter(std::string_view wanted) const {

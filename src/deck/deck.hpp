@@ -62,5 +62,7 @@ std::string read_included(const std::string& path, const Location& where);
 
 /// In upper case, ASCII letters alone.
 std::string upper_case(std::string_view text);
+/// The name that a text is, in upper case: quotes may stand around parts of it, as in "Part 1-1".Top.
+std::string deck_name(std::string_view text);
 
 }  // namespace carom

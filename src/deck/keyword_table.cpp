@@ -9,11 +9,11 @@ namespace {
 
 using enum KeywordUse;
 
-constexpr std::array<KeywordEntry, 162> kKeywords{{
+constexpr std::array<KeywordEntry, 167> kKeywords{{
     {.name = "AMPLITUDE",
      .use = model,
-     .parameters = "NAME,TIME,DEFINITION,VALUE",
-     .meaning = "A function of time; SMOOTH STEP becomes a table of 33 points."},
+     .parameters = "NAME,TIME,DEFINITION,VALUE,FIXED INTERVAL,BEGIN",
+     .meaning = "A function of time: TABULAR, EQUALLY SPACED, or SMOOTH STEP, which becomes a table of 33 points."},
     {.name = "ASSEMBLY", .use = mesh, .parameters = "NAME", .meaning = "Begins the list of instances."},
     {.name = "BASE MOTION", .use = refused, .meaning = "The supports would stand still."},
     {.name = "BEAM GENERAL SECTION", .use = refused, .meaning = "Carom has no beams."},
@@ -41,6 +41,7 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
      .noted = "*",
      .meaning =
          "Changes nothing where no step computes temperatures; where one does, the step is adiabatic if it is accepted."},
+    {.name = "CONNECTOR SECTION", .use = refused, .meaning = "The connector would be left out."},
     {.name = "CONTACT",
      .use = step,
      .noted = "OP",
@@ -66,15 +67,16 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "CONTACT INCLUSIONS",
      .use = step,
      .parameters = "ALL EXTERIOR",
-     .meaning = "ALL EXTERIOR: every outer face may touch every other."},
+     .meaning =
+         "ALL EXTERIOR: every outer face may touch every other; else pairs of the surfaces that the lines name."},
     {.name = "CONTACT OUTPUT",
      .use = output,
      .noted = "*",
      .meaning = "Results of contact are in contact.csv and the fields."},
     {.name = "CONTACT PAIR",
      .use = model,
-     .parameters = "INTERACTION,TYPE,ADJUST",
-     .noted = "SMALL SLIDING,MECHANICAL CONSTRAINT,CPSET,EXTENSION ZONE,OP,TRACKING",
+     .parameters = "INTERACTION,TYPE,ADJUST,OP",
+     .noted = "SMALL SLIDING,MECHANICAL CONSTRAINT,CPSET,EXTENSION ZONE,TRACKING",
      .meaning =
          "Contact of two surfaces, slave and master; sliding is always followed. ADJUST=0: overlaps at the start count as "
          "touching; other values, which close gaps, are refused unless accepted."},
@@ -84,7 +86,7 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
      .meaning = "Results of contact are in contact.csv and the fields."},
     {.name = "CONTACT PROPERTY ASSIGNMENT",
      .use = step,
-     .meaning = "The interaction of general contact; one for all surfaces."},
+     .meaning = "The interaction of general contact: one for all surfaces, of chosen surfaces also for two of them."},
     {.name = "CONTACT RESPONSE", .use = output, .noted = "*", .meaning = "Sensitivities of results."},
     {.name = "CONTROLS",
      .use = solver,
@@ -114,11 +116,17 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "DAMAGE STABILIZATION", .use = solver, .noted = "*", .meaning = "Steers how the other program softens."},
     {.name = "DAMPING", .use = refused, .meaning = "The bodies would not be damped."},
     {.name = "DASHPOT", .use = refused, .meaning = "The damper would be left out."},
-    {.name = "DENSITY", .use = model, .meaning = "Density."},
+    {.name = "DENSITY", .use = model, .meaning = "Density, at the temperature of the start."},
     {.name = "DEPVAR", .use = refused, .meaning = "Belongs to a material of the user's own."},
     {.name = "DIAGNOSTICS", .use = output, .noted = "*", .meaning = "Messages of the other program."},
+    {.name = "DISPLAY BODY", .use = output, .noted = "*", .meaning = "Shows an instance that takes no part."},
     {.name = "DISTRIBUTING", .use = refused, .meaning = "The reference node of the *COUPLING would pull at nothing."},
     {.name = "DISTRIBUTING COUPLING", .use = refused, .meaning = "The reference node would pull at nothing."},
+    {.name = "DISTRIBUTION", .use = output, .noted = "*", .meaning = "A table of values, which nothing here uses."},
+    {.name = "DISTRIBUTION TABLE",
+     .use = output,
+     .noted = "*",
+     .meaning = "A table of values, which nothing here uses."},
     {.name = "DLOAD",
      .use = step,
      .parameters = "OP,AMPLITUDE",
@@ -126,10 +134,12 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "DSLOAD", .use = step, .parameters = "OP,AMPLITUDE", .meaning = "P: pressure on a surface."},
     {.name = "DYNAMIC",
      .use = step,
-     .parameters = "EXPLICIT,DIRECT,ALPHA,ADIABATIC",
-     .noted = "DIRECT USER CONTROL,APPLICATION,NOHAF,HAFTOL,INITIAL,SOLVER,ELEMENT BY ELEMENT,FIXED TIME "
+     .parameters = "EXPLICIT,DIRECT,ALPHA,ADIABATIC,APPLICATION,TIME INTEGRATOR",
+     .noted = "DIRECT USER CONTROL,NOHAF,HAFTOL,INITIAL,SOLVER,ELEMENT BY ELEMENT,FIXED TIME "
               "INCREMENTATION,IMPROVED DT METHOD,SCALE FACTOR",
-     .meaning = "hht (alpha -0.05 where none is given) or, with EXPLICIT, central_differences."},
+     .meaning =
+         "hht (alpha -0.05 where none is given) or, with EXPLICIT, central_differences. APPLICATION=MODERATE DISSIPATION: "
+         "alpha -1/3; QUASI-STATIC, which is refused unless accepted, too, and loads grow with the time of the step."},
     {.name = "DYNAMIC TEMPERATURE-DISPLACEMENT",
      .use = step,
      .parameters = "EXPLICIT",
@@ -140,7 +150,7 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "ELASTIC",
      .use = model,
      .parameters = "TYPE",
-     .meaning = "TYPE=ISOTROPIC: Young's modulus and Poisson's ratio, at one temperature."},
+     .meaning = "TYPE=ISOTROPIC: Young's modulus and Poisson's ratio, at the temperature of the start."},
     {.name = "ELCOPY", .use = refused_mesh, .meaning = "Elements made by the other program are missing."},
     {.name = "ELEMENT",
      .use = mesh,
@@ -163,7 +173,6 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "ENERGY PRINT", .use = output, .noted = "*", .meaning = "Energies are in energy.csv."},
     {.name = "EQUATION",
      .use = model,
-     .parameters = "INPUT",
      .meaning =
          "A linear homogeneous equation between displacements; the first term is the dependent one. Sets are matched by "
          "the places of their nodes."},
@@ -181,8 +190,10 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "FILTER", .use = output, .noted = "*", .meaning = "Filters results."},
     {.name = "FIXED MASS SCALING",
      .use = step,
-     .parameters = "DT,TYPE",
-     .meaning = "DT with TYPE=BELOW MIN, of all parts: mass_scaling_step, without a limit."},
+     .parameters = "DT,TYPE,ELSET,FACTOR",
+     .meaning =
+         "DT with TYPE=BELOW MIN, of all parts: mass_scaling_step, without a limit, also in later steps that say nothing "
+         "of it. A FACTOR, and sets that are not all parts, are refused unless accepted."},
     {.name = "FREQUENCY", .use = refused, .meaning = "The step is left out."},
     {.name = "FRICTION",
      .use = model,
@@ -210,8 +221,8 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
      .use = model,
      .parameters = "TYPE",
      .meaning =
-         "TYPE=VELOCITY (of nodes) and ROTATING VELOCITY (of nodes or cells); TEMPERATURE: initial_temperature of Johnson "
-         "and Cook's law, one for all nodes of a material."},
+         "TYPE=VELOCITY (of nodes) and ROTATING VELOCITY (of nodes or cells); TEMPERATURE, one for all nodes of a material "
+         "and 0 where none is given: initial_temperature of Johnson and Cook's law, and at which tables are taken."},
     {.name = "INSTANCE",
      .use = mesh,
      .parameters = "NAME,PART",
@@ -271,7 +282,8 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
      .use = model,
      .parameters = "HARDENING,RATE",
      .meaning =
-         "HARDENING=ISOTROPIC: table of yield stress (Cauchy) and plastic strain at one temperature, one for each RATE; "
+         "HARDENING=ISOTROPIC: table of yield stress (Cauchy) and plastic strain at the temperature of the start, one for each "
+         "RATE; "
          "JOHNSON COOK."},
     {.name = "POST OUTPUT", .use = output, .noted = "*", .meaning = "Results files of the other program."},
     {.name = "PREPRINT", .use = output, .noted = "*", .meaning = "Messages of the other program."},
@@ -287,27 +299,29 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
          "TYPE=JOHNSON COOK: C and the reference rate; POWER LAW, YIELD RATIO: the table times the ratio at several "
          "rates."},
     {.name = "RESTART",
-     .use = output,
-     .noted = "*",
-     .meaning = "Carom writes checkpoints by itself (output.checkpoint_every)."},
+     .use = step,
+     .noted = "WRITE,FREQUENCY,OVERLAY,NUMBER INTERVAL,TIME MARKS",
+     .meaning =
+         "Carom writes checkpoints by itself (output.checkpoint_every). READ, which goes on with another run, is refused."},
     {.name = "RIGID BODY",
      .use = model,
-     .parameters = "ELSET,REF NODE,ANALYTICAL SURFACE,TIE NSET,PIN NSET",
+     .parameters = "ELSET,NSET,REF NODE,ROT NODE,ANALYTICAL SURFACE,TIE NSET,PIN NSET,POSITION",
+     .noted = "ISOTHERMAL",
      .meaning =
          "A surface of faces that moves and turns with its reference node, or is free where that has a *MASS. It is met by "
          "*CONTACT PAIR, as the second surface, or by general contact. Of solids: a [[rigid_body]] of parts; TIE NSET and "
-         "PIN NSET: nodes that are joined to it."},
+         "PIN NSET: nodes that are joined to it; NSET: nodes alone. ROT NODE: its motions are the turns."},
     {.name = "ROTARY INERTIA",
      .use = model,
      .parameters = "ELSET",
      .meaning = "Of the reference node of a free rigid body of faces or of nodes, which turns by it."},
     {.name = "SECTION CONTROLS",
      .use = model,
-     .parameters = "NAME,DISTORTION CONTROL,LENGTH RATIO",
+     .parameters = "NAME,DISTORTION CONTROL,LENGTH RATIO,ELEMENT DELETION",
      .noted = "*",
      .meaning =
-         "DISTORTION CONTROL=YES: distortion_control of the parts that name it, LENGTH RATIO or 0.1. Hourglass control is "
-         "Carom's own (part.hourglass)."},
+         "DISTORTION CONTROL=YES: distortion_control of the parts that name it, LENGTH RATIO or 0.1. Factors of the bulk "
+         "viscosities, the fourth and the fifth number, hold; hourglass control is Carom's own (part.hourglass)."},
     {.name = "SECTION FILE", .use = output, .noted = "*", .meaning = "Results over sections."},
     {.name = "SECTION PRINT", .use = output, .noted = "*", .meaning = "Results over sections."},
     {.name = "SELECT CYCLIC SYMMETRY MODES", .use = refused, .meaning = "The step is left out."},
@@ -349,22 +363,28 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "SUBSTRUCTURE OUTPUT", .use = output, .noted = "*", .meaning = "Matrices of the other program."},
     {.name = "SURFACE",
      .use = mesh,
-     .parameters = "NAME,TYPE,INTERNAL",
+     .parameters = "NAME,TYPE,COMBINE,INTERNAL",
      .meaning =
-         "TYPE=ELEMENT: a group of faces; TYPE=NODE: a group of nodes; SEGMENTS, CYLINDER, REVOLUTION: an analytical rigid "
+         "TYPE=ELEMENT: a group of faces; TYPE=NODE: a group of nodes; COMBINE=UNION of others; SEGMENTS, CYLINDER, REVOLUTION: an analytical rigid "
          "surface, as faces."},
     {.name = "SURFACE BEHAVIOR",
      .use = model,
      .parameters = "PRESSURE-OVERCLOSURE",
-     .noted = "PENALTY,DIRECT",
+     .noted = "PENALTY,DIRECT,AUGMENTED LAGRANGE",
      .meaning = "HARD: the stiffness that Carom chooses; LINEAR: its slope as the stiffness."},
     {.name = "SURFACE INTERACTION",
      .use = model,
      .parameters = "NAME",
      .meaning = "What contacts have: stiffness and friction."},
     {.name = "SURFACE OUTPUT", .use = output, .noted = "*", .meaning = "Results on surfaces."},
+    {.name = "SURFACE SECTION",
+     .use = model,
+     .parameters = "ELSET",
+     .meaning = "Nothing: elements without a density that surfaces are made of."},
     {.name = "SYSTEM", .use = refused_mesh, .meaning = "Nodes would stand elsewhere."},
-    {.name = "TEMPERATURE", .use = refused, .meaning = "There would be no thermal strains."},
+    {.name = "TEMPERATURE",
+     .use = refused,
+     .meaning = "There would be no thermal strains, and tables be taken at the temperature of the start."},
     {.name = "TIE",
      .use = model,
      .parameters = "TYPE,POSITION TOLERANCE",
@@ -379,7 +399,7 @@ constexpr std::array<KeywordEntry, 162> kKeywords{{
     {.name = "USER OUTPUT VARIABLES", .use = output, .noted = "*", .meaning = "Results of the user's own."},
     {.name = "VARIABLE MASS SCALING",
      .use = step,
-     .parameters = "DT,TYPE",
+     .parameters = "DT,TYPE,ELSET,FACTOR",
      .noted = "FREQUENCY,NUMBER INTERVAL",
      .meaning = "As *FIXED MASS SCALING, at the start alone, if it is accepted."},
     {.name = "VIEWFACTOR OUTPUT", .use = output, .noted = "*", .meaning = "Results of radiation."},

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -29,29 +30,46 @@ Point point_of(DeckCursor& at) {
   return {x, y};
 }
 
+/// Of the middle of a chord from the arc.
+double rise(double radius, double angle) {
+  return radius * (1.0 - std::cos(0.5 * angle));
+}
+
+/// A polygon, and how far it is from the arcs that it stands for.
+struct Profile {
+  std::vector<Point> points;
+  double roundness = 0.0;
+};
+
 /// The shorter way about the centre.
-void append_arc(DeckCursor& at, std::vector<Point>& profile) {
-  const Point from = profile.back(), to = point_of(at), centre = point_of(at);
+void append_arc(DeckCursor& at, Profile& to) {
+  std::vector<Point>& profile = to.points;
+  const Point from = profile.back(), end = point_of(at), centre = point_of(at);
   const double radius = std::hypot(from[0] - centre[0], from[1] - centre[1]);
-  const double of_end = std::hypot(to[0] - centre[0], to[1] - centre[1]);
+  const double of_end = std::hypot(end[0] - centre[0], end[1] - centre[1]);
   constexpr double rounding = 1e-3;  // of coordinates as they are written
   if (!(radius > 0.0) || std::abs(of_end - radius) > rounding * radius)
     at.fail(fmt::format("an arc whose ends are {:g} and {:g} from its centre", radius, of_end), "the same distance");
   const double first = std::atan2(from[1] - centre[1], from[0] - centre[0]);
   const double whole = 2.0 * std::numbers::pi;
-  const double sweep = std::remainder(std::atan2(to[1] - centre[1], to[0] - centre[0]) - first, whole);
+  const double sweep = std::remainder(std::atan2(end[1] - centre[1], end[0] - centre[0]) - first, whole);
+  constexpr double widest = 179.74 * std::numbers::pi / 180.0;  // of Abaqus
+  if (std::abs(sweep) > widest)
+    at.fail("an arc of half a circle", "one of less than 179.74 degrees", "Write two: which way it goes is open.");
   constexpr double piece = std::numbers::pi / 60.0;
   const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / piece - 1e-9)));
   for (int i = 1; i < pieces; ++i) {
     const double angle = first + sweep * i / pieces;
     profile.push_back({centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle)});
   }
-  profile.push_back(to);
+  profile.push_back(end);
+  to.roundness = std::max(to.roundness, rise(radius, sweep / pieces));
 }
 
 /// From the line with START, at which the cursor is.
-std::vector<Point> profile_of(DeckCursor& at) {
-  std::vector<Point> profile;
+Profile profile_of(DeckCursor& at) {
+  Profile whole;
+  std::vector<Point>& profile = whole.points;
   do {
     const std::string word = upper_case(at.field());
     if (word.starts_with("STAR") && profile.empty())
@@ -59,14 +77,14 @@ std::vector<Point> profile_of(DeckCursor& at) {
     else if (word == "LINE" && !profile.empty())
       profile.push_back(point_of(at));
     else if (word.starts_with("CIRC") && !profile.empty())
-      append_arc(at, profile);
+      append_arc(at, whole);
     else
       at.fail(fmt::format("\"{}\"", word), profile.empty() ? "START" : "LINE or CIRCL",
               word.starts_with("PARA") ? "Write the parabola as lines." : "");
     at.end_line("the coordinates of the segment");
   } while (at.next_line());
   if (profile.size() < 2) at.fail("a profile without segments", "START, then LINE or CIRCL");
-  return profile;
+  return whole;
 }
 
 Vec3 vector_of(DeckCursor& at) {
@@ -106,6 +124,13 @@ Frame frame_of(DeckCursor& at, const std::string& type) {
   return frame;
 }
 
+AnalyticFaces lines(const std::vector<Point>& profile) {
+  AnalyticFaces made;
+  for (const Point& p : profile) made.points.push_back({p[0], p[1], 0.0});
+  for (std::size_t i = 0; i + 1 < profile.size(); ++i) made.faces.push_back({i + 1, i});
+  return made;
+}
+
 AnalyticFaces swept(const std::vector<Point>& profile, const Frame& frame, double half_length) {
   AnalyticFaces made;
   for (const Point& p : profile)
@@ -120,6 +145,7 @@ AnalyticFaces revolved(const std::vector<Point>& profile, const Frame& frame) {
   std::vector<std::vector<std::size_t>> rings;  // one point on the axis
   for (const Point& p : profile) {
     std::vector<std::size_t>& ring = rings.emplace_back();
+    made.roundness = std::max(made.roundness, rise(std::abs(p[0]), 2.0 * std::numbers::pi / pieces));
     for (std::size_t k = 0; k < (p[0] == 0.0 ? 1 : pieces); ++k) {
       const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / pieces;
       ring.push_back(made.points.size());
@@ -143,12 +169,11 @@ AnalyticFaces analytic_faces(const DeckKeyword& surface, const std::string& type
   DeckCursor at(surface);
   if (!at.next_line()) surface.fail("no data", "START, then LINE or CIRCL");
   const Frame frame = type == "SEGMENTS" ? Frame{} : frame_of(at, type);
-  const std::vector<Point> profile = profile_of(at);
-  if (type == "CYLINDER") return swept(profile, frame, half_length);
-  if (type == "REVOLUTION") return revolved(profile, frame);
-  AnalyticFaces made;
-  for (const Point& p : profile) made.points.push_back({p[0], p[1], 0.0});
-  for (std::size_t i = 0; i + 1 < profile.size(); ++i) made.faces.push_back({i + 1, i});
+  const Profile profile = profile_of(at);
+  AnalyticFaces made = type == "CYLINDER"     ? swept(profile.points, frame, half_length)
+                       : type == "REVOLUTION" ? revolved(profile.points, frame)
+                                              : lines(profile.points);
+  made.roundness = std::max(made.roundness, profile.roundness);
   return made;
 }
 

@@ -13,6 +13,7 @@ namespace carom {
 struct AnalyticFaces {
   std::vector<Vec3> points;
   std::vector<std::vector<std::size_t>> faces;  ///< two, three or four points each, in the order of Facet
+  double roundness = 0.0;                       ///< largest distance of a face from the surface
 };
 
 /// The profile of lines and arcs, arcs in pieces of 3 degrees at most; along the generator by `half_length` on both

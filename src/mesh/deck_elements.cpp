@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -133,25 +134,51 @@ const std::array<DeckElementType, 65> kOwn{
      {.name = "SPRINGA", .kind = Kind::spring, .type = CellType::line2, .nodes = 2},
      {.name = "SPRING1", .kind = Kind::ground_spring, .type = CellType::point1, .nodes = 1}}};
 
-/// The types that also have the temperature of their nodes; without it they are those whose name lacks the T.
-constexpr std::array kWithTemperature{"C3D4T",   "C3D6T",  "C3D8T",  "C3D8RT", "C3D10T", "C3D10MT", "C3D20T",
-                                      "C3D20RT", "CPE3T",  "CPE4T",  "CPE4RT", "CPE6T",  "CPE8T",   "CPE8RT",
-                                      "CPS3T",   "CPS4T",  "CPS4RT", "CPS6T",  "CPS8T",  "CPS8RT",  "CAX3T",
-                                      "CAX4T",   "CAX4RT", "CAX6T",  "CAX8T",  "CAX8RT"};
+/// What is left out with the keyword that gives it its properties, where that is accepted.
+constexpr std::array<DeckElementType, 6> kLeftOut{
+    {{.name = "DASHPOTA", .kind = Kind::unknown, .type = CellType::point1, .remark = "left out with its *DASHPOT"},
+     {.name = "DASHPOT1", .kind = Kind::unknown, .type = CellType::point1, .remark = "left out with its *DASHPOT"},
+     {.name = "DASHPOT2", .kind = Kind::unknown, .type = CellType::point1, .remark = "left out with its *DASHPOT"},
+     {.name = "GAPUNI", .kind = Kind::unknown, .type = CellType::point1, .remark = "left out with its *GAP"},
+     {.name = "CONN2D2",
+      .kind = Kind::unknown,
+      .type = CellType::point1,
+      .remark = "left out with its *CONNECTOR SECTION"},
+     {.name = "CONN3D2",
+      .kind = Kind::unknown,
+      .type = CellType::point1,
+      .remark = "left out with its *CONNECTOR SECTION"}}};
+
+/// Types that are otherwise those whose names lack the suffix.
+struct Twins {
+  std::string_view suffix, remark;
+  std::vector<std::string_view> names;
+};
+
+const std::array<Twins, 2> kTwins{
+    {{"T", "its nodes have no temperatures", {"C3D4T",   "C3D6T",  "C3D8T",  "C3D8RT", "C3D10T", "C3D10MT", "C3D20T",
+                                              "C3D20RT", "CPE3T",  "CPE4T",  "CPE4RT", "CPE6T",  "CPE8T",   "CPE8RT",
+                                              "CPS3T",   "CPS4T",  "CPS4RT", "CPS6T",  "CPS8T",  "CPS8RT",  "CAX3T",
+                                              "CAX4T",   "CAX4RT", "CAX6T",  "CAX8T",  "CAX8RT"}},
+     {"H",
+      "its pressure is no unknown of its own, so that nu has to be below 0.5",
+      {"C3D4H",  "C3D6H",   "C3D8H", "C3D8IH", "C3D8RH", "C3D10H", "C3D10MH", "C3D15H",
+       "C3D20H", "C3D20RH", "CPE3H", "CPE4H",  "CPE4RH", "CPE4IH", "CPE6H",   "CPE8H",
+       "CPE8RH", "CAX3H",   "CAX4H", "CAX4RH", "CAX6H",  "CAX8H",  "CAX8RH"}}}};
 
 std::vector<DeckElementType> all_types() {
-  static std::array<std::string, kWithTemperature.size()> remarks;
+  static std::deque<std::string> remarks;
   std::vector<DeckElementType> types(kOwn.begin(), kOwn.end());
-  for (std::size_t i = 0; i < kWithTemperature.size(); ++i) {
-    std::string_view twin = kWithTemperature[i];
-    twin.remove_suffix(1);
-    DeckElementType type = *std::find_if(kOwn.begin(), kOwn.end(), [&](const auto& own) { return own.name == twin; });
-    type.name = kWithTemperature[i];
-    remarks[i] = std::string("its nodes have no temperatures") + (type.remark.empty() ? "" : "; ");
-    remarks[i] += type.remark;
-    type.remark = remarks[i];
-    types.push_back(type);
-  }
+  types.insert(types.end(), kLeftOut.begin(), kLeftOut.end());
+  for (const Twins& family : kTwins)
+    for (const std::string_view name : family.names) {
+      const std::string_view twin = name.substr(0, name.size() - family.suffix.size());
+      DeckElementType type = *std::ranges::find(kOwn, twin, &DeckElementType::name);
+      type.name = name;
+      const std::string own(type.remark);
+      type.remark = remarks.emplace_back(std::string(family.remark) + (own.empty() ? "" : "; " + own));
+      types.push_back(type);
+    }
   return types;
 }
 

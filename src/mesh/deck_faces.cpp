@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "base/terminal_text.hpp"
+#include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
 #include "mesh/skin.hpp"
 
@@ -17,6 +19,10 @@ std::uint64_t key_of_cell(const CellRef& cell) {
 }
 
 }  // namespace
+
+bool deforms(const DeckElement& element) {
+  return element.type->kind == DeckElementType::Kind::cell && !element.type->section.empty();
+}
 
 std::size_t block_of(Mesh& mesh, CellType type) {
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
@@ -77,7 +83,7 @@ std::vector<CellRef> DeckFaces::between(const std::vector<Index>& nodes, std::in
   for (const Index n : nodes) is_given[at(n)] = 1;
   std::vector<CellRef> faces;
   for (const DeckElement& element : elements_) {
-    if (element.type->kind != DeckElementType::Kind::cell || element.type->section.empty()) continue;
+    if (!deforms(element)) continue;
     for (const std::uint32_t number : outer(element.cell)) {
       const CellBlock& block = mesh_.blocks[at(element.cell.block)];
       const std::span<const LocalNode> own = cell_faces(block.type)[number].nodes();
@@ -94,13 +100,41 @@ bool DeckFaces::bars_alone_between(const std::vector<Index>& nodes) const {
   for (const Index n : nodes) is_given[at(n)] = 1;
   bool has_bars = false;
   for (const DeckElement& element : elements_) {
-    if (element.type->kind != DeckElementType::Kind::cell || element.type->section.empty()) continue;
+    if (!deforms(element)) continue;
     const std::span<const Index> own = mesh_.blocks[at(element.cell.block)].nodes(element.cell.cell);
     const bool is_between = std::all_of(own.begin(), own.end(), [&](Index n) { return is_given[at(n)] != 0; });
     if (is_between && element.type->section != "bar") return false;
     has_bars = has_bars || is_between;
   }
   return has_bars;
+}
+
+bool DeckFaces::looks_at_bodies(const std::vector<Index>& elements) const {
+  const auto nodes_of = [&](const DeckElement& element) {
+    return mesh_.blocks[at(element.cell.block)].nodes(element.cell.cell);
+  };
+  Vec3 middle{};
+  double count = 0.0;
+  for (const DeckElement& element : elements_) {
+    if (!deforms(element)) continue;
+    for (const Index n : nodes_of(element)) middle = add(middle, mesh_.coordinates[at(n)]), count += 1.0;
+  }
+  middle = scaled(middle, count > 0.0 ? 1.0 / count : 0.0);
+  double nearest = std::numeric_limits<double>::infinity(), side = 0.0;
+  for (const Index e : elements) {
+    const std::span<const Index> nodes = nodes_of(elements_[at(e)]);
+    const auto x = [&](std::size_t n) { return mesh_.coordinates[at(nodes[n])]; };
+    Vec3 centre{};
+    for (std::size_t n = 0; n < nodes.size(); ++n) centre = add(centre, x(n));
+    centre = scaled(centre, 1.0 / static_cast<double>(nodes.size()));
+    const Vec3 along = subtract(x(1), x(0));
+    const Vec3 normal = nodes.size() == 2 ? Vec3{-along[1], along[0], 0.0} : cross(along, subtract(x(2), x(0)));
+    const Vec3 there = subtract(middle, centre);
+    if (norm(there) >= nearest) continue;
+    nearest = norm(there);
+    side = dot(normal, there);
+  }
+  return side >= 0.0;
 }
 
 void DeckFaces::append(const std::vector<Index>& elements, const std::string& label, const DeckCursor& at,

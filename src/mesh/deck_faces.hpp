@@ -15,6 +15,9 @@ namespace carom {
 /// The block of this type, made where there is none.
 std::size_t block_of(Mesh& mesh, CellType type);
 
+/// Is it a cell of a part?
+bool deforms(const DeckElement& element);
+
 /// Adds faces to a mesh, each once.
 class DeckFaces {
  public:
@@ -30,6 +33,8 @@ class DeckFaces {
   std::vector<CellRef> between(const std::vector<Index>& nodes, std::int64_t& last);
   /// True when bars have all their nodes among these, and no other cells have.
   bool bars_alone_between(const std::vector<Index>& nodes) const;
+  /// Does the SPOS side of that face among these which is nearest to the middle of the bodies look there?
+  bool looks_at_bodies(const std::vector<Index>& elements) const;
 
  private:
   CellRef face(const CellRef& cell, std::size_t number, std::int64_t& last);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <utility>
@@ -138,6 +139,7 @@ class DeckMeshReader {
     const DeckElementType* known = nullptr;
     if (!errors_.attempt([&] { known = &element_type(*s.keyword); })) return read_unknown_elements(s);
     const DeckElementType& type = *known;
+    if (type.kind == DeckElementType::Kind::unknown) return read_unknown_elements(s);
     const std::size_t block = type.kind == DeckElementType::Kind::cell ? block_of(mesh_, type.type) : 0;
     const std::string* set = s.keyword->parameter("ELSET");
     std::vector<Index> members;
@@ -242,24 +244,52 @@ class DeckMeshReader {
     const std::string name = scope(s).prefix + keyword.required("NAME");
     const std::string* given = keyword.parameter("TYPE");
     const std::string type = given == nullptr ? "ELEMENT" : upper_case(*given);
+    if (keyword.has("COMBINE")) return unite_surfaces(s, name);
     if (type == "NODE") {
       read_node_surface(s, name);
     } else if (type == "ELEMENT") {
       names_.surfaces[name] = {name, DeckNames::SurfaceKind::faces, name};
       for (DeckCursor at(keyword); at.next_line();) {
-        const std::vector<Index>& elements = elements_named(at, s.scope);
-        faces_.append(elements, upper_case(at.field()), at, surface_cells_[name], next_number_);
+        const std::vector<Index> elements = elements_named(at, s.scope);
+        std::string label = upper_case(at.field());
+        if (label.empty() && are_rigid(elements)) {
+          label = faces_.looks_at_bodies(elements) ? "SPOS" : "SNEG";
+          names_.surfaces[name].is_side_chosen = true;
+        }
+        faces_.append(elements, label, at, surface_cells_[name], next_number_);
       }
     } else if (type == "SEGMENTS" || type == "CYLINDER" || type == "REVOLUTION") {
       names_.surfaces[name] = {name, DeckNames::SurfaceKind::faces, name};
-      add_analytic_faces(s, type, surface_cells_[name]);
+      names_.surfaces[name].roundness = add_analytic_faces(s, type, surface_cells_[name]);
     } else {
       mesh_.report.notes.push_back(
           fmt::format("{}: the surface {} of TYPE={} is no mesh; left out", to_string(keyword.where), name, type));
     }
   }
 
-  void add_analytic_faces(const Statement& s, const std::string& type, std::vector<CellRef>& to) {
+  /// COMBINE=UNION of surfaces of faces that stand before it, each face once.
+  void unite_surfaces(const Statement& s, const std::string& name) {
+    const DeckKeyword& keyword = *s.keyword;
+    if (keyword.required("COMBINE") != "UNION")
+      keyword.fail("COMBINE=" + keyword.required("COMBINE"), "UNION", "Write the faces that are meant.");
+    std::vector<CellRef> all;
+    for (DeckCursor at(keyword); at.next_line();)
+      while (!at.at_end()) {
+        const std::string text(at.field());
+        if (text.empty()) continue;
+        const std::string key = key_of(names_.surfaces, scope(s), text);
+        if (key.empty() || names_.surfaces.at(key).kind != DeckNames::SurfaceKind::faces)
+          at.fail(printable(text), "the NAME of a *SURFACE of faces before this one");
+        std::ranges::copy(surface_cells_[key], std::back_inserter(all));
+      }
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    names_.surfaces[name] = {name, DeckNames::SurfaceKind::faces, name};
+    surface_cells_[name] = std::move(all);
+  }
+
+  /// Returns how far the faces are from the surface.
+  double add_analytic_faces(const Statement& s, const std::string& type, std::vector<CellRef>& to) {
     const AnalyticFaces made = analytic_faces(*s.keyword, type, box_diagonal());
     const auto first = static_cast<Index>(mesh_.coordinates.size());
     for (const Vec3& x : made.points) {
@@ -274,6 +304,7 @@ class DeckMeshReader {
       for (const std::size_t point : face) cells.connectivity.push_back(first + static_cast<Index>(point));
       cells.file_numbers.push_back(++next_number_);
     }
+    return made.roundness;
   }
 
   /// Of the box around all nodes.
@@ -351,7 +382,8 @@ class DeckMeshReader {
     static const std::set<std::string> by_number{"BOUNDARY", "CLOAD", "INITIAL CONDITIONS"};
     for (const auto& [name, nodes] : node_sets_.all()) add_nodes(name, nodes);
     for (const Statement& s : statements_.list) {
-      if (const std::string* node = s.keyword->parameter("REF NODE")) add_node(s, *node);
+      for (const char* const name : {"REF NODE", "ROT NODE"})
+        if (const std::string* node = s.keyword->parameter(name)) add_node(s, *node);
       if (s.keyword->name == "EQUATION") add_nodes_of_equations(s);
       if (by_number.count(s.keyword->name) == 0) continue;
       for (DeckCursor at(*s.keyword); at.next_line();) add_node(s, at.field());
@@ -377,7 +409,7 @@ class DeckMeshReader {
   }
 
   void add_node(const Statement& s, std::string_view number) {
-    const std::string key = scope(s).prefix + upper_case(number);
+    const std::string key = scope(s).prefix + deck_name(number);
     if (names_.node_sets.count(key) != 0) return;
     const std::vector<Index>* nodes = node_sets_.entries(key, 0, statements_);
     if (nodes != nullptr && nodes->size() == 1) add_nodes(key, *nodes);
@@ -409,7 +441,7 @@ class DeckMeshReader {
   void make_loaded_faces(const Statement& s) {
     for (DeckCursor at(*s.keyword); at.next_line();) {
       DeckCursor peek = at;
-      const std::string set = upper_case(peek.field()), label = upper_case(peek.field());
+      const std::string set = deck_name(peek.field()), label = upper_case(peek.field());
       if (label == "GRAV") group_element(at, s, set);
       if (label.size() != 2 || label[0] != 'P' || label[1] < '1' || label[1] > '6') continue;
       const std::string key = scope(s).prefix + set + " " + label;
@@ -453,8 +485,9 @@ class DeckMeshReader {
     faces_.append(bodies, "", at, surface_cells_[all_exterior], next_number_);
   }
 
-  static bool deforms(const DeckElement& element) {
-    return element.type->kind == DeckElementType::Kind::cell && !element.type->section.empty();
+  /// Abaqus' explicit program takes both sides of rigid faces in space where none is named.
+  bool are_rigid(const std::vector<Index>& elements) const {
+    return std::ranges::all_of(elements, [&](Index e) { return elements_[at(e)].type->name.starts_with("R3D"); });
   }
 
   void add_rigid_side(const Statement& s, const std::string& set, const DeckCursor& at) {
@@ -468,34 +501,7 @@ class DeckMeshReader {
     if (!are_faces) return;
     const std::string key = rigid_side_of(scope(s), set);
     names_.surfaces[key] = {key, DeckNames::SurfaceKind::faces, key};
-    faces_.append(elements, looks_at_bodies(elements) ? "SPOS" : "SNEG", at, surface_cells_[key], next_number_);
-  }
-
-  /// Does the SPOS side of that face which is nearest to the middle of the bodies look there?
-  bool looks_at_bodies(const std::vector<Index>& elements) const {
-    Vec3 middle{};
-    double count = 0.0;
-    for (const DeckElement& element : elements_) {
-      if (!deforms(element)) continue;
-      for (const Index n : nodes_of(element)) middle = add(middle, mesh_.coordinates[at(n)]), count += 1.0;
-    }
-    middle = scaled(middle, count > 0.0 ? 1.0 / count : 0.0);
-    double nearest = std::numeric_limits<double>::infinity(), side = 0.0;
-    for (const Index e : elements) {
-      const std::vector<Index> nodes = nodes_of(elements_[at(e)]);
-      Vec3 centre{};
-      for (const Index n : nodes) centre = add(centre, mesh_.coordinates[at(n)]);
-      centre = scaled(centre, 1.0 / static_cast<double>(nodes.size()));
-      const Vec3 along = subtract(mesh_.coordinates[at(nodes[1])], mesh_.coordinates[at(nodes[0])]);
-      const Vec3 normal =
-          nodes.size() == 2 ? Vec3{-along[1], along[0], 0.0}
-                            : cross(along, subtract(mesh_.coordinates[at(nodes[2])], mesh_.coordinates[at(nodes[0])]));
-      const Vec3 there = subtract(middle, centre);
-      if (norm(there) >= nearest) continue;
-      nearest = norm(there);
-      side = dot(normal, there);
-    }
-    return side >= 0.0;
+    faces_.append(elements, faces_.looks_at_bodies(elements) ? "SPOS" : "SNEG", at, surface_cells_[key], next_number_);
   }
 
   void name_surfaces() {

@@ -30,6 +30,8 @@ struct DeckNames {
     std::string group;
     SurfaceKind kind{};
     std::string faces;  ///< the group that is a slave of contact: of a surface of nodes "NAME (faces)", "" without any
+    bool is_side_chosen = false;  ///< rigid faces of no named side, which look to the bodies
+    double roundness = 0.0;       ///< of an analytical surface: how far its faces are from its arcs
   };
   std::map<std::string, std::string> node_sets;  ///< also nodes that loads and supports name by their number, "5"
   std::map<std::string, std::vector<Cells>> element_sets;
@@ -62,7 +64,7 @@ std::string rigid_side_of(const DeckScope& scope, const std::string& set);
 /// before it, or else as it stands.
 template <class Map>
 std::string key_of(const Map& names, const DeckScope& scope, std::string_view text) {
-  const std::string name = upper_case(text);
+  const std::string name = deck_name(text);
   if (names.count(scope.prefix + name) != 0) return scope.prefix + name;
   return names.count(name) != 0 ? name : std::string();
 }

@@ -14,7 +14,7 @@ void DeckSets::expect(const std::vector<std::size_t>& counts) {
 }
 
 const std::vector<Index>* DeckSets::entries(std::string_view text, int scope, const Statements& statements) {
-  const std::string name = upper_case(text);
+  const std::string name = deck_name(text);
   for (const std::string& key : {statements.scopes[at(scope)].prefix + name, name})
     if (const auto found = sets_.find(key); found != sets_.end()) return &found->second;
   const std::size_t dot = name.find('.');

@@ -32,11 +32,12 @@ struct Acting {
   DeckRigidBody* body = nullptr;        ///< the one whose reference node is imposed
 };
 
-/// The cells that gravity of one size is given to in a step, line by line.
+/// The cells and the point masses that gravity of one size is given to in a step, line by line.
 struct GravityCells {
   const DeckKeyword* keyword = nullptr;
   Location where;
   std::set<CellRef> cells;
+  std::set<Index> masses;  ///< by their nodes
   bool is_everywhere = false;
 };
 
@@ -122,6 +123,10 @@ class Actions {
     const int to = end.empty() ? from : component(at, end);
     const double value = at.real_or(0.0, "the value");
     at.end_line("nodes, first and last degree of freedom, value");
+    constexpr int temperature = 11;
+    if (from == temperature && to == from)
+      return t_.findings.refuse(*s.keyword, at.where(), "an imposed temperature",
+                                "It would be left out: nodes have no temperatures.");
     if (from < 1 || to < from || to > 6)
       at.fail(fmt::format("degrees of freedom {} to {}", from, to), "1 to 3, or 1 to 6 with those of turning");
     const bool jumps = what == "DISPLACEMENT" && amplitude_ == nullptr && !t_.steps.empty() && !t_.steps.front().ramps;
@@ -159,14 +164,19 @@ class Actions {
               double value, bool is_named) {
     static const std::map<std::string, std::string> keys{
         {"DISPLACEMENT", "displacement"}, {"VELOCITY", "velocity"}, {"ACCELERATION", "acceleration"}};
-    Acting wanted{"BOUNDARY", group, keys.at(what), dof - 1, {}, at.where(), {}, nullptr, nullptr};
-    const std::vector<DeckRigidBody*> bodies = referred_to(t_, group);
-    for (DeckRigidBody* body : bodies) {
-      wanted.group = body->node;
-      wanted.body = body;
-      act(at, wanted, step, value);
+    if (DeckRigidBody* const body = turned_by(t_, group)) {
+      if (dof > 3) at.fail(fmt::format("degree of freedom {} of a ROT NODE", dof), "1, 2 or 3: turns about the axes");
+      return act(at, {"BOUNDARY", body->node, keys.at(what), dof + 2, {}, at.where(), {}, nullptr, body}, step, value);
     }
-    if (!bodies.empty()) return;
+    Acting wanted{"BOUNDARY", group, keys.at(what), dof - 1, {}, at.where(), {}, nullptr, nullptr};
+    const Referred of = referred_to(t_, group);
+    for (DeckRigidBody* body : of.bodies) {
+      Acting on_body = wanted;
+      on_body.group = body->node;
+      on_body.body = body;
+      act(at, on_body, step, value);
+    }
+    if (!of.has_others) return;
     if (dof <= 3) return act(at, wanted, step, value);
     if (value != 0.0)
       at.fail(fmt::format("a turn of degree of freedom {}", dof), "1, 2 or 3",
@@ -178,13 +188,18 @@ class Actions {
     const std::string target(at.field());
     const std::string group = t_.node_group(at, s, target);
     const int dof = component(at, at.field());
+    for (const DeckRigidBody* body : referred_to(t_, group).bodies)
+      if (body->is_obstacle())
+        at.fail(
+            "a force on the reference node of the rigid surface " + body->name, "forces on bodies",
+            "A rigid surface is led, or moves as contact and gravity push it; a *RIGID BODY of solids takes forces.");
     if (dof > 3) at.fail(fmt::format("degree of freedom {}", dof), "1, 2 or 3", "Nodes of solids take no moments.");
     act(at, {"CLOAD", group, "force", dof - 1, {}, at.where(), {}}, step, at.real("the force"));
     at.end_line("nodes, degree of freedom, force");
   }
 
   void distributed(DeckCursor& at, const Statement& s, std::size_t step) {
-    const std::string target(at.field()), label = upper_case(at.field());
+    const std::string target = deck_name(at.field()), label = upper_case(at.field());
     if (label == "GRAV") return gravity(at, s, step, target);
     const std::string key = key_of(t_.mesh.names.loaded_faces, t_.scope(s), target + " " + label);
     if (key.empty()) {
@@ -201,31 +216,42 @@ class Actions {
     for (double& c : direction) c = at.real_or(0.0, "the direction");
     if (norm(direction) == 0.0) at.fail("no direction", "three components");
     GravityCells& on = gravity_[{step, size, normalized(direction)}];
-    if (on.keyword == nullptr) on = {s.keyword, at.where(), {}, false};
+    if (on.keyword == nullptr) on = {s.keyword, at.where(), {}, {}, false};
     on.is_everywhere = on.is_everywhere || target.empty();
     if (!target.empty()) {
-      const std::string key = key_of(t_.mesh.names.element_sets, t_.scope(s), target);
-      if (key.empty()) at.fail("\"" + target + "\"", "the name of a set of cells, or nothing for all of them");
-      for (const DeckNames::Cells& each : t_.mesh.names.element_sets.at(key)) {
-        const std::vector<CellRef>& cells = t_.mesh.mesh.cell_groups.at(each.group);
-        on.cells.insert(cells.begin(), cells.end());
-      }
+      const DeckNames& names = t_.mesh.names;
+      const std::string cells = key_of(names.element_sets, t_.scope(s), target);
+      const std::string masses = key_of(names.masses, t_.scope(s), target);
+      if (cells.empty() && masses.empty())
+        at.fail("\"" + target + "\"", "the name of a set of cells, or nothing for all of them");
+      if (!cells.empty())
+        for (const DeckNames::Cells& each : names.element_sets.at(cells)) {
+          const std::vector<CellRef>& refs = t_.mesh.mesh.cell_groups.at(each.group);
+          on.cells.insert(refs.begin(), refs.end());
+        }
+      if (!masses.empty()) add_nodes_of(names.masses.at(masses), on.masses);
     }
     act(at, {"DLOAD", "", "gravity", 0, normalized(direction), at.where(), {}}, step, size);
   }
 
   /// Carom's gravity acts on all parts.
   void refuse_partial_gravity() {
-    std::set<CellRef> bodies;
-    for (const auto& [name, list] : t_.mesh.names.element_sets)
-      for (const DeckNames::Cells& cells : list)
-        if (!cells.type->section.empty()) {
-          const auto& group = t_.mesh.mesh.cell_groups.at(cells.group);
-          bodies.insert(group.begin(), group.end());
-        }
-    for (const auto& [key, on] : gravity_)
-      if (!on.is_everywhere && !std::includes(on.cells.begin(), on.cells.end(), bodies.begin(), bodies.end()))
+    const std::set<CellRef> bodies = t_.body_cells();
+    std::set<Index> masses;
+    for (const auto& [set, group] : t_.mesh.names.masses) add_nodes_of(group, masses);
+    for (const auto& [key, on] : gravity_) {
+      if (on.is_everywhere) continue;
+      if (!std::ranges::includes(on.cells, bodies))
         t_.findings.refuse(*on.keyword, on.where, "gravity on some cells only", "It would act on all parts.");
+      else if (!std::ranges::includes(on.masses, masses))
+        t_.findings.refuse(*on.keyword, on.where, "gravity on cells and not on all point masses",
+                           "It would act on these, too.");
+    }
+  }
+
+  void add_nodes_of(const std::string& group, std::set<Index>& to) const {
+    const std::vector<Index>& nodes = t_.mesh.mesh.node_groups.at(group);
+    to.insert(nodes.begin(), nodes.end());
   }
 
   void surface_pressure(DeckCursor& at, const Statement& s, std::size_t step) {

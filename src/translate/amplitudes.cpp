@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "deck/keyword_table.hpp"
+
 namespace carom {
 
 namespace {
@@ -23,31 +25,59 @@ Points smooth(const Points& points) {
   return result;
 }
 
-Amplitude read_amplitude(const DeckKeyword& keyword) {
-  Amplitude amplitude{&keyword, {}, false};
+/// The lines of TABULAR and SMOOTH STEP.
+Points pairs_of(const DeckKeyword& keyword) {
+  Points points;
   for (DeckCursor at(keyword); at.next_line();)
     while (!at.at_end()) {
       const double time = at.real("a time");
       if (at.at_end()) at.fail("a time without a value", "pairs of time and value");
       const double value = at.real("a value");
-      if (!amplitude.points.empty() && time < amplitude.points.back().first)
-        at.fail(fmt::format("time {:g} after {:g}", time, amplitude.points.back().first), "times in increasing order");
-      amplitude.points.emplace_back(time, value);
+      if (!points.empty() && time < points.back().first)
+        at.fail(fmt::format("time {:g} after {:g}", time, points.back().first), "times in increasing order");
+      points.emplace_back(time, value);
     }
-  if (amplitude.points.empty()) keyword.fail("no data", "pairs of time and value");
+  if (points.empty()) keyword.fail("no data", "pairs of time and value");
+  return points;
+}
+
+double number_of(const DeckKeyword& keyword, const char* parameter, double otherwise) {
+  const std::string* given = keyword.parameter(parameter);
+  if (given == nullptr) return otherwise;
+  const auto value = as_real(*given);
+  if (!value) keyword.fail(fmt::format("{}={}", parameter, *given), "a time");
+  return *value;
+}
+
+/// The lines of EQUALLY SPACED: values alone.
+Points spaced_of(const DeckKeyword& keyword) {
+  const double interval = number_of(keyword, "FIXED INTERVAL", 0.0), begin = number_of(keyword, "BEGIN", 0.0);
+  if (!(interval > 0.0)) keyword.fail("no FIXED INTERVAL", "FIXED INTERVAL=TIME between the values");
+  Points points;
+  for (DeckCursor at(keyword); at.next_line();)
+    while (!at.at_end()) points.emplace_back(begin + interval * static_cast<double>(points.size()), at.real("a value"));
+  if (points.empty()) keyword.fail("no data", "values");
+  return points;
+}
+
+Amplitude read_amplitude(const DeckKeyword& keyword) {
+  Amplitude amplitude{&keyword, {}, false};
   const std::string* definition = keyword.parameter("DEFINITION");
-  const std::string kind = definition == nullptr ? "TABULAR" : upper_case(*definition);
-  if (kind == "SMOOTH STEP")
-    amplitude.points = smooth(amplitude.points);
-  else if (kind != "TABULAR")
-    keyword.fail("DEFINITION=" + kind, "TABULAR or SMOOTH STEP", "Write it as a table.");
+  const std::string kind = definition == nullptr ? "TABULAR" : without_blanks(*definition);
+  if (kind == "TABULAR")
+    amplitude.points = pairs_of(keyword);
+  else if (kind == "SMOOTHSTEP")
+    amplitude.points = smooth(pairs_of(keyword));
+  else if (kind == "EQUALLYSPACED")
+    amplitude.points = spaced_of(keyword);
+  else
+    keyword.fail("DEFINITION=" + *definition, "TABULAR, EQUALLY SPACED or SMOOTH STEP", "Write it as a table.");
   if (const std::string* value = keyword.parameter("VALUE"); value != nullptr && upper_case(*value) != "RELATIVE")
     keyword.fail("VALUE=" + *value, "VALUE=RELATIVE", "Write the values as multiples of those of the loads.");
   if (const std::string* time = keyword.parameter("TIME")) {
-    const std::string which = upper_case(*time);
-    if (which != "TOTAL TIME" && which != "STEP TIME" && which != "TOTALTIME" && which != "STEPTIME")
-      keyword.fail("TIME=" + *time, "STEP TIME or TOTAL TIME");
-    amplitude.is_total = which.starts_with("TOTAL");
+    const std::string which = without_blanks(*time);
+    if (which != "TOTALTIME" && which != "STEPTIME") keyword.fail("TIME=" + *time, "STEP TIME or TOTAL TIME");
+    amplitude.is_total = which == "TOTALTIME";
   }
   return amplitude;
 }

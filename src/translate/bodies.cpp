@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
 
 #include "deck/keyword_table.hpp"
+#include "translate/temperatures.hpp"
 #include "translate/translation.hpp"
 #include "translate/tree.hpp"
 
@@ -22,6 +23,7 @@ struct MaterialKeywords {
   std::map<std::string, const DeckKeyword*> options;
   std::vector<const DeckKeyword*> plastic;  ///< one for each rate
 
+  std::string name() const { return material->required("NAME"); }
   const DeckKeyword* option(const std::string& name) const {
     const auto found = options.find(name);
     return found == options.end() ? nullptr : found->second;
@@ -72,16 +74,6 @@ std::vector<double> values_of(const DeckKeyword& keyword, std::size_t least, con
   return values;
 }
 
-void refuse_second_line(Translation& t, const DeckKeyword& keyword) {
-  DeckCursor at(keyword);
-  if (at.next_line() && at.next_line())
-    t.findings.refuse(keyword, at.where(), "values that depend on the temperature", "The first line would hold.");
-}
-
-bool heats(const Translation& t) {
-  return std::any_of(t.steps.begin(), t.steps.end(), [](const DeckStep& s) { return s.heats(); });
-}
-
 /// *CONDUCTIVITY and *EXPANSION change something where temperatures change.
 void refuse_heat(Translation& t, const DeckKeyword& keyword) {
   const auto given = [&](const char* name) {
@@ -90,7 +82,7 @@ void refuse_heat(Translation& t, const DeckKeyword& keyword) {
   };
   const bool flows = std::any_of(t.steps.begin(), t.steps.end(), [](const DeckStep& s) { return s.is_coupled(); });
   const bool is_expansion = keyword.name == "EXPANSION";
-  if (is_expansion ? heats(t) || given("TEMPERATURE") : flows)
+  if (is_expansion ? t.heats() || given("TEMPERATURE") : flows)
     t.findings.refuse(keyword, keyword.where, "not carried out",
                       is_expansion ? "There would be no thermal strains." : "Heat would not flow.");
   else
@@ -109,46 +101,20 @@ Elasticity elasticity(Translation& t, const MaterialKeywords& m) {
     const std::string* type = elastic->parameter("TYPE");
     if (type != nullptr && upper_case(*type) != "ISOTROPIC" && upper_case(*type) != "ISO")
       elastic->fail("TYPE=" + *type, "TYPE=ISOTROPIC", "Carom's laws are isotropic.");
-    refuse_second_line(t, *elastic);
-    const std::vector<double> values = values_of(*elastic, 1, "Young's modulus, Poisson's ratio");
-    return {values[0], values.size() > 1 ? values[1] : 0.0, elastic->where};
+    const std::vector<double> values = values_at_start(t, m.name(), *elastic, 1, 2, "Young's modulus, Poisson's ratio");
+    return {values[0], values[1], elastic->where};
   }
   const DeckKeyword* hyper = m.option("HYPERELASTIC");
   if (hyper == nullptr)
     m.material->fail("a material without *ELASTIC", "*ELASTIC or *HYPERELASTIC, NEO HOOKE after *MATERIAL");
   if (!hyper->has("NEO HOOKE")) hyper->fail("another potential", "NEO HOOKE");
-  refuse_second_line(t, *hyper);
-  const std::vector<double> values = values_of(*hyper, 2, "C10, D1");
+  const std::vector<double> values = values_at_start(t, m.name(), *hyper, 2, 2, "C10, D1");
   const double G = 2.0 * values[0];
   if (!(values[0] > 0.0) || !(values[1] > 0.0))
     hyper->fail(fmt::format("C10 = {:g}, D1 = {:g}", values[0], values[1]), "both positive",
                 "Carom has no incompressible bodies; D1 is 2 over the bulk modulus.");
   const double K = 2.0 / values[1];
   return {9.0 * K * G / (3.0 * K + G), (3.0 * K - 2.0 * G) / (2.0 * (3.0 * K + G)), hyper->where};
-}
-
-/// [plastic strain, yield stress] of the lines, at one temperature: the first.
-using HardeningCurve = std::vector<std::pair<double, double>>;
-
-HardeningCurve curve_of(Translation& t, const DeckKeyword& plastic) {
-  HardeningCurve curve;
-  std::optional<double> first;
-  bool has_others = false;
-  for (DeckCursor at(plastic); at.next_line();) {
-    const double stress = at.real("the yield stress"), strain = at.real_or(0.0, "the plastic strain");
-    const double temperature = at.real_or(0.0, "the temperature");
-    at.end_line("yield stress, plastic strain, temperature");
-    if (!first) first = temperature;
-    if (temperature == *first)
-      curve.emplace_back(strain, stress);
-    else
-      has_others = true;
-  }
-  if (curve.empty()) plastic.fail("no data", "lines of yield stress, plastic strain");
-  if (has_others)
-    t.findings.refuse(plastic, plastic.where, "several curves, one for each temperature",
-                      "That of the first line's temperature would hold at all.");
-  return curve;
 }
 
 Node rows_of(const HardeningCurve& curve, double factor, const Location& where) {
@@ -172,8 +138,9 @@ struct RateCurves {
 
 /// The curve times 1 + (rate / D)^(1 / n) (G. R. Cowper and P. S. Symonds, 1957), at rates that double from 1e-9 to 1e4
 /// times D; between them it is below by less than 1.5 % of what the rate adds, the most at n = 2.
-void add_power_law(const DeckKeyword& dependent, const HardeningCurve& curve, const Location& where, RateCurves& to) {
-  const std::vector<double> v = values_of(dependent, 2, "the multiplier D, the exponent n");
+void add_power_law(Translation& t, const std::string& material, const DeckKeyword& dependent,
+                   const HardeningCurve& curve, const Location& where, RateCurves& to) {
+  const std::vector<double> v = values_at_start(t, material, dependent, 2, 2, "the multiplier D, the exponent n");
   if (!(v[0] > 0.0) || !(v[1] >= 1.0))
     dependent.fail(fmt::format("D = {:g}, n = {:g}", v[0], v[1]), "D > 0 and n of at least 1");
   to.add(0.0, curve, 1.0, where);
@@ -195,10 +162,10 @@ RateCurves rate_curves_of(Translation& t, const MaterialKeywords& m) {
   if (const DeckKeyword* dependent = m.option("RATE DEPENDENT")) {
     const std::string* type = dependent->parameter("TYPE");
     const std::string kind = type == nullptr ? "POWERLAW" : without_blanks(*type);
-    const HardeningCurve curve = curve_of(t, *m.plastic.front());
+    const HardeningCurve curve = curve_at_start(t, m.name(), *m.plastic.front());
     const Location& where = m.plastic.front()->where;
     if (kind == "POWERLAW")
-      add_power_law(*dependent, curve, where, curves);
+      add_power_law(t, m.name(), *dependent, curve, where, curves);
     else if (kind == "YIELDRATIO")
       add_yield_ratios(*dependent, curve, where, curves);
     else
@@ -209,7 +176,7 @@ RateCurves rate_curves_of(Translation& t, const MaterialKeywords& m) {
     const std::string* rate = plastic->parameter("RATE");
     const auto value = rate == nullptr ? std::optional(0.0) : as_real(*rate);
     if (!value) plastic->fail("RATE=" + *rate, "a rate");
-    curves.add(*value, curve_of(t, *plastic), 1.0, plastic->where);
+    curves.add(*value, curve_at_start(t, m.name(), *plastic), 1.0, plastic->where);
   }
   return curves;
 }
@@ -226,66 +193,26 @@ void add_table(Translation& t, const MaterialKeywords& m, TableMaker& to) {
     t.findings.note(where, "the yield stress is linear in the rate between two curves");
     return;
   }
-  const HardeningCurve curve = curve_of(t, *m.plastic.front());
+  const HardeningCurve curve = curve_at_start(t, m.name(), *m.plastic.front());
   if (curve.size() == 1)
     to.number("yield_stress", curve.front().second);
   else
     to.add("hardening_table", rows_of(curve, 1.0, where));
 }
 
-/// The temperatures that *INITIAL CONDITIONS give the nodes of a material's parts; without repetition, and infinity
-/// for nodes that have none.
-std::set<double> initial_temperatures(const Translation& t, const std::string& material) {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  std::map<Index, double> given;
-  for (const Statement& s : t.statements.list) {
-    if (s.keyword->name != "INITIAL CONDITIONS" || s.keyword->required("TYPE") != "TEMPERATURE") continue;
-    for (DeckCursor at(*s.keyword); at.next_line();) {
-      const std::string target(at.field());
-      const double temperature = at.real("the temperature");
-      for (const Index n : t.mesh.mesh.nodes_of(t.node_group(at, s, target))) given[n] = temperature;
-    }
-  }
-  std::set<double> found;
-  for (const Statement& s : t.statements.list) {
-    if (s.keyword->name != "SOLID SECTION" || s.keyword->required("MATERIAL") != material || given.empty()) continue;
-    const std::string key = key_of(t.mesh.names.element_sets, t.scope(s), s.keyword->required("ELSET"));
-    if (key.empty()) continue;
-    for (const DeckNames::Cells& cells : t.mesh.names.element_sets.at(key))
-      for (const Index n : t.mesh.mesh.nodes_of(cells.group)) {
-        const auto of_node = given.find(n);
-        found.insert(of_node == given.end() ? none : of_node->second);
-      }
-  }
-  return found;
-}
-
-/// The temperature at the start, that of transition where the deck says none.
-double initial_temperature(Translation& t, const MaterialKeywords& m, double transition) {
-  std::set<double> given = t.mesh.is_whole ? initial_temperatures(t, m.material->required("NAME")) : std::set<double>{};
-  if (given.size() == 1 && !std::isfinite(*given.begin())) given.clear();
-  if (given.empty()) {
-    t.findings.note(m.material->where, "no initial temperature: the body begins at that of transition");
-    return transition;
-  }
-  if (given.size() == 1) return *given.begin();
-  for (const Statement& s : t.statements.list)
-    if (s.keyword->name == "INITIAL CONDITIONS" && s.keyword->required("TYPE") == "TEMPERATURE") {
-      t.findings.refuse(
-          *s.keyword, s.keyword->where,
-          "several temperatures in the material " + m.material->required("NAME") + ", or none at some nodes",
-          fmt::format("All of it would begin at {:g}.", *given.begin()));
-      break;
-    }
-  return *given.begin();
-}
-
 /// The law knows differences of temperatures alone, the case absolute ones.
 void add_temperatures(Translation& t, const MaterialKeywords& m, double melting, double transition, TableMaker& to) {
-  const double initial = initial_temperature(t, m, transition);
+  double initial = initial_temperature(t, m.name());
+  const bool is_given = std::ranges::any_of(t.statements.list, [](const Statement& s) {
+    return s.keyword->name == "INITIAL CONDITIONS" && s.keyword->required("TYPE") == "TEMPERATURE";
+  });
+  if (!is_given && !t.heats()) initial = transition;  // below it all temperatures are the same
+  if (!is_given)
+    t.findings.note(m.material->where, fmt::format("no initial temperature: the body begins at {:g}", initial));
   const bool is_celsius = transition <= 0.0 || initial <= 0.0;
   const double shift = is_celsius ? 273.15 : 0.0;
-  if (is_celsius) t.findings.note(m.material->where, "temperatures below 0: 273.15 is added to all of the material");
+  if (is_celsius)
+    t.findings.note(m.material->where, "temperatures of 0 or below: 273.15 is added to all of the material");
   to.number("melting_temperature", melting + shift).number("reference_temperature", transition + shift);
   to.number("initial_temperature", initial + shift);
 }
@@ -303,12 +230,12 @@ void add_johnson_cook(Translation& t, const MaterialKeywords& m, const DeckKeywo
   }
   to.number("C", C).number("reference_rate", rate);
   add_temperatures(t, m, v[4], v[5], to);
-  const bool is_adiabatic = heats(t);
+  const bool is_adiabatic = t.heats();
   const DeckKeyword* heat = m.option("SPECIFIC HEAT");
   const DeckKeyword* fraction = m.option("INELASTIC HEAT FRACTION");
   if (is_adiabatic && heat == nullptr)
     plastic.fail("ADIABATIC without *SPECIFIC HEAT", "*SPECIFIC HEAT in the material");
-  to.number("specific_heat", heat == nullptr ? 1.0 : values_of(*heat, 1, "the specific heat")[0]);
+  to.number("specific_heat", heat == nullptr ? 1.0 : values_at_start(t, m.name(), *heat, 1, 1, "the specific heat")[0]);
   to.number("taylor_quinney", !is_adiabatic         ? 0.0
                               : fraction == nullptr ? 0.9
                                                     : values_of(*fraction, 1, "the fraction")[0]);
@@ -340,6 +267,7 @@ void add_law(Translation& t, const MaterialKeywords& m, TableMaker& to) {
   if (kind != "ISOTROPIC")
     t.findings.refuse(*plastic, plastic->where, "HARDENING=" + *hardening, "Hardening would be isotropic.");
   const std::string law = depends_on_rate(m) ? "j2_rate" : "j2";
+  if (t.heats()) t.findings.note(plastic->where, "no heating: only Johnson and Cook's law heats");
   to.text("law", is_finite ? law : law + "_small_strain");
   add_table(t, m, to);
 }
@@ -413,13 +341,12 @@ bool needs_density(const Translation& t) {
 void translate_material(Translation& t, const MaterialKeywords& m, std::set<std::string>& breaking) {
   TableMaker table(m.material->where);
   add_law(t, m, table);
-  const std::string name = m.material->required("NAME");
+  const std::string name = m.name();
   if (add_damage(t, m, table)) breaking.insert(name);
   const Elasticity elastic = elasticity(t, m);
   table.add("E", number_node(elastic.E, elastic.where)).add("nu", number_node(elastic.nu, elastic.where));
   if (const DeckKeyword* density = m.option("DENSITY")) {
-    refuse_second_line(t, *density);
-    table.add("rho", number_node(values_of(*density, 1, "the density")[0], density->where));
+    table.add("rho", number_node(values_at_start(t, m.name(), *density, 1, 1, "the density")[0], density->where));
   } else if (needs_density(t)) {
     m.material->fail("a material without *DENSITY", "*DENSITY after *MATERIAL", "Bodies in motion have a mass.");
   } else {
@@ -429,18 +356,29 @@ void translate_material(Translation& t, const MaterialKeywords& m, std::set<std:
   t.define("materials", name, table.node());
 }
 
-/// The last *BULK VISCOSITY, or what Abaqus' explicit program has without one.
-std::array<double, 2> bulk_viscosity(const Translation& t) {
-  std::optional<std::array<double, 2>> given;
-  for (const Statement& s : t.statements.list) {
-    if (s.keyword->name != "BULK VISCOSITY") continue;
-    const std::vector<double> v = values_of(*s.keyword, 1, "linear, quadratic bulk viscosity");
-    given = {v[0], v.size() > 1 ? v[1] : 0.0};
+/// That of the last step; one goes on in later steps. Abaqus' explicit program has one where none is given.
+std::array<double, 2> bulk_viscosity(Translation& t) {
+  constexpr std::array<double, 2> without_keyword{0.06, 1.2};
+  std::vector<std::array<double, 2>> given;
+  const DeckKeyword* last = nullptr;
+  const bool has_own = t.is_explicit_abaqus();
+  for (std::size_t i = 0; i < t.statements.list.size(); ++i) {
+    const DeckKeyword& keyword = *t.statements.list[i].keyword;
+    if (keyword.name != "BULK VISCOSITY") continue;
+    if (given.empty() && has_own && t.steps.size() > 1 && i > t.steps[1].begin) given.push_back(without_keyword);
+    DeckCursor at(keyword);
+    at.next_line();
+    const double linear = at.real_or(without_keyword[0], "the linear bulk viscosity");
+    given.push_back({linear, at.real_or(without_keyword[1], "the quadratic bulk viscosity")});
+    last = &keyword;
   }
-  if (given || !t.is_explicit_abaqus()) return given.value_or(std::array<double, 2>{});
+  if (std::ranges::adjacent_find(given, std::ranges::not_equal_to{}) != given.end())
+    t.findings.refuse(*last, last->where, "another bulk viscosity than in a step before",
+                      "It would be that of the whole run.");
+  if (!given.empty() || !has_own) return given.empty() ? std::array<double, 2>{} : given.back();
   t.findings.note(t.steps.front().procedure->where,
                   "bulk viscosity 0.06 and 1.2, which Abaqus has where none is given");
-  return {0.06, 1.2};
+  return without_keyword;
 }
 
 /// Where the *SECTION CONTROLS that a section names keeps its cells from folding: the share that they keep.
@@ -461,6 +399,36 @@ std::optional<double> distortion_control(Translation& t, const DeckKeyword& sect
   if (!share || t.is_finite()) return share;
   t.findings.note(section.where, "DISTORTION CONTROL changes nothing at small strain");
   return std::nullopt;
+}
+
+/// Cells may be told to stay when their damage is 1.
+void refuse_staying(Translation& t, const DeckKeyword& section) {
+  const std::string* name = section.parameter("CONTROLS");
+  for (const Statement& s : t.statements.list) {
+    const DeckKeyword& controls = *s.keyword;
+    if (name == nullptr || controls.name != "SECTION CONTROLS" || controls.required("NAME") != upper_case(*name))
+      continue;
+    const std::string* deletion = controls.parameter("ELEMENT DELETION");
+    if (deletion != nullptr && upper_case(*deletion) == "NO")
+      t.findings.refuse(controls, controls.where, "ELEMENT DELETION=NO", "Cells would go where their damage is 1.");
+  }
+}
+
+/// What the fourth and the fifth number of the *SECTION CONTROLS that a section names are: factors of the linear and
+/// the quadratic bulk viscosity.
+std::array<double, 2> viscosity_factors(const Translation& t, const DeckKeyword& section) {
+  std::array<double, 2> factors{1.0, 1.0};
+  const std::string* name = section.parameter("CONTROLS");
+  for (const Statement& s : t.statements.list) {
+    const DeckKeyword& controls = *s.keyword;
+    if (name == nullptr || controls.name != "SECTION CONTROLS" || controls.required("NAME") != upper_case(*name))
+      continue;
+    DeckCursor at(controls);
+    if (!at.next_line()) continue;
+    for (int i = 0; i < 3; ++i) at.field();  // of hourglass control
+    for (double& factor : factors) factor = at.real_or(1.0, "a factor of the bulk viscosity");
+  }
+  return factors;
 }
 
 /// Can one part have the elements of all types of a set? Its formulation is for the cells that have it.
@@ -488,7 +456,8 @@ struct OfSections {
 };
 
 void translate_section(Translation& t, const Statement& s, const OfSections& shared) {
-  const std::array<double, 2>& viscosity = shared.viscosity;
+  std::array<double, 2> viscosity = viscosity_factors(t, *s.keyword);
+  for (std::size_t i = 0; i < viscosity.size(); ++i) viscosity[i] *= shared.viscosity[i];
   const DeckKeyword& keyword = *s.keyword;
   const std::string set = keyword.required("ELSET"), material = keyword.required("MATERIAL");
   const std::string key = key_of(t.mesh.names.element_sets, t.scope(s), set);
@@ -518,6 +487,7 @@ void translate_section(Translation& t, const Statement& s, const OfSections& sha
     if (viscosity[0] != 0.0) part.number("linear_bulk_viscosity", viscosity[0]);
     if (viscosity[1] != 0.0) part.number("quadratic_bulk_viscosity", viscosity[1]);
     t.append("part", part.node());
+    if (shared.breaking.contains(material)) refuse_staying(t, keyword);
     if (shared.breaking.contains(material))
       t.append("erosion", TableMaker(keyword.where).text("part", group).number("damage", 1.0).node());
   };

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "deck/keyword_table.hpp"
 #include "translate/rigid.hpp"
@@ -31,6 +32,9 @@ void read_behavior(Translation& t, const DeckKeyword& keyword, Interaction& to) 
     to.stiffness = slope;
     return;
   }
+  if (kind == "TIED")
+    return t.findings.refuse(keyword, keyword.where, "PRESSURE-OVERCLOSURE=TIED",
+                             "The surfaces would slide and part: write *TIE.");
   t.findings.refuse(keyword, keyword.where, "PRESSURE-OVERCLOSURE=" + kind,
                     "Contact would have the stiffness that Carom chooses from the material and the cells.");
 }
@@ -79,6 +83,16 @@ const Interaction& interaction(const std::map<std::string, Interaction>& all, co
   return found->second;
 }
 
+/// What is not as the deck has it of a surface that is met.
+void note_shape(Translation& t, const Location& where, const DeckNames::Surface& surface) {
+  if (surface.is_side_chosen)
+    t.findings.note(where,
+                    surface.group + " names no side: it is met from that where the bodies are, from there alone");
+  if (surface.roundness > 0.0)
+    t.findings.note(where, fmt::format("{} is made of flat faces, whose middles are up to {:.3g} inside of its arcs",
+                                       surface.group, surface.roundness));
+}
+
 std::string faces_of(Translation& t, const Statement& s, const DeckCursor& at, const std::string& name) {
   const std::string key = key_of(t.mesh.names.surfaces, t.scope(s), name);
   if (key.empty()) at.fail("\"" + name + "\"", "the NAME of a *SURFACE");
@@ -86,6 +100,7 @@ std::string faces_of(Translation& t, const Statement& s, const DeckCursor& at, c
   if (surface.faces.empty())
     at.fail(name + ", a surface of nodes that make no face", "nodes with all those of a face, or TYPE=ELEMENT",
             "Carom's contact needs the faces of both sides.");
+  note_shape(t, at.where(), surface);
   if (surface.kind == DeckNames::SurfaceKind::nodes)
     t.findings.note(at.where(),
                     name + " is a surface of nodes: the faces between them touch, or bars with their sides");
@@ -117,54 +132,118 @@ void refuse_closing(Translation& t, const DeckKeyword& pair) {
     t.findings.refuse(pair, pair.where, "ADJUST=" + *adjust, "Gaps at the start would stay open.");
 }
 
+/// What a pair has besides its surfaces.
+struct OfPair {
+  const DeckKeyword* keyword = nullptr;
+  const Interaction* interaction = nullptr;
+  std::string method;              ///< "" Carom's own
+  bool is_offset = false;          ///< overlaps at the start count as touching
+  bool takes_rigid_first = false;  ///< in either order: the rigid surface is the master
+};
+
+void add_pair(Translation& t, const DeckCursor& at, const Statement& s, std::string slave, std::string master,
+              const OfPair& of) {
+  const bool is_self = master.empty() || upper_case(master) == upper_case(slave);
+  std::string group = faces_of(t, s, at, slave), other = is_self ? group : faces_of(t, s, at, master);
+  if (of.takes_rigid_first && body_of_cells(t, group) != nullptr && body_of_cells(t, other) == nullptr) {
+    std::swap(slave, master);
+    std::swap(group, other);
+  }
+  if (body_of_cells(t, group) != nullptr)
+    at.fail(slave + ", the surface of a rigid body", "the deformable one first", "Name the rigid surface second.");
+  TableMaker contact(at.where());
+  contact.text("name", is_self ? upper_case(slave) + " self" : upper_case(slave) + " on " + upper_case(master));
+  if (DeckRigidBody* body = body_of_cells(t, other)) {
+    contact.text("kind", "surface").text("group", group).text("surface", other);
+    add_rigid_motion(t, *body, contact);
+  } else {
+    contact.text("kind", is_self ? "self" : "pair").text("group", group);
+    if (!is_self) contact.text("master", other);
+    if (!of.method.empty()) contact.text("method", of.method);
+  }
+  contact.text("initial_penetration", of.is_offset ? "offset" : "prestress");
+  if (of.interaction != nullptr)
+    add_interaction(*of.interaction, contact);
+  else
+    t.findings.note(of.keyword->where, "no INTERACTION: without friction, the stiffness is chosen");
+  t.append("contact", contact.node());
+}
+
 void translate_pairs(Translation& t, const std::map<std::string, Interaction>& all, const Statement& s) {
   const DeckKeyword& keyword = *s.keyword;
   refuse_closing(t, keyword);
-  for (DeckCursor at(keyword); at.next_line();) {
-    const std::string slave(at.field()), master(at.field());
-    at.end_line("the slave and the master");
-    TableMaker contact(at.where());
-    const bool is_self = master.empty() || upper_case(master) == upper_case(slave);
-    const std::string group = faces_of(t, s, at, slave), other = is_self ? group : faces_of(t, s, at, master);
-    contact.text("name", is_self ? upper_case(slave) + " self" : upper_case(slave) + " on " + upper_case(master));
-    if (body_of_cells(t, group) != nullptr)
-      at.fail(slave + ", the surface of a rigid body", "the deformable one first", "Name the rigid surface second.");
-    if (DeckRigidBody* body = body_of_cells(t, other)) {
-      contact.text("kind", "surface").text("group", group).text("surface", other);
-      add_rigid_motion(t, *body, contact);
-    } else {
-      contact.text("kind", is_self ? "self" : "pair").text("group", group);
-      if (!is_self) contact.text("master", other);
-      contact.text("method", method_of(t, keyword));
+  const std::string method = method_of(t, keyword);
+  for (DeckCursor at(keyword); at.next_line();)
+    t.errors.attempt([&] {
+      const std::string slave(at.field()), master(at.field());
+      at.end_line("the slave and the master");
+      const bool has_interaction = keyword.has("INTERACTION");
+      add_pair(t, at, s, slave, master,
+               {&keyword, has_interaction ? &interaction(all, keyword.required("INTERACTION"), at) : nullptr, method,
+                keyword.has("ADJUST") || t.is_explicit_abaqus(), t.is_explicit_abaqus()});
+    });
+}
+
+/// A line of *CONTACT PROPERTY ASSIGNMENT; without surfaces it is for all.
+struct Assignment {
+  const DeckKeyword* keyword = nullptr;
+  std::string first, second;
+  const Interaction* interaction = nullptr;
+  DeckCursor at;
+
+  bool is_for_all() const { return first.empty() && second.empty(); }
+  bool is_for(const std::string& a, const std::string& b) const {
+    return is_for_all() || (first == a && second == b) || (first == b && second == a);
+  }
+};
+
+std::vector<Assignment> assignments_of(Translation& t, const std::map<std::string, Interaction>& all) {
+  std::vector<Assignment> assignments;
+  for (std::size_t i = 0; i < t.statements.list.size(); ++i) {
+    const DeckKeyword& keyword = *t.statements.list[i].keyword;
+    if (keyword.name != "CONTACT PROPERTY ASSIGNMENT") continue;
+    if (t.steps.size() > 1 && i > t.steps[1].begin) {
+      t.findings.refuse(keyword, keyword.where, "an interaction that begins with a later step",
+                        "That of the first would hold for the whole run.");
+      continue;
     }
-    contact.text("initial_penetration", keyword.has("ADJUST") || t.is_explicit_abaqus() ? "offset" : "prestress");
-    if (keyword.has("INTERACTION"))
-      add_interaction(interaction(all, keyword.required("INTERACTION"), at), contact);
-    else
-      t.findings.note(keyword.where, "no INTERACTION: without friction, the stiffness is chosen");
-    t.append("contact", contact.node());
+    for (DeckCursor at(keyword); at.next_line();) {
+      const std::string first = upper_case(at.field()), second = upper_case(at.field());
+      assignments.push_back(
+          {&keyword, first, second.empty() ? first : second, &interaction(all, upper_case(at.field()), at), at});
+    }
   }
+  return assignments;
 }
 
-/// That of general contact: one for all surfaces, or none.
-Interaction general_interaction(const Translation& t, const std::map<std::string, Interaction>& all) {
-  for (const Statement& s : t.statements.list) {
-    if (s.keyword->name != "CONTACT PROPERTY ASSIGNMENT") continue;
-    DeckCursor at(*s.keyword);
-    if (!at.next_line()) continue;
+/// General contact of chosen surfaces: pairs, a surface alone with itself.
+void translate_inclusions(Translation& t, const std::vector<Assignment>& assignments, const Statement& s) {
+  bool has_lines = false;
+  for (DeckCursor at(*s.keyword); at.next_line();) {
+    has_lines = true;
     const std::string first(at.field()), second(at.field());
-    if (!first.empty() || !second.empty()) at.fail("an interaction of single surfaces", "one for all: , , NAME");
-    const Interaction& found = interaction(all, upper_case(at.field()), at);
-    if (at.next_line()) at.fail("a second line", "one interaction for all surfaces");
-    return found;
+    at.end_line("two surfaces");
+    if (first.empty()) at.fail("contact of all with chosen surfaces", "two surfaces in a line, or ALL EXTERIOR");
+    const Interaction* of = nullptr;
+    for (const Assignment& assignment : assignments)
+      if (assignment.is_for(upper_case(first), upper_case(second.empty() ? first : second)))
+        of = assignment.interaction;
+    add_pair(t, at, s, first, second, {s.keyword, of, {}, true, true});
   }
-  return {};
+  if (!has_lines) s.keyword->fail("no surfaces", "ALL EXTERIOR, or lines of two surfaces");
 }
 
-void translate_general(Translation& t, const std::map<std::string, Interaction>& all, const DeckKeyword& inclusions) {
-  if (!inclusions.has("ALL EXTERIOR"))
-    inclusions.fail("contact of chosen surfaces", "ALL EXTERIOR", "Write pairs as *CONTACT PAIR.");
-  const Interaction of = general_interaction(t, all);
+void translate_general(Translation& t, const std::map<std::string, Interaction>& all, const Statement& s) {
+  const DeckKeyword& inclusions = *s.keyword;
+  const std::vector<Assignment> assignments = assignments_of(t, all);
+  if (!inclusions.has("ALL EXTERIOR")) return translate_inclusions(t, assignments, s);
+  Interaction of;
+  for (const Assignment& assignment : assignments)
+    if (assignment.is_for_all())
+      of = *assignment.interaction;
+    else
+      t.findings.refuse(*assignment.keyword, assignment.at.where(), "an interaction of single surfaces",
+                        "That of all surfaces would hold, or none where none is given.");
   TableMaker contact(inclusions.where);
   contact.text("name", "general contact").text("kind", "all").text("initial_penetration", "offset");
   add_interaction(of, contact);
@@ -182,8 +261,10 @@ void translate_general(Translation& t, const std::map<std::string, Interaction>&
     const std::vector<CellRef>& met = t.mesh.mesh.cell_groups.at(side->second.group);
     t.leaves_faces = t.leaves_faces || std::any_of(met.begin(), met.end(),
                                                    [&](const CellRef& cell) { return body.cells.count(cell) == 0; });
-    t.findings.note(body.keyword->where,
-                    "general contact meets the rigid body from the side where the other bodies are");
+    note_shape(t, body.keyword->where, side->second);
+    if (body.keyword->has("ELSET"))
+      t.findings.note(body.keyword->where,
+                      "general contact meets the rigid body from the side where the other bodies are");
   }
 }
 
@@ -209,6 +290,15 @@ void translate_ties(Translation& t, const Statement& s) {
   }
 }
 
+/// Rigid surfaces that no contact names do nothing.
+void leave_unmet(Translation& t) {
+  for (const DeckRigidBody& body : t.rigid_bodies) {
+    if (!body.is_obstacle() || body.contacts > 0) continue;
+    t.findings.note(body.keyword->where, "no contact meets the rigid surface " + body.name);
+    t.leaves_faces = true;
+  }
+}
+
 }  // namespace
 
 void translate_contacts(Translation& t) {
@@ -217,6 +307,11 @@ void translate_contacts(Translation& t) {
     const Statement& s = t.statements.list[i];
     const bool is_pair = s.keyword->name == "CONTACT PAIR", is_tie = s.keyword->name == "TIE";
     if (!is_pair && !is_tie && s.keyword->name != "CONTACT INCLUSIONS") continue;
+    const std::string* op = s.keyword->parameter("OP");
+    if (is_pair && op != nullptr && upper_case(*op) == "DELETE") {
+      t.findings.refuse(*s.keyword, s.keyword->where, "contact that ends with a step", "It would stay.");
+      continue;
+    }
     if (t.steps.size() > 1 && i > t.steps[1].begin)
       t.findings.refuse(*s.keyword, s.keyword->where, "contact that begins with a later step",
                         "It would be there from the start.");
@@ -226,9 +321,10 @@ void translate_contacts(Translation& t) {
       else if (is_pair)
         translate_pairs(t, all, s);
       else
-        translate_general(t, all, *s.keyword);
+        translate_general(t, all, s);
     });
   }
+  if (t.errors.empty()) leave_unmet(t);
 }
 
 }  // namespace carom

@@ -42,7 +42,7 @@ and surfaces of them) is not looked at. `--accept` takes names of keywords alone
 Upper and lower case are the same, blanks in keywords do not count, keywords and parameters may be shortened where the
 beginning (four letters, three of a parameter) fits one name only. Keyword lines that end with a comma go on; `**` begins a
 comment; exponents may be written with `D`; names with blanks stand in quotes; `*INCLUDE` counts from the folder of the
-file that it stands in. Parts may be used by several instances, shifted and turned; numbers restart in every part, and in
+file that it stands in, as `INPUT` of other keywords does, a file of their data lines. Parts may be used by several instances, shifted and turned; numbers restart in every part, and in
 Carom the numbers of an instance count on from the largest before it. Names and numbers of an instance are written
 `INSTANCE.NAME`. Sets given several times are united. Names come out in upper case.
 
@@ -88,12 +88,16 @@ A `*RIGID BODY` of faces (R3D3, R3D4, in the plane R2D2, around an axis RAX2) is
   `*INITIAL CONDITIONS` may give its velocity and angular velocity (degrees of freedom 4 to 6, or `ROTATING VELOCITY`).
 
 What is neither is refused: a node that is free along or about some of the axes only, or held in its place and, with a
-`*ROTARY INERTIA`, free to turn.
+`*ROTARY INERTIA`, free to turn. One with a `*MASS` that is held along some axes, as of a guided hammer, may be accepted: it is
+free along all of them.
 
 In a pair it is met from the side of its normal: by the right-hand rule, of R2D2 and RAX2 a quarter turn counter-clockwise
-from the first node to the second; `SNEG` names the other side. What would pass from behind is refused.
+from the first node to the second; `SNEG` names the other side. What would pass from behind is refused. Of R3D3 and
+R3D4 without `SPOS` or `SNEG` Abaqus' explicit program meets both sides: here that on which the deformable bodies are, as in
+general contact; a note says so. In decks of that program the rigid surface may be named first.
 
-General contact (`*CONTACT INCLUSIONS, ALL EXTERIOR`) is `kind = "all"` between the bodies, and an obstacle for each rigid
+General contact of chosen surfaces (`*CONTACT INCLUSIONS` with lines) is a pair for each line, of a surface alone with itself.
+With `ALL EXTERIOR` it is `kind = "all"` between the bodies, and an obstacle for each rigid
 body, which names no side. It is met from the side on which, seen from its face that is nearest to the middle of all nodes of
 deformable bodies, that middle is; a note says so, and what then lies behind it is refused as in a pair. Faces that a `*TIE`
 holds take no part ([ties.md](ties.md)). Analytical surfaces are met from the side of their normal here, too.
@@ -121,6 +125,14 @@ have supports alone. A `*COUPLING` to the reference node of a body of solids joi
 others, along two axes all turns. So there may be imposed: nothing; 1 with 5 and 6, 2 with 4 and 6, or 3 with 4 and 5, as
 `XSYMM` and its like do; two or three of 1 to 3 with 4 to 6. Displacements, velocities and accelerations may be
 other than 0, turns not. `*CLOAD` acts where the reference node stands, and probes follow it. `*INITIAL CONDITIONS` at the reference node give its velocity and the angular velocity about it.
+
+## Temperatures
+
+Nodes have no temperatures. Tables of `*ELASTIC`, `*PLASTIC`, `*DENSITY`, `*SPECIFIC HEAT` and `*HYPERELASTIC` are taken at that of
+the start (`*INITIAL CONDITIONS, TYPE=TEMPERATURE`, 0 where none is given): linear between two that are given, and constant outside,
+as in both programs; where a step heats or computes temperatures, tables of several are refused unless accepted. Only Johnson
+and Cook's law heats, in steps that are `ADIABATIC` or compute temperatures. Imposed temperatures (degree of freedom 11) and thermal
+strains are refused unless accepted.
 
 ## Damage
 
@@ -185,6 +197,7 @@ std::string elements() {
     const bool is_cell = type.kind == DeckElementType::Kind::cell;
     const char* discrete = type.kind == DeckElementType::Kind::mass      ? "point mass"
                            : type.kind == DeckElementType::Kind::inertia ? "rotary inertia"
+                           : type.kind == DeckElementType::Kind::unknown ? ""
                                                                          : "spring";
     text +=
         fmt::format("| `{}` | {} | {} | {} | {} |\n", type.name, is_cell ? name(type.type) : std::string_view(discrete),

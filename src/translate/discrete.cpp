@@ -20,26 +20,33 @@ struct GroupVelocity {
   Location where;
 };
 
-void read_velocities(Translation& t, const Statement& s, std::vector<GroupVelocity>& all) {
-  for (DeckCursor at(*s.keyword); at.next_line();) {
-    const std::string target(at.field());
-    const std::string group = t.node_group(at, s, target);
-    const std::int64_t dof = at.integer("the degree of freedom");
-    const double value = at.real("the velocity");
-    const std::vector<DeckRigidBody*> bodies = referred_to(t, group);
-    if (dof < 1 || dof > (bodies.empty() ? 3 : 6))
-      at.fail(fmt::format("degree of freedom {}", dof), bodies.empty() ? "1, 2 or 3" : "1 to 6");
-    for (DeckRigidBody* body : bodies) {
-      std::optional<Vec3>& of = dof > 3 ? body->initial_rotation : body->initial_velocity;
-      if (!of) of = Vec3{};
-      (*of)[carom::at((dof - 1) % 3)] = value;
-    }
-    if (!bodies.empty()) continue;
-    auto found = std::find_if(all.begin(), all.end(), [&](const GroupVelocity& v) { return v.group == group; });
-    if (found == all.end()) found = all.insert(all.end(), {group, {}, {}, at.where()});
-    found->velocity[carom::at(dof - 1)] = value;
-    found->given[carom::at(dof - 1)] = true;
+void read_velocity(Translation& t, const Statement& s, DeckCursor& at, std::vector<GroupVelocity>& all) {
+  const std::string target(at.field());
+  const std::string group = t.node_group(at, s, target);
+  std::int64_t dof = at.integer("the degree of freedom");
+  const double value = at.real("the velocity");
+  auto [bodies, has_others] = referred_to(t, group);
+  if (DeckRigidBody* const body = turned_by(t, group); body != nullptr && dof >= 1 && dof <= 3) {
+    bodies = {body};
+    has_others = false;
+    dof += 3;
   }
+  if (dof < 1 || dof > (bodies.empty() ? 3 : 6))
+    at.fail(fmt::format("degree of freedom {}", dof), bodies.empty() ? "1, 2 or 3" : "1 to 6");
+  for (DeckRigidBody* body : bodies) {
+    std::optional<Vec3>& of = dof > 3 ? body->initial_rotation : body->initial_velocity;
+    if (!of) of = Vec3{};
+    (*of)[carom::at((dof - 1) % 3)] = value;
+  }
+  if (!has_others || dof > 3) return;
+  auto found = std::find_if(all.begin(), all.end(), [&](const GroupVelocity& v) { return v.group == group; });
+  if (found == all.end()) found = all.insert(all.end(), {group, {}, {}, at.where()});
+  found->velocity[carom::at(dof - 1)] = value;
+  found->given[carom::at(dof - 1)] = true;
+}
+
+void read_velocities(Translation& t, const Statement& s, std::vector<GroupVelocity>& all) {
+  for (DeckCursor at(*s.keyword); at.next_line();) t.errors.attempt([&] { read_velocity(t, s, at, all); });
 }
 
 /// A later section of the case replaces the whole velocity of a node: components of sets that overlap cannot be told
@@ -63,10 +70,10 @@ void refuse_mixed(const Translation& t, const std::vector<GroupVelocity>& all) {
 }
 
 /// The bodies of the reference nodes of a node set, or of a set of cells.
-std::vector<DeckRigidBody*> rigid_of(Translation& t, const std::string& nodes, const std::string& cells) {
+Referred rigid_of(Translation& t, const std::string& nodes, const std::string& cells) {
   if (cells.empty()) return referred_to(t, nodes);
   DeckRigidBody* const body = body_of_cells(t, cells);
-  return body == nullptr ? std::vector<DeckRigidBody*>{} : std::vector<DeckRigidBody*>{body};
+  return body == nullptr ? Referred{} : Referred{{body}, false};
 }
 
 /// Node or cell set, angular velocity, velocity; then two points of the axis.
@@ -85,15 +92,27 @@ void translate_rotation(Translation& t, const Statement& s) {
     const Vec3 axis = subtract(b, a);
     if (norm(axis) == 0.0) at.fail("an axis from a point to itself", "two points");
     const Vec3 omega = scaled(normalized(axis), speed);
-    const std::vector<DeckRigidBody*> bodies = rigid_of(t, group, cells);
+    const auto [bodies, has_others] = rigid_of(t, group, cells);
     for (DeckRigidBody* body : bodies) {
       body->initial_velocity = add(velocity, cross(omega, subtract(body->centre, a)));
       body->initial_rotation = omega;
     }
-    if (!bodies.empty()) continue;
+    if (!has_others) continue;
     initial.text("nodes", group).vector("velocity", velocity).vector("angular_velocity", omega).vector("centre", a);
     t.append("initial", initial.node());
   }
+}
+
+/// They are looked up by the materials.
+void check_temperatures(Translation& t, const Statement& s) {
+  for (DeckCursor at(*s.keyword); at.next_line();)
+    t.errors.attempt([&] {
+      const std::string target(at.field());
+      t.node_group(at, s, target);
+      at.real("the temperature");
+    });
+  t.findings.note(s.keyword->where,
+                  "temperatures choose values of tables and begin Johnson and Cook's law, and strain nothing");
 }
 
 void translate_initial(Translation& t) {
@@ -107,7 +126,7 @@ void translate_initial(Translation& t) {
       else if (type == "ROTATING VELOCITY" || type == "ROTATINGVELOCITY")
         translate_rotation(t, s);
       else if (type == "TEMPERATURE")
-        t.findings.note(s.keyword->where, "temperatures act on the materials of Johnson and Cook alone");
+        check_temperatures(t, s);
       else
         t.findings.refuse(*s.keyword, s.keyword->where, "TYPE=" + type, "The run would begin without.");
     });
@@ -119,14 +138,25 @@ void translate_initial(Translation& t) {
   }
 }
 
+/// The bodies whose reference nodes are those of a set of elements at points; none where it has none of them.
+std::vector<DeckRigidBody*> bodies_of_points(Translation& t, const DeckKeyword& keyword, const std::string& group) {
+  Referred of = referred_to(t, group);
+  if (of.has_others && !of.bodies.empty())
+    keyword.fail("a set with reference nodes of rigid bodies and other nodes", "a set of each");
+  return std::move(of.bodies);
+}
+
 void translate_mass(Translation& t, const Statement& s) {
   const std::string set = s.keyword->required("ELSET"), key = key_of(t.mesh.names.masses, t.scope(s), set);
   if (key.empty()) s.keyword->fail("ELSET=" + set, "a set of elements of TYPE=MASS");
   DeckCursor at(*s.keyword);
   if (!at.next_line()) s.keyword->fail("no data", "the mass");
   const double value = at.real("the mass");
-  const std::vector<DeckRigidBody*> bodies = referred_to(t, t.mesh.names.masses.at(key));
-  for (DeckRigidBody* body : bodies) body->mass = value, body->mass_keyword = s.keyword;
+  const std::vector<DeckRigidBody*> bodies = bodies_of_points(t, *s.keyword, t.mesh.names.masses.at(key));
+  for (DeckRigidBody* body : bodies) {
+    body->mass = body->mass.value_or(0.0) + value;
+    body->mass_keyword = s.keyword;
+  }
   if (!bodies.empty()) return;
   TableMaker mass(s.keyword->where);
   mass.text("nodes", t.mesh.names.masses.at(key)).number("mass", value);
@@ -147,8 +177,11 @@ void translate_inertia(Translation& t, const Statement& s) {
   if (t.scope(s).placement.turn)
     at.fail("an inertia in an instance that is turned", "one in an instance that is shifted alone",
             "Its axes turn with the instance: give the inertia in the assembly, about its axes.");
-  const std::vector<DeckRigidBody*> bodies = referred_to(t, t.mesh.names.inertias.at(key));
-  for (DeckRigidBody* body : bodies) body->inertia = inertia;
+  const std::vector<DeckRigidBody*> bodies = bodies_of_points(t, keyword, t.mesh.names.inertias.at(key));
+  for (DeckRigidBody* body : bodies) {
+    const DeckRigidBody::Inertia before = body->inertia.value_or(DeckRigidBody::Inertia{});
+    body->inertia = {&keyword, add(inertia.moments, before.moments), add(inertia.products, before.products)};
+  }
   if (bodies.empty())
     t.findings.refuse(keyword, keyword.where, "an inertia of nodes that no *RIGID BODY refers to",
                       "It would be left out.");

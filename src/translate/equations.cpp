@@ -60,7 +60,7 @@ void translate_equation(Translation& t, const Statement& s) {
         target = at.field();
       }
       const std::string nodes = t.node_group(at, s, target);
-      if (!referred_to(t, nodes).empty())
+      if (!referred_to(t, nodes).bodies.empty())
         at.fail(fmt::format("\"{}\", the reference node of a rigid body", target), "nodes of deformable bodies");
       if (terms.empty()) first = nodes;
       refuse_other_order(t, at, first, nodes);
@@ -82,8 +82,6 @@ void translate_equations(Translation& t) {
   for (std::size_t i = 0; i < t.statements.list.size(); ++i) {
     const Statement& s = t.statements.list[i];
     if (s.keyword->name != "EQUATION") continue;
-    if (const std::string* input = s.keyword->parameter("INPUT"))
-      t.findings.refuse(*s.keyword, s.keyword->where, "INPUT=" + *input, "What the other file says would not hold.");
     if (!t.steps.empty() && i > t.steps[0].begin)
       t.findings.refuse(*s.keyword, s.keyword->where, "an equation within a step", "It would be there from the start.");
     t.errors.attempt([&] { translate_equation(t, s); });

@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
 
+#include "deck/keyword_table.hpp"
 #include "translate/translation.hpp"
 #include "translate/tree.hpp"
 
@@ -49,27 +53,35 @@ void add_analytical(const Translation& t, const Statement& s, DeckRigidBody& bod
       if (cells.type->section == "axisymmetric") body.space = DeckRigidBody::Space::ring;
 }
 
-void add_reference(const Translation& t, const Statement& s, DeckRigidBody& body) {
-  const DeckKeyword& keyword = *s.keyword;
-  const std::string node = keyword.required("REF NODE");
+/// The node that a parameter names, and its key among the node sets.
+std::pair<Index, std::string> node_of(const Translation& t, const Statement& s, const char* parameter) {
+  const std::string node = s.keyword->required(parameter);
   const std::string group = key_of(t.mesh.names.node_sets, t.scope(s), node);
   const std::vector<Index> nodes =
       group.empty() ? std::vector<Index>{} : t.mesh.mesh.nodes_of(t.mesh.names.node_sets.at(group));
-  if (nodes.size() != 1) keyword.fail("REF NODE=" + node, "the number of a node, or a set of one");
-  body.node = group;
-  body.reference = nodes.front();
-  body.centre = t.mesh.mesh.coordinates[at(body.reference)];
+  if (nodes.size() != 1)
+    s.keyword->fail(fmt::format("{}={}", parameter, node), "the number of a node, or a set of one");
+  return {nodes.front(), group};
 }
 
-/// PIN NSET and TIE NSET are the same to nodes that do not turn. Without elements they are the body.
+void add_reference(const Translation& t, const Statement& s, DeckRigidBody& body) {
+  std::tie(body.reference, body.node) = node_of(t, s, "REF NODE");
+  body.centre = t.mesh.mesh.coordinates[at(body.reference)];
+  if (s.keyword->has("ROT NODE")) body.turning = node_of(t, s, "ROT NODE").first;
+}
+
+constexpr std::array node_parameters{"TIE NSET", "PIN NSET", "NSET"};
+
+/// PIN NSET, TIE NSET and CalculiX' NSET are the same to nodes that do not turn. Without elements they are the body.
 void add_nodes(const Translation& t, const Statement& s, DeckRigidBody& body) {
   const DeckKeyword& keyword = *s.keyword;
-  for (const char* const key : {"TIE NSET", "PIN NSET"}) {
+  for (const char* const key : node_parameters) {
     const std::string* set = keyword.parameter(key);
     if (set == nullptr) continue;
     const std::string found = key_of(t.mesh.names.node_sets, t.scope(s), *set);
     if (found.empty()) keyword.fail(fmt::format("{}={}", key, *set), "the name of a node set");
-    if (!body.joined.empty()) keyword.fail("TIE NSET beside PIN NSET", "one of them", "Join both sets in one *NSET.");
+    if (!body.joined.empty())
+      keyword.fail(fmt::format("{} beside another set of nodes", key), "one of them", "Join both sets in one *NSET.");
     if (!body.cells.empty() && body.is_obstacle())
       keyword.fail(fmt::format("{} beside faces", key), "faces or an analytical surface alone",
                    "Bodies of solids hold nodes of others: give the faces cells behind them.");
@@ -79,15 +91,27 @@ void add_nodes(const Translation& t, const Statement& s, DeckRigidBody& body) {
   if (body.is_of_nodes()) body.group = body.joined;
 }
 
+/// Abaqus may move the reference node to the centre of mass, where it stands anyway of a surface, whose mass it has.
+void check_position(const Translation& t, const DeckKeyword& keyword, const DeckRigidBody& body) {
+  const std::string* given = keyword.parameter("POSITION");
+  const std::string position = given == nullptr ? "INPUT" : without_blanks(*given);
+  if (position == "INPUT" || (position == "CENTEROFMASS" && body.is_obstacle())) return;
+  if (position != "CENTEROFMASS") keyword.fail("POSITION=" + *given, "INPUT or CENTER OF MASS");
+  t.findings.refuse(keyword, keyword.where, "POSITION=CENTER OF MASS",
+                    "Forces and velocities of the reference node would act where the deck has it.");
+}
+
 DeckRigidBody read_rigid_body(const Translation& t, const Statement& s) {
   DeckRigidBody body;
   body.keyword = s.keyword;
   if (s.keyword->has("ANALYTICAL SURFACE"))
     add_analytical(t, s, body);
-  else if (s.keyword->has("ELSET") || !(s.keyword->has("TIE NSET") || s.keyword->has("PIN NSET")))
+  else if (s.keyword->has("ELSET") ||
+           std::ranges::none_of(node_parameters, [&](const char* key) { return s.keyword->has(key); }))
     add_elements(t, s, body);
   add_nodes(t, s, body);
   add_reference(t, s, body);
+  check_position(t, *s.keyword, body);
   return body;
 }
 
@@ -233,7 +257,7 @@ Vec3 moments_of(const DeckRigidBody& body) {
 
 void add_free_body(Translation& t, DeckRigidBody& body, const Components& components, TableMaker& contact) {
   const DeckKeyword& keyword = *body.keyword;
-  if (++body.contacts > 1)
+  if (body.contacts > 1)
     keyword.fail("a free rigid body in several contacts", "one contact", "A free body belongs to one contact.");
   const Imposed turn = imposed(body, 3);
   if (turn.vector != Vec3{})
@@ -258,6 +282,12 @@ void add_free_body(Translation& t, DeckRigidBody& body, const Components& compon
     contact.add("products_of_inertia", vector_node(body.inertia->products, where));
   contact.add("centre_of_mass", vector_node(body.centre, where));
   if (body.initial_rotation) contact.vector("angular_velocity", *body.initial_rotation);
+}
+
+bool is_of_cells(const Translation& t, Index node) {
+  return std::ranges::any_of(t.body_cells(), [&](const CellRef& cell) {
+    return std::ranges::count(t.mesh.mesh.blocks[at(cell.block)].nodes(cell.cell), node) != 0;
+  });
 }
 
 }  // namespace
@@ -289,16 +319,28 @@ std::vector<DeckRigidBody> rigid_bodies_of(const Translation& t) {
   return bodies;
 }
 
-std::vector<DeckRigidBody*> referred_to(Translation& t, const std::string& node_group) {
+Referred referred_to(Translation& t, const std::string& node_group) {
   if (t.rigid_bodies.empty()) return {};
-  std::vector<DeckRigidBody*> bodies;
+  Referred referred{{}, false};
   for (const Index node : t.mesh.mesh.nodes_of(node_group)) {
-    const auto found = std::find_if(t.rigid_bodies.begin(), t.rigid_bodies.end(),
-                                    [&](const DeckRigidBody& body) { return body.reference == node; });
-    if (found == t.rigid_bodies.end()) return {};
-    bodies.push_back(&*found);
+    const auto found = std::ranges::find(t.rigid_bodies, node, &DeckRigidBody::reference);
+    if (found == t.rigid_bodies.end())
+      referred.has_others = true;
+    else
+      referred.bodies.push_back(&*found);
   }
-  return bodies;
+  if (referred.has_others)
+    std::erase_if(referred.bodies, [&](const DeckRigidBody* body) { return is_of_cells(t, body->reference); });
+  return referred;
+}
+
+DeckRigidBody* turned_by(Translation& t, const std::string& node_group) {
+  const auto turns = [](const DeckRigidBody& body) { return body.turning >= 0; };
+  if (std::ranges::none_of(t.rigid_bodies, turns)) return nullptr;
+  const std::vector<Index> nodes = t.mesh.mesh.nodes_of(node_group);
+  if (nodes.size() != 1) return nullptr;
+  const auto found = std::ranges::find(t.rigid_bodies, nodes.front(), &DeckRigidBody::turning);
+  return found == t.rigid_bodies.end() ? nullptr : &*found;
 }
 
 DeckRigidBody* body_of_cells(Translation& t, const std::string& cell_group) {
@@ -312,13 +354,24 @@ DeckRigidBody* body_of_cells(Translation& t, const std::string& cell_group) {
 }
 
 void add_rigid_motion(Translation& t, DeckRigidBody& body, TableMaker& contact) {
+  ++body.contacts;
   const Components components = components_of(body.space);
   refuse_leaving_space(body, components);
   const std::size_t held = count_imposed(body, components.along), all = components.along.size();
   if (held == all) return add_led_body(t, body, components, contact);
-  if (held == 0 && body.mass) return add_free_body(t, body, components, contact);
+  const bool rests = std::ranges::all_of(
+      components.along, [&](std::size_t c) { return !body.motion[c] || body.motion[c]->velocity == 0.0; });
+  if (held > 0 && body.mass && rests)
+    t.findings.refuse(*body.keyword, body.keyword->where,
+                      fmt::format("a reference node with a *MASS that is held along {} of {} axes", held, all),
+                      "It would be free along all of them.");
+  if (body.mass && rests) return add_free_body(t, body, components, contact);
   body.keyword->fail(fmt::format("a reference node that is held along {} of {} axes", held, all),
-                     "all of them imposed, or none and a *MASS", "Say with *BOUNDARY what its reference node does.");
+                     "all of them imposed, or none and a *MASS",
+                     std::string("Impose the others, or let it move along all of them") +
+                         (body.space == DeckRigidBody::Space::solid
+                              ? "; a *RIGID BODY of solids may be held along two axes and about all."
+                              : "."));
 }
 
 }  // namespace carom

@@ -14,8 +14,16 @@ class TableMaker;
 /// All of the deck. Throws CaseError.
 std::vector<DeckRigidBody> rigid_bodies_of(const Translation& t);
 
-/// The bodies whose reference nodes are the nodes of the group; none where it has other nodes too.
-std::vector<DeckRigidBody*> referred_to(Translation& t, const std::string& node_group);
+/// The bodies whose reference nodes are among the nodes of the group. Beside other nodes those of cells are as these:
+/// what acts on them acts on the body.
+struct Referred {
+  std::vector<DeckRigidBody*> bodies;
+  bool has_others = true;  ///< the group has other nodes, too
+};
+Referred referred_to(Translation& t, const std::string& node_group);
+
+/// The body whose turns are the displacements of the one node of the group, or nullptr.
+DeckRigidBody* turned_by(Translation& t, const std::string& node_group);
 
 /// The body that all cells of the group belong to, or nullptr.
 DeckRigidBody* body_of_cells(Translation& t, const std::string& cell_group);

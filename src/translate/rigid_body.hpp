@@ -36,6 +36,7 @@ struct DeckRigidBody {
   Space space = Space::solid;
   std::string node;  ///< the reference node as a key of node sets
   Index reference = -1;
+  Index turning = -1;                           ///< the node whose displacements are the turns of the body; -1 none
   Vec3 centre{};                                ///< where it stands
   std::array<std::optional<Motion>, 6> motion;  ///< imposed: along the axes, about the axes
   std::optional<double> mass;

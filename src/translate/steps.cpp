@@ -2,7 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <ranges>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include "deck/keyword_table.hpp"
 #include "translate/translation.hpp"
@@ -41,7 +45,52 @@ void read_times(DeckStep& step) {
                          "An implicit step needs the size of its increments.");
 }
 
-void read_procedure(DeckStep& step, const DeckKeyword& keyword) {
+constexpr double strongest_alpha = -1.0 / 3.0;
+
+/// What Abaqus' implicit steps integrate by, called by their application or by the integrator itself, and the nearest
+/// alpha of hht ("Implicit dynamic analysis using direct integration" of its Analysis User's Guide).
+struct Integrator {
+  std::string_view application, name;
+  double alpha = -0.05;
+  std::string_view remark{};
+  bool is_backward_euler = false;
+};
+
+constexpr std::array<Integrator, 3> integrators{{
+    {"TRANSIENTFIDELITY", "HHT-TF"},
+    {"MODERATEDISSIPATION", "HHT-MD", strongest_alpha,
+     "hht with alpha -1/3, which dissipates most; Abaqus has -0.41421 with beta 0.5, gamma 0.91421"},
+    {"QUASI-STATIC", "BWE", strongest_alpha, {}, true},
+}};
+
+const Integrator* integrator_of(const DeckKeyword& keyword) {
+  const Integrator* found = nullptr;
+  for (const auto& [parameter, name] :
+       {std::pair("APPLICATION", &Integrator::application), std::pair("TIME INTEGRATOR", &Integrator::name)}) {
+    const std::string* given = keyword.parameter(parameter);
+    if (given == nullptr) continue;
+    found = std::ranges::find(integrators, without_blanks(*given), name);
+    if (found == integrators.end())
+      keyword.fail(fmt::format("{}={}", parameter, *given),
+                   fmt::format("{}", fmt::join(integrators | std::views::transform(name), ", ")));
+  }
+  return found;
+}
+
+void read_integrator(Translation& t, DeckStep& step) {
+  const DeckKeyword& keyword = *step.procedure;
+  const Integrator* integrator = integrator_of(keyword);
+  if (integrator == nullptr || step.kind != DeckStep::Kind::implicit_dynamics) return;
+  step.alpha = integrator->alpha;
+  if (!integrator->remark.empty() && !keyword.has("ALPHA"))
+    t.findings.note(keyword.where, std::string(integrator->remark));
+  if (!integrator->is_backward_euler) return;
+  step.ramps = step.ramps || (keyword.has("APPLICATION") && !step.step->has("AMPLITUDE"));
+  t.findings.refuse(keyword, keyword.where, "the backward Euler method, which takes most of the motion away",
+                    "Bodies would swing as hht with alpha -1/3 lets them: write *STATIC where they rest at the end.");
+}
+
+void read_procedure(Translation& t, DeckStep& step, const DeckKeyword& keyword) {
   if (step.procedure != nullptr)
     keyword.fail(
         fmt::format("*{} beside the *{} of line {}", keyword.name, step.procedure->name, step.procedure->where.line),
@@ -59,22 +108,53 @@ void read_procedure(DeckStep& step, const DeckKeyword& keyword) {
   }
   const std::string* nlgeom = step.step->parameter("NLGEOM");
   step.is_finite = nlgeom != nullptr ? says_yes(nlgeom) : step.is_explicit_abaqus();
+  read_integrator(t, step);
   read_times(step);
 }
 
+/// FACTOR, 1 where there is none.
+double factor_of(const DeckKeyword& keyword) {
+  const std::string* given = keyword.parameter("FACTOR");
+  const auto factor = given == nullptr ? std::optional(1.0) : as_real(*given);
+  if (!factor || !(*factor > 0.0)) keyword.fail("FACTOR=" + *given, "a number above 0");
+  return *factor;
+}
+
+/// Is ELSET not given, or are all cells of parts in it?
+bool acts_on_all(const Translation& t, const Statement& s) {
+  if (!s.keyword->has("ELSET") || !t.mesh.is_whole) return true;
+  const std::string set = s.keyword->required("ELSET"), key = key_of(t.mesh.names.element_sets, t.scope(s), set);
+  if (key.empty()) s.keyword->fail("ELSET=" + set, "the name of a set of cells");
+  std::set<CellRef> scaled;
+  for (const DeckNames::Cells& each : t.mesh.names.element_sets.at(key)) {
+    const std::vector<CellRef>& cells = t.mesh.mesh.cell_groups.at(each.group);
+    scaled.insert(cells.begin(), cells.end());
+  }
+  return std::ranges::includes(scaled, t.body_cells());
+}
+
 /// The stable step that *FIXED and *VARIABLE MASS SCALING keep.
-void read_mass_scaling(Translation& t, DeckStep& step, const DeckKeyword& keyword) {
+void read_mass_scaling(Translation& t, DeckStep& step, const Statement& s) {
+  const DeckKeyword& keyword = *s.keyword;
+  if (step.kind != DeckStep::Kind::explicit_dynamics)
+    return t.findings.note(keyword.where, "*" + keyword.name + " changes nothing in a step that is not explicit");
+  step.says_masses = true;
+  const double factor = factor_of(keyword);
+  if (factor != 1.0)
+    t.findings.refuse(keyword, keyword.where, fmt::format("FACTOR={:g} of masses", factor),
+                      "Masses would stay as they are, but for DT: multiply the *DENSITY.");
   const std::string* type = keyword.parameter("TYPE");
   const std::string kind = type == nullptr ? "" : without_blanks(*type);
   const std::string* dt = keyword.parameter("DT");
-  if (step.kind != DeckStep::Kind::explicit_dynamics)
-    return t.findings.note(keyword.where, "*" + keyword.name + " changes nothing in a step that is not explicit");
-  if (dt == nullptr || (kind != "" && kind != "BELOWMIN")) {
-    t.findings.refuse(keyword, keyword.where, dt == nullptr ? "no DT" : "TYPE=" + *type, "No mass would be added.");
-    return;
-  }
+  if (kind != "" && kind != "BELOWMIN")
+    return t.findings.refuse(keyword, keyword.where, "TYPE=" + *type,
+                             "No mass would be added: write TYPE=BELOW MIN, or multiply the *DENSITY.");
+  if (dt == nullptr) return;
   const auto value = as_real(*dt);
   if (!value || !(*value > 0.0)) keyword.fail("DT=" + *dt, "a time");
+  if (!acts_on_all(t, s))
+    t.findings.refuse(keyword, keyword.where, "masses of " + keyword.required("ELSET") + " alone",
+                      "Cells of all parts whose own step is below DT would become heavier.");
   if (keyword.name == "VARIABLE MASS SCALING")
     t.findings.refuse(keyword, keyword.where, "masses that change during the step",
                       "Mass would be added at its start alone; the step falls where cells shrink.");
@@ -89,6 +169,14 @@ void scale_to_smallest(Translation& t, DeckStep& step) {
                     "Cells whose own step is below it would become heavier, in all their motions: CalculiX scales "
                     "selectively, which leaves the motion as a whole its mass.");
   step.mass_step = step.smallest;
+}
+
+/// Abaqus carries scaled masses on to the next step, unless that says other ones.
+void end_step(Translation& t, DeckStep& step) {
+  scale_to_smallest(t, step);
+  const bool follows = !t.steps.empty() && t.steps.back().is_explicit_abaqus() && step.is_explicit_abaqus();
+  if (follows && !step.says_masses) step.mass_step = t.steps.back().mass_step;
+  t.steps.push_back(step);
 }
 
 const char* scheme_of(DeckStep::Kind kind) {
@@ -109,7 +197,7 @@ void add_scheme(const DeckStep& step, TableMaker& table) {
   if (step.mass_step) table.number("mass_scaling_step", *step.mass_step).number("mass_scaling_limit", no_limit);
   if (step.kind != DeckStep::Kind::implicit_dynamics) return;
   const std::string* alpha = step.procedure->parameter("ALPHA");
-  double value = -0.05;
+  double value = step.alpha;
   if (alpha != nullptr) {
     const auto number = as_real(*alpha);
     if (!number) step.procedure->fail("ALPHA=" + *alpha, "a number from -1/3 to 0");
@@ -125,7 +213,7 @@ void add_time(const DeckStep& step, TableMaker& table) {
   if (step.procedure->has("DIRECT")) table.truth("fixed", true);
 }
 
-void note_step(const DeckStep& step, Findings& findings) {
+void note_step(const DeckStep& step, bool touches, Findings& findings) {
   const Location& where = step.procedure->where;
   if (step.kind == DeckStep::Kind::explicit_dynamics)
     findings.note(where, "explicit steps are 0.9 of the stable step, as Carom finds it");
@@ -138,6 +226,13 @@ void note_step(const DeckStep& step, Findings& findings) {
                   fmt::format("cells whose own stable step is below {:g} become heavier, without a limit; the log "
                               "says by how much",
                               *step.mass_step));
+  const DeckKeyword& procedure = *step.procedure;
+  const bool says_integrator =
+      procedure.has("APPLICATION") || procedure.has("TIME INTEGRATOR") || procedure.has("ALPHA");
+  if (touches && step.kind == DeckStep::Kind::implicit_dynamics && !says_integrator)
+    findings.note(where,
+                  "hht with alpha -0.05, as CalculiX has it; beside contact Abaqus takes APPLICATION=MODERATE "
+                  "DISSIPATION where none is given");
   findings.note(step.step->where, step.is_finite ? "finite rotations and strains" : "small strains and rotations");
 }
 
@@ -154,6 +249,10 @@ bool DeckStep::is_coupled() const {
 
 bool DeckStep::heats() const {
   return is_coupled() || procedure->has("ADIABATIC");
+}
+
+bool Translation::heats() const {
+  return std::any_of(steps.begin(), steps.end(), [](const DeckStep& step) { return step.heats(); });
 }
 
 bool Translation::is_explicit_abaqus() const {
@@ -175,7 +274,7 @@ void find_steps(Translation& t) {
       step.start = start;
     } else if (procedures.count(keyword.name) != 0) {
       if (step.step == nullptr) keyword.fail("*" + keyword.name + " outside of a step", "*STEP before it");
-      read_procedure(step, keyword);
+      read_procedure(t, step, keyword);
       if (step.is_coupled())
         t.findings.refuse(keyword, keyword.where, "a step that computes temperatures",
                           "It would be adiabatic: plastic work would heat where it is done, and heat would not flow.");
@@ -184,12 +283,11 @@ void find_steps(Translation& t) {
         t.findings.refuse(keyword, keyword.where, "mass scaling before the procedure of a step",
                           "No mass would be added.");
       else
-        read_mass_scaling(t, step, keyword);
+        read_mass_scaling(t, step, t.statements.list[i]);
     } else if (keyword.name == "END STEP") {
       if (step.step == nullptr) keyword.fail("*END STEP without *STEP", "*STEP before it");
       step.end = i;
-      if (step.procedure != nullptr) scale_to_smallest(t, step);
-      if (step.procedure != nullptr) t.steps.push_back(step);
+      if (step.procedure != nullptr) end_step(t, step);
       if (step.procedure != nullptr) start = step.finish();
       step = {};
     }
@@ -208,7 +306,7 @@ void find_steps(Translation& t) {
 void translate_steps(Translation& t) {
   for (std::size_t i = 0; i < t.steps.size(); ++i) {
     const DeckStep& step = t.steps[i];
-    note_step(step, t.findings);
+    note_step(step, t.root.find("contact") != nullptr, t.findings);
     TableMaker scheme(step.procedure->where);
     add_scheme(step, scheme);
     if (i == 0) {

@@ -8,6 +8,14 @@ namespace carom {
 
 namespace {
 
+/// Elements that go with the keyword of their properties.
+void note_left_out(const DeckKeyword& keyword, Findings& findings) {
+  const std::string* type = keyword.name == "ELEMENT" ? keyword.parameter("TYPE") : nullptr;
+  const DeckElementType* known = type == nullptr ? nullptr : deck_element_type(upper_case(*type));
+  if (known != nullptr && known->kind == DeckElementType::Kind::unknown)
+    findings.note(keyword.where, fmt::format("{}: {}", known->name, known->remark));
+}
+
 void survey_keyword(const DeckKeyword& keyword, Findings& findings) {
   const KeywordEntry* entry = find_keyword(keyword.name);
   if (entry == nullptr) {
@@ -25,6 +33,7 @@ void survey_keyword(const DeckKeyword& keyword, Findings& findings) {
     default:
       break;
   }
+  note_left_out(keyword, findings);
   for (const DeckParameter& parameter : keyword.parameters) {
     if (is_listed(entry->parameters, parameter.name)) continue;
     if (is_listed(entry->noted, parameter.name))

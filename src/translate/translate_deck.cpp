@@ -57,6 +57,17 @@ bool Translation::is_finite() const {
   return std::any_of(steps.begin(), steps.end(), [](const DeckStep& step) { return step.is_finite; });
 }
 
+std::set<CellRef> Translation::body_cells() const {
+  std::set<CellRef> bodies;
+  for (const auto& [name, list] : mesh.names.element_sets)
+    for (const DeckNames::Cells& cells : list)
+      if (!cells.type->section.empty()) {
+        const std::vector<CellRef>& group = mesh.mesh.cell_groups.at(cells.group);
+        bodies.insert(group.begin(), group.end());
+      }
+  return bodies;
+}
+
 void Translation::append(const std::string& section, Node entry) {
   for (Member& member : root.members)
     if (member.key == section) return std::get<List>(member.value.value).push_back(std::move(entry));
@@ -101,6 +112,31 @@ void translate_on_mesh(Translation& t) {
     t.errors.attempt([&] { translate(t); });
 }
 
+/// Faces and the like may be left; cells of parts have to have a section all the same, but for instances that are
+/// shown alone.
+void ignore_unused(Translation& t, TableMaker& of_mesh) {
+  of_mesh.text("unused", "ignore");
+  std::set<CellRef> loose = t.body_cells();
+  const auto remove = [&](const std::string& group) {
+    for (const CellRef& cell : t.mesh.mesh.cell_groups.at(group)) loose.erase(cell);
+  };
+  if (const Node* parts = t.root.find("part"))
+    for (const Node& part : std::get<List>(parts->value))
+      remove(std::get<std::string>(std::get<Table>(part.value).find("cells")->value));
+  for (const Statement& s : t.statements.list) {
+    if (s.keyword->name != "DISPLAY BODY" || !s.keyword->has("INSTANCE")) continue;
+    for (const auto& [set, list] : t.mesh.names.element_sets)
+      if (set.starts_with(s.keyword->required("INSTANCE") + "."))
+        for (const DeckNames::Cells& cells : list) remove(cells.group);
+  }
+  if (loose.empty() || !t.errors.empty()) return;
+  const CellRef& first = *loose.begin();
+  const std::int64_t number = t.mesh.mesh.blocks[at(first.block)].file_numbers[at(first.cell)];
+  t.errors.add(CaseError({t.mesh.mesh.report.source, 0, 0}, "",
+                         fmt::format("{} elements without a section, element {} the first", loose.size(), number),
+                         "a *SOLID SECTION of all solids, plane cells and bars"));
+}
+
 Attempt attempt(std::string bytes, const std::string& path, const std::vector<std::string>& accepted,
                 const IncludeReader& include) {
   const Deck deck = read_deck(std::move(bytes), path, include);
@@ -121,9 +157,11 @@ Attempt attempt(std::string bytes, const std::string& path, const std::vector<st
   translate_bodies(t);
   if (has_steps && mesh.is_whole) translate_on_mesh(t);
   const auto leaves_cells = {"SHELL SECTION", "BEAM SECTION", "BEAM GENERAL SECTION", "MEMBRANE SECTION"};
+  const auto shows = [](const Statement& s) { return s.keyword->name == "DISPLAY BODY"; };
+  t.leaves_faces = t.leaves_faces || std::ranges::any_of(statements.list, shows);
   if (t.leaves_faces || std::any_of(leaves_cells.begin(), leaves_cells.end(),
                                     [&](const char* name) { return made.findings.is_left_out(name); }))
-    of_mesh.text("unused", "ignore");
+    ignore_unused(t, of_mesh);
   t.root.members[1].value = of_mesh.node();
   made.findings.check_accepted(deck, path, made.errors);
   if (!made.errors.empty()) return made;

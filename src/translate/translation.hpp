@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct DeckStep {
   std::optional<double> increment;
   std::optional<double> smallest;   ///< increment
   std::optional<double> mass_step;  ///< stable step that cells are made heavier for
+  bool says_masses = false;         ///< by *FIXED or *VARIABLE MASS SCALING
+  double alpha = -0.05;             ///< of implicit dynamics, where the deck gives no number
   bool is_finite = false;           ///< finite rotations
   bool ramps = false;               ///< loads without an amplitude grow with the time of the step
 
@@ -53,8 +56,12 @@ struct Translation {
   const DeckScope& scope(const Statement& s) const { return statements.scopes[at(s.scope)]; }
   /// Is the body to be followed through finite rotations?
   bool is_finite() const;
+  /// Is there a step in which plastic work heats?
+  bool heats() const;
   /// Is there a step of Abaqus' explicit program?
   bool is_explicit_abaqus() const;
+  /// The cells that parts are made of.
+  std::set<CellRef> body_cells() const;
   /// Appends to the list `section` of the case.
   void append(const std::string& section, Node entry);
   /// Adds a member to the table `section` of the case.

@@ -114,6 +114,28 @@ TEST(Deck, IncludedFilesStandInTheirPlaceAndMayGoOnWithData) {
   EXPECT_EQ(to_string(at.where()), "sub/nodes.inc:1");
 }
 
+/// Abaqus keywords such as *NODE and *ELEMENT: INPUT names a file of their data lines.
+TEST(Deck, DataLinesMayStandInAFileOfTheirOwn) {
+  const auto files = [](const std::string& text) {
+    return [text](const std::string& path, const Location&) { return path == "sub/nodes.dat" ? text : ""; };
+  };
+  const std::string text = "*NODE, NSET=N, INPUT=sub/nodes.dat\n*ELSET, ELSET=A\n1\n";
+  const Deck deck = read(text, files("** two\n1, 0.\n2, 1.\n"));
+  ASSERT_EQ(deck.keywords.size(), 2U);
+  EXPECT_EQ(fields_of(deck.keywords[0]), (Lines{{"1", "0."}, {"2", "1."}}));
+  EXPECT_TRUE(deck.keywords[0].has("NSET"));
+  EXPECT_FALSE(deck.keywords[0].has("INPUT"));
+  DeckCursor at(deck.keywords[0]);
+  at.next_line();
+  EXPECT_EQ(to_string(at.where()), "sub/nodes.dat:2");
+  try {
+    read(text, files("1, 0.\n*ELEMENT\n"));
+    FAIL();
+  } catch (const CaseError& error) {
+    EXPECT_EQ(to_string(error.where()), "sub/nodes.dat:2");
+  }
+}
+
 TEST(Deck, InstancesRepeatTheKeywordsOfTheirPart) {
   const Deck deck = read(
       "*PART, NAME=P\n*NODE\n1,1.,0.,0.\n*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n"

@@ -49,5 +49,25 @@ TEST(Translate, DistortionControlOfTheSectionsThatNameIt) {
   EXPECT_FALSE(case_of(small.tree, "x.inp").parts[0].distortion_control);
 }
 
+/// Abaqus keyword *SECTION CONTROLS: the data line has three factors of the hourglass control, then one of the linear
+/// and one of the quadratic bulk viscosity, 1 where none is given; keyword *BULK VISCOSITY: 0.06 and 1.2 where none is.
+TEST(Translate, FactorsOfTheBulkViscosityOfASection) {
+  const auto parts = [](const std::string& factors, const std::string& viscosity) {
+    std::string deck = replaced(good_deck, "ELSET=LOWER, MATERIAL=STEEL", "ELSET=LOWER, MATERIAL=STEEL, CONTROLS=C");
+    deck = replaced(deck, "*MATERIAL, NAME", "*SECTION CONTROLS, NAME=C\n" + factors + "\n*MATERIAL, NAME");
+    return case_of(translated(replaced(deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3",
+                                       "*DYNAMIC, EXPLICIT\n, 1e-3\n*BULK VISCOSITY\n" + viscosity))
+                       .tree,
+                   "x.inp")
+        .parts;
+  };
+  const auto scaled = parts("1., 1., 1., 0.5, 2.", "0.1, 0.8");
+  EXPECT_DOUBLE_EQ(scaled[0].linear_bulk_viscosity, 0.05);
+  EXPECT_DOUBLE_EQ(scaled[0].quadratic_bulk_viscosity, 1.6);
+  EXPECT_DOUBLE_EQ(scaled[1].linear_bulk_viscosity, 0.1);
+  EXPECT_DOUBLE_EQ(parts("1., 1., 1.", "0.1")[0].quadratic_bulk_viscosity, 1.2);
+  EXPECT_DOUBLE_EQ(parts("1., 1., 1.", ", 0.8")[0].linear_bulk_viscosity, 0.06);
+}
+
 }  // namespace
 }  // namespace carom::translate_controls_test

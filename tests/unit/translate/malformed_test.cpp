@@ -131,8 +131,12 @@ const std::vector<Spoiled> spoiled_decks{
     {"boundary_name", "BASE, 1, 3", "BASE, FIXED",
      ":40: *BOUNDARY: found \"FIXED\"; expected a degree of freedom, ENCASTRE, PINNED, XSYMM, XASYMM or those of y and "
      "z. U1 to U3 are 1 to 3, UR1 to UR3 are 4 to 6."},
+    {"boundary_potential", "BASE, 1, 3", "BASE, 9, 9, 300.",
+     ":40: *BOUNDARY: found degrees of freedom 9 to 9; expected 1 to 3, or 1 to 6 with those of turning"},
     {"boundary_temperature", "BASE, 1, 3", "BASE, 11, 11, 300.",
-     ":40: *BOUNDARY: found degrees of freedom 11 to 11; expected 1 to 3, or 1 to 6 with those of turning"},
+     ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
+     "\"BOUNDARY\" runs without:\n  x.inp:40: *BOUNDARY: an imposed temperature. It would be left out: nodes have no "
+     "temperatures."},
     {"boundary_turn", "*CLOAD", "*BOUNDARY\nBASE, 4, 4, 0.1\n*CLOAD",
      ":56: *BOUNDARY: found a turn of degree of freedom 4; expected 1, 2 or 3. Nodes do not turn, but for "
      "those that a *RIGID BODY refers to."},
@@ -143,10 +147,8 @@ const std::vector<Spoiled> spoiled_decks{
      ":40: *BOUNDARY: found '7' behind the others; expected nodes, first and last degree of freedom, value"},
     {"contact_third_surface", "FOOT, FLOOR", "FOOT, FLOOR, TOP",
      ":49: *CONTACT PAIR: found 'TOP' behind the others; expected the slave and the master"},
-    {"plastic_temperatures", "*DENSITY", "*PLASTIC\n90., 0.\n120., 0.1, 300.\n*DENSITY",
-     ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
-     "\"PLASTIC\" runs without:\n  x.inp:35: *PLASTIC: several curves, one for each temperature. That of the "
-     "first line's temperature would hold at all."},
+    {"plastic_temperatures", "*DENSITY", "*PLASTIC\n90., 0., 300.\n60., 0., 20.\n*DENSITY",
+     ":37: *PLASTIC: found the temperature 20 after 300; expected temperatures in increasing order"},
     {"initial_dof", "FALLING, 3, -1000.", "FALLING, 4, -1000.",
      ":42: *INITIAL CONDITIONS: found degree of freedom 4; expected 1, 2 or 3"},
     {"initial_type", "TYPE=VELOCITY", "TYPE=STRESS",
@@ -202,7 +204,7 @@ const std::vector<Spoiled> spoiled_decks{
      "hold nodes of others: give the faces cells behind them."},
     {"rigid_two_sets_of_nodes", "*STEP\n",
      "*RIGID BODY, ELSET=UPPER, REF NODE=11, TIE NSET=BASE, PIN NSET=BASE\n*STEP\n",
-     ":52: *RIGID BODY: found TIE NSET beside PIN NSET; expected one of them. Join both sets in one *NSET."},
+     ":52: *RIGID BODY: found PIN NSET beside another set of nodes; expected one of them. Join both sets in one *NSET."},
     {"rigid_two_bodies", "*STEP\n",
      "*RIGID BODY, ELSET=UPPER, REF NODE=11\n*RIGID BODY, ELSET=LOWER, REF NODE=11\n*STEP\n",
      ":53: *RIGID BODY: found the reference node of UPPER for LOWER; expected a reference node for each body. Bodies "

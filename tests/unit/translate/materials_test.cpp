@@ -30,13 +30,63 @@ TEST(Translate, PlasticityAsATable) {
   EXPECT_EQ(*case_from(replaced(deck, "*STEP\n", "*STEP, NLGEOM\n")).materials[0].law, "j2");
 }
 
-/// Accepted, the curve of the temperature of the first line holds.
-TEST(Translate, CurvesOfTemperatures) {
-  const std::string deck = replaced(good_deck, "*DENSITY",
-                                    "*PLASTIC\n90., 0., 20.\n120., 0.1, 20.\n60., 0., 600.\n80., 0.1, 600.\n*DENSITY");
-  EXPECT_NE(message_of(deck).find("--accept \"PLASTIC\" runs without"), std::string::npos);
-  const Case made = case_of(translated(deck, {"PLASTIC"}).tree, "x.inp");
-  EXPECT_EQ(*made.materials[0].curve, (std::vector<std::array<double, 2>>{{0.0, 90.0}, {0.1, 120.0}}));
+/// The good deck with a temperature at the start.
+std::string at_temperature(const std::string& deck, const std::string& temperature) {
+  return replaced(
+      deck, "*INITIAL CONDITIONS, TYPE=VELOCITY",
+      "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, " + temperature + "\n*INITIAL CONDITIONS, TYPE=VELOCITY");
+}
+
+/// Abaqus Analysis User's Guide, "Material data definition": values are linear between the temperatures that are given
+/// and constant outside; "Initial conditions": those that are not given are zero. 310 is in the middle of 20 and 600.
+TEST(Translate, TablesAreTakenAtTheTemperatureOfTheStart) {
+  using Curve = std::vector<std::array<double, 2>>;
+  const std::string deck =
+      replaced(good_deck, "*ELASTIC\n210000., 0.3\n*DENSITY\n7.8e-9\n",
+               "*PLASTIC\n90., 0., 20.\n120., 0.1, 20.\n60., 0., 600.\n80., 0.2, 600.\n"
+               "*ELASTIC\n210000., 0.3, 20.\n110000., 0.4, 600.\n*DENSITY\n8e-9, 20.\n6e-9, 600.\n");
+  const CaseMaterial cold = case_from(deck).materials[0], hot = case_from(at_temperature(deck, "700.")).materials[0];
+  EXPECT_EQ(*cold.curve, (Curve{{0.0, 90.0}, {0.1, 120.0}}));
+  EXPECT_EQ(*cold.value("E"), 210000.0);
+  EXPECT_EQ(*hot.curve, (Curve{{0.0, 60.0}, {0.2, 80.0}}));
+  EXPECT_EQ(*hot.rho, 6e-9);
+  const CaseMaterial warm = case_from(at_temperature(deck, "310.")).materials[0];
+  EXPECT_EQ(*warm.curve, (Curve{{0.0, 75.0}, {0.1, 95.0}, {0.2, 100.0}}));
+  EXPECT_DOUBLE_EQ(*warm.value("E"), 160000.0);
+  EXPECT_DOUBLE_EQ(*warm.value("nu"), 0.35);
+  EXPECT_DOUBLE_EQ(*warm.rho, 7e-9);
+  EXPECT_TRUE(has_note(translated(at_temperature(deck, "310.")), "*ELASTIC at the temperature of the start, 310"));
+}
+
+TEST(Translate, TablesOfTemperaturesThatChangeAreRefused) {
+  const std::string deck = replaced(at_temperature(good_deck, "310."), "*ELASTIC\n210000., 0.3\n",
+                                    "*ELASTIC\n210000., 0.3, 20.\n110000., 0.4, 600.\n*SPECIFIC HEAT\n4e8\n");
+  const std::string heated = replaced(deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3", "*DYNAMIC, EXPLICIT, ADIABATIC\n, 1e-3");
+  const std::string refused = message_of(heated);
+  EXPECT_NE(refused.find("*ELASTIC: values that depend on the temperature, which changes. Those at the start, at 310,"),
+            std::string::npos)
+      << refused;
+  EXPECT_DOUBLE_EQ(*case_from(heated, {"ELASTIC"}).materials[0].value("E"), 160000.0);
+  const std::string some = message_of(replaced(deck, "NALL, 310.", "BASE, 310."));
+  EXPECT_NE(some.find("*INITIAL CONDITIONS: several temperatures in the material STEEL"), std::string::npos) << some;
+  EXPECT_NE(message_of(replaced(deck, "600.", "10.")).find("found the temperature 10 after 20"), std::string::npos);
+}
+
+/// Only Johnson and Cook's law heats: a deck with another one says so.
+TEST(Translate, AdiabaticStepsOfOtherLawsSayThatNothingHeats) {
+  const std::string deck = replaced(good_deck, "*DENSITY", "*PLASTIC\n90., 0.\n*DENSITY");
+  EXPECT_TRUE(
+      has_note(translated(replaced(deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3", "*DYNAMIC, EXPLICIT, ADIABATIC\n, 1e-3")),
+               "no heating: only Johnson and Cook's law heats"));
+}
+
+/// Degree of freedom 11 of Abaqus and CalculiX is the temperature.
+TEST(Translate, ImposedTemperaturesAreRefusedUnlessAccepted) {
+  const std::string deck = replaced(good_deck, "BASE, 1, 3\n", "BASE, 1, 3\nBASE, 11, 11, 298.\n");
+  const std::string refused = message_of(deck);
+  EXPECT_NE(refused.find("x.inp:41: *BOUNDARY: an imposed temperature. It would be left out"), std::string::npos)
+      << refused;
+  EXPECT_EQ(case_from(deck, {"BOUNDARY"}).supports.size(), 3U);
 }
 
 TEST(Translate, PlasticityThatDependsOnTheRate) {
@@ -62,6 +112,8 @@ TEST(Translate, PlasticityThatDependsOnTheRate) {
   }
 }
 
+/// Abaqus Analysis User's Guide, "Initial conditions": temperatures that are not given are zero, from where the body is
+/// heated; the case has absolute ones, and the law takes differences alone.
 TEST(Translate, JohnsonAndCook) {
   const Case made = case_from(replaced(replaced(good_deck, "*DENSITY",
                                                 "*PLASTIC, HARDENING=JOHNSON COOK\n90., 292., 0.31, 1.09, 1356., 298.\n"
@@ -72,7 +124,8 @@ TEST(Translate, JohnsonAndCook) {
   EXPECT_EQ(*made.materials[0].value("n"), 0.31);
   EXPECT_EQ(*made.materials[0].value("m"), 1.09);
   EXPECT_EQ(*made.materials[0].value("C"), 0.025);
-  EXPECT_EQ(*made.materials[0].value("melting_temperature"), 1356.0);
+  EXPECT_EQ(*made.materials[0].value("initial_temperature"), 273.15);
+  EXPECT_EQ(*made.materials[0].value("melting_temperature"), 1356.0 + 273.15);
   EXPECT_EQ(*made.materials[0].value("taylor_quinney"), 0.9);
 }
 
@@ -142,6 +195,22 @@ TEST(Translate, DamageOfJohnsonAndCook) {
   EXPECT_TRUE(has_note(alone, "the damage is computed, and no cell goes"));
   EXPECT_TRUE(case_of(alone.tree, "x.inp").materials[0].damage);
   EXPECT_TRUE(case_of(alone.tree, "x.inp").erosion.empty());
+}
+
+/// Abaqus keyword *SECTION CONTROLS: ELEMENT DELETION=NO keeps elements that are broken, YES, the default, does not.
+TEST(Translate, CellsThatAreToStayWhenBrokenAreRefused) {
+  const auto with = [](const std::string& deletion) {
+    const std::string deck = breaking(initiation +
+                                      "*DAMAGE EVOLUTION, TYPE=DISPLACEMENT\n0.\n*SECTION CONTROLS, NAME=C, "
+                                      "ELEMENT DELETION=" +
+                                      deletion + "\n");
+    return replaced(deck, "ELSET=LOWER, MATERIAL=STEEL", "ELSET=LOWER, MATERIAL=STEEL, CONTROLS=C");
+  };
+  const std::string refused = message_of(with("NO"));
+  EXPECT_NE(refused.find("*SECTION CONTROLS: ELEMENT DELETION=NO. Cells would go where their damage is 1."),
+            std::string::npos)
+      << refused;
+  EXPECT_EQ(message_of(with("YES")), "no error");
 }
 
 TEST(Translate, OtherDamageIsRefusedWithItsReason) {

@@ -50,5 +50,23 @@ TEST(Translate, TypesOfOneCellWithTwoFormulationsAreTwoParts) {
   EXPECT_EQ(**both.parts[2].formulation, "one_point");
 }
 
+/// Names with blanks stand in quotes, an instance alone or with what it is of, as Abaqus' modeller writes them.
+TEST(Translate, NamesOfInstancesMayStandInQuotes) {
+  std::string deck = replaced(good_deck, "*HEADING\nTwo cubes\n", "*PART, NAME=\"A Cube\"\n");
+  deck = replaced(deck, "*SURFACE, NAME=FLOOR",
+                  "*END PART\n*ASSEMBLY\n*INSTANCE, NAME=\"Cube 1\", PART=\"A Cube\"\n"
+                  "*END INSTANCE\n*END ASSEMBLY\n*SURFACE, NAME=FLOOR");
+  deck = replaced(replaced(deck, "LOWER, S2", "\"Cube 1\".LOWER, S2"), "UPPER, S1", "\"Cube 1.UPPER\", S1");
+  deck = replaced(deck, "ELSET=LOWER, MATERIAL", "ELSET=\"Cube 1\".LOWER, MATERIAL");
+  deck = replaced(deck, "ELSET=UPPER, MATERIAL", "ELSET=\"cube 1.upper\", MATERIAL");
+  deck = replaced(deck, "BASE, 1, 3", "\"Cube 1\".BASE, 1, 3");
+  deck = replaced(replaced(deck, "FALLING, 3", "\"Cube 1\".11, 3"), "15, 1, 5.", "\"cube 1\".15, 1, 5.");
+  const Case made = case_from(deck);
+  EXPECT_EQ(*made.parts[1].name, "CUBE 1.UPPER");
+  EXPECT_EQ(*made.supports[0].nodes, "CUBE 1.BASE");
+  EXPECT_EQ(**made.loads[0].group, "CUBE 1.15");
+  EXPECT_EQ(made.contacts.size(), 1U);
+}
+
 }  // namespace
 }  // namespace carom::translate_parts_test

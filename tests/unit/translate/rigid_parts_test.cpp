@@ -220,6 +220,20 @@ TEST(TranslateRigidParts, CoupledNodesThatAreHeld) {
   EXPECT_EQ(supports_of(held, "FLOOR"), (std::vector<std::string>{"x", "y", "z"}));
 }
 
+/// CalculiX' manual, *RIGID BODY: NSET are the nodes of the body, and the first three degrees of freedom of ROT NODE
+/// are its turns about the axes.
+TEST(TranslateRigidParts, TurnsOfCalculixAreThoseOfItsRotationNode) {
+  const std::string body = "*NODE\n98,0.5,0.5,4.\n*RIGID BODY, NSET=FALLING, REF NODE=99, ROT NODE=98\n";
+  const Case held = case_from(with_body("99, 1, 3\n98, 1, 3\n", body));
+  EXPECT_TRUE(held.rigid_parts.empty());
+  EXPECT_EQ(supports_of(held, "FALLING"), (std::vector<std::string>{"x", "y", "z"}));
+  const std::string solid = "*NODE\n98,0.5,0.5,4.\n*RIGID BODY, ELSET=UPPER, REF NODE=99, ROT NODE=98\n";
+  const Case turning = case_from(replaced(with_body("", solid), "99, 3, -1000.", "98, 2, 7."));
+  ASSERT_EQ(turning.initial.size(), 1U);
+  EXPECT_EQ(*turning.initial[0].angular_velocity, (Vec3{0.0, 7.0, 0.0}));
+  EXPECT_NE(message_of(with_body("98, 4\n", solid)).find("found degree of freedom 4 of a ROT NODE"), std::string::npos);
+}
+
 // A single node where the reference node is: it does not turn and has no size, so that its mass at a unit's distance is
 // as good an inertia as any.
 TEST(TranslateRigidParts, ANodeAtItsReferenceNodeHasTheInertiaOfItsMassAtOne) {

@@ -55,6 +55,65 @@ TEST(Translate, AFreeRigidSurfaceHasTheMassOfItsReferenceNode) {
   EXPECT_EQ(made.initial.size(), 1U);
 }
 
+/// Abaqus Analysis User's Guide, "Point masses" and "Rotary inertia": what several elements bring to a node adds up.
+TEST(Translate, MassesAndInertiasOfAReferenceNodeAddUp) {
+  const std::string masses =
+      "*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n*MASS, ELSET=M\n2.5\n*ELEMENT, TYPE=MASS, ELSET=N\n51, 99\n*MASS, "
+      "ELSET=N\n0.5\n*ELEMENT, TYPE=ROTARYI, ELSET=R\n52, 99\n*ROTARY INERTIA, ELSET=R\n4., 5., 6., 0.1\n*ELEMENT, "
+      "TYPE=ROTARYI, ELSET=S\n53, 99\n*ROTARY INERTIA, ELSET=S\n1., 1., 1., 0.2\n";
+  const Case made =
+      case_from(replaced(with_rigid_wall(masses), "FALLING, 3, -1000.", "FALLING, 3, -1000.\n99, 3, 20."));
+  EXPECT_EQ(*made.contacts[0].obstacle()->body.mass, 3.0);
+  EXPECT_EQ(**made.contacts[0].obstacle()->body.inertia, (Vec3{5.0, 6.0, 7.0}));
+  EXPECT_DOUBLE_EQ((*made.contacts[0].obstacle()->body.products_of_inertia)[0], 0.3);
+}
+
+/// A rigid surface that nothing meets is as good as none; cells have to have a section all the same.
+TEST(Translate, ARigidSurfaceThatNoContactMeetsIsANote) {
+  const std::string deck =
+      replaced(with_rigid_wall("*BOUNDARY\n99, ENCASTRE\n"), "*CONTACT PAIR, INTERACTION=I\nFOOT, FLOOR\n", "");
+  const TranslatedDeck made = translated(deck);
+  EXPECT_TRUE(has_note(made, "no contact meets the rigid surface LOWER"));
+  EXPECT_EQ(case_of(made.tree, "x.inp").mesh.unused, CaseMesh::Unused::ignore);
+  const std::string loose = message_of(
+      replaced(deck, "*NSET, NSET=BASE", "*ELEMENT, TYPE=C3D8, ELSET=MORE\n3,1,2,3,4,5,6,7,8\n*NSET, NSET=BASE"));
+  EXPECT_NE(loose.find("found 1 elements without a section, element 3 the first"), std::string::npos) << loose;
+}
+
+/// Abaqus keyword *DISPLAY BODY: the instance is shown and takes no part.
+TEST(Translate, AnInstanceThatIsShownTakesNoPart) {
+  const std::string deck =
+      "*PART, NAME=P\n*NODE\n1,5,0,0\n2,6,0,0\n3,6,1,0\n4,5,1,0\n5,5,0,1\n6,6,0,1\n7,6,1,1\n8,5,1,1\n"
+      "*ELEMENT, TYPE=C3D8, ELSET=ALL\n1,1,2,3,4,5,6,7,8\n*END PART\n*ASSEMBLY\n*INSTANCE, NAME=I, PART=P\n"
+      "*END INSTANCE\n*DISPLAY BODY, INSTANCE=I\n*END ASSEMBLY\n" +
+      good_deck;
+  const Case made = case_from(deck);
+  EXPECT_EQ(made.parts.size(), 2U);
+  EXPECT_EQ(made.mesh.unused, CaseMesh::Unused::ignore);
+}
+
+/// A set of a whole instance has the reference node among others: what it says holds for the body, too.
+TEST(Translate, SetsWithAReferenceNodeAmongOthersSpeakOfTheBody) {
+  const std::string plate = "*NSET, NSET=PLATE\n5, 6, 7, 8, 99, 11\n", mass = "*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n";
+  const Case held = case_from(with_rigid_wall(plate + "*BOUNDARY\nPLATE, ENCASTRE\n"));
+  EXPECT_FALSE(held.contacts[0].obstacle()->body.mass);
+  EXPECT_EQ(held.supports.size(), 3U);  // of node 11
+  const Case flying = case_from(
+      replaced(with_rigid_wall(plate + mass + "*MASS, ELSET=M\n2.5\n"), "FALLING, 3, -1000.", "PLATE, 3, 20."));
+  EXPECT_EQ(*flying.contacts[0].obstacle()->velocity, (Vec3{0.0, 0.0, 20.0}));
+  EXPECT_EQ(flying.initial.size(), 1U);
+  const std::string two = replaced(mass, "50, 99", "50, 99\n51, 11") + "*MASS, ELSET=M\n2.5\n";
+  EXPECT_NE(message_of(with_rigid_wall(two)).find("*MASS: found a set with reference nodes of rigid bodies and other"),
+            std::string::npos);
+}
+
+TEST(Translate, ARigidSurfaceTakesNoForces) {
+  const std::string deck = replaced(with_rigid_wall("*BOUNDARY\n99, ENCASTRE\n"), "15, 1, 5.", "99, 1, 5.");
+  EXPECT_NE(message_of(deck).find("*CLOAD: found a force on the reference node of the rigid surface LOWER"),
+            std::string::npos)
+      << message_of(deck);
+}
+
 TEST(Translate, AReferenceNodeThatIsNotHeldIsRefused) {
   EXPECT_THROW(case_from(with_rigid_wall("*BOUNDARY\n99, 3\n")), CaseError);
 }
@@ -70,6 +129,38 @@ const CaseFunction& function_named(const Case& made, const std::string& name) {
                                   [&](const CaseFunction& function) { return function.name == name; });
   EXPECT_NE(found, made.functions.end()) << name;
   return *found;
+}
+
+/// A free body moves along all axes: what guides it is lost where that is accepted.
+TEST(Translate, AGuidedRigidSurfaceIsFreeWhereThatIsAccepted) {
+  const std::string mass = "*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n*MASS, ELSET=M\n2.5\n*BOUNDARY\n99, 1, 2\n99, 4, 6\n";
+  const std::string deck = replaced(with_rigid_wall(mass), "FALLING, 3, -1000.", "FALLING, 3, -1000.\n99, 3, 20.");
+  const std::string refused = message_of(deck);
+  EXPECT_NE(refused.find("*RIGID BODY: a reference node with a *MASS that is held along 2 of 3 axes. It would be free"),
+            std::string::npos)
+      << refused;
+  const Case made = case_from(deck, {"RIGID BODY"});
+  EXPECT_EQ(*made.contacts[0].obstacle()->body.mass, 2.5);
+  EXPECT_EQ(*made.contacts[0].obstacle()->velocity, (Vec3{0.0, 0.0, 20.0}));
+  const std::string led = replaced(deck, "*BOUNDARY\n99, 1, 2\n", "*BOUNDARY, TYPE=VELOCITY\n99, 1, 2, 5.\n");
+  EXPECT_NE(message_of(led, {"RIGID BODY"}).find("found a reference node that is held along 2 of 3 axes"),
+            std::string::npos)
+      << message_of(led, {"RIGID BODY"});
+}
+
+/// Abaqus keyword *RIGID BODY: POSITION=CENTER OF MASS moves the reference node there. The mass of a surface of faces
+/// is that of its reference node, which stays.
+TEST(Translate, APositionAtTheCentreOfMassIsThatOfASurface) {
+  const std::string held = "*BOUNDARY\n99, ENCASTRE\n";
+  const auto with = [](const std::string& deck) {
+    return replaced(deck, "REF NODE=", "POSITION=CENTER OF MASS, REF NODE=");
+  };
+  EXPECT_EQ(case_from(with(with_rigid_wall(held))).contacts.size(), 1U);
+  const std::string solid = replaced(good_deck, "*STEP\n", "*RIGID BODY, ELSET=UPPER, REF NODE=11\n*STEP\n");
+  const std::string refused = message_of(with(solid));
+  EXPECT_NE(refused.find("*RIGID BODY: POSITION=CENTER OF MASS. Forces and velocities of the reference node"),
+            std::string::npos)
+      << refused;
 }
 
 TEST(Translate, AReferenceNodeTurnsItsSurface) {
@@ -245,7 +336,7 @@ TEST(Translate, MotionsOfRigidBodiesThatCannotBeAreRefused) {
             "alone. What moves otherwise is no ring: model it in three dimensions.");
   EXPECT_EQ(refusal(plane_deck("R2D2", "CPE4", "*BOUNDARY\n99, 1\n")),
             "x.inp:17: *RIGID BODY: found a reference node that is held along 1 of 2 axes; expected all of them "
-            "imposed, or none and a *MASS. Say with *BOUNDARY what its reference node does.");
+            "imposed, or none and a *MASS. Impose the others, or let it move along all of them.");
 }
 
 // The tensor is given along the axes of the part, which the instance turns.

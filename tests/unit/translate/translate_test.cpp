@@ -171,6 +171,21 @@ TEST(Translate, GravityLineByLineIsThatOfAll) {
   EXPECT_EQ(made.loads[0].vector, (Vec3{0.0, 0.0, -9.0}));
 }
 
+/// Abaqus Analysis User's Guide, "Distributed loads": gravity acts on the elements that are named, point masses as
+/// well.
+TEST(Translate, GravityThatLeavesPointMassesOutIsRefused) {
+  const std::string deck = replaced(good_deck, "*SURFACE INTERACTION",
+                                    "*ELEMENT, TYPE=MASS, ELSET=M\n50, 15\n*MASS, ELSET=M\n2.5\n*SURFACE INTERACTION");
+  const std::string cells = replaced(deck, "*CLOAD, AMPLITUDE=A\n15, 1, 5.\n",
+                                     "*DLOAD\nLOWER, GRAV, 9810., 0., 0., -1.\nUPPER, GRAV, 9810., 0., 0., -1.\n");
+  const std::string refused = message_of(cells);
+  EXPECT_NE(refused.find("*DLOAD: gravity on cells and not on all point masses. It would act on these, too."),
+            std::string::npos)
+      << refused;
+  const std::string all = replaced(cells, "*END STEP", "*DLOAD\nM, GRAV, 9810., 0., 0., -1.\n*END STEP");
+  EXPECT_EQ(case_from(all).loads.size(), 1U);
+}
+
 TEST(Translate, SupportsAndContactOfLaterStepsAreRefusedUnlessAccepted) {
   const std::string second = "*STEP\n*STATIC\n1., 1.\n";
   EXPECT_THROW(case_from(good_deck + second + "*BOUNDARY\nFALLING, 1\n*END STEP\n"), CaseError);
@@ -303,6 +318,15 @@ TEST(Translate, AllFindingsOfADeckAreSaidAtOnce) {
   EXPECT_EQ(count(what, "\n  x.inp:"), 7U) << what;
 }
 
+/// Each line of a keyword is looked at, whatever the others are.
+TEST(Translate, AllLinesOfAKeywordAreLookedAt) {
+  std::string deck = replaced(good_deck, "FALLING, 3, -1000.\n", "FALLNG, 3, -1000.\n99, 3, 1.\n");
+  deck = replaced(deck, "FOOT, FLOOR\n", "FEET, FLOOR\nFOOT, GROUND\n");
+  const std::string what = message_of(deck);
+  for (const char* finding : {"found \"FALLNG\"", "found \"99\"", "found \"FEET\"", "found \"GROUND\""})
+    EXPECT_NE(what.find(finding), std::string::npos) << finding << " in " << what;
+}
+
 /// What is wrong with nodes or sets is said with the findings of the survey, the materials and the steps.
 TEST(Translate, AWrongMeshHidesNoKeyword) {
   std::string deck = replaced(good_deck, "LOWER, S2", "LOWR, S2");
@@ -352,8 +376,71 @@ TEST(Translate, MassScaling) {
   }
   const std::string uniform =
       message_of(replaced(good_deck, step, "*DYNAMIC, EXPLICIT\n, 1e-3\n*FIXED MASS SCALING, DT=2e-6, TYPE=UNIFORM"));
-  EXPECT_NE(uniform.find("*FIXED MASS SCALING: TYPE=UNIFORM. No mass would be added."), std::string::npos) << uniform;
+  EXPECT_NE(uniform.find("*FIXED MASS SCALING: TYPE=UNIFORM. No mass would be added: write TYPE=BELOW MIN"),
+            std::string::npos)
+      << uniform;
   EXPECT_FALSE(scaled("*DYNAMIC\n1e-6, 1e-3, 1e-9, 1e-5").mass_scaling_step);  // halves as far as it must
+}
+
+/// Abaqus keyword *FIXED MASS SCALING: without DT and FACTOR masses are those of the material; ELSET limits it, and all
+/// cells of parts are as good as none.
+TEST(Translate, MassScalingOfSetsAndByFactors) {
+  const std::string step = "*DYNAMIC, DIRECT\n1e-6, 1e-3", scaling = "*DYNAMIC, EXPLICIT\n, 1e-3\n*FIXED MASS SCALING";
+  const auto with = [&](const std::string& parameters) { return replaced(good_deck, step, scaling + parameters); };
+  const std::string all = replaced(with(", ELSET=BOTH, DT=2e-6"), "*STEP", "*ELSET, ELSET=BOTH\n1, 2\n*STEP");
+  EXPECT_EQ(**case_from(all).scheme.mass_scaling_step, 2e-6);
+  EXPECT_FALSE(case_from(with("")).scheme.mass_scaling_step);
+  const std::string some = message_of(with(", ELSET=UPPER, DT=2e-6"));
+  EXPECT_NE(some.find("x.inp:55: *FIXED MASS SCALING: masses of UPPER alone. Cells of all parts"), std::string::npos)
+      << some;
+  const std::string factor = message_of(with(", FACTOR=100."));
+  EXPECT_NE(
+      factor.find("*FIXED MASS SCALING: FACTOR=100 of masses. Masses would stay as they are, but for DT: multiply "
+                  "the *DENSITY."),
+      std::string::npos)
+      << factor;
+  EXPECT_NE(message_of(with(", ELSET=ROCK, DT=2e-6")).find("found ELSET=ROCK"), std::string::npos);
+}
+
+/// Abaqus Analysis User's Guide, "Mass scaling", in an analysis of several steps: the scaled masses of one step are
+/// those of the next, unless it has a *FIXED MASS SCALING of its own.
+TEST(Translate, ScaledMassesStayInLaterSteps) {
+  const std::string scaled = replaced(good_deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3",
+                                      "*DYNAMIC, EXPLICIT\n, 1e-3\n*FIXED MASS SCALING, DT=2e-6, TYPE=BELOW MIN");
+  const auto next = [&](const std::string& keyword) {
+    return case_from(scaled + "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-3\n" + keyword + "*END STEP\n").stages.at(0).scheme;
+  };
+  EXPECT_EQ(**next("").mass_scaling_step, 2e-6);
+  EXPECT_EQ(**next("*FIXED MASS SCALING, DT=1e-6\n").mass_scaling_step, 1e-6);
+  EXPECT_FALSE(next("*FIXED MASS SCALING\n").mass_scaling_step);
+}
+
+/// Abaqus Analysis User's Guide, "Implicit dynamic analysis using direct integration": TRANSIENT FIDELITY is
+/// Hilber-Hughes-Taylor with alpha = -0.05; MODERATE DISSIPATION, the default beside contact, with alpha = -0.41421,
+/// beyond -1/3, the strongest of hht here; QUASI-STATIC backward Euler, under which loads grow linearly.
+TEST(Translate, ApplicationsOfImplicitSteps) {
+  const auto with = [](const std::string& parameters) {
+    return replaced(good_deck, "*DYNAMIC, DIRECT", "*DYNAMIC, DIRECT" + parameters);
+  };
+  const auto alpha = [&](const std::string& parameters, const std::vector<std::string>& accepted = {}) {
+    return std::get<AlphaParameters>(case_from(with(parameters), accepted).scheme.parameters).alpha;
+  };
+  EXPECT_EQ(alpha(""), -0.05);
+  EXPECT_EQ(alpha(", APPLICATION=TRANSIENT FIDELITY"), -0.05);
+  EXPECT_EQ(alpha(", APPLICATION=MODERATE DISSIPATION"), -1.0 / 3.0);
+  EXPECT_EQ(alpha(", TIME INTEGRATOR=HHT-MD"), -1.0 / 3.0);
+  EXPECT_EQ(alpha(", APPLICATION=MODERATE DISSIPATION, ALPHA=-0.1"), -0.1);
+  EXPECT_TRUE(has_note(translated(with(", APPLICATION=MODERATE DISSIPATION")), "Abaqus has -0.41421"));
+  EXPECT_TRUE(has_note(translated(good_deck), "beside contact Abaqus takes APPLICATION=MODERATE DISSIPATION"));
+  EXPECT_FALSE(has_note(translated(with(", ALPHA=0.")), "beside contact"));
+  const std::string quasi = message_of(with(", APPLICATION=QUASI-STATIC"));
+  EXPECT_NE(quasi.find("x.inp:53: *DYNAMIC: the backward Euler method"), std::string::npos) << quasi;
+  EXPECT_EQ(alpha(", APPLICATION=QUASI-STATIC", {"DYNAMIC"}), -1.0 / 3.0);
+  const std::string ramp = replaced(with(", APPLICATION=QUASI-STATIC"), "*CLOAD, AMPLITUDE=A", "*CLOAD");
+  EXPECT_EQ(case_from(ramp, {"DYNAMIC"}).functions.at(0).function(5e-4), 0.5);
+  EXPECT_NE(
+      message_of(with(", APPLICATION=FAST")).find("expected TRANSIENTFIDELITY, MODERATEDISSIPATION, QUASI-STATIC"),
+      std::string::npos);
 }
 
 TEST(Translate, MasslessContactKeepsItsMassWhereAccepted) {
@@ -361,6 +448,61 @@ TEST(Translate, MasslessContactKeepsItsMassWhereAccepted) {
       replaced(good_deck, "*CONTACT PAIR, INTERACTION=I", "*CONTACT PAIR, INTERACTION=I, TYPE=MASSLESS");
   EXPECT_NE(message_of(deck).find("TYPE=MASSLESS. Nodes in contact would keep their mass"), std::string::npos);
   EXPECT_EQ(case_of(translated(deck, {"CONTACT PAIR"}).tree, "x.inp").contacts.size(), 1U);
+}
+
+/// Elements that go with a keyword that is accepted: what gives them their properties says what is lost.
+TEST(Translate, ElementsOfAcceptedKeywordsAreLeftOut) {
+  const struct {
+    const char *type, *keyword;
+  } rows[] = {{"DASHPOTA", "DASHPOT"}, {"GAPUNI", "GAP"}, {"CONN3D2", "CONNECTOR SECTION"}};
+  for (const auto& row : rows) {
+    const std::string keyword = row.keyword;
+    const std::string deck = replaced(good_deck, "*SURFACE INTERACTION",
+                                      std::string("*ELEMENT, TYPE=") + row.type + ", ELSET=D\n90, 5, 11\n*" + keyword +
+                                          ", ELSET=D\n1.\n*SURFACE INTERACTION");
+    const std::string refused = message_of(deck);
+    EXPECT_NE(refused.find("--accept \"" + keyword + "\" runs without:\n  x.inp:45: *" + keyword), std::string::npos)
+        << refused;
+    EXPECT_EQ(case_from(deck, {keyword}).parts.size(), 2U);
+    EXPECT_TRUE(has_note(translated(deck, {keyword}), std::string(row.type) + ": left out with its *" + keyword));
+  }
+}
+
+/// Abaqus Analysis User's Guide, "Choosing the element's formulation": hybrid elements have the pressure as a further
+/// unknown, for materials that are nearly or quite incompressible; their nodes and points are those of their twins.
+TEST(Translate, HybridElementsAreTheirTwins) {
+  const std::string deck = replaced(good_deck, "TYPE=C3D8, ELSET=UPPER", "TYPE=C3D8RH, ELSET=UPPER");
+  EXPECT_EQ(**case_from(deck).parts[1].formulation, "one_point");
+  EXPECT_TRUE(has_note(translated(deck), "C3D8RH: its pressure is no unknown of its own"));
+}
+
+/// Abaqus keyword *BULK VISCOSITY: of a step and those behind it; 0.06 and 1.2 where none is given.
+TEST(Translate, BulkViscosityThatChangesIsRefused) {
+  const std::string one = replaced(good_deck, "*DYNAMIC, DIRECT\n1e-6, 1e-3", "*DYNAMIC, EXPLICIT\n, 1e-3");
+  const std::string next = "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-3\n*BULK VISCOSITY\n0.06, 1.2\n*END STEP\n";
+  EXPECT_EQ(case_from(one + next).parts[0].linear_bulk_viscosity, 0.06);
+  const std::string other = message_of(one + replaced(next, "0.06", "0.2"));
+  EXPECT_NE(other.find("*BULK VISCOSITY: another bulk viscosity than in a step before"), std::string::npos) << other;
+}
+
+/// Abaqus keyword *AMPLITUDE: EQUALLY SPACED has values alone, FIXED INTERVAL apart, from BEGIN on.
+TEST(Translate, AmplitudesOfEquallySpacedValues) {
+  const auto with = [](const std::string& keyword, const std::string& lines) {
+    return replaced(good_deck, "*AMPLITUDE, NAME=A\n0., 0., 1e-3, 1.", "*AMPLITUDE, NAME=A, " + keyword + "\n" + lines);
+  };
+  const Case made = case_from(with("DEFINITION=EQUALLY SPACED, FIXED INTERVAL=5e-4", "0., 1.\n0.5"));
+  EXPECT_DOUBLE_EQ(made.functions.at(0).function(2.5e-4), 0.5);
+  EXPECT_DOUBLE_EQ(made.functions.at(0).function(1e-3), 0.5);
+  EXPECT_NE(message_of(with("DEFINITION=EQUALLY SPACED", "0., 1.")).find("found no FIXED INTERVAL"), std::string::npos);
+  EXPECT_NE(message_of(with("DEFINITION=PERIODIC", "1, 6.28, 0., 0.\n0., 1.")).find("found DEFINITION=PERIODIC"),
+            std::string::npos);
+}
+
+/// *RESTART, READ goes on with another run; its other parameters say what is written.
+TEST(Translate, RestartOfAnotherRunIsRefused) {
+  EXPECT_TRUE(has_note(translated("*RESTART, WRITE, FREQUENCY=1\n" + good_deck), "*RESTART: WRITE changes nothing"));
+  EXPECT_NE(message_of("*RESTART, READ, STEP=1\n" + good_deck).find("*RESTART: the parameter READ is not known"),
+            std::string::npos);
 }
 
 /// Every keyword that asks for results or messages alone is a note: a deck with all of them is a case.
@@ -371,7 +513,7 @@ TEST(Translate, OutputAloneIsANote) {
     EXPECT_TRUE(has_note(translated(replaced(good_deck, "*END STEP", keyword + ", FREQUENCY=1\n*END STEP")), keyword));
   }
   for (const char* name : {"INCREMENTATION OUTPUT", "INTEGRATED OUTPUT SECTION", "MODAL OUTPUT", "RADIATION OUTPUT",
-                           "SECTION FILE", "MONITOR", "PREPRINT", "FILE FORMAT"})
+                           "SECTION FILE", "MONITOR", "PREPRINT", "FILE FORMAT", "DISPLAY BODY"})
     EXPECT_EQ(find_keyword(name)->use, KeywordUse::output) << name;
 }
 
