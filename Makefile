@@ -21,13 +21,14 @@ test:    ## the same set-up, then all tests through ctest
 	@tools/build release all
 	@ctest --preset release -j "$$(nproc)"
 
-verify: build ## long verification cases, resumable, writes docs/verification.md; then 300 impacts, 600 of random shapes, 60 towers, 100 impacts seen otherwise, edges and curves with defaults, a soak, decks of CalculiX, data races, lines that tests run
+verify: build ## long verification cases, resumable, writes docs/verification.md; then 300 impacts, 600 of random shapes, 60 towers, 100 impacts seen otherwise, halves and quarters of 60, edges and curves with defaults, a soak, decks of CalculiX, data races, lines that tests run
 	@tools/verify
 	@/usr/bin/python3 tests/verification/impact_trial.py build/release/carom --jobs "$$(nproc)"
 	@tools/setup python
 	@/usr/bin/python3 tests/verification/shape_trial.py build/release/carom --jobs "$$(nproc)"
 	@/usr/bin/python3 tests/verification/tower_trial.py build/release/carom --jobs "$$(nproc)"
 	@/usr/bin/python3 tests/verification/galilean_trial.py build/release/carom
+	@/usr/bin/python3 tests/verification/symmetry_trial.py build/release/carom
 	@/usr/bin/python3 tests/verification/edges_and_curves.py build/release/carom
 	@/usr/bin/python3 tools/soak.py build/release/carom
 	@tools/setup verify

@@ -89,7 +89,9 @@ void check_components(CaseSupport& support, const Node& node, const ReadContext&
 SectionSchema<CaseSupport> support_section() {
   SectionSchema<CaseSupport> s("What is imposed on a group of nodes.");
   s.key("nodes", &CaseSupport::nodes, "Group of nodes or cells, or \"all\".", {.need = Need::required});
-  s.key("symmetry", &CaseSupport::symmetry, "Symmetry plane with this normal: blocks that component.",
+  s.key("symmetry", &CaseSupport::symmetry,
+        "Symmetry plane with this normal: blocks that component. Where bodies that touch end there, contact sees their "
+        "images beyond it.",
         {.choices = kAxes});
   s.key("blocked", &CaseSupport::blocked, "Components that stay where they are.", {.choices = kAxes});
   add_motion(s, "displacement", MotionKind::displacement, Dimension::length);

@@ -57,14 +57,12 @@ using Attribute = Handle<hid_t, H5Aclose>;
 using Type = Handle<hid_t, H5Tclose>;
 
 /// Of files in the folder of results. Locks of the file system are not needed, since that folder is locked, and not
-/// there on some. Headers are those of HDF5 1.10: a frame of a small model is a third smaller than with the oldest
-/// ones.
+/// there on some.
 inline Plist file_access() {
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
 #if H5_VERSION_GE(1, 10, 7)
   H5Pset_file_locking(access, false, true);
 #endif
-  H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
   return Plist(access);
 }
 

@@ -300,7 +300,7 @@ class View(unittest.TestCase):
         self.assertFalse(curve.is_displayed())
 
     def test_view_and_curves_have_one_time(self):
-        self.driver.execute_script("carom.show(0.0101)")
+        self.driver.execute_script("carom.show(0.0105)")
         self.assertTrue(self.clock().startswith("t = 10"), self.clock())
         line = self.driver.execute_script(
             "const c = document.querySelector('.chart .cursor'); return [c.hidden, parseFloat(c.style.left)]")
