@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "mesh_fixture.hpp"
 #include "mesh/hdf5_visitor.hpp"
 #include "mesh/isolated_process.hpp"
 #include "mesh/structured_block.hpp"
+#include "mesh_fixture.hpp"
 
 namespace {
 
