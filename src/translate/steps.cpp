@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <ranges>
 #include <set>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "deck/keyword_table.hpp"
 #include "translate/translation.hpp"
@@ -70,9 +70,10 @@ const Integrator* integrator_of(const DeckKeyword& keyword) {
     const std::string* given = keyword.parameter(parameter);
     if (given == nullptr) continue;
     found = std::ranges::find(integrators, without_blanks(*given), name);
-    if (found == integrators.end())
-      keyword.fail(fmt::format("{}={}", parameter, *given),
-                   fmt::format("{}", fmt::join(integrators | std::views::transform(name), ", ")));
+    if (found != integrators.end()) continue;
+    std::vector<std::string_view> known;
+    for (const Integrator& integrator : integrators) known.push_back(integrator.*name);
+    keyword.fail(fmt::format("{}={}", parameter, *given), fmt::format("{}", fmt::join(known, ", ")));
   }
   return found;
 }

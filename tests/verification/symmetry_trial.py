@@ -13,8 +13,10 @@ units and where the planes are; schemes and kinds of contact come by turns; noth
 in the plane are held across it ([[support]] symmetry), and nothing is said of contact there.
 
 The energy of contact of the whole is twice that of a half (src/contact/mirror_images.hpp), so the force over time is twice
-its own, up to the rounding of the explicit step, and else to what ends the iterations: LIMIT of the largest force. In statics a
-node that comes to an edge between two facets may settle behind either.
+its own, up to the rounding of the explicit step, and else to what ends the iterations: LIMIT of the largest force. They are
+compared as long as they take the same steps and are symmetric, the half about the other plane: a node that comes to an
+edge between two facets settles behind one of them, and then bodies get forces along x or y. Where the whole is not
+symmetric from the touch on, or finds no equilibrium, nothing is compared; a fifth of them at most may be such.
 """
 
 import argparse
@@ -40,7 +42,8 @@ SCHEMES = ("central_differences", "newmark", "cd_lagrange", "statics", "hulbert_
 KINDS = ("all", "pair")
 EXPLICIT = ("central_differences", "hulbert_chung", "cd_lagrange")
 LIMIT = {"central_differences": 1e-9, "hulbert_chung": 1e-9, "cd_lagrange": 1e-4, "newmark": 1e-6, "hht": 1e-6,
-         "statics": 1e-3}
+         "statics": 1e-6}
+SYMMETRIC = 1e-7  # of the largest force: what is along x and y
 E, RHO = 1e5, 1e-3
 
 
@@ -172,11 +175,11 @@ class Impact:
 
 
 def forces(folder):
-    """Of touch along z, by time."""
+    """Of touch along x, y and z, with the time."""
     with (folder / "out/contact.csv").open(encoding="utf-8") as file:
         rows = list(csv.reader(line for line in file if not line.startswith("#")))
-    column = next(i for i, name in enumerate(rows[0]) if name.endswith("force_z"))
-    return {float(row[0]): float(row[column]) for row in rows[1:]}
+    column = next(i for i, name in enumerate(rows[0]) if name.endswith("force_x"))
+    return [(float(row[0]), [float(v) for v in row[column:column + 3]]) for row in rows[1:]]
 
 
 def run(carom, folder):
@@ -186,25 +189,29 @@ def run(carom, folder):
 
 
 def judge(carom, folder, impact):
-    """What is wrong; "" if nothing is."""
+    """What is WRONG, or why nothing is compared; "" where all is right."""
     found = []
     for cuts in range(3):
         impact.deck(folder / str(cuts), cuts)
         found.append(run(carom, folder / str(cuts)))
+    if found[0][0] not in (0, 1):
+        return f"not compared, since the whole ends with {found[0][0]}"
     if any(code not in (0, 1) for code, _ in found):
-        return f"exit codes {[code for code, _ in found]}: {next(text for code, text in found if code not in (0, 1))}"
+        return f"WRONG, exit codes {[code for code, _ in found]}: {next(text for code, text in found if code not in (0, 1))}"
     whole = forces(folder / "0")
-    largest = max(map(abs, whole.values()))
+    largest = max(abs(force[2]) for _, force in whole)
     if not largest > 0.0:
-        return "no force"
+        return "WRONG, no force"
     for cuts in (1, 2):
-        part = forces(folder / str(cuts))
-        common = [t for t in whole if t in part]
-        if len(common) < 0.5 * min(len(whole), len(part)):
-            return f"{cuts} cuts: only {len(common)} instants of {len(whole)} are those of the whole"
-        off = max(abs(whole[t] - 2**cuts * part[t]) for t in common) / largest
+        pairs = list(itertools.takewhile(
+            lambda pair, cuts=cuts: pair[0][0] == pair[1][0] and all(
+                abs(v) < SYMMETRIC * largest for v in pair[0][1][:2] + pair[1][1][cuts:2]),
+            zip(whole, forces(folder / str(cuts)))))
+        if not any(of_whole[2] for (_, of_whole), _ in pairs):
+            return "not compared, since it is not symmetric from the touch on"
+        off = max(abs(of_whole[2] - 2**cuts * of_part[2]) for (_, of_whole), (_, of_part) in pairs) / largest
         if not off < LIMIT[impact.scheme]:
-            return f"{cuts} cuts: the force is off by {off:.2g} of the largest, at most {LIMIT[impact.scheme]:g}"
+            return f"WRONG, {cuts} cuts: the force is off by {off:.2g} of the largest, at most {LIMIT[impact.scheme]:g}"
     return ""
 
 
@@ -219,16 +226,17 @@ def main():
     numbers = SMALL if options.small else range(VARIANTS)
     if options.only:
         numbers = [n for part in options.only.split(",") for n in range(int(part.split("-")[0]), int(part.split("-")[-1]) + 1)]
-    wrong = 0
+    wrong = skipped = 0
     with tempfile.TemporaryDirectory() as scratch:
         folder = options.keep or pathlib.Path(scratch)
         for number in numbers:
             impact = Impact(options.seed, number)
             why = judge(options.carom.resolve(), folder / str(number), impact)
             print(f"{impact.name}: {why or 'right'}", flush=True)
-            wrong += bool(why)
-    print(f"{len(numbers) - wrong} of {len(numbers)} right")
-    return 1 if wrong else 0
+            wrong += why.startswith("WRONG")
+            skipped += why.startswith("not")
+    print(f"{len(numbers) - wrong - skipped} of {len(numbers)} right, {skipped} not compared")
+    return 1 if wrong or skipped > 0.2 * len(numbers) else 0
 
 
 if __name__ == "__main__":
