@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -87,6 +88,7 @@ class ContactLint {
       where_ = fmt::format("{}: contact \"{}\"", to_string(given(c).where), *given(c).name);
       check_place(c);
       check_sides(c);
+      check_roundness(c);
       check_step(c);
       if (is_led_to_turn(c)) check_turning(c);
       check_stiffness(c);
@@ -242,6 +244,40 @@ class ContactLint {
 
   /// Springs that harden keep to the verdict's limits by themselves.
   bool hardens(std::size_t c) const { return std::isfinite(law_of(s_.model().contacts[c])->linear_depth); }
+
+  /// Nodes alone touch obstacles: how deep does a ball or a cylinder sink into a face before a node meets it?
+  void check_roundness(std::size_t c) {
+    const auto* obstacle = std::get_if<ObstacleContact>(&s_.model().contacts[c]);
+    if (obstacle == nullptr) return;
+    const auto* sphere = std::get_if<Sphere>(&obstacle->shape);
+    const auto* cylinder = std::get_if<Cylinder>(&obstacle->shape);
+    if ((sphere == nullptr || sphere->inside) && (cylinder == nullptr || cylinder->inside)) return;
+    const double radius = sphere != nullptr ? sphere->radius : cylinder->radius;
+    double reach = 0.0;  // from the middle of a face to its nodes, across the cylinder
+    for (const Facet& facet : obstacle->surface.facets) {
+      Vec3 middle{};
+      const auto x = [&](Index n) { return s_.mesh().coordinates[static_cast<std::size_t>(n)]; };
+      for (const Index n : facet) middle = add(middle, scaled(x(n), 1.0 / facet.size));
+      double least = facet.size > 1 ? std::numeric_limits<double>::infinity() : 0.0;
+      for (const Index n : facet) {
+        const Vec3 way = subtract(x(n), middle);
+        least = std::min(least, norm(cylinder != nullptr ? cross(way, normalized(cylinder->axis)) : way));
+      }
+      reach = std::max(reach, least);
+    }
+    // As deep as bodies may be in each other for the verdict, a quarter of a cell, whose side is 2^(1/2) times as long.
+    const double unseen = reach < radius ? radius - std::sqrt(radius * radius - reach * reach) : reach;
+    if (unseen <= 0.25 * std::numbers::sqrt2 * reach) return;
+    const char* kind = sphere != nullptr ? "ball" : "cylinder";
+    if (reach >= radius)
+      say(": nodes alone touch it, and faces of the body are so large that the {} passes between their nodes: smaller "
+          "cells there, or a mesh of the {} as the master of a pair",
+          kind, kind);
+    else
+      say(": nodes alone touch it, and the {} sinks by up to {:.2g} into the middle of a face before a node meets it: "
+          "smaller cells there, or a mesh of the {} as the master of a pair",
+          kind, unseen, kind);
+  }
 
   void check_stiffness(std::size_t c) {
     const Approach& a = approaches_[c];

@@ -15,6 +15,7 @@
 
 #include "base/types.hpp"
 #include "contact/contact_kind.hpp"
+#include "contact/mirror_images.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_topology.hpp"
 #include "model/node_lengths.hpp"
@@ -77,13 +78,15 @@ std::vector<std::string> choose(Model& model, double stiffer, const Takes& takes
   std::vector<std::string> notes;
   std::optional<PartCells> cells;  // made when first needed
   const LinearDepth linear_depth(model);
-  for (ContactDefinition& contact : model.contacts) {
+  const MirrorImages images(model);
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    ContactDefinition& contact = model.contacts[i];
     const ContactKind& kind = kind_of(contact);
     if (kind.stiffness == nullptr || !takes(parts_of(contact).nature)) continue;
     ContactLaw& law = *law_of(contact);
     if (!law.eps_N) {
-      if (!cells) cells.emplace(model);
-      const StiffnessChoice choice = kind.stiffness(*cells, contact);
+      if (!cells) cells.emplace(images.whole());
+      const StiffnessChoice choice = kind.stiffness(*cells, images.whole().contacts[i]);
       const double factor = stiffer * law.stiffness_factor;
       law.eps_N = factor * choice.stiffness();
       if (stiffer == 1.0) law.linear_depth = linear_depth(contact);

@@ -56,6 +56,27 @@ TEST(Lint, SaysWhenNothingMovesTowardsAContact) {
   }
 }
 
+// Faces of 1 x 1: a ball of 0.5 passes between their nodes, which are 2^(1/2) / 2 from the middle; one of 0.9 sinks
+// into it by 0.9 - (0.81 - 0.5)^(1/2) = 0.343, one of 2 by 0.13, an eighth of a cell. A cylinder of 0.6 along an edge
+// sinks by 0.6 - (0.36 - 0.25)^(1/2) = 0.268. In a hollow nodes are the deepest themselves.
+TEST(Lint, SaysHowDeepARoundObstacleSinksIntoAFace) {
+  const auto below = [](const std::string& shape) {
+    return "[[contact]]\nname = \"round\"\ngroup = \"FOOT\"\n" + shape + moving(-1.0);
+  };
+  const auto ball = [&](const char* radius, const char* inside) {
+    return below(std::string("kind = \"sphere\"\ncentre = [1.0, 1.0, -3.0]\nradius = ") + radius + "\n" + inside);
+  };
+  const std::string passes = "passes between their nodes", sinks = "sinks by up to";
+  EXPECT_TRUE(is_warned(ball("0.5", ""), passes));
+  EXPECT_TRUE(is_warned(ball("0.9", ""), sinks + " 0.34"));
+  const std::string cylinder = "kind = \"cylinder\"\npoint = [0.0, 1.0, -3.0]\naxis = [2.0, 0.0, 0.0]\nradius = 0.6\n";
+  EXPECT_TRUE(is_warned(below(cylinder), sinks + " 0.27"));
+  for (const std::string& what : {passes, sinks}) {
+    EXPECT_FALSE(is_warned(ball("2.0", ""), what));
+    EXPECT_FALSE(is_warned(ball("9.0", "inside = true\n"), what));
+  }
+}
+
 /// Waves of speed sqrt(2 x 0.7 / (1.3 x 0.4) / 1.5) = 1.34 cross a cell of 1 in 0.75.
 TEST(Lint, SaysWhenNoWaveCrossesACell) {
   const auto is_short = [](const std::string& end) {
