@@ -12,6 +12,7 @@
 
 #include "contact/row_maker.hpp"
 #include "mesh/cell_topology.hpp"
+#include "mesh/skin.hpp"
 #include "model/bodies.hpp"
 #include "parallel/threads.hpp"
 
@@ -170,12 +171,19 @@ MirrorImages::MirrorImages(const Model& model) : model_(model), planes_(symmetry
     for (std::size_t n = 0; n < in_.size(); ++n)
       if (meets(model.mesh->coordinates[n], planes_[p], tolerance_)) in_[n] |= static_cast<Planes>(1U << p);
   }
+  std::vector<bool> is_on_surface(in_.size());
+  for (const ContactDefinition& contact : model.contacts) {
+    if (!has_images(contact)) continue;
+    const auto& pair = std::get<PairContact>(contact);
+    for (const Surface* surface : {&pair.slave, &pair.master})
+      for (const Facet& facet : surface->facets)
+        for (const Index n : facet) is_on_surface[static_cast<std::size_t>(n)] = true;
+  }
   whole_ = model;
   auto mesh = std::make_shared<Mesh>(*model.mesh);
-  add_nodes(*mesh);
-  add_cells(*mesh);
+  add_images(*mesh, is_on_surface);
   whole_.mesh = std::move(mesh);
-  whole_.outer_facets = nullptr;
+  whole_.outer_facets = std::make_shared<const std::vector<OuterFacet>>(outer_facets(*whole_.mesh));
   whole_.node_lengths = nullptr;
   for (ContactDefinition& contact : whole_.contacts) {
     if (!has_images(contact)) continue;
@@ -193,12 +201,36 @@ std::string MirrorImages::note() const {
                      fmt::join(planes, " and "), planes.size() == 1 ? "their nodes are" : "the nodes of each are");
 }
 
-void MirrorImages::add_nodes(Mesh& mesh) {
-  const std::size_t count = mesh.node_count(), subsets = std::size_t{1} << planes_.size();
-  image_of_.assign(subsets, std::vector<Index>(count, -1));
+Index MirrorImages::image(Index node, Planes planes) const {
+  const auto n = static_cast<std::size_t>(node);
+  const auto by = static_cast<std::size_t>(planes & ~in_[n]);
+  return by == 0 ? node : image_of_[by][n];
+}
+
+/// Of the cells at the surfaces alone, which give all that rows ask for: skin, sharp edges, how bodies hang together.
+void MirrorImages::add_images(Mesh& mesh, const std::vector<bool>& is_on_surface) {
+  const auto is_asked_for = [&](Index n) { return is_on_surface[static_cast<std::size_t>(n)]; };
+  std::vector<std::vector<Index>> cells;  // by part
+  std::vector<bool> has_image(in_.size());
+  for (const Part& part : model_.parts) {
+    std::vector<Index>& of_part = cells.emplace_back();
+    for (const Index cell : part.cells) {
+      const std::span<const Index> nodes = model_.mesh->block(part.type)->nodes(cell);
+      if (std::ranges::none_of(nodes, is_asked_for)) continue;
+      of_part.push_back(cell);
+      for (const Index n : nodes) has_image[static_cast<std::size_t>(n)] = true;
+    }
+  }
+  add_nodes(mesh, has_image);
+  for (std::size_t k = 0; k < cells.size(); ++k) add_cells(mesh, k, cells[k]);
+}
+
+void MirrorImages::add_nodes(Mesh& mesh, const std::vector<bool>& has_image) {
+  const std::size_t subsets = std::size_t{1} << planes_.size();
+  image_of_.assign(subsets, std::vector<Index>(in_.size(), -1));
   for (std::size_t by = 1; by < subsets; ++by) {
-    for (std::size_t n = 0; n < count; ++n) {
-      if ((in_[n] & by) != 0) continue;
+    for (std::size_t n = 0; n < in_.size(); ++n) {
+      if (!has_image[n] || (in_[n] & by) != 0) continue;
       Vec3 x = mesh.coordinates[n];
       for (std::size_t p = 0; p < planes_.size(); ++p)
         if (((by >> p) & 1U) != 0) x[planes_[p].component] = 2.0 * planes_[p].position - x[planes_[p].component];
@@ -211,26 +243,19 @@ void MirrorImages::add_nodes(Mesh& mesh) {
   }
 }
 
-Index MirrorImages::image(Index node, Planes planes) const {
-  const auto n = static_cast<std::size_t>(node);
-  const auto by = static_cast<std::size_t>(planes & ~in_[n]);
-  return by == 0 ? node : image_of_[by][n];
-}
-
-void MirrorImages::add_cells(Mesh& mesh) {
-  for (std::size_t k = 0; k < model_.parts.size(); ++k) {
-    const Part& part = model_.parts[k];
-    const auto block = std::ranges::find(mesh.blocks, part.type, &CellBlock::type);
-    const std::span<const LocalNode> order = mirrored_order(part.type);
-    for (std::size_t by = 1; by < image_of_.size(); ++by) {
-      const bool is_turned = is_odd(static_cast<unsigned>(by)) && !order.empty();  // bars have no order
-      for (const Index cell : part.cells) {
-        const std::span<const Index> nodes = model_.mesh->block(part.type)->nodes(cell);
-        whole_.parts[k].cells.push_back(static_cast<Index>(block->size()));
-        for (std::size_t a = 0; a < nodes.size(); ++a)
-          block->connectivity.push_back(image(nodes[is_turned ? order[a] : a], static_cast<Planes>(by)));
-        block->file_numbers.push_back(model_.mesh->block(part.type)->file_numbers[static_cast<std::size_t>(cell)]);
-      }
+void MirrorImages::add_cells(Mesh& mesh, std::size_t part, std::span<const Index> cells) {
+  const CellType type = model_.parts[part].type;
+  const CellBlock& from = *model_.mesh->block(type);
+  CellBlock& to = *std::ranges::find(mesh.blocks, type, &CellBlock::type);
+  const std::span<const LocalNode> order = mirrored_order(type);
+  for (std::size_t by = 1; by < image_of_.size(); ++by) {
+    const bool is_turned = is_odd(static_cast<unsigned>(by)) && !order.empty();  // bars have no order
+    for (const Index cell : cells) {
+      const std::span<const Index> nodes = from.nodes(cell);
+      whole_.parts[part].cells.push_back(static_cast<Index>(to.size()));
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        to.connectivity.push_back(image(nodes[is_turned ? order[a] : a], static_cast<Planes>(by)));
+      to.file_numbers.push_back(from.file_numbers[static_cast<std::size_t>(cell)]);
     }
   }
 }

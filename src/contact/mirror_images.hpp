@@ -45,7 +45,8 @@ class MirrorImages {
   explicit MirrorImages(const Model& model);
 
   bool empty() const { return planes_.empty(); }
-  /// Nodes and cells of the model first; the model itself where there is no plane.
+  /// Nodes and cells of the model first, then images of the cells at the surfaces; the model itself where there is no
+  /// plane.
   const Model& whole() const { return empty() ? model_ : whole_; }
   /// What the log says of them.
   std::string note() const;
@@ -65,8 +66,9 @@ class MirrorImages {
 
   Index image(Index node, Planes planes) const;
   Surface with_images(const Surface& surface) const;
-  void add_nodes(Mesh& mesh);
-  void add_cells(Mesh& mesh);
+  void add_images(Mesh& mesh, const std::vector<bool>& is_on_surface);
+  void add_nodes(Mesh& mesh, const std::vector<bool>& has_image);
+  void add_cells(Mesh& mesh, std::size_t part, std::span<const Index> cells);
 
   const Model& model_;
   std::vector<SymmetryPlane> planes_;
