@@ -21,8 +21,8 @@ namespace {
 
 constexpr double in_plane = 1e-9;  // of the model's size: above the round-off of any writer
 
-bool meets(const Vec3& x, const SymmetryPlane& plane, double tolerance) {
-  return std::abs(x[plane.component] - plane.position) <= tolerance;
+bool meets(const Vec3& x, const SymmetryPlane& plane) {
+  return std::abs(x[plane.component] - plane.position) <= plane.tolerance;
 }
 
 /// A facet of which an edge, or the end of a segment, is in the plane, and that is not itself in it.
@@ -68,7 +68,8 @@ struct Extent {
     }
     for (std::size_t c = 0; c < 3; ++c) size = std::max(size, high[c] - low[c]);
   }
-  bool is_flat(std::size_t c) const { return high[c] - low[c] <= in_plane * size; }
+  double tolerance() const { return in_plane * size; }
+  bool is_flat(std::size_t c) const { return high[c] - low[c] <= tolerance(); }
 };
 
 /// All nodes in the plane are held across it, and one at least may move in it.
@@ -76,16 +77,16 @@ bool is_symmetry(const Model& model, const Extent& extent, const std::vector<std
                  const SymmetryPlane& plane) {
   bool moves = false;
   for (std::size_t n = 0; n < held.size(); ++n) {
-    if (!extent.has_cell[n] || !meets(model.mesh->coordinates[n], plane, in_plane * extent.size)) continue;
+    if (!extent.has_cell[n] || !meets(model.mesh->coordinates[n], plane)) continue;
     if (!held[n][plane.component]) return false;
     for (std::size_t c = 0; c < 3; ++c) moves = moves || (c != plane.component && !extent.is_flat(c) && !held[n][c]);
   }
   return moves;
 }
 
-std::vector<bool> nodes_in(const Model& model, const SymmetryPlane& plane, double tolerance) {
+std::vector<bool> nodes_in(const Model& model, const SymmetryPlane& plane) {
   std::vector<bool> in;
-  for (const Vec3& x : model.mesh->coordinates) in.push_back(meets(x, plane, tolerance));
+  for (const Vec3& x : model.mesh->coordinates) in.push_back(meets(x, plane));
   return in;
 }
 
@@ -105,7 +106,8 @@ bool is_odd(unsigned planes) {
 std::vector<std::array<bool, 3>> held_nodes(const Model& model) {
   std::vector<std::array<bool, 3>> held(model.mesh->node_count());
   for (const PrescribedMotion& motion : model.motions) {
-    const bool rests = motion.kind != MotionKind::rotation && !motion.function.called && is_zero(motion.function.value);
+    const bool says_where = motion.kind == MotionKind::displacement || motion.kind == MotionKind::velocity;
+    const bool rests = says_where && !motion.function.called && is_zero(motion.function.value);
     if (!rests) continue;
     for (const Index n : motion.nodes)
       held[static_cast<std::size_t>(n)][static_cast<std::size_t>(motion.component)] = true;
@@ -127,10 +129,11 @@ std::vector<SymmetryPlane> symmetry_planes(const Model& model) {
   for (std::size_t c = extent.turns ? 1 : 0; c < 3; ++c) {
     if (extent.is_flat(c)) continue;
     std::vector<SymmetryPlane> of_component;
-    for (const SymmetryPlane& plane : {SymmetryPlane{c, extent.low[c], false}, SymmetryPlane{c, extent.high[c], true}})
+    for (const SymmetryPlane& plane : {SymmetryPlane{c, extent.low[c], false, extent.tolerance()},
+                                       SymmetryPlane{c, extent.high[c], true, extent.tolerance()}})
       if (is_symmetry(model, extent, held, plane)) of_component.push_back(plane);
     if (of_component.size() != 1) continue;
-    const std::vector<bool> in = nodes_in(model, of_component[0], in_plane * extent.size);
+    const std::vector<bool> in = nodes_in(model, of_component[0]);
     if (std::ranges::any_of(pairs, [&](const PairContact* pair) { return touches_at(*pair, in, bodies); }))
       planes.push_back(of_component[0]);
   }
@@ -138,9 +141,8 @@ std::vector<SymmetryPlane> symmetry_planes(const Model& model) {
 }
 
 void leave_out_cuts(Model& model) {
-  const double tolerance = in_plane * Extent(model).size;
   for (const SymmetryPlane& plane : symmetry_planes(model)) {
-    const std::vector<bool> in = nodes_in(model, plane, tolerance);
+    const std::vector<bool> in = nodes_in(model, plane);
     const auto is_cut = [&](const Facet& facet) {
       return std::all_of(facet.begin(), facet.end(), [&](Index n) { return in[static_cast<std::size_t>(n)]; });
     };
@@ -164,12 +166,11 @@ bool MirrorImages::has_images(const ContactDefinition& contact) {
 
 MirrorImages::MirrorImages(const Model& model) : model_(model), planes_(symmetry_planes(model)) {
   if (empty()) return;
-  tolerance_ = in_plane * Extent(model).size;
   in_.assign(model.mesh->node_count(), 0);
   for (std::size_t p = 0; p < planes_.size(); ++p) {
     share_of_all_ *= 0.5;
     for (std::size_t n = 0; n < in_.size(); ++n)
-      if (meets(model.mesh->coordinates[n], planes_[p], tolerance_)) in_[n] |= static_cast<Planes>(1U << p);
+      if (meets(model.mesh->coordinates[n], planes_[p])) in_[n] |= static_cast<Planes>(1U << p);
   }
   std::vector<bool> is_on_surface(in_.size());
   for (const ContactDefinition& contact : model.contacts) {
@@ -291,8 +292,8 @@ double MirrorImages::share(const NodeKey& nodes, const Vec3& x) const {
   for (std::size_t p = 0; p < planes_.size(); ++p) {
     const double beyond = planes_[p].is_high ? x[planes_[p].component] - planes_[p].position
                                              : planes_[p].position - x[planes_[p].component];
-    if (is_edge && beyond > tolerance_) return 0.0;
-    if (is_edge ? beyond > -tolerance_ : ((in_[n] >> p) & 1U) != 0) share *= 0.5;
+    if (is_edge && beyond > planes_[p].tolerance) return 0.0;
+    if (is_edge ? beyond > -planes_[p].tolerance : ((in_[n] >> p) & 1U) != 0) share *= 0.5;
   }
   return share;
 }

@@ -21,6 +21,7 @@ struct SymmetryPlane {
   std::size_t component = 0;
   double position = 0.0;
   bool is_high = false;
+  double tolerance = 0.0;  ///< to which positions are in it
 };
 
 /// The planes of symmetry at which surfaces that may touch each other end. A plane is one of symmetry where all cells
@@ -72,7 +73,6 @@ class MirrorImages {
 
   const Model& model_;
   std::vector<SymmetryPlane> planes_;
-  double tolerance_ = 0.0;                    ///< to which positions are in a plane
   std::vector<Planes> in_;                    ///< by node of the model: the planes that it is in
   std::vector<std::vector<Index>> image_of_;  ///< by planes and node; -1: none
   std::vector<Index> of_;                     ///< by image: the node

@@ -21,6 +21,7 @@ long long intervals_within(double bytes, double of_frame);
 /// Steps between two frames of fields: those that the case says, or a 50th of the run, or more where frames so often
 /// might take more than 2 GB of disk.
 long long frame_interval(const Simulation& simulation);
+
 /// Which frames of a run are due.
 class FrameClock {
  public:
@@ -34,6 +35,7 @@ class FrameClock {
   const Simulation& simulation_;
   long long interval_;
 };
+
 /// Says that there are fewer than 50 frames for the disk's sake; "" where there are not.
 std::string frame_note(const Simulation& simulation);
 /// The format that the case asks for.

@@ -179,6 +179,10 @@ TEST(MirrorImages, AreNoneWhereNodesAreHeldOtherwise) {
     half.hold(0, in);
     half.model.motions.back().function.value = {1.0};
   }));
+  EXPECT_FALSE(is_plane([](Boxes& half, const std::vector<Index>& in) {  // as fast as at the start
+    half.hold(0, in);
+    half.model.motions.back().kind = MotionKind::acceleration;
+  }));
   EXPECT_FALSE(is_plane([](Boxes& half, const std::vector<Index>& in) {  // cells may go
     half.hold(0, in);
     half.model.erosion.emplace_back();
