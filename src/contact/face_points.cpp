@@ -4,10 +4,12 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "math/vec3.hpp"
 #include "model/bodies.hpp"
+#include "surface/facet_projection.hpp"
 #include "surface/half_thickness.hpp"
 #include "surface/overlap_column.hpp"
 
@@ -147,6 +149,24 @@ bool FaceOverlaps::goes_on(Index g, const Work& work) const {
   });
 }
 
+/// Removes the deep points from number `begin` on that stand outside of the other body: the way from there along the
+/// slave's inward normal leads into that body, through a facet that shows its back, before it comes out at the master.
+void FaceOverlaps::leave_out_beyond(const Slave& slave, const ContactMotion& motion, std::size_t begin,
+                                    Work& work) const {
+  const std::span<const Index> candidates = broad_phase_.targets_of(slave.f);
+  const auto stands_beyond = [&](const OverlapPoint& point) {
+    if (!(point.gap < -sideways_depth * size_)) return false;
+    const Vec3 x = facet_position(slave.placed(), point.slave.xi, point.slave.eta);
+    return std::any_of(candidates.begin(), candidates.end(), [&](Index h) {
+      if (!(dot(looks_[static_cast<std::size_t>(h)].normal, slave.normal()) > 0.0)) return false;
+      const std::optional<RayHit> hit = intersect(place(master_facet(h), motion.x), x, slave.normal());
+      return hit && hit->distance < 0.0 && hit->distance > point.gap;
+    });
+  };
+  const auto first = work.points.begin() + static_cast<std::ptrdiff_t>(begin);
+  work.points.erase(std::remove_if(first, work.points.end(), stands_beyond), work.points.end());
+}
+
 /// Enters master g and appends its points, if it counts.
 void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& motion, Work& work) const {
   const Look& look = looks_[static_cast<std::size_t>(g)];
@@ -175,11 +195,13 @@ void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
     return is_in_front(place(slave_.facets[slave.f], motion.x_begin), place(master_facet(g), motion.x_begin),
                        work.points[before], size_);
   };
-  if (extent.least_gap > face_look * size_ || (is_deep && !(is_wide && has_been_behind()) && !was_in_front())) {
+  const bool has_come_in = !is_deep || (is_wide && has_been_behind());
+  if (extent.least_gap > face_look * size_ || (!has_come_in && !was_in_front())) {
     work.points.resize(before);
     if (!is_wide) work.slivers.push_back(g);
     return;
   }
+  if (is_deep && has_come_in) leave_out_beyond(slave, motion, before, work);
   work.masters.push_back({g, master, seen, before, work.points.size()});
   work.met.push_back({facing, extent.area});
 }

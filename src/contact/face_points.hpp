@@ -101,6 +101,7 @@ class FaceOverlaps : public FacePointFinder {
   struct Work;
   void add_master(const Slave& slave, Index g, const ContactMotion& motion, Work& work) const;
   bool was_behind(const Slave& slave, Index g) const;
+  void leave_out_beyond(const Slave& slave, const ContactMotion& motion, std::size_t begin, Work& work) const;
   bool goes_on(Index g, const Work& work) const;
   void add_borders(const Slave& slave, const Work& work, std::size_t k, FacetPoints& found) const;
   double width_at(const Slave& slave, const ParentPoint& at) const;

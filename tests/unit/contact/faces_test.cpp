@@ -313,6 +313,34 @@ TEST(FaceRows, DoNotTakeTheFarSideOfABodyForItsFront) {
   EXPECT_NEAR(energy(contact, u), 0.5 * 100.0 * 0.1 * 0.1, 1e-12);  // eps A d^2 / 2: half of it from each side
 }
 
+// A wedge's face rests on the edge of a box, and the wedge's back looks at the top of that box, seen through the box:
+// the nodes of both faces are behind the top, but the back stands outside of the box and has no part in the contact.
+TEST(FaceRows, DoNotTakeTheBackOfAWedgeForItsFace) {
+  const auto energy_of = [](bool has_back) {
+    Scene scene;
+    const std::vector<Facet> box = scene.add_box({0, -5, 0}, {10, 5, 10}, 1);
+    std::array<Index, 2> tip, end, top;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double y = i == 0 ? -4.0 : 4.0;
+      tip[i] = scene.add_node({14.0, y, 6.9});
+      end[i] = scene.add_node({2.0, y, 15.9});  // the face passes 0.08 under the box's edge
+      top[i] = scene.add_node({17.4, y, 18.4});
+    }
+    std::vector<Facet> wedge{{{tip[0], end[0], end[1], tip[1]}, 4}};
+    if (has_back) wedge.push_back({{tip[0], tip[1], top[1], top[0]}, 4});
+    scene.finish().contacts.emplace_back(faces(wedge, box));
+    const ContactGeometry contact(scene.model);
+    const std::vector<double> u = scene.zero();
+    const auto rows = contact.rows_at(u, u, {contact.first_history(u)});
+    double sum = 0.0;
+    for (std::size_t r = 0; r < rows->size(); ++r)
+      sum += rows->law[r].spring_energy(std::max(0.0, -rows->gap_at(r, u)));
+    return sum;
+  };
+  EXPECT_GT(energy_of(false), 0.0);
+  EXPECT_NEAR(energy_of(true), energy_of(false), 1e-14);  // round-off of 2e-3
+}
+
 // What multipliers hold: means over the finer side, which see no ridge amid a coarse facet, and nodes of both sides
 // with an allowance of a hundredth of the facet size, which do.
 TEST(FaceRows, OfMultipliersAreMeansAndGuards) {
