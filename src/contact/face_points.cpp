@@ -88,8 +88,9 @@ struct FaceOverlaps::Slave : OverlapColumn {
 
 /// How a master facet in the column faces the slave.
 struct FaceOverlaps::Met {
-  double facing;  ///< c
-  double area;    ///< of the overlap
+  double facing;          ///< c
+  double area;            ///< of the overlap
+  bool may_stand_beyond;  ///< has not come in from the front within the step
 };
 
 /// The overlaps of a column in the making.
@@ -149,22 +150,19 @@ bool FaceOverlaps::goes_on(Index g, const Work& work) const {
   });
 }
 
-/// Removes the deep points from number `begin` on that stand outside of the other body: the way from there along the
-/// slave's inward normal leads into that body, through a facet that shows its back, before it comes out at the master.
-void FaceOverlaps::leave_out_beyond(const Slave& slave, const ContactMotion& motion, std::size_t begin,
-                                    Work& work) const {
+/// True where a deep point stands outside of the other body: the way from there along the slave's inward normal leads
+/// into that body, through a facet that shows its back, before it comes out at the master.
+bool FaceOverlaps::stands_beyond(const Slave& slave, const ContactMotion& motion, const ParentPoint& at,
+                                 double gap) const {
+  constexpr double at_the_edge = 0.999;  // there the back begins where the master ends
+  if (!(gap < -sideways_depth * size_)) return false;
+  const Vec3 x = facet_position(slave.placed(), at.xi, at.eta);
   const std::span<const Index> candidates = broad_phase_.targets_of(slave.f);
-  const auto stands_beyond = [&](const OverlapPoint& point) {
-    if (!(point.gap < -sideways_depth * size_)) return false;
-    const Vec3 x = facet_position(slave.placed(), point.slave.xi, point.slave.eta);
-    return std::any_of(candidates.begin(), candidates.end(), [&](Index h) {
-      if (!(dot(looks_[static_cast<std::size_t>(h)].normal, slave.normal()) > 0.0)) return false;
-      const std::optional<RayHit> hit = intersect(place(master_facet(h), motion.x), x, slave.normal());
-      return hit && hit->distance < 0.0 && hit->distance > point.gap;
-    });
-  };
-  const auto first = work.points.begin() + static_cast<std::ptrdiff_t>(begin);
-  work.points.erase(std::remove_if(first, work.points.end(), stands_beyond), work.points.end());
+  return std::any_of(candidates.begin(), candidates.end(), [&](Index h) {
+    if (!(dot(looks_[static_cast<std::size_t>(h)].normal, slave.normal()) > least_facing_of_faces)) return false;
+    const std::optional<RayHit> hit = intersect(place(master_facet(h), motion.x), x, slave.normal());
+    return hit && hit->distance < 0.0 && hit->distance > at_the_edge * gap;
+  });
 }
 
 /// Enters master g and appends its points, if it counts.
@@ -201,9 +199,14 @@ void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
     if (!is_wide) work.slivers.push_back(g);
     return;
   }
-  if (is_deep && has_come_in) leave_out_beyond(slave, motion, before, work);
+  const bool may_stand_beyond = is_deep && has_come_in;
+  if (may_stand_beyond) {
+    const auto first = work.points.begin() + static_cast<std::ptrdiff_t>(before);
+    const auto is_out = [&](const OverlapPoint& q) { return stands_beyond(slave, motion, q.slave, q.gap); };
+    work.points.erase(std::remove_if(first, work.points.end(), is_out), work.points.end());
+  }
   work.masters.push_back({g, master, seen, before, work.points.size()});
-  work.met.push_back({facing, extent.area});
+  work.met.push_back({facing, extent.area, may_stand_beyond});
 }
 
 void FaceOverlaps::find(std::size_t f, const ContactMotion& motion, FacetPoints& found) const {
@@ -232,7 +235,7 @@ void FaceOverlaps::find(std::size_t f, const ContactMotion& motion, FacetPoints&
         add_point(slave, master.placed, work.met[k].facing, work.points[q], motion, found);
   }
   if (use_ != OverlapUse::springs || !(found.least_gap < 0.0)) return;
-  for (std::size_t k = 0; k < work.masters.size(); ++k) add_borders(slave, work, k, found);
+  for (std::size_t k = 0; k < work.masters.size(); ++k) add_borders(slave, work, k, motion, found);
 }
 
 /// Reference thickness of the slave at a point: 1 in three dimensions.
@@ -250,7 +253,8 @@ bool FaceOverlaps::ends_at(Index master, std::size_t edge) const {
   return next < 0 || dot(normal(next), normal(master)) < smooth_edge;
 }
 
-void FaceOverlaps::add_borders(const Slave& slave, const Work& work, std::size_t k, FacetPoints& found) const {
+void FaceOverlaps::add_borders(const Slave& slave, const Work& work, std::size_t k, const ContactMotion& motion,
+                               FacetPoints& found) const {
   const ColumnMaster& master = work.masters[k];
   const ParentFace &own = slave_faces_[slave.f], &other = master_face(master.facet);
   const double s = facing_factor(work.met[k].facing);
@@ -260,6 +264,7 @@ void FaceOverlaps::add_borders(const Slave& slave, const Work& work, std::size_t
     border.clear();
     add_border(slave, master.seen, edge, border);
     for (const BorderPoint& at : border) {
+      if (work.met[k].may_stand_beyond && stands_beyond(slave, motion, at.slave, at.gap)) continue;
       FacePoint point;
       point.weight = at.length * slave.measure_at(at.slave) * width_at(slave, at.slave);
       point.gap = s * at.gap;

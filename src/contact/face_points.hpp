@@ -101,9 +101,10 @@ class FaceOverlaps : public FacePointFinder {
   struct Work;
   void add_master(const Slave& slave, Index g, const ContactMotion& motion, Work& work) const;
   bool was_behind(const Slave& slave, Index g) const;
-  void leave_out_beyond(const Slave& slave, const ContactMotion& motion, std::size_t begin, Work& work) const;
+  bool stands_beyond(const Slave& slave, const ContactMotion& motion, const ParentPoint& at, double gap) const;
   bool goes_on(Index g, const Work& work) const;
-  void add_borders(const Slave& slave, const Work& work, std::size_t k, FacetPoints& found) const;
+  void add_borders(const Slave& slave, const Work& work, std::size_t k, const ContactMotion& motion,
+                   FacetPoints& found) const;
   double width_at(const Slave& slave, const ParentPoint& at) const;
   bool ends_at(Index master, std::size_t edge) const;
   void add_point(const Slave& slave, const PlacedFacet& placed_master, double facing, const OverlapPoint& at,
