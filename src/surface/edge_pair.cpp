@@ -10,7 +10,7 @@ namespace carom {
 namespace {
 
 constexpr double flat = 0.05;             // w: b . n of a facet that is 2.9 degrees from lying flat
-constexpr double nearly_parallel = 1e-3;  // sin^2 of the angle between the edges
+constexpr double nearly_parallel = 1e-2;  // sin^2 of the angle between the edges
 constexpr double least_factor = 1e-4;     // smaller ones make no row: 1e-8 of the force
 
 }  // namespace

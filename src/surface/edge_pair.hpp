@@ -68,7 +68,7 @@ struct EdgePair {
 ///                                 sticks out, 1/4 over one amid a flat face, 0 flat on flat;
 ///   border: F = t_1 t_2           also where the sides of two faces that lie flat on each other cross, 1/4 there.
 /// Parallel edges, whose closest points are not defined, fade by m(x) = (x / e)(2 - x / e), x = sin^2 of the angle
-/// between them, below e = 1e-3, 1.8 degrees (Li et al., "Incremental potential contact", ACM Trans. Graph. 39, 2020).
+/// between them, below e = 1e-2, 5.7 degrees (Li et al., "Incremental potential contact", ACM Trans. Graph. 39, 2020).
 /// y takes a pair from one segment to the next where the edge goes on,
 /// within a tenth of the segment to both sides of the node, so that their factors' squares add up to 1 on a straight
 /// edge, and to nothing within a twenty-fifth before an end.
