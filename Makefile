@@ -1,6 +1,6 @@
 # The commands of the project; `make help` lists them. The work itself is done by CMake presets and the scripts of tools/.
 .DEFAULT_GOAL := help
-.PHONY: help demo build python test verify bench gallery book docs package format lint clean
+.PHONY: help demo build python mpi test verify bench gallery book docs package format lint clean
 
 help:    ## this list
 	@awk -F ':.*## ' '/^[a-z]+: .*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -15,6 +15,11 @@ build:   ## the program alone: build/release/carom
 python:  ## the Python module: build/release/python/carom, for PYTHONPATH (docs/python.md)
 	@tools/setup build python
 	@tools/build release carom_package
+
+mpi:     ## the program for several processes, build/release/carom-mpi; runs SDNV100 on two of them (docs/distributed.md)
+	@tools/setup build mpi
+	@tools/build release carom-mpi
+	@tools/on_ranks 2 build/release/carom-mpi run cases/sdnv100/current.toml --out out/sdnv100_on_ranks
 
 test:    ## the same set-up, then all tests through ctest
 	@tools/setup build python test

@@ -37,6 +37,7 @@
 #include "mesh/read_mesh.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/mesh_file.hpp"
+#include "parallel/job.hpp"
 #include "parallel/threads.hpp"
 #include "run/run_case.hpp"
 #include "translate/convert_deck.hpp"
@@ -169,9 +170,17 @@ ExitCode mesh(const Arguments& arguments) {
   return ExitCode::good;
 }
 
+/// What all processes of the job do, each as a rank.
+ExitCode on_ranks(ExitCode (*command)(const Arguments&), const Arguments& arguments) {
+  ExitCode code = ExitCode::good;
+  carom::run_as(carom::job_ranks(), [&] { code = command(arguments); });
+  return code;
+}
+
 ExitCode dispatch(const CLI::App& app, const Arguments& arguments) {
-  if (app.got_subcommand("run")) return run(arguments);
-  if (app.got_subcommand("resume")) return resume(arguments);
+  if (app.got_subcommand("run")) return on_ranks(run, arguments);
+  if (app.got_subcommand("resume")) return on_ranks(resume, arguments);
+  if (carom::job_ranks().own() > 0) return ExitCode::good;  // what follows is for one process
   if (app.got_subcommand("compare")) return compare(arguments);
   unblock_sigterm();  // nothing to be kept
   if (app.got_subcommand("watch")) {
@@ -272,24 +281,24 @@ void print_error(const std::string& what) {
   fmt::print(stderr, "error: {}\n", carom::terminal_text(what));
 }
 
-ExitCode guarded(const CLI::App& app, const Arguments& arguments) {
+carom::JobEnd end_of(ExitCode code, std::string error = {}) {
+  return {static_cast<int>(code), std::move(error)};
+}
+
+carom::JobEnd guarded(const CLI::App& app, const Arguments& arguments) {
   try {
     const ExitCode code = dispatch(app, arguments);
     if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "cannot write to stdout");
-    return code;
+    return end_of(code);
   } catch (const carom::CaseError& e) {
-    print_error(e.what());
-    return ExitCode::case_wrong;
+    return end_of(ExitCode::case_wrong, e.what());
   } catch (const carom::CheckpointError& e) {
-    print_error(e.what());
-    return ExitCode::case_wrong;
+    return end_of(ExitCode::case_wrong, e.what());
   } catch (const std::bad_alloc&) {
-    print_error(fmt::format("memory ran out while the case was made ready; {} are there",
-                            carom::about_bytes(carom::available_memory())));
-    return ExitCode::run_failed;
+    return end_of(ExitCode::run_failed, fmt::format("memory ran out while the case was made ready; {} are there",
+                                                    carom::about_bytes(carom::available_memory())));
   } catch (const std::exception& e) {
-    print_error(e.what());
-    return ExitCode::run_failed;
+    return end_of(ExitCode::run_failed, e.what());
   }
 }
 
@@ -367,12 +376,13 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::case_wrong);
   }
-  const ExitCode code = guarded(app, arguments);
+  const int code = carom::run_job(
+      argc, argv, [&] { return guarded(app, arguments); }, print_error);
   // A run that failed may have had no memory left, and the exit handlers of the linear algebra have hung for want of
   // it.
-  if (code == ExitCode::run_failed) {
+  if (code == static_cast<int>(ExitCode::run_failed)) {
     std::fflush(nullptr);
-    std::_Exit(static_cast<int>(code));
+    std::_Exit(code);
   }
-  return static_cast<int>(code);
+  return code;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "linalg/lapack.hpp"
+#include "parallel/ranks.hpp"
 
 namespace carom {
 
@@ -12,7 +13,6 @@ namespace {
 
 constexpr std::size_t error_code = 1, error_detail = 2, ordering = 7, workspace_excess = 14;
 constexpr MUMPS_INT given_order = 1;
-constexpr MUMPS_INT communicator_of_the_dummy_mpi = -987654;
 constexpr MUMPS_INT most_workspace_excess = 1000;  // per cent
 
 double number(MUMPS_INT n) {
@@ -28,7 +28,7 @@ bool lacks_workspace(MUMPS_INT code) {
 Mumps::Mumps(Symmetry symmetry) {
   mumps_.par = 1;
   mumps_.sym = static_cast<MUMPS_INT>(symmetry);
-  mumps_.comm_fortran = communicator_of_the_dummy_mpi;
+  mumps_.comm_fortran = own_communicator();
   call(Job::initialise);
   for (std::size_t stream = 1; stream <= 3; ++stream) control(stream) = -1;  // no output, errors included
   control(4) = 0;

@@ -25,6 +25,8 @@ class Alone final : public Ranks {
 
 thread_local Ranks* current = nullptr;
 
+int communicator = -987654;  // a number that libmpiseq expects
+
 /// The messages between the ranks of one process.
 class Post {
  public:
@@ -86,6 +88,37 @@ Ranks& ranks() {
   return current == nullptr ? alone : *current;
 }
 
+void run_as(Ranks& own, const std::function<void()>& body) {
+  struct Restore {
+    Ranks* before;
+    ~Restore() { current = before; }
+  } const restore{current};
+  current = &own;
+  body();
+}
+
+bool same_on_all_ranks(double value) {
+  Ranks& all = ranks();
+  for (std::size_t r = 0; r < all.count(); ++r)
+    if (r != all.own()) all.send(r, {&value, 1});
+  bool is_same = true;
+  for (std::size_t r = 0; r < all.count(); ++r)
+    if (r != all.own() && all.receive(r) != std::vector<double>{value}) is_same = false;
+  return is_same;
+}
+
+bool on_any_rank(bool is_so) {
+  return !same_on_all_ranks(is_so ? 1.0 : 0.0) || is_so;
+}
+
+int own_communicator() {
+  return communicator;
+}
+
+void set_own_communicator(int own) {
+  communicator = own;
+}
+
 void run_on_ranks(std::size_t count, const std::function<void()>& body) {
   Post post(count);
   {
@@ -93,10 +126,9 @@ void run_on_ranks(std::size_t count, const std::function<void()>& body) {
     for (std::size_t r = 0; r < count; ++r)
       threads.emplace_back([&post, &body, r] {
         RankOfProcess own(post, r);
-        current = &own;
         const ThreadScope one(1);
         try {
-          body();
+          run_as(own, body);
         } catch (...) {
           post.fail(std::current_exception());
         }

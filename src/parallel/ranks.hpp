@@ -31,6 +31,20 @@ class Ranks {
 /// The ranks of the run that the calling thread takes part in; by itself it is the only one.
 Ranks& ranks();
 
+/// Runs body() as the rank `own`.
+void run_as(Ranks& own, const std::function<void()>& body);
+
+/// True on every rank if it is on any of them. All ranks call it, and none goes on before.
+bool on_any_rank(bool is_so);
+
+/// True on every rank if all of them give the same value. All ranks call it.
+bool same_on_all_ranks(double value);
+
+/// The communicator of this process alone, as Fortran sees it (MPI 4.0, 19.3.4), for libraries that are given one: that
+/// of the MPI of one process which MUMPS brings along, until a job has one.
+int own_communicator();
+void set_own_communicator(int communicator);
+
 /// Runs body() on `count` ranks, each a thread of this process with one thread of its own for loops, and waits for
 /// all. Throws what the first of them to fail threw; the others end at their next receive.
 void run_on_ranks(std::size_t count, const std::function<void()>& body);

@@ -28,6 +28,7 @@
 #include "output/file_writer.hpp"
 #include "output/found_checkpoint.hpp"
 #include "output/results_folder.hpp"
+#include "parallel/ranks.hpp"
 #include "record/frame_plan.hpp"
 #include "report/report.hpp"
 #include "run/summarize.hpp"
@@ -97,7 +98,7 @@ std::string read_text(const std::string& path) {
 FoundRun find_run(const std::string& folder) {
   if (!std::filesystem::is_directory(folder)) throw CheckpointError(folder, "there is no such folder");
   FoundRun found;
-  found.lock = std::make_unique<ResultsLock>(folder);
+  if (ranks().own() == 0) found.lock = std::make_unique<ResultsLock>(folder);  // for all of them
   found.checkpoint = find_checkpoint(folder);
   const std::string case_file = folder + "/" + resolved_case_file;
   found.resolved = read_text(case_file);
@@ -191,6 +192,8 @@ void Run::go_on(FoundRun found, std::optional<double> end) {
         "from t = {:.6g} on the kernels take the instruction set {} after {}: the last digits of what follows "
         "are others than those of a run in one piece; CAROM_ISA={} has them, where the machine has it",
         march().state().t, origin.isa, found.checkpoint.info.isa, found.checkpoint.info.isa));
+  on_any_rank(false);  // all have read what is now changed
+  if (folder_.empty()) return;
   watched_->recorder.go_on();
   remove_later(folder_, found.checkpoint);
   checkpoints_.emplace(folder_, simulation_.given().output, origin);

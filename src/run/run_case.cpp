@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <stdexcept>
 #include <utility>
 
 #include "base/terminal_text.hpp"
@@ -10,6 +11,8 @@
 #include "build/read_whole.hpp"
 #include "build/simulation.hpp"
 #include "casefile/read_case.hpp"
+#include "kernels/isa.hpp"
+#include "parallel/ranks.hpp"
 #include "parallel/threads.hpp"
 #include "run/run.hpp"
 
@@ -17,10 +20,15 @@ namespace carom {
 
 namespace {
 
+/// The first rank writes and speaks for all: what they compute is the same.
+bool is_first() {
+  return ranks().own() == 0;
+}
+
 /// The line of progress.
 class ShownProgress : public Observer {
  public:
-  ShownProgress(double t_end, ProgressMode mode) : progress_(stderr, t_end, mode) {}
+  ShownProgress(double t_end, ProgressMode mode) : progress_(stderr, t_end, is_first() ? mode : ProgressMode::quiet) {}
   void see(const StepView& view) override {
     if (view.step > 0)
       progress_.update({view.state.t, view.step, view.dt, view.iterations, view.monitor.relative_imbalance()});
@@ -34,11 +42,26 @@ class ShownProgress : public Observer {
 /// To stderr; when that has gone, the results are still in the folder.
 template <class... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
+  if (!is_first()) return;
   std::fputs(terminal_text(fmt::format(format, std::forward<Values>(values)...)).c_str(), stderr);
 }
 
 void say_lines(std::string_view kind, const std::vector<std::string>& lines) {
   for (const std::string& line : lines) say("{}: {}\n", kind, line);
+}
+
+/// Kernels of different instruction sets round differently, and ranks would drift apart.
+void refuse_mixed_kernels() {
+  if (!same_on_all_ranks(static_cast<double>(chosen_isa())))
+    throw std::runtime_error(fmt::format(
+        "the ranks' processors have different instruction sets, this one {}: give all of them the lowest of theirs by "
+        "CAROM_ISA (v2, v3 or v4) in their environment",
+        name(chosen_isa())));
+}
+
+void say_ranks() {
+  if (ranks().count() > 1)
+    say("note: {} ranks of {} thread{} each\n", ranks().count(), thread_count(), thread_count() == 1 ? "" : "s");
 }
 
 void print_verdict(const Summary& summary, const std::string& folder) {
@@ -75,7 +98,7 @@ ExitCode conduct(Run& run, ShownProgress& progress, const RunOptions& options, c
   const bool quiet = options.progress == ProgressMode::quiet;
   while (!run.is_over()) {
     run.step();
-    if (stop.load() && run.march().steps() > 0 && !run.is_over()) run.interrupt();
+    if (on_any_rank(stop.load()) && run.march().steps() > 0 && !run.is_over()) run.interrupt();
   }
   progress.finish();
   if (!quiet) {
@@ -96,15 +119,17 @@ ExitCode conduct(Run& run, ShownProgress& progress, const RunOptions& options, c
 ExitCode run_case(const std::string& case_file, const RunOptions& options, const std::atomic<bool>& stop) {
   const Run::Clock::time_point begin = Run::Clock::now();
   set_threads(options.threads);
+  refuse_mixed_kernels();
   ReadCase read = read_whole(case_file, options.accepted);
   refuse_own_folder(read.given, options.folder);
   const Simulation simulation(std::move(read.given));
-  Run run(simulation, options.folder, begin);
+  Run run(simulation, is_first() ? options.folder : "", begin);
   run.note(std::move(read.notes));
   ShownProgress progress(simulation.end(), options.progress);
   run.add(progress);
   run.begin();
   if (options.progress != ProgressMode::quiet) {
+    say_ranks();
     say_lines("warning", run.watched().warnings);
     say_lines("note", run.watched().notes);
   }
@@ -114,16 +139,19 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
 ExitCode resume_case(const RunOptions& options, std::optional<double> end, const std::atomic<bool>& stop) {
   const Run::Clock::time_point begin = Run::Clock::now();
   set_threads(options.threads);
+  refuse_mixed_kernels();
   FoundRun found = find_run(options.folder);
   const FoundCheckpoint checkpoint = found.checkpoint;
   const Simulation simulation(found.given);
-  Run run(simulation, options.folder, begin);
+  Run run(simulation, is_first() ? options.folder : "", begin);
   run.go_on(std::move(found), end);
   ShownProgress progress(run.march().end(), options.progress);
   run.add(progress);
   if (!checkpoint.passed_over.empty()) say("warning: {}\n", checkpoint.passed_over);
-  if (options.progress != ProgressMode::quiet)
+  if (options.progress != ProgressMode::quiet) {
+    say_ranks();
     say("from step {}, t = {:.6g}, on ({})\n", checkpoint.info.step, checkpoint.info.time, checkpoint.path);
+  }
   return conduct(run, progress, options, stop);
 }
 

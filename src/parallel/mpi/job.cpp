@@ -1,0 +1,113 @@
+// A job of as many processes as mpirun starts: messages by MPI.
+#include "parallel/job.hpp"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <thread>
+#include <utility>
+
+namespace carom {
+namespace {
+
+constexpr int tag = 1;
+
+class MpiRanks final : public Ranks {
+ public:
+  MpiRanks() {
+    int count = 0, own = 0;
+    MPI_Comm_size(MPI_COMM_WORLD, &count);
+    MPI_Comm_rank(MPI_COMM_WORLD, &own);
+    count_ = static_cast<std::size_t>(count);
+    own_ = static_cast<std::size_t>(own);
+  }
+  std::size_t count() const override { return count_; }
+  std::size_t own() const override { return own_; }
+  void send(std::size_t to, std::span<const double> values) override {
+    forget_sent();
+    Letter& letter = on_the_way_.emplace_back();
+    letter.values.assign(values.begin(), values.end());
+    MPI_Isend(letter.values.data(), static_cast<int>(values.size()), MPI_DOUBLE, static_cast<int>(to), tag,
+              MPI_COMM_WORLD, &letter.request);
+    ++sent_.messages;
+    sent_.values += values.size();
+  }
+  std::vector<double> receive(std::size_t from) override {
+    MPI_Status status;
+    MPI_Probe(static_cast<int>(from), tag, MPI_COMM_WORLD, &status);
+    int size = 0;
+    MPI_Get_count(&status, MPI_DOUBLE, &size);
+    std::vector<double> values(static_cast<std::size_t>(size));
+    MPI_Recv(values.data(), size, MPI_DOUBLE, static_cast<int>(from), tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return values;
+  }
+  Traffic sent() const override { return sent_; }
+
+ private:
+  struct Letter {
+    std::vector<double> values;
+    MPI_Request request = MPI_REQUEST_NULL;
+  };
+
+  void forget_sent() {
+    int is_done = 1;
+    while (!on_the_way_.empty()) {
+      MPI_Test(&on_the_way_.front().request, &is_done, MPI_STATUS_IGNORE);
+      if (is_done == 0) return;
+      on_the_way_.pop_front();
+    }
+  }
+
+  std::size_t count_ = 0, own_ = 0;
+  std::deque<Letter> on_the_way_;  ///< MPI still reads their values
+  Traffic sent_;
+};
+
+std::unique_ptr<MpiRanks> of_job;
+
+/// Waits until all processes have come here, of which one with an error gives up after a while: those that wait for
+/// its messages never come. is_common: whether all of them have an error.
+bool all_have_come(bool has_error, bool& is_common) {
+  constexpr std::chrono::seconds patience{2};
+  int all = has_error ? 1 : 0;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Iallreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD, &request);
+  const auto begin = std::chrono::steady_clock::now();
+  for (;;) {
+    int is_done = 0;
+    MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+    is_common = all == 1;
+    if (is_done != 0) return true;
+    if (has_error && std::chrono::steady_clock::now() - begin > patience) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+}  // namespace
+
+int run_job(int argc, char** argv, const std::function<JobEnd()>& body, const std::function<void(std::string)>& tell) {
+  int given = 0;  // MPI is called by the main thread alone
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &given);
+  set_own_communicator(MPI_Comm_c2f(MPI_COMM_SELF));
+  of_job = std::make_unique<MpiRanks>();
+  const std::size_t own = of_job->own(), count = of_job->count();
+  const JobEnd end = body();
+  const bool has_error = !end.error.empty();
+  bool is_common = false;
+  const bool have_come = all_have_come(has_error, is_common);
+  if (has_error && own == 0) tell(end.error);
+  if (has_error && own > 0 && !is_common) tell(fmt::format("rank {} of {}: {}", own, count, end.error));
+  if (!have_come) MPI_Abort(MPI_COMM_WORLD, end.code);
+  of_job.reset();
+  MPI_Finalize();
+  return own == 0 || has_error ? end.code : 0;  // the others judge nothing
+}
+
+Ranks& job_ranks() {
+  return *of_job;
+}
+
+}  // namespace carom

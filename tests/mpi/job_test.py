@@ -1,0 +1,154 @@
+#!/usr/bin/python3
+"""How a job of several processes begins, is stopped, goes on and fails. Usage: job_test.py CAROM CAROM_MPI."""
+
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import same_bits
+
+CAROM, CAROM_MPI = sys.argv.pop(1), sys.argv.pop(1)
+CASES = same_bits.ROOT / "cases"
+
+# Some thousand steps of some milliseconds.
+BALL = """
+[[mesh.block]]
+origin = [0.0, 0.0, 0.001]
+size = [0.02, 0.02, 0.02]
+divisions = [12, 12, 12]
+groups = { cells = "BLOCK", zmin = "FOOT" }
+[materials.steel]
+law = "j2"
+E = 2.0e11
+nu = 0.3
+rho = 7800.0
+yield_stress = 3.0e8
+[[part]]
+name = "block"
+cells = "BLOCK"
+material = "steel"
+[[initial]]
+part = "block"
+velocity = [5.0, 0.0, -50.0]
+[[contact]]
+name = "floor"
+kind = "plane"
+group = "FOOT"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+friction = 0.3
+[scheme]
+kind = "central_differences"
+[time]
+end = 2.0e-4
+[output]
+checkpoint_every = 50
+"""
+
+
+def job(ranks, *arguments, **options):
+    return subprocess.run(list(map(str, same_bits.on_ranks(ranks, CAROM_MPI, *arguments))), capture_output=True,
+                          text=True, timeout=120, env=os.environ | same_bits.ENVIRONMENT, **options)
+
+
+def libraries(program):
+    lines = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout
+    return set(re.findall(r"^\s*(\S+)", lines, re.MULTILINE))
+
+
+class Job(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.case = self.folder / "ball.toml"
+        self.case.write_text(BALL)
+
+    # The sequential library of MUMPS defines the functions of MPI: each process would take itself for the only one.
+    def test_each_program_has_its_libraries(self):
+        self.assertFalse([name for name in libraries(CAROM_MPI) if "_seq" in name])
+        self.assertFalse([name for name in libraries(CAROM) if name.startswith("libmpi.")])
+
+    def test_other_commands_are_done_once(self):
+        done = job(3, "check", self.case)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, subprocess.run([CAROM, "check", self.case], capture_output=True, text=True,
+                                                     check=True).stdout)
+
+    def test_what_all_processes_find_wrong_is_said_once(self):
+        self.case.write_text(BALL.replace("j2", "j3"))
+        done = job(3, "run", self.case, "--out", self.folder / "out")
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr.count("error: "), 1, done.stderr)
+        self.assertIn("j3", done.stderr)
+
+    def test_ranks_of_different_instruction_sets_are_refused(self):
+        of_rank = self.folder / "of_rank"
+        of_rank.write_text(f"#!/bin/sh\n[ $OMPI_COMM_WORLD_RANK = 1 ] && export CAROM_ISA=v2\nexec {CAROM_MPI} \"$@\"\n")
+        of_rank.chmod(0o755)
+        done = subprocess.run([same_bits.ROOT / "tools/on_ranks", "2", of_rank, "run", self.case, "--out",
+                               self.folder / "out"], capture_output=True, text=True, timeout=60,
+                              env=os.environ | same_bits.ENVIRONMENT)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("CAROM_ISA", done.stderr)
+        self.assertEqual(done.stderr.count("error: "), 1, done.stderr)
+
+    def test_the_end_of_one_process_ends_all(self):
+        for number in (1, 0):
+            with self.subTest(killed=number):
+                running = subprocess.Popen(
+                    list(map(str, same_bits.on_ranks(3, CAROM_MPI, "run", self.case, "--out", self.folder / "out",
+                                                     "--quiet"))),
+                    env=os.environ | same_bits.ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                self.addCleanup(running.communicate)
+                self.wait_until(lambda: (self.folder / "out/energy.csv").is_file() and len(self.processes()) == 3)
+                ranks = self.processes()
+                os.kill(ranks[number], signal.SIGKILL)
+                begin = time.monotonic()
+                self.assertNotEqual(running.wait(timeout=20), 0)
+                self.assertLess(time.monotonic() - begin, 15.0)
+                self.assertEqual(self.processes(), [])
+
+    def wait_until(self, is_so):
+        end = time.monotonic() + 60.0
+        while not is_so():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.02)
+
+    def processes(self):
+        """Of this test's jobs."""
+        found = []
+        for entry in pathlib.Path("/proc").iterdir():
+            try:
+                words = (entry / "cmdline").read_bytes().split(b"\0") if entry.name.isdigit() else []
+            except OSError:
+                continue
+            if words and words[0] == os.fsencode(CAROM_MPI) and os.fsencode(self.case) in words:
+                found.append(int(entry.name))
+        return sorted(found)
+
+    # The checkpoint is of all ranks together: it says nothing of their number.
+    def test_a_stopped_run_goes_on_on_another_number_of_ranks(self):
+        subprocess.run([CAROM, "run", self.case, "--out", self.folder / "whole", "--quiet"], check=True,
+                       env=os.environ | same_bits.ENVIRONMENT)
+        out = self.folder / "out"
+        running = subprocess.Popen(
+            list(map(str, same_bits.on_ranks(3, CAROM_MPI, "run", self.case, "--out", out, "--quiet"))),
+            env=os.environ | same_bits.ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.wait_until(lambda: list(out.glob("checkpoints/*")))
+        running.send_signal(signal.SIGTERM)
+        _, said = running.communicate(timeout=30)
+        self.assertIn(b"goes on from there", said)
+        done = job(2, "resume", out, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(same_bits.differences(self.folder / "whole", out), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
