@@ -19,13 +19,8 @@ struct LoadedParameters {
   LameParameters at_rest;  ///< for laws without tangent
 };
 
-/// A body at rest, and what a point of a law that knows nothing of hourglass modes says of them: they are elastic.
+/// A body at rest.
 alignas(64) inline constexpr double all_zero[CAROM_LAW_MOST_HISTORY * 8] = {};
-inline constexpr double never_yields = 1e150;  // its square is a number
-
-static inline void fill_all(double* values, int count, double value) {
-  for (int i = 0; values != nullptr && i < count; ++i) values[i] = value;
-}
 
 /// parameters: const LoadedParameters*. Points at rest, which have no history, are asked for one by one.
 template <class Real>
@@ -33,8 +28,7 @@ static void loaded_update(const void* parameters, const PointBatch& batch) {
   const auto& own = *static_cast<const LoadedParameters*>(parameters);
   constexpr int n = lanes<Real>;
   const int H = own.law->history_count, count = batch.points * n;
-  fill_all(batch.yield_stress, count, never_yields);
-  fill_all(batch.share, count, 1.0);
+  leave_modes_elastic(batch, count);  // of laws that know nothing of them
   if (H == 0) fill_all(batch.dissipation, count, 0.0);
   carom_law_points points{.points = batch.points,
                           .lanes = n,
@@ -75,8 +69,7 @@ static void loaded_tangent(const void* parameters, const TangentBatch& batch) {
   const auto& own = *static_cast<const LoadedParameters*>(parameters);
   constexpr int n = lanes<Real>;
   const int count = batch.points * n;
-  fill_all(batch.share, count, 1.0);
-  fill_all(batch.along, count, 0.0);
+  leave_modes_elastic(batch, count);
   if (own.law->tangent == nullptr) return linear_elastic_tangent<Real>(&own.at_rest, batch);
   carom_law_changes changes{.points = batch.points,
                             .lanes = n,

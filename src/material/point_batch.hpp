@@ -1,6 +1,7 @@
 // The buffer where element and material meet: quadrature points of a batch of cells.
 #pragma once
 
+// Internal linkage of functions: see math/pack.hpp.
 namespace carom {
 
 /// Points of one batch, structure of arrays: component c of n of point p, lane l stands at [(n p + c) lanes + l]; n is
@@ -21,10 +22,10 @@ struct PointBatch {
   double* dissipation = nullptr;   ///< dissipated energy density since the start, a function of the history at the end
   double* wave_modulus = nullptr;  ///< at least the largest rho c^2 of elastic waves, c in current lengths per time and
                                    ///< rho per reference volume; zero lateral stress makes them slower still
-  double* yield_stress = nullptr;  ///< equivalent stress of slow flow at the beginning of the step; only laws that
-                                   ///< yield fill it
-  /// Cells whose hourglass modes flow with their point, of laws that yield: the square by which these raise the
-  /// equivalent trial stress, and the share of the trial deviator that is left, which is the modes' too.
+  /// Laws with a history fill yield_stress and share, those that never yield by leave_modes_elastic().
+  double* yield_stress = nullptr;  ///< equivalent stress of slow flow at the beginning of the step
+  /// Cells whose hourglass modes flow with their point: the square by which these raise the equivalent trial stress,
+  /// and the share of the trial deviator that is left, which is the modes' too.
   const double* mode_square = nullptr;
   double* share = nullptr;
   /// The history is that at the end of the step already: nothing flows any more, and the stress is the step's.
@@ -47,6 +48,22 @@ struct TangentBatch {
   double* share = nullptr;
   double* along = nullptr;
 };
+
+inline constexpr double never_yields = 1e150;  // its square is a number
+
+static inline void fill_all(double* values, int count, double value) {
+  for (int i = 0; values != nullptr && i < count; ++i) values[i] = value;
+}
+
+/// What a law with a history that never yields says of hourglass modes. count: points times lanes.
+static inline void leave_modes_elastic(const PointBatch& batch, int count) {
+  fill_all(batch.yield_stress, count, never_yields);
+  fill_all(batch.share, count, 1.0);
+}
+static inline void leave_modes_elastic(const TangentBatch& batch, int count) {
+  fill_all(batch.share, count, 1.0);
+  fill_all(batch.along, count, 0.0);
+}
 
 /// The update and the tangent of one law for one lane count; parameters points to what that law expects. They do not
 /// allocate.
