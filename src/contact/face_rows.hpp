@@ -38,9 +38,10 @@ namespace carom {
 /// wide. Without a history, at the start, all that is so wide counts, and slivers where the master goes on beside them,
 /// but not the far side of a thin part (half_thickness). Points that deep do not count where they stand outside of the
 /// other body: the way inward from there enters it, through a facet that shows its back, before it reaches the master.
-/// Ends of overlaps at borders of the other surface, where the depth is not zero, move with that: the integral changes by w e(-g~) times the way of the border over the slave,
-/// which is part of the gradient (the transport theorem), so that the force is that of the potential there, too. law:
-/// that of one pass. (Segments: Puso and Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004.)
+/// Ends of overlaps at borders of the other surface, where the depth is not zero, move with that: the integral changes
+/// by w e(-g~) times the way of the border over the slave, which is part of the gradient (the transport theorem), so
+/// that the force is that of the potential there, too. law: that of one pass. (Segments: Puso and Laursen, Comput.
+/// Methods Appl. Mech. Engrg. 193, 2004.)
 std::unique_ptr<RowMaker> face_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
                                     const ContactLaw& law, Index source);
 
