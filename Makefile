@@ -16,7 +16,7 @@ python:  ## the Python module: build/release/python/carom, for PYTHONPATH (docs/
 	@tools/setup build python
 	@tools/build release carom_package
 
-mpi:     ## the program for several processes, build/release/carom-mpi; runs SDNV100 on two of them (docs/distributed.md)
+mpi:     ## the program on several processes, in the making: builds build/release/carom-mpi, runs SDNV100 on two (docs/distributed.md)
 	@tools/setup build mpi
 	@tools/build release carom-mpi
 	@tools/on_ranks 2 build/release/carom-mpi run cases/sdnv100/current.toml --out out/sdnv100_on_ranks
