@@ -68,5 +68,34 @@ TEST(Ranks, OneThatFailsEndsThoseThatWaitForIt) {
   EXPECT_THROW(fails(), std::invalid_argument);
 }
 
+TEST(Ranks, AgreeOnWhatIsSoOnAnyOfThem) {
+  EXPECT_TRUE(on_any_rank(true));  // of a run on one
+  EXPECT_FALSE(on_any_rank(false));
+  for (const std::size_t count : {1U, 2U, 3U}) {
+    run_on_ranks(count, [&] {
+      EXPECT_FALSE(on_any_rank(false));
+      EXPECT_TRUE(on_any_rank(true));
+      EXPECT_TRUE(on_any_rank(ranks().own() == count - 1));
+    });
+  }
+}
+
+TEST(Ranks, CompareWhatAllOfThemGive) {
+  EXPECT_TRUE(same_on_all_ranks(0.5));
+  run_on_ranks(3, [] {
+    EXPECT_TRUE(same_on_all_ranks(0.5));
+    EXPECT_FALSE(same_on_all_ranks(ranks().own() == 1 ? 0.25 : 0.5));
+  });
+}
+
+TEST(Ranks, AreThoseOfTheBodyAlone) {
+  run_on_ranks(2, [] {
+    Ranks& of_thread = ranks();
+    EXPECT_THROW(run_as(of_thread, [] { throw std::runtime_error("in the body"); }), std::runtime_error);
+    EXPECT_EQ(&ranks(), &of_thread);
+  });
+  EXPECT_EQ(ranks().count(), 1U);
+}
+
 }  // namespace
 }  // namespace carom::parallel_ranks
