@@ -93,6 +93,12 @@ std::string read_text(const std::string& path) {
   return text.str();
 }
 
+/// After what may have gone wrong on this rank alone: the others wait for its messages, and only the end of the job
+/// frees them.
+void end_other_ranks(const std::string& message) {
+  if (ranks().count() > 1) throw std::runtime_error(message);
+}
+
 }  // namespace
 
 FoundRun find_run(const std::string& folder) {
@@ -229,8 +235,10 @@ void Run::step() {
     throw;
   } catch (const std::bad_alloc&) {
     fail("the run could not go on: memory ran out; " + memory_statement(simulation_));
+    end_other_ranks(message_);
   } catch (const std::exception& e) {  // a factorisation that fails
     fail(fmt::format("the run could not go on: {}", e.what()));
+    end_other_ranks(message_);
     if (march().is_started()) march().leave();
   } catch (const CallFailure&) {
     fail("the run could not go on: a function of the case has failed");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "casefile/read_case.hpp"
 #include "march/march.hpp"
 #include "parallel/ranks.hpp"
+#include "run/run.hpp"
 
 namespace carom::ranks_of_cases_test {
 namespace {
@@ -114,6 +116,32 @@ end = 1e-5
 
 TEST(BarOnRanks, HasTheSameBitsWhereChunksAreOfSeveralRanks) {
   expect_same_bits(parse_case(std::string(bar_of_many_chunks), "bar.toml"), 20);
+}
+
+/// What goes wrong on one rank alone.
+class FailsOnOne : public Observer {
+ public:
+  void see(const StepView& view) override {
+    if (view.step == 2 && ranks().own() == 1) throw std::runtime_error("only here");
+  }
+};
+
+TEST(BarOnRanks, EndTogetherWhereOneOfThemFails) {
+  const Case given = parse_case(std::string(bar_of_many_chunks), "bar.toml");
+  const auto run_to_the_end = [&] {
+    const Simulation simulation(given);
+    FailsOnOne observer;
+    carom::Run own(simulation, "", carom::Run::Clock::now());
+    own.add(observer);
+    own.begin();
+    while (!own.is_over()) own.step();
+  };
+  try {
+    run_on_ranks(3, run_to_the_end);
+    ADD_FAILURE() << "the others have come to an end";
+  } catch (const std::runtime_error& e) {
+    EXPECT_STREQ(e.what(), "the run could not go on: only here");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, CaseOnRanks, testing::ValuesIn(explicit_cases()),

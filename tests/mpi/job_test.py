@@ -14,10 +14,9 @@ import unittest
 import same_bits
 
 CAROM, CAROM_MPI = sys.argv.pop(1), sys.argv.pop(1)
-CASES = same_bits.ROOT / "cases"
 
-# Some thousand steps of some milliseconds.
-BALL = """
+# Some hundred steps of some milliseconds.
+BLOCK = """
 [[mesh.block]]
 origin = [0.0, 0.0, 0.001]
 size = [0.02, 0.02, 0.02]
@@ -67,8 +66,8 @@ class Job(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        self.case = self.folder / "ball.toml"
-        self.case.write_text(BALL)
+        self.case = self.folder / "block.toml"
+        self.case.write_text(BLOCK)
 
     # The sequential library of MUMPS defines the functions of MPI: each process would take itself for the only one.
     def test_each_program_has_its_libraries(self):
@@ -82,7 +81,7 @@ class Job(unittest.TestCase):
                                                      check=True).stdout)
 
     def test_what_all_processes_find_wrong_is_said_once(self):
-        self.case.write_text(BALL.replace("j2", "j3"))
+        self.case.write_text(BLOCK.replace("j2", "j3"))
         done = job(3, "run", self.case, "--out", self.folder / "out")
         self.assertEqual(done.returncode, 2)
         self.assertEqual(done.stderr.count("error: "), 1, done.stderr)
