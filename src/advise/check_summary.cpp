@@ -90,17 +90,23 @@ std::string describe(const Approach& a, const UnitSystem units) {
 }
 
 /// Scheme, step, end and Courant number of one stage; statics knows no waves.
-std::string describe(const Stage& stage, const Simulation& s) {
+std::string describe(const Stage& stage, long long steps, const Simulation& s) {
   const bool is_static = !has_inertia(stage.settings().kind);
   const Waves wave = waves(s);
-  const long long steps = expected_steps(stage, s);
   return fmt::format("  scheme    {}\n  step      {:.6g} {}{}, {}{} from t = {:.6g} to {:.6g}{}\n", stage.name(),
                      stage.dt(), unit_name(Dimension::time, s.given().units),
-                     steps > stage.steps() ? " (shorter while contact is closed)" : "",
-                     steps > stage.steps() ? "about " : "", count_of(steps, "step"), stage.begin(), stage.end(),
+                     steps > stage.steps() ? " (shorter on the way)" : "", steps != stage.steps() ? "about " : "",
+                     count_of(steps, "step"), stage.begin(), stage.end(),
                      is_static ? ""
                                : fmt::format("; Courant number {:.3g} (fastest wave {:.5g})",
                                              wave.speed * stage.dt() / smallest_cell(s.solid()), wave.speed));
+}
+
+std::string describe(const Rehearsal& seen) {
+  long long steps = 0;
+  for (const Pace& stage : seen.stages) steps += stage.steps;
+  return fmt::format("  rehearsed {} in {:.2g} s, {}\n", count_of(steps, "step"), seen.seconds,
+                     seen.is_whole ? "to the end" : fmt::format("to t = {:.6g}", seen.t));
 }
 
 std::string step_text(double step) {
@@ -148,7 +154,7 @@ std::string describe(const TurningBody& body, const Simulation& s, const State& 
 
 }  // namespace
 
-std::string check_summary(const Simulation& s) {
+std::string check_summary(const Simulation& s, const Rehearsal& seen) {
   const UnitSystem units = s.given().units;
   const auto unit = [&](Dimension d) { return unit_name(d, units); };
   const State state = s.initial_state();
@@ -179,7 +185,7 @@ std::string check_summary(const Simulation& s) {
   const std::vector<Approach> contacts = approaches(s, state);
   for (std::size_t i = 0; i < contacts.size(); ++i)
     text += fmt::format("  contact   \"{}\": {}\n", *s.given().contacts[i].name, describe(contacts[i], units));
-  for (const auto& stage : s.stages()) text += describe(*stage, s);
+  for (std::size_t i = 0; i < s.stages().size(); ++i) text += describe(*s.stages()[i], foretell(s, i, seen).steps, s);
   const StableStep stable = s.stable();
   text += fmt::format("  stable    explicit step {} with contact, {} without; element estimate (lumped mass) {}\n",
                       step_text(stable.dt), step_text(stable.dt_free),
@@ -187,7 +193,8 @@ std::string check_summary(const Simulation& s) {
   if (std::isfinite(stable.dt_closing))
     text += fmt::format("  closing   contact springs that open and close need {:.4g}\n", stable.dt_closing);
   for (const auto& stage : s.stages()) text += describe_driven(*stage, s);
-  const CostEstimate cost = estimate_cost(s);
+  if (!seen.stages.empty()) text += describe(seen);
+  const CostEstimate cost = estimate_cost(s, seen);
   return text + fmt::format("  cost      {} on one core, {} of memory, {} on disk ({})\n", about_seconds(cost.seconds),
                             about_bytes(cost.memory_bytes), about_bytes(cost.disk_bytes),
                             count_of(cost.frames, "frame") + " of fields");
@@ -201,14 +208,16 @@ std::string Examination::text() const {
                                  : fmt::format("{} warning{}", warnings.size(), warnings.size() == 1 ? "" : "s"));
 }
 
-Examination examine(const Simulation& simulation, const std::string& folder) {
+Examination examine(const Simulation& simulation, const std::string& folder, double rehearsal) {
   const RunTables tables(simulation);
-  Examination out{check_summary(simulation), simulation.notes(), lint_warnings(simulation)};
+  const Rehearsal seen = rehearsal > 0.0 ? rehearse(simulation, rehearsal) : Rehearsal{};
+  Examination out{check_summary(simulation, seen), simulation.notes(), lint_warnings(simulation)};
   const std::vector<std::string>& places = tables.probes.notes();
   out.notes.insert(out.notes.end(), places.begin(), places.end());
   if (std::string note = frame_note(simulation); !note.empty()) out.notes.push_back(std::move(note));
   for (Doubt& doubt : locking_doubts(simulation)) out.warnings.push_back(std::move(doubt.warning));
-  for (std::string& warning : cost_warnings(simulation, folder)) out.warnings.push_back(std::move(warning));
+  for (std::string& warning : cost_warnings(simulation, folder, seen)) out.warnings.push_back(std::move(warning));
+  if (!seen.failure.empty()) out.warnings.push_back(fmt::format("the run will not come to its end: {}", seen.failure));
   return out;
 }
 

@@ -26,17 +26,6 @@ bool is_implicit(const Stage& stage) {
   return !is_explicit(stage.settings().kind);
 }
 
-/// True where the implicit steps of a stage factor their matrix: what the scheme will choose, with the bound of the
-/// frequency by elements and c / m of Newmark's average acceleration.
-bool has_factor(const Stage& stage) {
-  if (!is_implicit(stage)) return false;
-  const SchemeSettings& settings = stage.settings();
-  const double ratio = !has_inertia(settings.kind) ? infinity : 0.25 * stage.dt() * stage.dt();
-  const double omega_squared = largest_frequency_bound(stage.system().solid);
-  const SolverKind kind = chosen_solver(stage.system(), settings.solver, settings.enforcement, ratio, omega_squared);
-  return kind == SolverKind::cholesky || kind == SolverKind::ldlt;
-}
-
 /// True where each row of contact acts on every other: its compliance is that of the bodies (exact contact in implicit
 /// steps, nodes without mass) or of a consistent mass (stops that implicit steps give to what touches).
 bool has_dense_rows(const Stage& stage) {
@@ -77,11 +66,16 @@ double row_bytes(const Simulation& s) {
 
 }  // namespace
 
-CostEstimate estimate_cost(const Simulation& s) {
+CostEstimate estimate_cost(const Simulation& s, const Rehearsal& seen) {
   const double cells = static_cast<double>(s.solid().cells().size()),
                nodes = static_cast<double>(s.mesh().node_count());
   CostEstimate cost;
-  for (const auto& stage : s.stages()) cost.seconds += stage_seconds(*stage, s, has_factor(*stage));
+  long long steps = 0;
+  for (std::size_t i = 0; i < s.stages().size(); ++i) {
+    const Pace pace = foretell(s, i, seen);
+    cost.seconds += pace.seconds;
+    steps += pace.steps;
+  }
   // 0.5 kB per cell for the mesh, the kernels' tables and the states (0.44 to 0.46 measured), 2 kB where steps are
   // implicit, with grids and a consistent mass (2.2 measured for 655,000 cells), and twice what points remember. A
   // factor of nested dissection has about 8 n^(4/3) blocks of 3 x 3 over n nodes of a cube (A. George, SIAM J. Numer.
@@ -95,7 +89,7 @@ CostEstimate estimate_cost(const Simulation& s) {
   cost.memory_bytes = 2.4e7 + (has_implicit ? 2e3 : 5e2) * cells + 2.0 * history +
                       (has_matrix ? 14.0 * 72.0 * std::pow(nodes, 4.0 / 3.0) : 0.0);
   cost.frames = s.given().output.fields.empty() ? 0 : (s.steps() + frame_interval(s) - 1) / frame_interval(s) + 1;
-  const long long rows = s.steps() / s.given().output.curves_every + 1;
+  const long long rows = steps / s.given().output.curves_every + 1;
   constexpr double page = 2.5e5;                         // of the report, with what draws its curves
   constexpr double checkpoints = 3.0 * 9.0 * 3.0 * 8.0;  // per node: two and one being written, of nine vectors of dofs
   const FieldBytes fields = field_bytes(s);
@@ -131,9 +125,9 @@ std::string memory_statement(const Simulation& s) {
                      about_bytes(available_memory()));
 }
 
-std::vector<std::string> cost_warnings(const Simulation& s, const std::string& folder) {
+std::vector<std::string> cost_warnings(const Simulation& s, const std::string& folder, const Rehearsal& seen) {
   constexpr double many_bytes = 4e9, day = 86400.0;
-  const CostEstimate cost = estimate_cost(s);
+  const CostEstimate cost = estimate_cost(s, seen);
   std::vector<std::string> out;
   const double disk = available_disk(folder), memory = available_memory();
   if (!folder.empty() && cost.disk_bytes > std::min(many_bytes, 0.5 * disk)) {

@@ -6,11 +6,22 @@
 #include <limits>
 #include <vector>
 
+#include "base/types.hpp"
 #include "model/model.hpp"
 #include "parallel/threads.hpp"
 #include "solid/point_history.hpp"
+#include "solid/stability.hpp"
 
 namespace carom {
+
+bool has_factor(const Stage& stage) {
+  if (is_explicit(stage.settings().kind)) return false;
+  const SchemeSettings& settings = stage.settings();
+  const double ratio = !has_inertia(settings.kind) ? infinity : 0.25 * stage.dt() * stage.dt();
+  const double omega_squared = largest_frequency_bound(stage.system().solid);
+  const SolverKind kind = chosen_solver(stage.system(), settings.solver, settings.enforcement, ratio, omega_squared);
+  return kind == SolverKind::cholesky || kind == SolverKind::ldlt;
+}
 
 namespace {
 
@@ -63,11 +74,11 @@ Factor factor_of(double nodes, bool is_plane) {
   return {8.0 * std::pow(nodes, 4.0 / 3.0) * block, 25.0 * nodes * nodes};
 }
 
-double iteration_seconds(const Stage& stage, const Simulation& s, double bodies, bool has_factor) {
+double iteration_seconds(const Stage& stage, const Simulation& s, double bodies) {
   constexpr double bytes_a_second = 5e9, operations_a_second = 8e9;
   const bool is_linear = s.solid().is_linear();
   const double nodes = static_cast<double>(s.mesh().node_count());
-  if (!has_factor) return 100.0 * bodies;
+  if (!has_factor(stage)) return 100.0 * bodies;
   const Factor factor = factor_of(nodes, is_plane(stage.model()));
   const double solve = 2.0 * factor.bytes / bytes_a_second;
   return bodies + solve + (is_linear ? 0.0 : 60.0 * bodies + factor.operations / operations_a_second);
@@ -75,15 +86,19 @@ double iteration_seconds(const Stage& stage, const Simulation& s, double bodies,
 
 }  // namespace
 
-long long expected_steps(const Stage& stage, const Simulation& s) {
+double contact_cut(const Stage& stage, const Simulation& s) {
   const SchemeSettings& settings = stage.settings();
   const bool is_cut = is_explicit(settings.kind) && traits(settings.enforcement).adds_stiffness && !stage.time().step &&
                       s.contact().slots() > 0 && !s.contact().is_fixed();
-  return is_cut ? std::llround(static_cast<double>(stage.steps()) * (has_friction(s.model()) ? 2.1 : 1.2))
-                : stage.steps();
+  if (!is_cut) return 1.0;
+  return has_friction(s.model()) ? 2.1 : 1.2;
 }
 
-double stage_seconds(const Stage& stage, const Simulation& s, bool has_factor) {
+long long expected_steps(const Stage& stage, const Simulation& s) {
+  return std::llround(static_cast<double>(stage.steps()) * contact_cut(stage, s));
+}
+
+double stage_seconds(const Stage& stage, const Simulation& s) {
   const double bodies = seconds_of_bodies(s.solid()), steps = static_cast<double>(expected_steps(stage, s)),
                touching = contact_nodes(s);
   if (is_explicit(stage.settings().kind)) {
@@ -91,7 +106,7 @@ double stage_seconds(const Stage& stage, const Simulation& s, bool has_factor) {
     return steps * (bodies + 3e-8 * static_cast<double>(s.mesh().node_count()) + per_node * touching);
   }
   const double iterations = s.solid().is_linear() && touching == 0.0 ? 1.0 : 4.0;
-  return steps * iterations * (iteration_seconds(stage, s, bodies, has_factor) + 1.5e-5 * touching);
+  return steps * iterations * (iteration_seconds(stage, s, bodies) + 1.5e-5 * touching);
 }
 
 }  // namespace carom

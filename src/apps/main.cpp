@@ -133,7 +133,7 @@ ExitCode check(const Arguments& arguments) {
   carom::set_threads(arguments.threads);
   const carom::ReadCase read = carom::read_whole(arguments.case_file, arguments.accepted);
   const carom::Simulation simulation(read.given);
-  carom::Examination found = carom::examine(simulation, results_folder(arguments, ""));
+  carom::Examination found = carom::examine(simulation, results_folder(arguments, ""), carom::usual_rehearsal);
   found.notes.insert(found.notes.begin(), read.notes.begin(), read.notes.end());
   show("{}\n", found.text());
   return found.warnings.empty() ? ExitCode::good : ExitCode::verdict_failed;

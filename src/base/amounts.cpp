@@ -10,9 +10,11 @@ namespace carom {
 
 namespace {
 
+/// To a digit, and to two where the first is 1, for which one digit may be a third off.
 std::string rounded(double value, const char* unit) {
   const double magnitude = std::pow(10.0, std::floor(std::log10(value)));
-  return fmt::format("about {:g} {}", std::round(value / magnitude) * magnitude, unit);
+  const double last = value < 1.95 * magnitude ? 0.1 * magnitude : magnitude;
+  return fmt::format("about {:g} {}", std::round(value / last) * last, unit);
 }
 
 struct Unit {

@@ -66,7 +66,10 @@ py::tuple check(const PreparedCase& prepared, const std::string& folder) {
   {
     const py::gil_scoped_release release;
     const Computing computing(0);
-    found = examine(*simulation, folder);
+    // Functions of Python may remember their calls, so that nothing is rehearsed with them.
+    const bool calls = std::ranges::any_of(prepared.given.functions,
+                                           [](const CaseFunction& each) { return each.function.called != nullptr; });
+    found = examine(*simulation, folder, calls ? 0.0 : usual_rehearsal);
     found.notes.insert(found.notes.begin(), prepared.notes.begin(), prepared.notes.end());
   }
   return py::make_tuple(found.text(), found.warnings, found.notes);

@@ -260,9 +260,9 @@ void Run::fill_in(Summary& summary) const {
   watched_->recorder.fill(summary);
   if (!march().is_started()) return;
   summary.checks = watched_->recorder.checks();
-  summary.verdict.push_back(watched_->penetration.item());
-  summary.verdict.push_back(watched_->overlap.item());
-  if (const std::optional<VerdictItem> item = watched_->folds.item()) summary.verdict.push_back(*item);
+  summary.verdict.push_back(watched_->watches.penetration.item());
+  summary.verdict.push_back(watched_->watches.overlap.item());
+  if (const std::optional<VerdictItem> item = watched_->watches.folds.item()) summary.verdict.push_back(*item);
   if (any_free(simulation_.model().turning_bodies)) summary.verdict.push_back(body_strain_item(march().body_strain()));
 }
 
@@ -271,7 +271,7 @@ Summary Run::finish() {
   summary.case_info.file = watched_->case_file;
   summary.warnings = watched_->warnings;
   summary.doubts = watched_->doubts;
-  if (!watched_->folds.warnings().empty()) summary.doubts.emplace_back("a cell has folded");
+  if (!watched_->watches.folds.warnings().empty()) summary.doubts.emplace_back("a cell has folded");
   if (std::optional<Doubt> doubt = watched_->stroke.doubt()) {
     summary.doubts.push_back(std::move(doubt->brief));
     summary.warnings.push_back(std::move(doubt->warning));
@@ -280,7 +280,7 @@ Summary Run::finish() {
   summary.outcome = outcome_;
   summary.message = message_;
   for (std::string& line : march().log()) summary.notes.push_back(std::move(line));
-  for (const auto* seen : {&watched_->rotation.warnings(), &watched_->folds.warnings()})
+  for (const auto* seen : {&watched_->watches.rotation.warnings(), &watched_->watches.folds.warnings()})
     summary.warnings.insert(summary.warnings.end(), seen->begin(), seen->end());
   watched_->recorder.close();
   fill_in(summary);

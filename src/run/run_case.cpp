@@ -103,8 +103,8 @@ ExitCode conduct(Run& run, ShownProgress& progress, const RunOptions& options, c
   progress.finish();
   if (!quiet) {
     for (const std::string& line : run.march().log()) say("{}\n", line);
-    say_lines("warning", run.watched().rotation.warnings());
-    say_lines("warning", run.watched().folds.warnings());
+    say_lines("warning", run.watched().watches.rotation.warnings());
+    say_lines("warning", run.watched().watches.folds.warnings());
   }
   const Summary summary = run.finish();
   const bool is_good = summary.outcome == Outcome::good && summary.doubts.empty();

@@ -5,11 +5,8 @@
 #include <vector>
 
 #include "advise/stroke_watch.hpp"
-#include "march/fold_watch.hpp"
 #include "march/march.hpp"
-#include "march/overlap_watch.hpp"
-#include "march/penetration_watch.hpp"
-#include "march/rotation_watch.hpp"
+#include "march/watches.hpp"
 #include "record/recorder.hpp"
 
 namespace carom {
@@ -18,17 +15,9 @@ namespace carom {
 struct WatchedMarch {
   /// Touches no file; folder: of the results, "" where none are written. Throws CaseError as Recorder does.
   WatchedMarch(const Simulation& simulation, const std::string& folder)
-      : march(simulation),
-        recorder(simulation, folder),
-        penetration(simulation.model()),
-        overlap(simulation, march.state()),
-        rotation(simulation),
-        folds(simulation) {
+      : march(simulation), recorder(simulation, folder), watches(simulation, march) {
     march.add(recorder);
-    march.add(penetration);
-    march.add(overlap);
-    march.add(rotation);
-    march.add(folds);
+    watches.look_at(march);
     march.add(stroke);
   }
   WatchedMarch(const WatchedMarch&) = delete;
@@ -38,10 +27,7 @@ struct WatchedMarch {
   friend void fields(A& archive, WatchedMarch& x) {
     archive("march", x.march);
     archive("recorder", x.recorder);
-    archive("penetration", x.penetration);
-    archive("overlap", x.overlap);
-    archive("rotation", x.rotation);
-    archive("folds", x.folds);
+    fields(archive, x.watches);
     archive("stroke", x.stroke);
     archive("case_file", x.case_file);
     archive("warnings", x.warnings);
@@ -51,10 +37,7 @@ struct WatchedMarch {
 
   March march;
   Recorder recorder;
-  PenetrationWatch penetration;
-  OverlapWatch overlap;
-  RotationWatch rotation;
-  FoldWatch folds;
+  Watches watches;
   StrokeWatch stroke;
   std::string case_file;                     ///< as the user named it
   std::vector<std::string> warnings, notes;  ///< of the case, before the first step
