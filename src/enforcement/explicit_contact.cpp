@@ -21,6 +21,7 @@ class PenaltyContact final : public ExplicitContact {
     return bonds_.hold({at.h, at.u, at.v, at.a}, forces);
   }
   ContactWork work(const State& begin, const State& end) const override { return spring_work(begin, end); }
+  bool is_local() const override { return true; }
 
  private:
   const System& system_;

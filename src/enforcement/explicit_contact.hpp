@@ -34,6 +34,8 @@ class ExplicitContact {
   void start(const System& system, double dt, double weight, State& state);
   /// Says where the work of the contact forces over the step went, as ContactPort::work does; the caller fills `total`.
   virtual ContactWork work(const State& begin, const State& end) const = 0;
+  /// True where it asks for nothing but nodes of contact, which all ranks hold (Solid::shared_nodes).
+  virtual bool is_local() const { return false; }
 };
 
 /// Penalty springs: c = c(u, v).

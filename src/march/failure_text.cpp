@@ -15,8 +15,10 @@ namespace carom {
 std::string worst_place(const System& s, const State& state) {
   std::size_t worst = 0;
   double fastest = -1.0;
+  std::vector<double> v = state.v;
+  s.solid.shared_nodes().complete(v);
   for (std::size_t n = 0; n < s.mesh.node_count(); ++n) {
-    const double speed = norm({state.v[3 * n], state.v[3 * n + 1], state.v[3 * n + 2]});
+    const double speed = norm(vector_at(v, n));
     if (speed <= fastest) continue;
     worst = n;
     fastest = speed;

@@ -15,7 +15,7 @@
 namespace carom {
 
 March::March(const Simulation& simulation)
-    : s_(simulation), state_(simulation.initial_state()), end_(simulation.end()) {
+    : s_(simulation), state_(simulation.initial_state()), shared_(s_.solid(), nullptr, state_), end_(simulation.end()) {
   std::fill(state_.v.begin(), state_.v.end(), 0.0);  // they begin with their stage
   if (!s_.model().erosion.empty()) erosions_.emplace(s_);
 }
@@ -32,6 +32,7 @@ void March::keep(Archive& archive) {
   if (!is_started()) {
     const double rest = rest_energy(s_.solid(), reach(s_.mesh()));
     stage_ = std::make_unique<StageRun>(s_, number, rest);
+    shared_ = {s_.solid(), scheme().shared_nodes(), state_};
     books_.emplace(s_, stage(), state_, rest);
   }
   keep_state(archive, s_.solid(), state_);
@@ -87,19 +88,21 @@ void March::show() {
 }
 
 StepView March::view() const {
-  return {count_.steps(), count_.dt(), count_.iterations(),   state_,        state_.forces,    ledger(),
-          monitor(),      stage(),     scheme().end_weight(), state_.within, stage_->at_end(), at_end(),
-          books_->alarm()};
+  return {count_.steps(),  count_.dt(), count_.iterations(),   state_,        state_.forces,    ledger(),
+          monitor(),       stage(),     scheme().end_weight(), state_.within, stage_->at_end(), at_end(),
+          books_->alarm(), shared_};
 }
 
 /// Lets the stage take the state over, and its books with it.
 void March::begin_stage(std::size_t number) {
+  shared_.complete();
   const double rest = rest_energy(s_.solid(), reach(s_.mesh()));
   const bool was_static = stage_ && !has_inertia(stage().settings().kind);
   auto next = std::make_unique<StageRun>(s_, number, rest);
   if (stage_)
     for (std::string& line : stage_->notes()) log_.push_back(std::move(line));
   stage_ = std::move(next);
+  shared_ = {s_.solid(), scheme().shared_nodes(), state_};
   const std::vector<double> v_before = state_.v;
   const bool gives_velocities = s_.begin_velocities(number, state_);
   stage_->begin(state_, count_.steps());
@@ -160,6 +163,7 @@ void March::step() {
   if (stage_->at_end()) begin_stage(stage_->number() + 1);
   const MadeStep made = stage_->make_step(state_, next_, ledger(), count_.steps() + 1);
   if (!made.report.converged) {
+    carom::complete(s_.solid(), scheme().shared_nodes(), next_);
     message_ = fmt::format("step {} from t = {:.6g} failed: {}{}", count_.steps() + 1, state_.t,
                            with_cell(made.report.failure, s_, next_.q, state_.alive()),
                            stage().time().fixed ? "; the case fixes the step, so it was not halved" : "");
@@ -172,6 +176,7 @@ void March::step() {
   if (erosions_ && alarm.empty()) erode();
   show();
   if (!alarm.empty()) {
+    shared_.complete();
     message_ = fmt::format("stopped after step {}, t = {:.6g}: {}; {}", count_.steps(), state_.t, alarm,
                            place_and_remedy(s_, stage(), state_));
   } else if (!stage_->at_end()) {

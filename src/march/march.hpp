@@ -61,6 +61,8 @@ class March {
   const State& state() const { return state_; }
   /// Gives away what holds q, v or a for those that go on looking at it, and goes on with a copy.
   std::vector<double> hand_over(std::vector<double> State::*values);
+  /// On several ranks, gives all of the state to each. All ranks call it.
+  void complete() { shared_.complete(); }
   long long steps() const { return count_.steps(); }
   double dt_smallest() const { return count_.smallest(); }
   double dt_largest() const { return count_.largest(); }
@@ -85,6 +87,7 @@ class March {
   std::vector<Observer*> observers_;
   std::unique_ptr<StageRun> stage_;  ///< the present one; null before the start
   State state_, next_;
+  SharedState shared_;
   std::optional<RunBooks> books_;     ///< none before the start
   std::optional<Erosions> erosions_;  ///< where cells may go
   double end_;

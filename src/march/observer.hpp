@@ -5,6 +5,7 @@
 
 #include "build/stage.hpp"
 #include "energy/ledger.hpp"
+#include "march/shared_state.hpp"
 #include "march/verdict.hpp"
 #include "schemes/scheme.hpp"
 
@@ -25,6 +26,7 @@ struct StepView {
   bool ends_stage = false;
   bool ends_run = false;
   std::string_view alarm{};  ///< why the run cannot go on after this step; "" where it can
+  SharedState shared;        ///< what a rank does not know of the state, it asks for here
 
   /// What the points of the bodies remember.
   PointStep points() const { return {.dt = dt, .history = state.points, .is_over = true, .alive = state.alive()}; }

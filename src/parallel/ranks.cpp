@@ -1,6 +1,7 @@
 #include "parallel/ranks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -141,22 +142,43 @@ EntryRange share_of(std::size_t rank, std::size_t ranks, std::size_t n) {
   return {rank * n / ranks, (rank + 1) * n / ranks};
 }
 
-void Exchange::gather(std::span<double> values) const {
+std::size_t sharer_of(std::size_t entry, std::size_t ranks, std::size_t n) {
+  std::size_t rank = entry * ranks / std::max<std::size_t>(1, n);
+  while (entry >= share_of(rank, ranks, n).end) ++rank;
+  while (entry < share_of(rank, ranks, n).begin) --rank;
+  return rank;
+}
+
+std::pair<double, std::size_t> largest_on_ranks(double value, std::size_t position) {
   Ranks& all = ranks();
+  const std::array own{value, static_cast<double>(position)};
+  for (std::size_t r = 0; r < all.count(); ++r)
+    if (r != all.own()) all.send(r, own);
+  std::pair largest{value, position};
+  for (std::size_t r = 0; r < all.count(); ++r) {
+    if (r == all.own()) continue;
+    const std::vector<double> other = all.receive(r);
+    const std::pair its{other.at(0), static_cast<std::size_t>(other.at(1))};
+    if (its.first > largest.first || (its.first == largest.first && its.second < largest.second)) largest = its;
+  }
+  return largest;
+}
+
+void Exchange::gather(std::span<double> values, std::size_t width) const {
+  Ranks& all = ranks();
+  const auto at = [&](std::size_t entry) { return values.begin() + static_cast<std::ptrdiff_t>(width * entry); };
   std::vector<double> own;
-  for (const EntryRange& range : of_ranks_[all.own()])
-    own.insert(own.end(), values.begin() + static_cast<std::ptrdiff_t>(range.begin),
-               values.begin() + static_cast<std::ptrdiff_t>(range.end));
+  for (const EntryRange& range : of_ranks_[all.own()]) own.insert(own.end(), at(range.begin), at(range.end));
   for (std::size_t r = 0; r < all.count(); ++r)
     if (r != all.own()) all.send(r, own);
   for (std::size_t r = 0; r < all.count(); ++r) {
     if (r == all.own()) continue;
     const std::vector<double> given = all.receive(r);
-    if (given.size() != size_of(r)) throw std::logic_error("ranks exchange vectors of different sizes");
+    if (given.size() != width * size_of(r)) throw std::logic_error("ranks exchange vectors of different sizes");
     auto next = given.begin();
     for (const EntryRange& range : of_ranks_[r]) {
-      std::copy_n(next, range.size(), values.begin() + static_cast<std::ptrdiff_t>(range.begin));
-      next += static_cast<std::ptrdiff_t>(range.size());
+      std::copy_n(next, width * range.size(), at(range.begin));
+      next += static_cast<std::ptrdiff_t>(width * range.size());
     }
   }
 }

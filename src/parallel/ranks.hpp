@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace carom {
@@ -57,6 +58,12 @@ struct EntryRange {
 
 /// The share of a rank in n entries that follow each other: rank r of R has those from r n / R on.
 EntryRange share_of(std::size_t rank, std::size_t ranks, std::size_t n);
+/// The rank whose share the entry is.
+std::size_t sharer_of(std::size_t entry, std::size_t ranks, std::size_t n);
+
+/// The largest value that any rank gives, with the position that this rank gives it; of equal ones the first position.
+/// All ranks call it.
+std::pair<double, std::size_t> largest_on_ranks(double value, std::size_t position);
 
 /// Vectors of which each rank knows entries of its own: gather() gives them to all.
 class Exchange {
@@ -64,8 +71,9 @@ class Exchange {
   /// The entries of each rank; no entry is of two ranks.
   explicit Exchange(std::vector<std::vector<EntryRange>> of_ranks) : of_ranks_(std::move(of_ranks)) {}
 
-  /// Afterwards every rank has the entries of all ranks. All ranks call it, for vectors of the same size.
-  void gather(std::span<double> values) const;
+  /// Afterwards every rank has the entries of all ranks, each of `width` values. All ranks call it, for vectors of the
+  /// same size.
+  void gather(std::span<double> values, std::size_t width = 1) const;
   /// How many entries a rank gives away.
   std::size_t size_of(std::size_t rank) const;
 

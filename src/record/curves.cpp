@@ -276,6 +276,17 @@ void ProbeCurves::add_columns(const CaseProbe& given, Probe& probe) {
   table_.columns.insert(table_.columns.end(), probe.columns.begin(), probe.columns.end());
 }
 
+void ProbeCurves::complete(const StepView& view) const {
+  std::vector<Index> nodes;
+  for (const Probe& probe : probes_)
+    for (const std::string& quantity : probe.quantities) {
+      const bool is_of_nodes = quantity == "displacement" || quantity == "velocity" || quantity == "acceleration";
+      if (!is_of_nodes && quantity != "reaction" && quantity != "reaction_moment") return view.shared.complete();
+      if (is_of_nodes) nodes.insert(nodes.end(), probe.nodes.begin(), probe.nodes.end());
+    }
+  if (!nodes.empty()) view.shared.complete(nodes);
+}
+
 void ProbeCurves::sample(FieldsNow& now) {
   table_.row = {now.view.state.t};
   for (const Probe& probe : probes_)

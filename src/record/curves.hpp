@@ -89,6 +89,8 @@ class ProbeCurves {
   /// Throws CaseError as place_probe and across_section do.
   explicit ProbeCurves(const Simulation& simulation);
   void sample(FieldsNow& now);
+  /// On several ranks, asks for what sample() looks at.
+  void complete(const StepView& view) const;
   const CurveTable& table() const { return table_; }
   /// Mean reference position of each probe, in the order of Case::probes.
   const std::vector<Vec3>& positions() const { return positions_; }

@@ -249,6 +249,7 @@ void Recorder::record(const StepView& view, bool is_last) {
   const bool due = is_last || view.step % simulation_.given().output.curves_every == 0;
   const bool is_checked = tables_.checks.is_due(view.state.t, simulation_.dt());
   if (due || is_checked) {
+    tables_.probes.complete(view);
     tables_.energy.sample(view);
     tables_.probes.sample(now);
   }
@@ -258,7 +259,10 @@ void Recorder::record(const StepView& view, bool is_last) {
     if (tables_.exact) tables_.exact->sample(view.state.t);
     add_row();
   }
-  if ((is_last || frame_is_due) && view.step != last_frame_) record_frame(view);
+  if ((is_last || frame_is_due) && view.step != last_frame_) {
+    if (!simulation_.given().output.fields.empty()) view.shared.complete();
+    record_frame(view);
+  }
 }
 
 void Recorder::add_row() {

@@ -206,6 +206,13 @@ void Run::go_on(FoundRun found, std::optional<double> end) {
   write_checkpoint();  // a later end holds from now on
 }
 
+/// Where one is due on the rank that writes them.
+void Run::keep_checkpoint() {
+  if (!on_any_rank(checkpoints_ && (march().at_end() || checkpoints_->is_due(march().steps())))) return;
+  march().complete();
+  if (checkpoints_) write_checkpoint();
+}
+
 void Run::write_checkpoint() {
   watched_->recorder.wait();  // before this thread holds HDF5, which the frame needs
   checkpoints_->write(march().steps(), march().state().t, [&](Archive& archive) { fields(archive, *watched_); });
@@ -226,8 +233,8 @@ void Run::step() {
       march().step();
     if (march().has_failed())
       fail(march().message());
-    else if (march().steps() > 0 && checkpoints_ && (march().at_end() || checkpoints_->is_due(march().steps())))
-      write_checkpoint();
+    else if (march().steps() > 0)
+      keep_checkpoint();
   } catch (const RunError& e) {
     fail(e.what());
     if (march().is_started()) march().leave();  // what there is to look at where it went wrong
@@ -248,6 +255,7 @@ void Run::step() {
 }
 
 void Run::interrupt() {
+  march().complete();
   if (checkpoints_) write_checkpoint();
   march().leave();
   outcome_ = Outcome::stopped;

@@ -89,6 +89,7 @@ class Run {
   std::unique_ptr<WatchedMarch> make_watched() const;
   const CheckpointInfo& origin();
   void open_folder();
+  void keep_checkpoint();
   void write_checkpoint();
   void fail(std::string message);
   void fill_in(Summary& summary) const;

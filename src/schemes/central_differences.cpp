@@ -43,15 +43,21 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
   }
   const std::span<const double> a_begin = start_.a();
   std::vector<double>& v_half = end.v;
-  parallel_each(n, [&](std::size_t i) {
-    v_half[i] = begin.v[i] + 0.5 * h * a_begin[i];
-    end.q[i] = begin.q[i] + h * v_half[i];
+  nodes().each_range([&](std::size_t first, std::size_t last) {
+    for (std::size_t i = 3 * first; i < 3 * last; ++i) {
+      v_half[i] = begin.v[i] + 0.5 * h * a_begin[i];
+      end.q[i] = begin.q[i] + h * v_half[i];
+    }
   });
+  for (std::vector<double>* values : {&end.q, &end.v, &end.a}) nodes().spoil(*values);
   for (const ImposedStep& s : imposed_) {
     v_half[s.dof] = s.mean_velocity;
     end.q[s.dof] = s.u;
   }
-  evaluate_bodies(system_, step_from(begin, h), end);
+  PointStep bodies = step_from(begin, h);
+  bodies.nodes = shared_nodes();
+  evaluate_bodies(system_, bodies, end);
+  nodes().spoil(end.forces.internal);
   // Contact looks at the step that follows.
   imposed_steps(system_.supports, end.t, end.t + h, end.q, imposed_next_);
   for (const ImposedStep& s : imposed_next_) end.a[s.dof] = (s.mean_velocity - v_half[s.dof]) / h;
@@ -64,8 +70,8 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
   take_history(end.forces.rows, end.q, end.contact);
   if (is_lumped()) {
     pushed_.look(*begin.forces.rows.rows, *end.forces.rows.rows);
-    report.books =
-        end_lumped_step(system_, begin, start_.balance(), a_begin, contact_->work(begin, end), pushed_, end, h);
+    report.books = end_lumped_step(system_, begin, start_.balance(), a_begin, contact_->work(begin, end), pushed_,
+                                   nodes(), end, h);
   } else if (!end_consistent_step(begin, a_begin, h, end, report)) {
     return report;
   }

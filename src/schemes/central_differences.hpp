@@ -30,8 +30,13 @@ class CentralDifferences final : public Scheme {
   StepReport step(const State& begin, const StepRequest& request, State& end) override;
   double end_weight() const override { return 0.5; }
   std::string solver_name(const State& /*state*/) const override { return mass_solver_.name(); }
+  /// With a lumped mass and springs each node goes its own way, given the forces of cells and contact.
+  const Holding* shared_nodes() const override {
+    return is_lumped() && contact_->is_local() ? &system_.solid.shared_nodes() : nullptr;
+  }
 
  private:
+  const Holding& nodes() const { return shared_nodes() != nullptr ? *shared_nodes() : system_.solid.all_nodes(); }
   bool is_lumped() const { return system_.mass.kind() == MassKind::lumped; }
   bool end_consistent_step(const State& begin, std::span<const double> a_begin, double h, State& end,
                            StepReport& report);

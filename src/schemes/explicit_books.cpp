@@ -117,40 +117,46 @@ void PushedNodes::look(const ConstraintRows& before, const ConstraintRows& after
 
 LedgerIncrement end_lumped_step(const System& system, const State& begin, const Balance& b0,
                                 std::span<const double> a_begin, const ContactWork& contact_work,
-                                const PushedNodes& pushed, State& end, double h) {
+                                const PushedNodes& pushed, const Holding& nodes, State& end, double h) {
   const double half = 0.5 * h;
   const std::vector<double>& mass = system.mass.node_diagonal();
   Forces& f1 = end.forces;
   const StateSums of_state(system, end);
   const StepSums of_step(system, begin, end, h);
   constexpr std::size_t count = StateSums::count + 1;
-  const auto sums = parallel_sums<count>(mass.size(), [&](std::size_t node, std::array<double, count>& s) {
-    const double m = mass[node], inverse = 1.0 / m;
+  const auto move = [&](std::size_t node) {
+    const double inverse = 1.0 / mass[node];
     const bool is_pushed = pushed[node];
     const Vec3 contact = is_pushed ? f1.contact.at(node) : Vec3{};
     const unsigned fixed = system.supports.fixed_components(node);
-    Vec3 a, v, Ma, Mv;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t i = 3 * node + c;
-      if ((fixed >> c & 1U) == 0) {
-        const double push = is_pushed ? f1.external[i] + contact[c] : 0.0;
-        end.a[i] = inverse * (push - f1.internal[i]);
-        end.v[i] += half * end.a[i];
-      }
-      a[c] = end.a[i];
-      v[c] = end.v[i];
-      Ma[c] = m * a[c];
-      Mv[c] = m * v[c];
+      if ((fixed >> c & 1U) != 0) continue;
+      const double push = is_pushed ? f1.external[i] + contact[c] : 0.0;
+      end.a[i] = inverse * (push - f1.internal[i]);
+      end.v[i] += half * end.a[i];
     }
-    of_state.add(node, v, Mv, a, Ma, s.data());
+  };
+  nodes.each_range_beside([&](std::size_t first, std::size_t last) {
+    for (std::size_t node = first; node < last; ++node) move(node);
+  });
+  const auto sums = nodes.sums<count>([&](std::size_t node, std::array<double, count>& s) {
+    move(node);
+    const Vec3 a = vector_at(end.a, node), v = vector_at(end.v, node);
+    of_state.add(node, v, scaled(v, mass[node]), a, scaled(a, mass[node]), s.data());
     s[count - 1] += of_step.internal_work(node);
   });
   StateSums::give(system, sums.data(), f1);
   complete_supports(system, end);
-  const auto pushes =
-      parallel_sums<StepSums::count>(pushed.nodes().size(), [&](std::size_t k, std::array<double, StepSums::count>& s) {
-        of_step.add_pushes(static_cast<std::size_t>(pushed.nodes()[k]), s.data());
-      });
+  constexpr std::size_t pushes_count = StepSums::count;
+  const auto add_push = [&](std::size_t node, std::array<double, pushes_count>& s) {
+    of_step.add_pushes(node, s.data());
+  };
+  const auto pushes = pushed.are_all()
+                          ? nodes.sums<pushes_count>(add_push)
+                          : parallel_sums<pushes_count>(pushed.nodes().size(), [&](std::size_t k, auto& s) {
+                              add_push(static_cast<std::size_t>(pushed.nodes()[k]), s);
+                            });
   return books_of_sums(system, begin, b0, a_begin, end, h, of_step, contact_work, sums.back(), pushes);
 }
 

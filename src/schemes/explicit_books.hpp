@@ -28,6 +28,7 @@ class PushedNodes {
   void look(const ConstraintRows& before, const ConstraintRows& after);
   bool operator[](std::size_t node) const { return is_pushed_[node] != 0; }
   const std::vector<Index>& nodes() const { return nodes_; }
+  bool are_all() const { return loaded_ == is_pushed_.size(); }
 
  private:
   std::size_t loaded_;        ///< how many of the nodes loads may push
@@ -38,10 +39,10 @@ class PushedNodes {
 /// Ends a step of central differences with a lumped mass, whose forces at its end are there, in one pass over the
 /// nodes: a1 = (f - F + contact) / m and v1 = v_{1/2} + h/2 a1 on the free dofs, end.v holding v_{1/2} there and end.a
 /// and end.v being complete on the others; what complete_forces gives but for the inertia; and the books, which are
-/// returned.
+/// returned. nodes: those that a rank holds; all ranks hold those that are pushed, but where loads push all.
 LedgerIncrement end_lumped_step(const System& system, const State& begin, const Balance& balance,
                                 std::span<const double> a_begin, const ContactWork& contact_work,
-                                const PushedNodes& pushed, State& end, double h);
+                                const PushedNodes& pushed, const Holding& nodes, State& end, double h);
 
 /// Books of a step with u1 = u0 + h v0 + h^2 B,  v1 = v0 + h A. With x_bar the mean of both ends and R = M a the
 /// inertia that balances the forces at each end,

@@ -41,6 +41,8 @@ class Scheme {
   virtual double end_weight() const = 0;
   /// The name, for the log, of the linear solver that serves the scheme from this state on.
   virtual std::string solver_name(const State& state) const = 0;
+  /// On several ranks, the nodes that a rank knows of the states that its steps end with; null: all.
+  virtual const Holding* shared_nodes() const { return nullptr; }
 };
 
 }  // namespace carom

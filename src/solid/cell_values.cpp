@@ -18,7 +18,7 @@ Rotation largest_rotation(const Solid& solid, std::span<const double> u, std::sp
   parallel_for(partial.size(), 1, [&](std::size_t c, std::size_t) {
     const Chunk& chunk = parts.solid.chunks[c];
     const Block& block = parts.block(chunk);
-    if (!block.small_strain) return;
+    if (!block.small_strain || !parts.looks_at(c)) return;
     for (Index first = 0; first < chunk.cells; first += block.stages.lanes) {
       const Index count = std::min<Index>(block.stages.lanes, chunk.cells - first), cell = chunk.first + first;
       const CellBatches batch = parts.solid.batches(block, cell, 1);
@@ -36,6 +36,7 @@ Rotation largest_rotation(const Solid& solid, std::span<const double> u, std::sp
       }
     }
   });
+  parts.gather_by_chunk(std::span(partial), &Rotation::angle, &Rotation::cell);
   Rotation largest;
   for (const Rotation& rotation : partial)
     if (rotation.angle > largest.angle) largest = rotation;
@@ -81,11 +82,13 @@ std::pair<double, std::size_t> largest_stress(const Solid& solid, std::span<cons
   parallel_for(of_chunk.size(), 1, [&](std::size_t c, std::size_t) {
     const Chunk& chunk = parts.solid.chunks[c];
     const Block& block = parts.block(chunk);
+    if (!parts.looks_at(c)) return;
     std::vector<Voigt> stress(at(chunk.cells));
     parts.mean_stress(chunk, block, u, step, stress.front().data());
     for (std::size_t k = 0; k < stress.size(); ++k)
       of_chunk[c] = std::max(of_chunk[c], {measure(stress[k]), at(block.first + chunk.first) + k}, is_less);
   });
+  parts.gather_by_chunk(std::span(of_chunk), &Largest::first, &Largest::second);
   return of_chunk.empty() ? Largest{-1.0, 0} : *std::max_element(of_chunk.begin(), of_chunk.end(), is_less);
 }
 

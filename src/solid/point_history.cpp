@@ -17,6 +17,11 @@ std::vector<double> initial_history(const Solid& solid) {
   return std::vector<double>(history_size(solid), 0.0);
 }
 
+void complete_history(const Solid& solid, std::span<double> history) {
+  const Solid::Parts& parts = solid.parts();
+  if (parts.share_of_cells && !history.empty()) parts.share_of_cells->history.gather(history);
+}
+
 std::vector<double> history_by_cell(const Solid& solid, std::span<const double> history) {
   const Solid::Parts& parts = solid.parts();
   if (history.empty()) return {};

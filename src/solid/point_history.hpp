@@ -17,6 +17,8 @@ std::vector<double> initial_history(const Solid& solid);
 /// Throws std::invalid_argument where they are not as many as the bodies remember.
 std::vector<double> history_by_cell(const Solid& solid, std::span<const double> history);
 std::vector<double> history_of_lanes(const Solid& solid, std::span<const double> by_cell);
+/// Every rank gives all the history of its cells, after steps in which it has stayed with the ranks (PointStep::nodes).
+void complete_history(const Solid& solid, std::span<double> history);
 /// Zeroes what the points of the cells that have gone (alive: 0, by cell) remember.
 void forget_gone(const Solid& solid, std::span<const std::uint8_t> alive, std::span<double> history);
 

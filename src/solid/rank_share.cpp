@@ -36,6 +36,10 @@ EntryRange history_of(const SolidCells& cells, const Chunk& chunk) {
   return {begin, begin + each * filled};
 }
 
+std::size_t owner_of(const SolidCells& cells, const Chunk& chunk) {
+  return sharer_of(at(lowest_node(cells, chunk)), ranks().count(), cells.mesh->node_count());
+}
+
 }  // namespace
 
 std::optional<RankShare> rank_share(const SolidCells& cells) {
@@ -44,14 +48,13 @@ std::optional<RankShare> rank_share(const SolidCells& cells) {
   std::vector<std::size_t> owner;
   std::vector<std::vector<EntryRange>> chunks(count), history(count);
   for (std::size_t c = 0; c < cells.chunks.size(); ++c) {
-    const std::size_t node = at(lowest_node(cells, cells.chunks[c]));
-    std::size_t rank = 0;
-    while (node >= share_of(rank, count, node_count).end) ++rank;
+    const std::size_t rank = owner_of(cells, cells.chunks[c]);
     owner.push_back(rank);
-    chunks[rank].push_back({c * SolidEnergies::terms.size(), (c + 1) * SolidEnergies::terms.size()});
+    chunks[rank].push_back({c, c + 1});
     history[rank].push_back(history_of(cells, cells.chunks[c]));
   }
-  RankShare share{{}, {0}, Exchange(std::move(chunks)), Exchange(std::move(history))};
+  RankShare share{{}, {0}, Exchange(std::move(chunks)), Exchange(std::move(history)), {}};
+  for (const std::size_t rank : owner) share.is_own.push_back(rank == own ? 1 : 0);
   for (std::size_t colour = 0; colour + 1 < cells.colour_begin.size(); ++colour) {
     for (std::size_t c = cells.colour_begin[colour]; c < cells.colour_begin[colour + 1]; ++c) {
       ChunkDuty duty{c, {cells.chunks[c]}};
@@ -62,6 +65,28 @@ std::optional<RankShare> rank_share(const SolidCells& cells) {
     share.colour_begin.push_back(share.duties.size());
   }
   return share;
+}
+
+void mark_computed(const SolidCells& cells, std::vector<std::vector<std::uint8_t>>& held) {
+  const std::size_t count = ranks().count(), node_count = cells.mesh->node_count();
+  std::vector<std::size_t> computed_by;
+  for (const Chunk& chunk : cells.chunks) {
+    const Block& block = cells.blocks[at(chunk.block)];
+    const std::size_t owner = owner_of(cells, chunk);
+    for (Index first = 0; first < chunk.cells; first += block.stages.lanes) {
+      const Index end = std::min(chunk.cells, first + block.stages.lanes);
+      const auto each_node = [&](const auto& body) {
+        for (Index c = first; c < end; ++c)
+          for (const Index n : cells.nodes_of(at(block.first + chunk.first + c))) body(at(n));
+      };
+      computed_by.assign(1, owner);
+      each_node([&](std::size_t n) {
+        const std::size_t rank = sharer_of(n, count, node_count);
+        if (std::ranges::find(computed_by, rank) == computed_by.end()) computed_by.push_back(rank);
+      });
+      for (const std::size_t rank : computed_by) each_node([&](std::size_t n) { held[rank][n] = 1; });
+    }
+  }
 }
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -23,11 +24,15 @@ struct ChunkDuty {
 struct RankShare {
   std::vector<ChunkDuty> duties;          ///< by colour
   std::vector<std::size_t> colour_begin;  ///< as SolidCells::colour_begin
-  Exchange by_chunk, history;             ///< entries of a vector with all energies of each chunk, and of the history
+  Exchange by_chunk, history;             ///< an entry for each chunk, and the history
+  std::vector<std::uint8_t> is_own;       ///< by chunk
   std::size_t cells = 0;                  ///< how many the rank computes
 };
 
 /// Of the calling thread's rank; nothing where it is the only one.
 std::optional<RankShare> rank_share(const SolidCells& cells);
+
+/// Marks by rank the nodes of the cells that it computes.
+void mark_computed(const SolidCells& cells, std::vector<std::vector<std::uint8_t>>& held);
 
 }  // namespace carom

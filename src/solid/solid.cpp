@@ -53,6 +53,12 @@ bool Solid::is_linear() const {
   return parts_->solid.are_linear() && parts_->patches.cells.are_linear() &&
          std::ranges::all_of(parts_->others, [](const Contributor* each) { return each->is_linear(); });
 }
+const Holding& Solid::all_nodes() const {
+  return parts_->all_nodes;
+}
+const Holding& Solid::shared_nodes() const {
+  return parts_->shared_nodes;
+}
 const Loads& Solid::loads() const {
   return parts_->loads;
 }
@@ -72,7 +78,7 @@ SolidEnergies Solid::evaluate(std::span<const double> u, const PointStep& step, 
   parts_->sum_forces(u, step, f, end, [&](const SolidCells& cells, std::size_t chunk) {
     return &(&cells == &parts_->solid ? of_cells : of_patches)[chunk];
   });
-  parts_->gather(of_cells, of_patches, end);
+  parts_->gather(of_cells, of_patches, end, step.nodes);
   SolidEnergies total;
   for (const std::vector<SolidEnergies>* partial : {&of_cells, &of_patches})
     for (const SolidEnergies& energies : *partial) total.add(energies);
@@ -121,7 +127,8 @@ void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const 
 void Solid::tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y,
                            const PointStep& step) const {
   parts_->sum_over_chunks(
-      y, [&](const SolidCells& cells, std::size_t, const Block& block, std::span<const Chunk> runs, double* sum) {
+      y, nullptr,
+      [&](const SolidCells& cells, std::size_t, const Block& block, std::span<const Chunk> runs, double* sum) {
         for (const Chunk& run : runs)
           if (!block.is_nodal())
             cells.add_living(run, step, {}, std::array{u.data(), x.data()}, sum,
@@ -136,7 +143,8 @@ void Solid::tangent_action(std::span<const double> u, std::span<const double> x,
 void Solid::discrete_gradient_force(std::span<const double> u_0, std::span<const double> u_1,
                                     std::span<double> f) const {
   parts_->sum_over_chunks(
-      f, [&](const SolidCells& cells, std::size_t, const Block& block, std::span<const Chunk> runs, double* sum) {
+      f, nullptr,
+      [&](const SolidCells& cells, std::size_t, const Block& block, std::span<const Chunk> runs, double* sum) {
         for (const Chunk& run : runs)
           if (!block.is_nodal())
             block.kernels.add_discrete_gradient_force(cells.batches(run), block.law(), u_0.data(), u_1.data(), sum);

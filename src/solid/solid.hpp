@@ -82,6 +82,11 @@ class Solid {
   /// The lumped mass, that of each cell times its factor.
   Mass lumped_mass(std::span<const double> cell_factors) const;
 
+  /// Which nodes each rank holds: all of them, or those whose values it needs in the steps of schemes that share them
+  /// out (PointStep::nodes).
+  const Holding& all_nodes() const;
+  const Holding& shared_nodes() const;
+
   const Loads& loads() const;
   const std::vector<Spring>& springs() const;
   const CohesiveZones& cohesive() const;

@@ -35,6 +35,8 @@ struct Solid::Parts {
         cohesive(model.cohesive, model.mesh->coordinates),
         share_of_cells(rank_share(solid)),
         share_of_patches(rank_share(patches.cells)),
+        all_nodes(solid.mesh->node_count()),
+        shared_nodes(held_nodes(model)),
         damping(damping_bounds(solid)),
         patch_damping(damping_bounds(patches.cells)),
         turning_bodies(model.turning_bodies, any_free(model.turning_bodies) ? highest_frequency() : 0.0) {
@@ -53,17 +55,61 @@ struct Solid::Parts {
     solid.for_each_rigid_batch(measure);
     if (solid.control_distortion(cells.volumes)) bounds_at_rest = cell_frequency_bounds();
     cohesive.place_history(points_history_size());
-    if (share_of_cells) by_node.emplace(owned_dofs(solid.mesh->node_count()));
     others = contributors();
   }
 
-  static std::vector<std::vector<EntryRange>> owned_dofs(std::size_t node_count) {
-    std::vector<std::vector<EntryRange>> of_ranks;
-    for (std::size_t r = 0; r < ranks().count(); ++r) {
-      const EntryRange nodes = share_of(r, ranks().count(), node_count);
-      of_ranks.push_back({{3 * nodes.begin, 3 * nodes.end}});
+  /// What ranks hold in the steps of schemes that share the nodes out: those of the cells that they compute, and, all
+  /// of them, those that anything else acts on. All nodes where what acts goes through the whole body.
+  Holding held_nodes(const Model& model) const {
+    const std::size_t count = ranks().count(), all = solid.mesh->node_count(), loaded = loads.nodes().size();
+    const auto is_damped = [](const Part& part) { return part.viscosity.is_any(); };
+    const auto is_bond = [](const ContactDefinition& contact) {
+      return parts_of(contact).nature == ContactNature::bonds;
+    };
+    const auto moves = [](const PrescribedMotion& motion) {
+      const std::vector<double>& values = motion.function.value;
+      return motion.rotation || motion.function.called ||
+             std::ranges::any_of(values, [](double v) { return v != 0.0; });
+    };
+    const bool acts_through = !patches.empty() || !cohesive.empty() || !model.erosion.empty() ||
+                              !model.turning_bodies.empty() || (4 * loaded > all && loaded < all) ||
+                              std::ranges::any_of(model.parts, is_damped) ||
+                              std::ranges::any_of(model.motions, moves) || !model.equations.empty() ||
+                              std::ranges::any_of(model.contacts, is_bond);
+    if (count == 1 || acts_through) return Holding(all);
+    std::vector<std::uint8_t> of_all(all, 0);
+    const auto add = [&](std::span<const Index> some) {
+      for (const Index n : some) of_all[at(n)] = 1;
+    };
+    for (const ContactDefinition& contact : model.contacts) {
+      const ContactParts parts = parts_of(contact);
+      add(nodes_of(parts, *model.mesh));
+      if (parts.carrier >= 0) add(std::array{parts.carrier});
     }
-    return of_ranks;
+    for (const PrescribedMotion& motion : model.motions) add(motion.nodes);
+    for (const Spring& spring : model.springs) add(spring.nodes);
+    for (const RigidBody& body : model.rigid_bodies) add(std::array{body.node});
+    if (loaded < all) add(loads.nodes());
+    std::vector<std::vector<std::uint8_t>> held(count, of_all);
+    mark_computed(solid, held);
+    return Holding(all, std::move(held));
+  }
+  /// What ranks have found in the chunks that they look at becomes known to all.
+  template <class Found, class Position>
+  void gather_by_chunk(std::span<Found> of_chunks, double Found::*value, Position Found::*position) const {
+    if (!share_of_cells || shared_nodes.is_whole()) return;
+    std::vector<double> values;
+    for (const Found& found : of_chunks)
+      values.insert(values.end(), {found.*value, static_cast<double>(found.*position)});
+    share_of_cells->by_chunk.gather(values, 2);
+    for (std::size_t c = 0; c < of_chunks.size(); ++c) {
+      of_chunks[c].*value = values[2 * c];
+      of_chunks[c].*position = static_cast<Position>(values[2 * c + 1]);
+    }
+  }
+  /// On several ranks, whether this one looks at a chunk for all of them.
+  bool looks_at(std::size_t chunk) const {
+    return !share_of_cells || shared_nodes.is_whole() || share_of_cells->is_own[chunk] != 0;
   }
 
   /// All that acts between nodes beside the cells.
@@ -171,10 +217,14 @@ struct Solid::Parts {
   /// Overwrites f with the sum over all that is integrated of add(cells, number of a chunk, block, its runs of cells,
   /// f), colour by colour; every rank adds what it computes, and has all of f afterwards.
   template <class Add>
-  void sum_over_chunks(std::span<double> f, const Add& add) const {
+  void sum_over_chunks(std::span<double> f, const Holding* held, const Add& add) const {
     constexpr std::size_t zeros_per_task = 1 << 15;
-    parallel_for(f.size(), zeros_per_task,
-                 [&](std::size_t first, std::size_t last) { std::fill(f.data() + first, f.data() + last, 0.0); });
+    if (held != nullptr)
+      held->each_range(
+          [&](std::size_t first, std::size_t last) { std::fill(f.data() + 3 * first, f.data() + 3 * last, 0.0); });
+    else
+      parallel_for(f.size(), zeros_per_task,
+                   [&](std::size_t first, std::size_t last) { std::fill(f.data() + first, f.data() + last, 0.0); });
     const auto add_all = [&](const SolidCells& cells, const std::optional<RankShare>& share) {
       for_each_duty(cells, share, [&](std::size_t c, std::span<const Chunk> runs) {
         add(cells, c, cells.blocks[at(runs[0].block)], runs, f.data());
@@ -182,7 +232,8 @@ struct Solid::Parts {
     };
     add_all(solid, share_of_cells);
     add_all(patches.cells, share_of_patches);
-    if (share_of_cells) by_node->gather(f);
+    if (!share_of_cells) return;
+    (held != nullptr ? *held : all_nodes).update(f);
   }
   /// Overwrites f with the internal force of all that is integrated. energies_of(cells, number of a chunk): what takes
   /// its energies, null where they are not wanted.
@@ -190,7 +241,8 @@ struct Solid::Parts {
   void sum_forces(std::span<const double> u, const PointStep& step, std::span<double> f, std::span<double> end,
                   const EnergiesOf& energies_of) const {
     sum_over_chunks(
-        f, [&](const SolidCells& cells, std::size_t c, const Block& block, std::span<const Chunk> runs, double* sum) {
+        f, step.nodes,
+        [&](const SolidCells& cells, std::size_t c, const Block& block, std::span<const Chunk> runs, double* sum) {
           SolidEnergies* const energies = energies_of(cells, c);
           for (const Chunk& run : runs)
             if (!block.is_nodal())
@@ -217,17 +269,20 @@ struct Solid::Parts {
       });
   }
   /// The energies of chunks, and the history of their points, which every rank has of its own, become those of all.
-  void gather(std::span<SolidEnergies> of_cells, std::span<SolidEnergies> of_patches, std::span<double> points) const {
+  /// The history stays with its rank where the nodes do.
+  void gather(std::span<SolidEnergies> of_cells, std::span<SolidEnergies> of_patches, std::span<double> points,
+              const Holding* held) const {
     if (!share_of_cells) return;
+    const bool stays = held != nullptr && !held->is_whole();
     for (const auto& [share, energies] : {std::pair{&*share_of_cells, of_cells}, {&*share_of_patches, of_patches}}) {
       std::vector<double> values;
       for (const SolidEnergies& chunk : energies)
         for (double SolidEnergies::*const term : SolidEnergies::terms) values.push_back(chunk.*term);
-      share->by_chunk.gather(values);
+      share->by_chunk.gather(values, SolidEnergies::terms.size());
       auto next = values.begin();
       for (SolidEnergies& chunk : energies)
         for (double SolidEnergies::*const term : SolidEnergies::terms) chunk.*term = *next++;
-      if (!points.empty()) share->history.gather(points);
+      if (!points.empty() && !stays) share->history.gather(points);
     }
   }
 
@@ -240,7 +295,7 @@ struct Solid::Parts {
   Springs springs;
   CohesiveZones cohesive;
   std::optional<RankShare> share_of_cells, share_of_patches;  ///< of this rank; none where it is the only one
-  std::optional<Exchange> by_node;                            ///< of dof vectors
+  Holding all_nodes, shared_nodes;                            ///< held by each rank: all, and what held_nodes says
   DampingBounds damping, patch_damping;
   std::vector<double> bounds_at_rest;  ///< cell_frequency_bounds(), for distortion control
   TurningBodies turning_bodies;

@@ -38,6 +38,7 @@ void frequency_growth(const Solid& solid, std::span<const double> u, const Point
   parallel_for(parts.solid.chunks.size(), 1, [&](std::size_t c, std::size_t) {
     const Chunk& chunk = parts.solid.chunks[c];
     const Block& block = parts.block(chunk);
+    if (!parts.looks_at(c)) return;
     const std::span<double> own = growth.subspan(at(block.first + chunk.first), at(chunk.cells));
     if (block.small_strain) return std::fill(own.begin(), own.end(), 1.0);
     if (block.is_nodal()) {

@@ -28,6 +28,8 @@ class SkinMotion {
   void looked(std::span<const double> u, bool with_folds);
   /// After a step, with the mesh's coordinates X. iterations: of the step, 0 of an explicit one.
   LookDue due(std::span<const Vec3> X, std::span<const double> u, int iterations);
+  /// Does due() look at the displacement when it is called next?
+  bool looks_next() const { return steps_ + 1 >= scan_; }
   /// May the next look be for folds, too?
   bool may_see_folds() const;
 

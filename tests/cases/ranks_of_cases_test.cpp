@@ -33,6 +33,8 @@ Reached reached(const Case& given, long long steps) {
   march.start();
   while (march.steps() < steps && !march.at_end() && !march.has_failed()) march.step();
   EXPECT_FALSE(march.has_failed()) << march.message();
+  EXPECT_FALSE(march.has_failed()) << march.message();
+  march.complete();
   return {march.state(), march.ledger().now(), march.ledger().momentum(), march.steps()};
 }
 

@@ -1,0 +1,142 @@
+#include "parallel/holding.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace carom {
+
+Holding::Holding(std::size_t items)
+    : Holding(items, std::vector(ranks().count(), std::vector<std::uint8_t>(items, 1))) {}
+
+Holding::Holding(std::size_t items, std::vector<std::vector<std::uint8_t>> held) : items_(items) {
+  const std::size_t count = ranks().count(), own = ranks().own();
+  for (std::size_t r = 0; r < count; ++r) {
+    const EntryRange owned = share_of(r, count, items), blocks = blocks_of(r);
+    const auto at = [&](std::size_t i) { return held[r].begin() + static_cast<std::ptrdiff_t>(i); };
+    std::fill(at(owned.begin), at(owned.end), std::uint8_t{1});
+    std::fill(at(blocks.begin), at(blocks.end), std::uint8_t{1});
+    is_whole_ = is_whole_ && std::ranges::find(held[r], 0) == held[r].end();
+  }
+  added_ = blocks_of(own);
+  for (const EntryRange& among : {EntryRange{0, added_.begin}, EntryRange{added_.end, items}})
+    for (const EntryRange& range : ranges_of(held[own], among)) beside_.add(range);
+  beside_.close();
+  give_.resize(count);
+  take_.resize(count);
+  for (std::size_t r = 0; r < count; ++r) {
+    if (r == own) continue;
+    give_[r] = ranges_of(held[r], share_of(own, count, items));
+    take_[r] = ranges_of(held[own], share_of(r, count, items));
+  }
+}
+
+void Holding::Pieces::add(EntryRange range) {
+  while (range.begin < range.end) {
+    const EntryRange piece{range.begin, std::min(range.end, range.begin + vector_grain - size)};
+    ranges.push_back(piece);
+    size += piece.size();
+    range.begin = piece.end;
+    if (size == vector_grain) close();
+  }
+}
+
+void Holding::Pieces::close() {
+  if (size > 0) group_begin.push_back(ranges.size());
+  size = 0;
+}
+
+/// The items of whole blocks, the last of which may be another's, that begin with an item of the rank.
+EntryRange Holding::blocks_of(std::size_t rank) const {
+  const EntryRange own = share_of(rank, ranks().count(), items_);
+  const auto up = [&](std::size_t i) {
+    return std::min(items_, (i + reduction_block - 1) / reduction_block * reduction_block);
+  };
+  return {up(own.begin), up(own.end)};
+}
+
+std::vector<EntryRange> Holding::ranges_of(std::span<const std::uint8_t> held, EntryRange among) {
+  std::vector<EntryRange> ranges;
+  for (std::size_t i = among.begin; i < among.end; ++i) {
+    if (held[i] == 0) continue;
+    if (!ranges.empty() && ranges.back().end == i)
+      ++ranges.back().end;
+    else
+      ranges.push_back({i, i + 1});
+  }
+  return ranges;
+}
+
+std::size_t Holding::held() const {
+  std::size_t count = added_.size();
+  for (const EntryRange& range : beside_.ranges) count += range.size();
+  return count;
+}
+
+void Holding::update(std::span<double> values) const {
+  Ranks& all = ranks();
+  std::vector<double> given;
+  for (std::size_t r = 0; r < all.count(); ++r) {
+    if (give_[r].empty()) continue;
+    given.clear();
+    for (const EntryRange& range : give_[r])
+      given.insert(given.end(), values.begin() + static_cast<std::ptrdiff_t>(3 * range.begin),
+                   values.begin() + static_cast<std::ptrdiff_t>(3 * range.end));
+    all.send(r, given);
+  }
+  for (std::size_t r = 0; r < all.count(); ++r) {
+    if (take_[r].empty()) continue;
+    const std::vector<double> taken = all.receive(r);
+    auto next = taken.begin();
+    for (const EntryRange& range : take_[r]) {
+      std::copy_n(next, 3 * range.size(), values.begin() + static_cast<std::ptrdiff_t>(3 * range.begin));
+      next += static_cast<std::ptrdiff_t>(3 * range.size());
+    }
+  }
+}
+
+void Holding::complete(std::span<double> values) const {
+  if (is_whole_) return;
+  std::vector<std::vector<EntryRange>> owned;
+  for (std::size_t r = 0; r < ranks().count(); ++r) {
+    owned.push_back({share_of(r, ranks().count(), items_)});
+  }
+  Exchange(std::move(owned)).gather(values, 3);
+}
+
+void Holding::complete(std::span<double> values, std::span<const Index> items) const {
+  if (is_whole_) return;
+  std::vector<std::vector<EntryRange>> owned(ranks().count());
+  for (const Index item : items) {
+    const auto i = static_cast<std::size_t>(item);
+    owned[sharer_of(i, owned.size(), items_)].push_back({i, i + 1});
+  }
+  Exchange(std::move(owned)).gather(values, 3);
+}
+
+void Holding::gather_sums(std::span<double> of_blocks, std::size_t each) const {
+  std::vector<std::vector<EntryRange>> owned;
+  for (std::size_t r = 0; r < ranks().count(); ++r) {
+    const EntryRange items = blocks_of(r);
+    const auto block = [&](std::size_t i) { return (i + reduction_block - 1) / reduction_block; };
+    owned.push_back({{block(items.begin), block(items.end)}});
+  }
+  Exchange(std::move(owned)).gather(of_blocks, each);
+}
+
+void Holding::spoil([[maybe_unused]] std::span<double> values) const {
+#ifndef NDEBUG
+  if (is_whole_) return;
+  std::vector<std::uint8_t> is_held(items_, 0);
+  each_range([&](std::size_t begin, std::size_t end) {
+    std::fill(is_held.begin() + static_cast<std::ptrdiff_t>(begin), is_held.begin() + static_cast<std::ptrdiff_t>(end),
+              std::uint8_t{1});
+  });
+  for (std::size_t i = 0; i < items_; ++i)
+    if (is_held[i] == 0)
+      std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, std::numeric_limits<double>::quiet_NaN());
+#endif
+}
+
+}  // namespace carom
