@@ -105,7 +105,7 @@ std::string describe(const Stage& stage, long long steps, const Simulation& s) {
 std::string describe(const Rehearsal& seen) {
   long long steps = 0;
   for (const Pace& stage : seen.stages) steps += stage.steps;
-  return fmt::format("  rehearsed {} in {:.2g} s, {}\n", count_of(steps, "step"), seen.seconds,
+  return fmt::format("  rehearsed {}, {}\n", count_of(steps, "step"),
                      seen.is_whole ? "to the end" : fmt::format("to t = {:.6g}", seen.t));
 }
 

@@ -10,6 +10,7 @@
 #include "march/march.hpp"
 #include "march/watches.hpp"
 #include "parallel/threads.hpp"
+#include "record/recorder.hpp"
 
 namespace carom {
 
@@ -65,7 +66,9 @@ Rehearsal rehearse(const Simulation& s, double seconds) {
   if (!std::ranges::all_of(s.stages(), [&](const auto& stage) { return is_short(*stage, s, seconds); })) return out;
   const ThreadScope one(1);
   March march(s);
+  Recorder recorder(s, "");  // of no folder: curves and figures are made, files are not
   Watches watches(s, march);
+  march.add(recorder);
   watches.look_at(march);
   std::vector<SeenStep> seen;
   try {

@@ -26,7 +26,7 @@ void FoldWatch::see(const StepView& view) {
   const bool has_folded = !warnings_.empty();
   if (step == 0 || (has_folded && (!has_small_strain_ || lost_ >= 1.0))) return;
   if (is_explicit(view.stage.settings().kind) && step < next_ && !view.ends_stage && !view.is_last()) return;
-  view.shared.complete();
+  view.shared.complete_displacements();
   const FlattestCorner corner = flattest_corner(simulation_, view.state.q, view.state.alive());
   lost_ = std::max(lost_, 1.0 - corner.small_strain);
   const double share = has_folded ? corner.small_strain : corner.share;

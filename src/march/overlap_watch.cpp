@@ -74,7 +74,7 @@ void OverlapWatch::see(const StepView& view) {
   if (state.topology != topology_) follow(state);
   const bool is_regular = state.t >= next_ || view.is_last();
   if (is_regular)
-    view.shared.complete();
+    view.shared.complete_displacements();
   else if (motion_->looks_next())
     view.shared.complete_displacements(surfaces_->skin().nodes);
   const LookDue due = motion_->due(simulation_.mesh().coordinates, state.q, view.iterations);

@@ -76,7 +76,7 @@ std::size_t Holding::held() const {
 
 void Holding::update(std::span<double> values) const {
   Ranks& all = ranks();
-  std::vector<double> given;
+  thread_local std::vector<double> given, taken;  // memory that is new costs more than what is copied to it
   for (std::size_t r = 0; r < all.count(); ++r) {
     if (give_[r].empty()) continue;
     given.clear();
@@ -87,7 +87,7 @@ void Holding::update(std::span<double> values) const {
   }
   for (std::size_t r = 0; r < all.count(); ++r) {
     if (take_[r].empty()) continue;
-    const std::vector<double> taken = all.receive(r);
+    all.receive(r, taken);
     auto next = taken.begin();
     for (const EntryRange& range : take_[r]) {
       std::copy_n(next, 3 * range.size(), values.begin() + static_cast<std::ptrdiff_t>(3 * range.begin));

@@ -20,7 +20,7 @@ class Alone final : public Ranks {
   std::size_t count() const override { return 1; }
   std::size_t own() const override { return 0; }
   void send(std::size_t, std::span<const double>) override { throw std::logic_error("there is no other rank"); }
-  std::vector<double> receive(std::size_t) override { throw std::logic_error("there is no other rank"); }
+  void receive(std::size_t, std::vector<double>&) override { throw std::logic_error("there is no other rank"); }
   Traffic sent() const override { return {}; }
 };
 
@@ -73,7 +73,7 @@ class RankOfProcess final : public Ranks {
     ++sent_.messages;
     sent_.values += values.size();
   }
-  std::vector<double> receive(std::size_t from) override { return post_.take(from, own_); }
+  void receive(std::size_t from, std::vector<double>& values) override { values = post_.take(from, own_); }
   Traffic sent() const override { return sent_; }
 
  private:
@@ -167,13 +167,14 @@ std::pair<double, std::size_t> largest_on_ranks(double value, std::size_t positi
 void Exchange::gather(std::span<double> values, std::size_t width) const {
   Ranks& all = ranks();
   const auto at = [&](std::size_t entry) { return values.begin() + static_cast<std::ptrdiff_t>(width * entry); };
-  std::vector<double> own;
+  thread_local std::vector<double> own, given;  // memory that is new costs more than what is copied to it
+  own.clear();
   for (const EntryRange& range : of_ranks_[all.own()]) own.insert(own.end(), at(range.begin), at(range.end));
   for (std::size_t r = 0; r < all.count(); ++r)
     if (r != all.own()) all.send(r, own);
   for (std::size_t r = 0; r < all.count(); ++r) {
     if (r == all.own()) continue;
-    const std::vector<double> given = all.receive(r);
+    all.receive(r, given);
     if (given.size() != width * size_of(r)) throw std::logic_error("ranks exchange vectors of different sizes");
     auto next = given.begin();
     for (const EntryRange& range : of_ranks_[r]) {

@@ -23,8 +23,13 @@ class Ranks {
   virtual std::size_t own() const = 0;
   /// Does not wait for the other rank to receive.
   virtual void send(std::size_t to, std::span<const double> values) = 0;
-  /// Waits. Throws std::runtime_error when the other rank has ended with an error.
-  virtual std::vector<double> receive(std::size_t from) = 0;
+  /// Waits, and overwrites the values. Throws std::runtime_error when the other rank has ended with an error.
+  virtual void receive(std::size_t from, std::vector<double>& values) = 0;
+  std::vector<double> receive(std::size_t from) {
+    std::vector<double> values;
+    receive(from, values);
+    return values;
+  }
   /// All that this one has sent so far.
   virtual Traffic sent() const = 0;
 };

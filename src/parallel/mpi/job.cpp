@@ -6,9 +6,11 @@
 
 #include <chrono>
 #include <deque>
+#include <map>
 #include <memory>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace carom {
 namespace {
@@ -29,20 +31,21 @@ class MpiRanks final : public Ranks {
   void send(std::size_t to, std::span<const double> values) override {
     forget_sent();
     Letter& letter = on_the_way_.emplace_back();
+    if (const auto spare = spare_.lower_bound(values.size()); spare != spare_.end())
+      letter.values = std::move(spare_.extract(spare).mapped());
     letter.values.assign(values.begin(), values.end());
     MPI_Isend(letter.values.data(), static_cast<int>(values.size()), MPI_DOUBLE, static_cast<int>(to), tag,
               MPI_COMM_WORLD, &letter.request);
     ++sent_.messages;
     sent_.values += values.size();
   }
-  std::vector<double> receive(std::size_t from) override {
+  void receive(std::size_t from, std::vector<double>& values) override {
     MPI_Status status;
     MPI_Probe(static_cast<int>(from), tag, MPI_COMM_WORLD, &status);
     int size = 0;
     MPI_Get_count(&status, MPI_DOUBLE, &size);
-    std::vector<double> values(static_cast<std::size_t>(size));
+    values.resize(static_cast<std::size_t>(size));
     MPI_Recv(values.data(), size, MPI_DOUBLE, static_cast<int>(from), tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    return values;
   }
   Traffic sent() const override { return sent_; }
 
@@ -57,12 +60,15 @@ class MpiRanks final : public Ranks {
     while (!on_the_way_.empty()) {
       MPI_Test(&on_the_way_.front().request, &is_done, MPI_STATUS_IGNORE);
       if (is_done == 0) return;
+      std::vector<double>& values = on_the_way_.front().values;
+      spare_.emplace(values.capacity(), std::move(values));
       on_the_way_.pop_front();
     }
   }
 
   std::size_t count_ = 0, own_ = 0;
-  std::deque<Letter> on_the_way_;  ///< MPI still reads their values
+  std::deque<Letter> on_the_way_;                          ///< MPI still reads their values
+  std::multimap<std::size_t, std::vector<double>> spare_;  ///< by size, memory of letters that have arrived
   Traffic sent_;
 };
 

@@ -58,6 +58,34 @@ TEST(Ranks, GatherGivesTheEntriesOfEachToAll) {
   });
 }
 
+TEST(Ranks, GatherTakesEntriesOfSeveralValues) {
+  run_on_ranks(2, [] {
+    std::vector<double> values(6, -1.0);
+    const auto own = static_cast<std::ptrdiff_t>(ranks().own());
+    std::iota(values.begin() + 4 * own, values.begin() + 4 * own + (own == 0 ? 4 : 2), static_cast<double>(4 * own));
+    Exchange({{{0, 2}}, {{2, 3}}}).gather(values, 2);
+    EXPECT_EQ(values, (std::vector{0.0, 1.0, 2.0, 3.0, 4.0, 5.0}));
+  });
+}
+
+TEST(Ranks, AnEntryIsInTheShareOfItsSharer) {
+  for (const std::size_t n : {1U, 2U, 7U, 1000U})
+    for (std::size_t i = 0; i < n; ++i) {
+      const EntryRange share = share_of(sharer_of(i, 3, n), 3, n);
+      EXPECT_TRUE(i >= share.begin && i < share.end) << i << " of " << n;
+    }
+}
+
+TEST(Ranks, FindTheLargestOfAllAndOfEqualOnesTheFirst) {
+  using Largest = std::pair<double, std::size_t>;
+  EXPECT_EQ(largest_on_ranks(0.5, 3), Largest(0.5, 3));
+  run_on_ranks(3, [] {
+    const std::size_t own = ranks().own();
+    EXPECT_EQ(largest_on_ranks(own == 1 ? 2.0 : 1.0, 10 * own), Largest(2.0, 10));
+    EXPECT_EQ(largest_on_ranks(own == 2 ? 1.0 : 2.0, 10 - own), Largest(2.0, 9));
+  });
+}
+
 TEST(Ranks, OneThatFailsEndsThoseThatWaitForIt) {
   const auto fails = [] {
     run_on_ranks(3, [] {

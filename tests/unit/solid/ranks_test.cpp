@@ -97,5 +97,46 @@ TEST(RankShare, SendsEachOtherRankWhatItOwnsAndNothingElse) {
     });
 }
 
+// Where nodes are shared out, a rank gives those of its cells that others compute: one layer at each cut, as above, and
+// what is left of a block of 2048 that its neighbour adds up.
+TEST(RankShare, SendsWhatOthersHoldWhereNodesAreSharedOut) {
+  constexpr std::size_t nodes_of_layer = (across + 1) * (across + 1);
+  for (const std::size_t count : {2U, 3U, 4U})
+    run_on_ranks(count, [&] {
+      const Solid solid(one_part(block_mesh({across, across, along}, 0.0)));
+      const std::vector<double> u = random_vector(solid.dof_count(), 3);
+      std::vector<double> shared(u.size()), whole(u.size());
+      solid.internal_force(u, whole, {});
+      const Traffic before = ranks().sent();
+      solid.internal_force(u, shared, {.history = {}, .nodes = &solid.shared_nodes()});
+      const Traffic after = ranks().sent();
+      const std::size_t cuts = ranks().own() == 0 || ranks().own() + 1 == count ? 1 : 2;
+      EXPECT_EQ(after.messages - before.messages, cuts);
+      EXPECT_LE(after.values - before.values, 3 * cuts * (4 * nodes_of_layer + 2048));
+      solid.shared_nodes().each_range([&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = 3 * begin; i < 3 * end; ++i) EXPECT_EQ(shared[i], whole[i]);
+      });
+    });
+}
+
+// What acts through the whole body: an equation between its ends, a part that is damped, a support that moves.
+TEST(RankShare, AllHoldAllWhereSomethingActsThroughTheBody) {
+  const auto shares = [](const auto& change) {
+    bool is_whole = false;
+    run_on_ranks(2, [&] {
+      Model model = one_part(block_mesh({across, across, along}, 0.0));
+      change(model);
+      const Solid solid(model);
+      if (ranks().own() == 0) is_whole = solid.shared_nodes().is_whole();
+    });
+    return !is_whole;
+  };
+  EXPECT_TRUE(shares([](Model&) {}));
+  EXPECT_TRUE(shares([](Model& m) { m.motions.push_back({"held", {0, 1}, 0, MotionKind::velocity, {{0.0}, {0.0}}}); }));
+  EXPECT_FALSE(shares([](Model& m) { m.motions.push_back({"led", {0}, 0, MotionKind::velocity, {{0.0}, {1.0}}}); }));
+  EXPECT_FALSE(shares([](Model& m) { m.parts[0].viscosity.linear = 0.06; }));
+  EXPECT_FALSE(shares([](Model& m) { m.equations.push_back({"tied", {{0, 0, 1.0}, {9, 0, -1.0}}}); }));
+}
+
 }  // namespace
 }  // namespace carom::test::solid_ranks_test
