@@ -180,6 +180,17 @@ ProbeCurves::ProbeCurves(const Simulation& simulation)
     add_columns(given, probe);
     probes_.push_back(std::move(probe));
   }
+  find_stressed_cells();
+}
+
+void ProbeCurves::find_stressed_cells() {
+  for (const Probe& probe : probes_)
+    for (const std::string& quantity : probe.quantities) {
+      if (!FieldsNow::needs_stress(quantity)) continue;
+      if (field_kind(simulation_, quantity)->is_at_nodes()) return stressed_cells_.clear();
+      stressed_cells_.insert(stressed_cells_.end(), probe.cells.begin(), probe.cells.end());
+    }
+  std::ranges::sort(stressed_cells_);
 }
 
 void ProbeCurves::add_nodes(const CaseProbe& given, Probe& probe) {

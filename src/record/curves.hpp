@@ -89,6 +89,8 @@ class ProbeCurves {
   /// Throws CaseError as place_probe and across_section do.
   explicit ProbeCurves(const Simulation& simulation);
   void sample(FieldsNow& now);
+  /// The cells whose stresses sample() looks at, increasing; none where it may look at others.
+  const std::vector<Index>& stressed_cells() const { return stressed_cells_; }
   /// On several ranks, asks for what sample() looks at.
   void complete(const StepView& view) const;
   const CurveTable& table() const { return table_; }
@@ -113,6 +115,7 @@ class ProbeCurves {
     std::vector<std::string> quantities;
     std::vector<std::string> columns{};
   };
+  void find_stressed_cells();
   void note_node(const CaseProbe& given, const ProbePlace& place);
   void find_cells(const CaseProbe& given, const Vec3& position, Probe& probe) const;
   void find_held(const CaseProbe& given, Probe& probe) const;
@@ -131,6 +134,7 @@ class ProbeCurves {
   std::vector<Vec3> positions_;
   std::vector<std::string> notes_;
   CurveTable table_;
+  std::vector<Index> stressed_cells_;
   std::vector<double> section_work_;
   std::vector<Gravity> gravity_;
 };

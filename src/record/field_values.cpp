@@ -205,7 +205,7 @@ bool FieldsNow::needs_stress(std::string_view name) {
 }
 
 const std::vector<Voigt>& FieldsNow::stress() {
-  if (stress_.empty()) stress_ = cell_stress(simulation.solid(), view.state.q, view.points());
+  if (stress_.empty()) stress_ = cell_stress(simulation.solid(), view.state.q, view.points(), stressed_);
   return stress_;
 }
 

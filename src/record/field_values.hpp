@@ -45,9 +45,10 @@ std::optional<FieldKind> field_kind(const Simulation& simulation, std::string_vi
 /// Fields at an instant. What several of them need is made once: ask for those that need stresses one after the other.
 class FieldsNow {
  public:
-  /// slip: ContactSlip::path.
-  FieldsNow(const Simulation& s, const StepView& now, std::span<const double> slip)
-      : simulation(s), view(now), contact_slip(slip) {}
+  /// slip: ContactSlip::path. stressed: increasing, the cells whose stresses are asked for; empty: all of them.
+  FieldsNow(const Simulation& s, const StepView& now, std::span<const double> slip,
+            std::span<const Index> stressed = {})
+      : simulation(s), view(now), contact_slip(slip), stressed_(stressed) {}
 
   /// Precondition: field_kind has one.
   FieldValues evaluate(std::string_view name);
@@ -63,6 +64,7 @@ class FieldsNow {
   const std::span<const double> contact_slip;
 
  private:
+  std::span<const Index> stressed_;
   std::vector<Voigt> stress_;
   std::optional<NodalContact> contact_;
 };

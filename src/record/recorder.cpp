@@ -236,7 +236,7 @@ void Recorder::keep_places() {
 }
 
 void Recorder::record(const StepView& view, bool is_last) {
-  FieldsNow now(simulation_, view, slip_.path());
+  FieldsNow now(simulation_, view, slip_.path(), tables_.probes.stressed_cells());
   if (view.step != last_sample_) {  // every step, once: impulses and paths are sums
     tables_.contact.sample(view);
     slip_.sample(now);

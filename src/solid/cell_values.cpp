@@ -43,22 +43,47 @@ Rotation largest_rotation(const Solid& solid, std::span<const double> u, std::sp
   return largest;
 }
 
-std::vector<std::array<double, 6>> cell_stress(const Solid& solid, std::span<const double> u, const PointStep& step) {
+namespace {
+
+/// Has a chunk one of the sorted positions? All chunks have where there is none.
+bool has_any(const Block& block, const Chunk& chunk, std::span<const Index> positions) {
+  const Index begin = block.first + chunk.first;
+  const auto next = std::ranges::lower_bound(positions, begin);
+  return positions.empty() || (next != positions.end() && *next < begin + chunk.cells);
+}
+
+std::vector<Index> patches_of(const Solid::Parts& parts, std::span<const Index> cells) {
+  std::vector<Index> patches;
+  for (const Index k : cells) {
+    const std::span<const Index> own = parts.patches.of(at(k));
+    patches.insert(patches.end(), own.begin(), own.end());
+  }
+  std::ranges::sort(patches);
+  return patches;
+}
+
+}  // namespace
+
+std::vector<std::array<double, 6>> cell_stress(const Solid& solid, std::span<const double> u, const PointStep& step,
+                                               std::span<const Index> wanted) {
   const Solid::Parts& parts = solid.parts();
   std::vector<std::array<double, 6>> stress(solid.cells().size());
   parallel_for(parts.solid.chunks.size(), 1, [&](std::size_t c, std::size_t) {
     const Chunk& chunk = parts.solid.chunks[c];
     const Block& block = parts.block(chunk);
-    double* first = stress[at(block.first + chunk.first)].data();
-    if (!block.is_nodal()) parts.mean_stress(chunk, block, u, step, first);
+    if (!block.is_nodal() && has_any(block, chunk, wanted))
+      parts.mean_stress(chunk, block, u, step, stress[at(block.first + chunk.first)].data());
   });
   const SolidCells& patches = parts.patches.cells;
+  const std::vector<Index> wanted_patches = patches_of(parts, wanted);
+  if (parts.patches.empty() || (!wanted.empty() && wanted_patches.empty())) return stress;
   std::vector<double> of_patches(6 * patches.size());
   parallel_for(patches.chunks.size(), 1, [&](std::size_t c, std::size_t) {
     const Chunk& chunk = patches.chunks[c];
     const Block& block = patches.blocks[at(chunk.block)];
-    block.kernels.mean_stress(patches.batches(chunk, step), block.law(), u.data(),
-                              &of_patches[6 * at(block.first + chunk.first)]);
+    if (has_any(block, chunk, wanted_patches))
+      block.kernels.mean_stress(patches.batches(chunk, step), block.law(), u.data(),
+                                &of_patches[6 * at(block.first + chunk.first)]);
   });
   for (std::size_t k = 0; k < stress.size(); ++k) parts.add_mean_of_patches(k, 6, of_patches, stress[k].data());
   return stress;

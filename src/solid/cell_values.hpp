@@ -19,8 +19,9 @@ enum class OverPoints : std::uint8_t { mean, largest };
 
 /// Mean over the reference volume of the Cauchy stress of each cell: xx, yy, zz, xy, yz, zx. zz is the hoop stress of
 /// axisymmetric cells; bars give the tensor of their axial stress, nodal cells the mean of their patches.
+/// wanted: increasing, the cells that are asked for, others may have zeros; empty: all.
 std::vector<std::array<double, 6>> cell_stress(const Solid& solid, std::span<const double> u,
-                                               const PointStep& step = {});
+                                               const PointStep& step = {}, std::span<const Index> wanted = {});
 /// The largest measure of these stresses and its cell, the first of several.
 std::pair<double, std::size_t> largest_stress(const Solid& solid, std::span<const double> u, const PointStep& step,
                                               double (*measure)(const Voigt& stress));

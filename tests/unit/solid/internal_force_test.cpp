@@ -1,6 +1,8 @@
 // Internal force, energy and stress of the HEXA8 solid.
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "element/hexa8.hpp"
 #include "parallel/threads.hpp"
 #include "solid/cell_values.hpp"
@@ -146,6 +148,43 @@ TEST_P(EveryIsa, ForceOfSomeCellsIsTheirShare) {
   EXPECT_GT(largest_difference(f, internal_force(solid, u)), 0.1) << "three cells are not the whole body";
   solid.add_internal_force_of(others, u, f);
   EXPECT_LT(largest_difference(f, internal_force(solid, u)), round_off);
+}
+
+/// Every hexahedron of the mesh as six tetrahedra around its diagonal.
+Model nodal_tetrahedra(const Mesh& hexahedra) {
+  constexpr std::size_t corner[]{1, 2, 3, 7, 4, 5, 1};
+  Mesh mesh = hexahedra;
+  CellBlock block{CellType::tetra4, {}, {}};
+  for (Index c = 0; c < static_cast<Index>(hexahedra.blocks[0].size()); ++c) {
+    const std::span<const Index> n = hexahedra.blocks[0].nodes(c);
+    for (std::size_t k = 0; k < 6; ++k) {
+      block.connectivity.insert(block.connectivity.end(), {n[0], n[corner[k]], n[corner[k + 1]], n[6]});
+      block.file_numbers.push_back(static_cast<std::int64_t>(block.file_numbers.size()));
+    }
+  }
+  mesh.blocks = {block};
+  Model model;
+  Part part{.name = "body", .cells = std::vector<Index>(block.size()), .material = unit_material};
+  std::iota(part.cells.begin(), part.cells.end(), 0);
+  part.type = CellType::tetra4;
+  part.formulation = Formulation::nodal;
+  model.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  model.parts.push_back(std::move(part));
+  return model;
+}
+
+// Many chunks of 512 cells, of nodal cells many of their patches: those without a wanted cell are left out.
+TEST(CellStress, OfSomeCellsIsThatOfAll) {
+  const auto expect_same = [](const Model& model, const std::vector<Index>& wanted, std::size_t left_out) {
+    const Solid solid(model);
+    const std::vector<double> u = random_vector(solid.dof_count(), 5);
+    const auto all = cell_stress(solid, u), some = cell_stress(solid, u, {}, wanted);
+    for (const Index k : wanted) EXPECT_EQ(some[at(k)], all[at(k)]) << k;
+    EXPECT_EQ(some[left_out], (std::array<double, 6>{})) << "a chunk that nobody asks for";
+    EXPECT_NE(all[left_out], some[left_out]);
+  };
+  expect_same(one_part(block_mesh({16, 16, 24}, 0.2)), {3, 511, 2000, 6143}, 1000);
+  expect_same(nodal_tetrahedra(block_mesh({12, 12, 12}, 0.2)), {3, 10000}, 5000);
 }
 
 }  // namespace
