@@ -69,7 +69,7 @@ struct Solid::Parts {
     const auto moves = [](const PrescribedMotion& motion) {
       const std::vector<double>& values = motion.function.value;
       return motion.rotation || motion.function.called ||
-             std::ranges::any_of(values, [](double v) { return v != 0.0; });
+             !is_zero(values);
     };
     const bool acts_through = !patches.empty() || !cohesive.empty() || !model.erosion.empty() ||
                               !model.turning_bodies.empty() || (4 * loaded > all && loaded < all) ||
