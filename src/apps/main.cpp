@@ -102,7 +102,7 @@ void stop_at_signals() {
 /// On stdout, without what could do harm to a terminal.
 template <class... Values>
 void show(fmt::format_string<Values...> format, Values&&... values) {
-  fmt::print("{}", carom::terminal_text(fmt::format(format, std::forward<Values>(values)...)));
+  carom::print_to_terminal(stdout, fmt::format(format, std::forward<Values>(values)...));
 }
 
 std::string results_folder(const Arguments& arguments, const char* ending) {
@@ -278,7 +278,7 @@ void add_report(CLI::App& app, Arguments& arguments) {
 }
 
 void print_error(const std::string& what) {
-  fmt::print(stderr, "error: {}\n", carom::terminal_text(what));
+  carom::print_to_terminal(stderr, fmt::format("error: {}\n", what));
 }
 
 carom::JobEnd end_of(ExitCode code, std::string error = {}) {

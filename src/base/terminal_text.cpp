@@ -1,8 +1,13 @@
 #include "base/terminal_text.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdlib>
+#include <iterator>
+#include <utility>
 
 namespace carom {
 
@@ -23,6 +28,39 @@ std::string terminal_text(std::string_view text) {
     }
   }
   return safe;
+}
+
+bool shows_colours(std::FILE* stream) {
+  const char *no = std::getenv("NO_COLOR"), *kind = std::getenv("TERM");
+  const bool is_unwanted = no != nullptr && *no != '\0', is_plain = kind == nullptr || std::string_view(kind) == "dumb";
+  return !is_unwanted && !is_plain && ::isatty(::fileno(stream)) == 1;
+}
+
+std::string with_colours(std::string_view text) {
+  constexpr std::string_view red = "\x1b[1;31m", yellow = "\x1b[1;33m", green = "\x1b[1;32m", blue = "\x1b[36m",
+                             off = "\x1b[0m";
+  constexpr std::pair<std::string_view, std::string_view> beginnings[]{
+      {"error:", red},      {"FAILED", red},  {"failed:", red}, {"good, with doubts:", yellow}, {"warning:", yellow},
+      {"stopped:", yellow}, {"good:", green}, {"note:", blue},  {"ready to run", green}};
+  std::string coloured;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    const auto found = std::ranges::find_if(beginnings, [&](const auto& b) { return line.starts_with(b.first); });
+    if (found == std::end(beginnings))
+      coloured += line;
+    else
+      coloured += fmt::format("{}{}{}{}", found->second, found->first, off, line.substr(found->first.size()));
+    text.remove_prefix(line.size());
+    if (text.empty()) break;
+    coloured += '\n';
+    text.remove_prefix(1);
+  }
+  return coloured;
+}
+
+void print_to_terminal(std::FILE* stream, std::string_view text) {
+  const std::string safe = terminal_text(text);
+  std::fputs((shows_colours(stream) ? with_colours(safe) : safe).c_str(), stream);
 }
 
 std::string printable(std::string_view text) {

@@ -1,6 +1,7 @@
 // Text that a terminal may be shown.
 #pragma once
 
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,16 @@ namespace carom {
 /// and an escape sequence in one could do anything to the terminal. UTF-8 stays; its control characters U+0080 to
 /// U+009F do not.
 std::string terminal_text(std::string_view text);
+
+/// True where the stream is a terminal that shows colours, and the environment does not say NO_COLOR
+/// (https://no-color.org).
+bool shows_colours(std::FILE* stream);
+
+/// The text with the words that its lines begin with coloured: good ones green, doubtful ones yellow, wrong ones red.
+std::string with_colours(std::string_view text);
+
+/// Prints the text as terminal_text has it, with colours where the stream shows them.
+void print_to_terminal(std::FILE* stream, std::string_view text);
 
 /// At most 40 characters of `text`, in quotes, with unprintable bytes as \xNN.
 std::string printable(std::string_view text);

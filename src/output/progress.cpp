@@ -23,9 +23,14 @@ int terminal_width(std::FILE* stream) {
   return size.ws_col;
 }
 
-double fraction_done(double t, double t_end) {
+double share_of_time(double t, double t_end) {
   if (!(t_end > 0.0) || !std::isfinite(t)) return 0.0;
   return std::clamp(t / t_end, 0.0, 1.0);
+}
+
+double share_of_steps(const ProgressUpdate& now) {
+  const double made = static_cast<double>(now.step), all = made + now.steps_left;
+  return all > 0.0 && std::isfinite(all) ? std::clamp(made / all, 0.0, 1.0) : 0.0;
 }
 
 /// Unicode eighths of a block; `width` columns, three bytes each.
@@ -37,13 +42,15 @@ std::string bar(double fraction, int width) {
 }
 
 /// What stands beside the bar, most important first; every character is one column.
-std::vector<std::string> entries(const ProgressUpdate& now, double t_end, double seconds_left) {
-  const double fraction = fraction_done(now.t, t_end);
-  std::vector<std::string> list{fmt::format("{:3.0f} %", std::floor(100.0 * fraction)), fmt::format("t {:.4g}", now.t)};
+std::vector<std::string> entries(const ProgressUpdate& now, double seconds_left) {
+  const double percent = std::floor(100.0 * share_of_steps(now) + 1e-9);
+  std::vector<std::string> list{fmt::format("{:3.0f} %", percent), fmt::format("t {:.4g}", now.t)};
   if (std::isfinite(seconds_left)) list.push_back("left " + duration_text(seconds_left));
   list.push_back(fmt::format("step {}", now.step));
   list.push_back(fmt::format("dt {:.3g}", now.dt));
   if (now.iterations > 0) list.push_back(fmt::format("it {}", now.iterations));
+  list.push_back(fmt::format("kinetic {:.3g}", now.kinetic));
+  if (now.force > 0.0) list.push_back(fmt::format("force {:.3g}", now.force));
   list.push_back(fmt::format("energy error {:.1e}", now.energy_error));
   return list;
 }
@@ -64,33 +71,33 @@ std::string duration_text(double seconds) {
 }
 
 std::string progress_share(double t, double t_end, std::optional<double> seconds_left) {
-  std::string text = t_end > 0.0 ? fmt::format("{:.0f} % of the time", 100.0 * fraction_done(t, t_end)) : "";
+  std::string text = t_end > 0.0 ? fmt::format("{:.0f} % of the time", 100.0 * share_of_time(t, t_end)) : "";
   if (seconds_left) text += fmt::format(", about {} left", duration_text(*seconds_left));
   return text;
 }
 
-std::string progress_line(const ProgressUpdate& now, double t_end, double seconds_left, int width) {
+std::string progress_line(const ProgressUpdate& now, double seconds_left, int width) {
   constexpr int kShortestBar = 8, kLongestBar = 30;
   std::string text;
-  for (const std::string& entry : entries(now, t_end, seconds_left)) {
+  for (const std::string& entry : entries(now, seconds_left)) {
     const std::string longer = text.empty() ? entry : text + "  " + entry;
     if (static_cast<int>(longer.size()) > width) break;
     text = longer;
   }
   const int room = std::min(width - static_cast<int>(text.size()) - 1, kLongestBar);
   if (room < kShortestBar) return text;
-  return bar(fraction_done(now.t, t_end), room) + " " + text;
+  return bar(share_of_steps(now), room) + " " + text;
 }
 
-Progress::Progress(std::FILE* stream, double t_end, ProgressMode mode)
-    : stream_(stream), t_end_(t_end), mode_(mode), last_shown_(Clock::now() - kLiveInterval) {
+Progress::Progress(std::FILE* stream, ProgressMode mode)
+    : stream_(stream), mode_(mode), last_shown_(Clock::now() - kLiveInterval) {
   if (mode_ == ProgressMode::automatic) {
     mode_ = ::isatty(::fileno(stream)) != 0 ? ProgressMode::live : ProgressMode::lines;
   }
 }
 
 void Progress::update(const ProgressUpdate& now) {
-  if (!first_) first_ = First{Clock::now(), now.t};
+  if (mode_ != ProgressMode::quiet) follow(now);
   if (mode_ == ProgressMode::live) {
     show_live(now);
   } else if (mode_ == ProgressMode::lines) {
@@ -98,11 +105,22 @@ void Progress::update(const ProgressUpdate& now) {
   }
 }
 
-/// At the pace since the first step: what came before it, such as a factorisation, does not come again.
-double Progress::seconds_left(double t) const {
-  if (t >= t_end_) return 0.0;
-  if (!first_ || !(t > first_->t)) return std::numeric_limits<double>::quiet_NaN();
-  return std::chrono::duration<double>(Clock::now() - first_->time).count() * (t_end_ - t) / (t - first_->t);
+/// What came before the first step, such as a factorisation, does not come again; and steps that take longer than
+/// others, as in contact, are soon all that is looked at.
+void Progress::follow(const ProgressUpdate& now) {
+  constexpr std::chrono::milliseconds apart(100);
+  constexpr std::size_t most = 50;
+  const Clock::time_point time = Clock::now();
+  if (!marks_.empty() && time - marks_.back().time < apart) return;
+  marks_.push_back({time, now.step});
+  if (marks_.size() > most) marks_.pop_front();
+}
+
+double Progress::seconds_left(const ProgressUpdate& now) const {
+  if (now.steps_left == 0.0) return 0.0;
+  if (marks_.empty() || now.step <= marks_.front().step) return std::numeric_limits<double>::quiet_NaN();
+  return std::chrono::duration<double>(Clock::now() - marks_.front().time).count() * now.steps_left /
+         static_cast<double>(now.step - marks_.front().step);
 }
 
 void Progress::show_live(const ProgressUpdate& now) {
@@ -110,16 +128,15 @@ void Progress::show_live(const ProgressUpdate& now) {
   if (time - last_shown_ < kLiveInterval) return;
   last_shown_ = time;
   // The last column stays free: a full line would wrap on some terminals.
-  show(stream_,
-       fmt::format("\r{}\x1b[K", progress_line(now, t_end_, seconds_left(now.t), terminal_width(stream_) - 1)));
+  show(stream_, fmt::format("\r{}\x1b[K", progress_line(now, seconds_left(now), terminal_width(stream_) - 1)));
   live_shown_ = true;
 }
 
 void Progress::show_line(const ProgressUpdate& now) {
-  const double fraction = fraction_done(now.t, t_end_);
+  const double fraction = share_of_steps(now);
   if (fraction < next_line_ - 1e-9) return;
   next_line_ = kLineEvery * (std::floor(fraction / kLineEvery + 1e-9) + 1.0);
-  show(stream_, fmt::format("{}\n", fmt::join(entries(now, t_end_, seconds_left(now.t)), "  ")));
+  show(stream_, fmt::format("{}\n", fmt::join(entries(now, seconds_left(now)), "  ")));
 }
 
 void Progress::clear_live() {

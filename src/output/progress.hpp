@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,7 +12,7 @@
 namespace carom {
 
 /// automatic: live on a terminal, else lines. live: one line rewritten in place, at most 10 times per second.
-/// lines: a plain line every 5 percent of the time. quiet: nothing at all.
+/// lines: a plain line every 5 percent of the steps. quiet: nothing at all.
 enum class ProgressMode : std::uint8_t { automatic, live, lines, quiet };
 
 /// One finished step.
@@ -21,12 +22,16 @@ struct ProgressUpdate {
   double dt = 0.0;
   int iterations = 0;         ///< of the step's solver; 0 for explicit schemes
   double energy_error = 0.0;  ///< imbalance relative to the initial and supplied energy
+  double steps_left = 0.0;    ///< about so many are still to be made
+  double kinetic = 0.0;       ///< energy
+  double force = 0.0;         ///< that presses in all contacts together
 };
 
-/// Shows how far a run from 0 to t_end has come. Costs a clock reading per update when nothing is due.
+/// Shows how far a run has come: steps made, of those and what is left. Costs a clock reading per update when nothing
+/// is due.
 class Progress {
  public:
-  Progress(std::FILE* stream, double t_end, ProgressMode mode);
+  Progress(std::FILE* stream, ProgressMode mode);
 
   void update(const ProgressUpdate& now);
   /// Clears the live line and writes `message` on a line of its own (nothing when it is empty or the mode is quiet).
@@ -38,19 +43,19 @@ class Progress {
   void show_live(const ProgressUpdate& now);
   void show_line(const ProgressUpdate& now);
   void clear_live();
-  double seconds_left(double t) const;
+  void follow(const ProgressUpdate& now);
+  double seconds_left(const ProgressUpdate& now) const;
 
   std::FILE* stream_;
-  double t_end_;
   ProgressMode mode_;
-  /// When the first step was done, and the time that it reached.
-  struct First {
+  /// When a step was done.
+  struct Mark {
     Clock::time_point time;
-    double t;
+    std::int64_t step;
   };
-  std::optional<First> first_;
+  std::deque<Mark> marks_;  ///< of the last seconds
   Clock::time_point last_shown_;
-  double next_line_ = 0.05;  ///< fraction of t_end at which the next plain line is due
+  double next_line_ = 0.05;  ///< fraction of the steps at which the next plain line is due
   bool live_shown_ = false;  ///< a live line stands on the terminal
 };
 
@@ -60,8 +65,9 @@ std::string duration_text(double seconds);
 /// "43 % of the time, about 50 s left", as far as end (0: not known) and the rest are known.
 std::string progress_share(double t, double t_end, std::optional<double> seconds_left);
 
-/// The text of one progress line, at most `width` columns: bar, percentage, t, step, dt, iterations, energy error, time
-/// left (where it is finite). What does not fit is left out from the right, the bar shrinks first.
-std::string progress_line(const ProgressUpdate& now, double t_end, double seconds_left, int width);
+/// The text of one progress line, at most `width` columns: bar, percentage of the steps, t, time left (where it is
+/// finite), step, dt, iterations, kinetic energy, force of contact (where there is one), energy error. What does not
+/// fit is left out from the right, the bar shrinks first.
+std::string progress_line(const ProgressUpdate& now, double seconds_left, int width);
 
 }  // namespace carom

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
 
+#include "advise/steps_left.hpp"
 #include "base/terminal_text.hpp"
 #include "build/initial_state.hpp"
 #include "build/read_whole.hpp"
@@ -25,17 +27,28 @@ bool is_first() {
   return ranks().own() == 0;
 }
 
+/// What presses in all contacts together.
+double normal_force(const ContactResponse& rows) {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < rows.force.size(); ++r)
+    if (!is_bond(rows.rows->law[r])) sum += std::abs(rows.force[r][0]);
+  return sum;
+}
+
 /// The line of progress.
 class ShownProgress : public Observer {
  public:
-  ShownProgress(double t_end, ProgressMode mode) : progress_(stderr, t_end, is_first() ? mode : ProgressMode::quiet) {}
+  ShownProgress(const Run& run, ProgressMode mode)
+      : left_(run.simulation(), run.march().end()), progress_(stderr, is_first() ? mode : ProgressMode::quiet) {}
   void see(const StepView& view) override {
-    if (view.step > 0)
-      progress_.update({view.state.t, view.step, view.dt, view.iterations, view.monitor.relative_imbalance()});
+    if (view.step == 0) return;
+    progress_.update({view.state.t, view.step, view.dt, view.iterations, view.monitor.relative_imbalance(),
+                      left_.after(view), view.ledger.now().kinetic, normal_force(view.forces.rows)});
   }
   void finish() { progress_.finish(""); }
 
  private:
+  StepsLeft left_;
   Progress progress_;
 };
 
@@ -43,7 +56,7 @@ class ShownProgress : public Observer {
 template <class... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
   if (!is_first()) return;
-  std::fputs(terminal_text(fmt::format(format, std::forward<Values>(values)...)).c_str(), stderr);
+  print_to_terminal(stderr, fmt::format(format, std::forward<Values>(values)...));
 }
 
 void say_lines(std::string_view kind, const std::vector<std::string>& lines) {
@@ -125,7 +138,7 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   const Simulation simulation(std::move(read.given));
   Run run(simulation, is_first() ? options.folder : "", begin);
   run.note(std::move(read.notes));
-  ShownProgress progress(simulation.end(), options.progress);
+  ShownProgress progress(run, options.progress);
   run.add(progress);
   run.begin();
   if (options.progress != ProgressMode::quiet) {
@@ -145,7 +158,7 @@ ExitCode resume_case(const RunOptions& options, std::optional<double> end, const
   const Simulation simulation(found.given);
   Run run(simulation, is_first() ? options.folder : "", begin);
   run.go_on(std::move(found), end);
-  ShownProgress progress(run.march().end(), options.progress);
+  ShownProgress progress(run, options.progress);
   run.add(progress);
   if (!checkpoint.passed_over.empty()) say("warning: {}\n", checkpoint.passed_over);
   if (options.progress != ProgressMode::quiet) {

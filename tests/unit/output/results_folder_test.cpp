@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -81,6 +83,25 @@ TEST(TerminalText, HasNoControlCharacters) {
   EXPECT_EQ(terminal_text("\xc2\x9b"
                           "31m"),
             "\\x9b31m");  // CSI of ISO 6429 in UTF-8
+}
+
+TEST(TerminalText, ColoursTheWordsThatLinesBeginWith) {
+  EXPECT_EQ(with_colours("good: 3 of 3\n2 steps\n"), "\x1b[1;32mgood:\x1b[0m 3 of 3\n2 steps\n");
+  EXPECT_EQ(with_colours("a\nwarning: b: error: c"), "a\n\x1b[1;33mwarning:\x1b[0m b: error: c");
+  EXPECT_EQ(with_colours("good, with doubts: d\n"), "\x1b[1;33mgood, with doubts:\x1b[0m d\n");
+  EXPECT_EQ(with_colours("FAILED  overlap\n\n"), "\x1b[1;31mFAILED\x1b[0m  overlap\n\n");
+  EXPECT_EQ(with_colours(""), "");
+}
+
+// Files, pipes, and terminals whose user does not want any.
+TEST(TerminalText, ShowsNoColoursInFiles) {
+  std::FILE* file = std::tmpfile();
+  EXPECT_FALSE(shows_colours(file));
+  print_to_terminal(file, "error: \x1b[2J");
+  std::rewind(file);
+  std::array<char, 32> read{};
+  EXPECT_EQ(std::string(read.data(), std::fread(read.data(), 1, read.size(), file)), "error: \\x1b[2J");
+  std::fclose(file);
 }
 
 }  // namespace
