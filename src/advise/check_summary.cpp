@@ -21,6 +21,7 @@
 #include "math/vec3.hpp"
 #include "record/frame_plan.hpp"
 #include "record/recorder.hpp"
+#include "solid/part_inertia.hpp"
 #include "solid/smallest_cell.hpp"
 #include "solid/stability.hpp"
 
@@ -34,7 +35,8 @@ struct PartLine {
   long long cells = 0;
   double mass = 0.0, kinetic = 0.0;
   Vec3 momentum{};
-  std::string rigid_body;  ///< whose mass is that of the whole
+  std::string rigid_body;            ///< whose mass is that of the whole
+  std::vector<const Part*> parts{};  ///< of one name, one for each type of cells
 };
 
 void summarise(const Simulation& s, const Part& part, std::size_t first, const State& state, PartLine& sum) {
@@ -65,14 +67,55 @@ std::vector<PartLine> summarise(const Simulation& s, const State& state) {
   for (std::size_t p = 0; p < numbers.size(); ++p) {
     const Part& part = s.model().parts[p];
     if (at(numbers[p]) == lines.size()) lines.push_back({part.name, 0, 0.0, 0.0, {}, {}});
+    lines.back().parts.push_back(&part);
     summarise(s, part, first, state, lines.back());
     first += part.cells.size();
   }
   return lines;
 }
 
-std::string format_vector(const Vec3& v) {
+/// What is rounding beside `size` is 0.
+std::string format_vector(Vec3 v, double size = 0.0) {
+  for (double& component : v)
+    if (std::abs(component) < 1e-12 * size) component = 0.0;
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0], v[1], v[2]);
+}
+
+std::string format_momentum(const PartLine& of) {
+  return format_vector(of.momentum, std::sqrt(2.0 * of.mass * of.kinetic));
+}
+
+/// Centre, and inertia about it; of rings their mass says all.
+std::string describe_inertia(const Mesh& mesh, std::span<const Part* const> parts, UnitSystem units) {
+  const auto is_ring = [](const Part* part) { return part->section == Section::axisymmetric; };
+  if (std::ranges::any_of(parts, is_ring)) return {};
+  constexpr double noise = 1e-9;
+  const PartInertia its = inertia_of(mesh, parts);
+  const double trace = its.moments[0] + its.moments[1] + its.moments[2];
+  const bool is_turned = norm(its.products) > noise * trace;
+  return fmt::format("            centre {}, inertia about it {}{} {} {}2\n",
+                     format_vector(its.centre, std::sqrt(trace / its.mass)), format_vector(its.moments),
+                     is_turned ? ", products xy, yz, zx " + format_vector(its.products) : "",
+                     unit_name(Dimension::mass, units), unit_name(Dimension::length, units));
+}
+
+/// Several parts together; nothing of one.
+std::string describe_all(const Mesh& mesh, std::span<const PartLine> lines, UnitSystem units) {
+  PartLine all;
+  std::size_t count = 0;
+  for (const PartLine& line : lines) {
+    if (!line.rigid_body.empty()) continue;
+    ++count;
+    all.mass += line.mass;
+    all.kinetic += line.kinetic;
+    all.momentum = add(all.momentum, line.momentum);
+    all.parts.insert(all.parts.end(), line.parts.begin(), line.parts.end());
+  }
+  if (count < 2) return {};
+  return fmt::format("  all parts mass {:.6g} {}, kinetic energy {:.6g} {}, momentum {}\n", all.mass,
+                     unit_name(Dimension::mass, units), all.kinetic, unit_name(Dimension::energy, units),
+                     format_momentum(all)) +
+         describe_inertia(mesh, all.parts, units);
 }
 
 std::string count_of(long long n, const char* what) {
@@ -163,7 +206,8 @@ std::string check_summary(const Simulation& s, const Rehearsal& seen) {
                   count_of(static_cast<long long>(given_nodes(s.given(), s.mesh())), "node"),
                   count_of(static_cast<long long>(s.solid().cells().size()), "solid cell"), smallest_cell(s.solid()),
                   unit(Dimension::length));
-  for (const PartLine& p : summarise(s, state)) {
+  const std::vector<PartLine> lines = summarise(s, state);
+  for (const PartLine& p : lines) {
     if (!p.rigid_body.empty()) {
       text +=
           fmt::format("  part      \"{}\": {} of rigid body \"{}\"\n", p.name, count_of(p.cells, "cell"), p.rigid_body);
@@ -171,8 +215,10 @@ std::string check_summary(const Simulation& s, const Rehearsal& seen) {
     }
     text += fmt::format("  part      \"{}\": {}, mass {:.6g} {}, kinetic energy {:.6g} {}, momentum {}\n", p.name,
                         count_of(p.cells, "cell"), p.mass, unit(Dimension::mass), p.kinetic, unit(Dimension::energy),
-                        format_vector(p.momentum));
+                        format_momentum(p));
+    text += describe_inertia(s.mesh(), p.parts, units);
   }
+  text += describe_all(s.mesh(), lines, units);
   for (const TurningBody& body : s.model().turning_bodies) text += describe(body, s, state);
   for (const PointMass& point : s.model().point_masses) {
     text +=
