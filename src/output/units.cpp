@@ -9,10 +9,17 @@
 
 #include "energy/ledger.hpp"
 #include "output/quantities.hpp"
+#include "output/readable_unit.hpp"
 
 namespace carom {
 
 namespace {
+
+std::optional<UnitSystem> system_of(const Units& units) {
+  const auto is_it = [&](UnitSystem system) { return units_of(name(system)) == units; };
+  const auto* const found = std::ranges::find_if(unit_systems, is_it);
+  return found == unit_systems.end() ? std::nullopt : std::optional(*found);
+}
 
 Dimension dimension_of(std::string_view quantity) {
   const Quantity* found = find_quantity(quantity);
@@ -77,13 +84,18 @@ ColumnName parse_column(std::string_view column) {
 }
 
 std::string unit_of(const Units& units, Dimension dimension) {
-  const auto is_it = [&](UnitSystem system) { return units_of(name(system)) == units; };
-  const auto* const found = std::ranges::find_if(unit_systems, is_it);
-  if (found == unit_systems.end()) return {};
-  std::string unit(unit_name(dimension, *found));
+  const std::optional<UnitSystem> system = system_of(units);
+  if (!system) return {};
+  std::string unit(unit_name(dimension, *system));
   for (const auto& [digit, raised] : {std::pair{'2', "²"}, std::pair{'3', "³"}})
     for (std::size_t at = 0; (at = unit.find(digit)) != std::string::npos;) unit.replace(at, 1, raised);
   return unit;
+}
+
+std::string in_g(double acceleration, const Units& units) {
+  constexpr double g = 9.80665;
+  const std::optional<UnitSystem> system = system_of(units);
+  return system ? number_text(acceleration * si_factor(Dimension::acceleration, *system) / g, 4) + " g" : "";
 }
 
 std::string unit_of_column(const Units& units, std::string_view column) {

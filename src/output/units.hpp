@@ -34,6 +34,10 @@ ColumnName parse_column(std::string_view column);
 /// Name of the unit of a dimension, e.g. "m/s²"; "" where there is none, or where the system is unknown.
 std::string unit_of(const Units& units, Dimension dimension);
 
+/// An acceleration as a multiple of the standard gravity, 9.80665 m/s² (CGPM 1901), e.g. "3134 g"; "" where the system
+/// is unknown.
+std::string in_g(double acceleration, const Units& units);
+
 /// Unit of a column of energy.csv, contact.csv or probes.csv by its name, e.g. "m/s" for "B.velocity_z" in SI; "" for
 /// numbers without a unit.
 std::string unit_of_column(const Units& units, std::string_view column);

@@ -63,23 +63,66 @@ Vec3 vector_at(const CsvTable& table, const std::string& place, std::string_view
   return v;
 }
 
-void add_peak_forces(const CsvTable& contact, const Units& units, std::vector<KeyFigure>& figures) {
+struct Peak {
+  double value = 0.0, time = 0.0;
+};
+
+/// The greatest length of a vector at a place.
+Peak peak_of(const CsvTable& table, const std::string& place, std::string_view quantity) {
+  Peak peak;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double value = length(vector_at(table, place, quantity, row));
+    if (value > peak.value) peak = {value, table.values.front()[row]};
+  }
+  return peak;
+}
+
+/// The class of a column of filtered curves, "CFC 1000".
+std::string class_of(const CsvTable& filtered, std::string_view column) {
+  const std::string begin = std::string(column) + ": SAE J211 ";
+  for (const std::string& comment : filtered.comments)
+    if (comment.starts_with(begin)) return comment.substr(begin.size());
+  return "filtered";
+}
+
+void add_peak_forces(const Tables& tables, const Units& units, std::vector<KeyFigure>& figures) {
+  const CsvTable& contact = *tables.contact;
   std::vector<Weighed> all;
   for (const std::string& place : places_with(contact, "force")) {
-    double peak = 0.0, when = 0.0;
-    for (std::size_t row = 0; row < contact.rows(); ++row) {
-      const double force = length(vector_at(contact, place, "force", row));
-      if (!(force > peak)) continue;
-      peak = force;
-      when = contact.values.front()[row];
+    const Peak peak = peak_of(contact, place, "force");
+    std::string remark = "at " + time_text(peak.time, units);
+    const std::string column = place + ".force_x";
+    if (tables.contact_filtered && tables.contact_filtered->column(column) != nullptr) {
+      const Peak filtered = peak_of(*tables.contact_filtered, place, "force");
+      remark += fmt::format("; {}: {} at {}", class_of(*tables.contact_filtered, column),
+                            with_readable_unit(filtered.value, units.force, 4), time_text(filtered.time, units));
     }
     all.push_back(
-        {{"Peak force, " + place, with_readable_unit(peak, units.force, 4), "at " + time_text(when, units)}, peak});
+        {{"Peak force, " + place, with_readable_unit(peak.value, units.force, 4), std::move(remark)}, peak.value});
   }
   if (!all.empty() && std::all_of(all.begin(), all.end(), [](const Weighed& w) { return w.weight == 0.0; })) {
     figures.push_back({"Contact force", "none", "nothing was touched"});
     return;
   }
+  keep_largest(all, figures);
+}
+
+void add_peak_accelerations(const Tables& tables, const Units& units, std::vector<KeyFigure>& figures) {
+  if (!tables.probes_filtered || !tables.probes) return;
+  std::vector<Weighed> all;
+  for (const char* quantity : {"acceleration", "local_acceleration"})
+    for (const std::string& place : places_with(*tables.probes_filtered, quantity)) {
+      const Peak filtered = peak_of(*tables.probes_filtered, place, quantity),
+                 raw = peak_of(*tables.probes, place, quantity);
+      const std::string column = fmt::format("{}.{}_x", place, quantity), unit = unit_of_column(units, column),
+                        plain = with_readable_unit(filtered.value, unit, 4), g = in_g(filtered.value, units);
+      all.push_back({{fmt::format("Peak acceleration, {}, {}", place, class_of(*tables.probes_filtered, column)),
+                      g.empty() ? plain : g,
+                      fmt::format("{}{}at {}; {} unfiltered", g.empty() ? "" : plain, g.empty() ? "" : ", ",
+                                  time_text(filtered.time, units),
+                                  g.empty() ? with_readable_unit(raw.value, unit, 4) : in_g(raw.value, units))},
+                     filtered.value});
+    }
   keep_largest(all, figures);
 }
 
@@ -188,8 +231,10 @@ std::pair<double, LargestValue> largest_value(const Quantity& quantity, const Cs
   const std::string_view axes = parse_column(table.columns[component]).component;
   if (!is_vector || quantity.columns.size() == 1) name += axes.empty() ? "" : fmt::format(" {}", axes);
   const std::string unit = unit_of_column(units, table.columns[component]);
-  return {largest, LargestValue{name, with_readable_unit(largest, unit, 4), time_text(table.values.front()[at], units),
-                                quantity.place}};
+  std::string value = with_readable_unit(largest, unit, 4);
+  if (quantity.name.ends_with("acceleration") && quantity.name != "angular_acceleration")
+    if (const std::string g = in_g(largest, units); !g.empty()) value += ", " + g;
+  return {largest, LargestValue{name, std::move(value), time_text(table.values.front()[at], units), quantity.place}};
 }
 
 }  // namespace
@@ -211,8 +256,17 @@ std::vector<LargestValue> largest_values(const Tables& tables, const std::option
     for (std::size_t i = 0; i < found.size(); ++i)
       if (found[i].first > kNegligible * of_kind[kinds[i]]) all.push_back(std::move(found[i].second));
   };
-  add(tables.contact, [](std::string_view name) { return name == "force" || name == "penetration"; });
-  add(tables.probes, [](std::string_view) { return true; });
+  const auto of_contact = [](std::string_view name) { return name == "force" || name == "penetration"; };
+  const auto any = [](std::string_view) { return true; };
+  const auto add_filtered = [&](const std::optional<CsvTable>& table, const auto& is_wanted) {
+    const std::size_t first = all.size();
+    add(table, is_wanted);
+    for (std::size_t k = first; k < all.size(); ++k) all[k].quantity += ", filtered";
+  };
+  add(tables.contact, of_contact);
+  add_filtered(tables.contact_filtered, of_contact);
+  add(tables.probes, any);
+  add_filtered(tables.probes_filtered, any);
   if (!summary) return all;
   for (LargestValue& value : all)
     for (const ProbeSummary& probe : summary->probes)
@@ -230,9 +284,10 @@ std::vector<LargestValue> largest_values(const Tables& tables, const std::option
 std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units) {
   std::vector<KeyFigure> figures;
   if (tables.contact && tables.contact->rows() > 0) {
-    add_peak_forces(*tables.contact, units, figures);
+    add_peak_forces(tables, units, figures);
     add_durations(*tables.contact, units, figures);
   }
+  add_peak_accelerations(tables, units, figures);
   add_speeds(tables, summary, units, figures);
   if (summary) add_stress(*summary, units, figures);
   return figures;

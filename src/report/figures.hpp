@@ -17,8 +17,9 @@ struct KeyFigure {
 };
 
 /// Peak force of each contact and when, how long each was closed, how fast bodies were before and after, the largest
-/// stress and where. From contact.csv and the summary, as far as they are there; of many contacts or parts the
-/// largest four.
+/// stress and where. Of curves that are filtered the filtered peak as well; of probes' accelerations that alone, since
+/// nodes of a mesh shake as no sensor does. From the tables and the summary, as far as they are there; of many contacts,
+/// probes or parts the largest four.
 std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units);
 
 /// The largest magnitude of something over the run.
@@ -27,7 +28,7 @@ struct LargestValue {
 };
 
 /// Of every contact the largest force and penetration, of every probe the largest of each of its quantities (of a
-/// tensor that of its components), and the largest stress of all.
+/// tensor that of its components), of both what is left of it by their filters, and the largest stress of all.
 std::vector<LargestValue> largest_values(const Tables& tables, const std::optional<Summary>& summary,
                                          const Units& units);
 

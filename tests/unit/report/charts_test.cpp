@@ -239,5 +239,43 @@ TEST(LargestValues, HaveTheStressHoweverSmallItsNumber) {
   EXPECT_TRUE(largest_values({}, summary, kUnits).empty());
 }
 
+// A raw peak of 50 m/s2 of a node that shakes, of which the filter leaves (0, 3, 4) x 9.80665: 5 g; a force of 8 N, 6
+// N.
+TEST(KeyFigures, HaveWhatFiltersLeaveOfPeaks) {
+  constexpr double g = 9.80665;
+  Tables tables;
+  tables.contact = table_of({{"time", {0, 1, 2}}, {"floor.force_x", {0, 8, 0}}, {"floor.force_y", {0, 0, 0}}});
+  tables.contact_filtered = table_of({{"time", {0, 1, 2}}, {"floor.force_x", {0, 5, 6}}, {"floor.force_y", {0, 0, 0}}});
+  tables.contact_filtered->comments = {"floor.force_x: SAE J211 CFC 600"};
+  tables.probes = table_of({{"time", {0, 1, 2}},
+                            {"head.acceleration_x", {0, 50, 0}},
+                            {"head.acceleration_y", {0, 0, 0}},
+                            {"head.acceleration_z", {0, 0, 0}}});
+  tables.probes_filtered = table_of({{"time", {0, 1, 2}},
+                                     {"head.acceleration_x", {0, 0, 0}},
+                                     {"head.acceleration_y", {0, 0, 3 * g}},
+                                     {"head.acceleration_z", {0, 0, 4 * g}}});
+  tables.probes_filtered->comments = {"head.acceleration_x: SAE J211 CFC 1000"};
+  const std::vector<KeyFigure> figures = key_figures(tables, std::nullopt, units_of("SI"));
+  const auto has = [&](const std::string& name, const std::string& value, const std::string& remark) {
+    return std::ranges::any_of(
+        figures, [&](const KeyFigure& f) { return f.title == name && f.value == value && f.remark == remark; });
+  };
+  EXPECT_TRUE(has("Peak force, floor", "8 N", "at 1 s; CFC 600: 6 N at 2 s"));
+  EXPECT_TRUE(has("Peak acceleration, head, CFC 1000", "5 g", "49.03 m/s², at 2 s; 5.099 g unfiltered"));
+  const std::vector<LargestValue> largest = largest_values(tables, std::nullopt, units_of("SI"));
+  const auto of = [&](const std::string& quantity) {
+    const auto found = std::ranges::find(largest, quantity, &LargestValue::quantity);
+    return found == largest.end() ? "" : found->value;
+  };
+  EXPECT_EQ(of("force"), "8 N");
+  EXPECT_EQ(of("force, filtered"), "6 N");
+  EXPECT_EQ(of("acceleration"), "50 m/s², 5.099 g");
+  EXPECT_EQ(of("acceleration, filtered"), "49.03 m/s², 5 g");
+  tables.probes_filtered.reset();
+  for (const KeyFigure& figure : key_figures(tables, std::nullopt, units_of("SI")))
+    EXPECT_FALSE(figure.title.starts_with("Peak acceleration")) << "of a mesh whose nodes shake";
+}
+
 }  // namespace
 }  // namespace carom::report_charts_test
