@@ -136,13 +136,15 @@ std::vector<VerdictItem> RunMonitor::items(const Limits& limits) const {
            "largest imbalance of powers over the run, relative to the larger of initial and supplied energy: forces, "
            "solves and formulas agree to the rounding of every step"),
       item("quadrature", ratio(quadrature_, scale), 0.05,
-           "work of internal and contact forces that the trapezoidal rule misplaces: is the step fine enough for the "
-           "contact?"),
+           "work of internal and contact forces that the trapezoidal rule misplaces. A shorter step or a softer "
+           "contact helps (time.step or time.safety, contact.stiffness_factor)"),
       item("energy gained", ratio(gained, scale), limits.energy_gained,
            "energy that contact, the internal forces or the scheme have added; what a scheme lends and takes back does "
            "not count. A shorter step helps, or a scheme that keeps or dissipates energy"),
-      item("algorithmic dissipation", ratio(algorithmic_, scale), 0.1,
-           "energy that the time scheme takes out (or adds)"),
+      item(
+          "algorithmic dissipation", ratio(algorithmic_, scale), 0.1,
+          "energy that the time scheme takes out (or adds). A shorter step, less numerical damping (alpha, rho_inf, gamma) or "
+          "another scheme keeps more of it; contact that stops or throws back what touches counts here, too"),
       item("linear momentum", linear_momentum_error(), 1e-9, "change of momentum against the impulses"),
       item("angular momentum", angular_momentum_error(), limits.angular_momentum,
            "change of angular momentum against the impulses"),

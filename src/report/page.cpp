@@ -43,6 +43,24 @@ Banner banner_of(const std::optional<Summary>& summary) {
   return {};
 }
 
+/// What did not pass: by how much, what it means and what helps.
+std::string failures(const std::optional<Summary>& summary) {
+  if (!summary) return "";
+  std::string html;
+  const auto add = [&](const std::string& name, const std::string& text) {
+    html += fmt::format("<li><strong>{}</strong>: {}</li>\n", xml_escape(name), xml_escape(text));
+  };
+  for (const VerdictItem& item : summary->verdict)
+    if (!item.pass)
+      add(item.name, fmt::format("{}, and the limit is {} ({})", number_text(item.value, 3), number_text(item.limit, 3),
+                                 item.explanation));
+  for (const CheckSummary& check : summary->checks)
+    if (!check.pass && check.time <= summary->scheme.time_reached)
+      add("check " + check.name, fmt::format("{}, reference {} ({})", number_text(check.value, 6),
+                                             number_text(check.reference, 6), check.source));
+  return html.empty() ? "" : "<ul>\n" + html + "</ul>\n";
+}
+
 /// Bar, time reached and time left of a run that goes on.
 std::string progress_bar(const ReportData& data) {
   if (!data.running) return "";
@@ -70,11 +88,12 @@ std::string header(const ReportData& data) {
   const std::size_t warnings = data.summary ? data.summary->warnings.size() : 0;
   std::string html = fmt::format(
       "<header>\n<p class=\"kicker\">Carom · {}</p>\n<h1>{}</h1>\n"
-      "<div class=\"banner {}\" role=\"status\"><strong>{}</strong><span>{}</span>{}</div>\n",
+      "<div class=\"banner {}\" role=\"status\"><strong>{}</strong><span>{}</span>{}{}</div>\n",
       data.running ? "a run that goes on" : "report of a run", xml_escape(title), banner.style, banner.word,
       xml_escape(has_message ? std::string_view(data.summary->message) : banner.text),
       warnings == 0 ? ""
-                    : fmt::format("<span class=\"warned\">{} warning{}</span>", warnings, warnings == 1 ? "" : "s"));
+                    : fmt::format("<span class=\"warned\">{} warning{}</span>", warnings, warnings == 1 ? "" : "s"),
+      failures(data.summary));
   html += progress_bar(data);
   if (!data.notes.empty()) {
     html += "<ul class=\"notes\">\n";

@@ -122,6 +122,21 @@ TEST_F(ReportOfOutcome, GoodWithoutChecksIsNotTheGreenOfAValidatedRun) {
                        "<div class=\"banner unchecked\" role=\"status\"><strong>Good, no checks</strong>"));
 }
 
+TEST_F(ReportOfOutcome, FailuresStandInTheBannerWithWhatHelps) {
+  Summary summary = read_summary((folder_ / "summary.json").string());
+  summary.verdict = {{"energy gained", 0.0123, 0.005, false, "energy < that. A shorter step helps"},
+                     {"quadrature", 0.01, 0.05, true, "fine"}};
+  summary.checks.resize(1);
+  summary.checks[0].pass = false;
+  write_summary((folder_ / "summary.json").string(), summary);
+  const std::string html = own_page();
+  EXPECT_TRUE(contains(html,
+                       "<ul>\n<li><strong>energy gained</strong>: 0.0123, and the limit is 0.005 (energy &lt; that. "
+                       "A shorter step helps)</li>\n<li><strong>check " +
+                           summary.checks[0].name + "</strong>: "));
+  EXPECT_FALSE(contains(page_of(Outcome::good, false), "<ul>\n<li><strong>"));
+}
+
 TEST_F(ReportOfOutcome, ASpeedOfRoundOffIsNoneAtTheBeginning) {
   Summary summary = read_summary((folder_ / "summary.json").string());
   summary.parts.front().velocity_begin = {0.0, 0.0, -1e-16};
