@@ -71,4 +71,7 @@ std::string_view unit_name(Dimension dimension, UnitSystem system);
 /// How many SI units one unit of the system is: 1 MPa = 1e6 Pa gives 1e6. 1 for a number without dimension.
 double si_factor(Dimension dimension, UnitSystem system);
 
+/// g_n in m/s^2 (3rd General Conference on Weights and Measures, 1901).
+inline constexpr double standard_gravity = 9.80665;
+
 }  // namespace carom

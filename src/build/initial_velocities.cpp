@@ -31,8 +31,9 @@ void add_component(const Located<std::string>& text, std::size_t c, const Mesh& 
 
 std::vector<Vec3> initial_velocities(const CaseInitial& given, const Mesh& mesh, std::span<const Index> nodes) {
   if (!given.has_velocity()) return {};
-  if (!given.angular_velocity && !given.velocity_field) return {*given.velocity};
-  std::vector<Vec3> velocity(nodes.size(), given.velocity.value_or(Vec3{}));
+  const Vec3 common = add(given.velocity.value_or(Vec3{}), given.fall);
+  if (!given.angular_velocity && !given.velocity_field) return {common};
+  std::vector<Vec3> velocity(nodes.size(), common);
   if (given.angular_velocity) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const Vec3& X = mesh.coordinates[static_cast<std::size_t>(nodes[k])];

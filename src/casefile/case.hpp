@@ -164,8 +164,10 @@ struct CaseInitial {
   std::optional<Vec3> angular_velocity;
   std::optional<Vec3> centre;                                         ///< of the rotation
   std::optional<std::array<Located<std::string>, 3>> velocity_field;  ///< a formula in x, y, z for each component
+  std::optional<Located<double>> drop_height;
+  Vec3 fall{};  ///< the velocity after that fall
 
-  bool has_velocity() const { return velocity || angular_velocity || velocity_field; }
+  bool has_velocity() const { return velocity || angular_velocity || velocity_field || drop_height; }
 };
 
 /// [initial_state]

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "casefile/document.hpp"
+#include "math/vec3.hpp"
 #include "output/quantities.hpp"
 
 namespace carom {
@@ -300,6 +302,30 @@ void choose_enforcement(Case& given) {
   };
   choose(given.scheme);
   for (CaseStage& stage : given.stages) choose(stage.scheme);
+}
+
+void find_falls(Case& given) {
+  Vec3 gravity{};
+  for (const CaseLoad& load : given.loads)
+    if (load.kind == CaseLoad::Kind::gravity) gravity = add(gravity, load.vector);
+  const double g = norm(gravity);
+  const auto find = [&](std::vector<CaseInitial>& list, const std::string& path) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (!list[i].drop_height) continue;
+      const double height = **list[i].drop_height;
+      const double earth = standard_gravity / si_factor(Dimension::acceleration, given.units);
+      if (!(g > 0.0))
+        throw CaseError(list[i].drop_height->where, entry_path(path.c_str(), i, "drop_height"),
+                        "a fall without gravity",
+                        fmt::format("[[load]] gravity = [0.0, 0.0, {:.6g}] or the like", -earth),
+                        fmt::format("Or give velocity = [0.0, 0.0, {:.6g}] instead of the height.",
+                                    -std::sqrt(2.0 * earth * height)));
+      list[i].fall = scaled(gravity, std::sqrt(2.0 * height / g));
+    }
+  };
+  find(given.initial, "initial");
+  for (std::size_t i = 0; i < given.stages.size(); ++i)
+    find(given.stages[i].initial, entry_path("stage", i, "initial"));
 }
 
 void choose_weights(Case& given) {

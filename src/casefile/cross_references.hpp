@@ -16,6 +16,8 @@ void check_references(const Case& given, CaseErrors& errors);
 /// Where all stages are statics that name no enforcement, chooses the augmented Lagrangian: springs alone would take a
 /// part of the motion. Contacts that give their stiffness or are to be smooth, and stops, keep springs.
 void choose_enforcement(Case& given);
+/// The velocities of drop_height. Throws CaseError where there is no gravity.
+void find_falls(Case& given);
 /// Mass of static stages that say none: that of the next stage with inertia, so that what rests under its weight before
 /// it rests in it.
 void choose_weights(Case& given);

@@ -26,7 +26,6 @@ constexpr Plausible density{Dimension::density, "density", 50.0, 25000.0, "steel
 constexpr Plausible modulus{Dimension::stress, "Young's modulus", 1e5, 1.5e12, "steel", 2.1e11};
 constexpr Plausible wave_speed{Dimension::velocity, "wave speed sqrt(E/rho)", 10.0, 15000.0, "steel", 5170.0};
 constexpr Plausible speed{Dimension::velocity, "speed", 0.0, 5000.0, "sound in steel", 5170.0};
-constexpr double standard_gravity = 9.80665;
 
 bool within(double value, const Plausible& range, UnitSystem units) {
   const double in_si = value * si_factor(range.dimension, units);

@@ -86,6 +86,7 @@ Case case_of(const Node& root, const std::string& name, CaseErrors& errors) {
   if (!errors.empty()) return result;
   choose_enforcement(result);
   choose_weights(result);
+  errors.attempt([&] { find_falls(result); });
   check_references(result, errors);
   if (!errors.empty()) return result;
   choose_methods(result);

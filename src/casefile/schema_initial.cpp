@@ -20,6 +20,10 @@ void add_velocity_keys(SectionSchema<CaseInitial>& s) {
       "[\"-8000 * y * z\", \"8000 * x * z\", \"0\"] for a bar that is twisted about z. They take numbers, pi, + - * / "
       "^, brackets, (condition) ? a : b and functions such as sin, sqrt, exp, abs, min, max.",
       {.default_phrase = "0"});
+  s.key("drop_height", &CaseInitial::drop_height,
+        "The height of a free fall from rest before the run: adds the velocity (2 g h)^(1/2) along g, the sum of the "
+        "gravity of all [[load]]s. Gravity goes on in the run.",
+        {.unit = Dimension::length, .range = greater_than(0.0)});
 }
 
 void check_velocity(CaseInitial& initial, const Node&, const ReadContext& at) {
@@ -62,9 +66,9 @@ SectionSchema<CaseInitial> initial_section() {
   s.key("displacement", &CaseInitial::displacement, "Initial displacement, stress-free where it is uniform.",
         {.unit = Dimension::length});
   add_velocity_keys(s);
-  s.description.alternatives = {
-      {Alternatives::Count::exactly_one, {"nodes", "part"}},
-      {Alternatives::Count::at_least_one, {"displacement", "velocity", "angular_velocity", "velocity_field"}}};
+  s.description.alternatives = {{Alternatives::Count::exactly_one, {"nodes", "part"}},
+                                {Alternatives::Count::at_least_one,
+                                 {"displacement", "velocity", "angular_velocity", "velocity_field", "drop_height"}}};
   s.finish = check_velocity;
   return s;
 }
@@ -78,7 +82,7 @@ SectionSchema<CaseInitial> stage_initial_section() {
   add_velocity_keys(s);
   s.description.alternatives = {
       {Alternatives::Count::exactly_one, {"nodes", "part"}},
-      {Alternatives::Count::at_least_one, {"velocity", "angular_velocity", "velocity_field"}}};
+      {Alternatives::Count::at_least_one, {"velocity", "angular_velocity", "velocity_field", "drop_height"}}};
   s.finish = check_velocity;
   return s;
 }

@@ -93,9 +93,9 @@ std::string unit_of(const Units& units, Dimension dimension) {
 }
 
 std::string in_g(double acceleration, const Units& units) {
-  constexpr double g = 9.80665;
   const std::optional<UnitSystem> system = system_of(units);
-  return system ? number_text(acceleration * si_factor(Dimension::acceleration, *system) / g, 4) + " g" : "";
+  return system ? number_text(acceleration * si_factor(Dimension::acceleration, *system) / standard_gravity, 4) + " g"
+                : "";
 }
 
 std::string unit_of_column(const Units& units, std::string_view column) {

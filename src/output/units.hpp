@@ -34,7 +34,7 @@ ColumnName parse_column(std::string_view column);
 /// Name of the unit of a dimension, e.g. "m/s²"; "" where there is none, or where the system is unknown.
 std::string unit_of(const Units& units, Dimension dimension);
 
-/// An acceleration as a multiple of the standard gravity, 9.80665 m/s² (CGPM 1901), e.g. "3134 g"; "" where the system
+/// An acceleration as a multiple of standard_gravity, e.g. "3134 g"; "" where the system
 /// is unknown.
 std::string in_g(double acceleration, const Units& units);
 

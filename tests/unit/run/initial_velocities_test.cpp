@@ -94,5 +94,33 @@ TEST(InitialVelocities, AreRefusedWhereTheyAreNone) {
   expect("centre = [0.0, 0.0, 1.0]\nvelocity = [1.0, 0.0, 0.0]\n", "without angular_velocity");
 }
 
+// 5 m under gravity of 10 along a slanted line: (2 g h)^(1/2) = 10 along it; what turns or moves besides adds to it.
+TEST(DropHeight, GivesTheSpeedOfTheFall) {
+  const std::string falls =
+      "[[load]]\ngravity = [0.0, 6.0, -8.0]\n[[initial]]\npart = \"body\"\ndrop_height = 5.0\nvelocity = [1.0, 0.0, 0.0]\n"
+      "[scheme]\nkind = \"central_differences\"\n[time]\nend = 1.0\n";
+  const Simulation s(parse_case(case_of_block(falls), "case.toml"));
+  const State state = s.initial_state();
+  for (std::size_t n = 0; n < s.mesh().node_count(); ++n) {
+    EXPECT_DOUBLE_EQ(state.v[3 * n], 1.0);
+    EXPECT_DOUBLE_EQ(state.v[3 * n + 1], 6.0);
+    EXPECT_DOUBLE_EQ(state.v[3 * n + 2], -8.0);
+  }
+}
+
+TEST(DropHeight, IsRefusedWithoutGravityWithBothWaysOut) {
+  const std::string weightless =
+      "[[initial]]\npart = \"body\"\ndrop_height = 1.5\n[scheme]\nkind = \"central_differences\"\n[time]\nend = 1.0\n";
+  const std::string mm = replaced(case_of_block(weightless), "units = \"SI\"", "units = \"mm-t-s\"");
+  try {
+    parse_case(mm, "case.toml");
+    ADD_FAILURE() << "taken";
+  } catch (const CaseError& e) {
+    const std::string said = e.what();
+    EXPECT_NE(said.find("gravity = [0.0, 0.0, -9806.65]"), std::string::npos) << said;
+    EXPECT_NE(said.find("velocity = [0.0, 0.0, -171.522]"), std::string::npos) << said;  // (2 x 9806.65 x 1.5)^(1/2)
+  }
+}
+
 }  // namespace
 }  // namespace carom::run_initial_velocities_test
