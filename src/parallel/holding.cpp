@@ -68,12 +68,6 @@ std::vector<EntryRange> Holding::ranges_of(std::span<const std::uint8_t> held, E
   return ranges;
 }
 
-std::size_t Holding::held() const {
-  std::size_t count = added_.size();
-  for (const EntryRange& range : beside_.ranges) count += range.size();
-  return count;
-}
-
 void Holding::update(std::span<double> values) const {
   Ranks& all = ranks();
   thread_local std::vector<double> given, taken;  // memory that is new costs more than what is copied to it

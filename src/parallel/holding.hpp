@@ -26,8 +26,6 @@ class Holding {
   std::size_t size() const { return items_; }
   /// True where each rank holds all.
   bool is_whole() const { return is_whole_; }
-  /// How many this rank holds.
-  std::size_t held() const;
 
   /// Calls body(begin, end) for ranges of items that together are all that this rank holds, at the same time.
   template <class Body>
