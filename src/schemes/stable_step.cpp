@@ -185,8 +185,8 @@ double StableStepWatch::follow_bodies(const State& state) {
   const double before = omega_squared_;
   parallel_each(cells_.size(), [&](std::size_t k) { growth[k] *= cells_[k]; });
   const double own = parallel_max(cells_.size(), 0.0, [&](std::size_t k) { return growth[k]; });
-  const auto [largest, worst] = largest_on_ranks(
-      own, static_cast<std::size_t>(std::find(growth.begin(), growth.end(), own) - growth.begin()));
+  const auto [largest, worst] =
+      largest_on_ranks(own, static_cast<std::size_t>(std::find(growth.begin(), growth.end(), own) - growth.begin()));
   worst_cell_ = static_cast<Index>(worst);
   omega_squared_ = at_rest_ * largest;
   return 0.5 * std::abs(omega_squared_ / before - 1.0);

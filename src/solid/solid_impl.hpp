@@ -68,8 +68,7 @@ struct Solid::Parts {
     };
     const auto moves = [](const PrescribedMotion& motion) {
       const std::vector<double>& values = motion.function.value;
-      return motion.rotation || motion.function.called ||
-             !is_zero(values);
+      return motion.rotation || motion.function.called || !is_zero(values);
     };
     const bool acts_through = !patches.empty() || !cohesive.empty() || !model.erosion.empty() ||
                               !model.turning_bodies.empty() || (4 * loaded > all && loaded < all) ||
