@@ -1,7 +1,7 @@
 #include "base/terminal_text.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
+#include <sys/ioctl.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -33,7 +33,8 @@ std::string terminal_text(std::string_view text) {
 bool shows_colours(std::FILE* stream) {
   const char *no = std::getenv("NO_COLOR"), *kind = std::getenv("TERM");
   const bool is_unwanted = no != nullptr && *no != '\0', is_plain = kind == nullptr || std::string_view(kind) == "dumb";
-  return !is_unwanted && !is_plain && ::isatty(::fileno(stream)) == 1;
+  winsize size{};  // mpirun gives its processes terminals without any, and writes what comes to its own output
+  return !is_unwanted && !is_plain && ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
 }
 
 std::string with_colours(std::string_view text) {

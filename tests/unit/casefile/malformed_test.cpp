@@ -328,7 +328,7 @@ const std::vector<Malformed> malformed{
      "c.toml:20:8: initial[0]: found nodes and part together; expected exactly one of nodes, part"},
     {"velocity = [0.0, 0.0, -1000.0]\n",
      "",
-     "c.toml:19:1: initial[0]: found none of displacement, velocity, angular_velocity, velocity_field; expected at least one of displacement, velocity, angular_velocity, velocity_field"},
+     "c.toml:19:1: initial[0]: found none of displacement, velocity, angular_velocity, velocity_field, drop_height; expected at least one of displacement, velocity, angular_velocity, velocity_field, drop_height"},
     {"velocity = { z = -2.0, function = \"ramp\" }\n",
      "",
      "c.toml:14:1: support[0]: found none of symmetry, blocked, displacement, velocity, acceleration; expected at least one of symmetry, blocked, displacement, velocity, acceleration"},
