@@ -19,6 +19,8 @@ class SharedState {
  public:
   SharedState(const Solid& solid, const Holding* nodes, State& state) : solid_(&solid), nodes_(nodes), state_(&state) {}
 
+  /// Is there anything that a rank does not know?
+  bool is_partial() const { return nodes_ != nullptr && !nodes_->is_whole(); }
   /// All of it.
   void complete() const { carom::complete(*solid_, nodes_, *state_); }
   /// Displacements, velocities and accelerations of some nodes.

@@ -110,6 +110,7 @@ void Holding::complete(std::span<double> values, std::span<const Index> items) c
 }
 
 void Holding::gather_sums(std::span<double> of_blocks, std::size_t each) const {
+  if (ranks().count() == 1) return;
   std::vector<std::vector<EntryRange>> owned;
   for (std::size_t r = 0; r < ranks().count(); ++r) {
     const EntryRange items = blocks_of(r);

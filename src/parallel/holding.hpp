@@ -78,7 +78,6 @@ class Holding {
 
 template <std::size_t N, class Add>
 std::array<double, N> Holding::sums(const Add& add) const {
-  if (ranks().count() == 1) return parallel_sums<N>(items_, add);
   std::vector<double> of_blocks(N * ((items_ + reduction_block - 1) / reduction_block), 0.0);
   parallel_for(added_.size(), reduction_block, [&](std::size_t begin, std::size_t end) {
     std::array<double, N> s{};

@@ -43,6 +43,7 @@ void parallel_for(std::size_t n, std::size_t grain, const Body& body) {
     body(begin, begin + grain < n ? begin + grain : n);
   };
   const std::size_t count = (n + grain - 1) / grain;
+  if (count == 0) return;
   if (count == 1) return range(0);
   run_parts(
       count, [](const void* context, std::size_t k) { (*static_cast<decltype(&range)>(context))(k); }, &range);

@@ -288,6 +288,7 @@ void ProbeCurves::add_columns(const CaseProbe& given, Probe& probe) {
 }
 
 void ProbeCurves::complete(const StepView& view) const {
+  if (!view.shared.is_partial()) return;
   std::vector<Index> nodes;
   for (const Probe& probe : probes_)
     for (const std::string& quantity : probe.quantities) {

@@ -39,15 +39,18 @@ double normal_force(const ContactResponse& rows) {
 class ShownProgress : public Observer {
  public:
   ShownProgress(const Run& run, ProgressMode mode)
-      : left_(run.simulation(), run.march().end()), progress_(stderr, is_first() ? mode : ProgressMode::quiet) {}
+      : is_quiet_(mode == ProgressMode::quiet || !is_first()),
+        left_(run.simulation(), run.march().end()),
+        progress_(stderr, is_quiet_ ? ProgressMode::quiet : mode) {}
   void see(const StepView& view) override {
-    if (view.step == 0) return;
+    if (view.step == 0 || is_quiet_) return;
     progress_.update({view.state.t, view.step, view.dt, view.iterations, view.monitor.relative_imbalance(),
                       left_.after(view), view.ledger.now().kinetic, normal_force(view.forces.rows)});
   }
   void finish() { progress_.finish(""); }
 
  private:
+  bool is_quiet_;
   StepsLeft left_;
   Progress progress_;
 };

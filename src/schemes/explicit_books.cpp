@@ -124,25 +124,30 @@ LedgerIncrement end_lumped_step(const System& system, const State& begin, const 
   const StateSums of_state(system, end);
   const StepSums of_step(system, begin, end, h);
   constexpr std::size_t count = StateSums::count + 1;
-  const auto move = [&](std::size_t node) {
+  const auto move = [&](std::size_t node, Vec3 & a, Vec3 & v) __attribute__((always_inline)) {
     const double inverse = 1.0 / mass[node];
     const bool is_pushed = pushed[node];
     const Vec3 contact = is_pushed ? f1.contact.at(node) : Vec3{};
     const unsigned fixed = system.supports.fixed_components(node);
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t i = 3 * node + c;
+      a[c] = end.a[i];
+      v[c] = end.v[i];
       if ((fixed >> c & 1U) != 0) continue;
       const double push = is_pushed ? f1.external[i] + contact[c] : 0.0;
-      end.a[i] = inverse * (push - f1.internal[i]);
-      end.v[i] += half * end.a[i];
+      a[c] = inverse * (push - f1.internal[i]);
+      v[c] += half * a[c];
+      end.a[i] = a[c];
+      end.v[i] = v[c];
     }
   };
   nodes.each_range_beside([&](std::size_t first, std::size_t last) {
-    for (std::size_t node = first; node < last; ++node) move(node);
+    Vec3 a, v;
+    for (std::size_t node = first; node < last; ++node) move(node, a, v);
   });
   const auto sums = nodes.sums<count>([&](std::size_t node, std::array<double, count>& s) {
-    move(node);
-    const Vec3 a = vector_at(end.a, node), v = vector_at(end.v, node);
+    Vec3 a, v;
+    move(node, a, v);
     of_state.add(node, v, scaled(v, mass[node]), a, scaled(a, mass[node]), s.data());
     s[count - 1] += of_step.internal_work(node);
   });
