@@ -231,7 +231,8 @@ std::string check_summary(const Simulation& s, const Rehearsal& seen) {
   const std::vector<Approach> contacts = approaches(s, state);
   for (std::size_t i = 0; i < contacts.size(); ++i)
     text += fmt::format("  contact   \"{}\": {}\n", *s.given().contacts[i].name, describe(contacts[i], units));
-  for (std::size_t i = 0; i < s.stages().size(); ++i) text += describe(*s.stages()[i], foretell(s, i, seen).steps, s);
+  const CostEstimate cost = estimate_cost(s, seen);
+  for (std::size_t i = 0; i < s.stages().size(); ++i) text += describe(*s.stages()[i], cost.stages[i].steps, s);
   const StableStep stable = s.stable();
   text += fmt::format("  stable    explicit step {} with contact, {} without; element estimate (lumped mass) {}\n",
                       step_text(stable.dt), step_text(stable.dt_free),
@@ -240,7 +241,6 @@ std::string check_summary(const Simulation& s, const Rehearsal& seen) {
     text += fmt::format("  closing   contact springs that open and close need {:.4g}\n", stable.dt_closing);
   for (const auto& stage : s.stages()) text += describe_driven(*stage, s);
   if (!seen.stages.empty()) text += describe(seen);
-  const CostEstimate cost = estimate_cost(s, seen);
   return text + fmt::format("  cost      {} on one core, {} of memory, {} on disk ({})\n", about_seconds(cost.seconds),
                             about_bytes(cost.memory_bytes), about_bytes(cost.disk_bytes),
                             count_of(cost.frames, "frame") + " of fields");

@@ -72,9 +72,9 @@ CostEstimate estimate_cost(const Simulation& s, const Rehearsal& seen) {
   CostEstimate cost;
   long long steps = 0;
   for (std::size_t i = 0; i < s.stages().size(); ++i) {
-    const Pace pace = foretell(s, i, seen);
-    cost.seconds += pace.seconds;
-    steps += pace.steps;
+    cost.stages.push_back(foretell(s, i, seen));
+    cost.seconds += cost.stages.back().seconds;
+    steps += cost.stages.back().steps;
   }
   // 0.5 kB per cell for the mesh, the kernels' tables and the states (0.44 to 0.46 measured), 2 kB where steps are
   // implicit, with grids and a consistent mass (2.2 measured for 655,000 cells), and twice what points remember. A

@@ -11,10 +11,11 @@ namespace carom {
 
 /// Orders of magnitude, from counts of cells, nodes, steps and frames; seconds and steps as far as they were seen.
 struct CostEstimate {
-  double seconds = 0.0;       ///< on one core
-  double memory_bytes = 0.0;  ///< largest resident memory
-  double disk_bytes = 0.0;    ///< of the results folder
-  long long frames = 0;       ///< of fields
+  std::vector<Pace> stages{};  ///< what each takes
+  double seconds = 0.0;        ///< on one core
+  double memory_bytes = 0.0;   ///< largest resident memory
+  double disk_bytes = 0.0;     ///< of the results folder
+  long long frames = 0;        ///< of fields
 };
 CostEstimate estimate_cost(const Simulation& simulation, const Rehearsal& seen = {});
 

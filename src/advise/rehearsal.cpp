@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
+#include <new>
 #include <utility>
 
 #include "advise/stage_time.hpp"
-#include "base/errors.hpp"
 #include "march/march.hpp"
 #include "march/watches.hpp"
 #include "parallel/threads.hpp"
@@ -74,7 +75,9 @@ Rehearsal rehearse(const Simulation& s, double seconds) {
   try {
     make_steps(march, s, seconds, out, seen);
     out.failure = march.message();
-  } catch (const RunError& error) {
+  } catch (const std::bad_alloc&) {
+    out.failure = "memory ran out";
+  } catch (const std::exception& error) {  // of the run, or of a factorisation that fails
     out.failure = error.what();
   }
   if (!march.is_started() || seen.size() < 2) return out;

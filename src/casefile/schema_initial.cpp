@@ -22,7 +22,7 @@ void add_velocity_keys(SectionSchema<CaseInitial>& s) {
       {.default_phrase = "0"});
   s.key("drop_height", &CaseInitial::drop_height,
         "The height of a free fall from rest before the run: adds the velocity (2 g h)^(1/2) along g, the sum of the "
-        "gravity of all [[load]]s. Gravity goes on in the run.",
+        "gravity of all [[load]]s without their functions. Gravity goes on in the run.",
         {.unit = Dimension::length, .range = greater_than(0.0)});
 }
 
