@@ -20,7 +20,7 @@ constexpr double rounding_of_displacements = 1e-10;
 HeldRows::HeldRows(const System& system) : system_(system), size_(system.contact.equations().size()) {
   if (size_ == 0) return;
   first_slot_ = system.contact.equations().slot.front();
-  diagonal_ = system.solid.tangent_diagonal(std::vector<double>(system.solid.dof_count(), 0.0));
+  diagonal_ = system.solid.diagonal_at_rest();
   stiffness_.resize(size_);
   multiplier_.resize(size_);
 }

@@ -211,7 +211,7 @@ static constexpr double near_equilibrium = 0.1;
 
 AugmentedLagrangianPort::AugmentedLagrangianPort(const System& system, double penetration)
     : PenaltyPort(system), penetration_(penetration) {
-  diagonal_ = system.solid.tangent_diagonal(std::vector<double>(system.solid.dof_count(), 0.0));
+  diagonal_ = system.solid.diagonal_at_rest();
 }
 
 void AugmentedLagrangianPort::begin(const StageStart& start) {

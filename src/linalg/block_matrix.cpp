@@ -10,19 +10,26 @@ namespace {
 
 constexpr std::size_t points_per_task = 512;
 
+/// Calls body(n) for the points of a range.
+template <class Body>
+void each_point(EntryRange range, const Body& body) {
+  parallel_for(range.size(), points_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = range.begin + begin; n < range.begin + end; ++n) body(n);
+  });
+}
+
 template <class Scalar>
-void apply_blocks(const BlockMatrix& A, const Scalar* value, std::span<const double> x, std::span<double> y) {
-  parallel_for(A.points(), points_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      double sum[3] = {};
-      for (std::int64_t k = A.row_begin[n]; k < A.row_begin[n + 1]; ++k) {
-        const Scalar* a = value + 9 * k;
-        const double* of_point = x.data() + 3 * at(A.column[static_cast<std::size_t>(k)]);
-        for (int i = 0; i < 3; ++i)
-          sum[i] += a[3 * i] * of_point[0] + a[3 * i + 1] * of_point[1] + a[3 * i + 2] * of_point[2];
-      }
-      for (std::size_t i = 0; i < 3; ++i) y[3 * n + i] = sum[i];
+void apply_blocks(const BlockMatrix& A, const Scalar* value, std::span<const double> x, std::span<double> y,
+                  EntryRange range) {
+  each_point(range, [&](std::size_t n) {
+    double sum[3] = {};
+    for (std::int64_t k = A.row_begin[n]; k < A.row_begin[n + 1]; ++k) {
+      const Scalar* a = value + 9 * k;
+      const double* of_point = x.data() + 3 * at(A.column[static_cast<std::size_t>(k)]);
+      for (int i = 0; i < 3; ++i)
+        sum[i] += a[3 * i] * of_point[0] + a[3 * i + 1] * of_point[1] + a[3 * i + 2] * of_point[2];
     }
+    for (std::size_t i = 0; i < 3; ++i) y[3 * n + i] = sum[i];
   });
 }
 
@@ -43,11 +50,11 @@ std::ptrdiff_t BlockMatrix::place(Index row, Index col) const {
   return std::lower_bound(first, last, col) - column.begin();
 }
 
-void BlockMatrix::apply(std::span<const double> x, std::span<double> y) const {
+void BlockMatrix::apply(std::span<const double> x, std::span<double> y, EntryRange range) const {
   if (single.empty())
-    apply_blocks(*this, value.data(), x, y);
+    apply_blocks(*this, value.data(), x, y, range);
   else
-    apply_blocks(*this, single.data(), x, y);
+    apply_blocks(*this, single.data(), x, y, range);
 }
 
 void BlockMatrix::round_to_single() {
@@ -142,25 +149,21 @@ void Interpolation::finish(std::size_t coarse_points) {
     }
 }
 
-void Interpolation::apply(std::span<const double> X, std::span<double> x) const {
-  parallel_for(fine_points(), points_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      double sum[3] = {};
-      for (auto k = static_cast<std::size_t>(begin_[n]); k < static_cast<std::size_t>(begin_[n + 1]); ++k)
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += weight_[k] * X[3 * at(coarse_[k]) + i];
-      for (std::size_t i = 0; i < 3; ++i) x[3 * n + i] = sum[i];
-    }
+void Interpolation::apply(std::span<const double> X, std::span<double> x, EntryRange range) const {
+  each_point(range, [&](std::size_t n) {
+    double sum[3] = {};
+    for (auto k = static_cast<std::size_t>(begin_[n]); k < static_cast<std::size_t>(begin_[n + 1]); ++k)
+      for (std::size_t i = 0; i < 3; ++i) sum[i] += weight_[k] * X[3 * at(coarse_[k]) + i];
+    for (std::size_t i = 0; i < 3; ++i) x[3 * n + i] = sum[i];
   });
 }
 
-void Interpolation::restrict_to(std::span<const double> r, std::span<double> R) const {
-  parallel_for(coarse_points(), points_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) {
-      double sum[3] = {};
-      for (auto k = static_cast<std::size_t>(to_begin_[c]); k < static_cast<std::size_t>(to_begin_[c + 1]); ++k)
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += to_weight_[k] * r[3 * at(fine_[k]) + i];
-      for (std::size_t i = 0; i < 3; ++i) R[3 * c + i] = sum[i];
-    }
+void Interpolation::restrict_to(std::span<const double> r, std::span<double> R, EntryRange range) const {
+  each_point(range, [&](std::size_t c) {
+    double sum[3] = {};
+    for (auto k = static_cast<std::size_t>(to_begin_[c]); k < static_cast<std::size_t>(to_begin_[c + 1]); ++k)
+      for (std::size_t i = 0; i < 3; ++i) sum[i] += to_weight_[k] * r[3 * at(fine_[k]) + i];
+    for (std::size_t i = 0; i < 3; ++i) R[3 * c + i] = sum[i];
   });
 }
 

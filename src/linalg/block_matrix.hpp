@@ -7,6 +7,7 @@
 
 #include "base/types.hpp"
 #include "linalg/csr_matrix.hpp"
+#include "parallel/ranks.hpp"
 
 namespace carom {
 
@@ -25,8 +26,9 @@ struct BlockMatrix {
   double* block(Index row, Index col) { return value.data() + 9 * place(row, col); }
   /// The same of a matrix in single precision.
   float* single_block(Index row, Index col) { return single.data() + 9 * place(row, col); }
-  /// y = A x; threaded, same bits for any thread count.
-  void apply(std::span<const double> x, std::span<double> y) const;
+  /// y = A x, at the points of the range alone; threaded, same bits for any thread count.
+  void apply(std::span<const double> x, std::span<double> y, EntryRange range) const;
+  void apply(std::span<const double> x, std::span<double> y) const { apply(x, y, {0, points()}); }
   /// Keeps the entries in single precision, half the memory to go through, for apply() and nothing else.
   void round_to_single();
   /// One entry per unknown.
@@ -75,10 +77,16 @@ class Interpolation {
     return {weight_.data() + begin_[n], weight_.data() + begin_[n + 1]};
   }
 
-  /// x = P X. Threaded, same bits for any thread count, as are the others.
-  void apply(std::span<const double> X, std::span<double> x) const;
-  /// R = P^T r
-  void restrict_to(std::span<const double> r, std::span<double> R) const;
+  /// x = P X, at the points of the range alone. Threaded, same bits for any thread count, as are the others.
+  void apply(std::span<const double> X, std::span<double> x, EntryRange range) const;
+  void apply(std::span<const double> X, std::span<double> x) const { apply(X, x, {0, fine_points()}); }
+  /// R = P^T r, at the coarse points of the range alone.
+  void restrict_to(std::span<const double> r, std::span<double> R, EntryRange range) const;
+  void restrict_to(std::span<const double> r, std::span<double> R) const { restrict_to(r, R, {0, coarse_points()}); }
+  /// The fine points that a coarse one is interpolated to.
+  std::span<const Index> fine_of(std::size_t I) const {
+    return {fine_.data() + to_begin_[I], fine_.data() + to_begin_[I + 1]};
+  }
 
  private:
   std::vector<std::int64_t> begin_{0}, to_begin_{0};

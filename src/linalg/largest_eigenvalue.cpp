@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "linalg/lapack.hpp"
-#include "parallel/threads.hpp"
 
 namespace carom {
 
@@ -43,26 +42,17 @@ double random_entry(std::uint64_t i) {
   return static_cast<double>(z >> 11) * 0x1.0p-52 - 1.0;
 }
 
-/// v /= length
-void divide(std::vector<double>& v, double length) {
-  parallel_for(v.size(), vector_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) v[i] /= length;
-  });
-}
-
-std::vector<double> random_vector(std::size_t n) {
-  std::vector<double> v(n);
-  parallel_for(n, vector_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) v[i] = random_entry(i);
-  });
+std::vector<double> random_vector(const Entries& entries) {
+  std::vector<double> v(entries.count());
+  entries.each([&](std::size_t i) { v[i] = random_entry(i); });
   return v;
 }
 
 /// The three-term recurrence in the inner product of M: v_k are M-orthonormal, p_k = M v_k.
 class Lanczos {
  public:
-  Lanczos(const Pencil& pencil, std::vector<double> start)
-      : pencil_(pencil), v_(std::move(start)), p_(v_.size()), v_old_(v_.size(), 0.0), w_(v_.size()), Kv_(v_.size()) {
+  Lanczos(const Pencil& pencil, const Entries& entries, std::vector<double> start)
+      : pencil_(pencil), entries_(entries), v_(std::move(start)), p_(v_.size()), v_old_(v_.size(), 0.0), w_(v_.size()), Kv_(v_.size()) {
     beta_ = normalise(v_);
   }
 
@@ -72,11 +62,11 @@ class Lanczos {
   EigenvalueEstimate iterate() {
     if (!diagonal_.empty()) off_diagonal_.push_back(beta_);
     pencil_.K(v_, Kv_);
-    const double alpha = dot(v_, Kv_);
+    const double alpha = entries_.dot(v_, Kv_);
     diagonal_.push_back(alpha);
     pencil_.M_inverse(Kv_, w_);
     const double beta_before = diagonal_.size() > 1 ? beta_ : 0.0;
-    parallel_each(v_.size(), [&](std::size_t i) { w_[i] -= alpha * v_[i] + beta_before * v_old_[i]; });
+    entries_.each([&](std::size_t i) { w_[i] -= alpha * v_[i] + beta_before * v_old_[i]; });
     std::swap(v_old_, v_);
     std::swap(v_, w_);
     beta_ = normalise(v_);
@@ -93,30 +83,31 @@ class Lanczos {
   /// v /= |v|_M; returns |v|_M.
   double normalise(std::vector<double>& v) {
     pencil_.M(v, p_);
-    const double length = std::sqrt(dot(v, p_));
-    if (length > 0.0) divide(v, length);
+    const double length = std::sqrt(entries_.dot(v, p_));
+    if (length > 0.0) entries_.each([&](std::size_t i) { v[i] /= length; });
     return length;
   }
 
   const Pencil& pencil_;
+  const Entries& entries_;
   std::vector<double> v_, p_, v_old_, w_, Kv_, diagonal_, off_diagonal_;
   double beta_ = 0.0;
 };
 
 /// A vector without components on what M_inverse leaves out.
-std::vector<double> start_vector(const Pencil& pencil, std::size_t n) {
-  std::vector<double> v(n);
-  pencil.M_inverse(random_vector(n), v);
+std::vector<double> start_vector(const Pencil& pencil, const Entries& entries) {
+  std::vector<double> v(entries.count());
+  pencil.M_inverse(random_vector(entries), v);
   return v;
 }
 
 }  // namespace
 
-EigenvalueEstimate largest_eigenvalue(const Pencil& pencil, std::size_t n, double tolerance, int max_iterations,
+EigenvalueEstimate largest_eigenvalue(const Pencil& pencil, const Entries& entries, double tolerance, int max_iterations,
                                       int least_iterations) {
   EigenvalueEstimate estimate;
-  if (n == 0) return estimate;
-  Lanczos lanczos(pencil, start_vector(pencil, n));
+  if (entries.count() == 0) return estimate;
+  Lanczos lanczos(pencil, entries, start_vector(pencil, entries));
   while (!lanczos.is_finished() && estimate.iterations < max_iterations) {
     estimate = lanczos.iterate();
     const bool is_near = estimate.upper - estimate.value <= tolerance * std::abs(estimate.value);
@@ -125,12 +116,12 @@ EigenvalueEstimate largest_eigenvalue(const Pencil& pencil, std::size_t n, doubl
   return estimate;
 }
 
-EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, std::size_t n, double tolerance, int max_iterations,
+EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, const Entries& entries, double tolerance, int max_iterations,
                                       int least_iterations) {
   const LinearOperator identity = [](std::span<const double> x, std::span<double> y) {
     std::copy(x.begin(), x.end(), y.begin());
   };
-  return largest_eigenvalue({A, identity, identity}, n, tolerance, max_iterations, least_iterations);
+  return largest_eigenvalue({A, identity, identity}, entries, tolerance, max_iterations, least_iterations);
 }
 
 }  // namespace carom

@@ -19,15 +19,15 @@ struct Pencil {
   LinearOperator K, M, M_inverse;
 };
 
-/// Largest eigenvalue of the symmetric positive semi-definite operator A of size n, by Lanczos iteration (Golub and Van
+/// Largest eigenvalue of the symmetric positive semi-definite operator A by Lanczos iteration (Golub and Van
 /// Loan, Matrix Computations, 4th ed., section 10.1) from a fixed pseudo-random start vector, until the residual bound
 /// |beta_k s_k| is below `tolerance` times the value, not before least_iterations, or max_iterations is reached. Same
-/// bits for any thread count.
-EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, std::size_t n, double tolerance = 1e-3,
+/// bits for any number of threads, and of ranks, all of which call it where they share the entries out.
+EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, const Entries& entries, double tolerance = 1e-3,
                                       int max_iterations = 300, int least_iterations = 1);
 
 /// The same for K x = lambda M x, in the inner product of M (Parlett, The Symmetric Eigenvalue Problem, section 15.11).
-EigenvalueEstimate largest_eigenvalue(const Pencil& pencil, std::size_t n, double tolerance = 1e-3,
+EigenvalueEstimate largest_eigenvalue(const Pencil& pencil, const Entries& entries, double tolerance = 1e-3,
                                       int max_iterations = 300, int least_iterations = 1);
 
 }  // namespace carom

@@ -27,11 +27,10 @@ namespace {
 /// signs (Hutchinson, Commun. Stat. Simul. Comput. 19, 1990) and here to some hundredths.
 double trace_at_rest(const Solid& solid) {
   constexpr std::size_t many = 4096;
-  const std::vector<double> zero(solid.dof_count(), 0.0);
   if (solid.cells().size() < many) {
-    const std::vector<double> diagonal = solid.tangent_diagonal(zero);
-    return sum_of(diagonal);
+    return sum_of(solid.diagonal_at_rest());
   }
+  const std::vector<double> zero(solid.dof_count(), 0.0);
   std::vector<double> sign(zero.size()), K_sign(zero.size());
   std::minstd_rand bits;
   for (double& s : sign) s = bits() < std::minstd_rand::max() / 2 ? -1.0 : 1.0;

@@ -12,13 +12,16 @@ Holding::Holding(std::size_t items)
 
 Holding::Holding(std::size_t items, std::vector<std::vector<std::uint8_t>> held) : items_(items) {
   const std::size_t count = ranks().count(), own = ranks().own();
+  std::vector<std::uint8_t> by_all(items, 1);
   for (std::size_t r = 0; r < count; ++r) {
     const EntryRange owned = share_of(r, count, items), blocks = blocks_of(r);
     const auto at = [&](std::size_t i) { return held[r].begin() + static_cast<std::ptrdiff_t>(i); };
     std::fill(at(owned.begin), at(owned.end), std::uint8_t{1});
     std::fill(at(blocks.begin), at(blocks.end), std::uint8_t{1});
-    is_whole_ = is_whole_ && std::ranges::find(held[r], 0) == held[r].end();
+    for (std::size_t i = 0; i < items; ++i) by_all[i] &= held[r][i];
   }
+  by_all_ = ranges_of(by_all, {0, items});
+  is_whole_ = std::ranges::find(by_all, 0) == by_all.end();
   added_ = blocks_of(own);
   for (const EntryRange& among : {EntryRange{0, added_.begin}, EntryRange{added_.end, items}})
     for (const EntryRange& range : ranges_of(held[own], among)) beside_.add(range);
@@ -88,6 +91,7 @@ void Holding::update(std::span<double> values) const {
       next += static_cast<std::ptrdiff_t>(3 * range.size());
     }
   }
+  all.settle();
 }
 
 void Holding::complete(std::span<double> values) const {

@@ -26,6 +26,8 @@ class Holding {
   std::size_t size() const { return items_; }
   /// True where each rank holds all.
   bool is_whole() const { return is_whole_; }
+  /// The items that the ranks hold, every one of them.
+  std::span<const EntryRange> held_by_all() const { return by_all_; }
 
   /// Calls body(begin, end) for ranges of items that together are all that this rank holds, at the same time.
   template <class Body>
@@ -71,6 +73,7 @@ class Holding {
 
   std::size_t items_;
   bool is_whole_ = true;
+  std::vector<EntryRange> by_all_;
   EntryRange added_;                                  ///< what this rank adds up
   Pieces beside_;                                     ///< what else it holds
   std::vector<std::vector<EntryRange>> give_, take_;  ///< by the other rank

@@ -142,6 +142,10 @@ EntryRange share_of(std::size_t rank, std::size_t ranks, std::size_t n) {
   return {rank * n / ranks, (rank + 1) * n / ranks};
 }
 
+EntryRange own_share_of(std::size_t n) {
+  return share_of(ranks().own(), ranks().count(), n);
+}
+
 std::size_t sharer_of(std::size_t entry, std::size_t ranks, std::size_t n) {
   std::size_t rank = entry * ranks / std::max<std::size_t>(1, n);
   while (entry >= share_of(rank, ranks, n).end) ++rank;
@@ -182,6 +186,7 @@ void Exchange::gather(std::span<double> values, std::size_t width) const {
       next += static_cast<std::ptrdiff_t>(width * range.size());
     }
   }
+  all.settle();
 }
 
 std::size_t Exchange::size_of(std::size_t rank) const {

@@ -30,6 +30,9 @@ class Ranks {
     receive(from, values);
     return values;
   }
+  /// Waits until the others have received what this one has sent: long messages go on only while a process waits. After
+  /// the last receive() of what all ranks send to each other at the same time.
+  virtual void settle() {}
   /// All that this one has sent so far.
   virtual Traffic sent() const = 0;
 };
@@ -59,10 +62,13 @@ void run_on_ranks(std::size_t count, const std::function<void()>& body);
 struct EntryRange {
   std::size_t begin = 0, end = 0;
   std::size_t size() const { return end - begin; }
+  bool has(std::size_t entry) const { return entry >= begin && entry < end; }
 };
 
 /// The share of a rank in n entries that follow each other: rank r of R has those from r n / R on.
 EntryRange share_of(std::size_t rank, std::size_t ranks, std::size_t n);
+/// That of the calling thread's rank.
+EntryRange own_share_of(std::size_t n);
 /// The rank whose share the entry is.
 std::size_t sharer_of(std::size_t entry, std::size_t ranks, std::size_t n);
 

@@ -70,7 +70,7 @@ ImplicitStage::ImplicitStage(const System& system, const ImplicitSettings& setti
       force_(std::move(force)) {
   residual_.resize(system.solid.dof_count());
   correction_.resize(residual_.size());
-  stiffness_diagonal_ = system.solid.tangent_diagonal(residual_);
+  stiffness_diagonal_ = system.solid.diagonal_at_rest();
   for (const double k : stiffness_diagonal_)
     if (k > 0.0) softest_ = std::min(softest_, k);
   force_parts_.resize(residual_.size());

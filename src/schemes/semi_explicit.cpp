@@ -33,7 +33,7 @@ constexpr int most_row_updates = 12;
 /// The dofs b: those without mass that are not imposed and that their cells hold.
 struct SemiExplicit::Boundary {
   explicit Boundary(const System& given) : system(given), of_dof(given.solid.dof_count(), -1), force(of_dof.size()) {
-    const std::vector<double> zero(of_dof.size(), 0.0), stiffness = system.solid.tangent_diagonal(zero);
+    const std::vector<double>& stiffness = system.solid.diagonal_at_rest();
     for (std::size_t i = 0; i < of_dof.size(); ++i) {
       if (system.mass.node_diagonal()[i / 3] > 0.0 || system.supports.is_prescribed(static_cast<Index>(i))) continue;
       if (stiffness[i] == 0.0) continue;

@@ -157,7 +157,13 @@ struct SolidCells {
   /// Calls body(cell position, block, its stiffness matrix at u) for all cells, in the order of for_each_chunk.
   template <class Body>
   void for_each_stiffness(std::span<const double> u, const PointStep& step, const Body& body) const {
-    for_each_batch(step, [&](std::size_t first, const Block& block, const CellBatches& batch) {
+    for_each_chunk([&](const Chunk& chunk) { for_each_stiffness(chunk, u, step, body); });
+  }
+  /// The same for the cells of a chunk.
+  template <class Body>
+  void for_each_stiffness(const Chunk& chunk, std::span<const double> u, const PointStep& step,
+                          const Body& body) const {
+    each_batch_of(chunk, step, [&](std::size_t first, const Block& block, const CellBatches& batch) {
       if (block.has_no_stiffness()) return;
       std::vector<double> K;
       stiffness(block, static_cast<Index>(first) - block.first, batch, u, step, K);

@@ -24,14 +24,28 @@ void Mass::add_gravity(const Vec3& acceleration, std::span<double> f) const {
   });
 }
 
+void Mass::combine(double m, std::span<const double> x, double c, std::span<double> y, EntryRange range) const {
+  for (std::size_t n = range.begin; n < range.end; ++n) {
+    const Vec3 sum = at_node(n, x);
+    for (std::size_t i = 0; i < 3; ++i) y[3 * n + i] = m * sum[i] + (c == 0.0 ? 0.0 : c * y[3 * n + i]);
+  }
+}
+
 void Mass::combine(double m, std::span<const double> x, double c, std::span<double> y) const {
   constexpr std::size_t rows_per_task = 1024;
-  parallel_for(diagonal_.size(), rows_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      const Vec3 sum = at_node(n, x);
-      for (std::size_t i = 0; i < 3; ++i) y[3 * n + i] = m * sum[i] + (c == 0.0 ? 0.0 : c * y[3 * n + i]);
-    }
+  parallel_for(diagonal_.size(), rows_per_task,
+               [&](std::size_t begin, std::size_t end) { combine(m, x, c, y, EntryRange{begin, end}); });
+}
+
+void Mass::combine(double m, std::span<const double> x, double c, std::span<double> y, const Holding& nodes) const {
+  if (kind_ == MassKind::lumped || nodes.is_whole())
+    return nodes.each_range([&](std::size_t begin, std::size_t end) { combine(m, x, c, y, EntryRange{begin, end}); });
+  constexpr std::size_t rows_per_task = 1024;
+  const EntryRange own = own_share_of(diagonal_.size());
+  parallel_for(own.size(), rows_per_task, [&](std::size_t begin, std::size_t end) {
+    combine(m, x, c, y, EntryRange{own.begin + begin, own.begin + end});
   });
+  nodes.update(y);
 }
 
 double Mass::total() const {

@@ -7,6 +7,7 @@
 
 #include "base/types.hpp"
 #include "linalg/csr_matrix.hpp"
+#include "parallel/holding.hpp"
 
 namespace carom {
 
@@ -27,6 +28,9 @@ class Mass {
   void apply(std::span<const double> x, std::span<double> y) const { combine(1.0, x, 0.0, y); }
   /// y = m M x + c y, the same way; y is not read where c = 0.
   void combine(double m, std::span<const double> x, double c, std::span<double> y) const;
+  /// The same at the nodes that this rank holds; x is right there, and at the nodes around its own ones. All ranks call
+  /// it.
+  void combine(double m, std::span<const double> x, double c, std::span<double> y, const Holding& nodes) const;
   /// (M x) at a node.
   Vec3 at_node(std::size_t n, std::span<const double> x) const {
     if (kind_ == MassKind::lumped)
@@ -49,6 +53,8 @@ class Mass {
   double total() const;
 
  private:
+  void combine(double m, std::span<const double> x, double c, std::span<double> y, EntryRange range) const;
+
   MassKind kind_;
   CsrMatrix matrix_;  ///< empty when lumped
   std::vector<double> diagonal_;

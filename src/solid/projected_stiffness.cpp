@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "parallel/ranks.hpp"
 #include "parallel/threads.hpp"
 
 namespace carom {
@@ -72,21 +73,35 @@ void project(const double* K, std::span<const Index> nodes, const Interpolation&
   transpose(room.PK, rows, rows, out.matrix);
 }
 
-void add_to_coarse(const CellPart& part, BlockMatrix& coarse) {
+/// The rows that this rank computes.
+struct OwnRows {
+  EntryRange coarse, fine;
+
+  /// Whether any of these cells adds to them.
+  bool has(std::span<const Index> nodes, const Interpolation& P) const {
+    return std::ranges::any_of(nodes, [&](Index n) {
+      return fine.has(at(n)) || std::ranges::any_of(P.coarse_of(at(n)), [&](Index I) { return coarse.has(at(I)); });
+    });
+  }
+};
+
+void add_to_coarse(const CellPart& part, EntryRange own, BlockMatrix& coarse) {
   const std::size_t rows = 3 * part.points.size();
-  for (std::size_t p = 0; p < part.points.size(); ++p)
+  for (std::size_t p = 0; p < part.points.size(); ++p) {
+    if (!own.has(at(part.points[p]))) continue;
     for (std::size_t q = 0; q < part.points.size(); ++q) {
       double* sum = coarse.block(part.points[p], part.points[q]);
       const double* from = part.matrix.data() + 3 * p * rows + 3 * q;
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) sum[3 * i + j] += from[i * rows + j];
     }
+  }
 }
 
-void add_to_fine(std::span<const double> K, std::span<const Index> nodes, BlockMatrix& fine) {
+void add_to_fine(std::span<const double> K, std::span<const Index> nodes, EntryRange own, BlockMatrix& fine) {
   const std::size_t dofs = 3 * nodes.size();
   for (std::size_t a = 0; a < nodes.size(); ++a)
-    for (std::size_t b = 0; b < nodes.size(); ++b) {
+    for (std::size_t b = 0; own.has(at(nodes[a])) && b < nodes.size(); ++b) {
       float* sum = fine.single_block(nodes[a], nodes[b]);
       const double* from = K.data() + 3 * a * dofs + 3 * b;
       for (std::size_t i = 0; i < 3; ++i)
@@ -105,6 +120,18 @@ BlockMatrix coarse_graph(std::span<const SolidCells* const> solids, const Interp
   return graph.matrix();
 }
 
+/// Every rank gives its rows of the matrix to the others.
+void gather_rows(BlockMatrix& A) {
+  if (ranks().count() == 1) return;
+  std::vector<std::vector<EntryRange>> blocks;
+  for (std::size_t r = 0; r < ranks().count(); ++r) {
+    const EntryRange rows = share_of(r, ranks().count(), A.points());
+    blocks.push_back(
+        {{static_cast<std::size_t>(A.row_begin[rows.begin]), static_cast<std::size_t>(A.row_begin[rows.end])}});
+  }
+  Exchange(std::move(blocks)).gather(A.value, 9);
+}
+
 }  // namespace
 
 // Chunks of a colour share no nodes, so that they add to the fine matrix at the same time; coarse points they may
@@ -119,6 +146,7 @@ void project_stiffness(std::span<const SolidCells* const> solids, std::span<cons
   coarse.value.assign(9 * coarse.column.size(), 0.0);
   coarse.single.clear();
   if (fine != nullptr) fine->single.assign(9 * fine->column.size(), 0.0F);
+  const OwnRows own{own_share_of(P.coarse_points()), own_share_of(P.fine_points())};
   std::vector<Slice> slices(chunks_at_once);
   const auto take = [&](const SolidCells& solid, const Chunk& chunk, Index begin, Slice& slice) {
     const Block& block = solid.blocks[at(chunk.block)];
@@ -127,13 +155,19 @@ void project_stiffness(std::span<const SolidCells* const> solids, std::span<cons
     slice.parts.resize(at(std::max<Index>(0, end - begin)));
     for (Index first = begin; first < end; first += lanes) {
       const Index count = std::min(lanes, end - first), cell = chunk.first + first;
+      bool is_wanted = false;
+      for (std::size_t l = 0; l < at(count); ++l) {
+        slice.parts[at(first - begin) + l].points.clear();
+        is_wanted = is_wanted || own.has(solid.nodes_of(at(block.first + cell) + l), P);
+      }
+      if (!is_wanted) continue;
       solid.stiffness(block, cell, solid.batches(block, cell, count, step), u, step, slice.K);
       const std::size_t size = 9 * block.nodes() * block.nodes();
       for (std::size_t l = 0; l < at(count); ++l) {
         const auto K = std::span<const double>(slice.K).subspan(size * l, size);
         const auto nodes = solid.nodes_of(at(block.first + cell) + l);
         project(K.data(), nodes, P, fixed, slice, slice.parts[at(first - begin) + l]);
-        if (fine != nullptr) add_to_fine(K, nodes, *fine);
+        if (fine != nullptr) add_to_fine(K, nodes, own.fine, *fine);
       }
     }
   };
@@ -147,9 +181,10 @@ void project_stiffness(std::span<const SolidCells* const> solids, std::span<cons
           parallel_for(count, 1,
                        [&](std::size_t k, std::size_t) { take(*solid, solid->chunks[c + k], begin, slices[k]); });
           for (std::size_t k = 0; k < count; ++k)
-            for (const CellPart& part : slices[k].parts) add_to_coarse(part, coarse);
+            for (const CellPart& part : slices[k].parts) add_to_coarse(part, own.coarse, coarse);
         }
       }
+  gather_rows(coarse);
 }
 
 }  // namespace carom

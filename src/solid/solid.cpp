@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 #include <utility>
 
@@ -127,7 +128,7 @@ void Solid::add_internal_force_of(std::span<const Index> cells, std::span<const 
 void Solid::tangent_action(std::span<const double> u, std::span<const double> x, std::span<double> y,
                            const PointStep& step) const {
   parts_->sum_over_chunks(
-      y, nullptr,
+      y, step.nodes,
       [&](const SolidCells& cells, std::size_t, const Block& block, std::span<const Chunk> runs, double* sum) {
         for (const Chunk& run : runs)
           if (!block.is_nodal())
@@ -213,13 +214,26 @@ double Solid::largest_change(std::span<const double> u_0, std::span<const double
 }
 
 std::vector<double> Solid::tangent_diagonal(std::span<const double> u, const PointStep& step) const {
-  std::vector<double> diagonal(dof_count(), 0.0);
-  parts_->for_each_stiffness(u, step, [&](std::span<const Index> nodes, std::span<const double> cell) {
-    const std::size_t dofs = 3 * nodes.size();
-    for (std::size_t r = 0; r < dofs; ++r) diagonal[3 * at(nodes[r / 3]) + r % 3] += cell[r * (dofs + 1)];
-  });
+  std::vector<double> diagonal(dof_count());
+  parts_->sum_over_chunks(
+      diagonal, nullptr,
+      [&](const SolidCells& cells, std::size_t, const Block&, std::span<const Chunk> runs, double* sum) {
+        for (const Chunk& run : runs)
+          cells.for_each_stiffness(run, u, step, [&](std::size_t c, const Block&, std::span<const double> K) {
+            const auto nodes = cells.nodes_of(c);
+            const std::size_t dofs = 3 * nodes.size();
+            for (std::size_t r = 0; r < dofs; ++r) sum[3 * at(nodes[r / 3]) + r % 3] += K[r * (dofs + 1)];
+          });
+      });
   for (const Contributor* each : parts_->others) each->add_tangent_diagonal(u, step, diagonal);
   return diagonal;
+}
+
+const std::vector<double>& Solid::diagonal_at_rest() const {
+  std::call_once(parts_->is_diagonal_made, [&] {
+    parts_->diagonal_at_rest = tangent_diagonal(std::vector<double>(dof_count(), 0.0));
+  });
+  return parts_->diagonal_at_rest;
 }
 
 Mass Solid::mass(MassKind kind) const {

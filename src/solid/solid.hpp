@@ -75,8 +75,10 @@ class Solid {
   /// cells of |w_a - w_0| / length of their nodes, w = u_1 - u_0 (BodyCells::lengths), and over the directors of
   /// turning bodies of their change.
   double largest_change(std::span<const double> u_0, std::span<const double> u_1) const;
-  /// Diagonal of K(u).
+  /// Diagonal of K(u). Every rank has all of it.
   std::vector<double> tangent_diagonal(std::span<const double> u, const PointStep& step = {}) const;
+  /// That of K(0), computed once.
+  const std::vector<double>& diagonal_at_rest() const;
 
   Mass mass(MassKind kind) const;
   /// The lumped mass, that of each cell times its factor.

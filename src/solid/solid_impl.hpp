@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -299,6 +300,8 @@ struct Solid::Parts {
   std::vector<double> bounds_at_rest;  ///< cell_frequency_bounds(), for distortion control
   TurningBodies turning_bodies;
   std::vector<const Contributor*> others;
+  std::vector<double> diagonal_at_rest;  ///< where it has been asked for
+  std::once_flag is_diagonal_made;
 };
 
 }  // namespace carom

@@ -12,6 +12,7 @@
 #include "linalg/conjugate_gradients.hpp"
 #include "linalg/dense.hpp"
 #include "math/vec3.hpp"
+#include "parallel/entries.hpp"
 #include "parallel/threads.hpp"
 #include "system/multigrid.hpp"
 #include "system/row_compliance.hpp"
@@ -51,12 +52,13 @@ void subtract_contact(const ConstraintRows& rows, const std::vector<RowTangent>&
 /// Conjugate gradients on the whole operator, contact rows included; preconditioned by its diagonal, or by a V-cycle.
 class CgSolver final : public EffectiveSolver {
  public:
-  CgSolver(const System& system, bool is_multilevel) : system_(system), u_(system.solid.dof_count(), 0.0) {
+  CgSolver(const System& system, bool is_multilevel)
+      : system_(system), nodes_(system.solid.shared_nodes()), u_(system.solid.dof_count(), 0.0) {
     if (is_multilevel) {
       grids_.emplace(system);
       return;
     }
-    stiffness_diagonal_ = system.solid.tangent_diagonal(u_);
+    stiffness_diagonal_ = system.solid.diagonal_at_rest();
     inverse_diagonal_.resize(u_.size());
     if (!system.solid.is_linear()) diagonal_at_ = u_;
   }
@@ -149,29 +151,33 @@ class CgSolver final : public EffectiveSolver {
     std::fill(x.begin(), x.end(), 0.0);
     const LinearOperator A = [&](std::span<const double> in, std::span<double> out) { apply(tangents_, in, out); };
     const int most = 1000 + static_cast<int>(10.0 * std::sqrt(static_cast<double>(x.size())));
+    const Entries entries(nodes_);
     CgResult result;
     if (grids_) {
       grids_->use(rows_, tangents_);
       const LinearOperator B = [&](std::span<const double> r, std::span<double> z) { grids_->apply(r, z); };
-      result = cg_.solve(A, B, b, x, relative, absolute, most);
+      result = cg_.solve(A, B, b, x, relative, absolute, most, entries);
     } else {
       set_diagonal(tangents_);
-      result = cg_.solve(A, inverse_diagonal_, b, x, relative, absolute, most);
+      result = cg_.solve(A, inverse_diagonal_, b, x, relative, absolute, most, entries);
     }
     if (result.converged) return {true, result.iterations, result.residual, false};
     const bool broke_down = result.iterations < most;
     return {false, result.iterations, result.residual, broke_down, result.worst};
   }
 
+  /// Of the nodes that this rank holds.
   void apply(const std::vector<RowTangent>& D, std::span<const double> x, std::span<double> y) {
     const std::vector<bool>& fixed = system_.supports.fixed();
-    system_.solid.tangent_action(u_, x, y, step_);
-    system_.mass.combine(m_, x, c_, y);
+    PointStep step = step_;
+    step.nodes = &nodes_;
+    system_.solid.tangent_action(u_, x, y, step);
+    system_.mass.combine(m_, x, c_, y, nodes_);
     for (const DofSpring& spring : springs_) y[spring.dof] += spring.stiffness * x[spring.dof];
     for (std::size_t r = 0; r < D.size(); ++r) {
       if (acts(D[r])) rows_->scatter(r, product(D[r], rows_->relative(r, x)), y);
     }
-    parallel_each(y.size(), [&](std::size_t i) {
+    Entries(nodes_).each([&](std::size_t i) {
       if (fixed[i]) y[i] = x[i];
     });
   }
@@ -210,6 +216,7 @@ class CgSolver final : public EffectiveSolver {
   }
 
   const System& system_;
+  const Holding& nodes_;  ///< who holds which of the vectors of a solve
   std::vector<double> u_, stiffness_diagonal_, inverse_diagonal_;
   std::vector<double> diagonal_at_;             ///< of bodies that are not linear
   PointStep step_;                              ///< that ends at u_

@@ -8,6 +8,7 @@
 #include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 #include "system/background_grids.hpp"
+#include "system/held_points.hpp"
 
 namespace carom {
 namespace {
@@ -87,8 +88,8 @@ BlockMatrix matrix_of(const ConstraintRows& rows, const std::vector<RowTangent>&
 }
 
 /// The step that ends at the place.
-PointStep step_to(const TangentPlace& place) {
-  return {.dt = place.dt, .history = place.points};
+PointStep step_to(const TangentPlace& place, const Holding& nodes) {
+  return {.dt = place.dt, .history = place.points, .nodes = &nodes};
 }
 
 }  // namespace
@@ -98,6 +99,7 @@ Multigrid::Multigrid(const System& system)
       masses_(system.solid.mass(MassKind::lumped).node_diagonal()),
       P_(background_grids(system.mesh, system.solid, system.supports.fixed_components(), enough_corners)),
       levels_(P_.size() + 1) {
+  levels_[0].points = system.solid.shared_nodes();
   for (std::size_t l = 0; l < levels_.size(); ++l) {
     const std::size_t n = l == 0 ? system.solid.dof_count() : 3 * P_[l - 1].coarse_points();
     for (std::vector<double>* v : {&levels_[l].b, &levels_[l].x, &levels_[l].d, &levels_[l].Ad}) v->assign(n, 0.0);
@@ -127,6 +129,7 @@ void Multigrid::make(double m, double c, std::shared_ptr<const TangentPlace> pla
   for (std::size_t i = 0; i < fine.size(); ++i) fine[i] = fixed[i] ? 0.0 : (fine[i] > 0.0 ? fine[i] : most);
   for (std::size_t l = 1; l < levels_.size(); ++l) {
     levels_[l].diagonal = levels_[l].A.diagonal();
+    hold_points(l);
     if (l + 1 == levels_.size()) break;
     galerkin(levels_[l].A, P_[l], levels_[l + 1].A);
     levels_[l].A.round_to_single();  // smoothing needs no more
@@ -140,16 +143,27 @@ void Multigrid::make(double m, double c, std::shared_ptr<const TangentPlace> pla
   factor_last();
 }
 
+void Multigrid::hold_points(std::size_t l) {
+  if (levels_[l].points) return;
+  const Level& finer = levels_[l - 1];
+  const Interpolation& P = P_[l - 1];
+  const bool is_last = l + 1 == levels_.size();
+  levels_[l].points = is_last ? Holding(P.coarse_points()) : held_coarse_points(*finer.points, P, levels_[l].A);
+  levels_[l - 1].restricted = restricted_points(*finer.points, P);
+}
+
 /// P^T A P from the finite elements, and what these keep.
 void Multigrid::make_first_grid() {
   const std::vector<std::uint8_t>& fixed = system_.supports.fixed_components();
   const bool is_linear = system_.solid.is_linear();
   BlockMatrix &A = levels_[1].A, &K = levels_[0].A;
-  system_.solid.project_tangent(place_->u, step_to(*place_), P_[0], fixed, A, is_linear ? nullptr : &K);
-  if (!is_linear)
+  system_.solid.project_tangent(place_->u, step_to(*place_, nodes()), P_[0], fixed, A, is_linear ? nullptr : &K);
+  if (is_linear) {
+    diagonal_ = system_.solid.diagonal_at_rest();
+  } else {
     diagonal_ = K.diagonal();
-  else if (diagonal_.empty())
-    diagonal_ = system_.solid.tangent_diagonal(place_->u);
+    system_.solid.all_nodes().update(diagonal_);
+  }
   for (double& value : A.value) value *= c_;
   const auto add = [&](std::size_t n, std::size_t i, double value) {
     const auto coarse = P_[0].coarse_of(n);
@@ -170,16 +184,17 @@ void Multigrid::make_first_grid() {
 void Multigrid::make_top(std::size_t l) {
   Level& level = levels_[l];
   const std::size_t n = level.diagonal.size();
+  const Entries entries = level.entries();
   std::vector<double> root(n), scaled(n);
   for (std::size_t i = 0; i < n; ++i) root[i] = std::sqrt(level.inverse_diagonal[i]);
   const LinearOperator A = [&](std::span<const double> x, std::span<double> y) {
-    parallel_each(n, [&](std::size_t i) { scaled[i] = root[i] * x[i]; });
+    entries.each([&](std::size_t i) { scaled[i] = root[i] * x[i]; });
     apply_level(l, scaled, y);
-    parallel_each(n, [&](std::size_t i) { y[i] *= root[i]; });
+    entries.each([&](std::size_t i) { y[i] *= root[i]; });
   };
   constexpr double rough = 0.05;
   constexpr int least = 8, most = 25;
-  level.top = largest_eigenvalue(A, n, rough, most, least).upper;
+  level.top = largest_eigenvalue(A, entries, rough, most, least).upper;
 }
 
 void Multigrid::make_diagonal(Level& level) const {
@@ -234,15 +249,16 @@ void Multigrid::factor_last() {
   }
 }
 
-/// (m M + c K) x on the finite elements, without fixed dofs.
+/// (m M + c K) x on the finite elements, without fixed dofs, of the nodes that this rank holds.
 void Multigrid::apply_fine(std::span<const double> x, std::span<double> y) const {
-  if (system_.solid.is_linear())
-    system_.solid.tangent_action(place_->u, x, y, step_to(*place_));
-  else
-    levels_[0].A.apply(x, y);
+  if (system_.solid.is_linear()) {
+    system_.solid.tangent_action(place_->u, x, y, step_to(*place_, nodes()));
+  } else {
+    levels_[0].A.apply(x, y, levels_[0].own());
+    nodes().update(y);
+  }
   const std::vector<std::uint8_t>& all_fixed = system_.supports.fixed_components();
-  constexpr std::size_t nodes_per_task = 512;
-  parallel_for(masses_.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+  nodes().each_range([&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       const double mass = m_ * masses_[n];
       const unsigned fixed = all_fixed[n];
@@ -255,10 +271,12 @@ void Multigrid::apply_fine(std::span<const double> x, std::span<double> y) const
 
 void Multigrid::apply_level(std::size_t l, std::span<const double> x, std::span<double> y) const {
   const Level& level = levels_[l];
-  if (l == 0)
+  if (l == 0) {
     apply_fine(x, y);
-  else
-    level.A.apply(x, y);
+  } else {
+    level.A.apply(x, y, level.own());
+    level.points->update(y);
+  }
   if (!level.rows) return;
   for (std::size_t r = 0; r < D_.size(); ++r)
     if (acts(D_[r])) level.rows->scatter(r, product(D_[r], level.rows->relative(r, x)), y);
@@ -274,7 +292,7 @@ void Multigrid::smooth(std::size_t l, bool is_start) {
   for (int k = 1; k <= degree; ++k) {
     const bool is_first = is_start && k == 1;
     if (!is_first) apply_level(l, level.d, level.Ad);
-    parallel_each(level.x.size(), [&](std::size_t i) {
+    level.entries().each([&](std::size_t i) {
       if (!is_first) level.b[i] -= level.Ad[i];
       level.d[i] = (k == 1 ? 0.0 : keep * level.d[i]) + add * level.inverse_diagonal[i] * level.b[i];
       level.x[i] = (is_first ? 0.0 : level.x[i]) + level.d[i];
@@ -297,11 +315,15 @@ void Multigrid::cycle(std::size_t l) {
   smooth(l, true);
   if (l + 1 == levels_.size()) return;
   apply_level(l, level.d, level.Ad);
-  parallel_each(level.b.size(), [&](std::size_t i) { level.b[i] -= level.Ad[i]; });
-  P_[l].restrict_to(level.b, levels_[l + 1].b);
+  level.entries().each([&](std::size_t i) { level.b[i] -= level.Ad[i]; });
+  Level& coarse = levels_[l + 1];
+  level.restricted->update(level.b);
+  P_[l].restrict_to(level.b, coarse.b, coarse.own());
+  coarse.points->update(coarse.b);
   cycle(l + 1);
-  P_[l].apply(levels_[l + 1].x, level.d);
-  parallel_each(level.x.size(), [&](std::size_t i) {
+  P_[l].apply(coarse.x, level.d, level.own());
+  level.points->update(level.d);
+  level.entries().each([&](std::size_t i) {
     if (level.inverse_diagonal[i] == 0.0) level.d[i] = 0.0;  // fixed
     level.x[i] += level.d[i];
   });
@@ -309,9 +331,12 @@ void Multigrid::cycle(std::size_t l) {
 }
 
 void Multigrid::apply(std::span<const double> r, std::span<double> z) {
-  std::copy(r.begin(), r.end(), levels_[0].b.begin());
+  Level& fine = levels_[0];
+  for (Level& level : levels_)
+    for (std::vector<double>* v : {&level.b, &level.x, &level.d, &level.Ad}) level.points->spoil(*v);
+  fine.entries().each([&](std::size_t i) { fine.b[i] = r[i]; });
   cycle(0);
-  std::copy(levels_[0].x.begin(), levels_[0].x.end(), z.begin());
+  fine.entries().each([&](std::size_t i) { z[i] = fine.x[i]; });
 }
 
 }  // namespace carom

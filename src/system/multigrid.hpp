@@ -8,6 +8,7 @@
 
 #include "linalg/cholesky.hpp"
 #include "linalg/conjugate_gradients.hpp"
+#include "parallel/entries.hpp"
 #include "system/dof_spring.hpp"
 #include "system/system.hpp"
 
@@ -20,8 +21,8 @@ namespace carom {
 /// summed over the cells. Contact stands on every level as rows of its own, G_l+1 = G_l P, so that no matrix depends on
 /// it but the last, which is factored. Smoothing is by Chebyshev polynomials in D^-1 A (Adams, Brezina, Hu and
 /// Tuminaro, J. Comput. Phys. 188, 2003), D the diagonal, of contact as many times over as it has entries in a row:
-/// then rows do not raise the largest eigenvalue. B is symmetric and positive definite; it is the same for any thread
-/// count.
+/// then rows do not raise the largest eigenvalue. B is symmetric and positive definite; it is the same for any
+/// number of threads and ranks. Ranks share the points of every level out but the last one's (system/held_points.hpp).
 class Multigrid {
  public:
   explicit Multigrid(const System& system);
@@ -30,7 +31,9 @@ class Multigrid {
   void make(double m, double c, std::shared_ptr<const TangentPlace> place, const std::vector<DofSpring>& springs);
   /// Sets the part of A that contact adds, G^T D G. Keeps `rows`.
   void use(const std::shared_ptr<const ConstraintRows>& rows, const std::vector<RowTangent>& D);
-  /// z = B r. r and z are zero on fixed dofs.
+  /// Who holds the nodes of the vectors.
+  const Holding& nodes() const { return *levels_[0].points; }
+  /// z = B r of what this rank holds. r and z are zero on fixed dofs. All ranks call it.
   void apply(std::span<const double> r, std::span<double> z);
 
   /// Corners of each grid.
@@ -43,9 +46,14 @@ class Multigrid {
     double top = 0.0;                            ///< bound of the eigenvalues of D^-1 A
     std::shared_ptr<const ConstraintRows> rows;  ///< of contact, where D acts
     std::vector<double> b, x, d, Ad;
+    std::optional<Holding> points, restricted;  ///< who holds them, and who needs them for the next level
+
+    EntryRange own() const { return own_share_of(points->size()); }
+    Entries entries() const { return Entries(*points); }
   };
 
   void make_first_grid();
+  void hold_points(std::size_t l);
   void make_diagonal(Level& level) const;
   void make_top(std::size_t l);
   void apply_fine(std::span<const double> x, std::span<double> y) const;

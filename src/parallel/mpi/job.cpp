@@ -47,6 +47,10 @@ class MpiRanks final : public Ranks {
     values.resize(static_cast<std::size_t>(size));
     MPI_Recv(values.data(), size, MPI_DOUBLE, static_cast<int>(from), tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
   }
+  void settle() override {
+    for (Letter& letter : on_the_way_) MPI_Wait(&letter.request, MPI_STATUS_IGNORE);
+    forget_sent();
+  }
   Traffic sent() const override { return sent_; }
 
  private:
