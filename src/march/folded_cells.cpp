@@ -8,7 +8,7 @@
 #include "base/types.hpp"
 #include "math/vec3.hpp"
 #include "mesh/corner_shapes.hpp"
-#include "parallel/threads.hpp"
+#include "parallel/shared_items.hpp"
 #include "solid/element_table.hpp"
 
 namespace carom {
@@ -92,18 +92,18 @@ FlattestCorner flattest_corner(const Simulation& simulation, std::span<const dou
   const std::vector<char> is_small = are_small_strain(simulation.model());
   constexpr std::size_t grain = 1024;
   std::vector<FlattestCorner> of_task((solid.cells().size() + grain - 1) / grain);
-  parallel_for(of_task.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t task = begin; task < end; ++task)
-      for (std::size_t k = grain * task; k < std::min(grain * (task + 1), solid.cells().size()); ++k) {
-        if (!alive.empty() && alive[k] == 0) continue;
-        const CellType type = mesh.blocks[at(solid.cells()[k].block)].type;
-        const double share = flattest_share(mesh, type, solid.cells().nodes_of(k), u);
-        FlattestCorner& least = of_task[task];
-        if (share < least.small_strain && is_small[k] != 0) least.small_strain = share;
-        if (share >= least.share) continue;
-        least.cell = static_cast<Index>(k);
-        least.share = share;
-      }
+  find_shared(std::span(of_task), 1, [&](std::size_t task) {
+    FlattestCorner least;
+    for (std::size_t k = grain * task; k < std::min(grain * (task + 1), solid.cells().size()); ++k) {
+      if (!alive.empty() && alive[k] == 0) continue;
+      const CellType type = mesh.blocks[at(solid.cells()[k].block)].type;
+      const double share = flattest_share(mesh, type, solid.cells().nodes_of(k), u);
+      if (share < least.small_strain && is_small[k] != 0) least.small_strain = share;
+      if (share >= least.share) continue;
+      least.cell = static_cast<Index>(k);
+      least.share = share;
+    }
+    return least;
   });
   FlattestCorner least;
   double small_strain = 1.0;

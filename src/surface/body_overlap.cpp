@@ -13,7 +13,7 @@
 #include "model/bodies.hpp"
 #include "model/node_lengths.hpp"
 #include "model/outer_facets.hpp"
-#include "parallel/threads.hpp"
+#include "parallel/shared_items.hpp"
 #include "surface/cell_location.hpp"
 #include "surface/facet_geometry.hpp"
 #include "surface/facet_projection.hpp"
@@ -205,17 +205,17 @@ std::vector<Overlap> BodyOverlap::Impl::depths(std::span<const double> u) {
   cells.place(u);
   std::vector<Overlap> found(skin_nodes.size());
   constexpr std::size_t grain = 64;
-  parallel_for(skin_nodes.size(), grain, [&](std::size_t begin, std::size_t end) {
-    std::vector<Index> near;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 x = cells.position(skin_nodes[i]);
-      cells.find(x, near);
-      for (const Index cell : near) {
-        if (!may_meet(i, cell)) continue;
-        const double d = depth(i, cell, x);
-        if (d > found[i].depth) found[i] = {d, skin_nodes[i], x, cells.ref(static_cast<std::size_t>(cell))};
-      }
+  find_shared(std::span(found), grain, [&](std::size_t i) {
+    thread_local std::vector<Index> near;
+    Overlap deepest;
+    const Vec3 x = cells.position(skin_nodes[i]);
+    cells.find(x, near);
+    for (const Index cell : near) {
+      if (!may_meet(i, cell)) continue;
+      const double d = depth(i, cell, x);
+      if (d > deepest.depth) deepest = {d, skin_nodes[i], x, cells.ref(static_cast<std::size_t>(cell))};
     }
+    return deepest;
   });
   return found;
 }

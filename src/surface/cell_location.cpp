@@ -6,7 +6,7 @@
 #include "element/hexa8.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_size.hpp"
-#include "parallel/threads.hpp"
+#include "parallel/shared_items.hpp"
 
 namespace carom {
 namespace {
@@ -81,9 +81,6 @@ std::size_t solid_corners(CellType type) {
   return dimension(type) == 2 ? 2 * corners : corners;
 }
 
-/// Cells in a leaf of the tree.
-constexpr std::size_t cluster = 16;
-
 /// x from 0 to 255 across a box that it is in; increasing, also as it is rounded.
 Vec3 in_parts(const Bounds& box, const Vec3& x) {
   constexpr double parts = 255.0;
@@ -127,15 +124,14 @@ PlacedCells::PlacedCells(const Model& model, std::span<const double> u) : model_
     runs_.push_back({size_, static_cast<Index>(p), static_cast<Index>(mesh.block(part.type) - mesh.blocks.data())});
     size_ += part.cells.size();
   }
-  box_.resize(size());
   bound();
-  tree_.build(clusters_);
+  tree_.build(leaves_);
 }
 
 void PlacedCells::place(std::span<const double> u) {
   u_ = u;
   bound();
-  tree_.refit(clusters_);
+  tree_.refit(leaves_);
 }
 
 const PlacedCells::Run& PlacedCells::run_of(std::size_t k) const {
@@ -150,29 +146,31 @@ Vec3 PlacedCells::position(Index node) const {
   return u_.empty() ? X : add(X, vector_at(u_, n));
 }
 
-/// Fills the boxes of the cells and of the clusters.
-void PlacedCells::bound() {
-  clusters_.resize((size() + cluster - 1) / cluster);
-  parallel_for(clusters_.size(), 64, [&](std::size_t begin, std::size_t end) {
-    std::array<Bounds, cluster> own;
-    for (std::size_t c = begin; c < end; ++c) {
-      const std::size_t first = cluster * c, last = std::min(size(), first + cluster);
-      own.fill({});
-      clusters_[c] = {};
-      for (std::size_t k = first; k < last; ++k) {
-        const Corners corner = corners(k);
-        for (std::size_t a = 0; a < solid_corners(type(k)); ++a) own[k - first].include(corner[a]);
-        clusters_[c].include(own[k - first]);
-      }
-      for (std::size_t k = first; k < last; ++k) {
-        const Vec3 low = in_parts(clusters_[c], own[k - first].low), high = in_parts(clusters_[c], own[k - first].high);
-        for (std::size_t i = 0; i < 3; ++i) {
-          box_[k].low[i] = static_cast<std::uint8_t>(std::floor(low[i]));
-          box_[k].high[i] = static_cast<std::uint8_t>(std::ceil(high[i]));
-        }
-      }
+PlacedCells::Placed PlacedCells::bounds_of(std::size_t cluster_number) const {
+  const std::size_t first = cluster * cluster_number, count = std::min(size(), first + cluster) - first;
+  std::array<Bounds, cluster> own{};
+  Placed placed;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Corners corner = corners(first + k);
+    for (std::size_t a = 0; a < solid_corners(type(first + k)); ++a) own[k].include(corner[a]);
+    placed.bounds.include(own[k]);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec3 low = in_parts(placed.bounds, own[k].low), high = in_parts(placed.bounds, own[k].high);
+    for (std::size_t i = 0; i < 3; ++i) {
+      placed.boxes[k].low[i] = static_cast<std::uint8_t>(std::floor(low[i]));
+      placed.boxes[k].high[i] = static_cast<std::uint8_t>(std::ceil(high[i]));
     }
-  });
+  }
+  return placed;
+}
+
+void PlacedCells::bound() {
+  constexpr std::size_t grain = 64;
+  clusters_.resize((size() + cluster - 1) / cluster);
+  find_shared(std::span(clusters_), grain, [&](std::size_t c) { return bounds_of(c); });
+  leaves_.resize(clusters_.size());
+  parallel_each(clusters_.size(), [&](std::size_t c) { leaves_[c] = clusters_[c].bounds; });
 }
 
 void PlacedCells::find(const Vec3& x, std::vector<Index>& found) const {
@@ -184,9 +182,10 @@ void PlacedCells::find(const Vec3& x, std::vector<Index>& found) const {
   found.clear();
   for (const Index c : clusters) {
     const std::size_t first = cluster * static_cast<std::size_t>(c);
-    const Vec3 in_cluster = in_parts(clusters_[static_cast<std::size_t>(c)], x);
+    const Placed& placed = clusters_[static_cast<std::size_t>(c)];
+    const Vec3 in_cluster = in_parts(placed.bounds, x);
     for (std::size_t k = first; k < std::min(size(), first + cluster); ++k) {
-      const Box& box = box_[k];
+      const Box& box = placed.boxes[k - first];
       bool is_in = true;
       for (std::size_t i = 0; i < 3; ++i) is_in = is_in && box.low[i] <= in_cluster[i] && in_cluster[i] <= box.high[i];
       if (is_in) found.push_back(static_cast<Index>(k));

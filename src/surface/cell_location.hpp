@@ -30,7 +30,8 @@ class PlacedCells {
   /// Places the cells of a model at the displacement u (a dof vector, or empty: none). Model and u must outlive the
   /// object.
   PlacedCells(const Model& model, std::span<const double> u);
-  /// Moves the cells to the displacement u, in threads. u must outlive the calls that follow.
+  /// Moves the cells to the displacement u, in threads; ranks share the work, so that all of them call it, as they do
+  /// the constructor. u must outlive the calls that follow.
   void place(std::span<const double> u);
 
   std::size_t size() const { return size_; }
@@ -62,6 +63,14 @@ class PlacedCells {
   struct Box {
     std::array<std::uint8_t, 3> low, high;
   };
+  /// Cells in a leaf of the tree.
+  static constexpr std::size_t cluster = 16;
+  using Boxes = std::array<Box, cluster>;
+  /// Of a cluster: its bounds, and the boxes of its cells.
+  struct Placed {
+    Bounds bounds;
+    Boxes boxes{};
+  };
   /// The cells of a part.
   struct Run {
     std::size_t first;
@@ -72,14 +81,15 @@ class PlacedCells {
     return model_->mesh->blocks[static_cast<std::size_t>(run_of(k).block)];
   }
   void bound();
+  Placed bounds_of(std::size_t cluster_number) const;
 
   const Model* model_;
   std::span<const double> u_;
   std::vector<Run> runs_;
   std::size_t size_ = 0;
-  std::vector<Box> box_;
-  std::vector<Bounds> clusters_;  ///< of cells that follow each other
-  BoxTree tree_;                  ///< of the clusters
+  std::vector<Placed> clusters_;  ///< of cells that follow each other
+  std::vector<Bounds> leaves_;    ///< their bounds
+  BoxTree tree_;
 };
 
 /// X + u of all nodes.
