@@ -18,8 +18,7 @@ std::size_t largest(std::span<const double> v) {
 
 CgResult ConjugateGradients::solve(const LinearOperator& A, std::span<const double> inverse_diagonal,
                                    std::span<const double> b, std::span<double> x, double relative, double absolute,
-                                   int max_iterations,
-                                   const Entries& entries) {
+                                   int max_iterations, const Entries& entries) {
   assert(inverse_diagonal.size() == b.size());
   const LinearOperator jacobi = [&](std::span<const double> r, std::span<double> z) {
     entries.each([&](std::size_t i) { z[i] = inverse_diagonal[i] * r[i]; });

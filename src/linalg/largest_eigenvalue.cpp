@@ -52,7 +52,13 @@ std::vector<double> random_vector(const Entries& entries) {
 class Lanczos {
  public:
   Lanczos(const Pencil& pencil, const Entries& entries, std::vector<double> start)
-      : pencil_(pencil), entries_(entries), v_(std::move(start)), p_(v_.size()), v_old_(v_.size(), 0.0), w_(v_.size()), Kv_(v_.size()) {
+      : pencil_(pencil),
+        entries_(entries),
+        v_(std::move(start)),
+        p_(v_.size()),
+        v_old_(v_.size(), 0.0),
+        w_(v_.size()),
+        Kv_(v_.size()) {
     beta_ = normalise(v_);
   }
 
@@ -103,8 +109,8 @@ std::vector<double> start_vector(const Pencil& pencil, const Entries& entries) {
 
 }  // namespace
 
-EigenvalueEstimate largest_eigenvalue(const Pencil& pencil, const Entries& entries, double tolerance, int max_iterations,
-                                      int least_iterations) {
+EigenvalueEstimate largest_eigenvalue(const Pencil& pencil, const Entries& entries, double tolerance,
+                                      int max_iterations, int least_iterations) {
   EigenvalueEstimate estimate;
   if (entries.count() == 0) return estimate;
   Lanczos lanczos(pencil, entries, start_vector(pencil, entries));
@@ -116,8 +122,8 @@ EigenvalueEstimate largest_eigenvalue(const Pencil& pencil, const Entries& entri
   return estimate;
 }
 
-EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, const Entries& entries, double tolerance, int max_iterations,
-                                      int least_iterations) {
+EigenvalueEstimate largest_eigenvalue(const LinearOperator& A, const Entries& entries, double tolerance,
+                                      int max_iterations, int least_iterations) {
   const LinearOperator identity = [](std::span<const double> x, std::span<double> y) {
     std::copy(x.begin(), x.end(), y.begin());
   };

@@ -151,12 +151,20 @@ Json to_json(const CostSummary& cost) {
   return {{"wall_seconds", number(cost.wall_seconds)},
           {"cpu_seconds", number(cost.cpu_seconds)},
           {"phases", named_values(cost.phases)},
-          {"peak_memory_bytes", cost.peak_memory_bytes}};
+          {"peak_memory_bytes", cost.peak_memory_bytes},
+          {"ranks", cost.ranks},
+          {"messages", cost.messages},
+          {"sent_bytes", cost.sent_bytes}};
 }
 
 CostSummary cost_from(const Json& json) {
-  return {number(json.at("wall_seconds")), number(json.at("cpu_seconds")), named_values(json.at("phases")),
-          json.at("peak_memory_bytes").get<std::size_t>()};
+  return {number(json.at("wall_seconds")),
+          number(json.at("cpu_seconds")),
+          named_values(json.at("phases")),
+          json.at("peak_memory_bytes").get<std::size_t>(),
+          json.value("ranks", std::size_t{1}),
+          json.value("messages", std::size_t{0}),
+          json.value("sent_bytes", std::size_t{0})};
 }
 
 Json to_json(const MomentumSummary& momentum) {

@@ -96,6 +96,8 @@ struct CostSummary {
   double wall_seconds = 0.0, cpu_seconds = 0.0;
   std::vector<NamedValue> phases;  ///< wall seconds by phase, e.g. "setup", "steps", "output"
   std::size_t peak_memory_bytes = 0;
+  std::size_t ranks = 1;
+  std::size_t messages = 0, sent_bytes = 0;  ///< that the first rank has sent to the others
 };
 
 /// Momentum at the beginning and the end against the impulse of all external forces.

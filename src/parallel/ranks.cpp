@@ -89,6 +89,17 @@ Ranks& ranks() {
   return current == nullptr ? alone : *current;
 }
 
+void Ranks::gather(std::span<const double> given, std::span<const std::size_t> sizes, std::vector<double>& all) {
+  for (std::size_t r = 0; r < count(); ++r)
+    if (r != own()) send(r, given);
+  all.clear();
+  for (std::size_t r = 0; r < count(); ++r) {
+    const std::vector<double> taken = r == own() ? std::vector<double>(given.begin(), given.end()) : receive(r);
+    if (taken.size() != sizes[r]) throw std::logic_error("ranks exchange vectors of different sizes");
+    all.insert(all.end(), taken.begin(), taken.end());
+  }
+}
+
 void run_as(Ranks& own, const std::function<void()>& body) {
   struct Restore {
     Ranks* before;
@@ -99,13 +110,10 @@ void run_as(Ranks& own, const std::function<void()>& body) {
 }
 
 bool same_on_all_ranks(double value) {
-  Ranks& all = ranks();
-  for (std::size_t r = 0; r < all.count(); ++r)
-    if (r != all.own()) all.send(r, {&value, 1});
-  bool is_same = true;
-  for (std::size_t r = 0; r < all.count(); ++r)
-    if (r != all.own() && all.receive(r) != std::vector<double>{value}) is_same = false;
-  return is_same;
+  if (ranks().count() == 1) return true;
+  std::vector<double> all;
+  ranks().gather({&value, 1}, std::vector<std::size_t>(ranks().count(), 1), all);
+  return std::ranges::all_of(all, [&](double other) { return other == value; });
 }
 
 bool on_any_rank(bool is_so) {
@@ -154,39 +162,34 @@ std::size_t sharer_of(std::size_t entry, std::size_t ranks, std::size_t n) {
 }
 
 std::pair<double, std::size_t> largest_on_ranks(double value, std::size_t position) {
-  Ranks& all = ranks();
-  const std::array own{value, static_cast<double>(position)};
-  for (std::size_t r = 0; r < all.count(); ++r)
-    if (r != all.own()) all.send(r, own);
+  if (ranks().count() == 1) return {value, position};
+  std::vector<double> all;
+  ranks().gather(std::array{value, static_cast<double>(position)}, std::vector<std::size_t>(ranks().count(), 2), all);
   std::pair largest{value, position};
-  for (std::size_t r = 0; r < all.count(); ++r) {
-    if (r == all.own()) continue;
-    const std::vector<double> other = all.receive(r);
-    const std::pair its{other.at(0), static_cast<std::size_t>(other.at(1))};
+  for (std::size_t k = 0; k < all.size(); k += 2) {
+    const std::pair its{all[k], static_cast<std::size_t>(all[k + 1])};
     if (its.first > largest.first || (its.first == largest.first && its.second < largest.second)) largest = its;
   }
   return largest;
 }
 
 void Exchange::gather(std::span<double> values, std::size_t width) const {
-  Ranks& all = ranks();
+  const std::size_t count = of_ranks_.size(), own_rank = ranks().own();
+  if (count == 1) return;
   const auto at = [&](std::size_t entry) { return values.begin() + static_cast<std::ptrdiff_t>(width * entry); };
-  thread_local std::vector<double> own, given;  // memory that is new costs more than what is copied to it
+  thread_local std::vector<double> own, all;  // memory that is new costs more than what is copied to it
   own.clear();
-  for (const EntryRange& range : of_ranks_[all.own()]) own.insert(own.end(), at(range.begin), at(range.end));
-  for (std::size_t r = 0; r < all.count(); ++r)
-    if (r != all.own()) all.send(r, own);
-  for (std::size_t r = 0; r < all.count(); ++r) {
-    if (r == all.own()) continue;
-    all.receive(r, given);
-    if (given.size() != width * size_of(r)) throw std::logic_error("ranks exchange vectors of different sizes");
-    auto next = given.begin();
+  for (const EntryRange& range : of_ranks_[own_rank]) own.insert(own.end(), at(range.begin), at(range.end));
+  std::vector<std::size_t> sizes;
+  for (std::size_t r = 0; r < count; ++r) sizes.push_back(width * size_of(r));
+  ranks().gather(own, sizes, all);
+  auto next = all.cbegin();
+  for (std::size_t r = 0; r < count; ++r)
     for (const EntryRange& range : of_ranks_[r]) {
-      std::copy_n(next, width * range.size(), at(range.begin));
-      next += static_cast<std::ptrdiff_t>(width * range.size());
+      const auto last = next + static_cast<std::ptrdiff_t>(width * range.size());
+      if (r != own_rank) std::copy(next, last, at(range.begin));
+      next = last;
     }
-  }
-  all.settle();
 }
 
 std::size_t Exchange::size_of(std::size_t rank) const {

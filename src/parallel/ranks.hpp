@@ -33,6 +33,9 @@ class Ranks {
   /// Waits until the others have received what this one has sent: long messages go on only while a process waits. After
   /// the last receive() of what all ranks send to each other at the same time.
   virtual void settle() {}
+  /// Overwrites `all` by what the ranks give, one after the other; sizes: how many values each gives. All ranks call
+  /// it.
+  virtual void gather(std::span<const double> own, std::span<const std::size_t> sizes, std::vector<double>& all);
   /// All that this one has sent so far.
   virtual Traffic sent() const = 0;
 };
@@ -85,10 +88,10 @@ class Exchange {
   /// Afterwards every rank has the entries of all ranks, each of `width` values. All ranks call it, for vectors of the
   /// same size.
   void gather(std::span<double> values, std::size_t width = 1) const;
-  /// How many entries a rank gives away.
-  std::size_t size_of(std::size_t rank) const;
 
  private:
+  std::size_t size_of(std::size_t rank) const;
+
   std::vector<std::vector<EntryRange>> of_ranks_;
 };
 

@@ -186,6 +186,9 @@ std::string run_table(const Summary& summary, const Units& units) {
   entry("Wall clock", number_text(summary.cost.wall_seconds, 3) + " s");
   entry("Processor", number_text(summary.cost.cpu_seconds, 3) + " s");
   entry("Phases", phases(summary.cost));
+  if (summary.cost.ranks > 1)
+    entry("Processes", fmt::format("{}, of which the first has sent {} messages, {:.3g} MB", summary.cost.ranks,
+                                   summary.cost.messages, 1e-6 * static_cast<double>(summary.cost.sent_bytes)));
   entry("Memory", fmt::format("{:.1f} MiB at most", static_cast<double>(summary.cost.peak_memory_bytes) / 1048576.0));
   return html + "</dl>\n</section>\n";
 }

@@ -295,7 +295,10 @@ Summary Run::finish() {
   summary.cost = {seconds_since(begin_),
                   cpu_seconds(),
                   {{"setup", setup_seconds_.value_or(seconds_since(begin_))}, {"steps", step_seconds_}},
-                  peak_memory()};
+                  peak_memory(),
+                  ranks().count(),
+                  ranks().sent().messages,
+                  ranks().sent().values * sizeof(double)};
   judge(summary);
   if (!folder_.empty()) {
     write_summary(folder_ + "/summary.json", summary);

@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
 #include "advise/steps_left.hpp"
 #include "base/terminal_text.hpp"
+#include "base/version.hpp"
 #include "build/initial_state.hpp"
 #include "build/read_whole.hpp"
 #include "build/simulation.hpp"
@@ -75,6 +77,25 @@ void refuse_mixed_kernels() {
         name(chosen_isa())));
 }
 
+/// Programs of different versions, or cases and meshes that are not the same file, make another run on each rank.
+void refuse_different_runs(const Simulation& simulation) {
+  const std::vector<Vec3>& X = simulation.mesh().coordinates;
+  const double place = parallel_sum(X.size(), [&](std::size_t n) { return X[n][0] + 2.0 * X[n][1] + 3.0 * X[n][2]; });
+  const double known[] = {static_cast<double>(std::hash<std::string>()(version()) >> 11U),
+                          static_cast<double>(X.size()),
+                          place,
+                          simulation.mass().total(),
+                          simulation.dt(),
+                          simulation.end()};
+  bool is_same = true;
+  for (const double value : known) is_same = same_on_all_ranks(value) && is_same;
+  if (!is_same)
+    throw std::runtime_error(fmt::format(
+        "the ranks do not make the same run (this one: version {}, {} nodes, a mass of {:.6g}, steps of {:.6g}): give "
+        "all of them the same program, and case and mesh on a disk that all of them see",
+        version(), X.size(), simulation.mass().total(), simulation.dt()));
+}
+
 void say_ranks() {
   if (ranks().count() > 1)
     say("note: {} ranks of {} thread{} each\n", ranks().count(), thread_count(), thread_count() == 1 ? "" : "s");
@@ -139,6 +160,7 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   ReadCase read = read_whole(case_file, options.accepted);
   refuse_own_folder(read.given, options.folder);
   const Simulation simulation(std::move(read.given));
+  refuse_different_runs(simulation);
   Run run(simulation, is_first() ? options.folder : "", begin);
   run.note(std::move(read.notes));
   ShownProgress progress(run, options.progress);
@@ -159,6 +181,7 @@ ExitCode resume_case(const RunOptions& options, std::optional<double> end, const
   FoundRun found = find_run(options.folder);
   const FoundCheckpoint checkpoint = found.checkpoint;
   const Simulation simulation(found.given);
+  refuse_different_runs(simulation);
   Run run(simulation, is_first() ? options.folder : "", begin);
   run.go_on(std::move(found), end);
   ShownProgress progress(run, options.progress);

@@ -33,8 +33,9 @@ void Mass::combine(double m, std::span<const double> x, double c, std::span<doub
 
 void Mass::combine(double m, std::span<const double> x, double c, std::span<double> y) const {
   constexpr std::size_t rows_per_task = 1024;
-  parallel_for(diagonal_.size(), rows_per_task,
-               [&](std::size_t begin, std::size_t end) { combine(m, x, c, y, EntryRange{begin, end}); });
+  parallel_for(diagonal_.size(), rows_per_task, [&](std::size_t begin, std::size_t end) {
+    combine(m, x, c, y, EntryRange{begin, end});
+  });
 }
 
 void Mass::combine(double m, std::span<const double> x, double c, std::span<double> y, const Holding& nodes) const {

@@ -230,9 +230,8 @@ std::vector<double> Solid::tangent_diagonal(std::span<const double> u, const Poi
 }
 
 const std::vector<double>& Solid::diagonal_at_rest() const {
-  std::call_once(parts_->is_diagonal_made, [&] {
-    parts_->diagonal_at_rest = tangent_diagonal(std::vector<double>(dof_count(), 0.0));
-  });
+  std::call_once(parts_->is_diagonal_made,
+                 [&] { parts_->diagonal_at_rest = tangent_diagonal(std::vector<double>(dof_count(), 0.0)); });
   return parts_->diagonal_at_rest;
 }
 

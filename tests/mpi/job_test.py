@@ -13,7 +13,7 @@ import unittest
 
 import same_bits
 
-CAROM, CAROM_MPI = sys.argv.pop(1), sys.argv.pop(1)
+CAROM, CAROM_MPI = sys.argv[1:3]
 
 # Some hundred steps of some milliseconds.
 BLOCK = """
@@ -150,4 +150,4 @@ class Job(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])

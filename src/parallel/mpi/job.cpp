@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include <bit>
 #include <chrono>
 #include <deque>
 #include <map>
@@ -25,6 +26,7 @@ class MpiRanks final : public Ranks {
     MPI_Comm_rank(MPI_COMM_WORLD, &own);
     count_ = static_cast<std::size_t>(count);
     own_ = static_cast<std::size_t>(own);
+    MPI_Comm_dup(MPI_COMM_WORLD, &gathers_);  // the end of the job is agreed on beside them
   }
   std::size_t count() const override { return count_; }
   std::size_t own() const override { return own_; }
@@ -51,6 +53,16 @@ class MpiRanks final : public Ranks {
     for (Letter& letter : on_the_way_) MPI_Wait(&letter.request, MPI_STATUS_IGNORE);
     forget_sent();
   }
+  void gather(std::span<const double> own, std::span<const std::size_t> sizes, std::vector<double>& all) override {
+    std::vector<int> counts(sizes.begin(), sizes.end()), first(1, 0);
+    for (const int count : counts) first.push_back(first.back() + count);
+    all.resize(static_cast<std::size_t>(first.back()));
+    MPI_Allgatherv(own.data(), static_cast<int>(own.size()), MPI_DOUBLE, all.data(), counts.data(), first.data(),
+                   MPI_DOUBLE, gathers_);
+    // As by recursive doubling, whatever MPI does.
+    sent_.messages += static_cast<std::size_t>(std::bit_width(count_ - 1));
+    sent_.values += all.size() * (count_ - 1) / count_;
+  }
   Traffic sent() const override { return sent_; }
 
  private:
@@ -71,6 +83,7 @@ class MpiRanks final : public Ranks {
   }
 
   std::size_t count_ = 0, own_ = 0;
+  MPI_Comm gathers_ = MPI_COMM_NULL;
   std::deque<Letter> on_the_way_;                          ///< MPI still reads their values
   std::multimap<std::size_t, std::vector<double>> spare_;  ///< by size, memory of letters that have arrived
   Traffic sent_;

@@ -43,7 +43,7 @@ Summary sample() {
               0.0125,
               {"one", "two"},
               {{"statics", 0.0, 1e-4}, {"Newmark", 1e-4, 3e-4}}};
-  s.cost = {0.11, 0.12, {{"setup", 0.02}, {"steps", 0.07}}, 12345678};
+  s.cost = {0.11, 0.12, {{"setup", 0.02}, {"steps", 0.07}}, 12345678, 3, 40, 5000};
   s.ledger = {{"kinetic", 1.0 / 3.0}, {"strain", 2.5}};
   s.code_aster = {{"ENER_CIN", -1.0}, {"DISS_SCH", 4.5e-12}};
   s.linear_momentum = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, 1e-13};
@@ -126,6 +126,9 @@ TEST(Summary, EveryNumberComesBack) {
   EXPECT_EQ(b.cost.phases[1].name, "steps");
   EXPECT_EQ(b.cost.phases[1].value, 0.07);
   EXPECT_EQ(b.cost.peak_memory_bytes, a.cost.peak_memory_bytes);
+  EXPECT_EQ(b.cost.ranks, a.cost.ranks);
+  EXPECT_EQ(b.cost.messages, a.cost.messages);
+  EXPECT_EQ(b.cost.sent_bytes, a.cost.sent_bytes);
   ASSERT_EQ(b.ledger.size(), 2U);
   EXPECT_EQ(b.ledger[0].name, "kinetic");
   EXPECT_EQ(b.ledger[0].value, 1.0 / 3.0);
