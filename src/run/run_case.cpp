@@ -4,7 +4,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <initializer_list>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -77,23 +81,24 @@ void refuse_mixed_kernels() {
         name(chosen_isa())));
 }
 
-/// Programs of different versions, or cases and meshes that are not the same file, make another run on each rank.
-void refuse_different_runs(const Simulation& simulation) {
-  const std::vector<Vec3>& X = simulation.mesh().coordinates;
-  const double place = parallel_sum(X.size(), [&](std::size_t n) { return X[n][0] + 2.0 * X[n][1] + 3.0 * X[n][2]; });
-  const double known[] = {static_cast<double>(std::hash<std::string>()(version()) >> 11U),
-                          static_cast<double>(X.size()),
-                          place,
-                          simulation.mass().total(),
-                          simulation.dt(),
-                          simulation.end()};
+/// Programs of different versions, or cases and meshes that are not the same, make another run on each rank.
+void refuse_different_runs(std::initializer_list<std::string> known) {
   bool is_same = true;
-  for (const double value : known) is_same = same_on_all_ranks(value) && is_same;
+  for (const std::string& text : known) {
+    constexpr unsigned to_a_double = 11;
+    is_same = same_on_all_ranks(static_cast<double>(std::hash<std::string>()(text) >> to_a_double)) && is_same;
+  }
   if (!is_same)
-    throw std::runtime_error(fmt::format(
-        "the ranks do not make the same run (this one: version {}, {} nodes, a mass of {:.6g}, steps of {:.6g}): give "
-        "all of them the same program, and case and mesh on a disk that all of them see",
-        version(), X.size(), simulation.mass().total(), simulation.dt()));
+    throw std::runtime_error(
+        "the ranks do not make the same run: give all of them the same program, and case, mesh and results on a disk "
+        "that all of them see");
+}
+
+/// "" of what is not a file.
+std::string bytes_of(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) return "";
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 void say_ranks() {
@@ -159,8 +164,11 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
   refuse_mixed_kernels();
   ReadCase read = read_whole(case_file, options.accepted);
   refuse_own_folder(read.given, options.folder);
+  if (ranks().count() > 1) {
+    const std::filesystem::path mesh = std::filesystem::path(case_file).parent_path() / *read.given.mesh.file;
+    refuse_different_runs({version(), bytes_of(case_file), bytes_of(mesh)});
+  }
   const Simulation simulation(std::move(read.given));
-  refuse_different_runs(simulation);
   Run run(simulation, is_first() ? options.folder : "", begin);
   run.note(std::move(read.notes));
   ShownProgress progress(run, options.progress);
@@ -180,8 +188,8 @@ ExitCode resume_case(const RunOptions& options, std::optional<double> end, const
   refuse_mixed_kernels();
   FoundRun found = find_run(options.folder);
   const FoundCheckpoint checkpoint = found.checkpoint;
+  refuse_different_runs({version(), fmt::format("{} {}", checkpoint.info.step, checkpoint.info.time)});
   const Simulation simulation(found.given);
-  refuse_different_runs(simulation);
   Run run(simulation, is_first() ? options.folder : "", begin);
   run.go_on(std::move(found), end);
   ShownProgress progress(run, options.progress);

@@ -61,9 +61,10 @@ class Faults(unittest.TestCase):
         done, seconds = self.job(2, other, "run", self.case, "--out", self.folder / "out")
         self.expect_end(done, seconds, "do not make the same run", "a disk that all of them see")
 
-    # The limit is in blocks of 512 bytes; a process that ignores the signal is told that there is no room.
+    # A process that ignores the signal is told that a file has no room. 5 MB (blocks of 512 bytes): MPI has files of 4.
     def test_a_disk_that_is_full(self):
-        full = "if [ \"$OMPI_COMM_WORLD_RANK\" = 0 ]; then trap '' XFSZ; ulimit -f 200; fi"
+        self.case.write_text(BLOCK.replace("[12, 12, 12]", "[28, 28, 28]") + "format = \"vtu\"\nprecision = \"double\"\n")
+        full = "if [ \"$OMPI_COMM_WORLD_RANK\" = 0 ]; then trap '' XFSZ; ulimit -f 10000; fi"
         done, seconds = self.job(2, full, "run", self.case, "--out", self.folder / "out")
         self.expect_end(done, seconds, "out")
 

@@ -102,7 +102,7 @@ bool all_have_come(bool has_error, bool& is_common) {
   for (;;) {
     int is_done = 0;
     MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
-    is_common = all == 1;
+    is_common = is_done != 0 && all == 1;
     if (is_done != 0) return true;
     if (has_error && std::chrono::steady_clock::now() - begin > patience) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -123,7 +123,11 @@ int run_job(int argc, char** argv, const std::function<JobEnd()>& body, const st
   const bool have_come = all_have_come(has_error, is_common);
   if (has_error && own == 0) tell(end.error);
   if (has_error && own > 0 && !is_common) tell(fmt::format("rank {} of {}: {}", own, count, end.error));
-  if (!have_come) MPI_Abort(MPI_COMM_WORLD, end.code);
+  if (!have_come) {
+    constexpr std::chrono::milliseconds until_it_is_read{300};  // mpirun passes on what was said while processes live
+    std::this_thread::sleep_for(until_it_is_read);
+    MPI_Abort(MPI_COMM_WORLD, end.code);
+  }
   of_job.reset();
   MPI_Finalize();
   return own == 0 || has_error ? end.code : 0;  // the others judge nothing
