@@ -1,6 +1,6 @@
 # The commands of the project; `make help` lists them. The work itself is done by CMake presets and the scripts of tools/.
 .DEFAULT_GOAL := help
-.PHONY: help demo build python mpi test verify bench gallery book docs package format lint clean
+.PHONY: help demo build python mpi test verify bench gallery book docs manual package format lint clean
 
 help:    ## this list
 	@awk -F ':.*## ' '/^[a-z]+: .*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -59,6 +59,10 @@ docs:    ## writes the pages of docs/ that follow from tables of the code: case 
 	@tools/build release casefile_tests
 	@tools/build release translate_tests
 	@tools/docs.py build/release/tests/casefile_tests build/release/tests/translate_tests
+
+manual:  ## the pages of docs/ as a site that can be searched without a network: out/manual/index.html
+	@tools/setup manual
+	@tools/manual.py
 
 package: ## the Debian packages, build/release/*.deb: the program and its Python module, looked at by lintian
 	@tools/setup build python package
