@@ -17,7 +17,7 @@ install(FILES ${pages}/_carom DESTINATION share/zsh/vendor-completions)
 install(FILES ${pages}/copyright ${pages}/changelog.gz README.md DESTINATION share/doc/carom)
 install(DIRECTORY cases DESTINATION share/doc/carom/examples PATTERN "stiffness" EXCLUDE)
 install(FILES ${pages}/copyright ${pages}/changelog.gz DESTINATION share/doc/python3-carom COMPONENT python)
-install(DIRECTORY examples/laws DESTINATION share/doc/carom/examples)
+install(DIRECTORY examples/laws examples/tutorial examples/format DESTINATION share/doc/carom/examples)
 install(DIRECTORY examples/python/ DESTINATION share/doc/python3-carom/examples COMPONENT python)
 
 set(CPACK_GENERATOR DEB)

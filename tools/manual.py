@@ -41,7 +41,7 @@ def settings(pages, folder, out):
         "theme": {"name": "material", "custom_dir": str(folder / "theme"), "font": False, "palette": palette,
                   "features": ["navigation.tabs", "navigation.top", "navigation.indexes", "toc.follow"],
                   "icon": {"logo": "material/circle-double"}},
-        "markdown_extensions": ["tables", {"toc": {"permalink": True}}, "pymdownx.superfences",
+        "markdown_extensions": ["tables", "md_in_html", {"toc": {"permalink": True}}, "pymdownx.superfences",
                                 {"pymdownx.betterem": {"smart_enable": "all"}},
                                 {"pymdownx.highlight": {"guess_lang": False}}],
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <regex>
+#include <set>
 
 #include "casefile/case_schema.hpp"
 #include "casefile/schema.hpp"
@@ -63,16 +65,39 @@ void write_alternatives(const SectionDescription& section, std::string& text) {
   }
 }
 
-void write_section(const std::string& path, const KeyDescription& key, std::string& text) {
+/// The sections one after the other, each with its example; those of several kinds have one for all.
+class Sections {
+ public:
+  Sections(const ExampleOf& example_of, std::string& text) : example_of_(example_of), text_(text) {}
+
+  void write_example(const std::string& name) {
+    if (!written_.insert(name).second) return;
+    fmt::format_to(std::back_inserter(text_),
+                   "\n<details markdown=\"1\">\n<summary>Example: <code>examples/format/{}.toml</code></summary>\n\n"
+                   "```toml\n{}```\n\n</details>\n",
+                   name, example_of_(name));
+  }
+
+  void write(const std::string& path, const KeyDescription& key);
+
+ private:
+  const ExampleOf& example_of_;
+  std::string& text_;
+  std::set<std::string> written_;
+};
+
+void Sections::write(const std::string& path, const KeyDescription& key) {
   const SectionDescription& section = *key.section;
   const bool needed = key.options.need == KeyOptions::Need::required;
-  fmt::format_to(std::back_inserter(text), "\n## {}\n\n{}{}\n", heading_of(path, key), section.doc,
+  fmt::format_to(std::back_inserter(text_), "\n## {}\n\n{}{}\n", heading_of(path, key), section.doc,
                  needed ? " Required." : "");
-  write_values(section, text);
-  write_alternatives(section, text);
+  write_values(section, text_);
+  write_alternatives(section, text_);
+  const std::string name = join(path, key.key);
+  write_example(std::regex_replace(name, std::regex("[.]NAME"), ""));
   const char* of_each = key.shape == Shape::named_sections ? ".NAME" : "";
   for (const KeyDescription& child : section.keys) {
-    if (child.section) write_section(join(path, key.key) + of_each, child, text);
+    if (child.section) write(name + of_each, child);
   }
 }
 
@@ -91,17 +116,20 @@ void write_units(std::string& text) {
 
 }  // namespace
 
-std::string case_documentation() {
+std::string case_documentation(const ExampleOf& example_of) {
   const SectionDescription& root = case_schema().description;
   std::string text =
       "# Case files\n\n<!-- Written from the declaration in src/casefile; do not edit. -->\n\n"
       "A case is one TOML file. Unknown keys are errors. All numbers are finite and in the units of the case; nothing "
       "is ever converted.\nSections in `[[double brackets]]` may be given several times. `NAME` is a name of your own. "
       "Tables within a section may be written inline,\nfor example `velocity = { z = -2.0, function = \"ramp\" }`.\n"
+      "Each section has an example, a complete case that runs in a second; they stand in `examples/format`.\n"
       "\n## Top of the file\n";
   write_values(root, text);
+  Sections sections(example_of, text);
+  sections.write_example("top");
   for (const KeyDescription& key : root.keys) {
-    if (key.section) write_section("", key, text);
+    if (key.section) sections.write("", key);
   }
   write_units(text);
   return text;

@@ -1,6 +1,7 @@
 // What is written from the declaration of the case format.
 #pragma once
 
+#include <functional>
 #include <string>
 
 namespace carom {
@@ -8,8 +9,12 @@ namespace carom {
 /// JSON Schema (draft 2020-12) of the case format.
 std::string json_schema();
 
-/// Markdown documentation of the case format (docs/case_format.md).
-std::string case_documentation();
+/// The text of the example of a section, by its name: "mesh.block", "materials.damage", "top" for the keys of no
+/// section.
+using ExampleOf = std::function<std::string(const std::string&)>;
+
+/// Markdown documentation of the case format (docs/case_format.md), with the examples of all sections.
+std::string case_documentation(const ExampleOf& example_of);
 
 /// Markdown page of the schemes and the enforcements they take (docs/compatibility.md).
 std::string compatibility_markdown();

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
 
 #include "casefile/case_schema.hpp"
 #include "casefile/plausibility.hpp"
@@ -326,13 +329,44 @@ TEST(Casefile, JsonSchemaKnowsWhatEachKindTakes) {
   EXPECT_EQ(newmark["then"]["properties"]["time"]["properties"]["safety"], false);
 }
 
+const std::string examples = std::string(CAROM_SOURCE_DIR) + "/examples/format/";
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The header of a section as an example has it, as a regular expression: materials.damage is [materials.steel.damage].
+std::string header_of(const std::string& name) {
+  std::string words;
+  for (const char c : name) words += c == '.' ? std::string("[.](\\w+[.])?") : std::string(1, c);
+  return "(^|\n)\\[\\[?" + words + "([.]\\w+)?\\]";
+}
+
 TEST(Casefile, DocumentationInTheRepositoryIsCurrent) {
-  std::ifstream file(std::string(CAROM_SOURCE_DIR) + "/docs/case_format.md");
-  const std::string committed{std::istreambuf_iterator<char>(file), {}};
-  const std::string current = case_documentation();
+  const std::string committed = text_of(std::string(CAROM_SOURCE_DIR) + "/docs/case_format.md");
+  const std::string current =
+      case_documentation([](const std::string& name) { return text_of(examples + name + ".toml"); });
   const std::string written = testing::TempDir() + "case_format.md";
   if (committed != current) std::ofstream(written) << current;
   EXPECT_TRUE(committed == current) << "the format has changed: copy " << written << " to docs/case_format.md";
+}
+
+TEST(Casefile, EverySectionHasAnExampleThatHasTheSection) {
+  std::set<std::string> names;
+  case_documentation([&](const std::string& name) {
+    names.insert(name + ".toml");
+    const std::string text = text_of(examples + name + ".toml");
+    EXPECT_NO_THROW(parse_case(text, name)) << name;
+    if (name == "top") return text;
+    EXPECT_TRUE(std::regex_search(text, std::regex(header_of(name)))) << "no [" << name << "] in its example";
+    return text;
+  });
+  std::set<std::string> found;
+  for (const auto& entry : std::filesystem::directory_iterator(examples)) {
+    if (entry.path().extension() == ".toml") found.insert(entry.path().filename());
+  }
+  EXPECT_EQ(found, names);
 }
 
 TEST(Units, FactorsFollowFromTheBaseUnits) {
