@@ -58,9 +58,9 @@ class Manual(ToolTest):
             manual.make(self.root, self.root / "out" / "manual")
 
     def test_links_in_blocks_of_code_are_text(self):
-        self.write("docs/format.md", "# Format\n\n```\n[gone](gone.md)\n```\n")
+        self.write("docs/format.md", "# Format\n\n```toml title=\"a.toml, lines of it\"\n[gone](gone.md)\n```\n")
         Pages(self.root).write(self.root / "out")
-        self.assertIn("[gone](gone.md)", (self.root / "out" / "format.md").read_text())
+        self.assertIn("```toml title=\"a.toml\"\n[gone](gone.md)\n```", (self.root / "out" / "format.md").read_text())
 
     def test_lists(self):
         self.assertEqual(with_wide_lists("Text:\n- a\n  more\n\n  second\n- b\n\nText\n"),

@@ -57,6 +57,11 @@ def resolved(source, target):
     return pathlib.PurePosixPath(os.path.normpath(source.parent / target.split("#")[0]))
 
 
+def for_readers(line):
+    """The first line of a block of code with the file's name alone, where the block quotes from it."""
+    return line.replace(', lines of it"', '"') if FENCE.match(line) else line
+
+
 def with_wide_lists(text):
     """The page with lists as Python's Markdown wants them: an empty line before, what belongs to an item four spaces in."""
     lines, in_list, has_gap, before = [], False, False, ""
@@ -133,7 +138,7 @@ class Pages:
 
     def text_of(self, source):
         """A page as the manual has it."""
-        lines = [self._with_links(source, line) if is_text else line
+        lines = [self._with_links(source, line) if is_text else for_readers(line)
                  for line, is_text in outside_fences((self.root / source).read_text())]
         return with_wide_lists("\n".join(lines))
 
