@@ -1,4 +1,4 @@
-"""The case printed in README.md runs and passes. Usage: readme_test.py CAROM."""
+"""The case printed in README.md runs and passes, and what is said of citing Carom names its version. Usage: readme_test.py CAROM."""
 
 import pathlib
 import re
@@ -7,7 +7,13 @@ import sys
 import tempfile
 
 program = sys.argv[1]
-readme = (pathlib.Path(__file__).resolve().parent.parent.parent / "README.md").read_text()
+root = pathlib.Path(__file__).resolve().parent.parent.parent
+readme = (root / "README.md").read_text()
+version = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout.split()[1]
+for place, pattern in (("README.md", r"version = \{(.*)\}"), ("CITATION.cff", r"\nversion: (.*)")):
+    (named,) = re.findall(pattern, (root / place).read_text())
+    if named != version:
+        sys.exit(f"{place} names the version {named}, the program is {version}")
 (case,) = re.findall(r"```toml\n(.*?)```", readme, re.DOTALL)
 with tempfile.TemporaryDirectory() as folder:
     path = pathlib.Path(folder) / "case.toml"
