@@ -64,8 +64,8 @@ manual:  ## the pages of docs/ as a site that can be searched without a network:
 	@tools/setup manual
 	@tools/manual.py
 
-package: ## the Debian packages, build/release/*.deb: the program and its Python module, looked at by lintian
-	@tools/setup build python package
+package: ## the Debian packages, build/release/*.deb: the program, its Python module and the manual, looked at by lintian
+	@tools/setup build python package manual
 	@tools/package
 
 format:  ## rewrite all sources as .clang-format says

@@ -1,4 +1,4 @@
-# The Debian packages of the program and of its Python module (`make package`): CPack, dependencies found by dpkg-shlibdeps, manual page and
+# The Debian packages of the program, its Python module and its manual (`make package`): CPack, dependencies found by dpkg-shlibdeps, manual page and
 # completions made from what the program says of itself (tools/command_pages.py).
 set(pages ${CMAKE_BINARY_DIR}/pages)
 add_custom_command(
@@ -18,13 +18,18 @@ install(FILES ${pages}/copyright ${pages}/changelog.gz README.md DESTINATION sha
 install(DIRECTORY cases DESTINATION share/doc/carom/examples PATTERN "stiffness" EXCLUDE)
 install(FILES ${pages}/copyright ${pages}/changelog.gz DESTINATION share/doc/python3-carom COMPONENT python)
 install(DIRECTORY examples/laws examples/tutorial examples/format DESTINATION share/doc/carom/examples)
+install(FILES ${pages}/copyright ${pages}/changelog.gz DESTINATION share/doc/carom-doc COMPONENT doc)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/build/manual/ DESTINATION share/doc/carom/html COMPONENT doc)  # of tools/manual.py
 install(DIRECTORY examples/python/ DESTINATION share/doc/python3-carom/examples COMPONENT python)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL program python)
+set(CPACK_COMPONENTS_ALL program python doc)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME carom)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-carom)
+set(CPACK_DEBIAN_DOC_PACKAGE_NAME carom-doc)
+set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-meshio, python3-matplotlib, python3-scipy")
@@ -40,6 +45,9 @@ ends with a verdict.")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "Module of Python: cases as dicts, runs stepped and branched, curves as arrays: the solver
 carom as a module of Python.")
+set(CPACK_COMPONENT_DOC_DESCRIPTION
+    "Manual: tutorial, how-tos, reference and verification of the solver
+carom, pages with a search that need no network.")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

@@ -27,6 +27,11 @@ Copyright: 2026 the Carom developers
  three.js: the authors of three.js (MIT), built in for the view of reports
 License: GPL-3.0+
 
+Files: usr/share/doc/carom/html/*
+Copyright: 2026 the Carom developers
+ Material for MkDocs: Martin Donath (MIT), scripts and style sheets of the pages
+License: GPL-3.0+
+
 License: GPL-3.0+
  On Debian systems the text of the GNU General Public License, version 3, stands in
  /usr/share/common-licenses/GPL-3.

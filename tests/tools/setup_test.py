@@ -91,7 +91,8 @@ class Setup(ToolTest):
         for line in pathlib.Path(TOOLS / "packages.txt").read_text().splitlines():
             if line and not line.startswith("#"):
                 group, package, _ = line.split(None, 2)
-                self.assertIn(group, ("build", "python", "test", "ci", "bench", "book", "package", "verify", "mpi"))
+                self.assertIn(group, ("build", "python", "test", "ci", "bench", "book", "package", "verify", "mpi",
+                                  "manual"))
                 self.assertRegex(package, r"^[a-z0-9][a-z0-9+.-]+$")
 
 
