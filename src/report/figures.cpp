@@ -281,6 +281,14 @@ std::vector<LargestValue> largest_values(const Tables& tables, const std::option
   return all;
 }
 
+std::optional<double> time_of_largest_force(const std::optional<CsvTable>& contact) {
+  if (!contact) return std::nullopt;
+  Peak largest;
+  for (const std::string& place : places_with(*contact, "force"))
+    if (const Peak peak = peak_of(*contact, place, "force"); peak.value > largest.value) largest = peak;
+  return largest.value > 0.0 ? std::optional(largest.time) : std::nullopt;
+}
+
 std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units) {
   std::vector<KeyFigure> figures;
   if (tables.contact && tables.contact->rows() > 0) {

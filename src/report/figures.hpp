@@ -22,6 +22,9 @@ struct KeyFigure {
 /// contacts, probes or parts the largest four.
 std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units);
 
+/// When the largest force of all contacts is; nothing where there is none.
+std::optional<double> time_of_largest_force(const std::optional<CsvTable>& contact);
+
 /// The largest magnitude of something over the run.
 struct LargestValue {
   std::string quantity, value, time, where;

@@ -30,6 +30,7 @@ struct ReportData {
   std::vector<Chart> charts;
   std::string title;          ///< of the case, as the tables know it; "" where there are none
   double time_reached = 0.0;  ///< of the last row of energy.csv
+  std::optional<double> largest_force_at{};  ///< when it is: the view opens there
   std::optional<RunningState> running{};
   std::vector<PageView> views{};
   std::string case_text;           ///< case.resolved.toml

@@ -73,6 +73,7 @@ ReportData read_results(const std::string& results_folder) {
   data.case_text = read_case(folder, data.notes);
   data.units = find_units(data.summary, {&tables.energy, &tables.contact, &tables.probes});
   data.figures = key_figures(tables, data.summary, data.units);
+  data.largest_force_at = time_of_largest_force(tables.contact);
   data.largest = largest_values(tables, data.summary, data.units);
   data.charts = make_charts(tables, data.units, data.summary);
   if (tables.energy && !tables.energy->comments.empty()) {
@@ -84,7 +85,8 @@ ReportData read_results(const std::string& results_folder) {
 }
 
 void add_view(ReportData& data, std::size_t most_bytes, const std::string& title) {
-  ViewLabels labels{data.units, {}, data.summary ? data.summary->contacts : std::vector<std::string>()};
+  ViewLabels labels{data.units, {}, data.summary ? data.summary->contacts : std::vector<std::string>(),
+                    data.largest_force_at};
   if (data.summary)
     for (const PartSummary& part : data.summary->parts) labels.parts.push_back(part.name);
   try {

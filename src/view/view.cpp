@@ -288,6 +288,7 @@ std::optional<View> make_view(const std::string& folder, const ViewLabels& label
     json["time_unit"] = time.name;
     json["time_power"] = time.power;
     json["length_unit"] = labels.units.length;
+    if (labels.opening) json["opening"] = *labels.opening;
     json["times"] = Json::array();
     for (const std::size_t t : evenly(source.times.size(), detail.frames)) json["times"].push_back(source.times[t]);
     Json scenes = Json::array();

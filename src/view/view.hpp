@@ -20,6 +20,7 @@ struct ViewLabels {
   Units units;
   std::vector<std::string> parts;     ///< in their order in the case; "part 1" ... where there are fewer
   std::vector<std::string> contacts;  ///< likewise: of obstacles
+  std::optional<double> opening{};    ///< the time at which the view opens, where one is known
 };
 
 /// Reads the index of the folder and its frames, as many of them as a page can hold: the outer surface, its motion and

@@ -1,12 +1,15 @@
+// Saves the pieces of a file on the reader's disk.
+carom.saveFile = function (name, type, pieces) {
+  "use strict";
+  const url = URL.createObjectURL(new Blob(pieces, { type }));
+  Object.assign(document.createElement("a"), { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+};
+
 // Buttons that save a chart as a file.
 carom.addExports = (function () {
   "use strict";
-
-  function save(name, type, content) {
-    const url = URL.createObjectURL(new Blob([content], { type }));
-    Object.assign(document.createElement("a"), { href: url, download: name }).click();
-    setTimeout(() => URL.revokeObjectURL(url), 10000);
-  }
+  const save = (name, type, content) => carom.saveFile(name, type, [content]);
 
   function savePng(name, source) {
     const image = new Image();

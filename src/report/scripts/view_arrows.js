@@ -37,6 +37,16 @@ carom.ForceArrows = (function () {
       for (const object of this.objects) object.frustumCulled = false;
     }
 
+    // Where the arrows of a frame begin.
+    tails(frame, at, longest) {
+      const tails = [];
+      for (let i = 0; i < this.scene.nodes; i++) {
+        const force = forceAt(this.field, frame, i);
+        if (force.length() > LEAST * this.largest) tails.push([0, 1, 2].map((c) => at[c][i] - (longest * force.getComponent(c)) / this.largest));
+      }
+      return tails;
+    }
+
     // With nodes at these places, the largest force of the run as long as `longest`.
     show(frame, at, longest, visible) {
       for (const object of this.objects) object.visible = visible;
@@ -62,7 +72,7 @@ carom.ForceArrows = (function () {
   ForceArrows.of = function (scene, clipping) {
     const field = scene.field("contact_force");
     if (!field || field.ranges.length !== 3) return null;
-    const largest = Math.max(...new carom.Colouring(scene, field, -1).range), most = mostArrows(scene, field, largest);
+    const largest = Math.max(...new carom.Colouring(scene, field, -1).ofAllTimes), most = mostArrows(scene, field, largest);
     return most === 0 ? null : new ForceArrows(scene, field, largest, most, clipping);
   };
   return ForceArrows;

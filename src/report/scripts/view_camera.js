@@ -14,9 +14,33 @@ carom.ViewCamera = (function () {
     return { left: -across, right: across, top: up, bottom: -up };
   }
 
+  // Directions to the right and upward on a picture.
+  function pictureAxes(towards, up) {
+    const right = new THREE.Vector3().crossVectors(up, towards).normalize();
+    return [right, new THREE.Vector3().crossVectors(towards, right)];
+  }
+
+  // How far the middle of these points stands from the centre on the picture, and how much larger than within these sides
+  // they may be drawn, with a margin of 5 %.
+  function fitted(points, centre, axes, { right, top }) {
+    const ends = axes.map((axis) => {
+      let low = Infinity, high = -Infinity;
+      for (const point of points) {
+        const x = axis.x * (point[0] - centre[0]) + axis.y * (point[1] - centre[1]) + axis.z * (point[2] - centre[2]);
+        low = Math.min(low, x);
+        high = Math.max(high, x);
+      }
+      return { middle: (low + high) / 2, half: (high - low) / 2 };
+    });
+    const shift = new THREE.Vector3().addScaledVector(axes[0], ends[0].middle).addScaledVector(axes[1], ends[1].middle);
+    const zoom = Math.min(right / ends[0].half, top / ends[1].half) / 1.1;
+    return { shift, zoom: Number.isFinite(zoom) ? zoom : 1 };
+  }
+
   class ViewCamera {
+    // extent: all of what is there (carom.extentOf).
     constructor(extent, canvas, onTurned) {
-      this.extent = extent;
+      Object.assign(this, { extent, whole: extent, aspect: 1 });
       this.camera = new THREE.OrthographicCamera();
       this.camera.up.set(...(extent.isPlane ? [0, 1, 0] : [0, 0, 1]));
       this.controls = new THREE.OrbitControls(this.camera, canvas);
@@ -31,18 +55,27 @@ carom.ViewCamera = (function () {
       return this.camera.position.clone().sub(this.controls.target);
     }
 
-    // From this direction, everything in the picture.
+    // Behind everything, also where the picture shows a part of it.
+    get distance() {
+      return Math.max(AWAY * this.extent.reach, 3 * this.whole.reach);
+    }
+
+    // From this direction, all of the extent in the picture.
     look(direction) {
-      const { reach, centre } = this.extent;
-      this.controls.target.set(...centre);
-      this.camera.position.copy(this.controls.target).addScaledVector(new THREE.Vector3(...direction).normalize(), AWAY * reach);
-      Object.assign(this.camera, { near: 0.1 * reach, far: 2 * AWAY * reach, zoom: 1 });
-      this.camera.updateProjectionMatrix();
+      const { reach, centre, points } = this.extent, { distance, camera } = this;
+      const towards = new THREE.Vector3(...direction).normalize(), sides = frustum(reach, this.aspect);
+      const { shift, zoom } = points ? fitted(points, centre, pictureAxes(towards, camera.up), sides) : { shift: new THREE.Vector3(), zoom: 1 };
+      this.controls.target.set(...centre).add(shift);
+      camera.position.copy(this.controls.target).addScaledVector(towards, distance);
+      Object.assign(camera, { near: 0.1 * reach, far: 2 * distance, zoom, ...sides });
+      camera.updateProjectionMatrix();
       this.controls.update();
       this.onTurned();
     }
 
-    fit() {
+    // All of this box (carom.fitOf) in the picture, from where it is looked at now.
+    fit(extent) {
+      this.extent = { ...extent, isPlane: this.whole.isPlane };
       this.look(this.away().toArray());
     }
 
@@ -62,17 +95,23 @@ carom.ViewCamera = (function () {
 
     // From where another one looks, as near.
     follow(other) {
-      this.camera.position.copy(this.controls.target).addScaledVector(other.away().normalize(), AWAY * this.extent.reach);
+      this.camera.position.copy(this.controls.target).addScaledVector(other.away().normalize(), this.distance);
       this.camera.zoom = other.camera.zoom;
       this.camera.updateProjectionMatrix();
       this.controls.update();
     }
 
+    // How many pixels a length of one has in a picture of this height.
+    pixels(height) {
+      return (height * this.camera.zoom) / (this.camera.top - this.camera.bottom);
+    }
+
     resize(aspect) {
+      this.aspect = aspect;
       Object.assign(this.camera, frustum(this.extent.reach, aspect));
       this.camera.updateProjectionMatrix();
     }
   }
 
-  return Object.assign(ViewCamera, { directions, frustum });
+  return Object.assign(ViewCamera, { directions, frustum, fitted });
 })();

@@ -8,19 +8,22 @@ carom.Drawing = (function () {
       this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
       this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
       this.renderer.localClippingEnabled = true;
-      this.clipping = [];
-      this.models = scenes.map((scene, s) => new carom.SceneModel(scene, s > 0, this.clipping));
+      Object.assign(this, { cutting: [], cropping: [], clipping: [], around: [] });
+      this.models = scenes.map((scene, s) => new carom.SceneModel(scene, s > 0, s > 0 ? this.around : this.clipping));
+      if (!extent.isPlane) this.fill = new carom.CutFill(this.models[0], this.clipping, extent);
       this.eye = new carom.ViewCamera(extent, canvas, onTurned);
       const light = new THREE.DirectionalLight(0xffffff, 0.5);
       light.position.set(0.4, 0.6, 1);
       this.eye.camera.add(light, light.target);
       this.world = new THREE.Scene();
       for (const model of this.models) this.world.add(...model.objects);
+      if (this.fill) this.world.add(...this.fill.objects);
       this.world.add(this.eye.camera, new THREE.AmbientLight(0xffffff, 0.62));
     }
 
     resize(width, height) {
       this.eye.resize(width / height);
+      this.height = height;
       this.renderer.setSize(width, height, false);
     }
 
@@ -31,14 +34,51 @@ carom.Drawing = (function () {
     }
 
     draw() {
+      const pixels = this.eye.pixels(this.height);
+      for (const model of this.models) model.edges.zoom(pixels);
       this.renderer.render(this.world, this.eye.camera);
     }
 
     // Shows one side of a plane across an axis (0, 1, 2; -1: no cut), at this share of the way along the bodies.
     cut(axis, share, isOtherHalf) {
-      this.clipping.length = 0;
-      if (axis >= 0) this.clipping.push(cuttingPlane(this.extent, axis, share, isOtherHalf));
+      this.cutting = axis < 0 ? [] : [cuttingPlane(this.extent, axis, share, isOtherHalf)];
+      if (this.fill) this.fill.show(this.cutting[0]);
+      this.clip();
+    }
+
+    // All of this box in the picture, and obstacles around it.
+    fit(box) {
+      this.cropping = [0, 1, 2].flatMap((axis) => croppingPlanes(box, axis));
+      this.clip();
+      this.eye.fit(box);
+    }
+
+    // Draws what is there in these planes as well; obstacles only where they end at one.
+    mirror(planes) {
+      const images = carom.Mirrors.imagesOf(planes), [bodies] = this.models;
+      for (const object of [bodies.mesh, bodies.edges.object, ...(this.fill ? this.fill.surfaces : [])]) carom.Mirrors.repeat(object, images);
+      for (const { scene, mesh, edges } of this.models.slice(1)) {
+        const own = carom.Mirrors.imagesOf(carom.Mirrors.oneSided(scene, planes));
+        for (const object of [mesh, edges.object]) carom.Mirrors.repeat(object, own);
+      }
+    }
+
+    clip() {
+      this.clipping.splice(0, Infinity, ...this.cutting);
+      this.around.splice(0, Infinity, ...this.cutting, ...this.cropping);
       for (const model of this.models) for (const object of model.objects) object.material.needsUpdate = true;
+    }
+
+    // Which triangles of the bodies are in the picture in this frame, hidden by nothing but what stands before them.
+    sight(frame, scale) {
+      const { scene } = this.models[0], at = carom.positions(scene, frame, scale), place = new THREE.Vector3();
+      return (k) => {
+        if (!this.models[0].isSeen(k, frame)) return false;
+        at.forEach((xs, c) => place.setComponent(c, scene.node.reduce((sum, nodes) => sum + xs[nodes[k]], 0) / 3));
+        if (!this.clipping.every((plane) => plane.distanceToPoint(place) >= 0)) return false;
+        place.project(this.eye.camera);
+        return Math.abs(place.x) <= 1 && Math.abs(place.y) <= 1;
+      };
     }
 
     // The cell and node of the bodies at a place of the picture, from -1 to 1 to the right and upward; null for none.
@@ -61,5 +101,11 @@ carom.Drawing = (function () {
     return new THREE.Plane(new THREE.Vector3().setComponent(axis, sign), -sign * at);
   }
 
-  return Object.assign(Drawing, { cuttingPlane });
+  // Beside a box, a little farther out than it reaches.
+  function croppingPlanes({ low, high, reach }, axis) {
+    return [[1, low[axis] - 0.6 * reach], [-1, high[axis] + 0.6 * reach]].map(([sign, at]) =>
+      new THREE.Plane(new THREE.Vector3().setComponent(axis, sign), -sign * at));
+  }
+
+  return Object.assign(Drawing, { cuttingPlane, croppingPlanes });
 })();

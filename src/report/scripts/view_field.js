@@ -1,26 +1,8 @@
-// What a view is coloured by: one number per node or cell, its range and its colours.
+// What a view is coloured by: one number per node or cell, and its colours.
 carom.Colouring = (function () {
   "use strict";
   const LENGTH = -1, VON_MISES = -2;  // in place of a component
-
-  // Stops of viridis (S. van der Walt, N. Smith, 2015) and of a blue - white - red scale for numbers of both signs.
-  const VIRIDIS = ["440154", "482475", "414487", "355f8d", "2a788e", "21918c", "22a884", "44bf70", "7ad151", "bddf26", "fde725"];
-  const BOTH_SIGNS = ["2c4fa0", "5b83c4", "9cb8dd", "d8e1ec", "f2f2f0", "f0d6cb", "e0a085", "c8604c", "a3262b"];
-  const PARTS = ["6f9fd0", "d99a6c", "79b894", "b08fc0", "cbb45f", "79b3c2", "c9839f", "9aa0a6"];
-
-  const rgb = (hex) => [0, 2, 4].map((i) => parseInt(hex.slice(i, i + 2), 16));
-  function table(stops, count) {
-    const colours = stops.map(rgb);
-    return Array.from({ length: count }, (_, i) => {
-      const x = (i / (count - 1)) * (stops.length - 1);
-      const k = Math.min(Math.floor(x), stops.length - 2);
-      return [0, 1, 2].map((c) => Math.round(colours[k][c] + (x - k) * (colours[k + 1][c] - colours[k][c])));
-    });
-  }
-  const palettes = { viridis: table(VIRIDIS, 256), signed: table(BOTH_SIGNS, 256), parts: PARTS.map(rgb), none: rgb("9aa4ac") };
-
-  // One colour for each of the whole numbers from 0 to this one.
-  const steps = (last) => Array.from({ length: 256 }, (_, i) => palettes.parts[Math.round((i / 255) * last) % palettes.parts.length]);
+  const { palettes } = carom.ColourScale;
 
   // What may be chosen of a field: its length, its components.
   function choices(scene, field) {
@@ -34,25 +16,14 @@ carom.Colouring = (function () {
   class Colouring {
     // Without a field every part has its colour.
     constructor(scene, field, component) {
-      Object.assign(this, { scene, field, component });
-      this.cover(field ? this.rangeOver(scene.frames) : [0, 0]);
+      Object.assign(this, { scene, field, component, isSmooth: false });
+      this.scale = new carom.ColourScale(!field ? "range" : component < 0 ? "from_zero" : field.colours);
+      this.ofAllTimes = field ? this.rangeOfAllTimes() : [0, 0];
+      this.scale.cover(this.ofAllTimes);
     }
 
-    // The colours go from one of these numbers to the other, or as the field wants it: from zero, about zero (which all
-    // numbers of both signs are), or one for each whole number.
-    cover([low, high]) {
-      const wanted = !this.field ? "range" : this.component < 0 ? "from_zero" : this.field.colours;
-      const isSigned = wanted === "both_signs" || (low < 0 && high > 0), most = Math.max(-low, high);
-      this.covered = [low, high];
-      if (wanted === "from_zero" || wanted === "categories") low = Math.min(0, low);
-      this.range = isSigned ? [-most, most] : [low, high];
-      this.palette = wanted === "categories" ? steps(high) : isSigned ? palettes.signed : palettes.viridis;
-    }
-
-    // The numbers of a legend, the largest first.
-    ticks() {
-      const [low, high] = this.range, count = this.field.colours === "categories" ? high : 4;
-      return Array.from({ length: count + 1 }, (_, i) => high - (i * (high - low)) / Math.max(1, count));
+    get isAtCells() {
+      return Boolean(this.field) && this.field.at === "cell";
     }
 
     value(frame, i) {
@@ -66,40 +37,66 @@ carom.Colouring = (function () {
       return Math.sqrt(sum);
     }
 
-    rangeOver(frames) {
-      if (this.component >= 0) return this.field.ranges[this.component];
-      const count = this.field.at === "cell" ? this.scene.cells : this.scene.nodes;
-      let low = Infinity, high = -Infinity;
-      for (let t = 0; t < frames; t++) {
-        for (let i = 0; i < count; i++) {
-          const v = this.value(t, i);
-          if (v < low) low = v;
-          if (v > high) high = v;
-        }
-      }
-      return low <= high ? [low, high] : [0, 0];
+    // Of every node or cell.
+    values(frame) {
+      const values = new Float32Array(this.isAtCells ? this.scene.cells : this.scene.nodes);
+      for (let i = 0; i < values.length; i++) values[i] = this.value(frame, i);
+      return values;
     }
 
-    // Of every node or cell, its place between the ends of the range; -1 where there is no value.
-    places(frame) {
-      const count = this.field.at === "cell" ? this.scene.cells : this.scene.nodes;
-      const out = new Float32Array(count);
-      const [low, high] = this.range, width = high > low ? high - low : 1;
-      for (let i = 0; i < count; i++) {
-        const v = this.value(frame, i);
-        out[i] = Number.isNaN(v) ? -1 : Math.min(1, Math.max(0, (v - low) / width));
-      }
+    rangeOfAllTimes() {
+      if (this.component >= 0) return this.field.ranges[this.component];
+      let ends = [Infinity, -Infinity];
+      for (let t = 0; t < this.scene.frames; t++) ends = this.values(t).reduce(([low, high], v) => [v < low ? v : low, v > high ? v : high], ends);
+      return ends[0] <= ends[1] ? ends : [0, 0];
+    }
+
+    // The frame in which the largest magnitude is found, the first of several; this one where all are zero.
+    largestFrame(none) {
+      const largest = Array.from({ length: this.scene.frames }, (_, t) => this.values(t).reduce((most, v) => (Math.abs(v) > most ? Math.abs(v) : most), 0));
+      const most = Math.max(...largest);
+      return most > 0 ? largest.indexOf(most) : none;
+    }
+
+    // By triangle, the values at its three corners: of cells, of nodes, or smooth means of cells.
+    corners(frame) {
+      const { scene } = this, values = this.values(frame), out = new Float32Array(3 * scene.triangles);
+      const means = this.isAtCells && this.isSmooth ? carom.NodeMeans.of(scene) : null, smooth = means && means.of(values);
+      for (let k = 0; k < scene.triangles; k++)
+        for (let a = 0; a < 3; a++) out[3 * k + a] = means ? smooth[means.corner[3 * k + a]] : values[this.isAtCells ? scene.cell[k] : scene.node[a][k]];
       return out;
     }
 
+    // The ends of the values of the triangles that are asked for; null where they have none.
+    rangeAmong(frame, isWanted) {
+      const corners = this.corners(frame);
+      let low = Infinity, high = -Infinity;
+      for (let k = 0; k < this.scene.triangles; k++) {
+        if (!isWanted(k)) continue;
+        for (let v = 3 * k; v < 3 * k + 3; v++) {
+          if (corners[v] < low) low = corners[v];
+          if (corners[v] > high) high = corners[v];
+        }
+      }
+      return low <= high ? [low, high] : null;
+    }
+
+    // The corners' places on the scale (ColourScale.place). A triangle of which one corner has no value or is above the
+    // limit is drawn so as a whole: between such colours there is nothing.
+    places(frame) {
+      const places = this.corners(frame).map((v) => this.scale.place(v));
+      for (let v = 0; v < places.length; v += 3) {
+        const three = places.subarray(v, v + 3);
+        if (three.includes(-1)) three.fill(-1);
+        else if (three.includes(2)) three.fill(2);
+      }
+      return places;
+    }
+
     colour(place, part) {
-      if (!this.field) return palettes.parts[part % palettes.parts.length];
-      return place < 0 ? palettes.none : this.palette[Math.round(place * 255)];
+      return this.field ? this.scale.colour(place) : palettes.parts[part % palettes.parts.length];
     }
   }
 
-  Colouring.choices = choices;
-  Colouring.palettes = palettes;
-  return Colouring;
+  return Object.assign(Colouring, { choices });
 })();
-

@@ -23,18 +23,18 @@ carom.listenToKeys = (function () {
     };
   }
 
-  function keysOfEye(eye) {
+  function keysOfEye(eye, fit) {
     const { iso, x, y, z } = carom.ViewCamera.directions(eye.extent.isPlane);
     const look = (direction) => () => eye.look(direction);
     return {
       "shift ArrowLeft": () => eye.turn(-0.1, 0), "shift ArrowRight": () => eye.turn(0.1, 0), "shift ArrowUp": () => eye.turn(0, -0.1), "shift ArrowDown": () => eye.turn(0, 0.1),
-      "+": () => eye.zoom(1.2), "-": () => eye.zoom(1 / 1.2), f: () => eye.fit(), x: look(x), y: look(y), z: look(z), i: look(iso),
+      "+": () => eye.zoom(1.2), "-": () => eye.zoom(1 / 1.2), f: fit, x: look(x), y: look(y), z: look(z), i: look(iso),
     };
   }
 
   // eye: null where a picture cannot be turned.
-  return function (canvas, { player, panel, eye, chosen }) {
-    const keys = { ...keysOfTime(player), ...keysOfPanel(panel, chosen), ...(eye ? keysOfEye(eye) : {}) };
+  return function (canvas, { player, panel, eye, chosen, fit }) {
+    const keys = { ...keysOfTime(player), ...keysOfPanel(panel, chosen), ...(eye ? keysOfEye(eye, fit) : {}) };
     canvas.addEventListener("keydown", (event) => {
       const act = keys[(event.shiftKey && event.key.startsWith("Arrow") ? "shift " : "") + event.key];
       if (!act || event.ctrlKey || event.altKey || event.metaKey) return;

@@ -1,12 +1,12 @@
 // A scene as three.js draws it: its surface, the edges of its cells and the arrows of its contact forces.
 carom.SceneModel = (function () {
   "use strict";
-  const ROWS = { field: 0.125, none: 0.375, parts: 0.625 };  // of the texture
+  const ROWS = { field: 0.125, none: 0.375, parts: 0.625, above: 0.875 };  // of the texture
 
-  // One row of colours each: the field's, "no value", the parts'.
-  function makeTexture(colouring) {
-    const { none, parts } = carom.Colouring.palettes;
-    const rows = [colouring.palette, [none], parts, [none]];
+  // One row of colours each: the field's, "no value", the parts', above the limit.
+  function makeTexture(palette) {
+    const { none, parts, above } = carom.ColourScale.palettes;
+    const rows = [palette, [none], parts, [above]];
     const bytes = new Uint8Array(4 * 256 * 4);
     rows.forEach((row, r) => {
       for (let i = 0; i < 256; i++) bytes.set([...row[i % row.length], 255], 4 * (256 * r + i));
@@ -16,6 +16,10 @@ carom.SceneModel = (function () {
     texture.needsUpdate = true;
     return texture;
   }
+
+  // Where the colour of a place on the scale stands in the texture.
+  const across = (place) => (place < 0 || place > 1 ? 0.5 : (0.5 + 255 * place) / 256);
+  const rowOf = (place) => (place < 0 ? ROWS.none : place > 1 ? ROWS.above : ROWS.field);
 
   class SceneModel {
     constructor(scene, isObstacle, clipping) {
@@ -34,20 +38,19 @@ carom.SceneModel = (function () {
 
     show({ frame, scale, colouring, edges, arrows, arrowLength }) {
       this.at = carom.positions(this.scene, frame, scale);
-      this.colourBy(colouring);
+      this.colourBy(colouring.scale);
       this.showSurface(frame, colouring);
       this.edges.show(this.at, frame, this.hidden, edges);
       if (this.arrows) this.arrows.show(frame, this.at, arrowLength, arrows);
     }
 
-    colourBy(colouring) {
-      if (colouring === this.colouring && colouring.palette === this.palette) return;
+    colourBy({ palette }) {
+      if (palette === this.palette) return;
       const { material } = this.mesh;
       if (material.map) material.map.dispose();
-      material.map = makeTexture(colouring);
+      material.map = makeTexture(palette);
       material.needsUpdate = true;
-      this.colouring = colouring;
-      this.palette = colouring.palette;
+      this.palette = palette;
     }
 
     // A triangle that is not seen is put into one of its corners.
@@ -55,18 +58,21 @@ carom.SceneModel = (function () {
       const { scene, at } = this, { attributes } = this.mesh.geometry;
       const position = attributes.position.array, uv = attributes.uv.array;
       const places = colouring.field ? colouring.places(frame) : null;
-      const atCells = places && colouring.field.at === "cell";
       for (let k = 0; k < scene.triangles; k++) {
-        const cell = scene.cell[k], part = scene.part[cell], isHidden = this.hidden.has(part) || !scene.isSeen(k, frame);
+        const cell = scene.cell[k], part = scene.part[cell], isHidden = !this.isSeen(k, frame);
         for (let a = 0; a < 3; a++) {
           const n = scene.node[isHidden ? 0 : a][k], v = 3 * k + a;
           for (let c = 0; c < 3; c++) position[3 * v + c] = at[c][n];
-          const place = places ? places[atCells ? cell : n] : ((part % 8) + 0.5) / 256;
-          uv[2 * v] = place < 0 ? 0.5 : places ? (0.5 + 255 * place) / 256 : place;
-          uv[2 * v + 1] = !places ? (this.isObstacle ? ROWS.none : ROWS.parts) : place < 0 ? ROWS.none : ROWS.field;
+          uv[2 * v] = places ? across(places[v]) : ((part % 8) + 0.5) / 256;
+          uv[2 * v + 1] = places ? rowOf(places[v]) : this.isObstacle ? ROWS.none : ROWS.parts;
         }
       }
       attributes.position.needsUpdate = attributes.uv.needsUpdate = true;
+    }
+
+    // Is a triangle of this frame seen from somewhere?
+    isSeen(k, frame) {
+      return !this.hidden.has(this.scene.part[this.scene.cell[k]]) && this.scene.isSeen(k, frame);
     }
 
     // What a ray meets first of what is shown: triangle, cell, nearest node.

@@ -12,6 +12,23 @@ carom.Overlay = (function () {
     }).sort((a, b) => a.depth - b.depth);
   }
 
+  // What a legend says: title with unit, colours from below, round numbers and where they stand on the bar, what is marked.
+  function legendOf(colouring, name, frame) {
+    const { field, scale } = colouring;
+    if (!field) return null;
+    const power = field.power + carom.powerFor(Math.max(...scale.range.map(Math.abs)) / 10 ** field.power);
+    const unit = [power === field.power ? "" : carom.powerOfTen(power - field.power), field.unit].filter((text) => text !== "").join(" ");
+    const ticks = scale.ticks(10 ** power).map((x) => ({ share: scale.share(x), text: carom.digits(x, power, 6) }));
+    return { title: carom.axisTitle(name, unit), stops: scale.palette.filter((_, i) => i % 15 === 0), ticks, above: marked(colouring, frame) };
+  }
+
+  function marked(colouring, frame) {
+    const { scale: { limit }, field, isAtCells } = colouring;
+    if (limit === Infinity) return "";
+    const count = colouring.values(frame).filter((v) => v > limit).length;
+    return `${count} ${isAtCells ? "cell" : "node"}${count === 1 ? "" : "s"} above ${carom.four(limit, field.power)}`;
+  }
+
   class Overlay {
     // Over a canvas.
     constructor(canvas) {
@@ -28,15 +45,15 @@ carom.Overlay = (function () {
     }
 
     // Nothing where parts have colours of their own.
-    showColours(colouring, name) {
-      const { field, palette } = colouring;
-      this.scaleBar.hidden = !field;
-      if (!field) return;
-      const stops = palette.filter((_, i) => i % 15 === 0).map((c) => "rgb(" + c + ")").reverse();
+    showColours(legend) {
+      this.legend = legend;
+      this.scaleBar.hidden = !legend;
+      if (!legend) return;
       this.scaleBar.replaceChildren(
-        create("strong", { textContent: name + (field.unit ? " [" + field.unit + "]" : "") }),
-        create("i", { style: "background: linear-gradient(" + stops + ")" }),
-        create("span", {}, ...colouring.ticks().map((x) => create("b", { textContent: carom.four(x, field.power) }))));
+        create("strong", { textContent: legend.title }),
+        create("i", { style: "background: linear-gradient(to top, " + legend.stops.map((c) => "rgb(" + c + ")") + ")" }),
+        create("span", {}, ...legend.ticks.map(({ share, text }) => create("b", { textContent: text, style: `top: ${100 - 100 * share}%` }))),
+        ...(legend.above ? [create("em", { textContent: legend.above })] : []));
     }
 
     // Small numbers on the picture, at places from -1 to 1 to the right and upward; null for one that is not there.
@@ -48,5 +65,5 @@ carom.Overlay = (function () {
     }
   }
 
-  return Object.assign(Overlay, { axisLines });
+  return Object.assign(Overlay, { axisLines, legendOf });
 })();

@@ -22,11 +22,25 @@ carom.Panel = (function () {
     return create("select", { title: "Cut the bodies open" }, ...axes.map((a) => create("option", { value: a, textContent: a === "" ? "no cut" : "cut along " + a })));
   }
 
-  function lookButtons(eye, save) {
+  function lookButtons(eye, fit) {
     const looks = Object.entries(carom.ViewCamera.directions(eye.extent.isPlane)).map(([name, direction]) =>
       button(name, { title: "Look along " + name, onclick: () => eye.look(direction) }));
-    const fit = button("fit", { onclick: () => eye.fit() });
-    return create("span", { className: "looks" }, ...looks, fit, button("PNG", { title: "Save the picture", onclick: save }));
+    return create("span", { className: "looks" }, ...looks, button("fit", { title: "All that is shown and moves", onclick: fit }));
+  }
+
+  // A button for each plane at which bodies seem to go on; planes: those that are chosen.
+  function mirrorButtons(found, planes, mirrored) {
+    if (found.length === 0) return [];
+    const buttons = found.map((plane) => {
+      const own = button("mirror " + plane.name, { title: "Draw the other half as well", "aria-pressed": "false" });
+      own.addEventListener("click", () => {
+        const isOn = planes.delete(plane) ? false : Boolean(planes.add(plane));
+        own.setAttribute("aria-pressed", String(isOn));
+        mirrored();
+      });
+      return own;
+    });
+    return [create("span", { className: "mirrors" }, ...buttons)];
   }
 
   function partSwitch(name, hidden, part, changed) {
@@ -51,29 +65,32 @@ carom.Panel = (function () {
   }
 
   class Panel {
-    // acts: what to do when something else is chosen, when parts come or go, and to save the picture.
+    // acts: what to do when something else is chosen, when parts come or go, to fit, when mirrors come or go; files: the
+    // buttons that save.
     constructor(bodies, drawing, isPlane, acts) {
       this.quantity = quantitySelect(bodies);
+      this.colours = new carom.ColourOptions(acts.chosen);
       this.deformation = create("input", { type: "number", value: 1, min: 0, step: "any", title: "Displacements are drawn times this" });
-      this.edges = create("input", { type: "checkbox", checked: bodies.triangles < 60000 });
+      this.edges = create("input", { type: "checkbox", checked: true, title: "Those of cells that are large enough on the picture" });
       this.arrows = create("input", { type: "checkbox", checked: true });
       this.cutAxis = cutSelect(isPlane);
       this.cutShare = create("input", { type: "range", min: 0, max: 1, step: 0.005, value: 0.5, title: "Where the cut is" });
       this.otherHalf = button("other half");
-      this.isOtherHalf = false;
-      this.element = create("div", { className: "panel" }, ...this.rows(drawing, acts), partSwitches(drawing.models, acts.partsChanged));
+      Object.assign(this, { isOtherHalf: false, mirrors: new Set() });
+      this.element = create("div", { className: "panel" }, ...this.rows(bodies, drawing, acts), partSwitches(drawing.models, acts.partsChanged), acts.files);
       this.listen(acts.chosen);
       this.showCut();
     }
 
-    rows(drawing, { save }) {
-      const always = [label("colours", this.quantity), label("deformation ×", this.deformation), create("label", {}, this.edges, " edges")];
+    rows(bodies, drawing, { fit, mirrored }) {
+      const always = [label("colours", this.quantity), this.colours.element, label("deformation ×", this.deformation), create("label", {}, this.edges, " edges")];
       if (!drawing.eye) return always;
       return [...always, ...(drawing.models[0].arrows ? [create("label", {}, this.arrows, " contact forces")] : []),
-        label("", this.cutAxis), this.cutShare, this.otherHalf, lookButtons(drawing.eye, save)];
+        label("", this.cutAxis), this.cutShare, this.otherHalf, ...mirrorButtons(carom.Mirrors.planesOf(bodies), this.mirrors, mirrored), lookButtons(drawing.eye, fit)];
     }
 
     listen(chosen) {
+      this.quantity.addEventListener("change", () => this.colours.forget());
       for (const input of [this.quantity, this.deformation, this.edges, this.arrows, this.cutAxis]) input.addEventListener("change", chosen);
       this.cutShare.addEventListener("input", chosen);
       this.otherHalf.addEventListener("click", () => {

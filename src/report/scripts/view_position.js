@@ -14,19 +14,76 @@
     return scene.at.map((xs, c) => (u ? xs.map((x, i) => x + scale * (u.value(c, frame, i) || 0)) : xs));
   };
 
-  // The box about a scene over all times, and a ball about that: what "fit" shows.
-  carom.extentOf = function (scene) {
+  // The box about such nodes in such frames, and a ball about that.
+  function boxOf(scene, nodes, frames, scale) {
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    for (let t = 0; t < scene.frames; t++) {
-      carom.positions(scene, t, 1).forEach((xs, c) => {
-        for (const x of xs) {
-          if (x < low[c]) low[c] = x;
-          if (x > high[c]) high[c] = x;
+    for (const t of frames) {
+      carom.positions(scene, t, scale).forEach((xs, c) => {
+        for (const n of nodes) {
+          if (xs[n] < low[c]) low[c] = xs[n];
+          if (xs[n] > high[c]) high[c] = xs[n];
         }
       });
     }
+    return carom.boxAbout(low, high);
+  }
+
+  // A box and a ball about it.
+  carom.boxAbout = function (low, high) {
     const reach = Math.hypot(...low.map((l, c) => high[c] - l)) / 2 || 1;
-    return { low, high, reach, centre: low.map((l, c) => (l + high[c]) / 2), isPlane: !(high[2] - low[2] > 1e-9 * reach) };
+    return { low, high, reach, centre: low.map((l, c) => (l + high[c]) / 2) };
+  };
+
+  const MOST = 20000;  // points that a picture is fitted to
+
+  // Some of the places of such nodes in such frames.
+  function pointsOf(scene, nodes, frames, scale) {
+    const step = Math.ceil((nodes.length * frames.length) / MOST), points = [];
+    for (const t of frames) {
+      const at = carom.positions(scene, t, scale);
+      for (let i = 0; i < nodes.length; i += step) points.push(at.map((xs) => xs[nodes[i]]));
+    }
+    return points;
+  }
+
+  const upTo = (count) => Array.from({ length: count }, (_, i) => i);
+
+  // The box about a scene over all times.
+  carom.extentOf = function (scene) {
+    const box = boxOf(scene, upTo(scene.nodes), upTo(scene.frames), 1);
+    return { ...box, isPlane: !(box.high[2] - box.low[2] > 1e-9 * box.reach) };
+  };
+
+  // The nodes of the parts that are wanted.
+  function nodesOf(scene, isWanted) {
+    const nodes = new Set();
+    for (let k = 0; k < scene.triangles; k++)
+      if (isWanted(scene.part[scene.cell[k]])) for (let a = 0; a < 3; a++) nodes.add(scene.node[a][k]);
+    return [...nodes];
+  }
+
+  // How far the nodes of a part go from their places, in the mean, at the instant at which that is most.
+  function travelOf(scene, part) {
+    const u = scene.field("displacement"), nodes = nodesOf(scene, (p) => p === part);
+    if (!u) return 0;
+    return Math.max(...upTo(scene.frames).map((t) =>
+      nodes.reduce((sum, n) => sum + Math.hypot(...u.ranges.map((_, c) => u.value(c, t, n) || 0)), 0) / nodes.length));
+  }
+
+  // The parts that move: at least a twentieth as far as the one that goes farthest.
+  carom.movingParts = function (scene) {
+    const parts = [...new Set(scene.part)], travel = parts.map((part) => travelOf(scene, part)), most = Math.max(...travel);
+    return new Set(parts.filter((_, i) => travel[i] >= 0.05 * most));
+  };
+
+  // What a picture of this frame is fitted to: of the parts that are not hidden those that move (all where none does),
+  // over all times unless that is much larger than they are now.
+  carom.fitOf = function (scene, frame, scale, { hidden, moving }) {
+    const isMoving = (part) => moving.has(part) && !hidden.has(part), isShown = (part) => !hidden.has(part);
+    const nodes = [isMoving, isShown, () => true].map((isWanted) => nodesOf(scene, isWanted)).find((list) => list.length > 0);
+    const now = boxOf(scene, nodes, [frame], scale), always = boxOf(scene, nodes, upTo(scene.frames), scale);
+    const [box, frames] = always.reach <= 1.5 * now.reach ? [always, upTo(scene.frames)] : [now, [frame]];
+    return { ...box, points: pointsOf(scene, nodes, frames, scale) };
   };
 
   // The number of the recorded instant next to t; the earlier one of two that are as near.

@@ -31,9 +31,9 @@ carom.StillDrawing = (function () {
       const nodes = [0, 1, 2].map((a) => scene.node[a][k]);
       const points = nodes.map((n) => [at[0][n] - centre[0], at[1][n] - centre[1], at[2][n] - centre[2]]);
       const xy = points.map((p) => [dot(right, p), dot(up, p)]), brightness = light(xy, points);
-      const place = places ? (colouring.field.at === "cell" ? places[scene.cell[k]] : (places[nodes[0]] + places[nodes[1]] + places[nodes[2]]) / 3) : 0;
-      const colour = (isObstacle ? carom.Colouring.palettes.none : colouring.colour(place, part)).map((c) => Math.round(c * brightness));
-      faces.push({ xy, depth: points.reduce((sum, p) => sum + dot(eye, p), 0), colour: "rgb(" + colour + ")", isObstacle, edges: scene.edges[k] });
+      const place = places ? (places[3 * k] + places[3 * k + 1] + places[3 * k + 2]) / 3 : 0;
+      const colour = (isObstacle ? carom.ColourScale.palettes.none : colouring.colour(place, part)).map((c) => Math.round(c * brightness));
+      faces.push({ xy, depth: points.reduce((sum, p) => sum + dot(eye, p), 0), colour: "rgb(" + colour + ")", isObstacle, edges: scene.edges[k], width: carom.CellEdges.widthOf(scene, k) });
     }
     return faces;
   }
@@ -70,14 +70,25 @@ carom.StillDrawing = (function () {
       this.canvas.height = height * ratio;
     }
 
+    // What the picture is fitted to.
+    fit(box) {
+      this.extent = { ...box, isPlane: this.extent.isPlane };
+    }
+
+    sight(frame) {
+      const [{ scene, hidden }] = this.models;
+      return (k) => !hidden.has(scene.part[scene.cell[k]]) && scene.isSeen(k, frame);
+    }
+
     show(what) {
       const { width, height } = this.canvas, context = this.canvas.getContext("2d");
       const unit = Math.min(width, height) / (2.1 * this.extent.reach);
       context.clearRect(0, 0, width, height);
       const faces = this.models.flatMap((model) => facesOf(model, what, this.extent)).sort((a, b) => a.depth - b.depth);
+      const ratio = width / (this.canvas.clientWidth || width);
       for (const face of faces) {
         const xy = face.xy.map(([x, y]) => [width / 2 + unit * x, height / 2 - unit * y]);
-        drawFace(context, { ...face, xy }, what.edges);
+        drawFace(context, { ...face, xy }, what.edges && unit * face.width >= carom.CellEdges.LEAST * ratio);
       }
       context.globalAlpha = 1;
     }
