@@ -1,5 +1,6 @@
 """Headless Chromium on pages of the disk, as the tests of the report drive it."""
 
+import base64
 import contextlib
 import time
 
@@ -76,3 +77,25 @@ return {count, hash, width, height, left, right, top, bottom};
 
 def picture(driver, canvas):
     return driver.execute_script(PICTURE, canvas)
+
+
+# What a click on a button saves: the links that would be downloaded are kept instead.
+KEEP_DOWNLOADS = """
+window.kept = [];
+HTMLAnchorElement.prototype.click = function () {
+  const name = this.download;
+  fetch(this.href).then((r) => r.blob()).then((b) => new Promise((done) => {
+    const reader = new FileReader();
+    reader.onload = () => done(reader.result.split(",")[1]);
+    reader.readAsDataURL(b);
+  })).then((data) => window.kept.push([name, data]));
+};
+"""
+
+
+def saved(driver, button):
+    """Name and bytes of the file that a click saves."""
+    driver.execute_script(KEEP_DOWNLOADS)
+    button.click()
+    name, data = wait_for(driver, "window.kept[0]")
+    return name, base64.b64decode(data)

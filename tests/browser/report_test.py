@@ -4,7 +4,6 @@
 Usage: report_test.py CAROM
 """
 
-import base64
 import csv
 import io
 import pathlib
@@ -17,7 +16,7 @@ import time
 import unittest
 import xml.etree.ElementTree
 
-from browser import PATIENCE, browser, open_report, picture, wait_for
+from browser import PATIENCE, browser, open_report, picture, saved, wait_for
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select
 
@@ -65,19 +64,6 @@ group = "TOP"
 quantities = ["displacement", "velocity"]
 """
 
-# What a click on a button saves: the links that would be downloaded are kept instead.
-KEEP_DOWNLOADS = """
-window.kept = [];
-HTMLAnchorElement.prototype.click = function () {
-  const name = this.download;
-  fetch(this.href).then((r) => r.blob()).then((b) => new Promise((done) => {
-    const reader = new FileReader();
-    reader.onload = () => done(reader.result.split(",")[1]);
-    reader.readAsDataURL(b);
-  })).then((data) => window.kept.push([name, data]));
-};
-"""
-
 
 class Pages(unittest.TestCase):
     @classmethod
@@ -110,10 +96,7 @@ class Pages(unittest.TestCase):
             return [row for row in csv.reader(stream) if not row[0].startswith("#")]
 
     def saved(self, figure, kind):
-        self.driver.execute_script(KEEP_DOWNLOADS)
-        figure.find_element(By.XPATH, f".//span[@class='exports']/button[text()='{kind}']").click()
-        name, data = wait_for(self.driver, "window.kept[0]")
-        return name, base64.b64decode(data)
+        return saved(self.driver, figure.find_element(By.XPATH, f".//span[@class='exports']/button[text()='{kind}']"))
 
     def figure(self, title):
         return self.driver.find_element(By.XPATH, f"//figure[figcaption[starts-with(., '{title}')]]")

@@ -4,13 +4,16 @@
 Usage: view_test.py CAROM
 """
 
+import csv
+import io
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 
-from browser import browser, open_report, picture, wait_for
+from browser import browser, open_report, picture, saved, wait_for
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
@@ -122,7 +125,63 @@ kind = "central_differences"
 end = 0.02
 """
 
+# A quarter of a block that falls onto a wall: cut along x = 0 and y = 0.
+QUARTER = """
+title = "Quarter of a block"
+units = "SI"
+
+[[mesh.block]]
+origin = [0.0, 0.0, 0.0]
+size = [0.05, 0.05, 0.1]
+divisions = [2, 2, 4]
+groups = { cells = "BLOCK", xmin = "LEFT", ymin = "FRONT", zmin = "FOOT" }
+
+[materials.rubber]
+law = "neo_hookean"
+E = 1.0e6
+nu = 0.3
+rho = 1000.0
+
+[[part]]
+name = "block"
+cells = "BLOCK"
+material = "rubber"
+
+[[initial]]
+part = "block"
+velocity = [0.0, 0.0, -1.0]
+
+[[support]]
+nodes = "LEFT"
+symmetry = "x"
+
+[[support]]
+nodes = "FRONT"
+symmetry = "y"
+
+[[contact]]
+name = "wall"
+kind = "plane"
+group = "FOOT"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+
+[scheme]
+kind = "central_differences"
+
+[time]
+end = 0.01
+"""
+
 SIZE = (1200, 1000)
+
+PIXEL = """
+const copy = document.createElement("canvas"), source = arguments[0];
+copy.width = source.width, copy.height = source.height;
+const context = copy.getContext("2d");
+context.drawImage(source, 0, 0);
+return [...context.getImageData(Math.round(arguments[1]), Math.round(arguments[2]), 1, 1).data];
+"""
 
 
 class View(unittest.TestCase):
@@ -237,14 +296,18 @@ class View(unittest.TestCase):
         self.assertEqual(self.frame(), 0)
         self.press(Keys.RIGHT, Keys.RIGHT)
         self.assertEqual(self.frame(), 2)
-        front = self.look_along_y()
+        self.look_along_y()
+        self.press("f")
+        front = self.seen()
         self.press("x")
         side = self.seen()
         self.assertAlmostEqual((side["right"] - side["left"]) / (front["right"] - front["left"]), 0.5, delta=0.02)
         self.press("y")
         self.assertEqual(self.seen()["hash"], front["hash"])
+        self.press("-")
+        self.assertAlmostEqual((front["bottom"] - front["top"]) / (self.seen()["bottom"] - self.seen()["top"]), 1.2, delta=0.02)
         self.press("+")
-        self.assertAlmostEqual((self.seen()["bottom"] - self.seen()["top"]) / (front["bottom"] - front["top"]), 1.2, delta=0.02)
+        self.assertEqual(self.seen()["hash"], front["hash"])
         self.press("f")
         self.assertEqual(self.seen()["hash"], front["hash"])
         self.press("e")
@@ -324,6 +387,107 @@ class View(unittest.TestCase):
         self.assertFalse(self.driver.find_element(By.CSS_SELECTOR, ".colours").is_displayed())
         self.assertNotEqual(self.seen()["hash"], stressed["hash"])
 
+    def choose(self, title, value):
+        Select(self.driver.find_element(By.XPATH, f"//select[@title='{title}']")).select_by_value(value)
+
+    def legend(self):
+        return [b.text for b in self.driver.find_elements(By.CSS_SELECTOR, ".colours b")]
+
+    def type_into(self, title, text):
+        field = self.driver.find_element(By.XPATH, f"//input[@title='{title}']")
+        field.clear()
+        field.send_keys(text, Keys.ENTER)
+
+    def test_colours_go_over_what_is_chosen(self):
+        # At the beginning the lower block is at rest, and the upper one falls with 1 m/s.
+        Select(self.driver.find_element(By.XPATH, "//select[@title='What the colours show']")).select_by_visible_text("speed")
+        over = "Which values the colours go over"
+        self.choose(over, "instant")
+        self.assertEqual((self.legend()[0], self.legend()[-1]), ("1", "0"))
+        self.panel("high").click()
+        self.choose(over, "visible")
+        self.assertEqual(self.legend(), ["0"])
+        self.panel("high").click()
+        self.choose(over, "given")
+        self.type_into("Highest value of the colours", "5")
+        self.assertEqual(self.legend(), ["5", "4", "3", "2", "1", "0"])
+        plain = self.seen()
+        self.type_into("Cells with a larger value are marked", "0.5")
+        self.assertEqual(self.driver.find_element(By.CSS_SELECTOR, ".colours em").text, "45 nodes above 0.5")
+        self.assertNotEqual(self.seen()["hash"], plain["hash"])
+        self.labelled("logarithmic").click()
+        self.assertEqual(self.legend(), ["1", "0.1", "0.01", "0.001"])
+
+    def test_values_of_cells_are_averaged(self):
+        self.go_to(20)
+        plain = self.seen()
+        self.labelled("averaged").click()
+        self.assertNotEqual(self.seen()["hash"], plain["hash"])
+        self.labelled("averaged").click()
+        self.assertEqual(self.seen()["hash"], plain["hash"])
+
+    def test_it_opens_at_the_largest_force(self):
+        open_report(self.driver, self.page)
+        with (self.results / "contact.csv").open(encoding="utf-8") as stream:
+            rows = [row for row in csv.reader(stream) if not row[0].startswith("#")]
+        force = {name: [rows[0].index(f"{name}.force_{c}") for c in "xyz"] for name in ("floor", "blocks")}
+        largest, time = max((sum(float(row[k]) ** 2 for k in columns), float(row[0])) for row in rows[1:] for columns in force.values())
+        self.assertGreater(largest, 0)
+        times = self.driver.execute_script("return carom.unpack && JSON.parse(document.getElementById('view-0').textContent).times")
+        self.assertEqual(self.frame(), min(range(len(times)), key=lambda k: abs(times[k] - time)))
+        self.assertGreater(self.frame(), 0)
+
+    def test_edges_of_small_cells_are_not_drawn(self):
+        self.look_along_y()
+        for _ in range(20):
+            self.press("-")
+        far = self.seen()
+        self.press("e")
+        self.assertEqual(self.seen()["hash"], far["hash"])
+        for _ in range(20):
+            self.press("+")
+        without = self.seen()
+        self.press("e")
+        self.assertNotEqual(self.seen()["hash"], without["hash"])
+
+    def test_a_cut_is_filled_with_the_colour_of_the_part(self):
+        whole = self.look_along_y()
+        unit = (whole["right"] - whole["left"]) / 0.2
+        self.choose("Cut the bodies open", "y")
+        self.panel("other half").click()
+        self.assertAlmostEqual(self.seen()["count"] / whole["count"], 1, delta=0.01)
+        for part, z, colour in (("low", 0.05, [0x6F, 0x9F, 0xD0]), ("high", 0.16, [0xD9, 0x9A, 0x6C])):
+            pixel = self.driver.execute_script(PIXEL, self.canvas, whole["left"] + 0.05 * unit, whole["bottom"] - z * unit)
+            self.assertEqual(pixel, [*colour, 255], part)
+        self.panel("high").click()
+        pixel = self.driver.execute_script(PIXEL, self.canvas, whole["left"] + 0.05 * unit, whole["bottom"] - 0.16 * unit)
+        self.assertEqual(pixel[3], 0)
+
+    def test_pictures_of_all_frames_and_a_movie_are_saved(self):
+        last = self.driver.execute_script("return Number(document.querySelector('.time input').max)")
+        self.go_to(3)
+        name, data = saved(self.driver, self.panel("frames"))
+        self.assertEqual(name, "frames.zip")
+        archive = zipfile.ZipFile(io.BytesIO(data))
+        self.assertIsNone(archive.testzip())
+        self.assertEqual(archive.namelist(), [f"frame_{k:04d}.png" for k in range(last + 1)])
+        self.assertEqual({archive.read(entry)[:8] for entry in archive.namelist()}, {b"\x89PNG\r\n\x1a\n"})
+        self.assertEqual(self.frame(), 3)
+        Select(self.driver.find_element(By.CSS_SELECTOR, ".time select")).select_by_visible_text("fast")
+        name, data = saved(self.driver, self.panel("movie"))
+        self.assertEqual((name, data[:4]), ("movie.webm", b"\x1a\x45\xdf\xa3"))  # EBML
+        self.assertGreater(len(data), 10_000)
+        name, data = saved(self.driver, self.panel("PNG"))
+        self.assertEqual((name, data[:4]), ("view.png", b"\x89PNG"))
+
+    def test_full_screen(self):
+        before = self.driver.find_element(By.CSS_SELECTOR, ".stage").size["width"]
+        self.panel("full screen").click()
+        wait_for(self.driver, "document.fullscreenElement?.matches('.view')")
+        wait_for(self.driver, "document.querySelector('.stage').clientWidth > arguments[0]", before)
+        self.panel("full screen").click()
+        wait_for(self.driver, "document.fullscreenElement === null")
+
     def test_deformation_is_scaled(self):
         self.go_to(self.driver.execute_script("return Number(document.querySelector('.time input').max)"))
         plain = self.look_along_y()
@@ -363,6 +527,34 @@ class ErodedCells(unittest.TestCase):
                     expected = (1.0 + 1.4 + 0.8) / (1.0 + 4 * 1.4 + 4 * 0.8)
                     self.assertAlmostEqual(left["count"] / whole["count"], expected, delta=0.03 * expected)
                     self.assertAlmostEqual(left["left"], whole["left"], delta=1)
+
+
+class Symmetry(unittest.TestCase):
+    """Halves that a plane of symmetry has left out are drawn where they are wanted."""
+
+    def test_they_double_the_picture(self):
+        with tempfile.TemporaryDirectory() as folder:
+            case = pathlib.Path(folder) / "quarter.toml"
+            case.write_text(QUARTER, encoding="utf-8")
+            results = pathlib.Path(folder) / "results"
+            subprocess.run([CAROM, "run", case, "--out", results, "--quiet"], check=False)
+            with browser(*SIZE) as driver:
+                open_report(driver, results / "report.html")
+                button = {b.text: b for b in driver.find_elements(By.CSS_SELECTOR, ".panel button")}
+                self.assertEqual([text for text in button if text.startswith("mirror")], ["mirror x", "mirror y"])
+                button["wall"].click()
+                button["y"].click()
+                driver.execute_script("carom.show(0)")
+                driver.find_element(By.XPATH, "//label[contains(., 'contact forces')]/input").click()
+                canvas = driver.find_element(By.CSS_SELECTOR, ".stage canvas")
+                shapes = []
+                for name in ("mirror y", "mirror x"):
+                    button[name].click()
+                    box = picture(driver, canvas)
+                    shapes.append((box["right"] - box["left"]) / (box["bottom"] - box["top"]))
+                # Seen along y: 0.05 m wide and 0.1 m high, and twice as wide with the half beyond x = 0.
+                self.assertAlmostEqual(shapes[0], 0.5, delta=0.01)
+                self.assertAlmostEqual(shapes[1], 1.0, delta=0.02)
 
 
 class OtherReaders(unittest.TestCase):

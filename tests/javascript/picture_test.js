@@ -5,7 +5,8 @@ const assert = require("node:assert/strict");
 const { load, loadThree, fieldOf, sceneOf, assertNear } = require("./page.js");
 loadThree();
 globalThis.document = {};
-const carom = load("elements", "view_position", "view_field", "view_camera", "view_drawing", "view_still", "view_overlay");
+const carom = load("elements", "numbers", "view_position", "view_scale", "view_means", "view_field", "view_buffers", "view_edges", "view_fill", "view_mirror",
+  "view_camera", "view_drawing", "view_still", "view_overlay");
 const { directions, frustum } = carom.ViewCamera;
 
 // A ball of radius 2 about (1, 2, 3).
@@ -54,8 +55,26 @@ test("zooming makes the picture larger about what is looked at, looking anew und
   eye.zoom(1.5);
   assert.equal(told, before + 1);
   assertNear(onPicture(eye, [2, 2, 3]), [1.5 / 4.2, 0], ROUNDING);
-  eye.fit();
+  eye.fit(extent);
   assertNear(onPicture(eye, [2, 2, 3]), [1 / 4.2, 0], ROUNDING);
+});
+
+test("points that are known are fitted: their middle in the middle, the farthest a twentieth from the edge", () => {
+  const eye = eyeOf(), points = [[1, 9, 3], [3, -9, 4]];  // seen along y, 2 wide and 1 high on a picture twice as wide as high
+  eye.look(directions(false).y);
+  eye.fit({ ...extent, points });
+  assertNear(onPicture(eye, points[0]), [-1 / 1.1, -1 / 1.1], ROUNDING);
+  assertNear(onPicture(eye, points[1]), [1 / 1.1, 1 / 1.1], ROUNDING);
+  assert.equal(eye.extent.isPlane, false);
+  eye.fit({ ...extent, points: [[1, 2, 3]] });
+  assert.equal(eye.camera.zoom, 1);  // a single point has no size
+});
+
+test("the eye is outside of all that is there, also when it looks at a small part", () => {
+  const eye = eyeOf();
+  eye.fit({ ...extent, reach: 0.01 });
+  assert.equal(eye.distance, 6);
+  assert.equal(eye.pixels(100), 100 / 0.021);  // the height of the picture is 2.1 reaches
 });
 
 test("turning goes about the upright axis and over the horizontal one", () => {
@@ -85,6 +104,38 @@ test("a cut leaves the lower half, or the other one", () => {
     assert.equal(lower.distanceToPoint(new THREE.Vector3(9, y, -9)), distance);
     assert.equal(upper.distanceToPoint(new THREE.Vector3(9, y, -9)), 0 - distance);
   }
+});
+
+test("obstacles are cropped a little beyond a box", () => {
+  const [low, high] = carom.Drawing.croppingPlanes({ low: [0, 1, 0], high: [0, 3, 0], reach: 2 }, 1);
+  for (const [y, ...distances] of [[-0.2, 0, 4.4], [2, 2.2, 2.2], [4.2, 4.4, 0]])
+    assertNear([low, high].map((plane) => plane.distanceToPoint(new THREE.Vector3(7, y, 7))), distances, 1e-12);
+});
+
+test("a legend has the power of ten that its numbers need, and says what is marked", () => {
+  const field = fieldOf("f", [[[0, 1.186e-5, 3]]], { colours: "range", unit: "MPa", power: 6 });
+  const colouring = new carom.Colouring(sceneOf([[0, 0, 0], [0, 0, 0], [0, 0, 0]], [], [field]), field, 0);
+  colouring.scale.cover([0, 11.86]);  // Pa
+  const legend = carom.Overlay.legendOf(colouring, "stress", 0);
+  assert.equal(legend.title, "stress [10⁻⁶ MPa]");
+  assert.deepEqual(legend.ticks.map(({ text }) => text), ["10", "8", "6", "4", "2", "0"]);
+  assertNear([legend.ticks[0].share], [10 / 11.86], 1e-15);
+  assert.equal(legend.above, "");
+  colouring.scale.limit = 2;
+  assert.equal(carom.Overlay.legendOf(colouring, "stress", 0).above, "1 node above 2 · 10⁻⁶");
+  assert.equal(carom.Overlay.legendOf(new carom.Colouring(colouring.scene), "parts", 0), null);
+});
+
+// A tetrahedron; its faces are the triangles.
+const TETRAHEDRON = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]];
+const closed = (triangles, part) => carom.CutFill.closedGroups(sceneOf(Array.from({ length: 8 }, () => [0, 0, 0]), triangles, [], { part }));
+
+test("closed surfaces are filled where they are cut: by themselves, or together with those whose faces they share", () => {
+  const other = TETRAHEDRON.map((t) => t.map((n) => n + 4)), bar = [[0, 4, 4]];
+  const two = closed([...TETRAHEDRON, ...other, ...bar], [0, 0, 0, 0, 1, 1, 1, 1, 2]);
+  assert.deepEqual(two.map(({ parts, triangles }) => [parts, triangles]), [[[0], [0, 1, 2, 3]], [[1], [4, 5, 6, 7]]]);
+  assert.deepEqual(closed(TETRAHEDRON, [0, 0, 1, 1]).map((g) => g.parts), [[0, 1]]);  // neither is closed without the other
+  assert.deepEqual(closed(TETRAHEDRON.slice(1), [0, 0, 0]), []);
 });
 
 test("the axes point as those of the bodies do, the farthest first", () => {
@@ -130,5 +181,5 @@ test("hidden parts, triangles that are not seen and values of obstacles are left
   assert.equal(faces(false, [0], 0).length, 0);
   const shaded = (rgb) => `rgb(${rgb.map((x) => Math.round(0.825 * x))})`;
   assert.deepEqual(faces(false, [], 0).map((face) => face.colour), [shaded(colouring.colour(1 / 3))]);  // the mean of 0, 6, 0
-  assert.deepEqual(faces(true, [], 0).map((face) => face.colour), [shaded(carom.Colouring.palettes.none)]);
+  assert.deepEqual(faces(true, [], 0).map((face) => face.colour), [shaded(carom.ColourScale.palettes.none)]);
 });

@@ -4,7 +4,7 @@ const test = require("node:test");
 const assert = require("node:assert/strict");
 const { load, loadThree, fieldOf, sceneOf, assertNear } = require("./page.js");
 loadThree();
-const carom = load("view_position", "view_field", "view_buffers", "view_edges", "view_arrows");
+const carom = load("view_position", "view_scale", "view_means", "view_field", "view_buffers", "view_edges", "view_mirror", "view_arrows");
 
 // Two nodes; the second moves by (1, 0, 2) in the second frame, the first goes.
 const moved = sceneOf([[0, 0, 0], [3, 4, 0]], [], [fieldOf("displacement", [[[0, 0], [NaN, 1]], [[0, 0], [NaN, 0]], [[0, 0], [NaN, 2]]])], { frames: 2 });
@@ -31,6 +31,25 @@ test("bodies in a plane are seen as that, a single node from a distance", () => 
   assert.equal(carom.extentOf(sceneOf([[1, 1, 1]], [])).reach, 1);
 });
 
+// Two parts of two nodes each: one stays, the other goes by 8 in the second frame.
+const thrown = sceneOf([[0, 0, 0], [1, 0, 0], [0, 0, 2], [1, 0, 2]], [[0, 1, 1], [2, 3, 3]],
+  [fieldOf("displacement", [[[0, 0, 0, 0], [0, 0, 0, 0]], [[0, 0, 0, 0], [0, 0, 0, 0]], [[0, 0, 0, 0], [0.1, 0.1, 8, 8]]])], { part: [0, 1], frames: 2 });
+
+test("parts move that go at least a twentieth as far as the one that goes farthest", () => {
+  assert.deepEqual([...carom.movingParts(thrown)], [1]);
+  assert.deepEqual([...carom.movingParts(sceneOf([[0, 0, 0], [1, 0, 0]], [[0, 1, 1]]))], [0]);
+});
+
+test("a picture is fitted to what moves, now where that is much smaller than all its way", () => {
+  const moving = carom.movingParts(thrown), fit = (frame, hidden = []) => carom.fitOf(thrown, frame, 1, { hidden: new Set(hidden), moving });
+  assert.deepEqual([fit(0).low, fit(0).high], [[0, 0, 2], [1, 0, 2]]);
+  assert.deepEqual([fit(1).low, fit(1).high], [[0, 0, 10], [1, 0, 10]]);
+  assert.deepEqual(fit(1).points, [[0, 0, 10], [1, 0, 10]]);
+  // What is shown stays, so that nothing moves: all times are as large as now.
+  assert.deepEqual([fit(0, [1]).low, fit(0, [1]).high], [[0, 0, 0], [1, 0, 0.1]]);
+  assert.equal(fit(0, [0, 1]).reach, carom.fitOf(thrown, 0, 1, { hidden: new Set(), moving: new Set([0, 1]) }).reach);
+});
+
 test("the frame next to a time is shown, the earlier of two", () => {
   const times = [0, 1, 4];
   assert.deepEqual([-1, 0.4, 0.5, 0.6, 2.5, 3, 9].map((t) => carom.nearestFrame(times, t)), [0, 0, 0, 1, 1, 2, 2]);
@@ -47,6 +66,44 @@ test("the edges of a square are its four sides", () => {
 test("an edge of two triangles stands once, seen as long as one of them", () => {
   const edges = rowsOf(carom.CellEdges.edgesOf(square({ edges: [4, 1], frames: 9, changes: true, from: [2, 0], until: [5, 3] })));
   assert.deepEqual(edges, [[2, 0, 0, 0, 5]]);
+});
+
+test("edges stand by the width of their cells, the widest first; bars are wider than all", () => {
+  // Triangles of 3, 4, 5 and of a tenth of that, and a bar.
+  const scene = sceneOf([[0, 0, 0], [3, 0, 0], [0, 4, 0], [9, 0, 0], [9.3, 0, 0], [9, 0.4, 0], [7, 7, 7]], [[3, 4, 5], [0, 1, 2], [6, 0, 0]], [], { edges: [7, 7, 1] });
+  const { edges, widths } = carom.CellEdges.widestFirst(scene);
+  assertNear(widths.slice(1), [2.4, 2.4, 2.4, 0.24, 0.24, 0.24], 1e-12);  // 3 x 4 / 5
+  assert.equal(widths[0], Infinity);
+  assert.deepEqual([...edges.slice(0, 2)], [6, 0]);
+  assert.deepEqual([0.1, 0.3, 2.5].map((least) => carom.CellEdges.countAtLeast(widths, least)), [7, 4, 1]);
+});
+
+// A square of 1, which is pressed in x and gets wider in y: its left side and its lower one slide.
+const quarter = () => {
+  const ux = [[0, 0, 0, 0], [0, -0.1, -0.1, 0]], uy = [[0, 0, 0, 0], [0, 0, 0.05, 0.05]];
+  const u = fieldOf("displacement", [ux, uy, [[0, 0, 0, 0], [0, 0, 0, 0]]]);
+  return sceneOf([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]], [u], { frames: 2 });
+};
+
+test("bodies go on at an end whose nodes slide within its plane, not at one that is held or moves", () => {
+  assert.deepEqual(carom.Mirrors.planesOf(quarter()).map(({ axis, at }) => [axis, at]), [[0, 0], [1, 0]]);
+  const held = sceneOf([[0, 0, 0], [0, 1, 0], [1, 0, 0]], [[0, 1, 2]], [fieldOf("displacement", [[[0, 0, 1]], [[0, 0, 1]], [[0, 0, 0]]])]);
+  assert.deepEqual(carom.Mirrors.planesOf(held), []);
+  assert.deepEqual(carom.Mirrors.planesOf(sceneOf([[0, 0, 0]], [])), []);
+});
+
+test("two planes make three pictures", () => {
+  const images = carom.Mirrors.imagesOf([{ axis: 0, at: 1 }, { axis: 1, at: 0 }]);
+  const places = images.map((m) => new THREE.Vector3(3, 4, 5).applyMatrix4(m).toArray());
+  assert.deepEqual(places, [[-1, 4, 5], [3, -4, 5], [-1, -4, 5]]);
+});
+
+test("a picture is fitted to mirrored halves as well, and obstacles are mirrored that end at the plane", () => {
+  const wide = carom.Mirrors.widened({ low: [0, 0, 0], high: [2, 1, 0], points: [[2, 1, 0]] }, [{ axis: 0, at: 0 }]);
+  assert.deepEqual([wide.low, wide.high, wide.centre], [[-2, 0, 0], [2, 1, 0], [0, 0.5, 0]]);
+  assert.deepEqual(wide.points, [[2, 1, 0], [-2, 1, 0]]);
+  const planes = [0, 1, 0.5].map((at) => ({ axis: 0, at }));
+  assert.deepEqual(carom.Mirrors.oneSided(quarter(), planes).map(({ at }) => at), [0, 1]);
 });
 
 const end = (matrix, y) => new THREE.Vector3(0, y, 0).applyMatrix4(matrix).toArray();
@@ -78,6 +135,9 @@ test("arrows are made for the frame that has most of them", () => {
   assert.deepEqual(arrows.objects.map((o) => o.count), [2, 2]);
   arrows.show(0, scene.at, 1, true);
   assert.equal(arrows.objects[0].count, 0);
+  // The tail of the force (3, 4, 0) stands the longest length behind its node.
+  assertNear(arrows.tails(1, scene.at, 2)[0], [-1.2, -1.6, 0], 1e-12);
+  assert.equal(arrows.tails(1, scene.at, 2).length, 2);
   assert.equal(carom.ForceArrows.of(sceneOf([[0, 0, 0]], []), []), null);
   const untouched = sceneOf([[0, 0, 0]], [], [fieldOf("contact_force", [[[0]], [[0]], [[0]]])]);
   assert.equal(carom.ForceArrows.of(untouched, []), null);

@@ -27,7 +27,7 @@ carom.ColourScale = (function () {
     if (!(high > low)) return [low];
     const power = Math.floor(Math.log10((high - low) / most)), exact = (k, factor) => Number(`${k * factor}e${power}`);
     const factor = [1, 2, 5, 10].find((f) => high - low <= most * exact(1, f) * (1 + 1e-9));
-    const slack = 1e-9 * (high - low), ticks = [];
+    const slack = 1e-3 * (high - low), ticks = [];  // ends are numbers of 12 bits or more
     for (let k = Math.ceil((low - slack) / exact(1, factor)); exact(k, factor) <= high + slack; k++) ticks.push(exact(k, factor) || 0);
     return ticks;
   }
@@ -55,7 +55,7 @@ carom.ColourScale = (function () {
       this.covered = [low, high];
       if (!isGiven && (this.wanted === "from_zero" || this.wanted === "categories")) low = Math.min(0, low);
       if (!isGiven && isSigned) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
-      if (this.isLogarithmic) low = Math.max(low, high * 10 ** -DECADES);
+      if (this.isLogarithmic) low = Math.max(low, high / 10 ** DECADES);
       this.range = [low, high];
       this.palette = this.wanted === "categories" ? steps(high) : isSigned ? palettes.signed : palettes.viridis;
     }
