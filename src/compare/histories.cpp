@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "compare/curve_colours.hpp"
 #include "energy/energy_terms.hpp"
 #include "output/units.hpp"
 
@@ -58,12 +59,14 @@ template <class Values>
 Chart make_history(const Comparison& comparison, const std::vector<std::size_t>& order, Chart chart,
                    const Values& values_of) {
   const std::size_t hidden = order.size() > kShown ? order.size() - kShown : 0;
+  const std::vector<std::size_t> colours = curve_colours(comparison.results);
   const auto add = [&](std::size_t k) {
     const Result& r = comparison.results[order[k]];
     const std::vector<double> values = values_of(r.curves);
     if (values.empty()) return;
     chart.curves.push_back(make_curve(r.curves, values, r.variant.label, CurveKind::computed));
     chart.curves.back().shown = k < kShown;
+    chart.curves.back().colour = colours[order[k]];
   };
   for (std::size_t k = std::min(kShown, order.size()); k > 0; --k) add(k - 1);
   for (std::size_t k = kShown; k < order.size(); ++k) add(k);

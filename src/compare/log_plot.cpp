@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "output/xml.hpp"
+#include "report/html.hpp"
 
 namespace carom::compare {
 
@@ -74,8 +77,18 @@ std::string labels(const LogPlot& plot) {
       x, kHeight - 8.0, xml_escape(plot.x_label), y, xml_escape(plot.y_label));
 }
 
-std::string own_colour(std::size_t curve) {
-  return fmt::format("--own:var(--curve-{})", curve % kColours + 1);
+/// The `rank`-th of the curves of one colour is paler than those before.
+std::string own_colour(std::size_t colour, std::size_t rank) {
+  constexpr std::array<double, 4> opacity{1.0, 0.72, 0.5, 0.35};  // as curve_style.js has them
+  return fmt::format("--own:var(--curve-{});opacity:{:g}", colour % kColours + 1,
+                     opacity.at(std::min(rank, opacity.size() - 1)));
+}
+
+std::string csv_of(const LogPlot& plot) {
+  std::string csv = fmt::format("curve,{},{}\n", csv_field(plot.x_label), csv_field(plot.y_label));
+  for (const LogCurve& curve : plot.curves)
+    for (const LogPoint& p : curve.points) csv += fmt::format("{},{:.8g},{:.8g}\n", csv_field(curve.name), p.x, p.y);
+  return csv;
 }
 
 std::string picture(const LogCurve& curve, const Axis& x, const Axis& y) {
@@ -108,15 +121,14 @@ std::string log_plot(const LogPlot& plot) {
   const Axis y = axis_of(
       plot, [](const LogPoint& p) { return p.y; }, kHeight - kBottom, kTop);
   std::string legend, curves;
-  for (std::size_t i = 0; i < plot.curves.size(); ++i) {
-    legend += fmt::format("<span style=\"{}\"><i style=\"border-color:var(--own)\"></i>{}</span>", own_colour(i),
-                          xml_escape(plot.curves[i].name));
-    curves += fmt::format("<g style=\"{}\">{}</g>\n", own_colour(i), picture(plot.curves[i], x, y));
+  std::map<std::size_t, std::size_t> drawn;  // of each colour
+  for (const LogCurve& curve : plot.curves) {
+    const std::string style = own_colour(curve.colour, drawn[curve.colour]++);
+    legend += fmt::format("<span style=\"{}\"><i style=\"border-color:var(--own)\"></i>{}</span>", style,
+                          xml_escape(curve.name));
+    curves += fmt::format("<g style=\"{}\">{}</g>\n", style, picture(curve, x, y));
   }
-  return fmt::format(
-      "<figure><figcaption>{0}</figcaption><div class=\"legend\">{1}</div>\n"
-      "<svg class=\"plot\" viewBox=\"0 0 {2} {3}\" role=\"img\" aria-label=\"{0}\">{4}{5}{6}</svg></figure>\n",
-      xml_escape(plot.title), legend, kWidth, kHeight, grid(plot, x, y), labels(plot), curves);
+  return plot_figure({plot.title, legend, kWidth, kHeight, grid(plot, x, y) + labels(plot) + curves, csv_of(plot)});
 }
 
 }  // namespace carom::compare

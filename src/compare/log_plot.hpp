@@ -1,6 +1,7 @@
 // A picture with logarithmic axes.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct LogPoint {
 struct LogCurve {
   std::string name;
   std::vector<LogPoint> points;
+  std::size_t colour = 0;  ///< its number; curves of the same colour get paler one after the other
 };
 
 struct LogPlot {

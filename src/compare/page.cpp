@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/curve_colours.hpp"
 #include "compare/histories.hpp"
 #include "compare/log_plot.hpp"
 #include "output/xml.hpp"
@@ -108,8 +109,11 @@ enum class Ticks : std::uint8_t { points, round };
 LogPlot plot_of(const Comparison& c, const std::vector<Series>& all, std::string title, std::string x_label,
                 Ticks ticks) {
   LogPlot plot{std::move(title), std::move(x_label), fmt::format("relative L2 error, {}", c.quantity), {}, {}};
+  const std::vector<std::size_t> colours = curve_colours(c.results);
   for (const Series& s : all) {
-    LogCurve curve{s.order ? fmt::format("{}: order {}", s.name, to_string(*s.order)) : s.name, {}};
+    LogCurve curve{s.order ? fmt::format("{}: order {}", s.name, to_string(*s.order)) : s.name,
+                   {},
+                   colours[s.points.front().result]};
     for (const Point& p : s.points) {
       const Result& r = c.results[p.result];
       curve.points.push_back(

@@ -365,9 +365,10 @@ std::string charts_json(const ChartData& data) {
     fmt::format_to(std::back_inserter(text), "\n{{\"label\":{},\"unit\":{},\"power\":{},\"count\":{},\"curves\":[",
                    json_string(chart.label), json_string(unit.name), unit.power, chart.is_count);
     for (const Curve& curve : chart.curves) {
-      fmt::format_to(std::back_inserter(text), "{{\"name\":{},\"kind\":{},\"shown\":{},\"t\":{},\"y\":{}}},",
+      fmt::format_to(std::back_inserter(text), "{{\"name\":{},\"kind\":{},\"shown\":{},{}\"t\":{},\"y\":{}}},",
                      json_string(curve.name), kKinds.at(static_cast<std::size_t>(curve.kind)), curve.shown,
-                     json_numbers(curve.time), json_numbers(curve.values));
+                     curve.colour ? fmt::format("\"colour\":{},", *curve.colour) : "", json_numbers(curve.time),
+                     json_numbers(curve.values));
     }
     end_list("]},");
   }

@@ -1,6 +1,7 @@
 // Which curves the report shows and how they are grouped.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -23,7 +24,8 @@ struct Curve {
   std::string name;
   std::vector<double> time, values;
   CurveKind kind{};
-  bool shown = true;  ///< until the reader clicks its name
+  bool shown = true;                    ///< until the reader clicks its name
+  std::optional<std::size_t> colour{};  ///< its number where curves of several charts belong together
 };
 
 /// One picture: curves of one unit over time. Without curves it is a statement: the title and the note as text.

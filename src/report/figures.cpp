@@ -20,18 +20,48 @@ namespace {
 
 constexpr std::size_t kMost = 4;
 
-/// A figure on its way to the list, which keeps those of largest weight.
+/// A figure on its way to the list: how much it counts, and whose it is.
 struct Weighed {
   KeyFigure figure;
   double weight = 0.0;
+  std::string name;
 };
 
-void keep_largest(std::vector<Weighed>& all, std::vector<KeyFigure>& figures) {
-  double largest = 0.0;
-  for (const Weighed& w : all) largest = std::max(largest, w.weight);
-  std::erase_if(all, [largest](const Weighed& w) { return !(w.weight > kNegligible * largest); });
-  std::stable_sort(all.begin(), all.end(), [](const Weighed& a, const Weighed& b) { return a.weight > b.weight; });
-  for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i) figures.push_back(std::move(all[i].figure));
+/// Names, or some of them and how many there are beside.
+std::string listed(const std::vector<const Weighed*>& some) {
+  constexpr std::size_t most = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, some.size()); ++i) text += (i > 0 ? ", " : "") + some[i]->name;
+  return some.size() > most ? fmt::format("{} and {} more", text, some.size() - most) : text;
+}
+
+/// One figure for what is left out: none is dropped in silence.
+KeyFigure others(const std::vector<const Weighed*>& left, std::string_view kind, std::string_view nothing,
+                 double negligible) {
+  const auto* const largest =
+      *std::max_element(left.begin(), left.end(), [](const auto* a, const auto* b) { return a->weight < b->weight; });
+  return {fmt::format("{}, {} more", kind, left.size()),
+          largest->weight > negligible ? "at most " + largest->figure.value : std::string(nothing), listed(left)};
+}
+
+/// Those of largest weight, in their order, and what the others are. `nothing`: the value of those that have none.
+void keep_largest(const std::vector<Weighed>& all, std::string_view kind, std::string_view nothing,
+                  std::vector<KeyFigure>& figures) {
+  std::vector<double> weights;
+  for (const Weighed& w : all) weights.push_back(w.weight);
+  std::sort(weights.rbegin(), weights.rend());
+  if (weights.empty()) return;
+  const double negligible = kNegligible * weights.front();
+  const double least = weights.size() > kMost + 1 ? weights[kMost - 1] : 0.0;  // one more is not worth a line about it
+  std::vector<const Weighed*> left;
+  std::size_t kept = 0;
+  for (const Weighed& w : all) {
+    const bool is_kept = w.weight > negligible && w.weight >= least && kept <= kMost;
+    if (is_kept) figures.push_back(w.figure);
+    if (is_kept) ++kept;
+    if (!is_kept) left.push_back(&w);
+  }
+  if (!left.empty()) figures.push_back(others(left, kind, nothing, negligible));
 }
 
 double length(const Vec3& v) {
@@ -97,14 +127,15 @@ void add_peak_forces(const Tables& tables, const Units& units, std::vector<KeyFi
       remark += fmt::format("; {}: {} at {}", class_of(*tables.contact_filtered, column),
                             with_readable_unit(filtered.value, units.force, 4), time_text(filtered.time, units));
     }
-    all.push_back(
-        {{"Peak force, " + place, with_readable_unit(peak.value, units.force, 4), std::move(remark)}, peak.value});
+    all.push_back({{"Peak force, " + place, with_readable_unit(peak.value, units.force, 4), std::move(remark)},
+                   peak.value,
+                   place});
   }
   if (!all.empty() && std::all_of(all.begin(), all.end(), [](const Weighed& w) { return w.weight == 0.0; })) {
     figures.push_back({"Contact force", "none", "nothing was touched"});
     return;
   }
-  keep_largest(all, figures);
+  keep_largest(all, "Peak force", "none", figures);
 }
 
 void add_peak_accelerations(const Tables& tables, const Units& units, std::vector<KeyFigure>& figures) {
@@ -121,9 +152,10 @@ void add_peak_accelerations(const Tables& tables, const Units& units, std::vecto
                       fmt::format("{}{}at {}; {} unfiltered", g.empty() ? "" : plain, g.empty() ? "" : ", ",
                                   time_text(filtered.time, units),
                                   g.empty() ? with_readable_unit(raw.value, unit, 4) : in_g(raw.value, units))},
-                     filtered.value});
+                     filtered.value,
+                     place});
     }
-  keep_largest(all, figures);
+  keep_largest(all, "Peak acceleration", "none", figures);
 }
 
 /// Time with a closed row: an interval between rows of the table counts by half for each of its ends that is closed.
@@ -141,43 +173,52 @@ void add_durations(const CsvTable& contact, const Units& units, std::vector<KeyF
       if (before > 0.0 || !(closed[row] > 0.0)) continue;
       if (touches++ == 0) first = time[row];
     }
-    if (touches == 0) continue;
+    if (touches == 0) {
+      all.push_back({{}, 0.0, place});
+      continue;
+    }
     std::string remark = "from " + time_text(first, units);
     if (touches > 1) remark += fmt::format(", in {} touches", touches);
     if (closed.back() > 0.0) remark += ", and still closed at the end";
-    all.push_back({{"Duration of contact, " + place, time_text(sum, units), std::move(remark)}, sum});
+    all.push_back({{"Duration of contact, " + place, time_text(sum, units), std::move(remark)}, sum, place});
   }
-  keep_largest(all, figures);
+  keep_largest(all, "Duration of contact", "never closed", figures);
 }
 
-Weighed speed_figure(const std::string& body, const Vec3& begin, const Vec3& end, const Units& units) {
-  const double after = length(end), before = length(begin) > 1e-9 * after ? length(begin) : 0.0;  // not round-off
-  const bool is_back = begin[0] * end[0] + begin[1] * end[1] + begin[2] * end[2] < 0.0;
+/// Speeds up to `rounding` are none.
+Weighed speed_figure(const std::string& body, const Vec3& begin, const Vec3& end, double rounding, const Units& units) {
+  const double least = std::max(rounding, 1e-9 * std::max(length(begin), length(end)));
+  const auto speed = [least](const Vec3& v) { return length(v) > least ? length(v) : 0.0; };
+  const double before = speed(begin), after = speed(end), ratio = before > 0.0 ? after / before : 0.0;
+  const bool is_rebound =
+      before > 0.0 && after > 0.0 && begin[0] * end[0] + begin[1] * end[1] + begin[2] * end[2] < 0.0;
   const std::string unit = unit_of_column(units, "velocity");
-  std::string remark = with_readable_unit(before, unit, 4) + " at the beginning";
-  if (before > 0.0) remark += fmt::format(", ratio {:.3g}", after / before);
-  return {{(is_back ? "Rebound speed, " : "Speed at the end, ") + body, with_readable_unit(after, unit, 4),
-           std::move(remark)},
-          std::max(before, after)};
+  const auto text = [&](double v) { return v > 0.0 ? with_readable_unit(v, unit, 4) : std::string("at rest"); };
+  std::string remark = text(before) + " at the beginning";
+  constexpr double least_ratio = 1e-3, most_ratio = 100.0;  // others say no more than the speeds themselves
+  if (ratio >= least_ratio && ratio <= most_ratio) remark += fmt::format(", ratio {:.3g}", ratio);
+  return {{(is_rebound ? "Rebound speed, " : "Speed at the end, ") + body, text(after), std::move(remark)},
+          std::max(before, after),
+          body};
 }
 
 void add_speeds(const Tables& tables, const std::optional<Summary>& summary, const Units& units,
                 std::vector<KeyFigure>& figures) {
   std::vector<Weighed> all;
+  const double rounding = kNegligible * scales_of(tables, summary).speed;
   if (summary) {
     for (const PartSummary& part : summary->parts)
-      all.push_back(speed_figure(part.name, part.velocity_begin, part.velocity_end, units));
+      all.push_back(speed_figure(part.name, part.velocity_begin, part.velocity_end, rounding, units));
   }
   if (tables.contact && tables.contact->rows() > 0) {
     const CsvTable& table = *tables.contact;
     for (const std::string& place : places_with(table, "velocity")) {
       all.push_back(speed_figure(place, vector_at(table, place, "velocity", 0),
-                                 vector_at(table, place, "velocity", table.rows() - 1), units));
+                                 vector_at(table, place, "velocity", table.rows() - 1), rounding, units));
     }
   }
-  const double rounding = kNegligible * scales_of(tables, summary).speed;
-  std::erase_if(all, [rounding](const Weighed& w) { return w.weight <= rounding; });
-  keep_largest(all, figures);
+  const bool is_moving = std::any_of(all.begin(), all.end(), [](const Weighed& w) { return w.weight > 0.0; });
+  if (is_moving) keep_largest(all, "Speed", "at rest", figures);
 }
 
 void add_stress(const Summary& summary, const Units& units, std::vector<KeyFigure>& figures) {

@@ -19,7 +19,7 @@ struct KeyFigure {
 /// Peak force of each contact and when, how long each was closed, how fast bodies were before and after, the largest
 /// stress and where. Of curves that are filtered the filtered peak as well; of probes' accelerations that alone, since
 /// nodes of a mesh shake as no sensor does. From the tables and the summary, as far as they are there; of many
-/// contacts, probes or parts the largest four.
+/// contacts, probes or parts the largest four in the order of the case, and in one more figure what the others are.
 std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units);
 
 /// When the largest force of all contacts is; nothing where there is none.

@@ -80,6 +80,21 @@ std::string chart_figures(const std::vector<Chart>& charts) {
          "and largest value in each of 1000 intervals of time; the .csv files hold every row.</p>\n";
 }
 
+std::string plot_figure(const PlotFigure& figure) {
+  const std::string title = xml_escape(figure.title);
+  return fmt::format(
+      "<figure data-csv=\"{}\"><figcaption>{}</figcaption><div class=\"legend\">{}</div>\n"
+      "<svg class=\"plot\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"{}\">{}</svg></figure>\n",
+      xml_escape(figure.csv), title, figure.legend, figure.width, figure.height, title, figure.picture);
+}
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
 std::string view_sections(const std::vector<PageView>& views) {
   if (views.empty()) return "";
   std::string html = "<div class=\"views\">\n";

@@ -47,6 +47,19 @@ std::string foldable(std::string_view title, std::string_view text);
 /// "" without charts. The charts themselves go to html_document.
 std::string chart_figures(const std::vector<Chart>& charts);
 
+/// A picture of its own, which scripts/plot_files.js can save.
+struct PlotFigure {
+  std::string title;     ///< escaped
+  std::string legend;    ///< HTML
+  double width, height;  ///< in the units of the picture
+  std::string picture;   ///< what stands inside of the <svg> element
+  std::string csv;       ///< the numbers that are drawn
+};
+std::string plot_figure(const PlotFigure& figure);
+
+/// An entry of such a figure's numbers as a field of CSV (RFC 4180).
+std::string csv_field(const std::string& text);
+
 /// Places for the views, a section each; "" without views. What they show goes to html_document.
 std::string view_sections(const std::vector<PageView>& views);
 

@@ -30,6 +30,9 @@ Banner banner_of(const std::optional<Summary>& summary) {
     case Outcome::good:
       if (!summary->doubts.empty())
         return {"doubtful", "Good, with doubts", "The books close, but a warning says why numbers may be wrong."};
+      if (!summary->warnings.empty() || !lost_of_deck(*summary).empty())
+        return {"cautious", summary->checks.empty() ? "Good, with warnings, no checks" : "Good, with warnings",
+                "The books close; what the run was warned of stands below."};
       if (summary->checks.empty())
         return {"unchecked", "Good, no checks", "The books close; nothing was compared with a reference."};
       return {"good", "Good", "All checks and all items of the verdict passed."};
@@ -59,6 +62,16 @@ std::string failures(const std::optional<Summary>& summary) {
       add("check " + check.name, fmt::format("{}, reference {} ({})", number_text(check.value, 6),
                                              number_text(check.reference, 6), check.source));
   return html.empty() ? "" : "<ul>\n" + html + "</ul>\n";
+}
+
+/// What the user has accepted that the deck loses.
+std::string lost_list(const std::optional<Summary>& summary) {
+  if (!summary) return "";
+  const std::vector<std::string> lost = lost_of_deck(*summary);
+  if (lost.empty()) return "";
+  std::string html = "<div class=\"lost\"><strong>Not carried over from the deck</strong>\n<ul>\n";
+  for (const std::string& line : lost) html += fmt::format("<li>{}</li>\n", xml_escape(line));
+  return html + "</ul></div>\n";
 }
 
 /// Bar, time reached and time left of a run that goes on.
@@ -94,7 +107,7 @@ std::string header(const ReportData& data) {
       warnings == 0 ? ""
                     : fmt::format("<span class=\"warned\">{} warning{}</span>", warnings, warnings == 1 ? "" : "s"),
       failures(data.summary));
-  html += progress_bar(data);
+  html += lost_list(data.summary) + progress_bar(data);
   if (!data.notes.empty()) {
     html += "<ul class=\"notes\">\n";
     for (const std::string& note : data.notes) html += fmt::format("<li>{}</li>\n", xml_escape(note));

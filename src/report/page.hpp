@@ -28,8 +28,8 @@ struct ReportData {
   std::vector<KeyFigure> figures;
   std::vector<LargestValue> largest{};
   std::vector<Chart> charts;
-  std::string title;          ///< of the case, as the tables know it; "" where there are none
-  double time_reached = 0.0;  ///< of the last row of energy.csv
+  std::string title;                         ///< of the case, as the tables know it; "" where there are none
+  double time_reached = 0.0;                 ///< of the last row of energy.csv
   std::optional<double> largest_force_at{};  ///< when it is: the view opens there
   std::optional<RunningState> running{};
   std::vector<PageView> views{};

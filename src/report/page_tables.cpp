@@ -14,10 +14,6 @@ namespace carom {
 
 namespace {
 
-std::string with_unit(const std::string& text, const std::string& unit) {
-  return unit.empty() ? text : fmt::format("{} {}", text, unit);
-}
-
 /// Difference in percent of the reference, or as it is where the reference is zero or the tolerance absolute.
 std::string difference(const CheckSummary& check) {
   if (check.tolerance_kind == ToleranceKind::absolute || check.reference == 0.0)
@@ -79,10 +75,9 @@ std::string groups(const MeshSummary& mesh) {
 }
 
 std::string steps(const SchemeSummary& scheme, const Units& units) {
-  const std::string smallest = with_unit(number_text(scheme.dt_smallest, 6), units.time);
+  const std::string smallest = with_readable_unit(scheme.dt_smallest, units.time, 4);
   if (scheme.dt_smallest == scheme.dt_largest) return fmt::format("{} of {}", scheme.steps, smallest);
-  return fmt::format("{} of {} to {}", scheme.steps, smallest,
-                     with_unit(number_text(scheme.dt_largest, 6), units.time));
+  return fmt::format("{} of {} to {}", scheme.steps, smallest, with_readable_unit(scheme.dt_largest, units.time, 4));
 }
 
 }  // namespace
@@ -110,6 +105,13 @@ std::string verdict_table(const Summary& summary) {
 
 namespace {
 
+/// As notes of a translation end where the user has accepted a loss (translate/findings.cpp).
+constexpr std::string_view accepted_mark = " (accepted)";
+
+bool is_lost(const std::string& note) {
+  return note.ends_with(accepted_mark);
+}
+
 std::string lines_list(std::string_view title, std::string_view style, const std::vector<std::string>& lines) {
   if (lines.empty()) return {};
   std::string html = fmt::format("<section>\n<h2>{}</h2>\n<ul class=\"{}\">\n", title, style);
@@ -124,7 +126,17 @@ std::string warnings_list(const Summary& summary) {
 }
 
 std::string notes_list(const Summary& summary) {
-  return lines_list("Notes", "remarks", summary.notes);
+  std::vector<std::string> others;
+  for (const std::string& note : summary.notes)
+    if (!is_lost(note)) others.push_back(note);
+  return lines_list("Notes", "remarks", others);
+}
+
+std::vector<std::string> lost_of_deck(const Summary& summary) {
+  std::vector<std::string> lost;
+  for (const std::string& note : summary.notes)
+    if (is_lost(note)) lost.push_back(note.substr(0, note.size() - accepted_mark.size()));
+  return lost;
 }
 
 std::string checks_table(const Summary& summary, const Units& units) {
@@ -172,14 +184,15 @@ std::string run_table(const Summary& summary, const Units& units) {
   if (scheme.stages.size() < 2) entry("Scheme", scheme.name);
   for (std::size_t i = 0; i < scheme.stages.size() && scheme.stages.size() > 1; ++i) {
     const StageSummary& stage = scheme.stages[i];
-    entry(fmt::format("Stage {}", i + 1), fmt::format("{}, from {} to {}", stage.name, number_text(stage.begin, 6),
-                                                      with_unit(number_text(stage.end, 6), units.time)));
+    entry(fmt::format("Stage {}", i + 1),
+          fmt::format("{}, from {} to {}", stage.name, with_readable_unit(stage.begin, units.time, 4),
+                      with_readable_unit(stage.end, units.time, 4)));
   }
   entry("Linear solver", scheme.solver);
   for (const std::string& note : scheme.mass_notes) entry("Mass", note);
   entry("Steps", steps(scheme, units));
-  entry("Time", fmt::format("{} of {}", number_text(scheme.time_reached, 6),
-                            with_unit(number_text(scheme.time_end, 6), units.time)));
+  entry("Time", fmt::format("{} of {}", with_readable_unit(scheme.time_reached, units.time, 4),
+                            with_readable_unit(scheme.time_end, units.time, 4)));
   entry("Program",
         fmt::format("carom {}, {}, kernels {}, {} thread{}", summary.program.version, summary.program.compiler,
                     summary.program.isa, summary.program.threads, summary.program.threads == 1 ? "" : "s"));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "output/summary.hpp"
 #include "output/units.hpp"
@@ -12,7 +13,9 @@ namespace carom {
 std::string verdict_table(const Summary& summary);
 /// What the run was warned of; "" when there is nothing.
 std::string warnings_list(const Summary& summary);
-/// What was chosen or mended; likewise.
+/// What a deck has lost on its way to a case, as the user has accepted it.
+std::vector<std::string> lost_of_deck(const Summary& summary);
+/// What was chosen or mended, without that; likewise.
 std::string notes_list(const Summary& summary);
 /// Checks with value, reference, difference, tolerance and source; "" when the case has none.
 std::string checks_table(const Summary& summary, const Units& units);

@@ -85,8 +85,8 @@ ReportData read_results(const std::string& results_folder) {
 }
 
 void add_view(ReportData& data, std::size_t most_bytes, const std::string& title) {
-  ViewLabels labels{data.units, {}, data.summary ? data.summary->contacts : std::vector<std::string>(),
-                    data.largest_force_at};
+  ViewLabels labels{
+      data.units, {}, data.summary ? data.summary->contacts : std::vector<std::string>(), data.largest_force_at};
   if (data.summary)
     for (const PartSummary& part : data.summary->parts) labels.parts.push_back(part.name);
   try {

@@ -8,6 +8,7 @@
 
 #include "output/readable_unit.hpp"
 #include "output/xml.hpp"
+#include "report/html.hpp"
 
 namespace carom {
 
@@ -81,6 +82,17 @@ std::string picture(const XyCurve& curve, const Axis& x, const Axis& y) {
   return curve.has_dots ? dots : fmt::format("<path class=\"curve\" d=\"{}\"/>", path);
 }
 
+std::string csv_of(const XyPlot& plot) {
+  const auto title = [](const std::string& label, const std::string& unit) {
+    return csv_field(unit.empty() ? label : fmt::format("{} [{}]", label, unit));
+  };
+  std::string csv = fmt::format("curve,{},{}\n", title(plot.x_label, plot.x_unit), title(plot.y_label, plot.y_unit));
+  for (const XyCurve& curve : plot.curves)
+    for (std::size_t i = 0; i < curve.x.size(); ++i)
+      csv += fmt::format("{},{:.8g},{:.8g}\n", csv_field(curve.name), curve.x[i], curve.y[i]);
+  return csv;
+}
+
 std::string own_colour(std::size_t curve) {
   return fmt::format("--own:var(--curve-{})", curve % kColours + 1);
 }
@@ -111,10 +123,7 @@ std::string xy_plot(const XyPlot& plot) {
                             xml_escape(plot.curves[i].name));
     svg += fmt::format("<g style=\"{}\">{}</g>\n", own_colour(i), picture(plot.curves[i], x, y));
   }
-  return fmt::format(
-      "<figure><figcaption>{}</figcaption><div class=\"legend\">{}</div>"
-      "<svg class=\"plot\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"{}\">{}</svg></figure>\n",
-      xml_escape(plot.title), legend, kWidth, kHeight, xml_escape(plot.title), svg);
+  return plot_figure({plot.title, legend, kWidth, kHeight, svg, csv_of(plot)});
 }
 
 }  // namespace carom

@@ -5,7 +5,7 @@ const assert = require("node:assert/strict");
 const { load } = require("./page.js");
 globalThis.getComputedStyle = () => ({ getPropertyValue: (name) => ` ${name}` });  // every colour is its own name
 globalThis.document = {};
-const carom = load("numbers", "curve_rows", "curve_files", "curve_style");
+const carom = load("numbers", "curve_rows", "curve_files", "curve_style", "curve_memory");
 
 const curve = (name, kind, t, y) => ({ name, kind, t, y });
 
@@ -13,7 +13,11 @@ test("numbers have the digits of their place, in the unit of their axis", () => 
   assert.equal(carom.digits(0.0123456, -3, 4), "12.35");  // 12.3456 ms
   assert.equal(carom.digits(2.5e9, 6, 6), "2500");
   assert.equal(carom.digits(1 / 3, 0, 3), "0.333");
-  assert.equal(carom.short(1e-3 / 3, -3), "0.3333333");
+  assert.equal(carom.short(1e-3 / 3, -3), "0.33333");
+  assert.equal(carom.short(199.9998e-6, -6), "200");
+  assert.equal(carom.four(1.186e-5), "1.186 · 10⁻⁵");
+  assert.equal(carom.four(-6.66e-16), "-6.66 · 10⁻¹⁶");
+  assert.equal(carom.four(2.5e7), "2.5 · 10⁷");
   assert.equal(carom.four(123456, 3), "123.5");
   assert.equal(carom.four(-0.5), "-0.5");
 });
@@ -78,6 +82,36 @@ test("exact curves and totals are ink, a filtered curve has the colour of the ra
   assert.deepEqual(carom.curveColours(curves), ["--curve-170", "--curve-1", "--curve-2", "--ink", "--ink"]);
   const many = Array.from({ length: 9 }, (_, k) => curve("c" + k, "computed"));
   assert.equal(carom.curveColours(many)[8], "--curve-1");  // there are eight
+});
+
+test("curves that have a colour have it in every chart, the second of a chart is paler", () => {
+  const of = (...colours) => colours.map((colour, k) => ({ ...curve("c" + k, "computed"), colour }));
+  assert.deepEqual(carom.curveColours(of(2, 0, 2, 9)), ["--curve-3", "--curve-1", "--curve-3b8", "--curve-2"]);
+  assert.deepEqual(carom.curveColours(of(0)), ["--curve-1"]);
+});
+
+// A chart as curves.js draws it, with what dygraphs and the legend would say.
+function drawnChart(title, names, { x = null, y = null } = {}) {
+  const on = new Set(names), given = [];
+  const graph = { isZoomed: (axis) => (axis === "x" ? x : y) !== null, xAxisRange: () => x, yAxisRange: () => y, updateOptions: (options) => given.push(options) };
+  const legend = { names: (isOn) => names.filter((name) => on.has(name) === isOn), choose: (known) => (legend.chosen = known) };
+  return { title, graph, legend, given, on };
+}
+
+test("zoom, instant and hidden curves of a page are kept over its next reading", () => {
+  const before = [drawnChart("force", ["x", "z"], { x: [1, 2], y: [-5, 5] }), drawnChart("energy", ["kinetic"], { x: [1, 2] })];
+  before[0].on.delete("x");
+  const state = JSON.parse(JSON.stringify(carom.stateOfCharts(before)));
+  assert.deepEqual(state, { window: [1, 2], t: carom.t, charts: {
+    force: { values: [-5, 5], off: ["x"], on: ["z"] }, energy: { values: null, off: [], on: ["kinetic"] } } });
+  const after = [drawnChart("force", ["x", "z"]), drawnChart("new", ["y"])], shown = [];
+  const { show } = carom;
+  carom.show = (t) => shown.push(t);
+  carom.restoreCharts(after, { ...state, t: 1.5 });
+  carom.show = show;
+  assert.deepEqual(after[0].legend.chosen, state.charts.force);
+  assert.deepEqual(after[0].given, [{ dateWindow: [1, 2], valueRange: [-5, 5] }]);
+  assert.deepEqual([after[1].given, after[1].legend.chosen, shown], [[], undefined, [1.5]]);
 });
 
 test("many computed curves are thinner", () => {

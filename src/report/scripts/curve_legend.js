@@ -13,7 +13,7 @@ carom.CurveLegend = class {
       const value = document.createElement("output");
       button.append(line, curve.name, value);
       (curve.shown ? element : more).append(button);
-      return { button, line, value };
+      return { button, line, value, name: curve.name };
     });
     if (count > 0) element.append(more);
     this.time = document.createElement("output");
@@ -29,6 +29,17 @@ carom.CurveLegend = class {
         setVisibility(k, on);
       });
     });
+  }
+
+  // The curves that are switched on, or those that are not.
+  names(isOn) {
+    return this.entries.filter(({ button }) => (button.getAttribute("aria-pressed") === "true") === isOn).map(({ name }) => name);
+  }
+
+  // Switches curves of these names.
+  choose({ on, off }) {
+    const isOn = (button) => button.getAttribute("aria-pressed") === "true";
+    for (const { button, name } of this.entries) if ((isOn(button) ? off : on).includes(name)) button.click();
   }
 
   show(time, values) {

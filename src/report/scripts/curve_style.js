@@ -3,11 +3,20 @@
   "use strict";
   const { css } = carom;
 
+  // Of curves that have one colour in all charts the second and later ones of a chart are paler: opacities in hexadecimal.
+  const PALER = ["", "b8", "80", "58"];
+
+  function ownColour(curves, k) {
+    const { colour } = curves[k], rank = curves.slice(0, k).filter((c) => c.colour === colour).length;
+    return css("--curve-" + ((colour % 8) + 1)) + PALER[Math.min(rank, PALER.length - 1)];
+  }
+
   // Exact curves are dashes in the colour of text: they lie over the computed curve of any colour. A filtered curve has
   // the colour of the raw one below it, which is pale.
   carom.curveColours = function (curves) {
     const numbered = curves.filter((c) => c.kind === "computed" || c.kind === "raw").map((c) => c.name);
-    return curves.map((c) => {
+    return curves.map((c, k) => {
+      if (c.colour !== undefined) return ownColour(curves, k);
       if (c.kind === "exact" || /(^|: )total: /.test(c.name)) return css("--ink");
       const own = css("--curve-" + ((numbered.indexOf(c.name.replace(/, filtered$/, "")) % 8) + 1));
       return c.kind === "raw" ? own + "70" : own;

@@ -104,8 +104,11 @@
     own.legend.listen((k, on) => own.graph.setVisibility(k, on));
     drawn.push(own);
     paint(own);
-    const caption = figure.querySelector("figcaption"), title = caption.firstChild.textContent.trim();
-    carom.addExports(caption, () => shownOf(own, title));
+    const caption = figure.querySelector("figcaption"), title = (own.title = caption.firstChild.textContent.trim());
+    carom.addExports(caption, () => {
+      const what = shownOf(own, title);
+      return { title, svg: () => carom.chartSvg(what), csv: () => carom.chartCsv(what) };
+    });
     own.placeCursor = makeCursor(element, own.graph);
     own.placeCursor();
     return () => {
@@ -128,12 +131,18 @@
   carom.follow(() => {
     for (const d of drawn) d.placeCursor();
   });
-  const dark = window.matchMedia("(prefers-color-scheme: dark)");
-  // A canvas cannot be drawn again while the page is printed: the style turns dark ones light (page.css).
-  const mark = () => document.documentElement.classList.toggle("drawn-dark", dark.matches);
-  dark.addEventListener("change", () => {
+  function redraw() {
     repaint();
-    mark();
-  });
-  mark();
+    syncing = true;
+    for (const d of drawn) {
+      d.graph.resize();
+      d.placeCursor();
+    }
+    syncing = false;
+  }
+
+  // A page that reads itself again keeps what its reader has chosen.
+  if (document.querySelector("meta[http-equiv=refresh]")) carom.keepCharts(drawn);
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
+  carom.onPrint(redraw);
 })();

@@ -22,12 +22,12 @@ carom.addExports = (function () {
   }
 
   const kinds = {
-    SVG: (name, what) => save(name, "image/svg+xml", carom.chartSvg(what)),
-    PNG: (name, what) => savePng(name, carom.chartSvg(what)),
-    CSV: (name, what) => save(name, "text/csv", carom.chartCsv(what)),
+    SVG: (name, { svg }) => save(name, "image/svg+xml", svg()),
+    PNG: (name, { svg }) => savePng(name, svg()),
+    CSV: (name, { csv }) => save(name, "text/csv", csv()),
   };
 
-  // Behind the title of a figure. what(): what the files are made from (curve_files.js).
+  // Behind the title of a figure. what(): the title, and the texts of the files as functions.
   return function (caption, what) {
     const box = Object.assign(document.createElement("span"), { className: "exports" });
     for (const [kind, act] of Object.entries(kinds)) {

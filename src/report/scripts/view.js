@@ -149,6 +149,7 @@
       const data = await carom.unpack(JSON.parse(document.getElementById(section.dataset.view).textContent));
       new View(section, data).choose();
     }
+    carom.onPrint(() => group.views.forEach((view) => view.resize()));
     carom.follow((t) => group.showTime(t));
     const [first] = group.views;
     first.player.goTo(openingFrame(first));

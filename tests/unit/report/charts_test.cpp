@@ -1,9 +1,12 @@
 #include "report/charts.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -241,6 +244,60 @@ TEST(LargestValues, HaveTheStressHoweverSmallItsNumber) {
 
 // A raw peak of 50 m/s2 of a node that shakes, of which the filter leaves (0, 3, 4) x 9.80665: 5 g; a force of 8 N, 6
 // N.
+/// A run of bodies of these speeds along x at the beginning and at the end, all of 1 kg.
+std::vector<KeyFigure> figures_of_speeds(const std::vector<std::array<double, 2>>& speeds) {
+  Tables tables;
+  tables.energy = table_of({{"time", {0, 1}}, {"kinetic", {50, 50}}});  // 10 m/s of 1 kg
+  Summary summary;
+  for (std::size_t i = 0; i < speeds.size(); ++i)
+    summary.parts.push_back({fmt::format("b{}", i + 1),
+                             1.0 / static_cast<double>(speeds.size()),
+                             {speeds[i][0], 0, 0},
+                             {speeds[i][1], 0, 0}});
+  return key_figures(tables, summary, units_of("SI"));
+}
+
+TEST(KeyFigures, SpeedsOfRoundOffAreRest) {
+  const std::vector<KeyFigure> figures = figures_of_speeds({{10.0, 6.66e-16}, {1e-16, -4.0}});
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_EQ(figures[0].title, "Speed at the end, b1");
+  EXPECT_EQ(figures[0].value, "at rest");
+  EXPECT_EQ(figures[0].remark, "10 m/s at the beginning");
+  EXPECT_EQ(figures[1].title, "Speed at the end, b2") << "no rebound of what was at rest";
+  EXPECT_EQ(figures[1].remark, "at rest at the beginning");
+}
+
+TEST(KeyFigures, RatiosThatSayNothingAreLeftOut) {
+  EXPECT_EQ(figures_of_speeds({{1e-4, 5.3}})[0].remark, "100 µm/s at the beginning");
+  EXPECT_EQ(figures_of_speeds({{2.0, 5.0}})[0].remark, "2 m/s at the beginning, ratio 2.5");
+}
+
+TEST(KeyFigures, ManyBodiesAreThereInTheOrderOfTheCaseAndNoneIsDropped) {
+  const std::vector<KeyFigure> figures = figures_of_speeds({{0, 1}, {0, 7}, {0, 0}, {0, 5}, {0, 6}, {0, 2}, {0, 4}});
+  std::vector<std::string> titles;
+  for (const KeyFigure& f : figures) titles.push_back(f.title);
+  EXPECT_EQ(titles, (std::vector<std::string>{"Speed at the end, b2", "Speed at the end, b4", "Speed at the end, b5",
+                                              "Speed at the end, b7", "Speed, 3 more"}));
+  EXPECT_EQ(figures.back().value, "at most 2 m/s");
+  EXPECT_EQ(figures.back().remark, "b1, b3, b6");
+  // Five are shown whole, and what is at rest is named.
+  EXPECT_EQ(figures_of_speeds({{0, 1}, {0, 7}, {0, 5}, {0, 6}, {0, 2}}).size(), 5U);
+  const std::vector<KeyFigure> resting = figures_of_speeds({{0, 1}, {0, 0}});
+  ASSERT_EQ(resting.size(), 2U);
+  EXPECT_EQ(resting[1].title, "Speed, 1 more");
+  EXPECT_EQ(resting[1].value, "at rest");
+  EXPECT_EQ(resting[1].remark, "b2");
+}
+
+TEST(KeyFigures, TheLargestForceHasItsTime) {
+  EXPECT_EQ(time_of_largest_force(std::nullopt), std::nullopt);
+  EXPECT_EQ(time_of_largest_force(table_of({{"time", {0, 1, 2}}, {"a.force_x", {0, 0, 0}}})), std::nullopt);
+  EXPECT_EQ(
+      time_of_largest_force(table_of(
+          {{"time", {0, 1, 2}}, {"a.force_x", {0, 3, 0}}, {"a.force_y", {0, 4, 0}}, {"b.force_x", {0, 0, -4.9}}})),
+      std::optional(1.0));
+}
+
 TEST(KeyFigures, HaveWhatFiltersLeaveOfPeaks) {
   constexpr double g = 9.80665;
   Tables tables;

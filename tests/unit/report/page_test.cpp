@@ -137,11 +137,34 @@ TEST_F(ReportOfOutcome, FailuresStandInTheBannerWithWhatHelps) {
   EXPECT_FALSE(contains(page_of(Outcome::good, false), "<ul>\n<li><strong>"));
 }
 
+TEST_F(ReportOfOutcome, GoodWithWarningsHasAColourOfItsOwn) {
+  Summary summary = read_summary((folder_ / "summary.json").string());
+  summary.warnings = {"something is doubtful"};
+  write_summary((folder_ / "summary.json").string(), summary);
+  EXPECT_TRUE(contains(page_of(Outcome::good, true),
+                       "<div class=\"banner cautious\" role=\"status\"><strong>Good, with warnings</strong>"));
+  EXPECT_TRUE(contains(page_of(Outcome::good, false), "<strong>Good, with warnings, no checks</strong>"));
+}
+
+TEST_F(ReportOfOutcome, WhatADeckLostStandsOnTop) {
+  Summary summary = read_summary((folder_ / "summary.json").string());
+  summary.notes = {"a.inp:3: *DAMPING: is left out. It is not damped. (accepted)", "a.inp:9: a note"};
+  summary.warnings.clear();
+  write_summary((folder_ / "summary.json").string(), summary);
+  const std::string html = page_of(Outcome::good, true);
+  const std::size_t lost = html.find("<li>a.inp:3: *DAMPING: is left out. It is not damped.</li>");
+  ASSERT_NE(lost, std::string::npos);
+  EXPECT_LT(lost, html.find("</header>"));
+  EXPECT_EQ(html.find("(accepted)"), std::string::npos);
+  EXPECT_GT(html.find("a.inp:9: a note"), html.find("</header>"));
+  EXPECT_TRUE(contains(html, "banner cautious"));
+}
+
 TEST_F(ReportOfOutcome, ASpeedOfRoundOffIsNoneAtTheBeginning) {
   Summary summary = read_summary((folder_ / "summary.json").string());
   summary.parts.front().velocity_begin = {0.0, 0.0, -1e-16};
   write_summary((folder_ / "summary.json").string(), summary);
-  EXPECT_TRUE(contains(own_page(), "<strong>98 m/s</strong> 0 m/s at the beginning</dd>"));
+  EXPECT_TRUE(contains(own_page(), "<strong>98 m/s</strong> at rest at the beginning</dd>"));
 }
 
 TEST_F(ReportOfOutcome, AnErrorHasNoWallOfPasses) {
