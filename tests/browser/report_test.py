@@ -64,6 +64,23 @@ group = "TOP"
 quantities = ["displacement", "velocity"]
 """
 
+# Hides the first curve and drags over the middle of its chart; true once the chart is zoomed.
+ZOOM_AND_HIDE = """(() => {
+  window.isOld = true;
+  const chart = document.querySelector("[data-chart]"), box = chart?.getBoundingClientRect();
+  if (!chart?.querySelector("canvas")) return false;
+  const button = document.querySelector(".legend button");
+  if (button.getAttribute("aria-pressed") === "true") button.click();
+  const mouse = (type, share, target) => target.dispatchEvent(new MouseEvent(type, {
+    bubbles: true, clientX: box.left + share * box.width, clientY: box.top + box.height / 2 }));
+  for (const canvas of chart.querySelectorAll("canvas")) {
+    mouse("mousedown", 0.4, canvas);
+    mouse("mousemove", 0.7, document);
+    mouse("mouseup", 0.7, document);
+  }
+  return chart.querySelector(".dygraph-axis-label-x").textContent !== "0";
+})()"""
+
 
 class Pages(unittest.TestCase):
     @classmethod
@@ -129,6 +146,58 @@ class Pages(unittest.TestCase):
         button.click()
         _, data = self.saved(figure, "CSV")
         self.assertNotIn(gone, [title.split(" [")[0] for title in next(csv.reader(io.StringIO(data.decode())))])
+
+    def test_plots_are_saved_and_keep_their_colours(self):
+        subprocess.run([CAROM, "compare", self.folder / "bar_10.toml", "--scheme", "central_differences", "newmark", "--cells", "10",
+                        "20", "--out", self.folder / "compared", "--quiet"], check=False, capture_output=True)
+        open_report(self.driver, self.folder / "compared/compare.html")
+        figure = self.figure("Convergence with the mesh")
+        name, data = self.saved(figure, "CSV")
+        self.assertEqual(name, "Convergence_with_the_mesh.csv")
+        rows = list(csv.reader(io.StringIO(data.decode())))
+        self.assertEqual(rows[0][:2], ["curve", "cells along the longest edge"])
+        self.assertTrue({row[1] for row in rows[1:]} <= {"10", "20"}, rows)
+        _, data = self.saved(figure, "SVG")
+        root = xml.etree.ElementTree.fromstring(data)
+        paths = [e for e in root.iter("{http://www.w3.org/2000/svg}path")]
+        self.assertTrue(all(e.get("stroke", "").startswith("rgb") for e in paths), "colours are there without the page's style")
+        self.assertIn("Convergence with the mesh", [e.text for e in root.iter("{http://www.w3.org/2000/svg}text")])
+        self.assertEqual(self.saved(figure, "PNG")[1][:4], b"\x89PNG")
+        # A scheme has one colour, in plots and in curves.
+        colours = self.driver.execute_script("""
+            const found = {};
+            for (const entry of document.querySelectorAll(".legend :is(span, button)")) {
+              const scheme = entry.textContent.split(/[,:]/)[0], colour = getComputedStyle(entry.querySelector("i")).borderTopColor;
+              (found[scheme] = found[scheme] || new Set()).add(colour.match(/[0-9]+/g).slice(0, 3).join());
+            }
+            return Object.fromEntries(Object.entries(found).map(([name, set]) => [name, [...set]]));""")
+        for scheme in ("central_differences", "newmark"):
+            self.assertEqual(len(colours[scheme]), 1, colours)
+        self.assertNotEqual(colours["central_differences"], colours["newmark"])
+
+    def test_a_page_that_is_open_is_printed_to_the_size_of_the_paper(self):
+        with browser(1400, 1000, dark=True) as driver:
+            open_report(driver, self.folder / "bar_20/report.html")
+            driver.execute_script("""
+                window.sizes = () => [...document.querySelectorAll("[data-chart] canvas, .stage canvas")].map((c) => [c.clientWidth, c.parentElement.clientWidth]);
+                window.addEventListener("beforeprint", () => (window.printed = [window.sizes(), getComputedStyle(document.body).backgroundColor]));
+                window.before = window.sizes();""")
+            driver.execute_cdp_cmd("Page.printToPDF", {})
+            sizes, background = wait_for(driver, "window.printed")
+            paper = 18 / 2.54 * 96  # 18 cm
+            for own, around in sizes:
+                self.assertEqual(own, around)
+                self.assertLess(own, paper)
+                self.assertGreater(own, 0.9 * paper)
+            self.assertEqual(background, "rgb(251, 251, 250)")
+            self.assertEqual(driver.execute_script("return window.sizes()"), driver.execute_script("return window.before"))
+
+    def test_long_pages_say_what_is_on_them(self):
+        open_report(self.driver, self.folder / "bar_20/report.html")
+        links = self.driver.find_elements(By.CSS_SELECTOR, ".contents a")
+        self.assertEqual([link.text for link in links], [h.text for h in self.driver.find_elements(By.CSS_SELECTOR, "main h2")])
+        links[-1].click()
+        self.assertGreater(self.driver.execute_script("return window.scrollY"), 500)
 
     def test_largest_values(self):
         open_report(self.driver, self.folder / "bar_20/report.html")
@@ -208,6 +277,10 @@ class Pages(unittest.TestCase):
                                                    ".filter((text) => text.includes('left'))[0]"),
                              r"^t = .* of 1 s, \d+ % of the time, about .* left$")
             wait_for(self.driver, "document.querySelectorAll('[data-chart] canvas').length > 2")
+            # The next reading keeps what is zoomed and what is hidden.
+            wait_for(self.driver, ZOOM_AND_HIDE)
+            wait_for(self.driver, "!window.isOld && document.querySelector('.legend button')?.getAttribute('aria-pressed') === 'false' && "
+                                  "!['', '0'].includes(document.querySelector('.dygraph-axis-label-x')?.textContent ?? '')")
             run.send_signal(signal.SIGTERM)
             run.wait(PATIENCE)
             said, _ = watch.communicate(timeout=PATIENCE)

@@ -84,10 +84,12 @@ test("exact curves and totals are ink, a filtered curve has the colour of the ra
   assert.equal(carom.curveColours(many)[8], "--curve-1");  // there are eight
 });
 
-test("curves that have a colour have it in every chart, the second of a chart is paler", () => {
-  const of = (...colours) => colours.map((colour, k) => ({ ...curve("c" + k, "computed"), colour }));
-  assert.deepEqual(carom.curveColours(of(2, 0, 2, 9)), ["--curve-3", "--curve-1", "--curve-3b8", "--curve-2"]);
+test("curves that have a colour have it in every chart, those below others of it are paler", () => {
+  const of = (...colours) => colours.map((colour, k) => ({ ...curve("c" + k, "computed"), colour, shown: true }));
+  assert.deepEqual(carom.curveColours(of(2, 0, 2, 9)), ["--curve-3b8", "--curve-1", "--curve-3", "--curve-2"]);
   assert.deepEqual(carom.curveColours(of(0)), ["--curve-1"]);
+  const [last, hidden] = of(4, 4);
+  assert.deepEqual(carom.curveColours([last, { ...hidden, shown: false }]), ["--curve-5", "--curve-558"]);
 });
 
 // A chart as curves.js draws it, with what dygraphs and the legend would say.

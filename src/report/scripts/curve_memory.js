@@ -16,7 +16,8 @@
       const known = state.charts[own.title];
       if (!known) continue;
       own.legend.choose(known);
-      own.graph.updateOptions({ ...(state.window ? { dateWindow: state.window } : {}), ...(known.values ? { valueRange: known.values } : {}) });
+      const zoom = { ...(state.window ? { dateWindow: state.window } : {}), ...(known.values ? { valueRange: known.values } : {}) };
+      if (Object.keys(zoom).length > 0) own.graph.updateOptions(zoom);
     }
     if (state.t !== null) carom.show(state.t);
   };

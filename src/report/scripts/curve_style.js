@@ -3,12 +3,12 @@
   "use strict";
   const { css } = carom;
 
-  // Of curves that have one colour in all charts the second and later ones of a chart are paler: opacities in hexadecimal.
+  // Of curves that have one colour in all charts, those that lie below others of it are paler: opacities in hexadecimal.
   const PALER = ["", "b8", "80", "58"];
 
   function ownColour(curves, k) {
-    const { colour } = curves[k], rank = curves.slice(0, k).filter((c) => c.colour === colour).length;
-    return css("--curve-" + ((colour % 8) + 1)) + PALER[Math.min(rank, PALER.length - 1)];
+    const { colour, shown } = curves[k], above = curves.slice(k + 1).filter((c) => c.colour === colour && c.shown).length;
+    return css("--curve-" + ((colour % 8) + 1)) + PALER[shown ? Math.min(above, PALER.length - 1) : PALER.length - 1];
   }
 
   // Exact curves are dashes in the colour of text: they lie over the computed curve of any colour. A filtered curve has

@@ -142,7 +142,9 @@
   }
 
   // A page that reads itself again keeps what its reader has chosen.
+  syncing = true;
   if (document.querySelector("meta[http-equiv=refresh]")) carom.keepCharts(drawn);
+  syncing = false;
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
   carom.onPrint(redraw);
 })();
