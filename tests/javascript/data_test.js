@@ -65,6 +65,17 @@ test("values have the ends of their range, and the highest number for none", asy
   assert.equal(value(0, 7, 0), 3);  // beyond the last frame of the scene it stays as it is
 });
 
+test("the number next to zero stands for zero", async () => {
+  const field = { name: "speed", at: "node", bits: 16, ranges: [[-1, 2.0001]] };
+  const scene = { nodes: 3, cells: 0, triangles: 0, frames: 1, numbered: false, changes: false, fields: [field], reference: [[0, 1], [0, 1], [0, 1]] };
+  const places = packed([0, 0, 0], 2), zero = Math.round(65534 / 3.0001);
+  const bytes = [...places, ...places, ...places, ...packed([zero, zero + 1, 0], 2)];
+  await carom.unpack({ scenes: [scene], data: base64(bytes) });
+  assert.equal(scene.field("speed").value(0, 0, 0), 0);
+  assert.notEqual(scene.field("speed").value(0, 0, 1), 0);
+  assert.equal(scene.field("speed").value(0, 0, 2), -1);
+});
+
 test("a triangle is seen from its first frame until it goes", async () => {
   const scene = await unpacked();
   assert.deepEqual([0, 1, 2].map((frame) => scene.isSeen(0, frame)), [false, true, false]);

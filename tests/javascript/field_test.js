@@ -110,13 +110,6 @@ test("ranges go over the triangles that are wanted, and over none where they hav
   assert.equal(colouring.rangeAmong(0, (k) => k === 2), null);
 });
 
-test("what is less than a step of the page's numbers is zero", () => {
-  const field = fieldOf("f", [[[0, 1e-17, 4e-18], [1, 2, 3]]], { colours: "range" });
-  const colouring = new Colouring(sceneOf([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], [field], { frames: 2 }), field, 0);
-  assert.deepEqual(colouring.rangeAmong(0, () => true), [0, 0]);
-  assert.deepEqual(colouring.rangeAmong(1, () => true), [1, 3]);
-});
-
 test("the frame of the largest magnitude is the first of several; none where all is zero", () => {
   const frames = (values) => {
     const field = fieldOf("f", [values], { colours: "range" });

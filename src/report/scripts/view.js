@@ -63,7 +63,7 @@
     fit() {
       const { drawing, panel, bodies, player: { frame } } = this, { hidden, arrows } = drawing.models[0];
       const box = carom.fitOf(bodies, frame, panel.scale, { hidden, moving: this.moving });
-      if (arrows && panel.arrows.checked) box.points.push(...arrows.tails(frame, carom.positions(bodies, frame, panel.scale), LONGEST * box.reach));
+      if (arrows && panel.arrows.checked) box.points = box.points.concat(arrows.tails(frame, carom.positions(bodies, frame, panel.scale), LONGEST * box.reach));
       this.fitted = carom.Mirrors.widened(box, panel.mirrors);
       drawing.fit(this.fitted);
       this.update();

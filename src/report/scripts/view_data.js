@@ -38,7 +38,8 @@ carom.unpack = (function () {
     }
   }
 
-  // values[component][time]: whole numbers; value() is what they stand for, NaN where there is none.
+  // values[component][time]: whole numbers; value() is what they stand for, NaN where there is none. The number next to
+  // zero stands for zero, which is between two of them as a rule: what is at rest has no speed.
   function readField(reader, field, scene) {
     const count = field.at === "cell" ? scene.cells : scene.nodes;
     const none = 2 ** field.bits - 1;
@@ -48,9 +49,9 @@ carom.unpack = (function () {
       return frames;
     });
     field.value = (component, frame, i) => {
-      const [low, high] = field.ranges[component];
-      const number = field.values[component][Math.min(frame, scene.frames - 1)][i];
-      return number === none ? NaN : low + ((high - low) * number) / (none - 1);
+      const [low, high] = field.ranges[component], step = (high - low) / (none - 1);
+      const number = field.values[component][Math.min(frame, scene.frames - 1)][i], value = low + step * number;
+      return number === none ? NaN : Math.abs(value) < 0.5 * step ? 0 : value;
     };
   }
 

@@ -78,8 +78,7 @@ carom.Colouring = (function () {
           if (corners[v] > high) high = corners[v];
         }
       }
-      const least = 1e-5 * Math.max(...this.ofAllTimes.map(Math.abs));  // a step of the numbers that the page holds
-      return low <= high ? [low, high].map((x) => (Math.abs(x) < least ? 0 : x)) : null;
+      return low <= high ? [low, high] : null;
     }
 
     // The corners' places on the scale (ColourScale.place). A triangle of which one corner has no value or is above the
