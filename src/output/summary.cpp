@@ -158,12 +158,9 @@ Json to_json(const CostSummary& cost) {
 }
 
 CostSummary cost_from(const Json& json) {
-  return {number(json.at("wall_seconds")),
-          number(json.at("cpu_seconds")),
-          named_values(json.at("phases")),
-          json.at("peak_memory_bytes").get<std::size_t>(),
-          json.value("ranks", std::size_t{1}),
-          json.value("messages", std::size_t{0}),
+  return {number(json.at("wall_seconds")),         number(json.at("cpu_seconds")),
+          named_values(json.at("phases")),         json.at("peak_memory_bytes").get<std::size_t>(),
+          json.value("ranks", std::size_t{1}),     json.value("messages", std::size_t{0}),
           json.value("sent_bytes", std::size_t{0})};
 }
 
