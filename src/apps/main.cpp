@@ -314,6 +314,35 @@ bool starts_with_no_command(int argc, const char* const* argv, const std::vector
   return std::find(commands.begin(), commands.end(), argv[1]) == commands.end();
 }
 
+/// What one sees who starts the program by its name alone.
+void introduce() {
+  fmt::print(
+      "carom {}: impacts of deformable solids, which fly, hit, slide, stick, yield and rebound.\n\n"
+      "  carom check CASE.toml    says what a case will do, and what is wrong with it\n"
+      "  carom run CASE.toml      runs it; open out/CASE/report.html in a browser\n"
+      "  carom mesh FILE          shows cells and groups of a mesh (Gmsh, MED, Abaqus, CalculiX)\n"
+      "  carom --help             has all commands, carom COMMAND --help those of one\n\n"
+      "A case to begin with stands in the tutorial, docs/tutorial.md, and in examples/tutorial.\n",
+      carom::version());
+}
+
+/// Of a word that no command takes: the option that it was meant to be.
+std::string unexpected(const CLI::App& app, int argc, const char* const* argv) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  if (chosen.empty()) return "";
+  std::vector<std::string> known;
+  for (const CLI::Option* option : chosen.front()->get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    if (!word.starts_with("--") || std::find(known.begin(), known.end(), word) != known.end()) continue;
+    const std::string near = carom::nearest(word, known);
+    return fmt::format("carom {0} has no option {1}{2} (carom {0} --help)", chosen.front()->get_name(), word,
+                       near.empty() ? "" : fmt::format("; did you mean {}?", near));
+  }
+  return "";
+}
+
 /// Keeps what is freed for what is asked for next. Large arrays that come and go are pages of the system's otherwise,
 /// which it clears every time: a third of the time before the first step.
 void keep_freed_memory() {
@@ -371,8 +400,18 @@ int main(int argc, char** argv) {
         fmt::format("\"{}\" is no command of carom; it has {} (carom --help)", argv[1], fmt::join(commands, ", ")));
     return static_cast<int>(ExitCode::case_wrong);
   }
+  if (argc == 1) {
+    introduce();
+    return static_cast<int>(ExitCode::case_wrong);
+  }
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError& e) {
+    if (const std::string what = unexpected(app, argc, argv); what.empty())
+      app.exit(e);
+    else
+      print_error(what);
+    return static_cast<int>(ExitCode::case_wrong);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::case_wrong);
   }

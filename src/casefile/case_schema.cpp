@@ -21,7 +21,9 @@ SectionSchema<CasePart> part_section() {
         "What the cells are a section of: hexahedra, tetrahedra, wedges and pyramids are solid; QUAD4, QUAD8, TRIA3 "
         "and TRIA6 in a plane z = const are plane_strain, plane_stress or axisymmetric (about the y axis, x being the "
         "radius); LINE2 are bars.",
-        {.choices = {"solid", "plane_strain", "plane_stress", "axisymmetric", "bar"}});
+        {.choices = {"solid", "plane_strain", "plane_stress", "axisymmetric", "bar"},
+         .remedy = "Shells and beams are not computed: mesh thin parts by solids, and read in docs/locking.md how many "
+                   "cells they need through the thickness."});
   s.key("type", &CasePart::type,
         "Which of the cells of the group are meant, where it has several types. Absent: all that the section takes.",
         {.choices = {"HEXA8", "HEXA20", "HEXA27", "TETRA4", "TETRA10", "PENTA6", "PENTA15", "PYRA5", "PYRA13", "QUAD4",

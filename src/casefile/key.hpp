@@ -64,6 +64,7 @@ struct KeyOptions {
   std::vector<std::string> required_for{};  ///< kinds for which an otherwise optional key is required
   std::vector<std::string> aliases{};       ///< other names that people try; only to suggest the key
   std::string default_phrase{};             ///< the default in words, where it is not one value
+  std::string remedy{};                     ///< what helps where a value is not taken
 
   bool operator==(const KeyOptions&) const = default;
 };

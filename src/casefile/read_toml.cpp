@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <regex>
 #include <tuple>
 
 namespace carom {
@@ -77,6 +78,27 @@ void check_keys(std::string_view text, const std::string& name) {
   }
 }
 
+/// A line of the text, from 1.
+std::string line_of(std::string_view text, std::size_t number) {
+  for (; number > 1 && !text.empty(); --number) text.remove_prefix(std::min(text.size(), text.find('\n')) + 1);
+  return std::string(text.substr(0, text.find('\n')));
+}
+
+/// What helps where a line is no TOML.
+std::string remedy_of(const std::string& line) {
+  constexpr std::size_t longest = 200;  // regular expressions recurse
+  if (line.size() > longest) return "Check quotes, brackets and commas here.";
+  std::smatch found;
+  static const std::regex comma(R"(^[^"']*=\s*[-+]?\d+,\d)"),
+      unit(R"(^[^"']*=\s*[-+]?[\d.]+([eE][-+]?\d+)?\s*[A-Za-z])"),
+      bare(R"(^\s*([\w.]+)\s*=\s*([A-Za-z][\w./ -]*?)\s*(#.*)?$)");
+  if (std::regex_search(line, comma)) return "Numbers have a point, and nothing between thousands: 210000.0, 2.1e5.";
+  if (std::regex_search(line, unit)) return "Numbers stand without a unit: all are in the system that `units` names.";
+  if (std::regex_search(line, found, bare))
+    return fmt::format("Texts stand in quotes: {} = \"{}\"", found.str(1), found.str(2));
+  return "Check quotes, brackets and commas here.";
+}
+
 }  // namespace
 
 Node read_toml(std::string_view text, const std::string& name) {
@@ -89,9 +111,10 @@ Node read_toml(std::string_view text, const std::string& name) {
   } catch (const toml::parse_error& error) {
     const std::string reason(error.description());
     const bool repeated = reason.find("redefine") != std::string::npos;
-    throw CaseError(converter.place(error.source()), "", "a syntax error (" + reason + ")", "TOML",
+    const Location place = converter.place(error.source());
+    throw CaseError(place, "", "a syntax error (" + reason + ")", "TOML",
                     repeated ? "A name may be given once; sections that repeat are written [[name]]."
-                             : "Check quotes, brackets and commas here.");
+                             : remedy_of(line_of(text, static_cast<std::size_t>(place.line))));
   }
 }
 

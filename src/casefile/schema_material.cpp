@@ -64,6 +64,7 @@ KeyDescription describe(const LawParameter& parameter, const std::vector<std::st
   key.options.aliases = parameter.aliases;
   key.options.kinds = kinds;
   key.options.default_phrase = parameter.initial_phrase;
+  key.options.remedy = parameter.remedy;
   if (parameter.initial && parameter.initial_phrase.empty()) key.default_value = Node{*parameter.initial, {}};
   return key;
 }

@@ -265,12 +265,15 @@ template <class S, class Access>
 void add_time_keys(SectionSchema<S>& s, Access time_of, const std::string& end_doc) {
   s.key_by("end", [time_of](auto& section) -> auto& { return time_of(section).end; }, end_doc,
            {.unit = Dimension::time, .range = greater_than(0.0), .need = Need::required, .aliases = {"duration"}});
-  s.key_by("step", [time_of](auto& section) -> auto& { return time_of(section).step; }, "Time step.",
-           {.unit = Dimension::time,
-            .range = greater_than(0.0),
-            .required_for = implicit_schemes(),
-            .aliases = {"dt"},
-            .default_phrase = "implicit schemes: required; explicit ones: from the stable step"});
+  s.key_by(
+      "step", [time_of](auto& section) -> auto& { return time_of(section).step; },
+      "Time step. To begin with, a hundredth of the time that an impact takes; `carom check` says what it is in Courant "
+      "numbers.",
+      {.unit = Dimension::time,
+       .range = greater_than(0.0),
+       .required_for = implicit_schemes(),
+       .aliases = {"dt"},
+       .default_phrase = "implicit schemes: required; explicit ones: from the stable step"});
   s.key_by(
       "fixed", [time_of](auto& section) -> auto& { return time_of(section).fixed; },
       "Never shorten the step, neither where contact springs make energy nor where a step fails, which ends the run.",

@@ -16,6 +16,7 @@ void refuse(const Node& node, const KeyDescription& key, const ReadContext& at) 
     if (!near.empty()) suggestion = fmt::format("Did you mean {}?", toml_string(near));
     if (key.shape == Shape::number || key.shape == Shape::integer) suggestion = "Write the number without quotes.";
   }
+  if (suggestion.empty()) suggestion = key.options.remedy;
   throw CaseError(node.where, at.path, describe(node), expected_text(key, at.units), suggestion);
 }
 

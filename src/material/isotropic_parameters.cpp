@@ -3,8 +3,17 @@
 namespace carom {
 
 std::vector<LawParameter> isotropic_parameters() {
-  return {{"E", "Young's modulus.", Dimension::stress, {.low = 0.0}, {}, {"young", "youngs_modulus", "modulus"}},
-          {"nu", "Poisson's ratio.", Dimension::none, {-1.0, 0.5}, {}, {"poisson", "poissons_ratio"}}};
+  return {
+      {"E", "Young's modulus.", Dimension::stress, {.low = 0.0}, {}, {"young", "youngs_modulus", "modulus"}},
+      {"nu",
+       "Poisson's ratio.",
+       Dimension::none,
+       {-1.0, 0.5},
+       {},
+       {"poisson", "poissons_ratio"},
+       {},
+       "That of materials lies between 0 and 0.5. At 0.5 a body cannot change its volume at all, and its bulk modulus is infinite: take 0.499 with "
+       "formulation = \"mean_dilatation\"."}};
 }
 
 IsotropicElastic isotropic_at_rest(const Material& material) {

@@ -33,6 +33,7 @@ struct LawParameter {
   std::optional<double> initial{};     ///< its value where it is not given; empty: it must be
   std::vector<std::string> aliases{};  ///< other names that people try
   std::string initial_phrase{};        ///< in place of a value that stands for none
+  std::string remedy{};                ///< what helps where a value is not taken
 
   bool operator==(const LawParameter&) const = default;
 };

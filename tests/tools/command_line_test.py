@@ -23,9 +23,23 @@ class CommandLine(unittest.TestCase):
                                 "schema (carom --help)\n")
 
     def test_no_command_at_all(self):
-        code, _, error = carom()
+        code, out, error = carom()
+        self.assertEqual((code, error), (2, ""))
+        self.assertIn("carom check CASE.toml", out)
+        self.assertIn("docs/tutorial.md", out)
+
+    def test_an_option_that_is_none_is_named_with_the_one_that_was_meant(self):
+        code, out, error = carom("run", "case.toml", "--thread", "2")
+        self.assertEqual((code, out), (2, ""))
+        self.assertEqual(error, "error: carom run has no option --thread; did you mean --threads? (carom run --help)\n")
+
+    def test_a_deck_of_another_program_is_recognised(self):
+        with tempfile.TemporaryDirectory() as folder:
+            deck = pathlib.Path(folder) / "drop.k"
+            deck.write_text("$ a comment\n*KEYWORD\n*NODE\n1,0,0,0\n*END\n")
+            code, _, error = carom("check", str(deck))
         self.assertEqual(code, 2)
-        self.assertIn("subcommand is required", error)
+        self.assertIn("found a deck of LS-DYNA", error)
 
     def test_nodes_where_springs_end_in_the_ground_are_not_counted(self):
         code, out, _ = carom("check", str(CASES / "springs/block_on_springs.toml"))

@@ -129,7 +129,7 @@ TEST(CasefilePlane, EveryMessage) {
        "c.toml:15:7: materials.rubber.law: found \"neohookean\"; expected one of \"linear_elastic\", \"st_venant_kirchhoff\", \"neo_hookean\", \"j2_small_strain\", \"j2\", \"johnson_cook\", \"j2_rate_small_strain\", \"j2_rate\", \"swift_small_strain\". Did you mean \"neo_hookean\"?"},
       {"section = \"plane_stress\"",
        "section = \"plane\"",
-       "c.toml:23:11: part[0].section: found \"plane\"; expected one of \"solid\", \"plane_strain\", \"plane_stress\", \"axisymmetric\", \"bar\""},
+       "c.toml:23:11: part[0].section: found \"plane\"; expected one of \"solid\", \"plane_strain\", \"plane_stress\", \"axisymmetric\", \"bar\". Shells and beams are not computed: mesh thin parts by solids, and read in docs/locking.md how many cells they need through the thickness."},
       {"section = \"plane_stress\"",
        "section = \"axisymmetric\"",
        "c.toml:24:1: part[0].thickness: found a key that section = \"axisymmetric\" does not take; expected one of name, cells, material, section, type, formulation, hourglass, hourglass_viscosity, distortion_control, linear_bulk_viscosity, quadratic_bulk_viscosity. It belongs to section = \"plane_strain\", \"plane_stress\"."},
