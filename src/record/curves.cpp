@@ -8,6 +8,7 @@
 
 #include "energy/ledger.hpp"
 #include "math/vec3.hpp"
+#include "record/part_extremes.hpp"
 #include "record/probe_place.hpp"
 
 namespace carom {
@@ -186,11 +187,14 @@ ProbeCurves::ProbeCurves(const Simulation& simulation)
 void ProbeCurves::find_stressed_cells() {
   for (const Probe& probe : probes_)
     for (const std::string& quantity : probe.quantities) {
+      if (is_extreme_of_stress(quantity))
+        stressed_cells_.insert(stressed_cells_.end(), probe.part.cells().begin(), probe.part.cells().end());
       if (!FieldsNow::needs_stress(quantity)) continue;
       if (field_kind(simulation_, quantity)->is_at_nodes()) return stressed_cells_.clear();
       stressed_cells_.insert(stressed_cells_.end(), probe.cells.begin(), probe.cells.end());
     }
   std::ranges::sort(stressed_cells_);
+  stressed_cells_.erase(std::unique(stressed_cells_.begin(), stressed_cells_.end()), stressed_cells_.end());
 }
 
 void ProbeCurves::add_nodes(const CaseProbe& given, Probe& probe) {
@@ -312,7 +316,7 @@ void ProbeCurves::append(const std::string& quantity, const Probe& probe, Fields
                                                             {"reaction_moment", &ProbeCurves::reaction_moment},
                                                             {"local_acceleration", &ProbeCurves::local_acceleration}};
   const Quantity* found = find_quantity(quantity);
-  if (found != nullptr && found->place == Place::part) return probe.part.append(quantity, now.view, table_.row);
+  if (found != nullptr && found->place == Place::part) return probe.part.append(quantity, now, table_.row);
   for (const auto& [name, value] : own) {
     if (name != quantity) continue;
     const Vec3 v = (this->*value)(probe, now.view);

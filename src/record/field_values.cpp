@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <iterator>
 
-#include "math/principal_axes.hpp"
 #include "parallel/threads.hpp"
+#include "record/stress_measures.hpp"
 #include "solid/cell_strain.hpp"
 #include "solid/cell_values.hpp"
 
@@ -21,13 +20,6 @@ FieldValues of_cells(const std::vector<Voigt>& stress, const OfStress& of_stress
   std::vector<double> out(values * stress.size());
   parallel_each(stress.size(), [&](std::size_t k) { of_stress(stress[k], &out[values * k]); });
   return FieldValues(std::move(out));
-}
-
-/// Principal values, the largest first.
-Vec3 principal_stress(const Voigt& s) {
-  Vec3 values = principal_axes({s[0], s[1], s[2]}, {s[3], s[4], s[5]}).values;
-  std::ranges::sort(values, std::greater<>());
-  return values;
 }
 
 FieldValues kept(std::span<const double> values) {
@@ -137,7 +129,7 @@ const Evaluator evaluators[] = {
     {.name = "pressure",
      .evaluate =
          [](FieldsNow& now) {
-           return of_cells<1>(now.stress(), [](const Voigt& s, double* out) { *out = -(s[0] + s[1] + s[2]) / 3.0; });
+           return of_cells<1>(now.stress(), [](const Voigt& s, double* out) { *out = carom::pressure(s); });
          },
      .needs = from_stress},
     {.name = "stress_at_nodes",

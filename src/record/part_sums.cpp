@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "math/vec3.hpp"
+#include "record/part_extremes.hpp"
 #include "solid/solid.hpp"
 
 namespace carom {
@@ -59,12 +60,27 @@ PartSums::PartSums(const CaseProbe& given, const Simulation& simulation) : simul
     refuse(given, fmt::format("the strain energy of \"{}\", a nodal part", **given.part),
            "a part whose cells have an energy of their own");
   is_rigid_ = body >= 0;
+  refuse_extremes(given);
   find_centre();
   for (const auto& stage : simulation.stages()) {
     const MassKind kind = stage->mass().kind();
     if (masses_.contains(kind)) continue;
     masses_.emplace(kind, body < 0 ? mass_of(model, own, kind)
                                    : mass_of(model.turning_bodies[at(body)], simulation.mesh().node_count()));
+  }
+}
+
+void PartSums::refuse_extremes(const CaseProbe& given) const {
+  const auto yields = [&](const Part& part) {
+    return part.name == **given.part && std::ranges::count(part.material.history(), "equivalent_plastic_strain") > 0;
+  };
+  for (const auto& quantity : given.quantities) {
+    if (!is_part_extreme(*quantity)) continue;
+    if (is_rigid_)
+      refuse(given, fmt::format("{} of \"{}\", a rigid part", *quantity, **given.part), "a part that deforms");
+    if (!is_extreme_of_stress(*quantity) && std::ranges::none_of(simulation_->model().parts, yields))
+      refuse(given, fmt::format("{} of \"{}\", which does not yield", *quantity, **given.part),
+             "a part whose law yields");
   }
 }
 
@@ -91,7 +107,9 @@ double PartSums::strain_energy(const StepView& view) const {
   return energies.strain;
 }
 
-void PartSums::append(std::string_view quantity, const StepView& view, std::vector<double>& row) const {
+void PartSums::append(std::string_view quantity, FieldsNow& now, std::vector<double>& row) const {
+  if (is_part_extreme(quantity)) return row.push_back(part_extreme(quantity, cells_, now));
+  const StepView& view = now.view;
   const std::vector<double>& v = view.state.v;
   const Mass& mass = this->mass(view);
   Vec3 momentum{};

@@ -275,6 +275,49 @@ TEST(Quantities, PartsAddUpToTheLedger) {
   }
 }
 
+// Extremes over the cells of a part are those of the fields that are written, cell by cell.
+TEST(Quantities, ExtremesOfPartsAreThoseOfTheirCells) {
+  std::string text = two_bodies("newmark");
+  const std::string fields = "fields = [\"strain_rate\"]", asked = "quantities = [\"mass\", \"momentum\", ";
+  text.replace(text.find(fields), fields.size(),
+               "fields = [\"von_mises\", \"principal_stress\", \"pressure\"]\nfields_every = 5");
+  for (std::size_t place = text.find(asked); place != std::string::npos; place = text.find(asked, place + 1))
+    text.replace(place, asked.size(),
+                 "quantities = [\"largest_von_mises\", \"largest_principal_stress\", \"smallest_principal_stress\", "
+                 "\"largest_pressure\", ");
+  const TemporaryCase in(text);
+  ASSERT_EQ(in.run(), ExitCode::good) << in.result("summary.json");
+  Columns probes = test::read_csv(in.result("probes.csv"));
+  for (const std::size_t step : {5, 10})
+    for (const auto& [part, first] : {std::pair{"a", 0}, {"b", 6}}) {
+      const std::string at_step = std::to_string(step), name = part;
+      const auto of_part = [&](const std::string& field_name, std::size_t component) {
+        std::vector<double> values;
+        for (std::size_t k = 0; k < 6; ++k)
+          values.push_back(field(in, field_name, at_step).at(static_cast<std::size_t>(first) + k).at(component));
+        return values;
+      };
+      EXPECT_EQ(probes[name + ".largest_von_mises"].at(step), std::ranges::max(of_part("von_mises", 0)));
+      EXPECT_EQ(probes[name + ".largest_principal_stress"].at(step), std::ranges::max(of_part("principal_stress", 0)));
+      EXPECT_EQ(probes[name + ".smallest_principal_stress"].at(step), std::ranges::min(of_part("principal_stress", 2)));
+      EXPECT_EQ(probes[name + ".largest_pressure"].at(step), std::ranges::max(of_part("pressure", 0)));
+    }
+}
+
+TEST(Quantities, PartsWithoutSuchValuesAreRefused) {
+  std::string text = two_bodies("newmark");
+  text.replace(text.rfind("\"mass\""), 6, "\"largest_plastic_strain\"");
+  const Simulation simulation(parse_case(text, "case.toml"));
+  try {
+    const RunTables tables(simulation);
+    ADD_FAILURE() << "a body that does not yield has a plastic strain";
+  } catch (const CaseError& e) {
+    EXPECT_NE(std::string(e.what()).find("found largest_plastic_strain of \"right\", which does not yield"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
 // Exact solutions know places, and nothing of the sums over a part.
 TEST(Quantities, ExactCurvesLeaveProbesOfPartsOut) {
   const std::string exact = R"([exact]
