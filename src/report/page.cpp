@@ -30,7 +30,9 @@ Banner banner_of(const std::optional<Summary>& summary) {
     case Outcome::good:
       if (!summary->doubts.empty())
         return {"doubtful", "Good, with doubts", "The books close, but a warning says why numbers may be wrong."};
-      if (!summary->warnings.empty() || !lost_of_deck(*summary).empty())
+      if (!lost_of_deck(*summary).empty())
+        return {"cautious", "Good, for what is left of the deck", "The books close; what the deck lost stands below."};
+      if (!summary->warnings.empty())
         return {"cautious", summary->checks.empty() ? "Good, with warnings, no checks" : "Good, with warnings",
                 "The books close; what the run was warned of stands below."};
       if (summary->checks.empty())

@@ -87,6 +87,12 @@ const quarter = () => {
 
 test("bodies go on at an end whose nodes slide within its plane, not at one that is held or moves", () => {
   assert.deepEqual(carom.Mirrors.planesOf(quarter()).map(({ axis, at }) => [axis, at]), [[0, 0], [1, 0]]);
+  // What does not move along x at all is not cut there, as what falls.
+  const falling = sceneOf([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], [fieldOf("displacement", [[[0, 0, 0]], [[0, 0, 0]], [[1, 1, 1]]])]);
+  assert.deepEqual(carom.Mirrors.planesOf(falling), []);
+  // Between two planes both ends slide.
+  const wide = sceneOf([[0, 0, 0], [0, 1, 0], [1, 0, 0], [2, 0, 0], [2, 1, 0]], [[0, 1, 2], [2, 3, 4]], [fieldOf("displacement", [[[0, 0, 0.1, 0, 0]], [[0, 0, 0, 0, 0]], [[1, 1, 1, 1, 1]]])]);
+  assert.deepEqual(carom.Mirrors.planesOf(wide).map(({ name, at }) => [name, at]), [["low x", 0], ["high x", 2]]);
   const held = sceneOf([[0, 0, 0], [0, 1, 0], [1, 0, 0]], [[0, 1, 2]], [fieldOf("displacement", [[[0, 0, 1]], [[0, 0, 1]], [[0, 0, 0]]])]);
   assert.deepEqual(carom.Mirrors.planesOf(held), []);
   assert.deepEqual(carom.Mirrors.planesOf(sceneOf([[0, 0, 0]], [])), []);

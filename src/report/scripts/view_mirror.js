@@ -19,14 +19,17 @@ carom.Mirrors = (function () {
     return nodes.length > 1 && most > 0 && within > 1e-3 * most;
   }
 
-  // The planes across an axis at which bodies seem to go on: axis and where.
+  // The planes across an axis at which bodies seem to go on: axis, where, and a name. What moves along an axis nowhere has
+  // none across it.
   function planesOf(scene) {
     const u = scene.field("displacement");
     if (!u || u.ranges.length !== 3) return [];
+    const size = u.ranges.map(([low, high]) => Math.max(-low, high)), most = Math.max(...size);
     return AXES.flatMap((name, axis) => {
       const [low, high] = endsOf(scene.at[axis]);
-      if (!(high > low)) return [];
-      return [low, high].filter((at) => isSymmetry(scene, u, axis, { at, length: high - low })).map((at) => ({ axis, at, name }));
+      if (!(high > low) || size[axis] <= 1e-3 * most) return [];
+      const found = [low, high].filter((at) => isSymmetry(scene, u, axis, { at, length: high - low }));
+      return found.map((at) => ({ axis, at, name: found.length < 2 ? name : (at === low ? "low " : "high ") + name }));
     });
   }
 

@@ -207,6 +207,14 @@ TEST(XyPlot, OfFlatCurvesEnds) {
 }
 
 // Multiples of 1, 2 or 5 times a power of ten, within the axis.
+TEST(XyPlot, HasItsNumbersForAFile) {
+  XyPlot plot{"t", "strain", "stress", "", "Pa", {}};
+  plot.curves.push_back({"a, \"b\"", {0.0, 0.5}, {1.0, 2.5e6}, false});
+  EXPECT_NE(xy_plot(plot).find("data-csv=\"curve,strain,stress [Pa]\n&quot;a, &quot;&quot;b&quot;&quot;&quot;,0,1\n"
+                               "&quot;a, &quot;&quot;b&quot;&quot;&quot;,0.5,2500000\n\""),
+            std::string::npos);
+}
+
 TEST(XyPlot, TicksAreRound) {
   EXPECT_EQ(round_ticks(-0.02, 0.02), (std::vector<double>{-0.02, -0.015, -0.01, -0.005, 0, 0.005, 0.01, 0.015, 0.02}));
   EXPECT_EQ(round_ticks(1.0, 9.0), (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
