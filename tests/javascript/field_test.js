@@ -80,6 +80,8 @@ test("a legend has round numbers, the largest first", () => {
   assert.deepEqual(scaleOver([-2.5e-7, 2.5e-7]).ticks(), [2e-7, 1e-7, 0, -1e-7, -2e-7]);
   assert.deepEqual(scaleOver([0, 3.1e6]).ticks(1e6), [3e6, 2e6, 1e6, 0]);  // in mega
   assert.deepEqual(scaleOver([3, 40], { isLogarithmic: true }).ticks(), [20, 10, 5]);
+  assert.deepEqual(scaleOver([3, 4], { isLogarithmic: true }).ticks(), [4, 3.8, 3.6, 3.4, 3.2, 3]);  // too few powers of ten
+  assert.deepEqual(scaleOver([300, 300 + 1e-10]).ticks(), [300]);
   assert.deepEqual(scaleOver([0.02, 300], { isLogarithmic: true }).ticks(), [100, 10, 1, 0.1]);
 });
 

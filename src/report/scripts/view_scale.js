@@ -24,7 +24,7 @@ carom.ColourScale = (function () {
 
   // Multiples of 1, 2 or 5 times a power of ten from low to high, at most about so many.
   function roundTicks(low, high, most = 6) {
-    if (!(high > low)) return [low];
+    if (!(high - low > 1e-9 * Math.max(Math.abs(low), Math.abs(high)))) return [low];  // nothing but round-off
     const power = Math.floor(Math.log10((high - low) / most)), exact = (k, factor) => Number(`${k * factor}e${power}`);
     const factor = [1, 2, 5, 10].find((f) => high - low <= most * exact(1, f) * (1 + 1e-9));
     const slack = 1e-3 * (high - low), ticks = [];  // ends are numbers of 12 bits or more
@@ -77,7 +77,8 @@ carom.ColourScale = (function () {
     ticks(unit = 1) {
       const [low, high] = this.range.map((x) => x / unit);
       if (this.wanted === "categories") return Array.from({ length: high + 1 }, (_, i) => high - i);
-      return (this.isLogarithmic && high > low ? logTicks(low, high) : roundTicks(low, high)).map((x) => x * unit).reverse();
+      const powers = this.isLogarithmic && high > low ? logTicks(low, high) : [];
+      return (powers.length > 1 ? powers : roundTicks(low, high)).map((x) => x * unit).reverse();
     }
 
     colour(place) {
