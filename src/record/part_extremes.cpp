@@ -23,7 +23,7 @@ const Extreme extremes[] = {
     {"largest_plastic_strain"},
 };
 
-const Extreme* find(std::string_view quantity) {
+const Extreme* find_extreme(std::string_view quantity) {
   const auto* const found = std::ranges::find(extremes, quantity, &Extreme::quantity);
   return found == std::end(extremes) ? nullptr : found;
 }
@@ -31,16 +31,16 @@ const Extreme* find(std::string_view quantity) {
 }  // namespace
 
 bool is_part_extreme(std::string_view quantity) {
-  return find(quantity) != nullptr;
+  return find_extreme(quantity) != nullptr;
 }
 
 bool is_extreme_of_stress(std::string_view quantity) {
-  const Extreme* found = find(quantity);
+  const Extreme* found = find_extreme(quantity);
   return found != nullptr && found->of_stress != nullptr;
 }
 
 double part_extreme(std::string_view quantity, std::span<const Index> cells, FieldsNow& now) {
-  const Extreme& wanted = *find(quantity);
+  const Extreme& wanted = *find_extreme(quantity);
   const std::span<const std::uint8_t> alive = now.view.state.alive();
   std::vector<double> values;
   const auto collect = [&](const auto& of) {
