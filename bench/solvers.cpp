@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -78,7 +79,7 @@ int main(int argc, char** argv) {
     for (const double nu : {0.3, 0.49}) {
       const int n = std::atoi(argv[k]);
       const Simulation simulation(parse_case(cube(n, nu), "cube.toml"));
-      for (const double courant : {INFINITY, 100.0, 10.0, 1.0})
+      for (const double courant : {std::numeric_limits<double>::infinity(), 100.0, 10.0, 1.0})
         for (const SolverKind kind : {SolverKind::multigrid, SolverKind::conjugate_gradients})
           measure(simulation.system(), kind, n, nu, courant);
     }
