@@ -124,6 +124,7 @@ std::string case_documentation(const ExampleOf& example_of) {
       "is ever converted.\nSections in `[[double brackets]]` may be given several times. `NAME` is a name of your own. "
       "Tables within a section may be written inline,\nfor example `velocity = { z = -2.0, function = \"ramp\" }`.\n"
       "Each section has an example, a complete case that runs in a second; they stand in `examples/format`.\n"
+      "An editor completes keys and shows what is wrong while you type: [how](howto/editor.md).\n"
       "\n## Top of the file\n";
   write_values(root, text);
   Sections sections(example_of, text);
