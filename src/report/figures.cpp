@@ -20,11 +20,12 @@ namespace {
 
 constexpr std::size_t kMost = 4;
 
-/// A figure on its way to the list: how much it counts, and whose it is.
+/// A figure on its way to the list: how much it counts, whose it is, and its weight as text where that is not its
+/// value.
 struct Weighed {
   KeyFigure figure;
   double weight = 0.0;
-  std::string name;
+  std::string name, weight_text{};
 };
 
 /// Names, or some of them and how many there are beside.
@@ -40,8 +41,9 @@ KeyFigure others(const std::vector<const Weighed*>& left, std::string_view kind,
                  double negligible) {
   const auto* const largest =
       *std::max_element(left.begin(), left.end(), [](const auto* a, const auto* b) { return a->weight < b->weight; });
+  const std::string& most = largest->weight_text.empty() ? largest->figure.value : largest->weight_text;
   return {fmt::format("{}, {} more", kind, left.size()),
-          largest->weight > negligible ? "at most " + largest->figure.value : std::string(nothing), listed(left)};
+          largest->weight > negligible ? "at most " + most : std::string(nothing), listed(left)};
 }
 
 /// Those of largest weight, in their order, and what the others are. `nothing`: the value of those that have none.
@@ -199,7 +201,8 @@ Weighed speed_figure(const std::string& body, const Vec3& begin, const Vec3& end
   if (ratio >= least_ratio && ratio <= most_ratio) remark += fmt::format(", ratio {:.3g}", ratio);
   return {{(is_rebound ? "Rebound speed, " : "Speed at the end, ") + body, text(after), std::move(remark)},
           std::max(before, after),
-          body};
+          body,
+          text(std::max(before, after))};
 }
 
 void add_speeds(const Tables& tables, const std::optional<Summary>& summary, const Units& units,

@@ -280,6 +280,8 @@ TEST(KeyFigures, ManyBodiesAreThereInTheOrderOfTheCaseAndNoneIsDropped) {
                                               "Speed at the end, b7", "Speed, 3 more"}));
   EXPECT_EQ(figures.back().value, "at most 2 m/s");
   EXPECT_EQ(figures.back().remark, "b1, b3, b6");
+  // What the others reach at most is that of both ends.
+  EXPECT_EQ(figures_of_speeds({{0, 7}, {0, 5}, {0, 6}, {0, 4}, {3, 1}, {0, 2}}).back().value, "at most 3 m/s");
   // Five are shown whole, and what is at rest is named.
   EXPECT_EQ(figures_of_speeds({{0, 1}, {0, 7}, {0, 5}, {0, 6}, {0, 2}}).size(), 5U);
   const std::vector<KeyFigure> resting = figures_of_speeds({{0, 1}, {0, 0}});
