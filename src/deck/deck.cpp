@@ -213,6 +213,20 @@ bool looks_like_deck(std::string_view bytes) {
   return false;
 }
 
+bool looks_like_dyna(std::string_view bytes) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::string_view line = trimmed(take_line(bytes, at));
+    if (!line.empty() && line[0] != '$') return line.starts_with("*KEYWORD");
+  }
+  return false;
+}
+
+void refuse_dyna(const Location& where) {
+  throw CaseError(where, "", "a deck of LS-DYNA", "a deck of Abaqus or CalculiX, or a case file (.toml)",
+                  "Bring the mesh by way of Gmsh or of an Abaqus deck (.inp), and write the rest as a case: "
+                  "docs/case_format.md has an example of each section.");
+}
+
 Deck read_deck(std::string bytes, const std::string& source, const IncludeReader& include) {
   Deck deck;
   DeckReader(deck, include).read(std::move(bytes), source);

@@ -19,9 +19,7 @@ void note_left_out(const DeckKeyword& keyword, Findings& findings) {
 void survey_keyword(const DeckKeyword& keyword, Findings& findings) {
   const KeywordEntry* entry = find_keyword(keyword.name);
   if (keyword.name == "KEYWORD")
-    throw CaseError(keyword.where, "", "a deck of LS-DYNA", "a deck of Abaqus or CalculiX, or a case file (.toml)",
-                    "Bring the mesh by way of Gmsh or of an Abaqus deck (.inp), and write the rest as a case: "
-                    "docs/case_format.md has an example of each section.");
+    refuse_dyna(keyword.where);
   if (entry == nullptr) {
     findings.refuse(keyword, keyword.where, "an unknown keyword", "What it means would be lost.");
     return;
