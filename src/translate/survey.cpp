@@ -18,8 +18,7 @@ void note_left_out(const DeckKeyword& keyword, Findings& findings) {
 
 void survey_keyword(const DeckKeyword& keyword, Findings& findings) {
   const KeywordEntry* entry = find_keyword(keyword.name);
-  if (keyword.name == "KEYWORD")
-    refuse_dyna(keyword.where);
+  if (keyword.name == "KEYWORD") refuse_dyna(keyword.where);
   if (entry == nullptr) {
     findings.refuse(keyword, keyword.where, "an unknown keyword", "What it means would be lost.");
     return;
