@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <regex>
 #include <set>
 
 #include "casefile/case_schema.hpp"
@@ -65,6 +64,14 @@ void write_alternatives(const SectionDescription& section, std::string& text) {
   }
 }
 
+/// The name of the example of a section: that of the section without ".NAME".
+std::string file_of(std::string name) {
+  constexpr std::string_view any_name = ".NAME";
+  for (std::size_t at = name.find(any_name); at != std::string::npos; at = name.find(any_name))
+    name.erase(at, any_name.size());
+  return name;
+}
+
 /// The sections one after the other, each with its example; those of several kinds have one for all.
 class Sections {
  public:
@@ -94,7 +101,7 @@ void Sections::write(const std::string& path, const KeyDescription& key) {
   write_values(section, text_);
   write_alternatives(section, text_);
   const std::string name = join(path, key.key);
-  write_example(std::regex_replace(name, std::regex("[.]NAME"), ""));
+  write_example(file_of(name));
   const char* of_each = key.shape == Shape::named_sections ? ".NAME" : "";
   for (const KeyDescription& child : section.keys) {
     if (child.section) write(name + of_each, child);

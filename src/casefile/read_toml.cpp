@@ -4,7 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <regex>
+#include <cctype>
 #include <tuple>
 
 namespace carom {
@@ -84,18 +84,27 @@ std::string line_of(std::string_view text, std::size_t number) {
   return std::string(text.substr(0, text.find('\n')));
 }
 
-/// What helps where a line is no TOML.
+std::string trimmed(const std::string& text) {
+  constexpr const char* blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+}
+
+/// What helps where a line `key = value` is no TOML.
 std::string remedy_of(const std::string& line) {
-  constexpr std::size_t longest = 200;  // regular expressions recurse
-  if (line.size() > longest) return "Check quotes, brackets and commas here.";
-  std::smatch found;
-  static const std::regex comma(R"(^[^"']*=\s*[-+]?\d+,\d)"),
-      unit(R"(^[^"']*=\s*[-+]?[\d.]+([eE][-+]?\d+)?\s*[A-Za-z])"),
-      bare(R"(^\s*([\w.]+)\s*=\s*([A-Za-z][\w./ -]*?)\s*(#.*)?$)");
-  if (std::regex_search(line, comma)) return "Numbers have a point, and nothing between thousands: 210000.0, 2.1e5.";
-  if (std::regex_search(line, unit)) return "Numbers stand without a unit: all are in the system that `units` names.";
-  if (std::regex_search(line, found, bare))
-    return fmt::format("Texts stand in quotes: {} = \"{}\"", found.str(1), found.str(2));
+  const std::size_t equals = line.find('=');
+  const std::string key = trimmed(line.substr(0, equals));
+  const std::string value =
+      equals == std::string::npos ? "" : trimmed(line.substr(equals + 1, line.find('#') - equals - 1));
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const std::size_t end_of_number = value.find_first_not_of("+-.0123456789eE ");
+  if (!value.empty() && !is_letter(value[0]) && end_of_number != 0 && end_of_number != std::string::npos) {
+    if (value[end_of_number] == ',') return "Numbers have a point, and nothing between thousands: 210000.0, 2.1e5.";
+    if (is_letter(value[end_of_number]))
+      return "Numbers stand without a unit: all are in the system that `units` names.";
+  }
+  if (!value.empty() && is_letter(value[0]) && value.find_first_of("\"'[]{},") == std::string::npos)
+    return fmt::format("Texts stand in quotes: {} = \"{}\"", key, value);
   return "Check quotes, brackets and commas here.";
 }
 

@@ -8,8 +8,8 @@
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
+#include <sstream>
 
 #include "casefile/case_schema.hpp"
 #include "casefile/plausibility.hpp"
@@ -336,11 +336,26 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The header of a section as an example has it, as a regular expression: materials.damage is [materials.steel.damage].
-std::string header_of(const std::string& name) {
-  std::string words;
-  for (const char c : name) words += c == '.' ? std::string("[.](\\w+[.])?") : std::string(1, c);
-  return "(^|\n)\\[\\[?" + words + "([.]\\w+)?\\]";
+std::vector<std::string> words_of(const std::string& dotted) {
+  std::vector<std::string> words;
+  std::istringstream stream(dotted);
+  for (std::string word; std::getline(stream, word, '.');) words.push_back(word);
+  return words;
+}
+
+/// Has a text a header [name] or [[name]]? Names may stand in it: materials.damage is [materials.steel.damage].
+bool has_section(const std::string& text, const std::string& name) {
+  const std::vector<std::string> wanted = words_of(name);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with('[')) continue;
+    const std::size_t begin = line.find_first_not_of('[');
+    std::size_t found = 0;
+    for (const std::string& word : words_of(line.substr(begin, line.find(']') - begin)))
+      if (found < wanted.size() && word == wanted[found]) ++found;
+    if (found == wanted.size()) return true;
+  }
+  return false;
 }
 
 TEST(Casefile, DocumentationInTheRepositoryIsCurrent) {
@@ -359,7 +374,7 @@ TEST(Casefile, EverySectionHasAnExampleThatHasTheSection) {
     const std::string text = text_of(examples + name + ".toml");
     EXPECT_NO_THROW(parse_case(text, name)) << name;
     if (name == "top") return text;
-    EXPECT_TRUE(std::regex_search(text, std::regex(header_of(name)))) << "no [" << name << "] in its example";
+    EXPECT_TRUE(has_section(text, name)) << "no [" << name << "] in its example";
     return text;
   });
   std::set<std::string> found;
