@@ -7,6 +7,8 @@
 #include <cctype>
 #include <tuple>
 
+#include "base/text_lines.hpp"
+
 namespace carom {
 
 namespace {
@@ -79,31 +81,26 @@ void check_keys(std::string_view text, const std::string& name) {
 }
 
 /// A line of the text, from 1.
-std::string line_of(std::string_view text, std::size_t number) {
-  for (; number > 1 && !text.empty(); --number) text.remove_prefix(std::min(text.size(), text.find('\n')) + 1);
-  return std::string(text.substr(0, text.find('\n')));
-}
-
-std::string trimmed(const std::string& text) {
-  constexpr const char* blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+std::string_view line_of(std::string_view text, int number) {
+  std::size_t at = 0;
+  for (; number > 1; --number) take_line(text, at);
+  return take_line(text, at);
 }
 
 /// What helps where a line `key = value` is no TOML.
-std::string remedy_of(const std::string& line) {
-  const std::size_t equals = line.find('=');
-  const std::string key = trimmed(line.substr(0, equals));
-  const std::string value =
-      equals == std::string::npos ? "" : trimmed(line.substr(equals + 1, line.find('#') - equals - 1));
+std::string remedy_of(std::string_view line) {
+  line = line.substr(0, line.find('#'));
+  const std::size_t equals = std::min(line.find('='), line.size());
+  const std::string_view key = trimmed(line.substr(0, equals)),
+                         value = trimmed(line.substr(std::min(equals + 1, line.size())));
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   const std::size_t end_of_number = value.find_first_not_of("+-.0123456789eE ");
-  if (!value.empty() && !is_letter(value[0]) && end_of_number != 0 && end_of_number != std::string::npos) {
+  if (!value.empty() && !is_letter(value[0]) && end_of_number != 0 && end_of_number != std::string_view::npos) {
     if (value[end_of_number] == ',') return "Numbers have a point, and nothing between thousands: 210000.0, 2.1e5.";
     if (is_letter(value[end_of_number]))
       return "Numbers stand without a unit: all are in the system that `units` names.";
   }
-  if (!value.empty() && is_letter(value[0]) && value.find_first_of("\"'[]{},") == std::string::npos)
+  if (!value.empty() && is_letter(value[0]) && value.find_first_of("\"'[]{},") == std::string_view::npos)
     return fmt::format("Texts stand in quotes: {} = \"{}\"", key, value);
   return "Check quotes, brackets and commas here.";
 }
@@ -123,7 +120,7 @@ Node read_toml(std::string_view text, const std::string& name) {
     const Location place = converter.place(error.source());
     throw CaseError(place, "", "a syntax error (" + reason + ")", "TOML",
                     repeated ? "A name may be given once; sections that repeat are written [[name]]."
-                             : remedy_of(line_of(text, static_cast<std::size_t>(place.line))));
+                             : remedy_of(line_of(text, place.line)));
   }
 }
 

@@ -10,25 +10,12 @@
 #include <utility>
 
 #include "base/terminal_text.hpp"
+#include "base/text_lines.hpp"
 #include "deck/keyword_table.hpp"
 
 namespace carom {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
-/// The next line from `at` on, which moves behind it.
-std::string_view take_line(std::string_view bytes, std::size_t& at) {
-  const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
-  const std::string_view line = bytes.substr(at, end - at);
-  at = std::min(end + 1, bytes.size());
-  return line;
-}
 
 /// Of UTF-8, which some editors write.
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";

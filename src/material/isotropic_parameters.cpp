@@ -12,7 +12,7 @@ std::vector<LawParameter> isotropic_parameters() {
        {},
        {"poisson", "poissons_ratio"},
        {},
-       "That of materials lies between 0 and 0.5. At 0.5 a body cannot change its volume at all, and its bulk modulus is infinite: take 0.499 with "
+       "Poisson's ratio of a material lies between 0 and 0.5. At 0.5 a body cannot change its volume at all, and its bulk modulus is infinite: take 0.499 with "
        "formulation = \"mean_dilatation\"."}};
 }
 

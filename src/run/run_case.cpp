@@ -6,13 +6,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <initializer_list>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
 
 #include "advise/steps_left.hpp"
+#include "base/checksum.hpp"
 #include "base/terminal_text.hpp"
 #include "base/version.hpp"
 #include "build/initial_state.hpp"
@@ -86,7 +86,7 @@ void refuse_different_runs(std::initializer_list<std::string> known) {
   bool is_same = true;
   for (const std::string& text : known) {
     constexpr unsigned to_a_double = 11;
-    is_same = same_on_all_ranks(static_cast<double>(std::hash<std::string>()(text) >> to_a_double)) && is_same;
+    is_same = same_on_all_ranks(static_cast<double>(checksum(text) >> to_a_double)) && is_same;
   }
   if (!is_same)
     throw std::runtime_error(

@@ -18,7 +18,7 @@ import time
 import unittest
 
 import same_bits
-from job_test import BLOCK
+from job_test import BLOCK, processes_of
 
 CAROM, CAROM_MPI, KILLS, SEED = sys.argv[1], sys.argv[2], int((sys.argv + ["3"])[3]), int((sys.argv + ["3", "1"])[4])
 ENVIRONMENT = os.environ | same_bits.ENVIRONMENT
@@ -75,11 +75,6 @@ class Faults(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(same_bits.differences(self.folder / "alone", self.folder / "out"), [])
 
-    def processes(self):
-        found = subprocess.run(["pgrep", "-f", f"^{re.escape(CAROM_MPI)} .*{re.escape(str(self.folder))}"],
-                               capture_output=True, text=True, check=False).stdout
-        return list(map(int, found.split()))
-
     def test_runs_whose_processes_are_killed(self):
         chance = random.Random(SEED)
         begin = time.monotonic()
@@ -100,7 +95,7 @@ class Faults(unittest.TestCase):
             self.assertLess(time.monotonic(), end)
             time.sleep(0.02)
         time.sleep(when)
-        if victims := self.processes():
+        if victims := processes_of(self.case):
             os.kill(chance.choice(victims), signal.SIGKILL)
         running.wait(timeout=20)
         command = [CAROM, "resume", out, "--quiet"] if others == 1 else \

@@ -61,6 +61,19 @@ def libraries(program):
     return set(re.findall(r"^\s*(\S+)", lines, re.MULTILINE))
 
 
+def processes_of(case):
+    """The numbers of the processes that run a case."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            words = (entry / "cmdline").read_bytes().split(b"\0") if entry.name.isdigit() else []
+        except OSError:
+            continue
+        if words and words[0] == os.fsencode(CAROM_MPI) and os.fsencode(case) in words:
+            found.append(int(entry.name))
+    return sorted(found)
+
+
 class Job(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -121,16 +134,7 @@ class Job(unittest.TestCase):
             time.sleep(0.02)
 
     def processes(self):
-        """Of this test's jobs."""
-        found = []
-        for entry in pathlib.Path("/proc").iterdir():
-            try:
-                words = (entry / "cmdline").read_bytes().split(b"\0") if entry.name.isdigit() else []
-            except OSError:
-                continue
-            if words and words[0] == os.fsencode(CAROM_MPI) and os.fsencode(self.case) in words:
-                found.append(int(entry.name))
-        return sorted(found)
+        return processes_of(self.case)
 
     # The checkpoint is of all ranks together: it says nothing of their number.
     def test_a_stopped_run_goes_on_on_another_number_of_ranks(self):

@@ -83,7 +83,7 @@ TEST(CasefileMaterials, BadValuesAreRefusedWithTheirReason) {
   const std::string start = "law = \"j2\"\nE = 2e11\nrho = 7800.0\n";
   const std::vector<Bad> all{
       {start + "yield_stress = 4e8\nnu = 0.5\n",
-       "c.toml:10:6: materials.m.nu: found 0.5; expected a number > -1 and < 0.5. That of materials lies between 0 and 0.5. At 0.5 a body cannot change its volume at all, and its bulk modulus is infinite: take 0.499 with formulation = \"mean_dilatation\"."},
+       "c.toml:10:6: materials.m.nu: found 0.5; expected a number > -1 and < 0.5. Poisson's ratio of a material lies between 0 and 0.5. At 0.5 a body cannot change its volume at all, and its bulk modulus is infinite: take 0.499 with formulation = \"mean_dilatation\"."},
       {start + "nu = 0.3\nyield_stress = 0.0\n",
        "c.toml:10:16: materials.m.yield_stress: found 0.0; expected a number > 0 in Pa"},
       {j2, "c.toml:5:1: materials.m.yield_stress: found nothing; expected a yield stress > 0, or a hardening_table"},

@@ -110,7 +110,7 @@ const std::vector<Spoiled> spoiled_decks{
      ":32: *MATERIAL: found a material without *ELASTIC; expected *ELASTIC or *HYPERELASTIC, NEO HOOKE after "
      "*MATERIAL"},
     {"elastic_nu", "210000., 0.3", "210000., 0.5",
-     ":33: materials.STEEL.nu: found 0.5; expected a number > -1 and < 0.5. That of materials lies between 0 and 0.5. At 0.5 a body cannot change its volume at all, and its bulk modulus is infinite: take 0.499 with formulation = \"mean_dilatation\"."},
+     ":33: materials.STEEL.nu: found 0.5; expected a number > -1 and < 0.5. Poisson's ratio of a material lies between 0 and 0.5. At 0.5 a body cannot change its volume at all, and its bulk modulus is infinite: take 0.499 with formulation = \"mean_dilatation\"."},
     {"density_missing", "*DENSITY\n7.8e-9\n", "",
      ":32: *MATERIAL: found a material without *DENSITY; expected *DENSITY after *MATERIAL. Bodies in motion have a "
      "mass."},
