@@ -397,7 +397,9 @@ Books books_of(const std::string& text) {
           energy.at("support_work").back(), energy.at("friction").back()};
 }
 
-// The balances close as those of a velocity that is imposed: to round-off, or to what the equations are solved to.
+// The balances close as those of a velocity that is imposed: to round-off, or to what the equations are solved to. Of
+// the work, implicit steps leave at most 1e-12 unbooked; divided by the speed of the head, 0.1 m/s, that is an impulse,
+// with an arm of at most 2.3 m.
 TEST(TurnedObstacles, AreInTheBooksOfEverySchemeAndEnforcement) {
   for (const SchemeTraits& scheme : scheme_table) {
     for (std::size_t e = 0; e < enforcement_count; ++e) {
@@ -407,9 +409,10 @@ TEST(TurnedObstacles, AreInTheBooksOfEverySchemeAndEnforcement) {
       const Books plain = books_of(pressed_on_roller(scheme, e, false));
       constexpr double round_off =
           2e-14;  // where steps are not iterated: 2000 roundings of energies and momenta near 0.1
-      EXPECT_LT(turned.imbalance, std::max(round_off, 10.0 * plain.imbalance));
-      EXPECT_LT(turned.momentum, std::max(round_off, 10.0 * plain.momentum));
-      EXPECT_LT(turned.angular_momentum, std::max(round_off, 10.0 * plain.angular_momentum));
+      const double solved_to = is_explicit(scheme.kind) ? 0.0 : 1e-12 * turned.work;
+      EXPECT_LT(turned.imbalance, std::max(round_off, solved_to));
+      EXPECT_LT(turned.momentum, std::max(round_off, solved_to / 0.1));
+      EXPECT_LT(turned.angular_momentum, std::max(round_off, 2.3 * solved_to / 0.1));
       EXPECT_GT(turned.work, plain.work);
       EXPECT_GT(turned.friction, plain.friction);
     }
