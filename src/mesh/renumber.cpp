@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -75,6 +76,31 @@ struct Mean {
   double value() const { return sum / count; }
 };
 
+/// Low and high ends of the places of some nodes.
+struct Bounds {
+  Vec3 low{}, high{};
+  Vec3 size() const { return subtract(high, low); }
+};
+Bounds bounds_of(const Mesh& mesh, std::span<const Index> nodes) {
+  if (nodes.empty()) return {};
+  Bounds box{mesh.coordinates[at(nodes.front())], mesh.coordinates[at(nodes.front())]};
+  for (const Index n : nodes) {
+    const Vec3& x = mesh.coordinates[at(n)];
+    for (std::size_t c = 0; c < 3; ++c) {
+      box.low[c] = std::min(box.low[c], x[c]);
+      box.high[c] = std::max(box.high[c], x[c]);
+    }
+  }
+  return box;
+}
+/// The axes by these lengths, the longest first; of equal ones z, then y.
+std::array<std::size_t, 3> longest_first(const Vec3& size) {
+  std::array<std::size_t, 3> axes{2, 1, 0};
+  std::stable_sort(axes.begin(), axes.end(),
+                   [&](std::size_t a, std::size_t b) { return size[a] > size[b] * (1 + 1e-9); });
+  return axes;
+}
+
 /// Orders the nodes of one connected body after another.
 class LevelOrder {
  public:
@@ -92,7 +118,7 @@ class LevelOrder {
   }
 
   /// order[new index] = old index
-  std::vector<Index> compute() {
+  const std::vector<Index>& compute() {
     for (std::size_t n = 0; n < mesh_.node_count(); ++n) {
       if (placed_[n] != 0) continue;
       std::vector<Index> level = start_level(body_of(static_cast<Index>(n)));
@@ -100,9 +126,12 @@ class LevelOrder {
         order_.insert(order_.end(), level.begin(), level.end());
         level = next_level(level);
       }
+      body_end_.push_back(order_.size());
     }
-    return std::move(order_);
+    return order_;
   }
+  /// For each body the new index behind its last.
+  const std::vector<std::size_t>& body_end() const { return body_end_; }
 
  private:
   std::vector<Index> body_of(Index seed) {
@@ -119,16 +148,10 @@ class LevelOrder {
 
   /// Nodes at the lower end of the longest side, row by row; places nearer than 1e-6 of that side count as equal.
   std::vector<Index> start_level(const std::vector<Index>& body) {
-    Vec3 low = mesh_.coordinates[at(body.front())], high = low;
-    for (const Index n : body)
-      for (std::size_t c = 0; c < 3; ++c) {
-        low[c] = std::min(low[c], mesh_.coordinates[at(n)][c]);
-        high[c] = std::max(high[c], mesh_.coordinates[at(n)][c]);
-      }
-    const Vec3 size = subtract(high, low);
-    std::array<std::size_t, 3> axes{2, 1, 0};  // longest first; of equal ones z, then y
-    std::stable_sort(axes.begin(), axes.end(),
-                     [&](std::size_t a, std::size_t b) { return size[a] > size[b] * (1 + 1e-9); });
+    const Bounds box = bounds_of(mesh_, body);
+    const Vec3& low = box.low;
+    const Vec3 size = box.size();
+    const std::array<std::size_t, 3> axes = longest_first(size);
     const double step = size[axes[0]] > 0 ? 1e-6 * size[axes[0]] : 1.0;
     const auto place = [&](Index n, std::size_t axis) { return bin(mesh_.coordinates[at(n)][axis] - low[axis], step); };
     std::vector<Index> level;
@@ -180,6 +203,7 @@ class LevelOrder {
   std::vector<Index> place_;               ///< in the current level, or -1
   std::vector<Mean> by_edges_, by_cells_;  ///< of the places of the neighbours one level before
   std::vector<Index> order_;
+  std::vector<std::size_t> body_end_;
 };
 
 /// order[new] = old turned into new_index[old]
@@ -274,16 +298,11 @@ bool is_local(const Mesh& mesh) {
 /// Nodes along the bins of a coarse grid: near enough to the final order that finding it does not wait for memory.
 std::vector<Index> grid_order(const Mesh& mesh) {
   constexpr std::size_t kBins = 100;
-  Vec3 low{}, high{};
-  if (mesh.node_count() > 0) low = high = mesh.coordinates[0];
-  for (const Vec3& x : mesh.coordinates)
-    for (std::size_t c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], x[c]);
-      high[c] = std::max(high[c], x[c]);
-    }
-  const double size = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-  const double bin_size = size > 0 ? size / static_cast<double>(kBins) : 1.0;
   std::vector<Index> order = first_entries(mesh.node_count());
+  const Bounds box = bounds_of(mesh, order);
+  const Vec3& low = box.low;
+  const double size = std::ranges::max(box.size());
+  const double bin_size = size > 0 ? size / static_cast<double>(kBins) : 1.0;
   for (const std::size_t c : {0, 1, 2})
     order = sorted_by(order, kBins + 2, [&](Index n) {
       return static_cast<std::size_t>(
@@ -315,11 +334,100 @@ void reorder(const std::vector<Index>& order, Mesh& mesh) {
   }
 }
 
+/// The place on Hilbert's curve through a square or cube of 2^levels bins an edge, from the origin to the other end of
+/// the first axis (J. Skilling, AIP Conf. Proc. 707, 2004, p. 381: from axes to the transposed index, whose bits are
+/// then woven).
+template <std::size_t N>
+std::uint64_t place_on_curve(std::array<std::uint32_t, N> x, int levels) {
+  for (std::uint32_t bit = 1U << (levels - 1); bit > 1; bit >>= 1) {
+    for (std::uint32_t& axis : x) {
+      const std::uint32_t below = bit - 1, exchanged = (axis & bit) != 0 ? below : (x[0] ^ axis) & below;
+      x[0] ^= exchanged;
+      if ((axis & bit) == 0) axis ^= exchanged;
+    }
+  }
+  for (std::size_t c = 1; c < N; ++c) x[c] ^= x[c - 1];
+  std::uint32_t turned = 0;
+  for (std::uint32_t bit = 1U << (levels - 1); bit > 1; bit >>= 1)
+    if ((x[N - 1] & bit) != 0) turned ^= bit - 1;
+  std::uint64_t place = 0;
+  for (int level = levels - 1; level >= 0; --level)
+    for (const std::uint32_t axis : x) place = 2 * place + (((axis ^ turned) >> level) & 1U);
+  return place;
+}
+
+/// Brings the nodes of a body bin by bin, the bins along Hilbert's curve, within a bin in the order that they have.
+/// Bins are cubes (N = 3), or columns along the shortest side (N = 2), whose edge halves the longest side until a bin
+/// has so many nodes at most, were all that the body's box takes filled alike.
+template <std::size_t N>
+void bin_along_curve(const Mesh& mesh, double bin_nodes, std::span<Index> nodes) {
+  constexpr int most_levels = 16;
+  const Bounds box = bounds_of(mesh, nodes);
+  const std::array<std::size_t, 3> axes = longest_first(box.size());
+  double edge = box.size()[axes[0]], bins = 1.0;
+  int levels = 0;
+  for (; static_cast<double>(nodes.size()) > bin_nodes * bins && levels < most_levels; ++levels) {
+    edge *= 0.5;
+    bins = 1.0;
+    for (std::size_t c = 0; c < N; ++c) bins *= std::fmax(1.0, std::round(box.size()[axes[c]] / edge));
+  }
+  if (levels == 0 || !(edge > 0.0)) return;
+  const std::uint32_t last = (1U << levels) - 1;
+  std::vector<std::pair<std::uint64_t, Index>> keys;
+  keys.reserve(nodes.size());
+  for (const Index n : nodes) {
+    std::array<std::uint32_t, N> bin_of{};
+    for (std::size_t c = 0; c < N; ++c) {
+      constexpr double on_border = 1e-6;
+      const double along = (mesh.coordinates[at(n)][axes[c]] - box.low[axes[c]]) / edge + on_border;
+      bin_of[c] = static_cast<std::uint32_t>(std::fmin(std::fmax(along, 0.0), last));
+    }
+    keys.emplace_back(place_on_curve(bin_of, levels), n);
+  }
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = keys[i].second;
+}
+
+/// By body, true where at least half of the cells have the nodes of the cell before, each plus one: rows of a grid.
+std::vector<bool> are_grids(const Mesh& mesh, std::span<const std::size_t> body_end) {
+  std::vector<std::size_t> cells(body_end.size(), 0), straight(body_end.size(), 0);
+  for (const CellBlock& block : mesh.blocks)
+    for (Index c = 1; at(c) < block.size(); ++c) {
+      const std::span<const Index> nodes = block.nodes(c), before = block.nodes(c - 1);
+      const auto body = static_cast<std::size_t>(std::ranges::upper_bound(body_end, at(nodes[0])) - body_end.begin());
+      ++cells[body];
+      straight[body] += std::ranges::equal(nodes, before, [](Index a, Index b) { return a == b + 1; }) ? 1 : 0;
+    }
+  std::vector<bool> are(body_end.size());
+  for (std::size_t body = 0; body < are.size(); ++body) are[body] = 2 * straight[body] >= cells[body];
+  return are;
+}
+
+/// Large bodies, numbered in levels, go on along a curve.
+std::vector<Index> curve_order(const Mesh& mesh, std::span<const std::size_t> body_end) {
+  constexpr std::size_t large = 4096;  // smaller ones are near the processor as they are
+  constexpr double grid_bin = 16384.0, other_bin = 64.0;
+  const std::vector<bool> is_grid = are_grids(mesh, body_end);
+  std::vector<Index> order = first_entries(mesh.node_count());
+  std::size_t first = 0;
+  for (std::size_t body = 0; body < body_end.size(); first = body_end[body++]) {
+    const std::span<Index> nodes = std::span(order).subspan(first, body_end[body] - first);
+    if (nodes.size() <= large) continue;
+    if (is_grid[body])
+      bin_along_curve<2>(mesh, grid_bin, nodes);
+    else
+      bin_along_curve<3>(mesh, other_bin, nodes);
+  }
+  return order;
+}
+
 }  // namespace
 
 Mesh renumbered(Mesh mesh) {
   if (!is_local(mesh)) reorder(grid_order(mesh), mesh);
-  reorder(LevelOrder(mesh).compute(), mesh);
+  LevelOrder levels(mesh);
+  reorder(levels.compute(), mesh);
+  reorder(curve_order(mesh, levels.body_end()), mesh);
   return mesh;
 }
 

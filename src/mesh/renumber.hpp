@@ -1,4 +1,5 @@
-// Numbering for locality: nodes in levels from one end of the body to the other, cells along with their nodes.
+// Numbering for locality: nodes in levels from one end of the body to the other, of large bodies along a curve; cells
+// along with their nodes.
 #pragma once
 
 #include "mesh/mesh.hpp"
@@ -11,7 +12,11 @@ namespace carom {
 /// neighbours in the level before, along edges where there are some (after E. Cuthill and J. McKee, Proc. 24th ACM Nat.
 /// Conf., 1969, with the mean instead of the first neighbour, which keeps rows straight). Cells: by their smallest
 /// node, then by the sum of their nodes. A straight block numbered naturally along its longest side comes out as it
-/// was. Time grows as the number of nodes times the logarithm of the size of a level.
+/// was.
+/// Bodies of more than 4096 nodes are then taken bin by bin, the bins along Hilbert's curve: what follows each other
+/// makes lumps, whose frontiers are smaller than those of slabs, and which stay near the processor. Where cells follow
+/// each other in straight rows, the bins are columns along the rows. Time grows as the number of nodes times the
+/// logarithm of the size of a level.
 Mesh renumbered(Mesh mesh);
 
 }  // namespace carom

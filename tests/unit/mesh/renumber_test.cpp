@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <random>
+#include <set>
 
 #include "mesh/finish_mesh.hpp"
 #include "mesh/structured_block.hpp"
@@ -60,15 +61,6 @@ double mean_span(const Mesh& mesh) {
   return sum / static_cast<double>(hexas.size());
 }
 
-/// Mean distance of the smallest nodes of consecutive cells.
-double mean_stride(const Mesh& mesh) {
-  const CellBlock& hexas = *mesh.block(CellType::hexa8);
-  double sum = 0;
-  for (std::size_t c = 0; c + 1 < hexas.size(); ++c)
-    sum += std::abs(hexas.connectivity[8 * c] - hexas.connectivity[8 * (c + 1)]);
-  return sum / static_cast<double>(hexas.size());
-}
-
 /// The most chunks (of `size` consecutive cells) that any chunk shares nodes with on one side.
 Index reach_of_chunks(const Mesh& mesh, std::size_t size) {
   const CellBlock& hexas = *mesh.block(CellType::hexa8);
@@ -103,18 +95,57 @@ TEST(MeshRenumber, LeavesANaturallyNumberedCubeAsItIs) {
   for (std::size_t c = 0; c < 216; ++c) EXPECT_EQ(mesh.blocks[0].file_numbers[c], static_cast<std::int64_t>(c) + 1);
 }
 
-TEST(MeshRenumber, AShuffledCubeOf64ComesOutAsLocalAsANaturalOne) {
+/// Cells that ranks compute, over those that there are: a rank owns the nodes from r n / R on and computes the cells
+/// that they stand in.
+double computed_by_ranks(const Mesh& mesh, std::size_t ranks) {
+  const CellBlock& hexas = *mesh.block(CellType::hexa8);
+  std::size_t computed = 0;
+  for (std::size_t c = 0; c < hexas.size(); ++c) {
+    std::set<std::size_t> owners;
+    for (const Index n : hexas.nodes(static_cast<Index>(c)))
+      owners.insert(static_cast<std::size_t>(n) * ranks / mesh.node_count());
+    computed += owners.size();
+  }
+  return static_cast<double>(computed) / static_cast<double>(hexas.size());
+}
+
+/// Nodes of so many cells that follow each other, on average.
+double nodes_of_run(const Mesh& mesh, std::size_t cells) {
+  const CellBlock& hexas = *mesh.block(CellType::hexa8);
+  std::size_t nodes = 0, runs = 0;
+  for (std::size_t first = 0; first + cells <= hexas.size(); first += cells, ++runs) {
+    std::set<Index> distinct;
+    for (std::size_t c = first; c < first + cells; ++c)
+      for (const Index n : hexas.nodes(static_cast<Index>(c))) distinct.insert(n);
+    nodes += distinct.size();
+  }
+  return static_cast<double>(nodes) / static_cast<double>(runs);
+}
+
+TEST(MeshRenumber, AShuffledCubeOf64ComesOutInTheOrderOfANaturalOne) {
   const Mesh natural = block_mesh({64, 64, 64}, {1, 1, 1});
-  EXPECT_EQ(mean_span(natural), 65 * 65 + 65 + 1);  // node (i+1, j+1, k+1) minus node (i, j, k)
   const Mesh random = shuffled(natural, 7);
   EXPECT_GT(mean_span(random), 20 * mean_span(natural)) << "the shuffle must spoil the numbering to test anything";
-  const Mesh again = renumbered(random);
-  EXPECT_EQ(again.blocks[0].connectivity, natural.blocks[0].connectivity);
-  EXPECT_LE(mean_stride(again), 1.1 * mean_stride(natural));
+  EXPECT_EQ(renumbered(random).blocks[0].connectivity, natural.blocks[0].connectivity);
+}
+
+TEST(MeshRenumber, ColumnsOfAGridHaveSmallFrontiers) {
+  const Mesh cube = block_mesh({64, 64, 64}, {1, 1, 1});
+  // Columns of 8 x 8 cells compute (8 + 1)^2 / 8^2 = 1.27 times the cells, a quarter more where parts and bins do not
+  // end together; slabs of one layer compute all twice.
+  EXPECT_LE(computed_by_ranks(cube, 64), 1.25 * 1.27);
+  EXPECT_LE(computed_by_ranks(cube, 2), 1.0 + 1.5 / 64);
+  // Rows stay whole: 64 cells in one row have 65 x 2 x 2 nodes.
+  EXPECT_LE(nodes_of_run(cube, 64), 1.05 * 65 * 4);
 }
 
 TEST(MeshRenumber, LevelsRunAlongTheLongestSide) {
   const Mesh bar = renumbered(shuffled(block_mesh({80, 4, 4}, {20, 1, 1}), 3));
+  EXPECT_LE(mean_span(bar), 5 * 5 + 5 + 1);
+}
+
+TEST(MeshRenumber, BinsOfALongBarFollowIt) {
+  const Mesh bar = renumbered(shuffled(block_mesh({2000, 4, 4}, {500, 1, 1}), 3));
   EXPECT_LE(mean_span(bar), 5 * 5 + 5 + 1);
 }
 
@@ -123,15 +154,18 @@ TEST(MeshRenumber, ChunksOfALayerShareNodesWithTheirNeighboursOnly) {
   EXPECT_EQ(reach_of_chunks(mesh, 12 * 12), 1);
 }
 
-TEST(MeshRenumber, AnIrregularMeshStaysLocal) {
-  Mesh mesh = block_mesh({16, 16, 32}, {1, 1, 2});
+TEST(MeshRenumber, AnIrregularMeshMakesLumps) {
+  Mesh mesh = block_mesh({32, 32, 32}, {1, 1, 1});
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> shift(-0.2 / 16, 0.2 / 16);  // a fifth of a cell: no plane of nodes is left
+  std::uniform_real_distribution<double> shift(-0.2 / 32, 0.2 / 32);  // a fifth of a cell: no plane of nodes is left
   for (Vec3& x : mesh.coordinates)
     for (double& component : x) component += shift(random);
-  const double natural = mean_span(mesh);
-  // Without planes the first level is a single node and fronts are shells; three layers' worth is what they span.
-  EXPECT_LE(mean_span(renumbered(shuffled(mesh, 13))), 3 * natural);
+  const Mesh again = renumbered(shuffled(mesh, 13));
+  // 64 cubes of 8^3 cells: (8 + 1)^3 / 8^3 = 1.42, and a quarter for frontiers that are not plane; slabs of half a
+  // layer compute all three times.
+  EXPECT_LE(computed_by_ranks(again, 64), 1.25 * 1.42);
+  // 64 cells in a cube have 5^3 nodes, in a row 65 x 4, at random nearly 8 x 64.
+  EXPECT_LE(nodes_of_run(again, 64), 1.5 * 125);
 }
 
 TEST(MeshRenumber, SeparateBodiesAndLooseNodesAreAllNumbered) {
