@@ -36,6 +36,7 @@
 #include "mesh/mesh_summary.hpp"
 #include "mesh/read_mesh.hpp"
 #include "output/checkpoint_file.hpp"
+#include "output/data_table.hpp"
 #include "output/mesh_file.hpp"
 #include "parallel/job.hpp"
 #include "parallel/threads.hpp"
@@ -87,6 +88,7 @@ struct Arguments {
   carom::PathRequest path;
   std::vector<std::string> folders;
   int every = 2;
+  std::string format;
 };
 
 void stop_at_signals() {
@@ -142,7 +144,7 @@ ExitCode check(const Arguments& arguments) {
 ExitCode compare(const Arguments& arguments) {
   stop_at_signals();
   const carom::compare::Settings settings{"/proc/self/exe", results_folder(arguments, "_compare"), arguments.jobs,
-                                          arguments.quiet};
+                                          arguments.quiet, arguments.format};
   return carom::compare::compare_cases(arguments.case_file, arguments.choices, settings, stop_requested);
 }
 
@@ -187,13 +189,20 @@ ExitCode dispatch(const CLI::App& app, const Arguments& arguments) {
     std::signal(SIGINT, request_stop);
     return carom::watch_run(arguments.folder, arguments.every, stop_requested);
   }
-  if (app.got_subcommand("report")) return carom::report_runs(arguments.folders, arguments.output);
+  if (app.got_subcommand("report")) {
+    if (arguments.format.empty()) return carom::report_runs(arguments.folders, arguments.output);
+    return carom::show_tables(arguments.folders, arguments.format);
+  }
   if (app.got_subcommand("check")) return check(arguments);
   if (app.got_subcommand("material")) return material(arguments);
   if (app.got_subcommand("convert")) return convert(arguments);
   if (app.got_subcommand("mesh")) return mesh(arguments);
   fmt::print("{}\n", carom::json_schema());
   return ExitCode::good;
+}
+
+CLI::Option* add_format(CLI::App* command, Arguments& arguments, const std::string& help) {
+  return command->add_option("--format", arguments.format, help)->check(CLI::IsMember(carom::table_formats()));
 }
 
 /// For commands that take a deck as well.
@@ -229,6 +238,7 @@ void add_compare(CLI::App& app, Arguments& arguments) {
                       "Text in the name of the run that others are compared with");
   command->add_option("--out", arguments.folder, "Results folder (default: out/<name of the case>_compare)");
   command->add_option("--jobs", arguments.jobs, "Runs at a time (default: all cores)")->check(CLI::Range(0, 1024));
+  add_format(command, arguments, "How the table is printed (default: text)");
   command->add_flag("--quiet", arguments.quiet, "Print errors only");
 }
 
@@ -268,8 +278,9 @@ void add_report(CLI::App& app, Arguments& arguments) {
   CLI::App* report_command = app.add_subcommand(
       "report", "Write the report of a results folder again, or lay several over each other on one page");
   report_command->add_option("folders", arguments.folders, "Results folders")->required();
-  report_command->add_option("--out", arguments.output,
-                             "File of the page (default: report.html in the folder, or out/comparison.html)");
+  CLI::Option* const page = report_command->add_option(
+      "--out", arguments.output, "File of the page (default: report.html in the folder, or out/comparison.html)");
+  add_format(report_command, arguments, "Print the tables of the runs so, in place of the page")->excludes(page);
   CLI::App* watch_command =
       app.add_subcommand("watch", "Follow a run that is going on, on a page that reads itself again");
   watch_command->add_option("folder", arguments.folder, "Results folder")->required();

@@ -86,6 +86,12 @@ ExitCode report_runs(const std::vector<std::string>& folders, const std::string&
   return ExitCode::good;
 }
 
+ExitCode show_tables(const std::vector<std::string>& folders, const std::string& format) {
+  for (const std::string& folder : folders) refuse_other_folders(folder);
+  print_to_terminal(stdout, tables_of_runs(folders, format));
+  return ExitCode::good;
+}
+
 ExitCode watch_run(const std::string& folder, int every, const std::atomic<bool>& stop) {
   refuse_other_folders(folder);
   const bool is_live = ::isatty(::fileno(stdout)) == 1;

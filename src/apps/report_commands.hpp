@@ -13,6 +13,9 @@ namespace carom {
 /// report.html in the folder, or out/comparison.html. Throws CaseError for folders that hold no run and OutputError.
 ExitCode report_runs(const std::vector<std::string>& folders, const std::string& file);
 
+/// `carom report --format`: the tables of one run or several on stdout. Throws CaseError for folders that hold no run.
+ExitCode show_tables(const std::vector<std::string>& folders, const std::string& format);
+
 /// `carom watch`: writes watch.html into the folder every so many seconds, which reads itself again, until the run has
 /// ended or `stop`. Good when it has ended, run_failed when no process is running there. Throws CaseError for folders
 /// that hold no run and OutputError.

@@ -107,7 +107,10 @@ ExitCode compare_cases(const std::string& case_file, const Options& options, con
   write_file(settings.folder + "/compare.json", json_table(comparison));
   write_file(settings.folder + "/compare.html", make_page(comparison, read_text(case_file)));
   if (!settings.quiet) {
-    fmt::print("{}", text_table(comparison));
+    // A table that goes into another document stands alone on stdout.
+    const bool is_alone = !settings.format.empty() && settings.format != table_formats().front();
+    fmt::print("{}", format_table(variants_table(comparison), settings.format));
+    fmt::print(is_alone ? stderr : stdout, "{}", remarks_text(comparison));
     fmt::print(stderr, "results in {0}, open {0}/compare.html\n", settings.folder);
   }
   if (stop.load()) return ExitCode::run_failed;

@@ -10,10 +10,11 @@
 namespace carom::compare {
 
 struct Settings {
-  std::string program;  ///< path of carom, which runs the variants
-  std::string folder;   ///< of the results
-  int jobs = 0;         ///< runs at a time; 0: as many as cores
-  bool quiet = false;   ///< no progress and no table
+  std::string program;   ///< path of carom, which runs the variants
+  std::string folder;    ///< of the results
+  int jobs = 0;          ///< runs at a time; 0: as many as cores
+  bool quiet = false;    ///< no progress and no table
+  std::string format{};  ///< of the printed table (output/data_table.hpp); "" for the terminal's
 };
 
 /// Runs every allowed combination as `carom run --threads 1` in <folder>/variants/<name>, and writes compare.csv,

@@ -146,22 +146,31 @@ std::vector<Remark> changes(const Comparison& comparison) {
   return remarks;
 }
 
-std::string text_table(const Comparison& comparison) {
-  std::size_t width = 7;
-  for (const Result& r : comparison.results) width = std::max(width, r.variant.label.size());
-  std::string text = comparison.common.empty() ? "" : fmt::format("in all variants: {}\n", comparison.common);
+DataTable variants_table(const Comparison& comparison) {
   const std::string of = comparison.quantity.empty() ? "" : " " + comparison.quantity;
-  text += fmt::format("{:<{}}  {:>12}  {:>10}  {:>10}  {:>10}  {:>11}  {:>9}  {:>9}  verdict\n", "variant", width,
-                      (comparison.reference == ReferenceKind::exact ? "error" : "off ref.") + of, "claimed", "peak/ref",
-                      "energy", "penetration", "steps", "CPU s");
+  DataTable table{comparison.common.empty() ? "" : "in all variants: " + comparison.common,
+                  {{"variant"},
+                   {(comparison.reference == ReferenceKind::exact ? "error" : "off ref.") + of, true},
+                   {"claimed", true},
+                   {"peak/ref", true},
+                   {"energy", true},
+                   {"penetration", true},
+                   {"steps", true},
+                   {"CPU s", true},
+                   {"verdict"}},
+                  {}};
   for (const Result& r : comparison.results) {
-    const std::string status = r.is_reference ? status_text(r) + " (the reference)" : status_text(r);
     if (!r.failure.empty()) continue;
-    text += fmt::format("{:<{}}  {:>12}  {:>10}  {:>10}  {:>10}  {:>11}  {:>9}  {:>9}  {}\n", r.variant.label, width,
-                        r.is_reference ? "-" : number(r.error(comparison.quantity), 4), number(r.claimed, 3),
-                        number(peak_ratio(r), 4), number(r.energy_kept, 5), number(r.penetration, 3),
-                        r.summary->scheme.steps, number(r.cpu_seconds(), 3), status);
+    table.rows.push_back({r.variant.label, r.is_reference ? "-" : number(r.error(comparison.quantity), 4),
+                          number(r.claimed, 3), number(peak_ratio(r), 4), number(r.energy_kept, 5),
+                          number(r.penetration, 3), fmt::format("{}", r.summary->scheme.steps),
+                          number(r.cpu_seconds(), 3), status_text(r) + (r.is_reference ? " (the reference)" : "")});
   }
+  return table;
+}
+
+std::string remarks_text(const Comparison& comparison) {
+  std::string text;
   for (const Remark& remark : failures(comparison)) text += fmt::format("{}\n  {}\n", remark.variants, remark.text);
   if (!comparison.quantity.empty())
     text += fmt::format("{} {}\n", comparison.reference == ReferenceKind::exact ? "errors against" : "differences to",

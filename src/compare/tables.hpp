@@ -1,4 +1,4 @@
-// The table of a comparison as text, CSV and JSON.
+// The table of a comparison to be read, as CSV and as JSON.
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 #include "compare/convergence.hpp"
 #include "compare/measure.hpp"
 #include "compare/recommend.hpp"
+#include "output/data_table.hpp"
 
 namespace carom::compare {
 
@@ -36,9 +37,10 @@ std::vector<Remark> failures(const Comparison& comparison);
 /// What the choices brought with them; likewise.
 std::vector<Remark> changes(const Comparison& comparison);
 
-/// The table for the terminal: variants that were compared, then the others with their reasons, then the
-/// recommendation.
-std::string text_table(const Comparison& comparison);
+/// The variants that were compared, with as many digits as are to be read.
+DataTable variants_table(const Comparison& comparison);
+/// What is said below it: the other variants with their reasons, what the errors are against, the recommendation.
+std::string remarks_text(const Comparison& comparison);
 /// One row per variant, also of those that were not run; empty where there is no number.
 std::string csv_table(const Comparison& comparison);
 /// The same with the errors of every column, orders and recommendation; numbers that are not finite are null.

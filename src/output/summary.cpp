@@ -62,12 +62,19 @@ Json to_json(const MeshSummary& mesh) {
   for (const MeshSummary::Group& group : mesh.groups) {
     groups.push_back({{"name", group.name}, {"nodes", group.nodes}, {"cells", group.cells}});
   }
-  return {{"nodes", mesh.nodes}, {"cells", mesh.cells}, {"groups", groups}, {"reach", number(mesh.reach)}};
+  return {{"nodes", mesh.nodes},
+          {"cells", mesh.cells},
+          {"groups", groups},
+          {"reach", number(mesh.reach)},
+          {"checksum", mesh.checksum}};
 }
 
 MeshSummary mesh_from(const Json& json) {
-  MeshSummary mesh{
-      json.at("nodes").get<std::size_t>(), json.at("cells").get<std::size_t>(), {}, number(json.at("reach"))};
+  MeshSummary mesh{json.at("nodes").get<std::size_t>(),
+                   json.at("cells").get<std::size_t>(),
+                   {},
+                   number(json.at("reach")),
+                   json.value("checksum", "")};
   for (const Json& group : json.at("groups")) {
     mesh.groups.push_back({group.at("name").get<std::string>(), group.at("nodes").get<std::size_t>(),
                            group.at("cells").get<std::size_t>()});

@@ -38,7 +38,8 @@ struct MeshSummary {
   std::size_t nodes = 0;
   std::size_t cells = 0;  ///< solid cells
   std::vector<Group> groups;
-  double reach = 0.0;  ///< largest distance of a node from the origin
+  double reach = 0.0;      ///< largest distance of a node from the origin
+  std::string checksum{};  ///< of nodes, cells and groups, 16 hexadecimal digits; "" where an older program has run
 };
 
 /// A deformable body: mass, and the velocity of its centre of mass.

@@ -289,6 +289,10 @@ std::string json_string(const std::string& text) {
   return safe;
 }
 
+std::string numbered(const char* key, const std::optional<std::size_t>& number) {
+  return number ? fmt::format("\"{}\":{},", key, *number) : "";
+}
+
 /// Eight digits are more than a screen resolves and as many as the checks compare.
 std::string json_numbers(const std::vector<double>& values) {
   std::string text = "[";
@@ -365,9 +369,9 @@ std::string charts_json(const ChartData& data) {
     fmt::format_to(std::back_inserter(text), "\n{{\"label\":{},\"unit\":{},\"power\":{},\"count\":{},\"curves\":[",
                    json_string(chart.label), json_string(unit.name), unit.power, chart.is_count);
     for (const Curve& curve : chart.curves) {
-      fmt::format_to(std::back_inserter(text), "{{\"name\":{},\"kind\":{},\"shown\":{},{}\"t\":{},\"y\":{}}},",
+      fmt::format_to(std::back_inserter(text), "{{\"name\":{},\"kind\":{},\"shown\":{},{}{}\"t\":{},\"y\":{}}},",
                      json_string(curve.name), kKinds.at(static_cast<std::size_t>(curve.kind)), curve.shown,
-                     curve.colour ? fmt::format("\"colour\":{},", *curve.colour) : "", json_numbers(curve.time),
+                     numbered("colour", curve.colour), numbered("line", curve.line), json_numbers(curve.time),
                      json_numbers(curve.values));
     }
     end_list("]},");

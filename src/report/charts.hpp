@@ -13,6 +13,9 @@
 
 namespace carom {
 
+/// --curve-1 and so on in page.css.
+inline constexpr std::size_t colours_of_curves = 8;
+
 /// What is below this share of the largest is left out of pictures and figures.
 inline constexpr double kNegligible = 1e-9;
 
@@ -26,6 +29,7 @@ struct Curve {
   CurveKind kind{};
   bool shown = true;                    ///< until the reader clicks its name
   std::optional<std::size_t> colour{};  ///< its number where curves of several charts belong together
+  std::optional<std::size_t> line{};    ///< the number of its dashes where curves of one colour are told apart by them
 };
 
 /// One picture: curves of one unit over time. Without curves it is a statement: the title and the note as text.

@@ -14,17 +14,13 @@
 #include "report/page.hpp"
 #include "report/report.hpp"
 #include "report/results.hpp"
+#include "report/run_tables.hpp"
 
 namespace carom {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-struct NamedRun {
-  std::string name;  ///< the end of its folder's path that tells it from the others
-  ReportData data;
-};
 
 /// The last parts of the paths, as many as it takes until no two are the same.
 std::vector<std::string> short_names(const std::vector<std::string>& folders) {
@@ -67,69 +63,15 @@ std::vector<NamedRun> read_runs(const std::vector<std::string>& folders) {
   return runs;
 }
 
-/// One row per name in the order in which the runs know them, one column per run.
-struct RunRows {
-  std::vector<std::string> names;
-  std::map<std::string, std::vector<TableCell>> cells;
-
-  void set(const std::string& name, std::size_t run, std::size_t runs, TableCell cell) {
-    auto [entry, is_new] = cells.try_emplace(name, runs, TableCell{"–", "number"});
-    if (is_new) names.push_back(name);
-    entry->second[run] = std::move(cell);
+/// What was given that differs, or that nothing does.
+std::string differences_section(const std::vector<NamedRun>& runs) {
+  try {
+    const DataTable table = input_differences(runs);
+    if (!table.rows.empty()) return table_section(table);
+    return "<p class=\"note\">No key of the cases differs, the mesh is the same, and so is the program.</p>\n";
+  } catch (const CaseError& error) {
+    return fmt::format("<p class=\"note\">What differs in the cases is not known: {}</p>\n", xml_escape(error.what()));
   }
-};
-
-std::string rows_table(const RunRows& rows, const std::vector<NamedRun>& runs, const std::string& title,
-                       const std::string& heading) {
-  if (rows.names.empty()) return "";
-  std::vector<TableColumn> columns{{heading}};
-  for (const NamedRun& run : runs) columns.push_back({run.name, true});
-  std::vector<TableRow> table;
-  for (const std::string& name : rows.names) {
-    table.push_back({text_cell(name)});
-    const std::vector<TableCell>& cells = rows.cells.at(name);
-    table.back().insert(table.back().end(), cells.begin(), cells.end());
-  }
-  return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title, html_table(columns, table));
-}
-
-std::string figures_rows(const std::vector<NamedRun>& runs) {
-  RunRows rows;
-  for (std::size_t r = 0; r < runs.size(); ++r)
-    for (const KeyFigure& f : runs[r].data.figures) rows.set(f.title, r, runs.size(), number_cell(f.value));
-  return rows_table(rows, runs, "Key figures", "Figure");
-}
-
-std::string check_rows(const std::vector<NamedRun>& runs) {
-  RunRows rows;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    if (!runs[r].data.summary) continue;
-    const Units& units = runs[r].data.units;
-    for (const CheckSummary& check : runs[r].data.summary->checks) {
-      const std::string unit = unit_of_column(units, check.quantity);
-      const std::string name = fmt::format("{} at t = {}{}{}", check.name, number_text(check.time, 6),
-                                           units.time.empty() ? "" : " ", units.time);
-      TableCell cell = number_cell(
-          fmt::format("{}{}{} {}", number_text(check.value, 7), unit.empty() ? "" : " ", unit, check.pass ? "✓" : "✗"));
-      if (!check.pass) cell.style = "number fail";
-      rows.set(name, r, runs.size(), std::move(cell));
-    }
-  }
-  return rows_table(rows, runs, "Checks", "Quantity");
-}
-
-std::string energy_rows(const std::vector<NamedRun>& runs) {
-  RunRows rows;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    if (!runs[r].data.summary) continue;
-    for (const NamedValue& term : runs[r].data.summary->ledger) {
-      std::string name = term.name;
-      std::replace(name.begin(), name.end(), '_', ' ');
-      rows.set(name, r, runs.size(), number_cell(number_text(term.value, 6)));
-    }
-  }
-  const std::string& unit = runs.front().data.units.energy;
-  return rows_table(rows, runs, "Energy at the end", unit.empty() ? "energy" : fmt::format("energy [{}]", unit));
 }
 
 /// What was run, each with a way to its own report.
@@ -138,7 +80,10 @@ std::string runs_table(const std::vector<NamedRun>& runs, const fs::path& beside
   for (const NamedRun& run : runs) {
     const ReportData& data = run.data;
     const fs::path page = fs::proximate(fs::path(data.folder) / "report.html", beside);
-    TableRow row{{fmt::format("<a href=\"{}\">{}</a>", xml_escape(page.generic_string()), xml_escape(run.name))}};
+    TableRow row{
+        {fmt::format("<span><i class=\"swatch\" style=\"background: var(--curve-{})\"></i>"
+                     "<a href=\"{}\">{}</a></span>",
+                     rows.size() % colours_of_curves + 1, xml_escape(page.generic_string()), xml_escape(run.name))}};
     if (data.summary) {
       const Summary& s = *data.summary;
       row.push_back(text_cell(s.case_info.title));
@@ -166,10 +111,29 @@ std::string runs_table(const std::vector<NamedRun>& runs, const fs::path& beside
   return html;
 }
 
-/// Curves of the same chart on one picture, each with its run's name before its own. Exact ones are drawn once.
+/// By the name of a curve the number of its line in a chart: a filtered one has that of the raw one.
+class LineNumbers {
+ public:
+  std::size_t of(const std::string& chart, std::string curve) {
+    if (const std::size_t end = curve.rfind(", filtered"); end != std::string::npos) curve.resize(end);
+    std::vector<std::string>& names = names_[chart];
+    const auto found = std::find(names.begin(), names.end(), curve);
+    const auto number = static_cast<std::size_t>(found - names.begin());
+    if (found == names.end()) names.push_back(std::move(curve));
+    return number;
+  }
+
+ private:
+  std::map<std::string, std::vector<std::string>> names_;
+};
+
+/// Curves of the same chart on one picture, each with its run's name before its own. A run has one colour in all of
+/// them, and a curve of one name one kind of line in all runs. Exact ones are drawn once.
 std::vector<Chart> merged(std::vector<NamedRun>& runs) {
   std::vector<Chart> all;
-  for (NamedRun& run : runs) {
+  LineNumbers lines;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    NamedRun& run = runs[r];
     for (Chart& chart : run.data.charts) {
       if (chart.curves.empty()) continue;
       auto same = std::find_if(all.begin(), all.end(), [&chart](const Chart& c) {
@@ -187,11 +151,18 @@ std::vector<Chart> merged(std::vector<NamedRun>& runs) {
         if (is_exact && std::any_of(same->curves.begin(), same->curves.end(),
                                     [&curve](const Curve& c) { return c.name == curve.name; }))
           continue;
-        if (!is_exact) curve.name = fmt::format("{}: {}", run.name, curve.name);
+        if (!is_exact) {
+          curve.colour = r;
+          curve.line = lines.of(chart.section + "\n" + chart.title, curve.name);
+          curve.name = fmt::format("{}: {}", run.name, curve.name);
+        }
         same->curves.push_back(std::move(curve));
       }
     }
   }
+  for (Chart& chart : all)  // over those of all runs
+    std::stable_partition(chart.curves.begin(), chart.curves.end(),
+                          [](const Curve& curve) { return curve.kind != CurveKind::exact; });
   return all;
 }
 
@@ -207,6 +178,15 @@ std::vector<PageView> views_of(std::vector<NamedRun>& runs, std::size_t most_byt
 
 }  // namespace
 
+std::string tables_of_runs(const std::vector<std::string>& results_folders, const std::string& format) {
+  const std::vector<NamedRun> runs = read_runs(results_folders);
+  std::string text;
+  for (const DataTable& table : {runs.size() > 1 ? input_differences(runs) : DataTable{}, figures_of_runs(runs),
+                                 checks_of_runs(runs), energies_of_runs(runs)})
+    if (!table.rows.empty()) text += (text.empty() ? "" : "\n") + format_table(table, format);
+  return text;
+}
+
 void write_comparison(const std::vector<std::string>& results_folders, const std::string& file) {
   std::vector<NamedRun> runs = read_runs(results_folders);
   const fs::path folder = fs::absolute(file).parent_path();
@@ -217,8 +197,9 @@ void write_comparison(const std::vector<std::string>& results_folders, const std
   const auto page = [&](const std::vector<PageView>& views) {
     std::string content =
         fmt::format("<header>\n<p class=\"kicker\">Carom · runs compared</p>\n<h1>{}</h1>\n</header>\n", title);
-    content += runs_table(runs, folder) + figures_rows(runs) + view_sections(views) + check_rows(runs) +
-               chart_figures(charts) + energy_rows(runs);
+    content += runs_table(runs, folder) + differences_section(runs) + table_section(figures_of_runs(runs)) +
+               view_sections(views) + table_section(checks_of_runs(runs)) + chart_figures(charts) +
+               table_section(energies_of_runs(runs));
     content += fmt::format(
         "<footer>\n{}{}</footer>\n", foldable("Licence of dygraphs, which draws the curves", assets::dygraph_licence),
         views.empty() ? "" : foldable("Licence of three.js, which draws the view", assets::three_licence));

@@ -129,7 +129,8 @@ void add_peak_forces(const Tables& tables, const Units& units, std::vector<KeyFi
       remark += fmt::format("; {}: {} at {}", class_of(*tables.contact_filtered, column),
                             with_readable_unit(filtered.value, units.force, 4), time_text(filtered.time, units));
     }
-    all.push_back({{"Peak force, " + place, with_readable_unit(peak.value, units.force, 4), std::move(remark)},
+    all.push_back({{"Peak force, " + place, with_readable_unit(peak.value, units.force, 4), std::move(remark),
+                    peak.value, units.force},
                    peak.value,
                    place});
   }
@@ -153,7 +154,8 @@ void add_peak_accelerations(const Tables& tables, const Units& units, std::vecto
                       g.empty() ? plain : g,
                       fmt::format("{}{}at {}; {} unfiltered", g.empty() ? "" : plain, g.empty() ? "" : ", ",
                                   time_text(filtered.time, units),
-                                  g.empty() ? with_readable_unit(raw.value, unit, 4) : in_g(raw.value, units))},
+                                  g.empty() ? with_readable_unit(raw.value, unit, 4) : in_g(raw.value, units)),
+                      filtered.value, unit},
                      filtered.value,
                      place});
     }
@@ -182,7 +184,8 @@ void add_durations(const CsvTable& contact, const Units& units, std::vector<KeyF
     std::string remark = "from " + time_text(first, units);
     if (touches > 1) remark += fmt::format(", in {} touches", touches);
     if (closed.back() > 0.0) remark += ", and still closed at the end";
-    all.push_back({{"Duration of contact, " + place, time_text(sum, units), std::move(remark)}, sum, place});
+    all.push_back(
+        {{"Duration of contact, " + place, time_text(sum, units), std::move(remark), sum, units.time}, sum, place});
   }
   keep_largest(all, "Duration of contact", "never closed", figures);
 }
@@ -199,7 +202,7 @@ Weighed speed_figure(const std::string& body, const Vec3& begin, const Vec3& end
   std::string remark = text(before) + " at the beginning";
   constexpr double least_ratio = 1e-3, most_ratio = 100.0;  // others say no more than the speeds themselves
   if (ratio >= least_ratio && ratio <= most_ratio) remark += fmt::format(", ratio {:.3g}", ratio);
-  return {{(is_rebound ? "Rebound speed, " : "Speed at the end, ") + body, text(after), std::move(remark)},
+  return {{(is_rebound ? "Rebound speed, " : "Speed at the end, ") + body, text(after), std::move(remark), after, unit},
           std::max(before, after),
           body,
           text(std::max(before, after))};
@@ -230,7 +233,8 @@ void add_stress(const Summary& summary, const Units& units, std::vector<KeyFigur
   figures.push_back({"Largest von Mises stress", with_readable_unit(stress.value, units.stress, 4),
                      fmt::format("in {}, cell {} at {}, at {}; of {} instants", stress.part, stress.cell,
                                  place_text(stress.position, summary.mesh.reach, units.length),
-                                 time_text(stress.time, units), stress.instants)});
+                                 time_text(stress.time, units), stress.instants),
+                     stress.value, units.stress});
 }
 
 /// Columns of a table that are components of one quantity at one place.

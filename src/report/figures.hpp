@@ -1,6 +1,7 @@
 // The key figures at the head of the report.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ namespace carom {
 /// One number with what it is and a remark.
 struct KeyFigure {
   std::string title, value, remark;
+  double number = std::numeric_limits<double>::quiet_NaN();  ///< in `unit`, where it can be compared with others
+  std::string unit{};
 };
 
 /// Peak force of each contact and when, how long each was closed, how fast bodies were before and after, the largest

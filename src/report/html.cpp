@@ -42,6 +42,20 @@ std::string html_table(const std::vector<TableColumn>& columns, const std::vecto
   return html + "</tbody></table></div>\n";
 }
 
+std::string table_section(const DataTable& table) {
+  if (table.rows.empty()) return "";
+  std::vector<TableRow> rows;
+  for (const auto& cells : table.rows) {
+    rows.emplace_back();
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      rows.back().push_back(table.columns[c].is_number ? number_cell(cells[c]) : text_cell(cells[c]));
+      if (cells[c].ends_with("✗")) rows.back().back().style = "number fail";
+    }
+  }
+  return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", xml_escape(table.title),
+                     html_table(table.columns, rows));
+}
+
 std::string foldable(std::string_view title, std::string_view text) {
   return fmt::format("<details><summary>{}</summary><pre>{}</pre></details>\n", xml_escape(title), xml_escape(text));
 }
@@ -86,13 +100,6 @@ std::string plot_figure(const PlotFigure& figure) {
       "<figure data-csv=\"{}\"><figcaption>{}</figcaption><div class=\"legend\">{}</div>\n"
       "<svg class=\"plot\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"{}\">{}</svg></figure>\n",
       xml_escape(figure.csv), title, figure.legend, figure.width, figure.height, title, figure.picture);
-}
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
 }
 
 std::string view_sections(const std::vector<PageView>& views) {

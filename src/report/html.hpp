@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "output/data_table.hpp"
 #include "output/readable_unit.hpp"
 #include "output/units.hpp"
 #include "report/charts.hpp"
@@ -29,16 +30,15 @@ TableCell text_cell(std::string_view text);
 TableCell number_cell(std::string_view text);
 TableCell mark_cell(bool pass);
 
-struct TableColumn {
-  std::string title;  ///< escaped
-  bool is_number = false;
-};
 using TableRow = std::vector<TableCell>;
 
-/// A table that is read row by row on narrow screens, each cell beside the title of its column. `style` is that of
-/// page.css.
+/// A table that is read row by row on narrow screens, each cell beside the title of its column, which is escaped.
+/// `style` is that of page.css.
 std::string html_table(const std::vector<TableColumn>& columns, const std::vector<TableRow>& rows,
                        std::string_view style = "");
+
+/// A section with the table below its title; cells that end with ✗ have failed. "" for a table without rows.
+std::string table_section(const DataTable& table);
 
 /// A text of several lines that the reader unfolds.
 std::string foldable(std::string_view title, std::string_view text);
@@ -56,9 +56,6 @@ struct PlotFigure {
   std::string csv;       ///< the numbers that are drawn
 };
 std::string plot_figure(const PlotFigure& figure);
-
-/// An entry of such a figure's numbers as a field of CSV (RFC 4180).
-std::string csv_field(const std::string& text);
 
 /// Places for the views, a section each; "" without views. What they show goes to html_document.
 std::string view_sections(const std::vector<PageView>& views);

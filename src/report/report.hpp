@@ -20,9 +20,13 @@ double write_watch_page(const std::string& results_folder, const RunningState& s
 /// The run has ended: the page leads to the report.
 void end_watch_page(const std::string& results_folder);
 
-/// Several runs on one page: their key figures, checks and energies column by column, their curves laid over each
-/// other, their views side by side, at one time. `file` is the page. Throws CaseError for runs in different units and
-/// OutputError.
+/// Several runs on one page: what differs in their inputs, their key figures, checks and energies column by column with
+/// the differences to the first, their curves laid over each other, their views side by side, at one time. `file` is
+/// the page. Throws CaseError for runs in different units and OutputError.
 void write_comparison(const std::vector<std::string>& results_folders, const std::string& file);
+
+/// The tables of that page, of one run or several, as text in one of the formats of output/data_table.hpp, with empty
+/// lines between. Throws CaseError for runs in different units and for cases that are not TOML.
+std::string tables_of_runs(const std::vector<std::string>& results_folders, const std::string& format);
 
 }  // namespace carom

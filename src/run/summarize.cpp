@@ -11,6 +11,7 @@
 
 #include "base/version.hpp"
 #include "build/build_mesh.hpp"
+#include "build/digests.hpp"
 #include "march/body_scales.hpp"
 #include "march/verdict.hpp"
 #include "parallel/threads.hpp"
@@ -102,6 +103,7 @@ Summary summary_of(const Simulation& s) {
   summary.mesh.nodes = given_nodes(s.given(), s.mesh());
   summary.mesh.cells = s.solid().cells().size();
   summary.mesh.reach = reach(s.mesh());
+  summary.mesh.checksum = fmt::format("{:016x}", mesh_digest(s.mesh()));
   for (const CaseContact& contact : s.given().contacts) summary.contacts.push_back(*contact.name);
   for (const std::string& group : s.mesh().group_names()) {
     const auto cells = s.mesh().cell_groups.find(group);

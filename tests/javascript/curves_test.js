@@ -92,6 +92,14 @@ test("curves that have a colour have it in every chart, those below others of it
   assert.deepEqual(carom.curveColours([last, { ...hidden, shown: false }]), ["--curve-5", "--curve-558"]);
 });
 
+test("curves of one colour that are told apart by their lines are not paler", () => {
+  const of = (...lines) => lines.map((line, k) => ({ ...curve("c" + k, "computed"), colour: 1, line, shown: true }));
+  assert.deepEqual(carom.curveColours(of(0, 1)), ["--curve-2", "--curve-2"]);
+  assert.deepEqual(carom.curveColours([{ ...of(0)[0], kind: "raw" }, { ...of(0)[0], kind: "filtered" }]), ["--curve-2b8", "--curve-2"]);
+  assert.deepEqual(of(0, 1, 6).map(carom.curveDashes), ["", "9 4", ""]);
+  assert.equal(carom.curveDashes(curve("a", "exact")), "6 5");
+});
+
 // A chart as curves.js draws it, with what dygraphs and the legend would say.
 function drawnChart(title, names, { x = null, y = null } = {}) {
   const on = new Set(names), given = [];

@@ -55,6 +55,23 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(error, f"error: {folder}: found a folder without energy.csv and summary.json; expected the results folder of a run "
                                     "(carom run CASE.toml --out FOLDER)\n")
 
+    def test_tables_of_runs_are_printed_in_the_format_that_is_asked_for(self):
+        case = CASES / "springs/block_on_springs.toml"
+        with tempfile.TemporaryDirectory() as folder:
+            runs = [str(pathlib.Path(folder) / name) for name in ("one", "two")]
+            for run in runs:
+                self.assertEqual(carom("run", str(case), "--out", run, "--threads", "1", "--quiet")[0], 0)
+            code, out, error = carom("report", *runs, "--format", "markdown")
+            self.assertEqual((code, error), (0, ""))
+            self.assertRegex(out, r"(?m)^\| kinetic \| \S+ \| \S+ \| none \|$")  # the same run twice
+            self.assertFalse((pathlib.Path(runs[0]) / "../comparison.html").exists())
+            for words in (("--format", "word"), ("--format", "latex", "--out", "page.html")):
+                self.assertEqual(carom("report", *runs, *words)[0], 2)
+            code, out, error = carom("compare", str(case), "--courant", "0.4", "--format", "latex", "--out", folder + "/compared")
+            self.assertIn(out.splitlines()[0], (r"\begin{tabular}{lrrrrrrrl}", "% in all variants: Courant 0.4"))
+            self.assertEqual(out.splitlines()[-1], r"\end{tabular}")
+            self.assertIn("recommend", error.lower())
+
     def test_little_address_space_is_said_and_does_not_hang(self):
         """OpenBLAS asks again for ever: 150 MB are too little for it, 600 MB enough for a block."""
         if b"__asan_init" in pathlib.Path(CAROM).read_bytes():

@@ -22,18 +22,20 @@
     ];
   }
 
+  const dashes = (curve) => (carom.curveDashes(curve) ? ` stroke-dasharray="${carom.curveDashes(curve)}"` : "");
+
   function lines({ x, y }, { chart, window, rows, colours, shown }) {
     return shown.map((k) => {
       const points = carom.curvePoints(rows, k, window.from, window.to).map(([t, v]) => x(t).toFixed(2) + " " + y(v).toFixed(2));
-      const { kind } = chart.curves[k], dashes = kind === "exact" ? ' stroke-dasharray="6 5"' : "";
-      return points.length > 0 ? `<path d="M${points.join("L")}" stroke="${colours[k]}" stroke-width="${kind === "raw" ? 1 : 2}"${dashes}/>` : "";
+      const curve = chart.curves[k];
+      return points.length > 0 ? `<path d="M${points.join("L")}" stroke="${colours[k]}" stroke-width="${curve.kind === "raw" ? 1 : 2}"${dashes(curve)}/>` : "";
     });
   }
 
   function legend({ chart, colours, shown }) {
     return shown.map((k, i) => {
       const at = [LEFT + (i % 3) * 230, HEIGHT + 4 + LINE * Math.floor(i / 3)];
-      return `<path d="M${at[0]} ${at[1]}h22" stroke="${colours[k]}" stroke-width="2"/>` + svgText([at[0] + 28, at[1] + 4], chart.curves[k].name);
+      return `<path d="M${at[0]} ${at[1]}h22" stroke="${colours[k]}" stroke-width="2"${dashes(chart.curves[k])}/>` + svgText([at[0] + 28, at[1] + 4], chart.curves[k].name);
     });
   }
 

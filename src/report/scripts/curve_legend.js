@@ -8,8 +8,10 @@ carom.CurveLegend = class {
       const button = document.createElement("button");
       button.type = "button";
       button.setAttribute("aria-pressed", String(curve.shown));
-      const line = document.createElement("i");
-      if (curve.kind === "exact") line.className = "dashed";
+      const line = document.createElementNS("http://www.w3.org/2000/svg", "svg"), path = document.createElementNS(line.namespaceURI, "path");
+      path.setAttribute("d", "M0 2H40");
+      path.setAttribute("stroke-dasharray", carom.curveDashes(curve));
+      line.append(path);
       const value = document.createElement("output");
       button.append(line, curve.name, value);
       (curve.shown ? element : more).append(button);
@@ -48,6 +50,6 @@ carom.CurveLegend = class {
   }
 
   paint(colours) {
-    this.entries.forEach(({ line }, k) => (line.style.borderColor = colours[k]));
+    this.entries.forEach(({ line }, k) => (line.style.stroke = colours[k]));
   }
 };

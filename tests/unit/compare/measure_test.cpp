@@ -358,7 +358,7 @@ TEST(CompareTables, HoldEveryVariant) {
   const std::string last = csv.substr(csv.rfind('\n', csv.size() - 2) + 1);
   EXPECT_EQ(last, "z,\"\",\"\",,,,,,,,,,,,,,,,\"not allowed: \"\"z\"\"\"\n");
   EXPECT_EQ(std::count(last.begin(), last.end(), ','), std::count(header.begin(), header.end(), ','));
-  EXPECT_NE(text_table(c).find("Recommended: a, 20 cells"), std::string::npos);
+  EXPECT_NE(remarks_text(c).find("Recommended: a, 20 cells"), std::string::npos);
 }
 
 TEST(ComparePage, ShowsVariantsPicturesAndAdvice) {

@@ -28,7 +28,7 @@ Summary sample() {
   Summary s;
   s.program = {"0.1.0", "GCC 12.2.0", "v4", 2};
   s.case_info = {"a/b \"c\".toml", "Bar <script>alert(1)</script> é", "SI"};
-  s.mesh = {88, 21, {{"ENCASTR", 4, 1}, {"SYMX", 44, 20}}, 1.75};
+  s.mesh = {88, 21, {{"ENCASTR", 4, 1}, {"SYMX", 44, 20}}, 1.75, "0123456789abcdef"};
   s.parts = {{"bar", 0.5, {1, 2, 3}, {-1, -2, -3}}};
   s.stress = {4e8, 1e-4, "bar", 17, {0.5, 0.25, 0.125}, 201};
   s.probes = {{"B", "node 12", {0.1, 0.2, 0.3}}};
@@ -92,6 +92,7 @@ TEST(Summary, EveryFieldComesBack) {
   EXPECT_EQ(b.scheme.stages[1].begin, 1e-4);
   EXPECT_EQ(b.scheme.stages[1].end, 3e-4);
   EXPECT_EQ(b.mesh.reach, a.mesh.reach);
+  EXPECT_EQ(b.mesh.checksum, a.mesh.checksum);
   ASSERT_EQ(b.parts.size(), 1U);
   EXPECT_EQ(b.parts[0].name, "bar");
   EXPECT_EQ(b.parts[0].mass, 0.5);

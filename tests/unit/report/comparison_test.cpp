@@ -7,10 +7,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "output/summary.hpp"
 #include "report/report.hpp"
 #include "report_sample.hpp"
 
@@ -26,9 +29,13 @@ class ReportComparison : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  static nlohmann::json charts_of(const fs::path& page) {
+  static std::string text_of(const fs::path& page) {
     std::ifstream stream(page, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  static nlohmann::json charts_of(const fs::path& page) {
+    const std::string text = text_of(page);
     const std::string begin = "<script type=\"application/json\" id=\"charts\">";
     const std::size_t at = text.find(begin) + begin.size();
     return nlohmann::json::parse(text.substr(at, text.find("</script>", at) - at))["charts"];
@@ -49,6 +56,65 @@ TEST_F(ReportComparison, LaysTheCurvesOfRunsOfOneNameOverEachOther) {
   for (const auto& curve : both[0]["curves"]) names.push_back(curve["name"]);
   std::sort(names.begin(), names.end());
   EXPECT_EQ(names, (std::vector<std::string>{"coarse/run: z", "fine/run: z", "z, exact"}));
+}
+
+// Of two runs that differ in nothing but the modulus and, here, in what a summary says of mesh and stress.
+TEST_F(ReportComparison, SaysWhatDiffersInTheInputsAndByHowMuchInTheFigures) {
+  std::ofstream(second_ / "case.resolved.toml") << "units = \"SI\"\n[mesh]\nfile = \"bar.msh\"\n\n[materials.steel]\n"
+                                                   "E = 1e11\nnu = 0.0\n";
+  Summary summary = read_summary((second_ / "summary.json").string());
+  summary.mesh.cells = 42;  // of 21
+  summary.stress.value *= 0.75;
+  write_summary((second_ / "summary.json").string(), summary);
+  const std::string tables = tables_of_runs({first_.string(), second_.string()}, "csv");
+  for (const char* row : {"\nmaterials.steel.E,2e+11,1e+11\n", "\ncells of the mesh,21,42\n",
+                          "\nLargest von Mises stress,410 MPa,307.5 MPa,-102 MPa (-25 %)\n",
+                          "\nB.velocity_z at t = 4e-05 s,101.2 m/s ✗,101.2 m/s ✗,none\n", "\nkinetic,80,80,none\n"})
+    EXPECT_NE(tables.find(row), std::string::npos) << row << tables;
+  for (const char* same : {"materials.steel.nu", "nodes of the mesh", "title", "\nfriction,"})
+    EXPECT_EQ(tables.find(same), std::string::npos) << same << tables;
+  write_comparison({first_.string(), second_.string()}, (folder_ / "both.html").string());
+  EXPECT_NE(text_of(folder_ / "both.html").find("<td data-label=\"Key\">materials.steel.E</td>"), std::string::npos);
+}
+
+TEST_F(ReportComparison, SaysThatNothingDiffersOrThatItIsNotKnown) {
+  const fs::path page = folder_ / "both.html";
+  write_comparison({first_.string(), second_.string()}, page.string());
+  EXPECT_NE(text_of(page).find("No key of the cases differs"), std::string::npos);
+  std::ofstream(second_ / "case.resolved.toml") << "[mesh\n";  // cut short
+  write_comparison({first_.string(), second_.string()}, page.string());
+  EXPECT_NE(text_of(page).find("What differs in the cases is not known"), std::string::npos);
+  fs::remove(second_ / "case.resolved.toml");
+  EXPECT_EQ(tables_of_runs({first_.string(), second_.string()}, "csv").find("materials"), std::string::npos);
+}
+
+// A page of one run has no differences to show.
+TEST_F(ReportComparison, HasTheTablesOfOneRun) {
+  const std::string tables = tables_of_runs({first_.string()}, "text");
+  EXPECT_EQ(tables.find("differ"), std::string::npos);
+  EXPECT_NE(tables.find("Largest von Mises stress    410 MPa\n"), std::string::npos) << tables;
+}
+
+// In all pictures: a colour for a run, a kind of line for what its curves are called there.
+TEST_F(ReportComparison, GivesARunItsColourAndACurveItsLine) {
+  const fs::path page = folder_ / "both.html";
+  write_comparison({first_.string(), second_.string()}, page.string());
+  for (const auto& chart : charts_of(page)) {
+    std::map<std::string, int> lines;
+    for (const auto& curve : chart["curves"]) {
+      const std::string name = curve["name"];
+      if (curve["kind"] == "exact") {
+        EXPECT_FALSE(curve.contains("colour")) << name;
+        continue;
+      }
+      EXPECT_EQ(curve["colour"], name.starts_with("fine/run: ") ? 0 : 1) << name;
+      const std::string own = name.substr(name.find(": ") + 2);
+      EXPECT_EQ(lines.try_emplace(own, curve["line"]).first->second, curve["line"]) << name;
+    }
+    std::set<int> different;
+    for (const auto& [name, line] : lines) different.insert(line);
+    EXPECT_EQ(different.size(), lines.size());
+  }
 }
 
 }  // namespace
