@@ -15,9 +15,11 @@ install(FILES ${pages}/carom.1.gz DESTINATION share/man/man1)
 install(FILES ${pages}/carom.bash DESTINATION share/bash-completion/completions RENAME carom)
 install(FILES ${pages}/_carom DESTINATION share/zsh/vendor-completions)
 install(FILES ${pages}/copyright ${pages}/changelog.gz README.md DESTINATION share/doc/carom)
-install(DIRECTORY cases DESTINATION share/doc/carom/examples PATTERN "stiffness" EXCLUDE)
+# `carom init` reads what stands in share/carom (src/casefile/example_cases.hpp).
+install(DIRECTORY cases DESTINATION share/carom PATTERN "stiffness" EXCLUDE)
+install(DIRECTORY examples/tutorial DESTINATION share/carom/examples)
 install(FILES ${pages}/copyright ${pages}/changelog.gz DESTINATION share/doc/python3-carom COMPONENT python)
-install(DIRECTORY examples/laws examples/tutorial examples/format DESTINATION share/doc/carom/examples)
+install(DIRECTORY examples/laws examples/format DESTINATION share/doc/carom/examples)
 install(FILES ${pages}/copyright ${pages}/changelog.gz DESTINATION share/doc/carom-doc COMPONENT doc)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/build/manual/ DESTINATION share/doc/carom/html COMPONENT doc)  # of tools/manual.py
 install(DIRECTORY examples/python/ DESTINATION share/doc/python3-carom/examples COMPONENT python)

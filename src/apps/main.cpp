@@ -28,6 +28,7 @@
 #include "base/version.hpp"
 #include "build/read_whole.hpp"
 #include "build/simulation.hpp"
+#include "casefile/example_cases.hpp"
 #include "casefile/read_case.hpp"
 #include "casefile/schema.hpp"
 #include "compare/compare_cases.hpp"
@@ -88,7 +89,7 @@ struct Arguments {
   carom::PathRequest path;
   std::vector<std::string> folders;
   int every = 2;
-  std::string format;
+  std::string format, example;
 };
 
 void stop_at_signals() {
@@ -165,6 +166,15 @@ ExitCode convert(const Arguments& arguments) {
   return ExitCode::good;
 }
 
+ExitCode init(const Arguments& arguments) {
+  const carom::BegunCase begun =
+      carom::begin_case(carom::examples_folder("/proc/self/exe"), arguments.example, arguments.folder);
+  show("{}{}{} written\n", begun.case_file, begun.other_file.empty() ? "" : " and ", begun.other_file);
+  if (!begun.command.empty()) show("{}    makes its mesh\n", begun.command);
+  show("carom check {}    says what it will do\n", begun.case_file);
+  return ExitCode::good;
+}
+
 ExitCode mesh(const Arguments& arguments) {
   const carom::Mesh mesh = carom::read_mesh(arguments.mesh_file);
   show("{}", carom::mesh_summary(mesh));
@@ -197,6 +207,7 @@ ExitCode dispatch(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("material")) return material(arguments);
   if (app.got_subcommand("convert")) return convert(arguments);
   if (app.got_subcommand("mesh")) return mesh(arguments);
+  if (app.got_subcommand("init")) return init(arguments);
   fmt::print("{}\n", carom::json_schema());
   return ExitCode::good;
 }
@@ -218,6 +229,15 @@ void add_convert(CLI::App& app, Arguments& arguments) {
   command->add_option("deck", arguments.case_file, "Deck (.inp)")->required();
   command->add_option("-o,--out", arguments.output, "Case file to write, its mesh beside it (default: <deck>.toml)");
   add_accept(command, arguments);
+}
+
+void add_init(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = app.add_subcommand("init", "Begin a case of one's own with one that comes with the program");
+  command->add_option("name", arguments.folder, "Folder to write, with the case and its mesh")->required();
+  command
+      ->add_option("--like", arguments.example,
+                   "Case to begin with, such as taylor_bar/rigid_wall; a name that is none shows all of them")
+      ->required();
 }
 
 void add_compare(CLI::App& app, Arguments& arguments) {
@@ -333,7 +353,8 @@ void introduce() {
       "  carom run CASE.toml      runs it; open out/CASE/report.html in a browser\n"
       "  carom mesh FILE          shows cells and groups of a mesh (Gmsh, MED, Abaqus, CalculiX)\n"
       "  carom --help             has all commands, carom COMMAND --help those of one\n\n"
-      "A case to begin with stands in the tutorial, docs/tutorial.md, and in examples/tutorial.\n",
+      "A case to begin with: carom init mine --like tutorial/bracket, or another of the gallery, docs/gallery.md;\n"
+      "the tutorial, docs/tutorial.md, goes through one.\n",
       carom::version());
 }
 
@@ -397,6 +418,7 @@ int main(int argc, char** argv) {
   CLI::App* check_command = app.add_subcommand("check", "Read, resolve and examine a case without running it");
   check_command->add_option("case", arguments.case_file, "Case file (TOML) or deck of Abaqus or CalculiX")->required();
   add_accept(check_command, arguments);
+  add_init(app, arguments);
   add_convert(app, arguments);
   add_compare(app, arguments);
   add_material(app, arguments);

@@ -1,6 +1,7 @@
 """What the command line says to words that it does not know, and what `check` counts."""
 
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -19,7 +20,7 @@ class CommandLine(unittest.TestCase):
     def test_a_word_that_is_no_command_is_named_with_those_that_are(self):
         code, out, error = carom("runn", "case.toml")
         self.assertEqual((code, out), (2, ""))
-        self.assertEqual(error, 'error: "runn" is no command of carom; it has run, resume, check, convert, compare, material, report, watch, mesh, '
+        self.assertEqual(error, 'error: "runn" is no command of carom; it has run, resume, check, init, convert, compare, material, report, watch, mesh, '
                                 "schema (carom --help)\n")
 
     def test_no_command_at_all(self):
@@ -71,6 +72,32 @@ class CommandLine(unittest.TestCase):
             self.assertIn(out.splitlines()[0], (r"\begin{tabular}{lrrrrrrrl}", "% in all variants: Courant 0.4"))
             self.assertEqual(out.splitlines()[-1], r"\end{tabular}")
             self.assertIn("recommend", error.lower())
+
+    def test_a_case_begun_with_an_example_runs(self):
+        """Of the sources around a build; and of share/carom beside the bin of an installation."""
+        with tempfile.TemporaryDirectory() as folder:
+            mine = pathlib.Path(folder) / "mine"
+            code, out, error = carom("init", str(mine), "--like", "sdnv100/current_msh")
+            self.assertEqual((code, error), (0, ""))
+            self.assertEqual(out.splitlines(), [f"{mine}/mine.toml and {mine}/sdnv100a.msh written",
+                                                f"carom check {mine}/mine.toml    says what it will do"])
+            self.assertEqual(carom("run", f"{mine}/mine.toml", "--out", folder + "/out", "--threads", "1", "--quiet")[0], 0)
+            installed = pathlib.Path(folder) / "usr"
+            for part in ("bin", "share/carom"):
+                (installed / part).mkdir(parents=True)
+            shutil.copy(CAROM, installed / "bin/carom")
+            (installed / "share/carom/cases").symlink_to(CASES)
+            done = subprocess.run([installed / "bin/carom", "init", "other", "--like", "balls/oblique"], cwd=folder, check=True,
+                                  capture_output=True, text=True)
+            self.assertEqual(done.stdout.splitlines()[0], "other/other.toml and other/balls.msh written")
+            self.assertEqual((mine.parent / "other/balls.msh").read_bytes(), (CASES / "balls/balls.msh").read_bytes())
+
+    def test_an_example_that_is_none_is_answered_by_all_that_there_are(self):
+        code, out, error = carom("init", "mine", "--like", "tutorial/phones")
+        self.assertEqual((code, out), (2, ""))
+        self.assertIn('error: --like: found "tutorial/phones"; expected one of\n  balls/oblique\n', error)
+        self.assertTrue(error.endswith("Did you mean tutorial/phone?\n"), error)
+        self.assertFalse(pathlib.Path("mine").exists())
 
     def test_little_address_space_is_said_and_does_not_hang(self):
         """OpenBLAS asks again for ever: 150 MB are too little for it, 600 MB enough for a block."""
