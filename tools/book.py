@@ -15,6 +15,8 @@ import subprocess
 import sys
 import time
 
+import book_tables
+import case_pictures
 import case_runs
 import markdown
 from case_runs import ROOT
@@ -29,43 +31,38 @@ th, td { border-bottom: 1px solid #dde1e3; padding: .2rem .45rem; text-align: le
 td.number, th.number { text-align: right; white-space: nowrap; } td:first-child { white-space: nowrap; }
 .pass { color: #1f6f43; white-space: nowrap; } .fail { color: #a32c22; font-weight: 600; white-space: nowrap; }
 code { font-size: .92em; } pre { background: #f4f5f6; padding: .6rem; overflow-x: auto; white-space: pre-wrap; }
-img { max-width: 100%; } nav ol { columns: 2; } p.soft { color: #5b666d; }
+img { max-width: 100%; } img.case { float: right; width: 15rem; margin: 0 0 .6rem 1rem; border: 1px solid #dde1e3; }
+h3, table { clear: both; } table.sums { font-size: 9pt; } .sums th, .sums :is(td, .number) { white-space: normal; overflow-wrap: normal; } .sums td:first-child { min-width: 14rem; } .sources { font-size: 8.5pt; color: #5b666d; } nav ol { columns: 2; } .soft { color: #5b666d; }
 @media print { body { max-width: none; padding: 0; } h2 { break-before: page; } h3 { break-after: avoid; } tr { break-inside: avoid; } a { color: inherit; } }
 """
 
-COLUMNS = (("Quantity", ""), ("time", "number"), ("value", "number"), ("theory", "number"), ("error", "number"),
-           ("allowed", "number"), ("", ""), ("source of the theory", ""))
+WIDTH, HEIGHT = 460, 280  # of the pictures
 
 
-def number(value, digits):
-    return "–" if value is None else f"{value:.{digits}g}"
+def picture_of(path):
+    data = base64.b64encode(path.read_bytes()).decode()
+    return f'<img class="case" alt="" src="data:image/png;base64,{data}">'
 
 
-def check_row(check):
-    is_relative = check["tolerance_kind"] == "relative"
-    reference, difference = check["reference"], check["difference"]
-    if difference is None:
-        error = "–"
-    elif is_relative:
-        error = f"{100 * difference / abs(reference):.2g} %"
-    else:
-        error = number(difference, 2)
-    allowed = f"{100 * check['tolerance']:.2g} %" if is_relative else number(check["tolerance"], 2)
-    cells = (check["name"], number(check["time"], 6), number(check["value"], 9), number(reference, 9), error, allowed)
-    mark = '<span class="pass">✓</span>' if check["pass"] else '<span class="fail">✗ fails</span>'
-    row = "".join(f'<td class="{style}">{html.escape(cell)}</td>' for cell, (_, style) in zip(cells, COLUMNS))
-    return f"<tr>{row}<td>{mark}</td><td>{html.escape(check['source'])}</td></tr>"
-
-
-def case_section(found):
-    head = "".join(f'<th class="{style}">{title}</th>' for title, style in COLUMNS)
-    checks = found.summary["checks"]
-    scheme = found.summary["scheme"]
-    body = (f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(check_row(c) for c in checks)}</tbody></table>" if checks
+def case_section(found, text, elsewhere, picture, sources):
+    checks, scheme = found.summary["checks"], found.summary["scheme"]
+    body = (book_tables.check_table(checks, sources) if checks
             else '<p class="soft">No checks of its own: its verdict is compared with nothing but the books.</p>')
-    return (f"<h3>{html.escape(found.title)}</h3><p>{html.escape(found.text)}</p>"
-            f'<p class="soft">cases/{found.name}.toml · {found.summary["mesh"]["cells"]} cells · {html.escape(scheme["name"])} · '
+    rest = f'{"The rest as" if text else "As"} in {elsewhere}.' if elsewhere else ""
+    words = f'{html.escape(text)} <span class="soft">{html.escape(rest)}</span>'
+    cells = found.summary["mesh"]["cells"]
+    return (f'<h3 id="{book_tables.anchor(found.name)}">{html.escape(found.title)}</h3>{picture_of(picture) if picture else ""}<p>{words}</p>'
+            f'<p class="soft">cases/{found.name}.toml · {cells} cell{"" if cells == 1 else "s"} · {html.escape(scheme["name"])} · '
             f'{scheme["steps"]} steps · {html.escape(found.summary["outcome"])}: {html.escape(found.summary["message"])}</p>{body}')
+
+
+def folder_section(folder, runs, pictures):
+    """The cases of a folder; what several of them say, and sources of their values, once."""
+    sources, parts = [], [f'<h2 id="folder-{folder}">cases/{folder}</h2>']
+    texts = book_tables.said_once([(found.name.split("/", 1)[1], found.text) for found in runs])
+    for found, (text, elsewhere) in zip(runs, texts):
+        parts.append(case_section(found, text, elsewhere, pictures.get(found.name), sources))
+    return "\n".join([*parts, book_tables.source_list(sources)])
 
 
 def with_pictures(text):
@@ -87,29 +84,43 @@ def chapter(name):
     return source.splitlines()[0].lstrip("# "), with_pictures(text)
 
 
-def book(runs, version):
+FIRST_PAGE = """
+<p>Value: what was computed, to the second digit of what it may be off by; below that it is a zero. Theory: what it stands against. Error: three
+digits, in percent of the theory where that is not about zero (less than five times what is allowed). The numbers of the sources lead to the list at the end of their chapter. Balances that
+every run has to close (energy, momentum: its verdict) are not among the values; a run whose verdict fails is named with its message.</p>
+"""
+
+
+def book(runs, version, pictures):
     folders = {}
     for found in runs:
         folders.setdefault(found.name.split("/")[0], []).append(found)
     checks = [check for found in runs for check in found.summary["checks"]]
     passed = sum(check["pass"] for check in checks)
+    good = sum(found.summary["outcome"] == "good" for found in runs)
     git = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short=12", "HEAD"], capture_output=True, text=True, check=False)
     chapters = [chapter(name) for name in CHAPTERS]
-    contents = [(f"case-{folder}", f"cases/{folder}") for folder in folders]
+    contents = [(f"folder-{folder}", f"cases/{folder}") for folder in folders]
     contents += [(f"chapter-{name}", title) for name, (title, _) in zip(CHAPTERS, chapters)]
     parts = [
         "<!DOCTYPE html>", '<html lang="en"><head><meta charset="utf-8">', "<title>Verification · Carom</title>",
         f"<style>{STYLE}</style></head><body>", "<h1>Carom · verification</h1>",
         f"<p>{html.escape(version)}, commit {html.escape(git.stdout.strip() or 'unknown')}, {time.strftime('%Y-%m-%d')}. "
-        f"{len(runs)} cases run anew; {passed} of {len(checks)} checks passed. Value: what was computed. Theory: exact solution, published "
-        "value or independent computation, as its source says. Errors are relative to the theory where they are in percent.</p>",
+        f"{len(runs)} cases run anew, {good} of them good; {passed} of {len(checks)} values within what is allowed.</p>",
+        book_tables.summary_table(runs), FIRST_PAGE,
         "<nav><ol>", *(f'<li><a href="#{key}">{html.escape(title)}</a></li>' for key, title in contents), "</ol></nav>"]
-    for folder, found in folders.items():
-        parts.append(f'<h2 id="case-{folder}">cases/{folder}</h2>')
-        parts += [case_section(one) for one in found]
+    parts += [folder_section(folder, found, pictures) for folder, found in folders.items()]
     for name, (_, text) in zip(CHAPTERS, chapters):
         parts.append(text.replace("<h2>", f'<h2 id="chapter-{name}">', 1))
     return "\n".join([*parts, "</body></html>"]), passed == len(checks)
+
+
+def pictures_of(runs, folder):
+    """By name of a case the picture of its run."""
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = [folder / (found.name.replace("/", "_") + ".png") for found in runs]
+    there = case_pictures.take_all([(found.folder / "report.html", path, None) for found, path in zip(runs, paths)], WIDTH, HEIGHT)
+    return {found.name: path for found, path, is_there in zip(runs, paths, there) if is_there}
 
 
 def print_pdf(page):
@@ -131,7 +142,7 @@ def main():
     out.mkdir(parents=True, exist_ok=True)
     runs = case_runs.run_all(carom, case_runs.short_cases(), out / "cases")
     version = subprocess.run([carom, "--version"], capture_output=True, text=True, check=True).stdout.strip()
-    text, all_passed = book(runs, version)
+    text, all_passed = book(runs, version, pictures_of(runs, out / "pictures"))
     page = out / "verification.html"
     page.write_text(text, encoding="utf-8")
     for path in (page, print_pdf(page)):

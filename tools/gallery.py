@@ -8,12 +8,10 @@ import argparse
 import base64
 import html
 import pathlib
-import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tests/browser"))
-import case_runs  # noqa: E402
-from browser import browser, open_report  # noqa: E402
-from case_runs import ROOT  # noqa: E402
+import case_pictures
+import case_runs
+from case_runs import ROOT
 
 # Case, what the colours show, which share of the time.
 PICTURES = (
@@ -66,34 +64,12 @@ small {{ opacity: .7; }}
 """
 
 
-def show(driver, quantity, share):
-    """The view alone, at a share of the time, in one quantity; fails where the run does not have it."""
-    driver.execute_script("""
-      const [quantity, share] = arguments, view = document.querySelector(".view");
-      const select = view.querySelector("select"), option = [...select.options].find((o) => o.textContent === quantity);
-      if (!option) throw new Error("no " + quantity + " among " + [...select.options].map((o) => o.textContent));
-      select.value = option.value;
-      select.dispatchEvent(new Event("change"));
-      const slider = view.querySelector(".time input");
-      slider.value = Math.round(share * slider.max);
-      slider.dispatchEvent(new Event("input"));
-      const stage = document.querySelector(".stage");
-      stage.style.height = "%dpx";
-      stage.scrollIntoView();
-    """ % HEIGHT, quantity, share)
-    driver.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
-
-
 def pictures(runs, folder):
     """A PNG of each run; their paths."""
     folder.mkdir(parents=True, exist_ok=True)
-    paths = []
-    with browser(WIDTH + 48, 900) as driver:
-        for found, (_, quantity, share) in zip(runs, PICTURES):
-            open_report(driver, found.folder / "report.html")
-            show(driver, quantity, share)
-            paths.append(folder / (found.name.replace("/", "_") + ".png"))
-            driver.find_element("css selector", ".stage").screenshot(str(paths[-1]))
+    paths = [folder / (found.name.replace("/", "_") + ".png") for found in runs]
+    case_pictures.take_all([(found.folder / "report.html", path, (quantity, share))
+                            for found, path, (_, quantity, share) in zip(runs, paths, PICTURES)], WIDTH, HEIGHT)
     return paths
 
 

@@ -16,9 +16,8 @@ carom.Drawing = (function () {
       light.position.set(0.4, 0.6, 1);
       this.eye.camera.add(light, light.target);
       this.world = new THREE.Scene();
-      for (const model of this.models) this.world.add(...model.objects);
-      if (this.fill) this.world.add(...this.fill.objects);
-      this.world.add(this.eye.camera, new THREE.AmbientLight(0xffffff, 0.62));
+      const objects = [...this.models, ...(this.fill ? [this.fill] : [])].flatMap((drawn) => drawn.objects);
+      this.world.add(this.eye.camera, new THREE.AmbientLight(0xffffff, 0.62), ...objects);
     }
 
     resize(width, height) {
