@@ -168,7 +168,8 @@ class Pages(unittest.TestCase):
         colours = self.driver.execute_script("""
             const found = {};
             for (const entry of document.querySelectorAll(".legend :is(span, button)")) {
-              const scheme = entry.textContent.split(/[,:]/)[0], colour = getComputedStyle(entry.querySelector("i")).borderTopColor;
+              const scheme = entry.textContent.split(/[,:]/)[0], line = entry.querySelector("svg, i");
+              const colour = getComputedStyle(line)[line.matches("i") ? "borderTopColor" : "stroke"];
               (found[scheme] = found[scheme] || new Set()).add(colour.match(/[0-9]+/g).slice(0, 3).join());
             }
             return Object.fromEntries(Object.entries(found).map(([name, set]) => [name, [...set]]));""")

@@ -560,18 +560,6 @@ class Symmetry(unittest.TestCase):
                 self.assertAlmostEqual(shapes[1], 1.0, delta=0.02)
 
 
-class Bars(unittest.TestCase):
-    """Whose surface encloses nothing that a cut could fill."""
-
-    def test_they_open_without_complaint(self):
-        with tempfile.TemporaryDirectory() as folder:
-            results = pathlib.Path(folder) / "results"
-            case = pathlib.Path(__file__).resolve().parents[2] / "cases/friction/incline_over_moreau_jean.toml"
-            subprocess.run([CAROM, "run", case, "--out", results, "--quiet"], check=False)
-            with browser(*SIZE) as driver:
-                open_report(driver, results / "report.html")  # fails of what the console says
-
-
 class OtherReaders(unittest.TestCase):
     """The same page on a small screen, in the dark, without WebGL."""
 

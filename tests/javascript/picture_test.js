@@ -70,6 +70,18 @@ test("points that are known are fitted: their middle in the middle, the farthest
   assert.equal(eye.camera.zoom, 1);  // a single point has no size
 });
 
+test("the eye goes with what is looked at, and looks at it from elsewhere then", () => {
+  const eye = eyeOf(), points = [[1, 9, 3], [3, -9, 4]];
+  eye.look(directions(false).y);
+  eye.fit({ ...extent, points });
+  eye.shift([5, 6, 7]);
+  for (const again of [() => {}, () => eye.look(directions(false).y)]) {
+    again();
+    assertNear(onPicture(eye, [6, 15, 10]), [-1 / 1.1, -1 / 1.1], 10 * ROUNDING);
+    assertNear(onPicture(eye, [8, -3, 11]), [1 / 1.1, 1 / 1.1], 10 * ROUNDING);
+  }
+});
+
 test("the eye is outside of all that is there, also when it looks at a small part", () => {
   const eye = eyeOf();
   eye.fit({ ...extent, reach: 0.01 });

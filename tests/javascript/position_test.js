@@ -50,6 +50,30 @@ test("a picture is fitted to what moves, now where that is much smaller than all
   assert.equal(fit(0, [0, 1]).reach, carom.fitOf(thrown, 0, 1, { hidden: new Set(), moving: new Set([0, 1]) }).reach);
 });
 
+test("a picture of what is small on its way goes with it, on the mean of the nodes that are there in both frames", () => {
+  const moving = carom.movingParts(thrown), fit = (frame, hidden = []) => carom.fitOf(thrown, frame, 1, { hidden: new Set(hidden), moving });
+  assert.deepEqual([fit(0).wayTo(1, 1), fit(0).wayTo(0, 1), fit(1).wayTo(0, 0.5)], [[0, 0, 8], [0, 0, 0], [0, 0, -4]]);
+  assert.deepEqual(fit(0, [1]).wayTo(1, 1), [0, 0, 0]);  // what is shown hardly moves: the picture holds all of it
+  const torn = sceneOf([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]],
+    [fieldOf("displacement", [[[0, 0, 0], [20, 30, NaN]], [[0, 0, 0], [0, 0, NaN]], [[0, 0, 0], [0, 0, NaN]]])], { frames: 2 });
+  assert.deepEqual(carom.fitOf(torn, 0, 1, { hidden: new Set(), moving: new Set([0]) }).wayTo(1, 1), [25, 0, 0]);
+});
+
+test("of many frames some are looked at, the ends among them, and all nodes of these", () => {
+  const nodes = 4000, frames = 51, u = { name: "displacement", ranges: [[0, 50], [0, 0], [0, 0]], value: (c, t, n) => (c === 0 && n === 1 ? t : 0) };
+  const places = Array.from({ length: nodes }, (_, n) => [n === 1 ? 100 : 0, 0, n % 2]);
+  const scene = sceneOf(places, Array.from({ length: nodes - 2 }, (_, n) => [n, n + 1, n + 2]), [u], { frames });
+  const { points } = carom.fitOf(scene, 0, 1, { hidden: new Set(), moving: new Set([0]) });
+  assert.equal(points.length, 5 * nodes);  // of 20,000 at most
+  assert.deepEqual([...new Set(points.map(([x]) => x))].filter((x) => x > 99), [100, 113, 125, 138, 150]);  // frames 0, 12.5, 25, ...
+});
+
+test("it is fitted to all the way where bodies fill a third of that", () => {
+  const way = (far) => sceneOf([[0, 0, 0], [2, 0, 0]], [[0, 1, 1]], [fieldOf("displacement", [[[0, 0], [far, far]], [[0, 0], [0, 0]], [[0, 0], [0, 0]]])], { frames: 2 });
+  const reach = (far) => carom.fitOf(way(far), 0, 1, { hidden: new Set(), moving: new Set([0]) }).reach;
+  assert.deepEqual([reach(4), reach(4.1)], [3, 1]);  // 6 long of which the body has 2, and more
+});
+
 test("the frame next to a time is shown, the earlier of two", () => {
   const times = [0, 1, 4];
   assert.deepEqual([-1, 0.4, 0.5, 0.6, 2.5, 3, 9].map((t) => carom.nearestFrame(times, t)), [0, 0, 0, 1, 1, 2, 2]);
@@ -105,9 +129,10 @@ test("two planes make three pictures", () => {
 });
 
 test("a picture is fitted to mirrored halves as well, and obstacles are mirrored that end at the plane", () => {
-  const wide = carom.Mirrors.widened({ low: [0, 0, 0], high: [2, 1, 0], points: [[2, 1, 0]] }, [{ axis: 0, at: 0 }]);
+  const wide = carom.Mirrors.widened({ low: [0, 0, 0], high: [2, 1, 0], points: [[2, 1, 0]], wayTo: () => [5, 6, 7] }, [{ axis: 0, at: 0 }]);
   assert.deepEqual([wide.low, wide.high, wide.centre], [[-2, 0, 0], [2, 1, 0], [0, 0.5, 0]]);
   assert.deepEqual(wide.points, [[2, 1, 0], [-2, 1, 0]]);
+  assert.deepEqual(wide.wayTo(1, 1), [0, 6, 7]);  // the halves go apart along x
   const planes = [0, 1, 0.5].map((at) => ({ axis: 0, at }));
   assert.deepEqual(carom.Mirrors.oneSided(quarter(), planes).map(({ at }) => at), [0, 1]);
 });

@@ -65,8 +65,18 @@
       const box = carom.fitOf(bodies, frame, panel.scale, { hidden, moving: this.moving });
       if (arrows && panel.arrows.checked) box.points = box.points.concat(arrows.tails(frame, carom.positions(bodies, frame, panel.scale), LONGEST * box.reach));
       this.fitted = carom.Mirrors.widened(box, panel.mirrors);
+      this.way = [0, 0, 0];
       drawing.fit(this.fitted);
       this.update();
+    }
+
+    // Goes with what the picture is fitted to.
+    follow() {
+      if (!this.fitted.wayTo) return;
+      const before = this.way;
+      this.way = this.fitted.wayTo(this.player.frame, this.panel.scale);
+      const step = this.way.map((x, c) => x - before[c]);
+      if (step.some((x) => x !== 0)) this.drawing.shift(step);
     }
 
     resize() {
@@ -111,6 +121,7 @@
 
     update() {
       const { panel, colouring } = this, { frame } = this.player;
+      this.follow();
       this.drawing.show({ frame, scale: panel.scale, colouring, edges: panel.edges.checked, arrows: panel.arrows.checked, arrowLength: LONGEST * this.fitted.reach });
       this.overlay.showColours(carom.Overlay.legendOf(colouring, panel.quantityName, frame));
       this.draw();

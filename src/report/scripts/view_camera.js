@@ -79,6 +79,16 @@ carom.ViewCamera = (function () {
       this.look(this.away().toArray());
     }
 
+    // Eye and what is looked at, by as much.
+    shift(way) {
+      const { extent } = this, moved = (place) => place.map((x, c) => x + way[c]);
+      this.extent = { ...extent, centre: moved(extent.centre), points: extent.points && extent.points.map(moved) };
+      const step = new THREE.Vector3(...way);
+      this.controls.target.add(step);
+      this.camera.position.add(step);
+      this.controls.update();
+    }
+
     // About the upright axis, and over the horizontal one.
     turn(around, over) {
       const away = this.away(), level = new THREE.Vector3().crossVectors(this.camera.up, away).normalize();

@@ -52,6 +52,12 @@ carom.Drawing = (function () {
       this.eye.fit(box);
     }
 
+    // The picture goes this way, and what it shows of obstacles.
+    shift(way) {
+      for (const plane of this.cropping) plane.translate(new THREE.Vector3(...way));
+      this.eye.shift(way);
+    }
+
     // Draws what is there in these planes as well; obstacles only where they end at one.
     mirror(planes) {
       const images = carom.Mirrors.imagesOf(planes), [bodies] = this.models;

@@ -61,15 +61,17 @@ carom.Mirrors = (function () {
     if (copies.length > 0) object.add(...copies);
   }
 
-  // A box with its points, and its pictures.
+  // A box with its points, and its pictures; across a plane they go apart, and the picture goes with none of them.
   function widened(box, planes) {
     const low = [...box.low], high = [...box.high];
+    const isMirrored = new Set([...planes].map(({ axis }) => axis));
     let { points } = box;
     for (const { axis, at } of planes) {
       [low[axis], high[axis]] = [Math.min(low[axis], 2 * at - high[axis]), Math.max(high[axis], 2 * at - low[axis])];
       points = [...points, ...points.map((point) => point.map((x, c) => (c === axis ? 2 * at - x : x)))];
     }
-    return { ...carom.boxAbout(low, high), points };
+    const wayTo = (...given) => box.wayTo(...given).map((way, c) => (isMirrored.has(c) ? 0 : way));
+    return { ...carom.boxAbout(low, high), points, wayTo };
   }
 
   // The planes beyond which no node is.

@@ -7,6 +7,19 @@ carom.Panel = (function () {
   const label = (text, ...inputs) => create("label", {}, text + " ", ...inputs);
   const button = (text, more) => create("button", { type: "button", textContent: text, ...more });
 
+  // What is rarely used: on small screens it is folded away.
+  const rare = (...controls) => create("span", { className: "rare" }, ...controls);
+
+  function moreButton() {
+    const own = button("more", { className: "more", title: "What is rarely used", "aria-expanded": "false" });
+    own.addEventListener("click", () => {
+      const isOpen = own.parentElement.classList.toggle("whole");
+      own.setAttribute("aria-expanded", String(isOpen));
+      own.textContent = isOpen ? "less" : "more";
+    });
+    return own;
+  }
+
   // The values of options are a field's number and a component of it.
   function quantitySelect(bodies) {
     const options = bodies.fields.flatMap((field, f) => carom.Colouring.choices(bodies, field).map((choice) =>
@@ -77,16 +90,18 @@ carom.Panel = (function () {
       this.cutShare = create("input", { type: "range", min: 0, max: 1, step: 0.005, value: 0.5, title: "Where the cut is" });
       this.otherHalf = button("other half");
       Object.assign(this, { isOtherHalf: false, mirrors: new Set() });
-      this.element = create("div", { className: "panel" }, ...this.rows(bodies, drawing, acts), partSwitches(drawing.models, acts.partsChanged), acts.files);
+      this.element = create("div", { className: "panel" }, ...this.rows(bodies, drawing, acts), partSwitches(drawing.models, acts.partsChanged), rare(acts.files));
       this.listen(acts.chosen);
       this.showCut();
     }
 
     rows(bodies, drawing, { fit, mirrored }) {
-      const always = [label("colours", this.quantity), this.colours.element, label("deformation ×", this.deformation), create("label", {}, this.edges, " edges")];
+      const always = [label("colours", this.quantity), moreButton(),
+        rare(this.colours.element, label("deformation ×", this.deformation), create("label", {}, this.edges, " edges"))];
       if (!drawing.eye) return always;
-      return [...always, ...(drawing.models[0].arrows ? [create("label", {}, this.arrows, " contact forces")] : []),
-        label("", this.cutAxis), this.cutShare, this.otherHalf, ...mirrorButtons(carom.Mirrors.planesOf(bodies), this.mirrors, mirrored), lookButtons(drawing.eye, fit)];
+      const arrows = drawing.models[0].arrows ? [create("label", {}, this.arrows, " contact forces")] : [];
+      return [...always, rare(...arrows), label("", this.cutAxis), this.cutShare, this.otherHalf,
+        rare(...mirrorButtons(carom.Mirrors.planesOf(bodies), this.mirrors, mirrored)), lookButtons(drawing.eye, fit)];
     }
 
     listen(chosen) {

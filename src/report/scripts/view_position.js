@@ -36,10 +36,13 @@
 
   const MOST = 20000;  // points that a picture is fitted to
 
-  // Some of the places of such nodes in such frames.
+  // Some of the places of such nodes in such frames: of fewer frames, the first and the last among them, rather than of fewer
+  // nodes, since of the nodes at a rim every second one may be all of the rim.
   function pointsOf(scene, nodes, frames, scale) {
-    const step = Math.ceil((nodes.length * frames.length) / MOST), points = [];
-    for (const t of frames) {
+    const count = Math.min(frames.length, Math.max(2, Math.floor(MOST / nodes.length))), points = [];
+    const some = new Set(upTo(count).map((k) => frames[Math.round((k * (frames.length - 1)) / Math.max(1, count - 1))]));
+    const step = Math.ceil((nodes.length * some.size) / MOST);
+    for (const t of some) {
       const at = carom.positions(scene, t, scale);
       for (let i = 0; i < nodes.length; i += step) points.push(at.map((xs) => xs[nodes[i]]));
     }
@@ -76,14 +79,27 @@
     return new Set(parts.filter((_, i) => travel[i] >= 0.05 * most));
   };
 
+  // By how much nodes have moved on the mean from one frame to another, of those that are there in both.
+  function meanWay(scene, nodes, [from, to], scale) {
+    const u = scene.field("displacement");
+    if (!u) return [0, 0, 0];
+    return scene.at.map((_, c) => {
+      const ways = nodes.map((n) => u.value(c, to, n) - u.value(c, from, n)).filter((way) => !Number.isNaN(way));
+      return ways.length === 0 ? 0 : (scale * ways.reduce((sum, way) => sum + way, 0)) / ways.length;
+    });
+  }
+
+  const LEAST = 1 / 3;  // of a picture of all ways, what bodies are to fill of it
+
   // What a picture of this frame is fitted to: of the parts that are not hidden those that move (all where none does),
-  // over all times unless that is much larger than they are now.
+  // over all times unless they were too small on it. Then it is them as they are now, and `wayTo` another frame is how far
+  // the picture goes with them.
   carom.fitOf = function (scene, frame, scale, { hidden, moving }) {
     const isMoving = (part) => moving.has(part) && !hidden.has(part), isShown = (part) => !hidden.has(part);
     const nodes = [isMoving, isShown, () => true].map((isWanted) => nodesOf(scene, isWanted)).find((list) => list.length > 0);
     const now = boxOf(scene, nodes, [frame], scale), always = boxOf(scene, nodes, upTo(scene.frames), scale);
-    const [box, frames] = always.reach <= 1.5 * now.reach ? [always, upTo(scene.frames)] : [now, [frame]];
-    return { ...box, points: pointsOf(scene, nodes, frames, scale) };
+    const isWhole = now.reach >= LEAST * always.reach, [box, frames] = isWhole ? [always, upTo(scene.frames)] : [now, [frame]];
+    return { ...box, points: pointsOf(scene, nodes, frames, scale), wayTo: (to, by) => (isWhole ? [0, 0, 0] : meanWay(scene, nodes, [frame, to], by)) };
   };
 
   // The number of the recorded instant next to t; the earlier one of two that are as near.

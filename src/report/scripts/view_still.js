@@ -75,6 +75,10 @@ carom.StillDrawing = (function () {
       this.extent = { ...box, isPlane: this.extent.isPlane };
     }
 
+    shift(way) {
+      this.extent.centre = this.extent.centre.map((x, c) => x + way[c]);
+    }
+
     sight(frame) {
       const [{ scene, hidden }] = this.models;
       return (k) => !hidden.has(scene.part[scene.cell[k]]) && scene.isSeen(k, frame);
