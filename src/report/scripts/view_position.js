@@ -34,6 +34,8 @@
     return { low, high, reach, centre: low.map((l, c) => (l + high[c]) / 2) };
   };
 
+  const upTo = (count) => Array.from({ length: count }, (_, i) => i);
+
   const MOST = 20000;  // points that a picture is fitted to
 
   // Some of the places of such nodes in such frames: of fewer frames, the first and the last among them, rather than of fewer
@@ -48,8 +50,6 @@
     }
     return points;
   }
-
-  const upTo = (count) => Array.from({ length: count }, (_, i) => i);
 
   // The box about a scene over all times.
   carom.extentOf = function (scene) {
