@@ -46,7 +46,7 @@ bench:   ## measures kernels, steps, growth, implicit runs, peers: writes docs/p
 	@tools/setup build bench
 	@tools/bench
 
-gallery: build ## runs one case of each kind, leaves their pictures in out/gallery/index.html, and in docs/gallery.md
+gallery: build ## runs what people do with Carom, leaves its pictures in out/gallery/index.html, and in docs/gallery.md
 	@tools/setup test
 	@/usr/bin/python3 tools/gallery.py build/release/carom --docs
 

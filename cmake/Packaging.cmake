@@ -17,7 +17,7 @@ install(FILES ${pages}/_carom DESTINATION share/zsh/vendor-completions)
 install(FILES ${pages}/copyright ${pages}/changelog.gz README.md DESTINATION share/doc/carom)
 # `carom init` reads what stands in share/carom (src/casefile/example_cases.hpp).
 install(DIRECTORY cases DESTINATION share/carom PATTERN "stiffness" EXCLUDE)
-install(DIRECTORY examples/tutorial DESTINATION share/carom/examples)
+install(DIRECTORY examples/tutorial examples/gallery DESTINATION share/carom/examples)
 install(FILES ${pages}/copyright ${pages}/changelog.gz DESTINATION share/doc/python3-carom COMPONENT python)
 install(DIRECTORY examples/laws examples/format DESTINATION share/doc/carom/examples)
 install(FILES ${pages}/copyright ${pages}/changelog.gz DESTINATION share/doc/carom-doc COMPONENT doc)

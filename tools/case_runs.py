@@ -1,10 +1,11 @@
-"""The cases of cases/: what they say of themselves, and running them. Used by gallery.py and book.py."""
+"""The cases of cases/ and of examples/: what they say of themselves, and running them. Used by gallery.py and book.py."""
 
 import concurrent.futures
 import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import tomllib
 import typing
@@ -46,10 +47,27 @@ def short_cases():
             if path not in long and not path.startswith(("cases/sdnv100/stiffness/", "cases/sdnv100/plain/"))]
 
 
+def file_of(name):
+    """The file of a case by the name that `carom init --like` takes, relative to the repository."""
+    path = pathlib.Path("cases") / f"{name}.toml"
+    return path if (ROOT / path).exists() else pathlib.Path("examples") / f"{name}.toml"
+
+
+def begun(carom, name, out):
+    """The case of an example that a script of Gmsh makes the mesh for, with its mesh, in a folder of its own."""
+    folder = out / f"{name}_case"
+    shutil.rmtree(folder, ignore_errors=True)
+    subprocess.run([carom, "init", folder, "--like", name], check=True, capture_output=True)
+    for script in folder.glob("*.geo"):
+        subprocess.run(["gmsh", "-3", script, "-o", script.with_suffix(".msh"), "-v", "1"], check=True, capture_output=True)
+    return folder / f"{folder.name}.toml"
+
+
 def run(carom, name, out):
     """Runs one case into out/<name>; fails where it cannot be run at all."""
-    path, folder = ROOT / "cases" / f"{name}.toml", out / name
-    done = subprocess.run([carom, "run", path, "--out", folder, "--threads", "1", "--quiet"], capture_output=True, text=True,
+    path, folder = ROOT / file_of(name), out / name
+    case = path if path.is_relative_to(ROOT / "cases") else begun(carom, name, out)
+    done = subprocess.run([carom, "run", case, "--out", folder, "--threads", "1", "--quiet"], capture_output=True, text=True,
                           check=False)
     if not (folder / "summary.json").exists():
         raise SystemExit(f"{name}: {done.stderr}")

@@ -1,39 +1,41 @@
 #!/usr/bin/python3
-"""Runs one case of each kind and makes a page with their pictures: out/gallery/index.html, docs/gallery.md.
+"""Runs what people do with Carom and makes a page with its pictures: out/gallery/index.html, docs/gallery.md.
 
-Usage: gallery.py CAROM [--docs]. With --docs the page of docs/ and its pictures are written as well.
+Usage: gallery.py CAROM [--docs]. With --docs the page of docs/ and its pictures are written as well. Exit code 1 where a run is
+not good.
 """
 
 import argparse
 import base64
 import html
 import pathlib
+import shutil
+import sys
 
 import case_pictures
 import case_runs
 from case_runs import ROOT
 
-# Case, what the colours show, which share of the time.
+# Case as `carom init --like` names it, what the colours show, which share of the time.
 PICTURES = (
-    ("sdnv100/current", "von Mises stress", 0.5),
-    ("free_bar/small_central_differences", "speed", 0.6),
+    ("tutorial/phone", "von Mises stress", 0.5),
+    ("gallery/bottle", "von Mises stress", 0.25),
+    ("gallery/crash_box", "equivalent plastic strain", 1.0),
     ("taylor_bar/rigid_wall", "equivalent plastic strain", 1.0),
-    ("shock_bar/viscous", "speed", 0.6),
-    ("hertz/two_spheres", "von Mises stress", 1.0),
-    ("hertz/impact_solid", "von Mises stress", 0.5),
-    ("hertz/impact_central_differences", "von Mises stress", 0.5),
-    ("tetrahedra/bars", "velocity z", 0.5),
-    ("impact_bar/plane_strip", "velocity y", 0.62),
-    ("spinning_blocks/oblique_two_pass", "speed", 0.12),
-    ("spinning_blocks/free_block", "speed", 0.7),
-    ("rigid_bodies/block_on_free_box", "speed", 0.7),
+    ("erosion/rigid_ball", "equivalent plastic strain", 0.2),
+    ("gallery/hinge", "von Mises stress", 0.7),
+    ("gallery/pile", "speed", 0.6),
+    ("gears/involute", "von Mises stress", 0.5),
+    ("balls/oblique", "speed", 0.5),
     ("roller/strip", "speed", 0.14),
+    ("spinning_blocks/oblique_two_pass", "speed", 0.12),
+    ("rigid_bodies/block_on_free_box", "speed", 0.7),
+    ("edges/rolling", "speed", 0.5),
     ("torsion_bar/large_twist", "speed", 0.5),
     ("friction/deformable_bathe", "speed", 0.5),
-    ("patch_test/surface_to_surface_penalty", "stress zz", 1.0),
-    ("interface_friction/imposed_slide", "displacement, length", 0.5),
-    ("springs/block_on_springs", "displacement z", 0.5),
-    ("snap_through/block", "displacement z", 1.0),
+    ("hertz/impact_solid", "von Mises stress", 0.5),
+    ("free_bar/small_central_differences", "speed", 0.6),
+    ("sdnv100/current", "von Mises stress", 0.5),
 )
 WIDTH, HEIGHT = 640, 400
 
@@ -55,7 +57,8 @@ small {{ opacity: .7; }}
 </head>
 <body>
 <h1>Gallery</h1>
-<p>Real runs of the cases in <code>cases/</code>; a click on a picture opens the report, where the bodies move.</p>
+<p>Real runs; a click on a picture opens the report, where the bodies move. <code>carom init mine --like gallery/bottle</code> begins a
+case with one of them.</p>
 <ul>
 {entries}
 </ul>
@@ -80,19 +83,24 @@ def write_page(runs, paths, out):
         report = (found.folder / "report.html").relative_to(out)
         entries.append(f'<li><a href="{report}"><img alt="" src="data:image/png;base64,{picture}"></a>'
                        f"<h2>{html.escape(found.title)}</h2><p>{html.escape(found.first_sentence())}</p>"
-                       f"<small>cases/{found.name}.toml</small></li>")
+                       f"<small>{case_runs.file_of(found.name)}</small></li>")
     (out / "index.html").write_text(PAGE.format(entries="\n".join(entries)), encoding="utf-8")
 
 
 def write_docs(runs, paths):
     images = ROOT / "docs/images/gallery"
-    images.mkdir(parents=True, exist_ok=True)
-    lines = ["# Gallery", "", "Made by `make gallery` from real runs; each is a case of `cases/` and its own test. In their reports the "
-             "bodies move.", ""]
+    shutil.rmtree(images, ignore_errors=True)
+    images.mkdir(parents=True)
+    lines = ["# Gallery", "", "Made by `make gallery` from real runs; in their reports the bodies move. A case of one's own begins with one of these by "
+             "`carom init`, which writes the case with its mesh, or with the script of Gmsh that makes it. Small cases that show one thing "
+             "and are compared with its theory stand in [cases/](../cases/README.md), each with a picture in the verification book "
+             "(`make book`).", ""]
     for found, path in zip(runs, paths):
         (images / path.name).write_bytes(path.read_bytes())
-        lines += [f"### {found.title}", "", f"[![{found.title}](images/gallery/{path.name})](../cases/{found.name}.toml)", "",
-                  found.first_sentence(), ""]
+        file = case_runs.file_of(found.name)
+        lines += [f"### {found.title}", "", f"[![{found.title}](images/gallery/{path.name})](../{file})", "",
+                  " ".join([found.first_sentence(), f"The case is [{file}](../{file})."]).strip(), "",
+                  "```console", f"carom init mine --like {found.name}", "```", ""]
     (ROOT / "docs/gallery.md").write_text("\n".join(lines), encoding="utf-8")
 
 
@@ -108,7 +116,11 @@ def main():
     if given.docs:
         write_docs(runs, paths)
     print(f"written: {(out / 'index.html').relative_to(ROOT)}")
+    bad = [found.name for found in runs if found.summary["outcome"] != "good"]
+    if bad:
+        print("not good: " + ", ".join(bad), file=sys.stderr)
+    return 1 if bad else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

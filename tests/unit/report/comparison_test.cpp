@@ -86,6 +86,9 @@ TEST_F(ReportComparison, SaysThatNothingDiffersOrThatItIsNotKnown) {
   EXPECT_NE(text_of(page).find("What differs in the cases is not known"), std::string::npos);
   fs::remove(second_ / "case.resolved.toml");
   EXPECT_EQ(tables_of_runs({first_.string(), second_.string()}, "csv").find("materials"), std::string::npos);
+  write_comparison({first_.string(), second_.string()}, page.string());
+  for (const char* claim : {"No key of the cases differs", "What differs in the"})
+    EXPECT_EQ(text_of(page).find(claim), std::string::npos) << claim;
 }
 
 // A page of one run has no differences to show.
