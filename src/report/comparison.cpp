@@ -68,7 +68,8 @@ std::string differences_section(const std::vector<NamedRun>& runs) {
   try {
     const DataTable table = input_differences(runs);
     if (!table.rows.empty()) return table_section(table);
-    if (std::any_of(runs.begin(), runs.end(), [](const NamedRun& run) { return run.data.case_text.empty(); })) return "";
+    if (std::any_of(runs.begin(), runs.end(), [](const NamedRun& run) { return run.data.case_text.empty(); }))
+      return "";
     return "<p class=\"note\">No key of the cases differs, the mesh is the same, and so is the program.</p>\n";
   } catch (const CaseError& error) {
     return fmt::format("<p class=\"note\">What differs in the cases is not known: {}</p>\n", xml_escape(error.what()));
