@@ -146,8 +146,7 @@ SectionSchema<CaseProbe> probe_section() {
   s.key("group", &CaseProbe::group, "Group: mean over its nodes; of cells: over those that touch them.");
   s.key("part", &CaseProbe::part, "Part: sums over it.");
   s.key("quantities", &CaseProbe::quantities,
-        "What to record (docs/quantities.md). Where part is given: some of mass, momentum, kinetic_energy, "
-        "strain_energy.",
+        "What to record (docs/quantities.md). Where part is given: quantities of parts.",
         {.choices = names_where(is_probed), .others = remembered, .need = Need::required});
   s.key("side", &CaseProbe::side,
         "For section_force: direction from the section to the cells whose forces are summed.");

@@ -19,9 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 14> kFiles{
+constexpr std::array<std::string_view, 15> kFiles{
     "probes_filtered.csv", "contact_filtered.csv", "summary.json", "energy.csv",       "contact.csv", "probes.csv",
-    "exact.csv",           "fields.pvd",           "mesh.txt",     resolved_case_file, "report.html", "watch.html",
+    "parts.csv",           "exact.csv",           "fields.pvd",           "mesh.txt",     resolved_case_file, "report.html", "watch.html",
     "fields.xdmf",         "obstacles.xdmf"};
 
 /// The digits of a name such as step_000010.vtu; "" where it has not this form.

@@ -13,12 +13,6 @@
 
 namespace carom {
 
-std::optional<std::size_t> CurveTable::find(const std::string& column) const {
-  const auto found = std::find(columns.begin(), columns.end(), column);
-  if (found == columns.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - columns.begin());
-}
-
 namespace {
 
 /// The heads of a quantity at a place.
@@ -164,7 +158,7 @@ void ContactCurves::sample(const StepView& view) {
   }
 }
 
-ProbeCurves::ProbeCurves(const Simulation& simulation)
+ProbeCurves::ProbeCurves(const Simulation& simulation, const CurveTable& parts)
     : simulation_(simulation), gravity_(gravity_loads(simulation.model())) {
   table_.columns = {"time"};
   for (const CaseProbe& given : simulation.given().probes) {
@@ -172,7 +166,7 @@ ProbeCurves::ProbeCurves(const Simulation& simulation)
     for (const auto& quantity : given.quantities) probe.quantities.push_back(*quantity);
     positions_.emplace_back();
     if (given.part) {
-      probe.part = PartSums(given, simulation);
+      probe.part = PartSums(given, simulation, parts);
       positions_.back() = probe.part.centre();
     } else {
       add_nodes(given, probe);
@@ -297,6 +291,7 @@ void ProbeCurves::complete(const StepView& view) const {
   for (const Probe& probe : probes_)
     for (const std::string& quantity : probe.quantities) {
       const bool is_of_nodes = quantity == "displacement" || quantity == "velocity" || quantity == "acceleration";
+      if (PartSums::is_known_to_all(quantity)) continue;
       if (!is_of_nodes && quantity != "reaction" && quantity != "reaction_moment") return view.shared.complete();
       if (is_of_nodes) nodes.insert(nodes.end(), probe.nodes.begin(), probe.nodes.end());
     }

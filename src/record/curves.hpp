@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "build/simulation.hpp"
 #include "march/observer.hpp"
 #include "record/contact_resultants.hpp"
+#include "record/curve_table.hpp"
 #include "record/field_values.hpp"
 #include "record/part_sums.hpp"
 #include "record/probe_place.hpp"
@@ -18,15 +18,6 @@
 #include "solid/loads.hpp"
 
 namespace carom {
-
-/// Names and values of one table; the first column is always `time`.
-struct CurveTable {
-  std::vector<std::string> columns;
-  std::vector<double> row;
-
-  /// Position of a column, if there is one.
-  std::optional<std::size_t> find(const std::string& column) const;
-};
 
 /// energy.csv: ledger, Code_Aster's terms, momentum.
 class EnergyCurves {
@@ -86,8 +77,8 @@ struct Wrench {
 /// position; accelerations along axes that turn with the body; and sums over parts.
 class ProbeCurves {
  public:
-  /// Throws CaseError as place_probe and across_section do.
-  explicit ProbeCurves(const Simulation& simulation);
+  /// parts: sampled before sample(). Throws CaseError as place_probe, across_section and PartSums do.
+  ProbeCurves(const Simulation& simulation, const CurveTable& parts);
   void sample(FieldsNow& now);
   /// The cells whose stresses sample() looks at, increasing; none where it may look at others.
   const std::vector<Index>& stressed_cells() const { return stressed_cells_; }

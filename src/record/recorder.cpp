@@ -129,7 +129,8 @@ FieldFrame frame_of(const Simulation& s, const StepView& view, std::span<const d
 
 RunTables::RunTables(const Simulation& simulation)
     : contact(simulation),
-      probes(simulation),
+      parts(simulation),
+      probes(simulation, parts.table()),
       exact(make_exact(simulation, probes)),
       checks(simulation, {&energy.table(), &contact.table(), &probes.table()}, exact ? &*exact : nullptr) {}
 
@@ -146,7 +147,8 @@ Recorder::Recorder(const Simulation& simulation, std::string folder)
 std::vector<Recorder::TableFile> Recorder::table_files() const {
   std::vector<TableFile> list{{folder_ + "/energy.csv", "energies", tables_.energy.table()},
                               {folder_ + "/contact.csv", "contact forces on the body", tables_.contact.table()},
-                              {folder_ + "/probes.csv", "probes", tables_.probes.table()}};
+                              {folder_ + "/probes.csv", "probes", tables_.probes.table()},
+                              {folder_ + "/parts.csv", "parts", tables_.parts.table()}};
   if (tables_.exact) list.push_back({folder_ + "/exact.csv", "exact solution", tables_.exact->table()});
   return list;
 }
@@ -251,6 +253,7 @@ void Recorder::record(const StepView& view, bool is_last) {
   if (due || is_checked) {
     tables_.probes.complete(view);
     tables_.energy.sample(view);
+    tables_.parts.sample(view);
     tables_.probes.sample(now);
   }
   if (is_checked) tables_.checks.sample(view.state.t);
@@ -269,13 +272,9 @@ void Recorder::add_row() {
   if (files_)
     for (OpenTable& open : files_->tables) open.file.append(open.table.row);
   if (rows_.empty()) return;
-  const auto append = [](Rows& rows, const CurveTable& table) {
-    rows.values.insert(rows.values.end(), table.row.begin(), table.row.end());
-  };
-  append(rows_[0], tables_.energy.table());
-  append(rows_[1], tables_.contact.table());
-  append(rows_[2], tables_.probes.table());
-  if (tables_.exact) append(rows_[3], tables_.exact->table());
+  const std::vector<TableFile> list = table_files();
+  for (std::size_t i = 0; i < list.size(); ++i)
+    rows_[i].values.insert(rows_[i].values.end(), list[i].table.row.begin(), list[i].table.row.end());
 }
 
 void Recorder::record_frame(const StepView& view) {

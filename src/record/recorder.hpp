@@ -18,6 +18,7 @@
 #include "record/frame_plan.hpp"
 #include "record/key_figures.hpp"
 #include "record/obstacle_bodies.hpp"
+#include "record/part_curves.hpp"
 
 namespace carom {
 
@@ -30,6 +31,7 @@ struct RunTables {
 
   EnergyCurves energy;
   ContactCurves contact;
+  PartCurves parts;
   ProbeCurves probes;
   std::optional<ExactCurves> exact;
   Checks checks;
@@ -71,7 +73,7 @@ class Recorder : public Observer {
     const CurveTable& table;
     std::span<const double> values;
   };
-  /// energy, contact, probes, and exact where there is one; no rows without keep_rows.
+  /// energy, contact, probes, parts, and exact where there is one; no rows without keep_rows.
   std::vector<KeptTable> kept() const;
   /// What contact.csv says of this instant.
   const CurveTable& contact() const { return tables_.contact.table(); }

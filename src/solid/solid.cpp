@@ -74,15 +74,24 @@ const TurningBodies& Solid::turning_bodies() const {
 }
 
 SolidEnergies Solid::evaluate(std::span<const double> u, const PointStep& step, std::span<double> f,
-                              std::span<double> end) const {
+                              std::span<double> end, std::vector<SolidEnergies>* of_parts) const {
   std::vector<SolidEnergies> of_cells(parts_->solid.chunks.size()), of_patches(parts_->patches.cells.chunks.size());
   parts_->sum_forces(u, step, f, end, [&](const SolidCells& cells, std::size_t chunk) {
     return &(&cells == &parts_->solid ? of_cells : of_patches)[chunk];
   });
   parts_->gather(of_cells, of_patches, end, step.nodes);
   SolidEnergies total;
-  for (const std::vector<SolidEnergies>* partial : {&of_cells, &of_patches})
-    for (const SolidEnergies& energies : *partial) total.add(energies);
+  if (of_parts != nullptr) of_parts->assign(parts_->part_count, {});
+  const auto add_up = [&](const SolidCells& cells, const std::vector<SolidEnergies>& of_chunks) {
+    for (std::size_t c = 0; c < of_chunks.size(); ++c) {
+      total.add(of_chunks[c]);
+      if (of_parts == nullptr) continue;
+      const Block& block = cells.blocks[at(cells.chunks[c].block)];
+      (*of_parts)[at(parts_->part_numbers[block.part])].add(of_chunks[c]);
+    }
+  };
+  add_up(parts_->solid, of_cells);
+  add_up(parts_->patches.cells, of_patches);
   for (const Contributor* each : parts_->others) each->add_force(u, step, f, &total, end);
   return total;
 }

@@ -27,6 +27,8 @@ namespace carom {
 struct Solid::Parts {
   Parts(const Model& model, Isa wanted)
       : isa(wanted),
+        part_numbers(model.part_numbers()),
+        part_count(part_numbers.empty() ? 0 : at(part_numbers.back()) + 1),
         solid(make_solid_cells(model, kernels(wanted))),
         patches(make_node_patches(model, solid, kernels(wanted))),
         loads(model),
@@ -287,6 +289,8 @@ struct Solid::Parts {
   }
 
   Isa isa;
+  std::vector<Index> part_numbers;  ///< Model::part_numbers
+  std::size_t part_count;           ///< of the case
   SolidCells solid;
   NodePatches patches;
   Loads loads;

@@ -50,6 +50,7 @@ struct Forces {
   std::vector<SupportForce> supports;  ///< one per entry of Supports::prescribed
   ContactResponse rows;
   EnergyTerms stored;          ///< energies of the state that are functions of it: stored ones, and plastic
+  std::vector<EnergyTerms> of_parts;  ///< by part of the case: of these what its cells have by themselves
   Momentum total_momentum;     ///< of the state
   double inertia_power = 0.0;  ///< a . M a
   friend bool operator==(const Forces&, const Forces&) = default;
@@ -63,6 +64,7 @@ void fields(A& archive, Forces& x) {
   archive("supports", x.supports);
   archive("rows", x.rows);
   archive("stored", x.stored);
+  archive("of_parts", x.of_parts);
   archive("total_momentum", x.total_momentum);
   archive("inertia_power", x.inertia_power);
 }

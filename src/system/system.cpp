@@ -4,27 +4,33 @@
 #include <array>
 
 #include "parallel/threads.hpp"
-#include "solid/cell_values.hpp"
 #include "solid/point_history.hpp"
 
 namespace carom {
+
+namespace {
+
+/// Hands over what bodies store and have spent.
+void take(const SolidEnergies& energies, EnergyTerms& terms) {
+  terms.strain = energies.strain;
+  terms.plastic = energies.plastic;
+  terms.hourglass = energies.hourglass;
+  terms.hourglass_loss = energies.hourglass_loss;
+  terms.viscous = energies.viscous;
+  terms.heat = energies.heat;
+  terms.distortion = energies.distortion;
+}
+
+}  // namespace
 
 void evaluate_solid(const System& system, const PointStep& step, State& end) {
   Forces& forces = end.forces;
   forces.internal.resize(end.q.size());
   end.points.resize(history_size(system.solid));
-  if (system.solid.is_linear() && !has_hourglass(system.solid)) {
-    system.solid.internal_force(end.q, forces.internal);
-    return;
-  }
-  const SolidEnergies energies = system.solid.evaluate(end.q, step, forces.internal, end.points);
-  forces.stored.strain = energies.strain;
-  forces.stored.plastic = energies.plastic;
-  forces.stored.hourglass = energies.hourglass;
-  forces.stored.hourglass_loss = energies.hourglass_loss;
-  forces.stored.viscous = energies.viscous;
-  forces.stored.heat = energies.heat;
-  forces.stored.distortion = energies.distortion;
+  std::vector<SolidEnergies> of_parts;
+  take(system.solid.evaluate(end.q, step, forces.internal, end.points, &of_parts), forces.stored);
+  forces.of_parts.resize(of_parts.size());
+  for (std::size_t p = 0; p < of_parts.size(); ++p) take(of_parts[p], forces.of_parts[p]);
   forces.stored.fracture = system.solid.cohesive().dissipated(end.points);
 }
 

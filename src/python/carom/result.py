@@ -19,6 +19,8 @@ class Result:
     """Probes and contacts, as probes.csv and contact.csv: "top.displacement_z", "floor.force_z"."""
     energy: Curves
     """The ledger, as energy.csv: "kinetic", "strain", "imbalance", "momentum_x", ..."""
+    parts: Curves
+    """Energies and momentum of every part, as parts.csv: "glass.kinetic_energy", "glass.momentum_z"."""
     exact: Curves
     """The exact solution, where the case has [exact]; else empty."""
     summary: dict[str, Any]
@@ -26,11 +28,13 @@ class Result:
     folder: str
     """The results folder, "" where there is none."""
 
-    def __init__(self, summary: str, history: Curves, energy: Curves, exact: Curves, folder: str) -> None:
+    def __init__(
+        self, summary: str, history: Curves, energy: Curves, parts: Curves, exact: Curves, folder: str
+    ) -> None:
         """summary: the text of summary.json."""
         self.summary = json.loads(summary)
         self.verdict, self.message = _outcome(self.summary)
-        self.history, self.energy, self.exact, self.folder = history, energy, exact, folder
+        self.history, self.energy, self.parts, self.exact, self.folder = history, energy, parts, exact, folder
 
     @property
     def items(self) -> list[dict[str, Any]]:

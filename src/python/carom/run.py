@@ -14,7 +14,7 @@ from carom.mesh import Mesh
 from carom.result import Result
 
 _Observer = TypeVar("_Observer", bound=Callable[["Run"], object])
-_ENERGY, _CONTACT, _PROBES, _EXACT = range(4)
+_ENERGY, _CONTACT, _PROBES, _PARTS, _EXACT = range(5)
 
 
 class Run(_carom.RunBase):
@@ -70,6 +70,11 @@ class Run(_carom.RunBase):
         return _joined(self, _ENERGY)
 
     @property
+    def parts(self) -> Curves:
+        """Energies and momentum of every part so far: `run.parts["glass.kinetic_energy"]`."""
+        return _joined(self, _PARTS)
+
+    @property
     def mesh(self) -> Mesh:
         """The mesh as it is run: views of its arrays, which hold it. Nodes of springs' and obstacles' carriers are left
         out of displacement, velocity and acceleration, and come last here."""
@@ -90,7 +95,7 @@ class Run(_carom.RunBase):
     def stop(self, folder: str | os.PathLike[str] | None = None) -> Result:
         """Closes the run where it is; before its end the verdict is "stopped" (or "error"). folder: as finish."""
         summary = self._close("" if folder is None else os.fspath(folder))
-        return Result(summary, self.history, self.energy, _joined(self, _EXACT), self.folder)
+        return Result(summary, self.history, self.energy, self.parts, _joined(self, _EXACT), self.folder)
 
     def __repr__(self) -> str:
         """Where it is."""
