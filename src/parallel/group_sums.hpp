@@ -33,11 +33,18 @@ class GroupSums {
     parallel_for(own.size(), 1, [&](std::size_t begin, std::size_t) {
       const Piece& piece = pieces_[own.begin + begin];
       std::array<double, N> s{};
-      for (std::size_t k = piece.begin; k < piece.end; ++k)
-        for (std::size_t item = runs_[k].items.begin; item < runs_[k].items.end; ++item) {
-          const std::array<double, N> term = of(item);
-          for (std::size_t c = 0; c < N; ++c) s[c] += runs_[k].share * term[c];
+      for (std::size_t k = piece.begin; k < piece.end; ++k) {
+        const auto& [items, share] = runs_[k];
+        std::size_t item = items.begin;
+        for (; item + 4 <= items.end; item += 4) {  // four at a time: sums wait for the one before
+          const std::array<double, N> t0 = of(item), t1 = of(item + 1), t2 = of(item + 2), t3 = of(item + 3);
+          for (std::size_t c = 0; c < N; ++c) s[c] += share * ((t0[c] + t1[c]) + (t2[c] + t3[c]));
         }
+        for (; item < items.end; ++item) {
+          const std::array<double, N> term = of(item);
+          for (std::size_t c = 0; c < N; ++c) s[c] += share * term[c];
+        }
+      }
       std::copy(s.begin(), s.end(), values.begin() + static_cast<std::ptrdiff_t>(N * (own.begin + begin)));
     });
     if (is_partial) gather(values, N);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -26,6 +27,7 @@ constexpr std::array<std::string_view, 4> kKinds{"\"computed\"", "\"raw\"", "\"f
 struct Group {
   std::string section, title, label;
   std::vector<std::string> columns;
+  bool is_by_place = false;  ///< one column for each place, whose number is its colour
 };
 
 double largest_magnitude(const std::vector<double>& values) {
@@ -42,6 +44,25 @@ std::string curve_name(const std::string& column) {
   std::string text(name.component.empty() ? name.quantity : name.component);
   std::replace(text.begin(), text.end(), '_', ' ');
   return column.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") == 0 && name.place.empty() ? column : text;
+}
+
+/// Name and colour of the curve of a column of a group.
+Curve named(Curve curve, const Group& group, const std::string& column) {
+  if (!group.is_by_place) return curve;
+  curve.name = parse_column(column).place;
+  curve.colour = static_cast<std::size_t>(std::ranges::find(group.columns, column) - group.columns.begin());
+  return curve;
+}
+
+/// Of many curves those that rise highest are shown until the reader asks for others.
+void show_highest(Chart& chart) {
+  constexpr std::size_t most = 8;
+  if (chart.curves.size() <= most) return;
+  std::vector<double> heights;
+  for (const Curve& curve : chart.curves) heights.push_back(largest_magnitude(curve.values));
+  std::vector<double> sorted = heights;
+  std::ranges::sort(sorted, std::greater<>());
+  for (std::size_t k = 0; k < heights.size(); ++k) chart.curves[k].shown = heights[k] >= sorted[most - 1];
 }
 
 /// A column of another table that is laid over the computed one of the same name.
@@ -92,12 +113,15 @@ Chart make_chart(const Group& group, const CsvTable& table, const Tables& tables
   }
   for (const std::string& column : drawn) {
     const bool is_filtered = filtered && filtered->column(column) != nullptr;
-    chart.curves.push_back(make_curve(table, *table.column(column), curve_name(column),
-                                      is_filtered ? CurveKind::raw : CurveKind::computed));
+    chart.curves.push_back(named(make_curve(table, *table.column(column), curve_name(column),
+                                            is_filtered ? CurveKind::raw : CurveKind::computed),
+                                 group, column));
   }
+  if (group.is_by_place) show_highest(chart);
   for (const std::string& column : drawn) add_overlay(chart, column, filtered, CurveKind::filtered, "filtered");
   for (const std::string& column : drawn) add_overlay(chart, column, tables.exact, CurveKind::exact, "exact");
-  for (std::string& column : left_out) column = curve_name(column);
+  for (std::string& column : left_out)
+    column = group.is_by_place ? std::string(parse_column(column).place) : curve_name(column);
   if (!left_out.empty())
     chart.note = fmt::format("Not drawn, zero or below 1e-9 of the largest: {}.", fmt::join(left_out, ", "));
   if (is_contact || group.section == "Probes") chart.note += remarks_on_filters(group, filtered);
@@ -158,11 +182,29 @@ std::vector<Group> place_groups(const CsvTable& table, const std::string& sectio
   return groups;
 }
 
+/// Of tables of several places, one group per quantity and component.
+std::vector<Group> groups_by_place(const CsvTable& table, const std::string& section) {
+  std::vector<Group> groups;
+  for (const std::string& column : table.columns) {
+    if (column == "time") continue;
+    const ColumnName name = parse_column(column);
+    const std::string quantity = with_spaces(name.quantity);
+    std::string title = name.component.empty() ? quantity : fmt::format("{}, {}", quantity, name.component);
+    title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
+    auto same = std::ranges::find(groups, title, &Group::title);
+    if (same == groups.end()) same = groups.insert(same, {section, title, quantity, {}, true});
+    same->columns.push_back(column);
+  }
+  if (!groups.empty() && groups.front().columns.size() < 2) groups.clear();  // of one part they are those of the ledger
+  return groups;
+}
+
 /// Numbers of the group up to this cannot be told from rounding.
 double rounding_of(const Group& group, const CsvTable& table, const Scales& scales) {
   constexpr double of_its_kind = 1e-12, of_position = 1e-15, of_energy = 1e-10;  // that of the verdict
-  if (group.section == "Energies") return of_energy * scales.energy;
-  if (group.section == "Momentum")
+  const bool is_of_parts = group.section == "Parts", is_momentum = group.label == "momentum";
+  if (group.section == "Energies" || (is_of_parts && !is_momentum)) return of_energy * scales.energy;
+  if (group.section == "Momentum" || is_of_parts)
     return of_its_kind * scales.momentum * (group.columns.front().starts_with("angular") ? scales.reach : 1.0);
   if (group.section == "Time steps") return 0.0;
   const auto largest = [&table](std::string_view quantity) {
@@ -338,6 +380,7 @@ std::vector<Chart> make_charts(const Tables& tables, const Units& units, const s
   };
   if (tables.probes) add(place_groups(*tables.probes, "Probes"), *tables.probes);
   if (tables.contact) add(place_groups(*tables.contact, "Contact"), *tables.contact);
+  if (tables.parts) add(groups_by_place(*tables.parts, "Parts"), *tables.parts);
   if (tables.energy) add(energy_groups(*tables.energy), *tables.energy);
   if (summary) add_places(charts, units, *summary);
   for (Chart& chart : charts) {

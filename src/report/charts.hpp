@@ -34,7 +34,7 @@ struct Curve {
 
 /// One picture: curves of one unit over time. Without curves it is a statement: the title and the note as text.
 struct Chart {
-  std::string section;  ///< "Energies", "Contact", "Probes", "Time steps"
+  std::string section;  ///< "Energies", "Contact", "Probes", "Parts", "Time steps"
   std::string title;
   std::string label, unit;  ///< of the vertical axis
   std::vector<Curve> curves;
@@ -58,7 +58,7 @@ struct ChartData {
 
 /// The tables of a results folder, as far as they are there.
 struct Tables {
-  std::optional<CsvTable> energy{}, contact{}, probes{}, probes_filtered{}, contact_filtered{}, exact{};
+  std::optional<CsvTable> energy{}, contact{}, probes{}, parts{}, probes_filtered{}, contact_filtered{}, exact{};
 };
 
 /// What numbers are compared with before they are called round-off; zero where nothing is known.
@@ -73,7 +73,8 @@ Scales scales_of(const Tables& tables, const std::optional<Summary>& summary);
 /// A column over the table's times, reduced to what a screen can show (decimate.hpp).
 Curve make_curve(const CsvTable& table, const std::vector<double>& values, std::string name, CurveKind kind);
 
-/// Charts of probes, contact and energies; columns of the same name in probes_filtered.csv, contact_filtered.csv and
+/// Charts of probes, contact, energies, and where there are several parts of these: one for each quantity, a curve for
+/// each part in the colour that it has in the view, of many the largest shown; columns of the same name in probes_filtered.csv, contact_filtered.csv and
 /// exact.csv are laid over.
 /// The mechanical energy is drawn with its terms. Components below 1e-9 of the largest of their chart are named in its
 /// note instead of drawn. What is round-off is said instead of drawn: a whole chart below 1e-12 of the largest of its

@@ -329,6 +329,30 @@ std::vector<LargestValue> largest_values(const Tables& tables, const std::option
   return all;
 }
 
+PartValues largest_of_parts(const std::optional<CsvTable>& table, const Units& units) {
+  PartValues all;
+  if (!table || table->rows() == 0) return all;
+  std::map<std::string, double> of_kind;
+  std::vector<std::pair<double, LargestValue>> found;
+  const std::vector<Quantity> quantities = quantities_of(*table);
+  for (const Quantity& quantity : quantities) {
+    found.push_back(largest_value(quantity, *table, units));
+    of_kind[quantity.name] = std::max(of_kind[quantity.name], found.back().first);
+  }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto& [value, largest] = found[i];
+    if (all.parts.empty() || all.parts.back() != largest.where) {
+      all.parts.push_back(largest.where);
+      all.values.emplace_back();
+    }
+    if (of_kind[quantities[i].name] == 0.0) continue;
+    if (all.parts.size() == 1) all.quantities.push_back(largest.quantity);
+    const bool is_negligible = value <= kNegligible * of_kind[quantities[i].name];
+    all.values.back().push_back(is_negligible ? "–" : fmt::format("{} at {}", largest.value, largest.time));
+  }
+  return all.parts.size() > 1 ? all : PartValues{};
+}
+
 std::optional<double> time_of_largest_force(const std::optional<CsvTable>& contact) {
   if (!contact) return std::nullopt;
   Peak largest;

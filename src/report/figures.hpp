@@ -38,4 +38,14 @@ struct LargestValue {
 std::vector<LargestValue> largest_values(const Tables& tables, const std::optional<Summary>& summary,
                                          const Units& units);
 
+/// The largest of each quantity of each part, with when: "3.41 J at 0.21 ms"; "–" where it is zero.
+struct PartValues {
+  std::vector<std::string> quantities{};
+  std::vector<std::string> parts{};
+  std::vector<std::vector<std::string>> values{};  ///< by part and quantity
+};
+
+/// Of parts.csv; empty where it has one part, whose energies are those of the ledger.
+PartValues largest_of_parts(const std::optional<CsvTable>& table, const Units& units);
+
 }  // namespace carom

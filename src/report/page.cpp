@@ -137,6 +137,18 @@ std::string largest_table(const std::vector<LargestValue>& largest) {
          html_table({{"Quantity"}, {"value", true}, {"time", true}, {"where"}}, rows) + "</section>\n";
 }
 
+std::string parts_table(const PartValues& of) {
+  if (of.parts.empty()) return "";
+  std::vector<TableColumn> columns{{"Part"}};
+  for (const std::string& quantity : of.quantities) columns.push_back({quantity, true});
+  std::vector<TableRow> rows;
+  for (std::size_t p = 0; p < of.parts.size(); ++p) {
+    rows.push_back({text_cell(of.parts[p])});
+    for (const std::string& value : of.values[p]) rows.back().push_back(number_cell(value));
+  }
+  return "<section>\n<h2>Largest values of the parts</h2>\n" + html_table(columns, rows, "wide") + "</section>\n";
+}
+
 /// Where another scheme takes over.
 std::vector<TimeMark> stage_marks(const std::optional<Summary>& summary) {
   std::vector<TimeMark> marks;
@@ -165,7 +177,7 @@ std::string make_page(const ReportData& data) {
     content += checks_table(*data.summary, data.units);
     content += verdict_table(*data.summary);
   }
-  content += largest_table(data.largest);
+  content += largest_table(data.largest) + parts_table(data.parts);
   content += chart_figures(data.charts);
   if (data.summary) {
     content += notes_list(*data.summary);

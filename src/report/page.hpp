@@ -27,6 +27,7 @@ struct ReportData {
   Units units;
   std::vector<KeyFigure> figures;
   std::vector<LargestValue> largest{};
+  PartValues parts{};
   std::vector<Chart> charts;
   std::string title;                         ///< of the case, as the tables know it; "" where there are none
   double time_reached = 0.0;                 ///< of the last row of energy.csv

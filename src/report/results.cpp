@@ -66,6 +66,7 @@ ReportData read_results(const std::string& results_folder) {
   tables.energy = read_table(folder, "energy.csv", data.notes);
   tables.contact = read_table(folder, "contact.csv", data.notes);
   tables.probes = read_table(folder, "probes.csv", data.notes);
+  tables.parts = read_table(folder, "parts.csv", data.notes);
   tables.probes_filtered = read_table(folder, "probes_filtered.csv", data.notes);
   tables.contact_filtered = read_table(folder, "contact_filtered.csv", data.notes);
   tables.exact = read_table(folder, "exact.csv", data.notes);
@@ -75,6 +76,7 @@ ReportData read_results(const std::string& results_folder) {
   data.figures = key_figures(tables, data.summary, data.units);
   data.largest_force_at = time_of_largest_force(tables.contact);
   data.largest = largest_values(tables, data.summary, data.units);
+  data.parts = largest_of_parts(tables.parts, data.units);
   data.charts = make_charts(tables, data.units, data.summary);
   if (tables.energy && !tables.energy->comments.empty()) {
     const std::string& line = tables.energy->comments.front();  // "Title - energies"

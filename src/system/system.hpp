@@ -36,8 +36,8 @@ inline ContactPast past_of(const State& begin) {
 PointStep start_step(double dt, std::span<const double> points, const State& state);
 
 /// Evaluates the bodies at the end of a step, at displacement end.q, from the points' history at its beginning. Fills
-/// their internal forces and, for bodies that are not linear, the energies that they store and have dissipated and the
-/// points' history.
+/// their internal forces, the energies that they store and have dissipated, in all and by part, and the points'
+/// history.
 void evaluate_solid(const System& system, const PointStep& step, State& end);
 /// Does what evaluate_solid does, and fills the external forces at end.t.
 void evaluate_bodies(const System& system, const PointStep& step, State& end);
