@@ -262,6 +262,8 @@ struct CaseProbe {
   std::vector<Located<std::string>> quantities;  ///< of output/quantities.hpp, and variables that laws remember
   std::optional<Vec3> side;                      ///< section_force: direction to the cells whose forces are summed
   std::optional<double> cfc;                     ///< SAE J211 channel frequency class
+  bool shock = false;                            ///< of its accelerations (output/shock.hpp)
+  std::optional<double> quality_factor;          ///< of the shock response spectrum; with shock 10
 };
 
 /// [[check]]

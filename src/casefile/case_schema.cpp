@@ -152,6 +152,12 @@ SectionSchema<CaseProbe> probe_section() {
         "For section_force: direction from the section to the cells whose forces are summed.");
   s.key("cfc", &CaseProbe::cfc, "Low-pass filter of the curves: SAE J211 channel frequency class.",
         {.range = greater_than(0.0)});
+  s.key("shock", &CaseProbe::shock,
+        "Of its acceleration and local_acceleration, filtered where there is a cfc: HIC15 and HIC36, pulse width, "
+        "velocity change, shock response spectrum (docs/howto/shock.md).");
+  s.key("quality_factor", &CaseProbe::quality_factor,
+        "Of the oscillators of the shock response spectrum, 1 / (2 ratio of damping).",
+        {.range = greater_than(0.5), .default_phrase = "10, with shock"});
   s.description.alternatives = {{Alternatives::Count::exactly_one, {"node", "point", "group", "part"}}};
   s.finish = check_probe;
   return s;

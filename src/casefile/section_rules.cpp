@@ -74,8 +74,17 @@ void check_probe(CaseProbe& probe, const Node& node, const ReadContext& at) {
                       fmt::format("\"{}\" {} a part", *quantity, is_of_part ? "without" : "of"),
                       is_of_part ? "part = ... beside it" : "what there is of parts: see docs/quantities.md");
   }
-  const auto force = std::find_if(probe.quantities.begin(), probe.quantities.end(),
-                                  [](const Located<std::string>& q) { return *q == "section_force"; });
+  const auto find_asked = [&](std::string_view name) {
+    return std::ranges::find_if(probe.quantities, [&](const Located<std::string>& q) { return *q == name; });
+  };
+  if (probe.quality_factor && !probe.shock)
+    throw CaseError(place_of(node, "quality_factor"), at.at("quality_factor").path, "a quality factor without shock",
+                    "shock = true beside it");
+  if (probe.shock && find_asked("acceleration") == probe.quantities.end() &&
+      find_asked("local_acceleration") == probe.quantities.end())
+    throw CaseError(place_of(node, "shock"), at.at("shock").path, "shock without an acceleration",
+                    "\"acceleration\" or \"local_acceleration\" among the quantities");
+  const auto force = find_asked("section_force");
   if (force == probe.quantities.end()) {
     if (!probe.side) return;
     throw CaseError(place_of(node, "side"), at.at("side").path, "a side without section_force",

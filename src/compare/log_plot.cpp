@@ -10,6 +10,7 @@
 
 #include "output/xml.hpp"
 #include "report/html.hpp"
+#include "report/xy_plot.hpp"
 
 namespace carom::compare {
 
@@ -102,18 +103,6 @@ std::string picture(const LogCurve& curve, const Axis& x, const Axis& y) {
 }
 
 }  // namespace
-
-std::vector<double> log_ticks(double low, double high) {
-  const bool is_long = high / low >= 1000.0;
-  std::vector<double> ticks;
-  for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, power) <= high; ++power) {
-    for (const double factor : {1.0, 2.0, 5.0}) {
-      const double tick = factor * std::pow(10.0, power);
-      if (tick >= low && tick <= high && (factor == 1.0 || !is_long)) ticks.push_back(tick);
-    }
-  }
-  return ticks;
-}
 
 std::string log_plot(const LogPlot& plot) {
   const Axis x = axis_of(

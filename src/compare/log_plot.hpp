@@ -28,8 +28,4 @@ struct LogPlot {
 /// An HTML figure with an SVG picture in the colours of the page (report/page.css), and its legend.
 std::string log_plot(const LogPlot& plot);
 
-/// Ticks of a logarithmic axis within [low, high]: powers of ten, and 2 and 5 times them where the axis spans fewer
-/// than three decades.
-std::vector<double> log_ticks(double low, double high);
-
 }  // namespace carom::compare

@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 15> kFiles{
-    "probes_filtered.csv", "contact_filtered.csv", "summary.json", "energy.csv",       "contact.csv", "probes.csv",
+constexpr std::array<std::string_view, 16> kFiles{
+    "shock_spectra.csv", "probes_filtered.csv", "contact_filtered.csv", "summary.json", "energy.csv",       "contact.csv", "probes.csv",
     "parts.csv",           "exact.csv",           "fields.pvd",           "mesh.txt",     resolved_case_file, "report.html", "watch.html",
     "fields.xdmf",         "obstacles.xdmf"};
 

@@ -94,6 +94,18 @@ PartSummary part_from(const Json& json) {
           vector(json.at("velocity_end"))};
 }
 
+Json to_json(const ShockSummary& shock) {
+  Json json{{"probe", shock.probe}, {"quantity", shock.quantity}};
+  for (const auto& [name, member] : shock_numbers) json[name] = number(shock.*member);
+  return json;
+}
+
+ShockSummary shock_from(const Json& json) {
+  ShockSummary shock{json.at("probe").get<std::string>(), json.at("quantity").get<std::string>()};
+  for (const auto& [name, member] : shock_numbers) shock.*member = number(json.at(name));
+  return shock;
+}
+
 Json to_json(const StressSummary& stress) {
   return {{"value", number(stress.value)}, {"time", number(stress.time)},         {"part", stress.part},
           {"cell", stress.cell},           {"position", vector(stress.position)}, {"instants", stress.instants}};
@@ -252,6 +264,7 @@ Json to_json(const Summary& s) {
   json["contacts"] = s.contacts;
   json["stress"] = to_json(s.stress);
   json["probes"] = list(s.probes);
+  json["shock"] = list(s.shock);
   json["verdict"] = list(s.verdict);
   json["checks"] = list(s.checks);
   json["warnings"] = s.warnings;
@@ -281,6 +294,7 @@ Summary summary_from(const Json& json) {
   s.contacts = json.at("contacts").get<std::vector<std::string>>();
   s.stress = stress_from(json.at("stress"));
   s.probes = list_from(json.at("probes"), probe_from);
+  if (json.contains("shock")) s.shock = list_from(json.at("shock"), shock_from);
   s.verdict = list_from(json.at("verdict"), verdict_item_from);
   s.checks = list_from(json.at("checks"), check_from);
   s.warnings = json.at("warnings").get<std::vector<std::string>>();

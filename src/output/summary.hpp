@@ -1,10 +1,12 @@
 // summary.json: what was run, what it cost and whether its results can be trusted (docs/results.md).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/types.hpp"
@@ -73,6 +75,36 @@ struct ProbeSummary {
   std::string name;
   std::string place;  ///< "node 12", "25 nodes of HEAD"
   Vec3 position{};    ///< mean reference position
+};
+
+/// What a probe's acceleration does to what it shakes (output/shock.hpp). Times and accelerations in the units of the
+/// case, HIC in seconds and g.
+struct ShockSummary {
+  std::string probe, quantity;                  ///< "acceleration" or "local_acceleration"
+  double cfc = 0.0;                             ///< class of the filter; 0: none
+  double quality_factor = 0.0;                  ///< of the spectrum, shock_spectra.csv
+  double peak = 0.0, peak_g = 0.0, time = 0.0;  ///< of the resultant
+  double pulse_begin = 0.0, pulse_end = 0.0, velocity_change = 0.0;
+  double hic15 = 0.0, hic15_begin = 0.0, hic15_end = 0.0;
+  double hic36 = 0.0, hic36_begin = 0.0, hic36_end = 0.0;
+};
+
+/// name, member: the numbers of a ShockSummary in summary.json.
+inline constexpr std::array shock_numbers{
+    std::pair{"cfc", &ShockSummary::cfc},
+    std::pair{"quality_factor", &ShockSummary::quality_factor},
+    std::pair{"peak", &ShockSummary::peak},
+    std::pair{"peak_g", &ShockSummary::peak_g},
+    std::pair{"time", &ShockSummary::time},
+    std::pair{"pulse_begin", &ShockSummary::pulse_begin},
+    std::pair{"pulse_end", &ShockSummary::pulse_end},
+    std::pair{"velocity_change", &ShockSummary::velocity_change},
+    std::pair{"hic15", &ShockSummary::hic15},
+    std::pair{"hic15_begin", &ShockSummary::hic15_begin},
+    std::pair{"hic15_end", &ShockSummary::hic15_end},
+    std::pair{"hic36", &ShockSummary::hic36},
+    std::pair{"hic36_begin", &ShockSummary::hic36_begin},
+    std::pair{"hic36_end", &ShockSummary::hic36_end},
 };
 
 /// One of the schemes that follow each other.
@@ -152,6 +184,7 @@ struct Summary {
   std::vector<std::string> contacts;  ///< their names, in the order of the case
   StressSummary stress;
   std::vector<ProbeSummary> probes;
+  std::vector<ShockSummary> shock;
   std::vector<VerdictItem> verdict;
   std::vector<std::string> warnings;  ///< what is doubtful about the case, as `check` says it, and about the run
   std::vector<std::string> doubts;    ///< of warnings: why numbers may be wrong though all passed, in a few words each

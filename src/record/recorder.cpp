@@ -18,6 +18,7 @@
 #include "record/field_values.hpp"
 #include "record/filtered_curves.hpp"
 #include "record/frame_plan.hpp"
+#include "record/shock_numbers.hpp"
 #include "report/csv_table.hpp"
 
 namespace carom {
@@ -315,7 +316,22 @@ void Recorder::write_filtered() const {
                         contacts);
 }
 
+/// Of accelerations of probes that ask for it: shock_spectra.csv, and what the summary says.
+void Recorder::write_shock() {
+  const Case& given = simulation_.given();
+  std::vector<ShockWish> wishes;
+  for (const CaseProbe& probe : given.probes)
+    for (const auto& quantity : probe.quantities)
+      if (probe.shock && (*quantity == "acceleration" || *quantity == "local_acceleration"))
+        wishes.push_back({*probe.name, *quantity, probe.cfc.value_or(0.0), probe.quality_factor.value_or(10.0)});
+  shock_ = carom::write_shock({folder_ + "/probes.csv", folder_ + "/probes_filtered.csv",
+                               folder_ + "/shock_spectra.csv", comments(simulation_, "shock response spectra"),
+                               given.units},
+                              wishes);
+}
+
 void Recorder::fill(Summary& summary) const {
+  summary.shock = shock_;
   summary.parts = figures_.parts();
   summary.stress = figures_.stress();
   const Case& given = simulation_.given();
@@ -336,6 +352,7 @@ void Recorder::close() {
   if (!files_) return;
   for (OpenTable& open : files_->tables) open.file.close();
   write_filtered();
+  write_shock();
 }
 
 }  // namespace carom

@@ -135,6 +135,7 @@ class Recorder : public Observer {
   void record_frame(const StepView& view);
   std::string record_obstacles(const StepView& view);
   void write_filtered() const;
+  void write_shock();
 
   const Simulation& simulation_;
   std::string folder_;
@@ -151,6 +152,7 @@ class Recorder : public Observer {
   FrameClock clock_;
   long long last_sample_ = -1, last_frame_ = -1, last_row_ = -1;  ///< steps sampled or written last
   double last_time_ = 0.0;                                        ///< of last_sample_
+  std::vector<ShockSummary> shock_;                               ///< once the tables are closed
   Background writer_;                                             ///< last: it waits before the others go
 };
 

@@ -43,7 +43,7 @@ const std::vector<double>* CsvTable::column(std::string_view name) const {
   return nullptr;
 }
 
-std::optional<CsvTable> read_csv(const std::string& path) {
+std::optional<CsvTable> read_csv(const std::string& path, std::string_view first) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return std::nullopt;
   CsvTable table;
@@ -59,8 +59,8 @@ std::optional<CsvTable> read_csv(const std::string& path) {
       table.columns = split(line);
       table.values.resize(table.columns.size());
       row.resize(table.columns.size());
-      if (cut || table.columns.front() != "time") {
-        table.damage = fmt::format("line {} is not a line of column names beginning with time", number);
+      if (cut || table.columns.front() != first) {
+        table.damage = fmt::format("line {} is not a line of column names beginning with {}", number, first);
         return table;
       }
     } else if (cut || !parse_row(line, row)) {

@@ -23,8 +23,8 @@ struct CsvTable {
   const std::vector<double>* column(std::string_view name) const;
 };
 
-/// Reads a table whose first column is `time`; nothing when there is no such file. Stops at the first row that is
+/// Reads a table by the name of its first column; nothing when there is no such file. Stops at the first row that is
 /// not whole and says so in `damage`.
-std::optional<CsvTable> read_csv(const std::string& path);
+std::optional<CsvTable> read_csv(const std::string& path, std::string_view first = "time");
 
 }  // namespace carom

@@ -20,23 +20,36 @@ constexpr std::size_t kColours = 8;  // of page.css
 
 /// Numbers to positions, in a readable unit.
 struct Axis {
-  double low = 0.0, high = 0.0, begin = 0.0, end = 0.0;
+  double low = 0.0, high = 0.0, begin = 0.0, end = 0.0;  ///< low, high: of logarithms where it is logarithmic
   ReadableUnit unit;
+  bool is_logarithmic = false;
 
-  double at(double value) const { return begin + (end - begin) * (value - low) / (high - low); }
-  double shown(double value) const { return value / std::pow(10.0, unit.power); }
+  double of(double value) const { return is_logarithmic ? std::log10(value) : value; }
+  double at(double value) const { return begin + (end - begin) * (of(value) - low) / (high - low); }
+  double scale() const { return std::pow(10.0, unit.power); }
+  /// In the readable unit.
+  std::vector<double> ticks() const {
+    if (!is_logarithmic) return round_ticks(low / scale(), high / scale());
+    return log_ticks(std::pow(10.0, low) / scale(), std::pow(10.0, high) / scale());
+  }
 };
 
 Axis axis_of(const XyPlot& plot, std::vector<double> XyCurve::*values, const std::string& unit, double begin,
              double end) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double low = std::numeric_limits<double>::infinity(), high = -low, largest = 0.0;
   for (const XyCurve& curve : plot.curves)
     for (const double value : curve.*values) {
-      low = std::min(low, value);
-      high = std::max(high, value);
+      const double place = plot.is_logarithmic ? std::log10(value) : value;
+      low = std::min(low, place);
+      high = std::max(high, place);
+      largest = std::max(largest, std::abs(value));
     }
+  if (plot.is_logarithmic) {
+    constexpr double least = 1.0, room = 0.04;  // decades, and of the range
+    const double middle = 0.5 * (low + high), half = std::max(0.5 * least, (0.5 + room) * (high - low));
+    return {middle - half, middle + half, begin, end, unit.empty() ? ReadableUnit{} : readable_unit(largest, unit), true};
+  }
   constexpr double round_off = 1e-9;  // a range as small as that shows nothing but noise
-  const double largest = std::max(std::abs(low), std::abs(high));
   const double flat = largest > 0.0 ? 0.1 * largest : 1.0;
   const double room = high - low > round_off * largest ? 0.04 * (high - low) : flat;
   return {low - room, high + room, begin, end, unit.empty() ? ReadableUnit{} : readable_unit(largest, unit)};
@@ -48,15 +61,15 @@ std::string titled(const std::string& label, const std::string& unit) {
 
 std::string grid(const XyPlot& plot, const Axis& x, const Axis& y) {
   std::string svg;
-  for (const double tick : round_ticks(x.shown(x.low), x.shown(x.high))) {
-    const double at = x.at(tick * std::pow(10.0, x.unit.power));
+  for (const double tick : x.ticks()) {
+    const double at = x.at(tick * x.scale());
     svg += fmt::format(
         "<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\"/><text x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\">{4:g}"
         "</text>",
         at, kTop, kHeight - kBottom, kHeight - kBottom + 17.0, tick);
   }
-  for (const double tick : round_ticks(y.shown(y.low), y.shown(y.high))) {
-    const double at = y.at(tick * std::pow(10.0, y.unit.power));
+  for (const double tick : y.ticks()) {
+    const double at = y.at(tick * y.scale());
     svg += fmt::format(
         "<path d=\"M{0:.1f} {1:.1f}H{2:.1f}\"/><text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\">{5:g}"
         "</text>",
@@ -110,6 +123,18 @@ std::vector<double> round_ticks(double low, double high) {
     if (high - low <= most * step) break;
   }
   for (double k = std::ceil(low / step); k * step <= high; k += 1.0) ticks.push_back(k == 0.0 ? 0.0 : k * step);
+  return ticks;
+}
+
+std::vector<double> log_ticks(double low, double high) {
+  const bool is_long = high / low >= 1000.0;
+  std::vector<double> ticks;
+  for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, power) <= high; ++power) {
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      const double tick = factor * std::pow(10.0, power);
+      if (tick >= low && tick <= high && (factor == 1.0 || !is_long)) ticks.push_back(tick);
+    }
+  }
   return ticks;
 }
 

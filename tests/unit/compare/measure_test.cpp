@@ -17,6 +17,7 @@
 #include "compare/page.hpp"
 #include "compare/recommend.hpp"
 #include "compare/tables.hpp"
+#include "report/xy_plot.hpp"
 
 namespace carom::compare::compare_measure_test {
 namespace {
