@@ -295,7 +295,8 @@ constexpr PlaceRow places[] = {
     {Place::turning, "Along axes that turn",
      "Of [[probe]]s at nodes: those of rigid bodies have the axes of their body, others those of the cells at the probe."},
     {Place::section, "Of sections", "Of [[probe]]s with a `side`."},
-    {Place::part, "Of parts", "Of [[probe]]s with a `part`; momentum and energies are columns of parts.csv, too, as far as a case can have them."},
+    {Place::part, "Of parts",
+     "Of [[probe]]s with a `part`; momentum and energies are columns of parts.csv, too, as far as a case can have them."},
     {Place::contact, "Of contacts", "Columns of contact.csv; obstacles that move have displacement and velocity, too."},
     {Place::run, "Of the run", "Columns of energy.csv, beside the energies and the momentum of all."},
 };

@@ -19,10 +19,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 16> kFiles{
-    "shock_spectra.csv", "probes_filtered.csv", "contact_filtered.csv", "summary.json", "energy.csv",       "contact.csv", "probes.csv",
-    "parts.csv",           "exact.csv",           "fields.pvd",           "mesh.txt",     resolved_case_file, "report.html", "watch.html",
-    "fields.xdmf",         "obstacles.xdmf"};
+constexpr std::array<std::string_view, 16> kFiles{"shock_spectra.csv",
+                                                  "probes_filtered.csv",
+                                                  "contact_filtered.csv",
+                                                  "summary.json",
+                                                  "energy.csv",
+                                                  "contact.csv",
+                                                  "probes.csv",
+                                                  "parts.csv",
+                                                  "exact.csv",
+                                                  "fields.pvd",
+                                                  "mesh.txt",
+                                                  resolved_case_file,
+                                                  "report.html",
+                                                  "watch.html",
+                                                  "fields.xdmf",
+                                                  "obstacles.xdmf"};
 
 /// The digits of a name such as step_000010.vtu; "" where it has not this form.
 std::string_view digits_of(std::string_view name, std::string_view begin, std::string_view end) {

@@ -57,8 +57,7 @@ class RampFilter {
                  e = (c * (std::expm1(a_) + 2.0 * half * half) + d_ * std::exp(a_)) / std::sin(b_);
     double phase = std::atan2(b_ * e - a_ * c, b_ * c + a_ * e);  // where dy/ds = 0
     if (phase < 0.0) phase += std::numbers::pi;
-    return std::max(std::abs(c),
-                    std::abs(std::exp(-a_ * phase / b_) * (c * std::cos(phase) + e * std::sin(phase))));
+    return std::max(std::abs(c), std::abs(std::exp(-a_ * phase / b_) * (c * std::cos(phase) + e * std::sin(phase))));
   }
 
  private:

@@ -15,12 +15,6 @@ namespace carom {
 
 namespace {
 
-std::optional<UnitSystem> system_of(const Units& units) {
-  const auto is_it = [&](UnitSystem system) { return units_of(name(system)) == units; };
-  const auto* const found = std::ranges::find_if(unit_systems, is_it);
-  return found == unit_systems.end() ? std::nullopt : std::optional(*found);
-}
-
 Dimension dimension_of(std::string_view quantity) {
   const Quantity* found = find_quantity(quantity);
   return found == nullptr ? Dimension::none : found->unit;
@@ -33,6 +27,12 @@ bool is_energy(std::string_view column) {
 }
 
 }  // namespace
+
+std::optional<UnitSystem> system_of(const Units& units) {
+  const auto is_it = [&](UnitSystem system) { return units_of(name(system)) == units; };
+  const auto* const found = std::ranges::find_if(unit_systems, is_it);
+  return found == unit_systems.end() ? std::nullopt : std::optional(*found);
+}
 
 Units units_of(std::string_view label) {
   for (const UnitSystem system : unit_systems) {

@@ -15,6 +15,9 @@ struct Units {
   friend bool operator==(const Units&, const Units&) = default;
 };
 
+/// The system that these are the names of, if there is one.
+std::optional<UnitSystem> system_of(const Units& units);
+
 /// Unit names of "SI", "mm-t-s" or "mm-kg-ms"; empty names for any other label.
 Units units_of(std::string_view label);
 

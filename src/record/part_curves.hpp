@@ -12,8 +12,8 @@ namespace carom {
 
 /// Of each part in the order of the case: kinetic_energy, the energies that the case can have beside it, momentum, by
 /// the names of output/quantities.hpp. Over all parts and what belongs to none (springs, ties that tear, the axes of
-/// rigid bodies, obstacles that move) they add up to the ledger. A node's momentum and kinetic energy 1/2 v.(M v), M the
-/// mass of the stage, are divided among its parts as node_shares says.
+/// rigid bodies, obstacles that move) they add up to the ledger. A node's momentum and kinetic energy 1/2 v.(M v), M
+/// the mass of the stage, are divided among its parts as node_shares says.
 class PartCurves {
  public:
   explicit PartCurves(const Simulation& simulation);

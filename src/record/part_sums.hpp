@@ -40,7 +40,7 @@ class PartSums {
 
   const Simulation* simulation_ = nullptr;
   const CurveTable* parts_ = nullptr;
-  std::vector<Index> cells_;  ///< positions in Solid::cells()
+  std::vector<Index> cells_;                                              ///< positions in Solid::cells()
   std::map<std::string, std::vector<std::size_t>, std::less<>> columns_;  ///< of parts.csv, by quantity
   double mass_ = 0.0;
   bool is_rigid_ = false;

@@ -324,10 +324,10 @@ void Recorder::write_shock() {
     for (const auto& quantity : probe.quantities)
       if (probe.shock && (*quantity == "acceleration" || *quantity == "local_acceleration"))
         wishes.push_back({*probe.name, *quantity, probe.cfc.value_or(0.0), probe.quality_factor.value_or(10.0)});
-  shock_ = carom::write_shock({folder_ + "/probes.csv", folder_ + "/probes_filtered.csv",
-                               folder_ + "/shock_spectra.csv", comments(simulation_, "shock response spectra"),
-                               given.units},
-                              wishes);
+  shock_ =
+      carom::write_shock({folder_ + "/probes.csv", folder_ + "/probes_filtered.csv", folder_ + "/shock_spectra.csv",
+                          comments(simulation_, "shock response spectra"), given.units},
+                         wishes);
 }
 
 void Recorder::fill(Summary& summary) const {

@@ -59,6 +59,7 @@ struct ChartData {
 /// The tables of a results folder, as far as they are there.
 struct Tables {
   std::optional<CsvTable> energy{}, contact{}, probes{}, parts{}, probes_filtered{}, contact_filtered{}, exact{};
+  std::optional<CsvTable> spectra{};  ///< over frequency
 };
 
 /// What numbers are compared with before they are called round-off; zero where nothing is known.
@@ -74,11 +75,11 @@ Scales scales_of(const Tables& tables, const std::optional<Summary>& summary);
 Curve make_curve(const CsvTable& table, const std::vector<double>& values, std::string name, CurveKind kind);
 
 /// Charts of probes, contact, energies, and where there are several parts of these: one for each quantity, a curve for
-/// each part in the colour that it has in the view, of many the largest shown; columns of the same name in probes_filtered.csv, contact_filtered.csv and
-/// exact.csv are laid over.
-/// The mechanical energy is drawn with its terms. Components below 1e-9 of the largest of their chart are named in its
-/// note instead of drawn. What is round-off is said instead of drawn: a whole chart below 1e-12 of the largest of its
-/// quantity, energies below 1e-10 of the largest of the run, imbalances within the bound of a verdict that passed.
+/// each part in the colour that it has in the view, of many the largest shown; columns of the same name in
+/// probes_filtered.csv, contact_filtered.csv and exact.csv are laid over. The mechanical energy is drawn with its
+/// terms. Components below 1e-9 of the largest of their chart are named in its note instead of drawn. What is round-off
+/// is said instead of drawn: a whole chart below 1e-12 of the largest of its quantity, energies below 1e-10 of the
+/// largest of the run, imbalances within the bound of a verdict that passed.
 std::vector<Chart> make_charts(const Tables& tables, const Units& units,
                                const std::optional<Summary>& summary = std::nullopt);
 

@@ -190,6 +190,39 @@ void add_durations(const CsvTable& contact, const Units& units, std::vector<KeyF
   keep_largest(all, "Duration of contact", "never closed", figures);
 }
 
+/// Whose record it is: "head", "head, local".
+std::string record_name(const ShockSummary& shock) {
+  return shock.quantity == "acceleration" ? shock.probe : shock.probe + ", local";
+}
+
+void add_shock(const Summary& summary, const Units& units, std::vector<KeyFigure>& figures) {
+  std::vector<Weighed> injuries, pulses;
+  for (const ShockSummary& shock : summary.shock) {
+    const std::string of = record_name(shock),
+                      filter = shock.cfc > 0.0 ? fmt::format("CFC {:g}", shock.cfc) : std::string("unfiltered");
+    const auto interval = [&](double begin, double end) {
+      return fmt::format("from {} to {}", time_text(begin, units), time_text(end, units));
+    };
+    injuries.push_back(
+        {{"HIC15, " + of, number_text(shock.hic15, 4),
+          fmt::format("{}; HIC36 {}; {}", interval(shock.hic15_begin, shock.hic15_end),
+                      shock.hic36 == shock.hic15 ? "is the same"
+                                                 : fmt::format("{}, {}", number_text(shock.hic36, 4),
+                                                               interval(shock.hic36_begin, shock.hic36_end)),
+                      filter)},
+         shock.hic15,
+         of});
+    pulses.push_back(
+        {{"Shock pulse, " + of, time_text(shock.pulse_end - shock.pulse_begin, units),
+          fmt::format("above a tenth of its peak of {} g; velocity change {}; {}", number_text(shock.peak_g, 4),
+                      with_readable_unit(shock.velocity_change, unit_of(units, Dimension::velocity), 4), filter)},
+         shock.pulse_end - shock.pulse_begin,
+         of});
+  }
+  keep_largest(injuries, "HIC15", "none", figures);
+  keep_largest(pulses, "Shock pulse", "none", figures);
+}
+
 /// Speeds up to `rounding` are none.
 Weighed speed_figure(const std::string& body, const Vec3& begin, const Vec3& end, double rounding, const Units& units) {
   const double least = std::max(rounding, 1e-9 * std::max(length(begin), length(end)));
@@ -329,6 +362,45 @@ std::vector<LargestValue> largest_values(const Tables& tables, const std::option
   return all;
 }
 
+std::vector<XyPlot> spectrum_plots(const std::optional<CsvTable>& table, const std::optional<Summary>& summary,
+                                   const Units& units) {
+  std::vector<XyPlot> plots;
+  if (!table || table->rows() == 0 || !summary) return plots;
+  const std::optional<UnitSystem> system = system_of(units);
+  const double hertz = system ? 1.0 / si_factor(Dimension::time, *system) : 1.0;
+  const double g = system ? standard_gravity / si_factor(Dimension::acceleration, *system) : 1.0;
+  for (const ShockSummary& shock : summary->shock) {
+    XyPlot plot{fmt::format("{} · Q = {:g}{}", record_name(shock), shock.quality_factor,
+                            shock.cfc > 0.0 ? fmt::format(", CFC {:g}", shock.cfc) : ", unfiltered"),
+                system ? "natural frequency [Hz]" : "natural frequency",
+                system ? "largest absolute acceleration [g]" : "largest absolute acceleration",
+                "",
+                "",
+                {},
+                true};
+    double most = 0.0;
+    std::vector<double> largest;
+    for (const char* component : {"x", "y", "z"}) {
+      XyCurve curve{component, {}, {}};
+      const auto* values = table->column(fmt::format("{}.{}_{}", shock.probe, shock.quantity, component));
+      for (std::size_t row = 0; values != nullptr && row < table->rows(); ++row) {
+        if (!((*values)[row] > 0.0)) continue;  // nan where the record is too coarse
+        curve.x.push_back(table->values.front()[row] * hertz);
+        curve.y.push_back((*values)[row] / g);
+      }
+      largest.push_back(curve.y.empty() ? 0.0 : *std::ranges::max_element(curve.y));
+      most = std::max(most, largest.back());
+      plot.curves.push_back(std::move(curve));
+    }
+    constexpr double least = 1e-3;
+    for (std::size_t c = plot.curves.size(); c-- > 0;)
+      if (!(largest[c] > least * most)) plot.curves.erase(plot.curves.begin() + static_cast<std::ptrdiff_t>(c));
+    if (plot.curves.size() == 1) plot.title = fmt::format("{}: {}", plot.title, plot.curves[0].name);
+    if (!plot.curves.empty()) plots.push_back(std::move(plot));
+  }
+  return plots;
+}
+
 PartValues largest_of_parts(const std::optional<CsvTable>& table, const Units& units) {
   PartValues all;
   if (!table || table->rows() == 0) return all;
@@ -348,7 +420,8 @@ PartValues largest_of_parts(const std::optional<CsvTable>& table, const Units& u
     if (of_kind[quantities[i].name] == 0.0) continue;
     if (all.parts.size() == 1) all.quantities.push_back(largest.quantity);
     const bool is_negligible = value <= kNegligible * of_kind[quantities[i].name];
-    all.values.back().push_back(is_negligible ? "–" : fmt::format("{} at {}", largest.value, largest.time));
+    all.values.back().push_back(is_negligible ? PartValues::Value{"–", ""}
+                                              : PartValues::Value{largest.value, largest.time});
   }
   return all.parts.size() > 1 ? all : PartValues{};
 }
@@ -368,6 +441,7 @@ std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Sum
     add_durations(*tables.contact, units, figures);
   }
   add_peak_accelerations(tables, units, figures);
+  if (summary) add_shock(*summary, units, figures);
   add_speeds(tables, summary, units, figures);
   if (summary) add_stress(*summary, units, figures);
   return figures;

@@ -9,6 +9,7 @@
 #include "output/summary.hpp"
 #include "output/units.hpp"
 #include "report/charts.hpp"
+#include "report/xy_plot.hpp"
 
 namespace carom {
 
@@ -21,8 +22,9 @@ struct KeyFigure {
 
 /// Peak force of each contact and when, how long each was closed, how fast bodies were before and after, the largest
 /// stress and where. Of curves that are filtered the filtered peak as well; of probes' accelerations that alone, since
-/// nodes of a mesh shake as no sensor does. From the tables and the summary, as far as they are there; of many
-/// contacts, probes or parts the largest four in the order of the case, and in one more figure what the others are.
+/// nodes of a mesh shake as no sensor does. Head injury criterion and pulse where they are asked for. From the tables
+/// and the summary, as far as they are there; of many contacts, probes or parts the largest four in the order of the
+/// case, and in one more figure what the others are.
 std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units);
 
 /// When the largest force of all contacts is; nothing where there is none.
@@ -38,11 +40,19 @@ struct LargestValue {
 std::vector<LargestValue> largest_values(const Tables& tables, const std::optional<Summary>& summary,
                                          const Units& units);
 
-/// The largest of each quantity of each part, with when: "3.41 J at 0.21 ms"; "–" where it is zero.
+/// Of every probe that asks for shock one picture of its spectra, in Hz and g; of its acceleration where the unit
+/// system is unknown. Components below a thousandth of the largest are left out.
+std::vector<XyPlot> spectrum_plots(const std::optional<CsvTable>& table, const std::optional<Summary>& summary,
+                                   const Units& units);
+
+/// The largest of each quantity of each part, with when: "3.41 J", "0.21 ms"; "–" where it is zero.
 struct PartValues {
+  struct Value {
+    std::string value, time;
+  };
   std::vector<std::string> quantities{};
   std::vector<std::string> parts{};
-  std::vector<std::vector<std::string>> values{};  ///< by part and quantity
+  std::vector<std::vector<Value>> values{};  ///< by part and quantity
 };
 
 /// Of parts.csv; empty where it has one part, whose energies are those of the ledger.

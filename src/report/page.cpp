@@ -144,9 +144,19 @@ std::string parts_table(const PartValues& of) {
   std::vector<TableRow> rows;
   for (std::size_t p = 0; p < of.parts.size(); ++p) {
     rows.push_back({text_cell(of.parts[p])});
-    for (const std::string& value : of.values[p]) rows.back().push_back(number_cell(value));
+    for (const auto& [value, time] : of.values[p])
+      rows.back().push_back({fmt::format("{}{}", xml_escape(value),
+                                         time.empty() ? "" : fmt::format("<br><small>at {}</small>", xml_escape(time))),
+                             "number"});
   }
   return "<section>\n<h2>Largest values of the parts</h2>\n" + html_table(columns, rows, "wide") + "</section>\n";
+}
+
+std::string spectrum_figures(const std::vector<XyPlot>& spectra) {
+  if (spectra.empty()) return "";
+  std::string html = "<section>\n<h2>Shock response spectra</h2>\n<div class=\"charts\">\n";
+  for (const XyPlot& plot : spectra) html += xy_plot(plot);
+  return html + "</div>\n</section>\n";
 }
 
 /// Where another scheme takes over.
@@ -178,7 +188,7 @@ std::string make_page(const ReportData& data) {
     content += verdict_table(*data.summary);
   }
   content += largest_table(data.largest) + parts_table(data.parts);
-  content += chart_figures(data.charts);
+  content += spectrum_figures(data.spectra) + chart_figures(data.charts);
   if (data.summary) {
     content += notes_list(*data.summary);
     content += ledger_tables(*data.summary, data.units);

@@ -10,6 +10,7 @@
 #include "report/charts.hpp"
 #include "report/figures.hpp"
 #include "report/html.hpp"
+#include "report/xy_plot.hpp"
 
 namespace carom {
 
@@ -28,6 +29,7 @@ struct ReportData {
   std::vector<KeyFigure> figures;
   std::vector<LargestValue> largest{};
   PartValues parts{};
+  std::vector<XyPlot> spectra{};
   std::vector<Chart> charts;
   std::string title;                         ///< of the case, as the tables know it; "" where there are none
   double time_reached = 0.0;                 ///< of the last row of energy.csv

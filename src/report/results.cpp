@@ -8,6 +8,7 @@
 #include <iterator>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "output/summary.hpp"
@@ -20,8 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<CsvTable> read_table(const fs::path& folder, const std::string& name, std::vector<std::string>& notes) {
-  std::optional<CsvTable> table = read_csv((folder / name).string());
+std::optional<CsvTable> read_table(const fs::path& folder, const std::string& name, std::vector<std::string>& notes,
+                                   std::string_view first = "time") {
+  std::optional<CsvTable> table = read_csv((folder / name).string(), first);
   if (table && !table->damage.empty()) notes.push_back(fmt::format("{}: {}.", name, table->damage));
   return table;
 }
@@ -70,6 +72,7 @@ ReportData read_results(const std::string& results_folder) {
   tables.probes_filtered = read_table(folder, "probes_filtered.csv", data.notes);
   tables.contact_filtered = read_table(folder, "contact_filtered.csv", data.notes);
   tables.exact = read_table(folder, "exact.csv", data.notes);
+  tables.spectra = read_table(folder, "shock_spectra.csv", data.notes, "frequency");
   if (!tables.energy) data.notes.emplace_back("energy.csv is missing.");
   data.case_text = read_case(folder, data.notes);
   data.units = find_units(data.summary, {&tables.energy, &tables.contact, &tables.probes});
@@ -77,6 +80,7 @@ ReportData read_results(const std::string& results_folder) {
   data.largest_force_at = time_of_largest_force(tables.contact);
   data.largest = largest_values(tables, data.summary, data.units);
   data.parts = largest_of_parts(tables.parts, data.units);
+  data.spectra = spectrum_plots(tables.spectra, data.summary, data.units);
   data.charts = make_charts(tables, data.units, data.summary);
   if (tables.energy && !tables.energy->comments.empty()) {
     const std::string& line = tables.energy->comments.front();  // "Title - energies"

@@ -47,7 +47,8 @@ Axis axis_of(const XyPlot& plot, std::vector<double> XyCurve::*values, const std
   if (plot.is_logarithmic) {
     constexpr double least = 1.0, room = 0.04;  // decades, and of the range
     const double middle = 0.5 * (low + high), half = std::max(0.5 * least, (0.5 + room) * (high - low));
-    return {middle - half, middle + half, begin, end, unit.empty() ? ReadableUnit{} : readable_unit(largest, unit), true};
+    return {middle - half, middle + half, begin, end, unit.empty() ? ReadableUnit{} : readable_unit(largest, unit),
+            true};
   }
   constexpr double round_off = 1e-9;  // a range as small as that shows nothing but noise
   const double flat = largest > 0.0 ? 0.1 * largest : 1.0;

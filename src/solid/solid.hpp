@@ -44,9 +44,9 @@ class Solid {
   /// One sweep over the cells: f = F(u) = sum over cells of the integral of B^T sigma(B u), small strain, or P dN/dX
   /// with P = F S(E), for the step that ends at u; overwrites f and the history at the end of the step (`end`; empty:
   /// not wanted; it may not be step.history). Returns the energies at its end, and in of_parts those of the cells of
-  /// each part of the case (Model::part_numbers), unless null. f and the energies are not numbers where a cell of finite
-  /// strain is inverted (det F <= 0 at a quadrature point). Threaded in coloured chunks, the same bits for any thread
-  /// count.
+  /// each part of the case (Model::part_numbers), unless null. f and the energies are not numbers where a cell of
+  /// finite strain is inverted (det F <= 0 at a quadrature point). Threaded in coloured chunks, the same bits for any
+  /// thread count.
   SolidEnergies evaluate(std::span<const double> u, const PointStep& step, std::span<double> f, std::span<double> end,
                          std::vector<SolidEnergies>* of_parts = nullptr) const;
   /// The force of `evaluate` alone. Does not allocate.

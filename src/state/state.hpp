@@ -49,10 +49,10 @@ struct Forces {
   std::vector<double> inertia;
   std::vector<SupportForce> supports;  ///< one per entry of Supports::prescribed
   ContactResponse rows;
-  EnergyTerms stored;          ///< energies of the state that are functions of it: stored ones, and plastic
+  EnergyTerms stored;                 ///< energies of the state that are functions of it: stored ones, and plastic
   std::vector<EnergyTerms> of_parts;  ///< by part of the case: of these what its cells have by themselves
-  Momentum total_momentum;     ///< of the state
-  double inertia_power = 0.0;  ///< a . M a
+  Momentum total_momentum;            ///< of the state
+  double inertia_power = 0.0;         ///< a . M a
   friend bool operator==(const Forces&, const Forces&) = default;
 };
 template <class A>

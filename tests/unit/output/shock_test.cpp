@@ -59,7 +59,8 @@ TEST(Shock, HeadInjuryOfAHalfSine) {
     EXPECT_NEAR(injury.end, 0.01 + low * 0.01 / pi, 2e-5) << dt;
   }
   const double x = 0.5 * pi * 0.015 / 0.1;
-  EXPECT_NEAR(head_injury_criterion(half_sine(A, 0.1, 0.0, 1e-5), 1e-5, 0.015).value, exact(0.1, x), 1e-6 * exact(0.1, x));
+  EXPECT_NEAR(head_injury_criterion(half_sine(A, 0.1, 0.0, 1e-5), 1e-5, 0.015).value, exact(0.1, x),
+              1e-6 * exact(0.1, x));
 }
 
 // Along a slanted axis, with a free fall before and a smaller second pulse: 2 A T / pi, and T (1 - 2 asin(0.1) / pi).

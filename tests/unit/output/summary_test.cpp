@@ -32,6 +32,9 @@ Summary sample() {
   s.parts = {{"bar", 0.5, {1, 2, 3}, {-1, -2, -3}}};
   s.stress = {4e8, 1e-4, "bar", 17, {0.5, 0.25, 0.125}, 201};
   s.probes = {{"B", "node 12", {0.1, 0.2, 0.3}}};
+  s.shock = {{"B", "acceleration"}};
+  double number = 0.0;
+  for (const auto& [name, member] : shock_numbers) s.shock[0].*member = number += 1.5;
   s.scheme = {"Newmark beta 0.25 gamma 0.5",
               "CHOLMOD",
               1e-6,
@@ -104,6 +107,10 @@ TEST(Summary, EveryFieldComesBack) {
   EXPECT_EQ(b.stress.cell, 17);
   EXPECT_EQ(b.stress.position, (Vec3{0.5, 0.25, 0.125}));
   EXPECT_EQ(b.stress.instants, 201);
+  ASSERT_EQ(b.shock.size(), 1U);
+  EXPECT_EQ(b.shock[0].probe, "B");
+  EXPECT_EQ(b.shock[0].quantity, "acceleration");
+  for (const auto& [name, member] : shock_numbers) EXPECT_EQ(b.shock[0].*member, a.shock[0].*member) << name;
   ASSERT_EQ(b.probes.size(), 1U);
   EXPECT_EQ(b.probes[0].name, "B");
   EXPECT_EQ(b.probes[0].place, "node 12");

@@ -57,7 +57,9 @@ TEST(GroupSums, HaveTheBitsOfOneRank) {
         holding.each_range([&](std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) known[i] = 1.0;
         });
-        const auto own = [&](std::size_t i) { return std::array{known[i] * value_of(i)[0], known[i] * value_of(i)[1]}; };
+        const auto own = [&](std::size_t i) {
+          return std::array{known[i] * value_of(i)[0], known[i] * value_of(i)[1]};
+        };
         const GroupSums shared(n, 3, shares_of(n));
         EXPECT_EQ(shared.sums<2>(true, own), alone) << n << " on " << count;
         EXPECT_EQ(shared.sums<2>(false, value_of), alone);

@@ -32,10 +32,10 @@ std::string mesh_of_bar() {
       add_face(i, j, 0, 3);
       add_face(i, j, 4, 4);
       for (int k = 0; k < 4; ++k)
-        cells += fmt::format("{} 5 2 {} {} {} {} {} {} {} {} {} {}\n", ++cell, k < 2 ? 1 : 2, k < 2 ? 1 : 2,
-                             number(i, j, k), number(i + 1, j, k), number(i + 1, j + 1, k), number(i, j + 1, k),
-                             number(i, j, k + 1), number(i + 1, j, k + 1), number(i + 1, j + 1, k + 1),
-                             number(i, j + 1, k + 1));
+        cells +=
+            fmt::format("{} 5 2 {} {} {} {} {} {} {} {} {} {}\n", ++cell, k < 2 ? 1 : 2, k < 2 ? 1 : 2, number(i, j, k),
+                        number(i + 1, j, k), number(i + 1, j + 1, k), number(i, j + 1, k), number(i, j, k + 1),
+                        number(i + 1, j, k + 1), number(i + 1, j + 1, k + 1), number(i, j + 1, k + 1));
     }
   return fmt::format(
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n3 1 \"LOW\"\n3 2 \"HIGH\"\n2 3 \"FOOT\"\n2 4 \"HEAD\"\n"
@@ -142,19 +142,17 @@ TEST(PartCurves, AddUpToTheLedgerOfExplicitSteps) {
 
 // Consistent mass, whose rows at the shared nodes reach into both parts, finite strain.
 TEST(PartCurves, AddUpToTheLedgerOfImplicitSteps) {
-  Tables tables = run_bar(
-      bar("law = \"neo_hookean\"\nE = 2.0e3", "law = \"st_venant_kirchhoff\"\nE = 4.0e3", "",
-          std::string(kFloor) + "[scheme]\nkind = \"newmark\"\n[time]\nend = 0.1\nstep = 0.005\n"));
+  Tables tables = run_bar(bar("law = \"neo_hookean\"\nE = 2.0e3", "law = \"st_venant_kirchhoff\"\nE = 4.0e3", "",
+                              std::string(kFloor) + "[scheme]\nkind = \"newmark\"\n[time]\nend = 0.1\nstep = 0.005\n"));
   expect_ledger(tables, {"kinetic_energy", "strain_energy", "momentum_z"});
 }
 
 // Linear bodies, whose energy the ledger has from u.F / 2; cells that are made heavier.
 TEST(PartCurves, AddUpToTheLedgerOfScaledMasses) {
-  Tables tables = run_bar(bar("law = \"linear_elastic\"\nE = 2.0e3", "law = \"linear_elastic\"\nE = 4.0e3",
-                              "formulation = \"full\"",
-                              std::string(kFloor) +
-                                  "[scheme]\nkind = \"central_differences\"\nmass_scaling_step = 0.03\n"
-                                  "mass_scaling_limit = 0.5\n[time]\nend = 0.6\n"));
+  Tables tables = run_bar(
+      bar("law = \"linear_elastic\"\nE = 2.0e3", "law = \"linear_elastic\"\nE = 4.0e3", "formulation = \"full\"",
+          std::string(kFloor) + "[scheme]\nkind = \"central_differences\"\nmass_scaling_step = 0.03\n"
+                                "mass_scaling_limit = 0.5\n[time]\nend = 0.6\n"));
   expect_ledger(tables, {"kinetic_energy", "strain_energy", "momentum_z"});
   // 8 cells of 1.5 at 2 m/s would be 24 J without the mass that was added.
   EXPECT_GT(tables.parts["low.kinetic_energy"].front(), 24.0 * (1.0 + 1e-3));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -334,6 +335,98 @@ TEST(KeyFigures, HaveWhatFiltersLeaveOfPeaks) {
   tables.probes_filtered.reset();
   for (const KeyFigure& figure : key_figures(tables, std::nullopt, units_of("SI")))
     EXPECT_FALSE(figure.title.starts_with("Peak acceleration")) << "of a mesh whose nodes shake";
+}
+
+// One picture for each quantity, the parts in the colours of the view; of many parts the highest.
+TEST(Charts, PartsShareAChartOfEachQuantity) {
+  Tables tables;
+  tables.parts = table_of({{"time", {0, 1}},
+                           {"glass.kinetic_energy", {5, 4}},
+                           {"glass.momentum_z", {-2, 1}},
+                           {"case.kinetic_energy", {0, 0}},
+                           {"case.momentum_z", {0, 3}},
+                           {"foam.kinetic_energy", {7, 2}},
+                           {"foam.momentum_z", {1, 1}}});
+  const auto charts = make_charts(tables, kUnits);
+  const Chart* kinetic = find(charts, "Kinetic energy");
+  ASSERT_NE(kinetic, nullptr);
+  EXPECT_EQ(kinetic->section, "Parts");
+  EXPECT_EQ(kinetic->unit, "mJ");
+  ASSERT_EQ(kinetic->curves.size(), 2U);
+  EXPECT_EQ(kinetic->curves[0].name, "glass");
+  EXPECT_EQ(kinetic->curves[0].colour, std::optional<std::size_t>(0));
+  EXPECT_EQ(kinetic->curves[1].name, "foam");
+  EXPECT_EQ(kinetic->curves[1].colour, std::optional<std::size_t>(2));  // the third part of the case
+  EXPECT_EQ(kinetic->note, "Not drawn, zero or below 1e-9 of the largest: case.");
+  const Chart* momentum = find(charts, "Momentum, z");
+  ASSERT_NE(momentum, nullptr);
+  EXPECT_EQ(momentum->curves.size(), 3U);
+
+  Columns many{{"time", {0, 1}}};
+  for (int p = 0; p < 10; ++p) many.push_back({fmt::format("p{}.kinetic_energy", p), {1.0 + p, 0.5}});
+  const auto shown = make_charts({.parts = table_of(many)}, kUnits);
+  ASSERT_EQ(shown.size(), 1U);
+  for (std::size_t p = 0; p < 10; ++p) EXPECT_EQ(shown[0].curves[p].shown, p >= 2) << p;
+
+  EXPECT_TRUE(make_charts({.parts = table_of({{"time", {0, 1}}, {"all.kinetic_energy", {1, 2}}})}, kUnits).empty());
+}
+
+TEST(KeyFigures, LargestValuesOfParts) {
+  const CsvTable table = table_of({{"time", {0, 1, 2}},
+                                   {"glass.kinetic_energy", {5, 4, 6}},
+                                   {"glass.plastic_energy", {0, 0, 0}},
+                                   {"glass.momentum_x", {-3, 1, 0}},
+                                   {"glass.momentum_y", {4, 1, 0}},
+                                   {"foam.kinetic_energy", {0, 0, 0}},
+                                   {"foam.plastic_energy", {0, 0, 0}},
+                                   {"foam.momentum_x", {0, 1, 0}},
+                                   {"foam.momentum_y", {0, 0, 0}}});
+  const PartValues largest = largest_of_parts(table, units_of("SI"));
+  EXPECT_EQ(largest.parts, (std::vector<std::string>{"glass", "foam"}));
+  EXPECT_EQ(largest.quantities, (std::vector<std::string>{"kinetic energy", "momentum"}));
+  EXPECT_EQ(largest.values[0][0].value, "6 J");
+  EXPECT_EQ(largest.values[0][0].time, "2 s");
+  EXPECT_EQ(largest.values[0][1].value, "5 kg m/s");
+  EXPECT_EQ(largest.values[1][0].value, "–");
+  EXPECT_EQ(largest.values[1][1].time, "1 s");
+}
+
+// In milliseconds and millimetres: frequencies in kHz, 1 g = 9.80665e-3 mm/ms^2.
+TEST(KeyFigures, ShockIsSaidAndItsSpectrumDrawn) {
+  Summary summary;
+  ShockSummary shock{"head", "acceleration", 1000.0, 10.0};
+  shock.hic15 = 250.0;
+  shock.hic15_begin = 1.0;
+  shock.hic15_end = 5.0;
+  shock.hic36 = 300.0;
+  shock.hic36_end = 20.0;
+  shock.peak_g = 120.0;
+  shock.pulse_begin = 1.0;
+  shock.pulse_end = 7.5;
+  shock.velocity_change = 4.0;
+  summary.shock = {shock};
+  const Units units = units_of("mm-kg-ms");
+  const std::vector<KeyFigure> figures = key_figures({}, summary, units);
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_EQ(figures[0].title, "HIC15, head");
+  EXPECT_EQ(figures[0].value, "250");
+  EXPECT_EQ(figures[0].remark, "from 1 ms to 5 ms; HIC36 300, from 0 ms to 20 ms; CFC 1000");
+  EXPECT_EQ(figures[1].title, "Shock pulse, head");
+  EXPECT_EQ(figures[1].value, "6.5 ms");
+  EXPECT_EQ(figures[1].remark, "above a tenth of its peak of 120 g; velocity change 4 mm/ms; CFC 1000");
+  CsvTable table = table_of({{"frequency", {0.01, 0.1, 1.0}},
+                             {"head.acceleration_x", {0, 0, 0}},
+                             {"head.acceleration_y", {9.80665e-3, 9.80665e-2, std::nan("")}},
+                             {"head.acceleration_z", {9.80665e-6, 0, 0}}});
+  const std::vector<XyPlot> plots = spectrum_plots(table, summary, units);
+  ASSERT_EQ(plots.size(), 1U);
+  EXPECT_EQ(plots[0].title, "head · Q = 10, CFC 1000: y");  // the others are nothing beside it
+  ASSERT_EQ(plots[0].curves.size(), 1U);
+  ASSERT_EQ(plots[0].curves[0].x.size(), 2U);
+  EXPECT_DOUBLE_EQ(plots[0].curves[0].x[1], 100.0);
+  EXPECT_NEAR(plots[0].curves[0].y[1], 10.0, 1e-12);
+  const std::string html = xy_plot(plots[0]);
+  EXPECT_NE(html.find(">100</text>"), std::string::npos) << html;  // ticks of a logarithmic axis
 }
 
 }  // namespace
