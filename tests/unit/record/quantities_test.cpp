@@ -436,6 +436,12 @@ TEST(Quantities, WhatACaseDoesNotHaveIsRefused) {
   says(probe(foot, "kinetic_energy"), "\"kinetic_energy\" without a part");
   says(probe(body, "displacement"), "\"displacement\" of a part");
   says(probe("part = \"bode\"", "mass"), "Did you mean \"body\"?");
+  says(probe(body, "distortion_energy"), "distortion_energy of \"body\", which nothing in this case has");
+  says(probe(foot, "displacement") + "shock = true\n",
+       "found shock without an acceleration; expected \"acceleration\" or \"local_acceleration\" among the quantities");
+  says(probe(foot, "acceleration") + "quality_factor = 5\n",
+       "found a quality factor without shock; expected shock = true beside it");
+  EXPECT_EQ(message_of(probe(foot, "acceleration") + "shock = true\nquality_factor = 5\n"), "");
   EXPECT_EQ(message_of(probe(body, "mass")), "");
 }
 
