@@ -147,6 +147,7 @@ NodePatches make_node_patches(const Model& model, const SolidCells& solid, const
       const std::vector<const Patch*> equal(order.begin() + static_cast<std::ptrdiff_t>(begin),
                                             order.begin() + static_cast<std::ptrdiff_t>(end));
       Block block = patch_block(part, equal, table, solid);
+      block.part = nodal.part;
       block.first = static_cast<Index>(out.cells.size());
       block.history_first = history;
       history += block.history_size();

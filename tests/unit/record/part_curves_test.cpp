@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -15,8 +16,11 @@ namespace {
 
 using namespace test;
 
-/// A bar of 2 x 2 x 4 unit cells (Gmsh 2.2), whose halves LOW and HIGH share the nodes at z = 2; faces FOOT and HEAD.
-std::string mesh_of_bar() {
+enum class Cells : std::uint8_t { hexa, tetra };
+
+/// A bar of 2 x 2 x 4 unit cubes (Gmsh 2.2), whose halves LOW and HIGH share the nodes at z = 2; faces FOOT and HEAD of
+/// hexahedra. Tetrahedra: six to a cube, along the ways over its edges from corner to corner (H. W. Kuhn, 1960).
+std::string mesh_of_bar(Cells type) {
   std::string nodes, cells;
   int node = 0, cell = 0;
   const auto number = [](int i, int j, int k) { return 1 + i + 3 * (j + 3 * k); };
@@ -29,6 +33,21 @@ std::string mesh_of_bar() {
   };
   for (int j = 0; j < 2; ++j)
     for (int i = 0; i < 2; ++i) {
+      if (type == Cells::tetra) {
+        for (int k = 0; k < 4; ++k) {
+          std::array<int, 3> way{0, 1, 2};
+          do {
+            std::array<int, 3> at{i, j, k};
+            cells += fmt::format("{} 4 2 {} {} {}", ++cell, k < 2 ? 1 : 2, k < 2 ? 1 : 2, number(i, j, k));
+            for (const int axis : way) {
+              ++at.at(static_cast<std::size_t>(axis));
+              cells += fmt::format(" {}", number(at[0], at[1], at[2]));
+            }
+            cells += "\n";
+          } while (std::next_permutation(way.begin(), way.end()));
+        }
+        continue;
+      }
       add_face(i, j, 0, 3);
       add_face(i, j, 4, 4);
       for (int k = 0; k < 4; ++k)
@@ -75,9 +94,9 @@ struct Tables {
   Columns parts, energy;
 };
 
-Tables run_bar(const std::string& text) {
+Tables run_bar(const std::string& text, Cells type = Cells::hexa) {
   const TemporaryCase in(text);
-  std::ofstream(in.results().parent_path() / "bar.msh") << mesh_of_bar();
+  std::ofstream(in.results().parent_path() / "bar.msh") << mesh_of_bar(type);
   EXPECT_EQ(in.run(), ExitCode::good) << text << in.result("summary.json");
   return {read_csv(in.result("parts.csv")), read_csv(in.result("energy.csv"))};
 }
@@ -138,6 +157,25 @@ TEST(PartCurves, AddUpToTheLedgerOfExplicitSteps) {
                               std::string(kFloor) + "[scheme]\nkind = \"central_differences\"\n[time]\nend = 0.3\n"));
   expect_ledger(tables, {"kinetic_energy", "strain_energy", "hourglass_energy", "plastic_energy", "viscous_loss",
                          "momentum_x", "momentum_z"});
+}
+
+// Cells that are integrated at the nodes, whose energies are those of patches.
+TEST(PartCurves, AddUpToTheLedgerOfNodalParts) {
+  Tables tables = run_bar(bar("law = \"j2\"\nE = 2.0e3\nyield_stress = 20.0\nhardening_modulus = 200.0",
+                              "law = \"j2\"\nE = 4.0e3\nyield_stress = 25.0\nhardening_modulus = 300.0",
+                              "formulation = \"nodal\"", R"([[initial]]
+part = "low"
+velocity_field = ["0", "0", "2 * z"]
+[[initial]]
+part = "high"
+velocity_field = ["0", "0", "2 * z"]
+[scheme]
+kind = "central_differences"
+[time]
+end = 0.3
+)"),
+                          Cells::tetra);
+  expect_ledger(tables, {"kinetic_energy", "strain_energy", "plastic_energy", "momentum_z"});
 }
 
 // Consistent mass, whose rows at the shared nodes reach into both parts, finite strain.
