@@ -59,7 +59,7 @@ std::string rows_warning(const Simulation& s) {
 double row_bytes(const Simulation& s) {
   const RunTables tables(s);
   const std::size_t columns = tables.energy.table().columns.size() + tables.contact.table().columns.size() +
-                              tables.probes.table().columns.size() +
+                              tables.probes.table().columns.size() + tables.parts.table().columns.size() +
                               (tables.exact ? tables.exact->table().columns.size() : 0);
   return 14.0 * static_cast<double>(columns);
 }

@@ -15,7 +15,7 @@ import numpy as np
 import carom
 from python_fixture import PROGRAM, FolderTest, falling_block
 
-TABLES = ("energy.csv", "contact.csv", "probes.csv")
+TABLES = ("energy.csv", "contact.csv", "probes.csv", "parts.csv")
 
 
 def text(path):
@@ -83,7 +83,8 @@ class BitsTest(FolderTest):
 
     def test_result_holds_what_the_files_hold(self):
         result = falling_block().start("out").finish()
-        for table, curves in (("energy", result.energy), ("probes", result.history), ("contact", result.history)):
+        for table, curves in (("energy", result.energy), ("probes", result.history), ("contact", result.history),
+                              ("parts", result.parts)):
             header, *rows = [line.split(",") for line in text(f"out/{table}.csv").splitlines() if line[0] != "#"]
             for name, column in zip(header, np.array(rows, dtype=float).T):
                 np.testing.assert_array_equal(curves[name], column, name)
