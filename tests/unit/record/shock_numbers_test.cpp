@@ -45,7 +45,8 @@ TEST(ShockNumbers, AreThoseOfThePulseInEveryUnitSystem) {
     EXPECT_EQ(shock.cfc, 0.0);
     EXPECT_NEAR(shock.peak_g, 100.0, 1e-4);
     EXPECT_NEAR(shock.time * second, 0.002 + 0.5 * T, 1e-6);
-    EXPECT_NEAR((shock.pulse_end - shock.pulse_begin) * second, T * (1.0 - 2.0 * std::asin(0.1) / std::numbers::pi), 1e-8);
+    EXPECT_NEAR((shock.pulse_end - shock.pulse_begin) * second, T * (1.0 - 2.0 * std::asin(0.1) / std::numbers::pi),
+                1e-8);
     EXPECT_NEAR(shock.velocity_change * speed, 2.0 * A * T / std::numbers::pi, 1e-5);
     EXPECT_NEAR(shock.hic15, 0.41465 * 1e5 * T, 0.01);  // tests/unit/output/shock_test.cpp
     EXPECT_EQ(shock.hic36, shock.hic15);
