@@ -12,5 +12,6 @@ void bind_errors(py::module_& module);
 void bind_cases(py::module_& module);
 void bind_meshes(py::module_& module);
 void bind_runs(py::module_& module);
+void bind_frames(py::module_& module);
 
 }  // namespace carom::python

@@ -9,6 +9,7 @@ PYBIND11_MODULE(_carom, module) {
   carom::python::bind_cases(module);
   carom::python::bind_meshes(module);
   carom::python::bind_runs(module);
+  carom::python::bind_frames(module);
   module.def(
       "version", [] { return carom::version(); }, "Version of Carom.");
   module.def(

@@ -10,9 +10,12 @@
 #include "build/build_mesh.hpp"
 #include "build/initial_state.hpp"
 #include "math/called_function.hpp"
+#include "output/units.hpp"
 #include "python/arrays.hpp"
 #include "python/callables.hpp"
 #include "python/compute.hpp"
+#include "record/contact_at_nodes.hpp"
+#include "record/field_values.hpp"
 
 namespace carom::python {
 
@@ -236,6 +239,68 @@ py::tuple PythonRun::contact() const {
   const CurveTable& table = quiet().watched().recorder.contact();
   return py::make_tuple(py::cast(table.columns),
                         py::array_t<double>(static_cast<py::ssize_t>(table.row.size()), table.row.data()));
+}
+
+std::vector<std::string> PythonRun::fields() const {
+  std::vector<std::string> names = fields_of(*simulation_);
+  if (quiet().watched().recorder.slip().empty()) std::erase(names, "contact_slip");
+  return names;
+}
+
+py::array PythonRun::field(const std::string& name) {
+  const Busy busy(is_busy_);
+  const FieldKind kind = field_kind(*simulation_, name).value();
+  std::vector<double> values;
+  {
+    const py::gil_scoped_release release;
+    const Computing computing(threads_);
+    const StepView view = run_->march().view();
+    FieldsNow now(*simulation_, view, run_->watched().recorder.slip());
+    const FieldValues found = now.evaluate(name);
+    values.assign(found.values.begin(), found.values.end());
+  }
+  const std::size_t width = components(kind.form);
+  if (kind.is_at_nodes()) values.resize(width * given_nodes(simulation_->given(), simulation_->mesh()));
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(values.size() / width)};
+  if (width > 1) shape.push_back(static_cast<py::ssize_t>(width));
+  return py::array_t<double>(shape, values.data());
+}
+
+py::tuple PythonRun::cells() const {
+  const BodyCells& cells = simulation_->solid().cells();
+  std::vector<Index> blocks, rows, parts;
+  for (const CellRef& cell : cells) {
+    blocks.push_back(cell.block);
+    rows.push_back(cell.cell);
+  }
+  const std::vector<Index> numbers = simulation_->model().part_numbers();
+  for (std::size_t p = 0; p < numbers.size(); ++p)
+    parts.insert(parts.end(), simulation_->model().parts[p].cells.size(), numbers[p]);
+  const auto array = [](const std::vector<Index>& x) {
+    return py::array_t<Index>(static_cast<py::ssize_t>(x.size()), x.data());
+  };
+  return py::make_tuple(array(blocks), array(rows), array(parts));
+}
+
+std::string PythonRun::units() const {
+  return units_comment(units_of(name(simulation_->given().units)));
+}
+
+std::vector<std::string> PythonRun::contact_names() const {
+  std::vector<std::string> names;
+  for (const ContactDefinition& contact : simulation_->model().contacts) names.push_back(name_of(contact));
+  return names;
+}
+
+py::tuple PythonRun::contact_at_nodes(const std::string& name) {
+  const Busy busy(is_busy_);
+  const std::vector<std::string> names = contact_names();
+  const auto contact = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+  NodalForces found = carom::contact_at_nodes(*simulation_, run_->march().view(), contact);
+  const auto given = static_cast<Index>(given_nodes(simulation_->given(), simulation_->mesh()));
+  const auto count = std::ranges::lower_bound(found.nodes, given) - found.nodes.begin();
+  return py::make_tuple(py::array_t<Index>(count, found.nodes.data()),
+                        py::array_t<double>({count, py::ssize_t{3}}, found.force.data()->data()));
 }
 
 }  // namespace carom::python

@@ -57,6 +57,17 @@ class PythonRun {
   py::tuple table(std::size_t which) const;
   /// What contact.csv says of this instant.
   py::tuple contact() const;
+  /// Names of the fields that can be asked for, and of contact_slip where the case asks for it.
+  std::vector<std::string> fields() const;
+  /// A field of this instant, a row for each node of the mesh or each cell. Precondition: one of fields().
+  py::array field(const std::string& name);
+  /// Block, position in it and part of each cell, in the order of fields.
+  py::tuple cells() const;
+  /// The comment of tables that names the units.
+  std::string units() const;
+  std::vector<std::string> contact_names() const;
+  /// What a contact exerts on nodes of the mesh: nodes, forces. Precondition: one of contact_names().
+  py::tuple contact_at_nodes(const std::string& name);
 
  private:
   /// What arrays look at: the state's own vector, or, once the run has stepped, what it was.

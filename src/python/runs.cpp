@@ -47,6 +47,12 @@ void bind_runs(py::module_& module) {
       .def("_close", &PythonRun::close, py::arg("folder"))
       .def("_table", &PythonRun::table, py::arg("which"))
       .def("_contact", &PythonRun::contact)
+      .def("_fields", &PythonRun::fields)
+      .def("_field", &PythonRun::field, py::arg("name"))
+      .def("_cells", &PythonRun::cells)
+      .def("_units", &PythonRun::units)
+      .def("_contact_names", &PythonRun::contact_names)
+      .def("_contact_at_nodes", &PythonRun::contact_at_nodes, py::arg("name"))
       .def("_mesh", [](const PythonRun& run) { return std::const_pointer_cast<Mesh>(run.mesh()); })
       .def(
           "save", [](PythonRun& run) { return std::const_pointer_cast<Snapshot>(run.save()); },

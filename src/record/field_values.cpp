@@ -206,6 +206,16 @@ const NodalContact& FieldsNow::contact() {
   return *contact_;
 }
 
+std::vector<std::string> fields_of(const Simulation& simulation) {
+  std::vector<std::string> names;
+  for (const Evaluator& evaluator : evaluators)
+    if (evaluator.is_there(simulation)) names.emplace_back(evaluator.name);
+  for (const Part& part : simulation.model().parts)
+    for (std::string& variable : part.material.history())
+      if (std::ranges::find(names, variable) == names.end()) names.push_back(std::move(variable));
+  return names;
+}
+
 std::vector<std::string_view> evaluated_fields() {
   std::vector<std::string_view> names;
   for (const Evaluator& evaluator : evaluators) names.push_back(evaluator.name);

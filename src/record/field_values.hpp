@@ -69,6 +69,8 @@ class FieldsNow {
   std::optional<NodalContact> contact_;
 };
 
+/// The fields that this case has, in the order of the table, what its laws remember last.
+std::vector<std::string> fields_of(const Simulation& simulation);
 /// Names of the fields that can be evaluated; those of points join by themselves.
 std::vector<std::string_view> evaluated_fields();
 

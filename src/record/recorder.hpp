@@ -77,6 +77,8 @@ class Recorder : public Observer {
   std::vector<KeptTable> kept() const;
   /// What contact.csv says of this instant.
   const CurveTable& contact() const { return tables_.contact.table(); }
+  /// Of contact_slip, by node; empty where the case does not ask for it.
+  std::span<const double> slip() const { return slip_.path(); }
   /// The rows, for snapshots.
   template <class A>
   friend void rows(A& archive, Recorder& x) {

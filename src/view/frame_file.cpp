@@ -118,13 +118,17 @@ StoredArray::StoredArray(std::string its_name, int width, Type its_type, std::si
                          std::function<std::vector<std::byte>()> read)
     : name(std::move(its_name)), components(width), type(its_type), entries_(entries), read_(std::move(read)) {}
 
-double StoredArray::at(std::size_t entry, std::size_t component) const {
-  if (read_ && !kept_.is_there) {
+std::span<const std::byte> StoredArray::bytes() const {
+  if (!read_) return bytes_;
+  if (!kept_.is_there) {
     kept_.bytes = read_();
     kept_.is_there = true;
   }
-  const std::byte* from = (read_ ? kept_.bytes.data() : bytes_.data()) +
-                          (entry * static_cast<std::size_t>(components) + component) * size_of(type);
+  return kept_.bytes;
+}
+
+double StoredArray::at(std::size_t entry, std::size_t component) const {
+  const std::byte* from = bytes().data() + (entry * static_cast<std::size_t>(components) + component) * size_of(type);
   switch (type) {
     case Type::float32:
       return static_cast<double>(read_as<float>(from));

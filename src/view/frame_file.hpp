@@ -34,6 +34,8 @@ class StoredArray {
 
   std::size_t entries() const { return entries_; }
   double at(std::size_t entry, std::size_t component = 0) const;
+  /// All values as they are stored, entry after entry.
+  std::span<const std::byte> bytes() const;
 
  private:
   std::size_t entries_ = 0;

@@ -14,10 +14,12 @@ _environment.warn_of_kernels()
 from carom.case import Case, Check, load
 from carom.curves import ContactState, Curves
 from carom.errors import CaseError, CheckpointError, Error, OutputError, RunError
+from carom.fields import Cells, FieldKind, Frames, NodalForces, read_frames
 from carom.mesh import Mesh, read_mesh
 from carom.result import Result
 from carom.run import Run, resume
 
 __version__ = version()
-__all__ = ["Case", "CaseError", "Check", "CheckpointError", "ContactState", "Curves", "Error", "Mesh", "OutputError",
-           "Result", "Run", "RunError", "Snapshot", "load", "read_mesh", "resume", "version"]
+__all__ = ["Case", "CaseError", "Cells", "Check", "CheckpointError", "ContactState", "Curves", "Error", "FieldKind",
+           "Frames", "Mesh", "NodalForces", "OutputError", "Result", "Run", "RunError", "Snapshot", "load", "read_frames",
+           "read_mesh", "resume", "version"]

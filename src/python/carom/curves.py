@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from carom import _carom
+from carom._optional import needed
 
 
 class Curves(Mapping[str, NDArray[np.float64]]):
@@ -15,16 +19,29 @@ class Curves(Mapping[str, NDArray[np.float64]]):
     A mapping from names to arrays of one length, in the case's units. The arrays are copies: they stay as they are.
     """
 
-    def __init__(self, columns: list[str], rows: NDArray[np.float64]) -> None:
-        """columns: the names; rows: (steps, columns)."""
+    def __init__(self, columns: list[str], rows: NDArray[np.float64], units: str = "") -> None:
+        """columns: the names; rows: (steps, columns); units: the comment of tables that names them."""
         self._at = {name: i for i, name in enumerate(columns)}
-        self._rows = rows
+        self._rows, self._units = rows, units
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """The column of this name. Raises KeyError, which lists the names there are."""
         if name not in self._at:
             raise KeyError(f"{name}; there are {', '.join(self._at)}")
         return self._rows[:, self._at[name]]
+
+    def unit(self, name: str) -> str:
+        """The unit of a column, "" where it has none. Raises KeyError."""
+        self[name]
+        return _carom.unit_of_column(name, self._units)
+
+    def to_pandas(self) -> Any:
+        """As a pandas.DataFrame whose index is the time (where the first column is that); `attrs["units"]` has the units
+        of the columns. Raises ImportError where pandas is not installed."""
+        pandas = needed("pandas", "to_pandas", "apt install python3-pandas")
+        frame = pandas.DataFrame(self._rows.copy(), columns=list(self._at))
+        frame.attrs["units"] = {name: self.unit(name) for name in self}
+        return frame.set_index("time") if "time" in self._at else frame
 
     def __iter__(self) -> Iterator[str]:
         """The names."""

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom import _carom
+from carom._optional import needed
 
 _MESHIO = {"point1": "vertex", "line2": "line", "line3": "line3", "tria3": "triangle", "tria6": "triangle6",
            "quad4": "quad", "quad8": "quad8", "quad9": "quad9", "tetra4": "tetra", "tetra10": "tetra10",
@@ -81,10 +82,7 @@ class Mesh:
 
     def to_meshio(self, **point_data: ArrayLike) -> Any:
         """As a meshio.Mesh, with arrays over the points by name. Raises ImportError where meshio is not installed."""
-        try:
-            import meshio
-        except ImportError as error:
-            raise ImportError("to_meshio needs meshio, which is not installed (Debian: python3-meshio)") from error
+        meshio = needed("meshio", "to_meshio", "apt install python3-meshio")
         return meshio.Mesh(self.points, [(_MESHIO[name], rows) for name, rows in self.cells.items()],
                            point_data={name: np.asarray(values) for name, values in point_data.items()},
                            point_sets={name: np.asarray(rows) for name, rows in self.node_groups.items()},
@@ -118,10 +116,7 @@ class Mesh:
     def to_pyvista(self, **point_data: ArrayLike) -> Any:
         """As a pyvista.UnstructuredGrid, with arrays over the points by name. Raises ImportError where PyVista is not
         installed."""
-        try:
-            import pyvista
-        except ImportError as error:
-            raise ImportError("to_pyvista needs PyVista, which is not installed (Debian 12 has no package of it)") from error
+        pyvista = needed("pyvista", "to_pyvista", "Debian 12 has no package of it")
         grid = pyvista.UnstructuredGrid({_VTK[name]: rows for name, rows in self.cells.items()}, self.points)
         for name, values in point_data.items():
             grid.point_data[name] = np.asarray(values)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carom import _carom
 from carom.curves import ContactState, Curves, contact_states
+from carom.fields import Cells, FieldKind, Frames, NodalForces, _cells_of, _field_kind, _KeptFrames, _unknown
 from carom.mesh import Mesh
 from carom.result import Result
 
@@ -82,6 +84,60 @@ class Run(_carom.RunBase):
         nodes = len(self.displacement)
         return Mesh._of(data, nodes)
 
+    @property
+    def node_numbers(self) -> NDArray[np.int64]:
+        """(nodes,), the numbers of the nodes in the mesh file."""
+        return self._mesh().node_numbers[:len(self.displacement)]
+
+    @property
+    def cells(self) -> Cells:
+        """The cells that the rows of fields belong to: part by part, not as in `mesh.cells`."""
+        return _cells_of(self._mesh(), *self._cells())
+
+    @property
+    def fields(self) -> dict[str, FieldKind]:
+        """The fields that `field` can be asked for, with place, components, unit and meaning. `contact_slip`, which is a
+        sum over the steps, is there where the case asks for it in `output.fields` or in a probe."""
+        return {name: _field_kind(name, self._units()) for name in self._fields()}
+
+    def field(self, name: str) -> NDArray[np.float64]:
+        """A field of docs/quantities.md at the end of the last step: (nodes,) or (cells,), and (..., components) where it
+        has several, x y z of vectors, xx yy zz xy yz zx of tensors; in the case's units (`fields[name].unit`). Rows of
+        nodes are those of `mesh.points`, rows of cells those of `cells`. It is evaluated for the whole mesh, with 64
+        bits; nothing of it is kept. Raises KeyError, which lists the fields there are."""
+        if name not in self._fields():
+            remedy = "; contact_slip wants to be in output.fields of the case" if name == "contact_slip" else ""
+            raise _unknown("field", name, self._fields(), remedy)
+        return self._field(name)
+
+    @property
+    def stress(self) -> NDArray[np.float64]:
+        """Cauchy stress of each cell, the mean over its reference volume: (cells, 6), xx yy zz xy yz zx, in the case's unit
+        of stress; rows as in `cells`. The same as `field("stress")`."""
+        return self.field("stress")
+
+    def contact_force(self, name: str) -> NodalForces:
+        """What one contact exerts on the nodes of the bodies at the end of the last step, node by node: rows of
+        `mesh.points`, numbers in the mesh file, and forces of (n, 3), x y z, in the case's unit of force. Nodes of both
+        sides are there; over those of the contact's group the forces add up to `contact[name].force`, over both sides
+        of a pair to nothing. Nodes of rigid bodies have none, their forces act on the body. Raises KeyError, which lists
+        the contacts."""
+        if name not in self._contact_names():
+            raise _unknown("contact", name, self._contact_names())
+        nodes, force = self._contact_at_nodes(name)
+        return NodalForces(nodes, self.node_numbers[nodes], force)
+
+    def record(self, names: Sequence[str], every: int = 1) -> Frames:
+        """Keeps fields in memory: this instant, every `every`-th step from now on, and the last. Frames that a `restore`
+        takes back go. They take 8 bytes a value. Raises KeyError for a field that the run does not have."""
+        kinds = self.fields
+        for name in names:
+            self.field(name)
+        kept = _KeptFrames(names)
+        kept(self)
+        self.observe(kept, every)
+        return Frames(kept, {name: kinds[name] for name in names}, self.mesh, self.cells, self.node_numbers)
+
     def finish(self, folder: str | os.PathLike[str] | None = None) -> Result:
         """Steps to the end of the case, closes the run and judges it.
 
@@ -112,7 +168,7 @@ def _joined(run: Run, *tables: int) -> Curves:
             continue
         rows.append(values[:, 1:] if columns else values)
         columns += names[1:] if columns else names
-    return Curves(columns, np.hstack(rows) if rows else np.empty((0, 0)))
+    return Curves(columns, np.hstack(rows) if rows else np.empty((0, 0)), run._units())
 
 
 def resume(folder: str | os.PathLike[str], end: float | None = None, threads: int = 0) -> Run:
