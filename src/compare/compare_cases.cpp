@@ -3,18 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "base/errors.hpp"
-#include "casefile/read_case.hpp"
 #include "compare/jobs.hpp"
 #include "compare/page.hpp"
-#include "compare/tables.hpp"
-#include "compare/variant.hpp"
 #include "output/file_writer.hpp"
 
 namespace carom::compare {
@@ -44,7 +43,11 @@ Job prepare(const Settings& settings, const Variant& variant) {
   if (error) throw OutputError(folder, error.message());
   fs::remove(folder + "/summary.json", error);
   write_file(file, variant.case_text);
-  return {{settings.program, "run", file, "--out", folder, "--threads", "1", "--quiet"}, log_of(settings, variant)};
+  std::vector<std::string> arguments = settings.program;
+  for (const std::string& argument :
+       std::array<std::string, 7>{"run", file, "--out", folder, "--threads", "1", "--quiet"})
+    arguments.push_back(argument);
+  return {std::move(arguments), log_of(settings, variant)};
 }
 
 std::vector<Result> run_all(const std::vector<Variant>& variants, const Settings& settings,
@@ -60,7 +63,7 @@ std::vector<Result> run_all(const std::vector<Variant>& variants, const Settings
   std::size_t done = 0;
   const auto finished = [&](std::size_t job, int) {
     ++done;
-    if (!settings.quiet) fmt::print(stderr, "{} of {}: {}\n", done, jobs.size(), variants[variant_of[job]].label);
+    if (settings.finished) settings.finished(done, jobs.size(), variants[variant_of[job]].label);
   };
   const ExitCodes codes = run_jobs(jobs, settings.jobs > 0 ? settings.jobs : cores, stop, finished);
   std::vector<Result> results(variants.size());
@@ -86,16 +89,18 @@ void require_one_allowed(const std::vector<Variant>& variants, const std::string
 
 }  // namespace
 
-ExitCode compare_cases(const std::string& case_file, const Options& options, const Settings& settings,
-                       const std::atomic<bool>& stop) {
-  const Base base = read_base(case_file);
-  const Case given = read_case(case_file);
-  const std::vector<Variant> variants = make_variants(base, options, settings.folder + "/variants");
-  require_one_allowed(variants, case_file);
+std::vector<Variant> variants_in(const std::string& folder, const Base& base, const Options& options) {
+  std::vector<Variant> variants = make_variants(base, options, folder + "/variants");
+  require_one_allowed(variants, base.file);
+  return variants;
+}
+
+Comparison compare_variants(const Base& base, const std::string& case_text, const std::vector<Variant>& variants,
+                            const Options& options, const Settings& settings, const std::atomic<bool>& stop) {
   Comparison comparison;
-  comparison.file = case_file;
-  comparison.title = given.title.empty() ? case_file : given.title;
-  comparison.units = std::string(name(given.units));
+  comparison.file = base.file;
+  comparison.title = base.title;
+  comparison.units = base.units;
   comparison.common = label_of(common_choice(options));
   comparison.results = run_all(variants, settings, stop);
   comparison.reference = measure(comparison.results, options.reference);
@@ -105,11 +110,23 @@ ExitCode compare_cases(const std::string& case_file, const Options& options, con
       recommend(comparison.results, comparison.quantity, comparison.reference, comparison.claims);
   write_file(settings.folder + "/compare.csv", csv_table(comparison));
   write_file(settings.folder + "/compare.json", json_table(comparison));
-  write_file(settings.folder + "/compare.html", make_page(comparison, read_text(case_file)));
-  if (!settings.quiet) {
+  write_file(settings.folder + "/compare.html", make_page(comparison, case_text));
+  return comparison;
+}
+
+ExitCode compare_cases(const std::string& case_file, const Options& options, Settings settings, const Shown& shown,
+                       const std::atomic<bool>& stop) {
+  const Base base = read_base(case_file);
+  const std::vector<Variant> variants = variants_in(settings.folder, base, options);
+  if (!shown.quiet)
+    settings.finished = [](std::size_t done, std::size_t all, const std::string& label) {
+      fmt::print(stderr, "{} of {}: {}\n", done, all, label);
+    };
+  const Comparison comparison = compare_variants(base, read_text(case_file), variants, options, settings, stop);
+  if (!shown.quiet) {
     // A table that goes into another document stands alone on stdout.
-    const bool is_alone = !settings.format.empty() && settings.format != table_formats().front();
-    fmt::print("{}", format_table(variants_table(comparison), settings.format));
+    const bool is_alone = !shown.format.empty() && shown.format != table_formats().front();
+    fmt::print("{}", format_table(variants_table(comparison), shown.format));
     fmt::print(is_alone ? stderr : stdout, "{}", remarks_text(comparison));
     fmt::print(stderr, "results in {0}, open {0}/compare.html\n", settings.folder);
   }

@@ -226,13 +226,23 @@ std::string finished(const Variant& v, const Base& base, const std::string& fold
 
 }  // namespace
 
+Base base_of(Node root, const std::string& file) {
+  const Case read = case_of(root, file);
+  const int cells = cells_of(root);
+  return {file,
+          std::move(root),
+          *read.time.end,
+          cells,
+          read.mesh.refine,
+          read.title.empty() ? file : read.title,
+          std::string(name(read.units))};
+}
+
 Base read_base(const std::string& file) {
-  const Case read = read_case(file);
+  read_case(file);  // says what is wrong with the file itself
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  Node root = read_toml(text, file);
-  const int cells = cells_of(root);
-  return {file, std::move(root), *read.time.end, cells, read.mesh.refine};
+  return base_of(read_toml(text, file), file);
 }
 
 std::vector<Variant> make_variants(const Base& base, const Options& options, const std::string& folder) {

@@ -16,9 +16,12 @@ struct Base {
   double end{};    ///< time.end
   int cells = 0;   ///< along the longest edge of the first block; 0 for mesh files
   int refine = 0;  ///< mesh.refine
+  std::string title{}, units{};
 };
 
-/// Reads and checks the case. Throws CaseError.
+/// Checks the case, whose files are looked for beside `file`. Throws CaseError.
+Base base_of(Node root, const std::string& file);
+/// Reads it as well.
 Base read_base(const std::string& file);
 
 /// One case of the matrix.
@@ -36,8 +39,7 @@ struct Variant {
 
 /// The variants of all combinations, in their order; combinations that come to the same case are kept once.
 ///
-/// /// Changes: `scheme` and `enforcement` set these keys of [scheme] (edit.hpp, set_scheme); `stiffness` is set in
-/// every
+/// Changes: `scheme` and `enforcement` set these keys of [scheme] (edit.hpp, set_scheme); `stiffness` is set in every
 /// [[contact]], and left out with a note where the enforcement uses none; `cells`: set_cells; `courant` sets time.step
 /// to the largest step that divides the end and does not exceed courant x element_step. Without `courant` steps that
 /// the case gives are scaled as element_step; a scheme that needs one where the case has none gets Courant number 1.

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "base/errors.hpp"
-#include "driver/measured_curve.hpp"
 #include "output/csv.hpp"
 #include "output/file_writer.hpp"
 #include "output/readable_unit.hpp"
@@ -26,19 +25,9 @@ struct Figure {
   std::string title, value, remark;
 };
 
-/// All that the page shows.
-struct Drive {
-  const Case& given;
-  const CasePart& part;
-  Material material;
-  MaterialPath path;
-  MaterialCurve curve;
-  std::optional<MeasuredCurve> measured;
-  std::string description;
-
-  std::vector<double> column(const std::string& name) const { return curve.column(name); }
-  Units units() const { return units_of(name(given.units)); }
-};
+Units units_of(const MaterialDrive& drive) {
+  return carom::units_of(name(drive.given.units));
+}
 
 std::string describe(const PathRequest& request, PathKind kind) {
   if (kind == PathKind::table) return "the deformations of " + request.path;
@@ -57,7 +46,7 @@ void check_section(const CasePart& part, PathKind kind) {
 }
 
 /// The first point at which something has been dissipated.
-std::optional<std::size_t> first_yield(const Drive& drive) {
+std::optional<std::size_t> first_yield(const MaterialDrive& drive) {
   const std::vector<double> work = drive.column("dissipation");
   const auto it = std::find_if(work.begin(), work.end(), [](double w) { return w > 0.0; });
   if (it == work.end()) return std::nullopt;
@@ -69,21 +58,21 @@ const char* measured_stress(PathKind kind) {
   return kind == PathKind::simple_shear ? "stress_xy" : "stress_xx";
 }
 
-Figure off_measured(const Drive& drive) {
+Figure off_measured(const MaterialDrive& drive) {
   const std::vector<double>& stress = drive.measured->stress;
-  const double rms = rms_difference(*drive.measured, drive.path.strain, drive.column(measured_stress(drive.path.kind)));
+  const double rms = drive.rms_off_measured();
   if (!std::isfinite(rms))
     return {"Off the measured curve", "not comparable", "no measured point lies on the first branch of the path"};
   double largest = 0.0;
   for (const double value : stress) largest = std::max(largest, std::abs(value));
-  return {"Off the measured curve", with_readable_unit(rms, drive.units().stress, 3),
+  return {"Off the measured curve", with_readable_unit(rms, units_of(drive).stress, 3),
           largest > 0.0
               ? fmt::format("root mean square, {:.2g} % of the largest measured stress", 100.0 * rms / largest)
               : "root mean square"};
 }
 
-std::vector<Figure> figures_of(const Drive& drive) {
-  const std::string stress = drive.units().stress;  // also that of energy per volume
+std::vector<Figure> figures_of(const MaterialDrive& drive) {
+  const std::string stress = units_of(drive).stress;  // also that of energy per volume
   const std::vector<double> mises = drive.column("von_mises");
   std::vector<Figure> figures;
   if (const auto yield = first_yield(drive)) {
@@ -108,7 +97,7 @@ std::vector<Figure> figures_of(const Drive& drive) {
   return figures;
 }
 
-std::string header(const Drive& drive) {
+std::string header(const MaterialDrive& drive) {
   return fmt::format(
       "<header>\n<p class=\"kicker\">Carom · a law on a path</p>\n<h1>{}: {}</h1>\n"
       "<div class=\"banner unchecked\" role=\"status\"><strong>{}</strong><span>{}</span></div>\n</header>\n",
@@ -125,14 +114,14 @@ std::string figures_list(const std::vector<Figure>& figures) {
 }
 
 /// Stress over strain: what a test would measure.
-std::string stress_over_strain(const Drive& drive) {
+std::string stress_over_strain(const MaterialDrive& drive) {
   if (drive.path.strain.empty()) return "";
   const bool is_shear = drive.path.kind == PathKind::simple_shear;
   XyPlot plot{"Cauchy stress over strain",
               is_shear ? "shear gamma" : "engineering strain l / l0 - 1",
               "stress",
               "",
-              drive.units().stress,
+              units_of(drive).stress,
               {}};
   plot.curves.push_back({is_shear ? "xy" : "xx", drive.path.strain, drive.column(measured_stress(drive.path.kind))});
   if (drive.measured) plot.curves.push_back({"measured", drive.measured->strain, drive.measured->stress, true});
@@ -141,7 +130,7 @@ std::string stress_over_strain(const Drive& drive) {
 
 class Charts {
  public:
-  explicit Charts(const Drive& drive) : drive_(drive) {}
+  explicit Charts(const MaterialDrive& drive) : drive_(drive) {}
 
   void add(const std::string& section, const std::string& title, const std::string& label, const std::string& unit,
            const std::vector<std::string>& columns) {
@@ -162,12 +151,12 @@ class Charts {
   std::vector<Chart> take() { return std::move(charts_); }
 
  private:
-  const Drive& drive_;
+  const MaterialDrive& drive_;
   std::vector<Chart> charts_;
 };
 
-std::vector<Chart> charts_of(const Drive& drive) {
-  const std::string stress = drive.units().stress;
+std::vector<Chart> charts_of(const MaterialDrive& drive) {
+  const std::string stress = units_of(drive).stress;
   Charts charts(drive);
   charts.add("Over time", "Cauchy stress", "stress", stress,
              {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx", "von_mises"});
@@ -177,7 +166,7 @@ std::vector<Chart> charts_of(const Drive& drive) {
   return charts.take();
 }
 
-std::string law_table(const Drive& drive) {
+std::string law_table(const MaterialDrive& drive) {
   std::vector<TableRow> rows;
   const auto add = [&rows](const std::string& key, const std::string& value, std::string_view unit,
                            const std::string& meaning) {
@@ -198,19 +187,19 @@ std::string law_table(const Drive& drive) {
                      html_table({{"Key"}, {"Value", true}, {"Unit"}, {"Meaning"}}, rows));
 }
 
-void write_table(const Drive& drive, const std::string& path) {
+void write_table(const MaterialDrive& drive, const std::string& path) {
   CsvFile file(path, drive.curve.columns,
                {fmt::format("{}: law {} on {}", *drive.part.name, drive.material.law->name, drive.description),
-                units_comment(drive.units())});
+                units_comment(units_of(drive))});
   for (const std::vector<double>& row : drive.curve.rows) file.append(row);
   file.close();
 }
 
-std::string page_of(const Drive& drive, const std::vector<Figure>& figures) {
+std::string page_of(const MaterialDrive& drive, const std::vector<Figure>& figures) {
   const std::vector<Chart> charts = charts_of(drive);
   const std::string content =
       header(drive) + figures_list(figures) + stress_over_strain(drive) + chart_figures(charts) + law_table(drive);
-  return html_document(*drive.part.name, content, {charts, drive.units().time});
+  return html_document(*drive.part.name, content, {charts, units_of(drive).time});
 }
 
 }  // namespace
@@ -225,34 +214,46 @@ const CasePart& part_named(const Case& given, const std::string& name) {
                   fmt::format("the name of a [[part]]: {}", fmt::join(names, ", ")));
 }
 
-std::string drive_material(const Case& given, const std::string& part_name, const PathRequest& request,
-                           const std::string& folder) {
+double MaterialDrive::rms_off_measured() const {
+  return rms_difference(*measured, path.strain, column(measured_stress(path.kind)));
+}
+
+MaterialDrive follow_material(const Case& given, const std::string& part_name, const PathRequest& request) {
   const CasePart& part = part_named(given, part_name);
   MaterialPath path = make_path(request);
   check_section(part, path.kind);
   const auto material = std::find_if(given.materials.begin(), given.materials.end(),
                                      [&part](const CaseMaterial& m) { return m.name == *part.material; });
-  const Material made = material->made();
+  Material made = material->made();
   MaterialCurve curve = follow(made, free_directions(part.section), path);
   const std::string description = describe(request, path.kind);
-  std::optional<MeasuredCurve> measured;
+  std::optional<MeasuredCurve> measured = request.measured_curve;
   if (!request.measured.empty()) measured = read_measured(request.measured);
   if (measured && path.strain.empty())
     throw CaseError({}, "--measured", "a measured curve beside a table of deformations",
                     "one of the paths uniaxial_stress, uniaxial_strain, simple_shear");
-  const Drive drive{given, part, made, std::move(path), std::move(curve), std::move(measured), description};
+  return {given, part, std::move(made), std::move(path), std::move(curve), std::move(measured), description};
+}
+
+std::string write_material(const MaterialDrive& drive, const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw OutputError(folder, error.message());
-  std::string file_name = *part.name;
+  std::string file_name = *drive.part.name;
   std::replace(file_name.begin(), file_name.end(), '/', '_');
   const std::string base = (std::filesystem::path(folder) / file_name).string();
   write_table(drive, base + ".csv");
   const std::vector<Figure> figures = figures_of(drive);
   write_file(base + ".html", page_of(drive, figures));
-  std::string text = fmt::format("part \"{}\": law {}, {}\n", *part.name, made.law->name, description);
+  std::string text =
+      fmt::format("part \"{}\": law {}, {}\n", *drive.part.name, drive.material.law->name, drive.description);
   for (const Figure& f : figures) text += fmt::format("  {}: {} {}\n", f.title, f.value, f.remark);
   return text + fmt::format("{} points in {}.csv, open {}.html\n", drive.curve.rows.size(), base, base);
+}
+
+std::string drive_material(const Case& given, const std::string& part, const PathRequest& request,
+                           const std::string& folder) {
+  return write_material(follow_material(given, part, request), folder);
 }
 
 }  // namespace carom

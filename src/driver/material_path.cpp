@@ -92,9 +92,8 @@ std::vector<Gradient> gradients(const CsvTable& table, const std::string& file) 
   return F;
 }
 
-MaterialPath tabulated(const std::string& file) {
-  const std::optional<CsvTable> table = read_csv(file);
-  if (!table)
+MaterialPath tabulated(const std::string& file, const CsvTable* table) {
+  if (table == nullptr)
     throw CaseError({}, "--path", fmt::format("\"{}\"", file),
                     fmt::format("one of {}, or a .csv file that is there", fmt::join(path_kinds, ", ")));
   if (!table->damage.empty() || table->rows() == 0 || table->columns.front() != "time")
@@ -169,8 +168,12 @@ std::vector<std::string> columns_of(const std::vector<std::string>& remembered, 
 }  // namespace
 
 MaterialPath make_path(const PathRequest& request) {
+  if (request.table) return tabulated(request.path, request.table.get());
   const auto kind = std::find(path_kinds.begin(), path_kinds.end(), request.path);
-  if (kind == path_kinds.end()) return tabulated(request.path);
+  if (kind == path_kinds.end()) {
+    const std::optional<CsvTable> table = read_csv(request.path);
+    return tabulated(request.path, table ? &*table : nullptr);
+  }
   return programme(static_cast<PathKind>(kind - path_kinds.begin()), request);
 }
 

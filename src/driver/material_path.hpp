@@ -2,12 +2,17 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "driver/measured_curve.hpp"
 #include "material/law.hpp"
 
 namespace carom {
+
+struct CsvTable;
 
 using Gradient = std::array<std::array<double, 3>, 3>;  ///< F
 
@@ -21,6 +26,8 @@ struct PathRequest {
   int steps = 200;              ///< from one turning point to the next
   std::string measured{};       ///< file of a measured curve of stress over strain; "": none
   double rate = 1.0;            ///< of that strain, per unit of time
+  std::shared_ptr<const CsvTable> table{};        ///< what such a file would hold; `path` names it in messages
+  std::optional<MeasuredCurve> measured_curve{};  ///< what the file `measured` would hold
 };
 
 /// Points of a path: deformation at times, from rest.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -323,11 +324,15 @@ void write_summary(const std::string& path, const Summary& summary) {
   write_file(path, summary_text(summary));
 }
 
+Summary parse_summary(std::string_view text) {
+  return summary_from(Json::parse(text));
+}
+
 Summary read_summary(const std::string& path) {
   std::ifstream stream(path);
   if (!stream) throw std::runtime_error(fmt::format("{}: cannot be opened", path));
   try {
-    return summary_from(Json::parse(stream));
+    return parse_summary(std::string{std::istreambuf_iterator<char>(stream), {}});
   } catch (const std::exception& error) {
     throw std::runtime_error(fmt::format("{}: {}", path, error.what()));
   }

@@ -202,6 +202,8 @@ std::string summary_text(const Summary& summary);
 /// Writes it; replaces an older file at once, never leaving half a file. Throws OutputError.
 void write_summary(const std::string& path, const Summary& summary);
 
+/// What summary_text wrote. Throws std::exception where it is not JSON or lacks a field.
+Summary parse_summary(std::string_view text);
 /// Reads what write_summary wrote; null numbers become NaN. Throws std::runtime_error naming the path when the file is
 /// missing, not JSON, or lacks a field.
 Summary read_summary(const std::string& path);

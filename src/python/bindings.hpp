@@ -13,5 +13,7 @@ void bind_cases(py::module_& module);
 void bind_meshes(py::module_& module);
 void bind_runs(py::module_& module);
 void bind_frames(py::module_& module);
+void bind_commands(py::module_& module);
+void bind_pages(py::module_& module);
 
 }  // namespace carom::python

@@ -51,7 +51,7 @@ py::array array_of(const FrameFile& frame, const std::string& name) {
   throw py::key_error(name);
 }
 
-std::map<std::string, bool> fields_of(const FrameFile& frame) {
+std::map<std::string, bool> arrays_of(const FrameFile& frame) {
   std::map<std::string, bool> at_nodes;
   for (const StoredArray& field : frame.point_fields()) at_nodes[field.name] = true;
   for (const StoredArray& field : frame.cell_fields()) at_nodes[field.name] = false;
@@ -95,7 +95,7 @@ void bind_frames(py::module_& module) {
              return std::make_unique<FrameFile>(path);
            }),
            py::arg("path"))
-      .def_property_readonly("fields", &fields_of, "Whether an array is at nodes (else at cells), by its name.")
+      .def_property_readonly("fields", &arrays_of, "Whether an array is at nodes (else at cells), by its name.")
       .def("array", &array_of, py::arg("name"), "The values of an array, as they are stored.")
       .def_property_readonly(
           "mesh",

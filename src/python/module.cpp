@@ -10,6 +10,8 @@ PYBIND11_MODULE(_carom, module) {
   carom::python::bind_meshes(module);
   carom::python::bind_runs(module);
   carom::python::bind_frames(module);
+  carom::python::bind_commands(module);
+  carom::python::bind_pages(module);
   module.def(
       "version", [] { return carom::version(); }, "Version of Carom.");
   module.def(

@@ -45,7 +45,7 @@ class PythonRun::Busy {
 
 PythonRun::PythonRun(const PreparedCase& prepared, const std::string& folder, int threads) : threads_(threads) {
   if (threads < 0) throw py::value_error("threads: a number of cores, or 0 for all");
-  const Run::Clock::time_point begun = Run::Clock::now();
+  const Run::Begin begun;
   if (!folder.empty()) refuse_own_folder(prepared.given, folder);
   simulation_ = build(prepared, threads);
   {
@@ -60,7 +60,7 @@ PythonRun::PythonRun(const PreparedCase& prepared, const std::string& folder, in
 }
 
 PythonRun::PythonRun(const std::string& folder, std::optional<double> end, int threads) : threads_(threads) {
-  const Run::Clock::time_point begun = Run::Clock::now();
+  const Run::Begin begun;
   {
     const py::gil_scoped_release release;
     const Computing computing(threads);

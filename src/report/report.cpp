@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 
 #include "output/file_writer.hpp"
 #include "report/page.hpp"
@@ -15,6 +16,15 @@ void write_report(const std::string& results_folder, const std::string& file) {
   add_view(data, most_page_bytes - std::min(rest, most_page_bytes), "Bodies in motion");
   const std::string beside = (std::filesystem::path(results_folder) / "report.html").string();
   write_file(file.empty() ? beside : file, make_page(data));
+}
+
+std::string view_page(const std::string& results_folder, std::size_t most_bytes) {
+  ReportData data = read_results(results_folder);
+  const std::size_t libraries = view_library_bytes();
+  add_view(data, most_bytes - std::min(libraries, most_bytes), data.title);
+  if (data.views.empty())
+    throw std::runtime_error(data.notes.empty() ? results_folder + " has no frames" : data.notes.back());
+  return html_document(data.title, view_sections(data.views), {{}, data.units.time}, data.views);
 }
 
 double write_watch_page(const std::string& results_folder, const RunningState& state) {

@@ -1,6 +1,7 @@
 // The report page of a run.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,10 @@ namespace carom {
 /// exact.csv, case.resolved.toml, the frames and their index). Files that are missing or cut short leave a note on the
 /// page instead of an error. Throws OutputError when the page cannot be written.
 void write_report(const std::string& results_folder, const std::string& file = "");
+
+/// A page with nothing but the view of a folder's frames, in about so many bytes. Throws std::runtime_error where there
+/// is none, and says why.
+std::string view_page(const std::string& results_folder, std::size_t most_bytes);
 
 /// Writes <results_folder>/watch.html, the page of a run that goes on: how far it is, its curves so far; no view.
 /// Returns the time that it has reached. Throws OutputError.

@@ -41,15 +41,6 @@ double seconds_since(Run::Clock::time_point begin) {
   return std::chrono::duration<double>(Run::Clock::now() - begin).count();
 }
 
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 std::size_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -114,7 +105,16 @@ FoundRun find_run(const std::string& folder) {
   return found;
 }
 
-Run::Run(const Simulation& simulation, std::string folder, Clock::time_point begin)
+double Run::cpu_seconds_of_process() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+Run::Run(const Simulation& simulation, std::string folder, Begin begin)
     : simulation_(simulation), folder_(std::move(folder)), begin_(begin) {
   watched_ = make_watched();
 }
@@ -224,7 +224,7 @@ void Run::fail(std::string message) {
 }
 
 void Run::step() {
-  if (!setup_seconds_) setup_seconds_ = seconds_since(begin_);
+  if (!setup_seconds_) setup_seconds_ = seconds_since(begin_.time);
   const Clock::time_point stepping = Clock::now();
   try {
     if (!march().is_started())
@@ -292,9 +292,9 @@ Summary Run::finish() {
     summary.warnings.insert(summary.warnings.end(), seen->begin(), seen->end());
   watched_->recorder.close();
   fill_in(summary);
-  summary.cost = {seconds_since(begin_),
-                  cpu_seconds(),
-                  {{"setup", setup_seconds_.value_or(seconds_since(begin_))}, {"steps", step_seconds_}},
+  summary.cost = {seconds_since(begin_.time),
+                  cpu_seconds_of_process() - begin_.cpu_seconds,
+                  {{"setup", setup_seconds_.value_or(seconds_since(begin_.time))}, {"steps", step_seconds_}},
                   peak_memory(),
                   ranks().count(),
                   ranks().sent().messages,

@@ -34,11 +34,17 @@ FoundRun find_run(const std::string& folder);
 class Run {
  public:
   using Clock = std::chrono::steady_clock;
+  /// Since when the cost of a run is counted: the clock, and the processor time of the process.
+  struct Begin {
+    Clock::time_point time = Clock::now();
+    double cpu_seconds = cpu_seconds_of_process();
+  };
+  static double cpu_seconds_of_process();
 
   /// Touches no file yet. folder: of the results, "" for none; begin: since when the cost of the run is counted. The
   /// simulation outlives the run. Throws CaseError for what the run would not take. That a case does not begin from its
   /// own folder (refuse_own_folder) is asked before it is built.
-  Run(const Simulation& simulation, std::string folder, Clock::time_point begin);
+  Run(const Simulation& simulation, std::string folder, Begin begin);
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
@@ -96,7 +102,7 @@ class Run {
 
   const Simulation& simulation_;
   std::string folder_;
-  Clock::time_point begin_;
+  Begin begin_;
   std::vector<Observer*> observers_;
   bool keeps_rows_ = false;
   std::vector<std::string> reading_notes_;

@@ -159,7 +159,7 @@ ExitCode conduct(Run& run, ShownProgress& progress, const RunOptions& options, c
 }  // namespace
 
 ExitCode run_case(const std::string& case_file, const RunOptions& options, const std::atomic<bool>& stop) {
-  const Run::Clock::time_point begin = Run::Clock::now();
+  const Run::Begin begin;
   set_threads(options.threads);
   refuse_mixed_kernels();
   ReadCase read = read_whole(case_file, options.accepted);
@@ -183,7 +183,7 @@ ExitCode run_case(const std::string& case_file, const RunOptions& options, const
 }
 
 ExitCode resume_case(const RunOptions& options, std::optional<double> end, const std::atomic<bool>& stop) {
-  const Run::Clock::time_point begin = Run::Clock::now();
+  const Run::Begin begin;
   set_threads(options.threads);
   refuse_mixed_kernels();
   FoundRun found = find_run(options.folder);

@@ -210,7 +210,7 @@ TEST(BarOnRanks, EndTogetherWhereOneOfThemFails) {
   const auto run_to_the_end = [&] {
     const Simulation simulation(given);
     FailsOnOne observer;
-    carom::Run own(simulation, "", carom::Run::Clock::now());
+    carom::Run own(simulation, "", {});
     own.add(observer);
     own.begin();
     while (!own.is_over()) own.step();

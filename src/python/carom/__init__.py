@@ -12,14 +12,17 @@ with _environment.prepared():
 _environment.warn_of_kernels()
 
 from carom.case import Case, Check, load
+from carom.commands import Comparison, LawCurve, Variant, compare, material
 from carom.curves import ContactState, Curves
 from carom.errors import CaseError, CheckpointError, Error, OutputError, RunError
 from carom.fields import Cells, FieldKind, Frames, NodalForces, read_frames
 from carom.mesh import Mesh, read_mesh
-from carom.result import Result
+from carom.result import Result, View, read_results
 from carom.run import Run, resume
+from carom.studies import Outcome, study
 
 __version__ = version()
-__all__ = ["Case", "CaseError", "Cells", "Check", "CheckpointError", "ContactState", "Curves", "Error", "FieldKind",
-           "Frames", "Mesh", "NodalForces", "OutputError", "Result", "Run", "RunError", "Snapshot", "load", "read_frames",
-           "read_mesh", "resume", "version"]
+__all__ = ["Case", "CaseError", "Cells", "Check", "CheckpointError", "Comparison", "ContactState", "Curves", "Error",
+           "FieldKind", "Frames", "LawCurve", "Mesh", "NodalForces", "Outcome", "OutputError", "Result", "Run",
+           "RunError", "Snapshot", "Variant", "View", "compare", "load", "material", "read_frames", "read_mesh",
+           "read_results", "resume", "study", "version"]

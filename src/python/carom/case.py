@@ -143,6 +143,11 @@ class Case(MutableMapping[str, Any]):
 
     def _prepared(self) -> _carom.PreparedCase:
         """The case as the solver takes it. Raises CaseError."""
+        tree, functions = self._plain("case.mesh.msh")
+        return _carom.prepare(tree, self._source, self._file, functions, self._mesh_text)
+
+    def _plain(self, mesh_file: str) -> tuple[dict[str, Any], dict[str, Callable[[float], float]]]:
+        """The tree as a file could hold it, a mesh of arrays being in `mesh_file`, and the functions that none could."""
         tree = dict(self._tree)
         functions = {}
         if isinstance(tree.get("functions"), dict):
@@ -151,8 +156,8 @@ class Case(MutableMapping[str, Any]):
                                  for name, f in tree["functions"].items()}
         if self._mesh_text is not None:
             kept = {key: value for key, value in tree.get("mesh", {}).items() if key not in ("file", "block")}
-            tree["mesh"] = {"file": "case.mesh.msh", **kept}
-        return _carom.prepare(tree, self._source, self._file, functions, self._mesh_text)
+            tree["mesh"] = {"file": mesh_file, **kept}
+        return tree, functions
 
 
 def load(path: str | os.PathLike[str], accept: Sequence[str] = ()) -> Case:

@@ -19,10 +19,15 @@ class Curves(Mapping[str, NDArray[np.float64]]):
     A mapping from names to arrays of one length, in the case's units. The arrays are copies: they stay as they are.
     """
 
-    def __init__(self, columns: list[str], rows: NDArray[np.float64], units: str = "") -> None:
-        """columns: the names; rows: (steps, columns); units: the comment of tables that names them."""
+    def __init__(self, columns: list[str], rows: NDArray[np.float64] | None, units: str = "") -> None:
+        """columns: the names; rows: (steps, columns), None where there are none; units: the comment of tables that names
+        them."""
         self._at = {name: i for i, name in enumerate(columns)}
-        self._rows, self._units = rows, units
+        self._rows, self._units = np.empty((0, len(columns))) if rows is None else rows, units
+
+    @property
+    def _table(self) -> tuple[list[str], NDArray[np.float64]]:
+        return list(self._at), self._rows
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """The column of this name. Raises KeyError, which lists the names there are."""

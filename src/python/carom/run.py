@@ -9,11 +9,11 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from carom import _carom
+from carom import _carom, _html
 from carom.curves import ContactState, Curves, contact_states
 from carom.fields import Cells, FieldKind, Frames, NodalForces, _cells_of, _field_kind, _KeptFrames, _unknown
 from carom.mesh import Mesh
-from carom.result import Result
+from carom.result import Result, _joined, _pictures
 
 _Observer = TypeVar("_Observer", bound=Callable[["Run"], object])
 _ENERGY, _CONTACT, _PROBES, _PARTS, _EXACT = range(5)
@@ -64,17 +64,20 @@ class Run(_carom.RunBase):
     @property
     def history(self) -> Curves:
         """Curves of probes and contacts so far (every `output.curves_every` steps)."""
-        return _joined(self, _CONTACT, _PROBES)
+        return _joined([self._curves(_CONTACT), self._curves(_PROBES)])
 
     @property
     def energy(self) -> Curves:
         """The ledger of energies so far."""
-        return _joined(self, _ENERGY)
+        return self._curves(_ENERGY)
+
+    def _curves(self, which: int) -> Curves:
+        return Curves(*self._table(which), self._units())
 
     @property
     def parts(self) -> Curves:
         """Energies and momentum of every part so far: `run.parts["glass.kinetic_energy"]`."""
-        return _joined(self, _PARTS)
+        return self._curves(_PARTS)
 
     @property
     def mesh(self) -> Mesh:
@@ -151,24 +154,24 @@ class Run(_carom.RunBase):
     def stop(self, folder: str | os.PathLike[str] | None = None) -> Result:
         """Closes the run where it is; before its end the verdict is "stopped" (or "error"). folder: as finish."""
         summary = self._close("" if folder is None else os.fspath(folder))
-        return Result(summary, self.history, self.energy, self.parts, _joined(self, _EXACT), self.folder)
+        contact, probes, parts, exact = (self._curves(which) for which in (_CONTACT, _PROBES, _PARTS, _EXACT))
+        return Result(summary, contact, probes, self.energy, parts, exact, self.folder)
 
     def __repr__(self) -> str:
         """Where it is."""
         return f"<carom.Run: step {self.steps}, t = {self.time:g} of {self.end:g}>"
 
-
-def _joined(run: Run, *tables: int) -> Curves:
-    """One or more tables as one, whose first column is the time."""
-    columns: list[str] = []
-    rows = []
-    for which in tables:
-        names, values = run._table(which)
-        if values is None:
-            continue
-        rows.append(values[:, 1:] if columns else values)
-        columns += names[1:] if columns else names
-    return Curves(columns, np.hstack(rows) if rows else np.empty((0, 0)), run._units())
+    def _repr_html_(self) -> str:
+        """For notebooks: how far it is, what touches, contact forces and energies so far."""
+        unit = self.energy.unit("time")
+        figures = [("Contact " + name, f"{np.linalg.norm(state.force):.4g} {self._curves(_CONTACT).unit(name + '.force_x')}",
+                    f"{state.closed} closed, penetration {state.penetration:.3g}" if state.closed else "open")
+                   for name, state in self.contact.items() if state.force is not None]
+        where = f"step {self.steps}, t = {self.time:.4g} of {self.end:.4g} {unit}"
+        return _html.page(_html.banner("running", "", where),
+                          _html.progress(min(1.0, self.time / self.end) if self.end > 0.0 else 1.0),
+                          _html.figures(figures), _pictures(self._curves(_CONTACT), self.energy),
+                          _html.folded(f"{len(self.warnings)} warnings", self.warnings))
 
 
 def resume(folder: str | os.PathLike[str], end: float | None = None, threads: int = 0) -> Run:

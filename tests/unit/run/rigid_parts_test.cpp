@@ -408,11 +408,11 @@ TEST(RigidParts, GoOnFromASnapshotAndOnTwoThreadsToTheBit) {
   const Simulation simulation(parse_case(text, "case.toml"));
   const auto end_of = [&](int threads, bool stops) {
     set_threads(threads);
-    carom::Run run(simulation, "", carom::Run::Clock::now());
+    carom::Run run(simulation, "", {});
     run.begin();
     for (int i = 0; i < 500; ++i) run.step();
     const std::shared_ptr<const Snapshot> snapshot = run.save();
-    carom::Run other(simulation, "", carom::Run::Clock::now());
+    carom::Run other(simulation, "", {});
     other.restore(*snapshot);
     carom::Run& last = stops ? other : run;
     for (int i = 0; i < 500; ++i) last.step();

@@ -59,7 +59,7 @@ void step_to_end(Run& run) {
 TEST(RunSnapshot, StepsAfterItAreTheSameInThisRunAndInAnother) {
   for (const std::string& schemes : {implicit, two_stages}) {
     const Simulation simulation(parse_case(falling(schemes), "case.toml"));
-    carom::Run run(simulation, "", Run::Clock::now());
+    carom::Run run(simulation, "", {});
     run.keep_rows();
     run.begin();
     for (int i = 0; i < 8; ++i) run.step();
@@ -73,7 +73,7 @@ TEST(RunSnapshot, StepsAfterItAreTheSameInThisRunAndInAnother) {
     step_to_end(run);
     EXPECT_EQ(rows_of(run), whole);
     const Simulation again(parse_case(falling(schemes), "case.toml"));
-    carom::Run other(again, "", Run::Clock::now());
+    carom::Run other(again, "", {});
     other.keep_rows();
     other.restore(*early);
     step_to_end(other);
@@ -83,10 +83,10 @@ TEST(RunSnapshot, StepsAfterItAreTheSameInThisRunAndInAnother) {
 
 TEST(RunSnapshot, OfAnotherCaseIsRefused) {
   const Simulation simulation(parse_case(falling(implicit), "case.toml"));
-  carom::Run run(simulation, "", Run::Clock::now());
+  carom::Run run(simulation, "", {});
   run.step();
   const Simulation faster(parse_case(falling(implicit, -0.2), "case.toml"));
-  carom::Run other(faster, "", Run::Clock::now());
+  carom::Run other(faster, "", {});
   other.step();
   EXPECT_THROW(other.restore(*run.save()), CheckpointError);
   other.step();
@@ -98,7 +98,7 @@ TEST(RunSnapshot, AFolderAtTheEndHoldsWhatOneFromTheStartHolds) {
   EXPECT_EQ(early.run(), ExitCode::good);
   const TemporaryCase late("");
   const Simulation simulation(parse_case(falling(implicit), "case.toml"));
-  carom::Run run(simulation, "", Run::Clock::now());
+  carom::Run run(simulation, "", {});
   run.keep_rows();
   run.begin();
   step_to_end(run);
@@ -121,7 +121,7 @@ TEST(RunSnapshot, FramesThatStayKeepTheirObstacles) {
   std::string text = falling(implicit + "[output]\nfields_every = 1\n");
   text = replaced(text, "kind = \"plane\"\n", "kind = \"plane\"\nvelocity = [0.0, 0.0, -0.01]\n");
   const Simulation simulation(parse_case(text, "case.toml"));
-  carom::Run run(simulation, folder.results().string(), Run::Clock::now());
+  carom::Run run(simulation, folder.results().string(), {});
   run.begin();
   for (int i = 0; i < 2; ++i) run.step();  // the initial state, and a step
   const std::shared_ptr<const Snapshot> early = run.save();
