@@ -24,7 +24,8 @@ std::string view_page(const std::string& results_folder, std::size_t most_bytes)
   add_view(data, most_bytes - std::min(libraries, most_bytes), data.title);
   if (data.views.empty())
     throw std::runtime_error(data.notes.empty() ? results_folder + " has no frames" : data.notes.back());
-  return html_document(data.title, view_sections(data.views), {{}, data.units.time}, data.views);
+  const std::string narrow = "<style>main { padding: .25rem .5rem; } h2 { margin: .25rem 0 .5rem; }</style>\n";
+  return html_document(data.title, narrow + view_sections(data.views), {{}, data.units.time}, data.views);
 }
 
 double write_watch_page(const std::string& results_folder, const RunningState& state) {

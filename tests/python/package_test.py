@@ -1,15 +1,20 @@
 """What the package promises beside its numbers: docstrings, types, quiet imports, tutorial scripts."""
 
 import ast
+import contextlib
 import inspect
+import io
 import os
 import pathlib
+import re
+import shutil
 import subprocess
 import sys
 import unittest
 
 import carom
 from carom import _carom
+from python_fixture import FolderTest
 
 PACKAGE = pathlib.Path(carom.__file__).parent
 EXAMPLES = pathlib.Path(os.environ["CAROM_SOURCE"]) / "examples/python"
@@ -132,6 +137,24 @@ class TutorialTest(unittest.TestCase):
         for script in scripts:
             self.assertRegex(ast.get_docstring(ast.parse(script.read_text())), "^Shows ", script.name)
             self.assertIn(script.name, page)
+
+
+class PageTest(FolderTest):
+    def test_examples_of_the_page_run(self):
+        """Those of docs/python.md, one after the other, with a case of examples/python as case.toml."""
+        page = (EXAMPLES.parents[1] / "docs/python.md").read_text()
+        blocks = re.findall(r"^```python\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+        self.assertGreater(len(blocks), 7)
+        shutil.copy(EXAMPLES / "falling_block.toml", "case.toml")
+        names, missing = {}, ""
+        for block in blocks:
+            try:
+                with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+                    exec(compile(block, "docs/python.md", "exec"), names)
+            except ImportError as error:
+                missing = str(error)
+        if missing:
+            self.skipTest(missing)
 
 
 if __name__ == "__main__":

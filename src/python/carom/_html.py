@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 _CURVES = ("#1f77c8", "#d9652b", "#2f9e6e", "#9a5fb5", "#b8962a", "#3b9cb5", "#c2517e", "#7c838a")
-_VERDICTS = {"good": "#2f9e6e", "failed": "#d0453a", "error": "#d0453a", "stopped": "#b8862a", "running": "#1f77c8"}
+_WORDS = {"good": "#2f9e6e", "recommended": "#2f9e6e", "failed": "#d0453a", "error": "#d0453a", "stopped": "#b8862a",
+          "none recommended": "#b8862a", "running": "#1f77c8"}
 _MOST_POINTS = 400
 
 
@@ -18,11 +19,11 @@ def page(*parts: str) -> str:
     return ('<div style="max-width:56em;font-size:14px;line-height:1.45">' + "".join(parts) + "</div>")
 
 
-def banner(verdict: str, title: str, text: str) -> str:
-    """The verdict in its colour, the title of the case and a sentence."""
-    colour = _VERDICTS[verdict]
+def banner(word: str, title: str, text: str) -> str:
+    """A verdict in its colour, the title of the case and a sentence."""
+    colour = _WORDS[word]
     return (f'<div style="border-left:4px solid {colour};background:{colour}1f;padding:.5em .8em;border-radius:4px">'
-            f'<strong style="color:{colour}">{escape(verdict.capitalize())}</strong> {escape(title)}'
+            f'<strong style="color:{colour}">{escape(word.capitalize())}</strong> {escape(title)}'
             f'<div style="opacity:.8">{escape(text)}</div></div>')
 
 
@@ -80,7 +81,7 @@ def chart(title: str, unit: str, time: NDArray[np.float64], time_unit: str,
     label = 'font-size="11" fill="currentColor" opacity=".75"'
     return (f'<figure style="display:inline-block;margin:.4em 1em .4em 0;max-width:100%"><figcaption>{escape(caption)} '
             f'<span style="font-size:.85em">{legend}</span></figcaption>'
-            f'<svg viewBox="-58 -8 {width + 70:.0f} {height + 28:.0f}" width="470" role="img" aria-label="{escape(title)}" '
+            f'<svg viewBox="-72 -8 {width + 84:.0f} {height + 28:.0f}" width="470" role="img" aria-label="{escape(title)}" '
             f'style="max-width:100%;height:auto"><rect width="{width}" height="{height}" fill="none" '
             f'stroke="currentColor" opacity=".25"/><line x1="0" x2="{width}" y1="{zero:.1f}" y2="{zero:.1f}" '
             f'stroke="currentColor" opacity=".25"/>{lines}'

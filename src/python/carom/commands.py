@@ -173,7 +173,7 @@ class Comparison:
                  text(v.cpu_seconds), v.status) for v in self.variants]
         against = "the exact solution" if self.reference is None else self.reference.label
         head = ("variant", f"error of the {self.quantity}", "claimed", "energy kept", "CPU s", "verdict")
-        return _html.page(_html.banner("good" if self.recommended else "stopped", "", self.headline),
+        return _html.page(_html.banner("recommended" if self.recommended else "none recommended", "", self.headline),
                           _html.listed(self.reasons), _html.table(head, rows), f"<p>Against: {escape(against)}</p>")
 
 
@@ -221,7 +221,8 @@ def _compared(case: Case, choices: list[list[Any]], reference: str, folder: path
                                       progress))
     variants = {v["name"]: _variant(v, folder / "variants" / v["name"], is_kept) for v in found["variants"]}
     advice = found["recommendation"]
-    return Comparison(list(variants.values()), variants.get(advice["variant"]), advice["headline"], advice["reasons"],
+    reasons = [reason.replace("--", "") for reason in advice["reasons"]]  # options of the command are arguments here
+    return Comparison(list(variants.values()), variants.get(advice["variant"]), advice["headline"], reasons,
                       found["ranked_by"], variants.get(found["reference_run"]), found["orders"],
                       str(folder) if is_kept else "")
 
