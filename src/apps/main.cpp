@@ -144,8 +144,7 @@ ExitCode check(const Arguments& arguments) {
 
 ExitCode compare(const Arguments& arguments) {
   stop_at_signals();
-  const carom::compare::Settings settings{
-      {"/proc/self/exe"}, results_folder(arguments, "_compare"), arguments.jobs};
+  const carom::compare::Settings settings{{"/proc/self/exe"}, results_folder(arguments, "_compare"), arguments.jobs};
   return carom::compare::compare_cases(arguments.case_file, arguments.choices, settings,
                                        {arguments.quiet, arguments.format}, stop_requested);
 }

@@ -21,11 +21,11 @@ enum class PathKind : std::uint8_t { uniaxial_stress, uniaxial_strain, simple_sh
 
 /// What the user asks for.
 struct PathRequest {
-  std::string path;             ///< the name of a kind, or a .csv file of F or strain
-  std::vector<double> to{0.1};  ///< turning points of the engineering strain, or of gamma
-  int steps = 200;              ///< from one turning point to the next
-  std::string measured{};       ///< file of a measured curve of stress over strain; "": none
-  double rate = 1.0;            ///< of that strain, per unit of time
+  std::string path;                               ///< the name of a kind, or a .csv file of F or strain
+  std::vector<double> to{0.1};                    ///< turning points of the engineering strain, or of gamma
+  int steps = 200;                                ///< from one turning point to the next
+  std::string measured{};                         ///< file of a measured curve of stress over strain; "": none
+  double rate = 1.0;                              ///< of that strain, per unit of time
   std::shared_ptr<const CsvTable> table{};        ///< what such a file would hold; `path` names it in messages
   std::optional<MeasuredCurve> measured_curve{};  ///< what the file `measured` would hold
 };

@@ -140,7 +140,8 @@ void bind_commands(py::module_& module) {
                         table, measured, part, folder);
       },
       py::arg("case"), py::arg("path"), py::arg("to"), py::arg("steps"), py::arg("rate"), py::arg("table"),
-      py::arg("measured_file"), py::arg("measured"), py::arg("part"), py::arg("folder"), "A law on a path of deformation.");
+      py::arg("measured_file"), py::arg("measured"), py::arg("part"), py::arg("folder"),
+      "A law on a path of deformation.");
   module.def(
       "compare",
       [](const py::dict& tree, const std::shared_ptr<Source>& source, const std::string& file,
