@@ -31,14 +31,12 @@ NodalForces contact_at_nodes(const Simulation& simulation, const StepView& view,
       add_to(forces, rows.node[k], add(scaled(b[0], f[0]), add(scaled(b[1], f[1]), scaled(b[2], f[2]))));
     }
   }
-  simulation.solid().cohesive().for_each_force(view.state.q, view.points().history,
-                                               [&](std::size_t of, const CohesiveRow& row, const Vec3& force) {
-                                                 if (of != contact) return;
-                                                 for (const auto& [node, weight] : row.slave)
-                                                   add_to(forces, node, scaled(force, weight));
-                                                 for (const auto& [node, weight] : row.master)
-                                                   add_to(forces, node, scaled(force, -weight));
-                                               });
+  simulation.solid().cohesive().for_each_force(
+      view.state.q, view.points().history, [&](std::size_t of, const CohesiveRow& row, const Vec3& force) {
+        if (of != contact) return;
+        for (const auto* side : {&row.slave, &row.master})  // weights of the master are negative
+          for (const auto& [node, weight] : *side) add_to(forces, node, scaled(force, weight));
+      });
   NodalForces out;
   for (const auto& [node, force] : forces) {
     out.nodes.push_back(node);

@@ -22,6 +22,14 @@ def touching(scheme="central_differences"):
     return run
 
 
+def on_a_bed(case, gap=5e-5):
+    """Another block below, of other cells."""
+    case["mesh"]["block"].append({"origin": [-0.01, -0.02, 5e-5 - gap - 0.1], "size": [0.13, 0.13, 0.1],
+                                  "divisions": [3, 3, 2], "groups": {"cells": "BED", "zmax": "HEAD"}})
+    case["part"].append({"name": "bed", "cells": "BED", "material": "steel"})
+    return case
+
+
 def mean_gradients(run):
     """The mean over each brick of the gradient of the displacement: the difference of the means over opposite faces, over
     the edge between them (Gauss' theorem; the displacement is bilinear on a face, its mean that of the corners)."""
@@ -126,22 +134,36 @@ class ContactForceTest(FolderTest):
         np.testing.assert_allclose(found.force.sum(axis=0), run.contact["floor"].force, rtol=1e-12, atol=1e-3)
         np.testing.assert_array_equal(found.numbers, run.node_numbers[found.nodes])
 
-    def test_action_and_reaction_of_two_bodies(self):
-        case = falling_block()
-        case["mesh"]["block"].append({"origin": [-0.01, -0.02, -0.1], "size": [0.13, 0.13, 0.1], "divisions": [3, 3, 2],
-                                      "groups": {"cells": "BED", "zmax": "HEAD"}})
-        case["part"].append({"name": "bed", "cells": "BED", "material": "steel"})
-        case["contact"] = [{"name": "touch", "kind": "pair", "group": "FOOT", "master": "HEAD",
-                            "stiffness": 1e13}]
-        run = case.start()
-        run.step(20)
-        found = run.contact_force("touch")
-        force = run.contact["touch"].force
+    def assert_balanced(self, run, name):
+        """Action and reaction; and on the nodes of the group what contact.csv says."""
+        found, force = run.contact_force(name), run.contact[name].force
         self.assertGreater(abs(force[2]), 1e4)
         np.testing.assert_allclose(found.force.sum(axis=0), 0.0, atol=1e-9 * abs(force[2]))
         own = np.isin(found.nodes, run.mesh.nodes_of("FOOT"))
         self.assertTrue(own.any() and not own.all())
         np.testing.assert_allclose(found.force[own].sum(axis=0), force, atol=1e-9 * abs(force[2]))
+
+    def test_action_and_reaction_of_two_bodies(self):
+        for scheme, method in (("central_differences", "node_to_surface"), ("central_differences", "two_pass"),
+                               ("central_differences", "faces"), ("cd_lagrange", "two_pass"), ("newmark", "two_pass")):
+            with self.subTest(scheme=scheme, method=method):
+                case = on_a_bed(falling_block(scheme))
+                case["contact"] = [{"name": "touch", "kind": "pair", "group": "FOOT", "master": "HEAD", "method": method,
+                                    "friction": 0.3}]
+                run = case.start()
+                while run.time < 3e-5:
+                    run.step()
+                self.assert_balanced(run, "touch")
+
+    def test_ties_that_tear(self):
+        case = on_a_bed(falling_block(), gap=0.0)
+        case["contact"] = [{"name": "glue", "kind": "tie", "group": "FOOT", "master": "HEAD", "normal_strength": 1e9,
+                            "shear_strength": 1e9, "normal_fracture_energy": 1e5, "shear_fracture_energy": 1e5}]
+        case["initial"][0]["velocity"] = [0.0, 1.0, 5.0]
+        run = case.start()
+        while run.time < 1e-5:
+            run.step()
+        self.assert_balanced(run, "glue")
 
     def test_open_contact_has_none(self):
         found = falling_block().start().contact_force("floor")

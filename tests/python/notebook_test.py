@@ -77,7 +77,11 @@ class ResultTest(FolderTest):
                           "source": "nowhere"}]
         result = case.start().finish()
         self.assertEqual(result.verdict, "failed")
-        self.assertIn("reference 7", Checked(result._repr_html_()) and result._repr_html_())
+        Checked(result._repr_html_())
+        self.assertIn("reference 7", result._repr_html_())
+        stopped = case.start()
+        stopped.step()  # the check is not reached
+        self.assertIn("Stopped", stopped.stop()._repr_html_())
 
     def test_a_run_on_its_way(self):
         run = falling_block().start()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -207,7 +208,8 @@ def _cells_of(data: _carom.MeshData, blocks: NDArray[np.int32], rows: NDArray[np
 
 def read_frames(folder: str | os.PathLike[str]) -> Frames:
     """The frames of a results folder (docs/results.md), also of one that a run is still writing. The arrays have the
-    precision of the files: numbers of 32 bits, or 64 with `output.precision = "double"`.
+    precision of the files: numbers of 32 bits, or 64 with `output.precision = "double"`. As long as a run has not ended,
+    nodes that springs and obstacles hang on follow those of the mesh.
 
     Raises FileNotFoundError where the folder has no frames, and RuntimeError for files that are damaged."""
     folder = os.fspath(folder)
@@ -227,10 +229,18 @@ def read_frames(folder: str | os.PathLike[str]) -> Frames:
     types, rows = np.empty(len(parts), dtype="<U8"), np.empty(len(parts), dtype=np.int32)
     for name, positions in data.cell_numbers.items():
         types[positions], rows[positions] = name, np.arange(len(positions))
-    used = 1 + max(int(rows.max()) for rows in data.cells.values())  # those of springs' and obstacles' carriers come last
-    nodes = first.array("node_number").astype(np.int64)[:used]
-    mesh = Mesh._of(data, used)
+    nodes = first.array("node_number").astype(np.int64)[:_nodes_in(folder)]
+    mesh = Mesh._of(data, len(nodes))
     return Frames(_FolderFrames(frames), kinds, mesh, Cells(numbers, parts, types, rows), nodes)
+
+
+def _nodes_in(folder: str) -> int | None:
+    """How many nodes the mesh has without those that springs and obstacles hang on; None where no summary says so."""
+    try:
+        with open(os.path.join(folder, "summary.json"), encoding="utf-8") as summary:
+            return json.load(summary)["mesh"]["nodes"]
+    except FileNotFoundError:
+        return None
 
 
 def _units_of(folder: str) -> str:

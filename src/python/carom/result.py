@@ -97,7 +97,7 @@ class Result:
         failed = [f"{item['name']}: {item['value']:.3g}, and the limit is {item['limit']:.3g} ({item['explanation']})"
                   for item in self.items if not item["pass"]]
         failed += [f"check {check['name']}: {check['value']:.6g}, reference {check['reference']:.6g}"
-                   for check in self.checks if not check["pass"]]
+                   for check in self.checks if not check["pass"] and check["value"] is not None]
         return _html.page(_html.banner(self.verdict, self.summary["case"]["title"], self.message), _html.listed(failed),
                           _html.figures(self.figures), _pictures(self.contact, self.energy),
                           _html.folded(f"{len(self.warnings)} warnings", self.warnings),
