@@ -108,6 +108,28 @@ class ViewTest(FolderTest):
         self.assertTrue(frames)
         self.assertLess(len(page), 4_000_000)
 
+    def test_a_browser_draws_it(self):
+        sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "browser"))
+        try:
+            from browser import browser, picture, wait_for
+        except ImportError:
+            self.skipTest("selenium is not installed (apt install chromium chromium-driver python3-selenium)")
+        result = falling_block().start("out").finish()
+        page = self.folder / "page.html"
+        page.write_text('<!DOCTYPE html><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
+                        '<link rel="icon" href="data:,">' + result._repr_html_()
+                        + result.view()._repr_html_(), encoding="utf-8")
+        for width in (1400, 420):
+            with browser(width) as driver:
+                driver.get(f"file://{page}")
+                driver.switch_to.frame(driver.find_element("css selector", "iframe"))
+                wait_for(driver, "'ready' in (document.querySelector('[data-view]')?.dataset ?? {})")
+                self.assertGreater(picture(driver, driver.find_element("css selector", ".stage canvas"))["count"], 1000)
+                driver.switch_to.default_content()
+                self.assertEqual([entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"], [])
+                wide = driver.execute_script("return document.documentElement.scrollWidth")
+                self.assertLessEqual(wide, width)
+
     def test_what_is_missing(self):
         with self.assertRaisesRegex(FileNotFoundError, 'case.start\\("out"\\)'):
             falling_block().start().finish().view()

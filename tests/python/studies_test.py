@@ -2,10 +2,12 @@
 
 import contextlib
 import io
+import multiprocessing
 import os
 import pathlib
 import pickle
 import signal
+import threading
 import time
 import unittest
 
@@ -25,6 +27,8 @@ def impulse(speed):
         os._exit(0)
     if speed == 6.0:
         time.sleep(0.3)
+    if speed == 7.0:
+        time.sleep(600.0)
     with open("calls.txt", "a") as calls:
         calls.write(f"{speed}\n")
     return falling_block(speed=-speed).start(threads=1).finish().history["floor.impulse_z"][-1]
@@ -78,6 +82,22 @@ class StudyTest(FolderTest):
         pathlib.Path("study.pickle").write_bytes(whole[:-3])
         carom.study([1.0, 3.0, 2.0], impulse, progress=False, keep="study.pickle")
         self.assertEqual(len(pathlib.Path("calls.txt").read_text().split()), 3)
+
+    def test_interrupt_ends_the_processes_and_keeps_what_is_done(self):
+        def interrupt():
+            while not pathlib.Path("study.pickle").exists() or pathlib.Path("study.pickle").stat().st_size == size:
+                time.sleep(0.05)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        size = len(pickle.dumps([pickle.dumps((impulse, speed)) for speed in (1.0, 7.0)]))  # before any outcome
+        threading.Thread(target=interrupt).start()
+        begin = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            carom.study([1.0, 7.0], impulse, jobs=2, progress=False, keep="study.pickle")
+        self.assertLess(time.monotonic() - begin, 60.0)
+        self.assertEqual(multiprocessing.active_children(), [])
+        self.assertEqual(carom.studies._Kept(pathlib.Path("study.pickle"), [
+            pickle.dumps((impulse, speed)) for speed in (1.0, 7.0)]).found.keys(), {0})
 
     def test_what_cannot_be_sent_is_refused_before_anything_runs(self):
         with self.assertRaisesRegex(TypeError, "find the function in a module"):

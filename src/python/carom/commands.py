@@ -11,7 +11,7 @@ import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
-from typing import Any
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,6 +21,8 @@ from carom._optional import needed
 from carom.case import Case, load
 from carom.curves import Curves
 from carom.result import Result, read_results
+
+_Value = TypeVar("_Value")
 
 
 class LawCurve(Curves):
@@ -48,7 +50,8 @@ class LawCurve(Curves):
         return super().unit("von_mises" if name in ("energy", "dissipation") else name)
 
 
-def material(case: Case | str | os.PathLike[str], path: str | Mapping[str, ArrayLike], *, part: str = "",
+def material(case: Case | str | os.PathLike[str],
+             path: str | os.PathLike[str] | Mapping[str, ArrayLike], *, part: str = "",
              to: float | Sequence[float] = 0.1, steps: int = 200, rate: float = 1.0,
              measured: str | os.PathLike[str] | tuple[ArrayLike, ArrayLike] | None = None,
              folder: str | os.PathLike[str] | None = None) -> LawCurve:
@@ -67,8 +70,10 @@ def material(case: Case | str | os.PathLike[str], path: str | Mapping[str, Array
         raise ValueError(f"steps: {steps}, and a number of steps is wanted, at least 1")
     if not rate > 0.0:
         raise ValueError(f"rate: {rate}, and a rate of strain > 0 is wanted")
-    table = None
-    if isinstance(path, Mapping):
+    table, name_of_path = None, "table of arrays"
+    if not isinstance(path, Mapping):
+        name_of_path = os.fspath(path)
+    else:
         table = [(name, np.atleast_1d(np.asarray(values, dtype=np.float64))) for name, values in path.items()]
         if len({len(values) for _, values in table}) > 1:
             raise ValueError("path: columns of different lengths: "
@@ -80,9 +85,8 @@ def material(case: Case | str | os.PathLike[str], path: str | Mapping[str, Array
             raise ValueError("measured: strains and stresses of one length are wanted")
     elif measured is not None:
         file = os.fspath(measured)
-    return LawCurve(*_carom.material(_case_of(case)._prepared(), "table of arrays" if table else os.fspath(path),
-                                     [float(x) for x in np.atleast_1d(to)], steps, rate, table, file, pair, part,
-                                     "" if folder is None else os.fspath(folder)))
+    return LawCurve(*_carom.material(_case_of(case)._prepared(), name_of_path, [float(x) for x in np.atleast_1d(to)],
+                                     steps, rate, table, file, pair, part, "" if folder is None else os.fspath(folder)))
 
 
 @dataclass(frozen=True)
@@ -195,9 +199,11 @@ def compare(case: Case | str | os.PathLike[str], *, scheme: str | Sequence[str] 
     Python's, and OutputError. Ctrl-C ends the runs.
     """
     given = _case_of(case)
-    choices = [_list(scheme, str), _list(enforcement, str), _list(stiffness, str), _list(cells, int),
-               _list(courant, float), _list(refine, int)]
-    if any(n < 1 for n in choices[3]) or any(not c > 0.0 for c in choices[4]) or any(not 0 <= r <= 6 for r in choices[5]):
+    choices = _Choices(_list(scheme, str), _list(enforcement, str), _list(stiffness, str), _list(cells, int),
+                       _list(courant, float), _list(refine, int))
+    is_right = (all(n >= 1 for n in choices.cells), all(c > 0.0 for c in choices.courants),
+                all(0 <= r <= 6 for r in choices.refinements))
+    if not all(is_right):
         raise ValueError("cells are numbers from 1 on, courant numbers > 0, refine numbers from 0 to 6")
     if folder is not None:
         return _compared(given, choices, reference, pathlib.Path(folder), jobs, progress, is_kept=True)
@@ -205,7 +211,18 @@ def compare(case: Case | str | os.PathLike[str], *, scheme: str | Sequence[str] 
         return _compared(given, choices, reference, pathlib.Path(scratch), jobs, progress, is_kept=False)
 
 
-def _compared(case: Case, choices: list[list[Any]], reference: str, folder: pathlib.Path, jobs: int,
+class _Choices(NamedTuple):
+    """Values to be combined."""
+
+    schemes: list[str]
+    enforcements: list[str]
+    stiffnesses: list[str]
+    cells: list[int]
+    courants: list[float]
+    refinements: list[int]
+
+
+def _compared(case: Case, choices: _Choices, reference: str, folder: pathlib.Path, jobs: int,
               progress: Callable[[int, int, str], object] | None, is_kept: bool) -> Comparison:
     mesh_file = folder / "case.mesh.msh"
     tree, functions = case._plain(str(mesh_file.resolve()))
@@ -230,7 +247,7 @@ def _compared(case: Case, choices: list[list[Any]], reference: str, folder: path
 def _variant(found: dict[str, Any], folder: pathlib.Path, is_kept: bool) -> Variant:
     def number(key: str) -> float:
         value = found.get(key)
-        return math.nan if value is None else value
+        return math.nan if value is None else float(value)
 
     result = None
     if "steps" in found:
@@ -249,6 +266,6 @@ def _case_of(case: Case | str | os.PathLike[str]) -> Case:
     return case if isinstance(case, Case) else load(case)
 
 
-def _list(values: Any, kind: type) -> list[Any]:
+def _list(values: Any, kind: Callable[[Any], _Value]) -> list[_Value]:
     """One value or several."""
     return [kind(x) for x in ([values] if isinstance(values, (str, int, float)) else values)]

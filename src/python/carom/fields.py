@@ -238,7 +238,7 @@ def _nodes_in(folder: str) -> int | None:
     """How many nodes the mesh has without those that springs and obstacles hang on; None where no summary says so."""
     try:
         with open(os.path.join(folder, "summary.json"), encoding="utf-8") as summary:
-            return json.load(summary)["mesh"]["nodes"]
+            return int(json.load(summary)["mesh"]["nodes"])
     except FileNotFoundError:
         return None
 

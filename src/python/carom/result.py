@@ -75,8 +75,8 @@ class Result:
     @property
     def figures(self) -> list[tuple[str, str, str]]:
         """The key figures of the report: title, value with its unit, remark."""
-        return [tuple(f) for f in _carom.key_figures(self._summary_text, self.energy._table, self.contact._table,
-                                                     self.probes._table)]  # type: ignore[misc]
+        found = _carom.key_figures(self._summary_text, self.energy._table, self.contact._table, self.probes._table)
+        return [(title, value, remark) for title, value, remark in found]
 
     def view(self, height: int = 640, most_bytes: int = 4_000_000) -> View:
         """The bodies in motion, for a notebook: the view of the report as a page of its own in a frame, which needs no
@@ -143,9 +143,9 @@ def read_results(folder: str | os.PathLike[str]) -> Result:
     run is going on, or has been broken off."""
     folder = os.fspath(folder)
     with open(os.path.join(folder, "summary.json"), encoding="utf-8") as summary:
-        tables = [Curves(*_carom.read_table(os.path.join(folder, f"{name}.csv")))
-                  for name in ("contact", "probes", "energy", "parts", "exact")]
-        return Result(summary.read(), *tables, folder)  # type: ignore[arg-type]
+        contact, probes, energy, parts, exact = (Curves(*_carom.read_table(os.path.join(folder, f"{name}.csv")))
+                                                 for name in ("contact", "probes", "energy", "parts", "exact"))
+        return Result(summary.read(), contact, probes, energy, parts, exact, folder)
 
 
 def _joined(tables: list[Curves]) -> Curves:
