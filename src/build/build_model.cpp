@@ -187,6 +187,18 @@ class ModelBuilder {
     ContactLaw law = ModelBuilder::law(static_cast<const CaseStiffness&>(given));
     law.eps_T = given.tangential_stiffness;
     law.mu = given.friction;
+    if (!given.pressures->empty()) {
+      law.pressure = std::make_shared<const PressureTable>(*given.depths, *given.pressures);
+      law.eps_N = law.pressure->largest_slope();
+    }
+    if (given.friction_law) {
+      if (!given.called_friction)
+        throw CaseError(given.friction_law->where, "contact.friction_law", "a law of friction that a program computes",
+                        "friction, a number",
+                        "The program that gave it can run this case, and go on with it from its own snapshots.");
+      law.friction = given.called_friction;
+      law.mu = 1.0;
+    }
     law.restitution = *given.restitution;
     return law;
   }

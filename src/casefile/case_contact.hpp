@@ -1,6 +1,7 @@
 // [[contact]]: what touches. Every kind has a struct of its own, and all of them one line in a list.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "casefile/located.hpp"
 #include "model/cohesive.hpp"
 #include "model/options.hpp"
+#include "model/own_contact_law.hpp"
 
 namespace carom {
 
@@ -32,6 +34,9 @@ struct CaseStiffness {
 
 /// How what touches presses and rubs.
 struct CaseContactLaw : CaseStiffness {
+  Located<std::vector<double>> depths, pressures;    ///< instead of the stiffness
+  std::optional<Located<std::string>> friction_law;  ///< "called": a program gives called_friction
+  std::shared_ptr<const FrictionLaw> called_friction{};
   std::optional<double> tangential_stiffness;
   double friction = 0.0;        ///< Coulomb mu
   Located<double> restitution;  ///< Newton's coefficient, for impulses
@@ -45,6 +50,7 @@ struct CaseInterface {
   CaseContactLaw law;
 
   const Located<std::string>& own_cells() const { return group; }
+  void check_scheme(const CaseScheme& scheme, const ContactPlace& at) const;
 };
 
 /// A rigid body that moves freely, and turns where it has an inertia; or, without a mass, one that is led to turn.

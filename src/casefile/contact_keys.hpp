@@ -69,6 +69,10 @@ void add_law(SectionSchema<Kind>& s) {
             .default_phrase = "with friction: as stiffness"});
   s.key_by("friction", [](auto& kind) -> auto& { return kind.law.friction; }, "Coulomb's coefficient of friction mu.",
            {.range = at_least(0.0), .aliases = {"mu"}});
+  s.key_by("friction_law", [](auto& kind) -> auto& { return kind.law.friction_law; },
+           "Instead of friction: a coefficient that depends on pressure, slip rate, place and time, which a program "
+           "computes that uses Carom as a library (docs/python.md), and which it alone can run.",
+           {.choices = {"called"}, .default_phrase = "friction"});
   s.key_by("restitution", [](auto& kind) -> auto& { return kind.law.restitution; },
            "Newton's coefficient of the nodes that touch: separating over approaching speed, for enforcement = "
            "\"impulse\". Not that of their bodies, which rebound by their own waves.",
@@ -79,6 +83,22 @@ void add_law(SectionSchema<Kind>& s) {
            {.choices = {"refuse", "offset", "prestress"},
             .default_phrase = "\"refuse\"; with [initial_state] \"prestress\" to a quarter of a cell"});
 }
+
+/// Keys of a law of pressure over depth, where each row has a depth of its own.
+template <class Kind>
+void add_pressures(SectionSchema<Kind>& s) {
+  s.key_by(
+      "depths", [](auto& kind) -> auto& { return kind.law.depths; },
+      "Instead of a stiffness: increasing penetrations at which pressures are given, with enforcement = \"penalty\". "
+      "The law is straight from 0 to the first of them, between them, and on beyond the last.",
+      {.unit = Dimension::length, .default_phrase = "none"});
+  s.key_by("pressures", [](auto& kind) -> auto& { return kind.law.pressures; },
+           "Normal stress at each of the depths, positive, not falling; with measure = \"node\": force of a node.",
+           {.unit = Dimension::stress, .default_phrase = "none"});
+}
+
+/// They need springs that are asked at the end of a step.
+void check_pressures(const CaseContactLaw& law, const CaseScheme& scheme, const ContactPlace& at);
 
 /// The factor is one on the stiffness that is chosen.
 void check_stiffness(const CaseStiffness& springs, const Node& node, const ReadContext& at);

@@ -143,6 +143,7 @@ SectionSchema<Kind> obstacle_keys(const std::string& doc) {
   SectionSchema<Kind> s(doc);
   add_group(s);
   add_law(s);
+  add_pressures(s);
   s.key_by("measure", [](auto& kind) -> auto& { return kind.per_node; },
            "What the stiffness is counted per: area of the faces, or node.", {.choices = {"area", "node"}});
   add_bar_radius(s);
@@ -226,6 +227,7 @@ SectionSchema<CaseRigidSurface> contact_keys(std::type_identity<CaseRigidSurface
 }
 
 void CaseObstacle::check_scheme(const CaseScheme& scheme, const ContactPlace& at) const {
+  check_pressures(law, scheme, at);
   if (has_inertia(*scheme.kind) || !body.inertia) return;
   throw CaseError(body.inertia->where, at.path + ".inertia", "a body that turns, with statics",
                   "a scheme with inertia, or a free body without `inertia`, which does not turn",

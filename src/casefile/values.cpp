@@ -242,6 +242,7 @@ std::optional<Node> encode(const std::array<bool, 3>& axes, const KeyOptions& op
 }
 
 std::optional<Node> encode(const std::vector<double>& value, const KeyOptions&) {
+  if (value.empty()) return std::nullopt;  // a list that is written has a value at least
   return encode_list<double>(value);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -42,6 +43,13 @@ Vec3 middle_of(const std::vector<Vec3>& coordinates) {
     high[c] = most[c];
   }
   return scaled(add(low, high), 0.5);
+}
+
+bool rubs(const Model& model) {
+  return std::ranges::any_of(model.contacts, [](const ContactDefinition& contact) {
+    const ContactLaw* law = law_of(contact);
+    return law != nullptr && law->friction;
+  });
 }
 
 }  // namespace
@@ -102,11 +110,60 @@ RowMakers::RowMakers(const Model& of, const MirrorImages& images, std::shared_pt
   if (std::ranges::find(has_images, true) != has_images.end()) whole_keys = keys();
 }
 
+namespace {
+
+/// How fast the two sides of a row slide.
+double slip_rate(const ConstraintRows& rows, std::size_t r, std::span<const double> v) {
+  const Vec3 w = rows.relative(r, v);
+  return std::hypot(w[1], w[2]);
+}
+
+/// Gives the rows of contacts with a law of friction their coefficients, from what pressed and slid at the beginning of
+/// the step; of rows that were not there: nothing pressed.
+void rub(const RowMakers& all, std::span<const double> u_begin, const ContactPast& past, ConstraintRows& rows) {
+  constexpr double least = 1e-12;    // so that a row has friction, or not, for the whole run
+  std::map<Index, std::size_t> was;  // by slot
+  for (std::size_t r = 0; past.pressed != nullptr && r < past.pressed->status.size(); ++r)
+    was[past.pressed->rows->slot[r]] = r;
+  for (std::size_t c = 0; c < all.model.contacts.size(); ++c) {
+    const ContactLaw* law = law_of(all.model.contacts[c]);
+    if (law == nullptr || !law->friction) continue;
+    std::vector<std::size_t> of_contact;
+    RubbingRows seen;
+    seen.time = past.time;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (rows.source[r] != static_cast<Index>(c)) continue;
+      of_contact.push_back(r);
+      const auto before = was.find(rows.slot[r]);
+      const bool is_known = before != was.end();
+      seen.pressure.push_back(is_known ? std::max(0.0, past.pressed->force[before->second][0]) /
+                                             past.pressed->rows->measure[before->second]
+                                       : 0.0);
+      seen.slip_rate.push_back(is_known ? slip_rate(*past.pressed->rows, before->second, past.velocity) : 0.0);
+      // Rows that are fixed stand where they were made, others where they were at the beginning, if they were there.
+      seen.position.push_back(all.makers[c]->is_fixed()
+                                  ? add(rows.position[r], rows.to_space(r, rows.relative(r, u_begin)))
+                              : is_known ? past.pressed->rows->position[before->second]
+                                         : rows.position[r]);
+    }
+    if (of_contact.empty()) continue;
+    const std::vector<double> mu = (*law->friction)(seen);
+    for (std::size_t i = 0; i < of_contact.size(); ++i) rows.law[of_contact[i]].mu *= std::max(least, mu[i]);
+  }
+}
+
+}  // namespace
+
 struct ContactGeometry::Impl {
   explicit Impl(const Model& of)
-      : model(of), images(of), whole(of, images, nullptr), centre(middle_of(of.mesh->coordinates)) {}
+      : model(of),
+        has_friction_law(rubs(of)),
+        images(of),
+        whole(of, images, nullptr),
+        centre(middle_of(of.mesh->coordinates)) {}
 
   const Model& model;
+  const bool has_friction_law;
   MirrorImages images;
   RowMakers whole;                             ///< of all cells
   std::unique_ptr<RowMakers> eroded;           ///< of the topology that was asked for last
@@ -127,7 +184,7 @@ struct ContactGeometry::Impl {
   /// would be known to the rounding of their coordinates only; obstacles stand where the case says.
   Vec3 origin_of(std::size_t maker) const { return parts_of(model.contacts[maker]).other != nullptr ? centre : Vec3{}; }
   std::shared_ptr<ConstraintRows> make(const RowMakers& all, std::span<const double> u_begin, std::span<const double> u,
-                                       std::span<const RowHistory> history);
+                                       const ContactPast& past);
 };
 
 /// Those of a topology, which are kept while it is the same. Rows of what was closed at the start have no offset any
@@ -149,7 +206,8 @@ void ContactGeometry::Impl::make_room(const RowMakers& all) {
 /// Makes the rows that never change, if all of them are such.
 void ContactGeometry::Impl::fix(RowMakers& all) {
   make_room(all);
-  if (std::all_of(all.makers.begin(), all.makers.end(), [](const auto& m) { return m->is_fixed(); }))
+  if (!has_friction_law &&
+      std::all_of(all.makers.begin(), all.makers.end(), [](const auto& m) { return m->is_fixed(); }))
     all.fixed = make(all, {}, {}, {});
 }
 
@@ -186,8 +244,8 @@ bool ContactGeometry::Impl::place(std::span<const Index> nodes, const Vec3& orig
 }
 
 std::shared_ptr<ConstraintRows> ContactGeometry::Impl::make(const RowMakers& all, std::span<const double> u_begin,
-                                                            std::span<const double> u,
-                                                            std::span<const RowHistory> history) {
+                                                            std::span<const double> u, const ContactPast& past) {
+  const std::span<const RowHistory> history = past.history;
   const std::shared_ptr<ConstraintRows> kept = empty_rows();
   ConstraintRows& rows = *kept;
   for (std::size_t i = 0; i < all.makers.size(); ++i) {
@@ -219,6 +277,7 @@ std::shared_ptr<ConstraintRows> ContactGeometry::Impl::make(const RowMakers& all
     rows.offset[r] = history[rows.slot[r]].offset;
     rows.gap[r] -= rows.offset[r];
   }
+  if (has_friction_law) rub(all, u_begin, past, rows);
   return kept;
 }
 
@@ -257,7 +316,7 @@ std::shared_ptr<const ConstraintRows> ContactGeometry::rows_at(std::span<const d
   const RowMakers& all = impl_->of(past.topology);
   if (all.fixed) return all.fixed;
   const MirrorImages& images = impl_->images;
-  if (all.model.embedding.empty() && images.empty()) return impl_->make(all, u_begin, u, past.history);
+  if (all.model.embedding.empty() && images.empty()) return impl_->make(all, u_begin, u, past);
   const auto with_others = [&](std::span<const double> values, std::vector<double>& own) {
     own.assign(values.begin(), values.end());
     all.model.embedding.spread(own);
@@ -265,7 +324,7 @@ std::shared_ptr<const ConstraintRows> ContactGeometry::rows_at(std::span<const d
   };
   with_others(u_begin, impl_->spread_begin);
   with_others(u, impl_->spread);
-  return impl_->make(all, impl_->spread_begin, impl_->spread, past.history);
+  return impl_->make(all, impl_->spread_begin, impl_->spread, past);
 }
 
 ConstraintRows ContactGeometry::stiffness_rows() const {

@@ -9,6 +9,7 @@
 #include "model/model.hpp"
 #include "model/topology.hpp"
 #include "rows/constraint_rows.hpp"
+#include "rows/response.hpp"
 #include "rows/row_history.hpp"
 
 namespace carom {
@@ -23,10 +24,14 @@ struct Penetration {
 };
 
 /// The past on which rows depend beside the positions: the history of the slots (empty: nothing was behind a facet),
-/// and which cells there are (null: all).
+/// which cells there are (null: all), and for laws of friction what pressed (null: nothing) and how it moved, at a
+/// time.
 struct ContactPast {
   std::span<const RowHistory> history{};
   std::shared_ptr<const Topology> topology{};
+  const ContactResponse* pressed = nullptr;
+  std::span<const double> velocity{};
+  double time = 0.0;
 };
 
 /// Makes the rows of all contacts of a model:

@@ -304,6 +304,7 @@ void MirrorImages::fold(const ConstraintRows& seen, std::size_t r, double share,
   rows.measure.back() *= share;
   RowLaw& law = rows.law.back();
   law.eps_N *= share;
+  law.own.measure *= share;
   law.eps_T *= share;
   law.damping *= share;
   const auto first = static_cast<std::size_t>(rows.begin[rows.size() - 1]);

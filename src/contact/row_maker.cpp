@@ -127,6 +127,7 @@ RowLaw row_law(const ContactLaw& law, double measure) {
   const double eps_N = law.eps_N.value_or(0.0) * measure, eps_T = law.eps_T.value_or(0.0) * measure;
   RowLaw out{eps_N, law.mu > 0.0 ? eps_T : 0.0, 0.0, law.mu, law.restitution};
   out.linear_depth = law.linear_depth;
+  out.own = {law.pressure.get(), measure};
   return out;
 }
 

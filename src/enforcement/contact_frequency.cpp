@@ -76,7 +76,7 @@ std::vector<double> sizes(const System& system, const ConstraintRows& rows, std:
       const RowLaw& law = rows.law[r];
       if (is_bond(law)) continue;  // held by BondedMass, without springs
       const RootSlopes roots =
-          roots_of({part_of_slope(rows, r) * law.spring_slope(std::max(0.0, -gap)), law.eps_T, law.eps_T});
+          roots_of({part_of_slope(rows, r) * law.steepest_slope(std::max(0.0, -gap)), law.eps_T, law.eps_T});
       for (auto k = static_cast<std::size_t>(rows.begin[r]); k < static_cast<std::size_t>(rows.begin[r + 1]); ++k) {
         const Vec3 inverse_mass = inverse_mass_of(system, rows.node[k]);
         size[k] = is_open ? size_of(without_turn(rows, r, rows.block[k]), roots, inverse_mass)

@@ -244,7 +244,9 @@ double AugmentedLagrangianPort::stiffening(const ConstraintRows& rows, std::size
 
 void AugmentedLagrangianPort::respond(std::span<const double> x, std::span<const double> /*v*/,
                                       ContactResponse& response) {
-  response.rows = system_.contact.rows_at(begin_->q, x, {contact_, begin_->topology});
+  ContactPast past = past_of(*begin_);
+  past.history = contact_;
+  response.rows = system_.contact.rows_at(begin_->q, x, past);
   const ConstraintRows& rows = *response.rows;
   response.force.assign(rows.size(), {});
   response.damper.assign(rows.size(), 0.0);

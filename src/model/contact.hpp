@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "base/types.hpp"
 #include "mesh/mesh.hpp"
 #include "model/options.hpp"
+#include "model/own_contact_law.hpp"
 #include "model/surface.hpp"
 
 namespace carom {
@@ -35,6 +37,8 @@ struct ContactLaw {
   double mu = 0.0;                                                ///< Coulomb's coefficient
   double restitution = 0.0;                                       ///< Newton's coefficient e, for impulses
   RowHold hold = RowHold::springs;                                ///< of the stages that ask most
+  std::shared_ptr<const PressureTable> pressure{};  ///< takes the place of the spring; eps_N is its largest slope
+  std::shared_ptr<const FrictionLaw> friction{};    ///< multiplies mu, which is 1 then
 };
 
 /// What a row stands for: the area of its node, or the node itself (stiffness is then force per length).

@@ -45,6 +45,7 @@ double end_of(const Case& given) {
 
 std::shared_ptr<PreparedCase> prepare(const py::dict& tree, const std::shared_ptr<Source>& source,
                                       const std::string& file, const std::map<std::string, py::object>& functions,
+                                      const std::map<std::string, py::object>& frictions,
                                       const std::optional<std::string>& mesh) {
   const Node root = from_python(tree, source ? &source->root : nullptr, file, "");
   auto prepared = std::make_shared<PreparedCase>();
@@ -56,6 +57,10 @@ std::shared_ptr<PreparedCase> prepare(const py::dict& tree, const std::shared_pt
     function.function.called =
         std::make_shared<const CalledFunction>(called(function.name, given->second), end_of(prepared->given));
   }
+  for (CaseContact& contact : prepared->given.contacts)
+    if (const auto given = frictions.find(*contact.name); given != frictions.end())
+      contact.law()->called_friction =
+          std::make_shared<const FrictionLaw>(called_friction(given->first, given->second));
   if (mesh) prepared->given.mesh.text = std::make_shared<const std::string>(*mesh);
   return prepared;
 }
@@ -68,8 +73,11 @@ py::tuple check(const PreparedCase& prepared, const std::string& folder) {
     const Computing computing(0);
     // Functions of Python may remember their calls, so that nothing is rehearsed with them.
     const bool calls = std::ranges::any_of(prepared.given.functions,
-                                           [](const CaseFunction& each) { return each.function.called != nullptr; });
-    found = examine(*simulation, folder, calls ? 0.0 : usual_rehearsal);
+                                           [](const CaseFunction& each) { return each.function.called != nullptr; }) ||
+                       std::ranges::any_of(prepared.given.contacts, [](const CaseContact& each) {
+                         return each.law() != nullptr && each.law()->called_friction;
+                       });
+    found = with_errors_of_callables([&] { return examine(*simulation, folder, calls ? 0.0 : usual_rehearsal); });
     found.notes.insert(found.notes.begin(), prepared.notes.begin(), prepared.notes.end());
   }
   return py::make_tuple(found.text(), found.warnings, found.notes);
@@ -79,12 +87,8 @@ py::tuple check(const PreparedCase& prepared, const std::string& folder) {
 
 std::shared_ptr<const Simulation> build(const PreparedCase& prepared, int threads) {
   const py::gil_scoped_release release;
-  try {
-    const Computing computing(threads);
-    return std::make_shared<const Simulation>(prepared.given);
-  } catch (const CallFailure& failure) {
-    std::rethrow_exception(failure.error);
-  }
+  const Computing computing(threads);
+  return with_errors_of_callables([&] { return std::make_shared<const Simulation>(prepared.given); });
 }
 
 void bind_cases(py::module_& module) {
@@ -99,7 +103,7 @@ void bind_cases(py::module_& module) {
   module.def("read", &read, py::arg("path"), py::arg("accept"),
              "Tree of dicts and lists of a case file, and its Source.");
   module.def("prepare", &prepare, py::arg("tree"), py::arg("source"), py::arg("file"), py::arg("functions"),
-             py::arg("mesh"), "Checks a tree and makes a case of it.");
+             py::arg("frictions"), py::arg("mesh"), "Checks a tree and makes a case of it.");
   module.def("check", &check, py::arg("case"), py::arg("folder"), "Text of `carom check`, warnings, notes.");
 }
 

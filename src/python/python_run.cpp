@@ -9,7 +9,6 @@
 
 #include "build/build_mesh.hpp"
 #include "build/initial_state.hpp"
-#include "math/called_function.hpp"
 #include "output/units.hpp"
 #include "python/arrays.hpp"
 #include "python/callables.hpp"
@@ -51,7 +50,7 @@ PythonRun::PythonRun(const PreparedCase& prepared, const std::string& folder, in
   {
     const py::gil_scoped_release release;
     const Computing computing(threads);
-    run_ = std::make_unique<Run>(*simulation_, folder, begun);
+    run_ = with_errors_of_callables([&] { return std::make_unique<Run>(*simulation_, folder, begun); });
     run_->keep_rows();
     run_->note(prepared.notes);
     run_->begin();
@@ -138,16 +137,14 @@ void PythonRun::advance_quietly(double time, long long& count) {
   const py::gil_scoped_release release;
   const Computing computing(threads_);
   const Run::Clock::time_point begun = Run::Clock::now();
-  try {
+  with_errors_of_callables([&] {
     do {
       settle_leases();
       run_->step();
       note_place();
       if (count > 0) --count;
     } while (!has_arrived(time, count) && !is_watched() && !take_interrupt() && Run::Clock::now() - begun < moment);
-  } catch (const CallFailure& failure) {
-    std::rethrow_exception(failure.error);
-  }
+  });
 }
 
 void PythonRun::throw_failure() const {

@@ -9,6 +9,7 @@
 
 #include "base/types.hpp"
 #include "model/options.hpp"
+#include "model/own_contact_law.hpp"
 
 namespace carom {
 
@@ -19,9 +20,18 @@ using RowBlock = std::array<Vec3, 3>;
 /// all, as a tie does; any at all, and never by springs, as a linear equation does.
 enum class AdmissibleSet : std::uint8_t { cone, bond, equation };
 
+/// A table of pressure over depth, which the model holds, for a row of this measure. All are equal: which one a row has
+/// follows from its contact.
+struct RowPressure {
+  const PressureTable* table = nullptr;
+  double measure = 0.0;
+  friend bool operator==(const RowPressure& /*a*/, const RowPressure& /*b*/) { return true; }
+};
+
 /// The law of one row, times its measure: force per length (eps_N, eps_T), force per velocity (damping). The normal
 /// spring of the penalty is linear down to linear_depth and hardens below: at depth d
-///   force eps_N (d + <d - d_0>^3 / d_0^2),  d_0 = linear_depth.
+///   force eps_N (d + <d - d_0>^3 / d_0^2),  d_0 = linear_depth,
+/// or it is that of a table, times the measure, whose largest slope is eps_N then.
 struct RowLaw {
   double eps_N = 0.0;
   double eps_T = 0.0;
@@ -31,11 +41,21 @@ struct RowLaw {
   DamperActs damper_acts = DamperActs::compression;
   AdmissibleSet set = AdmissibleSet::cone;
   double linear_depth = std::numeric_limits<double>::infinity();
+  RowPressure own{};  ///< not in checkpoints: rows are made anew before they are asked
 
   /// Force, slope and energy of the normal spring at a depth d >= 0.
-  double spring_force(double d) const { return eps_N * d + hardening() * cubed(beyond(d)); }
-  double spring_slope(double d) const { return eps_N + 3.0 * hardening() * beyond(d) * beyond(d); }
+  double spring_force(double d) const {
+    if (own.table != nullptr) return own.measure * own.table->pressure(d);
+    return eps_N * d + hardening() * cubed(beyond(d));
+  }
+  double spring_slope(double d) const {
+    if (own.table != nullptr) return own.measure * own.table->slope(d);
+    return eps_N + 3.0 * hardening() * beyond(d) * beyond(d);
+  }
+  /// The slope that a stable step allows for: of a table, whose slope may jump within a step, the largest of all.
+  double steepest_slope(double d) const { return own.table != nullptr ? eps_N : spring_slope(d); }
   double spring_energy(double d) const {
+    if (own.table != nullptr) return own.measure * own.table->energy(d);
     return 0.5 * eps_N * d * d + 0.25 * hardening() * cubed(beyond(d)) * beyond(d);
   }
   /// How far d is beyond linear_depth, and the factor of its cube in the force.

@@ -28,7 +28,7 @@ inline PointStep step_from(const State& begin, double dt) {
   return {.dt = dt, .history = begin.points, .alive = begin.alive()};
 }
 inline ContactPast past_of(const State& begin) {
-  return {begin.contact, begin.topology};
+  return {begin.contact, begin.topology, begin.forces.rows.rows ? &begin.forces.rows : nullptr, begin.v, begin.t};
 }
 
 /// The step to evaluate the bodies with at a state before the first step. Where points remember something, a step has

@@ -7,6 +7,9 @@ import os
 from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
 from typing import Any
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from carom import _carom
 from carom.mesh import Mesh
 from carom.run import Run
@@ -112,6 +115,49 @@ class Case(MutableMapping[str, Any]):
         self._tree.setdefault("functions", {})[name] = f
         return f
 
+    def friction_law(self, contact: str, mu: Callable[..., ArrayLike]) -> Callable[..., ArrayLike]:
+        """Makes mu(pressure, slip_rate, position, time) the coefficient of friction of a contact. Returns mu.
+
+        It is called with arrays over all rows of the contact that are near touching: normal pressure (n,) (of measure =
+        "node": force), size of the relative tangential velocity (n,), places (n, 3), all at the beginning of a step,
+        and the time then; in the case's units. It gives n coefficients >= 0, or one for all. They hold for that step, in
+        every scheme and enforcement: where they change, the error falls with the step, to first order. A row that was
+        not there has no pressure and does not slide. mu gives the same values whenever it is asked the same, since steps
+        may be made again, and is called with the lock of the interpreter; what it raises ends the run and comes out of
+        the step. Friction's work is booked as that of any other. Such a case can be run by this program alone, as with
+        functions of time. Raises KeyError, which lists the contacts.
+        """
+        if not callable(mu):
+            raise TypeError("mu: something that can be called with pressure, slip rate, position and time")
+        entry = self._contact(contact)
+        entry.pop("friction", None)
+        entry["friction_law"] = mu
+        return mu
+
+    def contact_law(self, contact: str, pressure: Callable[[NDArray[np.float64]], ArrayLike], depth: float,
+                    tolerance: float = 1e-4) -> None:
+        """Makes pressure(depths) the law of a contact with a rigid obstacle or of an interface, in the place of a
+        stiffness: normal stress over penetration (of measure = "node": force), with enforcement = "penalty".
+
+        pressure is called now, with arrays of depths from 0 to `depth`, and gives as many pressures: 0 at 0, positive
+        beyond, not falling. The case keeps a table of them (its keys `depths` and `pressures`), dense enough to be off by
+        no more than `tolerance` of the pressure at `depth`, and goes on straight beyond: so it can be written, resumed
+        and sent to other processes. Stored energy and tangent are those of the table, exactly; stable steps allow for its
+        largest slope. Raises ValueError for a law that is none, and KeyError, which lists the contacts.
+        """
+        entry = self._contact(contact)
+        depths, pressures = _table_of(pressure, float(depth), tolerance)
+        for key in ("stiffness", "stiffness_factor"):
+            entry.pop(key, None)
+        entry["depths"], entry["pressures"] = depths.tolist(), pressures.tolist()
+
+    def _contact(self, name: str) -> dict[str, Any]:
+        contacts = self._tree.get("contact", [])
+        for entry in contacts:
+            if entry.get("name") == name:
+                return entry  # type: ignore[no-any-return]
+        raise KeyError(f"there is no contact {name!r}; there are {', '.join(str(c.get('name')) for c in contacts) or 'none'}")
+
     def copy(self) -> Case:
         """A case of its own, with the same values, functions and mesh."""
         other = Case({})
@@ -143,13 +189,14 @@ class Case(MutableMapping[str, Any]):
 
     def _prepared(self) -> _carom.PreparedCase:
         """The case as the solver takes it. Raises CaseError."""
-        tree, functions = self._plain("case.mesh.msh")
-        return _carom.prepare(tree, self._source, self._file, functions, self._mesh_text)
+        tree, functions, frictions = self._plain("case.mesh.msh")
+        return _carom.prepare(tree, self._source, self._file, functions, frictions, self._mesh_text)
 
-    def _plain(self, mesh_file: str) -> tuple[dict[str, Any], dict[str, Callable[[float], float]]]:
-        """The tree as a file could hold it, a mesh of arrays being in `mesh_file`, and the functions that none could."""
+    def _plain(self, mesh_file: str) -> tuple[dict[str, Any], dict[str, Callable[..., Any]], dict[str, Callable[..., Any]]]:
+        """The tree as a file could hold it, a mesh of arrays being in `mesh_file`, and the functions of time and laws of
+        friction that none could."""
         tree = dict(self._tree)
-        functions = {}
+        functions, frictions = {}, {}
         if isinstance(tree.get("functions"), dict):
             functions = {name: f for name, f in tree["functions"].items() if callable(f)}
             tree["functions"] = {name: {"kind": "called"} if name in functions else f
@@ -157,7 +204,45 @@ class Case(MutableMapping[str, Any]):
         if self._mesh_text is not None:
             kept = {key: value for key, value in tree.get("mesh", {}).items() if key not in ("file", "block")}
             tree["mesh"] = {"file": mesh_file, **kept}
-        return tree, functions
+        if isinstance(tree.get("contact"), list):
+            tree["contact"] = [dict(entry) if isinstance(entry, dict) else entry for entry in tree["contact"]]
+            for entry in tree["contact"]:
+                if isinstance(entry, dict) and callable(entry.get("friction_law")):
+                    frictions[entry.get("name", "")] = entry["friction_law"]
+                    entry["friction_law"] = "called"
+        return tree, functions, frictions
+
+
+def _table_of(pressure: Callable[[NDArray[np.float64]], ArrayLike], depth: float,
+              tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Depths from above 0 on and pressures, with points where a straight line would miss the law."""
+    if not (np.isfinite(depth) and depth > 0.0):
+        raise ValueError(f"depth: {depth}, and a depth > 0 is wanted")
+
+    def at(depths: NDArray[np.float64]) -> NDArray[np.float64]:
+        found = np.asarray(pressure(depths), dtype=np.float64)
+        if found.shape != depths.shape or not np.isfinite(found).all():
+            raise ValueError("pressure: one finite number is wanted for each depth")
+        return found
+
+    x = np.linspace(0.0, depth, 65)
+    p = at(x)
+    most = 20_000
+    if abs(p[0]) > 1e-12 * abs(p[-1]):
+        raise ValueError(f"pressure: {p[0]:g} at depth 0, where bodies only touch, and 0 is wanted")
+    while len(x) < most:
+        middle = (x[1:] + x[:-1]) / 2.0
+        between = at(middle)
+        missed = np.abs(between - (p[1:] + p[:-1]) / 2.0) > tolerance * p[-1]
+        if not missed.any():
+            break
+        places = np.flatnonzero(missed) + 1
+        x, p = np.insert(x, places, middle[missed]), np.insert(p, places, between[missed])
+    else:
+        raise ValueError(f"pressure: {most} points do not follow it to {tolerance:g}: it jumps, or has an infinite slope")
+    if not (p[1:] > 0.0).all() or (np.diff(p) < 0.0).any():
+        raise ValueError("pressure: positive and not falling with the depth is wanted")
+    return x[1:], p[1:]
 
 
 def load(path: str | os.PathLike[str], accept: Sequence[str] = ()) -> Case:

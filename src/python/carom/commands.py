@@ -225,10 +225,10 @@ class _Choices(NamedTuple):
 def _compared(case: Case, choices: _Choices, reference: str, folder: pathlib.Path, jobs: int,
               progress: Callable[[int, int, str], object] | None, is_kept: bool) -> Comparison:
     mesh_file = folder / "case.mesh.msh"
-    tree, functions = case._plain(str(mesh_file.resolve()))
-    if functions:
-        raise ValueError(f"the functions {', '.join(functions)} are Python's: the variants are run by processes that "
-                         "do not have them; write them as tables or expressions")
+    tree, functions, frictions = case._plain(str(mesh_file.resolve()))
+    if functions or frictions:
+        raise ValueError(f"{', '.join([*functions, *frictions])}: functions of time and laws of friction that are Python's "
+                         "cannot be had by the processes that run the variants; write a table, or a number")
     if case._mesh_text is not None:
         folder.mkdir(parents=True, exist_ok=True)
         mesh_file.write_text(case._mesh_text, encoding="utf-8")

@@ -51,6 +51,29 @@ TEST(PenaltyForce, IsProportionalToThePenetrationAndNeverTensile) {
   }
 }
 
+// Straight from (0, 0) over (0.1, 1) and (0.3, 5), and on with slope 20; at twice the measure. By hand: at 0.2 the
+// pressure is 3 and the area below it 0.05 + 0.2; at 0.4 they are 7, and 0.05 + 0.6 + 0.6.
+TEST(PenaltyForce, FollowsATableOfPressures) {
+  const PressureTable table({0.1, 0.3}, {1.0, 5.0});
+  RowLaw law{.eps_N = 2.0 * table.largest_slope()};
+  law.own = {&table, 2.0};
+  EXPECT_NEAR(law.eps_N, 40.0, 40.0 * round_off);
+  const Rows penalty = single_node(law);
+  struct Place {
+    double depth, pressure, slope, energy;
+  };
+  for (const Place& at : {Place{0.05, 0.5, 10.0, 0.0125}, Place{0.2, 3.0, 20.0, 0.25}, Place{0.4, 7.0, 20.0, 1.25}}) {
+    const Vec3 u{0, 0, -at.depth};
+    const auto response = respond(penalty, {}, u);
+    EXPECT_NEAR(force_on_node(response)[2], 2.0 * at.pressure, 10 * round_off);
+    EXPECT_NEAR(response.stored, 2.0 * at.energy, 10 * round_off);
+    const RowTangent D = penalty_tangent(*penalty, 0, Vec3{}, u, Vec3{}, std::vector<RowHistory>(1), 0.0);
+    EXPECT_NEAR(D[0], 2.0 * at.slope, 100 * round_off);
+    EXPECT_EQ(law.steepest_slope(at.depth), law.eps_N);
+  }
+  EXPECT_EQ(norm(force_on_node(respond(penalty, {}, {0, 0, 0.1}))), 0.0);
+}
+
 // eps_N = 4, d_0 = 0.1: at 0.1 still 0.4, at 0.3 it is 4 (0.3 + 0.2^3 / 0.1^2) = 4.4. Force and slope are derivatives
 // of the stored energy (central differences of polynomials of degree 4: h^2 / 6 times their third derivative, 1e-7
 // here).
