@@ -165,6 +165,10 @@ void check_scheme(const Case& given, const CaseScheme& scheme) {
         },
         contact.of);
     const CaseContactLaw* law = contact.law();
+    if (law != nullptr && law->friction_law && !given.erosion.empty())
+      throw CaseError(law->friction_law->where, entry_path("contact", i, "friction_law"),
+                      "a law of friction beside [[erosion]]", "friction, a number",
+                      "Where cells go, what pressed on their faces has no faces any more.");
     if (law != nullptr && *law->restitution > 0.0 && enforcement != EnforcementKind::impulse) {
       throw CaseError(law->restitution.where, entry_path("contact", i, "restitution"),
                       fmt::format("{} with enforcement = \"{}\"", *law->restitution, name(enforcement)),

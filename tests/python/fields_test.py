@@ -9,7 +9,7 @@ from unittest import mock
 import numpy as np
 
 import carom
-from python_fixture import FolderTest, falling_block
+from python_fixture import FolderTest, falling_block, on_a_bed
 
 E, NU = 2.1e11, 0.3
 LAMBDA, G = E * NU / ((1 + NU) * (1 - 2 * NU)), E / (2 * (1 + NU))
@@ -20,14 +20,6 @@ def touching(scheme="central_differences"):
     run = falling_block(scheme).start(threads=1)
     run.step(30)
     return run
-
-
-def on_a_bed(case, gap=5e-5):
-    """Another block below, of other cells."""
-    case["mesh"]["block"].append({"origin": [-0.01, -0.02, 5e-5 - gap - 0.1], "size": [0.13, 0.13, 0.1],
-                                  "divisions": [3, 3, 2], "groups": {"cells": "BED", "zmax": "HEAD"}})
-    case["part"].append({"name": "bed", "cells": "BED", "material": "steel"})
-    return case
 
 
 def mean_gradients(run):

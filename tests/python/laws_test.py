@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 
 import carom
-from python_fixture import PROGRAM, FolderTest, falling_block
+from python_fixture import PROGRAM, FolderTest, falling_block, on_a_bed
 
 CASES = pathlib.Path(os.environ["CAROM_SOURCE"]) / "cases"
 SCHEMES = ("penalty", "newmark", "cd_lagrange", "moreau_jean", "nonsmooth_generalized_alpha")
@@ -37,6 +37,24 @@ class FrictionTest(FolderTest):
                 other.friction_law("ground", lambda pressure, rate, place, time: mu)
                 np.testing.assert_allclose(speed(other.start().finish()), speed(one.start().finish()), rtol=0,
                                            atol=1e-9 * SPEED)
+
+    def test_of_deformable_bodies_too(self):
+        for scheme, method in (("central_differences", "node_to_surface"), ("central_differences", "faces"),
+                               ("newmark", "two_pass"), ("hht", "faces"), ("cd_lagrange", "two_pass")):
+            with self.subTest(scheme=scheme, method=method):
+                force = []
+                for law in (0.3, lambda pressure, rate, place, time: np.full(len(pressure), 0.3)):
+                    case = on_a_bed(falling_block(scheme))
+                    case["initial"][0]["velocity"] = [2.0, 0.0, -5.0]
+                    case["contact"] = [{"name": "touch", "kind": "pair", "group": "FOOT", "master": "HEAD",
+                                        "method": method}]
+                    if callable(law):
+                        case.friction_law("touch", law)
+                    else:
+                        case["contact"][0]["friction"] = law
+                    force.append(case.start().finish().history["touch.force_x"])
+                self.assertGreater(np.abs(force[0]).max(), 1e4)
+                np.testing.assert_allclose(force[1], force[0], rtol=0, atol=1e-6 * np.abs(force[0]).max())
 
     def test_coefficient_that_grows_with_the_slip_rate(self):
         # dv/dt = -(a + b v) g: v = (v_0 + a / b) exp(-b g t) - a / b until it stops. The coefficient is one step old:
@@ -172,6 +190,10 @@ class FrictionTest(FolderTest):
         case.friction_law("ground", lambda *of: 0.3)
         case["contact"][0]["friction"] = 0.2
         with self.assertRaisesRegex(carom.CaseError, "one of the two"):
+            case.check()
+        del case["contact"][0]["friction"]
+        case["erosion"] = [{"part": "block", "plastic_strain": 0.05}]
+        with self.assertRaisesRegex(carom.CaseError, "friction_law.*erosion"):
             case.check()
 
 

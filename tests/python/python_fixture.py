@@ -33,6 +33,14 @@ def falling_block(scheme="central_differences", end=1.0e-4, speed=-5.0):
     return carom.Case(tree)
 
 
+def on_a_bed(case, gap=5e-5):
+    """Another block below, of other cells."""
+    case["mesh"]["block"].append({"origin": [-0.01, -0.02, 5e-5 - gap - 0.1], "size": [0.13, 0.13, 0.1],
+                                  "divisions": [3, 3, 2], "groups": {"cells": "BED", "zmax": "HEAD"}})
+    case["part"].append({"name": "bed", "cells": "BED", "material": "steel"})
+    return case
+
+
 def resting_block(end=1.0e-4):
     """The same without contact and at rest, for loads and imposed motions."""
     case = falling_block(end=end)
