@@ -261,6 +261,19 @@ class ContactLawTest(FolderTest):
                                    atol=1e-6)
         np.testing.assert_allclose(result.history["floor.force_z"], self.area * np.interp(d, x, p), rtol=0, atol=1e-6)
 
+    def test_equilibrium_on_a_table(self):
+        # Weight 1 kg x 1e3 m/s^2 on 0.01 m^2: 1e5 Pa, which the last piece of the table has at 2e-3 + 7e4 / 2.125e7.
+        case = falling_mass("statics", speed=0.0)
+        del case["initial"]
+        case["contact"][0].update(depths=[1e-3, 2e-3, 1e-2], pressures=[1e4, 3e4, 2e5])
+        case["scheme"]["enforcement"] = "penalty"
+        case["time"] = {"end": 1.0, "step": 0.25}
+        case["load"] = [{"gravity": [0.0, 0.0, -1e3], "function": "ramp"}]
+        case["functions"] = {"ramp": {"time": [0.0, 1.0], "value": [0.0, 1.0]}}
+        case["support"] = [{"nodes": "all", "blocked": ["x", "y"]}]
+        result = case.start().finish()
+        self.assertAlmostEqual(result.history["floor.penetration"][-1], 2e-3 + 7e4 / 2.125e7, delta=1e-9)
+
     def test_it_is_in_the_case(self):
         case = falling_mass()
         case.contact_law("floor", lambda depth: 1e8 * depth**1.5, depth=1e-2)
