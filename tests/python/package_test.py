@@ -55,7 +55,8 @@ class DocumentationTest(unittest.TestCase):
 
     def test_attributes_of_results_and_errors_are_documented(self):
         for module in (path.stem for path in PACKAGE.glob("[a-z]*.py")):
-            for cls in (n for n in ast.parse((PACKAGE / f"{module}.py").read_text()).body if isinstance(n, ast.ClassDef)):
+            tree = ast.parse((PACKAGE / f"{module}.py").read_text())
+            for cls in (n for n in tree.body if isinstance(n, ast.ClassDef) and n.name[0] != "_"):
                 for one, following in zip(cls.body, cls.body[1:] + [None]):
                     if isinstance(one, ast.AnnAssign):
                         is_text = isinstance(following, ast.Expr) and isinstance(following.value, ast.Constant)
