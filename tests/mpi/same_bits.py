@@ -2,9 +2,9 @@
 """Runs cases by carom and by carom-mpi on several ranks and compares the results folders byte by byte.
 
 Usage: same_bits.py CAROM CAROM_MPI [CASE...] [--ranks 2,3] [--threads 1,2] [--limit SECONDS].
-Without cases: all of cases/. Of summary.json all but the cost is compared; report.html is made from the other files and
-shows the cost. A case whose run by carom takes longer than the limit is left out, and counted. Exits with 1 if any byte
-differs.
+Without cases: all of cases/. Of summary.json all but the cost and the number of threads is compared; report.html is made
+from the other files and shows the cost. A case whose run by carom takes longer than the limit is left out, and counted.
+Exits with 1 if any byte differs.
 """
 
 import argparse
@@ -39,6 +39,7 @@ def run(command, limit=None):
 def summary_of(folder):
     summary = json.loads((folder / "summary.json").read_text())
     summary.pop("cost")
+    summary["program"].pop("threads")
     return summary
 
 
