@@ -18,7 +18,7 @@ import time
 import unittest
 
 import same_bits
-from job_test import BLOCK, processes_of
+from job_test import BLOCK, ends, processes_of
 
 CAROM, CAROM_MPI, KILLS, SEED = sys.argv[1], sys.argv[2], int((sys.argv + ["3"])[3]), int((sys.argv + ["3", "1"])[4])
 ENVIRONMENT = os.environ | same_bits.ENVIRONMENT
@@ -89,7 +89,6 @@ class Faults(unittest.TestCase):
         running = subprocess.Popen(list(map(str, same_bits.on_ranks(ranks, CAROM_MPI, "run", self.case, "--out", out,
                                                                     "--quiet"))),
                                    env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        self.addCleanup(running.communicate)
         end = time.monotonic() + 60.0
         while not list(out.glob("checkpoints/*")) and running.poll() is None:
             self.assertLess(time.monotonic(), end)
@@ -97,10 +96,11 @@ class Faults(unittest.TestCase):
         time.sleep(when)
         if victims := processes_of(self.case):
             os.kill(chance.choice(victims), signal.SIGKILL)
-        running.wait(timeout=20)
+        code = ends(running, self.case)
+        self.assertIsNotNone(code, "processes that go on when another has been killed")
         command = [CAROM, "resume", out, "--quiet"] if others == 1 else \
             list(map(str, same_bits.on_ranks(others, CAROM_MPI, "resume", out, "--quiet")))
-        if running.returncode != 0:  # else it had come to its end before
+        if code != 0:  # else it had come to its end before
             done = subprocess.run(command, capture_output=True, text=True, timeout=100, env=ENVIRONMENT)
             self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(same_bits.differences(self.folder / "whole", out), [])
