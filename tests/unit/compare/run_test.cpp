@@ -113,7 +113,7 @@ TEST_F(CompareRun, OfTheImpactBarMeasuresWhatTheRunsWrote) {
   const std::string file = std::string(CAROM_SOURCE_DIR) + "/cases/impact_bar/newmark.toml";
   const Options options{{"newmark", "central_differences", "leapfrog"}, {}, {"900"}, {10, 20}, {0.4}};
   const Settings settings{{CAROM_PROGRAM}, (folder_ / "out").string(), 2};
-  EXPECT_EQ(compare_cases(file, options, settings, true, stop_), ExitCode::good);
+  EXPECT_EQ(compare_cases(file, options, settings, {.quiet = true}, stop_), ExitCode::good);
   const nlohmann::json json = nlohmann::json::parse(read(folder_ / "out/compare.json"));
   ASSERT_EQ(json["variants"].size(), 6U);
   EXPECT_EQ(json["reference"], "exact");
@@ -148,7 +148,7 @@ TEST_F(CompareRun, ClaimsNoLessThanTheTrueError) {
                        Of{"two_bars/equal", {20, 40}}, Of{"two_bars/double_impedance", {10, 20, 40}}}) {
     const std::string file = std::string(CAROM_SOURCE_DIR) + "/cases/" + of.file + ".toml";
     const Settings settings{{CAROM_PROGRAM}, (folder_ / "out").string(), 1};
-    EXPECT_EQ(compare_cases(file, {schemes, {}, {}, of.cells, {0.5}}, settings, true, stop_), ExitCode::good);
+    EXPECT_EQ(compare_cases(file, {schemes, {}, {}, of.cells, {0.5}}, settings, {.quiet = true}, stop_), ExitCode::good);
     const nlohmann::json json = nlohmann::json::parse(read(folder_ / "out/compare.json"));
     EXPECT_GT(json["enforcement_spread"].get<double>(), 0.0);
     std::size_t claims = 0;
@@ -166,7 +166,7 @@ TEST_F(CompareRun, ClaimsNoLessThanTheTrueError) {
 TEST_F(CompareRun, OfForbiddenCombinationsOnlyIsAnErrorOfTheCase) {
   const std::string file = std::string(CAROM_SOURCE_DIR) + "/cases/impact_bar/newmark.toml";
   const Settings settings{{CAROM_PROGRAM}, (folder_ / "out").string(), 1};
-  EXPECT_THROW(compare_cases(file, {{"leapfrog"}, {}, {}, {}, {}}, settings, true, stop_), CaseError);
+  EXPECT_THROW(compare_cases(file, {{"leapfrog"}, {}, {}, {}, {}}, settings, {.quiet = true}, stop_), CaseError);
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
