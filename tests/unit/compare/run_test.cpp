@@ -148,7 +148,8 @@ TEST_F(CompareRun, ClaimsNoLessThanTheTrueError) {
                        Of{"two_bars/equal", {20, 40}}, Of{"two_bars/double_impedance", {10, 20, 40}}}) {
     const std::string file = std::string(CAROM_SOURCE_DIR) + "/cases/" + of.file + ".toml";
     const Settings settings{{CAROM_PROGRAM}, (folder_ / "out").string(), 1};
-    EXPECT_EQ(compare_cases(file, {schemes, {}, {}, of.cells, {0.5}}, settings, {.quiet = true}, stop_), ExitCode::good);
+    EXPECT_EQ(compare_cases(file, {schemes, {}, {}, of.cells, {0.5}}, settings, {.quiet = true}, stop_),
+              ExitCode::good);
     const nlohmann::json json = nlohmann::json::parse(read(folder_ / "out/compare.json"));
     EXPECT_GT(json["enforcement_spread"].get<double>(), 0.0);
     std::size_t claims = 0;
