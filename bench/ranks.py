@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""What ranks compute and send in an explicit step of a cube, counted from its mesh, and the gain that follows.
+"""What ranks compute and send in an explicit step, counted from a mesh, and the gain that follows.
 
-Usage: PYTHONPATH=build/release/python bench/ranks.py CELLS_AN_EDGE RANKS [RANKS...] [--tetra FILE] [options]
+Usage: PYTHONPATH=build/release/python bench/ranks.py (--cells CELLS_AN_EDGE | --mesh FILE) RANKS [RANKS...] [options]
 
 Counted (docs/decisions/0035, 0038): a rank owns the nodes from r N / R on and computes every cell that one of its nodes
 stands in, in batches of 8; it sends the displacements of its own nodes to the ranks that compute a cell with them, and
@@ -76,12 +76,13 @@ def count(cells: np.ndarray, ranks: int) -> dict[str, float]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("cells", type=int)
+    body = parser.add_mutually_exclusive_group(required=True)
+    body.add_argument("--cells", type=int, help="of a cube, along an edge (HEXA8)")
+    body.add_argument("--mesh", help="a mesh file, whose TETRA4 are taken")
     parser.add_argument("ranks", type=int, nargs="+")
     parser.add_argument("--cell", type=float, default=125e-9, help="seconds of one cell")
     parser.add_argument("--latency", type=float, default=2e-6, help="seconds of a message")
     parser.add_argument("--bandwidth", type=float, default=10e9, help="bytes a second of a rank")
-    parser.add_argument("--mesh", help="a mesh file of tetrahedra in the place of the cube")
     options = parser.parse_args()
     cells = (np.asarray(carom.read_mesh(options.mesh).cells["tetra4"]) if options.mesh
              else cells_of_cube(options.cells))

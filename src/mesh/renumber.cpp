@@ -403,16 +403,18 @@ std::vector<bool> are_grids(const Mesh& mesh, std::span<const std::size_t> body_
   return are;
 }
 
-/// Large bodies, numbered in levels, go on along a curve.
+/// Nodes of a body that is near the processor in the order of its levels.
+constexpr std::size_t small_body = 4096;
+
+/// Larger bodies, numbered in levels, go on along a curve.
 std::vector<Index> curve_order(const Mesh& mesh, std::span<const std::size_t> body_end) {
-  constexpr std::size_t large = 4096;  // smaller ones are near the processor as they are
   constexpr double grid_bin = 16384.0, other_bin = 64.0;
   const std::vector<bool> is_grid = are_grids(mesh, body_end);
   std::vector<Index> order = first_entries(mesh.node_count());
   std::size_t first = 0;
   for (std::size_t body = 0; body < body_end.size(); first = body_end[body++]) {
     const std::span<Index> nodes = std::span(order).subspan(first, body_end[body] - first);
-    if (nodes.size() <= large) continue;
+    if (nodes.size() <= small_body) continue;
     if (is_grid[body])
       bin_along_curve<2>(mesh, grid_bin, nodes);
     else
@@ -427,7 +429,7 @@ Mesh renumbered(Mesh mesh) {
   if (!is_local(mesh)) reorder(grid_order(mesh), mesh);
   LevelOrder levels(mesh);
   reorder(levels.compute(), mesh);
-  reorder(curve_order(mesh, levels.body_end()), mesh);
+  if (mesh.node_count() > small_body) reorder(curve_order(mesh, levels.body_end()), mesh);
   return mesh;
 }
 

@@ -25,8 +25,8 @@ HeadInjury head_injury_criterion(std::span<const double> a, double dt, double wi
 struct ShockPulse {
   double peak = 0.0, time = 0.0;  ///< of the resultant
   double begin = 0.0, end = 0.0;  ///< where the component crosses a tenth of the peak, or the record's ends
-  double velocity_change =
-      0.0;  ///< integral of the component from where it is zero before the peak to where it is after
+  /// Integral of the component from where it is zero before the peak to where it is after.
+  double velocity_change = 0.0;
 };
 ShockPulse shock_pulse(const std::array<std::vector<double>, 3>& a, double dt);
 

@@ -75,8 +75,8 @@ def processes_of(case):
 
 
 def ends(running, case):
-    """Waits until no process runs the case; the exit code of mpirun. Once in 80 kills mpirun itself (OpenMPI 4.1) stayed
-    when all that it had started had ended: that is not Carom's, and it is ended then."""
+    """Waits until no process runs the case: the exit code of mpirun, None where a process went on. Once in 80 kills mpirun
+    itself (OpenMPI 4.1) stayed when all that it had started had ended: that is not Carom's, and it is ended then."""
     end = time.monotonic() + 15.0
     while processes_of(case) and time.monotonic() < end:
         time.sleep(0.02)
