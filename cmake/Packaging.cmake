@@ -45,8 +45,8 @@ waves, and where every joule went. Implicit and explicit steps, contact
 with friction, bodies that yield; every run closes an energy ledger and
 ends with a verdict.")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
-    "Module of Python: cases as dicts, runs stepped and branched, curves as arrays: the solver
-carom as a module of Python.")
+    "Module of Python: cases as dicts, runs stepped and branched, curves as
+arrays: the solver carom as a module of Python.")
 set(CPACK_COMPONENT_DOC_DESCRIPTION
     "Manual: tutorial, how-tos, reference and verification of the solver
 carom, pages with a search that need no network.")
