@@ -1,6 +1,6 @@
 # The commands of the project; `make help` lists them. The work itself is done by CMake presets and the scripts of tools/.
 .DEFAULT_GOAL := help
-.PHONY: help demo build python mpi test verify bench gallery book docs manual package format lint clean
+.PHONY: help demo build python mpi test verify bench gallery book docs manual package portable wheel format lint clean
 
 help:    ## this list
 	@awk -F ':.*## ' '/^[a-z]+: .*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -67,6 +67,14 @@ manual:  ## the pages of docs/ as a site that can be searched without a network:
 package: ## the Debian packages, build/release/*.deb: the program, its Python module and the manual, looked at by lintian
 	@tools/setup build python package manual
 	@tools/package
+
+portable: ## a folder with the program and all its libraries, for other Linux systems: build/portable/*.tar.gz (docs/install.md)
+	@tools/setup build portable
+	@tools/portable
+
+wheel:   ## the Python module with all its libraries, for pip: build/wheel/*.whl (docs/install.md)
+	@tools/setup build python portable
+	@tools/wheel
 
 format:  ## rewrite all sources as .clang-format says
 	@tools/setup ci

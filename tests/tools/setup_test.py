@@ -92,7 +92,7 @@ class Setup(ToolTest):
             if line and not line.startswith("#"):
                 group, package, _ = line.split(None, 2)
                 self.assertIn(group, ("build", "python", "test", "ci", "bench", "book", "package", "verify", "mpi",
-                                  "manual"))
+                                  "manual", "portable"))
                 self.assertRegex(package, r"^[a-z0-9][a-z0-9+.-]+$")
 
 
