@@ -9,12 +9,13 @@ packages that are to be left to the system, and makes all of them find each othe
 LICENCES gets the copyright of each package that a copy is from, or that is built in (headers), the common licences that
 they refer to, and a list, with the source packages. Prints the version of the C library that is needed.
 
-HDF5 as Debian builds it needs libcurl, for files on servers of Amazon, which Carom does not open, and with it 25 libraries
-that have to be kept up to date and one (SASL) whose licence does not go with the GPL. They are not carried:
+HDF5 as Debian builds it needs libcurl, for files on servers of Amazon, which Carom does not open, and with it 27 more, which
+have to be kept up to date, and one of which (SASL) has a licence that does not go with the GPL. They are not carried:
 tools/no_network.c stands in for them.
 """
 
 import argparse
+import functools
 import hashlib
 import os
 import pathlib
@@ -47,6 +48,7 @@ def needed(binary):
     return output("patchelf", "--print-needed", binary).split()
 
 
+@functools.cache
 def package_of(library):
     """The Debian package that a library is from."""
     real = str(pathlib.Path(library).resolve())
