@@ -165,6 +165,18 @@ bool FaceOverlaps::stands_beyond(const Slave& slave, const ContactMotion& motion
   });
 }
 
+/// How many times as deep as wide an overlap with master g may be to have come in from the front. One that ends at a
+/// border of the other surface, and whose facets are turned by an angle against each other, is deep by the width times the
+/// tangent of that.
+double FaceOverlaps::most_steep(Index g, double facing) const {
+  constexpr double most = 10.0;
+  const auto edges = static_cast<std::size_t>(master_facet(g).size);
+  bool has_border = false;
+  for (std::size_t edge = 0; edge < edges; ++edge) has_border = has_border || ends_at(g, edge);
+  if (!has_border) return most;
+  return std::clamp(2.0 * std::sqrt(std::max(0.0, 1.0 - facing * facing)) / facing, 1.0, most);
+}
+
 /// Enters master g and appends its points, if it counts.
 void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& motion, Work& work) const {
   const Look& look = looks_[static_cast<std::size_t>(g)];
@@ -184,7 +196,7 @@ void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
   // A sliver ten times as deep as wide belongs to what passes by the border of the other facet; at the start not where
   // that goes on.
   const double length = slave.placed().size == 2 ? 1.0 : std::sqrt(slave.measure());
-  const bool is_wide = extent.area >= -0.1 * extent.least_gap * length || (motion.history.empty() && goes_on(g, work));
+  const bool is_wide = most_steep(g, facing) * extent.area >= -extent.least_gap * length || (motion.history.empty() && goes_on(g, work));
   // Without a history, at the start, all that is wide counts, but the far side of a thin part.
   const auto has_been_behind = [&] {
     return motion.history.empty() ? extent.least_gap >= -depth_[static_cast<std::size_t>(g)] : was_behind(slave, g);

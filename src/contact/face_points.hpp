@@ -103,6 +103,7 @@ class FaceOverlaps : public FacePointFinder {
   bool was_behind(const Slave& slave, Index g) const;
   bool stands_beyond(const Slave& slave, const ContactMotion& motion, const ParentPoint& at, double gap) const;
   bool goes_on(Index g, const Work& work) const;
+  double most_steep(Index g, double facing) const;
   void add_borders(const Slave& slave, const Work& work, std::size_t k, const ContactMotion& motion,
                    FacetPoints& found) const;
   double width_at(const Slave& slave, const ParentPoint& at) const;
