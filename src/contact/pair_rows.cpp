@@ -46,10 +46,10 @@ std::vector<Index> keys(const std::map<Index, double>& map) {
   return out;
 }
 
-/// Adds what the last row sees of one facet to its master nodes: its gap's gradient times `gap_factor`, its tangential
+/// Adds what the last row sees of one facet to its master nodes: `slope` of its gap, its tangential
 /// motion times `factor`, and what the row's gap changes by as the facet's normal does.
-void add_foot(ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, double gap_factor, double factor,
-              const Vec3& of_normal) {
+void add_foot(ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, const FacetFoot::Slope& slope,
+              double factor, const Vec3& of_normal) {
   const FacetShape shape = facet_shape(facet.size, foot.xi, foot.eta);
   const Vec3 n = foot.normal, t_1 = rows.tangent_1.back(), t_2 = rows.tangent_2.back();
   TangentDual dual;
@@ -60,8 +60,7 @@ void add_foot(ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, d
     const double w = -factor * foot.weight * foot.N[a];
     const Vec3 tilt = scaled(add(scaled(dual.dual_1, shape.dN_dxi[a]), scaled(dual.dual_2, shape.dN_deta[a])),
                              factor * foot.weight * foot.gap);
-    Vec3 of_gap =
-        scaled(add(scaled(foot.gradient, foot.N[a]), scaled(foot.at_closest, foot.N_closest[a])), -gap_factor);
+    Vec3 of_gap = scaled(add(scaled(slope.gradient, foot.N[a]), scaled(slope.at_closest, foot.N_closest[a])), -1.0);
     if (turns) {
       const double turn =
           dot(of_normal, of_facet.dual_1) * shape.dN_dxi[a] + dot(of_normal, of_facet.dual_2) * shape.dN_deta[a];
@@ -86,12 +85,17 @@ void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, const
   }
   for (std::size_t k = 0; k < met.feet.size(); ++k) {
     const FacetFoot& foot = met.feet[k];
-    add_foot(rows, foot, facets[foot.facet], of_gap, f,
+    FacetFoot::Slope slope = scaled(foot.slope, of_gap);
+    if (!stand.of_weights.empty()) {
+      slope.gradient = add(slope.gradient, scaled(stand.of_weights[k].gradient, deep));
+      slope.at_closest = add(slope.at_closest, scaled(stand.of_weights[k].at_closest, deep));
+    }
+    add_foot(rows, foot, facets[foot.facet], slope, f,
              stand.of_normals.empty() ? Vec3{} : scaled(stand.of_normals[k], deep));
   }
   for (std::size_t k = 0; k < stand.sides.size(); ++k) {
     const FacetFoot& side = stand.sides[k];
-    add_foot(rows, side, facets[side.facet], deep * stand.of_sides[k], 0.0,
+    add_foot(rows, side, facets[side.facet], scaled(side.slope, deep * stand.of_sides[k]), 0.0,
              scaled(stand.of_normals[met.feet.size() + k], deep));
   }
 }

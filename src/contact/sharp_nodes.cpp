@@ -78,9 +78,9 @@ double SharpNodes::product(Index n, const Vec3& normal, std::span<const Vec3> x)
   return squared;
 }
 
-/// Adds w times the gradient of the logarithm of f. The normal is the sum of those of `of_normals` by their shares.
-void SharpNodes::add_product(Index n, const Vec3& normal, std::span<const Vec3> x, double w,
-                             std::span<const double> shares, std::span<Vec3> of_normals, NodeStand& stand) const {
+/// Adds w times the gradient of the logarithm of f, and gives that by the normal.
+Vec3 SharpNodes::add_product(Index n, const Vec3& normal, std::span<const Vec3> x, double w, NodeStand& stand) const {
+  Vec3 of_normal{};
   for (const Facet& facet : facets_.at(n)) {
     const Corner corner = corner_of(facet, n, x);
     const double cosine = dot(corner.normal, normal), slope = w * fade((1.0 + cosine) / lies_flat).slope / lies_flat;
@@ -90,9 +90,9 @@ void SharpNodes::add_product(Index n, const Vec3& normal, std::span<const Vec3> 
     stand.of_node = subtract(stand.of_node, add(of_next, of_previous));
     stand.of_others.emplace_back(corner.next, of_next);
     if (corner.previous >= 0) stand.of_others.emplace_back(corner.previous, of_previous);
-    for (std::size_t f = 0; f < shares.size(); ++f)
-      of_normals[f] = add(of_normals[f], scaled(corner.normal, slope * shares[f]));
+    of_normal = add(of_normal, scaled(corner.normal, slope));
   }
+  return of_normal;
 }
 
 /// Takes the factor of another side of the body. False where nothing is left of f.
@@ -108,14 +108,13 @@ bool SharpNodes::take_side(Index n, const SurfacePoint& met, const FacetFoot& si
   const double slope = -(1.0 - squared) * near.value * near.slope / part;  // of log f by 2 - d_h / |g|
   stand.sides.push_back(side);
   stand.sides.back().weight = 0.0;
-  stand.sides.back().gradient = side.normal;
+  stand.sides.back().slope.gradient = side.normal;
   stand.of_sides.push_back(slope / deep);
   stand.of_node = add(stand.of_node, scaled(side.normal, slope / deep));
   stand.of_gap += slope * side.gap / (deep * deep);
   stand.of_normals.resize(met.feet.size() + stand.sides.size());
-  const double whole = 1.0;
   if (squared > 0.0)
-    add_product(n, side.normal, x, near.value * squared / part, {&whole, 1}, {&stand.of_normals.back(), 1}, stand);
+    stand.of_normals.back() = add_product(n, side.normal, x, near.value * squared / part, stand);
   return true;
 }
 
@@ -123,16 +122,20 @@ NodeStand SharpNodes::stand(Index n, const SurfacePoint& met, std::span<const Ve
                             std::span<const Index> others) const {
   NodeStand stand;
   Vec3 normal{};
-  std::vector<double> shares;
-  for (const FacetFoot& foot : met.feet) {
-    normal = add(normal, scaled(foot.facet_normal, foot.weight));
-    shares.push_back(foot.weight);
-  }
+  for (const FacetFoot& foot : met.feet) normal = add(normal, scaled(foot.facet_normal, foot.weight));
   stand.factor = std::sqrt(product(n, normal, x));
   if (!(stand.factor > least_factor)) return NodeStand::nothing();
-  std::vector<Vec3> of_normals(shares.size());
-  add_product(n, normal, x, 1.0, shares, of_normals, stand);
-  if (!stand.of_others.empty()) stand.of_normals = std::move(of_normals);
+  const Vec3 of_normal = add_product(n, normal, x, 1.0, stand);
+  if (!stand.of_others.empty()) {
+    std::vector<double> of_weights;
+    for (const FacetFoot& foot : met.feet) {
+      stand.of_normals.push_back(scaled(of_normal, foot.weight));
+      of_weights.push_back(dot(of_normal, foot.facet_normal));
+    }
+    stand.of_weights = slopes_of_weights(met, of_weights);
+    for (const FacetFoot::Slope& slope : stand.of_weights)
+      stand.of_node = add(stand.of_node, add(slope.gradient, slope.at_closest));
+  }
   for (const Index h : others) {
     const PlacedFacet placed = place(facets[static_cast<std::size_t>(h)], x);
     const Projection p = project(placed, x[static_cast<std::size_t>(n)]);
@@ -145,6 +148,7 @@ NodeStand SharpNodes::stand(Index n, const SurfacePoint& met, std::span<const Ve
   for (auto& [other, slope] : stand.of_others) slope = scaled(slope, stand.factor);
   for (Vec3& slope : stand.of_normals) slope = scaled(slope, stand.factor);
   for (double& slope : stand.of_sides) slope *= stand.factor;
+  for (FacetFoot::Slope& slope : stand.of_weights) slope = scaled(slope, stand.factor);
   return stand;
 }
 

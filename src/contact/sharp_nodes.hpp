@@ -19,6 +19,7 @@ struct NodeStand {
   double of_gap = 0.0;                            ///< by its gap,
   std::vector<std::pair<Index, Vec3>> of_others;  ///< by the other nodes of its facets,
   std::vector<Vec3> of_normals;                   ///< by the normals of the feet, each of length 1, then of `sides`,
+  std::vector<FacetFoot::Slope> of_weights;       ///< by the weights of the feet,
   std::vector<FacetFoot> sides;                   ///< and by the gaps of feet on other sides of the body that it is in,
   std::vector<double> of_sides;                   ///< whose share in what the node meets is nothing
 
@@ -35,7 +36,7 @@ struct NodeStand {
 ///   f^2 = product of S(z_k / w) over the facets k of the body at the node,  z_k = 1 + n_k . n,  w = 0.06,
 /// n_k the outward normal of facet k at its corner there, n = sum_f w_f n_f the mean normal of the feet, S the fade
 /// (fade.hpp). z_k is 0 where the facet lies flat on the other body, and w at 20 degrees from that. So these rows count
-/// for nothing on flat faces, and the patch test is that of the overlaps. The gradient holds the weights w_f.
+/// for nothing on flat faces, and the patch test is that of the overlaps.
 ///
 /// Beside an edge of the other body the nearest face may change, and a node that lay flat on the one sticks out towards
 /// the other. So f^2 has a factor 1 - (1 - f_h^2) S(2 - d_h / |g|) for each other face h that the node is behind, by
@@ -53,8 +54,7 @@ class SharpNodes {
 
  private:
   double product(Index n, const Vec3& normal, std::span<const Vec3> x) const;
-  void add_product(Index n, const Vec3& normal, std::span<const Vec3> x, double w, std::span<const double> shares,
-                   std::span<Vec3> of_normals, NodeStand& stand) const;
+  Vec3 add_product(Index n, const Vec3& normal, std::span<const Vec3> x, double w, NodeStand& stand) const;
   bool take_side(Index n, const SurfacePoint& met, const FacetFoot& side, std::span<const Vec3> x,
                  NodeStand& stand) const;
 

@@ -43,8 +43,7 @@ FacetFoot foot_on(const NodeQuery& query, Index f, const Projection& p) {
   const double inside = norm(subtract(frame.position, p.point)) > 2.0 * width ? 0.0 : std::max(0.0, rest);
   out.weight = inside * inside;
   const double slope = -4.0 * inside / (width * width);  // of the weight in (d_f^2 - g_f^2) / 2
-  out.at_closest = scaled(subtract(query.x, p.point), slope);
-  out.gradient = scaled(out.normal, -slope * out.gap);
+  out.of_weight = {scaled(out.normal, -slope * out.gap), scaled(subtract(query.x, p.point), slope)};
   return out;
 }
 

@@ -7,7 +7,13 @@
 namespace carom {
 
 FacetFoot foot_at(Index f, const Projection& p, const Vec3& normal, double gap) {
-  return {f, 1.0, p.xi, p.eta, p.N, p.a_1, p.a_2, p.normal, normal, gap, {}, {}, p.N};
+  FacetFoot foot{f, 1.0, p.xi, p.eta, p.N, p.a_1, p.a_2, p.normal, normal, gap};
+  foot.N_closest = p.N;
+  return foot;
+}
+
+FacetFoot::Slope scaled(const FacetFoot::Slope& slope, double factor) {
+  return {scaled(slope.gradient, factor), scaled(slope.at_closest, factor)};
 }
 
 bool fade_unlike(FacetFoot& foot, double b, const FacetFoot& nearest) {
@@ -16,8 +22,7 @@ bool fade_unlike(FacetFoot& foot, double b, const FacetFoot& nearest) {
   const double share = rest * rest;
   foot.unlike_slope = -4.0 * z * rest / (b * b) * foot.weight;
   foot.weight *= share;
-  foot.gradient = scaled(foot.gradient, share);
-  foot.at_closest = scaled(foot.at_closest, share);
+  foot.of_weight = scaled(foot.of_weight, share);
   return true;
 }
 
@@ -25,28 +30,44 @@ void take_mean(SurfacePoint& met) {
   double sum = 0.0;
   for (const FacetFoot& foot : met.feet) sum += foot.weight;
   met.gap = 0.0;
-  met.gradient = {};
+  std::vector<double> gaps;
   for (FacetFoot& foot : met.feet) {
     foot.weight /= sum;
+    foot.of_weight = scaled(foot.of_weight, 1.0 / sum);
+    foot.unlike_slope /= sum;
     met.gap += foot.weight * foot.gap;
+    gaps.push_back(foot.gap);
   }
-  double of_nearest = 0.0;  // slope of the mean in the nearest facet's gap, by the weights of the others
-  for (FacetFoot& foot : met.feet) {
-    const double share = (foot.gap - met.gap) / sum, of_gap = share * foot.unlike_slope;
+  const std::vector<FacetFoot::Slope> of_weights = slopes_of_weights(met, gaps);
+  met.gradient = {};
+  for (std::size_t f = 0; f < met.feet.size(); ++f) {
+    FacetFoot& foot = met.feet[f];
+    foot.slope = of_weights[f];
+    foot.slope.gradient = add(foot.slope.gradient, scaled(foot.normal, foot.weight));
+    met.gradient = add(met.gradient, add(foot.slope.gradient, foot.slope.at_closest));
+  }
+}
+
+std::vector<FacetFoot::Slope> slopes_of_weights(const SurfacePoint& met, std::span<const double> values) {
+  double mean = 0.0;
+  for (std::size_t f = 0; f < values.size(); ++f) mean += met.feet[f].weight * values[f];
+  std::vector<FacetFoot::Slope> slopes;
+  double of_nearest = 0.0;  // in the nearest facet's gap, by the weights of the others
+  for (std::size_t f = 0; f < values.size(); ++f) {
+    const FacetFoot& foot = met.feet[f];
+    const double beyond = values[f] - mean, of_gap = beyond * foot.unlike_slope;
     of_nearest -= of_gap;
-    foot.at_closest = scaled(foot.at_closest, share);
-    foot.gradient = add(scaled(foot.gradient, share), scaled(foot.normal, foot.weight + of_gap));
-    met.gradient = add(met.gradient, add(foot.gradient, foot.at_closest));
+    slopes.push_back(scaled(foot.of_weight, beyond));
+    slopes.back().gradient = add(slopes.back().gradient, scaled(foot.normal, of_gap));
   }
-  const Vec3 rest = scaled(met.feet.front().normal, of_nearest);
-  met.feet.front().gradient = add(met.feet.front().gradient, rest);
-  met.gradient = add(met.gradient, rest);
+  slopes.front().gradient = add(slopes.front().gradient, scaled(met.feet.front().normal, of_nearest));
+  return slopes;
 }
 
 void take_only(Index f, const Projection& p, const SignedDistance& at, SurfacePoint& met) {
   met.facet = f;
   met.feet.assign(1, foot_at(f, p, at.normal, at.gap));
-  met.feet.front().gradient = at.normal;
+  met.feet.front().slope.gradient = at.normal;
   met.gradient = at.normal;
   met.gap = at.gap;
   met.rounded = 0.0;
@@ -57,17 +78,13 @@ void fade(Index f, const Projection& p, const Rim& rim, const Vec3& x, SurfacePo
   const double width_2 = rim.width * rim.width;
   const double rest = std::max(0.0, 1.0 - std::max(0.0, dot(way, way) - p.gap * p.gap) / width_2);
   const double share = rest * rest, slope = -4.0 * rest / width_2;  // of the share in t^2 / 2
-  for (FacetFoot& foot : met.feet) {
-    foot.gradient = scaled(foot.gradient, share);
-    foot.at_closest = scaled(foot.at_closest, share);
-  }
+  for (FacetFoot& foot : met.feet) foot.slope = scaled(foot.slope, share);
   FacetFoot at_end = foot_at(f, p, p.normal, 0.0);
   at_end.weight = 0.0;
-  at_end.gradient = scaled(p.normal, -met.gap * slope * p.gap);
-  at_end.at_closest = scaled(way, met.gap * slope);
+  at_end.slope = {scaled(p.normal, -met.gap * slope * p.gap), scaled(way, met.gap * slope)};
   at_end.N_closest = rim.N;
   met.feet.push_back(at_end);
-  met.gradient = add(scaled(met.gradient, share), add(at_end.gradient, at_end.at_closest));
+  met.gradient = add(scaled(met.gradient, share), add(at_end.slope.gradient, at_end.slope.at_closest));
   met.gap *= share;
 }
 

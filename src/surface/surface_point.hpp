@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "surface/facet_projection.hpp"
@@ -10,6 +11,11 @@ namespace carom {
 
 /// The foot of a node on one facet that it meets: the point of the perpendicular.
 struct FacetFoot {
+  /// The part of a gradient that a foot stands for: `gradient` along x, and times -N_a along x_a; at_closest the same
+  /// with N_closest.
+  struct Slope {
+    Vec3 gradient{}, at_closest{};
+  };
   Index facet = -1;
   double weight = 1.0;         ///< share of this facet in what the node meets
   double xi = 0.0, eta = 0.0;  ///< a little outside of the facet beyond an edge
@@ -17,10 +23,10 @@ struct FacetFoot {
   Vec3 a_1{}, a_2{}, facet_normal{};  ///< tangents and normal of the facet there
   Vec3 normal{};                      ///< unit vector along x - foot
   double gap = 0.0;                   ///< (x - foot) . normal
-  Vec3 gradient{};                    ///< of the node's gap: along x, and times -N_a along x_a
-  Vec3 at_closest{};                  ///< the same with N_closest
+  Slope slope{};                      ///< of the node's gap
   std::array<double, 4> N_closest{};  ///< at the facet's closest point
-  double unlike_slope = 0.0;          ///< of the weight, not yet divided by the sum, in the difference of the gaps
+  Slope of_weight{};                  ///< the slope of the weight without the change of unlike gaps,
+  double unlike_slope = 0.0;          ///< and of the weight in the difference of the gap to that of the nearest facet
 };
 
 /// The point that a node meets: on one facet, or beside edges on several, whose weights add up to 1. gap = sum_f
@@ -36,15 +42,21 @@ struct SurfacePoint {
   double rounded = 0.0;
 };
 
+FacetFoot::Slope scaled(const FacetFoot::Slope& slope, double factor);
+
 /// A foot at the facet's closest point, alone.
 FacetFoot foot_at(Index f, const Projection& p, const Vec3& normal, double gap);
 
 /// Multiplies the weight of a foot by (1 - z^2 / b^2)^2, z = g - g_0 the difference of its gap to that of the nearest
-/// facet; false where nothing is left. `gradient` and `at_closest` are those of the weight without the change of z.
+/// facet; false where nothing is left.
 bool fade_unlike(FacetFoot& foot, double b, const FacetFoot& nearest);
 
-/// Makes the point the mean over its feet, the nearest first, whose gradients are those of their weights.
+/// Makes the point the mean over its feet, the nearest first: their weights and the slopes of these are divided by the
+/// sum.
 void take_mean(SurfacePoint& met);
+
+/// The gradient of sum_f weight_f value_f, the values held, by feet: that of the weights.
+std::vector<FacetFoot::Slope> slopes_of_weights(const SurfacePoint& met, std::span<const double> values);
 
 /// Makes the point one of facet f alone.
 void take_only(Index f, const Projection& p, const SignedDistance& at, SurfacePoint& met);
