@@ -61,8 +61,11 @@ void feet_around(const NodeQuery& query, const ClosestPoint& best, std::vector<F
     return dot(surface.normal(f), normal) > NodeQuery::smooth || (is_tip && is_beside_tip(f));
   };
   if (best.projection.site != ProjectionSite::interior && !best.is_continued) {
-    const std::span<const Index> around = surface.topology().around(best.facet, best.projection);
-    if (!std::ranges::all_of(around, [&](Index f) { return !query.counts(f) || agrees(f); })) return;
+    const SurfaceTopology& topology = surface.topology();
+    const auto is_sharp = [&](Index f) {
+      return topology.is_at(f, best.facet, best.projection) && query.counts(f) && !agrees(f);
+    };
+    if (std::ranges::any_of(topology.around(best.facet, best.projection), is_sharp)) return;
   }
   feet.push_back(foot_on(query, best.facet, best.is_continued ? query.projection_on(best.facet) : best.projection));
   double sum = feet.front().weight;

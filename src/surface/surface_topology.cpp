@@ -17,12 +17,14 @@ SurfaceTopology::SurfaceTopology(std::span<const Facet> facets, std::size_t node
     if (!facets_at_[n].empty()) nodes_.push_back(static_cast<Index>(n));
 }
 
-bool SurfaceTopology::goes_on(Index f, const Projection& p) const {
+bool SurfaceTopology::is_at(Index g, Index f, const Projection& p) const {
   const Facet& facet = facets_[f];
-  const auto k = static_cast<std::size_t>(p.feature);
-  const Index b = facet[(k + 1) % static_cast<std::size_t>(facet.size)];
-  const bool is_edge = p.site == ProjectionSite::edge;
-  return std::ranges::any_of(at(facet[k]), [&](Index g) { return g != f && (!is_edge || has_node(facets_[g], b)); });
+  const auto next = (static_cast<std::size_t>(p.feature) + 1) % static_cast<std::size_t>(facet.size);
+  return p.site != ProjectionSite::edge || has_node(facets_[g], facet[next]);
+}
+
+bool SurfaceTopology::goes_on(Index f, const Projection& p) const {
+  return std::ranges::any_of(around(f, p), [&](Index g) { return g != f && is_at(g, f, p); });
 }
 
 std::vector<std::vector<Index>> SurfaceTopology::neighbours(std::span<const Index> nodes,

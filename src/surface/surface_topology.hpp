@@ -33,6 +33,8 @@ class SurfaceTopology {
   std::span<const Index> around(Index f, const Projection& p) const {
     return at(facets_[f][static_cast<std::size_t>(p.feature)]);
   }
+  /// True when g, one of those around, has the corner or the whole edge of facet f where p is.
+  bool is_at(Index g, Index f, const Projection& p) const;
   /// True when another facet lies beyond the edge or end of facet f where p is.
   bool goes_on(Index f, const Projection& p) const;
   /// Of each of these nodes, the facets that share a node with a facet that it belongs to, be that one of the surface

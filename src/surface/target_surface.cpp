@@ -9,12 +9,12 @@ namespace carom {
 
 Vec3 TargetSurface::pseudonormal(Index f, const Projection& p) const {
   const Facet& at = facet(f);
-  const auto size = static_cast<std::size_t>(at.size), k = static_cast<std::size_t>(p.feature);
+  const auto k = static_cast<std::size_t>(p.feature);
   Vec3 sum{};
   for (const Index other : topology_.around(f, p)) {
     const Facet& beside = facet(other);
     const PlacedFacet there = placed(other);
-    if (p.site == ProjectionSite::edge && !has_node(beside, at[(k + 1) % size])) continue;
+    if (!topology_.is_at(other, f, p)) continue;
     double weight = 1.0;
     if (p.site == ProjectionSite::vertex && beside.size > 2) {
       const auto n = static_cast<std::size_t>(beside.size);
