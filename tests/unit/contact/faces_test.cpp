@@ -161,6 +161,30 @@ TEST(FaceRows, ForcesAreTheGradientOfTheirEnergyWhereACornerDips) {
   }
 }
 
+// The corner of a box dips into a roof beside its ridge, where it meets both sides: what it meets turns from the one to
+// the other, and its factor, by their weights.
+TEST(FaceRows, ForcesAreTheGradientOfTheirEnergyWhereACornerDipsBesideARidge) {
+  for (const double x : {0.1, 0.2, 0.3}) {
+    Scene scene;
+    const auto roof = scene.add_patch(2, 2, [](double s, double t) {
+      return Vec3{20 * s - 10, 20 * t - 10, -0.4 * std::abs(20 * s - 10)};
+    });
+    const std::size_t first = scene.mesh.coordinates.size();
+    const auto box = scene.add_box({0, 0, 0}, {12, 12, 12}, 2);
+    const double a = -0.28, b = 0.1;  // the box leans by little over the side where its corner is
+    for (std::size_t n = first; n < scene.mesh.coordinates.size(); ++n) {
+      Vec3& at = scene.mesh.coordinates[n];
+      at = {at[0] * std::cos(a) - at[2] * std::sin(a), at[1], at[0] * std::sin(a) + at[2] * std::cos(a)};
+      at = {x + at[0], 2.0 + at[1] * std::cos(b) - at[2] * std::sin(b),
+            -0.4 * x - 0.15 + at[1] * std::sin(b) + at[2] * std::cos(b)};
+    }
+    scene.finish().contacts.emplace_back(faces(box, roof));
+    const ContactGeometry contact(scene.model);
+    EXPECT_GT(energy(contact, scene.zero()), 0.0);
+    EXPECT_LT(force_error(contact, scene.zero()), 5e-3) << x;
+  }
+}
+
 /// A box that stands out over two sides of another one, whose corner is inside of it: `down` behind its lower side, and
 /// `along` behind the side beside that, which looks the same way as a side of the corner.
 struct EdgeOnEdge {
@@ -377,9 +401,11 @@ double overlap_energy(double width, double depth) {
   return energy(ContactGeometry(scene.model), scene.zero());
 }
 
-// What is ten times as deep as wide is something that passes by, at the start as later.
+// What ends at a border of the other surface, is parallel to it and deeper than wide is something that passes by, at
+// the start as later.
 TEST(FaceRows, DoNotSeeDeepSliversAtTheStart) {
-  EXPECT_EQ(overlap_energy(0.005, 0.1), 0.0);
+  EXPECT_EQ(overlap_energy(0.095, 0.1), 0.0);
+  EXPECT_NEAR(overlap_energy(0.105, 0.1), 0.5 * 0.105 * 0.01, 1e-12);
   EXPECT_NEAR(overlap_energy(0.5, 0.1), 0.5 * 0.5 * 0.01, 1e-12);       // eps A d^2 / 2
   EXPECT_NEAR(overlap_energy(0.005, 0.01), 0.5 * 0.005 * 1e-4, 1e-16);  // as shallow as what may come in from the side
 }

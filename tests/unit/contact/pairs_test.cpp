@@ -147,6 +147,29 @@ TEST(NodeRows, AreSymmetricWhereFacetsMeet) {
   }
 }
 
+// Behind the edge of a valley a node is nearest to that edge, from both of its sides. At one end of the edge a wall
+// begins, whose facets do not belong to it.
+TEST(NodeRows, BehindAValleyAreSymmetricThoughAWallBeginsAtItsEnd) {
+  const auto gap = [](double x, double y) {
+    Scene scene;
+    auto all = scene.add_patch(2, 1, [](double s, double t) { return Vec3{2 * s - 1, t, 0.3 * std::abs(2 * s - 1)}; });
+    const std::array<Facet, 2> valley{all[0], all[1]};
+    std::array<Index, 3> below;
+    for (std::size_t i = 0; i < 3; ++i) below[i] = scene.add_node({double(i) - 1, 0.0, -1.0});
+    for (std::size_t i = 0; i < 2; ++i)
+      all.push_back({{valley[i].node[1], valley[i].node[0], below[i], below[i + 1]}, 4});
+    const Surface point{{{{scene.add_node({x, y, -0.02}), -1, -1, -1}, 1}}};
+    scene.finish().contacts.emplace_back(pair(point, {all}));
+    return gap_of(ContactGeometry(scene.model), scene.zero(), 0);
+  };
+  for (const double y : {0.3, 0.7}) {
+    constexpr double x = 1e-6;
+    EXPECT_LT(gap(x, y), 0.0);
+    EXPECT_NEAR(gap(x, y), gap(-x, y), round_off) << y;
+    EXPECT_NEAR(gap(x, y), gap(-2 * x, y), 10 * x) << y;
+  }
+}
+
 // Beside the ridge a row's surface is rounded: it lies outside of the facets. What that takes from the gap of a node in
 // front of its facet is no penetration, and is taken off at the start; a node behind it penetrates by its distance
 // from the facet, (0.3, 0.2, 1) times which is vertical.
