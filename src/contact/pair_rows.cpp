@@ -71,11 +71,28 @@ void add_foot(ConstraintRows& rows, const FacetFoot& foot, const Facet& facet, c
   }
 }
 
+/// Adds what the last row sees of the facets of a point: its gap's gradient times `gap_factor`, its tangential motion
+/// times `factor`, and the slopes of the node's factor times `deep`.
+void add_point(ConstraintRows& rows, const SurfacePoint& point, double gap_factor, double factor,
+               const NodeStand::OfPoint& of_point, double deep, std::span<const Facet> facets) {
+  for (std::size_t k = 0; k < point.feet.size(); ++k) {
+    const FacetFoot& foot = point.feet[k];
+    FacetFoot::Slope slope = scaled(foot.slope, gap_factor);
+    Vec3 of_normal{};
+    if (!of_point.normals.empty()) {
+      of_normal = scaled(of_point.normals[k], deep);
+      slope.gradient = add(slope.gradient, scaled(of_point.weights[k].gradient, deep));
+      slope.at_closest = add(slope.at_closest, scaled(of_point.weights[k].at_closest, deep));
+    }
+    add_foot(rows, foot, facets[foot.facet], slope, factor, of_normal);
+  }
+}
+
 /// Adds the nodes of the last row, whose gap is that of the point times the node's factor. An open row's factor is
 /// held.
-void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, const NodeStand& stand,
-               std::span<const Facet> facets) {
-  const double f = stand.factor, deep = std::min(met.gap, 0.0), of_gap = f + deep * stand.of_gap;
+void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, std::span<const SurfacePoint> sides,
+               const NodeStand& stand, std::span<const Facet> facets) {
+  const double f = stand.factor, deep = std::min(met.gap, 0.0), of_gap = f + deep * stand.of_met.gap;
   rows.add_block(slave, {add(scaled(met.gradient, of_gap), scaled(stand.of_node, deep)),
                          scaled(rows.tangent_1.back(), f), scaled(rows.tangent_2.back(), f)});
   if (deep < 0.0 && !stand.of_others.empty()) {
@@ -83,21 +100,10 @@ void add_nodes(ConstraintRows& rows, Index slave, const SurfacePoint& met, const
     for (const auto& [n, slope] : stand.of_others) others.add(n, scaled(slope, deep), {}, {});
     others.append_to(rows);
   }
-  for (std::size_t k = 0; k < met.feet.size(); ++k) {
-    const FacetFoot& foot = met.feet[k];
-    FacetFoot::Slope slope = scaled(foot.slope, of_gap);
-    if (!stand.of_weights.empty()) {
-      slope.gradient = add(slope.gradient, scaled(stand.of_weights[k].gradient, deep));
-      slope.at_closest = add(slope.at_closest, scaled(stand.of_weights[k].at_closest, deep));
-    }
-    add_foot(rows, foot, facets[foot.facet], slope, f,
-             stand.of_normals.empty() ? Vec3{} : scaled(stand.of_normals[k], deep));
-  }
-  for (std::size_t k = 0; k < stand.sides.size(); ++k) {
-    const FacetFoot& side = stand.sides[k];
-    add_foot(rows, side, facets[side.facet], scaled(side.slope, deep * stand.of_sides[k]), 0.0,
-             scaled(stand.of_normals[met.feet.size() + k], deep));
-  }
+  add_point(rows, met, of_gap, f, stand.of_met, deep, facets);
+  for (std::size_t k = 0; k < stand.of_sides.size(); ++k)
+    if (stand.of_sides[k].gap != 0.0 || !stand.of_sides[k].normals.empty())
+      add_point(rows, sides[k], deep * stand.of_sides[k].gap, 0.0, stand.of_sides[k], deep, facets);
 }
 
 /// The nodes of one surface against the facets of another.
@@ -141,13 +147,18 @@ class NodeRows : public RowMaker {
         const SurfacePoint* met = search_.find(i, space);
         if (met == nullptr || leaves_to_points(i, met->facet)) continue;
         const Index n = search_.nodes()[i];
-        const NodeStand stand = sharp_ ? stand_of(i, *met, motion.x) : NodeStand{};
+        std::vector<SurfacePoint> sides;
+        NodeStand stand;
+        if (sharp_) {
+          sides = search_.other_sides(i, *met, space);
+          stand = sharp_->stand(n, *met, sides, motion.x);
+        }
         if (stand.factor == 0.0) continue;
         made.add_row(stand.factor * met->gap, direction(met->gradient), motion.x[n], measure_[i],
                      row_law(law_, measure_[i]), source_);
         made.facet.back() = met->facet;
         made.rounded.back() = met->rounded;
-        add_nodes(made, n, *met, stand, search_.facets());
+        add_nodes(made, n, *met, sides, stand, search_.facets());
         finish_row(made, motion.u, first_slot + static_cast<Index>(i));
       }
     });
@@ -160,10 +171,6 @@ class NodeRows : public RowMaker {
     if (sides != nullptr)
       std::erase_if(measures, [&](const auto& m) { return sides->of_slave->is_smooth_node(m.first); });
     return measures;
-  }
-  NodeStand stand_of(std::size_t i, const SurfacePoint& met, std::span<const Vec3> x) const {
-    const std::vector<Index> others = met.gap < 0.0 ? search_.beside(i, met.feet.front().facet) : std::vector<Index>{};
-    return sharp_->stand(search_.nodes()[i], met, x, search_.facets(), others);
   }
   /// True where the points of a smooth master meet the flat face that the node is inside of.
   bool leaves_to_points(std::size_t i, Index facet) const {

@@ -16,7 +16,6 @@ namespace {
 constexpr double sharp_turn = std::numbers::pi / 6.0;
 constexpr double lies_flat = 0.06;     // w: 1 + n_k . n of a facet that is 20 degrees from lying flat
 constexpr double least_factor = 1e-4;  // 1e-8 of the force
-constexpr double other_side = 0.5;     // product of the normals of faces that do not go on in each other
 
 /// The corner of a facet at one of its nodes. A segment has e_z as the way to a node before or after it.
 struct Corner {
@@ -78,8 +77,10 @@ double SharpNodes::product(Index n, const Vec3& normal, std::span<const Vec3> x)
   return squared;
 }
 
-/// Adds w times the gradient of the logarithm of f, and gives that by the normal.
-Vec3 SharpNodes::add_product(Index n, const Vec3& normal, std::span<const Vec3> x, double w, NodeStand& stand) const {
+/// Adds w times the gradient of the logarithm of f towards the mean normal of a point.
+void SharpNodes::add_product(Index n, const SurfacePoint& point, std::span<const Vec3> x, double w, NodeStand& stand,
+                             NodeStand::OfPoint& of_point) const {
+  const Vec3 normal = mean_normal(point);
   Vec3 of_normal{};
   for (const Facet& facet : facets_.at(n)) {
     const Corner corner = corner_of(facet, n, x);
@@ -92,63 +93,53 @@ Vec3 SharpNodes::add_product(Index n, const Vec3& normal, std::span<const Vec3> 
     if (corner.previous >= 0) stand.of_others.emplace_back(corner.previous, of_previous);
     of_normal = add(of_normal, scaled(corner.normal, slope));
   }
-  return of_normal;
+  if (of_normal == Vec3{}) return;
+  std::vector<double> along;
+  for (const FacetFoot& foot : point.feet) {
+    of_point.normals.push_back(scaled(of_normal, foot.weight));
+    along.push_back(dot(of_normal, foot.facet_normal));
+  }
+  of_point.weights = slopes_of_weights(point, along);
+  for (const FacetFoot::Slope& slope : of_point.weights)
+    stand.of_node = add(stand.of_node, add(slope.gradient, slope.at_closest));
 }
 
 /// Takes the factor of another side of the body. False where nothing is left of f.
-bool SharpNodes::take_side(Index n, const SurfacePoint& met, const FacetFoot& side, std::span<const Vec3> x,
+bool SharpNodes::take_side(Index n, const SurfacePoint& met, const SurfacePoint& side, std::span<const Vec3> x,
                            NodeStand& stand) const {
+  NodeStand::OfPoint& of_side = stand.of_sides.emplace_back();
   const double deep = -met.gap;
   const Fade near = fade(2.0 + side.gap / deep);
   if (near.value == 0.0) return true;
-  const double squared = product(n, side.normal, x), part = 1.0 - (1.0 - squared) * near.value;
+  const double squared = product(n, mean_normal(side), x), part = 1.0 - (1.0 - squared) * near.value;
   if (part == 1.0) return true;
   stand.factor *= std::sqrt(std::max(part, 0.0));
   if (!(stand.factor > least_factor)) return false;
   const double slope = -(1.0 - squared) * near.value * near.slope / part;  // of log f by 2 - d_h / |g|
-  stand.sides.push_back(side);
-  stand.sides.back().weight = 0.0;
-  stand.sides.back().slope.gradient = side.normal;
-  stand.of_sides.push_back(slope / deep);
-  stand.of_node = add(stand.of_node, scaled(side.normal, slope / deep));
-  stand.of_gap += slope * side.gap / (deep * deep);
-  stand.of_normals.resize(met.feet.size() + stand.sides.size());
-  if (squared > 0.0)
-    stand.of_normals.back() = add_product(n, side.normal, x, near.value * squared / part, stand);
+  of_side.gap = slope / deep;
+  stand.of_node = add(stand.of_node, scaled(side.gradient, of_side.gap));
+  stand.of_met.gap += slope * side.gap / (deep * deep);
+  if (squared > 0.0) add_product(n, side, x, near.value * squared / part, stand, of_side);
   return true;
 }
 
-NodeStand SharpNodes::stand(Index n, const SurfacePoint& met, std::span<const Vec3> x, std::span<const Facet> facets,
-                            std::span<const Index> others) const {
+NodeStand SharpNodes::stand(Index n, const SurfacePoint& met, std::span<const SurfacePoint> sides,
+                            std::span<const Vec3> x) const {
   NodeStand stand;
-  Vec3 normal{};
-  for (const FacetFoot& foot : met.feet) normal = add(normal, scaled(foot.facet_normal, foot.weight));
-  stand.factor = std::sqrt(product(n, normal, x));
+  stand.factor = std::sqrt(product(n, mean_normal(met), x));
   if (!(stand.factor > least_factor)) return NodeStand::nothing();
-  const Vec3 of_normal = add_product(n, normal, x, 1.0, stand);
-  if (!stand.of_others.empty()) {
-    std::vector<double> of_weights;
-    for (const FacetFoot& foot : met.feet) {
-      stand.of_normals.push_back(scaled(of_normal, foot.weight));
-      of_weights.push_back(dot(of_normal, foot.facet_normal));
-    }
-    stand.of_weights = slopes_of_weights(met, of_weights);
-    for (const FacetFoot::Slope& slope : stand.of_weights)
-      stand.of_node = add(stand.of_node, add(slope.gradient, slope.at_closest));
-  }
-  for (const Index h : others) {
-    const PlacedFacet placed = place(facets[static_cast<std::size_t>(h)], x);
-    const Projection p = project(placed, x[static_cast<std::size_t>(n)]);
-    const bool is_other = p.site == ProjectionSite::interior && p.gap < 0.0 && p.gap > 2.0 * met.gap &&
-                          dot(p.normal, normal) < other_side;
-    if (is_other && !take_side(n, met, foot_at(h, p, p.normal, p.gap), x, stand)) return NodeStand::nothing();
-  }
+  add_product(n, met, x, 1.0, stand, stand.of_met);
+  for (const SurfacePoint& side : sides)
+    if (!take_side(n, met, side, x, stand)) return NodeStand::nothing();
+  const auto times_factor = [&stand](NodeStand::OfPoint& of) {
+    of.gap *= stand.factor;
+    for (Vec3& slope : of.normals) slope = scaled(slope, stand.factor);
+    for (FacetFoot::Slope& slope : of.weights) slope = scaled(slope, stand.factor);
+  };
   stand.of_node = scaled(stand.of_node, stand.factor);
-  stand.of_gap *= stand.factor;
   for (auto& [other, slope] : stand.of_others) slope = scaled(slope, stand.factor);
-  for (Vec3& slope : stand.of_normals) slope = scaled(slope, stand.factor);
-  for (double& slope : stand.of_sides) slope *= stand.factor;
-  for (FacetFoot::Slope& slope : stand.of_weights) slope = scaled(slope, stand.factor);
+  times_factor(stand.of_met);
+  std::ranges::for_each(stand.of_sides, times_factor);
   return stand;
 }
 

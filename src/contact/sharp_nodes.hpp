@@ -11,17 +11,21 @@
 
 namespace carom {
 
-/// The factor f by which a node sticks out towards the face that it meets, and the gradient of f. Lists are empty where
-/// f does not change.
+/// The factor f by which a node sticks out towards the face that it meets, and the gradient of f.
 struct NodeStand {
+  /// Slopes of f in what a node meets: in its gap, and in the normals, each of length 1, and the weights of its feet;
+  /// lists are empty where f does not change with them.
+  struct OfPoint {
+    double gap = 0.0;
+    std::vector<Vec3> normals;
+    std::vector<FacetFoot::Slope> weights;
+  };
+
   double factor = 1.0;                            ///< f, 0 <= f <= 1
   Vec3 of_node{};                                 ///< gradient of f by the node itself, that by its gap apart,
-  double of_gap = 0.0;                            ///< by its gap,
   std::vector<std::pair<Index, Vec3>> of_others;  ///< by the other nodes of its facets,
-  std::vector<Vec3> of_normals;                   ///< by the normals of the feet, each of length 1, then of `sides`,
-  std::vector<FacetFoot::Slope> of_weights;       ///< by the weights of the feet,
-  std::vector<FacetFoot> sides;                   ///< and by the gaps of feet on other sides of the body that it is in,
-  std::vector<double> of_sides;                   ///< whose share in what the node meets is nothing
+  OfPoint of_met;                                 ///< by what it meets,
+  std::vector<OfPoint> of_sides;                  ///< and by what it would meet on other sides of the body that it is in
 
   static NodeStand nothing() {
     NodeStand stand;
@@ -39,23 +43,21 @@ struct NodeStand {
 /// for nothing on flat faces, and the patch test is that of the overlaps.
 ///
 /// Beside an edge of the other body the nearest face may change, and a node that lay flat on the one sticks out towards
-/// the other. So f^2 has a factor 1 - (1 - f_h^2) S(2 - d_h / |g|) for each other face h that the node is behind, by
-/// d_h and at its foot, f_h^2 being the product above for h's normal: where two faces are as near, both count alike.
+/// the other. So f^2 has a factor 1 - (1 - f_h^2) S(2 - d_h / |g|) for each other side h that the node is behind, by
+/// d_h, f_h^2 being the product above for the mean normal there: where two sides are as near, both count alike.
 class SharpNodes {
  public:
   SharpNodes(const Model& model, std::span<const Facet> surface);
 
   bool has(Index n) const { return facets_.contains(n); }
-  /// x: current positions; others: of the facets, those of the other body that may be near, none where the
-  /// gap is not below zero. A factor below 1e-4 is given
-  /// as 0.
-  NodeStand stand(Index n, const SurfacePoint& met, std::span<const Vec3> x, std::span<const Facet> facets,
-                  std::span<const Index> others) const;
+  /// x: current positions; sides: SurfaceSearch::other_sides. A factor below 1e-4 is given as 0.
+  NodeStand stand(Index n, const SurfacePoint& met, std::span<const SurfacePoint> sides, std::span<const Vec3> x) const;
 
  private:
   double product(Index n, const Vec3& normal, std::span<const Vec3> x) const;
-  Vec3 add_product(Index n, const Vec3& normal, std::span<const Vec3> x, double w, NodeStand& stand) const;
-  bool take_side(Index n, const SurfacePoint& met, const FacetFoot& side, std::span<const Vec3> x,
+  void add_product(Index n, const SurfacePoint& point, std::span<const Vec3> x, double w, NodeStand& stand,
+                   NodeStand::OfPoint& of_point) const;
+  bool take_side(Index n, const SurfacePoint& met, const SurfacePoint& side, std::span<const Vec3> x,
                  NodeStand& stand) const;
 
   std::map<Index, std::vector<Facet>> facets_;  ///< those of the body at each of the nodes

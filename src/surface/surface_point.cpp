@@ -48,6 +48,12 @@ void take_mean(SurfacePoint& met) {
   }
 }
 
+Vec3 mean_normal(const SurfacePoint& met) {
+  Vec3 normal{};
+  for (const FacetFoot& foot : met.feet) normal = add(normal, scaled(foot.facet_normal, foot.weight));
+  return normal;
+}
+
 std::vector<FacetFoot::Slope> slopes_of_weights(const SurfacePoint& met, std::span<const double> values) {
   double mean = 0.0;
   for (std::size_t f = 0; f < values.size(); ++f) mean += met.feet[f].weight * values[f];

@@ -55,6 +55,9 @@ bool fade_unlike(FacetFoot& foot, double b, const FacetFoot& nearest);
 /// sum.
 void take_mean(SurfacePoint& met);
 
+/// sum_f weight_f n_f, n_f the normals of the facets.
+Vec3 mean_normal(const SurfacePoint& met);
+
 /// The gradient of sum_f weight_f value_f, the values held, by feet: that of the weights.
 std::vector<FacetFoot::Slope> slopes_of_weights(const SurfacePoint& met, std::span<const double> values);
 

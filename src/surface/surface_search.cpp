@@ -142,11 +142,34 @@ const SurfacePoint* SurfaceSearch::find(std::size_t q, Space& space) const {
   return is_found ? &space.found : nullptr;
 }
 
-std::vector<Index> SurfaceSearch::beside(std::size_t q, Index f) const {
-  std::vector<Index> out;
-  for (const Index g : broad_phase_.targets_of(q))
-    if (g != f && facets()[g].size > 2 && body_of(g) == body_of(f)) out.push_back(g);
-  return out;
+std::vector<SurfacePoint> SurfaceSearch::other_sides(std::size_t q, const SurfacePoint& met, Space& space) const {
+  if (!(met.gap < 0.0)) return {};
+  const Index body = body_of(met.feet.front().facet);
+  space.candidates.clear();
+  for (const Index f : broad_phase_.targets_of(q))
+    if (body_of(f) == body) space.candidates.push_back(f);
+  const Index behind = behind_.empty() || behind_[q] < 0 || body_of(behind_[q]) != body ? -1 : behind_[q];
+  const NodeQuery query = query_of(q, space.candidates, behind, space);
+  const Vec3 normal = mean_normal(met);
+  std::vector<ClosestPoint> near;
+  for (const Index f : query.candidates) {
+    if (facets()[f].size == 2) continue;
+    const Projection p = query.projection_on(f);
+    if (p.site == ProjectionSite::interior && p.gap < 0.0 && p.gap > 2.0 * met.gap &&
+        dot(p.normal, normal) < NodeQuery::smooth)
+      near.push_back({p.distance, f, p});
+  }
+  std::ranges::stable_sort(near, {}, &ClosestPoint::distance);
+  std::vector<SurfacePoint> sides;
+  for (const ClosestPoint& at : near) {
+    const Projection& p = at.projection;
+    const auto goes_on = [&](const SurfacePoint& side) { return dot(mean_normal(side), p.normal) >= NodeQuery::smooth; };
+    if (std::ranges::any_of(sides, goes_on)) continue;
+    const bool is_mean = query.counts(at.facet) && meets(query, at, space.side) && space.side.facet == at.facet;
+    if (!is_mean) take_only(at.facet, p, {p.normal, p.gap}, space.side);
+    sides.push_back(space.side);
+  }
+  return sides;
 }
 
 }  // namespace carom

@@ -66,7 +66,7 @@ class SurfaceSearch {
               std::vector<Index> behind = {});
   /// Memory that one thread needs for its calls of find.
   struct Space {
-    SurfacePoint found, other;
+    SurfacePoint found, other, side;
     std::vector<Index> candidates;
     std::vector<double> box_distance;
   };
@@ -75,9 +75,10 @@ class SurfaceSearch {
   const SurfacePoint* find(std::size_t q, Space& space) const;
 
   std::span<const Index> nodes() const { return nodes_; }
-  /// The facets of the body of facet f that nodes()[q] may be near, but f, in the order of their numbers. In the plane
-  /// none, where a node at a corner meets both of its sides.
-  std::vector<Index> beside(std::size_t q, Index f) const;
+  /// What nodes()[q] would meet on other sides of the body that it is in, were they the nearest: on facets that do not
+  /// go on in those of `met`, behind which it is no more than twice as deep and has its foot; of facets that go on in
+  /// each other the nearest. In the plane none, where a node at a corner meets both of its sides.
+  std::vector<SurfacePoint> other_sides(std::size_t q, const SurfacePoint& met, Space& space) const;
   std::span<const Facet> facets() const { return broad_phase_.targets(); }
   long builds() const { return broad_phase_.builds(); }
 

@@ -30,10 +30,11 @@ TEST(SharpNodes, StandByHalfWhereAnotherFaceIsHalfAsFarAgain) {
   met.gap = -1.0;
   met.feet.resize(1);
   met.feet[0].facet_normal = {0, 0, 1};
-  const std::vector<Facet> facets{side};
-  const std::vector<Index> none, others{0};
-  EXPECT_EQ(nodes.stand(n, met, scene.mesh.coordinates, facets, none).factor, 1.0);
-  EXPECT_NEAR(nodes.stand(n, met, scene.mesh.coordinates, facets, others).factor, std::sqrt(0.5), 1e-15);
+  std::vector<SurfacePoint> sides;
+  EXPECT_EQ(nodes.stand(n, met, sides, scene.mesh.coordinates).factor, 1.0);
+  const Projection p = project(place(side, scene.mesh.coordinates), scene.mesh.coordinates[n]);
+  take_only(0, p, {p.normal, p.gap}, sides.emplace_back());
+  EXPECT_NEAR(nodes.stand(n, met, sides, scene.mesh.coordinates).factor, std::sqrt(0.5), 1e-15);
 }
 
 // The lower corner of a box that leans by less than 20 degrees, before the upper side of another one: its factor is
