@@ -265,33 +265,6 @@ bool FaceOverlaps::ends_at(Index master, std::size_t edge) const {
   return next < 0 || dot(normal(next), normal(master)) < smooth_edge;
 }
 
-void FaceOverlaps::add_borders(const Slave& slave, const Work& work, std::size_t k, const ContactMotion& motion,
-                               FacetPoints& found) const {
-  const ColumnMaster& master = work.masters[k];
-  const ParentFace &own = slave_faces_[slave.f], &other = master_face(master.facet);
-  const double s = facing_factor(work.met[k].facing);
-  std::vector<BorderPoint> border;
-  for (std::size_t edge = 0; edge < static_cast<std::size_t>(master.placed.size); ++edge) {
-    if (!ends_at(master.facet, edge)) continue;
-    border.clear();
-    add_border(slave, master.seen, edge, border);
-    for (const BorderPoint& at : border) {
-      if (work.met[k].may_stand_beyond && stands_beyond(slave, motion, at.slave, at.gap)) continue;
-      FacePoint point;
-      point.weight = at.length * slave.measure_at(at.slave) * width_at(slave, at.slave);
-      point.gap = s * at.gap;
-      point.rise = at.gap;
-      point.master = k;
-      point.share = facet_shape(slave.placed().size, at.slave.xi, at.slave.eta).N;
-      point.N = point.N_slide = face_shape(own, in_parent(own, slave_.facets[slave.f], at.slave)).N;
-      point.N_master = face_shape(other, in_parent(other, master_facet(master.facet), at.master)).N;
-      point.along = at.outward;
-      point.of_turn = scaled(at.outward, at.gap);
-      found.border.push_back(point);
-    }
-  }
-}
-
 namespace {
 
 /// A point of a face where the line from x along n meets it, from a near point on: Newton's method in the plane normal
@@ -315,7 +288,59 @@ ParentPoint on_line(const ParentFace& face, std::span<const Vec3> x_nodes, const
   return at;
 }
 
+/// Two points that lie over each other along the slave's normal, on the faces that the facets are pieces of.
+struct FacesMeet {
+  FaceShape own, other;
+  Vec3 position, other_normal;  ///< of the slave's point, and of the master's face
+  double gap = 0.0;
+};
+
+/// own_at and other_at: in the parent elements of the faces, the latter near the point looked for.
+FacesMeet faces_meet(const ParentFace& own, const ParentPoint& own_at, const ParentFace& other,
+                     const ParentPoint& other_at, const Vec3& normal, std::span<const Vec3> x) {
+  FacesMeet out;
+  out.own = face_shape(own, own_at);
+  out.position = face_frame(own, out.own, x).position;
+  out.other = face_shape(other, on_line(other, x, out.position, normal, other_at));
+  const FacetFrame there = face_frame(other, out.other, x);
+  out.other_normal = there.normal;
+  out.gap = dot(subtract(there.position, out.position), normal);
+  return out;
+}
+
 }  // namespace
+
+void FaceOverlaps::add_borders(const Slave& slave, const Work& work, std::size_t k, const ContactMotion& motion,
+                               FacetPoints& found) const {
+  const ColumnMaster& master = work.masters[k];
+  const ParentFace &own = slave_faces_[slave.f], &other = master_face(master.facet);
+  const double s = facing_factor(work.met[k].facing);
+  std::vector<BorderPoint> border;
+  for (std::size_t edge = 0; edge < static_cast<std::size_t>(master.placed.size); ++edge) {
+    if (!ends_at(master.facet, edge)) continue;
+    border.clear();
+    add_border(slave, master.seen, edge, border);
+    for (const BorderPoint& at : border) {
+      if (work.met[k].may_stand_beyond && stands_beyond(slave, motion, at.slave, at.gap)) continue;
+      const ParentPoint own_at = in_parent(own, slave_.facets[slave.f], at.slave),
+                        other_at = in_parent(other, master_facet(master.facet), at.master);
+      FacePoint point;
+      point.rise = at.gap;
+      if (!own.is_linear || !other.is_linear)
+        point.rise = faces_meet(own, own_at, other, other_at, slave.normal(), motion.x).gap;
+      if (!(point.rise < 0.0)) continue;
+      point.weight = at.length * slave.measure_at(at.slave) * width_at(slave, at.slave);
+      point.gap = s * point.rise;
+      point.master = k;
+      point.share = facet_shape(slave.placed().size, at.slave.xi, at.slave.eta).N;
+      point.N = point.N_slide = face_shape(own, own_at).N;
+      point.N_master = face_shape(other, other_at).N;
+      point.along = at.outward;
+      point.of_turn = scaled(at.outward, point.rise);
+      found.border.push_back(point);
+    }
+  }
+}
 
 /// A point of the last master found, which is at placed_master.
 void FaceOverlaps::add_point(const Slave& slave, const PlacedFacet& placed_master, double facing,
@@ -337,15 +362,13 @@ void FaceOverlaps::add_point(const Slave& slave, const PlacedFacet& placed_maste
     std::copy(other_N.N.begin(), other_N.N.end(), point.N_master.begin());
     other_normal = placed_master.size == 4 ? facet_frame(placed_master, other_N).normal : master.normal;
   } else {
-    const FaceShape shape = face_shape(own, in_parent(own, facet, at.slave));
-    point.N = shape.N;
-    point.position = face_frame(own, shape, motion.x).position;
-    const ParentPoint near = in_parent(other, master_facet(master.facet), at.master);
-    const FaceShape other_shape = face_shape(other, on_line(other, motion.x, point.position, slave.normal(), near));
-    const FacetFrame there = face_frame(other, other_shape, motion.x);
-    point.N_master = other_shape.N;
-    other_normal = there.normal;
-    g = dot(subtract(there.position, point.position), slave.normal());
+    const FacesMeet meet = faces_meet(own, in_parent(own, facet, at.slave), other,
+                                      in_parent(other, master_facet(master.facet), at.master), slave.normal(), motion.x);
+    point.N = meet.own.N;
+    point.N_master = meet.other.N;
+    point.position = meet.position;
+    other_normal = meet.other_normal;
+    g = meet.gap;
   }
   point.N_slide = point.N;
   const double cosine = dot(other_normal, slave.normal());
