@@ -463,6 +463,44 @@ struct CrookedCubes {
   }
 };
 
+/// A cube of 20 nodes on another one, out over two of its edges and `depth` inside; the edges of the lower one's top are
+/// bent by `bend`.
+struct BentCubes {
+  Scene scene;
+
+  BentCubes(double depth, double bend) {
+    CellFiller filler;
+    for (const Vec3& low : {Vec3{0, 0, 0}, Vec3{0.43, 0.37, 1.0 - depth}}) {
+      std::vector<Index> corners;
+      for (const Vec3& x : {Vec3{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}) {
+        corners.push_back(static_cast<Index>(filler.mesh.coordinates.size()));
+        filler.mesh.coordinates.push_back(add(x, low));
+        filler.mesh.node_numbers.push_back(corners.back() + 1);
+      }
+      filler.add_cell(CellType::hexa20, corners);
+    }
+    scene.mesh = filler.mesh;
+    for (std::size_t n = 0; n < 20 + 8; ++n) {
+      Vec3& x = scene.mesh.coordinates[n];
+      if (x[2] == 1.0 && (x[0] == 0.5 || x[1] == 0.5)) x[2] += bend;
+    }
+    std::vector<Facet> first, second;
+    const auto of_first = std::span(scene.mesh.blocks.front().connectivity).first(20);
+    for (const Facet& facet : skin(scene.mesh))
+      (std::find(of_first.begin(), of_first.end(), facet[0]) != of_first.end() ? first : second).push_back(facet);
+    scene.finish().contacts.emplace_back(faces(second, first));
+  }
+};
+
+// Where an overlap ends at the border of a curved face its depth is that of the face, not of the facets that stand for
+// it: with these the forces were off by 0.014 of the largest. 0.006 are left, since the area is that of the facets.
+TEST(FaceRows, OfSecondOrderAreTheGradientOfTheirEnergyAtBorders) {
+  const BentCubes cubes(0.1, -0.1);
+  const ContactGeometry contact(cubes.scene.model);
+  EXPECT_GT(energy(contact, cubes.scene.zero()), 0.0);
+  EXPECT_LT(force_error(contact, cubes.scene.zero()), 0.01);
+}
+
 // A line that passes by a curved face meets what its shape functions say out there, lengths away; the cubes are 0.5
 // inside of each other at most.
 TEST(FaceRows, OfSecondOrderStayNearTheFaces) {
