@@ -166,14 +166,14 @@ bool FaceOverlaps::stands_beyond(const Slave& slave, const ContactMotion& motion
 }
 
 /// How many times as deep as wide an overlap with master g may be to have come in from the front. One that ends at a
-/// border of the other surface, and whose facets are turned by an angle against each other, is deep by the width times the
-/// tangent of that.
+/// border of the other surface is deep by the width times the tangent of the angle that the facets are turned by against
+/// each other, or it is what two edges leave that cross, and which their own rows hold. In the plane there are none.
 double FaceOverlaps::most_steep(Index g, double facing) const {
   constexpr double most = 10.0;
   const auto edges = static_cast<std::size_t>(master_facet(g).size);
   bool has_border = false;
   for (std::size_t edge = 0; edge < edges; ++edge) has_border = has_border || ends_at(g, edge);
-  if (!has_border) return most;
+  if (!has_border || edges == 2) return most;
   return std::clamp(2.0 * std::sqrt(std::max(0.0, 1.0 - facing * facing)) / facing, 1.0, most);
 }
 
