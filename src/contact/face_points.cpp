@@ -98,7 +98,7 @@ struct FaceOverlaps::Work {
   std::vector<ColumnMaster> masters;
   std::vector<Met> met;  ///< of each of them
   std::vector<OverlapPoint> points;
-  std::vector<Index> slivers;  ///< masters with an overlap that is ten times as deep as wide, and left out
+  std::vector<Index> slivers;  ///< masters with an overlap that is too deep for its width, and left out
 };
 
 FaceOverlaps::FaceOverlaps(const Model& model, const Surface& slave, const Surface& master, bool self, OverlapUse use)
@@ -166,8 +166,9 @@ bool FaceOverlaps::stands_beyond(const Slave& slave, const ContactMotion& motion
 }
 
 /// How many times as deep as wide an overlap with master g may be to have come in from the front. One that ends at a
-/// border of the other surface is deep by the width times the tangent of the angle that the facets are turned by against
-/// each other, or it is what two edges leave that cross, and which their own rows hold. In the plane there are none.
+/// border of the other surface is deep by the width times the tangent of the angle that the facets are turned by
+/// against each other, or it is what two edges leave that cross, and which their own rows hold. In the plane there are
+/// none.
 double FaceOverlaps::most_steep(Index g, double facing) const {
   constexpr double most = 10.0;
   const auto edges = static_cast<std::size_t>(master_facet(g).size);
@@ -193,10 +194,11 @@ void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
   const OverlapExtent extent = add_overlap(slave, seen, {is_high || are_means, !are_means}, work.points);
   if (work.points.size() == before) return;
   const bool is_deep = extent.least_gap < -sideways_depth * size_;
-  // A sliver ten times as deep as wide belongs to what passes by the border of the other facet; at the start not where
+  // A sliver too deep for its width belongs to what passes by the border of the other facet; at the start not where
   // that goes on.
   const double length = slave.placed().size == 2 ? 1.0 : std::sqrt(slave.measure());
-  const bool is_wide = most_steep(g, facing) * extent.area >= -extent.least_gap * length || (motion.history.empty() && goes_on(g, work));
+  const bool is_wide =
+      most_steep(g, facing) * extent.area >= -extent.least_gap * length || (motion.history.empty() && goes_on(g, work));
   // Without a history, at the start, all that is wide counts, but the far side of a thin part.
   const auto has_been_behind = [&] {
     return motion.history.empty() ? extent.least_gap >= -depth_[static_cast<std::size_t>(g)] : was_behind(slave, g);
@@ -362,8 +364,9 @@ void FaceOverlaps::add_point(const Slave& slave, const PlacedFacet& placed_maste
     std::copy(other_N.N.begin(), other_N.N.end(), point.N_master.begin());
     other_normal = placed_master.size == 4 ? facet_frame(placed_master, other_N).normal : master.normal;
   } else {
-    const FacesMeet meet = faces_meet(own, in_parent(own, facet, at.slave), other,
-                                      in_parent(other, master_facet(master.facet), at.master), slave.normal(), motion.x);
+    const FacesMeet meet =
+        faces_meet(own, in_parent(own, facet, at.slave), other, in_parent(other, master_facet(master.facet), at.master),
+                   slave.normal(), motion.x);
     point.N = meet.own.N;
     point.N_master = meet.other.N;
     point.position = meet.position;

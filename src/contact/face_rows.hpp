@@ -35,13 +35,14 @@ namespace carom {
 /// What comes under a facet from the side, deeper than 0.02 facet sizes, does not count there: it is the faces at the
 /// side that meet. An overlap that deep counts if it was in front at the beginning of the step, or if a corner of the
 /// slave facet was then behind the same facet or one that goes on with it, unless it is ten times as deep as it is
-/// wide. Without a history, at the start, all that is so wide counts, and slivers where the master goes on beside them,
-/// but not the far side of a thin part (half_thickness). Points that deep do not count where they stand outside of the
-/// other body: the way inward from there enters it, through a facet that shows its back, before it reaches the master.
-/// Ends of overlaps at borders of the other surface, where the depth is not zero, move with that: the integral changes
-/// by w e(-g~) times the way of the border over the slave, which is part of the gradient (the transport theorem), so
-/// that the force is that of the potential there, too. law: that of one pass. (Segments: Puso and Laursen, Comput.
-/// Methods Appl. Mech. Engrg. 193, 2004.)
+/// wide; in space and at a border of the master, deeper than its width times the larger of 1 and twice the tangent of
+/// the angle between the facets. Without a history, at the start, all that is so wide counts, and slivers where the
+/// master goes on beside them, but not the far side of a thin part (half_thickness). Points that deep do not count
+/// where they stand outside of the other body: the way inward from there enters it, through a facet that shows its
+/// back, before it reaches the master. Ends of overlaps at borders of the other surface, where the depth is not zero,
+/// move with that: the integral changes by w e(-g~) times the way of the border over the slave, which is part of the
+/// gradient (the transport theorem), so that the force is that of the potential there, too. law: that of one pass.
+/// (Segments: Puso and Laursen, Comput. Methods Appl. Mech. Engrg. 193, 2004.)
 std::unique_ptr<RowMaker> face_rows(const Model& model, const Surface& slave, const Surface& master, bool self,
                                     const ContactLaw& law, Index source);
 

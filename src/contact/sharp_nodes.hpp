@@ -25,7 +25,7 @@ struct NodeStand {
   Vec3 of_node{};                                 ///< gradient of f by the node itself, that by its gap apart,
   std::vector<std::pair<Index, Vec3>> of_others;  ///< by the other nodes of its facets,
   OfPoint of_met;                                 ///< by what it meets,
-  std::vector<OfPoint> of_sides;                  ///< and by what it would meet on other sides of the body that it is in
+  std::vector<OfPoint> of_sides;  ///< and by what it would meet on other sides of the body that it is in
 
   static NodeStand nothing() {
     NodeStand stand;

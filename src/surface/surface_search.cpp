@@ -163,7 +163,9 @@ std::vector<SurfacePoint> SurfaceSearch::other_sides(std::size_t q, const Surfac
   std::vector<SurfacePoint> sides;
   for (const ClosestPoint& at : near) {
     const Projection& p = at.projection;
-    const auto goes_on = [&](const SurfacePoint& side) { return dot(mean_normal(side), p.normal) >= NodeQuery::smooth; };
+    const auto goes_on = [&](const SurfacePoint& side) {
+      return dot(mean_normal(side), p.normal) >= NodeQuery::smooth;
+    };
     if (std::ranges::any_of(sides, goes_on)) continue;
     const bool is_mean = query.counts(at.facet) && meets(query, at, space.side) && space.side.facet == at.facet;
     if (!is_mean) take_only(at.facet, p, {p.normal, p.gap}, space.side);

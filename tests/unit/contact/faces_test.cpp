@@ -463,8 +463,8 @@ struct CrookedCubes {
   }
 };
 
-/// A cube of 20 nodes on another one, out over two of its edges and `depth` inside; the edges of the lower one's top are
-/// bent by `bend`.
+/// A cube of 20 nodes on another one, out over two of its edges and `depth` inside; the edges of the lower one's top
+/// are bent by `bend`.
 struct BentCubes {
   Scene scene;
 
@@ -472,7 +472,8 @@ struct BentCubes {
     CellFiller filler;
     for (const Vec3& low : {Vec3{0, 0, 0}, Vec3{0.43, 0.37, 1.0 - depth}}) {
       std::vector<Index> corners;
-      for (const Vec3& x : {Vec3{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}) {
+      for (const Vec3& x :
+           {Vec3{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}) {
         corners.push_back(static_cast<Index>(filler.mesh.coordinates.size()));
         filler.mesh.coordinates.push_back(add(x, low));
         filler.mesh.node_numbers.push_back(corners.back() + 1);
