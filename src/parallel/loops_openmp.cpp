@@ -1,12 +1,15 @@
 #include <omp.h>
 
+#include <algorithm>
+
+#include "parallel/ranks.hpp"
 #include "parallel/threads.hpp"
 
 namespace carom {
 
 int set_threads(int count) {
   omp_set_dynamic(0);
-  omp_set_num_threads(count > 0 ? count : omp_get_num_procs());
+  omp_set_num_threads(count > 0 ? count : std::max(1, omp_get_num_procs() / ranks().on_same_cores()));
   // One thread is one thread for libraries too, which ask for their own number (CHOLMOD: four).
   omp_set_max_active_levels(thread_count() > 1 ? 1 : 0);
   return thread_count();

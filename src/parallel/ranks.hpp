@@ -36,6 +36,8 @@ class Ranks {
   /// Overwrites `all` by what the ranks give, one after the other; sizes: how many values each gives. All ranks call
   /// it.
   virtual void gather(std::span<const double> own, std::span<const std::size_t> sizes, std::vector<double>& all);
+  /// How many ranks, this one included, may use some of the cores that this one may use.
+  virtual int on_same_cores() const { return 1; }
   /// All that this one has sent so far.
   virtual Traffic sent() const = 0;
 };

@@ -7,7 +7,8 @@
 
 namespace carom {
 
-/// Sets the number of threads used from here on (0: all cores the process may use). Returns the number chosen.
+/// Sets the number of threads used from here on (0: all cores that the process may use, or its part of them where
+/// other ranks may use them). Returns the number chosen.
 int set_threads(int count);
 int thread_count();
 

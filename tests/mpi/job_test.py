@@ -105,6 +105,13 @@ class Job(unittest.TestCase):
         self.assertFalse([name for name in libraries(CAROM_MPI) if "_seq" in name])
         self.assertFalse([name for name in libraries(CAROM) if name.startswith("libmpi.")])
 
+    def test_ranks_share_out_the_cores_that_they_may_all_use(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "case.toml").write_text(BLOCK.replace("2.0e-4", "2.0e-6"), encoding="utf-8")
+            done = job(2, "run", "case.toml", cwd=folder)
+        threads = max(1, len(os.sched_getaffinity(0)) // 2)
+        self.assertRegex(done.stdout + done.stderr, rf"2 ranks of {threads} threads? each")
+
     def test_other_commands_are_done_once(self):
         done = job(3, "check", self.case)
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 #include <mpi.h>
+#include <sched.h>
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
+#include <cstring>
 #include <deque>
 #include <map>
 #include <memory>
@@ -18,6 +21,24 @@ namespace {
 
 constexpr int tag = 1;
 
+/// The processes of this machine whose cores are not all others than those of this one.
+int processes_on_own_cores() {
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  int count = 0;
+  MPI_Comm_size(machine, &count);
+  cpu_set_t own;
+  if (sched_getaffinity(0, sizeof own, &own) != 0) std::memset(&own, 0xff, sizeof own);  // all of very many
+  std::vector<cpu_set_t> all(static_cast<std::size_t>(count));
+  MPI_Allgather(&own, sizeof own, MPI_BYTE, all.data(), sizeof own, MPI_BYTE, machine);
+  MPI_Comm_free(&machine);
+  return static_cast<int>(std::ranges::count_if(all, [&](const cpu_set_t& other) {
+    cpu_set_t both;
+    CPU_AND(&both, &own, &other);
+    return CPU_COUNT(&both) > 0;
+  }));
+}
+
 class MpiRanks final : public Ranks {
  public:
   MpiRanks() {
@@ -27,6 +48,7 @@ class MpiRanks final : public Ranks {
     count_ = static_cast<std::size_t>(count);
     own_ = static_cast<std::size_t>(own);
     MPI_Comm_dup(MPI_COMM_WORLD, &gathers_);  // the end of the job is agreed on beside them
+    on_same_cores_ = processes_on_own_cores();
   }
   std::size_t count() const override { return count_; }
   std::size_t own() const override { return own_; }
@@ -63,6 +85,7 @@ class MpiRanks final : public Ranks {
     sent_.messages += static_cast<std::size_t>(std::bit_width(count_ - 1));
     sent_.values += all.size() * (count_ - 1) / count_;
   }
+  int on_same_cores() const override { return on_same_cores_; }
   Traffic sent() const override { return sent_; }
 
  private:
@@ -83,6 +106,7 @@ class MpiRanks final : public Ranks {
   }
 
   std::size_t count_ = 0, own_ = 0;
+  int on_same_cores_ = 1;
   MPI_Comm gathers_ = MPI_COMM_NULL;
   std::deque<Letter> on_the_way_;                          ///< MPI still reads their values
   std::multimap<std::size_t, std::vector<double>> spare_;  ///< by size, memory of letters that have arrived
