@@ -204,10 +204,10 @@ void check_places(const Case& given, CaseErrors& errors) {
 
 /// Those of the table, and the variables that the laws of the case remember.
 void check_quantities(const Case& given, const Names& parts, CaseErrors& errors) {
-  Names fields, probed;
+  Names fields, probed, of_parts;
   for (const Quantity& q : quantities()) {
     if (is_field(q)) fields.emplace_back(q.name);
-    if (is_probed(q)) probed.emplace_back(q.name);
+    if (is_probed(q)) (q.place == Place::part ? of_parts : probed).emplace_back(q.name);
   }
   for (const CaseMaterial& material : given.materials)
     for (Names* names : {&fields, &probed}) {
@@ -220,8 +220,10 @@ void check_quantities(const Case& given, const Names& parts, CaseErrors& errors)
   for (std::size_t i = 0; i < given.probes.size(); ++i) {
     const CaseProbe& probe = given.probes[i];
     for (std::size_t k = 0; k < probe.quantities.size(); ++k)
-      check_known(probe.quantities[k], probed, fmt::format("{}[{}]", entry_path("probe", i, "quantities"), k),
-                  "a quantity, or a variable that points remember", errors);
+      if (find_quantity(*probe.quantities[k]) == nullptr)  // else check_probe has said whether it is one of a part
+        check_known(probe.quantities[k], probe.part ? of_parts : probed,
+                    fmt::format("{}[{}]", entry_path("probe", i, "quantities"), k),
+                    probe.part ? "a quantity of parts" : "a quantity, or a variable that points remember", errors);
     if (probe.part) check_known(*probe.part, parts, entry_path("probe", i, "part"), "the name of a [[part]]", errors);
   }
 }

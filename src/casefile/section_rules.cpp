@@ -1,6 +1,7 @@
 #include "casefile/section_rules.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,6 +62,13 @@ void check_function(CaseFunction& function, const Node& node, const ReadContext&
   }
 }
 
+std::string names_of_part_quantities() {
+  std::vector<std::string_view> names;
+  for (const Quantity& quantity : quantities())
+    if (quantity.place == Place::part) names.push_back(quantity.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 void check_probe(CaseProbe& probe, const Node& node, const ReadContext& at) {
   check_name(probe.name, at.at("name").path);
   if (probe.quantities.empty()) {
@@ -68,11 +76,12 @@ void check_probe(CaseProbe& probe, const Node& node, const ReadContext& at) {
   }
   for (const Located<std::string>& quantity : probe.quantities) {
     const Quantity* found = find_quantity(*quantity);
-    const bool is_of_part = found != nullptr && found->place == Place::part;
+    if (found == nullptr) continue;  // what the points of a law remember, or nothing (check_quantities)
+    const bool is_of_part = found->place == Place::part;
     if (is_of_part != probe.part.has_value())
       throw CaseError(quantity.where, at.at("quantities").path,
                       fmt::format("\"{}\" {} a part", *quantity, is_of_part ? "without" : "of"),
-                      is_of_part ? "part = ... beside it" : "what there is of parts: see docs/quantities.md");
+                      is_of_part ? "part = ... beside it" : fmt::format("one of {}", names_of_part_quantities()));
   }
   const auto find_asked = [&](std::string_view name) {
     return std::ranges::find_if(probe.quantities, [&](const Located<std::string>& q) { return *q == name; });

@@ -37,6 +37,18 @@ void pass(const Coefficients& k, std::vector<double>& y) {
   }
 }
 
+/// The slope from sample to sample of the straight line of least squares; 0 of one sample.
+double mean_slope(std::span<const double> samples) {
+  const double middle = 0.5 * static_cast<double>(samples.size() - 1);
+  double moment = 0.0, inertia = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double from_middle = static_cast<double>(i) - middle;
+    moment += from_middle * samples[i];
+    inertia += from_middle * from_middle;
+  }
+  return inertia > 0.0 ? moment / inertia : 0.0;
+}
+
 }  // namespace
 
 std::vector<double> cfc_filter(std::span<const double> samples, double dt, double cfc) {
@@ -49,14 +61,17 @@ std::vector<double> cfc_filter(std::span<const double> samples, double dt, doubl
                     cfc_longest_sampling / cfc, dt));
   }
   if (samples.empty()) return {};
-  // Continue both ends by point reflection for one period of the cut-off, or as far as the data go.
-  const auto wanted = static_cast<std::size_t>(std::ceil(1.0 / (cfc_limit(cfc) * dt)));
-  const std::size_t pad = std::min(wanted, samples.size() - 1);
+  // After three periods of the cut-off a transient is exp(-3 sqrt(2) pi) of what it was.
+  const double period = 1.0 / (cfc_limit(cfc) * dt);
+  const std::size_t pad = std::min(static_cast<std::size_t>(std::ceil(3.0 * period)), samples.size() - 1),
+                    near = std::min(static_cast<std::size_t>(std::ceil(2.0 * period)) + 1, samples.size());
+  const double first_slope = mean_slope(samples.first(near)), last_slope = mean_slope(samples.last(near));
   std::vector<double> y(samples.size() + 2 * pad);
   std::copy(samples.begin(), samples.end(), y.begin() + static_cast<std::ptrdiff_t>(pad));
   for (std::size_t i = 1; i <= pad; ++i) {
-    y[pad - i] = 2.0 * samples.front() - samples[i];
-    y[y.size() - 1 - pad + i] = 2.0 * samples.back() - samples[samples.size() - 1 - i];
+    const double way = 2.0 * static_cast<double>(i);
+    y[pad - i] = samples[i] - way * first_slope;
+    y[y.size() - 1 - pad + i] = samples[samples.size() - 1 - i] + way * last_slope;
   }
   const Coefficients k = coefficients(dt, cfc);
   pass(k, y);

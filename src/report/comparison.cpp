@@ -208,7 +208,7 @@ void write_comparison(const std::vector<std::string>& results_folders, const std
     return html_document(title, content, {charts, units.time}, views);
   };
   const std::size_t rest = page({}).size() + view_library_bytes();
-  const std::vector<PageView> views = views_of(runs, most_page_bytes - std::min(rest, most_page_bytes));
+  const std::vector<PageView> views = views_of(runs, bytes_of_views(rest));
   write_file(file, page(views));
 }
 

@@ -150,7 +150,9 @@ void add_peak_accelerations(const Tables& tables, const Units& units, std::vecto
                  raw = peak_of(*tables.probes, place, quantity);
       const std::string column = fmt::format("{}.{}_x", place, quantity), unit = unit_of_column(units, column),
                         plain = with_readable_unit(filtered.value, unit, 4), g = in_g(filtered.value, units);
-      all.push_back({{fmt::format("Peak acceleration, {}, {}", place, class_of(*tables.probes_filtered, column)),
+      const bool is_local = std::string_view(quantity) == "local_acceleration";
+      all.push_back({{fmt::format("Peak {}acceleration, {}, {}", is_local ? "local " : "", place,
+                                  class_of(*tables.probes_filtered, column)),
                       g.empty() ? plain : g,
                       fmt::format("{}{}at {}; {} unfiltered", g.empty() ? "" : plain, g.empty() ? "" : ", ",
                                   time_text(filtered.time, units),

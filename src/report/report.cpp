@@ -13,7 +13,7 @@ namespace carom {
 void write_report(const std::string& results_folder, const std::string& file) {
   ReportData data = read_results(results_folder);
   const std::size_t rest = make_page(data).size() + view_library_bytes();
-  add_view(data, most_page_bytes - std::min(rest, most_page_bytes), "Bodies in motion");
+  add_view(data, bytes_of_views(rest), "Bodies in motion");
   const std::string beside = (std::filesystem::path(results_folder) / "report.html").string();
   write_file(file.empty() ? beside : file, make_page(data));
 }

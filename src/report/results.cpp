@@ -90,6 +90,11 @@ ReportData read_results(const std::string& results_folder) {
   return data;
 }
 
+std::size_t bytes_of_views(std::size_t rest) {
+  constexpr std::size_t most = 6'000'000, least = 2'000'000;
+  return std::max(least, most - std::min(rest, most));
+}
+
 void add_view(ReportData& data, std::size_t most_bytes, const std::string& title) {
   ViewLabels labels{
       data.units, {}, data.summary ? data.summary->contacts : std::vector<std::string>(), data.largest_force_at};

@@ -299,17 +299,18 @@ std::optional<View> make_view(const std::string& folder, const ViewLabels& label
       scenes.back()["parts"] = part_names(*obstacles, labels.contacts, "obstacle");
     }
     json["scenes"] = std::move(scenes);
-    const bool is_hopeless = static_cast<double>(arrays.size()) > best_ratio * static_cast<double>(most_bytes);
-    if (!is_hopeless) json["data"] = arrays.text();
-    std::string text = is_hopeless ? std::string() : json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    const double excess = is_hopeless
-                              ? static_cast<double>(arrays.size()) / (best_ratio * static_cast<double>(most_bytes))
-                              : static_cast<double>(text.size()) / static_cast<double>(most_bytes);
-    if (excess <= 1.0 || !reduce(detail, nodes, excess)) {
-      for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
-      return View{std::move(text), note_of(bodies, detail, json["times"].size(), recorded)};
-    }
-    if (nodes < bodies.surface.nodes.size()) bodies = coarsened(bodies, nodes);
+    const auto is_reduced = [&](double bytes) {  // false: they are few enough, or cannot be fewer
+      const double excess = bytes / static_cast<double>(most_bytes);
+      if (excess <= 1.0 || !reduce(detail, nodes, excess)) return false;
+      if (nodes < bodies.surface.nodes.size()) bodies = coarsened(bodies, nodes);
+      return true;
+    };
+    if (is_reduced(static_cast<double>(arrays.size()) / best_ratio)) continue;
+    json["data"] = arrays.text();
+    std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    if (is_reduced(static_cast<double>(text.size()))) continue;
+    for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
+    return View{std::move(text), note_of(bodies, detail, json["times"].size(), recorded)};
   }
 }
 

@@ -86,6 +86,18 @@ TEST(CfcFilter, SymmetricPulseStaysSymmetric) {
   for (std::size_t i = 1; i <= 500; ++i) EXPECT_NEAR(y[1000 - i], y[1000 + i], 1e-9);
 }
 
+// A record that ends amid a vibration of ten times the class, at whatever phase. The mirror image of a zero has a kink, of
+// which the filter leaves 2 h(0) / w, h(0) = pi f_c / sqrt(2) being its impulse response: f_c / (sqrt(2) f) = 0.147 (and
+// as much again of a hundredth, the gain of 40 dB). Held to its last value, as by point reflection, it would be 1.
+TEST(CfcFilter, EndsAmidAVibrationAreNotHeldToTheirLastValues) {
+  const double dt = 1e-6, cfc = 1000.0;
+  for (double phase = 0.0; phase < 2.0 * kPi; phase += 0.3) {
+    std::vector<double> x;
+    for (int i = 0; i < 3000; ++i) x.push_back(std::sin(2.0 * kPi * 10.0 * cfc * dt * (i - 2999) + phase));
+    for (const double y : cfc_filter(x, dt, cfc)) EXPECT_NEAR(y, 0.0, 0.147 + 0.02) << phase;
+  }
+}
+
 TEST(CfcFilter, ShortRecords) {
   EXPECT_TRUE(cfc_filter({}, 1e-5, 1000.0).empty());
   EXPECT_NEAR(cfc_filter(std::vector{2.0}, 1e-5, 1000.0).at(0), 2.0, 2e-12);

@@ -271,6 +271,9 @@ TEST_F(ViewFrames, AViewTellsWhatItHoldsAndFitsItsPage) {
     EXPECT_LE(small->json.size(), most);
     EXPECT_NE(small->note, whole->note);  // what has been left out is said
   }
+  const std::optional<View> least = make_view(folder_.string(), labels, 1);  // there is no smaller one
+  ASSERT_TRUE(least.has_value());
+  EXPECT_FALSE(nlohmann::json::parse(least->json)["data"].empty());
   EXPECT_FALSE(make_view((folder_ / "none").string(), labels, 1000).has_value());
 }
 
