@@ -287,8 +287,8 @@ std::string bending_warning(const std::string& who, const Part& part, const Bend
       "cells: of that which bending makes at the surface, {:.2g} % with {} of them",
       who, is_stiff ? "will lock where it bends" : "bends too easily", is_stiff ? ratio : 1.0 / ratio,
       is_stiff ? "stiff" : "soft", 100.0 / ratio, example.cells, example.cells == 1 ? "" : "s", name(formulation),
-      example.length_to_height, part.material.at_rest().nu, bending_remedy(part),
-      100.0 * (1.0 - 1.0 / example.cells), example.cells);
+      example.length_to_height, part.material.at_rest().nu, bending_remedy(part), 100.0 * (1.0 - 1.0 / example.cells),
+      example.cells);
 }
 
 std::string volume_warning(const std::string& who, const Part& part, int cells, double ratio) {

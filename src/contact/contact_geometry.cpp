@@ -160,7 +160,10 @@ struct ContactGeometry::Impl {
         has_friction_law(rubs(of)),
         images(of),
         whole(of, images, nullptr),
-        centre(middle_of(of.mesh->coordinates)) {}
+        centre(middle_of(of.mesh->coordinates)) {
+    for (const Vec3& X : of.mesh->coordinates)
+      for (std::size_t c = 0; c < 3; ++c) extent = std::max(extent, std::abs(X[c] - centre[c]));
+  }
 
   const Model& model;
   const bool has_friction_law;
@@ -168,6 +171,7 @@ struct ContactGeometry::Impl {
   RowMakers whole;                             ///< of all cells
   std::unique_ptr<RowMakers> eroded;           ///< of the topology that was asked for last
   Vec3 centre{};                               ///< of all nodes; pairs see positions relative to it
+  double extent = 0.0;                         ///< of all nodes from the centre
   std::vector<Vec3> x_begin, x, displacement;  ///< scratch of rows_at
   std::vector<double> spread_begin, spread;    ///< displacements with those of followers or images; scratch of rows_at
   ConstraintRows seen;                         ///< of the whole, before they are folded; scratch of make
@@ -297,6 +301,9 @@ double ContactGeometry::reach() const {
       for (std::size_t c = 0; c < 3; ++c) reach = std::max(reach, std::abs(X[c] - origin[c]));
   }
   return reach;
+}
+double ContactGeometry::extent() const {
+  return impl_->extent;
 }
 std::size_t ContactGeometry::slots(const std::shared_ptr<const Topology>& topology) const {
   return impl_->of(topology).slots();

@@ -56,6 +56,8 @@ class ContactGeometry {
   std::size_t slots(const std::shared_ptr<const Topology>& topology = nullptr) const;
   /// Largest coordinate that gaps of rows that move are differences of; 0 where all rows are fixed.
   double reach() const;
+  /// Largest distance of a node from the middle of all, along an axis.
+  double extent() const;
   /// True when the rows are the same at every displacement.
   bool is_fixed() const;
   /// The rows that are bonds, which are the same at every displacement; in the order that they have among all rows.

@@ -433,7 +433,7 @@ void ImpulsePort::begin(const StageStart& start) {
   may_act_.resize(rows_->size());
   approach_.assign(rows_->size(), 0.0);
   for (std::size_t r = 0; r < rows_->size(); ++r) {
-    may_act_[r] = is_bond(rows_->law[r]) || rows_->is_closed(r, start.x_predicted);
+    may_act_[r] = is_bond(rows_->law[r]) || rows_->is_closed(r, start.x_predicted, system_.contact.extent());
     if (!may_act_[r] && is_stopped_before(system_.contact, rows_->law[r])) {
       may_act_[r] = true;
       approach_[r] = rows_->gap_at(r, start.x_predicted) / start.dt;

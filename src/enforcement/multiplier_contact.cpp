@@ -30,7 +30,7 @@ std::optional<Bias> increment_bias(const ContactGeometry& /*contact*/, const Con
 
 std::optional<Bias> impulse_bias(const ContactGeometry& contact, const ConstraintRows& rows, std::size_t r,
                                  const ExplicitPoint& at) {
-  if (!rows.is_closed(r, at.u)) {
+  if (!rows.is_closed(r, at.u, contact.extent())) {
     if (!is_stopped_before(contact, rows.law[r])) return std::nullopt;
     return increment_bias(contact, rows, r, at);
   }

@@ -14,11 +14,11 @@ inline constexpr double cfc_longest_sampling = 0.1;
 /// T = dt: wd = 2 pi cfc 2.0775, wa = tan(wd T / 2), a0 = wa^2 / (1 + sqrt(2) wa + wa^2), a1 = 2 a0, a2 = a0,
 /// b1 = -2 (wa^2 - 1) / (1 + sqrt(2) wa + wa^2), b2 = (-1 + sqrt(2) wa - wa^2) / (1 + sqrt(2) wa + wa^2),
 /// Y(i) = a0 X(i) + a1 X(i-1) + a2 X(i-2) + b1 Y(i-1) + b2 Y(i-2).
-/// The ends are continued by their mirror images, tilted by the mean slope over two periods of the cut-off: what is slow
-/// goes on as it went, and what vibrates fast does so about the same mean. (Continued by point reflection, as is often
-/// done, a record that ends amid a vibration would be held to its last value.)
-/// samples: equally spaced by dt in seconds. Throws std::invalid_argument when cfc or dt is not positive, or when the
-/// sampling frequency is below 10 cfc (J211's minimum).
+/// The ends are continued by their mirror images, tilted by the mean slope over two periods of the cut-off: what is
+/// slow goes on as it went, and what vibrates fast does so about the same mean. (Continued by point reflection, as is
+/// often done, a record that ends amid a vibration would be held to its last value.) samples: equally spaced by dt in
+/// seconds. Throws std::invalid_argument when cfc or dt is not positive, or when the sampling frequency is below 10 cfc
+/// (J211's minimum).
 std::vector<double> cfc_filter(std::span<const double> samples, double dt, double cfc);
 
 /// Lowest frequency that the class cuts, 2.0775 cfc in Hz: what is slower than three of its periods is shaped by the

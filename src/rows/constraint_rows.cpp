@@ -113,9 +113,9 @@ double ConstraintRows::gap_rounding(std::size_t r, std::span<const double> x) co
   return rounding(r, x) + precision * (reach[r] + std::abs(gap[r]));
 }
 
-bool ConstraintRows::is_closed(std::size_t r, std::span<const double> x) const {
+bool ConstraintRows::is_closed(std::size_t r, std::span<const double> x, double extent) const {
   const Vec3 w = relative(r, x);
-  return gap[r] + w[0] <= drift * precision * (reach[r] + std::abs(gap[r]) + norm(w));
+  return gap[r] + w[0] <= drift * precision * (reach[r] + std::abs(gap[r]) + norm(w) + extent);
 }
 
 Vec3 ConstraintRows::to_space(std::size_t r, const Vec3& s) const {

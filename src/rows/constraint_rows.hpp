@@ -138,9 +138,10 @@ struct ConstraintRows {
   /// The largest error of g_r(x) that rounding may have made, since its gap is a difference of lengths up to `reach`.
   double gap_rounding(std::size_t r, std::span<const double> x) const;
   /// True when the gap is not above what rounding makes of it over some thousand steps: 1024 units of round-off of
-  /// reach, gap and displacement, 2e-13. A body that rests or slides would else lift off for a step at every gap of
-  /// 1e-17, and slip without friction.
-  bool is_closed(std::size_t r, std::span<const double> x) const;
+  /// reach, gap and displacement, 2e-13, and of `extent`, a length of the bodies. A body that rests or slides would
+  /// else lift off for a step at every gap of 1e-17, and slip without friction; and one that has begun at the origin,
+  /// where its gap is the difference of nothing, at one of 1e-25.
+  bool is_closed(std::size_t r, std::span<const double> x, double extent = 0.0) const;
   /// Calls add(node, force on it) for G_r^T s, s being the row's force in its frame.
   template <class Add>
   void for_each_share(std::size_t r, const Vec3& s, const Add& add) const {

@@ -86,9 +86,9 @@ TEST(CfcFilter, SymmetricPulseStaysSymmetric) {
   for (std::size_t i = 1; i <= 500; ++i) EXPECT_NEAR(y[1000 - i], y[1000 + i], 1e-9);
 }
 
-// A record that ends amid a vibration of ten times the class, at whatever phase. The mirror image of a zero has a kink, of
-// which the filter leaves 2 h(0) / w, h(0) = pi f_c / sqrt(2) being its impulse response: f_c / (sqrt(2) f) = 0.147 (and
-// as much again of a hundredth, the gain of 40 dB). Held to its last value, as by point reflection, it would be 1.
+// A record that ends amid a vibration of ten times the class, at whatever phase. The mirror image of a zero has a kink,
+// of which the filter leaves 2 h(0) / w, h(0) = pi f_c / sqrt(2) being its impulse response: f_c / (sqrt(2) f) = 0.147
+// (and as much again of a hundredth, the gain of 40 dB). Held to its last value, as by point reflection, it would be 1.
 TEST(CfcFilter, EndsAmidAVibrationAreNotHeldToTheirLastValues) {
   const double dt = 1e-6, cfc = 1000.0;
   for (double phase = 0.0; phase < 2.0 * kPi; phase += 0.3) {

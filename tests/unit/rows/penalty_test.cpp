@@ -39,6 +39,19 @@ Vec3 force_on_node(const ContactResponse& response) {
   return f;
 }
 
+// A body that touches at the origin has gaps of nothing but rounding, of which its own displacement, 1e-25, says
+// nothing.
+TEST(ConstraintRows, AreClosedByRoundingOfTheLengthsOfTheBodies) {
+  ConstraintRows rows;
+  rows.add_row(0.0, {0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, 1.0, {}, 0);
+  rows.add_node(0, 1.0);
+  std::vector<double> u{0.0, 0.0, 1e-25};
+  EXPECT_FALSE(rows.is_closed(0, u));
+  EXPECT_TRUE(rows.is_closed(0, u, 1.0));
+  u[2] = 1e-12;  // 4500 units of round-off of 1
+  EXPECT_FALSE(rows.is_closed(0, u, 1.0));
+}
+
 TEST(PenaltyForce, IsProportionalToThePenetrationAndNeverTensile) {
   const Rows penalty = single_node({.eps_N = 4.0}, 0.5);
   const auto closed = respond(penalty, {}, {0, 0, -0.75});
