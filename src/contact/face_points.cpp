@@ -167,8 +167,8 @@ bool FaceOverlaps::stands_beyond(const Slave& slave, const ContactMotion& motion
 
 /// How many times as deep as wide an overlap with master g may be to have come in from the front. One that ends at a
 /// border of the other surface is deep by the width times the tangent of the angle that the facets are turned by
-/// against each other, or it is what two edges leave that cross, and which their own rows hold. In the plane there are
-/// none.
+/// against each other (twice that is allowed, since the width is a mean), or it is what two edges leave that cross, and
+/// which their own rows hold. In the plane there are none.
 double FaceOverlaps::most_steep(Index g, double facing) const {
   constexpr double most = 10.0;
   const auto edges = static_cast<std::size_t>(master_facet(g).size);
@@ -197,8 +197,8 @@ void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
   // A sliver too deep for its width belongs to what passes by the border of the other facet; at the start not where
   // that goes on.
   const double length = slave.placed().size == 2 ? 1.0 : std::sqrt(slave.measure());
-  const bool is_wide =
-      most_steep(g, facing) * extent.area >= -extent.least_gap * length || (motion.history.empty() && goes_on(g, work));
+  const bool is_wide = !is_deep || most_steep(g, facing) * extent.area >= -extent.least_gap * length ||
+                       (motion.history.empty() && goes_on(g, work));
   // Without a history, at the start, all that is wide counts, but the far side of a thin part.
   const auto has_been_behind = [&] {
     return motion.history.empty() ? extent.least_gap >= -depth_[static_cast<std::size_t>(g)] : was_behind(slave, g);

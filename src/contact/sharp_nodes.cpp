@@ -94,14 +94,12 @@ void SharpNodes::add_product(Index n, const SurfacePoint& point, std::span<const
     of_normal = add(of_normal, scaled(corner.normal, slope));
   }
   if (of_normal == Vec3{}) return;
-  std::vector<double> along;
-  for (const FacetFoot& foot : point.feet) {
-    of_point.normals.push_back(scaled(of_normal, foot.weight));
-    along.push_back(dot(of_normal, foot.facet_normal));
-  }
-  of_point.weights = slopes_of_weights(point, along);
-  for (const FacetFoot::Slope& slope : of_point.weights)
+  const auto along = [&](std::size_t f) { return dot(of_normal, point.feet[f].facet_normal); };
+  for_each_slope_of_weights(point, along, [&](std::size_t f, const FacetFoot::Slope& slope) {
+    of_point.normals.push_back(scaled(of_normal, point.feet[f].weight));
+    of_point.weights.push_back(slope);
     stand.of_node = add(stand.of_node, add(slope.gradient, slope.at_closest));
+  });
 }
 
 /// Takes the factor of another side of the body. False where nothing is left of f.

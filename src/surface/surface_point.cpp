@@ -30,44 +30,26 @@ void take_mean(SurfacePoint& met) {
   double sum = 0.0;
   for (const FacetFoot& foot : met.feet) sum += foot.weight;
   met.gap = 0.0;
-  std::vector<double> gaps;
   for (FacetFoot& foot : met.feet) {
     foot.weight /= sum;
     foot.of_weight = scaled(foot.of_weight, 1.0 / sum);
     foot.unlike_slope /= sum;
     met.gap += foot.weight * foot.gap;
-    gaps.push_back(foot.gap);
   }
-  const std::vector<FacetFoot::Slope> of_weights = slopes_of_weights(met, gaps);
   met.gradient = {};
-  for (std::size_t f = 0; f < met.feet.size(); ++f) {
+  const auto gap = [&](std::size_t f) { return met.feet[f].gap; };
+  for_each_slope_of_weights(met, gap, [&](std::size_t f, const FacetFoot::Slope& of_weight) {
     FacetFoot& foot = met.feet[f];
-    foot.slope = of_weights[f];
+    foot.slope = of_weight;
     foot.slope.gradient = add(foot.slope.gradient, scaled(foot.normal, foot.weight));
     met.gradient = add(met.gradient, add(foot.slope.gradient, foot.slope.at_closest));
-  }
+  });
 }
 
 Vec3 mean_normal(const SurfacePoint& met) {
   Vec3 normal{};
   for (const FacetFoot& foot : met.feet) normal = add(normal, scaled(foot.facet_normal, foot.weight));
   return normal;
-}
-
-std::vector<FacetFoot::Slope> slopes_of_weights(const SurfacePoint& met, std::span<const double> values) {
-  double mean = 0.0;
-  for (std::size_t f = 0; f < values.size(); ++f) mean += met.feet[f].weight * values[f];
-  std::vector<FacetFoot::Slope> slopes;
-  double of_nearest = 0.0;  // in the nearest facet's gap, by the weights of the others
-  for (std::size_t f = 0; f < values.size(); ++f) {
-    const FacetFoot& foot = met.feet[f];
-    const double beyond = values[f] - mean, of_gap = beyond * foot.unlike_slope;
-    of_nearest -= of_gap;
-    slopes.push_back(scaled(foot.of_weight, beyond));
-    slopes.back().gradient = add(slopes.back().gradient, scaled(foot.normal, of_gap));
-  }
-  slopes.front().gradient = add(slopes.front().gradient, scaled(met.feet.front().normal, of_nearest));
-  return slopes;
 }
 
 void take_only(Index f, const Projection& p, const SignedDistance& at, SurfacePoint& met) {

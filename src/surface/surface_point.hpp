@@ -2,9 +2,10 @@
 #pragma once
 
 #include <array>
-#include <span>
+#include <cstddef>
 #include <vector>
 
+#include "math/vec3.hpp"
 #include "surface/facet_projection.hpp"
 
 namespace carom {
@@ -58,8 +59,21 @@ void take_mean(SurfacePoint& met);
 /// sum_f weight_f n_f, n_f the normals of the facets.
 Vec3 mean_normal(const SurfacePoint& met);
 
-/// The gradient of sum_f weight_f value_f, the values held, by feet: that of the weights.
-std::vector<FacetFoot::Slope> slopes_of_weights(const SurfacePoint& met, std::span<const double> values);
+/// The gradient of sum_f weight_f value(f), the values held, which is that of the weights: calls use(f, slope) for the
+/// part of each foot.
+template <class Value, class Use>
+void for_each_slope_of_weights(const SurfacePoint& met, const Value& value, const Use& use) {
+  double mean = 0.0, of_nearest = 0.0;  // the latter in the nearest facet's gap, by the weights of the others
+  for (std::size_t f = 0; f < met.feet.size(); ++f) mean += met.feet[f].weight * value(f);
+  for (std::size_t f = 0; f < met.feet.size(); ++f) of_nearest -= (value(f) - mean) * met.feet[f].unlike_slope;
+  for (std::size_t f = 0; f < met.feet.size(); ++f) {
+    const FacetFoot& foot = met.feet[f];
+    const double beyond = value(f) - mean, of_gap = beyond * foot.unlike_slope + (f == 0 ? of_nearest : 0.0);
+    FacetFoot::Slope slope = scaled(foot.of_weight, beyond);
+    slope.gradient = add(slope.gradient, scaled(foot.normal, of_gap));
+    use(f, slope);
+  }
+}
 
 /// Makes the point one of facet f alone.
 void take_only(Index f, const Projection& p, const SignedDistance& at, SurfacePoint& met);
