@@ -283,12 +283,11 @@ std::string bending_warning(const std::string& who, const Part& part, const Bend
   const bool is_stiff = ratio > 1.0;
   return fmt::format(
       "{} {}: about {:.2g} times too {} (deflections come out at {:.3g} %), with {} cell{} of formulation "
-      "\"{}\" through its thickness, up to {:.2g} times as long as it is thick, nu = {:g}. {}. Stresses are means of "
-      "cells: of that which bending makes at the surface, {:.2g} % with {} of them",
+      "\"{}\" through its thickness, up to {:.2g} times as long as it is thick, nu = {:g}. {}. Fields and probes "
+      "show the mean stress of a cell, {:.2g} % of what bending makes at the surface",
       who, is_stiff ? "will lock where it bends" : "bends too easily", is_stiff ? ratio : 1.0 / ratio,
       is_stiff ? "stiff" : "soft", 100.0 / ratio, example.cells, example.cells == 1 ? "" : "s", name(formulation),
-      example.length_to_height, part.material.at_rest().nu, bending_remedy(part), 100.0 * (1.0 - 1.0 / example.cells),
-      example.cells);
+      example.length_to_height, part.material.at_rest().nu, bending_remedy(part), 100.0 * (1.0 - 1.0 / example.cells));
 }
 
 std::string volume_warning(const std::string& who, const Part& part, int cells, double ratio) {

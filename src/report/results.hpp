@@ -14,8 +14,8 @@ ReportData read_results(const std::string& folder);
 /// The view of the folder's frames in about so many bytes under this title, or a note why there is none.
 void add_view(ReportData& data, std::size_t most_bytes, const std::string& title);
 
-/// The bytes that the views of a page may take beside the rest of it: so that the page has six millions, but two
-/// millions at least.
+/// The bytes that the views of a page may take beside the `rest` bytes of it: what is left of six million, but two
+/// million at least.
 std::size_t bytes_of_views(std::size_t rest);
 
 }  // namespace carom
