@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "base/types.hpp"
+
 namespace carom {
 
 FoldWatch::FoldWatch(const Simulation& simulation) : simulation_(simulation) {
@@ -26,7 +28,6 @@ void FoldWatch::see(const StepView& view) {
   const bool has_folded = !warnings_.empty();
   if (step == 0 || (has_folded && (!has_small_strain_ || lost_ >= 1.0))) return;
   if (is_explicit(view.stage.settings().kind) && step < next_ && !view.ends_stage && !view.is_last()) return;
-  view.shared.complete_displacements();
   const FlattestCorner corner = flattest_corner(simulation_, view.state.q, view.state.alive());
   lost_ = std::max(lost_, 1.0 - corner.small_strain);
   const double share = has_folded ? corner.small_strain : corner.share;
@@ -35,9 +36,10 @@ void FoldWatch::see(const StepView& view) {
   looked_ = step;
   constexpr double seldom = 200.0;  // steps: looking costs about 2.5 of HEXA8's cheapest
   next_ = step + static_cast<long long>(rate_ > 0.0 ? std::clamp(0.5 * share_ / rate_, 1.0, seldom) : seldom);
-  if (corner.is_folded() && !has_folded)
-    warnings_.push_back(fmt::format("at t = {:.6g}, step {}, {}", view.state.t, step,
-                                    describe_fold(simulation_, corner, view.state.q)));
+  if (!corner.is_folded() || has_folded) return;
+  view.shared.complete_displacements(simulation_.solid().cells().nodes_of(at(corner.cell)));
+  warnings_.push_back(
+      fmt::format("at t = {:.6g}, step {}, {}", view.state.t, step, describe_fold(simulation_, corner, view.state.q)));
 }
 
 }  // namespace carom

@@ -8,7 +8,8 @@
 #include "base/types.hpp"
 #include "math/vec3.hpp"
 #include "mesh/corner_shapes.hpp"
-#include "parallel/shared_items.hpp"
+#include "parallel/ranks.hpp"
+#include "parallel/threads.hpp"
 #include "solid/element_table.hpp"
 
 namespace carom {
@@ -90,20 +91,20 @@ FlattestCorner flattest_corner(const Simulation& simulation, std::span<const dou
   const Solid& solid = simulation.solid();
   const Mesh& mesh = simulation.mesh();
   const std::vector<char> is_small = are_small_strain(simulation.model());
+  const EntryRange own = own_share_of(mesh.node_count());
   constexpr std::size_t grain = 1024;
   std::vector<FlattestCorner> of_task((solid.cells().size() + grain - 1) / grain);
-  find_shared(std::span(of_task), 1, [&](std::size_t task) {
-    FlattestCorner least;
-    for (std::size_t k = grain * task; k < std::min(grain * (task + 1), solid.cells().size()); ++k) {
-      if (!alive.empty() && alive[k] == 0) continue;
-      const CellType type = mesh.blocks[at(solid.cells()[k].block)].type;
-      const double share = flattest_share(mesh, type, solid.cells().nodes_of(k), u);
+  parallel_for(solid.cells().size(), grain, [&](std::size_t begin, std::size_t end) {
+    FlattestCorner& least = of_task[begin / grain];
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::span<const Index> nodes = solid.cells().nodes_of(k);
+      if (!own.has(at(nodes[0])) || (!alive.empty() && alive[k] == 0)) continue;
+      const double share = flattest_share(mesh, mesh.blocks[at(solid.cells()[k].block)].type, nodes, u);
       if (share < least.small_strain && is_small[k] != 0) least.small_strain = share;
       if (share >= least.share) continue;
       least.cell = static_cast<Index>(k);
       least.share = share;
     }
-    return least;
   });
   FlattestCorner least;
   double small_strain = 1.0;
@@ -111,8 +112,8 @@ FlattestCorner flattest_corner(const Simulation& simulation, std::span<const dou
     small_strain = std::min(small_strain, found.small_strain);
     if (found.share < least.share) least = found;
   }
-  least.small_strain = small_strain;
-  return least;
+  const auto [share, cell] = largest_on_ranks(-least.share, at(least.cell + 1));
+  return {static_cast<Index>(cell) - 1, -share, -largest_on_ranks(-small_strain, 0).first};
 }
 
 std::string describe_fold(const Simulation& simulation, const FlattestCorner& corner, std::span<const double> u) {

@@ -21,7 +21,8 @@ struct FlattestCorner {
 double flattest_share(const Mesh& mesh, CellType type, std::span<const Index> nodes, std::span<const double> u);
 
 /// Of all cells that are there (alive; empty: all) but bars at displacement u. Those of second order are judged by
-/// their corners, as meshes are that are read; of equal shares the first counts.
+/// their corners, as meshes are that are read; of equal shares the first counts. Each rank looks at the cells whose
+/// first node is its own; all of them call it.
 FlattestCorner flattest_corner(const Simulation& simulation, std::span<const double> u,
                                std::span<const std::uint8_t> alive = {});
 

@@ -16,10 +16,6 @@ void SharedState::complete(std::span<const Index> nodes) const {
   for (std::vector<double>* values : {&state_->q, &state_->v, &state_->a}) nodes_->complete(*values, nodes);
 }
 
-void SharedState::complete_displacements() const {
-  if (nodes_ != nullptr) nodes_->complete(state_->q);
-}
-
 void SharedState::complete_displacements(std::span<const Index> nodes) const {
   if (nodes_ != nullptr) nodes_->complete(state_->q, nodes);
 }

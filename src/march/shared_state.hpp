@@ -25,8 +25,7 @@ class SharedState {
   void complete() const { carom::complete(*solid_, nodes_, *state_); }
   /// Displacements, velocities and accelerations of some nodes.
   void complete(std::span<const Index> nodes) const;
-  /// Displacements alone, of all nodes or of some.
-  void complete_displacements() const;
+  /// Displacements alone.
   void complete_displacements(std::span<const Index> nodes) const;
 
  private:

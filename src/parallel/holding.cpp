@@ -74,24 +74,31 @@ std::vector<EntryRange> Holding::ranges_of(std::span<const std::uint8_t> held, E
 void Holding::update(std::span<double> values) const {
   Ranks& all = ranks();
   thread_local std::vector<double> given, taken;  // memory that is new costs more than what is copied to it
-  for (std::size_t r = 0; r < all.count(); ++r) {
-    if (give_[r].empty()) continue;
-    given.clear();
-    for (const EntryRange& range : give_[r])
-      given.insert(given.end(), values.begin() + static_cast<std::ptrdiff_t>(3 * range.begin),
-                   values.begin() + static_cast<std::ptrdiff_t>(3 * range.end));
-    all.send(r, given);
-  }
-  for (std::size_t r = 0; r < all.count(); ++r) {
-    if (take_[r].empty()) continue;
-    all.receive(r, taken);
-    auto next = taken.begin();
-    for (const EntryRange& range : take_[r]) {
-      std::copy_n(next, 3 * range.size(), values.begin() + static_cast<std::ptrdiff_t>(3 * range.begin));
-      next += static_cast<std::ptrdiff_t>(3 * range.size());
+  std::vector<RangesInPieces> give(give_.begin(), give_.end()), take(take_.begin(), take_.end());
+  const auto has_more = [](const std::vector<RangesInPieces>& of_ranks) {
+    return std::ranges::any_of(of_ranks, [](const RangesInPieces& of_rank) { return of_rank.left() > 0; });
+  };
+  while (has_more(give) || has_more(take)) {
+    for (std::size_t r = 0; r < all.count(); ++r) {
+      if (give[r].left() == 0) continue;
+      given.clear();
+      give[r].next(3, [&](std::size_t begin, std::size_t end) {
+        given.insert(given.end(), values.begin() + static_cast<std::ptrdiff_t>(begin),
+                     values.begin() + static_cast<std::ptrdiff_t>(end));
+      });
+      all.send(r, given);
     }
+    for (std::size_t r = 0; r < all.count(); ++r) {
+      if (take[r].left() == 0) continue;
+      all.receive(r, taken);
+      auto from = taken.begin();
+      take[r].next(3, [&](std::size_t begin, std::size_t end) {
+        std::copy_n(from, end - begin, values.begin() + static_cast<std::ptrdiff_t>(begin));
+        from += static_cast<std::ptrdiff_t>(end - begin);
+      });
+    }
+    all.settle();
   }
-  all.settle();
 }
 
 void Holding::complete(std::span<double> values) const {
@@ -108,7 +115,11 @@ void Holding::complete(std::span<double> values, std::span<const Index> items) c
   std::vector<std::vector<EntryRange>> owned(ranks().count());
   for (const Index item : items) {
     const auto i = static_cast<std::size_t>(item);
-    owned[sharer_of(i, owned.size(), items_)].push_back({i, i + 1});
+    std::vector<EntryRange>& its = owned[sharer_of(i, owned.size(), items_)];
+    if (!its.empty() && its.back().end == i)
+      ++its.back().end;
+    else
+      its.push_back({i, i + 1});
   }
   Exchange(std::move(owned)).gather(values, 3);
 }

@@ -173,29 +173,55 @@ std::pair<double, std::size_t> largest_on_ranks(double value, std::size_t positi
   return largest;
 }
 
+RangesInPieces::RangesInPieces(std::span<const EntryRange> ranges) : ranges_(ranges) {
+  for (const EntryRange& range : ranges) left_ += range.size();
+}
+
+std::size_t RangesInPieces::next_size(std::size_t width) const {
+  constexpr std::size_t values = 1U << 17U;  // 1 MB
+  return width * std::min(left_, std::max<std::size_t>(1, values / width));
+}
+
+void RangesInPieces::next(std::size_t width, const std::function<void(std::size_t, std::size_t)>& body) {
+  for (std::size_t wanted = next_size(width) / width; wanted > 0;) {
+    const EntryRange& range = ranges_.front();
+    const std::size_t begin = range.begin + done_, size = std::min(wanted, range.size() - done_);
+    if (size > 0) body(width * begin, width * (begin + size));
+    wanted -= size;
+    left_ -= size;
+    done_ += size;
+    if (done_ < range.size()) continue;
+    ranges_ = ranges_.subspan(1);
+    done_ = 0;
+  }
+}
+
 void Exchange::gather(std::span<double> values, std::size_t width) const {
   const std::size_t count = of_ranks_.size(), own_rank = ranks().own();
   if (count == 1) return;
-  const auto at = [&](std::size_t entry) { return values.begin() + static_cast<std::ptrdiff_t>(width * entry); };
   thread_local std::vector<double> own, all;  // memory that is new costs more than what is copied to it
-  own.clear();
-  for (const EntryRange& range : of_ranks_[own_rank]) own.insert(own.end(), at(range.begin), at(range.end));
-  std::vector<std::size_t> sizes;
-  for (std::size_t r = 0; r < count; ++r) sizes.push_back(width * size_of(r));
-  ranks().gather(own, sizes, all);
-  auto next = all.cbegin();
-  for (std::size_t r = 0; r < count; ++r)
-    for (const EntryRange& range : of_ranks_[r]) {
-      const auto last = next + static_cast<std::ptrdiff_t>(width * range.size());
-      if (r != own_rank) std::copy(next, last, at(range.begin));
-      next = last;
+  std::vector<RangesInPieces> left(of_ranks_.begin(), of_ranks_.end());
+  std::vector<std::size_t> sizes(count);
+  while (std::ranges::any_of(left, [](const RangesInPieces& of_rank) { return of_rank.left() > 0; })) {
+    for (std::size_t r = 0; r < count; ++r) sizes[r] = left[r].next_size(width);
+    own.clear();
+    left[own_rank].next(width, [&](std::size_t begin, std::size_t end) {
+      own.insert(own.end(), values.begin() + static_cast<std::ptrdiff_t>(begin),
+                 values.begin() + static_cast<std::ptrdiff_t>(end));
+    });
+    ranks().gather(own, sizes, all);
+    auto next = all.cbegin();
+    for (std::size_t r = 0; r < count; ++r) {
+      if (r != own_rank)
+        left[r].next(width, [&](std::size_t begin, std::size_t end) {
+          const auto last = next + static_cast<std::ptrdiff_t>(end - begin);
+          std::copy(next, last, values.begin() + static_cast<std::ptrdiff_t>(begin));
+          next = last;
+        });
+      else
+        next += static_cast<std::ptrdiff_t>(sizes[r]);
     }
-}
-
-std::size_t Exchange::size_of(std::size_t rank) const {
-  std::size_t size = 0;
-  for (const EntryRange& range : of_ranks_[rank]) size += range.size();
-  return size;
+  }
 }
 
 }  // namespace carom

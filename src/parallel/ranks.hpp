@@ -70,6 +70,23 @@ struct EntryRange {
   bool has(std::size_t entry) const { return entry >= begin && entry < end; }
 };
 
+/// Entries of ranges that follow each other, some at a time: messages have a largest size, so that their memory is
+/// small beside that of a model.
+class RangesInPieces {
+ public:
+  explicit RangesInPieces(std::span<const EntryRange> ranges);
+  /// Entries that are left.
+  std::size_t left() const { return left_; }
+  /// How many values of `width` each the next piece has.
+  std::size_t next_size(std::size_t width) const;
+  /// Calls body(begin, end) for the values of the next piece.
+  void next(std::size_t width, const std::function<void(std::size_t, std::size_t)>& body);
+
+ private:
+  std::span<const EntryRange> ranges_;
+  std::size_t done_ = 0, left_ = 0;  ///< entries: of the first range; of all
+};
+
 /// The share of a rank in n entries that follow each other: rank r of R has those from r n / R on.
 EntryRange share_of(std::size_t rank, std::size_t ranks, std::size_t n);
 /// That of the calling thread's rank.
@@ -92,8 +109,6 @@ class Exchange {
   void gather(std::span<double> values, std::size_t width = 1) const;
 
  private:
-  std::size_t size_of(std::size_t rank) const;
-
   std::vector<std::vector<EntryRange>> of_ranks_;
 };
 

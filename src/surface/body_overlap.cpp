@@ -6,6 +6,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <tuple>
 
 #include "base/types.hpp"
 #include "math/vec3.hpp"
@@ -13,7 +14,8 @@
 #include "model/bodies.hpp"
 #include "model/node_lengths.hpp"
 #include "model/outer_facets.hpp"
-#include "parallel/shared_items.hpp"
+#include "parallel/found_by_ranks.hpp"
+#include "parallel/threads.hpp"
 #include "surface/cell_location.hpp"
 #include "surface/facet_geometry.hpp"
 #include "surface/facet_projection.hpp"
@@ -84,6 +86,11 @@ struct BodyOverlap::Impl {
   std::vector<std::vector<Index>> obstacle_nodes;      ///< by contact
 
   Impl(const Model& of, std::span<const double> u);
+  /// A node of the skin inside of a cell, so deep, in cells.
+  struct Inside {
+    Index skin_node = -1, cell = -1;
+    double depth = 0.0;
+  };
   void find_skin();
   template <class ForEach>
   void gather(const ForEach& for_each, std::vector<Index>& first, std::vector<Index>& at) const;
@@ -92,14 +99,19 @@ struct BodyOverlap::Impl {
   bool may_meet(std::size_t skin_node, Index cell) const;
   double depth(std::size_t skin_node, Index cell, const Vec3& x) const;
   double depth_under_skin(std::size_t cell, const Vec3& x) const;
-  std::vector<Overlap> depths(std::span<const double> u);
-  std::vector<double> obstacle_depths(std::size_t c, std::span<const double> u) const;  ///< after depths
+  std::vector<Inside> inside(std::span<const double> u);
+  std::vector<double> obstacle_depths(std::size_t c, std::span<const double> u) const;  ///< after inside
 };
 
 BodyOverlap::Impl::Impl(const Model& of, std::span<const double> u)
-    : model(of), cells(of, {}), skin(outer_facets(of)), lengths(node_lengths(of)), body(bodies_of_nodes(of)) {
+    : model(of),
+      cells(of, {}, CellsOf::rank),
+      skin(outer_facets(of)),
+      lengths(node_lengths(of)),
+      body(bodies_of_nodes(of)) {
   find_skin();
-  for (const Overlap& overlap : depths(u)) at_start.push_back(overlap.depth);
+  at_start.assign(skin_nodes.size(), 0.0);
+  for (const Inside& found : inside(u)) at_start[at(found.skin_node)] = found.depth;
   for (const ContactDefinition& definition : model.contacts) {
     obstacle_nodes.emplace_back();
     if (const ContactParts obstacle = parts_of(definition); obstacle.shape != nullptr) {
@@ -200,24 +212,33 @@ double BodyOverlap::Impl::reference_length(std::size_t cell) const {
   return cell_length(cells.type(cell), std::span(corner).first(n));
 }
 
-/// One entry per skin node: its deepest cell.
-std::vector<Overlap> BodyOverlap::Impl::depths(std::span<const double> u) {
+/// The skin nodes that are inside of a cell, increasing, each with the cell that it is deepest in.
+std::vector<BodyOverlap::Impl::Inside> BodyOverlap::Impl::inside(std::span<const double> u) {
   cells.place(u);
-  std::vector<Overlap> found(skin_nodes.size());
   constexpr std::size_t grain = 64;
-  find_shared(std::span(found), grain, [&](std::size_t i) {
-    thread_local std::vector<Index> near;
-    Overlap deepest;
-    const Vec3 x = cells.position(skin_nodes[i]);
-    cells.find(x, near);
-    for (const Index cell : near) {
-      if (!may_meet(i, cell)) continue;
-      const double d = depth(i, cell, x);
-      if (d > deepest.depth) deepest = {d, skin_nodes[i], x, cells.ref(static_cast<std::size_t>(cell))};
+  std::vector<std::vector<Inside>> of_task((skin_nodes.size() + grain - 1) / grain);
+  parallel_for(skin_nodes.size(), grain, [&](std::size_t begin, std::size_t end) {
+    std::vector<Index> near;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 x = cells.position(skin_nodes[i]);
+      cells.find(x, near);
+      Inside deepest;
+      for (const Index cell : near) {
+        if (!may_meet(i, cell)) continue;
+        const double d = depth(i, cell, x);
+        if (d > deepest.depth) deepest = {static_cast<Index>(i), cell, d};
+      }
+      if (deepest.cell >= 0) of_task[begin / grain].push_back(deepest);
     }
-    return deepest;
   });
-  return found;
+  std::vector<Inside> all;
+  for (const std::vector<Inside>& found : of_task) all.insert(all.end(), found.begin(), found.end());
+  all = found_by_ranks(std::move(all));
+  const auto order = [](const Inside& x) { return std::tuple(x.skin_node, -x.depth, x.cell); };
+  std::sort(all.begin(), all.end(), [&](const Inside& a, const Inside& b) { return order(a) < order(b); });
+  const auto is_same = [](const Inside& a, const Inside& b) { return a.skin_node == b.skin_node; };
+  all.erase(std::unique(all.begin(), all.end(), is_same), all.end());
+  return all;
 }
 
 /// By node of the contact, in cells; not positive outside.
@@ -244,14 +265,16 @@ BodyOverlap::BodyOverlap(BodyOverlap&&) noexcept = default;
 Overlap BodyOverlap::deepest(std::span<const double> u) {
   Impl& impl = *impl_;
   Overlap worst;
-  const bool is_finite = carom::is_finite(u);
+  const bool is_finite = std::all_of(impl.skin_nodes.begin(), impl.skin_nodes.end(), [&](Index n) {
+    const Vec3 moved = vector_at(u, at(n));
+    return std::isfinite(moved[0] + moved[1] + moved[2]);
+  });
   if (!is_finite) return worst;
-  const std::vector<Overlap> now = impl.depths(u);
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    const double growth = now[i].depth - impl.at_start[i];
+  for (const Impl::Inside& found : impl.inside(u)) {
+    const double growth = found.depth - impl.at_start[at(found.skin_node)];
     if (growth <= worst.depth) continue;
-    worst = now[i];
-    worst.depth = growth;
+    const Index n = impl.skin_nodes[at(found.skin_node)];
+    worst = {growth, n, impl.cells.position(n), impl.cells.ref(at(found.cell))};
   }
   for (std::size_t c = 0; c < impl.model.contacts.size(); ++c) {
     const std::vector<double> depths = impl.obstacle_depths(c, u);

@@ -45,7 +45,8 @@ class BodyOverlap {
   ~BodyOverlap();
   BodyOverlap(BodyOverlap&&) noexcept;
 
-  /// The deepest node at displacement u. Costs about as much as a few explicit steps.
+  /// The deepest node at displacement u. Costs about as much as a few explicit steps. Each rank looks at cells of its
+  /// own, so that all of them call it; it needs to know the displacements of all nodes of the skin and of obstacles.
   Overlap deepest(std::span<const double> u);
 
   /// Calls visit(node, depth in cells) for the nodes that are inside of cells at the start.

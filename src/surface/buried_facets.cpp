@@ -29,7 +29,7 @@ std::vector<BuriedFacet> buried_facets(const Model& model, const ContactDefiniti
   const ContactParts parts = parts_of(contact);
   if (parts.other == nullptr || parts.nature != ContactNature::touches) return {};
   const std::vector<Vec3> x = current_positions(*model.mesh, u);
-  const PlacedCells cells(model, u);
+  const PlacedCells cells(model, u, CellsOf::all);
   const std::vector<Index> body = bodies_of_nodes(model);
   std::vector<BuriedFacet> found;
   std::vector<Index> near;

@@ -6,7 +6,8 @@
 #include "element/hexa8.hpp"
 #include "math/vec3.hpp"
 #include "mesh/cell_size.hpp"
-#include "parallel/shared_items.hpp"
+#include "parallel/ranks.hpp"
+#include "parallel/threads.hpp"
 
 namespace carom {
 namespace {
@@ -116,13 +117,22 @@ std::optional<CornerValues> shape_at(CellType linear, const Corners& corners, co
   return std::nullopt;
 }
 
-PlacedCells::PlacedCells(const Model& model, std::span<const double> u) : model_(&model), u_(u) {
+PlacedCells::PlacedCells(const Model& model, std::span<const double> u, CellsOf which) : model_(&model), u_(u) {
   const Mesh& mesh = *model.mesh;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Part& part = model.parts[p];
     if (dimension(part.type) < 2 || part.cells.empty()) continue;
     runs_.push_back({size_, static_cast<Index>(p), static_cast<Index>(mesh.block(part.type) - mesh.blocks.data())});
     size_ += part.cells.size();
+  }
+  const EntryRange own = own_share_of(mesh.node_count());
+  for (std::size_t k = 0; k < size_; ++k) {
+    if (which == CellsOf::rank && !own.has(at(nodes(k)[0]))) continue;
+    const auto cell = static_cast<Index>(k);
+    if (clusters_.empty() || at(clusters_.back().count) == cluster ||
+        clusters_.back().first + clusters_.back().count != cell)
+      clusters_.push_back({cell, 0, {}, {}});
+    ++clusters_.back().count;
   }
   bound();
   tree_.build(leaves_);
@@ -146,10 +156,10 @@ Vec3 PlacedCells::position(Index node) const {
   return u_.empty() ? X : add(X, vector_at(u_, n));
 }
 
-PlacedCells::Placed PlacedCells::bounds_of(std::size_t cluster_number) const {
-  const std::size_t first = cluster * cluster_number, count = std::min(size(), first + cluster) - first;
+void PlacedCells::bound(Placed& placed) const {
+  const std::size_t first = at(placed.first), count = at(placed.count);
   std::array<Bounds, cluster> own{};
-  Placed placed;
+  placed.bounds = {};
   for (std::size_t k = 0; k < count; ++k) {
     const Corners corner = corners(first + k);
     for (std::size_t a = 0; a < solid_corners(type(first + k)); ++a) own[k].include(corner[a]);
@@ -162,15 +172,17 @@ PlacedCells::Placed PlacedCells::bounds_of(std::size_t cluster_number) const {
       placed.boxes[k].high[i] = static_cast<std::uint8_t>(std::ceil(high[i]));
     }
   }
-  return placed;
 }
 
 void PlacedCells::bound() {
   constexpr std::size_t grain = 64;
-  clusters_.resize((size() + cluster - 1) / cluster);
-  find_shared(std::span(clusters_), grain, [&](std::size_t c) { return bounds_of(c); });
   leaves_.resize(clusters_.size());
-  parallel_each(clusters_.size(), [&](std::size_t c) { leaves_[c] = clusters_[c].bounds; });
+  parallel_for(clusters_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      bound(clusters_[c]);
+      leaves_[c] = clusters_[c].bounds;
+    }
+  });
 }
 
 void PlacedCells::find(const Vec3& x, std::vector<Index>& found) const {
@@ -181,10 +193,10 @@ void PlacedCells::find(const Vec3& x, std::vector<Index>& found) const {
   const std::vector<Index> clusters = found;
   found.clear();
   for (const Index c : clusters) {
-    const std::size_t first = cluster * static_cast<std::size_t>(c);
-    const Placed& placed = clusters_[static_cast<std::size_t>(c)];
+    const Placed& placed = clusters_[at(c)];
+    const std::size_t first = at(placed.first);
     const Vec3 in_cluster = in_parts(placed.bounds, x);
-    for (std::size_t k = first; k < std::min(size(), first + cluster); ++k) {
+    for (std::size_t k = first; k < first + at(placed.count); ++k) {
       const Box& box = placed.boxes[k - first];
       bool is_in = true;
       for (std::size_t i = 0; i < 3; ++i) is_in = is_in && box.low[i] <= in_cluster[i] && in_cluster[i] <= box.high[i];

@@ -22,6 +22,10 @@ using CornerValues = std::array<double, 8>;
 /// the pyramid are those of the hexahedron whose upper face is its apex.
 std::optional<CornerValues> shape_at(CellType linear, const Corners& corners, const Vec3& x);
 
+/// Which cells are looked at: all, or on several ranks those whose first node is the calling rank's own, so that it
+/// holds the displacements of all of their nodes and each cell is looked at by one of them.
+enum class CellsOf : std::uint8_t { all, rank };
+
 /// The cells of the parts that have an inside (solids and plane cells), part by part, where the nodes are displaced by
 /// u. Quadratic ones are taken by their corners. A plane cell stands as a prism about its plane, as thick as it is
 /// wide.
@@ -29,9 +33,8 @@ class PlacedCells {
  public:
   /// Places the cells of a model at the displacement u (a dof vector, or empty: none). Model and u must outlive the
   /// object.
-  PlacedCells(const Model& model, std::span<const double> u);
-  /// Moves the cells to the displacement u, in threads; ranks share the work, so that all of them call it, as they do
-  /// the constructor. u must outlive the calls that follow.
+  PlacedCells(const Model& model, std::span<const double> u, CellsOf which);
+  /// Moves the cells to the displacement u, in threads. u must outlive the calls that follow.
   void place(std::span<const double> u);
 
   std::size_t size() const { return size_; }
@@ -49,7 +52,7 @@ class PlacedCells {
   /// cell_length at these positions.
   double length(std::size_t k) const;
 
-  /// The cells, increasing, in whose bounds (rounded outward) x is.
+  /// Those of the cells that are looked at, increasing, in whose bounds (rounded outward) x is.
   void find(const Vec3& x, std::vector<Index>& found) const;
   /// Values at x of the linear shape functions of the corners of cell k (of a plane cell: of both sides of the prism
   /// together), if x is inside by more than `margin`: every face's depth is.
@@ -66,8 +69,9 @@ class PlacedCells {
   /// Cells in a leaf of the tree.
   static constexpr std::size_t cluster = 16;
   using Boxes = std::array<Box, cluster>;
-  /// Of a cluster: its bounds, and the boxes of its cells.
+  /// Cells that follow each other: their bounds, and their boxes.
   struct Placed {
+    Index first = 0, count = 0;
     Bounds bounds;
     Boxes boxes{};
   };
@@ -81,14 +85,14 @@ class PlacedCells {
     return model_->mesh->blocks[static_cast<std::size_t>(run_of(k).block)];
   }
   void bound();
-  Placed bounds_of(std::size_t cluster_number) const;
+  void bound(Placed& placed) const;
 
   const Model* model_;
   std::span<const double> u_;
   std::vector<Run> runs_;
   std::size_t size_ = 0;
-  std::vector<Placed> clusters_;  ///< of cells that follow each other
-  std::vector<Bounds> leaves_;    ///< their bounds
+  std::vector<Placed> clusters_;
+  std::vector<Bounds> leaves_;  ///< their bounds
   BoxTree tree_;
 };
 

@@ -108,7 +108,7 @@ TEST(PlacedCells, PartitionTheBody) {
   meshes.push_back(with_mixed_cells(grid));
   for (const Mesh& mesh : meshes) {
     const Model model = model_of(mesh);
-    const PlacedCells cells(model, {});
+    const PlacedCells cells(model, {}, CellsOf::all);
     for (int trial = 0; trial < 100; ++trial) {
       const Vec3 x{random(-0.5, 1.5), random(-0.1, 1.1), random(-0.1, 1.1)};
       int count = 0;
@@ -138,7 +138,7 @@ TEST(PlacedCells, OfPlaneTypesPartitionTheStrip) {
     std::iota(part.cells.begin(), part.cells.end(), 0);
     model.parts.push_back(part);
     model.mesh = std::make_shared<const Mesh>(mesh);
-    const PlacedCells cells(model, {});
+    const PlacedCells cells(model, {}, CellsOf::all);
     for (int trial = 0; trial < 100; ++trial) {
       const Vec3 x{random(-0.5, 1.5), random(-0.1, 1.1), 0.0};
       int count = 0;
