@@ -40,7 +40,10 @@ std::string worst_place(const System& s, const State& state) {
 std::string energy_remedy(const Stage& stage) {
   const SchemeSettings& scheme = stage.settings();
   const bool has_springs = traits(scheme.enforcement).adds_stiffness && stage.system().contact.slots() > 0;
-  std::string text = stage.time().step ? "Lower time.step" : "Lower time.safety";
+  std::string text = !stage.time().step ? "Lower time.safety"
+                     : is_explicit(scheme.kind)
+                         ? "Leave time.step out, so that steps follow the stable one, or lower it"
+                         : "Lower time.step";
   if (has_springs) text += " or contact.stiffness (contact.stiffness_factor)";
   if (!is_explicit(scheme.kind)) text += ", or choose a scheme that dissipates or conserves energy";
   return text;

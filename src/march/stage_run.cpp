@@ -5,12 +5,14 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "parallel/threads.hpp"
 
 namespace carom {
 
 StageRun::StageRun(const Simulation& simulation, std::size_t number, double rest)
     : s_(simulation),
       number_(number),
+      mass_(sum_of(stage().mass().node_diagonal())),
       scheme_(stage().make_scheme()),
       steps_(stage()),
       step_scale_(s_.model(), stage(), rest) {}
@@ -45,9 +47,10 @@ MadeStep StageRun::make_step(const State& begin, State& end, const EnergyLedger&
   steps_.limit_motion(begin, *begin.forces.rows.rows, step);
   for (;;) {
     const double dt = steps_.control().dt();
-    // A hundredth of the ledger's bound (1e-10 of the energy), shared out over the time of the run; what a step leaves
-    // unbooked is at most its residual's work.
-    const double tolerance = 1e-12 * ledger.scale() * dt / s_.end();
+    // A hundredth of the verdict's bounds (1e-10 of the energy, 1e-9 of the momentum that all mass has with it), shared
+    // out over the time of the run; what a step leaves unbooked is at most its residual's work.
+    const double momentum = std::sqrt(2.0 * mass_ * ledger.scale());
+    const ResidualTolerance tolerance{1e-12 * ledger.scale() * dt / s_.end(), 1e-11 * momentum / s_.end()};
     StepReport report = scheme_->step(begin, {steps_.control().t_end_of_step(), dt, tolerance}, end);
     if (report.converged && !std::isfinite(end.forces.stored.mechanical())) {
       report.converged = false;

@@ -63,6 +63,7 @@ class StageRun {
 
   const Simulation& s_;
   std::size_t number_;
+  double mass_;
   std::unique_ptr<Scheme> scheme_;
   StepGuard steps_;
   StepScale step_scale_;

@@ -39,7 +39,7 @@ bool Bathe::solve(ImplicitStage& stage, const SubStep& sub_step, const StepReque
                                .known = known_,
                                .imposed = imposed_};
   impose_on_stage(equation, end.a);
-  StageReport solved = stage.solve(equation, begin, 0.5 * share * request.work_tolerance, end);
+  StageReport solved = stage.solve(equation, begin, 0.5 * share * request.tolerance, end);
   report.iterations += solved.iterations;
   report.linear_iterations += solved.linear_iterations;
   report.failure = std::move(solved.failure);

@@ -49,8 +49,7 @@ StageReport ContactStabilizedNewmark::project(const State& begin, const StepRequ
   std::fill(projected_.a.begin(), projected_.a.end(), 0.0);
   const StageEquation equation{.s = 1.0, .x_hat = x_predicted_, .v_hat = zero_, .known = zero_};
   // M u_hat is a force times h^2: what the tolerance leaves of work is that much less.
-  const double tolerance = request.work_tolerance * request.dt * request.dt;
-  return projection_.solve(equation, begin, tolerance, projected_);
+  return projection_.solve(equation, begin, {request.tolerance.work * request.dt * request.dt}, projected_);
 }
 
 StepReport ContactStabilizedNewmark::step(const State& begin, const StepRequest& request, State& end) {
@@ -78,7 +77,7 @@ StepReport ContactStabilizedNewmark::step(const State& begin, const StepRequest&
                                .known = known_,
                                .imposed = imposed_};
   impose_on_stage(equation, end.a);
-  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
+  StageReport solved = stage_.solve(equation, begin, request.tolerance, end);
   report.converged = solved.converged;
   report.iterations += solved.iterations;
   report.linear_iterations += solved.linear_iterations;

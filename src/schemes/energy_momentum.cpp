@@ -52,7 +52,7 @@ StepReport EnergyMomentum::step(const State& begin, const StepRequest& request, 
   const StageEquation equation{
       .s = 0.5 * h * h, .r = h, .dt = h, .x_hat = x_hat_, .v_hat = begin.v, .known = known_, .imposed = imposed_};
   impose_on_stage(equation, end.a);
-  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
+  StageReport solved = stage_.solve(equation, begin, request.tolerance, end);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
   mean_internal_ = next.internal;

@@ -179,7 +179,7 @@ StepReport GeneralizedAlpha::step(const State& begin, const StepRequest& request
                                .known = known_,
                                .imposed = imposed_};
   impose_on_stage(equation, end.a);
-  StageReport solved = stage_.solve(equation, begin, share * request.work_tolerance, end);
+  StageReport solved = stage_.solve(equation, begin, share * request.tolerance, end);
   StepReport report{false, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!solved.converged || (impulses_ && !stop_at_rows(begin, h, end, report))) return report;
   complete_forces(system_, end);

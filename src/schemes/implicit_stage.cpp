@@ -10,6 +10,7 @@
 
 #include "base/types.hpp"
 #include "enforcement/make_contact_port.hpp"
+#include "math/vec3.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/initial_acceleration.hpp"
 #include "solid/point_history.hpp"
@@ -25,6 +26,8 @@ struct ImplicitStage::Residual {
   double unbooked = 0.0;      ///< what of it the ledger would miss: residual . displacement of the step
   double round_off = 0.0;     ///< the part of `work` that rounding alone leaves
   double supplied = 0.0;      ///< work of the loads or of the internal forces on the step's displacement
+  double resultant = 0.0;     ///< force on all bodies together
+  double force_round_off = 0.0;
 };
 
 namespace {
@@ -119,10 +122,12 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   // Squares of the residual, of the displacement, of Jacobi's estimate of what is missing, and of the forces that
   // cancel in the residual.
   double unbooked = 0.0;
+  Vec3 resultant{};
   for (std::size_t i = 0; i < residual_.size(); ++i) {
     residual_[i] =
         fixed[i] ? 0.0 : eq.known[i] - eq.k * forces.internal[i] + forces.contact[i] - eq.m * forces.inertia[i];
     unbooked += residual_[i] * (end.q[i] - begin.q[i]);
+    resultant[i % 3] += residual_[i];
   }
   if (is_improved_) port_->relieve(end.q, forces.rows, residual_);
   const auto sums = parallel_sums<6>(residual_.size(), [&](std::size_t i, std::array<double, 6>& sum) {
@@ -152,9 +157,10 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
   out.supplied = std::max(std::abs(sums[4]), std::abs(sums[5]));
   // A displacement is known to a relative 1e-16 of its terms only, which the stiffness of a node turns into a force.
   constexpr double precision = 16.0 * std::numeric_limits<double>::epsilon();
-  out.round_off =
-      out.displacement * (precision * std::sqrt(sums[3]) + std::numeric_limits<double>::epsilon() * body_force_) +
-      contact.round_off;
+  const double round_off = precision * std::sqrt(sums[3]) + std::numeric_limits<double>::epsilon() * body_force_;
+  out.round_off = out.displacement * round_off + contact.round_off;
+  out.resultant = carom::norm(resultant);
+  out.force_round_off = round_off;
   return out;
 }
 
@@ -164,7 +170,9 @@ ImplicitStage::Residual ImplicitStage::residual(const StageEquation& eq, const S
 /// leave the ledger more than a third of its bound: a solve of an ill-conditioned operator may leave a residual whose
 /// norm is rounding but whose work on the displacement another solve still takes away. The unbooked energy may be small
 /// by chance, since its terms cancel, and a single solve may fail to help; so the stage stops when neither the unbooked
-/// energy nor the work has fallen to half in two solves. before, earlier: one and two iterations ago.
+/// energy nor the work has fallen to half in two solves. before, earlier: one and two iterations ago. Work says
+/// nothing of a body at rest, whose displacement is none. So the resultant of the residual (ResidualTolerance) is asked
+/// for as well, as long as an iteration halves it, and once where it may be rounding.
 bool ImplicitStage::is_equilibrium(const StageEquation& eq, const Residual& error, double wanted,
                                    const Residual& before, const Residual& earlier) const {
   if (error.work <= wanted) return true;
@@ -176,7 +184,8 @@ bool ImplicitStage::is_equilibrium(const StageEquation& eq, const Residual& erro
   return (!is_strict || error.work > 0.5 * before.work) && (is_booked || stays);
 }
 
-StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, double work_tolerance, State& end) {
+StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, const ResidualTolerance& allowed,
+                                 State& end) {
   const std::size_t n = begin.q.size();
   const StageMemory& memory = begin.stages[eq.place];
   Forces& forces = end.forces;
@@ -190,7 +199,7 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
   StageReport report;
   std::vector<RowStatus> before;
   double first = 0.0;  // norm of the residual that the iteration begins with
-  const Residual none{.work = infinity, .unbooked = infinity};
+  const Residual none{.work = infinity, .unbooked = infinity, .resultant = infinity};
   Residual last = none, earlier = none;
   const bool is_exact =
       (system_.solid.is_linear() && system_.contact.slots() == 0) || !solver_->iterates() || !port_->is_function();
@@ -204,9 +213,11 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
       return report;
     }
     if (newton == 0) first = error.norm;
-    const double wanted = std::max(work_tolerance, eq.share * error.supplied);
+    const double wanted = std::max(allowed.work, eq.share * error.supplied);
     const double tolerance = std::max(wanted, error.round_off);
-    const bool is_found = is_equilibrium(eq, error, wanted, last, earlier);
+    const bool is_found = is_equilibrium(eq, error, wanted, last, earlier) &&
+                          (error.resultant <= allowed.resultant || error.resultant > 0.5 * last.resultant ||
+                           (newton > 0 && error.resultant <= error.force_round_off));
     if (is_found && port_->settle(end.q, forces.rows)) {
       if (error.work > wanted) report.rounding = std::min(error.work, error.round_off);
       break;
@@ -233,7 +244,9 @@ StageReport ImplicitStage::solve(const StageEquation& eq, const State& begin, do
     earlier = last;
     last = newton == 0 ? none : error;  // before the first solve, the work is of a displacement that is a guess
     // Each solve is asked for a hundredth of what is left: less would feed its own error to the mixing.
-    const double left = std::max(0.3 * wanted, std::min(0.3 * tolerance, 0.01 * error.work)) / error.displacement;
+    double left = std::max(0.3 * wanted, std::min(0.3 * tolerance, 0.01 * error.work)) / error.displacement;
+    if (error.resultant > allowed.resultant)
+      left = std::min(left, std::max(0.3 * allowed.resultant, 0.01 * error.resultant));
     report.failure = improve(eq, begin, forcing_.next(error.norm, left), end, report);
     if (!report.failure.empty()) return report;
   }

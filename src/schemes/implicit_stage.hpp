@@ -13,6 +13,7 @@
 #include "schemes/anderson_mixing.hpp"
 #include "schemes/forcing_term.hpp"
 #include "schemes/imposed_motion.hpp"
+#include "schemes/residual_tolerance.hpp"
 
 namespace carom {
 
@@ -45,9 +46,9 @@ struct StageForce {
   double factor = 1.0;
 };
 
-/// Newton's method with m M + k s K(x) and the contact of a port. Equilibrium is reached when the energy that the
-/// residual could leave unbooked is at most the given tolerance, or at most what rounding leaves. The tangent of rows
-/// that move (turning normals, changing weights) is not complete; AndersonMixing makes up for what is missing.
+/// Newton's method with m M + k s K(x) and the contact of a port. Equilibrium is reached when energy and momentum that
+/// the residual could leave unbooked are at most the given tolerance, or at most what rounding leaves. The tangent of
+/// rows that move (turning normals, changing weights) is not complete; AndersonMixing makes up for what is missing.
 class ImplicitStage {
  public:
   /// ratio: k s / m of the usual step; omega_max_squared: a bound of the spectrum of M^-1 K. Both choose the solver.
@@ -59,7 +60,7 @@ class ImplicitStage {
   /// Solves for end.a = y, whose prescribed entries are given and whose others are the start value; end.q, end.v, the
   /// contact history and the memory of the stage (that of the beginning on entry) follow. end.forces: external is
   /// given; internal, contact and rows are filled.
-  StageReport solve(const StageEquation& equation, const State& begin, double work_tolerance, State& end);
+  StageReport solve(const StageEquation& equation, const State& begin, const ResidualTolerance& allowed, State& end);
   /// Fills the memory of the stage in the state that a run begins with.
   void start_memory(State& state, std::size_t place) const;
   /// Does what start_memory() does, and fills the contact forces and their history.

@@ -48,7 +48,7 @@ StepReport MoreauJean::step(const State& begin, const StepRequest& request, Stat
                                .x_predicted = x_predicted_,
                                .imposed = imposed_};
   impose_on_stage(equation, end.a);
-  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
+  StageReport solved = stage_.solve(equation, begin, request.tolerance, end);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
   complete_forces(system_, end);

@@ -115,7 +115,7 @@ StepReport NonsmoothGeneralizedAlpha::step(const State& begin, const StepRequest
                                .x_predicted = u_predicted_,
                                .imposed = imposed_};
   impose_on_stage(equation, end.a);
-  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
+  StageReport solved = stage_.solve(equation, begin, request.tolerance, end);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
   if (!solve_jump(end.forces)) {

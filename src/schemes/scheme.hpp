@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "schemes/residual_tolerance.hpp"
 #include "system/system.hpp"
 
 namespace carom {
@@ -11,7 +12,7 @@ namespace carom {
 struct StepRequest {
   double t_end = 0.0;           ///< time at the end of the step
   double dt = 0.0;              ///< its length
-  double work_tolerance = 0.0;  ///< energy that the residual may leave unbooked in this step
+  ResidualTolerance tolerance;  ///< in this step
 };
 
 /// The result of a step. A step that has not converged is reported, not thrown; the state at its end then means

@@ -46,7 +46,7 @@ StepReport Statics::step(const State& begin, const StepRequest& request, State& 
                                .v_hat = zero_,
                                .known = !system_.solid.loads().empty() ? end.forces.external.value : zero_,
                                .imposed = imposed_};
-  StageReport solved = stage_.solve(equation, begin, request.work_tolerance, end);
+  StageReport solved = stage_.solve(equation, begin, {request.tolerance.work}, end);
   StepReport report{solved.converged, solved.iterations, solved.linear_iterations, std::move(solved.failure), {}};
   if (!report.converged) return report;
   report.rounding = solved.rounding;
