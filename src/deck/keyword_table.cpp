@@ -371,7 +371,8 @@ constexpr std::array<KeywordEntry, 167> kKeywords{{
      .use = model,
      .parameters = "PRESSURE-OVERCLOSURE",
      .noted = "PENALTY,DIRECT,AUGMENTED LAGRANGE",
-     .meaning = "HARD: the stiffness that Carom chooses; LINEAR: its slope as the stiffness."},
+     .meaning = "HARD: the stiffness that Carom chooses; LINEAR: its slope as the stiffness; TABULAR: pressure over "
+                "overclosure, from 0, 0 on, of rigid surfaces."},
     {.name = "SURFACE INTERACTION",
      .use = model,
      .parameters = "NAME",

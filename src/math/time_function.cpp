@@ -10,9 +10,12 @@ namespace carom {
 
 namespace {
 
-/// First entry after t. A time that misses an entry by rounding alone (steps are multiples of dt) has reached it.
-std::vector<double>::const_iterator first_after(const std::vector<double>& time, double t) {
-  return std::upper_bound(time.begin(), time.end(), t + 1e-12 * std::abs(t));
+/// First entry after t, or of those that are at t the first. A time that misses an entry by rounding alone (steps are
+/// multiples of dt) has reached it.
+std::vector<double>::const_iterator next_entry(const std::vector<double>& time, double t, JumpSide side) {
+  constexpr double rounding = 1e-12;
+  return side == JumpSide::after ? std::upper_bound(time.begin(), time.end(), t + rounding * std::abs(t))
+                                 : std::lower_bound(time.begin(), time.end(), t - rounding * std::abs(t));
 }
 
 /// Calls visit(p, f(p), q, f(q)) for every piece [p, q] of [a, b] on which f is linear, from the left to the right.
@@ -34,9 +37,9 @@ void each_piece(const TimeFunction& f, double a, double b, const Visit& visit) {
 
 }  // namespace
 
-double TimeFunction::operator()(double t) const {
+double TimeFunction::operator()(double t, JumpSide side) const {
   if (called) return value.front() * called->at(t);
-  const auto next = first_after(time, t);
+  const auto next = next_entry(time, t, side);
   if (next == time.begin()) return value.front();
   if (next == time.end()) return value.back();
   const auto i = static_cast<std::size_t>(next - time.begin());
@@ -45,7 +48,7 @@ double TimeFunction::operator()(double t) const {
 
 double TimeFunction::derivative(double t) const {
   if (called) return value.front() * called->derivative(t);
-  const auto next = first_after(time, t);
+  const auto next = next_entry(time, t, JumpSide::after);
   if (next == time.begin() || next == time.end()) return 0.0;
   const auto i = static_cast<std::size_t>(next - time.begin());
   return (value[i] - value[i - 1]) / (time[i] - time[i - 1]);

@@ -8,6 +8,9 @@ namespace carom {
 
 class CalledFunction;
 
+/// The side from which a value is taken where it jumps.
+enum class JumpSide : bool { after, before };
+
 /// Piecewise linear table; constant before the first and after the last entry. Two entries at the same time make a
 /// step: the value jumps there (right-continuous). A single entry is a constant. Times must not decrease. Where there
 /// is a called function, the table has a single entry, which multiplies it.
@@ -16,8 +19,8 @@ struct TimeFunction {
   std::vector<double> value{1.0};
   std::shared_ptr<const CalledFunction> called{};
 
-  /// Value at t; right-continuous at a jump.
-  double operator()(double t) const;
+  /// Value at t.
+  double operator()(double t, JumpSide side = JumpSide::after) const;
   /// First derivative at t (from the right at a kink; jumps do not count).
   double derivative(double t) const;
   /// Integral of f from a to b >= a, piece by piece: exact up to rounding, whatever kinks and jumps lie between (of a

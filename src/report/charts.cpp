@@ -28,6 +28,7 @@ struct Group {
   std::string section, title, label;
   std::vector<std::string> columns;
   bool is_by_place = false;  ///< one column for each place, whose number is its colour
+  bool is_folded = false;
 };
 
 double largest_magnitude(const std::vector<double>& values) {
@@ -102,6 +103,7 @@ std::string remarks_on_filters(const Group& group, const std::optional<CsvTable>
 Chart make_chart(const Group& group, const CsvTable& table, const Tables& tables, const Units& units) {
   Chart chart{group.section, group.title, group.label, unit_of_column(units, group.columns.front()), {}, {}};
   const double scale = largest_of(group, table);
+  chart.is_folded = group.is_folded;
   const bool is_contact = group.section == "Contact";
   const std::optional<CsvTable>& filtered = is_contact ? tables.contact_filtered : tables.probes_filtered;
   std::vector<std::string> left_out, drawn;
@@ -142,7 +144,9 @@ std::vector<Group> energy_groups(const CsvTable& table) {
       {"Energies",
        "In Code_Aster's terms",
        "energy",
-       {"ENER_CIN", "ENER_TOT", "TRAV_EXT", "TRAV_AMOR", "TRAV_LIAI", "DISS_SCH"}},
+       {"ENER_CIN", "ENER_TOT", "TRAV_EXT", "TRAV_AMOR", "TRAV_LIAI", "DISS_SCH"},
+       false,
+       true},
       {"Momentum", "Linear momentum", "momentum", {"momentum_x", "momentum_y", "momentum_z"}},
       {"Momentum",
        "Angular momentum",

@@ -38,9 +38,10 @@ struct Chart {
   std::string title;
   std::string label, unit;  ///< of the vertical axis
   std::vector<Curve> curves;
-  std::string note;       ///< what is not drawn and why
-  std::string place{};    ///< of a probe
-  bool is_count = false;  ///< whole numbers
+  std::string note;        ///< what is not drawn and why
+  std::string place{};     ///< of a probe
+  bool is_count = false;   ///< whole numbers
+  bool is_folded = false;  ///< shown to readers who ask for it
 };
 
 /// A moment that is marked in every picture.

@@ -81,10 +81,13 @@ std::string chart_figures(const std::vector<Chart>& charts) {
     }
     const std::string place =
         chart.place.empty() ? "" : fmt::format(" <span class=\"place\">{}</span>", xml_escape(chart.place));
+    const std::string title = xml_escape(chart.title);
+    if (chart.is_folded) html += fmt::format("<details class=\"asked\"><summary>{}</summary>\n", title);
     html += fmt::format(
         "<figure><figcaption>{}{}</figcaption><div class=\"legend\"></div><div class=\"chart\" data-chart=\"{}\"></div>"
         "<p class=\"note\">{}</p></figure>\n",
-        xml_escape(chart.title), place, drawn++, xml_escape(chart.note));
+        title, place, drawn++, xml_escape(chart.note));
+    if (chart.is_folded) html += "</details>\n";
   }
   end_section();
   if (drawn == 0) return html;

@@ -167,8 +167,10 @@ std::string checks_table(const Summary& summary, const Units& units) {
 std::string ledger_tables(const Summary& summary, const Units& units) {
   return "<section>\n<h2>Energy and momentum at the end</h2>\n<div class=\"columns\">\n" +
          value_table("Energy ledger", summary.ledger, units.energy) +
-         value_table("In Code_Aster's terms", summary.code_aster, units.energy) + "</div>\n" +
-         momentum_table(summary, units) + "</section>\n";
+         (summary.code_aster.empty() ? ""
+                                     : "<details><summary>In Code_Aster's terms</summary>\n" +
+                                           value_table("Term", summary.code_aster, units.energy) + "</details>\n") +
+         "</div>\n" + momentum_table(summary, units) + "</section>\n";
 }
 
 std::string run_table(const Summary& summary, const Units& units) {

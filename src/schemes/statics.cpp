@@ -30,7 +30,8 @@ void Statics::start(State& state, double dt) {
 StepReport Statics::step(const State& begin, const StepRequest& request, State& end) {
   go_on_from(begin, end);
   end.t = request.t_end;
-  evaluate_loads(system_, end.t, end.forces);
+  // A load that jumps where this stage ends is that of the stage which follows.
+  evaluate_loads(system_, end.t, end.forces, JumpSide::before);
   // The unknown is the displacement of the step; it stands in end.a while the stage is solved.
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
   for (ImposedStep& s : imposed_) {

@@ -160,15 +160,15 @@ Loads::Loads(const Model& model) : vectors_(make_loads(model)), gravity_(gravity
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 }
 
-void Loads::force(double t, const Mass& mass, std::span<double> f) const {
+void Loads::force(double t, JumpSide side, const Mass& mass, std::span<double> f) const {
   std::fill(f.begin(), f.end(), 0.0);
   for (const LoadVector& load : vectors_) {
-    const double factor = load.factor(t);
+    const double factor = load.factor(t, side);
     for (std::size_t k = 0; k < load.nodes.size(); ++k)
       for (std::size_t i = 0; i < 3; ++i) f[3 * at(load.nodes[k]) + i] += factor * load.force[k][i];
   }
   for (const Gravity& gravity : gravity_) {
-    const double factor = gravity.factor(t);
+    const double factor = gravity.factor(t, side);
     const Vec3& g = gravity.acceleration;
     mass.add_gravity({factor * g[0], factor * g[1], factor * g[2]}, f);
   }

@@ -44,10 +44,10 @@ void evaluate_bodies(const System& system, const PointStep& step, State& end) {
   evaluate_loads(system, end.t, end.forces);
 }
 
-void evaluate_loads(const System& system, double t, Forces& forces) {
+void evaluate_loads(const System& system, double t, Forces& forces, JumpSide side) {
   if (system.solid.loads().empty()) return forces.external.value.clear();
   forces.external.value.resize(system.solid.dof_count());
-  system.solid.loads().force(t, system.mass, forces.external.value);
+  system.solid.loads().force(t, side, system.mass, forces.external.value);
 }
 
 Momentum momentum_from(const double* sums) {

@@ -42,7 +42,7 @@ void evaluate_solid(const System& system, const PointStep& step, State& end);
 /// Does what evaluate_solid does, and fills the external forces at end.t.
 void evaluate_bodies(const System& system, const PointStep& step, State& end);
 /// Fills the external forces at time t alone.
-void evaluate_loads(const System& system, double t, Forces& forces);
+void evaluate_loads(const System& system, double t, Forces& forces, JumpSide side = JumpSide::after);
 
 /// Fills the forces that follow from the accelerations and velocities of the state: inertia and forces of the supports;
 /// and with them the stored energies and the total momentum (moments by MomentArms). Precondition: the other forces are

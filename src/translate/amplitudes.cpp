@@ -97,10 +97,11 @@ void add_point(Points& points, double t, double value) {
 /// The value at the beginning of a step. The step before ends with its own, so that a jump between two steps comes just
 /// after their common time; at the start of the run it is there from the beginning.
 void begin_step(Points& points, const DeckStep& step, double before, double value) {
-  constexpr double just_after = 1e-9;  // of the step
+  // Of the step, and no less than what a function of time takes for rounding.
+  const double just_after = std::max(1e-9 * step.period, 1e-11 * step.start);
   if (step.start == 0.0) return add_point(points, 0.0, value);
   add_point(points, step.start, before);
-  if (value != before) add_point(points, step.start + just_after * step.period, value);
+  if (value != before) add_point(points, step.start + just_after, value);
 }
 
 void follow_amplitude(Points& points, const Action& action, const DeckStep& step, double before) {

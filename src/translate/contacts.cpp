@@ -17,8 +17,30 @@ namespace {
 struct Interaction {
   const DeckKeyword* keyword = nullptr;
   std::optional<double> stiffness, tangential_stiffness;
+  std::vector<double> depths, pressures;  ///< of a table, beyond its point without pressure
+  const DeckKeyword* table = nullptr;
   double friction = 0.0;
 };
+
+/// Pairs of pressure and overclosure, the first without pressure.
+void read_pressures(const DeckKeyword& keyword, Interaction& to) {
+  to.table = &keyword;
+  DeckCursor at(keyword);
+  bool is_first = true;
+  for (; at.next_line(); is_first = false) {
+    const double pressure = at.real("the pressure"), overclosure = at.real("the overclosure");
+    if (!is_first) {
+      to.pressures.push_back(pressure);
+      to.depths.push_back(overclosure);
+    } else if (pressure != 0.0 || overclosure != 0.0) {
+      at.fail(fmt::format("pressure {:g} at overclosure {:g} in the first line", pressure, overclosure),
+              "0, 0: contact begins where the surfaces touch. Clearance that carries pressure is not computed: move "
+              "one of the surfaces by it.");
+    }
+  }
+  if (to.depths.empty())
+    keyword.fail("no points", "lines of pressure, overclosure: 0, 0 and at least one more with larger ones");
+}
 
 void read_behavior(Translation& t, const DeckKeyword& keyword, Interaction& to) {
   const std::string* given = keyword.parameter("PRESSURE-OVERCLOSURE");
@@ -32,6 +54,7 @@ void read_behavior(Translation& t, const DeckKeyword& keyword, Interaction& to) 
     to.stiffness = slope;
     return;
   }
+  if (kind == "TABULAR") return read_pressures(keyword, to);
   if (kind == "TIED")
     return t.findings.refuse(keyword, keyword.where, "PRESSURE-OVERCLOSURE=TIED",
                              "The surfaces would slide and part: write *TIE.");
@@ -70,8 +93,15 @@ std::map<std::string, Interaction> interactions_of(Translation& t) {
   return all;
 }
 
-void add_interaction(const Interaction& of, TableMaker& to) {
+void add_interaction(Translation& t, const Interaction& of, bool is_rigid, TableMaker& to) {
   if (of.stiffness) to.number("stiffness", *of.stiffness);
+  if (of.table != nullptr && !is_rigid)
+    t.findings.refuse(*of.table, of.table->where, "PRESSURE-OVERCLOSURE=TABULAR between bodies that deform",
+                      "Rigid surfaces take tables. Contact would have the stiffness that Carom chooses from the "
+                      "material and the cells.");
+  else if (of.table != nullptr)
+    to.add("depths", numbers_node(of.depths, of.keyword->where))
+        .add("pressures", numbers_node(of.pressures, of.keyword->where));
   if (of.friction != 0.0) to.number("friction", of.friction);
   if (of.friction != 0.0 && of.tangential_stiffness) to.number("tangential_stiffness", *of.tangential_stiffness);
 }
@@ -153,7 +183,8 @@ void add_pair(Translation& t, const DeckCursor& at, const Statement& s, std::str
     at.fail(slave + ", the surface of a rigid body", "the deformable one first", "Name the rigid surface second.");
   TableMaker contact(at.where());
   contact.text("name", is_self ? upper_case(slave) + " self" : upper_case(slave) + " on " + upper_case(master));
-  if (DeckRigidBody* body = body_of_cells(t, other)) {
+  DeckRigidBody* body = body_of_cells(t, other);
+  if (body != nullptr) {
     contact.text("kind", "surface").text("group", group).text("surface", other);
     add_rigid_motion(t, *body, contact);
   } else {
@@ -163,7 +194,7 @@ void add_pair(Translation& t, const DeckCursor& at, const Statement& s, std::str
   }
   contact.text("initial_penetration", of.is_offset ? "offset" : "prestress");
   if (of.interaction != nullptr)
-    add_interaction(*of.interaction, contact);
+    add_interaction(t, *of.interaction, body != nullptr, contact);
   else
     t.findings.note(of.keyword->where, "no INTERACTION: without friction, the stiffness is chosen");
   t.append("contact", contact.node());
@@ -246,7 +277,7 @@ void translate_general(Translation& t, const std::map<std::string, Interaction>&
                         "That of all surfaces would hold, or none where none is given.");
   TableMaker contact(inclusions.where);
   contact.text("name", "general contact").text("kind", "all").text("initial_penetration", "offset");
-  add_interaction(of, contact);
+  add_interaction(t, of, false, contact);
   t.append("contact", contact.node());
   for (DeckRigidBody& body : t.rigid_bodies) {
     const auto side = t.mesh.names.surfaces.find(body.side);
@@ -256,7 +287,7 @@ void translate_general(Translation& t, const std::map<std::string, Interaction>&
     rigid.text("group", t.mesh.names.surfaces.at(all_exterior).group).text("surface", side->second.group);
     add_rigid_motion(t, body, rigid);
     rigid.text("initial_penetration", "offset");
-    add_interaction(of, rigid);
+    add_interaction(t, of, true, rigid);
     t.append("contact", rigid.node());
     const std::vector<CellRef>& met = t.mesh.mesh.cell_groups.at(side->second.group);
     t.leaves_faces = t.leaves_faces || std::any_of(met.begin(), met.end(),

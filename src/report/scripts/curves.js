@@ -147,4 +147,6 @@
   syncing = false;
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
   carom.onPrint(redraw);
+  // What is unfolded had no size to be drawn in before.
+  for (const folded of document.querySelectorAll("details.asked")) folded.addEventListener("toggle", redraw);
 })();

@@ -31,6 +31,14 @@ TEST(TimeFunction, IsIntegratedPieceByPiece) {
   EXPECT_DOUBLE_EQ(constant.second_integral(1.0, 3.0), 6.0);
 }
 
+TEST(TimeFunction, HasTwoValuesWhereItJumps) {
+  const TimeFunction f{{1.0, 2.0, 2.0, 4.0}, {1.0, 3.0, -1.0, 0.0}};
+  EXPECT_EQ(f(2.0), -1.0);
+  EXPECT_EQ(f(2.0, JumpSide::before), 3.0);
+  EXPECT_NEAR(f(2.0 * (1.0 + 1e-15), JumpSide::before), 3.0, 1e-13);  // rounding of times that are added up
+  for (const double t : {0.5, 1.0, 1.5, 3.0, 4.0, 5.0}) EXPECT_EQ(f(t, JumpSide::before), f(t)) << t;
+}
+
 struct Named {
   const char* name;
   TimeFunction function;

@@ -84,6 +84,27 @@ TEST(TranslateContacts, ContactThatEndsStaysWhereThatIsAccepted) {
   EXPECT_EQ(case_from(deck, {"CONTACT PAIR"}).contacts.size(), 1U);
 }
 
+/// Abaqus keyword *SURFACE BEHAVIOR: TABULAR has lines of pressure, overclosure.
+TEST(TranslateContacts, ATableOfPressuresIsALawOfPressure) {
+  const std::string rigid = with_rigid_floor("5,6,7,8", ", SPOS");
+  const auto with = [&](const std::string& lines) {
+    return replaced(rigid, "OVERCLOSURE=LINEAR\n1e6", "OVERCLOSURE=TABULAR" + lines);
+  };
+  const Case made = case_from(with("\n0., 0.\n10., 1e-6\n40., 2e-6"));
+  const CaseContactLaw& law = *made.contacts[0].law();
+  EXPECT_EQ(*law.depths, (std::vector<double>{1e-6, 2e-6}));
+  EXPECT_EQ(*law.pressures, (std::vector<double>{10.0, 40.0}));
+  EXPECT_FALSE(law.stiffness.has_value());
+  EXPECT_NE(message_of(with("\n0., -1e-3\n10., 1e-6")).find("found pressure 0 at overclosure -0.001 in the first line"),
+            std::string::npos);
+  const std::string between_bodies = replaced(good_deck, "LINEAR\n1e6", "TABULAR\n0., 0.\n10., 1e-6");
+  EXPECT_NE(message_of(between_bodies).find("PRESSURE-OVERCLOSURE=TABULAR between bodies that deform. Rigid surfaces"),
+            std::string::npos)
+      << message_of(between_bodies);
+  EXPECT_NE(message_of(with("\n0., 0.")).find("*SURFACE BEHAVIOR: found no points"), std::string::npos);
+  EXPECT_NE(message_of(with("\n0., 0.\n10., 1e-6\n40., 1e-7")).find("expected increasing depths"), std::string::npos);
+}
+
 /// CalculiX' PRESSURE-OVERCLOSURE=TIED holds the surfaces together.
 TEST(TranslateContacts, TiedContactIsNoContact) {
   const std::string refused = message_of(replaced(good_deck, "OVERCLOSURE=LINEAR", "OVERCLOSURE=TIED"));
