@@ -40,12 +40,13 @@ std::vector<UnitSign> lint_duration(const Simulation& s) {
   const double travel = waves(s).speed * s.end(), h = smallest_cell(s.solid());
   if (is_static || travel >= h) return {};
   const std::string_view length = unit_name(Dimension::length, s.given().units);
-  return {{s.given().time.where,
-           fmt::format("time: waves travel {:.3g} {} in the whole run, less than the smallest cell ({:.3g} {}): nothing "
-                       "will deform",
-                       travel, length, h, length),
-           fmt::format("are the mesh, E, rho and the time in one system of units (units = \"{}\")?",
-                       name(s.given().units))}};
+  return {
+      {s.given().time.where,
+       fmt::format("time: waves travel {:.3g} {} in the whole run, less than the smallest cell ({:.3g} {}): nothing "
+                   "will deform",
+                   travel, length, h, length),
+       fmt::format("are the mesh, E, rho and the time in one system of units (units = \"{}\")?",
+                   name(s.given().units))}};
 }
 
 void lint_scheme(const Simulation& s, std::vector<std::string>& out) {

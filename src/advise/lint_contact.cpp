@@ -323,10 +323,10 @@ class ContactLint {
     // What the user chose is held to a hundredth of a cell; what was chosen from the cells to what the verdict allows.
     const double most = given(c).springs()->stiffness ? 0.01 : 0.05;
     if (depth > most * cell_ && !hardens(c)) {
-      const std::string remedy =
-          table != nullptr ? std::string("are its pressures those of the units of this case?")
-                           : fmt::format("stiffness {:.3g} instead of {:.3g} would keep it below 1 %",
-                                         stiffness(c) * depth / (0.01 * cell_), stiffness(c));
+      const std::string remedy = table != nullptr
+                                     ? std::string("are its pressures those of the units of this case?")
+                                     : fmt::format("stiffness {:.3g} instead of {:.3g} would keep it below 1 %",
+                                                   stiffness(c) * depth / (0.01 * cell_), stiffness(c));
       say(" is soft: impact at {:.4g} will penetrate by about {:.3g} ({:.3g} cells); {}", a.speed, depth, depth / cell_,
           remedy);
     }

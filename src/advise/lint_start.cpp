@@ -64,7 +64,8 @@ class Extent {
 
 class StartLint {
  public:
-  explicit StartLint(const Simulation& s) : s_(s), case_(s.given()), groups_(s.mesh()), parts_(case_, s.mesh(), groups_) {
+  explicit StartLint(const Simulation& s)
+      : s_(s), case_(s.given()), groups_(s.mesh()), parts_(case_, s.mesh(), groups_) {
     const std::size_t nodes = s.mesh().node_count();
     given_by_.assign(nodes, none);
     part_of_.assign(nodes, none);
@@ -170,8 +171,9 @@ class StartLint {
                     "overwritten; {}",
                     key_of(initial), name, "xyz"[at(held.motion->component)], held.motion->name, held.count,
                     part_nodes_[part].size(),
-                    flying.empty() ? fmt::format("give it to what flies, or take the support from {}", name)
-                                   : fmt::format("name what flies instead: part = {}", fmt::join(flying, ", part = "))));
+                    flying.empty()
+                        ? fmt::format("give it to what flies, or take the support from {}", name)
+                        : fmt::format("name what flies instead: part = {}", fmt::join(flying, ", part = "))));
   }
 
   void check_overwritten(std::size_t i) {
@@ -213,14 +215,14 @@ class StartLint {
     const double height = **initial.drop_height, metres = height * si_factor(Dimension::length, case_.units);
     if (metres <= tall || height <= many * size) return;
     say(initial.drop_height->where,
-        fmt::format("a drop_height of {}, {:.2g} times the size of what falls, gives {}{}; is it written in another unit? "
-                    "Lengths of this case are in {}, so that 1000 mm are {:g}",
-                    with_unit(height, Dimension::length), height / size,
-                    with_unit(norm(initial.fall), Dimension::velocity),
-                    case_.units == UnitSystem::si
-                        ? ""
-                        : fmt::format(" ({:.4g} m/s)", norm(initial.fall) * si_factor(Dimension::velocity, case_.units)),
-                    unit_name(Dimension::length, case_.units), 1.0 / si_factor(Dimension::length, case_.units)));
+        fmt::format(
+            "a drop_height of {}, {:.2g} times the size of what falls, gives {}{}; is it written in another unit? "
+            "Lengths of this case are in {}, so that 1000 mm are {:g}",
+            with_unit(height, Dimension::length), height / size, with_unit(norm(initial.fall), Dimension::velocity),
+            case_.units == UnitSystem::si
+                ? ""
+                : fmt::format(" ({:.4g} m/s)", norm(initial.fall) * si_factor(Dimension::velocity, case_.units)),
+            unit_name(Dimension::length, case_.units), 1.0 / si_factor(Dimension::length, case_.units)));
   }
 
   /// Does a support or a spring of what falls stop it?
@@ -247,8 +249,7 @@ class StartLint {
 
   bool meets(const Extent& body, const Vec3& down, const ContactDefinition& contact) const {
     const ContactParts pair = parts_of(contact);
-    if (pair.nature == ContactNature::springs)
-      return pair.direction && dot(*pair.direction, down) < 0.0;
+    if (pair.nature == ContactNature::springs) return pair.direction && dot(*pair.direction, down) < 0.0;
     if (pair.shape == nullptr) return false;
     if (pair.moves()) return true;  // where it comes to is another matter
     const auto is_ahead = [&](const Vec3& x) { return dot(subtract(x, body.middle()), down) > 0.0; };

@@ -72,7 +72,9 @@ class Lint {
 
   /// One cause is said once, with everything that shows it.
   void say_signs(std::vector<UnitSign> further) {
-    const auto is_same = [](const UnitSign& a, const UnitSign& b) { return a.fits ? a.fits == b.fits : a.cure == b.cure; };
+    const auto is_same = [](const UnitSign& a, const UnitSign& b) {
+      return a.fits ? a.fits == b.fits : a.cure == b.cure;
+    };
     std::vector<std::vector<UnitSign>> groups;
     for (UnitSign& sign : signs_) {
       const auto known = std::ranges::find_if(groups, [&](const auto& group) { return is_same(group.front(), sign); });

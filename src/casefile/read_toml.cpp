@@ -130,9 +130,10 @@ std::string remedy_of_number(std::string_view values) {
     }
     const std::string_view word = values.substr(0, values.find_first_of(between));
     if (const std::optional<std::string> mended = mended_number(word))
-      return fmt::format("Numbers have digits on both sides of their point, and e before an exponent: write {} instead "
-                         "of {}.",
-                         *mended, word);
+      return fmt::format(
+          "Numbers have digits on both sides of their point, and e before an exponent: write {} instead "
+          "of {}.",
+          *mended, word);
     values.remove_prefix(std::max<std::size_t>(word.size(), 1));
   }
   return {};

@@ -65,18 +65,19 @@ std::string worsening(std::vector<Point> points, Along along, const std::string&
   if (along == Along::step) std::ranges::reverse(points);
   const Point &coarse = points[points.size() - 2], &fine = points.back();
   const char* what = along == Along::cells ? "cells" : "step";
-  const std::string last = fmt::format("from {} {:g} to {:g}", what, coarse.x, fine.x);
+  const char* other = along == Along::cells
+                          ? "something else than the mesh makes it (the step, which --courant lets go along with the "
+                            "mesh; the stiffness of contact; facets of a round body)"
+                          : "something else than the step makes it (the mesh, or waves that it cannot carry and that "
+                            "shorter steps damp less)";
+  const std::string last = fmt::format("from {} {:.3g} to {:.3g}", what, coarse.x, fine.x);
   if (fine.y > (1.0 + noise) * coarse.y)
-    return fmt::format(
-        "the error of the {} grows {}, from {:.3g} % to {:.3g} %: something else than the {} makes it (the other of "
-        "mesh and step, which --courant lets go along; the stiffness of contact; facets of a round body)",
-        quantity, last, 100.0 * coarse.y, 100.0 * fine.y, along == Along::cells ? "mesh" : "step");
+    return fmt::format("the error of the {} grows {}, from {:.3g} % to {:.3g} %: {}", quantity, last, 100.0 * coarse.y,
+                       100.0 * fine.y, other);
   const double at_first = order_between(points[0], points[1]), at_last = order_between(coarse, fine);
   if (points.size() < 3 || at_first <= 0.0 || at_last >= 0.5 * at_first) return {};
-  return fmt::format(
-      "the order of the error of the {} falls from {:.2g} ({} {:g} to {:g}) to {:.2g} ({}): with further refinement "
-      "something else than the {} will make the error",
-      quantity, at_first, what, points[0].x, points[1].x, at_last, last, along == Along::cells ? "mesh" : "step");
+  return fmt::format("the order of the error of the {} falls from {:.2g} ({} {:.3g} to {:.3g}) to {:.2g} ({}): {}",
+                     quantity, at_first, what, points[0].x, points[1].x, at_last, last, other);
 }
 
 }  // namespace

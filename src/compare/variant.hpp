@@ -38,8 +38,8 @@ struct Variant {
   int cells = 0;              ///< along the longest edge; of mesh files relative to the file's, 0 where none is refined
   double element_step = 0.0;  ///< of its mesh
   bool has_inertia = false;
-  std::string case_text;      ///< TOML
-  std::string refusal;        ///< why it is not allowed; "" when it is
+  std::string case_text;           ///< TOML
+  std::string refusal;             ///< why it is not allowed; "" when it is
   std::vector<std::string> notes;  ///< keys that were left out or chosen
 };
 

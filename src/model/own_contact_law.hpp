@@ -51,7 +51,8 @@ class PressureTable {
     const auto next = std::lower_bound(pressure_.begin() + 1, pressure_.end() - 1, pressure);
     const auto i = static_cast<std::size_t>(next - pressure_.begin()) - 1;
     if (pressure <= pressure_[i]) return depth_[i];
-    return slope_[i] > 0.0 ? depth_[i] + (pressure - pressure_[i]) / slope_[i] : std::numeric_limits<double>::infinity();
+    return slope_[i] > 0.0 ? depth_[i] + (pressure - pressure_[i]) / slope_[i]
+                           : std::numeric_limits<double>::infinity();
   }
 
  private:

@@ -40,13 +40,15 @@ std::string thrown(const std::string& whom) {
 TEST(LintStart, NamesTheHeldPartOfAVelocityForAll) {
   const Texts found = warnings(slab + held + thrown("nodes = \"all\""));
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].substr(found[0].find(": initial")),
-            ": initial: nodes = \"all\" gives part \"slab\" a velocity along z that support[0] on UNDER (line 29) does not "
-            "let 25 of its 50 nodes have, where it is overwritten; name what flies instead: part = \"body\"");
+  EXPECT_EQ(
+      found[0].substr(found[0].find(": initial")),
+      ": initial: nodes = \"all\" gives part \"slab\" a velocity along z that support[0] on UNDER (line 29) does not "
+      "let 25 of its 50 nodes have, where it is overwritten; name what flies instead: part = \"body\"");
   EXPECT_EQ(warnings(slab + held + thrown("part = \"body\"")), Texts{});
   // A body alone that is stopped at its foot is a shock, and meant; supports across the velocity hold nothing of it.
   EXPECT_EQ(warnings("[[support]]\nnodes = \"FOOT\"\nblocked = [\"z\"]\n" + thrown("nodes = \"all\"")), Texts{});
-  EXPECT_EQ(warnings(slab + "[[support]]\nnodes = \"UNDER\"\nblocked = [\"x\"]\n" + thrown("nodes = \"all\"")), Texts{});
+  EXPECT_EQ(warnings(slab + "[[support]]\nnodes = \"UNDER\"\nblocked = [\"x\"]\n" + thrown("nodes = \"all\"")),
+            Texts{});
   // What is led with the same velocity agrees with it.
   EXPECT_EQ(warnings(slab + "[[support]]\nnodes = \"UNDER\"\nvelocity = { z = -1.0 }\n" + thrown("nodes = \"all\"")),
             Texts{});
@@ -93,17 +95,18 @@ TEST(LintStart, NamesFallsThatMeetNothing) {
   EXPECT_EQ(warnings(ball("-2.1")), Texts{});
   EXPECT_TRUE(says(warnings(ball("9.0")), nothing));
   // On its support it falls as a whole: a shock, where nothing is to be met.
-  EXPECT_EQ(warnings(gravity("[0.0, 0.0, -9.81]") + dropped("2.0") +
-                     "[[support]]\nnodes = \"FOOT\"\nblocked = [\"z\"]\n"),
-            Texts{});
+  EXPECT_EQ(
+      warnings(gravity("[0.0, 0.0, -9.81]") + dropped("2.0") + "[[support]]\nnodes = \"FOOT\"\nblocked = [\"z\"]\n"),
+      Texts{});
 }
 
 // (2 x 9.81 x 2)^(1/2) = 6.264.
 TEST(LintStart, NamesASpeedAlongGravityBesideAHeight) {
   const std::string fall = floor_below + gravity("[0.0, 0.0, -9.81]");
-  EXPECT_TRUE(says(warnings(fall + dropped("2.0", "velocity = [0.0, 0.0, -6.0]\n")),
-                   "velocity has 6 m/s along gravity beside a drop_height of 2 m, which gives 6.264 m/s, and the two are "
-                   "added to 12.26 m/s"));
+  EXPECT_TRUE(
+      says(warnings(fall + dropped("2.0", "velocity = [0.0, 0.0, -6.0]\n")),
+           "velocity has 6 m/s along gravity beside a drop_height of 2 m, which gives 6.264 m/s, and the two are "
+           "added to 12.26 m/s"));
   EXPECT_EQ(warnings(fall + dropped("2.0", "velocity = [3.0, 0.0, 0.0]\n")), Texts{});
 }
 
@@ -125,11 +128,11 @@ TEST(LongRun, IsNamedWhereNothingMakesItLast) {
   const std::string impact = floor_below + thrown("part = \"body\"");
   EXPECT_FALSE(is_long(impact, "3.5e4"));
   EXPECT_TRUE(is_long(impact, "3.7e4"));
-  EXPECT_FALSE(is_long(thrown("part = \"body\""), "1e6"));                              // flies for ever
-  EXPECT_FALSE(is_long(floor_below, "1e6"));                                            // settles
-  EXPECT_FALSE(is_long(replaced(impact, "-1.0]\n", "-0.002]\n"), "3.7e4"));             // 18 lengths: slow
-  EXPECT_FALSE(is_long(impact + gravity("[0.0, 0.0, -1e-4]"), "3.7e4"));                // 2 v / g = 2e4, twice
-  EXPECT_TRUE(is_long(impact + gravity("[0.0, 0.0, -1e-3]"), "3.7e4"));                 // 2 v / g = 2e3
+  EXPECT_FALSE(is_long(thrown("part = \"body\""), "1e6"));                   // flies for ever
+  EXPECT_FALSE(is_long(floor_below, "1e6"));                                 // settles
+  EXPECT_FALSE(is_long(replaced(impact, "-1.0]\n", "-0.002]\n"), "3.7e4"));  // 18 lengths: slow
+  EXPECT_FALSE(is_long(impact + gravity("[0.0, 0.0, -1e-4]"), "3.7e4"));     // 2 v / g = 2e4, twice
+  EXPECT_TRUE(is_long(impact + gravity("[0.0, 0.0, -1e-3]"), "3.7e4"));      // 2 v / g = 2e3
   EXPECT_FALSE(is_long(impact + "[[spring]]\nnodes = \"HEAD\"\nstiffness = [0.0, 0.0, 1.0]\n", "1e6"));
   EXPECT_FALSE(is_long(impact + "[[support]]\nnodes = \"HEAD\"\nvelocity = { x = 1e-6 }\n", "1e6"));
   EXPECT_FALSE(is_long(floor_below + "[[initial]]\npart = \"body\"\nangular_velocity = [0.0, 0.0, 1.0]\n"

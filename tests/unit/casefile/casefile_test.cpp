@@ -426,10 +426,11 @@ TEST(Plausibility, NamesTheValueInAnotherUnit) {
 TEST(Plausibility, SteelInSiUnderMillimetres) {
   const auto lines = plausibility_warnings(parse_case("units = \"mm-t-s\"" + minimal, "c.toml"));
   ASSERT_EQ(lines.size(), 1U);
-  EXPECT_EQ(lines[0].substr(lines[0].find(": ")),
-            ": did you mean units = \"SI\" instead of \"mm-t-s\"? 2 values show it: materials.steel: density 7850 t/mm3 "
-            "is 1e+12 times above that of steel (line 8); materials.steel: Young's modulus 2.1e+11 MPa is 1e+06 times "
-            "above that of steel (line 6)");
+  EXPECT_EQ(
+      lines[0].substr(lines[0].find(": ")),
+      ": did you mean units = \"SI\" instead of \"mm-t-s\"? 2 values show it: materials.steel: density 7850 t/mm3 "
+      "is 1e+12 times above that of steel (line 8); materials.steel: Young's modulus 2.1e+11 MPa is 1e+06 times "
+      "above that of steel (line 6)");
 }
 
 // One unit that is wrong shows in all materials, in gravity and in what others have found.

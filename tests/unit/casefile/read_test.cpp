@@ -51,10 +51,11 @@ TEST(CasefileNumbers, AreShownAsTomlHasThem) {
     return std::string("none");
   };
   const std::vector<std::array<std::string, 3>> mended{
-      {"nu = .3", ".3", "0.3"},           {"nu = -.1", "-.1", "-0.1"},       {"nu = +.2", "+.2", "+0.2"},
-      {"nu = 1.", "1.", "1.0"},           {"nu = 1e", "1e", "1e0"},          {"nu = 1d-3", "1d-3", "1e-3"},
-      {"nu = 1.e3", "1.e3", "1.0e3"},     {"v = [0.0, 1.0, -.5]", "-.5", "-0.5"},
-      {"v = { z = 2. }", "2.", "2.0"},    {"t = [\".5\", 1D+2]", "1D+2", "1e+2"}};
+      {"nu = .3", ".3", "0.3"},        {"nu = -.1", "-.1", "-0.1"},
+      {"nu = +.2", "+.2", "+0.2"},     {"nu = 1.", "1.", "1.0"},
+      {"nu = 1e", "1e", "1e0"},        {"nu = 1d-3", "1d-3", "1e-3"},
+      {"nu = 1.e3", "1.e3", "1.0e3"},  {"v = [0.0, 1.0, -.5]", "-.5", "-0.5"},
+      {"v = { z = 2. }", "2.", "2.0"}, {"t = [\".5\", 1D+2]", "1D+2", "1e+2"}};
   for (const auto& [line, found, written] : mended)
     EXPECT_NE(remedy(line).find("write " + written + " instead of " + found + "."), std::string::npos)
         << line << ": " << remedy(line);

@@ -50,9 +50,8 @@ TEST(CompareObservations, SayWhyTwoRunsAreEqual) {
 // Errors c h^p by hand: orders 1 and 1, then 1 and log2(0.05 / 0.045) = 0.15, then one that grows.
 TEST(CompareObservations, SayWhereRefinementDoesNotHelp) {
   const auto of_three = [](double finest) {
-    return texts(worsening_orders({run("penalty", 10, 1.0, 0.1), run("penalty", 20, 1.0, 0.05),
-                                   run("penalty", 40, 1.0, finest)},
-                                  "force"));
+    return texts(worsening_orders(
+        {run("penalty", 10, 1.0, 0.1), run("penalty", 20, 1.0, 0.05), run("penalty", 40, 1.0, finest)}, "force"));
   };
   EXPECT_TRUE(of_three(0.025).empty());
   EXPECT_TRUE(of_three(0.03).empty());  // order 0.74 at last: still more than half of that at first
