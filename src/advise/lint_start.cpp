@@ -17,6 +17,7 @@
 #include "build/parts.hpp"
 #include "casefile/document.hpp"
 #include "math/vec3.hpp"
+#include "parallel/threads.hpp"
 
 namespace carom {
 
@@ -42,17 +43,20 @@ class Extent {
   }
   bool is_empty() const { return low_[0] > high_[0]; }
   double size() const { return norm(subtract(high_, low_)); }
-  double front() const { return high_[0]; }
   Vec3 middle() const {
     Vec3 x{};
     for (std::size_t a = 0; a < 3; ++a) x = add(x, scaled(axes_[a], 0.5 * (low_[a] + high_[a])));
     return x;
   }
-  /// Would this, on its way along the direction, come to the other?
+  /// Would this, on its way along the direction, come to the other? Not where they touch with their sides.
   bool meets(const Extent& other) const {
-    if (other.is_empty() || other.high_[0] < low_[0]) return false;
-    for (std::size_t a = 1; a < 3; ++a)
-      if (other.low_[a] > high_[a] || other.high_[a] < low_[a]) return false;
+    const double least = rounding * size();
+    if (other.is_empty() || other.high_[0] <= low_[0] + least) return false;
+    for (std::size_t a = 1; a < 3; ++a) {
+      const double common = std::min(high_[a], other.high_[a]) - std::max(low_[a], other.low_[a]);
+      const bool is_flat = high_[a] - low_[a] <= least || other.high_[a] - other.low_[a] <= least;
+      if (common < (is_flat ? -least : least)) return false;
+    }
     return true;
   }
 
@@ -114,12 +118,11 @@ class StartLint {
   }
 
   /// The velocity that a motion imposes at the beginning; nothing where it goes on with the one that is given, or where
-  /// that is the first of a table of displacements.
+  /// displacements change.
   static std::optional<double> imposed(const PrescribedMotion& motion, double t) {
-    const std::vector<double>& values = motion.function.value;
     if (motion.kind == MotionKind::velocity) return motion.function(t);
-    const bool stays = std::ranges::all_of(values, [&](double value) { return value == values.front(); });
-    return motion.kind == MotionKind::displacement && stays ? std::optional(0.0) : std::nullopt;
+    const bool stays = motion.kind == MotionKind::displacement && is_zero(motion.function.value);
+    return stays ? std::optional(0.0) : std::nullopt;
   }
 
   /// Nodes of one section, part and motion.

@@ -86,6 +86,10 @@ TEST(LintStart, NamesFallsThatMeetNothing) {
   EXPECT_TRUE(says(warnings(floor_below + gravity("[9.81, 0.0, 0.0]") + dropped("2.0")), nothing));
   EXPECT_TRUE(says(warnings(slab + held + gravity("[9.81, 0.0, 0.0]") + dropped("2.0")),
                    "no obstacle and no other part ahead of what falls"));
+  const std::string touching = replaced(slab, "-1.0, -1.0, -1.1", "-1.0, -1.0, -1.0") + held;
+  EXPECT_EQ(warnings(touching + gravity("[0.0, 0.0, -9.81]") + dropped("2.0")), Texts{});
+  for (const char* away : {"[9.81, 0.0, 0.0]", "[0.0, 0.0, 9.81]"})
+    EXPECT_TRUE(says(warnings(touching + gravity(away) + dropped("2.0")), "no other part ahead of what falls")) << away;
   EXPECT_TRUE(says(warnings(gravity("[0.0, 0.0, -9.81]") + dropped("2.0")), "expected a floor there"));
   const auto ball = [&](const char* height) {
     return replaced(floor_below, "plane\"\ngroup = \"FOOT\"\npoint = [0.0, 0.0, -0.1]\nnormal = [0.0, 0.0, 1.0]",
