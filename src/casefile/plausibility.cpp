@@ -87,7 +87,7 @@ class Lint {
 
   void say_group(const std::vector<UnitSign>& group) {
     const UnitSign& first = group.front();
-    if (group.size() == 1) return say(first.where, first.what + (first.cure.empty() ? "" : "; " + first.cure));
+    if (group.size() == 1) return say(first.where, first.what + "; " + first.cure);
     std::string list;
     for (const UnitSign& sign : group)
       list += fmt::format("{}{} (line {})", list.empty() ? "" : "; ", sign.what, sign.where.line);
@@ -209,11 +209,14 @@ class Lint {
     for (const UnitSystem other : unit_systems) {
       if (!is_earth(other)) continue;
       const double here = standard_gravity / si_factor(Dimension::acceleration, case_.units);
-      show(load.where,
-           fmt::format("load.gravity: {} is the earth's gravity in {}, but in {} that is {}",
-                       with_unit(value, Dimension::acceleration), name(other), name(case_.units),
-                       with_unit(here, Dimension::acceleration)),
-           "", other);
+      const std::string what = fmt::format("load.gravity: {} is the earth's gravity in {}, but in {} that is {}",
+                                           with_unit(value, Dimension::acceleration), name(other), name(case_.units),
+                                           with_unit(here, Dimension::acceleration));
+      const bool is_of_all = std::ranges::any_of(signs_, [&](const UnitSign& sign) { return sign.fits == other; });
+      if (is_of_all)
+        show(load.where, what, did_you_mean(other), other);
+      else
+        say(load.where, what);
       return;
     }
   }

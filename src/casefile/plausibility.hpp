@@ -12,8 +12,8 @@ namespace carom {
 /// What shows that a unit is wrong.
 struct UnitSign {
   Location where;
-  std::string what;                  ///< was found
-  std::string cure;                  ///< "" for none but the system that fits
+  std::string what;  ///< was found
+  std::string cure;
   std::optional<UnitSystem> fits{};  ///< in which it would make sense
 };
 

@@ -444,6 +444,9 @@ TEST(Plausibility, OneCauseIsSaidOnce) {
       << lines[0];
   EXPECT_TRUE(lines[0].ends_with("but in SI that is 9.807 m/s2 (line 18); time: nothing will deform (line 9)"))
       << lines[0];
+  // Gravity alone says nothing of the system in which all else makes sense.
+  const std::string twice = minimal + "[[load]]\ngravity = [0, 0, -9810]\n[[load]]\ngravity = [0, 0, -9800]\n";
+  EXPECT_EQ(plausibility_warnings(parse_case(twice, "c.toml")).size(), 2U);
   EXPECT_EQ(plausibility_warnings(parse_case(minimal, "c.toml"), {further}),
             std::vector<std::string>{"c.toml:9: time: nothing will deform; are these units?"});
 }
